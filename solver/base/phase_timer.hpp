@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <string_view>
+
+namespace breccia {
+
+/// Where the time of a run goes; the names appear in summary.json under "phases".
+enum class Phase { setup, joints, search, contact, sweep, loads, energy, output, count };
+
+[[nodiscard]] constexpr std::string_view name_of(Phase phase) {
+  constexpr std::array<std::string_view, static_cast<std::size_t>(Phase::count)> names{
+      "setup", "joints", "search", "contact", "sweep", "loads", "energy", "output"};
+  return names[static_cast<std::size_t>(phase)];
+}
+
+/// Accumulated wall time by phase, s. Use `auto lap = timer.measure(Phase::sweep);` in a scope.
+class PhaseTimer {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  class Lap {
+   public:
+    Lap(double& total) : total_(total), start_(Clock::now()) {}
+    Lap(const Lap&) = delete;
+    Lap& operator=(const Lap&) = delete;
+    ~Lap() { total_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+   private:
+    double& total_;
+    Clock::time_point start_;
+  };
+
+  [[nodiscard]] Lap measure(Phase phase) { return Lap(seconds_[static_cast<std::size_t>(phase)]); }
+  [[nodiscard]] double seconds(Phase phase) const { return seconds_[static_cast<std::size_t>(phase)]; }
+
+ private:
+  std::array<double, static_cast<std::size_t>(Phase::count)> seconds_{};
+};
+
+}  // namespace breccia

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace breccia {
+
+/// The whole model as meshed, on the rank that reads it. Lengths in m.
+///
+/// Invariants after `finish_mesh` (mesh/finish.hpp): every element has a positive volume, every node belongs to
+/// an element, bodies that are not glued share no node, elements are sorted by (volume group, space-filling rank of
+/// the centroid). Element index = global element id.
+struct Mesh {
+  std::string source;  ///< file or generator, for messages
+
+  std::vector<Vec3> nodes;                          ///< (num_nodes) reference position
+  std::vector<std::array<Index, 4>> elements;       ///< (num_elements) corners, positively oriented
+  std::vector<Index> element_group;                 ///< (num_elements) index into volume_groups
+  std::vector<Index> element_body;                  ///< (num_elements) 0..num_bodies-1, one a meshed volume
+  std::vector<std::int64_t> element_source_id;      ///< (num_elements) id in the file, for messages
+
+  /// Triangle of a physical surface. `nodes` need not be oriented.
+  struct SurfaceFace {
+    std::array<Index, 3> nodes;
+    Index group;  ///< index into surface_groups
+  };
+  std::vector<SurfaceFace> surface_faces;
+
+  std::vector<std::string> volume_groups;
+  std::vector<std::string> surface_groups;
+  Index num_bodies = 0;
+
+  [[nodiscard]] Index num_elements() const { return static_cast<Index>(elements.size()); }
+  [[nodiscard]] Index num_nodes() const { return static_cast<Index>(nodes.size()); }
+};
+
+}  // namespace breccia

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace breccia {
+
+/// Corners of face f, the face opposite to corner f, counter-clockwise seen from outside a positively oriented element:
+/// (x1-x0) x (x2-x0) of these three points outwards.
+inline constexpr std::array<std::array<int, 3>, 4> kFaceCorners{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+
+/// What lies across one face of an element.
+///
+/// code = 3 * face_of_neighbour + rotation. Corner i (0..2) of the own face coincides in the reference mesh with
+/// corner (rotation - i) mod 3 of the neighbour's face: the neighbour sees the face with the opposite sense.
+struct FaceLink {
+  Index neighbour = -1;  ///< element across the face, -1 on the free surface
+  std::int8_t code = 0;  ///< 0..11
+
+  [[nodiscard]] bool free() const { return neighbour < 0; }
+  [[nodiscard]] int face() const { return code / 3; }
+  [[nodiscard]] int rotation() const { return code % 3; }
+};
+
+/// Corner (0..3) of the neighbour that meets corner i (0..2) of the own face.
+[[nodiscard]] constexpr int matching_corner(int code, int i) {
+  return kFaceCorners[static_cast<std::size_t>(code / 3)][static_cast<std::size_t>((code % 3 - i + 3) % 3)];
+}
+
+/// Neighbours of every element through its four faces. Faces join elements that share the same three nodes.
+struct Topology {
+  std::vector<std::array<FaceLink, 4>> links;  ///< (num_elements)
+
+  /// A face of an element.
+  struct Face {
+    Index element;
+    int face;
+  };
+  std::vector<std::vector<Face>> surface_groups;  ///< (surface_groups) faces of each physical surface; an inner
+                                                  ///< surface lists both sides
+};
+
+/// O(num_elements). Throws InputError when three elements share a face or a physical surface names a triangle that is
+/// no face of any element.
+[[nodiscard]] Topology build_topology(const Mesh& mesh);
+
+}  // namespace breccia

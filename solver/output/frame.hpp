@@ -1,0 +1,97 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace breccia {
+
+/// One complete picture of the model at an instant: what every sink (files, in-situ adaptor) sees. Plain arrays, SI, entries in
+/// order of global id, vectors and tensors interleaved (x y z; xx yy zz xy yz xz).
+struct Frame {
+  std::int64_t step = 0;
+  double time = 0;
+  std::int64_t number = 0;  ///< 0, 1, 2, ... over the run
+
+  struct Elements {
+    std::vector<double> points;           ///< (4 num_elements, 3) corners: every element has its own
+    std::vector<std::int64_t> id;         ///< (num_elements)
+    std::vector<std::int32_t> body, material, rank;
+    std::vector<std::int64_t> fragment;   ///< smallest element id of the fragment
+    std::vector<double> stress;           ///< (num_elements, 6) Cauchy, Pa
+    std::vector<double> von_mises;        ///< Pa
+    std::vector<double> principal;        ///< (num_elements, 3) descending, Pa
+    std::vector<double> velocity;         ///< (num_elements, 3) of the centroid, m/s
+    std::vector<double> displacement;     ///< (num_elements, 3) of the centroid, m
+  } elements;
+
+  /// Triangles on the mid-surface of the joints that carry damage or have failed.
+  struct Joints {
+    std::vector<double> points;           ///< (3 num_joints, 3)
+    std::vector<std::int64_t> id;
+    std::vector<double> damage;           ///< largest of the points, 0..1
+    std::vector<std::int32_t> mode;       ///< 0 undamaged, 1 mostly mode I, 2 mostly mode II, 3 mixed
+    std::vector<double> opening, slip;    ///< mean over the points, m
+    std::vector<std::int32_t> broken;     ///< 0 or 1
+  } joints;
+
+  /// Contact points that carry a force.
+  struct Contacts {
+    std::vector<double> points;           ///< (num_contacts, 3)
+    std::vector<double> force;            ///< (num_contacts, 3) on the point's body, N
+    std::vector<std::int32_t> body, other_body;
+  } contacts;
+};
+
+/// The budget at one instant, J.
+struct EnergyBudget {
+  double kinetic = 0, elastic = 0, joint_elastic = 0, contact_stored = 0;
+  double joint_mode_1 = 0, joint_mode_2 = 0, joint_friction = 0;
+  double contact_dissipated = 0, contact_friction = 0;
+  double viscous = 0, damping = 0;
+  double external_work = 0;   ///< of loads, gravity and constraints, incl. what was there at the start
+  double residual = 0;        ///< initial + external work - everything above: what nobody booked
+  double residual_relative = 0;
+};
+
+/// What a gauge reads: sums over the nodes of a group.
+struct GaugeReading {
+  Vec3 reaction{0, 0, 0};       ///< N, of constraints on the group
+  Vec3 contact_force{0, 0, 0};  ///< N
+  Vec3 displacement{0, 0, 0};   ///< m, mean
+  Vec3 max_displacement{0, 0, 0};  ///< m, component-wise signed value of largest magnitude
+  Vec3 velocity{0, 0, 0};       ///< m/s, mean
+};
+
+/// One line of the history file.
+struct HistoryRow {
+  std::int64_t step = 0;
+  double time = 0;
+  double time_step = 0;
+  EnergyBudget energy;
+  std::int64_t damaged_joints = 0, broken_joints = 0, broken_mode_1 = 0, broken_mode_2 = 0, fragments = 0, couples = 0, contacts = 0;
+  Vec3 momentum{0, 0, 0}, angular_momentum{0, 0, 0};
+  double max_speed = 0;
+  double stress_yy_sum = 0;     ///< sum |sigma_yy| over the elements, Pa
+  std::vector<GaugeReading> gauges;
+};
+
+/// Written to summary.json at the end of a run.
+struct Summary {
+  std::string title, version, host, status;  ///< status: "complete", "stopped: ..." or the error
+  int ranks = 1;
+  std::int64_t steps = 0;
+  double simulated_time = 0, time_step = 0;
+  std::int64_t elements = 0, joints = 0, broken_joints = 0, fragments = 0, searches = 0, inverted_elements = 0;
+  double wall_s = 0, element_steps_per_s = 0;
+  std::vector<std::pair<std::string, double>> phases;
+  EnergyBudget energy;
+  std::uint64_t max_rss_bytes = 0;
+  std::string simd;          ///< "sse2", "avx2", "avx512"
+  std::string state_hash;    ///< 16 hexadecimal digits
+};
+
+}  // namespace breccia
