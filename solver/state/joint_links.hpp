@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "base/field.hpp"
+#include "base/types.hpp"
+#include "mesh/topology.hpp"
+#include "state/layout.hpp"
+
+namespace breccia {
+
+/// The intact joints as the element-centric sweep sees them: each own-node element looks across its four faces and
+/// computes its own side of the joint. Elastic joints need nothing but k A0 / 3 and the neighbour's corners.
+///
+/// link = 16 slot + code. Codes 0..11 are FaceLink codes of an intact joint. Codes 12 + f point back at the element's own
+/// face f (opening zero, no force): free faces, joints on the active list, joints handed over to contact, padding.
+struct JointLinks {
+  Field<std::int32_t> link;   ///< [own block][4 faces][8]
+  Field<double> stiffness;    ///< [own block][4 faces][8] k A0 / 3, N/m: force a metre of opening at each corner of the face
+  Field<double> limit;        ///< [own block][8] m2: below this |opening|^2 every joint of the element is surely elastic
+
+  [[nodiscard]] static std::size_t at(Index slot, int face) {
+    return static_cast<std::size_t>(slot / kLanes) * 32 + static_cast<std::size_t>(face) * 8 + static_cast<std::size_t>(slot % kLanes);
+  }
+  [[nodiscard]] static constexpr std::int32_t make_link(Index slot, int code) { return slot * 16 + code; }
+  [[nodiscard]] static constexpr std::int32_t self_link(Index slot, int face) { return slot * 16 + 12 + face; }
+  [[nodiscard]] static constexpr Index slot_of(std::int32_t link) { return link >> 4; }
+  [[nodiscard]] static constexpr int code_of(std::int32_t link) { return link & 15; }
+
+  /// The joint on this face is no longer the sweep's business.
+  void detach(Index slot, int face) { link[at(slot, face)] = self_link(slot, face); }
+};
+
+/// Corner of the linked element that meets corner i of the own face, for all 16 codes.
+[[nodiscard]] constexpr int linked_corner(int code, int i) {
+  return code < 12 ? matching_corner(code, i) : kFaceCorners[static_cast<std::size_t>(code - 12)][static_cast<std::size_t>(i)];
+}
+
+/// Slots of a rank must fit into a link.
+inline constexpr Index kMaxSlots = (1 << 27) - kLanes;
+
+}  // namespace breccia
