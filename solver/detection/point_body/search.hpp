@@ -26,6 +26,9 @@ using Corners = std::array<Vec3, 4>;
 /// than `buffer` outside the plane of each of its faces. Every algorithm returns exactly this set, so the choice changes
 /// the speed only, never a result. While no point and no corner has moved by more than buffer / 2, every point that is
 /// inside a tetrahedron belongs to a couple.
+///
+/// An element that is crushed flat or inverted (computed volume not positive) has no outside: for it (1) alone decides.
+/// Points and contactors with a coordinate that is not finite have no couples.
 class PointBodySearch {
  public:
   virtual ~PointBodySearch() = default;
@@ -37,6 +40,7 @@ class PointBodySearch {
   /// @param contactors  (num_contactors) corners, m
   /// @param buffer      m, >= 0
   /// @param couples     out: sorted by (point, contactor); its old content is dropped, its storage kept
+  /// Repeated searches of like size allocate nothing. Throws InternalError if the buffer is negative or not finite.
   virtual void search(std::span<const Vec3> points, std::span<const Corners> contactors, double buffer,
                       std::vector<Couple>& couples) = 0;
 };
@@ -48,7 +52,8 @@ enum class Algorithm {
   brute_force   ///< every pair: the oracle
 };
 
-/// @param cell  m, size of the space cells; 0: chosen at every search from the contactors' mean size and the buffer
+/// @param cell  m, size of the space cells; 0: chosen at every search from the contactors' mean size and the buffer.
+///              It changes the speed only. Throws InternalError if negative or not finite.
 [[nodiscard]] std::unique_ptr<PointBodySearch> make_search(Algorithm algorithm, double cell);
 
 }  // namespace breccia::detection
