@@ -1,12 +1,11 @@
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "base/field.hpp"
-#include "base/types.hpp"
-#include "mesh/topology.hpp"
-#include "state/layout.hpp"
+#include "mesh/tetrahedron.hpp"
+#include "state/blocks.hpp"
 
 namespace breccia {
 

@@ -6,9 +6,7 @@
 
 #include "base/field.hpp"
 #include "base/types.hpp"
-#include "mesh/joints.hpp"
 #include "mesh/mesh.hpp"
-#include "mesh/topology.hpp"
 #include "state/layout.hpp"
 
 namespace breccia {
@@ -36,7 +34,8 @@ struct LocalMesh {
   std::vector<Index> block_group;         ///< (num_slots / kLanes) volume group of a block
   std::vector<Index> slot_body;           ///< (num_slots) body, -1 for padding
   std::vector<std::array<Index, 4>> shared_corners;  ///< (num_slots - num_own_slots) nodes of shared-node elements
-  std::vector<GlobalId> node_id;          ///< (num_nodes) global: 4 element + corner for own nodes, see local_mesh.cpp
+  std::vector<GlobalId> node_id;          ///< (num_nodes) 4 element + corner for own nodes,
+                                          ///< 4 num_elements + mesh node for shared ones, -1 for padding
 
   Field<double> gradient;    ///< [block][9][8] D_m^-1 row-major, 1/m: F = sum_c (x_c - x_0) row c-1 of D_m^-1
   Field<double> volume;      ///< [block][8] reference volume, m3

@@ -1,0 +1,7 @@
+#include "physics/sweep_kernel.hpp"
+
+namespace breccia {
+
+SweepStatus sweep_avx512(const SweepArgs& args) { return sweep(args); }
+
+}  // namespace breccia

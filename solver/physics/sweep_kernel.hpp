@@ -1,0 +1,334 @@
+#pragma once
+
+// The kernel of physics/sweep.hpp, included once by each translation unit sweep_<instruction set>.cpp and compiled for its
+// set: everything here has internal linkage or a type that only this set has, so no unit can borrow another's code.
+
+#include <experimental/simd>
+
+#include "physics/elasticity.hpp"
+#include "physics/sweep.hpp"
+#include "state/joint_links.hpp"
+#include "state/blocks.hpp"
+
+namespace breccia {
+namespace {
+
+namespace stdx = std::experimental;
+namespace el = elasticity;
+
+using Real = stdx::native_simd<double>;
+constexpr std::size_t kWidth = Real::size();
+static_assert(kLanes % kWidth == 0);
+
+using Vector = el::Vector<Real>;
+using Corners = el::Corners<Real>;
+using Tensor = el::Tensor<Real>;
+
+inline Real load(const double* p) { return Real(p, stdx::element_aligned); }
+inline void store(const Real& value, double* p) { value.copy_to(p, stdx::element_aligned); }
+inline void add_to(double* p, const Real& value) { store(load(p) + value, p); }
+
+/// Distance in the nodal field from a linked element's slot base to its corner, by link code and corner of the face.
+struct CornerOffsets {
+  std::int32_t of[16][4];
+};
+constexpr CornerOffsets make_corner_offsets() {
+  CornerOffsets offsets{};
+  for (int code = 0; code < 16; ++code) {
+    for (int i = 0; i < 3; ++i) offsets.of[code][i] = linked_corner(code, i) * 3 * kLanes;
+  }
+  return offsets;
+}
+constexpr CornerOffsets kCornerOffsets = make_corner_offsets();
+
+struct Totals {
+  Real max_speed_squared = 0;
+  Real speed_squared_sum = 0;
+  SweepStatus status;
+};
+
+inline void note_crushed(const Real::mask_type& crushed, Index first_slot, SweepStatus& status) {
+  if (stdx::none_of(crushed)) return;
+  status.crushed += stdx::popcount(crushed);
+  if (status.first_crushed < 0) status.first_crushed = first_slot + stdx::find_first_set(crushed);
+}
+
+inline Real contract(const Tensor& a, const Tensor& b) {
+  Real sum = a[0] * b[0];
+  for (std::size_t i = 1; i < 9; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// Elastic and viscous stress of W elements, kept until the velocities after the step are known.
+struct Stress {
+  Tensor inverse;   // D_m^-1
+  Tensor total;     // first Piola
+  Tensor viscous;   // its viscous part, set when the group is viscous
+  Real volume;
+};
+
+inline void evaluate_stress(const SweepArgs& args, const ElasticParams& p, std::size_t block, std::size_t lane,
+                            const Corners& x, const Corners& v, Totals& totals, Stress& s) {
+  for (std::size_t i = 0; i < 9; ++i) s.inverse[i] = load(args.gradient + block * 72 + i * kLanes + lane);
+  s.volume = load(args.volume + block * kLanes + lane);
+  const Tensor f = el::deformation(x, s.inverse);
+  const Tensor cof = el::cofactor(f);
+  const Real j = el::determinant(f, cof);
+  note_crushed(j < p.j_min, static_cast<Index>(block * kLanes + lane), totals.status);
+  if (p.law == ElasticLaw::neo_hookean) {
+    s.total = el::neo_hookean_piola(f, cof, j, p);
+  } else {
+    s.total = el::product(el::green_st_venant_stress(f, j, p), cof);
+  }
+  if (p.viscosity > 0) {
+    s.viscous = el::viscous_piola(el::deformation(v, s.inverse), cof, j, p);
+    for (std::size_t i = 0; i < 9; ++i) s.total[i] += s.viscous[i];
+  }
+}
+
+/// Books half a step's work of the viscous stress, and of the elastic stress of laws that have no energy.
+inline void book_stress_work(const SweepArgs& args, const ElasticParams& p, const Stress& s, const Corners& v,
+                             std::size_t slot, double* viscous, double* stress) {
+  const bool no_energy = p.law != ElasticLaw::neo_hookean && stress != nullptr;
+  const bool dissipates = p.viscosity > 0 && viscous != nullptr;
+  if (!no_energy && !dissipates) return;
+  const Tensor rate = el::deformation(v, s.inverse);
+  const Real half = 0.5 * args.dt * s.volume;
+  const Real viscous_work = p.viscosity > 0 ? half * contract(s.viscous, rate) : Real(0.0);
+  if (dissipates) add_to(viscous + slot, viscous_work);
+  if (no_energy) add_to(stress + slot, half * contract(s.total, rate) - viscous_work);
+}
+
+/// This side of the element's four intact joints. Self links (free faces and such) have opening zero.
+inline void add_joint_forces(const SweepArgs& args, std::size_t block, std::size_t lane, const Corners& x, Corners& force) {
+  const Real limit = load(args.limit + block * kLanes + lane);
+  for (std::size_t face = 0; face < 4; ++face) {
+    const std::size_t at = block * 32 + face * kLanes + lane;
+    const double* base[kWidth];
+    const std::int32_t* offsets[kWidth];
+    for (std::size_t l = 0; l < kWidth; ++l) {
+      const std::int32_t link = args.link[at + l];
+      const auto slot = static_cast<std::size_t>(link >> 4);
+      base[l] = args.position + (slot / kLanes) * 96 + slot % kLanes;
+      offsets[l] = kCornerOffsets.of[link & 15];
+    }
+    Vector opening[3];
+    Real largest = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto corner = static_cast<std::size_t>(kFaceCorners[face][i]);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Real other([&](auto l) { return base[l][static_cast<std::size_t>(offsets[l][i]) + axis * kLanes]; });
+        opening[i][axis] = other - x[corner][axis];
+      }
+      const Vector& d = opening[i];
+      largest = stdx::max(largest, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    }
+    const Real stiffness = load(args.stiffness + at);
+    for (auto& d : opening) {
+      for (Real& component : d) component *= stiffness;
+    }
+    const auto crossing = largest > limit;
+    if (stdx::any_of(crossing)) [[unlikely]] {
+      for (std::size_t l = 0; l < kWidth; ++l) {
+        if (!crossing[l] || (args.link[at + l] & 15) >= 12) continue;
+        double virgin[9];
+        args.crossing(args.crossing_context, static_cast<Index>(block * kLanes + lane + l), static_cast<int>(face), virgin);
+        for (std::size_t k = 0; k < 9; ++k) opening[k / 3][k % 3][l] = virgin[k];
+      }
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto corner = static_cast<std::size_t>(kFaceCorners[face][i]);
+      for (std::size_t axis = 0; axis < 3; ++axis) force[corner][axis] += opening[i][axis];
+    }
+  }
+}
+
+/// v_(n+1/2) of W nodes from the force on them; books damping work when asked.
+struct Mover {
+  const SweepArgs& args;
+  Real keep, gain;  // v <- keep v + gain dt a
+  bool damped;
+
+  explicit Mover(const SweepArgs& a)
+      : args(a),
+        keep((1.0 - 0.5 * a.mass_damping * a.dt) / (1.0 + 0.5 * a.mass_damping * a.dt)),
+        gain(1.0 / (1.0 + 0.5 * a.mass_damping * a.dt)),
+        damped(a.mass_damping > 0 || a.local_damping > 0) {}
+
+  Vector move(const Vector& v, const Vector& force, const Real& mass, std::size_t node) const {
+    const Real dt_over_mass = args.dt / mass;
+    Vector moved;
+    if (!damped) {
+      for (std::size_t i = 0; i < 3; ++i) moved[i] = v[i] + (dt_over_mass * force[i] + args.dt * args.gravity[i]);
+      return moved;
+    }
+    Real before = 0.0, after = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Real unbalanced = force[i] + mass * args.gravity[i];
+      const Real size = args.local_damping * stdx::abs(unbalanced);
+      const Real local = el::select(v[i] > 0.0, Real(-size), el::select(v[i] < 0.0, size, Real(0.0)));
+      moved[i] = keep * v[i] + gain * (dt_over_mass * (unbalanced + local));
+      const Real damping = local - 0.5 * args.mass_damping * mass * (v[i] + moved[i]);
+      before -= damping * v[i];
+      after -= damping * moved[i];
+    }
+    if (args.damping_before != nullptr) {
+      add_to(args.damping_before + node, 0.5 * args.dt * before);
+      add_to(args.damping_after + node, 0.5 * args.dt * after);
+    }
+    return moved;
+  }
+};
+
+inline void note_motion(const Vector& v, Totals& totals) {
+  const Real speed_squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  totals.max_speed_squared = stdx::max(totals.max_speed_squared, speed_squared);
+  totals.speed_squared_sum += speed_squared;
+}
+
+/// W elements that own their nodes, from forces to new positions.
+inline void sweep_own(const SweepArgs& args, const Mover& mover, std::size_t block, std::size_t lane, Totals& totals) {
+  const ElasticParams& p = args.params[args.block_group[block]];
+  const std::size_t field = block * 96 + lane;
+  Corners x, v;
+  for (std::size_t c = 0; c < 4; ++c) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      x[c][i] = load(args.position + field + (3 * c + i) * kLanes);
+      v[c][i] = load(args.velocity + field + (3 * c + i) * kLanes);
+    }
+  }
+  Stress stress;
+  evaluate_stress(args, p, block, lane, x, v, totals, stress);
+  Corners force = el::corner_forces(stress.total, stress.inverse, stress.volume);
+  add_joint_forces(args, block, lane, x, force);
+  const Index slot = args.force_slot[block];
+  if (slot >= 0) {
+    const double* own = args.own_force + static_cast<std::size_t>(slot) * 96 + lane;
+    for (std::size_t c = 0; c < 4; ++c) {
+      for (std::size_t i = 0; i < 3; ++i) force[c][i] += load(own + (3 * c + i) * kLanes);
+    }
+  }
+  book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_before, args.stress_before);
+  const Real mass = load(args.node_mass + block * 4 * kLanes + lane);
+  for (std::size_t c = 0; c < 4; ++c) {
+    v[c] = mover.move(v[c], force[c], mass, (block * 4 + c) * kLanes + lane);
+    note_motion(v[c], totals);
+    for (std::size_t i = 0; i < 3; ++i) {
+      store(v[c][i], args.velocity + field + (3 * c + i) * kLanes);
+      store(x[c][i] + args.dt * v[c][i], args.next_position + field + (3 * c + i) * kLanes);
+    }
+  }
+  book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_after, args.stress_after);
+}
+
+/// Corners of W shared-node elements out of a nodal field.
+inline Corners gather(const double* field, const std::int32_t* corners) {
+  Corners value;
+  for (std::size_t c = 0; c < 4; ++c) {
+    const double* place[kWidth];
+    for (std::size_t l = 0; l < kWidth; ++l) place[l] = field + nodal(corners[c * kLanes + l], 0);
+    for (std::size_t i = 0; i < 3; ++i) value[c][i] = Real([&](auto l) { return place[l][i * kLanes]; });
+  }
+  return value;
+}
+
+inline bool needs_rate(const SweepArgs& args, const ElasticParams& p) {
+  return p.viscosity > 0 || (p.law != ElasticLaw::neo_hookean && args.stress_before != nullptr);
+}
+
+/// Internal forces of W shared-node elements, scattered in ascending lanes.
+inline void scatter_shared(const SweepArgs& args, std::size_t block, std::size_t lane, Totals& totals) {
+  const ElasticParams& p = args.params[args.block_group[block]];
+  const std::int32_t* corners = args.shared_corners + (block - static_cast<std::size_t>(args.num_own_blocks)) * 32 + lane;
+  const Corners x = gather(args.position, corners);
+  const Corners v = needs_rate(args, p) ? gather(args.velocity, corners) : Corners{};
+  Stress stress;
+  evaluate_stress(args, p, block, lane, x, v, totals, stress);
+  book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_before, args.stress_before);
+  if (args.shared_stress != nullptr && needs_rate(args, p)) {
+    double* kept = args.shared_stress + (block - static_cast<std::size_t>(args.num_own_blocks)) * 144 + lane;
+    for (std::size_t i = 0; i < 9; ++i) {
+      store(stress.total[i], kept + i * kLanes);
+      store(p.viscosity > 0 ? stress.viscous[i] : Real(0.0), kept + 72 + i * kLanes);
+    }
+  }
+  const Corners force = el::corner_forces(stress.total, stress.inverse, stress.volume);
+  double lanes[12][kWidth];
+  for (std::size_t k = 0; k < 12; ++k) store(force[k / 3][k % 3], lanes[k]);
+  const Index first = args.num_own_blocks * 4 * kLanes;
+  for (std::size_t l = 0; l < kWidth; ++l) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      double* f = args.shared_force + nodal(corners[c * kLanes + l] - first, 0);
+      f[0] += lanes[3 * c][l];
+      f[8] += lanes[3 * c + 1][l];
+      f[16] += lanes[3 * c + 2][l];
+    }
+  }
+}
+
+/// W shared nodes to their new velocities and positions.
+inline void move_shared(const SweepArgs& args, const Mover& mover, std::size_t node, Totals& totals) {
+  const std::size_t at = node / kLanes * 3 * kLanes + node % kLanes;
+  const double* f = args.shared_force + at - static_cast<std::size_t>(args.num_own_blocks) * 96;
+  Vector v, force;
+  for (std::size_t i = 0; i < 3; ++i) {
+    v[i] = load(args.velocity + at + i * kLanes);
+    force[i] = load(f + i * kLanes);
+  }
+  v = mover.move(v, force, load(args.node_mass + node), node);
+  note_motion(v, totals);
+  for (std::size_t i = 0; i < 3; ++i) {
+    store(v[i], args.velocity + at + i * kLanes);
+    store(load(args.position + at + i * kLanes) + args.dt * v[i], args.next_position + at + i * kLanes);
+  }
+}
+
+/// Second half of the stress work of W shared-node elements, when their nodes' new velocities are known.
+inline void book_shared_after(const SweepArgs& args, std::size_t block, std::size_t lane) {
+  const ElasticParams& p = args.params[args.block_group[block]];
+  if (!needs_rate(args, p)) return;
+  const std::size_t shared_block = block - static_cast<std::size_t>(args.num_own_blocks);
+  Stress stress;
+  for (std::size_t i = 0; i < 9; ++i) {
+    const double* kept = args.shared_stress + shared_block * 144 + i * kLanes + lane;
+    stress.inverse[i] = load(args.gradient + block * 72 + i * kLanes + lane);
+    stress.total[i] = load(kept);
+    stress.viscous[i] = load(kept + 72);
+  }
+  stress.volume = load(args.volume + block * kLanes + lane);
+  const Corners v = gather(args.velocity, args.shared_corners + shared_block * 32 + lane);
+  book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_after, args.stress_after);
+}
+
+inline SweepStatus sweep(const SweepArgs& args) {
+  const Mover mover(args);
+  Totals totals;
+  double checked_sum = 0;
+  const auto own = static_cast<std::size_t>(args.num_own_blocks), all = static_cast<std::size_t>(args.num_blocks);
+  for (std::size_t block = 0; block < own; ++block) {
+    for (std::size_t lane = 0; lane < kLanes; lane += kWidth) sweep_own(args, mover, block, lane, totals);
+    if ((block & 63) == 63 || block + 1 == own) {  // NaN is sought every 512 elements: near enough to name the place
+      checked_sum = stdx::reduce(totals.speed_squared_sum);
+      if (!(checked_sum < 1e300) && totals.status.first_not_finite < 0) {
+        totals.status.first_not_finite = static_cast<Index>(block & ~std::size_t{63});
+      }
+    }
+  }
+  for (std::size_t block = own; block < all; ++block) {
+    for (std::size_t lane = 0; lane < kLanes; lane += kWidth) scatter_shared(args, block, lane, totals);
+  }
+  for (auto node = own * 4 * kLanes; node < static_cast<std::size_t>(args.num_nodes); node += kWidth) {
+    move_shared(args, mover, node, totals);
+  }
+  if (args.shared_stress != nullptr) {
+    for (std::size_t block = own; block < all; ++block) {
+      for (std::size_t lane = 0; lane < kLanes; lane += kWidth) book_shared_after(args, block, lane);
+    }
+  }
+  totals.status.max_speed_squared = stdx::hmax(totals.max_speed_squared);
+  totals.status.speed_squared_sum = stdx::reduce(totals.speed_squared_sum);
+  return totals.status;
+}
+
+}  // namespace
+}  // namespace breccia

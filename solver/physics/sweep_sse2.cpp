@@ -1,0 +1,7 @@
+#include "physics/sweep_kernel.hpp"
+
+namespace breccia {
+
+SweepStatus sweep_sse2(const SweepArgs& args) { return sweep(args); }
+
+}  // namespace breccia
