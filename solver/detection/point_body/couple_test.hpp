@@ -28,22 +28,24 @@ class CoupleTest {
   /// (2) applies.
   [[nodiscard]] bool has_planes() const { return has_planes_; }
 
+  /// (1). Without branches: in a search about half of the candidates pass, in no order a processor could guess.
   [[nodiscard]] bool in_box(const Vec3& p) const {
-    return p[0] >= low_[0] && p[0] <= high_[0] && p[1] >= low_[1] && p[1] <= high_[1] && p[2] >= low_[2] &&
-           p[2] <= high_[2];
+    return (p[0] >= low_[0]) & (p[0] <= high_[0]) & (p[1] >= low_[1]) & (p[1] <= high_[1]) & (p[2] >= low_[2]) &
+           (p[2] <= high_[2]);
   }
 
-  /// True if `p` and the contactor are a couple. False for a point that is not finite.
-  [[nodiscard]] bool holds(const Vec3& p) const {
-    if (!in_box(p)) return false;
-    if (!has_planes_) return true;
+  /// (2), likewise. An overflow (a NaN on either side) keeps the couple. True without planes.
+  [[nodiscard]] bool in_planes(const Vec3& p) const {
     const double x = p[0] - origin_[0], y = p[1] - origin_[1], z = p[2] - origin_[2];
+    bool outside = false;
     for (const Plane& plane : planes_) {
-      // Written so that an overflow (a NaN on either side) keeps the couple.
-      if (plane.normal[0] * x + plane.normal[1] * y + plane.normal[2] * z > plane.limit) return false;
+      outside |= plane.normal[0] * x + plane.normal[1] * y + plane.normal[2] * z > plane.limit;
     }
-    return true;
+    return !(outside & has_planes_);
   }
+
+  /// True if `p` and the contactor are a couple: (1) and (2). False for a point that is not finite.
+  [[nodiscard]] bool holds(const Vec3& p) const { return in_box(p) && in_planes(p); }
 
   /// normal . (p - origin) <= limit
   struct Plane {
@@ -60,7 +62,7 @@ class CoupleTest {
 
   Vec3 low_, high_;
   Vec3 origin_;
-  std::array<Plane, 4> planes_;  ///< set if has_planes_
+  std::array<Plane, 4> planes_{};
   bool skipped_ = false;
   bool has_planes_ = false;
 };

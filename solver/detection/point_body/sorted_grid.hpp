@@ -37,14 +37,16 @@ class SortedGrid final : public PointBodySearch {
   void load(std::span<const Vec3> points, const Cells& cells);
   void lay_out_rows();
   void scatter(std::span<const Vec3> points);
-  void search_box(const Cells& cells, const CoupleTest& test, Index contactor);
-  void search_row(const Row& row, const CellBox& box, const CoupleTest& test, Index contactor);
+  void search_box(const Cells& cells, const CoupleTest& test);
+  void search_row(const Row& row, const CellBox& box, const CoupleTest& test);
 
   double cell_;
   RowTable rows_;
   std::vector<Place> places_;   ///< (num_points)
   std::vector<Index> starts_;   ///< cells of every row that has a table: first entry of the cell
   std::vector<Entry> entries_;  ///< (finite points) by row, then x
+  std::vector<const Entry*> in_box_;  ///< points in the enlarged box of the contactor at hand
+  std::size_t num_in_box_ = 0;
   std::vector<Couple> found_;
   CoupleSorter sorter_;
 };
