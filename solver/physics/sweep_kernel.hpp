@@ -99,47 +99,57 @@ inline void book_stress_work(const SweepArgs& args, const ElasticParams& p, cons
   if (no_energy) add_to(stress + slot, half * contract(s.total, rate) - viscous_work);
 }
 
-/// This side of the element's four intact joints. Self links (free faces and such) have opening zero.
-inline void add_joint_forces(const SweepArgs& args, std::size_t block, std::size_t lane, const Corners& x, Corners& force) {
-  const Real limit = load(args.limit + block * kLanes + lane);
-  for (std::size_t face = 0; face < 4; ++face) {
-    const std::size_t at = block * 32 + face * kLanes + lane;
-    const double* base[kWidth];
-    const std::int32_t* offsets[kWidth];
-    for (std::size_t l = 0; l < kWidth; ++l) {
-      const std::int32_t link = args.link[at + l];
-      const auto slot = static_cast<std::size_t>(link >> 4);
-      base[l] = args.position + (slot / kLanes) * 96 + slot % kLanes;
-      offsets[l] = kCornerOffsets.of[link & 15];
+/// Replaces the elastic joint forces of the lanes whose opening has left the surely elastic range.
+[[gnu::noinline]] inline void replace_crossing(const SweepArgs& args, std::size_t at, Index first_slot, int face,
+                                               const bool* crossing, double (*force)[kWidth]) {
+  for (std::size_t l = 0; l < kWidth; ++l) {
+    if (!crossing[l] || (args.link[at + l] & 15) >= 12) continue;
+    double virgin[9];
+    args.crossing(args.crossing_context, first_slot + static_cast<Index>(l), face, virgin);
+    for (std::size_t k = 0; k < 9; ++k) force[k][l] = virgin[k];
+  }
+}
+
+/// This side of the intact joints on one face. Self links (free faces and such) have opening zero.
+template <std::size_t kFace>
+[[gnu::always_inline]] inline void add_joint_forces(const SweepArgs& args, std::size_t block, std::size_t lane, const Corners& x,
+                                                    const Real& limit, Corners& force) {
+  const std::size_t at = block * 32 + kFace * kLanes + lane;
+  const double* place[3][kWidth];
+  for (std::size_t l = 0; l < kWidth; ++l) {
+    const std::int32_t link = args.link[at + l];
+    const auto slot = static_cast<std::uint32_t>(link) >> 4;
+    const double* base = args.position + (static_cast<std::size_t>(slot / kLanes) * 96 + slot % kLanes);
+    const auto& offset = kCornerOffsets.of[link & 15];
+    for (std::size_t i = 0; i < 3; ++i) place[i][l] = base + offset[i];
+  }
+  Vector pull[3];
+  Real largest = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    constexpr auto corners = kFaceCorners[kFace];
+    const Vector& own = x[static_cast<std::size_t>(corners[i])];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      pull[i][axis] = Real([&](auto l) { return place[i][l][axis * kLanes]; }) - own[axis];
     }
-    Vector opening[3];
-    Real largest = 0.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto corner = static_cast<std::size_t>(kFaceCorners[face][i]);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Real other([&](auto l) { return base[l][static_cast<std::size_t>(offsets[l][i]) + axis * kLanes]; });
-        opening[i][axis] = other - x[corner][axis];
-      }
-      const Vector& d = opening[i];
-      largest = stdx::max(largest, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    }
-    const Real stiffness = load(args.stiffness + at);
-    for (auto& d : opening) {
-      for (Real& component : d) component *= stiffness;
-    }
-    const auto crossing = largest > limit;
-    if (stdx::any_of(crossing)) [[unlikely]] {
-      for (std::size_t l = 0; l < kWidth; ++l) {
-        if (!crossing[l] || (args.link[at + l] & 15) >= 12) continue;
-        double virgin[9];
-        args.crossing(args.crossing_context, static_cast<Index>(block * kLanes + lane + l), static_cast<int>(face), virgin);
-        for (std::size_t k = 0; k < 9; ++k) opening[k / 3][k % 3][l] = virgin[k];
-      }
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto corner = static_cast<std::size_t>(kFaceCorners[face][i]);
-      for (std::size_t axis = 0; axis < 3; ++axis) force[corner][axis] += opening[i][axis];
-    }
+    const Vector& d = pull[i];
+    largest = stdx::max(largest, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  }
+  const Real stiffness = load(args.stiffness + at);
+  for (Vector& d : pull) {
+    for (Real& component : d) component *= stiffness;
+  }
+  const auto crossing = largest > limit;
+  if (stdx::any_of(crossing)) [[unlikely]] {
+    bool lanes[kWidth];
+    double forces[9][kWidth];
+    crossing.copy_to(lanes, stdx::element_aligned);
+    for (std::size_t k = 0; k < 9; ++k) store(pull[k / 3][k % 3], forces[k]);
+    replace_crossing(args, at, static_cast<Index>(block * kLanes + lane), static_cast<int>(kFace), lanes, forces);
+    for (std::size_t k = 0; k < 9; ++k) pull[k / 3][k % 3] = load(forces[k]);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    constexpr auto corners = kFaceCorners[kFace];
+    for (std::size_t axis = 0; axis < 3; ++axis) force[static_cast<std::size_t>(corners[i])][axis] += pull[i][axis];
   }
 }
 
@@ -200,7 +210,11 @@ inline void sweep_own(const SweepArgs& args, const Mover& mover, std::size_t blo
   Stress stress;
   evaluate_stress(args, p, block, lane, x, v, totals, stress);
   Corners force = el::corner_forces(stress.total, stress.inverse, stress.volume);
-  add_joint_forces(args, block, lane, x, force);
+  const Real limit = load(args.limit + block * kLanes + lane);
+  add_joint_forces<0>(args, block, lane, x, limit, force);
+  add_joint_forces<1>(args, block, lane, x, limit, force);
+  add_joint_forces<2>(args, block, lane, x, limit, force);
+  add_joint_forces<3>(args, block, lane, x, limit, force);
   const Index slot = args.force_slot[block];
   if (slot >= 0) {
     const double* own = args.own_force + static_cast<std::size_t>(slot) * 96 + lane;

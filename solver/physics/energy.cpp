@@ -1,0 +1,84 @@
+#include "physics/energy.hpp"
+
+#include <Eigen/Geometry>
+
+#include "base/compensated_sum.hpp"
+
+namespace breccia {
+namespace {
+
+elasticity::Corners<double> corners_of(const LocalMesh& mesh, const double* field, Index slot) {
+  elasticity::Corners<double> x;
+  for (int c = 0; c < 4; ++c) {
+    const double* p = field + nodal(mesh.corner_node(slot, c), 0);
+    x[static_cast<std::size_t>(c)] = {p[0], p[8], p[16]};
+  }
+  return x;
+}
+
+}  // namespace
+
+double kinetic_energy(const LocalMesh& mesh, const double* velocity_before, const double* velocity_after) {
+  CompensatedSum sum;
+  for (Index n = 0; n < mesh.num_nodes; ++n) {
+    const std::size_t at = nodal(n, 0);
+    const double product = velocity_before[at] * velocity_after[at] + velocity_before[at + 8] * velocity_after[at + 8] +
+                           velocity_before[at + 16] * velocity_after[at + 16];
+    sum.add(0.5 * mesh.node_mass[static_cast<std::size_t>(n)] * product);
+  }
+  return sum.value();
+}
+
+ElasticEnergy elastic_energy(const LocalMesh& mesh, std::span<const ElasticParams> params_of_group, const double* position) {
+  ElasticEnergy energy;
+  CompensatedSum sum;
+  for (Index s = 0; s < mesh.num_slots; ++s) {
+    const auto i = static_cast<std::size_t>(s);
+    const ElasticParams& p = params_of_group[static_cast<std::size_t>(mesh.block_group[i / kLanes])];
+    if (mesh.element_of_slot[i] < 0 || p.law != ElasticLaw::neo_hookean) continue;
+    elasticity::Tensor<double> inverse;
+    for (std::size_t k = 0; k < 9; ++k) inverse[k] = mesh.gradient[i / kLanes * 72 + k * kLanes + i % kLanes];
+    const double density = elasticity::neo_hookean_energy(elasticity::deformation(corners_of(mesh, position, s), inverse), p);
+    if (density > energy.largest_density) {
+      energy.largest_density = density;
+      energy.worst_slot = s;
+    }
+    sum.add(mesh.volume[i] * density);
+  }
+  energy.total = sum.value();
+  return energy;
+}
+
+double intact_joint_energy(const LocalMesh& mesh, const JointLinks& links, const double* position) {
+  CompensatedSum sum;
+  for (Index s = 0; s < mesh.num_own_slots; ++s) {
+    for (int face = 0; face < 4; ++face) {
+      const std::int32_t link = links.link[JointLinks::at(s, face)];
+      const int code = JointLinks::code_of(link);
+      if (code >= 12 || JointLinks::slot_of(link) < s) continue;
+      double squares = 0;
+      for (int i = 0; i < 3; ++i) {
+        const Index own = own_corner_node(s, kFaceCorners[static_cast<std::size_t>(face)][static_cast<std::size_t>(i)]);
+        const Index other = own_corner_node(JointLinks::slot_of(link), linked_corner(code, i));
+        squares += (load_node(position, other) - load_node(position, own)).squaredNorm();
+      }
+      sum.add(0.5 * links.stiffness[JointLinks::at(s, face)] * squares);
+    }
+  }
+  return sum.value();
+}
+
+Momentum momentum(const LocalMesh& mesh, const double* position, const double* velocity) {
+  std::array<CompensatedSum, 6> sums;
+  for (Index n = 0; n < mesh.num_nodes; ++n) {
+    const Vec3 p = mesh.node_mass[static_cast<std::size_t>(n)] * load_node(velocity, n);
+    const Vec3 l = load_node(position, n).cross(p);
+    for (std::size_t i = 0; i < 3; ++i) {
+      sums[i].add(p[static_cast<Eigen::Index>(i)]);
+      sums[3 + i].add(l[static_cast<Eigen::Index>(i)]);
+    }
+  }
+  return {{sums[0].value(), sums[1].value(), sums[2].value()}, {sums[3].value(), sums[4].value(), sums[5].value()}};
+}
+
+}  // namespace breccia
