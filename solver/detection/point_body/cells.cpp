@@ -11,7 +11,8 @@ double choose_cell(std::span<const Corners> contactors, double buffer, double sh
   int count = 0;
   for (std::size_t c = 0; c < contactors.size(); c += stride) {
     const Corners& x = contactors[c];
-    const Vec3 widths = x[0].cwiseMax(x[1]).cwiseMax(x[2].cwiseMax(x[3])) - x[0].cwiseMin(x[1]).cwiseMin(x[2].cwiseMin(x[3]));
+    const Vec3 widths =
+        x[0].cwiseMax(x[1]).cwiseMax(x[2].cwiseMax(x[3])) - x[0].cwiseMin(x[1]).cwiseMin(x[2].cwiseMin(x[3]));
     const double width = widths.sum() / 3 + 2 * buffer;
     if (!(width > 0) || !std::isfinite(width)) continue;
     sum_of_logarithms += std::log(width);

@@ -51,9 +51,9 @@ void CoupleTest::set_planes(const Corners& corners, double buffer, double box_di
 void demand_searchable(std::size_t num_points, std::size_t num_contactors, double buffer) {
   DEMAND(buffer >= 0 && std::isfinite(buffer), "contact search with buffer = " + std::to_string(buffer));
   constexpr auto most = static_cast<std::size_t>(std::numeric_limits<Index>::max());
-  DEMAND(num_points < most && num_contactors < most,
-         "contact search with " + std::to_string(num_points) + " points and " + std::to_string(num_contactors) +
-             " contactors");
+  DEMAND(num_points < most && num_contactors < most, "contact search with " + std::to_string(num_points) +
+                                                         " points and " + std::to_string(num_contactors) +
+                                                         " contactors");
 }
 
 }  // namespace breccia::detection

@@ -24,7 +24,10 @@ double least(double coefficient, double low, double high) { return std::min(coef
 }  // namespace
 
 Slices::Slices(const Cells& cells, const CoupleTest& test)
-    : cells_(cells), test_(test), box_(cell_box(cells, test)), low_(test.low() - test.origin()),
+    : cells_(cells),
+      test_(test),
+      box_(cell_box(cells, test)),
+      low_(test.low() - test.origin()),
       high_(test.high() - test.origin()) {
   // Round-off of the bounds is some eps times the box, that of cell borders some eps times the coordinates.
   const double coordinate = std::max(test.low().cwiseAbs().maxCoeff(), test.high().cwiseAbs().maxCoeff());

@@ -47,8 +47,8 @@ class Slices {
   const Cells& cells_;
   const CoupleTest& test_;
   CellBox box_;
-  Vec3 low_, high_;  ///< of the enlarged box, about the test's origin
-  double slack_;     ///< m
+  Vec3 low_, high_;                          ///< of the enlarged box, about the test's origin
+  double slack_;                             ///< m
   std::array<CoupleTest::Plane, 4> planes_;  ///< unit normals
   int num_planes_ = 0;
   std::array<ShadowEdge, 8> shadow_;

@@ -75,9 +75,10 @@ void SortedGrid::scatter(std::span<const Vec3> points) {
   }
   for (const Row& row : rows_.rows()) {
     if (row.table >= 0) continue;
-    std::sort(entries_.begin() + row.begin, entries_.begin() + row.begin + row.count, [](const Entry& a, const Entry& b) {
-      return std::tie(a.position[0], a.point) < std::tie(b.position[0], b.point);
-    });
+    std::sort(entries_.begin() + row.begin, entries_.begin() + row.begin + row.count,
+              [](const Entry& a, const Entry& b) {
+                return std::tie(a.position[0], a.point) < std::tie(b.position[0], b.point);
+              });
   }
 }
 

@@ -42,9 +42,9 @@ class SortedGrid final : public PointBodySearch {
 
   double cell_;
   RowTable rows_;
-  std::vector<Place> places_;   ///< (num_points)
-  std::vector<Index> starts_;   ///< cells of every row that has a table: first entry of the cell
-  std::vector<Entry> entries_;  ///< (finite points) by row, then x
+  std::vector<Place> places_;         ///< (num_points)
+  std::vector<Index> starts_;         ///< cells of every row that has a table: first entry of the cell
+  std::vector<Entry> entries_;        ///< (finite points) by row, then x
   std::vector<const Entry*> in_box_;  ///< points in the enlarged box of the contactor at hand
   std::size_t num_in_box_ = 0;
   std::vector<Couple> found_;

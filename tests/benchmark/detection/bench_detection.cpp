@@ -113,7 +113,8 @@ void measure(const Scene& scene, double cell_share) {
   const double mean = width.sum() / 3 / static_cast<double>(scene.contactors.size()) + 2 * scene.buffer;
   constexpr std::array names{"ms", "ms_slices", "sorted_grid", "brute_force"};
   std::vector<Couple> reference;
-  for (const Algorithm algorithm : {Algorithm::sorted_grid, Algorithm::ms, Algorithm::ms_slices, Algorithm::brute_force}) {
+  for (const Algorithm algorithm :
+       {Algorithm::sorted_grid, Algorithm::ms, Algorithm::ms_slices, Algorithm::brute_force}) {
     const bool brute = algorithm == Algorithm::brute_force;
     if (brute && scene.points.size() > 50000) continue;
     const auto search = breccia::detection::make_search(algorithm, cell_share * mean);

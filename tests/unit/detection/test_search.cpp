@@ -11,7 +11,9 @@
 
 namespace breccia::detection {
 
-void PrintTo(const Couple& couple, std::ostream* out) { *out << '(' << couple.point << ", " << couple.contactor << ')'; }
+void PrintTo(const Couple& couple, std::ostream* out) {
+  *out << '(' << couple.point << ", " << couple.contactor << ')';
+}
 
 namespace {
 
@@ -46,7 +48,9 @@ class Search : public testing::TestWithParam<std::tuple<Algorithm, double>> {
 
   std::string first_difference(const std::vector<Couple>& expected) const {
     const auto [found, wanted] = std::mismatch(couples_.begin(), couples_.end(), expected.begin(), expected.end());
-    const auto text = [](auto it, auto end) { return it == end ? std::string("the end") : testing::PrintToString(*it); };
+    const auto text = [](auto it, auto end) {
+      return it == end ? std::string("the end") : testing::PrintToString(*it);
+    };
     return "found " + text(found, couples_.end()) + " instead of " + text(wanted, expected.end());
   }
 
@@ -93,7 +97,8 @@ TEST_P(Search, finds_the_same_couples_at_negative_coordinates) {
 TEST_P(Search, finds_all_couples_when_all_points_share_a_cell) {
   Random random(8);
   Scene scene;
-  for (int k = 0; k < 400; ++k) scene.points.push_back(Vec3(0.3, 0.3, 0.3) + scenes::uniform_vector(random, -1e-6, 1e-6));
+  for (int k = 0; k < 400; ++k)
+    scene.points.push_back(Vec3(0.3, 0.3, 0.3) + scenes::uniform_vector(random, -1e-6, 1e-6));
   for (int k = 0; k < 40; ++k) {
     const Vec3 centre = scenes::uniform_vector(random, 0, 0.6);
     scene.contactors.push_back(scenes::random_tetrahedron(random, centre, 1));
@@ -193,7 +198,8 @@ TEST_P(Search, finds_couples_of_one_large_contactor_among_thousands_of_small_one
 
 TEST_P(Search, refuses_a_buffer_that_is_no_length) {
   const Scene scene = scenes::raster(1, 1);
-  for (const double buffer : {-1e-9, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (const double buffer :
+       {-1e-9, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     EXPECT_THROW(search_->search(scene.points, scene.contactors, buffer, couples_), InternalError);
   }
 }

@@ -12,13 +12,17 @@ std::atomic<long> allocations = 0;
 
 // Every plain allocation of this executable is counted; the tests below compare the count before and after a search.
 // Not inlined: the compiler would pair `new` with `free` and warn.
-[[gnu::noinline]] void* operator new(std::size_t size) {
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   ++allocations;
-  if (void* storage = std::malloc(size == 0 ? 1 : size)) return storage;
+  return std::malloc(size == 0 ? 1 : size);
+}
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  if (void* storage = operator new(size, std::nothrow)) return storage;
   throw std::bad_alloc();
 }
 [[gnu::noinline]] void operator delete(void* storage) noexcept { std::free(storage); }
-[[gnu::noinline]] void operator delete(void* storage, std::size_t) noexcept { std::free(storage); }
+[[gnu::noinline]] void operator delete(void* storage, std::size_t) noexcept { operator delete(storage); }
+[[gnu::noinline]] void operator delete(void* storage, const std::nothrow_t&) noexcept { operator delete(storage); }
 
 namespace breccia::detection {
 namespace {

@@ -8,7 +8,9 @@ namespace {
 
 using scenes::Random;
 
-std::int64_t size_of(const CellRange& range) { return std::max<std::int64_t>(0, std::int64_t{range.high} - range.low + 1); }
+std::int64_t size_of(const CellRange& range) {
+  return std::max<std::int64_t>(0, std::int64_t{range.high} - range.low + 1);
+}
 
 std::int64_t cells_in(const Slices& slices) {
   std::int64_t count = 0;
