@@ -11,10 +11,12 @@ struct TimeFunction {
     double amplitude = 0;
     double frequency = 0;  ///< Hz
     double phase = 0;      ///< rad
+    friend bool operator==(const Sine&, const Sine&) = default;
   };
   struct Point {
     double time = 0;   ///< s, increasing
     double value = 0;
+    friend bool operator==(const Point&, const Point&) = default;
   };
 
   double constant = 0;
@@ -26,6 +28,7 @@ struct TimeFunction {
   [[nodiscard]] double operator()(double time) const;
   /// True for the function that is zero at all times.
   [[nodiscard]] bool is_zero() const;
+  friend bool operator==(const TimeFunction&, const TimeFunction&) = default;
 };
 
 }  // namespace breccia

@@ -19,6 +19,8 @@ namespace breccia::case_ {
 struct Origin {
   int line = 0;
   std::string key;
+  /// Cases are equal when they ask for the same, wherever it was written.
+  friend bool operator==(const Origin&, const Origin&) { return true; }
 };
 
 /// Raster of boxes, each a raster of cubes of 24 tetrahedra (six faces x four, apex at the cube's centre). [mesh.raster]
@@ -38,8 +40,10 @@ struct Raster {
   struct Slit {
     Vec3 lower{0, 0, 0};
     Vec3 upper{0, 0, 0};
+    friend bool operator==(const Slit&, const Slit&) = default;
   };
   std::optional<Slit> slit;
+  friend bool operator==(const Raster&, const Raster&) = default;
 };
 
 /// [mesh]
@@ -51,6 +55,7 @@ struct MeshSource {
   bool glue = false;                          ///< conforming interfaces between volumes are glued
   bool repair_inverted = true;                ///< swap two corners of negative elements; false refuses them
   Origin origin;
+  friend bool operator==(const MeshSource&, const MeshSource&) = default;
 };
 
 enum class ElasticLaw { neo_hookean, green_st_venant };
@@ -66,6 +71,7 @@ struct Material {
   double viscosity = 0;         ///< Pa s, mubar of the viscous term
   JointPlacement joints = JointPlacement::breakable;
   Origin origin;
+  friend bool operator==(const Material&, const Material&) = default;
 };
 
 enum class JointLaw { mixed_mode, independent_peaks };
@@ -92,6 +98,7 @@ struct Joint {
   double exponent = 5.0;               ///< exponential softening: z = (e^(-s D) - e^(-s)) / (1 - e^(-s))
   int points_to_fail = 3;
   Origin origin;
+  friend bool operator==(const Joint&, const Joint&) = default;
 };
 
 enum class OverlapField { body, tet_potential, tet_distance };
@@ -105,6 +112,7 @@ struct Contact {
   double friction = 0;                 ///< Coulomb mu
   double tangential_ratio = 1;         ///< tangential over normal stiffness, 0..1
   Origin origin;
+  friend bool operator==(const Contact&, const Contact&) = default;
 };
 
 /// [contact_points]
@@ -114,6 +122,8 @@ struct ContactPoints {
   bool everywhere = true;                      ///< false: only faces of `surfaces`
   std::vector<std::string> surfaces;
   int field_ramp_steps = 50;                   ///< steps over which the overlap field follows a new free surface
+  Origin origin;
+  friend bool operator==(const ContactPoints&, const ContactPoints&) = default;
 };
 
 /// [sphere]: a spherical boundary that keeps everything inside.
@@ -122,6 +132,7 @@ struct Sphere {
   double radius = 0;   ///< m
   double penalty = 0;  ///< Pa, as a contact penalty
   Origin origin;
+  friend bool operator==(const Sphere&, const Sphere&) = default;
 };
 
 /// [[initial_velocity]]
@@ -132,6 +143,7 @@ struct InitialVelocity {
   std::uint64_t seed = 1;
   Vec3 angular{0, 0, 0};              ///< rad/s about each body's centre of mass; added
   Origin origin;
+  friend bool operator==(const InitialVelocity&, const InitialVelocity&) = default;
 };
 
 enum class ConstraintKind { fixed, velocity, displacement };
@@ -143,6 +155,7 @@ struct Constraint {
   std::array<bool, 3> axes{false, false, false};
   std::array<TimeFunction, 3> value;   ///< m/s or m from the stage's start (velocity, displacement); time counted from the run's start
   Origin origin;
+  friend bool operator==(const Constraint&, const Constraint&) = default;
 };
 
 /// [[stage.pressure]]: follows its faces; positive pushes into the body. Both sides of an inner surface are loaded.
@@ -150,6 +163,7 @@ struct Pressure {
   std::string surface;
   TimeFunction value;  ///< Pa
   Origin origin;
+  friend bool operator==(const Pressure&, const Pressure&) = default;
 };
 
 /// [[stage]]
@@ -163,6 +177,7 @@ struct Stage {
   double local_damping = 0;                  ///< 0..1, share of the unbalanced force, against the velocity
   std::vector<std::string> broken_surfaces;  ///< surfaces whose joints are broken when the stage starts
   Origin origin;
+  friend bool operator==(const Stage&, const Stage&) = default;
 };
 
 /// [time]
@@ -171,6 +186,7 @@ struct TimeControl {
   double safety = 0.8;          ///< share of the stable step
   std::int64_t max_steps = 0;   ///< 0: no limit
   double residual_limit = 0.05; ///< energy residual over the largest term that stops the run
+  friend bool operator==(const TimeControl&, const TimeControl&) = default;
 };
 
 enum class DetectionAlgorithm { ms, ms_slices, sorted_grid, brute_force };
@@ -181,6 +197,7 @@ struct Detection {
   double buffer = 0;            ///< m; 0: a share of the mean element size
   double cell = 0;              ///< m; 0: chosen from buffer and element size
   bool verify = false;          ///< compare every step's couples with brute force
+  friend bool operator==(const Detection&, const Detection&) = default;
 };
 
 /// [output]
@@ -189,6 +206,8 @@ struct Output {
   double history_interval = 0;  ///< s; 0: end / 500
   bool elements = true, joints = true, contacts = true;
   std::vector<std::string> gauges;  ///< groups whose reaction, contact and applied force, displacement and velocity are recorded
+  Origin origin;
+  friend bool operator==(const Output&, const Output&) = default;
 };
 
 struct Case {
@@ -202,11 +221,13 @@ struct Case {
   std::optional<Sphere> sphere;
   std::vector<InitialVelocity> initial_velocities;
   std::vector<std::string> broken_surfaces;  ///< [joints] broken: surfaces whose joints are broken from the start
+  Origin broken_origin;
   std::vector<Stage> stages;
   TimeControl time;
   Detection detection;
   Output output;
   std::string resolved;         ///< the case as TOML, SI, every default written out; copied to the run folder
+  friend bool operator==(const Case&, const Case&) = default;
 };
 
 }  // namespace breccia::case_

@@ -1,0 +1,240 @@
+#pragma once
+
+#include <cmath>
+
+#include "case/case.hpp"
+
+/// Which key of the schema stands for which member of a case: written once, walked by the reader and by the writer.
+/// An archive A offers: A::reads; value(key, member); choice(key, enumeration); axis_functions(key, axes, values);
+/// section(key, visitor), optional_section(key, member), list(key, members); origin(member) and, to read only: has(key),
+/// exactly_one(keys), at_most_one(keys), smallest_young(groups).
+namespace breccia::case_ {
+
+template <class A>
+void bind(A& a, Raster::Slit& slit) {
+  a.value("lower", slit.lower);
+  a.value("upper", slit.upper);
+}
+
+template <class A>
+void bind(A& a, Raster& raster) {
+  a.choice("kind", raster.single_tetrahedra);
+  a.value("cells", raster.cells);
+  a.value("cell_size", raster.cell_size);
+  a.value("boxes", raster.boxes);
+  a.value("gap", raster.gap);
+  a.value("origin", raster.origin);
+  a.value("group", raster.group);
+  a.value("random_orientation", raster.random_orientation);
+  a.value("seed", raster.seed);
+  a.optional_section("slit", raster.slit);
+}
+
+template <class A>
+void bind(A& a, MeshSource& mesh) {
+  a.origin(mesh.origin);
+  if constexpr (A::reads) a.exactly_one({"file", "raster"});
+  if (A::reads || !mesh.file.empty()) a.value("file", mesh.file);
+  a.value("parameters", mesh.parameters);
+  a.value("scale", mesh.scale);
+  a.value("glue", mesh.glue);
+  a.choice("inverted", mesh.repair_inverted);
+  a.optional_section("raster", mesh.raster);
+}
+
+template <class A>
+void bind(A& a, Material& material) {
+  a.origin(material.origin);
+  a.value("group", material.group);
+  a.choice("law", material.law);
+  a.value("young", material.young);
+  a.value("poisson", material.poisson);
+  a.value("density", material.density);
+  a.value("viscosity", material.viscosity);
+  a.choice("joints", material.joints);
+}
+
+/// The keys of a joint of which one or the other is given.
+template <class A>
+void bind_alternatives(A& a, Joint& joint) {
+  if constexpr (A::reads) {
+    a.exactly_one({"group", "between"});
+    if (a.has("between")) {
+      a.value("between", joint.groups);
+    } else {
+      a.value("group", joint.groups[0]);
+      joint.groups[1] = joint.groups[0];
+    }
+    a.at_most_one({"penalty", "penalty_factor"});
+    if (a.has("penalty")) {
+      a.value("penalty", joint.penalty);
+    } else {
+      double factor = 0;
+      a.value("penalty_factor", factor);
+      joint.penalty = factor * a.smallest_young(joint.groups);
+    }
+    a.at_most_one({"friction", "friction_angle"});
+    if (a.has("friction_angle")) {
+      double angle = 0;
+      a.value("friction_angle", angle);
+      joint.friction = std::tan(angle);
+    } else {
+      a.value("friction", joint.friction);
+    }
+  } else {
+    if (joint.groups[0] == joint.groups[1]) a.value("group", joint.groups[0]);
+    else a.value("between", joint.groups);
+    a.value("penalty", joint.penalty);
+    a.value("friction", joint.friction);
+  }
+}
+
+template <class A>
+void bind(A& a, Joint& joint) {
+  a.origin(joint.origin);
+  bind_alternatives(a, joint);
+  a.choice("law", joint.law);
+  a.choice("rise", joint.rise);
+  a.choice("points", joint.points);
+  a.value("size", joint.size);
+  a.value("tensile_strength", joint.tensile_strength);
+  if constexpr (A::reads) joint.shear_strength = joint.tensile_strength;
+  a.value("shear_strength", joint.shear_strength);
+  a.value("energy_mode_1", joint.energy_mode_1);
+  if constexpr (A::reads) joint.energy_mode_2 = joint.energy_mode_1;
+  a.value("energy_mode_2", joint.energy_mode_2);
+  a.choice("energy_counts", joint.energy_of_whole_curve);
+  a.value("points_to_fail", joint.points_to_fail);
+  a.section("softening", [&](auto& s) {
+    s.choice("kind", joint.softening);
+    s.value("a", joint.a);
+    s.value("b", joint.b);
+    s.value("c", joint.c);
+    s.value("exponent", joint.exponent);
+  });
+}
+
+template <class A>
+void bind(A& a, Contact& contact) {
+  a.origin(contact.origin);
+  a.value("between", contact.groups);
+  a.value("penalty", contact.penalty);
+  a.value("plateau", contact.plateau);
+  a.value("unloading_exponent", contact.unloading_exponent);
+  a.value("friction", contact.friction);
+  a.value("tangential_ratio", contact.tangential_ratio);
+}
+
+template <class A>
+void bind(A& a, ContactPoints& points) {
+  a.origin(points.origin);
+  a.value("per_face", points.per_face);
+  a.choice("field", points.field);
+  if constexpr (A::reads) points.everywhere = !a.has("surfaces");
+  if (!points.everywhere) a.value("surfaces", points.surfaces);
+  a.value("field_ramp_steps", points.field_ramp_steps);
+}
+
+template <class A>
+void bind(A& a, Sphere& sphere) {
+  a.origin(sphere.origin);
+  a.value("centre", sphere.centre);
+  a.value("radius", sphere.radius);
+  a.value("penalty", sphere.penalty);
+}
+
+template <class A>
+void bind(A& a, InitialVelocity& initial) {
+  a.origin(initial.origin);
+  a.value("group", initial.group);
+  a.value("velocity", initial.velocity);
+  a.value("random", initial.random);
+  a.value("seed", initial.seed);
+  a.value("angular", initial.angular);
+}
+
+template <class A>
+void bind(A& a, Constraint& constraint) {
+  a.origin(constraint.origin);
+  a.value("group", constraint.group);
+  if constexpr (A::reads) {
+    a.exactly_one({"fixed", "velocity", "displacement"});
+    if (a.has("velocity")) constraint.kind = ConstraintKind::velocity;
+    else if (a.has("displacement")) constraint.kind = ConstraintKind::displacement;
+  }
+  switch (constraint.kind) {
+    case ConstraintKind::fixed: a.value("fixed", constraint.axes); break;
+    case ConstraintKind::velocity: a.axis_functions("velocity", constraint.axes, constraint.value); break;
+    case ConstraintKind::displacement: a.axis_functions("displacement", constraint.axes, constraint.value); break;
+  }
+}
+
+template <class A>
+void bind(A& a, Pressure& pressure) {
+  a.origin(pressure.origin);
+  a.value("surface", pressure.surface);
+  a.value("value", pressure.value);
+}
+
+template <class A>
+void bind(A& a, Stage& stage) {
+  a.origin(stage.origin);
+  a.value("name", stage.name);
+  a.value("end", stage.end);
+  a.value("gravity", stage.gravity);
+  a.value("mass_damping", stage.mass_damping);
+  a.value("local_damping", stage.local_damping);
+  a.value("broken", stage.broken_surfaces);
+  a.list("constraint", stage.constraints);
+  a.list("pressure", stage.pressures);
+}
+
+template <class A>
+void bind(A& a, TimeControl& time) {
+  a.value("step", time.step);
+  a.value("safety", time.safety);
+  a.value("max_steps", time.max_steps);
+  a.value("residual_limit", time.residual_limit);
+}
+
+template <class A>
+void bind(A& a, Detection& detection) {
+  a.choice("algorithm", detection.algorithm);
+  a.value("buffer", detection.buffer);
+  a.value("cell", detection.cell);
+  a.value("verify", detection.verify);
+}
+
+template <class A>
+void bind(A& a, Output& output) {
+  a.origin(output.origin);
+  a.value("frame_interval", output.frame_interval);
+  a.value("history_interval", output.history_interval);
+  a.value("elements", output.elements);
+  a.value("joints", output.joints);
+  a.value("contacts", output.contacts);
+  a.value("gauges", output.gauges);
+}
+
+/// Materials come before joints, whose penalty may be a multiple of Young's modulus.
+template <class A>
+void bind(A& a, Case& c) {
+  a.value("title", c.title);
+  a.section("mesh", [&](auto& s) { bind(s, c.mesh); });
+  a.list("material", c.materials);
+  a.list("joint", c.joints);
+  a.list("contact", c.contacts);
+  a.section("contact_points", [&](auto& s) { bind(s, c.contact_points); });
+  a.optional_section("sphere", c.sphere);
+  a.section("joints", [&](auto& s) {
+    s.origin(c.broken_origin);
+    s.value("broken", c.broken_surfaces);
+  });
+  a.list("initial_velocity", c.initial_velocities);
+  a.list("stage", c.stages);
+  a.section("time", [&](auto& s) { bind(s, c.time); });
+  a.section("detection", [&](auto& s) { bind(s, c.detection); });
+  a.section("output", [&](auto& s) { bind(s, c.output); });
+}
+
+}  // namespace breccia::case_

@@ -1,0 +1,135 @@
+#include "case/explain.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "case/nearest.hpp"
+#include "case/schema.hpp"
+#include "case/units.hpp"
+
+namespace breccia::case_ {
+namespace {
+
+constexpr std::size_t name_width = 20;
+constexpr std::size_t default_width = 18;
+constexpr std::size_t text_width = 100;
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(text.size(), width), ' ');
+  return text + " ";
+}
+
+// Path as it is typed: without [] and <>.
+std::string plain(std::string_view path) {
+  std::string out;
+  bool inside = false;
+  for (const char c : path) {
+    inside = (inside || c == '[') && c != ']';
+    if (!inside && c != ']' && c != '<' && c != '>') out += c;
+  }
+  return out;
+}
+
+std::string header(const Key& section) {
+  switch (section.type) {
+    case ValueType::section: return "[" + std::string(section.path) + "]";
+    case ValueType::section_list: return section.path.starts_with('<') ? plain(section.path) : "[[" + plain(section.path) + "]]";
+    default: return plain(section.path);
+  }
+}
+
+std::string default_text(const Key& key) {
+  if (key.required) return "required";
+  if (key.fallback.empty()) return "optional";
+  if (key.fallback.starts_with('=')) return "as " + std::string(key.fallback.substr(2));
+  return std::string(key.fallback);
+}
+
+std::string unit_text(const Key& key) {
+  if (key.unit == "1") return "";
+  return key.unit.starts_with('*') ? "that of the value" + std::string(key.unit.substr(1)) : std::string(key.unit);
+}
+
+std::string wrapped(const std::string& text, const std::string& indent) {
+  std::string out, line;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    const std::string word = text.substr(at, end - at);
+    if (!line.empty() && indent.size() + line.size() + 1 + word.size() > text_width) {
+      out += indent + line + "\n";
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+    at = end + 1;
+  }
+  return line.empty() ? out : out + indent + line + "\n";
+}
+
+std::string first_sentence(std::string_view help) {
+  const std::size_t end = help.find(". ");
+  return std::string(end == std::string_view::npos ? help : help.substr(0, end + 1));
+}
+
+std::string line_of(const Key& key) {
+  const std::string unit = key.unit == "1" || key.unit.starts_with('*') ? "" : " [" + std::string(key.unit) + "]";
+  return "  " + padded(std::string(key.name()), name_width) + padded(default_text(key), default_width) + first_sentence(key.help) +
+         unit + "\n";
+}
+
+std::string section_text(const Key& section) {
+  std::string out = header(section) + "\n" + wrapped(std::string(section.help), "  ");
+  for (const Key& key : schema())
+    if (key.section() == section.path) out += key.is_section() ? "  " + header(key) + "\n" : line_of(key);
+  return out;
+}
+
+std::string key_text(const Key& key) {
+  std::string out = plain(key.path) + "\n" + wrapped(std::string(key.help), "  ");
+  const auto field = [&](const std::string& name, const std::string& text) {
+    if (!text.empty()) out += "  " + padded(name, 8) + text + "\n";
+  };
+  std::string allowed = allowed_text(key);
+  if (const std::size_t star = allowed.find(" in *"); star != std::string::npos) allowed.replace(star, 5, " in the unit of the value");
+  field("default", default_text(key));
+  field("unit", unit_text(key));
+  field("choices", joined(key.choice_list()));
+  field("range", key.range.text());
+  field("allowed", allowed);
+  field("example", std::string(key.name()) + " = " + std::string(key.example));
+  return out;
+}
+
+std::string text_of(const Key& key) { return key.is_section() ? section_text(key) : key_text(key); }
+
+}  // namespace
+
+std::string explain() {
+  std::string out =
+      "Keys of a case file (TOML): name, default, meaning [SI unit]. Numbers are SI; texts may carry a unit, \"26.6 GPa\".\n" +
+      wrapped(units_help(), "") + "`breccia explain KEY` tells more about one.\n\n";
+  for (const Key& key : schema())
+    if (key.section().empty() && !key.is_section()) out += line_of(key);
+  for (const Key& key : schema())
+    if (key.is_section()) out += "\n" + section_text(key);
+  return out;
+}
+
+std::string explain(std::string_view key) {
+  const std::string wanted = plain(key);
+  std::string by_name;
+  for (const Key& row : schema()) {
+    if (plain(row.path) == wanted) return text_of(row);
+    if (row.name() == wanted) by_name += (by_name.empty() ? "" : "\n") + text_of(row);
+  }
+  if (!by_name.empty()) return by_name;
+
+  std::vector<std::string> paths;
+  for (const std::string& path : similar_keys(pattern_of(key), 3)) paths.push_back(plain(path));
+  std::vector<std::string> sections;
+  for (const Key& row : schema())
+    if (row.section().empty()) sections.push_back(plain(row.path));
+  throw InputError({"", 0, std::string(key), paths.empty() ? "unknown key" : "unknown key; did you mean " + joined(paths, " or ") + "?",
+                    "sections and keys of a case: " + joined(sections), ""});
+}
+
+}  // namespace breccia::case_

@@ -1,0 +1,186 @@
+#include "case/reader.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+
+#include "case/bindings.hpp"
+#include "case/nearest.hpp"
+#include "case/reader_keys.hpp"
+#include "case/reader_overrides.hpp"
+#include "case/validate.hpp"
+#include "case/writer.hpp"
+
+namespace breccia::case_ {
+namespace {
+
+// Archive that fills one section of a case from one table of the file. What the table lacks is read from the schema.
+class SectionReader {
+ public:
+  static constexpr bool reads = true;
+
+  SectionReader(ValueReader& values, const Case& model, const Node& table, std::string path, bool written)
+      : values_(values), model_(model), table_(table), path_(std::move(path)), pattern_(pattern_of(path_)), written_(written) {}
+
+  [[nodiscard]] bool has(std::string_view name) const { return table_.find(name) != nullptr; }
+
+  void origin(Origin& out) const { out = {table_.line, path_}; }
+
+  template <class T>
+  void value(std::string_view name, T& out) {
+    with_node(name, [&](const Key& key, const Node& node) { values_.read(key, node, at(name), out); });
+  }
+
+  template <class Choice>
+  void choice(std::string_view name, Choice& out) {
+    with_node(name, [&](const Key& key, const Node& node) {
+      if (const auto index = values_.read_choice(key, node, at(name))) out = static_cast<Choice>(*index);
+    });
+  }
+
+  void axis_functions(std::string_view name, std::array<bool, 3>& axes, std::array<TimeFunction, 3>& out) {
+    with_node(name, [&](const Key& key, const Node& node) { values_.read_axes(key, node, at(name), axes, out); });
+  }
+
+  template <class Visitor>
+  void section(std::string_view name, Visitor visit) {
+    const Key& key = key_of(pattern(name));
+    const Node* node = table_.find(name);
+    if (node == nullptr && key.required && written_) values_.missing_key(key, table_, at(name));
+    const bool is_table = node != nullptr && node->is(Node::Kind::table);
+    Node empty;
+    empty.file = table_.file;
+    SectionReader inner(values_, model_, is_table ? *node : empty, at(name), is_table);
+    visit(inner);
+  }
+
+  template <class T>
+  void optional_section(std::string_view name, std::optional<T>& out) {
+    if (const Node* node = table_.find(name); node != nullptr && node->is(Node::Kind::table))
+      section(name, [&](auto& s) { bind(s, out.emplace()); });
+  }
+
+  template <class T>
+  void list(std::string_view name, std::vector<T>& out) {
+    const Key& key = key_of(pattern(name) + "[]");
+    const Node* node = table_.find(name);
+    if (key.required && (node == nullptr || (node->is(Node::Kind::list) && node->items.empty())))
+      values_.missing_key(key, node == nullptr ? table_ : *node, at(name));
+    if (node == nullptr || !node->is(Node::Kind::list)) return;
+    for (std::size_t i = 0; i < node->items.size(); ++i) {
+      if (!node->items[i].is(Node::Kind::table)) continue;
+      SectionReader inner(values_, model_, node->items[i], at(name) + "[" + std::to_string(i) + "]", true);
+      bind(inner, out.emplace_back());
+    }
+  }
+
+  void exactly_one(std::initializer_list<std::string_view> names) {
+    if (!written_) return;
+    if (std::none_of(names.begin(), names.end(), [&](std::string_view n) { return has(n); }))
+      values_.problem(table_, path_, "lacks a key", "exactly one of " + words(names), "");
+    at_most_one(names);
+  }
+
+  void at_most_one(std::initializer_list<std::string_view> names) {
+    std::vector<std::string> given;
+    for (const std::string_view n : names)
+      if (has(n)) given.emplace_back(n);
+    if (given.size() > 1)
+      values_.problem(*table_.find(given.back()), at(given.back()), "excludes another key of its section", "only one of " + words(names),
+                      joined(given, " and "));
+  }
+
+  // 0 when a material is missing, which validate() reports.
+  [[nodiscard]] double smallest_young(const std::array<std::string, 2>& groups) const {
+    double smallest = 0;
+    for (const Material& m : model_.materials)
+      if ((m.group == groups[0] || m.group == groups[1]) && (smallest == 0 || m.young < smallest)) smallest = m.young;
+    return smallest;
+  }
+
+ private:
+  [[nodiscard]] std::string at(std::string_view name) const { return path_ + (path_.empty() ? "" : ".") + std::string(name); }
+  [[nodiscard]] std::string pattern(std::string_view name) const {
+    return pattern_ + (pattern_.empty() ? "" : ".") + std::string(name);
+  }
+  static std::string words(std::initializer_list<std::string_view> names) {
+    return joined(std::vector<std::string>(names.begin(), names.end()));
+  }
+
+  // Calls read with what the file says, else with the default of the schema.
+  template <class Read>
+  void with_node(std::string_view name, Read read) {
+    const Key& key = key_of(pattern(name));
+    if (const Node* node = table_.find(name)) {
+      read(key, *node);
+    } else if (key.required) {
+      if (written_) values_.missing_key(key, table_, at(name));
+    } else if (!key.fallback.empty() && !key.fallback.starts_with('=')) {
+      read(key, parse_toml_value(key.fallback, "schema"));
+    }
+  }
+
+  ValueReader& values_;
+  const Case& model_;
+  const Node& table_;
+  std::string path_;
+  std::string pattern_;
+  bool written_;  // false: the whole section is absent or malformed, and its keys are not missed one by one
+};
+
+// Unbreakable joints need no more than a penalty, so the schema's default law does for groups without an entry.
+void add_default_joints(Case& c, ValueReader& values) {
+  for (std::size_t i = 0; i < c.materials.size(); ++i) {
+    const Material& m = c.materials[i];
+    const bool present = std::any_of(c.joints.begin(), c.joints.end(), [&](const Joint& j) {
+      return j.groups[0] == m.group && j.groups[1] == m.group;
+    });
+    if (m.joints != JointPlacement::unbreakable || present) continue;
+    Node table, group;
+    group.kind = Node::Kind::text;
+    group.text = m.group;
+    table.entries.emplace_back("group", group);
+    SectionReader reader(values, c, table, "joint[" + std::to_string(c.joints.size()) + "]", true);
+    Joint joint;
+    bind(reader, joint);
+    joint.origin = m.origin;
+    c.joints.push_back(std::move(joint));
+  }
+}
+
+// True if some problem already stands at the key, or at a section around it.
+bool told_already(const std::vector<Problem>& problems, const std::string& key) {
+  return std::any_of(problems.begin(), problems.end(), [&](const Problem& p) {
+    return key == p.key || (!p.key.empty() && key.starts_with(p.key) && (key[p.key.size()] == '.' || key[p.key.size()] == '['));
+  });
+}
+
+}  // namespace
+
+Case read_case(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  Node root = parse_toml_file(file);
+  std::vector<Problem> problems;
+  apply_overrides(root, overrides, problems);
+
+  Case c;
+  c.file = std::filesystem::absolute(file).lexically_normal();
+  ValueReader values(problems, c.file.parent_path());
+  check_keys(root, values);
+  SectionReader reader(values, c, root, "", true);
+  bind(reader, c);
+  add_default_joints(c, values);
+
+  const std::size_t read_problems = problems.size();
+  for (Problem& p : validate(c)) {
+    const std::vector<Problem> earlier(problems.begin(), problems.begin() + static_cast<std::ptrdiff_t>(read_problems));
+    if (told_already(earlier, p.key)) continue;
+    const Node& node = deepest_on_path(root, p.key);
+    p.file = node.file;
+    p.line = node.line;
+    problems.push_back(std::move(p));
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  c.resolved = write_case(c);
+  return c;
+}
+
+}  // namespace breccia::case_

@@ -1,0 +1,151 @@
+#include "case/reader_toml.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "base/error.hpp"
+
+namespace breccia::case_ {
+namespace {
+
+constexpr std::size_t longest_shown = 60;
+
+Node converted(const toml::node& node, const std::string& file) {
+  Node out;
+  out.file = file;
+  out.line = static_cast<int>(node.source().begin.line);
+  if (const auto* table = node.as_table()) {
+    out.kind = Node::Kind::table;
+    for (const auto& [key, value] : *table) {
+      out.entries.emplace_back(std::string(key.str()), converted(value, file));
+      // A table made by a dotted key has no place of its own.
+      if (out.entries.back().second.line == 0) out.entries.back().second.line = static_cast<int>(key.source().begin.line);
+    }
+    const auto earlier = [](const auto& a, const auto& b) { return a.second.line < b.second.line; };
+    std::stable_sort(out.entries.begin(), out.entries.end(), earlier);
+  } else if (const auto* list = node.as_array()) {
+    out.kind = Node::Kind::list;
+    for (const auto& item : *list) out.items.push_back(converted(item, file));
+  } else if (const auto* text = node.as_string()) {
+    out.kind = Node::Kind::text;
+    out.text = text->get();
+  } else if (const auto* integer = node.as_integer()) {
+    out.kind = Node::Kind::integer;
+    out.integer = integer->get();
+    out.number = static_cast<double>(out.integer);
+  } else if (const auto* number = node.as_floating_point()) {
+    out.kind = Node::Kind::number;
+    out.number = number->get();
+  } else if (const auto* boolean = node.as_boolean()) {
+    out.kind = Node::Kind::boolean;
+    out.boolean = boolean->get();
+  } else {
+    out.kind = Node::Kind::other;
+  }
+  return out;
+}
+
+}  // namespace
+
+const Node* Node::find(std::string_view name) const {
+  const auto it = std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.first == name; });
+  return it == entries.end() ? nullptr : &it->second;
+}
+
+Node* Node::find(std::string_view name) { return const_cast<Node*>(std::as_const(*this).find(name)); }
+
+std::string_view Node::kind_name() const {
+  switch (kind) {
+    case Kind::boolean: return "true or false";
+    case Kind::integer: return "an integer";
+    case Kind::number: return "a number";
+    case Kind::text: return "text";
+    case Kind::list: return "a list";
+    case Kind::table: return "a table";
+    case Kind::other: return "a date or time";
+  }
+  return "";
+}
+
+std::string Node::shown() const {
+  std::string out;
+  const auto append = [&](const std::string& part) {
+    if (out.size() > 1) out += ", ";
+    out += part;
+  };
+  switch (kind) {
+    case Kind::boolean: return boolean ? "true" : "false";
+    case Kind::integer: return std::to_string(integer);
+    case Kind::number: {
+      std::ostringstream stream;
+      stream << number;
+      return stream.str();
+    }
+    case Kind::text: out = "\"" + text + "\""; break;
+    case Kind::list:
+      out = "[";
+      for (const Node& item : items)
+        if (out.size() < longest_shown) append(item.shown());
+      out += "]";
+      break;
+    case Kind::table:
+      out = "{";
+      for (const auto& [name, value] : entries)
+        if (out.size() < longest_shown) append(name + " = " + value.shown());
+      out += "}";
+      break;
+    case Kind::other: return std::string(kind_name());
+  }
+  return out.size() <= longest_shown ? out : out.substr(0, longest_shown - 3) + "...";
+}
+
+Node parse_toml_file(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) throw InputError({name, 0, "", "the case file does not exist", "", ""});
+  if (!std::filesystem::is_regular_file(path, error)) throw InputError({name, 0, "", "the case is not a file", "a TOML file", ""});
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream content;
+  if (stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
+  if (!stream) throw InputError({name, 0, "", "the case file cannot be read", "", ""});
+  try {
+    Node root = converted(toml::parse(content.str(), name), name);
+    root.line = 0;
+    return root;
+  } catch (const toml::parse_error& e) {
+    throw InputError({name, static_cast<int>(e.source().begin.line), "", "not TOML: " + std::string(e.description()), "", ""});
+  }
+}
+
+Node parse_toml_value(std::string_view text, const std::string& source) {
+  constexpr std::string_view blanks = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(blanks);
+  const std::string trimmed(
+      first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1));
+  Node out;
+  try {
+    const toml::table table = toml::parse("value = " + trimmed);
+    // A line break would smuggle in a second key.
+    if (table.size() == 1) out = converted(*table.get("value"), source);
+    else throw InputError({source, 0, "", "more than one value", "a TOML value", trimmed});
+  } catch (const toml::parse_error& e) {
+    constexpr std::string_view structured = "[{\"'";
+    if (!trimmed.empty() && structured.find(trimmed.front()) != std::string_view::npos)
+      throw InputError({source, 0, "", "not a TOML value: " + std::string(e.description()), "", trimmed});
+    out.kind = Node::Kind::text;
+    out.text = trimmed;
+    out.file = source;
+  }
+  const auto forget_line = [](Node& node, const auto& self) -> void {
+    node.line = 0;
+    for (Node& item : node.items) self(item, self);
+    for (auto& entry : node.entries) self(entry.second, self);
+  };
+  forget_line(out, forget_line);
+  return out;
+}
+
+}  // namespace breccia::case_

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/time_function.hpp"
+#include "base/types.hpp"
+#include "case/reader_toml.hpp"
+#include "case/schema.hpp"
+
+namespace breccia::case_ {
+
+/// Turns nodes of a case file into typed SI values as their row of the schema says: type, unit, choices, range.
+/// Every read appends what is wrong to the problems and then leaves its output as it was. `path` is the key in messages.
+class ValueReader {
+ public:
+  ValueReader(std::vector<Problem>& problems, std::filesystem::path folder)
+      : problems_(problems), folder_(std::move(folder)) {}
+
+  void read(const Key& key, const Node& node, const std::string& path, double& out);
+  void read(const Key& key, const Node& node, const std::string& path, int& out);
+  void read(const Key& key, const Node& node, const std::string& path, std::int64_t& out);
+  void read(const Key& key, const Node& node, const std::string& path, std::uint64_t& out);
+  void read(const Key& key, const Node& node, const std::string& path, bool& out);
+  void read(const Key& key, const Node& node, const std::string& path, std::string& out);
+  /// A relative name is taken from the folder given.
+  void read(const Key& key, const Node& node, const std::string& path, std::filesystem::path& out);
+  void read(const Key& key, const Node& node, const std::string& path, std::vector<std::string>& out);
+  void read(const Key& key, const Node& node, const std::string& path, std::array<std::string, 2>& out);
+  void read(const Key& key, const Node& node, const std::string& path, std::array<double, 2>& out);
+  void read(const Key& key, const Node& node, const std::string& path, Vec3& out);
+  void read(const Key& key, const Node& node, const std::string& path, std::array<int, 3>& out);
+  void read(const Key& key, const Node& node, const std::string& path, std::map<std::string, double>& out);
+  void read(const Key& key, const Node& node, const std::string& path, TimeFunction& out);
+  void read(const Key& key, const Node& node, const std::string& path, std::array<TimeFunction, 3>& out);
+  /// Letters of "xyz".
+  void read(const Key& key, const Node& node, const std::string& path, std::array<bool, 3>& axes);
+  /// Functions of time by axis; axes not named are left alone.
+  void read_axes(const Key& key, const Node& node, const std::string& path, std::array<bool, 3>& axes,
+                 std::array<TimeFunction, 3>& out);
+  /// Position of the word among the choices of the key.
+  [[nodiscard]] std::optional<std::size_t> read_choice(const Key& key, const Node& node, const std::string& path);
+
+  /// An entry of a table that is no key of it; names the nearest key of the schema.
+  void unknown_key(const Node& node, const std::string& path, const std::string& pattern);
+  void missing_key(const Key& key, const Node& table, const std::string& path);
+  void problem(const Node& node, const std::string& path, const std::string& what, const std::string& allowed,
+               const std::string& given);
+
+ private:
+  void wrong_type(const Key& key, const Node& node, const std::string& path);
+  bool number(const Key& key, const Node& node, const std::string& path, double& out);
+  bool whole(const Key& key, const Node& node, const std::string& path, std::int64_t& out);
+  template <class T, std::size_t N>
+  void read_list(const Key& key, const Node& node, const std::string& path, bool one_for_all, std::array<T, N>& out);
+
+  // Of functions of time (reader_functions.cpp).
+  double function_part(const Key& key, const Node& table, const std::string& path, std::string_view row);
+  std::vector<const Node*> function_tables(const Node& node, const std::string& path, std::string_view row);
+  void function_table(const Key& key, const Node& table, const std::string& path, TimeFunction& out);
+  std::vector<TimeFunction::Point> function_points(const Key& key, const Node& node, const std::string& path);
+  std::vector<TimeFunction::Point> function_ramp(const Key& key, const Node& node, const std::string& path);
+
+  std::vector<Problem>& problems_;
+  std::filesystem::path folder_;
+};
+
+}  // namespace breccia::case_

@@ -1,0 +1,159 @@
+#include "case/schema.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <map>
+#include <tuple>
+
+#include "base/error.hpp"
+#include "case/nearest.hpp"
+
+namespace breccia::case_ {
+namespace {
+
+std::string short_number(double x) {
+  std::array<char, 32> buffer{};
+  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x, std::chars_format::general, 6);
+  return {buffer.data(), end};
+}
+
+std::string quantity_words(const Key& key) {
+  return key.unit == "1" ? "a number" : "a number in " + std::string(key.unit) + " or text with a unit";
+}
+
+std::string type_words(const Key& key) {
+  switch (key.type) {
+    case ValueType::section: return "a table, [" + std::string(key.path) + "]";
+    case ValueType::section_list: return "one or more tables, [[" + std::string(key.path.substr(0, key.path.size() - 2)) + "]]";
+    case ValueType::notation: return "";
+    case ValueType::number: return quantity_words(key);
+    case ValueType::integer: return "an integer";
+    case ValueType::boolean: return "true or false";
+    case ValueType::text: return "text";
+    case ValueType::choice: return "one of";
+    case ValueType::path: return "a file name";
+    case ValueType::axes: return "letters out of \"xyz\"";
+    case ValueType::text_list: return "a list of texts";
+    case ValueType::text_pair: return "a list of two texts";
+    case ValueType::number_pair: return "a list of two, each " + quantity_words(key);
+    case ValueType::vector: return "a list of three, each " + quantity_words(key);
+    case ValueType::vector_or_number: return "a list of three, each " + quantity_words(key) + ", or one for all";
+    case ValueType::integers_or_one: return "a list of three integers, or one for all";
+    case ValueType::function: return "a function of time: " + quantity_words(key) + ", or a table of constant, linear, sine, table, ramp";
+    case ValueType::function_vector:
+      return "a list of three functions of time, each " + quantity_words(key) + ", or a table of constant, linear, sine, table, ramp";
+    case ValueType::axis_functions: return "a table of functions of time, in " + std::string(key.unit) + ", for some of x, y, z";
+    case ValueType::parameters: return "a table of numbers, or texts with units, under names of your choice";
+    case ValueType::points: return "a list of points [time, value], times increasing";
+  }
+  return "";
+}
+
+// "." separates the parts of a path, but no name contains one.
+std::string_view last_part(std::string_view path) {
+  const std::size_t dot = path.rfind('.');
+  return dot == std::string_view::npos ? path : path.substr(dot + 1);
+}
+
+}  // namespace
+
+std::string Range::text() const {
+  const bool has_lower = lower != -std::numeric_limits<double>::infinity();
+  const bool has_upper = upper != std::numeric_limits<double>::infinity();
+  const std::string low = std::string(lower_open ? "> " : ">= ") + short_number(lower);
+  const std::string high = std::string(upper_open ? "< " : "<= ") + short_number(upper);
+  if (has_lower && has_upper) return low + " and " + high;
+  if (has_lower) return low;
+  return has_upper ? high : "";
+}
+
+std::vector<std::string> Key::choice_list() const {
+  std::vector<std::string> out;
+  for (std::string_view rest = choices; !rest.empty();) {
+    const std::size_t bar = rest.find('|');
+    out.emplace_back(rest.substr(0, bar));
+    rest = bar == std::string_view::npos ? std::string_view{} : rest.substr(bar + 1);
+  }
+  return out;
+}
+
+std::string_view Key::name() const {
+  const std::string_view part = last_part(path);
+  return part.ends_with("[]") ? part.substr(0, part.size() - 2) : part;
+}
+
+std::string_view Key::section() const {
+  const std::size_t dot = path.rfind('.');
+  return dot == std::string_view::npos ? std::string_view{} : path.substr(0, dot);
+}
+
+const Key* find_key(std::string_view pattern) {
+  static const std::map<std::string_view, const Key*> index = [] {
+    std::map<std::string_view, const Key*> out;
+    for (const Key& key : schema()) out.emplace(key.path, &key);
+    return out;
+  }();
+  const auto it = index.find(pattern);
+  return it == index.end() ? nullptr : it->second;
+}
+
+const Key& key_of(std::string_view pattern) {
+  const Key* key = find_key(pattern);
+  DEMAND(key != nullptr, std::string(pattern));
+  return *key;
+}
+
+std::string pattern_of(std::string_view path) {
+  std::string out;
+  bool inside = false;
+  for (const char c : path) {
+    if (c == ']') inside = false;
+    if (!inside) out += c;
+    if (c == '[') inside = true;
+  }
+  return out;
+}
+
+std::vector<std::string> names_in(std::string_view section) {
+  std::vector<std::string> out;
+  for (const Key& key : schema())
+    if (key.section() == section && key.type != ValueType::notation) out.emplace_back(key.name());
+  return out;
+}
+
+std::string allowed_text(const Key& key) {
+  std::string out = type_words(key);
+  if (!key.choices.empty()) out += (out == "one of" ? " " : ", one of ") + joined(key.choice_list());
+  if (key.range.limited()) out += ", " + key.range.text();
+  if (!key.word.empty()) out += ", or \"" + std::string(key.word) + "\"";
+  return out;
+}
+
+std::vector<std::string> similar_keys(std::string_view pattern, std::size_t count) {
+  const std::size_t dot = pattern.rfind('.');
+  const std::string_view section = dot == std::string_view::npos ? std::string_view{} : pattern.substr(0, dot);
+  std::string_view name = last_part(pattern);
+  if (name.ends_with("[]")) name.remove_suffix(2);
+
+  struct Ranked {
+    bool elsewhere;
+    std::size_t by_name, by_path;
+    const Key* key;
+  };
+  std::vector<Ranked> ranked;
+  const std::size_t allowed = std::max<std::size_t>(1, name.size() / 3);
+  for (const Key& key : schema()) {
+    const std::size_t by_name = edit_distance(name, key.name());
+    if (by_name <= allowed) ranked.push_back({key.section() != section, by_name, edit_distance(pattern, key.path), &key});
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
+    return std::tuple(a.elsewhere, a.by_name, a.by_path) < std::tuple(b.elsewhere, b.by_name, b.by_path);
+  });
+  std::vector<std::string> out;
+  for (const Ranked& r : ranked)
+    if (out.size() < count) out.emplace_back(r.key->path);
+  return out;
+}
+
+}  // namespace breccia::case_

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// The one table of every key of the case file. Reader, range checks, writer and `breccia explain` are driven by it: no
+/// key's unit, default, range or choice stands anywhere else.
+namespace breccia::case_ {
+
+enum class ValueType {
+  section,           ///< [path]
+  section_list,      ///< [[path]]; its path ends with []
+  notation,          ///< heading of keys that may stand inside other values (a function of time), no section of its own
+  number,            ///< with a unit
+  integer,
+  boolean,
+  text,
+  choice,            ///< one of a few words
+  path,              ///< file, relative to the case file
+  axes,              ///< letters of "xyz"
+  text_list,
+  text_pair,
+  number_pair,       ///< with a unit
+  vector,            ///< three numbers with a unit
+  vector_or_number,  ///< three numbers with a unit, or one for all three
+  integers_or_one,   ///< three integers, or one for all three
+  function,          ///< of time; a quantity or a table of <function> keys
+  function_vector,   ///< three functions of time
+  axis_functions,    ///< table with a function of time for some of x, y, z
+  parameters,        ///< table of numbers under names of the user's choice
+  points             ///< list of pairs [time, value]
+};
+
+/// Interval of allowed numbers, for every component of a vector or list. Open ends are not allowed themselves.
+struct Range {
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  bool lower_open = false;
+  bool upper_open = false;
+
+  [[nodiscard]] bool contains(double x) const {
+    return (lower_open ? x > lower : x >= lower) && (upper_open ? x < upper : x <= upper);
+  }
+  [[nodiscard]] bool limited() const { return *this != Range{}; }
+  /// "> 0", "between -1 and 0.5, both excluded", ... ; empty when unlimited.
+  [[nodiscard]] std::string text() const;
+  friend bool operator==(const Range&, const Range&) = default;
+};
+
+/// One row of the table.
+struct Key {
+  std::string_view path{};      ///< pattern: "material[].density"; [] stands for any index
+  ValueType type = ValueType::section;
+  std::string_view unit = "1";  ///< SI, as units.hpp reads it; "1": none; in <function> keys "*" is the unit of the value
+  std::string_view fallback{};  ///< default as it would be written; "= key": that of another key; empty: none
+  bool required = false;        ///< missing is an error; section_list: at least one
+  Range range{};
+  std::string_view choices{};   ///< "a|b|c", for choice and integer, in the order of the enumeration they stand for
+  std::string_view word{};      ///< a word that may stand instead of a number and means 0, e.g. "auto"
+  std::string_view help{};      ///< one or two sentences
+  std::string_view example{};   ///< value as it would be written
+
+  [[nodiscard]] std::vector<std::string> choice_list() const;
+  /// Last part of the path: "density".
+  [[nodiscard]] std::string_view name() const;
+  /// Path without the last part: "material[]"; empty at the top.
+  [[nodiscard]] std::string_view section() const;
+  [[nodiscard]] bool is_section() const {
+    return type == ValueType::section || type == ValueType::section_list || type == ValueType::notation;
+  }
+};
+
+/// All rows, sections before their keys, in the order of a case file.
+[[nodiscard]] std::span<const Key> schema();
+
+/// The row of a pattern, or nullptr. O(log rows).
+[[nodiscard]] const Key* find_key(std::string_view pattern);
+
+/// The row of a pattern that must be there. Throws InternalError if it is not.
+[[nodiscard]] const Key& key_of(std::string_view pattern);
+
+/// "stage[0].constraint[12].fixed" -> "stage[].constraint[].fixed"
+[[nodiscard]] std::string pattern_of(std::string_view path);
+
+/// Names of the keys and sub-sections of a section ("" for the top), without [].
+[[nodiscard]] std::vector<std::string> names_in(std::string_view section);
+
+/// What may stand at a key, in words: type, unit, range, choices.
+[[nodiscard]] std::string allowed_text(const Key& key);
+
+/// Patterns of keys whose name resembles that of an unknown one, at most `count`: those of the same section first, then by
+/// distance of the names, then of the whole paths.
+[[nodiscard]] std::vector<std::string> similar_keys(std::string_view pattern, std::size_t count);
+
+}  // namespace breccia::case_

@@ -1,0 +1,189 @@
+#include "case/validate.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "case/nearest.hpp"
+
+namespace breccia::case_ {
+namespace {
+
+constexpr const char* every_group = "*";
+
+using Pair = std::array<std::string, 2>;
+
+Pair sorted(Pair p) {
+  if (p[1] < p[0]) std::swap(p[0], p[1]);
+  return p;
+}
+
+std::string words(const Pair& p) { return p[0] == p[1] ? "\"" + p[0] + "\"" : "\"" + p[0] + "\" and \"" + p[1] + "\""; }
+
+class Validator {
+ public:
+  explicit Validator(const Case& c) : c_(c) {}
+
+  std::vector<Problem> run() {
+    mesh();
+    materials();
+    joints();
+    contacts();
+    for (const InitialVelocity& v : c_.initial_velocities) initial_velocity(v);
+    stages();
+    gauges();
+    return std::move(problems_);
+  }
+
+ private:
+  void problem(const Origin& origin, const std::string& name, const std::string& what, const std::string& allowed = {},
+               const std::string& given = {}) {
+    const std::string key = origin.key.empty() || name.empty() ? origin.key + name : origin.key + "." + name;
+    problems_.push_back({c_.file.string(), origin.line, key, what, allowed, given});
+  }
+
+  [[nodiscard]] const Material* material(const std::string& group) const {
+    const auto it = std::find_if(c_.materials.begin(), c_.materials.end(), [&](const Material& m) { return m.group == group; });
+    return it == c_.materials.end() ? nullptr : &*it;
+  }
+
+  void needs_material(const Origin& origin, const std::string& name, const std::string& group) {
+    if (group.empty() || material(group) != nullptr) return;
+    std::vector<std::string> groups;
+    for (const Material& m : c_.materials) groups.push_back(m.group);
+    problem(origin, name, "no [[material]] has the group \"" + group + "\"", joined(nearest_first(group, groups)), group);
+  }
+
+  void mesh() {
+    const MeshSource& mesh = c_.mesh;
+    if (mesh.file.empty() == !mesh.raster) problem(mesh.origin, "", "needs a source", "exactly one of file, raster");
+    if (!mesh.file.empty()) {
+      std::error_code error;
+      const std::string extension = mesh.file.extension().string();
+      if (!std::filesystem::is_regular_file(mesh.file, error))
+        problem(mesh.origin, "file", "the file does not exist", "a .geo or .msh file", mesh.file.string());
+      else if (extension != ".geo" && extension != ".msh")
+        problem(mesh.origin, "file", "is no file of gmsh", "a .geo or .msh file", mesh.file.string());
+      if (extension == ".msh" && !mesh.parameters.empty())
+        problem(mesh.origin, "parameters", "a finished mesh takes no parameters", "parameters of a .geo file");
+    }
+    if (mesh.raster) raster(*mesh.raster);
+  }
+
+  void raster(const Raster& raster) {
+    if (!c_.mesh.parameters.empty()) problem(c_.mesh.origin, "parameters", "the raster takes no parameters", "parameters of a .geo file");
+    if (raster.single_tetrahedra && (raster.cells != std::array{1, 1, 1} || raster.slit))
+      problem(c_.mesh.origin, "raster.kind", "single tetrahedra have no cells and no slit", "cells = [1, 1, 1], no slit", "tetrahedra");
+    if (!raster.slit) return;
+    const Vec3 extent = raster.slit->upper - raster.slit->lower;
+    if (extent.minCoeff() != 0 || (extent.array() == 0).count() != 1)
+      problem(c_.mesh.origin, "raster.slit", "is not plane", "upper above lower along two axes and equal to it along one");
+  }
+
+  void materials() {
+    std::set<std::string> seen;
+    for (const Material& m : c_.materials)
+      if (!m.group.empty() && !seen.insert(m.group).second)
+        problem(m.origin, "group", "the group has a material already", "one [[material]] a group", m.group);
+  }
+
+  void joints() {
+    std::set<Pair> seen;
+    for (const Joint& j : c_.joints) joint(j, seen);
+    for (const Material& m : c_.materials)
+      if (m.joints == JointPlacement::breakable && !m.group.empty() && !seen.contains({m.group, m.group}))
+        problem(m.origin, "joints", "the group is breakable but has no joint law",
+                "a [[joint]] with group = \"" + m.group + "\", or joints = \"unbreakable\" or \"none\"", m.group);
+  }
+
+  void joint(const Joint& j, std::set<Pair>& seen) {
+    const bool inside = j.groups[0] == j.groups[1];
+    if (inside) {
+      needs_material(j.origin, "group", j.groups[0]);
+    } else {
+      for (const std::string& group : j.groups) needs_material(j.origin, "between", group);
+    }
+    if (!j.groups[0].empty() && !seen.insert(sorted(j.groups)).second)
+      problem(j.origin, inside ? "group" : "between", "the joints have a law already", "one [[joint]] a group or pair", words(j.groups));
+    if (!inside && !j.groups[0].empty() && !c_.mesh.glue)
+      problem(j.origin, "between", "interfaces are not glued in this case", "mesh.glue = true", words(j.groups));
+    if (j.softening == Softening::z_curve && j.a + j.b <= 1)
+      problem(j.origin, "softening", "a + b of the z-curve is not above 1", "a + b > 1", std::to_string(j.a + j.b));
+
+    const auto breakable = [&](const std::string& group) {
+      const Material* m = material(group);
+      return m != nullptr && m->joints == JointPlacement::breakable;
+    };
+    if (inside && material(j.groups[0]) != nullptr && material(j.groups[0])->joints == JointPlacement::none)
+      problem(j.origin, "group", "the group has no joints", "joints = \"breakable\" or \"unbreakable\" in its [[material]]", j.groups[0]);
+    if (!breakable(j.groups[0]) && !breakable(j.groups[1])) return;
+    const std::string why = "is missing: joints of " + words(j.groups) + " can fail";
+    if (j.tensile_strength == 0) problem(j.origin, "tensile_strength", why, "a strength > 0");
+    if (j.energy_mode_1 == 0) problem(j.origin, "energy_mode_1", why, "a fracture energy > 0");
+  }
+
+  void contacts() {
+    std::set<Pair> laws;
+    for (const Contact& contact : c_.contacts) {
+      if (contact.groups[0].empty()) continue;
+      for (const std::string& group : contact.groups)
+        if (group != every_group) needs_material(contact.origin, "between", group);
+      if (!laws.insert(sorted(contact.groups)).second)
+        problem(contact.origin, "between", "the pair has a contact law already", "one [[contact]] a pair", words(contact.groups));
+    }
+    if (laws.empty()) return;
+    const auto covered = [&](const std::string& a, const std::string& b) {
+      const std::string any = every_group;
+      return laws.contains(sorted({a, b})) || laws.contains(sorted({a, any})) || laws.contains(sorted({b, any})) ||
+             laws.contains({any, any});
+    };
+    for (std::size_t i = 0; i < c_.materials.size(); ++i)
+      for (std::size_t k = i; k < c_.materials.size(); ++k) {
+        const Material &a = c_.materials[i], &b = c_.materials[k];
+        const bool can_touch = i != k || a.joints == JointPlacement::breakable;
+        if (can_touch && !a.group.empty() && !b.group.empty() && !covered(a.group, b.group))
+          problems_.push_back({c_.file.string(), c_.contacts.front().origin.line, "contact",
+                               "no contact law covers " + words({a.group, b.group}), "a [[contact]] of the pair, or of \"*\"", ""});
+      }
+  }
+
+  void initial_velocity(const InitialVelocity& v) {
+    needs_material(v.origin, "group", v.group);
+    if (v.random[1] < v.random[0]) problem(v.origin, "random", "the greatest speed is below the smallest", "[smallest, greatest]");
+  }
+
+  void stages() {
+    std::set<std::string> names;
+    double start = 0;
+    for (const Stage& stage : c_.stages) {
+      if (!stage.name.empty() && !names.insert(stage.name).second)
+        problem(stage.origin, "name", "another stage has this name", "different names", stage.name);
+      if (stage.end != 0 && !(stage.end > start))
+        problem(stage.origin, "end", "the stage does not end after the one before", "> " + std::to_string(start) + " s",
+                std::to_string(stage.end) + " s");
+      if (stage.end != 0) start = stage.end;
+      // An axis held twice in one group has no answer; axes of different groups that share nodes are seen with the mesh.
+      std::set<std::pair<std::string, std::size_t>> held;
+      for (const Constraint& constraint : stage.constraints)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          if (constraint.axes[axis] && !constraint.group.empty() && !held.insert({constraint.group, axis}).second)
+            problem(constraint.origin, "group", "the group is constrained already along " + std::string(1, "xyz"[axis]),
+                    "one constraint a group and axis", constraint.group);
+    }
+  }
+
+  void gauges() {
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < c_.output.gauges.size(); ++i)
+      if (!seen.insert(c_.output.gauges[i]).second)
+        problem(c_.output.origin, "gauges[" + std::to_string(i) + "]", "the gauge stands twice", "each group once", c_.output.gauges[i]);
+  }
+
+  const Case& c_;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+std::vector<Problem> validate(const Case& c) { return Validator(c).run(); }
+
+}  // namespace breccia::case_
