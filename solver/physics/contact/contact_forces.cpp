@@ -1,0 +1,322 @@
+#include "physics/contact/contact_forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/contact/contact_field.hpp"
+#include "physics/contact/friction.hpp"
+
+namespace breccia {
+
+namespace {
+
+Index group_of(const LocalMesh& local, Index slot) { return local.block_group[static_cast<std::size_t>(slot / kLanes)]; }
+
+bool share_vertex(const LocalMesh& local, Index slot, Index other) {
+  const std::array<Index, 4>& a = local.vertex[static_cast<std::size_t>(slot)];
+  const std::array<Index, 4>& b = local.vertex[static_cast<std::size_t>(other)];
+  return std::any_of(a.begin(), a.end(), [&](Index v) { return std::find(b.begin(), b.end(), v) != b.end(); });
+}
+
+/// A contactor that holds the point at hand.
+struct Candidate {
+  Index contactor;
+  std::array<double, 4> lambda;
+  double g;                ///< m, now
+  double g_before;         ///< m, with the field of one step ago
+  TouchingCouple history;
+  bool known = false;      ///< history found
+};
+
+/// One call of contact_forces.
+class Pass {
+ public:
+  Pass(const ContactParams& params, const LocalMesh& local, const State& state, double dt, ContactState& contact,
+       NodalForces& forces, ContactWork& work)
+      : params_(params), local_(local), state_(state), dt_(dt), contact_(contact), forces_(forces), work_(work),
+        rule_(face_rule(params.points_per_face)) {}
+
+  void run();
+
+ private:
+  void prepare_contactors();
+  void push_back_into_sphere();
+  void touch_point(Index point);
+  void drop_ambiguous();
+  void find_histories(Index point);
+  void take_over(std::size_t first, std::size_t last);
+  void forget(const TouchingCouple& old);
+  void start(Index point, Candidate& candidate);
+  void follow(const ContactLaw& law, double scale, double length, Candidate& candidate);
+  void act(Index point, Candidate& candidate);
+  void distribute(const ContactPoint& point, const Candidate& candidate, const Vec3& force);
+
+  [[nodiscard]] const ContactPoint& point_at(Index point) const { return contact_.points[static_cast<std::size_t>(point)]; }
+  [[nodiscard]] Index slot_of(Index contactor) const { return contact_.contactors[static_cast<std::size_t>(contactor)]; }
+  [[nodiscard]] Index body_of(Index contactor) const {
+    return local_.slot_body[static_cast<std::size_t>(slot_of(contactor))];
+  }
+  [[nodiscard]] double length_of(Index slot) const {
+    return contact_.body_length[static_cast<std::size_t>(local_.slot_body[static_cast<std::size_t>(slot)])];
+  }
+  [[nodiscard]] const ContactLaw& law_of(Index point, Index contactor) const {
+    return params_.law(group_of(local_, point_at(point).slot), group_of(local_, slot_of(contactor)));
+  }
+  [[nodiscard]] const PreparedTetra& prepared(Index contactor) const {
+    return contact_.prepared[static_cast<std::size_t>(contact_.place[static_cast<std::size_t>(contactor)])];
+  }
+  [[nodiscard]] OverlapShape shape_of(Index contactor, const FieldValues& values) const {
+    const Index slot = slot_of(contactor);
+    return overlap_shape(params_.field, local_, slot, values, length_of(slot));
+  }
+  /// Adds the contactor to the candidates if its overlap is positive now or was so before the field moved.
+  void consider(Index contactor, const std::array<double, 4>& lambda);
+
+  const ContactParams& params_;
+  const LocalMesh& local_;
+  const State& state_;
+  double dt_;
+  ContactState& contact_;
+  NodalForces& forces_;
+  ContactWork& work_;
+  const FaceRule& rule_;
+  std::vector<Candidate> candidates_;  ///< of the point at hand, ascending
+  std::vector<bool> taken_;            ///< old histories of the point at hand that live on
+  std::size_t old_ = 0;                ///< first old history not yet looked at
+  CompensatedSum stored_, friction_stored_;
+  Index pressing_ = 0;
+};
+
+void Pass::run() {
+  advance_field(contact_);
+  contact_.touching_before.swap(contact_.touching);
+  contact_.touching.clear();
+  contact_.boundary.clear();
+  if (params_.sphere) push_back_into_sphere();
+  prepare_contactors();
+
+  const std::vector<ContactCouple>& couples = contact_.couples;
+  const double* position = state_.position.data();
+  for (std::size_t i = 0; i < couples.size();) {
+    const Index point = couples[i].point;
+    const Vec3 x = at_point(rule_, point_at(point), position);
+    candidates_.clear();
+    for (; i < couples.size() && couples[i].point == point; ++i) {
+      const std::array<double, 4> lambda = barycentric(prepared(couples[i].contactor), x);
+      if (inside(lambda)) consider(couples[i].contactor, lambda);
+    }
+    if (!candidates_.empty()) touch_point(point);
+  }
+  for (; old_ < contact_.touching_before.size(); ++old_) forget(contact_.touching_before[old_]);
+  contact_.fresh.clear();
+  work_.stored = stored_.value();
+  work_.friction_stored = friction_stored_.value();
+  work_.touching = pressing_;
+}
+
+void Pass::prepare_contactors() {
+  contact_.prepared.resize(contact_.in_couples.size());
+  for (std::size_t i = 0; i < contact_.in_couples.size(); ++i) {
+    const Index slot = slot_of(contact_.in_couples[i]);
+    contact_.prepared[i] =
+        prepare(load_corners(local_, state_.position.data(), slot), local_.volume[static_cast<std::size_t>(slot)]);
+  }
+}
+
+void Pass::push_back_into_sphere() {
+  const SphericalBoundary& sphere = *params_.sphere;
+  for (const Index index : contact_.order) {
+    const ContactPoint& point = point_at(index);
+    const Vec3 from_centre = at_point(rule_, point, state_.position.data()) - sphere.centre;
+    const double r = from_centre.norm();
+    if (!(r > sphere.radius)) continue;
+    const double stiffness = point.weight * sphere.penalty / length_of(point.slot);
+    const double beyond = r - sphere.radius;
+    const Vec3 force = (-stiffness * beyond / r) * from_centre;
+    const std::array<double, 3>& shape = rule_.shape[static_cast<std::size_t>(point.k)];
+    for (std::size_t i = 0; i < 3; ++i) forces_.add(point.nodes[i], shape[i] * force);
+    stored_.add(0.5 * stiffness * beyond * beyond);
+    contact_.boundary.push_back({index, force});
+  }
+}
+
+void Pass::consider(Index contactor, const std::array<double, 4>& lambda) {
+  Candidate candidate{contactor, lambda, 0, 0, {}, false};
+  const FieldValues& now = contact_.field[static_cast<std::size_t>(contactor)];
+  candidate.g = candidate.g_before = overlap_value(shape_of(contactor, now), lambda);
+  const Index ramp = contact_.ramp_of_contactor[static_cast<std::size_t>(contactor)];
+  if (ramp >= 0) {
+    const FieldValues& before = contact_.ramps[static_cast<std::size_t>(ramp)].before;
+    candidate.g_before = overlap_value(shape_of(contactor, before), lambda);
+  }
+  if (candidate.g > 0 || candidate.g_before > 0) candidates_.push_back(candidate);
+}
+
+void Pass::touch_point(Index point) {
+  if (candidates_.size() > 1) drop_ambiguous();
+  find_histories(point);
+  for (Candidate& candidate : candidates_) act(point, candidate);
+}
+
+/// A point on the border of neighbouring elements is inside all of them (kInside): the first one counts.
+void Pass::drop_ambiguous() {
+  std::size_t kept = 1;
+  for (std::size_t i = 1; i < candidates_.size(); ++i) {
+    const Candidate& here = candidates_[i];
+    const bool counted = smallest(here.lambda) < kInside &&
+                         std::any_of(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(kept),
+                                     [&](const Candidate& c) {
+                                       return smallest(c.lambda) < kInside && body_of(c.contactor) == body_of(here.contactor) &&
+                                              share_vertex(local_, slot_of(c.contactor), slot_of(here.contactor));
+                                     });
+    if (!counted) candidates_[kept++] = Candidate(here);
+  }
+  candidates_.resize(kept);
+}
+
+void Pass::find_histories(Index point) {
+  const std::vector<TouchingCouple>& old = contact_.touching_before;
+  const GlobalId id = contact_.id(point);
+  while (old_ < old.size() && contact_.id(old[old_].point) < id) forget(old[old_++]);
+  const std::size_t first = old_;
+  while (old_ < old.size() && old[old_].point == point) ++old_;
+  if (old_ > first) take_over(first, old_);
+  for (Candidate& candidate : candidates_) {
+    if (!candidate.known) start(point, candidate);
+  }
+}
+
+/// Old histories [first, last) go to the candidates: the same contactor first, then a neighbour in the same body.
+void Pass::take_over(std::size_t first, std::size_t last) {
+  const std::vector<TouchingCouple>& old = contact_.touching_before;
+  taken_.assign(last - first, false);
+  const auto assign = [&](auto&& belongs) {
+    for (Candidate& candidate : candidates_) {
+      for (std::size_t k = first; k < last && !candidate.known; ++k) {
+        if (taken_[k - first] || !belongs(old[k].contactor, candidate.contactor)) continue;
+        candidate.history = old[k];
+        candidate.known = taken_[k - first] = true;
+      }
+    }
+  };
+  assign([](Index from, Index to) { return from == to; });
+  assign([&](Index from, Index to) {
+    return body_of(from) == body_of(to) && share_vertex(local_, slot_of(from), slot_of(to));
+  });
+  for (std::size_t k = first; k < last; ++k) {
+    if (!taken_[k - first]) forget(old[k]);
+  }
+}
+
+/// The overlap is gone. What the normal law had stored was given back as work; the spring lets go.
+void Pass::forget(const TouchingCouple& old) {
+  const ContactLaw& law = law_of(old.point, old.contactor);
+  const double w = point_at(old.point).weight, length = length_of(slot_of(old.contactor));
+  work_.friction_dissipated.add(0.5 * law.tangential_ratio * w * law.penalty / length * old.spring.squaredNorm());
+  // A contactor that was crushed while it was touched gives nothing back.
+  const Index place = contact_.place[static_cast<std::size_t>(old.contactor)];
+  if (place < 0 || !inert(contact_.prepared[static_cast<std::size_t>(place)])) return;
+  work_.dissipated.add(w * length * normal_law::stored(law, old.d, old.d_max));
+}
+
+void Pass::start(Index point, Candidate& candidate) {
+  const ContactCouple couple{point, candidate.contactor};
+  const auto& fresh = contact_.fresh;
+  const bool is_fresh = !fresh.empty() && std::binary_search(fresh.begin(), fresh.end(), couple,
+                                                             [&](const ContactCouple& a, const ContactCouple& b) {
+                                                               return contact_.before(a, b);
+                                                             });
+  if (is_fresh || share_vertex(local_, point_at(point).slot, slot_of(candidate.contactor))) {
+    candidate.history.offset = std::max(candidate.g_before, 0.0);
+  }
+}
+
+/// The law follows the motion (field at rest), then the field (points at rest), so that the energy each of them moves is
+/// known apart.
+void Pass::follow(const ContactLaw& law, double scale, double length, Candidate& candidate) {
+  TouchingCouple& h = candidate.history;
+  const auto go_to = [&](double g) {
+    h.offset = std::clamp(g, 0.0, h.offset);
+    const double d = std::max(0.0, g - h.offset) / length;
+    const double d_max = normal_law::largest(d, h.d_max);
+    const double lost = std::max(0.0, normal_law::dissipated(law, d_max) - normal_law::dissipated(law, h.d_max));
+    h.d = d;
+    h.d_max = d_max;
+    return scale * lost;
+  };
+  work_.dissipated.add(go_to(candidate.g_before));
+  if (candidate.g == candidate.g_before) return;
+  const double stored = normal_law::stored(law, h.d, h.d_max);
+  go_to(candidate.g);  // what the law loses here is part of what the field brought in: only the stored energy tells
+  work_.dissipated.add(scale * (stored - normal_law::stored(law, h.d, h.d_max)));
+}
+
+void Pass::act(Index index, Candidate& candidate) {
+  const ContactPoint& point = point_at(index);
+  const Index slot = slot_of(candidate.contactor);
+  const ContactLaw& law = law_of(index, candidate.contactor);
+  const double length = length_of(slot);
+  TouchingCouple& h = candidate.history;
+  h.point = index;
+  h.contactor = candidate.contactor;
+  follow(law, point.weight * length, length, candidate);
+  if (!(candidate.g > 0)) {
+    forget(h);
+    return;
+  }
+  const FieldValues& values = contact_.field[static_cast<std::size_t>(candidate.contactor)];
+  const Overlap here = overlap(shape_of(candidate.contactor, values), prepared(candidate.contactor), candidate.lambda);
+  const double pressure = point.weight * normal_law::stress(law, h.d, h.d_max);
+  h.force = -pressure * here.gradient;
+  const double slope = here.gradient.norm();
+  if (law.friction > 0 && law.tangential_ratio > 0 && slope > 0) {
+    const double k = law.tangential_ratio * point.weight * law.penalty / length;
+    Vec3 velocity = at_point(rule_, point, state_.velocity.data());
+    for (int a = 0; a < 4; ++a) {
+      velocity -= candidate.lambda[static_cast<std::size_t>(a)] * load_node(state_.velocity.data(), local_.corner_node(slot, a));
+    }
+    const Vec3 motion = dt_ * velocity;
+    const double held = 0.5 * k * h.spring.squaredNorm();
+    const Vec3 friction = friction_force(-here.gradient / slope, motion, k, law.friction * pressure * slope, h.spring);
+    const double holds = 0.5 * k * h.spring.squaredNorm();
+    work_.friction_dissipated.add(-0.5 * (h.friction + friction).dot(motion) - (holds - held));
+    friction_stored_.add(holds);
+    h.friction = friction;
+    h.force += friction;
+  }
+  stored_.add(point.weight * length * normal_law::stored(law, h.d, h.d_max));
+  pressing_ += h.d > 0 ? 1 : 0;
+  distribute(point, candidate, h.force);
+  contact_.touching.push_back(h);
+}
+
+void Pass::distribute(const ContactPoint& point, const Candidate& candidate, const Vec3& force) {
+  if (force == Vec3::Zero()) return;
+  const std::array<double, 3>& shape = rule_.shape[static_cast<std::size_t>(point.k)];
+  for (std::size_t i = 0; i < 3; ++i) forces_.add(point.nodes[i], shape[i] * force);
+  const Index slot = slot_of(candidate.contactor);
+  for (int a = 0; a < 4; ++a) {
+    forces_.add(local_.corner_node(slot, a), -candidate.lambda[static_cast<std::size_t>(a)] * force);
+  }
+}
+
+}  // namespace
+
+void contact_forces(const ContactParams& params, const LocalMesh& local, const State& state, double dt, ContactState& contact,
+                    NodalForces& forces, ContactWork& work) {
+  Pass(params, local, state, dt, contact, forces, work).run();
+}
+
+Vec3 contact_force_on_group(const ContactState& contact, const LocalMesh& local, Index group) {
+  Vec3 sum = Vec3::Zero();
+  for (const BoundaryForce& b : contact.boundary) {
+    if (group_of(local, contact.points[static_cast<std::size_t>(b.point)].slot) == group) sum += b.force;
+  }
+  for (const TouchingCouple& t : contact.touching) {
+    if (group_of(local, contact.points[static_cast<std::size_t>(t.point)].slot) == group) sum += t.force;
+    if (group_of(local, contact.contactors[static_cast<std::size_t>(t.contactor)]) == group) sum -= t.force;
+  }
+  return sum;
+}
+
+}  // namespace breccia

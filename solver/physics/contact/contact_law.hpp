@@ -1,0 +1,58 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace breccia {
+
+/// Interaction of two volume groups at a contact point. The default means: these groups do not touch.
+struct ContactLaw {
+  double penalty = 0;                                        ///< Pa, sigma_p: stress at overlap d = 1; 0: no contact
+  double plateau = std::numeric_limits<double>::infinity();  ///< Pa, sigma_T; infinite: none
+  double exponent = 1;                                       ///< b >= 1 of the unloading curve
+  double friction = 0;                                       ///< Coulomb mu >= 0
+  double tangential_ratio = 1;                               ///< tangential over normal stiffness, 0..1
+
+  [[nodiscard]] bool active() const { return penalty > 0; }
+};
+
+/// Normal law with a plateau and a steeper unloading curve. Source: [Schiava 2012, ch. 8] with the state reduced to one
+/// number, the largest overlap d_max since the overlap began.
+///
+///   d <= 0:      sigma = 0, d_max forgotten
+///   d >= d_max:  sigma = min(sigma_p d, sigma_T), d_max = d
+///   d <  d_max:  sigma = sigma_max (d/d_max)^b,  sigma_max = min(sigma_p d_max, sigma_T); reloading follows the same branch
+///
+/// d is dimensionless (overlap over H), energies are per contact area and per H: multiply by w H for J.
+namespace normal_law {
+
+/// State after the overlap has become d.
+[[nodiscard]] inline double largest(double d, double d_max) { return d > 0 ? std::max(d, d_max) : 0.0; }
+
+/// sigma_max, Pa.
+[[nodiscard]] inline double peak(const ContactLaw& law, double d_max) { return std::min(law.penalty * d_max, law.plateau); }
+
+/// sigma, Pa, compression positive. @pre d <= d_max unless d <= 0
+[[nodiscard]] inline double stress(const ContactLaw& law, double d, double d_max) {
+  if (!(d > 0)) return 0.0;
+  const double ratio = d / d_max;  // never a d^b with a = sigma_max / d_max^b, which overflows for b = 6
+  return peak(law, d_max) * (law.exponent == 1 ? ratio : std::pow(ratio, law.exponent));
+}
+
+/// Energy that unloading from d would return, J/m3: the integral of sigma from 0 to d along the unloading curve.
+[[nodiscard]] inline double stored(const ContactLaw& law, double d, double d_max) {
+  return d > 0 ? stress(law, d, d_max) * d / (law.exponent + 1) : 0.0;
+}
+
+/// Energy that loading up to d_max has cost beyond what unloading returns, J/m3; never decreases with d_max.
+[[nodiscard]] inline double dissipated(const ContactLaw& law, double d_max) {
+  if (!(d_max > 0)) return 0.0;
+  const double returned = 1 / (law.exponent + 1);
+  const double yield = law.plateau / law.penalty;
+  if (d_max <= yield) return law.penalty * d_max * d_max * (0.5 - returned);
+  return law.plateau * (d_max * (1 - returned) - 0.5 * yield);
+}
+
+}  // namespace normal_law
+}  // namespace breccia

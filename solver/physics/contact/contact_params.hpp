@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/types.hpp"
+#include "physics/contact/contact_law.hpp"
+
+namespace breccia {
+
+/// Overlap g (m) of a point inside a contactor, from its barycentric coordinates lambda.
+enum class OverlapField {
+  body,           ///< sum lambda_a Phi_a + 4 min(lambda) Phi_c: continuous through a whole body (contact_field.hpp)
+  tet_potential,  ///< 4 H min(lambda). Source: [Munjiza 2004]
+  tet_distance    ///< distance to the nearest face of the undeformed tetrahedron
+};
+
+/// Sphere that keeps all contact points inside: a point outside feels w sigma_p (r - R) / H towards the centre.
+struct SphericalBoundary {
+  Vec3 centre{0, 0, 0};
+  double radius = 0;   ///< m
+  double penalty = 0;  ///< Pa, sigma_p
+};
+
+/// What the contact kernels need to know; the same all through a run.
+struct ContactParams {
+  int points_per_face = 3;                 ///< 1, 3 or 6
+  OverlapField field = OverlapField::body;
+  int ramp_steps = 50;                     ///< >= 1: steps in which the overlap field follows a new free surface
+  Index num_groups = 0;                    ///< volume groups
+  std::vector<ContactLaw> laws;            ///< (num_groups, num_groups), symmetric
+  std::optional<SphericalBoundary> sphere;
+
+  [[nodiscard]] const ContactLaw& law(Index group, Index other) const {
+    return laws[static_cast<std::size_t>(group) * static_cast<std::size_t>(num_groups) + static_cast<std::size_t>(other)];
+  }
+};
+
+}  // namespace breccia

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/types.hpp"
+#include "state/local_mesh.hpp"
+
+namespace breccia {
+
+/// Target: an integration point on a free face.
+struct ContactPoint {
+  GlobalId id = 0;             ///< 24 element + 6 face + k: the same on any number of ranks
+  Index slot = 0;              ///< element it lies on
+  std::int8_t face = 0;
+  std::int8_t k = 0;           ///< 0..points_per_face-1
+  std::array<Index, 3> nodes;  ///< of the face's corners
+  double weight = 0;           ///< m2, share of the reference area
+};
+
+/// Points of a triangle: x = sum_i shape[k][i] x_i, weight = share[k] area.
+struct FaceRule {
+  int num_points = 0;
+  std::array<std::array<double, 3>, 6> shape{};
+  std::array<double, 6> share{};
+};
+
+/// @param points_per_face  1: centroid; 3: (2/3, 1/6, 1/6) and its permutations, exact for quadratic integrands;
+///                         6: the symmetric rule of degree 4. Source: [Strang and Fix 1973]
+/// Throws InternalError for any other number.
+[[nodiscard]] const FaceRule& face_rule(int points_per_face);
+
+/// Appends the points of one face, k ascending.
+void append_points(const FaceRule& rule, const LocalMesh& local, Index slot, int face, std::vector<ContactPoint>& points);
+
+/// Position (or velocity) of a point out of a nodal field.
+[[nodiscard]] inline Vec3 at_point(const FaceRule& rule, const ContactPoint& point, const double* field) {
+  const std::array<double, 3>& shape = rule.shape[static_cast<std::size_t>(point.k)];
+  return shape[0] * load_node(field, point.nodes[0]) + shape[1] * load_node(field, point.nodes[1]) +
+         shape[2] * load_node(field, point.nodes[2]);
+}
+
+}  // namespace breccia

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <array>
+#include <compare>
+#include <vector>
+
+#include "base/types.hpp"
+#include "physics/contact/contact_point.hpp"
+#include "physics/contact/overlap.hpp"
+
+namespace breccia {
+
+/// A contact point and a contactor that may touch before the next search.
+struct ContactCouple {
+  Index point;      ///< index into ContactState::points
+  Index contactor;  ///< index into ContactState::contactors
+  bool operator==(const ContactCouple&) const = default;
+};
+
+/// A couple that touches, with its history. It lives exactly as long as the overlap: a point that slides into a neighbouring
+/// element takes it along, a point that leaves the body forgets it at once.
+struct TouchingCouple {
+  Index point = 0;
+  Index contactor = 0;
+  double d = 0;           ///< overlap over H, offset taken off
+  double d_max = 0;       ///< largest d since the overlap began
+  double offset = 0;      ///< m, overlap without force: what was there when fracture made the couple
+  Vec3 spring{0, 0, 0};   ///< m, elongation of the friction spring
+  Vec3 friction{0, 0, 0}; ///< N, tangential force on the point
+  Vec3 force{0, 0, 0};    ///< N, whole force on the point
+};
+
+/// Overlap field of a contactor: Phi at its four corners, then Phi_c of its bubble; m.
+using FieldValues = std::array<double, 5>;
+
+/// A contactor whose field follows a new free surface: each value goes linearly to its target.
+struct FieldRamp {
+  Index contactor = 0;
+  std::array<Index, 5> remaining{};  ///< steps; 0: this value rests
+  FieldValues before{};              ///< one step ago
+  FieldValues target{};
+};
+
+/// Force of the spherical boundary on a point.
+struct BoundaryForce {
+  Index point;
+  Vec3 force;  ///< N
+};
+
+/// Everything about contact that changes in a run. Plain data.
+struct ContactState {
+  // Who may touch whom.
+  std::vector<ContactPoint> points;     ///< in the order in which they came
+  std::vector<Index> order;             ///< (points) indices by ascending id
+  std::vector<Index> contactors;        ///< slots by ascending global element id
+  std::vector<Index> contactor_of_slot; ///< (num_slots) -1: none
+  std::vector<double> body_length;      ///< (bodies) H, m
+  std::vector<ContactCouple> couples;   ///< by (point id, contactor)
+  std::vector<ContactCouple> fresh;     ///< made by fracture since the last forces; by (point id, contactor)
+
+  // Overlap field.
+  std::vector<FieldValues> field;       ///< (contactors)
+  std::vector<FieldRamp> ramps;         ///< in no order: no sum goes over them
+  std::vector<Index> ramp_of_contactor; ///< (contactors) index into `ramps`, -1: none
+
+  // History and forces of the last step.
+  std::vector<TouchingCouple> touching; ///< by (point id, contactor)
+  std::vector<BoundaryForce> boundary;  ///< by point id
+
+  // Scratch, worth keeping only for its storage.
+  std::vector<TouchingCouple> touching_before;
+  std::vector<PreparedTetra> prepared;
+  std::vector<Index> place;             ///< (contactors) index into `prepared`, -1: not in any couple
+  std::vector<Index> in_couples;        ///< (prepared) contactors that are in some couple
+
+  [[nodiscard]] GlobalId id(Index point) const { return points[static_cast<std::size_t>(point)].id; }
+  /// The order of everything that is summed: point id, then contactor.
+  [[nodiscard]] bool before(const ContactCouple& a, const ContactCouple& b) const {
+    const GlobalId ia = id(a.point), ib = id(b.point);
+    return ia != ib ? ia < ib : a.contactor < b.contactor;
+  }
+};
+
+}  // namespace breccia

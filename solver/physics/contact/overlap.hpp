@@ -1,0 +1,102 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "base/types.hpp"
+#include "physics/contact/contact_params.hpp"
+#include "state/local_mesh.hpp"
+
+namespace breccia {
+
+/// A contactor made ready for many points: its corner 0 and the gradients of lambda_1..3 in the current configuration.
+struct PreparedTetra {
+  std::array<double, 3> origin;
+  std::array<std::array<double, 3>, 3> gradient;  ///< 1/m; NaN for an inert contactor
+};
+
+/// Below this share of its reference volume an element is crushed or inverted and touches nothing.
+inline constexpr double kInertVolumeRatio = 0.01;
+
+/// A point counts as inside down to this lambda, so that round-off opens no gap between neighbouring elements.
+inline constexpr double kInside = 1e-9;
+
+/// O(1), branch-free but for the inert case.
+[[nodiscard]] inline PreparedTetra prepare(const std::array<Vec3, 4>& x, double reference_volume) {
+  const double a0 = x[1][0] - x[0][0], a1 = x[1][1] - x[0][1], a2 = x[1][2] - x[0][2];
+  const double b0 = x[2][0] - x[0][0], b1 = x[2][1] - x[0][1], b2 = x[2][2] - x[0][2];
+  const double c0 = x[3][0] - x[0][0], c1 = x[3][1] - x[0][1], c2 = x[3][2] - x[0][2];
+  const double p0 = b1 * c2 - b2 * c1, p1 = b2 * c0 - b0 * c2, p2 = b0 * c1 - b1 * c0;
+  const double det = a0 * p0 + a1 * p1 + a2 * p2;
+  const bool alive = det > 6 * kInertVolumeRatio * reference_volume;
+  const double s = alive ? 1 / det : std::numeric_limits<double>::quiet_NaN();
+  return {{x[0][0], x[0][1], x[0][2]},
+          {{{p0 * s, p1 * s, p2 * s},
+            {(c1 * a2 - c2 * a1) * s, (c2 * a0 - c0 * a2) * s, (c0 * a1 - c1 * a0) * s},
+            {(a1 * b2 - a2 * b1) * s, (a2 * b0 - a0 * b2) * s, (a0 * b1 - a1 * b0) * s}}}};
+}
+
+[[nodiscard]] inline bool inert(const PreparedTetra& tetra) { return !(tetra.gradient[0][0] == tetra.gradient[0][0]); }
+
+/// Barycentric coordinates of x. NaN for an inert contactor.
+[[nodiscard]] inline std::array<double, 4> barycentric(const PreparedTetra& tetra, const Vec3& x) {
+  const double r0 = x[0] - tetra.origin[0], r1 = x[1] - tetra.origin[1], r2 = x[2] - tetra.origin[2];
+  const auto along = [&](const std::array<double, 3>& g) { return g[0] * r0 + g[1] * r1 + g[2] * r2; };
+  const double l1 = along(tetra.gradient[0]), l2 = along(tetra.gradient[1]), l3 = along(tetra.gradient[2]);
+  return {1 - l1 - l2 - l3, l1, l2, l3};
+}
+
+/// False for NaN.
+[[nodiscard]] inline bool inside(const std::array<double, 4>& lambda) {
+  return (lambda[0] >= -kInside) & (lambda[1] >= -kInside) & (lambda[2] >= -kInside) & (lambda[3] >= -kInside);
+}
+
+[[nodiscard]] inline double smallest(const std::array<double, 4>& lambda) {
+  return std::min(std::min(lambda[0], lambda[1]), std::min(lambda[2], lambda[3]));
+}
+
+/// g of one element is sum_a lambda_a nodal[a] + min_a (lambda_a face[a]); both in m.
+struct OverlapShape {
+  std::array<double, 4> nodal{};
+  std::array<double, 4> face{};
+};
+
+/// Overlap and its gradient with respect to the point; that with respect to corner a is -lambda_a gradient.
+struct Overlap {
+  double g = 0;               ///< m, > 0 inside
+  Vec3 gradient{0, 0, 0};     ///< -, points inwards
+};
+
+[[nodiscard]] inline double overlap_value(const OverlapShape& shape, const std::array<double, 4>& lambda) {
+  double g = 0, least = lambda[0] * shape.face[0];
+  for (std::size_t a = 0; a < 4; ++a) {
+    g += lambda[a] * shape.nodal[a];
+    least = std::min(least, lambda[a] * shape.face[a]);
+  }
+  return g + least;
+}
+
+[[nodiscard]] inline Overlap overlap(const OverlapShape& shape, const PreparedTetra& tetra, const std::array<double, 4>& lambda) {
+  std::size_t nearest = 0;
+  for (std::size_t a = 1; a < 4; ++a) {
+    if (lambda[a] * shape.face[a] < lambda[nearest] * shape.face[nearest]) nearest = a;
+  }
+  std::array<double, 4> slope = shape.nodal;
+  slope[nearest] += shape.face[nearest];
+  Overlap result;
+  result.g = overlap_value(shape, lambda);
+  for (std::size_t c = 1; c < 4; ++c) {
+    const std::array<double, 3>& row = tetra.gradient[c - 1];
+    result.gradient += (slope[c] - slope[0]) * Vec3(row[0], row[1], row[2]);
+  }
+  return result;
+}
+
+/// Corners of an element out of a nodal field.
+[[nodiscard]] inline std::array<Vec3, 4> load_corners(const LocalMesh& local, const double* field, Index slot) {
+  return {load_node(field, local.corner_node(slot, 0)), load_node(field, local.corner_node(slot, 1)),
+          load_node(field, local.corner_node(slot, 2)), load_node(field, local.corner_node(slot, 3))};
+}
+
+}  // namespace breccia

@@ -1,0 +1,172 @@
+#include "simulation/contact_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "base/error.hpp"
+#include "mesh/point_distance.hpp"
+#include "physics/contact/contact_couples.hpp"
+#include "physics/contact/contact_field.hpp"
+
+namespace breccia {
+
+namespace {
+
+constexpr double kSmallestBuffer = 0.1, kLargestBuffer = 0.4;  ///< shares of the mean size, see the class comment
+constexpr double kBufferSteps = 20;                            ///< steps that a chosen buffer should last for
+/// A search is done when the nodes have really used up this share of their allowance; else the bound is brought down.
+constexpr double kUsedUp = 0.75;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+Index group_of(const LocalMesh& local, Index slot) { return local.block_group[at(slot / kLanes)]; }
+
+/// Nodes at which elements of several groups meet.
+std::vector<bool> nodes_between_groups(const Mesh& mesh) {
+  std::vector<Index> group(at(mesh.num_nodes()), -1);
+  std::vector<bool> between(group.size(), false);
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    for (const Index node : mesh.elements[at(e)]) {
+      if (group[at(node)] < 0) group[at(node)] = mesh.element_group[at(e)];
+      if (group[at(node)] != mesh.element_group[at(e)]) between[at(node)] = true;
+    }
+  }
+  return between;
+}
+
+}  // namespace
+
+ContactSearch::ContactSearch(const ContactSearchParams& search, const ContactParams& params, const Mesh& mesh,
+                             const Topology& topology, const LocalMesh& local)
+    : search_(search),
+      params_(&params),
+      mesh_(&mesh),
+      topology_(&topology),
+      local_(&local),
+      clusters_(mesh, topology),
+      detection_(detection::make_search(search.algorithm, search.cell)),
+      carries_(at(mesh.num_elements()), search.everywhere ? 0xF : 0) {
+  const auto groups = mesh.volume_groups.size();
+  DEMAND(search.breakable.size() == groups && params.laws.size() == groups * groups && at(params.num_groups) == groups,
+         std::to_string(groups) + " volume groups");
+  any_law_ = std::any_of(params.laws.begin(), params.laws.end(), [](const ContactLaw& law) { return law.active(); });
+  for (const Topology::Face& face : search.faces) {
+    carries_[at(face.element)] |= static_cast<std::uint8_t>(1 << face.face);
+    const FaceLink& link = topology.links[at(face.element)][at(face.face)];
+    if (!link.free()) carries_[at(link.neighbour)] |= static_cast<std::uint8_t>(1 << link.face());
+  }
+  choose_contactors();
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    for (int f = 0; f < 4; ++f) {
+      if (topology.links[at(e)][at(f)].free()) add_points_of(e, f);
+    }
+  }
+  sort_points(contact_);
+}
+
+void ContactSearch::choose_contactors() {
+  const std::vector<double> distance = nodal_surface_distance(*mesh_, *topology_);
+  const std::vector<bool> between = nodes_between_groups(*mesh_);
+  std::vector<Index> slots;
+  double volume = 0;
+  for (Index e = 0; e < mesh_->num_elements(); ++e) {
+    const auto& nodes = mesh_->elements[at(e)];
+    const bool exposed = search_.breakable[at(mesh_->element_group[at(e)])] ||
+                         std::any_of(nodes.begin(), nodes.end(),
+                                     [&](Index n) { return distance[at(n)] == 0 || between[at(n)]; });
+    if (!exposed) continue;
+    slots.push_back(local_->slot_of_element[at(e)]);
+    volume += local_->volume[at(slots.back())];
+  }
+  size_ = slots.empty() ? 0 : std::cbrt(6 * std::sqrt(2.0) * volume / static_cast<double>(slots.size()));
+  set_contactors(*local_, std::move(slots), contact_);
+  build_field(*params_, *local_, distance, contact_);
+}
+
+void ContactSearch::add_points_of(Index element, int face) {
+  if ((carries_[at(element)] >> face & 1) == 0) return;
+  add_face_points(*params_, *local_, local_->slot_of_element[at(element)], face, contact_);
+}
+
+bool ContactSearch::has_law(Index slot, Index other) const {
+  return params_->law(group_of(*local_, slot), group_of(*local_, other)).active();
+}
+
+bool ContactSearch::may_touch(Index point, Index contactor) const {
+  const Index slot = contact_.points[at(point)].slot, other = contact_.contactors[at(contactor)];
+  return has_law(slot, other) && !clusters_.bonded(static_cast<Index>(local_->element_of_slot[at(slot)]),
+                                                   static_cast<Index>(local_->element_of_slot[at(other)]));
+}
+
+void ContactSearch::update(const State& state, double max_speed, double dt) {
+  if (!any_law_ || contact_.points.empty()) return;
+  moved_ += max_speed * dt;
+  const double allowed = 0.5 * buffer_;
+  if (!searched_) {
+    full_search(state, max_speed * dt);
+  } else if (!(moved_ <= allowed)) {
+    moved_ = largest_displacement(state);
+    if (!(moved_ <= kUsedUp * allowed)) full_search(state, max_speed * dt);
+  }
+  if (search_.verify) verify(state);
+}
+
+double ContactSearch::largest_displacement(const State& state) const {
+  const double* now = state.position.data();
+  const double* then = reference_.data();
+  double largest = 0;
+  for (std::size_t block = 0; block < reference_.size(); block += 3 * kLanes) {
+    for (std::size_t lane = block; lane < block + kLanes; ++lane) {
+      const double x = now[lane] - then[lane], y = now[lane + 8] - then[lane + 8], z = now[lane + 16] - then[lane + 16];
+      const double square = x * x + y * y + z * z;
+      largest = square > largest ? square : largest;
+    }
+  }
+  return std::sqrt(largest);
+}
+
+void ContactSearch::full_search(const State& state, double step_length) {
+  buffer_ = search_.buffer > 0
+                ? search_.buffer
+                : std::clamp(2 * kBufferSteps * step_length, kSmallestBuffer * size_, kLargestBuffer * size_);
+  reference_ = state.position;
+  positions_.clear();
+  const FaceRule& rule = face_rule(params_->points_per_face);
+  for (const Index p : contact_.order) positions_.push_back(at_point(rule, contact_.points[at(p)], reference_.data()));
+  corners_.clear();
+  for (const Index slot : contact_.contactors) corners_.push_back(load_corners(*local_, reference_.data(), slot));
+
+  detection_->search(positions_, corners_, buffer_, found_);
+  contact_.couples.clear();
+  for (const detection::Couple& c : found_) {
+    const Index point = contact_.order[at(c.point)];
+    if (may_touch(point, c.contactor)) contact_.couples.push_back({point, c.contactor});
+  }
+  couples_replaced(contact_);
+  searched_ = true;
+  grid_built_ = false;
+  moved_ = 0;
+  ++num_searches_;
+}
+
+void ContactSearch::verify(const State& state) const {
+  const FaceRule& rule = face_rule(params_->points_per_face);
+  for (std::size_t c = 0; c < contact_.contactors.size(); ++c) {
+    const Index slot = contact_.contactors[c];
+    const auto contactor = static_cast<Index>(c);
+    const PreparedTetra tetra = prepare(load_corners(*local_, state.position.data(), slot), local_->volume[at(slot)]);
+    for (const Index p : contact_.order) {
+      if (!inside(barycentric(tetra, at_point(rule, contact_.points[at(p)], state.position.data())))) continue;
+      if (!may_touch(p, contactor)) continue;
+      const bool known = std::binary_search(contact_.couples.begin(), contact_.couples.end(), ContactCouple{p, contactor},
+                                            [&](const ContactCouple& a, const ContactCouple& b) { return contact_.before(a, b); });
+      DEMAND(known, "contact point " + std::to_string(contact_.id(p)) + " of element " +
+                        std::to_string(contact_.id(p) / 24) + " touches element " +
+                        std::to_string(local_->element_of_slot[at(slot)]) + " but they are no couple");
+    }
+  }
+}
+
+}  // namespace breccia

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "detection/point_body/contactor_grid.hpp"
+#include "detection/point_body/search.hpp"
+#include "mesh/corner_clusters.hpp"
+#include "mesh/topology.hpp"
+#include "physics/contact/contact_forces.hpp"
+
+namespace breccia {
+
+/// How contact is looked for.
+struct ContactSearchParams {
+  detection::Algorithm algorithm = detection::Algorithm::sorted_grid;
+  double cell = 0;                     ///< m; 0: chosen by the algorithm
+  double buffer = 0;                   ///< m; 0: chosen at every search (ContactSearch)
+  bool verify = false;                 ///< compare the couples that touch with brute force at every step
+  std::vector<bool> breakable;         ///< (volume groups) inner faces may be freed
+  bool everywhere = true;              ///< every free face carries points; false: only `faces`
+  std::vector<Topology::Face> faces;   ///< faces that may carry points; one side of an inner face is enough
+};
+
+/// A face that has nothing across it any more. One side of a joint is enough.
+struct FreedFace {
+  Index slot;
+  int face;
+};
+
+/// Contact of one rank: joins detection, histories and forces.
+///
+/// Targets are the points of free faces, contactors all elements of breakable groups and those elements of the others that
+/// have a node on the free surface or on the border to another group. A couple is a pair that passes the couple test of
+/// detection/point_body/search.hpp at the positions of the last full search, has a law, and is not bonded around a corner
+/// (an element is bonded to itself). This definition is kept at all times: points and couples that a freed face
+/// brings are found by the same test at the same positions, so a full search would find no other set.
+///
+/// With buffer b the set holds every pair that touches while no node has moved by more than b/2 since the search. The sum
+/// of max_speed dt bounds the largest displacement from above; only when it passes b/2 the displacement itself is looked
+/// at, and either the sum is brought down to it or a search is done. Without a buffer given b is 10 % of the
+/// contactors' mean size (the edge of the regular tetrahedron of their mean volume): the number of couples grows as
+/// (1 + 5 b/size)^3, and so small a buffer still lasts for hundreds of steps of a stiff material. In a run so fast that it
+/// would last for less than 20 steps it is larger, up to 40 %.
+class ContactSearch {
+ public:
+  /// @pre all arguments outlive this object and do not change. Faces broken from the start are free in `topology`.
+  /// O(elements). Throws InternalError if an argument does not fit the others.
+  ContactSearch(const ContactSearchParams& search, const ContactParams& params, const Mesh& mesh, const Topology& topology,
+                const LocalMesh& local);
+
+  /// Brings the couples up to date; every step, before `forces`.
+  /// @param max_speed  m/s, at least the largest speed of a node from t_(n-1) to t_n;  @param dt  s, that step
+  /// Throws InternalError naming the pair if `verify` finds one that touches and is no couple.
+  void update(const State& state, double max_speed, double dt);
+
+  /// Faces freed by fracture: their points, the couples they make, the couples of elements no longer bonded, and the
+  /// change of the overlap field. Faces that are free already are passed over.
+  void release_faces(std::span<const FreedFace> faces);
+
+  /// contact_forces on the couples at hand. @pre `update` has been called for this state
+  void forces(const State& state, double dt, NodalForces& forces, ContactWork& work) {
+    contact_forces(*params_, *local_, state, dt, contact_, forces, work);
+  }
+
+  [[nodiscard]] const ContactState& contact() const { return contact_; }
+  [[nodiscard]] const CornerClusters& clusters() const { return clusters_; }
+  [[nodiscard]] double buffer() const { return buffer_; }                  ///< m, of the last search
+  [[nodiscard]] std::int64_t num_searches() const { return num_searches_; }  ///< full ones
+
+ private:
+  void choose_contactors();
+  void add_points_of(Index element, int face);
+  void full_search(const State& state, double step_length);
+  [[nodiscard]] double largest_displacement(const State& state) const;
+  [[nodiscard]] bool may_touch(Index point, Index contactor) const;
+  [[nodiscard]] bool has_law(Index slot, Index other) const;
+  void verify(const State& state) const;
+
+  void collect_sides(std::span<const FreedFace> faces);
+  void free_corners_of(const Topology::Face& side);
+  void couple_new_points(std::size_t first);
+  void couple_separated();
+  void couple_points_of(Index element, Index contactor);
+  void add_found();
+
+  ContactSearchParams search_;
+  const ContactParams* params_;
+  const Mesh* mesh_;
+  const Topology* topology_;
+  const LocalMesh* local_;
+  CornerClusters clusters_;
+  ContactState contact_;
+  std::unique_ptr<detection::PointBodySearch> detection_;
+  detection::ContactorGrid grid_;     ///< of the last full search, built when a face is freed
+  std::vector<std::uint8_t> carries_; ///< (elements) a bit a face: may carry points
+  bool any_law_ = false;
+
+  // The last full search.
+  bool searched_ = false;
+  bool grid_built_ = false;
+  double buffer_ = 0;                 ///< m
+  double size_ = 0;                   ///< m, mean size of a contactor
+  double moved_ = 0;                  ///< m, bound of the largest displacement since
+  std::int64_t num_searches_ = 0;
+  Field<double> reference_;           ///< nodal field, positions
+  std::vector<detection::Corners> corners_;  ///< (contactors)
+
+  // Work space.
+  std::vector<Vec3> positions_;
+  std::vector<detection::Couple> found_;
+  std::vector<ContactCouple> made_;
+  std::vector<Topology::Face> sides_;
+  std::vector<Index> changed_, contactors_of_point_;
+};
+
+}  // namespace breccia
