@@ -1,0 +1,207 @@
+#include "mesh/finish.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/error.hpp"
+#include "mesh/geometry.hpp"
+#include "mesh/node_parting.hpp"
+#include "mesh/space_curve.hpp"
+
+namespace breccia {
+namespace {
+
+constexpr double kFlatShare = 1e-10;  // of the longest edge cubed: a height of 1e-9 edges, below any use
+constexpr std::size_t kIdsNamed = 10;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// Element ids for a message: the first ten, then the count of all.
+std::string list_of(const std::vector<std::int64_t>& ids) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(ids.size(), kIdsNamed); ++i) {
+    text += (i > 0 ? ", " : "") + std::to_string(ids[i]);
+  }
+  if (ids.size() > kIdsNamed) text += ", ...";
+  return text + " (" + std::to_string(ids.size()) + (ids.size() == 1 ? " element)" : " elements)");
+}
+
+void demand_sizes(const Mesh& mesh) {
+  if (mesh.elements.empty()) {
+    throw InputError(Problem{mesh.source, 0, "mesh", "the mesh has no tetrahedra", "at least one", ""});
+  }
+  constexpr auto kMost = static_cast<std::size_t>(std::numeric_limits<Index>::max() / 4);
+  if (mesh.elements.size() > kMost) {
+    throw InputError(Problem{mesh.source, 0, "mesh", "too many tetrahedra", "up to " + std::to_string(kMost),
+                             std::to_string(mesh.elements.size())});
+  }
+  const std::size_t num_elements = mesh.elements.size();
+  DEMAND(mesh.element_group.size() == num_elements && mesh.element_body.size() == num_elements &&
+             mesh.element_source_id.size() == num_elements,
+         std::to_string(num_elements) + " elements");
+}
+
+void demand_finite(const Mesh& mesh) {
+  std::vector<std::int64_t> bad;
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    const auto& corners = mesh.elements[at(e)];
+    if (!std::all_of(corners.begin(), corners.end(), [&](Index n) { return mesh.nodes[at(n)].allFinite(); })) {
+      bad.push_back(mesh.element_source_id[at(e)]);
+    }
+  }
+  if (!bad.empty()) {
+    throw InputError(Problem{mesh.source, 0, "mesh", "elements with a coordinate that is not finite", "finite numbers",
+                             "element " + list_of(bad)});
+  }
+}
+
+/// Flat elements are refused; inverted ones are turned or refused. Returns how many were turned.
+Index orient(Mesh& mesh, bool repair) {
+  std::vector<std::int64_t> flat, inverted;
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    const auto x = geometry::corners_of(mesh, e);
+    double longest = 0;
+    for (const auto& [a, b] : geometry::kEdges) longest = std::max(longest, (x[at(a)] - x[at(b)]).norm());
+    const double volume = geometry::tetra_volume(x[0], x[1], x[2], x[3]);
+    if (!(std::abs(volume) > kFlatShare * longest * longest * longest)) {
+      flat.push_back(mesh.element_source_id[at(e)]);
+    } else if (volume < 0) {
+      inverted.push_back(mesh.element_source_id[at(e)]);
+      if (repair) std::swap(mesh.elements[at(e)][2], mesh.elements[at(e)][3]);
+    }
+  }
+  std::vector<Problem> problems;
+  if (!flat.empty()) {
+    problems.push_back(
+        {mesh.source, 0, "mesh", "elements of zero volume", "tetrahedra with a volume", "element " + list_of(flat)});
+  }
+  if (!inverted.empty() && !repair) {
+    problems.push_back({mesh.source, 0, "mesh", "inverted elements", "positive volumes, or mesh.repair_inverted = true",
+                        "element " + list_of(inverted)});
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return static_cast<Index>(inverted.size());
+}
+
+/// Old indices of the elements in their new order.
+std::vector<Index> element_order(const Mesh& mesh) {
+  std::vector<Vec3> centroids(mesh.elements.size());
+  Vec3 lowest = Vec3::Constant(std::numeric_limits<double>::max()), highest = -lowest;
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    const auto x = geometry::corners_of(mesh, e);
+    centroids[at(e)] = 0.25 * (x[0] + x[1] + x[2] + x[3]);
+    lowest = lowest.cwiseMin(centroids[at(e)]);
+    highest = highest.cwiseMax(centroids[at(e)]);
+  }
+  constexpr double kCells = static_cast<double>(1u << kHilbertBits);
+  // One cell size for all axes, a hair above extent / cells so that the highest centroid stays inside.
+  const double extent = std::max((highest - lowest).maxCoeff(), std::numeric_limits<double>::min());
+  const double cells_per_metre = (kCells - 1) / extent;
+
+  struct Key {
+    Index group;
+    std::uint64_t rank;
+    Index old;
+    auto operator<=>(const Key&) const = default;
+  };
+  std::vector<Key> keys(mesh.elements.size());
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    std::array<std::uint32_t, 3> cell{};
+    for (int a = 0; a < 3; ++a) {
+      const double cells = (centroids[at(e)][a] - lowest[a]) * cells_per_metre;
+      cell[at(a)] = static_cast<std::uint32_t>(std::clamp(cells, 0.0, kCells - 1));
+    }
+    keys[at(e)] = {mesh.element_group[at(e)], hilbert_rank(cell), e};
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<Index> order(keys.size());
+  std::transform(keys.begin(), keys.end(), order.begin(), [](const Key& key) { return key.old; });
+  return order;
+}
+
+template <class T>
+std::vector<T> permuted(const std::vector<T>& values, const std::vector<Index>& order) {
+  std::vector<T> result(order.size());
+  std::transform(order.begin(), order.end(), result.begin(), [&](Index old) { return values[at(old)]; });
+  return result;
+}
+
+void sort_elements(Mesh& mesh) {
+  const std::vector<Index> order = element_order(mesh);
+  mesh.elements = permuted(mesh.elements, order);
+  mesh.element_group = permuted(mesh.element_group, order);
+  mesh.element_body = permuted(mesh.element_body, order);
+  mesh.element_source_id = permuted(mesh.element_source_id, order);
+}
+
+/// Nodes in the order in which the elements touch them; nodes of no element are dropped. @pre surface faces name only
+/// nodes of elements.
+void sort_nodes(Mesh& mesh) {
+  std::vector<Index> new_of(mesh.nodes.size(), -1);
+  std::vector<Vec3> nodes;
+  nodes.reserve(mesh.nodes.size());
+  for (auto& corners : mesh.elements) {
+    for (Index& node : corners) {
+      Index& number = new_of[at(node)];
+      if (number < 0) {
+        number = static_cast<Index>(nodes.size());
+        nodes.push_back(mesh.nodes[at(node)]);
+      }
+      node = number;
+    }
+  }
+  for (auto& face : mesh.surface_faces) {
+    for (Index& node : face.nodes) node = new_of[at(node)];
+  }
+  mesh.nodes = std::move(nodes);
+}
+
+/// Sorted, each once: a triangle may stand in the file for each of the two bodies it parts.
+void sort_surface_faces(Mesh& mesh) {
+  const auto key = [](const Mesh::SurfaceFace& face) {
+    std::array<Index, 3> nodes = face.nodes;
+    std::sort(nodes.begin(), nodes.end());
+    return std::pair{face.group, nodes};
+  };
+  auto& faces = mesh.surface_faces;
+  std::sort(faces.begin(), faces.end(), [&](const auto& a, const auto& b) {
+    return std::pair{key(a), a.nodes} < std::pair{key(b), b.nodes};
+  });
+  faces.erase(std::unique(faces.begin(), faces.end(), [&](const auto& a, const auto& b) { return key(a) == key(b); }),
+              faces.end());
+}
+
+void count(const Mesh& mesh, MeshReport& report) {
+  report.nodes = mesh.num_nodes();
+  report.elements = mesh.num_elements();
+  report.bodies = mesh.num_bodies;
+  for (const std::string& name : mesh.volume_groups) report.volume_groups.push_back({name, 0});
+  for (const std::string& name : mesh.surface_groups) report.surface_groups.push_back({name, 0});
+  for (const Index group : mesh.element_group) ++report.volume_groups[at(group)].count;
+  for (const auto& face : mesh.surface_faces) ++report.surface_groups[at(face.group)].count;
+}
+
+}  // namespace
+
+FinishedMesh finish_mesh(Mesh raw, const FinishOptions& options) {
+  FinishedMesh result{std::move(raw), {}};
+  Mesh& mesh = result.mesh;
+  MeshReport& report = result.report;
+
+  demand_sizes(mesh);
+  demand_finite(mesh);
+  report.inverted_repaired = orient(mesh, options.repair_inverted);
+  report.orphan_nodes = count_orphan_nodes(mesh);
+  report.duplicate_nodes = count_duplicate_nodes(mesh);
+  demand_surfaces_are_faces(mesh);
+  if (!options.glue) report.split_nodes = part_bodies(mesh);
+  sort_elements(mesh);
+  sort_nodes(mesh);
+  sort_surface_faces(mesh);
+  count(mesh, report);
+  return result;
+}
+
+}  // namespace breccia

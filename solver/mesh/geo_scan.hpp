@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+
+namespace breccia {
+
+/// What a .geo script and the files it includes let the outside set, found by reading its words.
+struct GeoScan {
+  std::set<std::string>
+      constants;  ///< names in DefineConstant[...] and in Exists(...): set before, they keep their value
+  std::set<std::string> onelab_names;  ///< texts after `Name`: parameters of the form "Group/label"
+  std::vector<Problem> problems;       ///< statements that are refused, with file and line
+};
+
+/// Reads a script. Comments and texts are skipped; `Include "file"` and `Merge "file.geo"` are followed relative to the
+/// including file where the name is plain text. Refused: statements that run programs or end the process (SystemCall,
+/// NonBlockingSystemCall, Exit, Abort, OnelabRun): a mesh is data, and Exit would end the solver without a word.
+/// O(size), throws nothing; a file that cannot be read is left for gmsh to name.
+[[nodiscard]] GeoScan scan_geo(const std::filesystem::path& file);
+
+}  // namespace breccia

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+
+#include "mesh/mesh.hpp"
+
+namespace breccia::geometry {
+
+/// Signed volume of a tetrahedron, m3: (b-a) x (c-a) . (d-a) / 6; positive when a, b, c turn counter-clockwise seen from
+/// outside the face opposite to d, the orientation of `Mesh::elements`.
+[[nodiscard]] inline double tetra_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  return (b - a).cross(c - a).dot(d - a) / 6.0;
+}
+
+/// Area of a triangle, m2.
+[[nodiscard]] inline double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return 0.5 * (b - a).cross(c - a).norm();
+}
+
+/// Corners of an element, m.
+[[nodiscard]] inline std::array<Vec3, 4> corners_of(const Mesh& mesh, Index element) {
+  const auto& e = mesh.elements[static_cast<std::size_t>(element)];
+  const auto at = [&](Index node) { return mesh.nodes[static_cast<std::size_t>(node)]; };
+  return {at(e[0]), at(e[1]), at(e[2]), at(e[3])};
+}
+
+/// The six edges of a tetrahedron as pairs of corners; edge i and edge 5 - i share no corner.
+inline constexpr std::array<std::array<int, 2>, 6> kEdges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+}  // namespace breccia::geometry

@@ -1,0 +1,399 @@
+#include "mesh/gmsh_reader.hpp"
+
+#include <gmsh.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <clocale>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iomanip>
+#include <limits>
+#include <mutex>
+#include <regex>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+#include "base/error.hpp"
+#include "mesh/geo_scan.hpp"
+
+namespace breccia {
+namespace {
+
+constexpr std::size_t kProblemsNamed = 10;
+constexpr int kTriangle3 = 2, kTetra4 = 4;  // gmsh's numbers of element types
+
+// --- Before gmsh ------------------------------------------------------------------------------------------------------
+
+bool is_script(const GmshSource& source) { return source.file.extension() == ".geo"; }
+
+bool is_identifier(const std::string& name) {
+  static const std::regex pattern("[A-Za-z_][A-Za-z0-9_]*");
+  return std::regex_match(name, pattern);
+}
+
+/// gmsh does not complain about a missing file, so files are looked at first.
+void demand_readable(const GmshSource& source) {
+  const std::string file = source.file.string();
+  const auto refuse = [&](const std::string& what, const std::string& allowed, const std::string& given) {
+    throw InputError(Problem{file, 0, "mesh.file", what, allowed, given});
+  };
+  std::error_code ignored;
+  const auto extension = source.file.extension();
+  if (extension != ".geo" && extension != ".msh") {
+    refuse("is no kind of mesh file that can be read", ".geo, or .msh of format 2.2 to 4.1", extension.string());
+  }
+  if (!std::filesystem::exists(source.file, ignored)) refuse("the file does not exist", "", "");
+  if (!std::filesystem::is_regular_file(source.file, ignored)) refuse("is not a file", "", "");
+  std::ifstream in(source.file, std::ios::binary);
+  if (!in) refuse("the file cannot be read", "a file with read permission", "");
+  if (extension == ".geo") return;
+
+  std::string heading;
+  double version = 0;
+  in >> heading >> version;
+  if (heading != "$MeshFormat" || !in) refuse("is not a gmsh mesh: it does not begin with $MeshFormat", "", "");
+  if (!(version >= 2.2 && version <= 4.1)) {
+    refuse("the mesh format is not supported", "2.2 to 4.1", std::to_string(version).substr(0, 3));
+  }
+}
+
+void demand_parameters(const GmshSource& source) {
+  std::vector<Problem> problems;
+  const std::string file = source.file.string();
+  if (!(std::isfinite(source.scale) && source.scale > 0)) {
+    problems.push_back({file, 0, "mesh.scale", "is no length unit", "finite, > 0", std::to_string(source.scale)});
+  }
+  if (!is_script(source) && !source.parameters.empty()) {
+    problems.push_back({file, 0, "mesh.parameters", "a mesh file takes no parameters", "parameters with a .geo only",
+                        source.parameters.begin()->first});
+  }
+  if (is_script(source)) {
+    GeoScan scan = scan_geo(source.file);
+    std::string known;
+    for (const auto& name : scan.constants) known += (known.empty() ? "" : ", ") + name;
+    for (const auto& name : scan.onelab_names) known += (known.empty() ? "" : ", ") + name;
+    for (const auto& [name, value] : source.parameters) {
+      const bool constant = is_identifier(name) && scan.constants.count(name) != 0;
+      if (!constant && scan.onelab_names.count(name) == 0) {
+        problems.push_back({file, 0, "mesh.parameters." + name, "the script defines no such parameter",
+                            known.empty() ? "none: it has no DefineConstant" : known, ""});
+      } else if (!std::isfinite(value)) {
+        problems.push_back({file, 0, "mesh.parameters." + name, "is not finite", "a finite number", ""});
+      }
+    }
+    std::move(scan.problems.begin(), scan.problems.end(), std::back_inserter(problems));
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+// --- Running gmsh -----------------------------------------------------------------------------------------------------
+
+/// gmsh open for one reading, closed and its traces removed whatever happens.
+class Session {
+ public:
+  Session() : lock_(mutex_), locale_(std::setlocale(LC_NUMERIC, nullptr)) {
+    gmsh::initialize(0, nullptr, false);
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::option::setNumber("General.NumThreads", 1);
+    gmsh::option::setNumber("Mesh.MaxNumThreads1D", 1);
+    gmsh::option::setNumber("Mesh.MaxNumThreads2D", 1);
+    gmsh::option::setNumber("Mesh.MaxNumThreads3D", 1);
+    // Errors are logged, not thrown: a throw out of gmsh's parser leaves it unable to read any file after.
+    gmsh::option::setNumber("General.AbortOnError", 0);
+    gmsh::logger::start();
+  }
+  ~Session() {
+    try {
+      gmsh::logger::stop();
+      gmsh::onelab::clear();
+      gmsh::clear();
+      gmsh::finalize();
+    } catch (...) {  // closing must not hide what went wrong before
+    }
+    std::setlocale(LC_NUMERIC, locale_.c_str());
+  }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+ private:
+  static inline std::mutex mutex_;
+  std::lock_guard<std::mutex> lock_;
+  std::string locale_;  // gmsh sets the process's number format
+};
+
+/// A script that assigns the parameters, removed at the end of its life. Reading it first is the way to give gmsh's
+/// script language a constant that leaves nothing behind in the process.
+class ParameterScript {
+ public:
+  explicit ParameterScript(const GmshSource& source) {
+    std::string name = (std::filesystem::temp_directory_path() / "breccia_parameters_XXXXXX.geo").string();
+    const int handle = ::mkstemps(name.data(), 4);
+    if (handle < 0) {
+      throw InputError(
+          Problem{name, 0, "mesh.parameters", "no temporary file can be written", "a writable folder in TMPDIR", ""});
+    }
+    ::close(handle);
+    path_ = name;
+    std::ofstream out(path_);
+    out << std::setprecision(std::numeric_limits<double>::max_digits10);
+    for (const auto& [key, value] : source.parameters) {
+      if (is_identifier(key)) out << key << " = " << value << ";\n";
+    }
+  }
+  ~ParameterScript() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  ParameterScript(const ParameterScript&) = delete;
+  ParameterScript& operator=(const ParameterScript&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Problems of all errors gmsh has logged, each once, with the line where it names one.
+std::vector<Problem> logged_problems(const GmshSource& source) {
+  static const std::regex with_line(R"('([^']*)', line (\d+): (.*))");
+  std::vector<std::string> log;
+  gmsh::logger::get(log);
+  std::vector<Problem> problems;
+  std::set<std::string> seen;
+  for (const std::string& entry : log) {
+    constexpr std::string_view kError = "Error: ";
+    if (entry.compare(0, kError.size(), kError) != 0 || !seen.insert(entry).second) continue;
+    if (problems.size() == kProblemsNamed) break;
+    const std::string message = entry.substr(kError.size());
+    std::smatch match;
+    if (std::regex_match(message, match, with_line)) {
+      problems.push_back({match[1].str(), std::stoi(match[2].str()), "", "gmsh: " + match[3].str(), "", ""});
+    } else {
+      problems.push_back({source.file.string(), 0, "", "gmsh: " + message, "", ""});
+    }
+  }
+  return problems;
+}
+
+/// Runs one step of gmsh; any error it throws or logs becomes an InputError.
+template <class Step>
+void run_gmsh(const GmshSource& source, Step step) {
+  std::string thrown;
+  try {
+    step();
+  } catch (const std::string& text) {
+    thrown = text;
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    thrown = error.what();
+  }
+  std::vector<Problem> problems = logged_problems(source);
+  if (problems.empty() && !thrown.empty()) {
+    problems.push_back({source.file.string(), 0, "", "gmsh: " + thrown, "", ""});
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+void load(const GmshSource& source) {
+  if (!is_script(source)) {
+    run_gmsh(source, [&] { gmsh::open(source.file.string()); });
+    return;
+  }
+  const ParameterScript script(source);
+  run_gmsh(source, [&] {
+    gmsh::open(script.path().string());
+    for (const auto& [key, value] : source.parameters) {
+      if (!is_identifier(key)) gmsh::onelab::setNumber(key, {value});
+    }
+    gmsh::merge(source.file.string());
+  });
+  run_gmsh(source, [] { gmsh::model::mesh::generate(3); });
+}
+
+// --- From gmsh's model to ours ----------------------------------------------------------------------------------------
+
+class ModelReader {
+ public:
+  explicit ModelReader(const GmshSource& source) : source_(source) { mesh_.source = source.file.string(); }
+
+  Mesh read(Index& ungrouped_elements) {
+    read_nodes();
+    read_volumes(ungrouped_elements);
+    read_surfaces();
+    if (!problems_.empty()) throw InputError(std::move(problems_));
+    return std::move(mesh_);
+  }
+
+ private:
+  void refuse(const std::string& entity, const std::string& what, const std::string& allowed,
+              const std::string& given) {
+    problems_.push_back({source_.file.string(), 0, entity, what, allowed, given});
+  }
+
+  void read_nodes() {
+    std::vector<std::size_t> tags;
+    std::vector<double> coordinates, unused;
+    gmsh::model::mesh::getNodes(tags, coordinates, unused);
+    node_of_tag_.reserve(tags.size());
+    mesh_.nodes.reserve(tags.size());
+    for (std::size_t n = 0; n < tags.size(); ++n) {
+      const double* x = &coordinates[3 * n];
+      if (!node_of_tag_.emplace(tags[n], mesh_.num_nodes()).second) continue;
+      mesh_.nodes.push_back(source_.scale * Vec3(x[0], x[1], x[2]));
+    }
+  }
+
+  /// Physical groups of a dimension as (name, entities), by ascending tag; names are unique.
+  std::vector<std::pair<std::string, std::vector<int>>> physical_groups(int dimension) {
+    const std::string kind = dimension == 3 ? "volume" : "surface";
+    gmsh::vectorpair tags;
+    gmsh::model::getPhysicalGroups(tags, dimension);
+    std::sort(tags.begin(), tags.end());
+    std::vector<std::pair<std::string, std::vector<int>>> groups;
+    std::map<std::string, int> tag_of_name;
+    for (const auto& [unused, tag] : tags) {
+      std::string name;
+      gmsh::model::getPhysicalName(dimension, tag, name);
+      if (name.empty()) name = kind + "_" + std::to_string(tag);
+      const auto [entry, fresh] = tag_of_name.emplace(name, tag);
+      if (!fresh) {
+        refuse("physical " + kind + " \"" + name + "\"", "the name is used twice", "one name a group",
+               "tags " + std::to_string(entry->second) + " and " + std::to_string(tag));
+      }
+      std::vector<int> entities;
+      gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, entities);
+      groups.emplace_back(std::move(name), std::move(entities));
+    }
+    return groups;
+  }
+
+  /// Group of every volume that lies in one; without physical volumes each volume is a group.
+  std::map<int, Index> groups_of_volumes(const std::vector<int>& volumes) {
+    std::map<int, Index> group_of;
+    const auto groups = physical_groups(3);
+    for (const auto& [name, entities] : groups) {
+      const auto group = static_cast<Index>(mesh_.volume_groups.size());
+      mesh_.volume_groups.push_back(name);
+      for (const int volume : entities) {
+        const auto [entry, fresh] = group_of.emplace(volume, group);
+        if (!fresh && entry->second != group) {
+          refuse("volume " + std::to_string(volume), "lies in two physical volumes", "one a volume",
+                 "\"" + mesh_.volume_groups[static_cast<std::size_t>(entry->second)] + "\" and \"" + name + "\"");
+        }
+      }
+    }
+    if (!groups.empty()) return group_of;
+    for (const int volume : volumes) {
+      group_of[volume] = static_cast<Index>(mesh_.volume_groups.size());
+      mesh_.volume_groups.push_back("volume_" + std::to_string(volume));
+    }
+    return group_of;
+  }
+
+  void read_volumes(Index& ungrouped_elements) {
+    std::vector<int> volumes;
+    gmsh::vectorpair entities;
+    gmsh::model::getEntities(entities, 3);
+    for (const auto& entity : entities) volumes.push_back(entity.second);
+    std::sort(volumes.begin(), volumes.end());
+    const std::map<int, Index> group_of = groups_of_volumes(volumes);
+    for (const int volume : volumes) {
+      const auto group = group_of.find(volume);
+      const auto elements = elements_of(3, volume, kTetra4, group != group_of.end());
+      if (group == group_of.end()) {
+        ungrouped_elements += static_cast<Index>(elements.tags.size());
+        continue;
+      }
+      if (elements.tags.empty()) continue;
+      const Index body = mesh_.num_bodies++;
+      for (std::size_t e = 0; e < elements.tags.size(); ++e) {
+        std::array<Index, 4> corners{};
+        for (std::size_t c = 0; c < 4; ++c) corners[c] = node(elements.nodes[4 * e + c]);
+        mesh_.elements.push_back(corners);
+        mesh_.element_group.push_back(group->second);
+        mesh_.element_body.push_back(body);
+        mesh_.element_source_id.push_back(static_cast<std::int64_t>(elements.tags[e]));
+      }
+    }
+  }
+
+  void read_surfaces() {
+    for (const auto& [name, entities] : physical_groups(2)) {
+      const auto group = static_cast<Index>(mesh_.surface_groups.size());
+      mesh_.surface_groups.push_back(name);
+      for (const int surface : entities) {
+        const auto triangles = elements_of(2, surface, kTriangle3, true);
+        for (std::size_t t = 0; t < triangles.tags.size(); ++t) {
+          Mesh::SurfaceFace face{{}, group};
+          for (std::size_t c = 0; c < 3; ++c) face.nodes[c] = node(triangles.nodes[3 * t + c]);
+          mesh_.surface_faces.push_back(face);
+        }
+      }
+    }
+  }
+
+  struct Elements {
+    std::vector<std::size_t> tags, nodes;
+  };
+
+  /// Elements of one type on an entity. Any other type there is refused where `strict`.
+  Elements elements_of(int dimension, int entity, int type, bool strict) {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> tags, nodes;
+    gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
+    Elements wanted;
+    for (std::size_t t = 0; t < types.size(); ++t) {
+      if (types[t] == type) {
+        wanted.tags = std::move(tags[t]);
+        wanted.nodes = std::move(nodes[t]);
+      } else if (strict && !tags[t].empty()) {
+        std::string kind;
+        int unused_dimension = 0, order = 0, num_nodes = 0, num_primary = 0;
+        std::vector<double> unused;
+        gmsh::model::mesh::getElementProperties(types[t], kind, unused_dimension, order, num_nodes, unused,
+                                                num_primary);
+        const std::string name = (dimension == 3 ? "volume " : "surface ") + std::to_string(entity);
+        refuse(name, "holds elements of a kind that is not supported",
+               dimension == 3 ? "tetrahedra of first order (Tetrahedron 4)" : "triangles of first order (Triangle 3)",
+               std::to_string(tags[t].size()) + " of " + kind);
+      }
+    }
+    return wanted;
+  }
+
+  Index node(std::size_t tag) {
+    const auto found = node_of_tag_.find(tag);
+    if (found == node_of_tag_.end()) {
+      throw InputError(Problem{source_.file.string(), 0, "mesh", "an element names a node that is not in the file", "",
+                               "node " + std::to_string(tag)});
+    }
+    return found->second;
+  }
+
+  const GmshSource& source_;
+  Mesh mesh_;
+  std::vector<Problem> problems_;
+  std::unordered_map<std::size_t, Index> node_of_tag_;
+};
+
+}  // namespace
+
+FinishedMesh read_gmsh(const GmshSource& source) {
+  demand_readable(source);
+  demand_parameters(source);
+  Index ungrouped_elements = 0;
+  Mesh raw;
+  {
+    const Session session;
+    load(source);
+    run_gmsh(source, [&] { raw = ModelReader(source).read(ungrouped_elements); });
+  }
+  FinishedMesh result = finish_mesh(std::move(raw), {source.glue, source.repair_inverted});
+  result.report.ungrouped_elements = ungrouped_elements;
+  return result;
+}
+
+}  // namespace breccia

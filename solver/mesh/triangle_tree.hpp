@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace breccia {
+
+/// Corners of a triangle, m.
+using Triangle = std::array<Vec3, 3>;
+
+/// Distance from a point to a triangle, its inside and border included, m. Exact but for round-off; a triangle without area
+/// counts as its longest edge. O(1), throws nothing.
+[[nodiscard]] double point_triangle_distance(const Vec3& point, const Triangle& triangle);
+
+/// Nearest triangle to a point: a binary tree of boxes over the triangles, split at the median of their centres along the
+/// longest axis. Memory about 150 B a triangle.
+class TriangleTree {
+ public:
+  /// O(n log n).
+  explicit TriangleTree(std::vector<Triangle> triangles);
+
+  /// Smallest distance to a triangle, m; `limit` where none is nearer than that. O(log n) where triangles are about as
+  /// near as `limit`.
+  [[nodiscard]] double distance(const Vec3& point, double limit) const;
+
+ private:
+  struct Node {
+    Vec3 lower, upper;
+    Index first, count;  ///< triangles of a leaf; count 0: children are the next node and `second`
+    Index second;
+  };
+  Index build(Index first, Index count);
+
+  std::vector<Triangle> triangles_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace breccia
