@@ -71,6 +71,20 @@ TEST(Slices, approach_the_third_of_the_box_that_a_regular_tetrahedron_fills) {
   EXPECT_LT(share, 1.0 / 3 + 0.08);
 }
 
+TEST(Slices, have_the_triangle_of_rows_that_a_slanted_tetrahedron_casts_on_the_yz_plane) {
+  // Sheared by x += 3 y - 2 z: the shadow stays y, z >= 0, y + z <= 1, though no face is parallel to x any more.
+  const Corners corners{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(3, 1, 0), Vec3(-2, 0, 1)};
+  const CoupleTest test(corners, 0);
+  const Cells cells(1.0 / 60);
+  const Slices slices(cells, test);
+  for (std::int32_t z = 0; z < 60; ++z) {
+    const CellRange in_y = slices.y_range(z);
+    EXPECT_LE(in_y.low, 0);
+    EXPECT_GE(in_y.low, -1) << "no cell below the slack";
+    EXPECT_NEAR(in_y.high, 60 - z, 1);  // the layer's lower side, at z / 60, reaches to y = 1 - z / 60
+  }
+}
+
 TEST(Slices, are_the_whole_box_for_an_element_without_volume) {
   Corners flat = scenes::regular_tetrahedron(Vec3::Zero(), 1);
   std::swap(flat[0], flat[1]);
