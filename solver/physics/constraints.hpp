@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "base/compensated_sum.hpp"
+#include "base/field.hpp"
+#include "base/time_function.hpp"
+#include "base/types.hpp"
+#include "state/local_mesh.hpp"
+#include "state/state.hpp"
+
+namespace breccia {
+
+enum class PrescribedMotion {
+  velocity,     ///< m/s; a fixed node has velocity zero
+  displacement  ///< m, from where the node was when the constraints were made
+};
+
+/// Nodes that move as told, by axis.
+struct NodalConstraint {
+  std::vector<Index> nodes;
+  std::array<bool, 3> axes{false, false, false};
+  PrescribedMotion kind = PrescribedMotion::velocity;
+  std::array<TimeFunction, 3> value;  ///< of time since the start of the run
+};
+
+/// The constraints of a stage. Where entries overlap, the later one rules that axis of the node; a node named twice counts
+/// once.
+///
+/// In a step: `apply` right after the sweep, `book_after` when the works up to t_n have been read. O(constrained nodes), no
+/// allocation, throws nothing.
+class Constraints {
+ public:
+  /// @param state  position at the stage's start, where displacements count from; velocity of the step before it
+  Constraints(const std::vector<NodalConstraint>& entries, const State& state);
+
+  /// Overwrites v(n+1/2): by the velocity asked for at t_(n+1/2), or by (u(t_(n+1)) - (x_n - x_start)) / dt, with which
+  /// positions hold to round-off; and next_position by x_n + dt v. Keeps the reactions m (v - v_free) / dt and books their
+  /// work over the step that ended at t_n.
+  /// @param state      position at t_n, velocity and next_position as the sweep left them
+  /// @param time       t_n;  @param dt_before  t_n - t_(n-1), 0 at the start;  @param dt  t_(n+1) - t_n, s
+  void apply(const LocalMesh& mesh, State& state, double time, double dt_before, double dt);
+
+  /// Books the work of the same reactions over the step that begins at t_n.
+  void book_after(double dt);
+
+  /// Work of the reactions on the model, J; up to t_n between `apply` and `book_after`.
+  [[nodiscard]] double work() const { return work_.value(); }
+  /// Force of an entry on the nodes and axes it rules, summed by ascending node, N, at t_n.
+  [[nodiscard]] const Vec3& reaction(std::size_t entry) const { return entries_[entry].reaction; }
+  [[nodiscard]] std::size_t num_entries() const { return entries_.size(); }
+  [[nodiscard]] bool empty() const { return entries_.empty(); }
+
+ private:
+  /// One axis of one node.
+  struct Hold {
+    Index node;
+    int axis;
+    double start;     ///< m
+    double velocity;  ///< m/s, of the last step, on this axis
+    double reaction;  ///< N
+  };
+  struct Entry {
+    PrescribedMotion kind;
+    std::array<TimeFunction, 3> value;
+    std::vector<Hold> holds;  ///< ascending nodes
+    Vec3 reaction{0, 0, 0};
+  };
+  std::vector<Entry> entries_;
+  WorkSum work_;
+};
+
+}  // namespace breccia

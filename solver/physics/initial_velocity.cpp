@@ -1,0 +1,78 @@
+#include "physics/initial_velocity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "mesh/random_rotation.hpp"
+
+namespace breccia {
+namespace {
+
+/// Stream of random bits kept apart from the mesh generator's rotations of the same seed.
+constexpr std::uint64_t kVelocityStream = 0x56454c4f43495459ULL;
+
+/// Body of every node of the group, -1 for the others.
+std::vector<Index> bodies_of_nodes(const LocalMesh& mesh, Index group) {
+  std::vector<Index> body(static_cast<std::size_t>(mesh.num_nodes), -1);
+  for (Index s = 0; s < mesh.num_slots; ++s) {
+    const auto i = static_cast<std::size_t>(s);
+    if (mesh.block_group[i / kLanes] != group || mesh.element_of_slot[i] < 0) continue;
+    for (int c = 0; c < 4; ++c) {
+      Index& known = body[static_cast<std::size_t>(mesh.corner_node(s, c))];
+      if (known < 0) known = mesh.slot_body[i];
+    }
+  }
+  return body;
+}
+
+}  // namespace
+
+Vec3 random_velocity(std::uint64_t seed, std::uint64_t body, const std::array<double, 2>& speed) {
+  std::uint64_t drawn = 0;
+  const auto unit = [&] { return static_cast<double>(random_bits(seed, body ^ kVelocityStream, drawn++) >> 11) * 0x1p-53; };
+  const double length = speed[0] + (speed[1] - speed[0]) * unit();
+  Vec3 direction;
+  double square = 0;
+  do {  // points of the cube that lie in the ball: uniform directions without a sine
+    for (Eigen::Index i = 0; i < 3; ++i) direction[i] = 2.0 * unit() - 1.0;
+    square = direction.squaredNorm();
+  } while (square > 1.0 || square < 1e-6);
+  return length / std::sqrt(square) * direction;
+}
+
+void add_initial_velocity(const LocalMesh& mesh, const InitialVelocity& initial, const Field<double>& position,
+                          Field<double>& velocity) {
+  const std::vector<Index> body = bodies_of_nodes(mesh, initial.group);
+  const Index num_bodies = 1 + *std::max_element(body.begin(), body.end());
+  struct Motion {
+    double mass = 0;
+    Vec3 centre{0, 0, 0};  ///< first kg m, then m
+    Vec3 velocity{0, 0, 0};
+  };
+  std::vector<Motion> motions(static_cast<std::size_t>(std::max<Index>(num_bodies, 0)));
+  for (Index n = 0; n < mesh.num_nodes; ++n) {
+    const Index b = body[static_cast<std::size_t>(n)];
+    if (b < 0) continue;
+    Motion& motion = motions[static_cast<std::size_t>(b)];
+    motion.mass += mesh.node_mass[static_cast<std::size_t>(n)];
+    motion.centre += mesh.node_mass[static_cast<std::size_t>(n)] * load_node(position.data(), n);
+  }
+  const bool random = initial.speed[0] != 0 || initial.speed[1] != 0;
+  for (std::size_t b = 0; b < motions.size(); ++b) {
+    if (motions[b].mass > 0) motions[b].centre /= motions[b].mass;
+    motions[b].velocity = initial.uniform;
+    if (random) motions[b].velocity += random_velocity(initial.seed, b, initial.speed);
+  }
+  for (Index n = 0; n < mesh.num_nodes; ++n) {
+    const Index b = body[static_cast<std::size_t>(n)];
+    if (b < 0) continue;
+    const Motion& motion = motions[static_cast<std::size_t>(b)];
+    const Vec3 arm = load_node(position.data(), n) - motion.centre;
+    store_node(velocity.data(), n, load_node(velocity.data(), n) + motion.velocity + initial.angular.cross(arm));
+  }
+}
+
+}  // namespace breccia
