@@ -6,8 +6,8 @@
 
 /// Which key of the schema stands for which member of a case: written once, walked by the reader and by the writer.
 /// An archive A offers: A::reads; value(key, member); choice(key, enumeration); axis_functions(key, axes, values);
-/// section(key, visitor), optional_section(key, member), list(key, members); origin(member) and, to read only: has(key),
-/// exactly_one(keys), at_most_one(keys), smallest_young(groups).
+/// section(key, visitor), optional_section(key, member), list(key, members); origin(member) and, to read only:
+/// has(key), exactly_one(keys), at_most_one(keys), smallest_young(groups).
 namespace breccia::case_ {
 
 template <class A>
@@ -82,8 +82,10 @@ void bind_alternatives(A& a, Joint& joint) {
       a.value("friction", joint.friction);
     }
   } else {
-    if (joint.groups[0] == joint.groups[1]) a.value("group", joint.groups[0]);
-    else a.value("between", joint.groups);
+    if (joint.groups[0] == joint.groups[1])
+      a.value("group", joint.groups[0]);
+    else
+      a.value("between", joint.groups);
     a.value("penalty", joint.penalty);
     a.value("friction", joint.friction);
   }
@@ -159,13 +161,21 @@ void bind(A& a, Constraint& constraint) {
   a.value("group", constraint.group);
   if constexpr (A::reads) {
     a.exactly_one({"fixed", "velocity", "displacement"});
-    if (a.has("velocity")) constraint.kind = ConstraintKind::velocity;
-    else if (a.has("displacement")) constraint.kind = ConstraintKind::displacement;
+    if (a.has("velocity"))
+      constraint.kind = ConstraintKind::velocity;
+    else if (a.has("displacement"))
+      constraint.kind = ConstraintKind::displacement;
   }
   switch (constraint.kind) {
-    case ConstraintKind::fixed: a.value("fixed", constraint.axes); break;
-    case ConstraintKind::velocity: a.axis_functions("velocity", constraint.axes, constraint.value); break;
-    case ConstraintKind::displacement: a.axis_functions("displacement", constraint.axes, constraint.value); break;
+    case ConstraintKind::fixed:
+      a.value("fixed", constraint.axes);
+      break;
+    case ConstraintKind::velocity:
+      a.axis_functions("velocity", constraint.axes, constraint.value);
+      break;
+    case ConstraintKind::displacement:
+      a.axis_functions("displacement", constraint.axes, constraint.value);
+      break;
   }
 }
 

@@ -23,20 +23,21 @@ struct Origin {
   friend bool operator==(const Origin&, const Origin&) { return true; }
 };
 
-/// Raster of boxes, each a raster of cubes of 24 tetrahedra (six faces x four, apex at the cube's centre). [mesh.raster]
+/// Raster of boxes, each a raster of cubes of 24 tetrahedra (six faces x four, apex at the cube's centre).
+/// [mesh.raster]
 struct Raster {
-  std::array<int, 3> cells{1, 1, 1};   ///< cubes of one box along x, y, z
-  Vec3 cell_size{1, 1, 1};             ///< m, edge of a cube along x, y, z
-  std::array<int, 3> boxes{1, 1, 1};   ///< boxes along x, y, z
-  Vec3 gap{0, 0, 0};                   ///< m, between neighbouring boxes
-  Vec3 origin{0, 0, 0};                ///< m, lowest corner of the first box
-  std::string group = "raster";        ///< physical volume group of every box; surfaces: <group>.x0 .x1 .y0 .y1 .z0 .z1
-  bool single_tetrahedra = false;      ///< each box is one regular tetrahedron of edge cell_size.x instead of cubes
-  bool random_orientation = false;     ///< turn every box about its centre by a random rotation
+  std::array<int, 3> cells{1, 1, 1};  ///< cubes of one box along x, y, z
+  Vec3 cell_size{1, 1, 1};            ///< m, edge of a cube along x, y, z
+  std::array<int, 3> boxes{1, 1, 1};  ///< boxes along x, y, z
+  Vec3 gap{0, 0, 0};                  ///< m, between neighbouring boxes
+  Vec3 origin{0, 0, 0};               ///< m, lowest corner of the first box
+  std::string group = "raster";       ///< physical volume group of every box; surfaces: <group>.x0 .x1 .y0 .y1 .z0 .z1
+  bool single_tetrahedra = false;     ///< each box is one regular tetrahedron of edge cell_size.x instead of cubes
+  bool random_orientation = false;    ///< turn every box about its centre by a random rotation
   std::uint64_t seed = 1;
 
-  /// A planar cut through the boxes, along element faces: the surface group `<group>.slit`. Faces whose three corners lie in
-  /// the closed box [lower, upper] (m, one extent zero) belong to it.
+  /// A planar cut through the boxes, along element faces: the surface group `<group>.slit`. Faces whose three corners
+  /// lie in the closed box [lower, upper] (m, one extent zero) belong to it.
   struct Slit {
     Vec3 lower{0, 0, 0};
     Vec3 upper{0, 0, 0};
@@ -48,12 +49,12 @@ struct Raster {
 
 /// [mesh]
 struct MeshSource {
-  std::filesystem::path file;                 ///< .geo or .msh, absolute; empty when a raster is asked for
-  std::map<std::string, double> parameters;   ///< numbers handed to a .geo (DefineConstant), SI
+  std::filesystem::path file;                ///< .geo or .msh, absolute; empty when a raster is asked for
+  std::map<std::string, double> parameters;  ///< numbers handed to a .geo (DefineConstant), SI
   std::optional<Raster> raster;
-  double scale = 1.0;                         ///< file units to m
-  bool glue = false;                          ///< conforming interfaces between volumes are glued
-  bool repair_inverted = true;                ///< swap two corners of negative elements; false refuses them
+  double scale = 1.0;           ///< file units to m
+  bool glue = false;            ///< conforming interfaces between volumes are glued
+  bool repair_inverted = true;  ///< swap two corners of negative elements; false refuses them
   Origin origin;
   friend bool operator==(const MeshSource&, const MeshSource&) = default;
 };
@@ -65,10 +66,10 @@ enum class JointPlacement { breakable, unbreakable, none };
 struct Material {
   std::string group;
   ElasticLaw law = ElasticLaw::neo_hookean;
-  double young = 0;             ///< Pa
-  double poisson = 0;           ///< -
-  double density = 0;           ///< kg/m3
-  double viscosity = 0;         ///< Pa s, mubar of the viscous term
+  double young = 0;      ///< Pa
+  double poisson = 0;    ///< -
+  double density = 0;    ///< kg/m3
+  double viscosity = 0;  ///< Pa s, mubar of the viscous term
   JointPlacement joints = JointPlacement::breakable;
   Origin origin;
   friend bool operator==(const Material&, const Material&) = default;
@@ -81,21 +82,21 @@ enum class JointPoints { nodal, mid_edge };
 
 /// [[joint]]: law of the joints inside a group, or on the glued interface of two groups.
 struct Joint {
-  std::array<std::string, 2> groups;   ///< equal for a group's own joints
+  std::array<std::string, 2> groups;  ///< equal for a group's own joints
   JointLaw law = JointLaw::mixed_mode;
   JointRise rise = JointRise::linear;
   JointPoints points = JointPoints::nodal;
-  double penalty = 0;                  ///< Pa, p in k = p/h; penalty_factor x Young's modulus (the smaller one)
-  double size = 0;                     ///< m, h in k = p/h; 0: mean edge length of the joints this entry governs
-  double tensile_strength = 0;         ///< Pa
-  double shear_strength = 0;           ///< Pa, cohesion
-  double friction = 0;                 ///< tan(phi): Mohr-Coulomb slope and friction on closed damaged joints
-  double energy_mode_1 = 0;            ///< J/m2
-  double energy_mode_2 = 0;            ///< J/m2
-  bool energy_of_whole_curve = true;   ///< false: energies are those of the softening branch alone
+  double penalty = 0;                 ///< Pa, p in k = p/h; penalty_factor x Young's modulus (the smaller one)
+  double size = 0;                    ///< m, h in k = p/h; 0: mean edge length of the joints this entry governs
+  double tensile_strength = 0;        ///< Pa
+  double shear_strength = 0;          ///< Pa, cohesion
+  double friction = 0;                ///< tan(phi): Mohr-Coulomb slope and friction on closed damaged joints
+  double energy_mode_1 = 0;           ///< J/m2
+  double energy_mode_2 = 0;           ///< J/m2
+  bool energy_of_whole_curve = true;  ///< false: energies are those of the softening branch alone
   Softening softening = Softening::z_curve;
-  double a = 0.63, b = 1.8, c = 6.0;   ///< z-curve
-  double exponent = 5.0;               ///< exponential softening: z = (e^(-s D) - e^(-s)) / (1 - e^(-s))
+  double a = 0.63, b = 1.8, c = 6.0;  ///< z-curve
+  double exponent = 5.0;              ///< exponential softening: z = (e^(-s D) - e^(-s)) / (1 - e^(-s))
   int points_to_fail = 3;
   Origin origin;
   friend bool operator==(const Joint&, const Joint&) = default;
@@ -106,22 +107,22 @@ enum class OverlapField { body, tet_potential, tet_distance };
 /// [[contact]]: normal and friction law of a pair of groups ("*" stands for every group).
 struct Contact {
   std::array<std::string, 2> groups;
-  double penalty = 0;                  ///< Pa, sigma_p: stress at overlap d = 1
-  double plateau = 0;                  ///< Pa, sigma_T; 0: none
-  double unloading_exponent = 1;       ///< b >= 1
-  double friction = 0;                 ///< Coulomb mu
-  double tangential_ratio = 1;         ///< tangential over normal stiffness, 0..1
+  double penalty = 0;             ///< Pa, sigma_p: stress at overlap d = 1
+  double plateau = 0;             ///< Pa, sigma_T; 0: none
+  double unloading_exponent = 1;  ///< b >= 1
+  double friction = 0;            ///< Coulomb mu
+  double tangential_ratio = 1;    ///< tangential over normal stiffness, 0..1
   Origin origin;
   friend bool operator==(const Contact&, const Contact&) = default;
 };
 
 /// [contact_points]
 struct ContactPoints {
-  int per_face = 3;                            ///< 1, 3 or 6
+  int per_face = 3;  ///< 1, 3 or 6
   OverlapField field = OverlapField::body;
-  bool everywhere = true;                      ///< false: only faces of `surfaces`
+  bool everywhere = true;  ///< false: only faces of `surfaces`
   std::vector<std::string> surfaces;
-  int field_ramp_steps = 50;                   ///< steps over which the overlap field follows a new free surface
+  int field_ramp_steps = 50;  ///< steps over which the overlap field follows a new free surface
   Origin origin;
   friend bool operator==(const ContactPoints&, const ContactPoints&) = default;
 };
@@ -138,10 +139,10 @@ struct Sphere {
 /// [[initial_velocity]]
 struct InitialVelocity {
   std::string group;
-  Vec3 velocity{0, 0, 0};            ///< m/s
-  std::array<double, 2> random{0, 0}; ///< m/s; speed drawn uniformly in this range, direction uniform, by body; added
+  Vec3 velocity{0, 0, 0};              ///< m/s
+  std::array<double, 2> random{0, 0};  ///< m/s; speed drawn uniformly in this range, direction uniform, by body; added
   std::uint64_t seed = 1;
-  Vec3 angular{0, 0, 0};              ///< rad/s about each body's centre of mass; added
+  Vec3 angular{0, 0, 0};  ///< rad/s about each body's centre of mass; added
   Origin origin;
   friend bool operator==(const InitialVelocity&, const InitialVelocity&) = default;
 };
@@ -153,7 +154,8 @@ struct Constraint {
   std::string group;
   ConstraintKind kind = ConstraintKind::fixed;
   std::array<bool, 3> axes{false, false, false};
-  std::array<TimeFunction, 3> value;   ///< m/s or m from the stage's start (velocity, displacement); time counted from the run's start
+  std::array<TimeFunction, 3>
+      value;  ///< m/s or m from the stage's start (velocity, displacement); time counted from the run's start
   Origin origin;
   friend bool operator==(const Constraint&, const Constraint&) = default;
 };
@@ -169,8 +171,8 @@ struct Pressure {
 /// [[stage]]
 struct Stage {
   std::string name;
-  double end = 0;                            ///< s, counted from the run's start
-  std::array<TimeFunction, 3> gravity;       ///< m/s2
+  double end = 0;                       ///< s, counted from the run's start
+  std::array<TimeFunction, 3> gravity;  ///< m/s2
   std::vector<Constraint> constraints;
   std::vector<Pressure> pressures;
   double mass_damping = 0;                   ///< 1/s, alpha of f = -alpha m v
@@ -182,10 +184,10 @@ struct Stage {
 
 /// [time]
 struct TimeControl {
-  double step = 0;              ///< s; 0: safety x stable step
-  double safety = 0.8;          ///< share of the stable step
-  std::int64_t max_steps = 0;   ///< 0: no limit
-  double residual_limit = 0.05; ///< energy residual over the largest term that stops the run
+  double step = 0;               ///< s; 0: safety x stable step
+  double safety = 0.8;           ///< share of the stable step
+  std::int64_t max_steps = 0;    ///< 0: no limit
+  double residual_limit = 0.05;  ///< energy residual over the largest term that stops the run
   friend bool operator==(const TimeControl&, const TimeControl&) = default;
 };
 
@@ -194,9 +196,9 @@ enum class DetectionAlgorithm { ms, ms_slices, sorted_grid, brute_force };
 /// [detection]
 struct Detection {
   DetectionAlgorithm algorithm = DetectionAlgorithm::sorted_grid;
-  double buffer = 0;            ///< m; 0: a share of the mean element size
-  double cell = 0;              ///< m; 0: chosen from buffer and element size
-  bool verify = false;          ///< compare every step's couples with brute force
+  double buffer = 0;    ///< m; 0: a share of the mean element size
+  double cell = 0;      ///< m; 0: chosen from buffer and element size
+  bool verify = false;  ///< compare every step's couples with brute force
   friend bool operator==(const Detection&, const Detection&) = default;
 };
 
@@ -205,14 +207,15 @@ struct Output {
   double frame_interval = 0;    ///< s; 0: no frames but the last
   double history_interval = 0;  ///< s; 0: end / 500
   bool elements = true, joints = true, contacts = true;
-  std::vector<std::string> gauges;  ///< groups whose reaction, contact and applied force, displacement and velocity are recorded
+  std::vector<std::string>
+      gauges;  ///< groups whose reaction, contact and applied force, displacement and velocity are recorded
   Origin origin;
   friend bool operator==(const Output&, const Output&) = default;
 };
 
 struct Case {
   std::string title;
-  std::filesystem::path file;   ///< absolute
+  std::filesystem::path file;  ///< absolute
   MeshSource mesh;
   std::vector<Material> materials;
   std::vector<Joint> joints;
@@ -226,7 +229,7 @@ struct Case {
   TimeControl time;
   Detection detection;
   Output output;
-  std::string resolved;         ///< the case as TOML, SI, every default written out; copied to the run folder
+  std::string resolved;  ///< the case as TOML, SI, every default written out; copied to the run folder
   friend bool operator==(const Case&, const Case&) = default;
 };
 

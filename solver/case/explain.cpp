@@ -32,9 +32,12 @@ std::string plain(std::string_view path) {
 
 std::string header(const Key& section) {
   switch (section.type) {
-    case ValueType::section: return "[" + std::string(section.path) + "]";
-    case ValueType::section_list: return section.path.starts_with('<') ? plain(section.path) : "[[" + plain(section.path) + "]]";
-    default: return plain(section.path);
+    case ValueType::section:
+      return "[" + std::string(section.path) + "]";
+    case ValueType::section_list:
+      return section.path.starts_with('<') ? plain(section.path) : "[[" + plain(section.path) + "]]";
+    default:
+      return plain(section.path);
   }
 }
 
@@ -72,8 +75,8 @@ std::string first_sentence(std::string_view help) {
 
 std::string line_of(const Key& key) {
   const std::string unit = key.unit == "1" || key.unit.starts_with('*') ? "" : " [" + std::string(key.unit) + "]";
-  return "  " + padded(std::string(key.name()), name_width) + padded(default_text(key), default_width) + first_sentence(key.help) +
-         unit + "\n";
+  return "  " + padded(std::string(key.name()), name_width) + padded(default_text(key), default_width) +
+         first_sentence(key.help) + unit + "\n";
 }
 
 std::string section_text(const Key& section) {
@@ -89,7 +92,8 @@ std::string key_text(const Key& key) {
     if (!text.empty()) out += "  " + padded(name, 8) + text + "\n";
   };
   std::string allowed = allowed_text(key);
-  if (const std::size_t star = allowed.find(" in *"); star != std::string::npos) allowed.replace(star, 5, " in the unit of the value");
+  if (const std::size_t star = allowed.find(" in *"); star != std::string::npos)
+    allowed.replace(star, 5, " in the unit of the value");
   field("default", default_text(key));
   field("unit", unit_text(key));
   field("choices", joined(key.choice_list()));
@@ -105,7 +109,8 @@ std::string text_of(const Key& key) { return key.is_section() ? section_text(key
 
 std::string explain() {
   std::string out =
-      "Keys of a case file (TOML): name, default, meaning [SI unit]. Numbers are SI; texts may carry a unit, \"26.6 GPa\".\n" +
+      "Keys of a case file (TOML): name, default, meaning [SI unit]. Numbers are SI; texts may carry a unit, \"26.6 "
+      "GPa\".\n" +
       wrapped(units_help(), "") + "`breccia explain KEY` tells more about one.\n\n";
   for (const Key& key : schema())
     if (key.section().empty() && !key.is_section()) out += line_of(key);
@@ -128,7 +133,8 @@ std::string explain(std::string_view key) {
   std::vector<std::string> sections;
   for (const Key& row : schema())
     if (row.section().empty()) sections.push_back(plain(row.path));
-  throw InputError({"", 0, std::string(key), paths.empty() ? "unknown key" : "unknown key; did you mean " + joined(paths, " or ") + "?",
+  throw InputError({"", 0, std::string(key),
+                    paths.empty() ? "unknown key" : "unknown key; did you mean " + joined(paths, " or ") + "?",
                     "sections and keys of a case: " + joined(sections), ""});
 }
 

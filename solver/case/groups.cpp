@@ -10,7 +10,9 @@ namespace {
 class GroupChecker {
  public:
   GroupChecker(const Case& c, std::span<const std::string> volumes, std::span<const std::string> surfaces)
-      : file_(c.file.string()), volumes_(volumes.begin(), volumes.end()), surfaces_(surfaces.begin(), surfaces.end()),
+      : file_(c.file.string()),
+        volumes_(volumes.begin(), volumes.end()),
+        surfaces_(surfaces.begin(), surfaces.end()),
         both_(volumes_) {
     both_.insert(both_.end(), surfaces_.begin(), surfaces_.end());
   }
@@ -28,11 +30,12 @@ class GroupChecker {
   std::vector<Problem> take() { return std::move(problems_); }
 
  private:
-  void check(const Origin& origin, const std::string& name, const std::string& group, const std::vector<std::string>& present,
-             const std::string& kind) {
+  void check(const Origin& origin, const std::string& name, const std::string& group,
+             const std::vector<std::string>& present, const std::string& kind) {
     if (std::find(present.begin(), present.end(), group) != present.end()) return;
     const std::string list = present.empty() ? "the mesh has none" : joined(nearest_first(group, present));
-    problems_.push_back({file_, origin.line, origin.key + "." + name, "the mesh has no " + kind + " \"" + group + "\"", list, group});
+    problems_.push_back(
+        {file_, origin.line, origin.key + "." + name, "the mesh has no " + kind + " \"" + group + "\"", list, group});
   }
 
   std::string file_;
@@ -58,10 +61,12 @@ std::vector<Problem> check_groups(const Case& c, std::span<const std::string> vo
   }
   for (const std::string& group : volume_groups)
     if (!with_material.contains(group))
-      checker.add({c.file.string(), c.mesh.origin.line, "material", "the volume group \"" + group + "\" of the mesh has no material",
+      checker.add({c.file.string(), c.mesh.origin.line, "material",
+                   "the volume group \"" + group + "\" of the mesh has no material",
                    "a [[material]] for every volume group", group});
   // Joints, contacts and initial velocities name groups with a material, which has been checked above.
-  for (const std::string& group : c.contact_points.surfaces) checker.surface(c.contact_points.origin, "surfaces", group);
+  for (const std::string& group : c.contact_points.surfaces)
+    checker.surface(c.contact_points.origin, "surfaces", group);
   for (const std::string& group : c.broken_surfaces) checker.surface(c.broken_origin, "broken", group);
   for (const Stage& stage : c.stages) check_stage(stage, checker);
   for (const std::string& group : c.output.gauges) checker.either(c.output.origin, "gauges", group);

@@ -19,7 +19,12 @@ class SectionReader {
   static constexpr bool reads = true;
 
   SectionReader(ValueReader& values, const Case& model, const Node& table, std::string path, bool written)
-      : values_(values), model_(model), table_(table), path_(std::move(path)), pattern_(pattern_of(path_)), written_(written) {}
+      : values_(values),
+        model_(model),
+        table_(table),
+        path_(std::move(path)),
+        pattern_(pattern_of(path_)),
+        written_(written) {}
 
   [[nodiscard]] bool has(std::string_view name) const { return table_.find(name) != nullptr; }
 
@@ -85,8 +90,8 @@ class SectionReader {
     for (const std::string_view n : names)
       if (has(n)) given.emplace_back(n);
     if (given.size() > 1)
-      values_.problem(*table_.find(given.back()), at(given.back()), "excludes another key of its section", "only one of " + words(names),
-                      joined(given, " and "));
+      values_.problem(*table_.find(given.back()), at(given.back()), "excludes another key of its section",
+                      "only one of " + words(names), joined(given, " and "));
   }
 
   // 0 when a material is missing, which validate() reports.
@@ -98,7 +103,9 @@ class SectionReader {
   }
 
  private:
-  [[nodiscard]] std::string at(std::string_view name) const { return path_ + (path_.empty() ? "" : ".") + std::string(name); }
+  [[nodiscard]] std::string at(std::string_view name) const {
+    return path_ + (path_.empty() ? "" : ".") + std::string(name);
+  }
   [[nodiscard]] std::string pattern(std::string_view name) const {
     return pattern_ + (pattern_.empty() ? "" : ".") + std::string(name);
   }
@@ -131,9 +138,8 @@ class SectionReader {
 void add_default_joints(Case& c, ValueReader& values) {
   for (std::size_t i = 0; i < c.materials.size(); ++i) {
     const Material& m = c.materials[i];
-    const bool present = std::any_of(c.joints.begin(), c.joints.end(), [&](const Joint& j) {
-      return j.groups[0] == m.group && j.groups[1] == m.group;
-    });
+    const bool present = std::any_of(c.joints.begin(), c.joints.end(),
+                                     [&](const Joint& j) { return j.groups[0] == m.group && j.groups[1] == m.group; });
     if (m.joints != JointPlacement::unbreakable || present) continue;
     Node table, group;
     group.kind = Node::Kind::text;
@@ -147,10 +153,15 @@ void add_default_joints(Case& c, ValueReader& values) {
   }
 }
 
-// True if some problem already stands at the key, or at a section around it.
-bool told_already(const std::vector<Problem>& problems, const std::string& key) {
+bool stands_below(std::string_view key, std::string_view section) {
+  return key.size() > section.size() && key.starts_with(section) &&
+         (key[section.size()] == '.' || key[section.size()] == '[');
+}
+
+// True if some problem already stands at the key, around it or below it: a second one is likely to be its consequence.
+bool told_already(std::span<const Problem> problems, const std::string& key) {
   return std::any_of(problems.begin(), problems.end(), [&](const Problem& p) {
-    return key == p.key || (!p.key.empty() && key.starts_with(p.key) && (key[p.key.size()] == '.' || key[p.key.size()] == '['));
+    return key == p.key || (!p.key.empty() && (stands_below(key, p.key) || stands_below(p.key, key)));
   });
 }
 
@@ -169,10 +180,9 @@ Case read_case(const std::filesystem::path& file, std::span<const std::string> o
   bind(reader, c);
   add_default_joints(c, values);
 
-  const std::size_t read_problems = problems.size();
+  const std::vector<Problem> of_reading = problems;
   for (Problem& p : validate(c)) {
-    const std::vector<Problem> earlier(problems.begin(), problems.begin() + static_cast<std::ptrdiff_t>(read_problems));
-    if (told_already(earlier, p.key)) continue;
+    if (told_already(of_reading, p.key)) continue;
     const Node& node = deepest_on_path(root, p.key);
     p.file = node.file;
     p.line = node.line;

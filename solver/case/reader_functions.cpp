@@ -62,7 +62,8 @@ void ValueReader::read(const Key& key, const Node& node, const std::string& path
 void ValueReader::function_table(const Key& key, const Node& table, const std::string& path, TimeFunction& out) {
   for (const auto& [name, value] : table.entries) {
     const std::vector<std::string> names = names_in("<function>");
-    if (std::find(names.begin(), names.end(), name) == names.end()) unknown_key(value, path + "." + name, prefix + name);
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      unknown_key(value, path + "." + name, prefix + name);
   }
   if (table.entries.empty()) problem(table, path, "is an empty table", allowed_text(key), "");
   out.constant = function_part(key, table, path, "constant");
@@ -99,10 +100,11 @@ std::vector<const Node*> ValueReader::function_tables(const Node& node, const st
   if (node.is(Node::Kind::table)) tables.push_back(&node);
   if (node.is(Node::Kind::list))
     for (const Node& item : node.items) tables.push_back(&item);
-  const bool all_tables = std::all_of(tables.begin(), tables.end(), [](const Node* n) { return n->is(Node::Kind::table); });
+  const bool all_tables =
+      std::all_of(tables.begin(), tables.end(), [](const Node* n) { return n->is(Node::Kind::table); });
   if (tables.empty() || !all_tables) {
-    problem(node, path, "is " + std::string(node.kind_name()), "a table of " + joined(names_in(pattern)) + ", or a list of them",
-            node.shown());
+    problem(node, path, "is " + std::string(node.kind_name()),
+            "a table of " + joined(names_in(pattern)) + ", or a list of them", node.shown());
     return {};
   }
   for (const Node* table : tables)
@@ -113,9 +115,12 @@ std::vector<const Node*> ValueReader::function_tables(const Node& node, const st
 
 Points ValueReader::function_ramp(const Key& key, const Node& node, const std::string& path) {
   const std::size_t before = problems_.size();
-  const TimeFunction::Point first{function_part(key, node, path, "ramp[].start"), function_part(key, node, path, "ramp[].from")};
-  const TimeFunction::Point last{function_part(key, node, path, "ramp[].end"), function_part(key, node, path, "ramp[].to")};
-  if (problems_.size() == before && !(last.time > first.time)) problem(node, path, "does not end after its start", "end > start", node.shown());
+  const TimeFunction::Point first{function_part(key, node, path, "ramp[].start"),
+                                  function_part(key, node, path, "ramp[].from")};
+  const TimeFunction::Point last{function_part(key, node, path, "ramp[].end"),
+                                 function_part(key, node, path, "ramp[].to")};
+  if (problems_.size() == before && !(last.time > first.time))
+    problem(node, path, "does not end after its start", "end > start", node.shown());
   return {first, last};
 }
 
@@ -137,7 +142,8 @@ Points ValueReader::function_points(const Key& key, const Node& node, const std:
       continue;
     }
     TimeFunction::Point p;
-    const bool both = number(time, item.items[0], own + "[0]", p.time) & number(of.row, item.items[1], own + "[1]", p.value);
+    const bool both =
+        number(time, item.items[0], own + "[0]", p.time) & number(of.row, item.items[1], own + "[1]", p.value);
     if (!both) continue;
     if (!out.empty() && !(p.time > out.back().time))
       problem(item, own, "its time is not later than that of the point before", "times increasing", item.shown());

@@ -9,9 +9,9 @@ namespace {
 void check_table(const Node& table, const std::string& path, const std::string& pattern, ValueReader& values);
 
 void check_list(const Node& list, const Key& key, const std::string& path, ValueReader& values) {
-  const bool of_tables = list.is(Node::Kind::list) && std::all_of(list.items.begin(), list.items.end(), [](const Node& item) {
-    return item.is(Node::Kind::table);
-  });
+  const bool of_tables =
+      list.is(Node::Kind::list) &&
+      std::all_of(list.items.begin(), list.items.end(), [](const Node& item) { return item.is(Node::Kind::table); });
   if (!of_tables) return values.problem(list, path, "is " + std::string(list.kind_name()), allowed_text(key), "");
   for (std::size_t i = 0; i < list.items.size(); ++i)
     check_table(list.items[i], path + "[" + std::to_string(i) + "]", std::string(key.path), values);
@@ -27,8 +27,10 @@ void check_table(const Node& table, const std::string& path, const std::string& 
     } else if (key == nullptr || key->type == ValueType::notation || key->type == ValueType::section_list) {
       values.unknown_key(node, own, own_pattern);
     } else if (key->type == ValueType::section) {
-      if (node.is(Node::Kind::table)) check_table(node, own, own_pattern, values);
-      else values.problem(node, own, "is " + std::string(node.kind_name()), allowed_text(*key), node.shown());
+      if (node.is(Node::Kind::table))
+        check_table(node, own, own_pattern, values);
+      else
+        values.problem(node, own, "is " + std::string(node.kind_name()), allowed_text(*key), node.shown());
     }
   }
 }

@@ -22,7 +22,8 @@ std::string quoted_or_none(const std::vector<std::string>& names) { return names
 // Walks one path down the tree, making tables the schema knows, and puts the value at its end.
 class Setter {
  public:
-  Setter(const std::string& override_text, std::vector<Problem>& problems) : text_(override_text), problems_(problems) {}
+  Setter(const std::string& override_text, std::vector<Problem>& problems)
+      : text_(override_text), problems_(problems) {}
 
   void set(Node& root, std::string_view path, Node value) {
     rest_ = path;
@@ -44,8 +45,8 @@ class Setter {
 
  private:
   static bool takes_names(const Key& key) {
-    return key.type == ValueType::parameters || key.type == ValueType::axis_functions || key.type == ValueType::function ||
-           key.type == ValueType::function_vector;
+    return key.type == ValueType::parameters || key.type == ValueType::axis_functions ||
+           key.type == ValueType::function || key.type == ValueType::function_vector;
   }
 
   void problem(const std::string& what, const std::string& allowed) {
@@ -134,7 +135,8 @@ class Setter {
       found = &item;
     }
     if (matches != 1) {
-      problem(matches == 0 ? "no entry of the list has this name" : "several entries of the list have this name, use an index",
+      problem(matches == 0 ? "no entry of the list has this name"
+                           : "several entries of the list have this name, use an index",
               "an index in brackets, or a name: " + quoted_or_none(names));
       return nullptr;
     }

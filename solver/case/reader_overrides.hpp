@@ -9,10 +9,10 @@
 
 namespace breccia::case_ {
 
-/// Puts the values of `--set key=value` into the tree of a case file. A key is a dotted path; an entry of a list is named by
-/// its index (`material[0].young`) or by its name, group or surface (`material.glass.young`). Tables on the way are made
-/// if the schema knows them. Problems (no "=", unknown key with the nearest known one, index past the end, a name that
-/// fits no entry or several) are appended.
+/// Puts the values of `--set key=value` into the tree of a case file. A key is a dotted path; an entry of a list is
+/// named by its index (`material[0].young`) or by its name, group or surface (`material.glass.young`). Tables on the
+/// way are made if the schema knows them. Problems (no "=", unknown key with the nearest known one, index past the end,
+/// a name that fits no entry or several) are appended.
 void apply_overrides(Node& root, std::span<const std::string> overrides, std::vector<Problem>& problems);
 
 }  // namespace breccia::case_

@@ -22,7 +22,8 @@ Node converted(const toml::node& node, const std::string& file) {
     for (const auto& [key, value] : *table) {
       out.entries.emplace_back(std::string(key.str()), converted(value, file));
       // A table made by a dotted key has no place of its own.
-      if (out.entries.back().second.line == 0) out.entries.back().second.line = static_cast<int>(key.source().begin.line);
+      if (out.entries.back().second.line == 0)
+        out.entries.back().second.line = static_cast<int>(key.source().begin.line);
     }
     const auto earlier = [](const auto& a, const auto& b) { return a.second.line < b.second.line; };
     std::stable_sort(out.entries.begin(), out.entries.end(), earlier);
@@ -59,13 +60,20 @@ Node* Node::find(std::string_view name) { return const_cast<Node*>(std::as_const
 
 std::string_view Node::kind_name() const {
   switch (kind) {
-    case Kind::boolean: return "true or false";
-    case Kind::integer: return "an integer";
-    case Kind::number: return "a number";
-    case Kind::text: return "text";
-    case Kind::list: return "a list";
-    case Kind::table: return "a table";
-    case Kind::other: return "a date or time";
+    case Kind::boolean:
+      return "true or false";
+    case Kind::integer:
+      return "an integer";
+    case Kind::number:
+      return "a number";
+    case Kind::text:
+      return "text";
+    case Kind::list:
+      return "a list";
+    case Kind::table:
+      return "a table";
+    case Kind::other:
+      return "a date or time";
   }
   return "";
 }
@@ -77,14 +85,18 @@ std::string Node::shown() const {
     out += part;
   };
   switch (kind) {
-    case Kind::boolean: return boolean ? "true" : "false";
-    case Kind::integer: return std::to_string(integer);
+    case Kind::boolean:
+      return boolean ? "true" : "false";
+    case Kind::integer:
+      return std::to_string(integer);
     case Kind::number: {
       std::ostringstream stream;
       stream << number;
       return stream.str();
     }
-    case Kind::text: out = "\"" + text + "\""; break;
+    case Kind::text:
+      out = "\"" + text + "\"";
+      break;
     case Kind::list:
       out = "[";
       for (const Node& item : items)
@@ -97,7 +109,8 @@ std::string Node::shown() const {
         if (out.size() < longest_shown) append(name + " = " + value.shown());
       out += "}";
       break;
-    case Kind::other: return std::string(kind_name());
+    case Kind::other:
+      return std::string(kind_name());
   }
   return out.size() <= longest_shown ? out : out.substr(0, longest_shown - 3) + "...";
 }
@@ -106,7 +119,8 @@ Node parse_toml_file(const std::filesystem::path& path) {
   const std::string name = path.string();
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError({name, 0, "", "the case file does not exist", "", ""});
-  if (!std::filesystem::is_regular_file(path, error)) throw InputError({name, 0, "", "the case is not a file", "a TOML file", ""});
+  if (!std::filesystem::is_regular_file(path, error))
+    throw InputError({name, 0, "", "the case is not a file", "a TOML file", ""});
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream content;
   if (stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
@@ -116,7 +130,8 @@ Node parse_toml_file(const std::filesystem::path& path) {
     root.line = 0;
     return root;
   } catch (const toml::parse_error& e) {
-    throw InputError({name, static_cast<int>(e.source().begin.line), "", "not TOML: " + std::string(e.description()), "", ""});
+    throw InputError(
+        {name, static_cast<int>(e.source().begin.line), "", "not TOML: " + std::string(e.description()), "", ""});
   }
 }
 
@@ -129,8 +144,10 @@ Node parse_toml_value(std::string_view text, const std::string& source) {
   try {
     const toml::table table = toml::parse("value = " + trimmed);
     // A line break would smuggle in a second key.
-    if (table.size() == 1) out = converted(*table.get("value"), source);
-    else throw InputError({source, 0, "", "more than one value", "a TOML value", trimmed});
+    if (table.size() == 1)
+      out = converted(*table.get("value"), source);
+    else
+      throw InputError({source, 0, "", "more than one value", "a TOML value", trimmed});
   } catch (const toml::parse_error& e) {
     constexpr std::string_view structured = "[{\"'";
     if (!trimmed.empty() && structured.find(trimmed.front()) != std::string_view::npos)

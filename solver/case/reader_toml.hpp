@@ -16,11 +16,11 @@ struct Node {
   Kind kind = Kind::table;
   bool boolean = false;
   std::int64_t integer = 0;
-  double number = 0;   ///< of an integer too
+  double number = 0;  ///< of an integer too
   std::string text;
-  std::vector<Node> items;                             ///< of a list
-  std::vector<std::pair<std::string, Node>> entries;   ///< of a table, in the order of the file
-  std::string file;    ///< as the user named it, or "--set"
+  std::vector<Node> items;                            ///< of a list
+  std::vector<std::pair<std::string, Node>> entries;  ///< of a table, in the order of the file
+  std::string file;                                   ///< as the user named it, or "--set"
   int line = 0;
 
   [[nodiscard]] const Node* find(std::string_view name) const;
@@ -35,8 +35,8 @@ struct Node {
 /// Parses a TOML file. Throws InputError: file absent, not readable, or not TOML (with the line).
 [[nodiscard]] Node parse_toml_file(const std::filesystem::path& path);
 
-/// Parses one value as in `key = value`; a text that is no TOML value and does not begin as a list, table or quoted text is
-/// taken as the text itself ("ms_slices", "70 GPa"). `source` names the place in messages. Throws InputError.
+/// Parses one value as in `key = value`; a text that is no TOML value and does not begin as a list, table or quoted
+/// text is taken as the text itself ("ms_slices", "70 GPa"). `source` names the place in messages. Throws InputError.
 [[nodiscard]] Node parse_toml_value(std::string_view text, const std::string& source);
 
 }  // namespace breccia::case_

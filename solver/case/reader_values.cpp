@@ -13,8 +13,8 @@ std::string indexed(const std::string& path, std::size_t i) { return path + "[" 
 
 }  // namespace
 
-void ValueReader::problem(const Node& node, const std::string& path, const std::string& what, const std::string& allowed,
-                          const std::string& given) {
+void ValueReader::problem(const Node& node, const std::string& path, const std::string& what,
+                          const std::string& allowed, const std::string& given) {
   problems_.push_back({node.file, node.line, path, what, allowed, given});
 }
 
@@ -50,7 +50,8 @@ bool ValueReader::number(const Key& key, const Node& node, const std::string& pa
     try {
       value = to_si(node.text, key.unit);
     } catch (const UnitError& e) {
-      problem(node, path, e.what(), e.allowed + (key.word.empty() ? "" : ", or \"" + std::string(key.word) + "\""), node.shown());
+      problem(node, path, e.what(), e.allowed + (key.word.empty() ? "" : ", or \"" + std::string(key.word) + "\""),
+              node.shown());
       return false;
     }
   } else {
@@ -71,7 +72,8 @@ bool ValueReader::whole(const Key& key, const Node& node, const std::string& pat
     return false;
   }
   const std::vector<std::string> choices = key.choice_list();
-  const bool chosen = choices.empty() || std::find(choices.begin(), choices.end(), std::to_string(node.integer)) != choices.end();
+  const bool chosen =
+      choices.empty() || std::find(choices.begin(), choices.end(), std::to_string(node.integer)) != choices.end();
   if (!chosen || !key.range.contains(node.number)) {
     problem(node, path, "is out of range", allowed_text(key), node.shown());
     return false;
@@ -80,7 +82,9 @@ bool ValueReader::whole(const Key& key, const Node& node, const std::string& pat
   return true;
 }
 
-void ValueReader::read(const Key& key, const Node& node, const std::string& path, double& out) { number(key, node, path, out); }
+void ValueReader::read(const Key& key, const Node& node, const std::string& path, double& out) {
+  number(key, node, path, out);
+}
 
 void ValueReader::read(const Key& key, const Node& node, const std::string& path, std::int64_t& out) {
   whole(key, node, path, out);
@@ -99,8 +103,10 @@ void ValueReader::read(const Key& key, const Node& node, const std::string& path
 }
 
 void ValueReader::read(const Key& key, const Node& node, const std::string& path, bool& out) {
-  if (node.is(Node::Kind::boolean)) out = node.boolean;
-  else wrong_type(key, node, path);
+  if (node.is(Node::Kind::boolean))
+    out = node.boolean;
+  else
+    wrong_type(key, node, path);
 }
 
 void ValueReader::read(const Key& key, const Node& node, const std::string& path, std::string& out) {
@@ -121,9 +127,12 @@ void ValueReader::read(const Key& key, const Node& node, const std::string& path
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     const Node& item = node.items[i];
-    if (!item.is(Node::Kind::text)) wrong_type(key, item, indexed(path, i));
-    else if (item.text.empty()) problem(item, indexed(path, i), "is empty", allowed_text(key), "");
-    else texts.push_back(item.text);
+    if (!item.is(Node::Kind::text))
+      wrong_type(key, item, indexed(path, i));
+    else if (item.text.empty())
+      problem(item, indexed(path, i), "is empty", allowed_text(key), "");
+    else
+      texts.push_back(item.text);
   }
   if (texts.size() == node.items.size()) out = std::move(texts);
 }
@@ -209,8 +218,8 @@ std::optional<std::size_t> ValueReader::read_choice(const Key& key, const Node& 
   const auto it = std::find(choices.begin(), choices.end(), node.text);
   if (it != choices.end()) return static_cast<std::size_t>(it - choices.begin());
   const std::string meant = likely_meant(node.text, choices);
-  problem(node, path, "is none of the choices" + (meant.empty() ? "" : "; did you mean \"" + meant + "\"?"), allowed_text(key),
-          node.shown());
+  problem(node, path, "is none of the choices" + (meant.empty() ? "" : "; did you mean \"" + meant + "\"?"),
+          allowed_text(key), node.shown());
   return {};
 }
 

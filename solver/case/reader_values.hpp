@@ -17,7 +17,8 @@
 namespace breccia::case_ {
 
 /// Turns nodes of a case file into typed SI values as their row of the schema says: type, unit, choices, range.
-/// Every read appends what is wrong to the problems and then leaves its output as it was. `path` is the key in messages.
+/// Every read appends what is wrong to the problems and then leaves its output as it was. `path` is the key in
+/// messages.
 class ValueReader {
  public:
   ValueReader(std::vector<Problem>& problems, std::filesystem::path folder)

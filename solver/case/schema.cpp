@@ -14,7 +14,8 @@ namespace {
 
 std::string short_number(double x) {
   std::array<char, 32> buffer{};
-  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x, std::chars_format::general, 6);
+  const auto [end, error] =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), x, std::chars_format::general, 6);
   return {buffer.data(), end};
 }
 
@@ -24,28 +25,49 @@ std::string quantity_words(const Key& key) {
 
 std::string type_words(const Key& key) {
   switch (key.type) {
-    case ValueType::section: return "a table, [" + std::string(key.path) + "]";
-    case ValueType::section_list: return "one or more tables, [[" + std::string(key.path.substr(0, key.path.size() - 2)) + "]]";
-    case ValueType::notation: return "";
-    case ValueType::number: return quantity_words(key);
-    case ValueType::integer: return "an integer";
-    case ValueType::boolean: return "true or false";
-    case ValueType::text: return "text";
-    case ValueType::choice: return "one of";
-    case ValueType::path: return "a file name";
-    case ValueType::axes: return "letters out of \"xyz\"";
-    case ValueType::text_list: return "a list of texts";
-    case ValueType::text_pair: return "a list of two texts";
-    case ValueType::number_pair: return "a list of two, each " + quantity_words(key);
-    case ValueType::vector: return "a list of three, each " + quantity_words(key);
-    case ValueType::vector_or_number: return "a list of three, each " + quantity_words(key) + ", or one for all";
-    case ValueType::integers_or_one: return "a list of three integers, or one for all";
-    case ValueType::function: return "a function of time: " + quantity_words(key) + ", or a table of constant, linear, sine, table, ramp";
+    case ValueType::section:
+      return "a table, [" + std::string(key.path) + "]";
+    case ValueType::section_list:
+      return "one or more tables, [[" + std::string(key.path.substr(0, key.path.size() - 2)) + "]]";
+    case ValueType::notation:
+      return "";
+    case ValueType::number:
+      return quantity_words(key);
+    case ValueType::integer:
+      return "an integer";
+    case ValueType::boolean:
+      return "true or false";
+    case ValueType::text:
+      return "text";
+    case ValueType::choice:
+      return "one of";
+    case ValueType::path:
+      return "a file name";
+    case ValueType::axes:
+      return "letters out of \"xyz\"";
+    case ValueType::text_list:
+      return "a list of texts";
+    case ValueType::text_pair:
+      return "a list of two texts";
+    case ValueType::number_pair:
+      return "a list of two, each " + quantity_words(key);
+    case ValueType::vector:
+      return "a list of three, each " + quantity_words(key);
+    case ValueType::vector_or_number:
+      return "a list of three, each " + quantity_words(key) + ", or one for all";
+    case ValueType::integers_or_one:
+      return "a list of three integers, or one for all";
+    case ValueType::function:
+      return "a function of time: " + quantity_words(key) + ", or a table of constant, linear, sine, table, ramp";
     case ValueType::function_vector:
-      return "a list of three functions of time, each " + quantity_words(key) + ", or a table of constant, linear, sine, table, ramp";
-    case ValueType::axis_functions: return "a table of functions of time, in " + std::string(key.unit) + ", for some of x, y, z";
-    case ValueType::parameters: return "a table of numbers, or texts with units, under names of your choice";
-    case ValueType::points: return "a list of points [time, value], times increasing";
+      return "a list of three functions of time, each " + quantity_words(key) +
+             ", or a table of constant, linear, sine, table, ramp";
+    case ValueType::axis_functions:
+      return "a table of functions of time, in " + std::string(key.unit) + ", for some of x, y, z";
+    case ValueType::parameters:
+      return "a table of numbers, or texts with units, under names of your choice";
+    case ValueType::points:
+      return "a list of points [time, value], times increasing";
   }
   return "";
 }
@@ -145,7 +167,8 @@ std::vector<std::string> similar_keys(std::string_view pattern, std::size_t coun
   const std::size_t allowed = std::max<std::size_t>(1, name.size() / 3);
   for (const Key& key : schema()) {
     const std::size_t by_name = edit_distance(name, key.name());
-    if (by_name <= allowed) ranked.push_back({key.section() != section, by_name, edit_distance(pattern, key.path), &key});
+    if (by_name <= allowed)
+      ranked.push_back({key.section() != section, by_name, edit_distance(pattern, key.path), &key});
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
     return std::tuple(a.elsewhere, a.by_name, a.by_path) < std::tuple(b.elsewhere, b.by_name, b.by_path);

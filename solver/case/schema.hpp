@@ -11,16 +11,16 @@
 namespace breccia::case_ {
 
 enum class ValueType {
-  section,           ///< [path]
-  section_list,      ///< [[path]]; its path ends with []
-  notation,          ///< heading of keys that may stand inside other values (a function of time), no section of its own
-  number,            ///< with a unit
+  section,       ///< [path]
+  section_list,  ///< [[path]]; its path ends with []
+  notation,      ///< heading of keys that may stand inside other values (a function of time), no section of its own
+  number,        ///< with a unit
   integer,
   boolean,
   text,
-  choice,            ///< one of a few words
-  path,              ///< file, relative to the case file
-  axes,              ///< letters of "xyz"
+  choice,  ///< one of a few words
+  path,    ///< file, relative to the case file
+  axes,    ///< letters of "xyz"
   text_list,
   text_pair,
   number_pair,       ///< with a unit
@@ -52,16 +52,17 @@ struct Range {
 
 /// One row of the table.
 struct Key {
-  std::string_view path{};      ///< pattern: "material[].density"; [] stands for any index
+  std::string_view path{};  ///< pattern: "material[].density"; [] stands for any index
   ValueType type = ValueType::section;
-  std::string_view unit = "1";  ///< SI, as units.hpp reads it; "1": none; in <function> keys "*" is the unit of the value
+  std::string_view unit =
+      "1";  ///< SI, as units.hpp reads it; "1": none; in <function> keys "*" is the unit of the value
   std::string_view fallback{};  ///< default as it would be written; "= key": that of another key; empty: none
   bool required = false;        ///< missing is an error; section_list: at least one
   Range range{};
-  std::string_view choices{};   ///< "a|b|c", for choice and integer, in the order of the enumeration they stand for
-  std::string_view word{};      ///< a word that may stand instead of a number and means 0, e.g. "auto"
-  std::string_view help{};      ///< one or two sentences
-  std::string_view example{};   ///< value as it would be written
+  std::string_view choices{};  ///< "a|b|c", for choice and integer, in the order of the enumeration they stand for
+  std::string_view word{};     ///< a word that may stand instead of a number and means 0, e.g. "auto"
+  std::string_view help{};     ///< one or two sentences
+  std::string_view example{};  ///< value as it would be written
 
   [[nodiscard]] std::vector<std::string> choice_list() const;
   /// Last part of the path: "density".
@@ -91,8 +92,8 @@ struct Key {
 /// What may stand at a key, in words: type, unit, range, choices.
 [[nodiscard]] std::string allowed_text(const Key& key);
 
-/// Patterns of keys whose name resembles that of an unknown one, at most `count`: those of the same section first, then by
-/// distance of the names, then of the whole paths.
+/// Patterns of keys whose name resembles that of an unknown one, at most `count`: those of the same section first, then
+/// by distance of the names, then of the whole paths.
 [[nodiscard]] std::vector<std::string> similar_keys(std::string_view pattern, std::size_t count);
 
 }  // namespace breccia::case_

@@ -15,8 +15,8 @@ namespace {
 struct Unit {
   std::string_view name;
   Dimension dimension;
-  int exponent;        // power of ten to SI
-  double factor;       // what is not a power of ten
+  int exponent;   // power of ten to SI
+  double factor;  // what is not a power of ten
   bool takes_prefix;
 };
 
@@ -44,8 +44,17 @@ struct Prefix {
   int exponent;
 };
 
-constexpr std::array<Prefix, 11> prefixes{{{"p", -12}, {"n", -9}, {"u", -6}, {"\u00b5", -6}, {"\u03bc", -6}, {"m", -3},
-                                           {"c", -2}, {"d", -1}, {"k", 3}, {"M", 6}, {"G", 9}}};
+constexpr std::array<Prefix, 11> prefixes{{{"p", -12},
+                                           {"n", -9},
+                                           {"u", -6},
+                                           {"\u00b5", -6},
+                                           {"\u03bc", -6},
+                                           {"m", -3},
+                                           {"c", -2},
+                                           {"d", -1},
+                                           {"k", 3},
+                                           {"M", 6},
+                                           {"G", 9}}};
 
 struct Named {
   std::string_view name;
@@ -76,7 +85,8 @@ constexpr std::array<Named, 19> dimensions{{
 }};
 
 const Named* named(const Dimension& dimension) {
-  const auto it = std::find_if(dimensions.begin(), dimensions.end(), [&](const Named& n) { return n.dimension == dimension; });
+  const auto it =
+      std::find_if(dimensions.begin(), dimensions.end(), [&](const Named& n) { return n.dimension == dimension; });
   return it == dimensions.end() ? nullptr : &*it;
 }
 
@@ -100,10 +110,12 @@ std::string unknown_unit(std::string_view name) {
     if (!u.takes_prefix) continue;
     for (const Prefix& p : prefixes) all.push_back(std::string(p.name) + std::string(u.name));
   }
-  // Names are short, so one wrong letter is half of them: only a difference of case or of one letter in three is a hint.
+  // Names are short, so one wrong letter is half of them: only a difference of case or of one letter in three is a
+  // hint.
   std::string what = "unknown unit \"" + std::string(name) + "\"";
   const std::string meant = likely_meant(name, all);
-  if (!meant.empty() && (name.size() > 2 || edit_distance(name, meant) == 0)) what += "; did you mean \"" + meant + "\"?";
+  if (!meant.empty() && (name.size() > 2 || edit_distance(name, meant) == 0))
+    what += "; did you mean \"" + meant + "\"?";
   return what;
 }
 
@@ -113,7 +125,8 @@ Scale unit_named(std::string_view name) {
   for (const Prefix& p : prefixes) {
     if (!name.starts_with(p.name)) continue;
     for (const Unit& u : units)
-      if (u.takes_prefix && name.substr(p.name.size()) == u.name) return {u.dimension, u.exponent + p.exponent, u.factor};
+      if (u.takes_prefix && name.substr(p.name.size()) == u.name)
+        return {u.dimension, u.exponent + p.exponent, u.factor};
   }
   throw UnitError(unknown_unit(name), units_help());
 }
@@ -141,8 +154,9 @@ class UnitParser {
     return true;
   }
   [[noreturn]] void fail() const {
-    throw UnitError("cannot read the unit at \"" + std::string(rest_) + "\"",
-                    "units multiplied by a space or *, divided by /, with whole exponents, e.g. kg/m3, m/s^2, J/(m2 s)");
+    throw UnitError(
+        "cannot read the unit at \"" + std::string(rest_) + "\"",
+        "units multiplied by a space or *, divided by /, with whole exponents, e.g. kg/m3, m/s^2, J/(m2 s)");
   }
 
   Scale product(int depth) {
@@ -181,7 +195,8 @@ class UnitParser {
   void refuse_absurd(const Scale& scale) const {
     constexpr int limit = 400;
     const auto absurd = [](int power) { return std::abs(power) > limit; };
-    if (absurd(scale.exponent) || std::any_of(scale.dimension.powers.begin(), scale.dimension.powers.end(), absurd)) fail();
+    if (absurd(scale.exponent) || std::any_of(scale.dimension.powers.begin(), scale.dimension.powers.end(), absurd))
+      fail();
   }
 
   std::string_view name() {
@@ -219,7 +234,9 @@ struct NumberText {
 };
 
 NumberText number_at_start(std::string_view text) {
-  const auto is_digit = [&](std::size_t i) { return i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])); };
+  const auto is_digit = [&](std::size_t i) {
+    return i < text.size() && std::isdigit(static_cast<unsigned char>(text[i]));
+  };
   std::size_t i = !text.empty() && text[0] == '-' ? 1 : 0;
   bool any = false;
   for (; is_digit(i); ++i) any = true;
@@ -248,7 +265,8 @@ std::string units_of(std::string_view unit) {
   const std::string own(unit);
   if (n == nullptr) return "a number in " + own + " or text with such a unit";
   if (n->dimension == Dimension{}) return "a number without a unit, or in %";
-  return "a number in " + own + " or text with a unit of " + std::string(n->name) + ", e.g. " + std::string(n->examples);
+  return "a number in " + own + " or text with a unit of " + std::string(n->name) + ", e.g. " +
+         std::string(n->examples);
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ class Validator {
   }
 
   [[nodiscard]] const Material* material(const std::string& group) const {
-    const auto it = std::find_if(c_.materials.begin(), c_.materials.end(), [&](const Material& m) { return m.group == group; });
+    const auto it =
+        std::find_if(c_.materials.begin(), c_.materials.end(), [&](const Material& m) { return m.group == group; });
     return it == c_.materials.end() ? nullptr : &*it;
   }
 
@@ -50,7 +51,8 @@ class Validator {
     if (group.empty() || material(group) != nullptr) return;
     std::vector<std::string> groups;
     for (const Material& m : c_.materials) groups.push_back(m.group);
-    problem(origin, name, "no [[material]] has the group \"" + group + "\"", joined(nearest_first(group, groups)), group);
+    problem(origin, name, "no [[material]] has the group \"" + group + "\"", joined(nearest_first(group, groups)),
+            group);
   }
 
   void mesh() {
@@ -70,13 +72,16 @@ class Validator {
   }
 
   void raster(const Raster& raster) {
-    if (!c_.mesh.parameters.empty()) problem(c_.mesh.origin, "parameters", "the raster takes no parameters", "parameters of a .geo file");
+    if (!c_.mesh.parameters.empty() && c_.mesh.file.empty())
+      problem(c_.mesh.origin, "parameters", "the raster takes no parameters", "parameters of a .geo file");
     if (raster.single_tetrahedra && (raster.cells != std::array{1, 1, 1} || raster.slit))
-      problem(c_.mesh.origin, "raster.kind", "single tetrahedra have no cells and no slit", "cells = [1, 1, 1], no slit", "tetrahedra");
+      problem(c_.mesh.origin, "raster.kind", "single tetrahedra have no cells and no slit",
+              "cells = [1, 1, 1], no slit", "tetrahedra");
     if (!raster.slit) return;
     const Vec3 extent = raster.slit->upper - raster.slit->lower;
     if (extent.minCoeff() != 0 || (extent.array() == 0).count() != 1)
-      problem(c_.mesh.origin, "raster.slit", "is not plane", "upper above lower along two axes and equal to it along one");
+      problem(c_.mesh.origin, "raster.slit", "is not plane",
+              "upper above lower along two axes and equal to it along one");
   }
 
   void materials() {
@@ -103,7 +108,8 @@ class Validator {
       for (const std::string& group : j.groups) needs_material(j.origin, "between", group);
     }
     if (!j.groups[0].empty() && !seen.insert(sorted(j.groups)).second)
-      problem(j.origin, inside ? "group" : "between", "the joints have a law already", "one [[joint]] a group or pair", words(j.groups));
+      problem(j.origin, inside ? "group" : "between", "the joints have a law already", "one [[joint]] a group or pair",
+              words(j.groups));
     if (!inside && !j.groups[0].empty() && !c_.mesh.glue)
       problem(j.origin, "between", "interfaces are not glued in this case", "mesh.glue = true", words(j.groups));
     if (j.softening == Softening::z_curve && j.a + j.b <= 1)
@@ -114,7 +120,8 @@ class Validator {
       return m != nullptr && m->joints == JointPlacement::breakable;
     };
     if (inside && material(j.groups[0]) != nullptr && material(j.groups[0])->joints == JointPlacement::none)
-      problem(j.origin, "group", "the group has no joints", "joints = \"breakable\" or \"unbreakable\" in its [[material]]", j.groups[0]);
+      problem(j.origin, "group", "the group has no joints",
+              "joints = \"breakable\" or \"unbreakable\" in its [[material]]", j.groups[0]);
     if (!breakable(j.groups[0]) && !breakable(j.groups[1])) return;
     const std::string why = "is missing: joints of " + words(j.groups) + " can fail";
     if (j.tensile_strength == 0) problem(j.origin, "tensile_strength", why, "a strength > 0");
@@ -128,7 +135,8 @@ class Validator {
       for (const std::string& group : contact.groups)
         if (group != every_group) needs_material(contact.origin, "between", group);
       if (!laws.insert(sorted(contact.groups)).second)
-        problem(contact.origin, "between", "the pair has a contact law already", "one [[contact]] a pair", words(contact.groups));
+        problem(contact.origin, "between", "the pair has a contact law already", "one [[contact]] a pair",
+                words(contact.groups));
     }
     if (laws.empty()) return;
     const auto covered = [&](const std::string& a, const std::string& b) {
@@ -142,13 +150,15 @@ class Validator {
         const bool can_touch = i != k || a.joints == JointPlacement::breakable;
         if (can_touch && !a.group.empty() && !b.group.empty() && !covered(a.group, b.group))
           problems_.push_back({c_.file.string(), c_.contacts.front().origin.line, "contact",
-                               "no contact law covers " + words({a.group, b.group}), "a [[contact]] of the pair, or of \"*\"", ""});
+                               "no contact law covers " + words({a.group, b.group}),
+                               "a [[contact]] of the pair, or of \"*\"", ""});
       }
   }
 
   void initial_velocity(const InitialVelocity& v) {
     needs_material(v.origin, "group", v.group);
-    if (v.random[1] < v.random[0]) problem(v.origin, "random", "the greatest speed is below the smallest", "[smallest, greatest]");
+    if (v.random[1] < v.random[0])
+      problem(v.origin, "random", "the greatest speed is below the smallest", "[smallest, greatest]");
   }
 
   void stages() {
@@ -161,7 +171,8 @@ class Validator {
         problem(stage.origin, "end", "the stage does not end after the one before", "> " + std::to_string(start) + " s",
                 std::to_string(stage.end) + " s");
       if (stage.end != 0) start = stage.end;
-      // An axis held twice in one group has no answer; axes of different groups that share nodes are seen with the mesh.
+      // An axis held twice in one group has no answer; axes of different groups that share nodes are seen with the
+      // mesh.
       std::set<std::pair<std::string, std::size_t>> held;
       for (const Constraint& constraint : stage.constraints)
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -175,7 +186,8 @@ class Validator {
     std::set<std::string> seen;
     for (std::size_t i = 0; i < c_.output.gauges.size(); ++i)
       if (!seen.insert(c_.output.gauges[i]).second)
-        problem(c_.output.origin, "gauges[" + std::to_string(i) + "]", "the gauge stands twice", "each group once", c_.output.gauges[i]);
+        problem(c_.output.origin, "gauges[" + std::to_string(i) + "]", "the gauge stands twice", "each group once",
+                c_.output.gauges[i]);
   }
 
   const Case& c_;

@@ -9,13 +9,14 @@
 
 namespace breccia::case_ {
 
-/// Checks between the keys of a case that single rows of the schema cannot express: groups that need a material or a joint
-/// law, duplicates, exclusive choices, order of stages, files that exist. Problems carry the key; file and line are those of
-/// the section. Values that were never given (empty text, zero where the range excludes it) are not reported again.
+/// Checks between the keys of a case that single rows of the schema cannot express: groups that need a material or a
+/// joint law, duplicates, exclusive choices, order of stages, files that exist. Problems carry the key; file and line
+/// are those of the section. Values that were never given (empty text, zero where the range excludes it) are not
+/// reported again.
 [[nodiscard]] std::vector<Problem> validate(const Case& c);
 
-/// Compares the groups a case names with those of its mesh, and the volumes of the mesh with the materials. Each problem
-/// names the group absent and lists those present, nearest first, with the line of the section that names it.
+/// Compares the groups a case names with those of its mesh, and the volumes of the mesh with the materials. Each
+/// problem names the group absent and lists those present, nearest first, with the line of the section that names it.
 [[nodiscard]] std::vector<Problem> check_groups(const Case& c, std::span<const std::string> volume_groups,
                                                 std::span<const std::string> surface_groups);
 

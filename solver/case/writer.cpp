@@ -47,7 +47,8 @@ std::string toml(const TimeFunction& f) {
   std::vector<std::string> parts{"constant = " + toml(f.constant), "linear = " + toml(f.linear)};
   std::vector<std::string> sines, points;
   for (const auto& s : f.sines)
-    sines.push_back("{amplitude = " + toml(s.amplitude) + ", frequency = " + toml(s.frequency) + ", phase = " + toml(s.phase) + "}");
+    sines.push_back("{amplitude = " + toml(s.amplitude) + ", frequency = " + toml(s.frequency) +
+                    ", phase = " + toml(s.phase) + "}");
   for (const auto& p : f.table) points.push_back("[" + toml(p.time) + ", " + toml(p.value) + "]");
   if (!sines.empty()) parts.push_back("sine = [" + joined(sines) + "]");
   if (!points.empty()) parts.push_back("table = [" + joined(points) + "]");
@@ -85,8 +86,10 @@ class SectionWriter {
       const bool optional = !key.required && (key.fallback.empty() || key.fallback.starts_with('='));
       if (x == 0 && optional) return;
     }
-    if constexpr (std::is_same_v<T, std::array<bool, 3>>) line(key, toml_axes(x));
-    else line(key, toml(x));
+    if constexpr (std::is_same_v<T, std::array<bool, 3>>)
+      line(key, toml_axes(x));
+    else
+      line(key, toml(x));
   }
 
   template <class Choice>
@@ -94,7 +97,8 @@ class SectionWriter {
     line(row(name), toml_text(row(name).choice_list().at(static_cast<std::size_t>(x))));
   }
 
-  void axis_functions(std::string_view name, const std::array<bool, 3>& axes, const std::array<TimeFunction, 3>& functions) {
+  void axis_functions(std::string_view name, const std::array<bool, 3>& axes,
+                      const std::array<TimeFunction, 3>& functions) {
     std::vector<std::string> parts;
     for (std::size_t i = 0; i < 3; ++i)
       if (axes[i]) parts.push_back(std::string(1, "xyz"[i]) + " = " + toml(functions[i]));

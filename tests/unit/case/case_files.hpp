@@ -1,0 +1,192 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "case/reader.hpp"
+
+namespace breccia::case_ {
+
+/// A folder for one test, removed with all it holds.
+class CaseFolder {
+ public:
+  CaseFolder() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = std::string(test->test_suite_name()) + "." + test->name() + "." + std::to_string(getpid());
+    for (char& c : name)
+      if (c == '/') c = '_';
+    path_ = std::filesystem::temp_directory_path() / ("breccia_" + name);
+    std::filesystem::create_directories(path_);
+  }
+  CaseFolder(const CaseFolder&) = delete;
+  CaseFolder& operator=(const CaseFolder&) = delete;
+  ~CaseFolder() { std::filesystem::remove_all(path_); }
+
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline Case read_text(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  const CaseFolder folder;
+  folder.write("geometry.geo", "// empty\n");
+  folder.write("mesh.msh", "");
+  return read_case(folder.write("case.toml", text), overrides);
+}
+
+/// The message of the InputError that the text gives; empty if it reads well.
+inline std::string message_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    read_text(text, overrides);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return {};
+}
+
+/// The shortest case there is.
+inline const std::string minimal = R"([mesh.raster]
+cell_size = "10 mm"
+[[material]]
+group = "raster"
+young = "75 GPa"
+poisson = 0.2
+density = 2456
+joints = "none"
+[[stage]]
+end = "1 ms"
+)";
+
+/// A case that gives every key a value other than its default.
+inline const std::string complete = R"(title = "Every key"
+[mesh]
+file = "geometry.geo"
+parameters = { h = "2.5 mm", n = 3, "odd name" = 0.1 }
+scale = 0.001
+glue = true
+inverted = "refuse"
+[[material]]
+group = "glass"
+law = "green_st_venant"
+young = "75 GPa"
+poisson = 0.2
+density = "2456 kg/m3"
+viscosity = "3 Pa s"
+[[material]]
+group = "projectile"
+young = "750 GPa"
+poisson = 0.25
+density = "7.8 g/cm3"
+joints = "none"
+[[material]]
+group = "frame"
+young = 2e11
+poisson = 0.3
+density = "7.8 t/m3"
+joints = "unbreakable"
+[[joint]]
+group = "glass"
+law = "independent_peaks"
+rise = "parabolic"
+points = "mid_edge"
+penalty = "26.6 GPa"
+size = "20 mm"
+tensile_strength = "10 MPa"
+shear_strength = "20 MPa"
+friction_angle = "30 deg"
+energy_mode_1 = "10 J/m2"
+energy_mode_2 = "30 N/m"
+energy_counts = "softening_branch"
+points_to_fail = 2
+softening = { kind = "exponential", a = 0.5, b = 1.9, c = 5, exponent = 4 }
+[[joint]]
+between = ["glass", "frame"]
+penalty_factor = 50
+tensile_strength = "1 MPa"
+energy_mode_1 = "1 J/m2"
+friction = 0.5
+softening.kind = "linear"
+[[contact]]
+between = ["*", "*"]
+penalty = "7500 GPa"
+plateau = "60 MPa"
+unloading_exponent = 2
+friction = 0.3
+tangential_ratio = 0.8
+[contact_points]
+per_face = 6
+field = "tet_distance"
+surfaces = ["slit", "top"]
+field_ramp_steps = 7
+[sphere]
+centre = [0, 0, "1 m"]
+radius = "2 m"
+penalty = "400 MPa"
+[joints]
+broken = ["slit"]
+[[initial_velocity]]
+group = "projectile"
+velocity = [0, "-3 m/s", 0]
+random = ["1 m/s", "137 m/s"]
+seed = 7
+angular = [0, 0, "90 deg/s"]
+[[stage]]
+name = "impact"
+end = "100 us"
+gravity = [0, 0, { ramp = { from = 0, to = "-9.81 m/s2", start = "1 us", end = "2 us" } }]
+mass_damping = "10 1/s"
+local_damping = 0.5
+broken = ["surface"]
+[[stage.constraint]]
+group = "support"
+fixed = "xz"
+[[stage.constraint]]
+group = "grip"
+velocity = { y = "-1 mm/s", z = { linear = "2 m/s2" } }
+[[stage.constraint]]
+group = "other"
+displacement = { x = { table = [[0, 0], ["1 ms", "1 mm"]] } }
+[[stage.pressure]]
+surface = "slit"
+value = { constant = "1 kPa", linear = "20 GPa/s", sine = { amplitude = "1 MPa", frequency = "10 Hz", phase = "90 deg" } }
+[[stage]]
+name = "rest"
+end = "1 ms"
+[time]
+step = "20 ns"
+safety = 0.5
+max_steps = 2000
+residual_limit = "1 %"
+[detection]
+algorithm = "ms_slices"
+buffer = "0.5 mm"
+cell = "5 mm"
+verify = true
+[output]
+frame_interval = "1 us"
+history_interval = "100 ns"
+elements = false
+joints = false
+contacts = false
+gauges = ["support"]
+)";
+
+/// The text with its first occurrence of `from` replaced; a test that names a text not there fails.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+}  // namespace breccia::case_

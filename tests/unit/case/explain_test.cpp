@@ -1,0 +1,71 @@
+#include "case/explain.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "case/schema.hpp"
+
+namespace breccia::case_ {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string message_of_key(const std::string& key) {
+  try {
+    return "no error but: " + explain(key);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+}
+
+TEST(Explain, TheOverviewHasALineForEveryKeyAndSection) {
+  const std::string text = explain();
+  for (const Key& key : schema()) {
+    if (key.is_section()) continue;
+    EXPECT_THAT(text, HasSubstr("\n  " + std::string(key.name()) + " ")) << key.path;
+  }
+  for (const char* header :
+       {"\n[mesh]\n", "\n[[material]]\n", "\n[[stage.constraint]]\n", "\nfunction\n", "\nfunction.ramp\n"})
+    EXPECT_THAT(text, HasSubstr(header));
+}
+
+TEST(Explain, AKeyIsExplainedWithUnitDefaultRangeAndExample) {
+  EXPECT_THAT(explain("material[].density"), AllOf(HasSubstr("required"), HasSubstr("kg/m3"), HasSubstr("> 0"),
+                                                   HasSubstr("density = \"2456 kg/m3\"")));
+  EXPECT_THAT(explain("time.safety"), AllOf(HasSubstr("0.8"), HasSubstr("> 0 and <= 1"), HasSubstr("safety = 0.5")));
+  EXPECT_THAT(explain("joint[].shear_strength"), HasSubstr("as tensile_strength"));
+}
+
+TEST(Explain, AChoiceListsItsWords) {
+  EXPECT_THAT(explain("detection.algorithm"), HasSubstr("ms, ms_slices, sorted_grid, brute_force"));
+}
+
+TEST(Explain, IndicesAndBracketsMayBeLeftOutOrGiven) {
+  const std::string text = explain("material[].young");
+  EXPECT_EQ(explain("material.young"), text);
+  EXPECT_EQ(explain("material[0].young"), text);
+  EXPECT_EQ(explain("young"), text);
+  EXPECT_EQ(explain("function.ramp.to"), explain("<function>.ramp[].to"));
+}
+
+TEST(Explain, ANameOfSeveralKeysExplainsAllOfThem) {
+  EXPECT_THAT(explain("penalty"), AllOf(HasSubstr("joint.penalty"), HasSubstr("contact.penalty"),
+                                        HasSubstr("sphere.penalty"), Not(HasSubstr("penalty_factor\n"))));
+}
+
+TEST(Explain, ASectionListsItsKeys) {
+  EXPECT_THAT(explain("sphere"), AllOf(HasSubstr("[sphere]"), HasSubstr("radius"), Not(HasSubstr("young"))));
+}
+
+TEST(Explain, AnUnknownKeyNamesTheNearest) {
+  EXPECT_THAT(message_of_key("material.yung"), HasSubstr("did you mean material.young"));
+  EXPECT_THAT(message_of_key("densty"), HasSubstr("did you mean material.density"));
+  EXPECT_THAT(message_of_key("xyzzy"), AllOf(HasSubstr("unknown key"), HasSubstr("mesh, material, joint")));
+  EXPECT_THAT(message_of_key(""), HasSubstr("unknown key"));
+}
+
+}  // namespace
+}  // namespace breccia::case_

@@ -1,0 +1,63 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "case/validate.hpp"
+#include "case_files.hpp"
+
+namespace breccia::case_ {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+const std::vector<std::string> volumes{"frame", "glass", "projectile"};
+const std::vector<std::string> surfaces{"grip", "other", "slit", "support", "surface", "top"};
+
+std::vector<std::string> without(std::vector<std::string> groups, const std::string& group) {
+  std::erase(groups, group);
+  return groups;
+}
+
+std::string text(const std::vector<Problem>& problems) { return InputError(problems).what(); }
+
+TEST(Groups, ACaseWhoseGroupsTheMeshHasIsAccepted) {
+  const auto problems = check_groups(read_text(complete), volumes, surfaces);
+  EXPECT_TRUE(problems.empty()) << text(problems);
+}
+
+TEST(Groups, AnAbsentVolumeIsNamedWithItsLineAndTheNearestGroupsFirst) {
+  std::vector<std::string> present = without(volumes, "glass");
+  present.push_back("glas");
+  const auto problems = check_groups(read_text(complete), present, surfaces);
+  ASSERT_THAT(problems, SizeIs(2));
+  EXPECT_THAT(problems[0].text(),
+              AllOf(HasSubstr("case.toml:8: material[0].group: the mesh has no volume group \"glass\""),
+                    HasSubstr("allowed: glas, frame, projectile")));
+  EXPECT_THAT(problems[1].text(), HasSubstr("the volume group \"glas\" of the mesh has no material"));
+}
+
+TEST(Groups, AnAbsentSurfaceIsReportedWhereverItIsNamed) {
+  const std::string message = text(check_groups(read_text(complete), volumes, without(surfaces, "slit")));
+  for (const char* key : {"contact_points.surfaces", "joints.broken", "stage[0].pressure[0].surface"})
+    EXPECT_THAT(message, HasSubstr(std::string(key) + ": the mesh has no surface group \"slit\""));
+}
+
+TEST(Groups, ConstraintsAndGaugesTakeVolumesAndSurfaces) {
+  const Case c = read_text(replaced(complete, "gauges = [\"support\"]", "gauges = [\"glass\", \"top\", \"nowhere\"]"));
+  EXPECT_THAT(text(check_groups(c, volumes, without(surfaces, "grip"))),
+              AllOf(HasSubstr("stage[0].constraint[1].group: the mesh has no volume or surface group \"grip\""),
+                    HasSubstr("output.gauges: the mesh has no volume or surface group \"nowhere\"")));
+}
+
+TEST(Groups, AMeshWithoutSurfacesSaysSo) {
+  EXPECT_THAT(text(check_groups(read_text(complete), volumes, {})), HasSubstr("the mesh has none"));
+}
+
+TEST(Groups, ASurfaceToBreakInAStageIsChecked) {
+  EXPECT_THAT(text(check_groups(read_text(complete), volumes, without(surfaces, "surface"))),
+              HasSubstr("stage[0].broken: the mesh has no surface group \"surface\""));
+}
+
+}  // namespace
+}  // namespace breccia::case_
