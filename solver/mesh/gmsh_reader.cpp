@@ -49,6 +49,7 @@ void demand_readable(const GmshSource& source) {
   if (!std::filesystem::is_regular_file(source.file, ignored)) refuse("is not a file", "", "");
   std::ifstream in(source.file, std::ios::binary);
   if (!in) refuse("the file cannot be read", "a file with read permission", "");
+  if (in.peek() == std::ifstream::traits_type::eof()) refuse("the file is empty", "", "");
   if (extension == ".geo") return;
 
   std::string heading;
