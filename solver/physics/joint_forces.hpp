@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/compensated_sum.hpp"
+#include "physics/joint_law.hpp"
+#include "state/local_mesh.hpp"
+#include "state/nodal_forces.hpp"
+
+namespace breccia {
+
+enum class JointState : std::uint8_t {
+  holding,   ///< elastic or damaged
+  failed     ///< damage 1 at points_to_fail points: a frictional interface until it has opened everywhere
+};
+
+/// How a joint failed, by the energy it dissipated: a mode alone when it took more than three quarters.
+enum class FailureMode : std::uint8_t { none = 0, mode_1 = 1, mode_2 = 2, mixed = 3 };
+
+/// A joint that is evaluated once a step, apart from the sweep: one that has left its elastic range, or whose law
+/// the sweep does not know. Side a is the element of lower global id.
+struct ActiveJoint {
+  GlobalId id = 0;
+  Index slot_a = 0, slot_b = 0;
+  std::int8_t face_a = 0, code = 0;   ///< as in JointFace
+  JointState state = JointState::holding;
+  Index law = 0;
+  double area = 0;                    ///< m2, reference
+  std::array<JointPointHistory, 3> points;
+  double mode_1 = 0, mode_2 = 0, friction = 0;  ///< J dissipated so far
+
+  [[nodiscard]] double damage() const;          ///< largest of the points
+  [[nodiscard]] double opening() const;         ///< m, mean normal opening
+  [[nodiscard]] double slip() const;            ///< m, mean length of the shear opening
+  [[nodiscard]] FailureMode mode() const;
+};
+
+/// A joint whose two faces now belong to contact.
+struct ReleasedJoint {
+  GlobalId id = 0;
+  Index slot_a = 0;
+  std::int8_t face_a = 0;
+  FailureMode mode = FailureMode::none;
+};
+
+/// What the joints on the active list hold and have consumed, J; and who failed.
+struct JointWork {
+  CompensatedSum mode_1, mode_2, friction;   ///< over the run
+  double stored = 0;                         ///< at the last evaluation
+  std::vector<GlobalId> failed;              ///< in the last step, ascending
+  std::vector<ReleasedJoint> released;       ///< in the last step, ascending
+};
+
+/// Forces of the active joints, in the order given (ascending ids), added to both sides; histories are brought up to date.
+/// On each corner i of the face of a: +A0/3 t_i, on the matching corner of b the opposite; with mid-edge points each
+/// force goes to the two corners of its edge in halves. n is the unit normal of the mid-surface.
+/// A failed joint whose points are all open is released: it carries no force from then on and is taken off the list.
+/// O(joints), allocates only when joints fail, throws nothing.
+void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& mesh, const double* position,
+                         std::vector<ActiveJoint>& joints, NodalForces& forces, JointWork& work);
+
+/// Forces of a joint that leaves its elastic range in this step, as active_joint_forces would give them to one without
+/// history: on corners 0..2 of the face of side a, or of the face of side b, each in the order of that side's face.
+/// Both sides get the same bits with opposite signs; nothing is remembered.
+void virgin_forces(const JointLawParams& law, const LocalMesh& mesh, const double* position, const ActiveJoint& joint, bool side_a,
+                   double* force);
+
+/// Gives joints that have just left the elastic range their histories at x_n. What they dissipate in this first step is booked
+/// from the point where the straight path from zero opening met the elastic limit: up to there the joint was elastic and its
+/// energy is stored. Against the path really taken this is off by the second order of the step.
+void start_history(std::span<const JointLawParams> laws, const LocalMesh& mesh, const double* position, std::span<ActiveJoint> joints,
+                   JointWork& work);
+
+}  // namespace breccia

@@ -1,0 +1,47 @@
+#include <map>
+
+#include "base/error.hpp"
+#include "case/validate.hpp"
+#include "mesh/gmsh_reader.hpp"
+#include "mesh/raster.hpp"
+#include "simulation/model.hpp"
+
+namespace breccia {
+namespace {
+
+RasterSource raster_source(const case_::Raster& asked) {
+  RasterSource source;
+  source.cells = asked.cells;
+  source.cell_size = asked.cell_size;
+  source.boxes = asked.boxes;
+  source.gap = asked.gap;
+  source.origin = asked.origin;
+  source.group = asked.group;
+  source.single_tetrahedra = asked.single_tetrahedra;
+  source.random_orientation = asked.random_orientation;
+  source.seed = asked.seed;
+  if (asked.slit) source.slit = RasterSource::Slit{asked.slit->lower, asked.slit->upper};
+  return source;
+}
+
+GmshSource gmsh_source(const case_::MeshSource& asked) {
+  GmshSource source;
+  source.file = asked.file;
+  source.parameters = asked.parameters;
+  source.scale = asked.scale;
+  source.glue = asked.glue;
+  source.repair_inverted = asked.repair_inverted;
+  return source;
+}
+
+}  // namespace
+
+FinishedMesh build_mesh(const case_::Case& input) {
+  FinishedMesh made =
+      input.mesh.raster ? make_raster(raster_source(*input.mesh.raster)) : read_gmsh(gmsh_source(input.mesh));
+  std::vector<Problem> problems = case_::check_groups(input, made.mesh.volume_groups, made.mesh.surface_groups);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return made;
+}
+
+}  // namespace breccia

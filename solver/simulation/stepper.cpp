@@ -1,0 +1,277 @@
+#include "simulation/stepper.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "base/error.hpp"
+
+namespace breccia {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+double sum_of(const Field<double>& values) {
+  CompensatedSum sum;
+  for (const double value : values) sum.add(value);
+  return sum.value();
+}
+
+/// Corners of shared-node elements as the sweep wants them: [shared block][4][8].
+std::vector<Index> blocked_corners(const LocalMesh& local) {
+  std::vector<Index> blocked;
+  blocked.reserve(local.shared_corners.size() * 4);
+  for (std::size_t first = 0; first < local.shared_corners.size(); first += kLanes) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      for (std::size_t lane = 0; lane < kLanes; ++lane) blocked.push_back(local.shared_corners[first + lane][c]);
+    }
+  }
+  return blocked;
+}
+
+}  // namespace
+
+Stepper::Stepper(const Model& model, const ContactSearchParams& search)
+    : model_(model),
+      links_(build_links(model)),
+      forces_(model.local.num_own_blocks(), model.local.num_nodes),
+      constraints_({}, state_),
+      shared_corners_(blocked_corners(model.local)),
+      simd_(best_simd()) {
+  const LocalMesh& local = model.local;
+  state_.position = local.reference;
+  state_.next_position = local.reference;
+  state_.velocity.assign(local.reference.size(), 0.0);
+  for (Index n = 0; n < local.num_nodes; ++n) {
+    if (local.node_id[at(n)] < 0) padding_nodes_.push_back(n);
+  }
+  for (const ElasticParams& p : model.elastic) {
+    viscous_on_ = viscous_on_ || p.viscosity > 0;
+    stress_work_on_ = stress_work_on_ || p.law != ElasticLaw::neo_hookean;
+  }
+  if (viscous_on_) viscous_.resize(at(local.num_slots));
+  if (stress_work_on_) stress_work_.resize(at(local.num_slots));
+  if (viscous_on_ || stress_work_on_) shared_stress_.resize(static_cast<std::size_t>(local.num_slots - local.num_own_slots) * 18);
+  start_joints();
+  if (model.has_contact) contact_ = std::make_unique<ContactSearch>(search, model.contact, model.mesh, model.topology, local);
+}
+
+void Stepper::start_joints() {
+  std::vector<ActiveJoint> from_start;
+  for (std::size_t j = 0; j < model_.joints.size(); ++j) {
+    if (!starts_intact(model_, model_.joints[j])) from_start.push_back(make_active(static_cast<GlobalId>(j)));
+  }
+  active_.insert(from_start);
+}
+
+ActiveJoint Stepper::make_active(GlobalId id) const {
+  const ModelJoint& joint = model_.joints[static_cast<std::size_t>(id)];
+  ActiveJoint active;
+  active.id = id;
+  active.slot_a = model_.local.slot_of_element[at(joint.face.a)];
+  active.slot_b = model_.local.slot_of_element[at(joint.face.b)];
+  active.face_a = joint.face.face_a;
+  active.code = joint.face.code;
+  active.law = joint.law;
+  active.area = joint.face.area;
+  return active;
+}
+
+void Stepper::begin_stage(StageLoads loads, double dt) {
+  for (const PressureLoad& p : pressures_) past_external_ += p.work();
+  past_external_ += constraints_.work();
+  pressures_ = std::move(loads.pressures);
+  gravity_ = std::move(loads.gravity);
+  entries_ = std::move(loads.constraints);
+  constraints_ = Constraints(entries_, state_);
+  mass_damping_ = loads.mass_damping;
+  local_damping_ = loads.local_damping;
+  damping_on_ = mass_damping_ > 0 || local_damping_ > 0;
+  if (damping_on_) damping_.resize(at(model_.local.num_nodes));
+  dt_ = dt;
+}
+
+void Stepper::step(bool sample) {
+  external_forces();
+  joint_forces();
+  contact_forces();
+  Field<double> velocity_before;
+  if (sample) velocity_before = state_.velocity;
+  sweep(sample);
+  finish_motion();
+  activate_crossing();
+  if (sample) take_budget(velocity_before);
+  book_after(sample);
+  std::swap(state_.position, state_.next_position);
+  time_ += dt_;
+  dt_before_ = dt_;
+  ++steps_;
+}
+
+void Stepper::external_forces() {
+  const auto lap = timer_.measure(Phase::loads);
+  forces_.clear();
+  for (PressureLoad& p : pressures_) p.apply(model_.local, state_, time_, dt_before_, forces_);
+  for (std::size_t i = 0; i < 3; ++i) gravity_now_[i] = gravity_[i](time_);
+  gravity_work_.advance(model_.local, state_, Vec3(gravity_now_[0], gravity_now_[1], gravity_now_[2]), dt_before_);
+}
+
+void Stepper::joint_forces() {
+  const auto lap = timer_.measure(Phase::joints);
+  active_joint_forces(model_.joint_laws, model_.local, state_.position.data(), active_, forces_, joint_work_);
+}
+
+void Stepper::contact_forces() {
+  if (!contact_) return;
+  {
+    const auto lap = timer_.measure(Phase::search);
+    if (!joint_work_.released.empty()) contact_->release_faces(joint_work_.released);
+    contact_->update(state_, max_speed_, dt_before_);
+  }
+  const auto lap = timer_.measure(Phase::contact);
+  contact_->forces(state_, dt_before_, forces_, contact_work_);
+}
+
+void Stepper::sweep(bool sample) {
+  const auto lap = timer_.measure(Phase::sweep);
+  const LocalMesh& local = model_.local;
+  SweepArgs args;
+  args.num_own_blocks = local.num_own_blocks();
+  args.num_blocks = local.num_blocks();
+  args.num_nodes = local.num_nodes;
+  args.position = state_.position.data();
+  args.next_position = state_.next_position.data();
+  args.velocity = state_.velocity.data();
+  args.gradient = local.gradient.data();
+  args.volume = local.volume.data();
+  args.node_mass = local.node_mass.data();
+  args.shared_corners = shared_corners_.data();
+  args.link = links_.link.data();
+  args.stiffness = links_.stiffness.data();
+  args.limit = links_.limit.data();
+  args.crossing = &Stepper::crossing;
+  args.crossing_context = this;
+  args.force_slot = forces_.slots();
+  args.own_force = forces_.own();
+  args.shared_force = forces_.shared();
+  args.block_group = local.block_group.data();
+  args.params = model_.elastic.data();
+  args.dt = dt_;
+  args.gravity = gravity_now_;
+  args.mass_damping = mass_damping_;
+  args.local_damping = local_damping_;
+  args.shared_stress = shared_stress_.empty() ? nullptr : shared_stress_.data();
+  // When the budget is taken, the half of the work that belongs to the time after t_n must wait.
+  const auto split = [&](Field<double>& work, Field<double>& late, double*& before, double*& after) {
+    if (work.empty()) return;
+    if (sample) late.assign(work.size(), 0.0);
+    before = work.data();
+    after = sample ? late.data() : work.data();
+  };
+  split(viscous_, viscous_late_, args.viscous_before, args.viscous_after);
+  split(stress_work_, stress_work_late_, args.stress_before, args.stress_after);
+  split(damping_, damping_late_, args.damping_before, args.damping_after);
+  const SweepStatus status = sweep_for(simd_)(args);
+  crushed_ += status.crushed;
+  check_finite(status);
+  max_speed_ = std::sqrt(status.max_speed_squared);
+}
+
+void Stepper::check_finite(const SweepStatus& status) const {
+  if (status.speed_squared_sum < 1e300) return;
+  std::string place;
+  if (status.first_not_finite >= 0) {
+    place = " near element " + std::to_string(model_.local.element_of_slot[at(status.first_not_finite) * kLanes]);
+  }
+  throw SimulationError("step " + std::to_string(steps_) + ", time " + std::to_string(time_) + " s: a velocity is not finite" + place +
+                        "; the time step is too long for what happens there: lower time.safety (or time.step), or the penalties");
+}
+
+void Stepper::finish_motion() {
+  const auto lap = timer_.measure(Phase::loads);
+  if (!constraints_.empty()) {
+    constraints_.apply(model_.local, state_, time_, dt_before_, dt_);
+    for (const NodalConstraint& entry : entries_) {
+      for (const Index node : entry.nodes) max_speed_ = std::max(max_speed_, load_node(state_.velocity.data(), node).norm());
+    }
+  }
+  for (const Index node : padding_nodes_) {
+    store_node(state_.velocity.data(), node, Vec3::Zero());
+    store_node(state_.next_position.data(), node, load_node(state_.position.data(), node));
+  }
+}
+
+void Stepper::crossing(void* context, Index slot, int face, double* force) {
+  auto& self = *static_cast<Stepper*>(context);
+  const std::int32_t link = self.links_.link[JointLinks::at(slot, face)];
+  const GlobalId joint = self.joint_of(slot, face, JointLinks::slot_of(link), JointLinks::code_of(link));
+  const bool side_a = self.model_.local.element_of_slot[at(slot)] < self.model_.local.element_of_slot[at(JointLinks::slot_of(link))];
+  const ActiveJoint virgin = self.make_active(joint);
+  const bool damaged = virgin_forces(self.model_.joint_laws[at(virgin.law)], self.model_.local, self.state_.position.data(), virgin, side_a, force);
+  (void)damaged;
+  if (side_a) self.crossed_.push_back(joint);
+}
+
+void Stepper::activate_crossing() {
+  if (crossed_.empty()) return;
+  const auto lap = timer_.measure(Phase::joints);
+  std::sort(crossed_.begin(), crossed_.end());
+  std::vector<ActiveJoint> batch;
+  for (const GlobalId id : crossed_) {
+    batch.push_back(make_active(id));
+    const ActiveJoint& joint = batch.back();
+    links_.detach(joint.slot_a, joint.face_a);
+    links_.detach(joint.slot_b, joint.code / 3);
+  }
+  crossed_.clear();
+  start_history(model_.joint_laws, model_.local, state_.position.data(), batch, joint_work_);
+  active_.insert(batch);
+}
+
+void Stepper::take_budget(const Field<double>& velocity_before) {
+  const auto lap = timer_.measure(Phase::energy);
+  const LocalMesh& local = model_.local;
+  EnergyBudget& e = budget_;
+  e.kinetic = kinetic_energy(local, velocity_before.data(), state_.velocity.data());
+  const ElasticEnergy elastic = elastic_energy(local, model_.elastic, state_.position.data());
+  e.elastic = elastic.total + sum_of(stress_work_);
+  worst_element_ = elastic.worst_slot < 0 ? -1 : local.element_of_slot[at(elastic.worst_slot)];
+  e.joint_elastic = intact_joint_energy(local, links_, state_.position.data()) + joint_work_.stored;
+  e.joint_mode_1 = joint_work_.mode_1.value();
+  e.joint_mode_2 = joint_work_.mode_2.value();
+  e.joint_friction = joint_work_.friction.value();
+  e.contact_stored = contact_work_.stored + contact_work_.friction_stored;
+  e.contact_dissipated = contact_work_.dissipated.value();
+  e.contact_friction = contact_work_.friction_dissipated.value();
+  e.viscous = sum_of(viscous_);
+  e.damping = sum_of(damping_);
+  e.external_work = past_external_ + constraints_.work() + gravity_work_.work(local, state_.position);
+  for (const PressureLoad& p : pressures_) e.external_work += p.work();
+
+  const std::array<double, 11> terms{e.kinetic, e.elastic, e.joint_elastic, e.contact_stored, e.joint_mode_1, e.joint_mode_2,
+                                     e.joint_friction, e.contact_dissipated, e.contact_friction, e.viscous, e.damping};
+  double total = 0, largest = std::abs(e.external_work);
+  for (const double term : terms) {
+    total += term;
+    largest = std::max(largest, std::abs(term));
+  }
+  if (!first_total_) first_total_ = total - e.external_work;
+  e.residual = *first_total_ + e.external_work - total;
+  e.residual_relative = largest > 0 ? std::abs(e.residual) / largest : 0.0;
+}
+
+void Stepper::book_after(bool sample) {
+  const auto lap = timer_.measure(Phase::loads);
+  for (PressureLoad& p : pressures_) p.book_after(model_.local, state_, dt_);
+  constraints_.book_after(dt_);
+  if (!sample) return;
+  const auto merge = [](Field<double>& work, const Field<double>& late) {
+    for (std::size_t i = 0; i < work.size(); ++i) work[i] += late[i];
+  };
+  merge(viscous_, viscous_late_);
+  merge(stress_work_, stress_work_late_);
+  merge(damping_, damping_late_);
+}
+
+}  // namespace breccia

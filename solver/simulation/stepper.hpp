@@ -1,0 +1,140 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/phase_timer.hpp"
+#include "output/frame.hpp"
+#include "physics/constraints.hpp"
+#include "physics/energy.hpp"
+#include "physics/initial_velocity.hpp"
+#include "physics/joint_forces.hpp"
+#include "physics/loads.hpp"
+#include "physics/sweep.hpp"
+#include "simulation/contact_search.hpp"
+#include "simulation/model.hpp"
+#include "state/nodal_forces.hpp"
+#include "state/state.hpp"
+
+namespace breccia {
+
+/// What acts on the model during one stage.
+struct StageLoads {
+  std::vector<PressureLoad> pressures;
+  std::vector<NodalConstraint> constraints;
+  std::array<TimeFunction, 3> gravity;  ///< m/s2
+  double mass_damping = 0;              ///< 1/s
+  double local_damping = 0;             ///< share of the unbalanced force
+};
+
+/// The conductor of one step: owns everything that changes, calls the kernels in their order, computes nothing itself.
+///
+/// Step n takes x_n, v_(n-1/2) to x_(n+1), v_(n+1/2):
+///  1. pressure on faces, then the active joints, by ascending ids; joints that have come apart hand their faces to contact;
+///  2. contact: a new search if one is due, then the forces of every couple, by ascending ids;
+///  3. the sweep: every element's internal forces, its side of its intact joints, and the motion of its nodes;
+///  4. constraints; joints that have left their elastic range join the active list.
+class Stepper {
+ public:
+  /// @pre model outlives this object and does not change.
+  Stepper(const Model& model, const ContactSearchParams& search);
+  Stepper(const Stepper&) = delete;
+  Stepper& operator=(const Stepper&) = delete;
+
+  /// Adds a velocity to the bodies of a group; before the first step.
+  void add_velocity(const InitialVelocity& initial) { add_initial_velocity(model_.local, initial, state_.position, state_.velocity); }
+
+  /// From now on these loads act and steps have length dt, s. Displacements count from the present positions.
+  void begin_stage(StageLoads loads, double dt);
+  /// Breaks the joints on these faces as if they had never been; their stored energy goes into the books of mode I.
+  void break_joints(std::span<const Topology::Face> faces);
+
+  /// One step. With `sample`, the energy budget at t_n is taken on the way: budget().
+  /// Throws SimulationError when a velocity is not finite.
+  void step(bool sample);
+
+  [[nodiscard]] const Model& model() const { return model_; }
+  [[nodiscard]] double time() const { return time_; }               ///< s, t_n: of position
+  [[nodiscard]] double dt() const { return dt_; }                   ///< s
+  [[nodiscard]] std::int64_t steps() const { return steps_; }       ///< done
+  [[nodiscard]] const State& state() const { return state_; }
+  [[nodiscard]] const ActiveJoints& active_joints() const { return active_; }
+  [[nodiscard]] const JointWork& joint_work() const { return joint_work_; }
+  [[nodiscard]] const ContactSearch* contact() const { return contact_.get(); }  ///< nullptr: no contact in this case
+  [[nodiscard]] const ContactWork& contact_work() const { return contact_work_; }
+  [[nodiscard]] const Constraints& constraints() const { return constraints_; }
+  [[nodiscard]] PhaseTimer& timer() { return timer_; }
+  [[nodiscard]] double max_speed() const { return max_speed_; }     ///< m/s, after the last step
+  [[nodiscard]] std::int64_t crushed() const { return crushed_; }   ///< element-steps with J below its floor
+  [[nodiscard]] Simd simd() const { return simd_; }
+  void use_simd(Simd simd) { simd_ = simd; }
+
+  /// True while joint `id` holds its elements together: intact, or on the active list and not failed.
+  [[nodiscard]] const std::vector<std::uint8_t>& joint_failed() const { return joint_failed_; }
+
+  /// Budget at the last sampled step; residual against the first sample.
+  [[nodiscard]] const EnergyBudget& budget() const { return budget_; }
+  /// Element with the largest strain energy density at the last sample, -1: none.
+  [[nodiscard]] GlobalId worst_element() const { return worst_element_; }
+
+ private:
+  void start_joints();
+  [[nodiscard]] ActiveJoint make_active(GlobalId joint) const;
+  void external_forces();
+  void joint_forces();
+  void contact_forces();
+  void sweep(bool sample);
+  void check_finite(const SweepStatus& status) const;
+  void finish_motion();
+  void activate_crossing();
+  void take_budget(const Field<double>& velocity_before);
+  void book_after(bool sample);
+  static void crossing(void* context, Index slot, int face, double* force);
+
+  const Model& model_;
+  State state_;
+  JointLinks links_;
+  std::vector<Index> joint_of_face_;        ///< (own slots, 4) joint id, -1: none
+  ActiveJoints active_;
+  std::vector<GlobalId> crossed_;           ///< joints that left their elastic range in this step
+  std::vector<std::uint8_t> joint_failed_;  ///< (joints)
+  NodalForces forces_;
+  std::unique_ptr<ContactSearch> contact_;
+
+  std::vector<PressureLoad> pressures_;
+  std::vector<NodalConstraint> entries_;
+  Constraints constraints_;
+  std::array<TimeFunction, 3> gravity_;
+  std::array<double, 3> gravity_now_{0, 0, 0};
+  GravityWork gravity_work_;
+  double mass_damping_ = 0, local_damping_ = 0;
+
+  double time_ = 0, dt_ = 0, dt_before_ = 0;
+  std::int64_t steps_ = 0, crushed_ = 0;
+  double max_speed_ = 0;
+  Simd simd_;
+
+  // Books, J.
+  double past_external_ = 0;                ///< work of the loads and constraints of earlier stages
+  JointWork joint_work_;
+  ContactWork contact_work_;
+  bool viscous_on_ = false, stress_work_on_ = false;
+  Field<double> viscous_, stress_work_;     ///< (num_slots) when wanted, else empty
+  Field<double> damping_;                   ///< (num_nodes) once damping has been asked for
+  Field<double> viscous_late_, stress_work_late_, damping_late_;
+  std::optional<double> first_total_;       ///< energy minus external work at the first sample
+  EnergyBudget budget_;
+  GlobalId worst_element_ = -1;
+
+  // For the sweep.
+  std::vector<Index> shared_corners_;       ///< [shared block][4][8]
+  Field<double> shared_stress_;
+  std::vector<Index> padding_nodes_;
+  PhaseTimer timer_;
+};
+
+}  // namespace breccia
