@@ -11,34 +11,12 @@ namespace breccia::case_ {
 namespace {
 
 constexpr std::size_t name_width = 20;
-constexpr std::size_t default_width = 18;
-constexpr std::size_t text_width = 100;
+constexpr std::size_t default_width = 19;
+constexpr std::size_t text_width = 112;
 
 std::string padded(std::string text, std::size_t width) {
   text.resize(std::max(text.size(), width), ' ');
   return text + " ";
-}
-
-// Path as it is typed: without [] and <>.
-std::string plain(std::string_view path) {
-  std::string out;
-  bool inside = false;
-  for (const char c : path) {
-    inside = (inside || c == '[') && c != ']';
-    if (!inside && c != ']' && c != '<' && c != '>') out += c;
-  }
-  return out;
-}
-
-std::string header(const Key& section) {
-  switch (section.type) {
-    case ValueType::section:
-      return "[" + std::string(section.path) + "]";
-    case ValueType::section_list:
-      return section.path.starts_with('<') ? plain(section.path) : "[[" + plain(section.path) + "]]";
-    default:
-      return plain(section.path);
-  }
 }
 
 std::string default_text(const Key& key) {
@@ -50,7 +28,7 @@ std::string default_text(const Key& key) {
 
 std::string unit_text(const Key& key) {
   if (key.unit == "1") return "";
-  return key.unit.starts_with('*') ? "that of the value" + std::string(key.unit.substr(1)) : std::string(key.unit);
+  return key.unit.starts_with('*') ? "(unit of the value)" + std::string(key.unit.substr(1)) : std::string(key.unit);
 }
 
 std::string wrapped(const std::string& text, const std::string& indent) {
@@ -75,25 +53,27 @@ std::string first_sentence(std::string_view help) {
 
 std::string line_of(const Key& key) {
   const std::string unit = key.unit == "1" || key.unit.starts_with('*') ? "" : " [" + std::string(key.unit) + "]";
-  return "  " + padded(std::string(key.name()), name_width) + padded(default_text(key), default_width) +
-         first_sentence(key.help) + unit + "\n";
+  const std::string columns =
+      "  " + padded(std::string(key.name()), name_width) + padded(default_text(key), default_width);
+  const std::string meaning = wrapped(first_sentence(key.help) + unit, std::string(columns.size(), ' '));
+  return columns + meaning.substr(columns.size());
 }
 
 std::string section_text(const Key& section) {
-  std::string out = header(section) + "\n" + wrapped(std::string(section.help), "  ");
+  std::string out = header_of(section) + "\n" + wrapped(std::string(section.help), "  ");
   for (const Key& key : schema())
-    if (key.section() == section.path) out += key.is_section() ? "  " + header(key) + "\n" : line_of(key);
+    if (key.section() == section.path) out += key.is_section() ? "  " + header_of(key) + "\n" : line_of(key);
   return out;
 }
 
 std::string key_text(const Key& key) {
-  std::string out = plain(key.path) + "\n" + wrapped(std::string(key.help), "  ");
+  std::string out = plain_path(key.path) + "\n" + wrapped(std::string(key.help), "  ");
   const auto field = [&](const std::string& name, const std::string& text) {
     if (!text.empty()) out += "  " + padded(name, 8) + text + "\n";
   };
   std::string allowed = allowed_text(key);
   if (const std::size_t star = allowed.find(" in *"); star != std::string::npos)
-    allowed.replace(star, 5, " in the unit of the value");
+    allowed.replace(star, 4 + key.unit.size(), " in " + unit_text(key));
   field("default", default_text(key));
   field("unit", unit_text(key));
   field("choices", joined(key.choice_list()));
@@ -109,8 +89,8 @@ std::string text_of(const Key& key) { return key.is_section() ? section_text(key
 
 std::string explain() {
   std::string out =
-      "Keys of a case file (TOML): name, default, meaning [SI unit]. Numbers are SI; texts may carry a unit, \"26.6 "
-      "GPa\".\n" +
+      "Keys of a case file (TOML): name, default, meaning [SI unit]. Numbers are SI; texts may carry a unit, "
+      "\"26.6 GPa\".\n" +
       wrapped(units_help(), "") + "`breccia explain KEY` tells more about one.\n\n";
   for (const Key& key : schema())
     if (key.section().empty() && !key.is_section()) out += line_of(key);
@@ -120,19 +100,19 @@ std::string explain() {
 }
 
 std::string explain(std::string_view key) {
-  const std::string wanted = plain(key);
+  const std::string wanted = plain_path(key);
   std::string by_name;
   for (const Key& row : schema()) {
-    if (plain(row.path) == wanted) return text_of(row);
+    if (plain_path(row.path) == wanted) return text_of(row);
     if (row.name() == wanted) by_name += (by_name.empty() ? "" : "\n") + text_of(row);
   }
   if (!by_name.empty()) return by_name;
 
   std::vector<std::string> paths;
-  for (const std::string& path : similar_keys(pattern_of(key), 3)) paths.push_back(plain(path));
+  for (const std::string& path : similar_keys(pattern_of(key), 3)) paths.push_back(plain_path(path));
   std::vector<std::string> sections;
   for (const Key& row : schema())
-    if (row.section().empty()) sections.push_back(plain(row.path));
+    if (row.section().empty()) sections.push_back(plain_path(row.path));
   throw InputError({"", 0, std::string(key),
                     paths.empty() ? "unknown key" : "unknown key; did you mean " + joined(paths, " or ") + "?",
                     "sections and keys of a case: " + joined(sections), ""});

@@ -26,9 +26,9 @@ std::string quantity_words(const Key& key) {
 std::string type_words(const Key& key) {
   switch (key.type) {
     case ValueType::section:
-      return "a table, [" + std::string(key.path) + "]";
+      return "a table, " + header_of(key);
     case ValueType::section_list:
-      return "one or more tables, [[" + std::string(key.path.substr(0, key.path.size() - 2)) + "]]";
+      return "one or more tables, " + header_of(key);
     case ValueType::notation:
       return "";
     case ValueType::number:
@@ -135,6 +135,22 @@ std::string pattern_of(std::string_view path) {
     if (c == '[') inside = true;
   }
   return out;
+}
+
+std::string plain_path(std::string_view path) {
+  std::string out;
+  bool inside = false;
+  for (const char c : path) {
+    inside = (inside || c == '[') && c != ']';
+    if (!inside && c != ']' && c != '<' && c != '>') out += c;
+  }
+  return out;
+}
+
+std::string header_of(const Key& section) {
+  const std::string name = plain_path(section.path);
+  if (section.path.starts_with('<')) return name;
+  return section.type == ValueType::section_list ? "[[" + name + "]]" : "[" + name + "]";
 }
 
 std::vector<std::string> names_in(std::string_view section) {

@@ -86,6 +86,12 @@ struct Key {
 /// "stage[0].constraint[12].fixed" -> "stage[].constraint[].fixed"
 [[nodiscard]] std::string pattern_of(std::string_view path);
 
+/// Path as it is typed, without [], indices and <>: "stage.constraint.fixed".
+[[nodiscard]] std::string plain_path(std::string_view path);
+
+/// A section as it is written in a case file: "[mesh.raster]", "[[stage.constraint]]"; a notation by its name.
+[[nodiscard]] std::string header_of(const Key& section);
+
 /// Names of the keys and sub-sections of a section ("" for the top), without [].
 [[nodiscard]] std::vector<std::string> names_in(std::string_view section);
 

@@ -159,7 +159,7 @@ group = "other"
 displacement = { x = { table = [[0, 0], ["1 ms", "1 mm"]] } }
 [[stage.pressure]]
 surface = "slit"
-value = { constant = "1 kPa", linear = "20 GPa/s", sine = { amplitude = "1 MPa", frequency = "10 Hz", phase = "90 deg" } }
+value = {constant = "1 kPa", linear = "20 GPa/s", sine = {amplitude = "1 MPa", frequency = "10 Hz", phase = "90 deg"}}
 [[stage]]
 name = "rest"
 end = "1 ms"

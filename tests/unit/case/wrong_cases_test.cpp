@@ -205,8 +205,8 @@ INSTANTIATE_TEST_SUITE_P(
                           "liner = 3",
                           {"value.liner: unknown key; did you mean \"linear\"?"}},
                     Wrong{"is_list",
-                          "value = { constant = \"1 kPa\", linear = \"20 GPa/s\", sine = { amplitude = \"1 MPa\", "
-                          "frequency = \"10 Hz\", phase = \"90 deg\" } }",
+                          "value = {constant = \"1 kPa\", linear = \"20 GPa/s\", sine = {amplitude = \"1 MPa\", "
+                          "frequency = \"10 Hz\", phase = \"90 deg\"}}",
                           "value = [1]",
                           {"stage[0].pressure[0].value: is a list; allowed: a function of time"}},
                     Wrong{"sine_without_frequency",
@@ -215,7 +215,7 @@ INSTANTIATE_TEST_SUITE_P(
                           {"value.sine.frequency: is missing; allowed: a number in 1/s"}},
                     Wrong{"sine_of_unknown_key", "phase = \"90 deg\"", "shift = 1", {"value.sine.shift: unknown key"}},
                     Wrong{"sine_is_number",
-                          "sine = { amplitude = \"1 MPa\", frequency = \"10 Hz\", phase = \"90 deg\" }",
+                          "sine = {amplitude = \"1 MPa\", frequency = \"10 Hz\", phase = \"90 deg\"}",
                           "sine = 3",
                           {"value.sine: is an integer; allowed: a table of amplitude, frequency, phase"}},
                     Wrong{"ramp_backwards",
@@ -417,6 +417,11 @@ TEST(WrongCases, AnAbsentFileIsNamed) {
   } catch (const InputError& e) {
     EXPECT_STREQ(e.what(), "/nowhere/case.toml: the case file does not exist");
   }
+}
+
+TEST(WrongCases, ANestedSectionIsNamedAsItIsWritten) {
+  EXPECT_THAT(message_of(minimal + "pressure = 3\n"),
+              HasSubstr("stage[0].pressure: is an integer; allowed: one or more tables, [[stage.pressure]]"));
 }
 
 TEST(WrongCases, AFolderIsNoCase) {
