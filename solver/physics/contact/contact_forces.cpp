@@ -46,6 +46,7 @@ class Pass {
   void find_histories(Index point);
   void take_over(std::size_t first, std::size_t last);
   void forget(const TouchingCouple& old);
+  [[nodiscard]] Vec3 relative_motion(const ContactPoint& point, Index slot, const std::array<double, 4>& lambda) const;
   void start(Index point, Candidate& candidate);
   void follow(const ContactLaw& law, double scale, double length, Candidate& candidate);
   void act(Index point, Candidate& candidate);
@@ -208,15 +209,33 @@ void Pass::take_over(std::size_t first, std::size_t last) {
   }
 }
 
+/// Motion of the point relative to the contactor's material at lambda during the last step, m.
+Vec3 Pass::relative_motion(const ContactPoint& point, Index slot, const std::array<double, 4>& lambda) const {
+  const double* v = state_.velocity.data();
+  Vec3 relative = at_point(rule_, point, v);
+  for (int a = 0; a < 4; ++a) relative -= lambda[static_cast<std::size_t>(a)] * load_node(v, local_.corner_node(slot, a));
+  return dt_ * relative;
+}
+
 /// The overlap is gone. What the normal law had stored was given back as work; the spring lets go.
 void Pass::forget(const TouchingCouple& old) {
   const ContactLaw& law = law_of(old.point, old.contactor);
-  const double w = point_at(old.point).weight, length = length_of(slot_of(old.contactor));
-  work_.friction_dissipated.add(0.5 * law.tangential_ratio * w * law.penalty / length * old.spring.squaredNorm());
+  const ContactPoint& point = point_at(old.point);
+  const Index slot = slot_of(old.contactor), place = contact_.place[static_cast<std::size_t>(old.contactor)];
+  const double length = length_of(slot);
+  const PreparedTetra* tetra = place < 0 ? nullptr : &contact_.prepared[static_cast<std::size_t>(place)];
+  const bool crushed = tetra != nullptr && inert(*tetra);
+  if (old.friction != Vec3::Zero()) {
+    const double k = law.tangential_ratio * point.weight * law.penalty / length;
+    double lost = 0.5 * k * old.spring.squaredNorm();
+    if (tetra != nullptr && !crushed) {
+      const Vec3 x = at_point(rule_, point, state_.position.data());
+      lost -= 0.5 * old.friction.dot(relative_motion(point, slot, barycentric(*tetra, x)));
+    }
+    work_.friction_dissipated.add(lost);
+  }
   // A contactor that was crushed while it was touched gives nothing back.
-  const Index place = contact_.place[static_cast<std::size_t>(old.contactor)];
-  if (place < 0 || !inert(contact_.prepared[static_cast<std::size_t>(place)])) return;
-  work_.dissipated.add(w * length * normal_law::stored(law, old.d, old.d_max));
+  if (crushed) work_.dissipated.add(point.weight * length * normal_law::stored(law, old.d, old.d_max));
 }
 
 void Pass::start(Index point, Candidate& candidate) {
@@ -271,11 +290,7 @@ void Pass::act(Index index, Candidate& candidate) {
   const double slope = here.gradient.norm();
   if (law.friction > 0 && law.tangential_ratio > 0 && slope > 0) {
     const double k = law.tangential_ratio * point.weight * law.penalty / length;
-    Vec3 velocity = at_point(rule_, point, state_.velocity.data());
-    for (int a = 0; a < 4; ++a) {
-      velocity -= candidate.lambda[static_cast<std::size_t>(a)] * load_node(state_.velocity.data(), local_.corner_node(slot, a));
-    }
-    const Vec3 motion = dt_ * velocity;
+    const Vec3 motion = relative_motion(point, slot, candidate.lambda);
     const double held = 0.5 * k * h.spring.squaredNorm();
     const Vec3 friction = friction_force(-here.gradient / slope, motion, k, law.friction * pressure * slope, h.spring);
     const double holds = 0.5 * k * h.spring.squaredNorm();

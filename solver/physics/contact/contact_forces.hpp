@@ -1,6 +1,6 @@
 #pragma once
 
-#include "physics/contact/compensated_sum.hpp"
+#include "base/compensated_sum.hpp"
 #include "physics/contact/contact_params.hpp"
 #include "physics/contact/contact_state.hpp"
 #include "state/local_mesh.hpp"

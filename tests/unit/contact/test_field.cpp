@@ -1,0 +1,156 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene.hpp"
+
+/// Overlap field that follows fracture, and couples made by it.
+namespace breccia {
+namespace {
+
+using test::at;
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kPenalty = 1e6, kRoundOff = 1e-12;
+
+TEST(overlap_field, is_zero_on_the_surface_and_carries_a_bubble_only_where_no_corner_is_inside) {
+  const test::Scene scene(test::joined(test::box({1, 1, 1}, 2.0), test::lone(test::regular_tetra(1.0))), {kPenalty, kInfinite, 1, 0, 1});
+  for (std::size_t c = 0; c < scene.contact.contactors.size(); ++c) {
+    const Index slot = scene.contact.contactors[c];
+    const FieldValues& values = scene.contact.field[c];
+    int inner = 0;
+    for (int a = 0; a < 4; ++a) {
+      const Vec3 x = load_node(scene.local.reference.data(), scene.local.corner_node(slot, a));
+      const bool centre = scene.body(slot) == 0 && (x - Vec3(1, 1, 1)).norm() < kRoundOff;
+      EXPECT_NEAR(values[at(a)], centre ? 1.0 : 0.0, kRoundOff);
+      inner += centre;
+    }
+    EXPECT_NEAR(values[4], inner == 0 ? 1 / std::sqrt(24.0) : 0.0, kRoundOff);
+  }
+}
+
+TEST(overlap_field, goes_to_its_target_linearly_and_then_rests) {
+  test::Scene scene(test::box({1, 1, 1}, 2.0), {kPenalty, kInfinite, 1, 0, 1});
+  scene.params.ramp_steps = 4;
+  int corner = 0;
+  while (scene.contact.field[0][at(corner)] == 0) ++corner;
+  free_corner(scene.params, scene.local, 0, corner, scene.contact);
+  const auto edges = [&](int a, int b) {
+    const auto x = load_corners(scene.local, scene.local.reference.data(), scene.contact.contactors[0]);
+    return Vec3(x[at(a)] - x[at(b)]);
+  };
+  double area = 0;
+  for (const auto& f : kFaceCorners) area += 0.5 * edges(f[1], f[0]).cross(edges(f[2], f[0])).norm();
+  const double inradius = 3 * scene.local.volume[at(scene.contact.contactors[0])] / area;
+  for (int step = 1; step <= 6; ++step) {
+    advance_field(scene.contact);
+    const double share = std::min(step, 4) / 4.0;
+    EXPECT_NEAR(scene.contact.field[0][at(corner)], 1 - share, kRoundOff);
+    EXPECT_NEAR(scene.contact.field[0][4], share * inradius, kRoundOff);
+  }
+  EXPECT_TRUE(scene.contact.ramps.empty());
+  EXPECT_EQ(scene.contact.ramp_of_contactor[0], -1);
+}
+
+/// A small tetrahedron whose base sits at a depth of 0.03 under the top of a body of 3 x 3 x 3 cubes.
+struct Pressed {
+  test::Scene scene;
+  explicit Pressed(const ContactLaw& law)
+      : scene(test::joined(test::box({3, 3, 3}, 1.0), test::moved(test::lone(test::regular_tetra(0.2)),
+                                                                  [](const Vec3& x) { return Vec3(x[2] + 1.4, x[1] + 1.3, 2.97 - x[0]); })),
+              law) {
+    scene.couple([&](Index s) { return scene.body(s) == 1; }, [&](Index s) { return scene.body(s) == 0; });
+  }
+  [[nodiscard]] double booked() const { return scene.work.stored + scene.work.dissipated.value(); }
+};
+
+TEST(overlap_field, that_sinks_under_a_resting_point_books_what_it_takes_from_the_stored_energy) {
+  for (const double b : {1.0, 2.0}) {
+    Pressed pressed({kPenalty, kInfinite, b, 0, 1});
+    test::Scene& scene = pressed.scene;
+    scene.params.ramp_steps = 10;
+    scene.evaluate(1e-3);
+    const double stored = scene.work.stored, booked = pressed.booked();
+    ASSERT_GT(stored, 0);
+    const Index contactor = scene.contact.touching.at(0).contactor;
+    for (int a = 0; a < 4; ++a) free_corner(scene.params, scene.local, contactor, a, scene.contact);
+    double before = scene.force_on(1)[2];
+    for (int step = 0; step < 12; ++step) {
+      scene.evaluate(1e-3);
+      EXPECT_NEAR(pressed.booked(), booked, kRoundOff * booked) << "no motion, no work";
+      EXPECT_LT(std::abs(scene.force_on(1)[2] - before), 0.35 * before + 1) << "the force changes in small steps";
+      before = scene.force_on(1)[2];
+    }
+    EXPECT_NE(scene.work.stored, stored);
+  }
+}
+
+TEST(overlap_field, keeps_the_budget_closed_while_it_sinks_under_a_moving_point) {
+  Pressed pressed({kPenalty, kInfinite, 1, 0, 1});
+  test::Scene& scene = pressed.scene;
+  scene.params.ramp_steps = 400;
+  scene.evaluate(1e-3);
+  const Index contactor = scene.contact.touching.at(0).contactor;
+  for (int a = 0; a < 4; ++a) free_corner(scene.params, scene.local, contactor, a, scene.contact);
+  const double start = pressed.booked();
+  double done = 0, before = scene.force_on(1)[2];
+  constexpr double step = 1e-5;  // m; the trapezoid rule's error falls with its square
+  for (int i = 0; i < 500; ++i) {
+    scene.shift(1, {0, 0, i < 250 ? -step : step});
+    scene.evaluate(1e-3);
+    const double force = scene.force_on(1)[2];
+    done -= 0.5 * (before + force) * (i < 250 ? -step : step);
+    before = force;
+  }
+  EXPECT_GT(std::abs(scene.work.dissipated.value()), 0.05 * start);
+  EXPECT_NEAR(pressed.booked() - start, done, 1e-3 * start);
+}
+
+/// Two elements of one body that share a vertex but are no longer bonded, pushed into each other.
+TEST(couples_of_fracture, start_without_force_and_never_pull) {
+  test::Scene scene(test::box({1, 1, 1}, 1.0), {kPenalty, kInfinite, 1, 0, 1}, 1, OverlapField::tet_potential);
+  const Index target = scene.contact.contactors[0], other = scene.contact.contactors[13];
+  scene.couple([&](Index s) { return s == target; }, [&](Index s) { return s == other; });
+  const auto centroid = [&](Index s) {
+    const auto x = load_corners(scene.local, scene.local.reference.data(), s);
+    return Vec3(0.25 * (x[0] + x[1] + x[2] + x[3]));
+  };
+  const auto put = [&](double share) {  // the target's point goes this share of the way to the other's centroid
+    scene.state.position = scene.local.reference;
+    const Vec3 x = at_point(face_rule(1), scene.contact.points[at(scene.contact.couples[0].point)], scene.local.reference.data());
+    for (int c = 0; c < 4; ++c) {
+      const Index n = scene.local.corner_node(target, c);
+      store_node(scene.state.position.data(), n, load_node(scene.local.reference.data(), n) + share * (centroid(other) - x));
+    }
+    scene.evaluate(1e-3);
+    return scene.forces.get(scene.local.corner_node(target, 0)).norm();
+  };
+  EXPECT_EQ(put(0.9), 0) << "seen for the first time deep inside";
+  ASSERT_EQ(scene.contact.touching.size(), 1u);
+  const double offset = scene.contact.touching[0].offset;
+  EXPECT_GT(offset, 0);
+  const double pressed = put(1.0);
+  EXPECT_GT(pressed, 0);
+  EXPECT_EQ(put(0.85), 0) << "drawn out: no pull";
+  EXPECT_LT(scene.contact.touching.at(0).offset, offset) << "the offset follows the retreat";
+  EXPECT_GT(put(1.0), pressed) << "and the force grows from there";
+}
+
+TEST(couples_of_fracture, are_fresh_for_one_evaluation_only) {
+  Pressed pressed({kPenalty, kInfinite, 1, 0, 1});
+  test::Scene& scene = pressed.scene;
+  scene.contact.fresh = scene.contact.couples;
+  scene.evaluate(1e-3);
+  ASSERT_EQ(scene.contact.touching.size(), 1u);
+  EXPECT_NEAR(scene.contact.touching[0].offset, 0.03, 1e-12);
+  EXPECT_EQ(scene.work.stored, 0);
+  EXPECT_TRUE(scene.contact.fresh.empty());
+  scene.shift(1, {0, 0, 0.2});
+  scene.evaluate(1e-3);
+  scene.shift(1, {0, 0, -0.2});
+  scene.evaluate(1e-3);
+  EXPECT_EQ(scene.contact.touching.at(0).offset, 0) << "a later touch is a touch like any other";
+}
+
+}  // namespace
+}  // namespace breccia

@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene.hpp"
+
+/// A block that cannot turn (its nodes move together) on a plane: Coulomb's closed forms.
+namespace breccia {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kGravity = 9.81, kPenalty = 1e10, kSize = 0.4, kDensity = 2000;
+
+class Block {
+ public:
+  /// @param slope  rad; gravity is turned, the plane stays z = 1
+  Block(double mu, double slope)
+      : scene_(test::joined(floor(), block()), {kPenalty, kInfinite, 1, mu, 1}, 3, OverlapField::body,
+               Discretisation::own_nodes, kDensity),
+        gravity_(kGravity * std::sin(slope), 0, -kGravity * std::cos(slope)) {
+    for (const Index n : scene_.nodes_of(1)) mass_ += scene_.local.node_mass[test::at(n)];
+    const double area = std::sqrt(3.0) / 4 * kSize * kSize, length = scene_.contact.body_length[0];
+    stiffness_ = kPenalty * area / length;
+    scene_.shift(1, {0, 0, mass_ * gravity_[2] / stiffness_});  // rests at once
+    dt_ = 0.05 * std::sqrt(mass_ / stiffness_);
+  }
+
+  /// One large tetrahedron, its upper face in z = 1: the overlap is the depth.
+  static Mesh floor() {
+    return test::moved(test::lone(test::regular_tetra(20)), [](const Vec3& x) { return Vec3(-x[2], x[1], 1 + x[0]); });
+  }
+  static Mesh block() {
+    return test::moved(test::lone(test::regular_tetra(kSize)), [](const Vec3& x) { return Vec3(x[2], x[1], 1 - x[0]); });
+  }
+
+  /// Advances by a time; the velocity belongs to the middle of the step.
+  void run(double time) {
+    for (double t = 0; t < time; t += dt_) {
+      scene_.evaluate(dt_);
+      const Vec3 force = scene_.force_on(1);
+      velocity_ += dt_ * (force / mass_ + gravity_);
+      scene_.set_velocity(1, velocity_);
+      scene_.shift(1, dt_ * velocity_);
+      path_ += dt_ * velocity_;
+    }
+  }
+  void push(double speed) {
+    velocity_[0] = speed;
+    scene_.set_velocity(1, velocity_);
+  }
+
+  [[nodiscard]] const Vec3& velocity() const { return velocity_; }
+  [[nodiscard]] const Vec3& path() const { return path_; }
+  [[nodiscard]] double mass() const { return mass_; }
+  /// Elongation of the springs at the limit, m: the block comes to rest within it.
+  [[nodiscard]] double spring(double mu) const { return mu * mass_ * kGravity / stiffness_; }
+  [[nodiscard]] const ContactWork& work() const { return scene_.work; }
+
+ private:
+  test::Scene scene_;
+  Vec3 gravity_, velocity_ = Vec3::Zero(), path_ = Vec3::Zero();
+  double mass_ = 0, stiffness_ = 0, dt_ = 0;
+};
+
+TEST(friction_block, stops_after_v_squared_over_two_mu_g) {
+  constexpr double mu = 0.3, speed = 2.5;
+  Block block(mu, 0);
+  block.push(speed);
+  block.run(1.5 * speed / (mu * kGravity));
+  const double distance = speed * speed / (2 * mu * kGravity);
+  EXPECT_NEAR(block.path()[0] / distance, 1, 0.01);
+  EXPECT_NEAR(block.path()[2], 0, 1e-6);
+  // What is not dissipated swings on in the springs, which nothing damps.
+  const double kinetic = 0.5 * block.mass() * speed * speed, left = 0.5 * block.mass() * block.velocity().squaredNorm();
+  EXPECT_NEAR((block.work().friction_dissipated.value() + block.work().friction_stored + left) / kinetic, 1, 0.01);
+}
+
+TEST(friction_block, sticks_below_the_angle_of_friction) {
+  constexpr double mu = 0.4;
+  Block gentle(mu, std::atan(0.45 * mu));
+  gentle.run(1);
+  EXPECT_LT(std::abs(gentle.path()[0]), gentle.spring(mu)) << "swings to twice the static elongation, 0.45 of the limit";
+  EXPECT_LT(gentle.work().friction_dissipated.value(), 1e-9 * gentle.mass()) << "no slip";
+
+  Block steep(mu, std::atan(0.95 * mu));
+  steep.run(1);
+  const double after_settling = steep.path()[0];
+  steep.run(1);
+  EXPECT_LT(std::abs(steep.path()[0] - after_settling), 2 * steep.spring(mu));
+}
+
+TEST(friction_block, slides_above_the_angle_of_friction_with_the_acceleration_left_over) {
+  constexpr double mu = 0.4, time = 0.8;
+  const double slope = 1.5 * std::atan(mu);
+  Block block(mu, slope);
+  block.run(time);
+  const double acceleration = kGravity * (std::sin(slope) - mu * std::cos(slope));
+  EXPECT_NEAR(block.path()[0] / (0.5 * acceleration * time * time), 1, 0.01);
+}
+
+}  // namespace
+}  // namespace breccia

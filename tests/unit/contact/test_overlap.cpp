@@ -1,0 +1,128 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "scene.hpp"
+
+namespace breccia {
+namespace {
+
+using test::at;
+
+constexpr double kRoundOff = 1e-13;
+
+const ContactLaw kLaw{1e6, std::numeric_limits<double>::infinity(), 1, 0, 1};
+
+/// Overlap of a place with a whole body, by going through all its elements; -1 outside.
+double overlap_at(const test::Scene& scene, const Vec3& x) {
+  for (std::size_t c = 0; c < scene.contact.contactors.size(); ++c) {
+    const Index slot = scene.contact.contactors[c];
+    const PreparedTetra tetra = prepare(load_corners(scene.local, scene.state.position.data(), slot), scene.local.volume[at(slot)]);
+    const auto lambda = barycentric(tetra, x);
+    if (!inside(lambda)) continue;
+    const double length = scene.contact.body_length[at(scene.body(slot))];
+    return overlap_value(overlap_shape(scene.params.field, scene.local, slot, scene.contact.field[c], length), lambda);
+  }
+  return -1;
+}
+
+TEST(overlap, of_a_lone_tetrahedron_is_four_times_the_smallest_barycentric_coordinate) {
+  const test::Scene body(test::lone(test::regular_tetra(2.0)), kLaw);
+  const test::Scene potential(test::lone(test::regular_tetra(2.0)), kLaw, 1, OverlapField::tet_potential);
+  const auto corners = test::regular_tetra(2.0);
+  const double inradius = 2.0 / std::sqrt(24.0);
+  EXPECT_NEAR(body.contact.body_length[0], inradius, kRoundOff);
+  for (const std::array<double, 4>& l :
+       {std::array{0.25, 0.25, 0.25, 0.25}, {0.1, 0.3, 0.4, 0.2}, {0.7, 0.1, 0.15, 0.05}, {0.0, 0.5, 0.2, 0.3}}) {
+    const Vec3 x = l[0] * corners[0] + l[1] * corners[1] + l[2] * corners[2] + l[3] * corners[3];
+    const double d = 4 * std::min({l[0], l[1], l[2], l[3]});
+    EXPECT_NEAR(overlap_at(body, x) / inradius, d, kRoundOff);
+    EXPECT_NEAR(overlap_at(potential, x) / inradius, d, kRoundOff);
+  }
+}
+
+TEST(overlap, by_distance_is_the_distance_to_the_nearest_face) {
+  const test::Scene scene(test::lone(test::regular_tetra(2.0)), kLaw, 1, OverlapField::tet_distance);
+  EXPECT_NEAR(overlap_at(scene, {-0.05, 0, 0}), 0.05, kRoundOff);       // base in x = 0
+  EXPECT_NEAR(overlap_at(scene, {-2.0 / std::sqrt(24.0), 0, 0}), 2.0 / std::sqrt(24.0), kRoundOff);  // incentre
+}
+
+TEST(overlap, of_a_body_is_the_depth_under_a_flat_face) {
+  const test::Scene scene(test::box({4, 4, 4}, 1.0), kLaw);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> inner(1.0, 3.0), depth(0.0, 0.2);
+  for (int i = 0; i < 300; ++i) {
+    const double d = depth(random);
+    EXPECT_NEAR(overlap_at(scene, {inner(random), inner(random), 4 - d}), d, kRoundOff);
+  }
+}
+
+TEST(overlap, of_a_body_is_continuous_across_its_elements) {
+  // An irregular body: corners between the elements are moved at random.
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> jitter(-0.1, 0.1), place(0.3, 1.7);
+  const test::Scene scene(test::moved(test::box({2, 2, 2}, 1.0),
+                                      [&](const Vec3& x) { return Vec3(x + Vec3(jitter(random), jitter(random), jitter(random))); }),
+                          kLaw);
+  constexpr double step = 1e-6, steepest = 10;  // no height is below a tenth of the largest Phi
+  for (int line = 0; line < 5; ++line) {
+    Vec3 x(place(random), place(random), 0.2);
+    const Vec3 direction = Vec3(place(random) - 1, place(random) - 1, 1.5).normalized();
+    for (int i = 0; i < 400; ++i, x += 0.003 * direction) {
+      EXPECT_LT(std::abs(overlap_at(scene, x + step * direction) - overlap_at(scene, x)), steepest * step);
+    }
+  }
+}
+
+/// Force against a central difference of the stored energy over all coordinates of all nodes.
+void expect_force_is_gradient(test::Scene& scene, const char* what) {
+  constexpr double step = 1e-6;       // of bodies of size 1
+  constexpr double tolerance = 1e-7;  // relative to the largest force: step^2 of a smooth energy and round-off / step
+  scene.evaluate(1e-6);
+  ASSERT_GT(scene.work.touching, 0) << what;
+  const NodalForces forces = scene.forces;
+  double largest = 0;
+  for (Index n = 0; n < scene.local.num_nodes; ++n) largest = std::max(largest, forces.get(n).norm());
+  for (Index n = 0; n < scene.local.num_nodes; ++n) {
+    for (int axis = 0; axis < 3; ++axis) {
+      double& x = scene.state.position[nodal(n, axis)];
+      const double x0 = x;
+      x = x0 + step;
+      scene.evaluate(1e-6);
+      const double up = scene.work.stored;
+      x = x0 - step;
+      scene.evaluate(1e-6);
+      const double down = scene.work.stored;
+      x = x0;
+      EXPECT_NEAR(forces.get(n)[axis], -(up - down) / (2 * step), tolerance * largest) << what << ", node " << n;
+    }
+  }
+}
+
+TEST(contact_forces, are_the_gradient_of_the_stored_energy_at_all_seven_nodes) {
+  std::mt19937_64 random(11);
+  for (const OverlapField field : {OverlapField::body, OverlapField::tet_potential, OverlapField::tet_distance}) {
+    for (int trial = 0; trial < 5; ++trial) {
+      const Mat3 turn = test::random_rotation(random);
+      // One corner of the target dips into the contactor so that a face's point does.
+      const auto target = test::moved(test::lone(test::regular_tetra(1.0)),
+                                      [&](const Vec3& x) { return Vec3(turn * x + Vec3(-0.45, 0.05, 0.02)); });
+      test::Scene scene(test::joined(test::lone(test::regular_tetra(1.4)), target), kLaw, 3, field);
+      expect_force_is_gradient(scene, "lone tetrahedra");
+    }
+  }
+}
+
+TEST(contact_forces, of_a_body_of_many_elements_are_the_gradient_of_the_stored_energy) {
+  std::mt19937_64 random(12);
+  const Mat3 turn = test::random_rotation(random);
+  const auto target = test::moved(test::lone(test::regular_tetra(0.8)), [&](const Vec3& x) { return Vec3(turn * x + Vec3(0.8, 0.7, 1.35)); });
+  for (const Discretisation kind : {Discretisation::own_nodes, Discretisation::shared_nodes}) {
+    test::Scene scene(test::joined(test::box({1, 1, 1}, 1.3), target), kLaw, 6, OverlapField::body, kind);
+    expect_force_is_gradient(scene, "cube and tetrahedron");
+  }
+}
+
+}  // namespace
+}  // namespace breccia

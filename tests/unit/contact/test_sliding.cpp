@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene.hpp"
+
+/// A lone tetrahedron dragged along under the flat face of a body of many elements.
+namespace breccia {
+namespace {
+
+using test::at;
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kPenalty = 1e6, kRoundOff = 1e-11;
+constexpr double kSize = 0.4;  // m, edge of the slider; cubes of the body have edge 1
+
+/// The slider's base hangs at z = 4 - depth, its apex above: only the base's centroid lies in the body.
+struct Drag {
+  test::Scene scene;
+
+  explicit Drag(const ContactLaw& law, double depth)
+      : scene(test::joined(test::box({6, 3, 4}, 1.0), slider(depth)), law) {
+    scene.couple([&](Index s) { return scene.body(s) == 1; }, [&](Index s) { return scene.body(s) == 0; });
+  }
+
+  static Mesh slider(double depth) {
+    // Base in z = 0 facing down, apex at the height above.
+    return test::moved(test::lone(test::regular_tetra(kSize)), [=](const Vec3& x) { return Vec3(x[2] + 1.037, x[1] + 1.241, 4 - depth - x[0]); });
+  }
+
+  Vec3 move(const Vec3& by) {
+    scene.shift(1, by);
+    scene.set_velocity(1, by);  // dt = 1
+    scene.evaluate(1.0);
+    return scene.force_on(1);
+  }
+};
+
+double area() { return std::sqrt(3.0) / 4 * kSize * kSize; }
+
+TEST(sliding, at_constant_depth_has_a_constant_normal_force_and_no_tangential_force) {
+  constexpr double ripple = 0.01, depth = 0.1;
+  Drag drag({kPenalty, kInfinite, 1, 0, 1}, depth);
+  const double expected = area() * kPenalty * depth / drag.scene.contact.body_length[0];
+  for (int i = 0; i < 800; ++i) {
+    const Vec3 force = drag.move({0.005, 0.0011, 0});
+    ASSERT_NEAR(force[2] / expected, 1, ripple) << "step " << i;
+    ASSERT_NEAR(std::hypot(force[0], force[1]) / expected, 0, ripple) << "step " << i;
+    ASSERT_EQ(drag.scene.contact.touching.size(), 1u);
+  }
+}
+
+TEST(sliding, hands_the_history_from_element_to_element) {
+  // Pressed in to 0.1, lifted to 0.05, then dragged: the force must stay on the unloading curve all the way.
+  Drag drag({kPenalty, kInfinite, 2, 0, 1}, 0.1);
+  const double h = drag.scene.contact.body_length[0];
+  drag.move({0, 0, 0});
+  const double unloaded = drag.move({0, 0, 0.05})[2];
+  EXPECT_NEAR(unloaded, area() * kPenalty * 0.1 / h * 0.25, kRoundOff * kPenalty);
+  Index first = drag.scene.contact.touching[0].contactor;
+  int hand_overs = 0;
+  for (int i = 0; i < 600; ++i) {
+    const double force = drag.move({0.005, 0.0013, 0})[2];
+    ASSERT_NEAR(force, unloaded, 1e-9 * unloaded) << "step " << i;
+    ASSERT_NEAR(drag.scene.contact.touching[0].d_max, 0.1 / h, kRoundOff / h);
+    hand_overs += drag.scene.contact.touching[0].contactor != first;
+    first = drag.scene.contact.touching[0].contactor;
+  }
+  EXPECT_GE(hand_overs, 5);
+}
+
+TEST(sliding, along_the_borders_of_elements_counts_each_point_once) {
+  // The base's centroid runs exactly along y = 1, a plane of element faces and edges.
+  Drag drag({kPenalty, kInfinite, 1, 0, 1}, 0.1);
+  const ContactPoint* base = nullptr;
+  for (const ContactPoint& p : drag.scene.contact.points) {
+    const Vec3 x = at_point(face_rule(1), p, drag.scene.state.position.data());
+    if (drag.scene.body(p.slot) == 1 && std::abs(x[2] - 3.9) < 1e-12) base = &p;
+  }
+  ASSERT_NE(base, nullptr);
+  const Vec3 x = at_point(face_rule(1), *base, drag.scene.state.position.data());
+  drag.move({1.0 - x[0], 1.0 - x[1], 0});
+  const double expected = area() * kPenalty * 0.1 / drag.scene.contact.body_length[0];
+  for (int i = 0; i < 256; ++i) ASSERT_NEAR(drag.move({1.0 / 64, 0, 0})[2] / expected, 1, 0.01) << "step " << i;
+}
+
+TEST(sliding, forgets_the_history_as_soon_as_the_point_has_left) {
+  Drag drag({kPenalty, kInfinite, 3, 0, 1}, 0.1);
+  drag.move({0, 0, 0});
+  EXPECT_EQ(drag.move({0, 0, 0.11})[2], 0);
+  EXPECT_TRUE(drag.scene.contact.touching.empty());
+  const double h = drag.scene.contact.body_length[0];
+  EXPECT_NEAR(drag.move({0, 0, -0.06})[2], area() * kPenalty * 0.05 / h, kRoundOff * kPenalty) << "loads along the penalty again";
+}
+
+TEST(sliding, with_friction_drags_with_mu_times_the_normal_force_and_books_the_slip) {
+  constexpr double mu = 0.3, depth = 0.1;
+  Drag drag({kPenalty, kInfinite, 1, mu, 1}, depth);
+  const double h = drag.scene.contact.body_length[0];
+  const double normal = area() * kPenalty * depth / h, stiffness = area() * kPenalty / h;
+  drag.move({0, 0, 0});
+  double path = 0;
+  for (int i = 0; i < 700; ++i) {
+    const Vec3 force = drag.move({0.005, 0, 0});
+    path += 0.005;
+    ASSERT_NEAR(force[0], -std::min(mu * normal, stiffness * path), 1e-9 * normal) << "step " << i;
+  }
+  const double spring = mu * normal / stiffness;
+  EXPECT_NEAR(drag.scene.work.friction_stored, 0.5 * stiffness * spring * spring, 1e-9 * normal);
+  EXPECT_NEAR(drag.scene.work.friction_dissipated.value(), mu * normal * (path - spring), 1e-9 * normal * path);
+}
+
+}  // namespace
+}  // namespace breccia
