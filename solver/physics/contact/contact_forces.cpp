@@ -265,8 +265,10 @@ void Pass::follow(const ContactLaw& law, double scale, double length, Candidate&
   };
   work_.dissipated.add(go_to(candidate.g_before));
   if (candidate.g == candidate.g_before) return;
+  // The offset takes up the field's change: what rises makes no force, what sinks takes force away once the offset is gone.
   const double stored = normal_law::stored(law, h.d, h.d_max);
-  go_to(candidate.g);  // what the law loses here is part of what the field brought in: only the stored energy tells
+  h.offset = std::max(0.0, h.offset + (candidate.g - candidate.g_before));
+  go_to(candidate.g);
   work_.dissipated.add(scale * (stored - normal_law::stored(law, h.d, h.d_max)));
 }
 
