@@ -1,0 +1,109 @@
+#include "output/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+namespace breccia {
+namespace {
+
+constexpr mode_t kFileMode = 0666;  // less the user's umask
+
+/// Writes all of `content`; returns 0 or the errno of the write that failed.
+int write_all(int descriptor, std::span<const std::byte> content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(descriptor, content.data(), content.size());
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      return errno;
+    }
+    content = content.subspan(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+/// Syncs a descriptor; pipes and devices that cannot be synced have nothing to lose. Returns 0 or errno.
+int sync_descriptor(int descriptor) {
+  if (::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS) return 0;
+  return errno;
+}
+
+/// Makes the rename itself durable. Returns 0 or errno.
+int sync_folder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return errno == EACCES ? 0 : errno;  // a folder may be writable but not readable
+  const int error = sync_descriptor(descriptor);
+  ::close(descriptor);
+  return error;
+}
+
+/// Creates `path` with `content`, on the disk when it returns. Returns 0 or errno.
+int write_synced(const std::filesystem::path& path, std::span<const std::byte> content) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kFileMode);
+  if (descriptor < 0) return errno;
+  int error = write_all(descriptor, content);
+  if (error == 0) error = sync_descriptor(descriptor);
+  if (::close(descriptor) != 0 && error == 0) error = errno;
+  return error;
+}
+
+std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text.data(), text.size())); }
+
+}  // namespace
+
+OutputError output_error(const std::filesystem::path& path, const std::string& what, int error_number) {
+  Problem problem;
+  problem.file = path.string();
+  problem.what = error_number == 0 ? what : what + ": " + std::generic_category().message(error_number);
+  return OutputError(problem);
+}
+
+std::filesystem::path temporary_of(const std::filesystem::path& path) {
+  return path.parent_path() / ("." + path.filename().string() + ".tmp");
+}
+
+void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> content) {
+  const std::filesystem::path temporary = temporary_of(path);
+  int error = write_synced(temporary, content);
+  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
+  if (error != 0) {
+    ::unlink(temporary.c_str());
+    throw output_error(path, "cannot write this file", error);
+  }
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  error = sync_folder(folder);
+  if (error != 0) throw output_error(path, "cannot write its folder to the disk", error);
+}
+
+void write_file_atomically(const std::filesystem::path& path, std::string_view content) {
+  write_file_atomically(path, bytes_of(content));
+}
+
+LineFile::LineFile(std::filesystem::path path) : path_(std::move(path)) {
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, kFileMode);
+  if (descriptor_ < 0) throw output_error(path_, "cannot create this file", errno);
+}
+
+LineFile::~LineFile() { ::close(descriptor_); }
+
+void LineFile::append_line(std::string_view line) {
+  std::string whole(line);
+  whole += '\n';
+  const int error = write_all(descriptor_, bytes_of(whole));
+  if (error != 0) {
+    // What cannot be cut (a device) holds no lines either, so the result does not matter.
+    [[maybe_unused]] const int cut = ::ftruncate(descriptor_, static_cast<off_t>(size_));
+    throw output_error(path_, "cannot append a line to this file", error);
+  }
+  size_ += whole.size();
+}
+
+void LineFile::sync() {
+  const int error = sync_descriptor(descriptor_);
+  if (error != 0) throw output_error(path_, "cannot write this file to the disk", error);
+}
+
+}  // namespace breccia

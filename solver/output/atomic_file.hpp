@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/error.hpp"
+
+namespace breccia {
+
+/// OutputError that reads "path: what: text of error_number" (an errno value; 0 leaves the last part out).
+[[nodiscard]] OutputError output_error(const std::filesystem::path& path, const std::string& what, int error_number = 0);
+
+/// Replaces the whole file `path` at once: a reader, and a run killed at any instant, sees the old content or the new
+/// one, never a part. Writes `.name.tmp` in the same folder, syncs it to the disk, renames it and syncs the folder.
+/// @pre one writer a file at a time; `path` names a file in a folder that exists
+/// @throws OutputError naming the file and the system's reason (disk full, no permission, missing folder, ...);
+///         then the old file stands as it was and the temporary is gone.
+void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> content);
+void write_file_atomically(const std::filesystem::path& path, std::string_view content);
+
+/// Name of the temporary that write_file_atomically(path) uses; it survives only a kill.
+[[nodiscard]] std::filesystem::path temporary_of(const std::filesystem::path& path);
+
+/// A text file that grows by whole lines, each handed to the system before append_line returns: a run that is killed
+/// loses no line that was appended.
+class LineFile {
+ public:
+  /// Creates the file or empties it. Throws OutputError.
+  explicit LineFile(std::filesystem::path path);
+  LineFile(const LineFile&) = delete;
+  LineFile& operator=(const LineFile&) = delete;
+  ~LineFile();
+
+  /// Appends `line` and a line feed. Throws OutputError; a part of a line that did get written is cut off again.
+  void append_line(std::string_view line);
+  /// Waits until the lines are on the disk. Throws OutputError.
+  void sync();
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+  std::size_t size_ = 0;  ///< bytes of whole lines
+};
+
+}  // namespace breccia

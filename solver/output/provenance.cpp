@@ -1,0 +1,54 @@
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <ctime>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "output/run_folder.hpp"
+
+namespace breccia {
+namespace {
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  if (::gethostname(name.data(), name.size() - 1) != 0) return "";
+  return name.data();
+}
+
+std::string processor_model() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t colon = line.find(':');
+    if (line.starts_with("model name") && colon != std::string::npos && colon + 2 <= line.size()) return line.substr(colon + 2);
+  }
+  return "";
+}
+
+std::string utc_now() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  std::array<char, 32> text{};
+  const std::size_t length = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return {text.data(), length};
+}
+
+}  // namespace
+
+Provenance collect_provenance(std::string version, std::vector<std::string> command_line) {
+  Provenance provenance;
+  provenance.version = std::move(version);
+  provenance.host = host_name();
+  provenance.processor = processor_model();
+  provenance.cores = static_cast<int>(std::thread::hardware_concurrency());
+  provenance.compiler = BRECCIA_COMPILER;
+  provenance.flags = BRECCIA_FLAGS;
+  provenance.started = utc_now();
+  provenance.command_line = std::move(command_line);
+  return provenance;
+}
+
+}  // namespace breccia

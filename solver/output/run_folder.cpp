@@ -1,0 +1,111 @@
+#include "output/run_folder.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <regex>
+#include <system_error>
+
+#include "output/atomic_file.hpp"
+
+namespace breccia {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kProgram = "breccia";
+
+/// True for a folder in which a run was prepared: its provenance names this program.
+bool is_run(const RunFolder& folder) {
+  std::ifstream file(folder.provenance());
+  if (!file) return false;
+  const auto json = nlohmann::json::parse(file, nullptr, /*allow_exceptions=*/false);
+  return json.is_object() && json.value("program", nlohmann::json()) == kProgram;
+}
+
+/// Frames, their indices and what a kill may have left of either.
+bool is_frame_file(const std::string& name) {
+  static const std::regex pattern(R"(\.?(elements|joints|contacts)(_\d+)?\.vtkhdf(\.series)?(\.tmp)?)");
+  return std::regex_match(name, pattern);
+}
+
+/// Every file in the folder that a run wrote as a result.
+std::vector<fs::path> results_in(const RunFolder& folder) {
+  std::vector<fs::path> results;
+  std::error_code error;
+  for (const fs::path& path : {folder.history(), folder.status(), folder.summary(), temporary_of(folder.summary())}) {
+    if (fs::exists(path, error)) results.push_back(path);
+  }
+  fs::directory_iterator entries(folder.frames(), error);
+  if (error) return results;
+  for (const fs::directory_entry& entry : entries) {
+    if (is_frame_file(entry.path().filename().string())) results.push_back(entry.path());
+  }
+  return results;
+}
+
+void create_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw output_error(path, "cannot create this folder", error.value());
+}
+
+bool holds_nothing(const fs::path& folder) {
+  std::error_code error;
+  const bool empty = fs::is_empty(folder, error);
+  if (error) throw output_error(folder, "cannot read this folder", error.value());
+  return empty;
+}
+
+void refuse(const fs::path& path, const std::string& what, const std::string& allowed) {
+  Problem problem;
+  problem.file = path.string();
+  problem.what = what;
+  problem.allowed = allowed;
+  throw OutputError(problem);
+}
+
+}  // namespace
+
+std::filesystem::path default_run_folder(const fs::path& case_file) {
+  return fs::path("runs") / fs::absolute(case_file).lexically_normal().parent_path().filename();
+}
+
+std::string provenance_json(const Provenance& provenance) {
+  nlohmann::ordered_json json;
+  json["program"] = kProgram;
+  json["version"] = provenance.version;
+  json["started"] = provenance.started;
+  json["command_line"] = provenance.command_line;
+  json["host"] = provenance.host;
+  json["processor"] = provenance.processor;
+  json["cores"] = provenance.cores;
+  json["compiler"] = provenance.compiler;
+  json["flags"] = provenance.flags;
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+RunFolder prepare_run_folder(const fs::path& root, const std::string& resolved_case, const Provenance& provenance,
+                             OldResults old_results) {
+  const RunFolder folder{root};
+  create_folder(root);
+  if (!holds_nothing(root) && !is_run(folder)) {
+    refuse(root, "this folder holds other things than a run of breccia", "an empty or new folder, or one of an earlier run");
+  }
+  const std::vector<fs::path> results = results_in(folder);
+  if (!results.empty() && old_results == OldResults::refuse) {
+    refuse(root, "this folder holds the results of an earlier run", "another folder, or permission to overwrite");
+  }
+  for (const fs::path& path : results) {
+    std::error_code error;
+    fs::remove(path, error);
+    if (error) throw output_error(path, "cannot remove this old result", error.value());
+  }
+  // Provenance first: it marks the folder as ours, should the rest fail.
+  write_file_atomically(folder.provenance(), provenance_json(provenance));
+  write_file_atomically(folder.case_file(), resolved_case);
+  create_folder(folder.frames());
+  return folder;
+}
+
+}  // namespace breccia

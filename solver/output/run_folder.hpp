@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace breccia {
+
+/// Where a result came from: `provenance.json`.
+struct Provenance {
+  std::string version;       ///< of the program
+  std::string host;          ///< name of the machine
+  std::string processor;     ///< model
+  int cores = 0;             ///< hardware threads
+  std::string compiler;      ///< name and version
+  std::string flags;         ///< build type and options
+  std::string started;       ///< UTC, ISO 8601
+  std::vector<std::string> command_line;
+};
+
+/// Asks the machine and the build; unknown parts are empty. Throws nothing but std::bad_alloc.
+[[nodiscard]] Provenance collect_provenance(std::string version, std::vector<std::string> command_line);
+[[nodiscard]] std::string provenance_json(const Provenance& provenance);
+
+/// Names inside one run's folder.
+struct RunFolder {
+  std::filesystem::path root;
+
+  [[nodiscard]] std::filesystem::path frames() const { return root / "frames"; }
+  [[nodiscard]] std::filesystem::path case_file() const { return root / "case.toml"; }
+  [[nodiscard]] std::filesystem::path provenance() const { return root / "provenance.json"; }
+  [[nodiscard]] std::filesystem::path history() const { return root / "history.csv"; }
+  [[nodiscard]] std::filesystem::path status() const { return root / "status.jsonl"; }
+  [[nodiscard]] std::filesystem::path summary() const { return root / "summary.json"; }
+};
+
+/// `runs/<folder of the case>`, under the present folder.
+[[nodiscard]] std::filesystem::path default_run_folder(const std::filesystem::path& case_file);
+
+enum class OldResults { refuse, overwrite };
+
+/// Makes `root` ready for a run: creates it and frames/, writes case.toml and provenance.json.
+/// A folder with other things in it is refused, and so is a run with results unless old_results is overwrite: then the
+/// files a run writes are removed, and only those.
+/// @throws OutputError naming the path: refused, not a folder, no permission, disk full.
+[[nodiscard]] RunFolder prepare_run_folder(const std::filesystem::path& root, const std::string& resolved_case,
+                                           const Provenance& provenance, OldResults old_results);
+
+}  // namespace breccia

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "output/frame.hpp"
+
+namespace breccia {
+
+/// What is known about a run before its first step.
+struct RunStart {
+  std::string title;
+  std::int64_t elements = 0, joints = 0;
+  std::vector<std::string> gauges;  ///< groups, in the order of HistoryRow::gauges
+};
+
+/// How far a run has come. SI.
+struct StatusLine {
+  std::int64_t step = 0;
+  std::int64_t steps_total = 0;     ///< expected, at the present step size
+  double time = 0;                  ///< s, simulated
+  double end = 0;                   ///< s, simulated
+  double share = 0;                 ///< 0..1 of the run
+  double element_steps_per_s = 0;   ///< since the run's start or over the last interval, as the caller likes
+  double wall_s = 0;                ///< since the run's start
+  double eta_s = 0;                 ///< wall time still to go; negative or NaN: unknown
+  double energy_residual = 0;       ///< relative
+  std::int64_t broken_joints = 0, fragments = 0;
+  std::string stage;
+};
+
+/// Receives what a run produces. Calls come in the order: start, then any of frame, history and status, then finish.
+/// Every call may throw OutputError. A sink copies what it wants to keep.
+class Sink {
+ public:
+  Sink() = default;
+  Sink(const Sink&) = delete;
+  Sink& operator=(const Sink&) = delete;
+  virtual ~Sink() = default;
+
+  virtual void start(const RunStart&) {}
+  virtual void frame(const Frame&) {}
+  virtual void history(const HistoryRow&) {}
+  /// True when the sink would use a status line now: asked every step, so that nobody makes a line in vain.
+  [[nodiscard]] virtual bool status_due() const { return false; }
+  virtual void status(const StatusLine&) {}
+  /// Also after an error: Summary::status tells ("complete", "stopped: ..." or the error's text).
+  virtual void finish(const Summary&) {}
+};
+
+}  // namespace breccia

@@ -1,0 +1,167 @@
+#include "output/status_sink.hpp"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "output/quantity_text.hpp"
+
+namespace breccia {
+namespace {
+
+constexpr int kUsualColumns = 100;
+constexpr int kBarWidth = 24;
+
+const char* name_of(RunState state) {
+  switch (state) {
+    case RunState::running: return "running";
+    case RunState::complete: return "complete";
+    case RunState::stopped: return "stopped";
+    case RunState::failed: break;
+  }
+  return "failed";
+}
+
+std::chrono::milliseconds interval_of(ProgressMode mode) {
+  using namespace std::chrono_literals;
+  return mode == ProgressMode::bar ? 100ms : mode == ProgressMode::json ? 500ms : 5000ms;
+}
+
+/// The last line of a run: where it was when it ended.
+StatusLine last_line(StatusLine line, const Summary& summary) {
+  line.step = summary.steps;
+  line.time = summary.simulated_time;
+  line.wall_s = summary.wall_s;
+  line.element_steps_per_s = summary.element_steps_per_s;
+  line.energy_residual = summary.energy.residual_relative;
+  line.broken_joints = summary.broken_joints;
+  line.fragments = summary.fragments;
+  line.eta_s = 0;
+  if (state_of(summary) == RunState::complete) {
+    line.share = 1;
+    line.steps_total = summary.steps;
+  }
+  return line;
+}
+
+/// What finish has to say beyond the state.
+std::string message_of(const Summary& summary) {
+  return state_of(summary) == RunState::complete ? "" : summary.status;
+}
+
+double percent(const StatusLine& line) { return 100 * std::clamp(line.share, 0.0, 1.0); }
+
+}  // namespace
+
+RunState state_of(const Summary& summary) {
+  if (summary.status == "complete") return RunState::complete;
+  return summary.status.starts_with("stopped") ? RunState::stopped : RunState::failed;
+}
+
+std::string status_json(const StatusLine& line, RunState state, const std::string& message) {
+  nlohmann::ordered_json json;
+  json["state"] = name_of(state);
+  json["stage"] = line.stage;
+  json["step"] = line.step;
+  json["steps_total"] = line.steps_total;
+  json["time"] = line.time;
+  json["end"] = line.end;
+  json["share"] = line.share;
+  json["element_steps_per_s"] = line.element_steps_per_s;
+  json["wall_s"] = line.wall_s;
+  if (line.eta_s >= 0) {
+    json["eta_s"] = line.eta_s;
+  } else {
+    json["eta_s"] = nullptr;
+  }
+  json["energy_residual"] = line.energy_residual;
+  json["broken_joints"] = line.broken_joints;
+  json["fragments"] = line.fragments;
+  if (!message.empty()) json["message"] = message;
+  // Names come from the user's files: bytes that are not UTF-8 are replaced, not thrown at.
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+StatusSink::StatusSink(std::filesystem::path file, std::chrono::milliseconds interval)
+    : path_(std::move(file)), pace_(interval) {}
+
+void StatusSink::start(const RunStart&) { file_.emplace(path_); }
+
+void StatusSink::status(const StatusLine& line) {
+  last_ = line;
+  if (!file_ || !pace_.due()) return;
+  pace_.done();
+  file_->append_line(status_json(line, RunState::running, ""));
+}
+
+void StatusSink::finish(const Summary& summary) {
+  if (!file_) return;
+  file_->append_line(status_json(last_line(last_, summary), state_of(summary), message_of(summary)));
+  file_->sync();
+}
+
+ProgressMode default_progress_mode(int descriptor) {
+  return ::isatty(descriptor) == 1 ? ProgressMode::bar : ProgressMode::log;
+}
+
+int terminal_columns(int descriptor) {
+  winsize size{};
+  if (::ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kUsualColumns;
+  return size.ws_col;
+}
+
+std::string progress_text(const StatusLine& line) {
+  std::string text = fmt::format("{:5.1f} %  step {} of {}  {} of {}  {}  {} to go  residual {:.1e}", percent(line),
+                                 count_text(line.step), count_text(line.steps_total), quantity_text(line.time, "s"),
+                                 quantity_text(line.end, "s"), quantity_text(line.element_steps_per_s, "element-steps/s"),
+                                 duration_text(line.eta_s), line.energy_residual);
+  text += fmt::format("  broken joints {}  fragments {}", count_text(line.broken_joints), count_text(line.fragments));
+  if (!line.stage.empty()) text += fmt::format("  [{}]", line.stage);
+  return text;
+}
+
+std::string bar_text(const StatusLine& line, int columns) {
+  const int filled = std::isfinite(line.share) ? static_cast<int>(percent(line) / 100 * kBarWidth) : 0;
+  std::string text = fmt::format("[{:#<{}}{:.<{}}] {:5.1f} %  {}  {}  {} to go  {} broken, {} fragments", "", filled, "",
+                                 kBarWidth - filled, percent(line), quantity_text(line.time, "s"),
+                                 quantity_text(line.element_steps_per_s, "element-steps/s"), duration_text(line.eta_s),
+                                 count_text(line.broken_joints), count_text(line.fragments));
+  if (!line.stage.empty()) text += fmt::format("  [{}]", line.stage);
+  // A line as long as the terminal would wrap, and a wrapped line cannot be redrawn.
+  text.resize(std::min(text.size(), static_cast<std::size_t>(std::max(columns - 1, 1))));
+  return text;
+}
+
+ProgressSink::ProgressSink(ProgressMode mode, std::ostream& stream, int columns)
+    : mode_(mode), stream_(stream), columns_(columns), pace_(interval_of(mode)) {}
+
+void ProgressSink::status(const StatusLine& line) {
+  last_ = line;
+  if (!status_due()) return;
+  pace_.done();
+  show(line, RunState::running, "");
+}
+
+void ProgressSink::finish(const Summary& summary) {
+  show(last_line(last_, summary), state_of(summary), message_of(summary));
+}
+
+void ProgressSink::show(const StatusLine& line, RunState state, const std::string& message) {
+  constexpr const char* redraw = "\r\033[K";
+  const std::string ending = state == RunState::running ? "" : fmt::format("  {}", name_of(state));
+  switch (mode_) {
+    case ProgressMode::none: return;
+    case ProgressMode::bar:
+      stream_ << redraw << bar_text(line, columns_) << (state == RunState::running ? "" : "\n") << std::flush;
+      return;
+    case ProgressMode::log: stream_ << progress_text(line) << ending << '\n' << std::flush; return;
+    case ProgressMode::json: stream_ << status_json(line, state, message) << '\n' << std::flush; return;
+  }
+}
+
+}  // namespace breccia

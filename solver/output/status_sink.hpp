@@ -1,0 +1,87 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <string>
+
+#include "output/atomic_file.hpp"
+#include "output/sink.hpp"
+
+namespace breccia {
+
+/// Where a run stands.
+enum class RunState { running, complete, stopped, failed };
+/// From Summary::status: "complete", "stopped..." or anything else, which is an error.
+[[nodiscard]] RunState state_of(const Summary& summary);
+
+/// One JSON object without line breaks: the members of StatusLine by name, "state", and "message" unless it is empty.
+/// Numbers that are not finite and an unknown eta are null.
+[[nodiscard]] std::string status_json(const StatusLine& line, RunState state, const std::string& message);
+
+/// Says "now" at most once an interval of wall time, and at first.
+class Pace {
+ public:
+  explicit Pace(std::chrono::milliseconds interval) : interval_(interval) {}
+  [[nodiscard]] bool due() const { return !last_ || Clock::now() - *last_ >= interval_; }
+  void done() { last_ = Clock::now(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::chrono::milliseconds interval_;
+  std::optional<Clock::time_point> last_;
+};
+
+/// `status.jsonl`: one JSON line at the first step, about one a second, and one at the end with the run's state.
+class StatusSink final : public Sink {
+ public:
+  explicit StatusSink(std::filesystem::path file, std::chrono::milliseconds interval = std::chrono::seconds(1));
+
+  void start(const RunStart&) override;
+  [[nodiscard]] bool status_due() const override { return pace_.due(); }
+  /// Writes the line if it is due; keeps it for the end.
+  void status(const StatusLine& line) override;
+  void finish(const Summary& summary) override;
+
+ private:
+  std::filesystem::path path_;
+  std::optional<LineFile> file_;
+  Pace pace_;
+  StatusLine last_;
+};
+
+enum class ProgressMode { none, bar, log, json };
+/// A bar where it can be redrawn (descriptor is a terminal), else lines for a log.
+[[nodiscard]] ProgressMode default_progress_mode(int descriptor);
+/// Columns of the terminal behind the descriptor; 100 when it is none.
+[[nodiscard]] int terminal_columns(int descriptor);
+
+/// One line of text for a log: share, step, time, speed, time to go, residual, joints, fragments, stage.
+[[nodiscard]] std::string progress_text(const StatusLine& line);
+/// The bar: at most `columns` characters, as much of the text as fits.
+[[nodiscard]] std::string bar_text(const StatusLine& line, int columns);
+
+/// Progress for the person or program that started the run: a bar redrawn in place ten times a second, a line every five
+/// seconds, or a JSON line (status_json) twice a second. A stream that fails is ignored: losing sight of a run
+/// must not end it.
+class ProgressSink final : public Sink {
+ public:
+  /// @pre stream outlives the sink
+  ProgressSink(ProgressMode mode, std::ostream& stream, int columns = 100);
+
+  [[nodiscard]] bool status_due() const override { return mode_ != ProgressMode::none && pace_.due(); }
+  void status(const StatusLine& line) override;
+  void finish(const Summary& summary) override;
+
+ private:
+  void show(const StatusLine& line, RunState state, const std::string& message);
+
+  ProgressMode mode_;
+  std::ostream& stream_;
+  int columns_;
+  Pace pace_;
+  StatusLine last_;
+};
+
+}  // namespace breccia

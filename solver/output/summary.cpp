@@ -1,0 +1,116 @@
+#include "output/summary.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "output/atomic_file.hpp"
+#include "output/energy_terms.hpp"
+#include "output/quantity_text.hpp"
+
+namespace breccia {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kLabelWidth = 26;
+
+void add_line(std::string& text, std::string_view label, std::string_view value) {
+  fmt::format_to(std::back_inserter(text), "  {:<{}} {}\n", label, kLabelWidth, value);
+}
+
+void add_share(std::string& text, std::string_view label, const std::string& value, double share) {
+  fmt::format_to(std::back_inserter(text), "    {:<{}} {:>12} {:>7.2f} %\n", label, kLabelWidth - 2, value, 100 * share);
+}
+
+double largest_energy(const EnergyBudget& energy) {
+  double largest = 0;
+  for (const EnergyTerm& term : kEnergyTerms) largest = std::max(largest, std::abs(energy.*term.value));
+  return largest;
+}
+
+void add_phases(std::string& text, const Summary& summary) {
+  double total = 0;
+  for (const auto& [name, seconds] : summary.phases) total += seconds;
+  if (total <= 0) return;
+  text += "  time by phase\n";
+  for (const auto& [name, seconds] : summary.phases) add_share(text, name, duration_text(seconds), seconds / total);
+}
+
+void add_energies(std::string& text, const EnergyBudget& energy) {
+  const double largest = largest_energy(energy);
+  if (largest <= 0) return;
+  text += "  energy, share of the largest term\n";
+  for (const EnergyTerm& term : kEnergyTerms) {
+    const double value = energy.*term.value;
+    if (value != 0) add_share(text, term.words, quantity_text(value, "J"), value / largest);
+  }
+}
+
+}  // namespace
+
+std::string summary_json(const Summary& summary) {
+  Json json;
+  json["title"] = summary.title;
+  json["status"] = summary.status;
+  json["version"] = summary.version;
+  json["host"] = summary.host;
+  json["simd"] = summary.simd;
+  json["ranks"] = summary.ranks;
+  json["steps"] = summary.steps;
+  json["simulated_time"] = summary.simulated_time;
+  json["time_step"] = summary.time_step;
+  json["elements"] = summary.elements;
+  json["joints"] = summary.joints;
+  json["broken_joints"] = summary.broken_joints;
+  json["fragments"] = summary.fragments;
+  json["searches"] = summary.searches;
+  json["inverted_elements"] = summary.inverted_elements;
+  json["wall_s"] = summary.wall_s;
+  json["element_steps_per_s"] = summary.element_steps_per_s;
+  json["phases"] = Json::object();
+  for (const auto& [name, seconds] : summary.phases) json["phases"][name] = seconds;
+  json["energy"] = Json::object();
+  for (const EnergyTerm& term : kEnergyTerms) json["energy"][term.name] = summary.energy.*term.value;
+  json["energy_residual_relative"] = summary.energy.residual_relative;
+  json["max_rss_bytes"] = summary.max_rss_bytes;
+  json["state_hash"] = summary.state_hash;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string summary_text(const Summary& summary) {
+  std::string text = fmt::format("{}: {}\n", summary.title.empty() ? "run" : summary.title, summary.status);
+  add_line(text, "simulated", fmt::format("{} in {} steps of {}", quantity_text(summary.simulated_time, "s"),
+                                          count_text(summary.steps), quantity_text(summary.time_step, "s")));
+  add_line(text, "elements", count_text(summary.elements));
+  add_line(text, "joints", fmt::format("{}, {} broken", count_text(summary.joints), count_text(summary.broken_joints)));
+  add_line(text, "fragments", count_text(summary.fragments));
+  add_line(text, "contact searches", count_text(summary.searches));
+  if (summary.inverted_elements > 0) add_line(text, "inverted elements", count_text(summary.inverted_elements));
+  add_line(text, "wall time", duration_text(summary.wall_s));
+  add_line(text, "speed", quantity_text(summary.element_steps_per_s, "element-steps/s"));
+  add_phases(text, summary);
+  add_energies(text, summary.energy);
+  add_line(text, "relative energy residual", fmt::format("{:.2e}", summary.energy.residual_relative));
+  add_line(text, "memory", bytes_text(summary.max_rss_bytes));
+  add_line(text, "host", fmt::format("{}, {} rank{}, {}", summary.host, summary.ranks, summary.ranks == 1 ? "" : "s",
+                                     summary.simd));
+  add_line(text, "version", summary.version);
+  add_line(text, "state hash", summary.state_hash);
+  return text;
+}
+
+std::uint64_t max_resident_bytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+void SummarySink::finish(const Summary& summary) { write_file_atomically(path_, summary_json(summary)); }
+
+}  // namespace breccia

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace breccia {
+
+/// Cells of one kind, each with points of its own: cell c has the points n c .. n c + n - 1 (n = 4, 3, 1).
+enum class CellKind { tetrahedra, triangles, vertices };
+
+/// Values of a cell array, (num_cells, components) interleaved. Integers stay what they are; doubles are stored as
+/// 32-bit floats: they are looked at, not computed with.
+using CellValues = std::variant<std::span<const double>, std::span<const std::int32_t>, std::span<const std::int64_t>>;
+
+struct CellArray {
+  std::string name;
+  CellValues values;
+  int components = 1;
+};
+
+/// An unstructured grid to be stored. Views: must outlive the call.
+struct GridView {
+  CellKind kind = CellKind::tetrahedra;
+  std::span<const double> points;  ///< (n num_cells, 3), m, kept in 64 bits
+  std::vector<CellArray> arrays;
+  double time = 0;                 ///< s, field data "time"
+  std::int64_t step = 0;           ///< field data "step"
+};
+
+/// The bytes of a VTKHDF 1.0 file (HDF5, one UnstructuredGrid, one piece) as ParaView 5.11 and later read it. Zero cells
+/// are allowed. Integer arrays are shuffled and deflated (level 1); floating-point ones are left as they are where
+/// deflating costs more time than it saves bytes.
+/// @pre values.size() == num_cells * components for every array; points.size() a multiple of 3 n
+/// O(bytes), allocates twice the size of the file. Throws OutputError when HDF5 fails (out of memory).
+[[nodiscard]] std::vector<std::byte> vtkhdf_image(const GridView& grid);
+
+}  // namespace breccia
