@@ -25,7 +25,7 @@ bool is_run(const RunFolder& folder) {
 
 /// Frames, their indices and what a kill may have left of either.
 bool is_frame_file(const std::string& name) {
-  static const std::regex pattern(R"(\.?(elements|joints|contacts)(_\d+)?\.vtkhdf(\.series)?(\.tmp)?)");
+  static const std::regex pattern(R"(\.?(elements|joints|contacts)(_\d+\.vtkhdf|\.hdf\.series)(\.tmp)?)");
   return std::regex_match(name, pattern);
 }
 

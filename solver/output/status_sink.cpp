@@ -29,7 +29,7 @@ const char* name_of(RunState state) {
 
 std::chrono::milliseconds interval_of(ProgressMode mode) {
   using namespace std::chrono_literals;
-  return mode == ProgressMode::bar ? 100ms : mode == ProgressMode::json ? 500ms : 5000ms;
+  return mode == ProgressMode::bar ? 200ms : mode == ProgressMode::json ? 500ms : 5000ms;
 }
 
 /// The last line of a run: where it was when it ended.

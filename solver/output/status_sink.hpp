@@ -33,10 +33,10 @@ class Pace {
   std::optional<Clock::time_point> last_;
 };
 
-/// `status.jsonl`: one JSON line at the first step, about one a second, and one at the end with the run's state.
+/// `status.jsonl`: one JSON line at the first step, about one every two seconds, and one at the end with the run's state.
 class StatusSink final : public Sink {
  public:
-  explicit StatusSink(std::filesystem::path file, std::chrono::milliseconds interval = std::chrono::seconds(1));
+  explicit StatusSink(std::filesystem::path file, std::chrono::milliseconds interval = std::chrono::seconds(2));
 
   void start(const RunStart&) override;
   [[nodiscard]] bool status_due() const override { return pace_.due(); }
@@ -62,7 +62,7 @@ enum class ProgressMode { none, bar, log, json };
 /// The bar: at most `columns` characters, as much of the text as fits.
 [[nodiscard]] std::string bar_text(const StatusLine& line, int columns);
 
-/// Progress for the person or program that started the run: a bar redrawn in place ten times a second, a line every five
+/// Progress for the person or program that started the run: a bar redrawn in place five times a second, a line every five
 /// seconds, or a JSON line (status_json) twice a second. A stream that fails is ignored: losing sight of a run
 /// must not end it.
 class ProgressSink final : public Sink {

@@ -75,7 +75,7 @@ void VtkhdfSink::write_index(const Series& series) const {
   index["file-series-version"] = "1.0";
   index["files"] = nlohmann::ordered_json::array();
   for (const Entry& entry : series.entries) index["files"].push_back({{"name", entry.file}, {"time", entry.time}});
-  write_file_atomically(folder_ / (series.part + ".vtkhdf.series"), index.dump(1) + "\n");
+  write_file_atomically(folder_ / (series.part + ".hdf.series"), index.dump(1) + "\n");
 }
 
 }  // namespace breccia

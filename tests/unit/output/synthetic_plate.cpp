@@ -1,5 +1,6 @@
 #include "synthetic_plate.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -7,8 +8,6 @@
 #include <map>
 #include <numbers>
 #include <vector>
-
-#include "output/cell_fields.hpp"
 
 namespace breccia::test {
 namespace {
@@ -114,6 +113,18 @@ Vec3 shift_of(int piece, const Vec3& centre, double time_share) {
   return 0.0008 * time_share * outwards * (1 + 0.5 * noise(piece, 3)) - Vec3(0, fall * (1.2 + noise(piece, 1)), 0);
 }
 
+void derive_stress_fields(Frame::Elements& elements) {
+  for (std::size_t e = 0; e < elements.id.size(); ++e) {
+    const double* s = &elements.stress[6 * e];
+    Mat3 stress;
+    stress << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+    const Vec3 ascending = Eigen::SelfAdjointEigenSolver<Mat3>(stress, Eigen::EigenvaluesOnly).eigenvalues();
+    for (int k = 2; k >= 0; --k) elements.principal.push_back(ascending[k]);
+    const Mat3 deviator = stress - stress.trace() / 3 * Mat3::Identity();
+    elements.von_mises.push_back(std::sqrt(1.5) * deviator.norm());
+  }
+}
+
 }  // namespace
 
 Frame SyntheticPlate::frame(std::int64_t number, double time) const {
@@ -165,9 +176,7 @@ Frame SyntheticPlate::frame(std::int64_t number, double time) const {
       out.velocity.push_back(element.body == 1 ? (k == 1 ? -30.0 : 0.0) : shift[k] / end);
     }
   }
-  frame.elements.von_mises.resize(elements.size());
-  frame.elements.principal.resize(3 * elements.size());
-  derive_stress_fields(frame.elements.stress, frame.elements.von_mises, frame.elements.principal);
+  derive_stress_fields(frame.elements);
 
   std::int64_t inner_face = 0;
   for (std::size_t e = 0; e < elements.size() && elements[e].body == 0; ++e) {
@@ -184,7 +193,7 @@ Frame SyntheticPlate::frame(std::int64_t number, double time) const {
       const Vec3& centre = elements[e].centre;
       const double ahead = std::hypot(centre.x(), centre.z()) - front;
       const bool broken = piece[e] != piece[other];
-      const bool weak = !broken && ahead > 0 && ahead < 0.01 &&
+      const bool weak = !broken && front > 0 && ahead > 0 && ahead < 0.01 &&
                         piece_of(centre, 1) != piece_of(elements[other].centre, 1);
       if (!broken && !weak) continue;
       Vec3 gap{0, 0, 0};
