@@ -8,13 +8,13 @@ std::string Problem::text() const {
   std::string out;
   if (!file.empty()) {
     out += file;
-    if (line > 0) out += ":" + std::to_string(line);
+    if (line > 0) out.append(":").append(std::to_string(line));
     out += ": ";
   }
-  if (!key.empty()) out += key + ": ";
+  if (!key.empty()) out.append(key).append(": ");
   out += what;
-  if (!allowed.empty()) out += "; allowed: " + allowed;
-  if (!given.empty()) out += "; given: " + given;
+  if (!allowed.empty()) out.append("; allowed: ").append(allowed);
+  if (!given.empty()) out.append("; given: ").append(given);
   return out;
 }
 

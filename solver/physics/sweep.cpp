@@ -24,7 +24,8 @@ bool simd_available(Simd simd) {
   switch (simd) {
     case Simd::sse2: return true;
     case Simd::avx2: return __builtin_cpu_supports("avx2");
-    case Simd::avx512: return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+    case Simd::avx512: return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+                               __builtin_cpu_supports("bmi2");
   }
   return false;
 }

@@ -37,8 +37,9 @@ Stepper::Stepper(const Model& model, const ContactSearchParams& search)
       links_(build_links(model)),
       forces_(model.local.num_own_blocks(), model.local.num_nodes),
       constraints_({}, state_),
-      shared_corners_(blocked_corners(model.local)),
-      simd_(best_simd()) {
+      gravity_work_(model.local, model.local.reference),
+      simd_(best_simd()),
+      shared_corners_(blocked_corners(model.local)) {
   const LocalMesh& local = model.local;
   state_.position = local.reference;
   state_.next_position = local.reference;
@@ -58,11 +59,27 @@ Stepper::Stepper(const Model& model, const ContactSearchParams& search)
 }
 
 void Stepper::start_joints() {
+  const LocalMesh& local = model_.local;
+  joint_of_face_.assign(at(local.num_own_slots) * 4, -1);
   std::vector<ActiveJoint> from_start;
+  const auto note = [&](Index slot, int face, std::size_t joint) {
+    if (slot < local.num_own_slots) joint_of_face_[at(slot) * 4 + static_cast<std::size_t>(face)] = static_cast<Index>(joint);
+  };
   for (std::size_t j = 0; j < model_.joints.size(); ++j) {
+    const JointFace& face = model_.joints[j].face;
+    note(local.slot_of_element[at(face.a)], face.face_a, j);
+    note(local.slot_of_element[at(face.b)], face.code / 3, j);
     if (!starts_intact(model_, model_.joints[j])) from_start.push_back(make_active(static_cast<GlobalId>(j)));
   }
-  active_.insert(from_start);
+  insert_active(std::move(from_start));
+}
+
+/// @pre batch ascends by id
+void Stepper::insert_active(std::vector<ActiveJoint> batch) {
+  const auto middle = static_cast<std::ptrdiff_t>(active_.size());
+  active_.insert(active_.end(), batch.begin(), batch.end());
+  std::inplace_merge(active_.begin(), active_.begin() + middle, active_.end(),
+                     [](const ActiveJoint& x, const ActiveJoint& y) { return x.id < y.id; });
 }
 
 ActiveJoint Stepper::make_active(GlobalId id) const {
@@ -87,9 +104,27 @@ void Stepper::begin_stage(StageLoads loads, double dt) {
   constraints_ = Constraints(entries_, state_);
   mass_damping_ = loads.mass_damping;
   local_damping_ = loads.local_damping;
-  damping_on_ = mass_damping_ > 0 || local_damping_ > 0;
-  if (damping_on_) damping_.resize(at(model_.local.num_nodes));
+  if (mass_damping_ > 0 || local_damping_ > 0) damping_.resize(at(model_.local.num_nodes));
   dt_ = dt;
+}
+
+void Stepper::break_joints(std::span<const LoadedFace> faces) {
+  std::vector<GlobalId> by_hand;
+  for (const LoadedFace& face : faces) {
+    if (face.slot >= model_.local.num_own_slots) continue;
+    const Index id = joint_of_face_[at(face.slot) * 4 + static_cast<std::size_t>(face.face)];
+    const bool intact = id >= 0 && JointLinks::code_of(links_.link[JointLinks::at(face.slot, face.face)]) < 12;
+    if (intact) crossed_.push_back(id);
+    if (id >= 0) by_hand.push_back(id);
+  }
+  std::sort(crossed_.begin(), crossed_.end());
+  crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());
+  std::sort(by_hand.begin(), by_hand.end());
+  activate_crossing();
+  for (ActiveJoint& joint : active_) {
+    if (joint.state == JointState::failed || !std::binary_search(by_hand.begin(), by_hand.end(), joint.id)) continue;
+    for (JointPointHistory& p : joint.points) p.damage = 1.0;  // fails at its next evaluation, which books what it held
+  }
 }
 
 void Stepper::step(bool sample) {
@@ -120,13 +155,19 @@ void Stepper::external_forces() {
 void Stepper::joint_forces() {
   const auto lap = timer_.measure(Phase::joints);
   active_joint_forces(model_.joint_laws, model_.local, state_.position.data(), active_, forces_, joint_work_);
+  broken_joints_ += static_cast<std::int64_t>(joint_work_.failed.size());
+  released_.insert(released_.end(), joint_work_.released.begin(), joint_work_.released.end());
 }
 
 void Stepper::contact_forces() {
   if (!contact_) return;
   {
     const auto lap = timer_.measure(Phase::search);
-    if (!joint_work_.released.empty()) contact_->release_faces(joint_work_.released);
+    if (!joint_work_.released.empty()) {
+      std::vector<FreedFace> freed;
+      for (const ReleasedJoint& joint : joint_work_.released) freed.push_back({joint.slot_a, joint.face_a});
+      contact_->release_faces(freed);
+    }
     contact_->update(state_, max_speed_, dt_before_);
   }
   const auto lap = timer_.measure(Phase::contact);
@@ -204,13 +245,11 @@ void Stepper::finish_motion() {
 
 void Stepper::crossing(void* context, Index slot, int face, double* force) {
   auto& self = *static_cast<Stepper*>(context);
-  const std::int32_t link = self.links_.link[JointLinks::at(slot, face)];
-  const GlobalId joint = self.joint_of(slot, face, JointLinks::slot_of(link), JointLinks::code_of(link));
-  const bool side_a = self.model_.local.element_of_slot[at(slot)] < self.model_.local.element_of_slot[at(JointLinks::slot_of(link))];
-  const ActiveJoint virgin = self.make_active(joint);
-  const bool damaged = virgin_forces(self.model_.joint_laws[at(virgin.law)], self.model_.local, self.state_.position.data(), virgin, side_a, force);
-  (void)damaged;
-  if (side_a) self.crossed_.push_back(joint);
+  const Index id = self.joint_of_face_[at(slot) * 4 + static_cast<std::size_t>(face)];
+  const ActiveJoint virgin = self.make_active(id);
+  const bool side_a = virgin.slot_a == slot;
+  virgin_forces(self.model_.joint_laws[at(virgin.law)], self.model_.local, self.state_.position.data(), virgin, side_a, force);
+  if (side_a) self.crossed_.push_back(id);
 }
 
 void Stepper::activate_crossing() {
@@ -226,7 +265,7 @@ void Stepper::activate_crossing() {
   }
   crossed_.clear();
   start_history(model_.joint_laws, model_.local, state_.position.data(), batch, joint_work_);
-  active_.insert(batch);
+  insert_active(std::move(batch));
 }
 
 void Stepper::take_budget(const Field<double>& velocity_before) {

@@ -9,27 +9,17 @@
 
 #include "base/phase_timer.hpp"
 #include "output/frame.hpp"
-#include "physics/constraints.hpp"
 #include "physics/energy.hpp"
 #include "physics/initial_velocity.hpp"
 #include "physics/joint_forces.hpp"
-#include "physics/loads.hpp"
 #include "physics/sweep.hpp"
 #include "simulation/contact_search.hpp"
 #include "simulation/model.hpp"
+#include "simulation/stage_loads.hpp"
 #include "state/nodal_forces.hpp"
 #include "state/state.hpp"
 
 namespace breccia {
-
-/// What acts on the model during one stage.
-struct StageLoads {
-  std::vector<PressureLoad> pressures;
-  std::vector<NodalConstraint> constraints;
-  std::array<TimeFunction, 3> gravity;  ///< m/s2
-  double mass_damping = 0;              ///< 1/s
-  double local_damping = 0;             ///< share of the unbalanced force
-};
 
 /// The conductor of one step: owns everything that changes, calls the kernels in their order, computes nothing itself.
 ///
@@ -50,8 +40,10 @@ class Stepper {
 
   /// From now on these loads act and steps have length dt, s. Displacements count from the present positions.
   void begin_stage(StageLoads loads, double dt);
-  /// Breaks the joints on these faces as if they had never been; their stored energy goes into the books of mode I.
-  void break_joints(std::span<const Topology::Face> faces);
+  /// Length of the steps from now on, s.
+  void set_dt(double dt) { dt_ = dt; }
+  /// Takes the joints on these faces away; what they store is booked as dissipated in mode I. Joints broken already stay so.
+  void break_joints(std::span<const LoadedFace> faces);
 
   /// One step. With `sample`, the energy budget at t_n is taken on the way: budget().
   /// Throws SimulationError when a velocity is not finite.
@@ -62,7 +54,7 @@ class Stepper {
   [[nodiscard]] double dt() const { return dt_; }                   ///< s
   [[nodiscard]] std::int64_t steps() const { return steps_; }       ///< done
   [[nodiscard]] const State& state() const { return state_; }
-  [[nodiscard]] const ActiveJoints& active_joints() const { return active_; }
+  [[nodiscard]] const std::vector<ActiveJoint>& active_joints() const { return active_; }
   [[nodiscard]] const JointWork& joint_work() const { return joint_work_; }
   [[nodiscard]] const ContactSearch* contact() const { return contact_.get(); }  ///< nullptr: no contact in this case
   [[nodiscard]] const ContactWork& contact_work() const { return contact_work_; }
@@ -73,8 +65,11 @@ class Stepper {
   [[nodiscard]] Simd simd() const { return simd_; }
   void use_simd(Simd simd) { simd_ = simd; }
 
-  /// True while joint `id` holds its elements together: intact, or on the active list and not failed.
-  [[nodiscard]] const std::vector<std::uint8_t>& joint_failed() const { return joint_failed_; }
+  [[nodiscard]] const JointLinks& links() const { return links_; }
+  /// Joints that have failed and opened.
+  [[nodiscard]] const std::vector<ReleasedJoint>& released_joints() const { return released_; }
+  /// Joints that no longer hold, opened or not.
+  [[nodiscard]] std::int64_t broken_joints() const { return broken_joints_; }
 
   /// Budget at the last sampled step; residual against the first sample.
   [[nodiscard]] const EnergyBudget& budget() const { return budget_; }
@@ -83,6 +78,7 @@ class Stepper {
 
  private:
   void start_joints();
+  void insert_active(std::vector<ActiveJoint> batch);
   [[nodiscard]] ActiveJoint make_active(GlobalId joint) const;
   void external_forces();
   void joint_forces();
@@ -99,9 +95,10 @@ class Stepper {
   State state_;
   JointLinks links_;
   std::vector<Index> joint_of_face_;        ///< (own slots, 4) joint id, -1: none
-  ActiveJoints active_;
+  std::vector<ActiveJoint> active_;         ///< ascending id
+  std::vector<ReleasedJoint> released_;     ///< whose faces belong to contact, in the order of their release
   std::vector<GlobalId> crossed_;           ///< joints that left their elastic range in this step
-  std::vector<std::uint8_t> joint_failed_;  ///< (joints)
+  std::int64_t broken_joints_ = 0;
   NodalForces forces_;
   std::unique_ptr<ContactSearch> contact_;
 

@@ -1,0 +1,176 @@
+#include "simulation/convert.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "simulation/model.hpp"
+
+namespace breccia {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Index group_index(const std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? -1 : static_cast<Index>(found - names.begin());
+}
+
+SofteningShape shape_of(case_::Softening softening) {
+  switch (softening) {
+    case case_::Softening::linear: return SofteningShape::linear;
+    case case_::Softening::exponential: return SofteningShape::exponential;
+    case case_::Softening::z_curve: break;
+  }
+  return SofteningShape::z_curve;
+}
+
+OverlapField field_of(case_::OverlapField field) {
+  switch (field) {
+    case case_::OverlapField::tet_potential: return OverlapField::tet_potential;
+    case case_::OverlapField::tet_distance: return OverlapField::tet_distance;
+    case case_::OverlapField::body: break;
+  }
+  return OverlapField::body;
+}
+
+detection::Algorithm algorithm_of(case_::DetectionAlgorithm algorithm) {
+  switch (algorithm) {
+    case case_::DetectionAlgorithm::ms: return detection::Algorithm::ms;
+    case case_::DetectionAlgorithm::ms_slices: return detection::Algorithm::ms_slices;
+    case case_::DetectionAlgorithm::brute_force: return detection::Algorithm::brute_force;
+    case case_::DetectionAlgorithm::sorted_grid: break;
+  }
+  return detection::Algorithm::sorted_grid;
+}
+
+ContactLaw contact_law(const case_::Contact& entry) {
+  ContactLaw law;
+  law.penalty = entry.penalty;
+  law.plateau = entry.plateau > 0 ? entry.plateau : kInfinity;
+  law.exponent = entry.unloading_exponent;
+  law.friction = entry.friction;
+  law.tangential_ratio = entry.tangential_ratio;
+  return law;
+}
+
+void sort_unique(std::vector<Index>& nodes) {
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+}
+
+}  // namespace
+
+ElasticParams elastic_params(const case_::Material& material) {
+  const ElasticLaw law =
+      material.law == case_::ElasticLaw::green_st_venant ? ElasticLaw::green_st_venant : ElasticLaw::neo_hookean;
+  return make_elastic_params(law, material.young, material.poisson, material.viscosity);
+}
+
+JointLawParams joint_law_params(const case_::Joint& joint, double size, bool unbreakable) {
+  JointLawParams law;
+  law.law = joint.law == case_::JointLaw::independent_peaks && !unbreakable ? JointLaw::independent_peaks : JointLaw::mixed_mode;
+  law.rise = joint.rise == case_::JointRise::parabolic && !unbreakable ? JointRise::parabolic : JointRise::linear;
+  law.points = joint.points == case_::JointPoints::mid_edge ? JointPoints::mid_edge : JointPoints::nodal;
+  law.stiffness = joint.penalty / size;
+  law.tensile_strength = unbreakable ? kInfinity : joint.tensile_strength;
+  law.cohesion = unbreakable ? kInfinity : joint.shear_strength;
+  law.friction = joint.friction;
+  law.energy_mode_1 = joint.energy_mode_1;
+  law.energy_mode_2 = joint.energy_mode_2;
+  law.energy_of_whole_curve = joint.energy_of_whole_curve;
+  law.softening = {shape_of(joint.softening), joint.a, joint.b, joint.c, joint.exponent};
+  law.points_to_fail = joint.points_to_fail;
+  return law;
+}
+
+ContactParams contact_params(const case_::Case& input, const std::vector<std::string>& groups) {
+  ContactParams params;
+  params.points_per_face = input.contact_points.per_face;
+  params.field = field_of(input.contact_points.field);
+  params.ramp_steps = input.contact_points.field_ramp_steps;
+  params.num_groups = static_cast<Index>(groups.size());
+  params.laws.resize(groups.size() * groups.size());
+  const auto fits = [](const std::string& pattern, const std::string& group) { return pattern == "*" || pattern == group; };
+  for (const case_::Contact& entry : input.contacts) {
+    for (std::size_t a = 0; a < groups.size(); ++a) {
+      for (std::size_t b = 0; b < groups.size(); ++b) {
+        const bool named = (fits(entry.groups[0], groups[a]) && fits(entry.groups[1], groups[b])) ||
+                           (fits(entry.groups[1], groups[a]) && fits(entry.groups[0], groups[b]));
+        if (named) params.laws[a * groups.size() + b] = contact_law(entry);
+      }
+    }
+  }
+  if (input.sphere) params.sphere = SphericalBoundary{input.sphere->centre, input.sphere->radius, input.sphere->penalty};
+  return params;
+}
+
+ContactSearchParams search_params(const case_::Case& input, const Model& model) {
+  ContactSearchParams params;
+  params.algorithm = algorithm_of(input.detection.algorithm);
+  params.cell = input.detection.cell;
+  params.buffer = input.detection.buffer;
+  params.verify = input.detection.verify;
+  params.breakable = model.breakable;
+  params.everywhere = model.contact_everywhere;
+  params.faces = model.contact_faces;
+  return params;
+}
+
+InitialVelocity initial_velocity(const case_::InitialVelocity& entry, const Model& model) {
+  return {group_index(model.mesh.volume_groups, entry.group), entry.velocity, entry.random, entry.seed, entry.angular};
+}
+
+std::vector<Index> nodes_of_group(const Model& model, const std::string& group) {
+  const LocalMesh& local = model.local;
+  std::vector<Index> nodes;
+  const auto take = [&](Index slot, int corner) { nodes.push_back(local.corner_node(slot, corner)); };
+  if (const Index volume = group_index(model.mesh.volume_groups, group); volume >= 0) {
+    for (Index s = 0; s < local.num_slots; ++s) {
+      if (local.element_of_slot[static_cast<std::size_t>(s)] < 0 || local.block_group[static_cast<std::size_t>(s / kLanes)] != volume) continue;
+      for (int c = 0; c < 4; ++c) take(s, c);
+    }
+  } else if (const Index surface = group_index(model.mesh.surface_groups, group); surface >= 0) {
+    std::vector<bool> on_surface(model.mesh.nodes.size(), false);
+    for (const Mesh::SurfaceFace& face : model.mesh.surface_faces) {
+      if (face.group != surface) continue;
+      for (const Index node : face.nodes) on_surface[static_cast<std::size_t>(node)] = true;
+    }
+    for (Index s = 0; s < local.num_slots; ++s) {
+      for (int c = 0; c < 4; ++c) {
+        const Index vertex = local.vertex[static_cast<std::size_t>(s)][static_cast<std::size_t>(c)];
+        if (vertex >= 0 && on_surface[static_cast<std::size_t>(vertex)]) take(s, c);
+      }
+    }
+  }
+  sort_unique(nodes);
+  return nodes;
+}
+
+std::vector<LoadedFace> faces_of_surface(const Model& model, const std::string& surface) {
+  std::vector<LoadedFace> faces;
+  const Index group = group_index(model.mesh.surface_groups, surface);
+  for (const Topology::Face& face : model.topology.surface_groups[static_cast<std::size_t>(group)]) {
+    faces.push_back({model.local.slot_of_element[static_cast<std::size_t>(face.element)], face.face});
+  }
+  return faces;
+}
+
+StageLoads stage_loads(const case_::Stage& stage, const Model& model) {
+  StageLoads loads;
+  loads.gravity = stage.gravity;
+  loads.mass_damping = stage.mass_damping;
+  loads.local_damping = stage.local_damping;
+  for (const case_::Pressure& entry : stage.pressures) loads.pressures.emplace_back(faces_of_surface(model, entry.surface), entry.value);
+  for (const case_::Constraint& entry : stage.constraints) {
+    NodalConstraint constraint;
+    constraint.nodes = nodes_of_group(model, entry.group);
+    constraint.axes = entry.axes;
+    constraint.kind =
+        entry.kind == case_::ConstraintKind::displacement ? PrescribedMotion::displacement : PrescribedMotion::velocity;
+    if (entry.kind != case_::ConstraintKind::fixed) constraint.value = entry.value;
+    loads.constraints.push_back(std::move(constraint));
+  }
+  return loads;
+}
+
+}  // namespace breccia

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+#include "physics/contact/contact_params.hpp"
+#include "physics/elasticity.hpp"
+#include "physics/initial_velocity.hpp"
+#include "physics/joint_law.hpp"
+#include "simulation/contact_search.hpp"
+#include "simulation/stage_loads.hpp"
+
+namespace breccia {
+
+/// Case entries turned into the parameter structs of the kernels: the border that the case does not cross.
+
+[[nodiscard]] ElasticParams elastic_params(const case_::Material& material);
+
+/// @param size         h of k = p/h, m
+/// @param unbreakable  strengths become infinite
+[[nodiscard]] JointLawParams joint_law_params(const case_::Joint& joint, double size, bool unbreakable);
+
+/// Later entries of the case win where several name a pair; "*" fits every group.
+[[nodiscard]] ContactParams contact_params(const case_::Case& input, const std::vector<std::string>& groups);
+
+struct Model;
+[[nodiscard]] ContactSearchParams search_params(const case_::Case& input, const Model& model);
+[[nodiscard]] InitialVelocity initial_velocity(const case_::InitialVelocity& entry, const Model& model);
+[[nodiscard]] StageLoads stage_loads(const case_::Stage& stage, const Model& model);
+
+/// Nodes of a volume or surface group, ascending. A surface means every element corner at one of its mesh vertices, in
+/// bodies that have the surface's faces: also of elements that touch it with an edge or a corner only.
+[[nodiscard]] std::vector<Index> nodes_of_group(const Model& model, const std::string& group);
+
+/// Faces of a surface group as the loads want them.
+[[nodiscard]] std::vector<LoadedFace> faces_of_surface(const Model& model, const std::string& surface);
+
+}  // namespace breccia

@@ -1,0 +1,206 @@
+#include "simulation/observe.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/tetrahedron.hpp"
+#include "physics/cauchy_stress.hpp"
+
+namespace breccia {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+void append(std::vector<double>& values, const Vec3& v) { values.insert(values.end(), {v[0], v[1], v[2]}); }
+
+Vec3 centroid(const LocalMesh& local, const double* field, Index slot) {
+  Vec3 sum = Vec3::Zero();
+  for (int c = 0; c < 4; ++c) sum += load_node(field, local.corner_node(slot, c));
+  return 0.25 * sum;
+}
+
+void add_element(const Stepper& stepper, const Fragments& fragments, Index slot, Frame::Elements& out) {
+  const LocalMesh& local = stepper.model().local;
+  const double* x = stepper.state().position.data();
+  const double* v = stepper.state().velocity.data();
+  const Index group = local.block_group[at(slot / kLanes)];
+  for (int c = 0; c < 4; ++c) append(out.points, load_node(x, local.corner_node(slot, c)));
+  out.id.push_back(local.element_of_slot[at(slot)]);
+  out.body.push_back(local.slot_body[at(slot)]);
+  out.material.push_back(group);
+  out.rank.push_back(0);
+  out.fragment.push_back(fragments.of_slot[at(slot)]);
+  const Mat3 stress = cauchy_stress(local, stepper.model().elastic[at(group)], slot, x, v);
+  const auto six = components(stress);
+  out.stress.insert(out.stress.end(), six.begin(), six.end());
+  out.von_mises.push_back(von_mises(stress));
+  append(out.principal, principal_stresses(stress));
+  append(out.velocity, centroid(local, v, slot));
+  append(out.displacement, centroid(local, x, slot) - centroid(local, local.reference.data(), slot));
+}
+
+/// Triangle halfway between the two faces of a joint that is still held; on the face of a once it is released.
+void add_joint(const Stepper& stepper, GlobalId id, bool released, Frame::Joints& out) {
+  const LocalMesh& local = stepper.model().local;
+  const JointFace& face = stepper.model().joints[static_cast<std::size_t>(id)].face;
+  const double* x = stepper.state().position.data();
+  const Index a = local.slot_of_element[at(face.a)], b = local.slot_of_element[at(face.b)];
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 on_a = load_node(x, local.corner_node(a, kFaceCorners[at(face.face_a)][at(i)]));
+    const Vec3 on_b = load_node(x, local.corner_node(b, matching_corner(face.code, i)));
+    append(out.points, released ? on_a : Vec3(0.5 * (on_a + on_b)));
+  }
+  out.id.push_back(id);
+}
+
+void add_joints(const Stepper& stepper, Frame::Joints& out) {
+  std::vector<ReleasedJoint> released = stepper.released_joints();
+  std::sort(released.begin(), released.end(), [](const ReleasedJoint& p, const ReleasedJoint& q) { return p.id < q.id; });
+  const std::vector<ActiveJoint>& active = stepper.active_joints();
+  const auto add_released = [&](const ReleasedJoint& joint) {
+    add_joint(stepper, joint.id, true, out);
+    out.damage.push_back(1.0);
+    out.mode.push_back(static_cast<std::int32_t>(joint.mode));
+    out.opening.push_back(0.0);  // its faces have parted: there is no opening left to speak of
+    out.slip.push_back(0.0);
+    out.broken.push_back(1);
+  };
+  auto next = released.begin();
+  for (const ActiveJoint& joint : active) {
+    for (; next != released.end() && next->id < joint.id; ++next) add_released(*next);
+    if (joint.damage() <= 0) continue;
+    add_joint(stepper, joint.id, false, out);
+    out.damage.push_back(joint.damage());
+    out.mode.push_back(static_cast<std::int32_t>(joint.mode()));
+    out.opening.push_back(joint.opening());
+    out.slip.push_back(joint.slip());
+    out.broken.push_back(joint.state == JointState::failed ? 1 : 0);
+  }
+  for (; next != released.end(); ++next) add_released(*next);
+}
+
+void add_contacts(const Stepper& stepper, Frame::Contacts& out) {
+  if (stepper.contact() == nullptr) return;
+  const LocalMesh& local = stepper.model().local;
+  const ContactState& contact = stepper.contact()->contact();
+  const FaceRule& rule = face_rule(stepper.model().contact.points_per_face);
+  const double* x = stepper.state().position.data();
+  for (const TouchingCouple& couple : contact.touching) {
+    if (couple.force.squaredNorm() == 0.0) continue;
+    const ContactPoint& point = contact.points[at(couple.point)];
+    append(out.points, at_point(rule, point, x));
+    append(out.force, couple.force);
+    out.body.push_back(local.slot_body[at(point.slot)]);
+    out.other_body.push_back(local.slot_body[at(contact.contactors[at(couple.contactor)])]);
+  }
+}
+
+GaugeReading read_gauge(const Stepper& stepper, const Gauge& gauge) {
+  const LocalMesh& local = stepper.model().local;
+  GaugeReading reading;
+  for (const std::size_t entry : gauge.constraints) reading.reaction += stepper.constraints().reaction(entry);
+  if (gauge.volume_group >= 0 && stepper.contact() != nullptr) {
+    reading.contact_force = contact_force_on_group(stepper.contact()->contact(), local, gauge.volume_group);
+  }
+  const double* x = stepper.state().position.data();
+  const double* v = stepper.state().velocity.data();
+  for (const Index node : gauge.nodes) {
+    const Vec3 displacement = load_node(x, node) - load_node(local.reference.data(), node);
+    reading.displacement += displacement;
+    reading.velocity += load_node(v, node);
+    for (int i = 0; i < 3; ++i) {
+      if (std::abs(displacement[i]) > std::abs(reading.max_displacement[i])) reading.max_displacement[i] = displacement[i];
+    }
+  }
+  if (!gauge.nodes.empty()) {
+    reading.displacement /= static_cast<double>(gauge.nodes.size());
+    reading.velocity /= static_cast<double>(gauge.nodes.size());
+  }
+  return reading;
+}
+
+double sum_of_stress_yy(const Stepper& stepper) {
+  const LocalMesh& local = stepper.model().local;
+  CompensatedSum sum;
+  for (Index s = 0; s < local.num_slots; ++s) {
+    if (local.element_of_slot[at(s)] < 0) continue;
+    const ElasticParams& params = stepper.model().elastic[at(local.block_group[at(s / kLanes)])];
+    sum.add(std::abs(cauchy_stress(local, params, s, stepper.state().position.data(), nullptr)(1, 1)));
+  }
+  return sum.value();
+}
+
+}  // namespace
+
+Fragments find_fragments(const Stepper& stepper) {
+  FragmentFinder finder(stepper.model().local);
+  finder.join_linked(stepper.links());
+  for (const ActiveJoint& joint : stepper.active_joints()) {
+    if (joint.state == JointState::holding) finder.join(joint.slot_a, joint.slot_b);
+  }
+  return finder.find();
+}
+
+Frame make_frame(const Stepper& stepper, std::int64_t number, const FrameParts& parts) {
+  Frame frame;
+  frame.step = stepper.steps();
+  frame.time = stepper.time();
+  frame.number = number;
+  const LocalMesh& local = stepper.model().local;
+  if (parts.elements) {
+    const Fragments fragments = find_fragments(stepper);
+    for (const Index slot : local.slot_of_element) add_element(stepper, fragments, slot, frame.elements);
+  }
+  if (parts.joints) add_joints(stepper, frame.joints);
+  if (parts.contacts) add_contacts(stepper, frame.contacts);
+  return frame;
+}
+
+HistoryRow make_history_row(const Stepper& stepper, const std::vector<Gauge>& gauges, double time) {
+  HistoryRow row;
+  row.step = stepper.steps();
+  row.time = time;
+  row.time_step = stepper.dt();
+  row.energy = stepper.budget();
+  row.broken_joints = stepper.broken_joints();
+  const auto count_mode = [&](FailureMode mode) {
+    if (mode == FailureMode::mode_1) ++row.broken_mode_1;
+    if (mode == FailureMode::mode_2) ++row.broken_mode_2;
+  };
+  for (const ActiveJoint& joint : stepper.active_joints()) {
+    if (joint.damage() > 0) ++row.damaged_joints;
+    if (joint.state == JointState::failed) count_mode(joint.mode());
+  }
+  for (const ReleasedJoint& joint : stepper.released_joints()) count_mode(joint.mode);
+  row.damaged_joints += static_cast<std::int64_t>(stepper.released_joints().size());
+  row.fragments = find_fragments(stepper).count;
+  if (stepper.contact() != nullptr) {
+    row.couples = static_cast<std::int64_t>(stepper.contact()->contact().couples.size());
+    row.contacts = stepper.contact_work().touching;
+  }
+  const Momentum p = momentum(stepper.model().local, stepper.state().position.data(), stepper.state().velocity.data());
+  row.momentum = p.linear;
+  row.angular_momentum = p.angular;
+  row.max_speed = stepper.max_speed();
+  row.stress_yy_sum = sum_of_stress_yy(stepper);
+  for (const Gauge& gauge : gauges) row.gauges.push_back(read_gauge(stepper, gauge));
+  return row;
+}
+
+StateHash hash_of(const Stepper& stepper) {
+  std::vector<double> damage, contact;
+  for (const ActiveJoint& joint : stepper.active_joints()) {
+    damage.push_back(static_cast<double>(joint.id));
+    for (const JointPointHistory& p : joint.points) damage.insert(damage.end(), {p.damage, p.slip[0], p.slip[1], p.slip[2]});
+  }
+  if (stepper.contact() != nullptr) {
+    const ContactState& state = stepper.contact()->contact();
+    for (const TouchingCouple& c : state.touching) {
+      contact.push_back(static_cast<double>(state.id(c.point)));
+      contact.insert(contact.end(), {c.d, c.d_max, c.offset, c.spring[0], c.spring[1], c.spring[2]});
+    }
+  }
+  return hash_state(stepper.model().local, stepper.state(), damage, contact);
+}
+
+}  // namespace breccia

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/time_function.hpp"
+#include "physics/constraints.hpp"
+#include "physics/loads.hpp"
+
+namespace breccia {
+
+/// What acts on the model during one stage.
+struct StageLoads {
+  std::vector<PressureLoad> pressures;
+  std::vector<NodalConstraint> constraints;
+  std::array<TimeFunction, 3> gravity;  ///< m/s2
+  double mass_damping = 0;              ///< 1/s
+  double local_damping = 0;             ///< share of the unbalanced force
+};
+
+}  // namespace breccia
