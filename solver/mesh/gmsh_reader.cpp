@@ -4,91 +4,26 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <clocale>
-#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iomanip>
 #include <limits>
 #include <mutex>
-#include <regex>
 #include <set>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 
 #include "base/error.hpp"
-#include "mesh/geo_scan.hpp"
+#include "mesh/gmsh_source_check.hpp"
 
 namespace breccia {
 namespace {
 
 constexpr std::size_t kProblemsNamed = 10;
 constexpr int kTriangle3 = 2, kTetra4 = 4;  // gmsh's numbers of element types
-
-// --- Before gmsh ------------------------------------------------------------------------------------------------------
-
-bool is_script(const GmshSource& source) { return source.file.extension() == ".geo"; }
-
-bool is_identifier(const std::string& name) {
-  static const std::regex pattern("[A-Za-z_][A-Za-z0-9_]*");
-  return std::regex_match(name, pattern);
-}
-
-/// gmsh does not complain about a missing file, so files are looked at first.
-void demand_readable(const GmshSource& source) {
-  const std::string file = source.file.string();
-  const auto refuse = [&](const std::string& what, const std::string& allowed, const std::string& given) {
-    throw InputError(Problem{file, 0, "mesh.file", what, allowed, given});
-  };
-  std::error_code ignored;
-  const auto extension = source.file.extension();
-  if (extension != ".geo" && extension != ".msh") {
-    refuse("is no kind of mesh file that can be read", ".geo, or .msh of format 2.2 to 4.1", extension.string());
-  }
-  if (!std::filesystem::exists(source.file, ignored)) refuse("the file does not exist", "", "");
-  if (!std::filesystem::is_regular_file(source.file, ignored)) refuse("is not a file", "", "");
-  std::ifstream in(source.file, std::ios::binary);
-  if (!in) refuse("the file cannot be read", "a file with read permission", "");
-  if (in.peek() == std::ifstream::traits_type::eof()) refuse("the file is empty", "", "");
-  if (extension == ".geo") return;
-
-  std::string heading;
-  double version = 0;
-  in >> heading >> version;
-  if (heading != "$MeshFormat" || !in) refuse("is not a gmsh mesh: it does not begin with $MeshFormat", "", "");
-  if (!(version >= 2.2 && version <= 4.1)) {
-    refuse("the mesh format is not supported", "2.2 to 4.1", std::to_string(version).substr(0, 3));
-  }
-}
-
-void demand_parameters(const GmshSource& source) {
-  std::vector<Problem> problems;
-  const std::string file = source.file.string();
-  if (!(std::isfinite(source.scale) && source.scale > 0)) {
-    problems.push_back({file, 0, "mesh.scale", "is no length unit", "finite, > 0", std::to_string(source.scale)});
-  }
-  if (!is_script(source) && !source.parameters.empty()) {
-    problems.push_back({file, 0, "mesh.parameters", "a mesh file takes no parameters", "parameters with a .geo only",
-                        source.parameters.begin()->first});
-  }
-  if (is_script(source)) {
-    GeoScan scan = scan_geo(source.file);
-    std::string known;
-    for (const auto& name : scan.constants) known += (known.empty() ? "" : ", ") + name;
-    for (const auto& name : scan.onelab_names) known += (known.empty() ? "" : ", ") + name;
-    for (const auto& [name, value] : source.parameters) {
-      const bool constant = is_identifier(name) && scan.constants.count(name) != 0;
-      if (!constant && scan.onelab_names.count(name) == 0) {
-        problems.push_back({file, 0, "mesh.parameters." + name, "the script defines no such parameter",
-                            known.empty() ? "none: it has no DefineConstant" : known, ""});
-      } else if (!std::isfinite(value)) {
-        problems.push_back({file, 0, "mesh.parameters." + name, "is not finite", "a finite number", ""});
-      }
-    }
-    std::move(scan.problems.begin(), scan.problems.end(), std::back_inserter(problems));
-  }
-  if (!problems.empty()) throw InputError(std::move(problems));
-}
 
 // --- Running gmsh -----------------------------------------------------------------------------------------------------
 
@@ -156,24 +91,32 @@ class ParameterScript {
   std::filesystem::path path_;
 };
 
-/// Problems of all errors gmsh has logged, each once, with the line where it names one.
+/// What gmsh says, in its form "'file', line 12: what" with the place taken out where it stands there.
+Problem problem_of(const GmshSource& source, const std::string& message) {
+  const std::string mark = "', line ";
+  const std::size_t mark_at = message.find(mark), digits = mark_at + mark.size();
+  if (message.starts_with('\'') && mark_at != std::string::npos) {
+    const std::size_t digits_end = message.find_first_not_of("0123456789", digits);
+    int line = 0;
+    std::from_chars(message.data() + digits, message.data() + std::min(digits_end, message.size()), line);
+    if (digits_end != std::string::npos && message.compare(digits_end, 2, ": ") == 0) {
+      return {message.substr(1, mark_at - 1), line, "", "gmsh: " + message.substr(digits_end + 2), "", ""};
+    }
+  }
+  return {source.file.string(), 0, "", "gmsh: " + message, "", ""};
+}
+
+/// Problems of all errors gmsh has logged, each once.
 std::vector<Problem> logged_problems(const GmshSource& source) {
-  static const std::regex with_line(R"('([^']*)', line (\d+): (.*))");
+  constexpr std::string_view kError = "Error: ";
   std::vector<std::string> log;
   gmsh::logger::get(log);
   std::vector<Problem> problems;
   std::set<std::string> seen;
   for (const std::string& entry : log) {
-    constexpr std::string_view kError = "Error: ";
-    if (entry.compare(0, kError.size(), kError) != 0 || !seen.insert(entry).second) continue;
     if (problems.size() == kProblemsNamed) break;
-    const std::string message = entry.substr(kError.size());
-    std::smatch match;
-    if (std::regex_match(message, match, with_line)) {
-      problems.push_back({match[1].str(), std::stoi(match[2].str()), "", "gmsh: " + match[3].str(), "", ""});
-    } else {
-      problems.push_back({source.file.string(), 0, "", "gmsh: " + message, "", ""});
-    }
+    if (!entry.starts_with(kError) || !seen.insert(entry).second) continue;
+    problems.push_back(problem_of(source, entry.substr(kError.size())));
   }
   return problems;
 }
@@ -193,7 +136,7 @@ void run_gmsh(const GmshSource& source, Step step) {
   }
   std::vector<Problem> problems = logged_problems(source);
   if (problems.empty() && !thrown.empty()) {
-    problems.push_back({source.file.string(), 0, "", "gmsh: " + thrown, "", ""});
+    problems.push_back(problem_of(source, thrown));
   }
   if (!problems.empty()) throw InputError(std::move(problems));
 }
@@ -383,8 +326,7 @@ class ModelReader {
 }  // namespace
 
 FinishedMesh read_gmsh(const GmshSource& source) {
-  demand_readable(source);
-  demand_parameters(source);
+  check_source(source);
   Index ungrouped_elements = 0;
   Mesh raw;
   {

@@ -14,6 +14,11 @@
 #include "mesh/topology.hpp"
 #include "sample_meshes.hpp"
 
+#ifdef __SANITIZE_ADDRESS__
+/// gmsh does not free what it built of a file it then refuses.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libgmsh"; }
+#endif
+
 namespace breccia {
 namespace {
 

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "mesh/gmsh_reader.hpp"
+
+namespace breccia {
+
+/// What can be told without gmsh: the file is there, of a known kind and format; the scale is a length; every parameter is
+/// finite and one that the script takes. Throws InputError.
+void check_source(const GmshSource& source);
+
+/// True for a script (.geo), false for a mesh file.
+[[nodiscard]] bool is_script(const GmshSource& source);
+
+/// True for a name that gmsh's script language takes as a variable.
+[[nodiscard]] bool is_identifier(const std::string& name);
+
+}  // namespace breccia
