@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kFirstCheck = 20, kCheckEvery = 5, kMostIterations = 400;
 constexpr double kResidual = 0.01;  // of the eigenvalue: half of it in the step
+constexpr double kMargin = 1.01;    // the residual may be that of the eigenvalue just below the largest
 
 void add_element(const LocalMesh& mesh, const ElasticParams& p, Index slot, const double* u, double* y) {
   const auto s = static_cast<std::size_t>(slot);
@@ -111,7 +112,7 @@ double largest_eigenvalue(const StepModel& model) {
     const bool last = beta.back() <= 1e-10 * alpha.front() || k == kMostIterations;
     if (last || (k >= kFirstCheck && k % kCheckEvery == 0)) {
       const Ritz ritz = largest_ritz(alpha, beta);
-      if (last || ritz.residual <= kResidual * ritz.value) return ritz.value + ritz.residual;
+      if (last || ritz.residual <= kResidual * ritz.value) return kMargin * (ritz.value + ritz.residual);
     }
     previous = q;
     q = product / beta.back();

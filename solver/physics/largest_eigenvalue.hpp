@@ -9,7 +9,7 @@ namespace breccia {
 void stiffness_action(const StepModel& model, const double* u, double* y);
 
 /// Upper estimate of the largest eigenvalue of M^-1 K, 1/s2: largest Ritz value of a Lanczos iteration plus its residual,
-/// which is at most 1 % of it. Deterministic: the start is a function of the nodes' global ids.
+/// which is at most 1 % of it, plus 1 % of margin. Deterministic: the start is a function of the nodes' global ids.
 [[nodiscard]] double largest_eigenvalue(const StepModel& model);
 
 }  // namespace breccia

@@ -44,7 +44,12 @@ double element_share(const StepModel& model, Index slot, const Field<double>& po
   for (std::size_t i = 0; i < 9; ++i) g[i] = mesh.gradient[s / kLanes * 72 + i * kLanes + s % kLanes];
   const el::Tensor<double> f = el::deformation(x, g);
   const el::Tensor<double> cof = el::cofactor(f);
-  const double j = el::clamped(el::determinant(f, cof), p);
+  const double j = el::determinant(f, cof);
+
+  // Below j_min psi' keeps falling while psi'' stays: the part psi'(J) d2J of the tangent comes to the front.
+  double size = 0;
+  for (const double entry : f) size += entry * entry;
+  const double excess = std::max(0.0, el::volumetric_slope(p.j_min, p) - el::volumetric_slope(j, p)) * std::sqrt(size);
 
   double plain = 0, turned = 0;  // sums over the four corners of |g_a|^2 and |cof F g_a|^2
   for (std::size_t a = 0; a < 4; ++a) {
@@ -57,7 +62,7 @@ double element_share(const StepModel& model, Index slot, const Field<double>& po
     }
   }
   const double density = model.density[static_cast<std::size_t>(mesh.block_group[s / kLanes])];
-  return 4.0 / density * (p.mu * plain + el::volumetric_curvature(j, p) * turned);
+  return 4.0 / density * ((p.mu + excess) * plain + el::volumetric_curvature(el::clamped(j, p), p) * turned);
 }
 
 /// Largest sum of joint stiffness on a corner; the face is the stiffest one there.

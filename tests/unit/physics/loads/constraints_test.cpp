@@ -1,0 +1,92 @@
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "physics/constraints.hpp"
+#include "unit/physics/loads/models.hpp"
+
+namespace breccia {
+namespace {
+
+using test::in_time;
+using test::Model;
+
+constexpr double kRounding = 1e-12;
+
+Model lone_tetrahedron() { return {test::tetrahedron(), Discretisation::own_nodes, 1000}; }
+
+/// What the sweep would leave without forces: velocity kept, positions moved on.
+void drift(Model& model, double dt) {
+  for (std::size_t i = 0; i < model.state.position.size(); ++i) {
+    model.state.next_position[i] = model.state.position[i] + dt * model.state.velocity[i];
+  }
+}
+
+TEST(Constraints, PrescribeTheVelocityOfTheStepsMiddle) {
+  Model model = lone_tetrahedron();
+  const Index node = model.real_nodes()[2];
+  Constraints constraints({{{node}, {false, true, false}, PrescribedMotion::velocity, {in_time(0), in_time(0, 4.0), in_time(0)}}},
+                          model.state);
+  const double y = model.state.position[nodal(node, 1)];
+  drift(model, 0.5);
+  constraints.apply(model.local, model.state, 1.0, 0.5, 0.5);
+  EXPECT_EQ(model.state.velocity[nodal(node, 1)], 4.0 * 1.25);
+  EXPECT_EQ(model.state.next_position[nodal(node, 1)], y + 0.5 * 5.0);
+  EXPECT_EQ(model.state.velocity[nodal(node, 0)], 0.0);
+}
+
+TEST(Constraints, HoldPrescribedDisplacementsFromTheStagesStart) {
+  Model model = lone_tetrahedron();
+  const Index node = model.real_nodes()[1];
+  store_node(model.state.position.data(), node, Vec3(10, 20, 30));  // the stage begins in a deformed state
+  const TimeFunction sine = in_time(0, 0, 0.3, 0.7);
+  Constraints constraints({{{node}, {true, false, true}, PrescribedMotion::displacement, {sine, in_time(0), in_time(0, -2.0)}}},
+                          model.state);
+  constexpr double kStep = 0.01;
+  for (int step = 0; step < 100; ++step) {
+    drift(model, kStep);
+    constraints.apply(model.local, model.state, step * kStep, kStep, kStep);
+    std::swap(model.state.position, model.state.next_position);
+    const double time = (step + 1) * kStep;
+    EXPECT_NEAR(model.state.position[nodal(node, 0)], 10 + sine(time), 10 * kRounding);
+    EXPECT_NEAR(model.state.position[nodal(node, 2)], 30 - 2 * time, 30 * kRounding);
+    EXPECT_EQ(model.state.position[nodal(node, 1)], 20);
+  }
+}
+
+TEST(Constraints, ReactionIsTheForceThatChangedTheVelocity) {
+  Model model = lone_tetrahedron();
+  const double node_mass = 1000.0 / (6.0 * std::sqrt(2.0)) / 4.0;
+  const std::vector<Index> nodes = model.real_nodes();
+  Constraints constraints({{{nodes[0], nodes[3]}, {true, true, true}, PrescribedMotion::velocity, {}}}, model.state);
+  for (const Index n : nodes) store_node(model.state.velocity.data(), n, Vec3(1, 0, -2));
+  constraints.apply(model.local, model.state, 0.0, 0.0, 0.1);
+  EXPECT_LT((constraints.reaction(0) - 2 * node_mass / 0.1 * Vec3(-1, 0, 2)).norm(), kRounding * 2 * node_mass / 0.1);
+}
+
+TEST(Constraints, GiveAnAxisToTheLaterOfTwoEntriesAndCountANodeOnce) {
+  Model model = lone_tetrahedron();
+  const Index node = model.real_nodes()[0], other = model.real_nodes()[1];
+  const double mass = model.local.node_mass[test::at(node)];
+  Constraints constraints({{{node, other, node}, {true, true, false}, PrescribedMotion::velocity, {in_time(1), in_time(1), in_time(0)}},
+                           {{node}, {false, true, true}, PrescribedMotion::velocity, {in_time(0), in_time(5), in_time(6)}}},
+                          model.state);
+  constraints.apply(model.local, model.state, 0.0, 0.0, 1.0);
+  EXPECT_EQ(load_node(model.state.velocity.data(), node), Vec3(1, 5, 6));
+  EXPECT_EQ(load_node(model.state.velocity.data(), other), Vec3(1, 1, 0));
+  EXPECT_LT((constraints.reaction(0) - mass * Vec3(2, 1, 0)).norm(), kRounding * mass);
+  EXPECT_LT((constraints.reaction(1) - mass * Vec3(0, 5, 6)).norm(), kRounding * mass);
+}
+
+TEST(Constraints, OnNothingDoNothing) {
+  Model model = lone_tetrahedron();
+  const Field<double> before = model.state.velocity;
+  Constraints constraints({}, model.state);
+  constraints.apply(model.local, model.state, 0.0, 0.1, 0.1);
+  constraints.book_after(0.1);
+  EXPECT_TRUE(constraints.empty());
+  EXPECT_EQ(model.state.velocity, before);
+  EXPECT_EQ(constraints.work(), 0.0);
+}
+
+}  // namespace
+}  // namespace breccia
