@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 #include <tuple>
 
 #include "detection/point_body/couple_test.hpp"
@@ -18,6 +19,7 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 void ContactSearch::release_faces(std::span<const FreedFace> faces) {
   collect_sides(faces);
   if (sides_.empty()) return;
+  note_clusters();
   clusters_.break_faces(sides_, changed_);
   const std::size_t first = contact_.points.size();
   for (const Topology::Face& side : sides_) {
@@ -28,8 +30,8 @@ void ContactSearch::release_faces(std::span<const FreedFace> faces) {
   if (!searched_) return;
   made_.clear();
   couple_new_points(first);
-  couple_separated();
-  add_found();
+  couple_separated(first);
+  add_made();
 }
 
 /// Both sides of every face that is not free yet, each once.
@@ -46,6 +48,20 @@ void ContactSearch::collect_sides(std::span<const FreedFace> faces) {
   std::sort(sides_.begin(), sides_.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
   sides_.erase(std::unique(sides_.begin(), sides_.end(), [&](const auto& a, const auto& b) { return key(a) == key(b); }),
                sides_.end());
+}
+
+/// Corners at the nodes of the faces about to break, by node, with the clusters they belong to.
+void ContactSearch::note_clusters() {
+  nodes_.clear();
+  for (const Topology::Face& side : sides_) {
+    for (const int corner : kFaceCorners[at(side.face)]) nodes_.push_back(mesh_->elements[at(side.element)][at(corner)]);
+  }
+  std::sort(nodes_.begin(), nodes_.end());
+  nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+  old_clusters_.clear();
+  for (const Index node : nodes_) {
+    for (const Index id : clusters_.corners_at(node)) old_clusters_.push_back(clusters_.cluster(id / 4, id % 4));
+  }
 }
 
 /// The corners of a freed face, with everything still bonded to them, lie on the free surface now.
@@ -75,46 +91,47 @@ void ContactSearch::couple_new_points(std::size_t first) {
   }
 }
 
-/// Two elements that were bonded and are so no longer have parted around some node, and there the corner of one of them has
-/// changed its cluster: nothing has to be kept of the pairs turned down as bonded.
-void ContactSearch::couple_separated() {
-  for (const Index id : changed_) {
-    const Index element = id / 4, corner = id % 4;
-    const Index contactor = contact_.contactor_of_slot[at(local_->slot_of_element[at(element)])];
-    for (const Index other : clusters_.corners_at(mesh_->elements[at(element)][at(corner)])) {
-      const Index neighbour = other / 4;
-      if (clusters_.cluster(neighbour, other % 4) == clusters_.cluster(element, corner)) continue;
-      if (clusters_.bonded(element, neighbour)) continue;
-      const Index other_contactor = contact_.contactor_of_slot[at(local_->slot_of_element[at(neighbour)])];
-      if (other_contactor >= 0) couple_points_of(element, other_contactor);
-      if (contactor >= 0) couple_points_of(neighbour, contactor);
+/// Two elements that were bonded and are so no longer have parted at some node: there they were of one cluster and are now of
+/// two. So nothing has to be kept of the pairs that were turned down as bonded.
+/// @param first  points from here on are coupled already
+void ContactSearch::couple_separated(std::size_t first) {
+  std::size_t start = 0;
+  for (const Index node : nodes_) {
+    const std::span<const Index> corners = clusters_.corners_at(node);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      for (std::size_t j = i + 1; j < corners.size(); ++j) {
+        if (old_clusters_[start + i] != old_clusters_[start + j]) continue;
+        const Index a = corners[i] / 4, b = corners[j] / 4;
+        if (clusters_.bonded(a, b)) continue;
+        couple_points_of(a, b, first);
+        couple_points_of(b, a, first);
+      }
+    }
+    start += corners.size();
+  }
+}
+
+/// Couples of the points of one element, up to `first`, with another element not bonded to it.
+void ContactSearch::couple_points_of(Index element, Index other, std::size_t first) {
+  const Index slot = local_->slot_of_element[at(element)], other_slot = local_->slot_of_element[at(other)];
+  const Index contactor = contact_.contactor_of_slot[at(other_slot)];
+  if (contactor < 0 || !has_law(slot, other_slot)) return;
+  const FaceRule& rule = face_rule(params_->points_per_face);
+  std::optional<detection::CoupleTest> test;
+  for (const Index face_start : first_point_[at(element)]) {
+    if (face_start < 0 || at(face_start) >= first) continue;
+    if (!test) test.emplace(corners_[at(contactor)], buffer_);
+    if (test->skipped()) return;
+    for (Index p = face_start; p < face_start + rule.num_points; ++p) {
+      if (test->holds(at_point(rule, contact_.points[at(p)], reference_.data()))) made_.push_back({p, contactor});
     }
   }
 }
 
-/// Couples of all points of an element with one contactor not bonded to it.
-void ContactSearch::couple_points_of(Index element, Index contactor) {
-  const Index slot = local_->slot_of_element[at(element)];
-  if (!has_law(slot, contact_.contactors[at(contactor)])) return;
-  const auto first = std::lower_bound(contact_.order.begin(), contact_.order.end(), GlobalId{24} * element,
-                                      [&](Index p, GlobalId id) { return contact_.id(p) < id; });
-  if (first == contact_.order.end() || contact_.points[at(*first)].slot != slot) return;
-  const detection::CoupleTest test(corners_[at(contactor)], buffer_);
-  if (test.skipped()) return;
-  const FaceRule& rule = face_rule(params_->points_per_face);
-  for (auto p = first; p != contact_.order.end() && contact_.points[at(*p)].slot == slot; ++p) {
-    if (test.holds(at_point(rule, contact_.points[at(*p)], reference_.data()))) made_.push_back({*p, contactor});
-  }
-}
-
-/// Brings `made_` into the couples; pairs already there stay as they are.
-void ContactSearch::add_found() {
-  const auto in_order = [&](const ContactCouple& a, const ContactCouple& b) { return contact_.before(a, b); };
-  std::sort(made_.begin(), made_.end(), in_order);
+/// Brings `made_` into the couples. None is there yet: its point is new, or was bonded to the contactor until now.
+void ContactSearch::add_made() {
+  std::sort(made_.begin(), made_.end(), [&](const ContactCouple& a, const ContactCouple& b) { return contact_.before(a, b); });
   made_.erase(std::unique(made_.begin(), made_.end()), made_.end());
-  std::erase_if(made_, [&](const ContactCouple& couple) {
-    return std::binary_search(contact_.couples.begin(), contact_.couples.end(), couple, in_order);
-  });
   add_fresh_couples(made_, contact_);
 }
 

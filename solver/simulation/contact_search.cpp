@@ -47,7 +47,8 @@ ContactSearch::ContactSearch(const ContactSearchParams& search, const ContactPar
       local_(&local),
       clusters_(mesh, topology),
       detection_(detection::make_search(search.algorithm, search.cell)),
-      carries_(at(mesh.num_elements()), search.everywhere ? 0xF : 0) {
+      carries_(at(mesh.num_elements()), search.everywhere ? 0xF : 0),
+      first_point_(at(mesh.num_elements()), {-1, -1, -1, -1}) {
   const auto groups = mesh.volume_groups.size();
   DEMAND(search.breakable.size() == groups && params.laws.size() == groups * groups && at(params.num_groups) == groups,
          std::to_string(groups) + " volume groups");
@@ -87,6 +88,7 @@ void ContactSearch::choose_contactors() {
 
 void ContactSearch::add_points_of(Index element, int face) {
   if ((carries_[at(element)] >> face & 1) == 0) return;
+  first_point_[at(element)][at(face)] = static_cast<Index>(contact_.points.size());
   add_face_points(*params_, *local_, local_->slot_of_element[at(element)], face, contact_);
 }
 

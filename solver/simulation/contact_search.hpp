@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -80,11 +81,12 @@ class ContactSearch {
   void verify(const State& state) const;
 
   void collect_sides(std::span<const FreedFace> faces);
+  void note_clusters();
   void free_corners_of(const Topology::Face& side);
   void couple_new_points(std::size_t first);
-  void couple_separated();
-  void couple_points_of(Index element, Index contactor);
-  void add_found();
+  void couple_separated(std::size_t first);
+  void couple_points_of(Index element, Index other, std::size_t first);
+  void add_made();
 
   ContactSearchParams search_;
   const ContactParams* params_;
@@ -96,6 +98,7 @@ class ContactSearch {
   std::unique_ptr<detection::PointBodySearch> detection_;
   detection::ContactorGrid grid_;     ///< of the last full search, built when a face is freed
   std::vector<std::uint8_t> carries_; ///< (elements) a bit a face: may carry points
+  std::vector<std::array<Index, 4>> first_point_;  ///< (elements) of the points of a face, -1: none
   bool any_law_ = false;
 
   // The last full search.
@@ -113,7 +116,7 @@ class ContactSearch {
   std::vector<detection::Couple> found_;
   std::vector<ContactCouple> made_;
   std::vector<Topology::Face> sides_;
-  std::vector<Index> changed_, contactors_of_point_;
+  std::vector<Index> changed_, nodes_, old_clusters_, contactors_of_point_;
 };
 
 }  // namespace breccia

@@ -1,0 +1,69 @@
+#include "commands.hpp"
+
+#include <cstdio>
+#include <fmt/core.h>
+#include <fstream>
+#include <iostream>
+
+#include "base/log.hpp"
+#include "case/explain.hpp"
+#include "case/reader.hpp"
+#include "mesh/quality.hpp"
+#include "output/history_sink.hpp"
+#include "output/run_folder.hpp"
+#include "output/summary.hpp"
+#include "output/vtkhdf_sink.hpp"
+#include "simulation/check.hpp"
+#include "simulation/model.hpp"
+#include "simulation/observe.hpp"
+#include "simulation/run.hpp"
+
+namespace breccia {
+
+int run_command(const RunCommand& asked) {
+  const case_::Case input = case_::read_case(asked.case_file, asked.overrides);
+  const Model model = build_model(input);
+  const std::filesystem::path root = asked.folder.empty() ? default_run_folder(input.file) : asked.folder;
+  const RunFolder folder = prepare_run_folder(root, input.resolved, collect_provenance(BRECCIA_VERSION, asked.command_line),
+                                              asked.overwrite ? OldResults::overwrite : OldResults::refuse);
+  std::vector<std::unique_ptr<Sink>> sinks;
+  sinks.push_back(std::make_unique<VtkhdfSink>(folder.frames(), FrameParts{input.output.elements, input.output.joints, input.output.contacts}));
+  sinks.push_back(std::make_unique<HistorySink>(folder.history()));
+  sinks.push_back(std::make_unique<StatusSink>(folder.status()));
+  sinks.push_back(std::make_unique<ProgressSink>(asked.progress, std::cout, terminal_columns(fileno(stdout))));
+  sinks.push_back(std::make_unique<SummarySink>(folder.summary()));
+  const Summary summary = run_case(input, model, sinks);
+  if (asked.progress != ProgressMode::json && asked.progress != ProgressMode::none) {
+    fmt::print("{}results in {}\n", summary_text(summary), root.string());
+  }
+  return 0;
+}
+
+int check_command(const CheckCommand& asked) {
+  const case_::Case input = case_::read_case(asked.case_file, asked.overrides);
+  const Model model = build_model(input);
+  fmt::print("{}", check_report(input, model));
+  return 0;
+}
+
+int mesh_command(const MeshCommand& asked) {
+  const case_::Case input = case_::read_case(asked.case_file, asked.overrides);
+  if (asked.folder.empty()) {
+    fmt::print("{}", mesh_report(build_mesh(input)));
+    return 0;
+  }
+  const Model model = build_model(input);
+  fmt::print("{}", mesh_report({model.mesh, model.mesh_report}));
+  std::filesystem::create_directories(asked.folder);
+  const Stepper rest(model, {});
+  VtkhdfSink(asked.folder, {true, false, false}).frame(make_frame(rest, 0, {true, false, false}));
+  fmt::print("elements for ParaView in {}\n", asked.folder.string());
+  return 0;
+}
+
+int explain_command(const std::string& key) {
+  fmt::print("{}\n", key.empty() ? case_::explain() : case_::explain(key));
+  return 0;
+}
+
+}  // namespace breccia

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "output/status_sink.hpp"
+
+/// The sub-commands of the program; main.cpp reads their arguments. Each returns the exit code of success or throws.
+namespace breccia {
+
+struct RunCommand {
+  std::filesystem::path case_file;
+  std::filesystem::path folder;         ///< empty: runs/<folder of the case>
+  std::vector<std::string> overrides;   ///< key=value
+  bool overwrite = false;
+  ProgressMode progress = ProgressMode::log;
+  std::vector<std::string> command_line;
+};
+int run_command(const RunCommand& asked);
+
+struct CheckCommand {
+  std::filesystem::path case_file;
+  std::vector<std::string> overrides;
+};
+int check_command(const CheckCommand& asked);
+
+struct MeshCommand {
+  std::filesystem::path case_file;
+  std::vector<std::string> overrides;
+  std::filesystem::path folder;         ///< empty: report only
+};
+int mesh_command(const MeshCommand& asked);
+
+int explain_command(const std::string& key);
+
+}  // namespace breccia

@@ -1,0 +1,112 @@
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <unistd.h>
+
+#include "base/error.hpp"
+#include "base/log.hpp"
+#include "commands.hpp"
+#include "simulation/run.hpp"
+
+namespace {
+
+using namespace breccia;
+
+int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
+
+/// Ctrl-C and a polite kill end the run after the present step, with everything written; a second one kills.
+void stop_handler(int signal) {
+  stop_requested = true;
+  std::signal(signal, SIG_DFL);
+}
+
+/// What one invocation asked for.
+struct Arguments {
+  RunCommand run;
+  CheckCommand check;
+  MeshCommand mesh;
+  std::string key;
+  std::string progress = "auto";
+};
+
+const char* kCaseHelp = "case file (TOML); `breccia explain` lists its keys";
+const char* kSetHelp =
+    "override a key of the case: material.glass.young=\"70 GPa\", time.safety=0.5; may be given several times";
+
+void define(CLI::App& app, Arguments& a) {
+  app.require_subcommand(1);
+  app.set_version_flag("--version", std::string("breccia ") + BRECCIA_VERSION);
+  app.footer("Exit codes: 0 success, 1 usage, 2 case, mesh or output refused, 3 the numbers went wrong, 4 a fault of ours.");
+
+  CLI::App* run = app.add_subcommand("run", "Run a case through all its stages");
+  run->add_option("case", a.run.case_file, kCaseHelp)->required();
+  run->add_option("-o,--output", a.run.folder, "folder of the results; default runs/<folder of the case>");
+  run->add_option("--set", a.run.overrides, kSetHelp)->allow_extra_args(false)->take_all();
+  run->add_flag("-f,--overwrite", a.run.overwrite, "replace the results of an earlier run in that folder");
+  run->add_option("--progress", a.progress, "bar, log (a line every few seconds), json (JSON lines on stdout), none; default auto: a bar on a terminal")
+      ->check(CLI::IsMember({"auto", "bar", "log", "json", "none"}));
+  run->footer("Writes frames for ParaView (frames/*.series), history.csv, status.jsonl, summary.json, the resolved case and provenance.json.\n"
+              "Ctrl-C ends the run after the present step with everything written.");
+
+  CLI::App* check = app.add_subcommand("check", "Everything short of the first step: time step, memory, run time, advice");
+  check->add_option("case", a.check.case_file, kCaseHelp)->required();
+  check->add_option("--set", a.check.overrides, kSetHelp)->allow_extra_args(false)->take_all();
+
+  CLI::App* mesh = app.add_subcommand("mesh", "Read or generate the mesh of a case and report its bodies, groups and quality");
+  mesh->add_option("case", a.mesh.case_file, kCaseHelp)->required();
+  mesh->add_option("--set", a.mesh.overrides, kSetHelp)->allow_extra_args(false)->take_all();
+  mesh->add_option("-o,--output", a.mesh.folder, "write the elements for ParaView into this folder");
+
+  CLI::App* explain = app.add_subcommand("explain", "What a key of the case file means: unit, default, range; all keys without one");
+  explain->add_option("key", a.key, "such as material.young, or the name of a section");
+}
+
+int dispatch(const CLI::App& app, Arguments& a, int argc, char** argv) {
+  if (app.got_subcommand("run")) {
+    const std::map<std::string, ProgressMode> modes{{"bar", ProgressMode::bar}, {"log", ProgressMode::log},
+                                                    {"json", ProgressMode::json}, {"none", ProgressMode::none}};
+    const auto mode = modes.find(a.progress);
+    a.run.progress = mode != modes.end() ? mode->second : default_progress_mode(STDOUT_FILENO);
+    a.run.command_line.assign(argv, argv + argc);
+    return run_command(a.run);
+  }
+  if (app.got_subcommand("check")) return check_command(a.check);
+  if (app.got_subcommand("mesh")) return mesh_command(a.mesh);
+  return explain_command(a.key);
+}
+
+/// One line a problem on stderr, and the exit code that goes with the kind of error.
+int report(const std::exception& error, ExitCode exit_code) {
+  std::fprintf(stderr, "breccia: error: %s\n", error.what());
+  return code(exit_code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Breccia: combined finite-discrete element simulation of solids that break"};
+  Arguments arguments;
+  define(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int answer = app.exit(error);
+    return answer == 0 ? code(ExitCode::success) : code(ExitCode::usage);
+  }
+  std::signal(SIGINT, stop_handler);
+  std::signal(SIGTERM, stop_handler);
+  try {
+    return dispatch(app, arguments, argc, argv);
+  } catch (const InputError& error) {
+    return report(error, ExitCode::input);
+  } catch (const SimulationError& error) {
+    return report(error, ExitCode::simulation);
+  } catch (const std::bad_alloc& error) {
+    std::fprintf(stderr, "breccia: error: out of memory; `breccia check` tells how much a case needs\n");
+    return code(ExitCode::input);
+  } catch (const std::exception& error) {
+    return report(error, ExitCode::internal);
+  }
+}

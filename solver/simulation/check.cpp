@@ -1,0 +1,150 @@
+#include "simulation/check.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fmt/core.h>
+#include <numbers>
+
+#include "mesh/quality.hpp"
+#include "output/quantity_text.hpp"
+#include "output/summary.hpp"
+#include "simulation/convert.hpp"
+#include "simulation/stepper.hpp"
+#include "simulation/time_step.hpp"
+
+namespace breccia {
+namespace {
+
+std::size_t index(Index i) { return static_cast<std::size_t>(i); }
+
+/// Below this radius ratio an element is a sliver.
+constexpr double kSliver = 0.1;
+/// Softness added by the joints that is worth a warning.
+constexpr double kSoftness = 0.05;
+
+/// Young's modulus regained from the Lame constants.
+double young(const ElasticParams& p) { return p.mu * (3 * p.lambda + 2 * p.mu) / (p.lambda + p.mu); }
+
+/// Area of the joints of a law over the volume of the groups it holds together, 1/m.
+double area_per_volume(const Model& model, Index law) {
+  double area = 0, volume = 0;
+  std::vector<bool> counted(model.mesh.volume_groups.size(), false);
+  for (const ModelJoint& joint : model.joints) {
+    if (joint.law != law) continue;
+    area += joint.face.area;
+    counted[index(model.mesh.element_group[index(joint.face.a)])] = true;
+    counted[index(model.mesh.element_group[index(joint.face.b)])] = true;
+  }
+  for (Index s = 0; s < model.local.num_slots; ++s) {
+    if (counted[index(model.local.block_group[index(s / kLanes)])]) volume += model.local.volume[index(s)];
+  }
+  return volume > 0 ? area / volume : 0.0;
+}
+
+ElasticParams params_of_law(const Model& model, Index law) {
+  for (const ModelJoint& joint : model.joints) {
+    if (joint.law == law) return model.elastic[index(model.mesh.element_group[index(joint.face.a)])];
+  }
+  return {};
+}
+
+/// One law: penalty, softness, process zone; warnings are added to `advice`.
+std::string law_report(const Model& model, Index l, std::string& advice) {
+  const JointLawParams& law = model.joint_laws[index(l)];
+  const double h = model.joint_sizes[index(l)], modulus = young(params_of_law(model, l));
+  const double softness = modulus * area_per_volume(model, l) / (3 * law.stiffness);
+  const std::string& name = model.joint_law_names[index(l)];
+  std::string text = fmt::format("joints of {}: k = p/h = {:.4g} Pa/m with h = {:.4g} m; they make the body {:.2g} % softer\n", name,
+                                 law.stiffness, h, 100 * softness);
+  if (softness > kSoftness) {
+    advice += fmt::format("- The joints of {} make it {:.1f} % softer. For 5 % raise joint.penalty by a factor of {:.2g}; the time step falls with its root.\n",
+                          name, 100 * softness, softness / kSoftness);
+  }
+  if (!law.breakable()) return text;
+  const double zone = std::min(modulus * law.width_normal / (4 * law.tensile_strength),
+                               std::numbers::pi * modulus * law.width_normal / (32 * law.tensile_strength));
+  text += fmt::format("  fracture process zone at least {:.4g} m; mean joint edge {:.4g} m\n", zone, h);
+  if (h > zone) {
+    advice += fmt::format("- The elements of {} (edge {:.3g} m) are larger than its fracture process zone (h_max = {:.3g} m): the load at fracture "
+                          "and the crack paths depend on the mesh. Refine by {:.2g}, or take the results as qualitative.\n",
+                          name, h, zone, h / zone);
+  }
+  return text;
+}
+
+/// Seconds a step takes here: the best of a few steps at rest on a scratch copy.
+double seconds_a_step(const case_::Case& input, const Model& model, double dt) {
+  Stepper scratch(model, search_params(input, model));
+  scratch.begin_stage(stage_loads(input.stages.front(), model), dt);
+  double best = 1e300;
+  for (int i = 0; i < 4; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    scratch.step(false);
+    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return best;
+}
+
+std::string quality_advice(const QualityReport& quality) {
+  const auto slivers = std::count_if(quality.worst.begin(), quality.worst.end(),
+                                     [](const QualityReport::Worst& w) { return w.quality.radius_ratio < kSliver; });
+  if (slivers == 0) return {};
+  return fmt::format("- {}{} elements are slivers (radius ratio below {}), the worst is element {}: they set the time step. Optimise the mesh "
+                     "(Mesh.Optimize, Mesh.OptimizeNetgen) or merge them.\n",
+                     slivers == 20 ? "At least " : "", slivers, kSliver, quality.worst.front().element);
+}
+
+}  // namespace
+
+std::string mesh_report(const FinishedMesh& made) {
+  const MeshReport& r = made.report;
+  std::string text = fmt::format("{}: {} elements, {} nodes, {} bodies\n", made.mesh.source, r.elements, r.nodes, r.bodies);
+  for (const MeshReport::Group& g : r.volume_groups) text += fmt::format("  volume  {:<20} {:>9} elements\n", g.name, g.count);
+  for (const MeshReport::Group& g : r.surface_groups) text += fmt::format("  surface {:<20} {:>9} triangles\n", g.name, g.count);
+  const auto note = [&](Index count, const char* what) {
+    if (count > 0) text += fmt::format("  {} {}\n", count, what);
+  };
+  note(r.inverted_repaired, "inverted elements turned round");
+  note(r.orphan_nodes, "nodes of no element dropped");
+  note(r.split_nodes, "nodes added where bodies that are not glued touch");
+  note(r.duplicate_nodes, "nodes coincide with others: bodies there are not joined");
+  note(r.ungrouped_elements, "tetrahedra outside every physical volume left out");
+  const QualityReport q = assess_quality(made.mesh);
+  text += fmt::format("  edge          median {:.4g} m, from {:.4g} to {:.4g} m\n", q.mean_edge.median, q.mean_edge.min, q.mean_edge.max);
+  text += fmt::format("  radius ratio  median {:.3f}, 1 % below {:.3f}, worst {:.3f} (1 is regular)\n", q.radius_ratio.median, q.radius_ratio.p01, q.radius_ratio.min);
+  text += fmt::format("  dihedral      {:.1f} to {:.1f} degrees\n", q.min_dihedral.min * 180 / std::numbers::pi, q.max_dihedral.max * 180 / std::numbers::pi);
+  text += "  worst elements (id in the source, radius ratio):";
+  for (std::size_t i = 0; i < std::min<std::size_t>(5, q.worst.size()); ++i) {
+    text += fmt::format(" {} {:.3f}{}", made.mesh.element_source_id[index(q.worst[i].element)], q.worst[i].quality.radius_ratio, i < 4 ? "," : "");
+  }
+  return text + "\n";
+}
+
+std::string check_report(const case_::Case& input, const Model& model) {
+  std::string text = fmt::format("{}\n", input.title) + mesh_report({model.mesh, model.mesh_report}), advice;
+  text += fmt::format("joints: {}\n", model.joints.size());
+  for (std::size_t l = 0; l < model.joint_laws.size(); ++l) text += law_report(model, static_cast<Index>(l), advice);
+
+  const TimeStep time_step(model);
+  const StableStep stable = time_step.at(model.local.reference);
+  const double limit = time_step.limit(model.local.reference);
+  const double dt = input.time.step > 0 ? input.time.step : input.time.safety * limit;
+  text += fmt::format("stable time step {}, limited by {}; elements alone {}, with joints {}\n", quantity_text(limit, "s"), limit_text(stable),
+                      quantity_text(stable.element_step, "s"), quantity_text(stable.joint_step, "s"));
+  text += fmt::format("  elements' own steps: smallest {}, 1 % {}, median {}\n", quantity_text(stable.quantiles[0], "s"),
+                      quantity_text(stable.quantiles[1], "s"), quantity_text(stable.quantiles[3], "s"));
+  if (dt > limit) advice += fmt::format("- time.step = {:.3g} s is longer than the stable step {:.3g} s: the run will blow up. Leave it to \"auto\".\n", dt, limit);
+  if (stable.quantiles[0] < 0.3 * stable.quantiles[1]) {
+    advice += fmt::format("- The worst element allows {:.1f} times less than the worst per cent: one bad element slows the whole run.\n",
+                          stable.quantiles[1] / stable.quantiles[0]);
+  }
+  const double steps = std::ceil(input.stages.back().end / dt);
+  const double seconds = seconds_a_step(input, model, 1e-3 * dt) * steps;
+  text += fmt::format("{:.0f} steps of {} to {}; about {} on this machine while little breaks, memory {:.0f} MB\n", steps, quantity_text(dt, "s"),
+                      quantity_text(input.stages.back().end, "s"), quantity_text(seconds, "s"), static_cast<double>(max_resident_bytes()) / 1e6);
+  advice += quality_advice(assess_quality(model.mesh));
+  return text + (advice.empty() ? "nothing to advise\n" : "advice\n" + advice);
+}
+
+}  // namespace breccia

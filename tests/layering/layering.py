@@ -1,0 +1,121 @@
+"""Checks that the sources keep the rules of the house: who may include what, file sizes, nothing left open.
+
+usage: layering.py REPOSITORY
+Prints one line a violation, "file:line: what", and exits 1 when there is any.
+"""
+
+import re
+import sys
+from fnmatch import fnmatch
+from pathlib import Path
+
+# Folder of solver/ -> folders whose headers its files may include (its own always).
+MAY_INCLUDE = {
+    "base": set(),
+    "case": {"base"},
+    "mesh": {"base"},
+    "parallel": {"base", "mesh"},
+    "state": {"base", "mesh"},
+    "physics": {"base", "mesh", "state"},
+    "detection": {"base", "mesh", "state"},
+    "output": {"base", "case", "mesh", "state", "parallel"},
+    "simulation": {"base", "case", "mesh", "parallel", "state", "physics", "detection", "output"},
+}
+PROGRAM = set(MAY_INCLUDE)  # what main.cpp and commands*.cpp may include: everything
+
+# The C interface of the in-situ adaptor is the one header from outside solver/, for output alone.
+IN_SITU_HEADER = "catalyst/insitu_abi.h"
+
+# Third-party headers -> files of solver/ that may include them. Eigen is the vector type of base/types.hpp, so everywhere.
+THIRD_PARTY = [
+    (r"Eigen/.*", ["*"]),
+    (r"(spdlog|fmt)/.*", ["base/log.cpp"]),
+    (r"(toml\.hpp|toml\+\+/.*|toml\+\+\.h|tomlplusplus/.*)", ["case/*reader*.cpp"]),
+    (r"gmsh(c|\.h_cwrap)?\.h", ["mesh/gmsh_reader.cpp"]),
+    (r"mpi\.h", ["parallel/*"]),
+    (r"zoltan.*\.h", ["parallel/domain_topology.cpp"]),
+    (r"(hdf5(_hl)?|H5\w*)\.h", ["output/vtkhdf_sink.cpp", "output/*hdf5*.cpp"]),
+    (r"nlohmann/.*", ["output/*.cpp"]),
+    (r"CLI/.*", ["main.cpp", "commands*.cpp"]),
+]
+
+# Of the operating system and the compiler; anything else with a slash or ".h" needs a line in THIRD_PARTY.
+SYSTEM = re.compile(
+    r"(experimental/simd|(x86|imm)intrin\.h|dlfcn\.h|fcntl\.h|unistd\.h|cpuid\.h|sys/(resource|stat|statvfs|types|utsname)\.h)")
+
+SOURCE_SUFFIXES = {".cpp", ".hpp", ".h", ".cxx", ".py"}
+MAX_LINES = 450
+LEFT_OPEN = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X|HA" r"CK)\b")
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+
+def include_problem(file, bracket, header):
+    """What is wrong with `#include` of header in file (path below solver/), or None."""
+    for pattern, files in THIRD_PARTY:
+        if re.fullmatch(pattern, header):
+            if any(fnmatch(file, allowed) for allowed in files):
+                return None
+            return f"third-party header {header} is allowed only in {', '.join(files)}"
+    if bracket == "<":
+        if ("/" not in header and not header.endswith(".h")) or SYSTEM.fullmatch(header):
+            return None
+        return f"third-party header {header} is not in the table of tests/layering"
+    folder = file.split("/")[0] if "/" in file else None
+    if header == IN_SITU_HEADER and folder == "output":
+        return None
+    if "/" not in header:
+        return None if folder is None else f'write the folder in the include of "{header}"'
+    target = header.split("/")[0]
+    allowed = MAY_INCLUDE[folder] | {folder} if folder else PROGRAM
+    if target not in allowed:
+        return f"{folder or 'the program'} must not include {header}; it may include {', '.join(sorted(allowed))}"
+    return None
+
+
+def solver_problems(solver):
+    for path in sorted(solver.rglob("*")):
+        if path.suffix not in SOURCE_SUFFIXES:
+            continue
+        file = path.relative_to(solver).as_posix()
+        if "/" in file and file.split("/")[0] not in MAY_INCLUDE:
+            yield path, 1, f"folder solver/{file.split('/')[0]} is not in the table of tests/layering"
+            continue
+        if "/" not in file and not (fnmatch(file, "main.cpp") or fnmatch(file, "commands*.?pp")):
+            yield path, 1, "only main.cpp and commands*.cpp stand at the top of solver/"
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            match = INCLUDE.match(line)
+            if match and (problem := include_problem(file, *match.groups())):
+                yield path, number, problem
+
+
+def text_problems(repository):
+    """Sizes and things left open, in every source of the repository."""
+    for top in ("solver", "catalyst", "gui", "plugins", "meshes", "tests"):
+        for path in sorted((repository / top).rglob("*")):
+            if path.suffix not in SOURCE_SUFFIXES and path.name != "CMakeLists.txt":
+                continue
+            lines = path.read_text(encoding="utf-8").splitlines()
+            if len(lines) > MAX_LINES:
+                yield path, len(lines), f"{len(lines)} lines; split it along its meaning (at most {MAX_LINES})"
+            for number, line in enumerate(lines, 1):
+                if match := LEFT_OPEN.search(line):
+                    yield path, number, f"{match.group()} left in the source"
+
+
+def problems(repository):
+    """Every violation in the repository as "file:line: what"."""
+    repository = Path(repository)
+    found = [*solver_problems(repository / "solver"), *text_problems(repository)]
+    return [f"{path.relative_to(repository)}:{line}: {what}" for path, line, what in found]
+
+
+def main():
+    if len(sys.argv) != 2 or not (Path(sys.argv[1]) / "solver").is_dir():
+        sys.exit(__doc__)
+    found = problems(sys.argv[1])
+    print("\n".join(found) if found else "no violations")
+    sys.exit(1 if found else 0)
+
+
+if __name__ == "__main__":
+    main()

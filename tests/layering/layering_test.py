@@ -1,0 +1,93 @@
+"""The layering test is itself tested: a clean tree passes, and every kind of violation planted in it is found, alone."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+from layering import LEFT_OPEN, MAX_LINES, problems
+
+CLEAN = {
+    "solver/main.cpp": '#include <CLI/CLI.hpp>\n#include "commands.hpp"\n#include "simulation/simulation.hpp"\n',
+    "solver/commands.hpp": "#pragma once\n#include <string>\n",
+    "solver/base/types.hpp": "#include <Eigen/Core>\n#include <cstdint>\n",
+    "solver/base/log.cpp": "#include <spdlog/spdlog.h>\n#include <fmt/format.h>\n",
+    "solver/case/reader.cpp": '#include <toml++/toml.h>\n#include "base/error.hpp"\n',
+    "solver/mesh/gmsh_reader.cpp": '#include <gmsh.h>\n#include "mesh/mesh.hpp"\n',
+    "solver/parallel/halo.cpp": '#include <mpi.h>\n#include "mesh/topology.hpp"\n',
+    "solver/physics/contact/friction.cpp": '#include <Eigen/Dense>\n#include <experimental/simd>\n#include "state/state.hpp"\n',
+    "solver/detection/point_body/ms.cpp": '#include "detection/point_body/search.hpp"\n',
+    "solver/output/vtkhdf_sink.cpp": '#include <hdf5.h>\n#include "case/case.hpp"\n',
+    "solver/output/insitu_sink.cpp": '#include <dlfcn.h>\n#include "catalyst/insitu_abi.h"\n',
+    "solver/output/summary.cpp": "#include <nlohmann/json.hpp>\n",
+    "solver/simulation/step.cpp": '#include "physics/elasticity.hpp"\n#include "output/sink.hpp"\n',
+    "tests/unit/base/any_test.cpp": '#include <gtest/gtest.h>\n#include "physics/elasticity.hpp"\n',
+}
+
+# (file, content, part of the message)
+VIOLATIONS = [
+    ("solver/base/a.cpp", '#include "mesh/mesh.hpp"\n', "base must not include mesh/mesh.hpp"),
+    ("solver/case/a.hpp", '#include "mesh/mesh.hpp"\n', "case must not include"),
+    ("solver/mesh/a.cpp", '#include "case/case.hpp"\n', "mesh must not include"),
+    ("solver/parallel/a.cpp", '#include "state/state.hpp"\n', "parallel must not include"),
+    ("solver/state/a.cpp", '#include "physics/elasticity.hpp"\n', "state must not include"),
+    ("solver/physics/a.cpp", '#include "case/case.hpp"\n', "physics must not include"),
+    ("solver/physics/contact/a.cpp", '  #  include "output/frame.hpp"\n', "physics must not include"),
+    ("solver/detection/a.cpp", '#include "physics/elasticity.hpp"\n', "detection must not include"),
+    ("solver/output/a.cpp", '#include "simulation/simulation.hpp"\n', "output must not include"),
+    ("solver/simulation/a.cpp", '#include "catalyst/insitu_abi.h"\n', "simulation must not include"),
+    ("solver/simulation/a.cpp", '#include "step.hpp"\n', "write the folder"),
+    ("solver/base/a.hpp", "#include <spdlog/spdlog.h>\n", "only in base/log.cpp"),
+    ("solver/case/schema.cpp", "#include <toml++/toml.h>\n", "only in case/*reader*.cpp"),
+    ("solver/case/reader.hpp", "#include <toml++/toml.h>\n", "only in case/*reader*.cpp"),
+    ("solver/mesh/finish.cpp", "#include <gmsh.h>\n", "only in mesh/gmsh_reader.cpp"),
+    ("solver/simulation/a.cpp", "#include <mpi.h>\n", "only in parallel/"),
+    ("solver/parallel/halo.cpp", "#include <zoltan_cpp.h>\n", "only in parallel/domain_topology.cpp"),
+    ("solver/output/checkpoint.cpp", "#include <H5public.h>\n", "only in output/vtkhdf_sink.cpp"),
+    ("solver/output/summary.hpp", "#include <nlohmann/json_fwd.hpp>\n", "only in output/*.cpp"),
+    ("solver/simulation/a.cpp", "#include <nlohmann/json.hpp>\n", "only in output/*.cpp"),
+    ("solver/simulation/a.cpp", "#include <CLI/CLI.hpp>\n", "only in main.cpp"),
+    ("solver/output/a.cpp", "#include <vtkCellArray.h>\n", "not in the table"),
+    ("solver/mesh/a.cpp", "#include <boost/graph.hpp>\n", "not in the table"),
+    ("solver/utils/a.cpp", "\n", "folder solver/utils"),
+    ("solver/other.cpp", "\n", "only main.cpp and commands*.cpp"),
+    ("solver/mesh/a.cpp", "\n" * (MAX_LINES + 1), "split it"),
+    ("tests/unit/a_test.cpp", "\n" * (MAX_LINES + 1), "split it"),
+    ("solver/mesh/a.cpp", "// TO" "DO later\n", "left in the source"),
+    ("meshes/a.py", "# FIX" "ME\n", "left in the source"),
+]
+
+
+def plant(folder, files):
+    for name, content in files.items():
+        path = Path(folder) / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(content, encoding="utf-8")
+
+
+class Layering(unittest.TestCase):
+    def test_a_clean_tree_has_no_violations(self):
+        with tempfile.TemporaryDirectory() as folder:
+            plant(folder, CLEAN)
+            self.assertEqual(problems(folder), [])
+
+    def test_each_planted_violation_is_found_and_nothing_else(self):
+        for file, content, message in VIOLATIONS:
+            with self.subTest(file=file, message=message), tempfile.TemporaryDirectory() as folder:
+                plant(folder, CLEAN)
+                plant(folder, {file: content})
+                found = problems(folder)
+                self.assertEqual(len(found), 1, found)
+                self.assertIn(message, found[0])
+                self.assertTrue(found[0].startswith(file + ":"), found[0])
+
+    def test_a_file_of_exactly_the_limit_passes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            plant(folder, {**CLEAN, "solver/mesh/a.cpp": "\n" * MAX_LINES})
+            self.assertEqual(problems(folder), [])
+
+    def test_words_that_merely_contain_a_mark_are_not_left_open(self):
+        self.assertIsNone(LEFT_OPEN.search("mastodon hackney todoist"))
+
+
+if __name__ == "__main__":
+    unittest.main()
