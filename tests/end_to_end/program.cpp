@@ -1,0 +1,89 @@
+#include "end_to_end/program.hpp"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace breccia::test {
+
+const std::string kSmallCase = R"(title = "two boxes"
+[mesh.raster]
+cells = [2, 2, 1]
+cell_size = "10 mm"
+boxes = [2, 1, 1]
+gap = ["1 mm", "0 mm", "0 mm"]
+group = "box"
+[[material]]
+group = "box"
+young = "4 MPa"
+poisson = 0.3
+density = "2340 kg/m3"
+joints = "breakable"
+[[joint]]
+group = "box"
+penalty_factor = 10
+tensile_strength = "20 kPa"
+energy_mode_1 = "1 J/m2"
+[[contact]]
+between = ["*", "*"]
+penalty = "40 MPa"
+friction = 0.3
+[[initial_velocity]]
+group = "box"
+random = ["10 m/s", "20 m/s"]
+seed = 3
+[sphere]
+centre = ["20 mm", "10 mm", "5 mm"]
+radius = "26 mm"
+penalty = "40 MPa"
+[[stage]]
+name = "fly"
+end = "2 ms"
+[[stage.constraint]]
+group = "box.x0"
+velocity = { z = 0 }
+[output]
+frame_interval = "0.5 ms"
+gauges = ["box"]
+)";
+
+Scratch::Scratch() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "breccia_test_XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no scratch folder");
+  root_ = pattern;
+}
+
+Scratch::~Scratch() { std::filesystem::remove_all(root_); }
+
+std::string Scratch::write(const std::string& name, const std::string& text) const {
+  std::ofstream(path(name)) << text;
+  return "'" + path(name).string() + "'";
+}
+
+Outcome call(const std::string& arguments, const std::string& environment) {
+  const Scratch scratch;
+  const std::string out = scratch.path("out").string(), err = scratch.path("err").string();
+  const std::string command = environment + " '" BRECCIA_PROGRAM "' " + arguments + " > '" + out + "' 2> '" + err + "' < /dev/null";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out), read_text(err)};
+}
+
+std::string changed(const std::string& from, const std::string& to) {
+  std::string text = kSmallCase;
+  const std::size_t at = text.find(from);
+  if (at == std::string::npos) throw std::logic_error("not in the small case: " + from);
+  return text.replace(at, from.size(), to);
+}
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+}  // namespace breccia::test

@@ -1,0 +1,181 @@
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "end_to_end/program.hpp"
+
+namespace breccia::test {
+namespace {
+
+using nlohmann::json;
+
+/// Runs the small case and returns its summary.
+json summary_of(const Scratch& scratch, const std::string& arguments, const std::string& environment = "") {
+  const std::string file = scratch.write("case.toml", kSmallCase);
+  const std::string folder = scratch.path("run").string();
+  const Outcome outcome = call("run " + file + " -f --progress none -o '" + folder + "' " + arguments, environment);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  return json::parse(read_text(folder + "/summary.json"));
+}
+
+TEST(Program, tells_its_version_and_helps) {
+  EXPECT_NE(call("--version").out.find("breccia"), std::string::npos);
+  for (const char* command : {"", "run", "check", "mesh", "explain"}) {
+    const Outcome outcome = call(std::string(command) + " --help");
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_GT(outcome.out.size(), 200u) << command;
+  }
+}
+
+TEST(Program, explains_every_section_and_a_key) {
+  const Outcome all = call("explain");
+  EXPECT_EQ(all.exit_code, 0);
+  for (const char* section : {"mesh", "material", "joint", "contact", "stage", "time", "detection", "output"}) {
+    EXPECT_NE(all.out.find(section), std::string::npos) << section;
+  }
+  EXPECT_NE(call("explain material.young").out.find("Pa"), std::string::npos);
+}
+
+TEST(Program, a_run_leaves_everything_it_promises) {
+  const Scratch scratch;
+  const json summary = summary_of(scratch, "");
+  for (const char* name : {"ranks", "steps", "simulated_time", "elements", "joints", "broken_joints", "fragments", "wall_s",
+                           "element_steps_per_s", "phases", "energy", "energy_residual_relative", "max_rss_bytes", "state_hash"}) {
+    EXPECT_TRUE(summary.contains(name)) << name;
+  }
+  EXPECT_EQ(summary["status"], "complete");
+  EXPECT_EQ(summary["elements"], 2 * 4 * 24);
+  EXPECT_GT(summary["broken_joints"].get<int>(), 0) << "the case is meant to break something";
+  constexpr double kResidual = 1e-3;  // the limit for every case of the repository
+  EXPECT_LT(summary["energy_residual_relative"].get<double>(), kResidual);
+  for (const char* file : {"case.toml", "provenance.json", "history.csv", "status.jsonl", "frames/elements.vtkhdf.series"}) {
+    EXPECT_TRUE(std::filesystem::exists(scratch.path("run") / file)) << file;
+  }
+}
+
+TEST(Program, the_resolved_case_gives_the_same_bits_again) {
+  const Scratch scratch;
+  const json first = summary_of(scratch, "");
+  const std::string again = scratch.path("again").string();
+  const Outcome outcome = call("run '" + scratch.path("run/case.toml").string() + "' --progress none -o '" + again + "'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(json::parse(read_text(again + "/summary.json"))["state_hash"], first["state_hash"]);
+}
+
+TEST(Program, every_detection_algorithm_gives_the_same_bits) {
+  const Scratch scratch;
+  const json reference = summary_of(scratch, "");
+  for (const char* algorithm : {"ms", "ms_slices", "brute_force"}) {
+    const json other = summary_of(scratch, std::string("--set detection.algorithm=") + algorithm);
+    EXPECT_EQ(other["state_hash"], reference["state_hash"]) << algorithm;
+  }
+}
+
+TEST(Program, couples_are_never_missed) {
+  const Scratch scratch;
+  const json reference = summary_of(scratch, "");
+  EXPECT_EQ(summary_of(scratch, "--set detection.verify=true")["state_hash"], reference["state_hash"]);
+}
+
+TEST(Program, the_buffer_changes_nothing_but_speed) {
+  const Scratch scratch;
+  const json reference = summary_of(scratch, "");
+  EXPECT_EQ(summary_of(scratch, "--set 'detection.buffer=4 mm'")["state_hash"], reference["state_hash"]);
+}
+
+TEST(Program, every_simd_width_gives_the_same_bits) {
+  const Scratch scratch;
+  const json narrow = summary_of(scratch, "", "BRECCIA_SIMD=sse2");
+  EXPECT_EQ(narrow["simd"], "sse2");
+  for (const char* width : {"avx2", "avx512"}) {
+    // A machine without the set falls back to one it has: still the same bits.
+    EXPECT_EQ(summary_of(scratch, "", std::string("BRECCIA_SIMD=") + width)["state_hash"], narrow["state_hash"]) << width;
+  }
+}
+
+TEST(Program, old_results_are_kept_unless_told_otherwise) {
+  const Scratch scratch;
+  summary_of(scratch, "");
+  const std::string folder = scratch.path("run").string();
+  const Outcome outcome = call("run '" + scratch.path("case.toml").string() + "' --progress none -o '" + folder + "'");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find(folder), std::string::npos) << outcome.err;
+}
+
+TEST(Program, an_exploding_run_stops_with_code_3_and_leaves_its_last_frame) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", kSmallCase);
+  const std::string folder = scratch.path("run").string();
+  const Outcome outcome = call("run " + file + " --progress none --set 'time.step=1 ms' --set 'stage[0].end=1 s' -o '" + folder + "'");
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  EXPECT_NE(outcome.err.find("step"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(std::filesystem::exists(folder + "/summary.json"));
+  EXPECT_NE(json::parse(read_text(folder + "/summary.json"))["status"], "complete");
+}
+
+TEST(Program, json_progress_is_one_object_a_line) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", kSmallCase);
+  const Outcome outcome = call("run " + file + " --progress json -o '" + scratch.path("run").string() + "'");
+  ASSERT_EQ(outcome.exit_code, 0);
+  std::istringstream lines(outcome.out);
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) EXPECT_TRUE(json::parse(line).contains("step")) << line;
+  EXPECT_GE(count, 2);
+}
+
+TEST(Program, a_full_disk_stops_the_run_with_code_2) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", kSmallCase);
+  // No file may grow past 8 blocks of 1 kB: the frames do not fit.
+  const Outcome outcome = call("run " + file + " --progress none -o '" + scratch.path("run").string() + "'",
+                               "ulimit -f 8; trap '' XFSZ;");
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find("frames"), std::string::npos) << outcome.err;
+}
+
+TEST(Program, an_interrupt_ends_the_run_in_order) {
+  const Scratch scratch;
+  scratch.write("case.toml", kSmallCase);
+  const std::string folder = scratch.path("run").string();
+  const pid_t child = fork();
+  if (child == 0) {
+    const std::string file = scratch.path("case.toml").string();
+    execl(BRECCIA_PROGRAM, "breccia", "run", file.c_str(), "--progress", "none", "--set", "stage[0].end=100 s", "-o", folder.c_str(), nullptr);
+    _exit(127);
+  }
+  while (!std::filesystem::exists(folder + "/frames/elements.vtkhdf.series")) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(json::parse(read_text(folder + "/summary.json"))["status"].get<std::string>().substr(0, 7), "stopped");
+}
+
+TEST(Program, check_advises_in_sentences) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", kSmallCase);
+  const Outcome outcome = call("check " + file);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* fragment : {"stable time step", "limited by", "softer", "memory", "fracture process zone", "steps of"}) {
+    EXPECT_NE(outcome.out.find(fragment), std::string::npos) << fragment << " in\n" << outcome.out;
+  }
+}
+
+TEST(Program, mesh_reports_and_writes_the_elements) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", kSmallCase);
+  const Outcome outcome = call("mesh " + file + " -o '" + scratch.path("mesh").string() + "'");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("192 elements"), std::string::npos) << outcome.out;
+  EXPECT_TRUE(std::filesystem::exists(scratch.path("mesh/elements.vtkhdf.series")));
+}
+
+}  // namespace
+}  // namespace breccia::test
