@@ -1,0 +1,107 @@
+#include "output/atomic_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "unit/output/file_size_limit.hpp"
+#include "unit/output/temporary_folder.hpp"
+
+namespace breccia {
+namespace {
+
+using test::content_of;
+using test::FileSizeLimit;
+using test::TemporaryFolder;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// Text of the OutputError that `action` throws; "" when it throws nothing.
+template <class Action>
+std::string error_of(Action action) {
+  try {
+    action();
+  } catch (const OutputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(AtomicFile, HoldsExactlyWhatWasGivenAndLeavesNothingBesideIt) {
+  const TemporaryFolder folder;
+  const std::string content("a\0b\nc", 5);
+  write_file_atomically(folder.path() / "x.bin", content);
+  EXPECT_EQ(content_of(folder.path() / "x.bin"), content);
+  EXPECT_THAT(test::names_in(folder.path()), ElementsAre("x.bin"));
+}
+
+TEST(AtomicFile, ReplacesALongerOldFileWhole) {
+  const TemporaryFolder folder;
+  write_file_atomically(folder.path() / "x", std::string(1000, 'o'));
+  write_file_atomically(folder.path() / "x", std::string_view("new"));
+  EXPECT_EQ(content_of(folder.path() / "x"), "new");
+}
+
+TEST(AtomicFile, KeepsTheOldFileAndNamesItWhenTheDiskIsFull) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "x";
+  write_file_atomically(path, std::string_view("old"));
+  std::string message;
+  {
+    const FileSizeLimit limit(100);
+    message = error_of([&] { write_file_atomically(path, std::string(1000, 'n')); });
+  }
+  EXPECT_THAT(message, HasSubstr(path.string()));
+  EXPECT_THAT(message, HasSubstr("File too large"));
+  EXPECT_EQ(content_of(path), "old");
+  EXPECT_THAT(test::names_in(folder.path()), ElementsAre("x"));
+}
+
+TEST(AtomicFile, NamesTheFileAndTheReasonWhenItsFolderIsMissing) {
+  const std::string message = error_of([] { write_file_atomically("/nonexistent/folder/x", std::string_view("a")); });
+  EXPECT_THAT(message, HasSubstr("/nonexistent/folder/x"));
+  EXPECT_THAT(message, HasSubstr("No such file or directory"));
+}
+
+TEST(AtomicFile, LeavesNoTemporaryWhenTheNameIsTakenByAFolder) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "x");
+  EXPECT_THAT(error_of([&] { write_file_atomically(folder.path() / "x", std::string_view("a")); }),
+              HasSubstr("Is a directory"));
+  EXPECT_THAT(test::names_in(folder.path()), ElementsAre("x"));
+}
+
+TEST(LineFile, ShowsEveryLineAtOnce) {
+  const TemporaryFolder folder;
+  LineFile file(folder.path() / "lines");
+  file.append_line("one");
+  EXPECT_EQ(content_of(folder.path() / "lines"), "one\n");
+  file.append_line("two");
+  EXPECT_EQ(content_of(folder.path() / "lines"), "one\ntwo\n");
+}
+
+TEST(LineFile, CutsOffThePartOfALineThatDidNotFit) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "lines";
+  LineFile file(path);
+  file.append_line("whole");
+  {
+    const FileSizeLimit limit(10);
+    EXPECT_THAT(error_of([&] { file.append_line("a line too long for the disk"); }), HasSubstr(path.string()));
+  }
+  EXPECT_EQ(content_of(path), "whole\n");
+  file.append_line("after");
+  EXPECT_EQ(content_of(path), "whole\nafter\n");
+}
+
+TEST(LineFile, ReportsAFullDevice) {
+  LineFile file("/dev/full");
+  EXPECT_THAT(error_of([&] { file.append_line("x"); }), HasSubstr("/dev/full: cannot append a line to this file: No space left"));
+}
+
+TEST(LineFile, ReportsAPlaceWhereNoFileCanBeCreated) {
+  EXPECT_THAT(error_of([] { LineFile file("/proc/no_file_here"); }), HasSubstr("/proc/no_file_here: cannot create"));
+}
+
+}  // namespace
+}  // namespace breccia

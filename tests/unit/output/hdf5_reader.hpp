@@ -1,0 +1,51 @@
+#pragma once
+
+#include <hdf5.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace breccia::test {
+
+/// Reads a file with the HDF5 library's own conversions: knows nothing of how it was written.
+class Hdf5Reader {
+ public:
+  explicit Hdf5Reader(const std::filesystem::path& path) : file_(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)) {
+    if (file_ < 0) throw std::runtime_error("not a readable HDF5 file: " + path.string());
+  }
+  Hdf5Reader(const Hdf5Reader&) = delete;
+  Hdf5Reader& operator=(const Hdf5Reader&) = delete;
+  ~Hdf5Reader() { H5Fclose(file_); }
+
+  struct Data {
+    std::vector<hsize_t> shape;
+    std::vector<double> values;
+    std::size_t bytes = 0;  ///< of one stored number
+  };
+
+  [[nodiscard]] Data data(const std::string& name) const {
+    const hid_t set = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
+    if (set < 0) throw std::runtime_error("no dataset " + name);
+    const hid_t space = H5Dget_space(set), type = H5Dget_type(set);
+    Data data;
+    data.shape.resize(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+    H5Sget_simple_extent_dims(space, data.shape.data(), nullptr);
+    data.values.resize(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    data.bytes = H5Tget_size(type);
+    const herr_t read =
+        data.values.empty() ? 0 : H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, data.values.data());
+    H5Tclose(type);
+    H5Sclose(space);
+    H5Dclose(set);
+    if (read < 0) throw std::runtime_error("cannot read " + name);
+    return data;
+  }
+  [[nodiscard]] std::vector<double> values(const std::string& name) const { return data(name).values; }
+
+ private:
+  hid_t file_;
+};
+
+}  // namespace breccia::test
