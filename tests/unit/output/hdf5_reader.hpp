@@ -9,9 +9,10 @@
 
 namespace breccia::test {
 
-/// Reads a file with the HDF5 library's own conversions: knows nothing of how it was written.
+/// Reads a frame file with the HDF5 library's own conversions: knows nothing of how it was written.
 class Hdf5Reader {
  public:
+  /// Throws std::runtime_error when the file is not readable.
   explicit Hdf5Reader(const std::filesystem::path& path) : file_(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)) {
     if (file_ < 0) throw std::runtime_error("not a readable HDF5 file: " + path.string());
   }
@@ -25,8 +26,9 @@ class Hdf5Reader {
     std::size_t bytes = 0;  ///< of one stored number
   };
 
+  /// The dataset /VTKHDF/<name>, whatever its type, as doubles. Throws std::runtime_error when it cannot be read.
   [[nodiscard]] Data data(const std::string& name) const {
-    const hid_t set = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
+    const hid_t set = H5Dopen2(file_, ("/VTKHDF/" + name).c_str(), H5P_DEFAULT);
     if (set < 0) throw std::runtime_error("no dataset " + name);
     const hid_t space = H5Dget_space(set), type = H5Dget_type(set);
     Data data;
@@ -43,6 +45,18 @@ class Hdf5Reader {
     return data;
   }
   [[nodiscard]] std::vector<double> values(const std::string& name) const { return data(name).values; }
+
+  /// Attribute Type of /VTKHDF.
+  [[nodiscard]] std::string type() const {
+    const hid_t attribute = H5Aopen_by_name(file_, "/VTKHDF", "Type", H5P_DEFAULT, H5P_DEFAULT);
+    if (attribute < 0) throw std::runtime_error("no attribute Type");
+    const hid_t kind = H5Aget_type(attribute);
+    std::string text(H5Tget_size(kind), ' ');
+    H5Aread(attribute, kind, text.data());
+    H5Tclose(kind);
+    H5Aclose(attribute);
+    return text;
+  }
 
  private:
   hid_t file_;

@@ -5,106 +5,102 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "base/error.hpp"
 #include "unit/output/temporary_folder.hpp"
-#include "unit/output/thrown_message.hpp"
 
 namespace breccia {
 namespace {
 
-using testing::ContainsRegex;
+using nlohmann::json;
 using testing::HasSubstr;
-using testing::Not;
+using testing::UnorderedElementsAre;
 
-Summary some_summary() {
-  Summary s;
-  s.title = "glass plate";
-  s.version = "0.1.0";
-  s.host = "anvil";
-  s.status = "complete";
-  s.ranks = 3;
-  s.steps = 9007199254740993;
-  s.simulated_time = 1.0 / 3;
-  s.time_step = 2.5e-9;
-  s.elements = 66980;
-  s.joints = 120001;
-  s.broken_joints = 4321;
-  s.fragments = 87;
-  s.searches = 19;
-  s.inverted_elements = 2;
-  s.wall_s = 125.25;
-  s.element_steps_per_s = 7.5e6;
-  s.phases = {{"joints", 25.0}, {"sweep", 75.0}};
-  s.energy.kinetic = 2;
-  s.energy.joint_mode_1 = 1.5e-3;
-  s.energy.external_work = 8;
-  s.energy.residual = -4e-6;
-  s.energy.residual_relative = -5e-7;
-  s.max_rss_bytes = 123456789;
-  s.simd = "avx2";
-  s.state_hash = "0123456789abcdef";
-  return s;
+Summary example_summary() {
+  Summary summary;
+  summary.title = "glass";
+  summary.version = "0.1.0";
+  summary.host = "node7";
+  summary.status = "complete";
+  summary.steps = 10000;
+  summary.simulated_time = 1e-4;
+  summary.time_step = 1e-8;
+  summary.elements = 67597;
+  summary.joints = 130000;
+  summary.broken_joints = 2310;
+  summary.fragments = 120;
+  summary.searches = 17;
+  summary.wall_s = 125;
+  summary.element_steps_per_s = 1.32e7;
+  summary.phases = {{"sweep", 75.0}, {"contact", 25.0}};
+  summary.energy.kinetic = 0.225;
+  summary.energy.residual = -1e-6;
+  summary.energy.residual_relative = 4.4e-6;
+  summary.max_rss_bytes = 151'000'000;
+  summary.simd = "avx2";
+  summary.state_hash = "0123456789abcdef";
+  return summary;
 }
 
-TEST(SummaryFile, HoldsEveryFieldUnderItsNameAndNothingElse) {
+std::vector<std::string> names_of(const json& object) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : object.items()) names.push_back(name);
+  return names;
+}
+
+TEST(SummaryJson, HasExactlyTheFieldsThatReadersKnow) {
+  const json summary = json::parse(summary_json(example_summary()));
+  EXPECT_THAT(names_of(summary),
+              UnorderedElementsAre("title", "status", "version", "host", "simd", "ranks", "steps", "simulated_time",
+                                   "time_step", "elements", "joints", "broken_joints", "fragments", "searches",
+                                   "inverted_elements", "wall_s", "element_steps_per_s", "phases", "energy",
+                                   "energy_residual_relative", "max_rss_bytes", "state_hash"));
+  EXPECT_THAT(names_of(summary.at("energy")),
+              UnorderedElementsAre("kinetic", "elastic", "joint_elastic", "contact_stored", "joint_mode_1", "joint_mode_2",
+                                   "joint_friction", "contact_dissipated", "contact_friction", "viscous", "damping",
+                                   "external_work", "residual"));
+}
+
+TEST(SummaryJson, HoldsTheValues) {
+  const json summary = json::parse(summary_json(example_summary()));
+  EXPECT_EQ(summary.at("phases"), json({{"sweep", 75.0}, {"contact", 25.0}}));
+  EXPECT_EQ(summary.at("energy").at("kinetic"), 0.225);
+  EXPECT_EQ(summary.at("energy").at("residual"), -1e-6);
+  EXPECT_EQ(summary.at("energy_residual_relative"), 4.4e-6);
+  EXPECT_EQ(summary.at("simulated_time"), 1e-4);
+  EXPECT_EQ(summary.at("elements"), 67597);
+  EXPECT_EQ(summary.at("searches"), 17);
+  EXPECT_EQ(summary.at("state_hash"), "0123456789abcdef");
+  EXPECT_EQ(summary.at("max_rss_bytes"), 151'000'000);
+}
+
+TEST(SummaryJson, IsValidWithNumbersThatJsonCannotHold) {
+  Summary summary = example_summary();
+  summary.energy.kinetic = std::numeric_limits<double>::infinity();
+  summary.title = "\xff";
+  EXPECT_TRUE(json::parse(summary_json(summary)).at("energy").at("kinetic").is_null());
+}
+
+TEST(SummaryFile, IsWrittenAtTheEnd) {
   const test::TemporaryFolder folder;
-  SummarySink(folder / "summary.json").finish(some_summary());
-  const auto json = nlohmann::json::parse(test::content_of(folder / "summary.json"));
-  const auto expected = nlohmann::json::parse(R"({
-    "title": "glass plate", "status": "complete", "version": "0.1.0", "host": "anvil", "simd": "avx2", "ranks": 3,
-    "steps": 9007199254740993, "simulated_time": 0.33333333333333331, "time_step": 2.5e-9, "elements": 66980,
-    "joints": 120001, "broken_joints": 4321, "fragments": 87, "searches": 19, "inverted_elements": 2, "wall_s": 125.25,
-    "element_steps_per_s": 7500000.0, "phases": {"joints": 25.0, "sweep": 75.0},
-    "energy": {"kinetic": 2.0, "elastic": 0.0, "joint_elastic": 0.0, "contact_stored": 0.0, "joint_mode_1": 0.0015,
-               "joint_mode_2": 0.0, "joint_friction": 0.0, "contact_dissipated": 0.0, "contact_friction": 0.0,
-               "viscous": 0.0, "damping": 0.0, "external_work": 8.0, "residual": -4e-6},
-    "energy_residual_relative": -5e-7, "max_rss_bytes": 123456789, "state_hash": "0123456789abcdef"})");
-  EXPECT_EQ(json, expected) << nlohmann::json::diff(expected, json);
+  SummarySink(folder / "summary.json").finish(example_summary());
+  EXPECT_EQ(json::parse(test::content_of(folder / "summary.json")).at("steps"), 10000);
+  EXPECT_THROW(SummarySink("/nonexistent/summary.json").finish(example_summary()), OutputError);
 }
 
-TEST(SummaryFile, WritesNullForWhatIsNotFiniteAndReplacesBrokenText) {
-  Summary summary = some_summary();
-  summary.energy.kinetic = std::numeric_limits<double>::quiet_NaN();
-  summary.title = "broken \xff text";
-  const auto json = nlohmann::json::parse(summary_json(summary));
-  EXPECT_TRUE(json["energy"]["kinetic"].is_null());
-  EXPECT_THAT(json["title"].get<std::string>(), HasSubstr("broken "));
+TEST(SummaryText, SpeaksInUnitsThatPeopleUse) {
+  const std::string text = summary_text(example_summary());
+  for (const char* part : {"glass: complete", "100 us in 10,000 steps of 10 ns", "67,597", "130,000, 2,310 broken",
+                           "2 min 5 s", "13.2 M element-steps/s", "151 MB", "75.00 %", "225 mJ", "4.40e-06",
+                           "node7, 1 rank, avx2", "0123456789abcdef"}) {
+    EXPECT_THAT(text, HasSubstr(part));
+  }
 }
 
-TEST(SummaryFile, ThrowsOutputErrorWithTheFilesName) {
-  const std::string message =
-      test::message_of<OutputError>([] { SummarySink("/missing_folder/summary.json").finish(some_summary()); });
-  EXPECT_THAT(message, HasSubstr("/missing_folder/summary.json"));
-}
-
-TEST(SummaryText, SaysWhatWasDoneInUnitsPeopleUse) {
-  const std::string text = summary_text(some_summary());
-  EXPECT_THAT(text, HasSubstr("glass plate: complete"));
-  EXPECT_THAT(text, HasSubstr("steps of 2.5 ns"));
-  EXPECT_THAT(text, ContainsRegex("joints +120,001, 4,321 broken"));
-  EXPECT_THAT(text, ContainsRegex("wall time +2 min 5 s"));
-  EXPECT_THAT(text, HasSubstr("7.5 M element-steps/s"));
-  EXPECT_THAT(text, ContainsRegex("memory +123 MB"));
-  EXPECT_THAT(text, ContainsRegex("sweep +1 min 15 s +75.00 %"));
-}
-
-TEST(SummaryText, ShowsWhereEveryJouleWent) {
-  const std::string text = summary_text(some_summary());
-  EXPECT_THAT(text, ContainsRegex("kinetic +2 J +25.00 %"));   // 2 of 8
-  EXPECT_THAT(text, ContainsRegex("mode I +1.5 mJ +0.02 %"));  // 1.5e-3 of 8
-  EXPECT_THAT(text, ContainsRegex("external work +8 J +100.00 %"));
-  EXPECT_THAT(text, ContainsRegex("residual.* -4 uJ +-0.00 %"));
-  EXPECT_THAT(text, Not(HasSubstr("damping"))) << "a term that is zero is not worth a line";
-}
-
-TEST(ResidentMemory, IsAtLeastWhatThisProcessHolds) {
-  constexpr std::size_t kBytes = std::size_t{64} << 20;
-  const std::vector<char> used(kBytes, 1);
-  EXPECT_GE(max_resident_bytes(), kBytes);
-  EXPECT_LT(max_resident_bytes(), std::uint64_t{16} << 30);
-  EXPECT_EQ(used.back(), 1);
+TEST(MaxResident, IsWhatThisProcessNeedsAtLeast) {
+  const std::vector<char> used(64 << 20, 1);  // touched, so resident
+  EXPECT_GE(max_resident_bytes(), used.size());
+  EXPECT_LT(max_resident_bytes(), std::uint64_t{64} << 30) << "not in bytes";
 }
 
 }  // namespace
