@@ -46,15 +46,17 @@ void ContactSearch::collect_sides(std::span<const FreedFace> faces) {
   }
   const auto key = [](const Topology::Face& f) { return std::tuple(f.element, f.face); };
   std::sort(sides_.begin(), sides_.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-  sides_.erase(std::unique(sides_.begin(), sides_.end(), [&](const auto& a, const auto& b) { return key(a) == key(b); }),
-               sides_.end());
+  sides_.erase(
+      std::unique(sides_.begin(), sides_.end(), [&](const auto& a, const auto& b) { return key(a) == key(b); }),
+      sides_.end());
 }
 
 /// Corners at the nodes of the faces about to break, by node, with the clusters they belong to.
 void ContactSearch::note_clusters() {
   nodes_.clear();
   for (const Topology::Face& side : sides_) {
-    for (const int corner : kFaceCorners[at(side.face)]) nodes_.push_back(mesh_->elements[at(side.element)][at(corner)]);
+    for (const int corner : kFaceCorners[at(side.face)])
+      nodes_.push_back(mesh_->elements[at(side.element)][at(corner)]);
   }
   std::sort(nodes_.begin(), nodes_.end());
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
@@ -91,8 +93,8 @@ void ContactSearch::couple_new_points(std::size_t first) {
   }
 }
 
-/// Two elements that were bonded and are so no longer have parted at some node: there they were of one cluster and are now of
-/// two. So nothing has to be kept of the pairs that were turned down as bonded.
+/// Two elements that were bonded and are so no longer have parted at some node: there they were of one cluster and are
+/// now of two. So nothing has to be kept of the pairs that were turned down as bonded.
 /// @param first  points from here on are coupled already
 void ContactSearch::couple_separated(std::size_t first) {
   std::size_t start = 0;
@@ -130,7 +132,8 @@ void ContactSearch::couple_points_of(Index element, Index other, std::size_t fir
 
 /// Brings `made_` into the couples. None is there yet: its point is new, or was bonded to the contactor until now.
 void ContactSearch::add_made() {
-  std::sort(made_.begin(), made_.end(), [&](const ContactCouple& a, const ContactCouple& b) { return contact_.before(a, b); });
+  std::sort(made_.begin(), made_.end(),
+            [&](const ContactCouple& a, const ContactCouple& b) { return contact_.before(a, b); });
   made_.erase(std::unique(made_.begin(), made_.end()), made_.end());
   add_fresh_couples(made_, contact_);
 }

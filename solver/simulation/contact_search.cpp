@@ -74,9 +74,9 @@ void ContactSearch::choose_contactors() {
   double volume = 0;
   for (Index e = 0; e < mesh_->num_elements(); ++e) {
     const auto& nodes = mesh_->elements[at(e)];
-    const bool exposed = search_.breakable[at(mesh_->element_group[at(e)])] ||
-                         std::any_of(nodes.begin(), nodes.end(),
-                                     [&](Index n) { return distance[at(n)] == 0 || between[at(n)]; });
+    const bool exposed =
+        search_.breakable[at(mesh_->element_group[at(e)])] ||
+        std::any_of(nodes.begin(), nodes.end(), [&](Index n) { return distance[at(n)] == 0 || between[at(n)]; });
     if (!exposed) continue;
     slots.push_back(local_->slot_of_element[at(e)]);
     volume += local_->volume[at(slots.back())];
@@ -162,8 +162,9 @@ void ContactSearch::verify(const State& state) const {
     for (const Index p : contact_.order) {
       if (!inside(barycentric(tetra, at_point(rule, contact_.points[at(p)], state.position.data())))) continue;
       if (!may_touch(p, contactor)) continue;
-      const bool known = std::binary_search(contact_.couples.begin(), contact_.couples.end(), ContactCouple{p, contactor},
-                                            [&](const ContactCouple& a, const ContactCouple& b) { return contact_.before(a, b); });
+      const bool known =
+          std::binary_search(contact_.couples.begin(), contact_.couples.end(), ContactCouple{p, contactor},
+                             [&](const ContactCouple& a, const ContactCouple& b) { return contact_.before(a, b); });
       DEMAND(known, "contact point " + std::to_string(contact_.id(p)) + " of element " +
                         std::to_string(contact_.id(p) / 24) + " touches element " +
                         std::to_string(local_->element_of_slot[at(slot)]) + " but they are no couple");

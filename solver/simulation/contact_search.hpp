@@ -17,12 +17,12 @@ namespace breccia {
 /// How contact is looked for.
 struct ContactSearchParams {
   detection::Algorithm algorithm = detection::Algorithm::sorted_grid;
-  double cell = 0;                     ///< m; 0: chosen by the algorithm
-  double buffer = 0;                   ///< m; 0: chosen at every search (ContactSearch)
-  bool verify = false;                 ///< compare the couples that touch with brute force at every step
-  std::vector<bool> breakable;         ///< (volume groups) inner faces may be freed
-  bool everywhere = true;              ///< every free face carries points; false: only `faces`
-  std::vector<Topology::Face> faces;   ///< faces that may carry points; one side of an inner face is enough
+  double cell = 0;                    ///< m; 0: chosen by the algorithm
+  double buffer = 0;                  ///< m; 0: chosen at every search (ContactSearch)
+  bool verify = false;                ///< compare the couples that touch with brute force at every step
+  std::vector<bool> breakable;        ///< (volume groups) inner faces may be freed
+  bool everywhere = true;             ///< every free face carries points; false: only `faces`
+  std::vector<Topology::Face> faces;  ///< faces that may carry points; one side of an inner face is enough
 };
 
 /// A face that has nothing across it any more. One side of a joint is enough.
@@ -33,24 +33,24 @@ struct FreedFace {
 
 /// Contact of one rank: joins detection, histories and forces.
 ///
-/// Targets are the points of free faces, contactors all elements of breakable groups and those elements of the others that
-/// have a node on the free surface or on the border to another group. A couple is a pair that passes the couple test of
-/// detection/point_body/search.hpp at the positions of the last full search, has a law, and is not bonded around a corner
-/// (an element is bonded to itself). This definition is kept at all times: points and couples that a freed face
-/// brings are found by the same test at the same positions, so a full search would find no other set.
+/// Targets are the points of free faces, contactors all elements of breakable groups and those elements of the others
+/// that have a node on the free surface or on the border to another group. A couple is a pair that passes the couple
+/// test of detection/point_body/search.hpp at the positions of the last full search, has a law, and is not bonded
+/// around a corner (an element is bonded to itself). This definition is kept at all times: points and couples that a
+/// freed face brings are found by the same test at the same positions, so a full search would find no other set.
 ///
-/// With buffer b the set holds every pair that touches while no node has moved by more than b/2 since the search. The sum
-/// of max_speed dt bounds the largest displacement from above; only when it passes b/2 the displacement itself is looked
-/// at, and either the sum is brought down to it or a search is done. Without a buffer given b is 10 % of the
+/// With buffer b the set holds every pair that touches while no node has moved by more than b/2 since the search. The
+/// sum of max_speed dt bounds the largest displacement from above; only when it passes b/2 the displacement itself is
+/// looked at, and either the sum is brought down to it or a search is done. Without a buffer given b is 10 % of the
 /// contactors' mean size (the edge of the regular tetrahedron of their mean volume): the number of couples grows as
-/// (1 + 5 b/size)^3, and so small a buffer still lasts for hundreds of steps of a stiff material. In a run so fast that it
-/// would last for less than 20 steps it is larger, up to 40 %.
+/// (1 + 5 b/size)^3, and so small a buffer still lasts for hundreds of steps of a stiff material. In a run so fast that
+/// it would last for less than 20 steps it is larger, up to 40 %.
 class ContactSearch {
  public:
   /// @pre all arguments outlive this object and do not change. Faces broken from the start are free in `topology`.
   /// O(elements). Throws InternalError if an argument does not fit the others.
-  ContactSearch(const ContactSearchParams& search, const ContactParams& params, const Mesh& mesh, const Topology& topology,
-                const LocalMesh& local);
+  ContactSearch(const ContactSearchParams& search, const ContactParams& params, const Mesh& mesh,
+                const Topology& topology, const LocalMesh& local);
 
   /// Brings the couples up to date; every step, before `forces`.
   /// @param max_speed  m/s, at least the largest speed of a node from t_(n-1) to t_n;  @param dt  s, that step
@@ -68,7 +68,7 @@ class ContactSearch {
 
   [[nodiscard]] const ContactState& contact() const { return contact_; }
   [[nodiscard]] const CornerClusters& clusters() const { return clusters_; }
-  [[nodiscard]] double buffer() const { return buffer_; }                  ///< m, of the last search
+  [[nodiscard]] double buffer() const { return buffer_; }                    ///< m, of the last search
   [[nodiscard]] std::int64_t num_searches() const { return num_searches_; }  ///< full ones
 
  private:
@@ -96,19 +96,19 @@ class ContactSearch {
   CornerClusters clusters_;
   ContactState contact_;
   std::unique_ptr<detection::PointBodySearch> detection_;
-  detection::ContactorGrid grid_;     ///< of the last full search, built when a face is freed
-  std::vector<std::uint8_t> carries_; ///< (elements) a bit a face: may carry points
+  detection::ContactorGrid grid_;                  ///< of the last full search, built when a face is freed
+  std::vector<std::uint8_t> carries_;              ///< (elements) a bit a face: may carry points
   std::vector<std::array<Index, 4>> first_point_;  ///< (elements) of the points of a face, -1: none
   bool any_law_ = false;
 
   // The last full search.
   bool searched_ = false;
   bool grid_built_ = false;
-  double buffer_ = 0;                 ///< m
-  double size_ = 0;                   ///< m, mean size of a contactor
-  double moved_ = 0;                  ///< m, bound of the largest displacement since
+  double buffer_ = 0;  ///< m
+  double size_ = 0;    ///< m, mean size of a contactor
+  double moved_ = 0;   ///< m, bound of the largest displacement since
   std::int64_t num_searches_ = 0;
-  Field<double> reference_;           ///< nodal field, positions
+  Field<double> reference_;                  ///< nodal field, positions
   std::vector<detection::Corners> corners_;  ///< (contactors)
 
   // Work space.

@@ -58,13 +58,15 @@ void ContactorGrid::fill_buckets() {
         if (note_wide) wide_.push_back(static_cast<Index>(c));
         continue;
       }
-      for_each_cell(box, [&](std::int32_t x, std::int32_t y, std::int32_t z) { visit(static_cast<Index>(c), bucket(x, y, z)); });
+      for_each_cell(
+          box, [&](std::int32_t x, std::int32_t y, std::int32_t z) { visit(static_cast<Index>(c), bucket(x, y, z)); });
     }
   };
   visit_binned([&](Index, std::size_t b) { ++start_[b + 1]; }, true);
   for (std::size_t b = 1; b < start_.size(); ++b) start_[b] += start_[b - 1];
   entries_.resize(static_cast<std::size_t>(start_.back()));
-  // Filling moves every start to its bucket's end, the start of the next one: shifting them back by one puts them right.
+  // Filling moves every start to its bucket's end, the start of the next one: shifting them back by one puts them
+  // right.
   visit_binned([&](Index c, std::size_t b) { entries_[static_cast<std::size_t>(start_[b]++)] = c; }, false);
   std::copy_backward(start_.begin(), start_.end() - 1, start_.end());
   start_.front() = 0;

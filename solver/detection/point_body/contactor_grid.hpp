@@ -8,8 +8,8 @@
 
 namespace breccia::detection {
 
-/// Contactors binned by their enlarged boxes, for the few points that appear between two searches: `couples_of` finds what a
-/// full search with the same contactors and buffer would find for one more point.
+/// Contactors binned by their enlarged boxes, for the few points that appear between two searches: `couples_of` finds
+/// what a full search with the same contactors and buffer would find for one more point.
 class ContactorGrid {
  public:
   /// @param contactors  (num_contactors) corners, m; must live and stay as they are until the next build

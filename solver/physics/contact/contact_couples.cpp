@@ -10,10 +10,18 @@ auto in_order(const ContactState& contact) {
   return [&contact](const ContactCouple& a, const ContactCouple& b) { return contact.before(a, b); };
 }
 
-void merge_into(std::vector<ContactCouple>& couples, const std::vector<ContactCouple>& more, const ContactState& contact) {
-  const auto middle = static_cast<std::ptrdiff_t>(couples.size());
-  couples.insert(couples.end(), more.begin(), more.end());
-  std::inplace_merge(couples.begin(), couples.begin() + middle, couples.end(), in_order(contact));
+/// Merges a few sorted entries into many: each finds its place by bisection, what lies between them moves in one piece.
+template <class T, class Before>
+void merge_few(std::vector<T>& many, const std::vector<T>& few, Before&& before) {
+  auto end = static_cast<std::ptrdiff_t>(many.size());
+  many.resize(many.size() + few.size());
+  for (auto left = static_cast<std::ptrdiff_t>(few.size()); left-- > 0;) {
+    const T& entry = few[static_cast<std::size_t>(left)];
+    const auto place = std::upper_bound(many.begin(), many.begin() + end, entry, before) - many.begin();
+    std::move_backward(many.begin() + place, many.begin() + end, many.begin() + end + left + 1);
+    many[static_cast<std::size_t>(place + left)] = entry;
+    end = place;
+  }
 }
 
 }  // namespace
@@ -34,11 +42,10 @@ void add_face_points(const ContactParams& params, const LocalMesh& local, Index 
 
 void sort_points(ContactState& contact) {
   const auto by_id = [&](Index a, Index b) { return contact.id(a) < contact.id(b); };
-  const auto middle = static_cast<std::ptrdiff_t>(contact.order.size());
-  while (contact.order.size() < contact.points.size()) contact.order.push_back(static_cast<Index>(contact.order.size()));
-  if (middle == static_cast<std::ptrdiff_t>(contact.order.size())) return;
-  std::sort(contact.order.begin() + middle, contact.order.end(), by_id);
-  std::inplace_merge(contact.order.begin(), contact.order.begin() + middle, contact.order.end(), by_id);
+  std::vector<Index> added;
+  for (std::size_t p = contact.order.size(); p < contact.points.size(); ++p) added.push_back(static_cast<Index>(p));
+  std::sort(added.begin(), added.end(), by_id);
+  merge_few(contact.order, added, by_id);
 }
 
 void couples_replaced(ContactState& contact) {
@@ -54,8 +61,8 @@ void couples_replaced(ContactState& contact) {
 
 void add_fresh_couples(const std::vector<ContactCouple>& made, ContactState& contact) {
   if (made.empty()) return;
-  merge_into(contact.couples, made, contact);
-  merge_into(contact.fresh, made, contact);
+  merge_few(contact.couples, made, in_order(contact));
+  merge_few(contact.fresh, made, in_order(contact));
   for (const ContactCouple& couple : made) {
     Index& place = contact.place[static_cast<std::size_t>(couple.contactor)];
     if (place >= 0) continue;

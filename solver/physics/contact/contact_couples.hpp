@@ -10,10 +10,10 @@ namespace breccia {
 /// Sets the contactors and everything that is stored for each of them. @param slots  by ascending global element id
 void set_contactors(const LocalMesh& local, std::vector<Index> slots, ContactState& contact);
 
-/// Appends the points of a face and keeps `order` right. Call `sort_points` after the last face.
+/// Appends the points of a face, one after the other. Call `sort_points` after the last face.
 void add_face_points(const ContactParams& params, const LocalMesh& local, Index slot, int face, ContactState& contact);
 
-/// Brings the points that have been appended into `order`. O(points) if there are any.
+/// Brings the points that have been appended into `order`. O(n log(points)) for n of them, and a move of `order`.
 void sort_points(ContactState& contact);
 
 /// Makes `couples` ready for contact_forces after they have been replaced. @pre sorted (ContactState::before).
@@ -21,7 +21,7 @@ void sort_points(ContactState& contact);
 void couples_replaced(ContactState& contact);
 
 /// Merges couples made by fracture, which are not there yet, and lists them as fresh.
-/// @param made  sorted (ContactState::before). O(couples) unless it is empty.
+/// @param made  sorted (ContactState::before), unique. O(n log(couples)) for n of them, and a move of the couples.
 void add_fresh_couples(const std::vector<ContactCouple>& made, ContactState& contact);
 
 }  // namespace breccia

@@ -32,7 +32,8 @@ double inradius(const LocalMesh& local, Index slot) {
 bool exists(const LocalMesh& local, Index slot) { return local.element_of_slot[static_cast<std::size_t>(slot)] >= 0; }
 
 std::vector<double> mean_inradii(const LocalMesh& local) {
-  const Index bodies = local.slot_body.empty() ? 0 : 1 + *std::max_element(local.slot_body.begin(), local.slot_body.end());
+  const Index bodies =
+      local.slot_body.empty() ? 0 : 1 + *std::max_element(local.slot_body.begin(), local.slot_body.end());
   std::vector<double> sum(static_cast<std::size_t>(bodies), 0.0), count(static_cast<std::size_t>(bodies), 0.0);
   for (Index s = 0; s < local.num_slots; ++s) {
     if (!exists(local, s)) continue;
@@ -92,7 +93,8 @@ void build_field(const ContactParams& params, const LocalMesh& local, std::span<
   }
 }
 
-void free_corner(const ContactParams& params, const LocalMesh& local, Index contactor, int corner, ContactState& contact) {
+void free_corner(const ContactParams& params, const LocalMesh& local, Index contactor, int corner,
+                 ContactState& contact) {
   if (params.field != OverlapField::body) return;
   const auto a = static_cast<std::size_t>(corner);
   // The usual call is for a corner that lies on the surface already: leave without touching the list of ramps.
@@ -119,7 +121,8 @@ void advance_field(ContactState& contact) {
   }
 }
 
-OverlapShape overlap_shape(OverlapField field, const LocalMesh& local, Index slot, const FieldValues& values, double length) {
+OverlapShape overlap_shape(OverlapField field, const LocalMesh& local, Index slot, const FieldValues& values,
+                           double length) {
   OverlapShape shape;
   switch (field) {
     case OverlapField::body:

@@ -10,7 +10,9 @@ namespace breccia {
 
 namespace {
 
-Index group_of(const LocalMesh& local, Index slot) { return local.block_group[static_cast<std::size_t>(slot / kLanes)]; }
+Index group_of(const LocalMesh& local, Index slot) {
+  return local.block_group[static_cast<std::size_t>(slot / kLanes)];
+}
 
 bool share_vertex(const LocalMesh& local, Index slot, Index other) {
   const std::array<Index, 4>& a = local.vertex[static_cast<std::size_t>(slot)];
@@ -22,10 +24,9 @@ bool share_vertex(const LocalMesh& local, Index slot, Index other) {
 struct Candidate {
   Index contactor;
   std::array<double, 4> lambda;
-  double g;                ///< m, now
-  double g_before;         ///< m, with the field of one step ago
-  TouchingCouple history;
-  bool known = false;      ///< history found
+  double g;                 ///< m, now
+  double g_before;          ///< m, with the field of one step ago
+  std::ptrdiff_t old = -1;  ///< index of its history among those of the last step, -1: none
 };
 
 /// One call of contact_forces.
@@ -33,7 +34,13 @@ class Pass {
  public:
   Pass(const ContactParams& params, const LocalMesh& local, const State& state, double dt, ContactState& contact,
        NodalForces& forces, ContactWork& work)
-      : params_(params), local_(local), state_(state), dt_(dt), contact_(contact), forces_(forces), work_(work),
+      : params_(params),
+        local_(local),
+        state_(state),
+        dt_(dt),
+        contact_(contact),
+        forces_(forces),
+        work_(work),
         rule_(face_rule(params.points_per_face)) {}
 
   void run();
@@ -47,13 +54,19 @@ class Pass {
   void take_over(std::size_t first, std::size_t last);
   void forget(const TouchingCouple& old);
   [[nodiscard]] Vec3 relative_motion(const ContactPoint& point, Index slot, const std::array<double, 4>& lambda) const;
-  void start(Index point, Candidate& candidate);
-  void follow(const ContactLaw& law, double scale, double length, Candidate& candidate);
-  void act(Index point, Candidate& candidate);
+  [[nodiscard]] double first_offset(Index point, const Candidate& candidate) const;
+  void follow(const ContactLaw& law, double scale, double length, const Candidate& candidate, TouchingCouple& h);
+  void act(Index point, const Candidate& candidate);
+  void press(const ContactLaw& law, const ContactPoint& point, Index slot, double length, const Candidate& candidate,
+             TouchingCouple& h);
   void distribute(const ContactPoint& point, const Candidate& candidate, const Vec3& force);
 
-  [[nodiscard]] const ContactPoint& point_at(Index point) const { return contact_.points[static_cast<std::size_t>(point)]; }
-  [[nodiscard]] Index slot_of(Index contactor) const { return contact_.contactors[static_cast<std::size_t>(contactor)]; }
+  [[nodiscard]] const ContactPoint& point_at(Index point) const {
+    return contact_.points[static_cast<std::size_t>(point)];
+  }
+  [[nodiscard]] Index slot_of(Index contactor) const {
+    return contact_.contactors[static_cast<std::size_t>(contactor)];
+  }
   [[nodiscard]] Index body_of(Index contactor) const {
     return local_.slot_body[static_cast<std::size_t>(slot_of(contactor))];
   }
@@ -142,7 +155,7 @@ void Pass::push_back_into_sphere() {
 }
 
 void Pass::consider(Index contactor, const std::array<double, 4>& lambda) {
-  Candidate candidate{contactor, lambda, 0, 0, {}, false};
+  Candidate candidate{contactor, lambda, 0, 0};
   const FieldValues& now = contact_.field[static_cast<std::size_t>(contactor)];
   candidate.g = candidate.g_before = overlap_value(shape_of(contactor, now), lambda);
   const Index ramp = contact_.ramp_of_contactor[static_cast<std::size_t>(contactor)];
@@ -156,7 +169,7 @@ void Pass::consider(Index contactor, const std::array<double, 4>& lambda) {
 void Pass::touch_point(Index point) {
   if (candidates_.size() > 1) drop_ambiguous();
   find_histories(point);
-  for (Candidate& candidate : candidates_) act(point, candidate);
+  for (const Candidate& candidate : candidates_) act(point, candidate);
 }
 
 /// A point on the border of neighbouring elements is inside all of them (kInside): the first one counts.
@@ -167,7 +180,8 @@ void Pass::drop_ambiguous() {
     const bool counted = smallest(here.lambda) < kInside &&
                          std::any_of(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(kept),
                                      [&](const Candidate& c) {
-                                       return smallest(c.lambda) < kInside && body_of(c.contactor) == body_of(here.contactor) &&
+                                       return smallest(c.lambda) < kInside &&
+                                              body_of(c.contactor) == body_of(here.contactor) &&
                                               share_vertex(local_, slot_of(c.contactor), slot_of(here.contactor));
                                      });
     if (!counted) candidates_[kept++] = Candidate(here);
@@ -182,9 +196,6 @@ void Pass::find_histories(Index point) {
   const std::size_t first = old_;
   while (old_ < old.size() && old[old_].point == point) ++old_;
   if (old_ > first) take_over(first, old_);
-  for (Candidate& candidate : candidates_) {
-    if (!candidate.known) start(point, candidate);
-  }
 }
 
 /// Old histories [first, last) go to the candidates: the same contactor first, then a neighbour in the same body.
@@ -193,10 +204,10 @@ void Pass::take_over(std::size_t first, std::size_t last) {
   taken_.assign(last - first, false);
   const auto assign = [&](auto&& belongs) {
     for (Candidate& candidate : candidates_) {
-      for (std::size_t k = first; k < last && !candidate.known; ++k) {
+      for (std::size_t k = first; k < last && candidate.old < 0; ++k) {
         if (taken_[k - first] || !belongs(old[k].contactor, candidate.contactor)) continue;
-        candidate.history = old[k];
-        candidate.known = taken_[k - first] = true;
+        candidate.old = static_cast<std::ptrdiff_t>(k);
+        taken_[k - first] = true;
       }
     }
   };
@@ -213,7 +224,8 @@ void Pass::take_over(std::size_t first, std::size_t last) {
 Vec3 Pass::relative_motion(const ContactPoint& point, Index slot, const std::array<double, 4>& lambda) const {
   const double* v = state_.velocity.data();
   Vec3 relative = at_point(rule_, point, v);
-  for (int a = 0; a < 4; ++a) relative -= lambda[static_cast<std::size_t>(a)] * load_node(v, local_.corner_node(slot, a));
+  for (int a = 0; a < 4; ++a)
+    relative -= lambda[static_cast<std::size_t>(a)] * load_node(v, local_.corner_node(slot, a));
   return dt_ * relative;
 }
 
@@ -238,22 +250,21 @@ void Pass::forget(const TouchingCouple& old) {
   if (crushed) work_.dissipated.add(point.weight * length * normal_law::stored(law, old.d, old.d_max));
 }
 
-void Pass::start(Index point, Candidate& candidate) {
+/// Overlap that makes no force, m, of a couple seen for the first time.
+double Pass::first_offset(Index point, const Candidate& candidate) const {
   const ContactCouple couple{point, candidate.contactor};
   const auto& fresh = contact_.fresh;
   const bool is_fresh = !fresh.empty() && std::binary_search(fresh.begin(), fresh.end(), couple,
                                                              [&](const ContactCouple& a, const ContactCouple& b) {
                                                                return contact_.before(a, b);
                                                              });
-  if (is_fresh || share_vertex(local_, point_at(point).slot, slot_of(candidate.contactor))) {
-    candidate.history.offset = std::max(candidate.g_before, 0.0);
-  }
+  const bool neighbours = is_fresh || share_vertex(local_, point_at(point).slot, slot_of(candidate.contactor));
+  return neighbours ? std::max(candidate.g_before, 0.0) : 0.0;
 }
 
-/// The law follows the motion (field at rest), then the field (points at rest), so that the energy each of them moves is
-/// known apart.
-void Pass::follow(const ContactLaw& law, double scale, double length, Candidate& candidate) {
-  TouchingCouple& h = candidate.history;
+/// The law follows the motion (field at rest), then the field (points at rest), so that the energy each of them moves
+/// is known apart.
+void Pass::follow(const ContactLaw& law, double scale, double length, const Candidate& candidate, TouchingCouple& h) {
   const auto go_to = [&](double g) {
     h.offset = std::clamp(g, 0.0, h.offset);
     const double d = std::max(0.0, g - h.offset) / length;
@@ -265,26 +276,40 @@ void Pass::follow(const ContactLaw& law, double scale, double length, Candidate&
   };
   work_.dissipated.add(go_to(candidate.g_before));
   if (candidate.g == candidate.g_before) return;
-  // The offset takes up the field's change: what rises makes no force, what sinks takes force away once the offset is gone.
+  // The offset takes up the field's change: what rises makes no force, what sinks takes force away once the offset is
+  // gone.
   const double stored = normal_law::stored(law, h.d, h.d_max);
   h.offset = std::max(0.0, h.offset + (candidate.g - candidate.g_before));
   go_to(candidate.g);
   work_.dissipated.add(scale * (stored - normal_law::stored(law, h.d, h.d_max)));
 }
 
-void Pass::act(Index index, Candidate& candidate) {
+void Pass::act(Index index, const Candidate& candidate) {
   const ContactPoint& point = point_at(index);
   const Index slot = slot_of(candidate.contactor);
   const ContactLaw& law = law_of(index, candidate.contactor);
   const double length = length_of(slot);
-  TouchingCouple& h = candidate.history;
+  TouchingCouple& h = contact_.touching.emplace_back();
+  if (candidate.old >= 0) {
+    h = contact_.touching_before[static_cast<std::size_t>(candidate.old)];
+  } else {
+    h.offset = first_offset(index, candidate);
+  }
   h.point = index;
   h.contactor = candidate.contactor;
-  follow(law, point.weight * length, length, candidate);
+  h.force = Vec3::Zero();
+  follow(law, point.weight * length, length, candidate, h);
   if (!(candidate.g > 0)) {
     forget(h);
-    return;
+    contact_.touching.pop_back();
+  } else if (h.d > 0 || h.friction != Vec3::Zero()) {
+    // Freshly broken surfaces are full of couples that lie together without force: nothing more to do for those.
+    press(law, point, slot, length, candidate, h);
   }
+}
+
+void Pass::press(const ContactLaw& law, const ContactPoint& point, Index slot, double length,
+                 const Candidate& candidate, TouchingCouple& h) {
   const FieldValues& values = contact_.field[static_cast<std::size_t>(candidate.contactor)];
   const Overlap here = overlap(shape_of(candidate.contactor, values), prepared(candidate.contactor), candidate.lambda);
   const double pressure = point.weight * normal_law::stress(law, h.d, h.d_max);
@@ -304,7 +329,6 @@ void Pass::act(Index index, Candidate& candidate) {
   stored_.add(point.weight * length * normal_law::stored(law, h.d, h.d_max));
   pressing_ += h.d > 0 ? 1 : 0;
   distribute(point, candidate, h.force);
-  contact_.touching.push_back(h);
 }
 
 void Pass::distribute(const ContactPoint& point, const Candidate& candidate, const Vec3& force) {
@@ -319,8 +343,8 @@ void Pass::distribute(const ContactPoint& point, const Candidate& candidate, con
 
 }  // namespace
 
-void contact_forces(const ContactParams& params, const LocalMesh& local, const State& state, double dt, ContactState& contact,
-                    NodalForces& forces, ContactWork& work) {
+void contact_forces(const ContactParams& params, const LocalMesh& local, const State& state, double dt,
+                    ContactState& contact, NodalForces& forces, ContactWork& work) {
   Pass(params, local, state, dt, contact, forces, work).run();
 }
 

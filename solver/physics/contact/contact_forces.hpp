@@ -9,14 +9,14 @@
 
 namespace breccia {
 
-/// What contact holds and has consumed, J. `stored` and `friction_stored` belong to the last call, the dissipated ones add
-/// up over the run.
+/// What contact holds and has consumed, J. `stored` and `friction_stored` belong to the last call, the dissipated ones
+/// add up over the run.
 struct ContactWork {
-  double stored = 0;                    ///< normal overlap and spherical boundary
-  double friction_stored = 0;           ///< tangential springs
-  CompensatedSum dissipated;            ///< normal law; also what a moving overlap field takes away
-  CompensatedSum friction_dissipated;   ///< sliding
-  Index touching = 0;                   ///< couples that press on each other
+  double stored = 0;                   ///< normal overlap and spherical boundary
+  double friction_stored = 0;          ///< tangential springs
+  CompensatedSum dissipated;           ///< normal law; also what a moving overlap field takes away
+  CompensatedSum friction_dissipated;  ///< sliding
+  Index touching = 0;                  ///< couples that press on each other
 };
 
 /// Forces of all couples and of the spherical boundary at t_n.
@@ -25,21 +25,21 @@ struct ContactWork {
 ///   friction  friction.hpp with k = tangential_ratio w sigma_p / H, limit mu w sigma |grad g|
 ///   target    + N_i f_p on the corners of its face;  contactor: - lambda_a f_p on its corners
 ///
-/// so linear and angular momentum hold to round-off for any direction of f_p. History: a couple keeps its TouchingCouple
-/// while it touches; when the point has moved to another contactor of the same body that shares a mesh vertex with the old
-/// one the history moves along. A new couple starts with offset = g if point and contactor share a mesh vertex or if
-/// fracture has just made it, else with 0, so that freeing a face makes no force.
-/// The first thing done is one step of the field's ramps. The offset of a couple follows a change of g that comes from the
-/// field alone, down to 0 at least: a field that rises pushes nobody, one that sinks lets go of stored energy, which is
-/// booked as dissipated.
+/// so linear and angular momentum hold to round-off for any direction of f_p. History: a couple keeps its
+/// TouchingCouple while it touches; when the point has moved to another contactor of the same body that shares a mesh
+/// vertex with the old one the history moves along. A new couple starts with offset = g if point and contactor share a
+/// mesh vertex or if fracture has just made it, else with 0, so that freeing a face makes no force.
+/// The first thing done is one step of the field's ramps. The offset of a couple follows a change of g that comes from
+/// the field alone, down to 0 at least: a field that rises pushes nobody, one that sinks lets go of stored energy,
+/// which is booked as dissipated.
 ///
 /// @param state    position at t_n, velocity at t_(n-1/2)
 /// @param dt       s, from t_(n-1) to t_n
 /// @param contact  couples sorted; histories, field and scratch are written, `fresh` is emptied
 /// @param forces   added to, in the order (point id, contactor)
 /// @pre dt >= 0; couples hold every pair that touches. O(couples) + O(points) with a sphere. Throws nothing.
-void contact_forces(const ContactParams& params, const LocalMesh& local, const State& state, double dt, ContactState& contact,
-                    NodalForces& forces, ContactWork& work);
+void contact_forces(const ContactParams& params, const LocalMesh& local, const State& state, double dt,
+                    ContactState& contact, NodalForces& forces, ContactWork& work);
 
 /// Sum of the contact forces of the last step on the elements of a volume group, N: forces on its points (the spherical
 /// boundary's included), reactions on its contactors. O(touching couples).

@@ -22,7 +22,8 @@ struct ContactLaw {
 ///
 ///   d <= 0:      sigma = 0, d_max forgotten
 ///   d >= d_max:  sigma = min(sigma_p d, sigma_T), d_max = d
-///   d <  d_max:  sigma = sigma_max (d/d_max)^b,  sigma_max = min(sigma_p d_max, sigma_T); reloading follows the same branch
+///   d <  d_max:  sigma = sigma_max (d/d_max)^b,  sigma_max = min(sigma_p d_max, sigma_T); reloading follows the same
+/// branch
 ///
 /// d is dimensionless (overlap over H), energies are per contact area and per H: multiply by w H for J.
 namespace normal_law {
@@ -31,7 +32,9 @@ namespace normal_law {
 [[nodiscard]] inline double largest(double d, double d_max) { return d > 0 ? std::max(d, d_max) : 0.0; }
 
 /// sigma_max, Pa.
-[[nodiscard]] inline double peak(const ContactLaw& law, double d_max) { return std::min(law.penalty * d_max, law.plateau); }
+[[nodiscard]] inline double peak(const ContactLaw& law, double d_max) {
+  return std::min(law.penalty * d_max, law.plateau);
+}
 
 /// sigma, Pa, compression positive. @pre d <= d_max unless d <= 0
 [[nodiscard]] inline double stress(const ContactLaw& law, double d, double d_max) {

@@ -24,15 +24,16 @@ struct SphericalBoundary {
 
 /// What the contact kernels need to know; the same all through a run.
 struct ContactParams {
-  int points_per_face = 3;                 ///< 1, 3 or 6
+  int points_per_face = 3;  ///< 1, 3 or 6
   OverlapField field = OverlapField::body;
-  int ramp_steps = 50;                     ///< >= 1: steps in which the overlap field follows a new free surface
-  Index num_groups = 0;                    ///< volume groups
-  std::vector<ContactLaw> laws;            ///< (num_groups, num_groups), symmetric
+  int ramp_steps = 50;           ///< >= 1: steps in which the overlap field follows a new free surface
+  Index num_groups = 0;          ///< volume groups
+  std::vector<ContactLaw> laws;  ///< (num_groups, num_groups), symmetric
   std::optional<SphericalBoundary> sphere;
 
   [[nodiscard]] const ContactLaw& law(Index group, Index other) const {
-    return laws[static_cast<std::size_t>(group) * static_cast<std::size_t>(num_groups) + static_cast<std::size_t>(other)];
+    return laws[static_cast<std::size_t>(group) * static_cast<std::size_t>(num_groups) +
+                static_cast<std::size_t>(other)];
   }
 };
 

@@ -54,7 +54,8 @@ const FaceRule& face_rule(int points_per_face) {
   return points_per_face == 1 ? one : points_per_face == 3 ? three : six;
 }
 
-void append_points(const FaceRule& rule, const LocalMesh& local, Index slot, int face, std::vector<ContactPoint>& points) {
+void append_points(const FaceRule& rule, const LocalMesh& local, Index slot, int face,
+                   std::vector<ContactPoint>& points) {
   ContactPoint point;
   point.slot = slot;
   point.face = static_cast<std::int8_t>(face);

@@ -11,8 +11,8 @@ namespace breccia {
 
 /// Target: an integration point on a free face.
 struct ContactPoint {
-  GlobalId id = 0;             ///< 24 element + 6 face + k: the same on any number of ranks
-  Index slot = 0;              ///< element it lies on
+  GlobalId id = 0;  ///< 24 element + 6 face + k: the same on any number of ranks
+  Index slot = 0;   ///< element it lies on
   std::int8_t face = 0;
   std::int8_t k = 0;           ///< 0..points_per_face-1
   std::array<Index, 3> nodes;  ///< of the face's corners
@@ -32,7 +32,8 @@ struct FaceRule {
 [[nodiscard]] const FaceRule& face_rule(int points_per_face);
 
 /// Appends the points of one face, k ascending.
-void append_points(const FaceRule& rule, const LocalMesh& local, Index slot, int face, std::vector<ContactPoint>& points);
+void append_points(const FaceRule& rule, const LocalMesh& local, Index slot, int face,
+                   std::vector<ContactPoint>& points);
 
 /// Position (or velocity) of a point out of a nodal field.
 [[nodiscard]] inline Vec3 at_point(const FaceRule& rule, const ContactPoint& point, const double* field) {

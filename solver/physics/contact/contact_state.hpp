@@ -17,17 +17,17 @@ struct ContactCouple {
   bool operator==(const ContactCouple&) const = default;
 };
 
-/// A couple that touches, with its history. It lives exactly as long as the overlap: a point that slides into a neighbouring
-/// element takes it along, a point that leaves the body forgets it at once.
+/// A couple that touches, with its history. It lives exactly as long as the overlap: a point that slides into a
+/// neighbouring element takes it along, a point that leaves the body forgets it at once.
 struct TouchingCouple {
   Index point = 0;
   Index contactor = 0;
-  double d = 0;           ///< overlap over H, offset taken off
-  double d_max = 0;       ///< largest d since the overlap began
-  double offset = 0;      ///< m, overlap without force: what was there when fracture made the couple
-  Vec3 spring{0, 0, 0};   ///< m, elongation of the friction spring
-  Vec3 friction{0, 0, 0}; ///< N, tangential force on the point
-  Vec3 force{0, 0, 0};    ///< N, whole force on the point
+  double d = 0;            ///< overlap over H, offset taken off
+  double d_max = 0;        ///< largest d since the overlap began
+  double offset = 0;       ///< m, overlap without force: what was there when fracture made the couple
+  Vec3 spring{0, 0, 0};    ///< m, elongation of the friction spring
+  Vec3 friction{0, 0, 0};  ///< N, tangential force on the point
+  Vec3 force{0, 0, 0};     ///< N, whole force on the point
 };
 
 /// Overlap field of a contactor: Phi at its four corners, then Phi_c of its bubble; m.
@@ -50,28 +50,28 @@ struct BoundaryForce {
 /// Everything about contact that changes in a run. Plain data.
 struct ContactState {
   // Who may touch whom.
-  std::vector<ContactPoint> points;     ///< in the order in which they came
-  std::vector<Index> order;             ///< (points) indices by ascending id
-  std::vector<Index> contactors;        ///< slots by ascending global element id
-  std::vector<Index> contactor_of_slot; ///< (num_slots) -1: none
-  std::vector<double> body_length;      ///< (bodies) H, m
-  std::vector<ContactCouple> couples;   ///< by (point id, contactor)
-  std::vector<ContactCouple> fresh;     ///< made by fracture since the last forces; by (point id, contactor)
+  std::vector<ContactPoint> points;      ///< in the order in which they came
+  std::vector<Index> order;              ///< (points) indices by ascending id
+  std::vector<Index> contactors;         ///< slots by ascending global element id
+  std::vector<Index> contactor_of_slot;  ///< (num_slots) -1: none
+  std::vector<double> body_length;       ///< (bodies) H, m
+  std::vector<ContactCouple> couples;    ///< by (point id, contactor)
+  std::vector<ContactCouple> fresh;      ///< made by fracture since the last forces; by (point id, contactor)
 
   // Overlap field.
-  std::vector<FieldValues> field;       ///< (contactors)
-  std::vector<FieldRamp> ramps;         ///< in no order: no sum goes over them
-  std::vector<Index> ramp_of_contactor; ///< (contactors) index into `ramps`, -1: none
+  std::vector<FieldValues> field;        ///< (contactors)
+  std::vector<FieldRamp> ramps;          ///< in no order: no sum goes over them
+  std::vector<Index> ramp_of_contactor;  ///< (contactors) index into `ramps`, -1: none
 
   // History and forces of the last step.
-  std::vector<TouchingCouple> touching; ///< by (point id, contactor)
-  std::vector<BoundaryForce> boundary;  ///< by point id
+  std::vector<TouchingCouple> touching;  ///< by (point id, contactor)
+  std::vector<BoundaryForce> boundary;   ///< by point id
 
   // Scratch, worth keeping only for its storage.
   std::vector<TouchingCouple> touching_before;
   std::vector<PreparedTetra> prepared;
-  std::vector<Index> place;             ///< (contactors) index into `prepared`, -1: not in any couple
-  std::vector<Index> in_couples;        ///< (prepared) contactors that are in some couple
+  std::vector<Index> place;       ///< (contactors) index into `prepared`, -1: not in any couple
+  std::vector<Index> in_couples;  ///< (prepared) contactors that are in some couple
 
   [[nodiscard]] GlobalId id(Index point) const { return points[static_cast<std::size_t>(point)].id; }
   /// The order of everything that is summed: point id, then contactor.

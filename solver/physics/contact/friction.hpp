@@ -4,7 +4,8 @@
 
 namespace breccia {
 
-/// Coulomb friction of one contact point by a tangential spring. Source: [Cundall and Strack 1979], rotated with the normal.
+/// Coulomb friction of one contact point by a tangential spring. Source: [Cundall and Strack 1979], rotated with the
+/// normal.
 ///
 ///   xi <- (I - n n^T) xi, brought back to its old length;  xi <- xi + (I - n n^T) motion
 ///   f_t = -k xi;  if |f_t| > limit: f_t is shortened to it and xi = -f_t / k

@@ -64,8 +64,8 @@ struct OverlapShape {
 
 /// Overlap and its gradient with respect to the point; that with respect to corner a is -lambda_a gradient.
 struct Overlap {
-  double g = 0;               ///< m, > 0 inside
-  Vec3 gradient{0, 0, 0};     ///< -, points inwards
+  double g = 0;            ///< m, > 0 inside
+  Vec3 gradient{0, 0, 0};  ///< -, points inwards
 };
 
 [[nodiscard]] inline double overlap_value(const OverlapShape& shape, const std::array<double, 4>& lambda) {
@@ -77,7 +77,8 @@ struct Overlap {
   return g + least;
 }
 
-[[nodiscard]] inline Overlap overlap(const OverlapShape& shape, const PreparedTetra& tetra, const std::array<double, 4>& lambda) {
+[[nodiscard]] inline Overlap overlap(const OverlapShape& shape, const PreparedTetra& tetra,
+                                     const std::array<double, 4>& lambda) {
   std::size_t nearest = 0;
   for (std::size_t a = 1; a < 4; ++a) {
     if (lambda[a] * shape.face[a] < lambda[nearest] * shape.face[nearest]) nearest = a;

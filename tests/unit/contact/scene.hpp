@@ -71,7 +71,9 @@ inline Mesh moved(Mesh mesh, const std::function<Vec3(const Vec3&)>& map) {
 
 inline Mat3 random_rotation(std::mt19937_64& random) {
   std::normal_distribution<double> normal;
-  return Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized().toRotationMatrix();
+  return Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
+      .normalized()
+      .toRotationMatrix();
 }
 
 /// A model with all free faces as targets, all elements as contactors and every point coupled with every contactor of
@@ -101,7 +103,8 @@ struct Scene {
     build_field(params, local, nodal_surface_distance(mesh, topology), contact);
     for (Index e = 0; e < mesh.num_elements(); ++e) {
       for (int f = 0; f < 4; ++f) {
-        if (topology.links[at(e)][at(f)].free()) add_face_points(params, local, local.slot_of_element[at(e)], f, contact);
+        if (topology.links[at(e)][at(f)].free())
+          add_face_points(params, local, local.slot_of_element[at(e)], f, contact);
       }
     }
     sort_points(contact);
@@ -159,7 +162,8 @@ struct Scene {
   }
 
   void shift(Index wanted, const Vec3& by) {
-    for (const Index n : nodes_of(wanted)) store_node(state.position.data(), n, load_node(state.position.data(), n) + by);
+    for (const Index n : nodes_of(wanted))
+      store_node(state.position.data(), n, load_node(state.position.data(), n) + by);
   }
 
   void set_velocity(Index wanted, const Vec3& v) {

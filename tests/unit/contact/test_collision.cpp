@@ -15,9 +15,10 @@ namespace {
 using test::at;
 
 constexpr double kYoung = 4e6, kPoisson = 0.3, kDensity = 1000, kSpeed = 5;
-constexpr double kMomentum = 1e-12;   // relative: round-off of the sums
-constexpr double kEnergy = 0.005;      // central differences across the kinks of the overlap: first order in the step, 0.0011 at this one
-constexpr double kStep = 5e-7;         // s: a twentieth of the stable step of the contact
+constexpr double kMomentum = 1e-12;  // relative: round-off of the sums
+constexpr double kEnergy =
+    0.005;  // central differences across the kinks of the overlap: first order in the step, 0.0011 at this one
+constexpr double kStep = 5e-7;  // s: a twentieth of the stable step of the contact
 constexpr int kSteps = 6000;
 
 struct Totals {
@@ -28,7 +29,8 @@ struct Totals {
 /// A plain explicit loop: element forces by the kernel, contact, central differences.
 class Collision {
  public:
-  Collision(std::uint64_t seed, const ContactLaw& law, int points) : scene_(make(seed), law, points, OverlapField::body, Discretisation::shared_nodes, kDensity) {
+  Collision(std::uint64_t seed, const ContactLaw& law, int points)
+      : scene_(make(seed), law, points, OverlapField::body, Discretisation::shared_nodes, kDensity) {
     before_ = scene_.state.velocity;
     scene_.set_velocity(0, {kSpeed, 0, 0});
     scene_.set_velocity(1, {-kSpeed, 0.3 * kSpeed, 0});
@@ -38,7 +40,8 @@ class Collision {
     std::mt19937_64 random(seed);
     const auto cube = [&](double x) {
       const Mat3 turn = test::random_rotation(random);
-      return test::moved(test::box({1, 1, 1}, 0.02), [=](const Vec3& p) { return Vec3(turn * (p - Vec3::Constant(0.01)) + Vec3(x, 0, 0)); });
+      return test::moved(test::box({1, 1, 1}, 0.02),
+                         [=](const Vec3& p) { return Vec3(turn * (p - Vec3::Constant(0.01)) + Vec3(x, 0, 0)); });
     };
     return test::joined(cube(0), cube(0.036));
   }
@@ -49,13 +52,15 @@ class Collision {
     add_element_forces();
     before_ = scene_.state.velocity;
     for (Index n = 0; n < scene_.local.num_nodes; ++n) {
-      const Vec3 v = load_node(scene_.state.velocity.data(), n) + kStep / scene_.local.node_mass[at(n)] * scene_.forces.get(n);
+      const Vec3 v =
+          load_node(scene_.state.velocity.data(), n) + kStep / scene_.local.node_mass[at(n)] * scene_.forces.get(n);
       store_node(scene_.state.velocity.data(), n, v);
       store_node(scene_.state.position.data(), n, load_node(scene_.state.position.data(), n) + kStep * v);
     }
   }
 
-  /// Kinetic energy of the last instant by v(n-1/2) . v(n+1/2); momenta of x_n and v(n-1/2), which internal forces conserve.
+  /// Kinetic energy of the last instant by v(n-1/2) . v(n+1/2); momenta of x_n and v(n-1/2), which internal forces
+  /// conserve.
   [[nodiscard]] Totals totals() const {
     Totals t;
     for (Index n = 0; n < scene_.local.num_nodes; ++n) {
@@ -72,7 +77,8 @@ class Collision {
     double sum = 0;
     for (Index s = 0; s < scene_.local.num_slots; ++s) {
       if (scene_.local.element_of_slot[at(s)] >= 0) {
-        sum += elasticity::element_energy(corners(scene_.state.position, s), inverse(s), scene_.local.volume[at(s)], params_);
+        sum += elasticity::element_energy(corners(scene_.state.position, s), inverse(s), scene_.local.volume[at(s)],
+                                          params_);
       }
     }
     return sum;
@@ -148,7 +154,8 @@ TEST(collision, with_friction_and_a_plateau_keeps_momenta_and_books_what_is_lost
     const ContactWork& work = c.scene().work;
     EXPECT_GT(work.dissipated.value(), 0.01 * start.kinetic);
     EXPECT_GT(work.friction_dissipated.value(), 0);
-    const double booked = end.kinetic + c.elastic() + work.stored + work.friction_stored + work.dissipated.value() + work.friction_dissipated.value();
+    const double booked = end.kinetic + c.elastic() + work.stored + work.friction_stored + work.dissipated.value() +
+                          work.friction_dissipated.value();
     EXPECT_NEAR(booked / start.kinetic, 1, 2 * kEnergy) << "seed " << seed;
   }
 }

@@ -5,16 +5,17 @@
 
 #include "scene.hpp"
 
-/// Two tetrahedra face to face with imposed motion: the test of the non-elastic law. Source: [Schiava 2012, 8.3.1 and 8.3.2]
+/// Two tetrahedra face to face with imposed motion: the test of the non-elastic law. Source: [Schiava 2012, 8.3.1 and
+/// 8.3.2]
 namespace breccia {
 namespace {
 
-constexpr double kEdge = 0.02;                       // m: face area 173.2 mm2
-constexpr double kArea = 1.7320508075688772e-4;      // m2
-constexpr double kHeight = 0.016329931618554522;     // m
-constexpr double kPenalty = 90e6;                    // Pa
-constexpr double kDeepest = 0.1 * kHeight;           // m: d = 4 x depth / height = 0.4
-constexpr double kRoundOff = 1e-11;                  // relative: d comes from differences of positions 1e-3 of their size
+constexpr double kEdge = 0.02;                    // m: face area 173.2 mm2
+constexpr double kArea = 1.7320508075688772e-4;   // m2
+constexpr double kHeight = 0.016329931618554522;  // m
+constexpr double kPenalty = 90e6;                 // Pa
+constexpr double kDeepest = 0.1 * kHeight;        // m: d = 4 x depth / height = 0.4
+constexpr double kRoundOff = 1e-11;               // relative: d comes from differences of positions 1e-3 of their size
 
 struct LawCase {
   const char* name;
@@ -66,7 +67,8 @@ void follow(const LawCase& c, const std::vector<double>& turning_depths) {
     for (int i = 1; i <= steps; ++i) {
       const double here = depth + (next - depth) * i / steps;
       deepest = here <= 0 ? 0 : std::max(deepest, here);
-      EXPECT_NEAR(pair.force_at(here), expected(c, here, deepest), kRoundOff * 2 * kArea * kPenalty) << c.name << " at " << here;
+      EXPECT_NEAR(pair.force_at(here), expected(c, here, deepest), kRoundOff * 2 * kArea * kPenalty)
+          << c.name << " at " << here;
     }
     depth = next;
   }
@@ -77,7 +79,8 @@ TEST(contact_pair, test_a_follows_the_closed_form_in_one_approach_and_retreat) {
 }
 
 TEST(contact_pair, test_b_reloads_along_the_unloading_curve_without_a_jump) {
-  for (const LawCase& c : kCases) follow(c, {0.6 * kDeepest, 0.2 * kDeepest, kDeepest, 0.5 * kDeepest, 0.9 * kDeepest, -1e-4});
+  for (const LawCase& c : kCases)
+    follow(c, {0.6 * kDeepest, 0.2 * kDeepest, kDeepest, 0.5 * kDeepest, 0.9 * kDeepest, -1e-4});
 }
 
 TEST(contact_pair, a_second_contact_starts_afresh) {

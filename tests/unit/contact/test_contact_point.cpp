@@ -24,7 +24,8 @@ TEST(face_rule, integrates_polynomials_of_its_degree_exactly) {
         for (int k = 0; i + j + k <= degree; ++k) {
           double sum = 0;
           for (std::size_t p = 0; p < static_cast<std::size_t>(points); ++p) {
-            sum += rule.share[p] * std::pow(rule.shape[p][0], i) * std::pow(rule.shape[p][1], j) * std::pow(rule.shape[p][2], k);
+            sum += rule.share[p] * std::pow(rule.shape[p][0], i) * std::pow(rule.shape[p][1], j) *
+                   std::pow(rule.shape[p][2], k);
           }
           EXPECT_NEAR(sum, exact(i, j, k), kRoundOff) << points << " points, " << i << j << k;
         }

@@ -67,7 +67,8 @@ using Pair = std::pair<GlobalId, Index>;
 
 std::vector<Pair> pairs(const ContactSearch& search) {
   std::vector<Pair> result;
-  for (const ContactCouple& c : search.contact().couples) result.emplace_back(search.contact().id(c.point), c.contactor);
+  for (const ContactCouple& c : search.contact().couples)
+    result.emplace_back(search.contact().id(c.point), c.contactor);
   return result;
 }
 
@@ -139,7 +140,8 @@ TEST(contact_search, both_sides_of_a_face_are_freed_once_however_often_it_is_nam
   int face = 0;
   while (model.topology.links[0][at(face)].free()) ++face;
   const FaceLink link = model.topology.links[0][at(face)];
-  const FreedFace one{model.local.slot_of_element[0], face}, other{model.local.slot_of_element[at(link.neighbour)], link.face()};
+  const FreedFace one{model.local.slot_of_element[0], face},
+      other{model.local.slot_of_element[at(link.neighbour)], link.face()};
   search.release_faces(std::vector{one, other, one});
   EXPECT_EQ(search.contact().points.size(), before + 6);
   search.release_faces(std::vector{other});

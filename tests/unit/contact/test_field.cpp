@@ -14,7 +14,8 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kPenalty = 1e6, kRoundOff = 1e-12;
 
 TEST(overlap_field, is_zero_on_the_surface_and_carries_a_bubble_only_where_no_corner_is_inside) {
-  const test::Scene scene(test::joined(test::box({1, 1, 1}, 2.0), test::lone(test::regular_tetra(1.0))), {kPenalty, kInfinite, 1, 0, 1});
+  const test::Scene scene(test::joined(test::box({1, 1, 1}, 2.0), test::lone(test::regular_tetra(1.0))),
+                          {kPenalty, kInfinite, 1, 0, 1});
   for (std::size_t c = 0; c < scene.contact.contactors.size(); ++c) {
     const Index slot = scene.contact.contactors[c];
     const FieldValues& values = scene.contact.field[c];
@@ -56,8 +57,9 @@ TEST(overlap_field, goes_to_its_target_linearly_and_then_rests) {
 struct Pressed {
   test::Scene scene;
   explicit Pressed(const ContactLaw& law)
-      : scene(test::joined(test::box({3, 3, 3}, 1.0), test::moved(test::lone(test::regular_tetra(0.2)),
-                                                                  [](const Vec3& x) { return Vec3(x[2] + 1.4, x[1] + 1.3, 2.97 - x[0]); })),
+      : scene(test::joined(test::box({3, 3, 3}, 1.0),
+                           test::moved(test::lone(test::regular_tetra(0.2)),
+                                       [](const Vec3& x) { return Vec3(x[2] + 1.4, x[1] + 1.3, 2.97 - x[0]); })),
               law) {
     scene.couple([&](Index s) { return scene.body(s) == 1; }, [&](Index s) { return scene.body(s) == 0; });
   }
@@ -68,7 +70,8 @@ struct Pressed {
 void scale_field(test::Scene& scene, double share, Index steps) {
   for (const TouchingCouple& touching : scene.contact.touching) {
     const auto c = at(touching.contactor);
-    FieldRamp ramp{touching.contactor, {steps, steps, steps, steps, steps}, scene.contact.field[c], scene.contact.field[c]};
+    FieldRamp ramp{
+        touching.contactor, {steps, steps, steps, steps, steps}, scene.contact.field[c], scene.contact.field[c]};
     for (double& value : ramp.target) value *= share;
     scene.contact.ramp_of_contactor[c] = static_cast<Index>(scene.contact.ramps.size());
     scene.contact.ramps.push_back(ramp);
@@ -135,10 +138,12 @@ TEST(couples_of_fracture, start_without_force_and_never_pull) {
   };
   const auto put = [&](double share) {  // the target's point goes this share of the way to the other's centroid
     scene.state.position = scene.local.reference;
-    const Vec3 x = at_point(face_rule(1), scene.contact.points[at(scene.contact.couples[0].point)], scene.local.reference.data());
+    const Vec3 x =
+        at_point(face_rule(1), scene.contact.points[at(scene.contact.couples[0].point)], scene.local.reference.data());
     for (int c = 0; c < 4; ++c) {
       const Index n = scene.local.corner_node(target, c);
-      store_node(scene.state.position.data(), n, load_node(scene.local.reference.data(), n) + share * (centroid(other) - x));
+      store_node(scene.state.position.data(), n,
+                 load_node(scene.local.reference.data(), n) + share * (centroid(other) - x));
     }
     scene.evaluate(1e-3);
     return scene.forces.get(scene.local.corner_node(target, 0)).norm();

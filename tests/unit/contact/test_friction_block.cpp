@@ -30,7 +30,8 @@ class Block {
     return test::moved(test::lone(test::regular_tetra(20)), [](const Vec3& x) { return Vec3(-x[2], x[1], 1 + x[0]); });
   }
   static Mesh block() {
-    return test::moved(test::lone(test::regular_tetra(kSize)), [](const Vec3& x) { return Vec3(x[2], x[1], 1 - x[0]); });
+    return test::moved(test::lone(test::regular_tetra(kSize)),
+                       [](const Vec3& x) { return Vec3(x[2], x[1], 1 - x[0]); });
   }
 
   /// Advances by a time; the velocity belongs to the middle of the step.
@@ -79,7 +80,8 @@ TEST(friction_block, sticks_below_the_angle_of_friction) {
   constexpr double mu = 0.4;
   Block gentle(mu, std::atan(0.45 * mu));
   gentle.run(1);
-  EXPECT_LT(std::abs(gentle.path()[0]), gentle.spring(mu)) << "swings to twice the static elongation, 0.45 of the limit";
+  EXPECT_LT(std::abs(gentle.path()[0]), gentle.spring(mu))
+      << "swings to twice the static elongation, 0.45 of the limit";
   EXPECT_LT(gentle.work().friction_dissipated.value(), 1e-9 * gentle.mass()) << "no slip";
 
   Block steep(mu, std::atan(0.95 * mu));

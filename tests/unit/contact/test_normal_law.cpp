@@ -36,14 +36,17 @@ double work(const ContactLaw& l, double from, double to, double& d_max) {
 
 TEST(normal_law, loads_along_the_penalty_up_to_the_plateau) {
   const ContactLaw l = law(2, 60e6);
-  for (const double d : {1e-6, 0.01, 0.3, 0.6}) EXPECT_NEAR(normal_law::stress(l, d, d), 90e6 * d, kRoundOff * 90e6 * d);
+  for (const double d : {1e-6, 0.01, 0.3, 0.6})
+    EXPECT_NEAR(normal_law::stress(l, d, d), 90e6 * d, kRoundOff * 90e6 * d);
   for (const double d : {0.67, 0.8, 1.0}) EXPECT_DOUBLE_EQ(normal_law::stress(l, d, d), 60e6);
 }
 
 TEST(normal_law, unloads_and_reloads_along_the_same_power_curve) {
   const ContactLaw l = law(2, 60e6);
-  for (const double d : {0.1, 0.2, 0.35, 0.5}) EXPECT_NEAR(normal_law::stress(l, d, 0.5), 45e6 * 4 * d * d, kRoundOff * 45e6);
-  for (const double d : {0.1, 0.5, 0.8}) EXPECT_NEAR(normal_law::stress(l, d, 0.8), 60e6 * d * d / 0.64, kRoundOff * 60e6);
+  for (const double d : {0.1, 0.2, 0.35, 0.5})
+    EXPECT_NEAR(normal_law::stress(l, d, 0.5), 45e6 * 4 * d * d, kRoundOff * 45e6);
+  for (const double d : {0.1, 0.5, 0.8})
+    EXPECT_NEAR(normal_law::stress(l, d, 0.8), 60e6 * d * d / 0.64, kRoundOff * 60e6);
 }
 
 TEST(normal_law, forgets_everything_when_the_overlap_is_gone) {

@@ -18,7 +18,8 @@ const ContactLaw kLaw{1e6, std::numeric_limits<double>::infinity(), 1, 0, 1};
 double overlap_at(const test::Scene& scene, const Vec3& x) {
   for (std::size_t c = 0; c < scene.contact.contactors.size(); ++c) {
     const Index slot = scene.contact.contactors[c];
-    const PreparedTetra tetra = prepare(load_corners(scene.local, scene.state.position.data(), slot), scene.local.volume[at(slot)]);
+    const PreparedTetra tetra =
+        prepare(load_corners(scene.local, scene.state.position.data(), slot), scene.local.volume[at(slot)]);
     const auto lambda = barycentric(tetra, x);
     if (!inside(lambda)) continue;
     const double length = scene.contact.body_length[at(scene.body(slot))];
@@ -44,7 +45,7 @@ TEST(overlap, of_a_lone_tetrahedron_is_four_times_the_smallest_barycentric_coord
 
 TEST(overlap, by_distance_is_the_distance_to_the_nearest_face) {
   const test::Scene scene(test::lone(test::regular_tetra(2.0)), kLaw, 1, OverlapField::tet_distance);
-  EXPECT_NEAR(overlap_at(scene, {-0.05, 0, 0}), 0.05, kRoundOff);       // base in x = 0
+  EXPECT_NEAR(overlap_at(scene, {-0.05, 0, 0}), 0.05, kRoundOff);                                    // base in x = 0
   EXPECT_NEAR(overlap_at(scene, {-2.0 / std::sqrt(24.0), 0, 0}), 2.0 / std::sqrt(24.0), kRoundOff);  // incentre
 }
 
@@ -62,9 +63,10 @@ TEST(overlap, of_a_body_is_continuous_across_its_elements) {
   // An irregular body: corners between the elements are moved at random.
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> jitter(-0.1, 0.1), place(0.3, 1.7);
-  const test::Scene scene(test::moved(test::box({2, 2, 2}, 1.0),
-                                      [&](const Vec3& x) { return Vec3(x + Vec3(jitter(random), jitter(random), jitter(random))); }),
-                          kLaw);
+  const test::Scene scene(
+      test::moved(test::box({2, 2, 2}, 1.0),
+                  [&](const Vec3& x) { return Vec3(x + Vec3(jitter(random), jitter(random), jitter(random))); }),
+      kLaw);
   constexpr double step = 1e-6, steepest = 10;  // no height is below a tenth of the largest Phi
   for (int line = 0; line < 5; ++line) {
     Vec3 x(place(random), place(random), 0.2);
@@ -117,7 +119,8 @@ TEST(contact_forces, are_the_gradient_of_the_stored_energy_at_all_seven_nodes) {
 TEST(contact_forces, of_a_body_of_many_elements_are_the_gradient_of_the_stored_energy) {
   std::mt19937_64 random(12);
   const Mat3 turn = test::random_rotation(random);
-  const auto target = test::moved(test::lone(test::regular_tetra(0.8)), [&](const Vec3& x) { return Vec3(turn * x + Vec3(0.8, 0.7, 1.35)); });
+  const auto target = test::moved(test::lone(test::regular_tetra(0.8)),
+                                  [&](const Vec3& x) { return Vec3(turn * x + Vec3(0.8, 0.7, 1.35)); });
   for (const Discretisation kind : {Discretisation::own_nodes, Discretisation::shared_nodes}) {
     test::Scene scene(test::joined(test::box({1, 1, 1}, 1.3), target), kLaw, 6, OverlapField::body, kind);
     expect_force_is_gradient(scene, "cube and tetrahedron");

@@ -25,7 +25,8 @@ struct Drag {
 
   static Mesh slider(double depth) {
     // Base in z = 0 facing down, apex at the height above.
-    return test::moved(test::lone(test::regular_tetra(kSize)), [=](const Vec3& x) { return Vec3(x[2] + 1.037, x[1] + 1.241, 4 - depth - x[0]); });
+    return test::moved(test::lone(test::regular_tetra(kSize)),
+                       [=](const Vec3& x) { return Vec3(x[2] + 1.037, x[1] + 1.241, 4 - depth - x[0]); });
   }
 
   Vec3 move(const Vec3& by) {
@@ -90,7 +91,8 @@ TEST(sliding, forgets_the_history_as_soon_as_the_point_has_left) {
   EXPECT_EQ(drag.move({0, 0, 0.11})[2], 0);
   EXPECT_TRUE(drag.scene.contact.touching.empty());
   const double h = drag.scene.contact.body_length[0];
-  EXPECT_NEAR(drag.move({0, 0, -0.06})[2], area() * kPenalty * 0.05 / h, kRoundOff * kPenalty) << "loads along the penalty again";
+  EXPECT_NEAR(drag.move({0, 0, -0.06})[2], area() * kPenalty * 0.05 / h, kRoundOff * kPenalty)
+      << "loads along the penalty again";
 }
 
 TEST(sliding, with_friction_drags_with_mu_times_the_normal_force_and_books_the_slip) {
