@@ -26,19 +26,19 @@ struct NodalConstraint {
   std::array<TimeFunction, 3> value;  ///< of time since the start of the run
 };
 
-/// The constraints of a stage. Where entries overlap, the later one rules that axis of the node; a node named twice counts
-/// once.
+/// The constraints of a stage. Where entries overlap, the later one rules that axis of the node; a node named twice
+/// counts once.
 ///
-/// In a step: `apply` right after the sweep, `book_after` when the works up to t_n have been read. O(constrained nodes), no
-/// allocation, throws nothing.
+/// In a step: `apply` right after the sweep, `book_after` when the works up to t_n have been read. O(constrained
+/// nodes), no allocation, throws nothing.
 class Constraints {
  public:
   /// @param state  position at the stage's start, where displacements count from; velocity of the step before it
   Constraints(const std::vector<NodalConstraint>& entries, const State& state);
 
   /// Overwrites v(n+1/2): by the velocity asked for at t_(n+1/2), or by (u(t_(n+1)) - (x_n - x_start)) / dt, with which
-  /// positions hold to round-off; and next_position by x_n + dt v. Keeps the reactions m (v - v_free) / dt and books their
-  /// work over the step that ended at t_n.
+  /// positions hold to round-off; and next_position by x_n + dt v. Keeps the reactions m (v - v_free) / dt and books
+  /// their work over the step that ended at t_n.
   /// @param state      position at t_n, velocity and next_position as the sweep left them
   /// @param time       t_n;  @param dt_before  t_n - t_(n-1), 0 at the start;  @param dt  t_(n+1) - t_n, s
   void apply(const LocalMesh& mesh, State& state, double time, double dt_before, double dt);

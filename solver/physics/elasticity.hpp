@@ -8,30 +8,30 @@ namespace breccia {
 
 /// Constitutive law of a constant-strain tetrahedron. Both have Hooke's law as their small-strain limit.
 enum class ElasticLaw {
-  neo_hookean,      ///< hyperelastic: closed strain loops are exact
-  green_st_venant   ///< thesis eq. 3.10 as printed; not hyperelastic, its work must be integrated
+  neo_hookean,     ///< hyperelastic: closed strain loops are exact
+  green_st_venant  ///< thesis eq. 3.10 as printed; not hyperelastic, its work must be integrated
 };
 
 /// Parameters of the element's kernels. Made by `make_elastic_params`.
 struct ElasticParams {
   ElasticLaw law = ElasticLaw::neo_hookean;
-  double mu = 0;          ///< Pa, shear modulus
-  double lambda = 0;      ///< Pa, Lame's first modulus
-  double viscosity = 0;   ///< Pa s, mubar of the viscous Cauchy stress (2 mubar / J) D
-  double j_min = 0.1;     ///< volume ratio J below which the law is continued linearly; > 0
+  double mu = 0;         ///< Pa, shear modulus
+  double lambda = 0;     ///< Pa, Lame's first modulus
+  double viscosity = 0;  ///< Pa s, mubar of the viscous Cauchy stress (2 mubar / J) D
+  double j_min = 0.1;    ///< volume ratio J below which the law is continued linearly; > 0
 };
 
 /// @pre young > 0, -1 < poisson < 0.5, viscosity >= 0, 0 < j_min < 1
-[[nodiscard]] constexpr ElasticParams make_elastic_params(ElasticLaw law, double young, double poisson, double viscosity,
-                                                          double j_min = 0.1) {
+[[nodiscard]] constexpr ElasticParams make_elastic_params(ElasticLaw law, double young, double poisson,
+                                                          double viscosity, double j_min = 0.1) {
   return {law, young / (2 * (1 + poisson)), young * poisson / ((1 + poisson) * (1 - 2 * poisson)), viscosity, j_min};
 }
 
 /// Kernels of the constant-strain tetrahedron, for T = double and for T = std::experimental::simd<double, ...>: plain
 /// arithmetic and `select`, the same operations in the same order for every T, hence the same bits.
 ///
-/// Deformation gradient F = sum_(c=1..3) (x_c - x_0) (row c-1 of D_m^-1), J = det F, cof F = J F^-T by cross products: no
-/// division by J anywhere, so a flat or inverted element (J <= 0) gives finite forces.
+/// Deformation gradient F = sum_(c=1..3) (x_c - x_0) (row c-1 of D_m^-1), J = det F, cof F = J F^-T by cross products:
+/// no division by J anywhere, so a flat or inverted element (J <= 0) gives finite forces.
 /// Nothing here throws, branches on data, or allocates.
 namespace elasticity {
 
@@ -86,9 +86,9 @@ template <class T>
   return select(j > floor, j, floor);
 }
 
-/// psi''(J) of psi(J) = -mu ln J + lambda/4 (J^2 - 1 - 2 ln J), Pa, for J >= j_min; below, psi is its Taylor polynomial of
-/// second order at j_min and psi'' stays.
-[[nodiscard]] inline double volumetric_curvature(double j, const ElasticParams& p) {
+/// psi''(J) of psi(J) = -mu ln J + lambda/4 (J^2 - 1 - 2 ln J), Pa, for J >= j_min; below, psi is its Taylor polynomial
+/// of second order at j_min and psi'' stays.
+[[nodiscard]] [[gnu::always_inline]] inline double volumetric_curvature(double j, const ElasticParams& p) {
   return (p.mu + 0.5 * p.lambda) / (j * j) + 0.5 * p.lambda;
 }
 
@@ -113,15 +113,15 @@ template <class T>
 
 /// Cauchy stress of thesis eq. 3.10 without its viscous term, Pa, row-major:
 /// T = J^(-2/3) [ E/(1+nu) (B/J^(2/3) - I)/2 + E/(1-2nu) (J^(2/3) - 1)/2 I ].
-/// Below j_min the factor of B stays at its value there and the isotropic part goes on along its tangent: a pressure that
-/// keeps growing linearly as the element collapses and turns inside out.
+/// Below j_min the factor of B stays at its value there and the isotropic part goes on along its tangent: a pressure
+/// that keeps growing linearly as the element collapses and turns inside out.
 template <class T>
 [[nodiscard]] inline Tensor<T> green_st_venant_stress(const Tensor<T>& f, const T& j, const ElasticParams& p) {
   using std::cbrt;
   const T jc = clamped(j, p);
   const T root = cbrt(jc);
-  const T q = 1.0 / (root * root);                            // J^(-2/3)
-  const T q_on = q - (2.0 / 3.0) * q / jc * (j - jc);         // the same, along its tangent below j_min
+  const T q = 1.0 / (root * root);                     // J^(-2/3)
+  const T q_on = q - (2.0 / 3.0) * q / jc * (j - jc);  // the same, along its tangent below j_min
   const T isotropic = 0.5 * (3 * p.lambda + 2 * p.mu) * (1.0 - q_on) - p.mu * q_on;
   const T factor = p.mu * q * q;
   Tensor<T> t;
@@ -140,7 +140,8 @@ template <class T>
 [[nodiscard]] inline Tensor<T> product(const Tensor<T>& a, const Tensor<T>& b) {
   Tensor<T> c;
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) c[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
+    for (std::size_t j = 0; j < 3; ++j)
+      c[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
   }
   return c;
 }
@@ -155,8 +156,8 @@ template <class T>
 }
 
 /// First Piola stress of the viscous term, Pa: P_v = 2 mubar D F^-T with D = sym(Fdot F^-1), written
-/// (2 mubar / J^2) sym(Fdot cof^T) cof F with J >= j_min. Power P_v : Fdot = (2 mubar / J^2) |sym(Fdot cof^T)|^2 >= 0 for
-/// every F; a spin gives none.
+/// (2 mubar / J^2) sym(Fdot cof^T) cof F with J >= j_min. Power P_v : Fdot = (2 mubar / J^2) |sym(Fdot cof^T)|^2 >= 0
+/// for every F; a spin gives none.
 template <class T>
 [[nodiscard]] inline Tensor<T> viscous_piola(const Tensor<T>& rate, const Tensor<T>& cof, const T& j,
                                              const ElasticParams& p) {
@@ -182,7 +183,8 @@ template <class T>
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t c = 1; c < 4; ++c) {
       const std::size_t r = 3 * (c - 1);
-      force[c][i] = -volume * (piola[3 * i] * inverse[r] + piola[3 * i + 1] * inverse[r + 1] + piola[3 * i + 2] * inverse[r + 2]);
+      force[c][i] =
+          -volume * (piola[3 * i] * inverse[r] + piola[3 * i + 1] * inverse[r + 1] + piola[3 * i + 2] * inverse[r + 2]);
     }
     force[0][i] = -(force[1][i] + force[2][i] + force[3][i]);
   }
@@ -195,7 +197,10 @@ template <class T>
   using std::log1p;
   const T small = T(0.02);  // series below: next term 2e-18 of the sum
   const T series =
-      x * x * (1. / 2 + x * (-1. / 3 + x * (1. / 4 + x * (-1. / 5 + x * (1. / 6 + x * (-1. / 7 + x * (1. / 8 + x * (-1. / 9 + x * (1. / 10)))))))));
+      x * x *
+      (1. / 2 + x * (-1. / 3 +
+                     x * (1. / 4 + x * (-1. / 5 +
+                                        x * (1. / 6 + x * (-1. / 7 + x * (1. / 8 + x * (-1. / 9 + x * (1. / 10)))))))));
   return select(x * x < small * small, series, T(x - log1p(x)));
 }
 
@@ -216,7 +221,8 @@ template <class T>
   const T growth = h[0] + h[4] + h[8] + second + det;  // J - 1
   const T kept = select(growth > T(p.j_min - 1.0), growth, T(p.j_min - 1.0));
   const T below = growth - kept;
-  return p.mu * (0.5 * square - second - det) + (p.mu + 0.5 * p.lambda) * minus_log1p(kept) + 0.25 * p.lambda * (kept * kept) +
+  return p.mu * (0.5 * square - second - det) + (p.mu + 0.5 * p.lambda) * minus_log1p(kept) +
+         0.25 * p.lambda * (kept * kept) +
          below * (p.mu + volumetric_slope(T(p.j_min), p) + 0.5 * volumetric_curvature(p.j_min, p) * below);
 }
 
@@ -238,7 +244,8 @@ template <class T>
 
 /// Strain energy of one element, J. @pre p.law == neo_hookean; the other law has none, its work -f.v is integrated.
 template <class T>
-[[nodiscard]] inline T element_energy(const Corners<T>& x, const Tensor<T>& inverse, const T& volume, const ElasticParams& p) {
+[[nodiscard]] inline T element_energy(const Corners<T>& x, const Tensor<T>& inverse, const T& volume,
+                                      const ElasticParams& p) {
   return volume * neo_hookean_energy(deformation(x, inverse), p);
 }
 

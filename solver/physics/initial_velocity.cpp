@@ -32,7 +32,9 @@ std::vector<Index> bodies_of_nodes(const LocalMesh& mesh, Index group) {
 
 Vec3 random_velocity(std::uint64_t seed, std::uint64_t body, const std::array<double, 2>& speed) {
   std::uint64_t drawn = 0;
-  const auto unit = [&] { return static_cast<double>(random_bits(seed, body ^ kVelocityStream, drawn++) >> 11) * 0x1p-53; };
+  const auto unit = [&] {
+    return static_cast<double>(random_bits(seed, body ^ kVelocityStream, drawn++) >> 11) * 0x1p-53;
+  };
   const double length = speed[0] + (speed[1] - speed[0]) * unit();
   Vec3 direction;
   double square = 0;

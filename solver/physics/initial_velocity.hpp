@@ -11,21 +11,22 @@ namespace breccia {
 
 /// Velocity with which the bodies of a volume group start.
 struct InitialVelocity {
-  Index group = 0;                      ///< volume group
-  Vec3 uniform{0, 0, 0};                ///< m/s
-  std::array<double, 2> speed{0, 0};    ///< m/s: range of a random velocity by body, added
+  Index group = 0;                    ///< volume group
+  Vec3 uniform{0, 0, 0};              ///< m/s
+  std::array<double, 2> speed{0, 0};  ///< m/s: range of a random velocity by body, added
   std::uint64_t seed = 1;
-  Vec3 angular{0, 0, 0};                ///< rad/s about the centre of mass of the body's part in the group, added
+  Vec3 angular{0, 0, 0};  ///< rad/s about the centre of mass of the body's part in the group, added
 };
 
-/// Adds uniform + random(body) + angular x (x - centre of mass) to every node of the group, each node once. A node shared by
-/// two bodies of the group counts with the one of the element of lowest slot.
+/// Adds uniform + random(body) + angular x (x - centre of mass) to every node of the group, each node once. A node
+/// shared by two bodies of the group counts with the one of the element of lowest slot.
 /// @param position, velocity  nodal fields, m, m/s. O(nodes).
 void add_initial_velocity(const LocalMesh& mesh, const InitialVelocity& initial, const Field<double>& position,
                           Field<double>& velocity);
 
-/// Velocity of length uniform in [speed[0], speed[1]] and direction uniform over the sphere, m/s. Depends on (seed, body)
-/// alone, not on how many bodies there are, and uses integer arithmetic, + - * / and sqrt only: the same on every machine.
+/// Velocity of length uniform in [speed[0], speed[1]] and direction uniform over the sphere, m/s. Depends on (seed,
+/// body) alone, not on how many bodies there are, and uses integer arithmetic, + - * / and sqrt only: the same on every
+/// machine.
 [[nodiscard]] Vec3 random_velocity(std::uint64_t seed, std::uint64_t body, const std::array<double, 2>& speed);
 
 }  // namespace breccia

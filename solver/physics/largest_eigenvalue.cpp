@@ -25,7 +25,8 @@ void add_element(const LocalMesh& mesh, const ElasticParams& p, Index slot, cons
   }
   grad[0] = -(grad[1] + grad[2] + grad[3]);
   Mat3 h = Mat3::Zero();
-  for (int c = 0; c < 4; ++c) h += load_node(u, mesh.corner_node(slot, c)) * grad[static_cast<std::size_t>(c)].transpose();
+  for (int c = 0; c < 4; ++c)
+    h += load_node(u, mesh.corner_node(slot, c)) * grad[static_cast<std::size_t>(c)].transpose();
   const Mat3 stress = mesh.volume[s] * (p.lambda * h.trace() * Mat3::Identity() + p.mu * (h + h.transpose()));
   for (int c = 0; c < 4; ++c) {
     const Index node = mesh.corner_node(slot, c);
@@ -40,7 +41,8 @@ void add_joints(const JointLinks& links, Index slot, const double* u, double* y)
     if (code >= 12) continue;
     const Index other_slot = JointLinks::slot_of(links.link[at]);
     for (int i = 0; i < 3; ++i) {
-      const Index own = own_corner_node(slot, kFaceCorners[static_cast<std::size_t>(face)][static_cast<std::size_t>(i)]);
+      const Index own =
+          own_corner_node(slot, kFaceCorners[static_cast<std::size_t>(face)][static_cast<std::size_t>(i)]);
       const Index other = own_corner_node(other_slot, linked_corner(code, i));
       store_node(y, own, load_node(y, own) + links.stiffness[at] * (load_node(u, own) - load_node(u, other)));
     }

@@ -32,7 +32,8 @@ PressureLoad::PressureLoad(std::vector<LoadedFace> faces, TimeFunction pressure)
   corner_force_.assign(faces_.size(), Vec3::Zero());
 }
 
-void PressureLoad::apply(const LocalMesh& mesh, const State& state, double time, double dt_before, NodalForces& forces) {
+void PressureLoad::apply(const LocalMesh& mesh, const State& state, double time, double dt_before,
+                         NodalForces& forces) {
   const double factor = -pressure_(time) / 6.0;  // area vector = half the cross product, a third to each corner
   for (std::size_t k = 0; k < faces_.size(); ++k) {
     const auto nodes = face_nodes(mesh, faces_[k]);

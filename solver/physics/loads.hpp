@@ -19,11 +19,11 @@ struct LoadedFace {
   int face;  ///< 0..3, the face opposite to that corner
 };
 
-/// Pressure that follows its faces: each corner of a face gets f = -p(t) A / 3, A the current outward area vector; positive
-/// pressure pushes into the body.
+/// Pressure that follows its faces: each corner of a face gets f = -p(t) A / 3, A the current outward area vector;
+/// positive pressure pushes into the body.
 ///
-/// In a step: `apply` before the sweep, `book_after` once velocities belong to t_(n+1/2) and constraints have had their say.
-/// O(faces) each, no allocation.
+/// In a step: `apply` before the sweep, `book_after` once velocities belong to t_(n+1/2) and constraints have had their
+/// say. O(faces) each, no allocation.
 class PressureLoad {
  public:
   /// Faces are sorted by (slot, face) and named once: the order in which forces are summed.
@@ -53,10 +53,10 @@ class PressureLoad {
 
 /// Work of gravity, J, to the same trapezoid rule as every other force. The sweep applies gravity as an acceleration.
 ///
-/// Gravity is uniform in space, so its work is a functional of the first moment S = sum m (x - X): as long as g does not
-/// change it is g . (S_n - S_start), and nothing is computed until someone asks. In a step where g changes, S and the
-/// momentum are needed. Cost of `advance`: three comparisons while g is constant; O(nodes), 32 bytes a node, for every step
-/// of a ramp (80 bytes in its first). Cost of `work`: O(nodes), 56 bytes a node.
+/// Gravity is uniform in space, so its work is a functional of the first moment S = sum m (x - X): as long as g does
+/// not change it is g . (S_n - S_start), and nothing is computed until someone asks. In a step where g changes, S and
+/// the momentum are needed. Cost of `advance`: three comparisons while g is constant; O(nodes), 32 bytes a node, for
+/// every step of a ramp (80 bytes in its first). Cost of `work`: O(nodes), 56 bytes a node.
 class GravityWork {
  public:
   /// @param position  nodal field at the time of the first `advance`
@@ -78,11 +78,11 @@ class GravityWork {
   Vec3 anchor_;            ///< kg m: S when gravity_ took its value
   bool anchored_last_step_ = false;
   bool started_ = false;
-  CompensatedSum past_;    ///< work up to the anchor
+  CompensatedSum past_;  ///< work up to the anchor
 };
 
-/// Sum over all nodes of mass times the difference of two nodal fields, in a fixed order: partial sums of the eight lanes over
-/// runs of blocks, then compensated. O(nodes).
+/// Sum over all nodes of mass times the difference of two nodal fields, in a fixed order: partial sums of the eight
+/// lanes over runs of blocks, then compensated. O(nodes).
 /// @param mass  (num_nodes);  @param minus  nodal field, or nullptr for zero
 [[nodiscard]] Vec3 weighted_sum(const Field<double>& mass, const double* plus, const double* minus);
 

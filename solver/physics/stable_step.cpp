@@ -68,7 +68,8 @@ double element_share(const StepModel& model, Index slot, const Field<double>& po
 /// Largest sum of joint stiffness on a corner; the face is the stiffest one there.
 void add_joint_share(const StepModel& model, Index slot, Shares& shares) {
   std::array<double, 4> k{};
-  for (int face = 0; face < 4; ++face) k[static_cast<std::size_t>(face)] = model.links.stiffness[JointLinks::at(slot, face)];
+  for (int face = 0; face < 4; ++face)
+    k[static_cast<std::size_t>(face)] = model.links.stiffness[JointLinks::at(slot, face)];
   const double all = k[0] + k[1] + k[2] + k[3];
   const double node_sum = all - *std::min_element(k.begin(), k.end());  // the corner opposite to the softest face
   const double mass = model.mesh.node_mass[static_cast<std::size_t>(own_corner_node(slot, 0))];
@@ -121,7 +122,8 @@ void add_contact_shares(const StepModel& model, std::vector<Shares>& shares) {
   double face_sum = 0;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const ContactStiffness& point = model.contacts[k];
-    const bool same_face = k > 0 && model.contacts[k - 1].slot == point.slot && model.contacts[k - 1].face == point.face;
+    const bool same_face =
+        k > 0 && model.contacts[k - 1].slot == point.slot && model.contacts[k - 1].face == point.face;
     double inverse_mass = 1.0 / lightest;
     for (std::size_t i = 0; i < 3; ++i) {
       const Index node = mesh.corner_node(point.slot, kFaceCorners[static_cast<std::size_t>(point.face)][i]);

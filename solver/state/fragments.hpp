@@ -14,8 +14,8 @@ struct Fragments {
   Index count = 0;
 };
 
-/// Connected components of the elements: through nodes they share, and through the joints named. The result does not depend
-/// on the order of the calls. Near O(elements + joints).
+/// Connected components of the elements: through nodes they share, and through the joints named. The result does not
+/// depend on the order of the calls. Near O(elements + joints).
 class FragmentFinder {
  public:
   /// Joins elements that share nodes.

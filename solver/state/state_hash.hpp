@@ -10,8 +10,8 @@
 
 namespace breccia {
 
-/// 64-bit hash of a sequence of numbers, for "are these two runs the same bits?". Depends on every bit and on the order.
-/// Not cryptographic.
+/// 64-bit hash of a sequence of numbers, for "are these two runs the same bits?". Depends on every bit and on the
+/// order. Not cryptographic.
 class StateHash {
  public:
   void add(std::uint64_t word) {
@@ -38,9 +38,10 @@ class StateHash {
   std::uint64_t hash_ = 0x243f6a8885a308d3ULL;
 };
 
-/// Positions and velocities of the four corners of every element by global id, corner and axis, then the histories. The same
-/// for every layout of the same state.
-/// @param damage, contact  histories in global order (joint, point; point, couple). O(elements), 10 ns an element-corner.
+/// Positions and velocities of the four corners of every element by global id, corner and axis, then the histories. The
+/// same for every layout of the same state.
+/// @param damage, contact  histories in global order (joint, point; point, couple). O(elements), 10 ns an
+///   element-corner.
 [[nodiscard]] StateHash hash_state(const LocalMesh& mesh, const State& state, std::span<const double> damage,
                                    std::span<const double> contact);
 

@@ -1,5 +1,5 @@
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "mesh/raster.hpp"
 #include "state/local_mesh.hpp"
@@ -19,7 +19,8 @@ Mesh cubes() {
 }
 
 class LocalMeshOf : public testing::TestWithParam<Discretisation> {};
-INSTANTIATE_TEST_SUITE_P(Discretisations, LocalMeshOf, testing::Values(Discretisation::own_nodes, Discretisation::shared_nodes));
+INSTANTIATE_TEST_SUITE_P(Discretisations, LocalMeshOf,
+                         testing::Values(Discretisation::own_nodes, Discretisation::shared_nodes));
 
 TEST_P(LocalMeshOf, AModelHasItsMassAndVolume) {
   const LocalMesh mesh = build_local_mesh(cubes(), {GetParam()}, {700.0});
@@ -35,9 +36,11 @@ TEST_P(LocalMeshOf, AModelMapsEdgesToTheIdentity) {
   const LocalMesh mesh = build_local_mesh(model, {GetParam()}, {700.0});
   for (Index s = 0; s < mesh.num_slots; ++s) {
     Mat3 inverse, edges;
-    for (Eigen::Index i = 0; i < 9; ++i) inverse(i / 3, i % 3) = mesh.gradient[at(s) / 8 * 72 + static_cast<std::size_t>(i) * 8 + at(s) % 8];
+    for (Eigen::Index i = 0; i < 9; ++i)
+      inverse(i / 3, i % 3) = mesh.gradient[at(s) / 8 * 72 + static_cast<std::size_t>(i) * 8 + at(s) % 8];
     for (int c = 1; c < 4; ++c) {
-      edges.col(c - 1) = load_node(mesh.reference.data(), mesh.corner_node(s, c)) - load_node(mesh.reference.data(), mesh.corner_node(s, 0));
+      edges.col(c - 1) = load_node(mesh.reference.data(), mesh.corner_node(s, c)) -
+                         load_node(mesh.reference.data(), mesh.corner_node(s, 0));
     }
     EXPECT_LT((edges * inverse - Mat3::Identity()).norm(), 100 * kRounding) << s;
   }
@@ -63,7 +66,8 @@ TEST(LocalMesh, PutsOwnNodeGroupsFirstInWholeBlocksOfOneGroup) {
   Mesh model = cubes();  // 48 elements, now of three groups
   model.volume_groups = {"a", "b", "c"};
   for (Index e = 0; e < 48; ++e) model.element_group[at(e)] = e < 9 ? 0 : (e < 20 ? 1 : 2);
-  const LocalMesh mesh = build_local_mesh(model, {Discretisation::own_nodes, Discretisation::shared_nodes, Discretisation::own_nodes}, {1, 1, 1});
+  const LocalMesh mesh = build_local_mesh(
+      model, {Discretisation::own_nodes, Discretisation::shared_nodes, Discretisation::own_nodes}, {1, 1, 1});
   EXPECT_EQ(mesh.num_own_slots, 16 + 32);
   EXPECT_EQ(mesh.num_slots, 48 + 16);
   EXPECT_EQ(mesh.num_own_nodes(), 4 * 48);

@@ -1,5 +1,5 @@
-#include <bit>
 #include <gtest/gtest.h>
+#include <bit>
 #include <set>
 
 #include "mesh/raster.hpp"
@@ -42,7 +42,8 @@ TEST(StateHash, ChangesWithTheLastBitOfAnyNumber) {
   for (Field<double>* field : {&model.state.position, &model.state.velocity}) {
     for (const Index e : {0, 13, 47}) {
       for (int c = 0; c < 4; ++c) {
-        double& number = (*field)[nodal(model.local.corner_node(model.local.slot_of_element[static_cast<std::size_t>(e)], c), 1)];
+        double& number =
+            (*field)[nodal(model.local.corner_node(model.local.slot_of_element[static_cast<std::size_t>(e)], c), 1)];
         const double kept = number;
         number = std::bit_cast<double>(std::bit_cast<std::uint64_t>(kept) ^ 1);
         EXPECT_NE(model.hash({0.5}, {0.25}), before);

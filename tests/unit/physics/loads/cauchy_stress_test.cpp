@@ -1,7 +1,7 @@
+#include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
-#include <gtest/gtest.h>
 
 #include "physics/cauchy_stress.hpp"
 #include "unit/physics/loads/models.hpp"
@@ -20,7 +20,9 @@ Vec3 by_eigen(const Mat3& t) {
 
 Mat3 with_principals(std::mt19937& random, const Vec3& values) {
   std::normal_distribution<double> normal;
-  const Mat3 q = Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized().toRotationMatrix();
+  const Mat3 q = Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
+                     .normalized()
+                     .toRotationMatrix();
   const Mat3 t = q * values.asDiagonal() * q.transpose();
   return 0.5 * (t + t.transpose());
 }
@@ -36,8 +38,8 @@ TEST(PrincipalStresses, AgreeWithAnIterativeSolverOnRandomTensors) {
 TEST(PrincipalStresses, StayAccurateWhereTheyNearlyCoincide) {
   std::mt19937 random(2);
   for (double gap = 1.0; gap > 1e-18; gap *= 0.1) {
-    for (const Vec3& values : {Vec3(3, 3 - gap, 1), Vec3(3, 1 + gap, 1), Vec3(2 + gap, 2, 2 - gap), Vec3(gap, 0, 0), Vec3(1e6, gap, -gap),
-                               Vec3(-1, -1 - gap, -1 - 2 * gap)}) {
+    for (const Vec3& values : {Vec3(3, 3 - gap, 1), Vec3(3, 1 + gap, 1), Vec3(2 + gap, 2, 2 - gap), Vec3(gap, 0, 0),
+                               Vec3(1e6, gap, -gap), Vec3(-1, -1 - gap, -1 - 2 * gap)}) {
       const Mat3 t = with_principals(random, values);
       const Vec3 found = principal_stresses(t);
       EXPECT_LT((found - values).norm(), 10 * kRounding * values.cwiseAbs().maxCoeff()) << values.transpose();
@@ -59,7 +61,8 @@ TEST(VonMises, IsTheFormulaOfThePrincipalStresses) {
   for (int i = 0; i < 100; ++i) {
     const Mat3 m = test::random_matrix(random, 10), t = m + m.transpose();
     const Vec3 s = by_eigen(t);
-    const double expected = std::sqrt(0.5 * (std::pow(s[0] - s[1], 2) + std::pow(s[1] - s[2], 2) + std::pow(s[2] - s[0], 2)));
+    const double expected =
+        std::sqrt(0.5 * (std::pow(s[0] - s[1], 2) + std::pow(s[1] - s[2], 2) + std::pow(s[2] - s[0], 2)));
     EXPECT_NEAR(von_mises(t), expected, 1e-13 * expected);
   }
 }

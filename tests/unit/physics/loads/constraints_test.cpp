@@ -1,5 +1,5 @@
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "physics/constraints.hpp"
 #include "unit/physics/loads/models.hpp"
@@ -24,8 +24,9 @@ void drift(Model& model, double dt) {
 TEST(Constraints, PrescribeTheVelocityOfTheStepsMiddle) {
   Model model = lone_tetrahedron();
   const Index node = model.real_nodes()[2];
-  Constraints constraints({{{node}, {false, true, false}, PrescribedMotion::velocity, {in_time(0), in_time(0, 4.0), in_time(0)}}},
-                          model.state);
+  Constraints constraints(
+      {{{node}, {false, true, false}, PrescribedMotion::velocity, {in_time(0), in_time(0, 4.0), in_time(0)}}},
+      model.state);
   const double y = model.state.position[nodal(node, 1)];
   drift(model, 0.5);
   constraints.apply(model.local, model.state, 1.0, 0.5, 0.5);
@@ -39,8 +40,9 @@ TEST(Constraints, HoldPrescribedDisplacementsFromTheStagesStart) {
   const Index node = model.real_nodes()[1];
   store_node(model.state.position.data(), node, Vec3(10, 20, 30));  // the stage begins in a deformed state
   const TimeFunction sine = in_time(0, 0, 0.3, 0.7);
-  Constraints constraints({{{node}, {true, false, true}, PrescribedMotion::displacement, {sine, in_time(0), in_time(0, -2.0)}}},
-                          model.state);
+  Constraints constraints(
+      {{{node}, {true, false, true}, PrescribedMotion::displacement, {sine, in_time(0), in_time(0, -2.0)}}},
+      model.state);
   constexpr double kStep = 0.01;
   for (int step = 0; step < 100; ++step) {
     drift(model, kStep);
@@ -67,9 +69,10 @@ TEST(Constraints, GiveAnAxisToTheLaterOfTwoEntriesAndCountANodeOnce) {
   Model model = lone_tetrahedron();
   const Index node = model.real_nodes()[0], other = model.real_nodes()[1];
   const double mass = model.local.node_mass[test::at(node)];
-  Constraints constraints({{{node, other, node}, {true, true, false}, PrescribedMotion::velocity, {in_time(1), in_time(1), in_time(0)}},
-                           {{node}, {false, true, true}, PrescribedMotion::velocity, {in_time(0), in_time(5), in_time(6)}}},
-                          model.state);
+  Constraints constraints(
+      {{{node, other, node}, {true, true, false}, PrescribedMotion::velocity, {in_time(1), in_time(1), in_time(0)}},
+       {{node}, {false, true, true}, PrescribedMotion::velocity, {in_time(0), in_time(5), in_time(6)}}},
+      model.state);
   constraints.apply(model.local, model.state, 0.0, 0.0, 1.0);
   EXPECT_EQ(load_node(model.state.velocity.data(), node), Vec3(1, 5, 6));
   EXPECT_EQ(load_node(model.state.velocity.data(), other), Vec3(1, 1, 0));

@@ -1,8 +1,8 @@
+#include <gtest/gtest.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
 #include <experimental/simd>
-#include <gtest/gtest.h>
 
 #include "unit/physics/loads/models.hpp"
 
@@ -17,11 +17,15 @@ using test::tensor;
 constexpr double kRounding = 1e-12;  // of Young's modulus
 constexpr double kYoung = 3.0, kPoisson = 0.3;
 
-ElasticParams params_of(ElasticLaw law, double viscosity = 0) { return make_elastic_params(law, kYoung, kPoisson, viscosity); }
+ElasticParams params_of(ElasticLaw law, double viscosity = 0) {
+  return make_elastic_params(law, kYoung, kPoisson, viscosity);
+}
 
 Mat3 random_rotation_matrix(std::mt19937& random) {
   std::normal_distribution<double> normal;
-  return Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized().toRotationMatrix();
+  return Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
+      .normalized()
+      .toRotationMatrix();
 }
 
 /// A gradient with the wanted volume ratio.
@@ -75,7 +79,8 @@ TEST_P(EveryLaw, IsContinuousWhereTheContinuationBegins) {
 }
 
 TEST_P(EveryLaw, StaysFiniteWhateverTheElementBecomes) {
-  for (const Mat3& f : {Mat3(Mat3::Zero()), Mat3(-Mat3::Identity()), Mat3(Vec3(0, 1, 1).asDiagonal()), Mat3(Vec3(1e-8, -3, 2).asDiagonal())}) {
+  for (const Mat3& f : {Mat3(Mat3::Zero()), Mat3(-Mat3::Identity()), Mat3(Vec3(0, 1, 1).asDiagonal()),
+                        Mat3(Vec3(1e-8, -3, 2).asDiagonal())}) {
     EXPECT_TRUE(matrix(el::elastic_piola(tensor(f), params_of(GetParam()))).allFinite()) << f;
   }
 }
@@ -98,7 +103,8 @@ TEST_P(EveryLaw, PassesThePatchTest) {
   Field<double> expected(force.size(), 0.0);
   for (const LoadedFace& face : model.free_faces()) {
     std::array<Index, 3> n{};
-    for (int i = 0; i < 3; ++i) n[test::at(i)] = model.local.corner_node(face.slot, kFaceCorners[test::at(face.face)][test::at(i)]);
+    for (int i = 0; i < 3; ++i)
+      n[test::at(i)] = model.local.corner_node(face.slot, kFaceCorners[test::at(face.face)][test::at(i)]);
     const auto x = [&](int i) { return load_node(model.local.reference.data(), n[test::at(i)]); };
     const Vec3 area = 0.5 * (x(1) - x(0)).cross(x(2) - x(0));
     for (const Index node : n) store_node(expected.data(), node, load_node(expected.data(), node) - piola * area / 3.0);
@@ -119,7 +125,8 @@ TEST_P(EveryLaw, GivesForcesWithoutResultantAndWithoutMoment) {
     for (const Index n : model.real_nodes()) {
       store_node(model.state.velocity.data(), n, rate * load_node(model.local.reference.data(), n));
     }
-    const auto force = test::internal_forces(model, params_of(GetParam(), 0.1), model.state.position, model.state.velocity);
+    const auto force =
+        test::internal_forces(model, params_of(GetParam(), 0.1), model.state.position, model.state.velocity);
     Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
     for (const Index n : model.real_nodes()) {
       sum += load_node(force.data(), n);
@@ -187,7 +194,8 @@ TEST(NeoHookean, ForcesAreMinusTheGradientOfTheElementsEnergy) {
     const Mat3 current = gradient_of_volume(random, j) * edges;
     el::Corners<double> x{}, at_rest{};
     for (std::size_t c = 1; c < 4; ++c) {
-      for (std::size_t i = 0; i < 3; ++i) x[c][i] = current(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c - 1));
+      for (std::size_t i = 0; i < 3; ++i)
+        x[c][i] = current(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c - 1));
     }
     const auto force = el::element_forces(x, at_rest, inverse, volume, p);
     double size = 0;
@@ -197,7 +205,8 @@ TEST(NeoHookean, ForcesAreMinusTheGradientOfTheElementsEnergy) {
         auto more = x, less = x;
         more[c][i] += 1e-5;
         less[c][i] -= 1e-5;
-        const double slope = (el::element_energy(more, inverse, volume, p) - el::element_energy(less, inverse, volume, p)) / 2e-5;
+        const double slope =
+            (el::element_energy(more, inverse, volume, p) - el::element_energy(less, inverse, volume, p)) / 2e-5;
         EXPECT_NEAR(force[c][i], -slope, 1e-7 * size) << "J " << j;
       }
     }
@@ -210,7 +219,8 @@ TEST(NeoHookean, StressIsTheClosedFormOfItsCauchyStress) {
   for (const double target : {0.2, 0.7, 1.0, 1.9}) {
     const Mat3 f = gradient_of_volume(random, target);
     const double j = f.determinant();
-    const Mat3 expected = p.mu / j * (f * f.transpose() - Mat3::Identity()) + p.lambda / 2 * (j - 1 / j) * Mat3::Identity();
+    const Mat3 expected =
+        p.mu / j * (f * f.transpose() - Mat3::Identity()) + p.lambda / 2 * (j - 1 / j) * Mat3::Identity();
     const Mat3 cauchy = matrix(el::elastic_piola(tensor(f), p)) * f.transpose() / j;
     EXPECT_LT((cauchy - expected).norm(), kRounding * (expected.norm() + kYoung));
   }
@@ -227,7 +237,8 @@ TEST(NeoHookean, KeepsTheDigitsOfSmallStrainEnergies) {
 
 /// Work of a law along a straight path of gradients, J/m3: Gauss-Legendre, exact to round-off for the smooth part.
 double path_work(const Mat3& from, const Mat3& to, const ElasticParams& p, int pieces) {
-  constexpr std::array<double, 3> kPoint{-0.7745966692414834, 0.0, 0.7745966692414834}, kWeight{5. / 18, 8. / 18, 5. / 18};
+  constexpr std::array<double, 3> kPoint{-0.7745966692414834, 0.0, 0.7745966692414834},
+      kWeight{5. / 18, 8. / 18, 5. / 18};
   double work = 0;
   for (int piece = 0; piece < pieces; ++piece) {
     for (std::size_t q = 0; q < 3; ++q) {
@@ -280,7 +291,8 @@ TEST(GreenStVenant, StressIsThePublishedFormula) {
     const double j = f.determinant(), root = std::pow(j, 2.0 / 3.0);
     const Mat3 shape = (f * f.transpose() / root - Mat3::Identity()) / 2, size = (root - 1) / 2 * Mat3::Identity();
     const Mat3 expected = (kYoung / (1 + kPoisson) * shape + kYoung / (1 - 2 * kPoisson) * size) / root;
-    EXPECT_LT((matrix(el::green_st_venant_stress(tensor(f), j, p)) - expected).norm(), kRounding * (expected.norm() + kYoung));
+    EXPECT_LT((matrix(el::green_st_venant_stress(tensor(f), j, p)) - expected).norm(),
+              kRounding * (expected.norm() + kYoung));
   }
 }
 

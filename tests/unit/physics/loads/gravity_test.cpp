@@ -66,7 +66,8 @@ TEST(GravityWork, FollowsEveryChangeOfGravityByTheTrapezoidRule) {
     scale = std::max(scale, std::abs(expected));
     last_moment = moment;
     gravity.advance(model.local, model.state, g_of(step), dt);
-    ASSERT_NEAR(gravity.work(model.local, model.state.position), expected, 1e3 * kRounding * (scale + 1)) << "step " << step;
+    ASSERT_NEAR(gravity.work(model.local, model.state.position), expected, 1e3 * kRounding * (scale + 1))
+        << "step " << step;
     dt = 0.01 * (1 + step % 3);
     for (const Index n : model.real_nodes()) {
       const Vec3 v(speed(random) + 1, speed(random), speed(random) - 0.5);

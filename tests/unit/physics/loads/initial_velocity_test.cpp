@@ -1,6 +1,6 @@
+#include <gtest/gtest.h>
 #include <Eigen/Geometry>
 #include <cmath>
-#include <gtest/gtest.h>
 
 #include "physics/energy.hpp"
 #include "physics/initial_velocity.hpp"
@@ -30,14 +30,12 @@ TEST(RandomVelocity, HasUniformSpeedAndUniformDirection) {
   }
   const double band = 4.5 / std::sqrt(kBodies);
   EXPECT_NEAR(speed, 3.5, band * 3.0 / std::sqrt(12.0));
-  EXPECT_NEAR(speed_squared, 13.0, band * 6.3);                                  // (5^3 - 2^3) / 9; deviation of u^2 is 6.2
+  EXPECT_NEAR(speed_squared, 13.0, band * 6.3);  // (5^3 - 2^3) / 9; deviation of u^2 is 6.2
   EXPECT_LT(direction.cwiseAbs().maxCoeff(), band / std::sqrt(3.0));
   EXPECT_LT((second - Mat3::Identity() / 3.0).cwiseAbs().maxCoeff(), band * 0.3);  // deviation of n_x^2: sqrt(4/45)
 }
 
-TEST(RandomVelocity, DependsOnTheSeed) {
-  EXPECT_NE(random_velocity(1, 0, {1, 2}), random_velocity(2, 0, {1, 2}));
-}
+TEST(RandomVelocity, DependsOnTheSeed) { EXPECT_NE(random_velocity(1, 0, {1, 2}), random_velocity(2, 0, {1, 2})); }
 
 TEST(InitialVelocity, OfABodyDoesNotDependOnHowManyBodiesThereAre) {
   const auto first_velocity = [](std::array<int, 3> boxes) {
@@ -50,9 +48,11 @@ TEST(InitialVelocity, OfABodyDoesNotDependOnHowManyBodiesThereAre) {
 
 TEST(InitialVelocity, IsTheSameForAllNodesOfABodyAndDiffersBetweenBodies) {
   Model model(test::box({1, 1, 1}, 1.0, {2, 1, 1}), Discretisation::shared_nodes, 1000);
-  add_initial_velocity(model.local, {.uniform = Vec3(1, 2, 3), .speed = {1, 3}}, model.state.position, model.state.velocity);
+  add_initial_velocity(model.local, {.uniform = Vec3(1, 2, 3), .speed = {1, 3}}, model.state.position,
+                       model.state.velocity);
   std::array<Vec3, 2> of_body;
-  for (Index body = 0; body < 2; ++body) of_body[test::at(body)] = Vec3(1, 2, 3) + random_velocity(1, test::at(body), {1, 3});
+  for (Index body = 0; body < 2; ++body)
+    of_body[test::at(body)] = Vec3(1, 2, 3) + random_velocity(1, test::at(body), {1, 3});
   for (Index s = 0; s < model.local.num_slots; ++s) {
     if (model.local.element_of_slot[test::at(s)] < 0) continue;
     for (int c = 0; c < 4; ++c) {
@@ -68,7 +68,8 @@ TEST(InitialVelocity, TurnsEveryBodyAboutItsCentreOfMass) {
   Model model(test::jittered(test::box({1, 2, 1}, 1.0, {2, 1, 1}), 0.08, 4), Discretisation::own_nodes, 1000);
   const Vec3 omega(1, -2, 3);
   add_initial_velocity(model.local, {.angular = omega}, model.state.position, model.state.velocity);
-  EXPECT_LT(momentum(model.local, model.state.position.data(), model.state.velocity.data()).linear.norm(), 4000 * 4 * kRounding);
+  EXPECT_LT(momentum(model.local, model.state.position.data(), model.state.velocity.data()).linear.norm(),
+            4000 * 4 * kRounding);
   // Two nodes of one body: relative velocity is omega x arm.
   const Index a = model.local.corner_node(0, 0), b = model.local.corner_node(0, 3);
   const auto difference = [&](const Field<double>& f) { return Vec3(load_node(f.data(), b) - load_node(f.data(), a)); };

@@ -1,5 +1,5 @@
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "unit/physics/loads/models.hpp"
 
@@ -39,11 +39,13 @@ std::vector<LoadedFace> group_faces(const Model& model, const std::string& name)
 }
 
 class Pressure : public testing::TestWithParam<Discretisation> {};
-INSTANTIATE_TEST_SUITE_P(Discretisations, Pressure, testing::Values(Discretisation::own_nodes, Discretisation::shared_nodes));
+INSTANTIATE_TEST_SUITE_P(Discretisations, Pressure,
+                         testing::Values(Discretisation::own_nodes, Discretisation::shared_nodes));
 
 TEST_P(Pressure, OnAClosedSurfaceHasNoResultantAndNoMoment) {
   Model model(test::jittered(test::box({2, 1, 3}), 0.05, 3), GetParam(), 1000);
-  model.map_positions([](const Vec3& x) { return Vec3(1.3 * x[0] + 0.2 * x[1] * x[2], x[1] - 0.3 * x[2], x[2] + 0.1 * x[0]); });
+  model.map_positions(
+      [](const Vec3& x) { return Vec3(1.3 * x[0] + 0.2 * x[1] * x[2], x[1] - 0.3 * x[2], x[2] + 0.1 * x[0]); });
   PressureLoad load(model.free_faces(), test::in_time(2.0));
   const Applied sum = apply(load, model, 0.0);
   EXPECT_LT(sum.force.norm(), 22 * 2 * kRounding);
@@ -75,7 +77,8 @@ TEST_P(Pressure, ActsOnceOnAFaceNamedTwice) {
 }
 
 TEST(PressureWork, OnABodyThatBreathesIsMinusPressureTimesChangeOfVolume) {
-  // The corner velocities of a small step are those of x -> (1 + rate dt) x, so both halves are known: p dV/dt = 3 p V rate.
+  // The corner velocities of a small step are those of x -> (1 + rate dt) x, so both halves are known: p dV/dt = 3 p V
+  // rate.
   Model model(test::box({1, 1, 1}), Discretisation::own_nodes, 1000);
   constexpr double kRate = 1e-3, kStep = 0.1, kPressure = 5.0;
   for (const Index n : model.real_nodes()) {

@@ -1,6 +1,6 @@
+#include <gtest/gtest.h>
 #include <Eigen/Dense>
 #include <cmath>
-#include <gtest/gtest.h>
 
 #include "physics/largest_eigenvalue.hpp"
 #include "physics/stable_step.hpp"
@@ -23,7 +23,8 @@ struct Problem {
   std::vector<ContactStiffness> contacts;
 
   Problem(Mesh mesh, Discretisation kind, double viscosity = 0)
-      : model(std::move(mesh), kind, kDensity), params{make_elastic_params(ElasticLaw::neo_hookean, kYoung, 0.25, viscosity)} {}
+      : model(std::move(mesh), kind, kDensity),
+        params{make_elastic_params(ElasticLaw::neo_hookean, kYoung, 0.25, viscosity)} {}
 
   [[nodiscard]] StepModel step_model() const { return {model.local, model.links, params, density, contacts}; }
 
@@ -50,10 +51,12 @@ struct Problem {
       }
     }
     std::vector<Eigen::Index> place(static_cast<std::size_t>(mesh.num_nodes));
-    for (std::size_t i = 0; i < nodes.size(); ++i) place[static_cast<std::size_t>(nodes[i])] = static_cast<Eigen::Index>(3 * i);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      place[static_cast<std::size_t>(nodes[i])] = static_cast<Eigen::Index>(3 * i);
     if (!of_velocity) add_springs(k, place);
     Eigen::VectorXd root(n);
-    for (Eigen::Index i = 0; i < n; ++i) root[i] = std::sqrt(mesh.node_mass[test::at(nodes[static_cast<std::size_t>(i / 3)])]);
+    for (Eigen::Index i = 0; i < n; ++i)
+      root[i] = std::sqrt(mesh.node_mass[test::at(nodes[static_cast<std::size_t>(i / 3)])]);
     k = root.cwiseInverse().asDiagonal() * k * root.cwiseInverse().asDiagonal();
     return 0.5 * (k + k.transpose());
   }
@@ -62,13 +65,17 @@ struct Problem {
   void add_springs(Eigen::MatrixXd& k, const std::vector<Eigen::Index>& place) const {
     if (model.local.num_own_slots == 0) return;
     for (const JointFace& joint : find_joints(model.mesh, model.topology)) {
-      const Index a = model.local.slot_of_element[test::at(joint.a)], b = model.local.slot_of_element[test::at(joint.b)];
+      const Index a = model.local.slot_of_element[test::at(joint.a)],
+                  b = model.local.slot_of_element[test::at(joint.b)];
       const double stiffness = model.links.stiffness[JointLinks::at(a, joint.face_a)];
       for (int ca = 0; ca < 4; ++ca) {
         for (int cb = 0; cb < 4; ++cb) {
-          if (ca == joint.face_a || model.mesh.elements[test::at(joint.a)][test::at(ca)] != model.mesh.elements[test::at(joint.b)][test::at(cb)]) continue;
+          if (ca == joint.face_a || model.mesh.elements[test::at(joint.a)][test::at(ca)] !=
+                                        model.mesh.elements[test::at(joint.b)][test::at(cb)])
+            continue;
           for (Eigen::Index axis = 0; axis < 3; ++axis) {
-            const Eigen::Index i = place[test::at(own_corner_node(a, ca))] + axis, j = place[test::at(own_corner_node(b, cb))] + axis;
+            const Eigen::Index i = place[test::at(own_corner_node(a, ca))] + axis,
+                               j = place[test::at(own_corner_node(b, cb))] + axis;
             k(i, i) += stiffness;
             k(j, j) += stiffness;
             k(i, j) -= stiffness;
@@ -81,7 +88,9 @@ struct Problem {
 
   [[nodiscard]] double true_step() const {
     const Eigen::MatrixXd k = scaled_stiffness();
-    return 2.0 / std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
+    return 2.0 /
+           std::sqrt(
+               Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
   }
 };
 
@@ -91,7 +100,9 @@ double smallest_height(const Model& model) {
   double smallest = 1e300;
   for (const auto& corners : model.mesh.elements) {
     for (std::size_t apex = 0; apex < 4; ++apex) {
-      const auto x = [&](int i) { return model.mesh.nodes[test::at(corners[test::at(kFaceCorners[apex][test::at(i)])])]; };
+      const auto x = [&](int i) {
+        return model.mesh.nodes[test::at(corners[test::at(kFaceCorners[apex][test::at(i)])])];
+      };
       const Vec3 normal = (x(1) - x(0)).cross(x(2) - x(0)).normalized();
       smallest = std::min(smallest, std::abs(normal.dot(model.mesh.nodes[test::at(corners[apex])] - x(0))));
     }
@@ -151,9 +162,9 @@ TEST(TrueStableStep, IsWithinOnePercentOfTheDenseEigenvaluesAndNotAboveThem) {
 }
 
 TEST(TrueStableStep, OfCubesOfTwentyFourTetrahedraIsThePublishedShareOfTheElementHeight) {
-  // Measured elsewhere on such cubes: shared nodes 0.94 to 1.1, own nodes without joints 0.76 to 0.82 of h_min / c_p; own
-  // nodes with joints of pf = 10, 50, 100: 0.19-0.22, 0.093-0.10, 0.066-0.071 of the step of shared nodes. Their h is not
-  // stated; here it is the joints' mean edge, and the step goes with its root: 7 % either side.
+  // Measured elsewhere on such cubes: shared nodes 0.94 to 1.1, own nodes without joints 0.76 to 0.82 of h_min / c_p;
+  // own nodes with joints of pf = 10, 50, 100: 0.19-0.22, 0.093-0.10, 0.066-0.071 of the step of shared nodes. Their h
+  // is not stated; here it is the joints' mean edge, and the step goes with its root: 7 % either side.
   constexpr double kSide = 0.07;
   const Problem shared(cubes(), Discretisation::shared_nodes);
   const double crossing = smallest_height(shared.model) / wave_speed(shared.params[0]);
@@ -163,8 +174,9 @@ TEST(TrueStableStep, OfCubesOfTwentyFourTetrahedraIsThePublishedShareOfTheElemen
   struct Published {
     double penalty_factor, unit, least, most;
   };
-  for (const auto& [factor, unit, least, most] : {Published{0, crossing, 0.76, 0.82}, Published{10, shared_step, 0.19, 0.22},
-                                                  Published{50, shared_step, 0.093, 0.10}, Published{100, shared_step, 0.066, 0.071}}) {
+  for (const auto& [factor, unit, least, most] :
+       {Published{0, crossing, 0.76, 0.82}, Published{10, shared_step, 0.19, 0.22},
+        Published{50, shared_step, 0.093, 0.10}, Published{100, shared_step, 0.066, 0.071}}) {
     Problem own(cubes(), Discretisation::own_nodes);
     own.model.join(factor * kYoung / mean_joint_size(own.model));
     const double share = true_stable_step(own.step_model()) / unit;
@@ -245,7 +257,8 @@ TEST(StableStep, NamesTheFlattestElement) {
 }
 
 TEST(StableStep, ContactAddsTheFrequencyOfPointAndNode) {
-  // Rank-one stiffness k r r^T with r = (N_i on the face, -1 on a corner of the other body): eigenvalue k |r / sqrt m|^2.
+  // Rank-one stiffness k r r^T with r = (N_i on the face, -1 on a corner of the other body): eigenvalue k |r / sqrt
+  // m|^2.
   for (const double factor : {1.0, 100.0}) {
     Problem problem(test::box({1, 1, 1}, 1.0, {2, 1, 1}), Discretisation::own_nodes);
     const Index slot = problem.model.local.slot_of_element[5];

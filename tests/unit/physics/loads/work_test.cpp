@@ -1,5 +1,5 @@
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "physics/constraints.hpp"
 #include "physics/energy.hpp"
@@ -10,8 +10,9 @@ namespace {
 
 using test::Model;
 
-/// A body of 24 soft elements, driven at one end, held at the other, under pressure and a gravity that swings: every force is
-/// booked, so the kinetic energy of central differences must change by the sum of the works, whatever the forces are.
+/// A body of 24 soft elements, driven at one end, held at the other, under pressure and a gravity that swings: every
+/// force is booked, so the kinetic energy of central differences must change by the sum of the works, whatever the
+/// forces are.
 class DrivenBody {
  public:
   static constexpr double kStep = 2e-3;
@@ -43,7 +44,8 @@ class DrivenBody {
     constraints_.apply(model_.local, state, time, before, kStep);
 
     const double kinetic = kinetic_energy(model_.local, v_before.data(), state.velocity.data());
-    const double works = internal_.value() + pressure_.work() + gravity_.work(model_.local, state.position) + constraints_.work();
+    const double works =
+        internal_.value() + pressure_.work() + gravity_.work(model_.local, state.position) + constraints_.work();
     if (number_ == 0) start_ = kinetic - works;
     largest_ = std::max({largest_, std::abs(constraints_.work()), std::abs(internal_.value())});
     smallest_work_ = std::min({std::abs(pressure_.work()), std::abs(gravity_.work(model_.local, state.position)),
@@ -90,7 +92,8 @@ class DrivenBody {
 };
 
 class Work : public testing::TestWithParam<Discretisation> {};
-INSTANTIATE_TEST_SUITE_P(Discretisations, Work, testing::Values(Discretisation::own_nodes, Discretisation::shared_nodes));
+INSTANTIATE_TEST_SUITE_P(Discretisations, Work,
+                         testing::Values(Discretisation::own_nodes, Discretisation::shared_nodes));
 
 TEST_P(Work, OfAllForcesIsTheChangeOfKineticEnergyToRoundOff) {
   constexpr double kRounding = 1e-12;  // of the largest work
