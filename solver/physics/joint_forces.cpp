@@ -21,75 +21,102 @@ Index corner_b(const LocalMesh& mesh, const ActiveJoint& joint, std::size_t i) {
   return mesh.corner_node(joint.slot_b, matching_corner(joint.code, static_cast<int>(i)));
 }
 
-/// Openings at the corners and the normal of the mid-surface, from a to b.
 struct Kinematics {
-  Triple opening;
-  Vec3 normal;
+  Triple opening;    // at the corners
+  JointFrame frame;  // of the mid-surface
 };
 
-Kinematics kinematics(const Triple& a, const Triple& b) {
+Kinematics kinematics(const JointLawParams& law, const LocalMesh& mesh, const double* position, const ActiveJoint& joint) {
   Kinematics k;
   Triple middle;
   for (std::size_t i = 0; i < 3; ++i) {
-    k.opening[i] = b[i] - a[i];
-    middle[i] = 0.5 * (a[i] + b[i]);
+    const Vec3 a = load_node(position, corner_a(mesh, joint, i)), b = load_node(position, corner_b(mesh, joint, i));
+    k.opening[i] = b - a;
+    middle[i] = 0.5 * (a + b);
   }
-  k.normal = (middle[1] - middle[0]).cross(middle[2] - middle[0]);
-  const double length = k.normal.norm();
-  if (length > 0) k.normal /= length;
+  const Vec3 edge = middle[1] - middle[0];
+  k.frame.normal = edge.cross(middle[2] - middle[0]);
+  const double length = k.frame.normal.norm();
+  if (length > 0) k.frame.normal /= length;
+  if (law.friction > 0) {
+    const double edge_length = edge.norm();
+    if (edge_length > 0) k.frame.tangent[0] = edge / edge_length;
+    k.frame.tangent[1] = k.frame.normal.cross(k.frame.tangent[0]);
+  }
   return k;
 }
 
-Kinematics kinematics(const LocalMesh& mesh, const double* position, const ActiveJoint& joint) {
-  Triple a, b;
-  for (std::size_t i = 0; i < 3; ++i) {
-    a[i] = load_node(position, corner_a(mesh, joint, i));
-    b[i] = load_node(position, corner_b(mesh, joint, i));
-  }
-  return kinematics(a, b);
+/// Opening at an integration point.
+Vec3 point_opening(const JointLawParams& law, const Triple& corners, std::size_t i) {
+  return law.points == JointPoints::nodal ? corners[i] : Vec3(0.5 * (corners[i] + corners[(i + 1) % 3]));
 }
 
-/// Evaluates the three points; returns the force on each corner of a.
-Triple evaluate(const JointLawParams& law, const Kinematics& k, ActiveJoint& joint) {
-  Triple force;
-  const bool nodal_points = law.points == JointPoints::nodal;
-  if (!nodal_points) force = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+bool gone(const ActiveJoint& joint, int points_to_fail) {
+  const auto full = [](const JointPointHistory& p) { return p.damage >= 1.0; };
+  return std::count_if(joint.points.begin(), joint.points.end(), full) >= points_to_fail;
+}
+
+/// Evaluates the three points. If enough of them give way for the joint to fail, the others give way with them, at once.
+std::array<JointPointResponse, 3> evaluate_points(const JointLawParams& law, const Kinematics& k, ActiveJoint& joint) {
+  std::array<JointPointResponse, 3> response;
+  const bool may_drag = law.points_to_fail < 3 && joint.state == JointState::holding;
+  std::array<JointPointHistory, 3> before;
+  if (may_drag) before = joint.points;
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t next = (i + 1) % 3;
-    const Vec3 opening = nodal_points ? k.opening[i] : Vec3(0.5 * (k.opening[i] + k.opening[next]));
-    const JointPointResponse r = evaluate_point(law, k.normal, opening, joint.points[i]);
+    response[i] = evaluate_point(law, k.frame, point_opening(law, k.opening, i), joint.points[i]);
+  }
+  if (!may_drag || !gone(joint, law.points_to_fail)) return response;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (joint.points[i].damage >= 1.0) continue;
+    joint.points[i] = before[i];
+    joint.points[i].damage = 1.0;
+    response[i] = evaluate_point(law, k.frame, point_opening(law, k.opening, i), joint.points[i]);
+  }
+  return response;
+}
+
+/// Evaluates the joint; returns the force on each corner of a.
+Triple evaluate(const JointLawParams& law, const Kinematics& k, ActiveJoint& joint) {
+  const std::array<JointPointResponse, 3> response = evaluate_points(law, k, joint);
+  for (const JointPointResponse& r : response) {
     joint.mode_1 += joint.area / 3.0 * r.mode_1;
     joint.mode_2 += joint.area / 3.0 * r.mode_2;
     joint.friction += joint.area / 3.0 * r.friction;
-    if (nodal_points) {
-      // The elastic force in the very product the sweep uses: the same bits on either path.
-      force[i] = r.elastic ? Vec3(corner_stiffness(law, joint.area) * opening) : Vec3(joint.area / 3.0 * r.traction);
+  }
+  Triple force;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (law.points == JointPoints::mid_edge) {
+      force[i] = joint.area / 6.0 * (response[i].traction + response[(i + 2) % 3].traction);
+    } else if (response[i].elastic) {
+      // In the very product the sweep uses: the same bits on either path.
+      force[i] = corner_stiffness(law, joint.area) * k.opening[i];
     } else {
-      const Vec3 half = joint.area / 6.0 * r.traction;
-      force[i] += half;
-      force[next] += half;
+      force[i] = joint.area / 3.0 * response[i].traction;
     }
   }
   return force;
 }
 
 double stored(const ActiveJoint& joint) {
-  double sum = 0;
-  for (const JointPointHistory& p : joint.points) sum += p.stored_normal + p.stored_shear + p.stored_friction;
-  return joint.area / 3.0 * sum;
+  return joint.area / 3.0 * (joint.points[0].stored() + joint.points[1].stored() + joint.points[2].stored());
 }
 
-void note_failure(const JointLawParams& law, ActiveJoint& joint, JointWork& work) {
-  if (joint.state == JointState::failed) return;
-  const auto gone = std::count_if(joint.points.begin(), joint.points.end(), [](const JointPointHistory& p) { return exhausted(p); });
-  if (gone < law.points_to_fail) return;
-  joint.state = JointState::failed;
-  for (JointPointHistory& p : joint.points) p.damage = 1.0;
-  work.failed.push_back(joint.id);
+/// Evaluates the joint and books what it dissipated.
+Triple evaluate_and_book(const JointLawParams& law, const Kinematics& k, ActiveJoint& joint, JointWork& work) {
+  const double mode_1 = joint.mode_1, mode_2 = joint.mode_2, friction = joint.friction;
+  const Triple force = evaluate(law, k, joint);
+  work.mode_1.add(joint.mode_1 - mode_1);
+  work.mode_2.add(joint.mode_2 - mode_2);
+  work.friction.add(joint.friction - friction);
+  return force;
 }
 
-bool open_everywhere(const ActiveJoint& joint) {
-  return std::all_of(joint.points.begin(), joint.points.end(), [](const JointPointHistory& p) { return p.normal_opening > 0; });
+/// Every point, and every corner, which differ for mid-edge points.
+bool open_everywhere(const Kinematics& k, const ActiveJoint& joint) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!(joint.points[i].normal_opening > 0) || !(k.opening[i].dot(k.frame.normal) > 0)) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -103,12 +130,12 @@ double ActiveJoint::opening() const {
 }
 
 double ActiveJoint::slip() const {
-  return (points[0].shear_opening.norm() + points[1].shear_opening.norm() + points[2].shear_opening.norm()) / 3.0;
+  return (points[0].shear_opening() + points[1].shear_opening() + points[2].shear_opening()) / 3.0;
 }
 
 FailureMode ActiveJoint::mode() const {
-  if (damage() <= 0) return FailureMode::none;
   const double whole = mode_1 + mode_2;
+  if (damage() <= 0 || whole <= 0) return FailureMode::none;
   if (mode_1 > 0.75 * whole) return FailureMode::mode_1;
   if (mode_2 > 0.75 * whole) return FailureMode::mode_2;
   return FailureMode::mixed;
@@ -121,14 +148,14 @@ void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& 
   CompensatedSum held;
   for (ActiveJoint& joint : joints) {
     const JointLawParams& law = laws[at(joint.law)];
-    const double mode_1 = joint.mode_1, mode_2 = joint.mode_2, friction = joint.friction;
-    const Triple force = evaluate(law, kinematics(mesh, position, joint), joint);
-    work.mode_1.add(joint.mode_1 - mode_1);
-    work.mode_2.add(joint.mode_2 - mode_2);
-    work.friction.add(joint.friction - friction);
-    note_failure(law, joint, work);
-    if (joint.state == JointState::failed && open_everywhere(joint)) {
-      // Nothing is stored in an open failed joint but a spring that has just been let go: slip follows the opening.
+    const Kinematics k = kinematics(law, mesh, position, joint);
+    const Triple force = evaluate_and_book(law, k, joint, work);
+    if (joint.state == JointState::holding && gone(joint, law.points_to_fail)) {
+      joint.state = JointState::failed;
+      work.failed.push_back(joint.id);
+    }
+    if (joint.state == JointState::failed && open_everywhere(k, joint)) {
+      // Open and broken everywhere: no force, and nothing stored, friction springs included.
       work.released.push_back({joint.id, joint.slot_a, joint.face_a, joint.mode()});
       continue;
     }
@@ -151,7 +178,7 @@ void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& 
 void virgin_forces(const JointLawParams& law, const LocalMesh& mesh, const double* position, const ActiveJoint& joint, bool side_a,
                    double* force) {
   ActiveJoint trial = joint;
-  const Triple on_a = evaluate(law, kinematics(mesh, position, joint), trial);
+  const Triple on_a = evaluate(law, kinematics(law, mesh, position, joint), trial);
   for (int i = 0; i < 3; ++i) {
     // Corner i of the face of b meets corner (rotation - i) of the face of a.
     const auto from = static_cast<std::size_t>(side_a ? i : (joint.code % 3 - i + 3) % 3);
@@ -164,15 +191,7 @@ void start_history(std::span<const JointLawParams> laws, const LocalMesh& mesh, 
   CompensatedSum held(work.stored);
   for (ActiveJoint& joint : joints) {
     const JointLawParams& law = laws[at(joint.law)];
-    const Kinematics now = kinematics(mesh, position, joint);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double ratio = onset_ratio(law, now.normal, now.opening[i]);
-      (void)evaluate_point(law, now.normal, now.opening[i] / std::max(ratio * (1.0 + 1e-12), 1.0), joint.points[i]);
-    }
-    (void)evaluate(law, now, joint);
-    work.mode_1.add(joint.mode_1);
-    work.mode_2.add(joint.mode_2);
-    work.friction.add(joint.friction);
+    (void)evaluate_and_book(law, kinematics(law, mesh, position, joint), joint, work);
     held.add(stored(joint));
   }
   work.stored = held.value();

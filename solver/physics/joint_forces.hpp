@@ -14,7 +14,7 @@ namespace breccia {
 
 enum class JointState : std::uint8_t {
   holding,   ///< elastic or damaged
-  failed     ///< damage 1 at points_to_fail points: a frictional interface until it has opened everywhere
+  failed     ///< damage 1 at points_to_fail points: a frictional interface until it is open everywhere
 };
 
 /// How a joint failed, by the energy it dissipated: a mode alone when it took more than three quarters.
@@ -57,7 +57,10 @@ struct JointWork {
 /// Forces of the active joints, in the order given (ascending ids), added to both sides; histories are brought up to date.
 /// On each corner i of the face of a: +A0/3 t_i, on the matching corner of b the opposite; with mid-edge points each
 /// force goes to the two corners of its edge in halves. n is the unit normal of the mid-surface.
-/// A failed joint whose points are all open is released: it carries no force from then on and is taken off the list.
+///
+/// A joint fails when points_to_fail points are at damage 1; the others lose what they hold in the same step. Failed, it
+/// remains a frictional interface while it is closed (sigma = k delta_n, Coulomb friction). When all its points and corners
+/// are open at once it is released: it carries no force and holds no energy from then on and is taken off the list.
 /// O(joints), allocates only when joints fail, throws nothing.
 void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& mesh, const double* position,
                          std::vector<ActiveJoint>& joints, NodalForces& forces, JointWork& work);
@@ -68,9 +71,8 @@ void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& 
 void virgin_forces(const JointLawParams& law, const LocalMesh& mesh, const double* position, const ActiveJoint& joint, bool side_a,
                    double* force);
 
-/// Gives joints that have just left the elastic range their histories at x_n. What they dissipate in this first step is booked
-/// from the point where the straight path from zero opening met the elastic limit: up to there the joint was elastic and its
-/// energy is stored. Against the path really taken this is off by the second order of the step.
+/// Gives joints that have just left the elastic range their histories at x_n and books what they dissipate, with the forces
+/// that virgin_forces gave (evaluate_point says what a first evaluation books).
 void start_history(std::span<const JointLawParams> laws, const LocalMesh& mesh, const double* position, std::span<ActiveJoint> joints,
                    JointWork& work);
 

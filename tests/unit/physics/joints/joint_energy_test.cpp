@@ -1,0 +1,203 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "physics/joint_law.hpp"
+#include "unit/physics/joints/point_driver.hpp"
+
+namespace breccia {
+namespace {
+
+using test::axes;
+using test::example_law;
+using test::kEnergy;
+using test::opening_of;
+using test::PointDriver;
+using test::prepared;
+
+constexpr double kArea = 173.205081e-6;      // m2, face of a regular tetrahedron of edge 20 mm
+constexpr double kEnergyTolerance = 1e-3;    // asked of the law
+constexpr double kClosure = 1e-12;           // round-off of some 10^4 terms
+constexpr std::array<double, 5> kAngles{0, 30, 45, 60, 90};
+
+Vec3 at_angle(double degrees, double length) {
+  const double a = degrees * std::numbers::pi / 180;
+  return opening_of(axes(), length * std::cos(a), length * std::sin(a));
+}
+
+PointDriver opened(const JointLawParams& law, double degrees, int steps) {
+  PointDriver point{law};
+  const double far = 1.6 * (std::max(law.onset_normal, law.onset_shear) + std::max(law.width_normal, law.width_shear));
+  point.move_to(at_angle(degrees, far), steps);
+  EXPECT_EQ(point.history.damage, 1.0);
+  EXPECT_EQ(point.traction, Vec3(0, 0, 0));
+  return point;
+}
+
+TEST(JointEnergy, whole_curve_of_the_default_law_takes_the_fracture_energy_at_every_angle_and_penalty) {
+  for (const double factor : {1.0, 10.0, 50.0, 100.0}) {
+    JointLawParams law = example_law();
+    law.stiffness *= factor;
+    law = prepared(law);
+    for (const double angle : kAngles) {
+      const PointDriver point = opened(law, angle, 40000);
+      EXPECT_NEAR(point.work / kEnergy, 1.0, kEnergyTolerance) << factor << ", " << angle;
+      EXPECT_NEAR(point.dissipated() / point.work, 1.0, kClosure);
+    }
+  }
+}
+
+TEST(JointEnergy, shares_of_both_modes_add_up_to_one_for_strengths_and_energies_apart) {
+  for (const double factor : {1.0, 10.0, 50.0, 100.0}) {
+    for (const SofteningShape shape : {SofteningShape::z_curve, SofteningShape::linear, SofteningShape::exponential}) {
+      JointLawParams law = example_law();
+      law.stiffness *= factor;
+      law.cohesion = 3 * law.tensile_strength;
+      law.energy_mode_2 = 10 * law.energy_mode_1;
+      law.softening.shape = shape;
+      law = prepared(law);
+      for (const double angle : kAngles) {
+        const PointDriver point = opened(law, angle, 40000);
+        EXPECT_NEAR(point.mode_1 / law.energy_mode_1 + point.mode_2 / law.energy_mode_2, 1.0, kEnergyTolerance) << factor << ", " << angle;
+      }
+      EXPECT_NEAR(opened(law, 0, 1000).mode_2, 0.0, kClosure);
+      EXPECT_NEAR(opened(law, 90, 1000).mode_1, 0.0, kClosure);
+    }
+  }
+}
+
+TEST(JointEnergy, default_law_peaks_at_the_strength_in_one_mode_and_on_the_ellipse_in_both) {
+  const JointLawParams law = prepared(example_law());
+  constexpr double kPeak = 5e-4, kForce = 866.025, kBoth = 612.37;  // N
+  EXPECT_NEAR(opened(law, 0, 40000).peak_normal * kArea / kForce, 1.0, kPeak);
+  EXPECT_NEAR(opened(law, 90, 40000).peak_shear * kArea / kForce, 1.0, kPeak);
+  const PointDriver both = opened(law, 45, 40000);
+  EXPECT_NEAR(both.peak_normal * kArea / kBoth, 1.0, kPeak);
+  EXPECT_NEAR(both.peak_shear * kArea / kBoth, 1.0, kPeak);
+}
+
+TEST(JointEnergy, published_law_peaks_at_the_strength_in_both_modes_at_once) {
+  constexpr double kPeak = 5e-4, kForce = 866.025;  // N
+  for (const JointRise rise : {JointRise::linear, JointRise::parabolic}) {
+    const JointLawParams law = test::reference_law(rise);
+    EXPECT_NEAR(opened(law, 0, 40000).peak_normal * kArea / kForce, 1.0, kPeak);
+    EXPECT_NEAR(opened(law, 90, 40000).peak_shear * kArea / kForce, 1.0, kPeak);
+    const PointDriver both = opened(law, 45, 40000);
+    EXPECT_NEAR(both.peak_normal * kArea / kForce, 1.0, kPeak);
+    EXPECT_NEAR(both.peak_shear * kArea / kForce, 1.0, kPeak);
+  }
+}
+
+TEST(JointEnergy, softening_branch_of_the_published_law_is_15_5467_um_wide_and_takes_the_fracture_energy) {
+  for (const JointRise rise : {JointRise::linear, JointRise::parabolic}) {
+    const JointLawParams law = test::reference_law(rise);
+    for (const double angle : {0.0, 90.0}) {
+      PointDriver point{law};
+      point.move_to(at_angle(angle, law.onset_normal), 4000);
+      const double before = point.work;
+      constexpr double step = 1e-9;
+      double length = law.onset_normal;
+      while (point.traction.norm() > 0 && length < 1e-4) point.step(at_angle(angle, length += step));
+      EXPECT_NEAR((length - law.onset_normal) / 15.5467e-6, 1.0, 5e-4);
+      EXPECT_NEAR((point.work - before) / kEnergy, 1.0, kEnergyTolerance);
+    }
+  }
+}
+
+TEST(JointEnergy, published_law_takes_what_its_closed_form_says_in_all) {
+  // Rise: f^2/(2k) linear, 4 f^2/(3k) parabolic, on top of the softening branch.
+  const double unit = test::kStrength * test::kStrength / example_law().stiffness;
+  EXPECT_NEAR(opened(test::reference_law(JointRise::linear), 0, 40000).dissipated(), kEnergy + unit / 2, kEnergyTolerance * kEnergy);
+  EXPECT_NEAR(opened(test::reference_law(JointRise::parabolic), 0, 40000).dissipated(), kEnergy + 4 * unit / 3, kEnergyTolerance * kEnergy);
+}
+
+TEST(JointEnergy, dissipation_is_never_negative_along_a_path_that_damages) {
+  for (const JointLawParams& law : {prepared(example_law()), test::reference_law(JointRise::linear), test::reference_law(JointRise::parabolic)}) {
+    for (const double angle : kAngles) {
+      PointDriver point{law};
+      double before = 0;
+      for (int i = 1; i <= 2000; ++i) {
+        point.step(at_angle(angle, i * 1e-8));
+        // A parabola's trapezoid falls short by f/6 (step/onset)^3 a step.
+        ASSERT_GE(point.dissipated() - before, -1e-7 * kEnergy) << angle << ", step " << i;
+        before = point.dissipated();
+      }
+    }
+  }
+}
+
+TEST(JointEnergy, budget_closes_to_round_off_for_steps_of_any_length) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> part;
+  JointLawParams mohr = example_law();
+  mohr.friction = 0.7;
+  JointLawParams mohr_peaks = mohr;
+  mohr_peaks.law = JointLaw::independent_peaks;
+  for (const JointLawParams& law : {prepared(mohr), prepared(mohr_peaks), test::reference_law(JointRise::parabolic)}) {
+    PointDriver point{law};
+    point.step(Vec3::Zero());
+    for (int i = 0; i < 3000; ++i) {
+      point.step(point.opening * 0.95 + 0.3 * law.onset_normal * Vec3(part(random), part(random), part(random)));
+      ASSERT_NEAR(point.work, point.dissipated() + point.history.stored(), kClosure * (kEnergy + point.work)) << i;
+    }
+    EXPECT_GT(point.history.damage, 0.5);
+  }
+}
+
+/// Closed polygon from the origin through random corners.
+struct Loop {
+  std::array<Vec3, 5> corners;
+  void run(PointDriver& point) const {
+    for (const Vec3& corner : corners) point.move_by_kink(corner, 400);
+    point.move_by_kink(Vec3::Zero(), 400);
+  }
+};
+
+Loop random_loop(const JointLawParams& law, std::mt19937& random) {
+  std::uniform_real_distribution<double> part(-1, 1), size(0.2, 1);
+  Loop loop;
+  const double reach = size(random) * (law.onset_normal + 0.6 * law.width_normal);
+  for (Vec3& corner : loop.corners) corner = reach * Vec3(part(random), part(random), part(random));
+  return loop;
+}
+
+JointLawParams random_law(int i) {
+  JointLawParams law = example_law();
+  law.stiffness *= std::array<double, 3>{1, 10, 50}[static_cast<std::size_t>(i % 3)];
+  law.cohesion = (1 + i % 2) * law.tensile_strength;
+  law.energy_mode_2 = 5 * law.energy_mode_1;
+  if (i % 4 >= 2) law.law = JointLaw::independent_peaks;
+  if (i % 8 == 2) law.rise = JointRise::parabolic;
+  else if (i % 2 == 1) law.friction = 0.6;
+  return prepared(law);
+}
+
+TEST(JointEnergy, no_closed_loop_creates_energy) {
+  std::mt19937 random(7);
+  int damaged = 0, rubbed = 0;
+  for (int i = 0; i < 200; ++i) {
+    const JointLawParams law = random_law(i);
+    const Loop loop = random_loop(law, random);
+    PointDriver point{law};
+    loop.run(point);
+    damaged += point.history.damage > 0 ? 1 : 0;
+    rubbed += point.friction > 1e-6 * kEnergy ? 1 : 0;
+    // A parabola's trapezoids are off by the square of the step, 1/400 of a side; straight lines by round-off.
+    ASSERT_GE(point.work, (law.rise == JointRise::parabolic ? -1e-5 : -1e-10) * kEnergy) << "loop " << i;
+    // The trapezoid's error at the kinks of a loop: onset of damage, stick to slip.
+    ASSERT_GE(std::min({point.mode_1, point.mode_2, point.friction}), -1e-4 * kEnergy) << "loop " << i;
+    // Once more: without friction nothing is left to take.
+    if (law.friction > 0 || law.rise == JointRise::parabolic) continue;
+    const double once = point.work;
+    loop.run(point);
+    ASSERT_NEAR(point.work, once, 1e-10 * kEnergy) << "loop " << i;
+  }
+  EXPECT_GT(damaged, 100);
+  EXPECT_GT(rubbed, 50);
+}
+
+}  // namespace
+}  // namespace breccia

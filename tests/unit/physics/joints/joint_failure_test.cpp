@@ -1,0 +1,249 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "physics/joint_forces.hpp"
+#include "unit/physics/joints/joint_pair.hpp"
+
+namespace breccia {
+namespace {
+
+using test::example_law;
+using test::JointPair;
+using test::kEnergy;
+using test::NodalWork;
+using test::prepared;
+
+constexpr double kArea = 173.2050808e-6;  // m2
+constexpr double kRoundOff = 1e-11;       // budget of some 10^4 steps
+constexpr double kFriction = 0.6;
+
+JointLawParams rough(int points_to_fail = 3) {
+  JointLawParams law = example_law();
+  law.friction = kFriction;
+  law.points_to_fail = points_to_fail;
+  return prepared(law);
+}
+
+/// Moves the opening from where it is to a target in equal steps and looks at every step.
+struct Mover {
+  JointPair& pair;
+  NodalWork work{pair};
+  Vec3 at{0, 0, 0};
+  double largest_jump = 0;  // N a metre of opening
+
+  void go(const Vec3& target, int steps, const auto& look) {
+    const Vec3 from = at;
+    for (int i = 1; i <= steps; ++i) {
+      const Vec3 before = pair.force_on_b(), next = from + (target - from) * (static_cast<double>(i) / steps);
+      pair.open(next);
+      pair.evaluate();
+      work.add();
+      largest_jump = std::max(largest_jump, (pair.force_on_b() - before).norm() / (next - at).norm());
+      at = next;
+      look();
+    }
+  }
+  void go(const Vec3& target, int steps) {
+    go(target, steps, [] {});
+  }
+  [[nodiscard]] double unbooked() const { return work.done - pair.dissipated() - pair.work.stored; }
+};
+
+TEST(JointFailure, in_tension_releases_the_joint_at_once_without_force_or_energy) {
+  JointPair pair(rough());
+  Mover mover{pair};
+  int failed = 0, released = 0;
+  mover.go(Vec3(20e-6, 0, 0), 4000, [&] {
+    failed += static_cast<int>(pair.work.failed.size());
+    released += static_cast<int>(pair.work.released.size());
+    if (!pair.work.released.empty()) {
+      EXPECT_EQ(pair.work.released[0].id, 7);
+      EXPECT_EQ(pair.work.released[0].slot_a, pair.virgin.slot_a);
+      EXPECT_EQ(pair.work.released[0].face_a, pair.virgin.face_a);
+      EXPECT_EQ(pair.work.released[0].mode, FailureMode::mode_1);
+    }
+  });
+  EXPECT_EQ(failed, 1);
+  EXPECT_EQ(released, 1);
+  EXPECT_TRUE(pair.joints.empty());
+  EXPECT_EQ(pair.work.stored, 0.0);
+  EXPECT_NEAR(mover.unbooked(), 0.0, kRoundOff * kEnergy * kArea);
+}
+
+TEST(JointFailure, under_pressure_leaves_a_frictional_interface_until_it_opens) {
+  JointPair pair(rough());
+  Mover mover{pair};
+  const double pressure = 4e6, closed = -pressure / pair.laws[0].stiffness;
+  mover.go(Vec3(closed, 0, 0), 100);
+  mover.go(Vec3(closed, 40e-6, 0), 4000);
+  ASSERT_EQ(pair.joints.size(), 1U);
+  EXPECT_EQ(pair.joints[0].state, JointState::failed);
+  EXPECT_EQ(pair.joints[0].mode(), FailureMode::mode_2);
+  EXPECT_NEAR(pair.force_on_b()[0] / (pressure * kArea), 1.0, 1e-8);
+  EXPECT_NEAR(pair.force_on_b()[1] / (-kFriction * pressure * kArea), 1.0, 1e-6);
+  mover.go(Vec3(closed, 20e-6, 0), 2000);  // slides back
+  EXPECT_NEAR(pair.force_on_b()[1] / (kFriction * pressure * kArea), 1.0, 1e-6);
+  ASSERT_EQ(pair.joints.size(), 1U);
+  mover.go(Vec3(-closed, 20e-6, 0), 2000, [&] { EXPECT_EQ(pair.joints.empty(), mover.at[0] > 0) << mover.at[0]; });
+  EXPECT_EQ(pair.work.stored, 0.0);
+  EXPECT_NEAR(mover.unbooked(), 0.0, kRoundOff * kEnergy * kArea);
+  // Nowhere did the force change by more than the stiffest branch allows: no jump at failure nor at release.
+  EXPECT_LT(mover.largest_jump, 2 * (1 + kFriction) * pair.laws[0].stiffness * kArea);
+}
+
+TEST(JointFailure, is_not_followed_by_release_while_one_corner_is_closed) {
+  JointPair pair(rough());
+  Mover mover{pair};
+  const double closed = -1e6 / pair.laws[0].stiffness;
+  mover.go(Vec3(closed, 0, 0), 10);
+  mover.go(Vec3(closed, 40e-6, 0), 2000);
+  ASSERT_EQ(pair.joints[0].state, JointState::failed);
+  const auto lift = [&](int corner, double height) {
+    const Index node = pair.corner(false, corner);
+    Vec3 x = load_node(pair.position.data(), node);
+    x[0] = load_node(pair.position.data(), pair.corner(true, corner))[0] + height;
+    store_node(pair.position.data(), node, x);
+  };
+  lift(0, 1e-6);
+  lift(1, 1e-6);
+  pair.evaluate();
+  EXPECT_EQ(pair.joints.size(), 1U);
+  // Closing again before the third has opened changes nothing.
+  lift(0, -1e-8);
+  lift(2, 1e-6);
+  pair.evaluate();
+  ASSERT_EQ(pair.joints.size(), 1U);
+  lift(0, 1e-8);
+  pair.evaluate();
+  EXPECT_TRUE(pair.joints.empty());
+  EXPECT_EQ(pair.work.stored, 0.0);
+}
+
+TEST(JointFailure, of_a_mid_edge_joint_waits_for_the_corners_to_open) {
+  JointLawParams law = example_law();
+  law.points = JointPoints::mid_edge;
+  JointPair pair(prepared(law));
+  pair.joints[0].state = JointState::failed;
+  for (JointPointHistory& p : pair.joints[0].points) p.damage = 1.0;
+  pair.open(Vec3(1e-6, 0, 0));
+  const Index node = pair.corner(false, 0);
+  store_node(pair.position.data(), node, load_node(pair.position.data(), pair.corner(true, 0)) - Vec3(5e-7, 0, 0));
+  pair.evaluate();
+  EXPECT_EQ(pair.joints.size(), 1U);  // all three edges open in the middle, one corner closed
+  pair.open(Vec3(1e-6, 0, 0));
+  pair.evaluate();
+  EXPECT_TRUE(pair.joints.empty());
+}
+
+/// Opens the pair like a hinge about the edge opposite to corner 0.
+void hinge(JointPair& pair, double opening) {
+  const Index node = pair.corner(false, 0);
+  store_node(pair.position.data(), node, load_node(pair.local.reference.data(), node) + Vec3(opening, 0, 0));
+}
+
+TEST(JointFailure, waits_for_as_many_points_as_asked_and_books_what_the_others_held) {
+  for (const int points_to_fail : {1, 2, 3}) {
+    JointPair pair(rough(points_to_fail));
+    const double open = 0.5 * pair.laws[0].onset_normal;
+    NodalWork work(pair);
+    bool failed = false;
+    for (int step = 1; step <= 4000 && !pair.joints.empty(); ++step) {
+      pair.open(Vec3(open * std::min(step / 10.0, 1.0), 0, 0));
+      hinge(pair, open * std::min(step / 10.0, 1.0) + step * 1e-8);
+      const double held = pair.work.stored;
+      pair.evaluate();
+      work.add();
+      failed = failed || !pair.work.failed.empty();
+      if (!pair.work.failed.empty()) {
+        EXPECT_GT(held, 0.0);
+        EXPECT_EQ(pair.work.stored, 0.0);
+      }
+    }
+    EXPECT_EQ(failed, points_to_fail == 1) << points_to_fail;
+    EXPECT_NEAR(work.done - pair.dissipated() - pair.work.stored, 0.0, kRoundOff * kEnergy * kArea) << points_to_fail;
+    EXPECT_EQ(pair.joints.empty(), points_to_fail == 1);
+  }
+}
+
+TEST(JointFailure, by_hand_books_what_the_joint_held) {
+  JointPair pair(rough());
+  Mover mover{pair};
+  mover.go(Vec3(0.7, 0.3, 0) * pair.laws[0].onset_normal, 10);
+  const double held = pair.work.stored;
+  ASSERT_GT(held, 0.0);
+  ASSERT_EQ(pair.dissipated(), 0.0);
+  for (JointPointHistory& p : pair.joints[0].points) p.damage = 1.0;
+  mover.go(mover.at * 1.001, 1);
+  EXPECT_EQ(pair.work.failed.size(), 1U);
+  EXPECT_TRUE(pair.joints.empty());
+  EXPECT_NEAR(mover.unbooked(), 0.0, kRoundOff * held);
+  EXPECT_NEAR(pair.dissipated(), held, 2e-3 * held);  // and half a step's work of the force that goes
+}
+
+TEST(JointFailure, mode_is_mixed_when_each_mode_took_more_than_a_quarter) {
+  const auto mode_at = [](double normal, double shear) {
+    JointPair pair(prepared(example_law()));
+    for (int i = 1; i <= 4000; ++i) {
+      pair.open(Vec3(normal, shear, 0) * (i * 1e-8));
+      pair.evaluate();
+      if (!pair.work.released.empty()) return pair.work.released[0].mode;
+    }
+    return FailureMode::none;
+  };
+  // One law for both modes: their energies stand as the squares of the two parts of the direction.
+  EXPECT_EQ(mode_at(1, 0), FailureMode::mode_1);
+  EXPECT_EQ(mode_at(std::sqrt(0.8), std::sqrt(0.2)), FailureMode::mode_1);
+  EXPECT_EQ(mode_at(std::sqrt(0.7), std::sqrt(0.3)), FailureMode::mixed);
+  EXPECT_EQ(mode_at(std::sqrt(0.3), std::sqrt(0.7)), FailureMode::mixed);
+  EXPECT_EQ(mode_at(std::sqrt(0.2), std::sqrt(0.8)), FailureMode::mode_2);
+}
+
+TEST(JointFailure, an_intact_joint_has_no_mode_opening_or_slip) {
+  const ActiveJoint joint;
+  EXPECT_EQ(joint.mode(), FailureMode::none);
+  EXPECT_EQ(joint.damage(), 0.0);
+  EXPECT_EQ(joint.opening(), 0.0);
+  EXPECT_EQ(joint.slip(), 0.0);
+}
+
+TEST(JointFailure, opening_and_slip_are_means_over_the_points) {
+  JointPair pair(prepared(example_law()));
+  pair.open(Vec3(2e-6, 3e-6, 4e-6));
+  pair.evaluate();
+  EXPECT_NEAR(pair.joints[0].opening(), 2e-6, 1e-15);
+  EXPECT_NEAR(pair.joints[0].slip(), 5e-6, 1e-15);
+  hinge(pair, 5e-6);
+  pair.evaluate();
+  EXPECT_NEAR(pair.joints[0].opening(), (5e-6 + 2e-6 + 2e-6) / 3, 1e-9);  // the normal tilts by opening/edge
+}
+
+TEST(JointFailure, takes_only_the_released_joints_off_the_list_and_keeps_the_order) {
+  JointPair pair(rough());
+  std::vector<ActiveJoint> list;
+  for (GlobalId id = 0; id < 6; ++id) {
+    list.push_back(pair.virgin);
+    list.back().id = 10 * id;
+    if (id % 2 == 0) {
+      for (JointPointHistory& p : list.back().points) p.damage = 1.0;
+    }
+  }
+  pair.joints = list;
+  pair.open(Vec3(0.5 * pair.laws[0].onset_normal, 0, 0));
+  pair.evaluate();
+  ASSERT_EQ(pair.work.failed, (std::vector<GlobalId>{0, 20, 40}));
+  ASSERT_EQ(pair.work.released.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(pair.work.released[i].id, static_cast<GlobalId>(20 * i));
+    EXPECT_EQ(pair.joints[i].id, static_cast<GlobalId>(20 * i + 10));
+  }
+  EXPECT_EQ(pair.joints.size(), 3U);
+  // The others hold: 3 elastic joints.
+  EXPECT_NEAR(-pair.force_on_b()[0] / (3 * 0.5 * pair.laws[0].tensile_strength * kArea), 1.0, 1e-9);
+  pair.evaluate();
+  EXPECT_TRUE(pair.work.failed.empty());
+  EXPECT_TRUE(pair.work.released.empty());
+}
+
+}  // namespace
+}  // namespace breccia
