@@ -1,0 +1,372 @@
+"""Picture of a run: pvbatch meshes/render.py RUN_FOLDER OUT.png [options]
+
+Draws the surface of every fragment in the colour of a field and the broken joints as dark lines where they reach the
+surface. Needs an X display; without one: xvfb-run -a -s "-screen 0 1600x1000x24 -noreset" pvbatch meshes/render.py ...
+"""
+import argparse
+import json
+import math
+import os
+import sys
+
+import numpy as np
+import vtkmodules.vtkRenderingFreeType  # noqa: F401  registers the text renderer
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  registers the back end
+from vtkmodules.numpy_interface.dataset_adapter import numpyTovtkDataArray
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkIOHDF import vtkHDFReader
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
+from vtkmodules.vtkRenderingCore import (vtkActor, vtkColorTransferFunction, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
+                                         vtkTextActor, vtkWindowToImageFilter)
+
+INK = (0.13, 0.14, 0.17)
+STONE = (0.86, 0.87, 0.88)
+FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])  # of a tetrahedron of positive volume, normals outwards
+# Colours from weak to strong; light enough everywhere for dark cracks to stand out.
+SEQUENTIAL = [(0.00, 0.93, 0.94, 0.95), (0.20, 0.72, 0.84, 0.91), (0.45, 0.45, 0.68, 0.82), (0.65, 0.98, 0.85, 0.55),
+              (0.85, 0.95, 0.55, 0.35), (1.00, 0.80, 0.22, 0.24)]
+DAMAGE = [(0.00, 0.99, 0.90, 0.70), (0.50, 0.93, 0.45, 0.25), (0.99, 0.62, 0.07, 0.15), (1.00, *INK)]
+FIELDS = {  # title, unit, the unit in SI
+    "von_mises": ("von Mises stress", "MPa", 1e6),
+    "speed": ("speed", "m/s", 1.0),
+    "damage": ("joint damage", "", 1.0),
+    "fragment": None,
+    "body": None,
+}
+VIEWS = {"front": ((0, 0, 1), (0, 1, 0)), "top": ((0, 1, 0), (0, 0, -1)), "iso": ((0.8, 0.75, 1.0), (0, 1, 0))}  # from, up
+SIZE_OF_TEXT = 0.024  # of the picture's height
+
+
+def stop(message):
+    sys.stdout.flush()
+    print(f"render.py: {message}", file=sys.stderr, flush=True)
+    os._exit(2)  # pvbatch turns sys.exit into success
+
+
+class Arguments(argparse.ArgumentParser):
+    def error(self, message):
+        self.print_usage(sys.stderr)
+        stop(message)
+
+
+def parse_arguments():
+    parser = Arguments(prog="pvbatch meshes/render.py", description=__doc__.splitlines()[0])
+    parser.add_argument("run", help="folder of the run")
+    parser.add_argument("picture", help="PNG file to write")
+    parser.add_argument("--field", choices=list(FIELDS), default="von_mises")
+    when = parser.add_mutually_exclusive_group()
+    when.add_argument("--time", type=float, help="s; the frame nearest to it is drawn")
+    when.add_argument("--last", action="store_true", help="the last frame (default)")
+    parser.add_argument("--view", choices=list(VIEWS), default="iso")
+    parser.add_argument("--size", default="1600x1000", help="pixels, WIDTHxHEIGHT")
+    parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"), help="of the colours, in the unit shown")
+    parser.add_argument("--hide", type=int, action="append", default=[], metavar="BODY", help="leave out this body (repeatable)")
+    arguments = parser.parse_args()
+    try:
+        arguments.pixels = tuple(int(n) for n in arguments.size.split("x"))
+        if len(arguments.pixels) != 2 or min(arguments.pixels) < 64:
+            raise ValueError
+    except ValueError:
+        parser.error(f"--size {arguments.size}: give WIDTHxHEIGHT, at least 64x64")
+    return arguments
+
+
+# ---- reading ----------------------------------------------------------------------------------------------------
+
+def series(run, part):
+    """[(time, file)] of the complete frames."""
+    folder = os.path.join(run, "frames")
+    try:
+        with open(os.path.join(folder, f"{part}.hdf.series"), encoding="utf-8") as index:
+            return [(entry["time"], os.path.join(folder, entry["name"])) for entry in json.load(index)["files"]]
+    except OSError as error:
+        if part == "elements":
+            stop(f"{run} holds no frames of elements: {error.strerror}")
+        return []
+
+
+def nearest(frames, time):
+    return frames[-1] if time is None else min(frames, key=lambda frame: abs(frame[0] - time))
+
+
+def read(file):
+    """(num_cells, corners, 3) points and the cell arrays by name."""
+    reader = vtkHDFReader()
+    reader.SetFileName(file)
+    reader.Update()
+    grid = reader.GetOutput()
+    cells = grid.GetNumberOfCells()
+    if cells == 0:
+        return np.zeros((0, 3, 3)), {}
+    points = vtk_to_numpy(grid.GetPoints().GetData()).reshape(cells, -1, 3)
+    data = grid.GetCellData()
+    return points, {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
+
+
+# ---- geometry ---------------------------------------------------------------------------------------------------
+
+def point_numbers(points):
+    """The same number for points at the same place (to 1e-6 of an element's size)."""
+    size = np.median(np.ptp(points, axis=1).max(axis=1))
+    grid = np.rint((points.reshape(-1, 3) - points.min(axis=(0, 1))) / (1e-6 * size)).astype(np.int64)
+    order = np.lexsort(grid.T)
+    differs = np.any(np.diff(grid[order], axis=0) != 0, axis=1)
+    numbers = np.empty(len(grid), dtype=np.int64)
+    numbers[order] = np.concatenate(([0], np.cumsum(differs)))
+    return numbers.reshape(points.shape[:2])
+
+
+def outer_faces(reference, fragment):
+    """(elements, faces) of the faces that no other element of the same fragment shares.
+
+    Every element has corners of its own, so whether two of them share a face is asked of the reference shape, where
+    their corners still lie in the same places."""
+    corners = np.sort(point_numbers(reference)[:, FACES], axis=2).reshape(-1, 3)
+    key = np.column_stack((corners, np.repeat(fragment, 4)))
+    order = np.lexsort(key.T)
+    same = np.all(np.diff(key[order], axis=0) == 0, axis=1)
+    lonely = ~(np.concatenate((same, [False])) | np.concatenate(([False], same)))
+    faces = order[lonely]
+    return faces // 4, faces % 4
+
+
+def polydata(triangles, name=None, values=None):
+    n = len(triangles)
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(np.ascontiguousarray(triangles.reshape(-1, 3)), deep=1))
+    cells = vtkCellArray()
+    cells.SetData(numpy_to_vtkIdTypeArray(np.arange(0, 3 * n + 1, 3), deep=1), numpy_to_vtkIdTypeArray(np.arange(3 * n), deep=1))
+    surface = vtkPolyData()
+    surface.SetPoints(points)
+    surface.SetPolys(cells)
+    if values is not None:
+        surface.GetCellData().SetScalars(numpyTovtkDataArray(np.ascontiguousarray(values, dtype=float), name))
+    return surface
+
+
+# ---- colours ----------------------------------------------------------------------------------------------------
+
+def table_of(stops, low, high):
+    """256 colours between the stops (position 0..1, red, green, blue)."""
+    function = vtkColorTransferFunction()
+    for position, *colour in stops:
+        function.AddRGBPoint(position, *colour)
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(256)
+    table.SetTableRange(low, high)
+    for i in range(256):
+        table.SetTableValue(i, *function.GetColor(i / 255), 1)
+    return table
+
+
+def categories(ids):
+    """Number of each id's colour (0 for the commonest, which stays pale) and a table of as many colours."""
+    names, numbers, counts = np.unique(ids, return_inverse=True, return_counts=True)
+    rank = np.empty(len(names), dtype=int)
+    rank[np.argsort(-counts, kind="stable")] = np.arange(len(names))
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(len(names))
+    table.SetTableRange(-0.5, len(names) - 0.5)
+    table.SetTableValue(0, *STONE, 1)
+    for i in range(1, len(names)):
+        hue, light = (0.1 + 0.61803398875 * i) % 1, 0.72 + 0.2 * ((7 * i) % 5) / 4  # golden angle: neighbours differ
+        table.SetTableValue(i, *(light * (1 - 0.45 * (0.5 + 0.5 * math.cos(2 * math.pi * (hue + k / 3)))) for k in range(3)), 1)
+    return rank[numbers], table
+
+
+def rounded_up(value):
+    """The next of 1, 1.5, 2, 3, 4, 5, 6, 8, 10 times a power of ten: a bar that ends on a number one can read."""
+    if not (value > 0 and math.isfinite(value)):
+        return 1.0
+    power = 10.0 ** math.floor(math.log10(value))
+    return next(step * power for step in (1, 1.5, 2, 3, 4, 5, 6, 8, 10) if step * power >= value * (1 - 1e-9))
+
+
+# ---- scene ------------------------------------------------------------------------------------------------------
+
+def actor_of(surface, table=None, colour=None):
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(surface)
+    mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    if table is None:
+        mapper.ScalarVisibilityOff()
+    else:
+        mapper.SetLookupTable(table)
+        mapper.UseLookupTableScalarRangeOn()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    look = actor.GetProperty()
+    if colour is not None:
+        look.SetColor(*colour)
+    look.SetInterpolationToFlat()
+    look.SetAmbient(0.30)
+    look.SetDiffuse(0.75)
+    look.SetSpecular(0.08)
+    look.SetSpecularPower(20)
+    return actor
+
+
+def lines_of(triangles, colour, width):
+    actor = actor_of(polydata(triangles), colour=colour)
+    actor.GetProperty().SetRepresentationToWireframe()
+    actor.GetProperty().LightingOff()
+    actor.GetProperty().SetLineWidth(width)
+    return actor
+
+
+def style(text, pixels, bold=False):
+    text.SetFontFamilyToArial()
+    text.SetFontSize(pixels)
+    text.SetColor(*INK)
+    text.SetBold(bold)
+    text.SetItalic(False)
+    text.SetShadow(False)
+
+
+def colour_bar(table, title, height):
+    bar = vtkScalarBarActor()
+    bar.SetLookupTable(table)
+    bar.SetTitle(title + "\n ")  # the empty line keeps the title off the bar
+    bar.SetNumberOfLabels(5)
+    bar.SetLabelFormat("%.3g")
+    bar.UnconstrainedFontSizeOn()
+    bar.SetBarRatio(0.22)
+    bar.SetPosition(0.885, 0.2)
+    bar.SetPosition2(0.1, 0.6)
+    style(bar.GetLabelTextProperty(), round(0.9 * SIZE_OF_TEXT * height))
+    style(bar.GetTitleTextProperty(), round(0.9 * SIZE_OF_TEXT * height))
+    return bar
+
+
+def time_text(seconds):
+    for unit, size in (("s", 1.0), ("ms", 1e-3), ("\u00b5s", 1e-6)):
+        if seconds >= size:
+            return f"{seconds / size:.4g} {unit}"
+    return "0" if seconds == 0 else f"{seconds / 1e-9:.4g} ns"
+
+
+def label(text, height, x, y, bold=False):
+    actor = vtkTextActor()
+    actor.SetInput(text)
+    actor.SetPosition(x * height, y * height)
+    style(actor.GetTextProperty(), round(SIZE_OF_TEXT * height * (1.15 if bold else 1.0)), bold)
+    return actor
+
+
+def aim(renderer, points, view, aspect):
+    """Turns the camera so that the points fill the picture's left nine tenths; the colour bar has the rest."""
+    towards, up = (np.array(v, dtype=float) for v in VIEWS[view])
+    towards /= np.linalg.norm(towards)
+    right = np.cross(up, towards)
+    right /= np.linalg.norm(right)
+    up = np.cross(towards, right)
+    shadow = np.column_stack((points @ right, points @ up, points @ towards))
+    low, high = shadow.min(axis=0), shadow.max(axis=0)
+    middle = (low + high) / 2
+    scale = 0.5 * max((high - low)[1] / 0.86, (high - low)[0] / (0.82 * aspect))
+    centre = middle[0] * right + middle[1] * up + middle[2] * towards + 0.05 * aspect * 2 * scale * right
+    camera = renderer.GetActiveCamera()
+    camera.ParallelProjectionOn()
+    camera.SetParallelScale(scale)
+    camera.SetFocalPoint(*centre)
+    camera.SetPosition(*(centre + towards * 4 * max(np.ptp(points, axis=0))))
+    camera.SetViewUp(*up)
+    renderer.ResetCameraClippingRange()
+
+
+def in_view(reference, now):
+    """Points the picture must show: the reference shape and where almost all of the material is now (dust may fly out)."""
+    centres = now.mean(axis=1)
+    near = np.all((centres >= np.quantile(centres, 0.01, axis=0)) & (centres <= np.quantile(centres, 0.99, axis=0)), axis=1)
+    shown = now[near].reshape(-1, 3) if near.any() else now.reshape(-1, 3)
+    return np.concatenate((reference.reshape(-1, 3), shown))
+
+
+def surface_actor(arguments, triangles, arrays, elements):
+    """The fragments' surface, its colour table and the title of the bar (None: no bar)."""
+    if FIELDS[arguments.field] is None:
+        numbers, table = categories(arrays[arguments.field])
+        return actor_of(polydata(triangles, arguments.field, numbers[elements]), table), None, None
+    title, unit, size = FIELDS[arguments.field]
+    title = f"{title} [{unit}]" if unit else title
+    if arguments.field == "damage":
+        return actor_of(polydata(triangles), colour=STONE), table_of(DAMAGE, *(arguments.range or (0, 1))), title
+    values = arrays["von_mises"] if arguments.field == "von_mises" else np.linalg.norm(arrays["velocity"], axis=1)
+    values = values[elements].astype(float) / size
+    high = rounded_up(np.quantile(values[np.isfinite(values)], 0.99)) if np.isfinite(values).any() else 1.0
+    table = table_of(SEQUENTIAL, *(arguments.range or (0, high)))
+    return actor_of(polydata(triangles, arguments.field, values), table), table, title
+
+
+def build(arguments):
+    frames = series(arguments.run, "elements")
+    if not frames:
+        stop(f"{arguments.run} holds no complete frame")
+    time, file = nearest(frames, arguments.time)
+    reference, first = read(frames[0][1])
+    now, arrays = read(file)
+    if len(now) == 0 or len(reference) != len(now) or not np.array_equal(first["id"], arrays["id"]):
+        stop(f"{file} and the first frame do not hold the same elements")
+    shown = ~np.isin(arrays["body"], arguments.hide)
+    if not shown.any():
+        stop("every body is hidden")
+    elements, faces = outer_faces(reference, arrays["fragment"])
+    kept = shown[elements]
+    elements, faces = elements[kept], faces[kept]
+    triangles = now[elements[:, None], FACES[faces]]
+
+    renderer = vtkRenderer()
+    renderer.SetBackground(1, 1, 1)
+    renderer.SetBackground2(0.90, 0.92, 0.94)
+    renderer.GradientBackgroundOn()
+    width, height = arguments.pixels
+    surface, table, title = surface_actor(arguments, triangles, arrays, elements)
+    renderer.AddActor(surface)
+    if table is not None:
+        renderer.AddViewProp(colour_bar(table, title, height))
+
+    joint_frames = [frame for frame in series(arguments.run, "joints") if frame[0] == time]
+    joints, damage = read(joint_frames[0][1]) if joint_frames else (np.zeros((0, 3, 3)), {})
+    broken = damage["broken"] != 0 if damage else np.zeros(0, dtype=bool)
+    if arguments.field == "damage" and len(joints) > 0:
+        surface.GetProperty().SetOpacity(0.35)
+        coloured = actor_of(polydata(joints, "damage", damage["damage"]), table)
+        coloured.GetProperty().SetAmbient(0.6)
+        renderer.AddActor(coloured)
+    if broken.any():
+        renderer.AddActor(lines_of(joints[broken], INK, max(1.0, height / 600)))
+
+    what = f"{len(np.unique(arrays['fragment'][shown])):,} fragments, {int(broken.sum()):,} broken joints"
+    renderer.AddViewProp(label(f"t = {time_text(time)}", height, 0.03, 0.945, bold=True))
+    renderer.AddViewProp(label(what, height, 0.03, 0.905))
+    aim(renderer, in_view(reference[shown], now[shown]), arguments.view, width / height)
+    return renderer
+
+
+def main():
+    arguments = parse_arguments()
+    if not os.environ.get("DISPLAY"):
+        stop('drawing needs an X display; put xvfb-run -a -s "-screen 0 1600x1000x24 -noreset" before the command')
+    renderer = build(arguments)
+    window = vtkRenderWindow()
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(8)
+    window.SetSize(*arguments.pixels)
+    window.AddRenderer(renderer)
+    renderer.UseDepthPeelingOn()
+    window.Render()
+    image = vtkWindowToImageFilter()
+    image.SetInput(window)
+    image.ReadFrontBufferOff()
+    writer = vtkPNGWriter()
+    writer.SetFileName(arguments.picture)
+    writer.SetInputConnection(image.GetOutputPort())
+    writer.Write()
+    if writer.GetErrorCode() != 0:
+        stop(f"cannot write {arguments.picture}")
+
+
+main()
