@@ -17,7 +17,9 @@ namespace breccia {
 namespace {
 
 constexpr int kKills = 25;
-constexpr int kShortestLife = 3000, kLongestLife = 60000;  // us: some frames are written, not hundreds
+constexpr useconds_t kLongestLife = 60000;  // us after the first frame: some more are written, not hundreds
+constexpr useconds_t kLook = 1000;          // us between two looks for the first frame
+constexpr int kLooks = 10000;               // ten seconds in all: a busy disk is no failure
 
 /// Writes frames and history rows until it is killed.
 [[noreturn]] void write_without_end(const test::TemporaryFolder& folder, Frame frame) {
@@ -62,13 +64,14 @@ void check_history(const test::TemporaryFolder& folder) {
 TEST(KilledRun, LeavesOnlyWholeFilesAtWhateverInstantItDies) {
   const Frame frame = test::SyntheticPlate{.cubes = 12}.frame(0, 5e-5);
   std::mt19937 random(1);
-  std::uniform_int_distribution<useconds_t> life(kShortestLife, kLongestLife);
+  std::uniform_int_distribution<useconds_t> life(0, kLongestLife);
   std::size_t frames_kept = 0, killed_in_a_write = 0;
   for (int i = 0; i < kKills; ++i) {
     const test::TemporaryFolder folder;
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
     if (child == 0) write_without_end(folder, frame);
+    for (int look = 0; look < kLooks && !std::filesystem::exists(folder / "elements.hdf.series"); ++look) ::usleep(kLook);
     ::usleep(life(random));
     ::kill(child, SIGKILL);
     int status = 0;

@@ -47,7 +47,8 @@ Frame two_elements(std::int64_t number, double time) {
 
 std::vector<std::pair<std::string, double>> index_of(const std::filesystem::path& path) {
   std::vector<std::pair<std::string, double>> entries;
-  for (const auto& entry : nlohmann::json::parse(content_of(path)).at("files")) {
+  const auto index = nlohmann::json::parse(content_of(path));
+  for (const auto& entry : index.at("files")) {
     entries.emplace_back(entry.at("name"), entry.at("time"));
   }
   return entries;
