@@ -37,10 +37,10 @@ Kinematics kinematics(const JointLawParams& law, const LocalMesh& mesh, const do
   const Vec3 edge = middle[1] - middle[0];
   k.frame.normal = edge.cross(middle[2] - middle[0]);
   const double length = k.frame.normal.norm();
-  if (length > 0) k.frame.normal /= length;
+  if (length > 0) k.frame.normal *= 1.0 / length;
   if (law.friction > 0) {
     const double edge_length = edge.norm();
-    if (edge_length > 0) k.frame.tangent[0] = edge / edge_length;
+    if (edge_length > 0) k.frame.tangent[0] = edge * (1.0 / edge_length);
     k.frame.tangent[1] = k.frame.normal.cross(k.frame.tangent[0]);
   }
   return k;
@@ -56,28 +56,35 @@ bool gone(const ActiveJoint& joint, int points_to_fail) {
   return std::count_if(joint.points.begin(), joint.points.end(), full) >= points_to_fail;
 }
 
-/// Evaluates the three points. If enough of them give way for the joint to fail, the others give way with them, at once.
-std::array<JointPointResponse, 3> evaluate_points(const JointLawParams& law, const Kinematics& k, ActiveJoint& joint) {
-  std::array<JointPointResponse, 3> response;
-  const bool may_drag = law.points_to_fail < 3 && joint.state == JointState::holding;
-  std::array<JointPointHistory, 3> before;
-  if (may_drag) before = joint.points;
+using Responses = std::array<JointPointResponse, 3>;
+
+void evaluate_points(const JointLawParams& law, const Kinematics& k, ActiveJoint& joint, Responses& response) {
   for (std::size_t i = 0; i < 3; ++i) {
     response[i] = evaluate_point(law, k.frame, point_opening(law, k.opening, i), joint.points[i]);
   }
-  if (!may_drag || !gone(joint, law.points_to_fail)) return response;
+}
+
+/// Likewise; if enough points give way for the joint to fail, the others give way with them, at once.
+void evaluate_dragging(const JointLawParams& law, const Kinematics& k, ActiveJoint& joint, Responses& response) {
+  const std::array<JointPointHistory, 3> before = joint.points;
+  evaluate_points(law, k, joint, response);
+  if (!gone(joint, law.points_to_fail)) return;
   for (std::size_t i = 0; i < 3; ++i) {
     if (joint.points[i].damage >= 1.0) continue;
     joint.points[i] = before[i];
     joint.points[i].damage = 1.0;
     response[i] = evaluate_point(law, k.frame, point_opening(law, k.opening, i), joint.points[i]);
   }
-  return response;
 }
 
 /// Evaluates the joint; returns the force on each corner of a.
 Triple evaluate(const JointLawParams& law, const Kinematics& k, ActiveJoint& joint) {
-  const std::array<JointPointResponse, 3> response = evaluate_points(law, k, joint);
+  Responses response;
+  if (law.points_to_fail < 3 && joint.state == JointState::holding) {
+    evaluate_dragging(law, k, joint, response);
+  } else {
+    evaluate_points(law, k, joint, response);
+  }
   for (const JointPointResponse& r : response) {
     joint.mode_1 += joint.area / 3.0 * r.mode_1;
     joint.mode_2 += joint.area / 3.0 * r.mode_2;
