@@ -65,17 +65,34 @@ std::filesystem::path temporary_of(const std::filesystem::path& path) {
   return path.parent_path() / ("." + path.filename().string() + ".tmp");
 }
 
-void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> content) {
-  const std::filesystem::path temporary = temporary_of(path);
-  int error = write_synced(temporary, content);
-  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
-  if (error != 0) {
-    ::unlink(temporary.c_str());
-    throw output_error(path, "cannot write this file", error);
+void write_files_atomically(std::span<const FileContent> files) {
+  const FileContent* failed = nullptr;
+  int error = 0;
+  const auto attempt = [&](const FileContent& file, int result) {
+    if (result != 0 && error == 0) {
+      error = result;
+      failed = &file;
+    }
+  };
+  for (const FileContent& file : files) {
+    if (error == 0) attempt(file, write_synced(temporary_of(file.path), file.content));
   }
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  error = sync_folder(folder);
+  for (const FileContent& file : files) {
+    if (error == 0 && ::rename(temporary_of(file.path).c_str(), file.path.c_str()) != 0) attempt(file, errno);
+  }
+  if (error != 0) {
+    for (const FileContent& file : files) ::unlink(temporary_of(file.path).c_str());
+    throw output_error(failed->path, "cannot write this file", error);
+  }
+  if (files.empty()) return;
+  const std::filesystem::path& path = files.back().path;
+  error = sync_folder(path.has_parent_path() ? path.parent_path() : std::filesystem::path("."));
   if (error != 0) throw output_error(path, "cannot write its folder to the disk", error);
+}
+
+void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> content) {
+  const FileContent file{path, content};
+  write_files_atomically({&file, 1});
 }
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view content) {

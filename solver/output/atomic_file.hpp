@@ -21,6 +21,16 @@ namespace breccia {
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> content);
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
+struct FileContent {
+  std::filesystem::path path;
+  std::span<const std::byte> content;
+};
+
+/// Several files of one folder, which is synced once for all of them: all are on the disk before the first one is renamed, and
+/// they are renamed in the order given, so a file never refers to a later one that is missing.
+/// @throws OutputError as above; no temporary stays, files renamed before the failure are complete.
+void write_files_atomically(std::span<const FileContent> files);
+
 /// Name of the temporary that write_file_atomically(path) uses; it survives only a kill.
 [[nodiscard]] std::filesystem::path temporary_of(const std::filesystem::path& path);
 

@@ -60,22 +60,29 @@ VtkhdfSink::VtkhdfSink(std::filesystem::path folder, FrameParts parts) : folder_
 }
 
 void VtkhdfSink::frame(const Frame& frame) {
-  for (const Series& series : series_) {
-    const std::string name = fmt::format("{}_{:06}.vtkhdf", series.part, frame.number);
-    write_file_atomically(folder_ / name, vtkhdf_image(view_of(frame, series.part)));
+  std::vector<Series> series = series_;
+  std::vector<std::vector<std::byte>> images;
+  std::vector<std::string> indices;
+  for (Series& part : series) {
+    part.entries.push_back({fmt::format("{}_{:06}.vtkhdf", part.part, frame.number), frame.time});
+    images.push_back(vtkhdf_image(view_of(frame, part.part)));
+    indices.push_back(index_text(part));
   }
-  for (Series& series : series_) {
-    series.entries.push_back({fmt::format("{}_{:06}.vtkhdf", series.part, frame.number), frame.time});
-    write_index(series);
+  std::vector<FileContent> files;  // first the frames, then the indices that name them
+  for (std::size_t i = 0; i < series.size(); ++i) files.push_back({folder_ / series[i].entries.back().file, images[i]});
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    files.push_back({folder_ / (series[i].part + ".hdf.series"), std::as_bytes(std::span(indices[i]))});
   }
+  write_files_atomically(files);
+  series_ = std::move(series);
 }
 
-void VtkhdfSink::write_index(const Series& series) const {
+std::string VtkhdfSink::index_text(const Series& series) {
   nlohmann::ordered_json index;
   index["file-series-version"] = "1.0";
   index["files"] = nlohmann::ordered_json::array();
   for (const Entry& entry : series.entries) index["files"].push_back({{"name", entry.file}, {"time", entry.time}});
-  write_file_atomically(folder_ / (series.part + ".hdf.series"), index.dump(1) + "\n");
+  return index.dump(1) + "\n";
 }
 
 }  // namespace breccia

@@ -23,7 +23,7 @@ class VtkhdfSink final : public Sink {
   /// @pre folder exists
   explicit VtkhdfSink(std::filesystem::path folder, FrameParts parts = {});
 
-  /// Writes the parts, then their indices. Throws OutputError naming the file; what was there before stays as it was.
+  /// Writes the parts and their indices, all at once. Throws OutputError naming the file; what was there before stays as it was.
   void frame(const Frame& frame) override;
 
  private:
@@ -35,7 +35,7 @@ class VtkhdfSink final : public Sink {
     std::string part;
     std::vector<Entry> entries;
   };
-  void write_index(const Series& series) const;
+  [[nodiscard]] static std::string index_text(const Series& series);
 
   std::filesystem::path folder_;
   std::vector<Series> series_;  ///< of the parts asked for

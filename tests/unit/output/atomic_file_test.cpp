@@ -71,6 +71,24 @@ TEST(AtomicFile, LeavesNoTemporaryWhenTheNameIsTakenByAFolder) {
   EXPECT_THAT(test::names_in(folder.path()), ElementsAre("x"));
 }
 
+TEST(AtomicFiles, AppearTogetherOrNotAtAllWhenTheDiskIsFull) {
+  const TemporaryFolder folder;
+  const std::string small = "small", large(1000, 'l');
+  const std::vector<FileContent> files{{folder / "a", std::as_bytes(std::span(small))},
+                                       {folder / "b", std::as_bytes(std::span(large))}};
+  std::string message;
+  {
+    const FileSizeLimit limit(100);
+    message = error_of([&] { write_files_atomically(files); });
+  }
+  EXPECT_THAT(message, HasSubstr((folder / "b").string() + ": cannot write this file"));
+  EXPECT_THAT(test::names_in(folder.path()), IsEmpty());
+  write_files_atomically(files);
+  EXPECT_EQ(content_of(folder / "a"), small);
+  EXPECT_EQ(content_of(folder / "b"), large);
+  EXPECT_THAT(test::names_in(folder.path()), ElementsAre("a", "b"));
+}
+
 TEST(LineFile, ShowsEveryLineAtOnce) {
   const TemporaryFolder folder;
   LineFile file(folder.path() / "lines");
