@@ -1,7 +1,6 @@
 """Picture of a run: pvbatch meshes/render.py RUN_FOLDER OUT.png [options]
 
-Draws the surface of every fragment in the colour of a field and the broken joints as dark lines where they reach the
-surface. Needs an X display; without one: xvfb-run -a -s "-screen 0 1600x1000x24 -noreset" pvbatch meshes/render.py ...
+Draws what was the bodies' surface before anything broke in the colour of a field, fracture surfaces and cracks dark. Needs an X display; without one: xvfb-run -a -s "-screen 0 1600x1000x24 -noreset" pvbatch meshes/render.py ...
 """
 import argparse
 import json
@@ -15,29 +14,32 @@ import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  registers the back end
 from vtkmodules.numpy_interface.dataset_adapter import numpyTovtkDataArray
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
 from vtkmodules.vtkIOHDF import vtkHDFReader
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
-from vtkmodules.vtkRenderingCore import (vtkActor, vtkColorTransferFunction, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
-                                         vtkTextActor, vtkWindowToImageFilter)
+from vtkmodules.vtkRenderingCore import (vtkActor, vtkColorTransferFunction, vtkLight, vtkPolyDataMapper, vtkRenderer,
+                                         vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter)
 
 INK = (0.13, 0.14, 0.17)
-STONE = (0.86, 0.87, 0.88)
+STONE = (0.88, 0.89, 0.90)
+FRACTURE = (0.30, 0.31, 0.35)
 FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])  # of a tetrahedron of positive volume, normals outwards
 # Colours from weak to strong; light enough everywhere for dark cracks to stand out.
 SEQUENTIAL = [(0.00, 0.93, 0.94, 0.95), (0.20, 0.72, 0.84, 0.91), (0.45, 0.45, 0.68, 0.82), (0.65, 0.98, 0.85, 0.55),
               (0.85, 0.95, 0.55, 0.35), (1.00, 0.80, 0.22, 0.24)]
 DAMAGE = [(0.00, 0.99, 0.90, 0.70), (0.50, 0.93, 0.45, 0.25), (0.99, 0.62, 0.07, 0.15), (1.00, *INK)]
 FIELDS = {  # title, unit, the unit in SI
-    "von_mises": ("von Mises stress", "MPa", 1e6),
+    "von_mises": ("von Mises", "MPa", 1e6),
     "speed": ("speed", "m/s", 1.0),
     "damage": ("joint damage", "", 1.0),
     "fragment": None,
     "body": None,
 }
 VIEWS = {"front": ((0, 0, 1), (0, 1, 0)), "top": ((0, 1, 0), (0, 0, -1)), "iso": ((0.8, 0.75, 1.0), (0, 1, 0))}  # from, up
-SIZE_OF_TEXT = 0.024  # of the picture's height
+SIZE_OF_TEXT = 0.024   # of the picture's height
+FINER = 2              # drawn so many times finer than asked for, then averaged: smooth edges on any machine
+SHARP = math.cos(math.radians(40))  # faces that meet at a larger angle form an edge that is drawn
 
 
 def stop(message):
@@ -119,29 +121,55 @@ def point_numbers(points):
     return numbers.reshape(points.shape[:2])
 
 
-def outer_faces(reference, fragment):
-    """(elements, faces) of the faces that no other element of the same fragment shares.
+def outer_faces(numbers, fragment):
+    """(num_elements, 4) True for the faces that no other element of the same fragment shares.
 
-    Every element has corners of its own, so whether two of them share a face is asked of the reference shape, where
-    their corners still lie in the same places."""
-    corners = np.sort(point_numbers(reference)[:, FACES], axis=2).reshape(-1, 3)
+    numbers: of the elements' corners in the first frame. Every element has corners of its own, so whether two of them
+    share a face is asked there, where their corners still lie in the same places."""
+    corners = np.sort(numbers[:, FACES], axis=2).reshape(-1, 3)
     key = np.column_stack((corners, np.repeat(fragment, 4)))
     order = np.lexsort(key.T)
     same = np.all(np.diff(key[order], axis=0) == 0, axis=1)
-    lonely = ~(np.concatenate((same, [False])) | np.concatenate(([False], same)))
-    faces = order[lonely]
-    return faces // 4, faces % 4
+    outer = np.empty(len(key), dtype=bool)
+    outer[order] = ~(np.concatenate((same, [False])) | np.concatenate(([False], same)))
+    return outer.reshape(-1, 4)
 
 
-def polydata(triangles, name=None, values=None):
-    n = len(triangles)
+def edges_between(numbers, points, surface, fragment):
+    """Edges of surface faces along which the fragment changes, and those where the surface has a sharp bend.
+
+    Each as (elements, ends): an edge from corner ends[:, 0] to ends[:, 1] of an element, once for either side."""
+    elements, faces = np.nonzero(surface)
+    corners = FACES[faces]
+    x = points[elements[:, None], corners]
+    normal = np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    ends = np.stack((corners, np.roll(corners, -1, axis=1)), axis=2).reshape(-1, 2)
+    face = np.repeat(np.arange(len(faces)), 3)
+    element = elements[face]
+    key = np.sort(numbers[element[:, None], ends], axis=1)
+    order = np.lexsort(key.T)
+    same = np.all(np.diff(key[order], axis=0) == 0, axis=1)
+    one, other = order[:-1][same], order[1:][same]
+    parted = fragment[element[one]] != fragment[element[other]]
+    bent = np.einsum("ij,ij->i", normal[face[one]], normal[face[other]]) < SHARP
+    both = [np.concatenate((one[chosen], other[chosen])) for chosen in (parted, bent & ~parted)]
+    return [(element[chosen], ends[chosen]) for chosen in both]
+
+
+def polydata(corners, name=None, values=None):
+    """Triangles or lines with points of their own, (num_cells, 3 or 2, 3), and a value a cell."""
+    n, k = corners.shape[:2]
     points = vtkPoints()
-    points.SetData(numpy_to_vtk(np.ascontiguousarray(triangles.reshape(-1, 3)), deep=1))
+    points.SetData(numpy_to_vtk(np.ascontiguousarray(corners.reshape(-1, 3)), deep=1))
     cells = vtkCellArray()
-    cells.SetData(numpy_to_vtkIdTypeArray(np.arange(0, 3 * n + 1, 3), deep=1), numpy_to_vtkIdTypeArray(np.arange(3 * n), deep=1))
+    cells.SetData(numpy_to_vtkIdTypeArray(np.arange(0, k * n + 1, k), deep=1), numpy_to_vtkIdTypeArray(np.arange(k * n), deep=1))
     surface = vtkPolyData()
     surface.SetPoints(points)
-    surface.SetPolys(cells)
+    if k == 2:
+        surface.SetLines(cells)
+    else:
+        surface.SetPolys(cells)
     if values is not None:
         surface.GetCellData().SetScalars(numpyTovtkDataArray(np.ascontiguousarray(values, dtype=float), name))
     return surface
@@ -202,19 +230,31 @@ def actor_of(surface, table=None, colour=None):
     if colour is not None:
         look.SetColor(*colour)
     look.SetInterpolationToFlat()
-    look.SetAmbient(0.30)
-    look.SetDiffuse(0.75)
-    look.SetSpecular(0.08)
-    look.SetSpecularPower(20)
+    look.SetAmbient(0.25)
+    look.SetDiffuse(0.85)
     return actor
 
 
-def lines_of(triangles, colour, width):
-    actor = actor_of(polydata(triangles), colour=colour)
-    actor.GetProperty().SetRepresentationToWireframe()
-    actor.GetProperty().LightingOff()
-    actor.GetProperty().SetLineWidth(width)
+def lines_of(cells, width, opacity=1.0):
+    """Lines, or the edges of triangles; width in pixels of the picture."""
+    actor = actor_of(polydata(cells), colour=INK)
+    look = actor.GetProperty()
+    look.SetRepresentationToWireframe()
+    look.LightingOff()
+    look.SetLineWidth(FINER * width)
+    look.SetOpacity(opacity)
     return actor
+
+
+def add_lights(renderer):
+    """From the upper left behind the viewer, and a weaker one from the right; a face towards the viewer keeps its colour."""
+    renderer.AutomaticLightCreationOff()
+    for place, strength in (((-0.4, 0.6, 1.0), 0.80), ((0.8, -0.2, 1.0), 0.25)):
+        light = vtkLight()
+        light.SetLightTypeToCameraLight()
+        light.SetPosition(*place)
+        light.SetIntensity(strength)
+        renderer.AddLight(light)
 
 
 def style(text, pixels, bold=False):
@@ -230,11 +270,12 @@ def colour_bar(table, title, height):
     bar = vtkScalarBarActor()
     bar.SetLookupTable(table)
     bar.SetTitle(title + "\n ")  # the empty line keeps the title off the bar
+    bar.SetMaximumNumberOfColors(256)
     bar.SetNumberOfLabels(5)
-    bar.SetLabelFormat("%.3g")
+    bar.SetLabelFormat(" %.3g")
     bar.UnconstrainedFontSizeOn()
     bar.SetBarRatio(0.22)
-    bar.SetPosition(0.885, 0.2)
+    bar.SetPosition(0.87, 0.2)
     bar.SetPosition2(0.1, 0.6)
     style(bar.GetLabelTextProperty(), round(0.9 * SIZE_OF_TEXT * height))
     style(bar.GetTitleTextProperty(), round(0.9 * SIZE_OF_TEXT * height))
@@ -257,7 +298,9 @@ def label(text, height, x, y, bold=False):
 
 
 def aim(renderer, points, view, aspect):
-    """Turns the camera so that the points fill the picture's left nine tenths; the colour bar has the rest."""
+    """Turns the camera so that the points fill the picture's left nine tenths; the colour bar has the rest.
+
+    Returns the height of the picture, m."""
     towards, up = (np.array(v, dtype=float) for v in VIEWS[view])
     towards /= np.linalg.norm(towards)
     right = np.cross(up, towards)
@@ -274,7 +317,7 @@ def aim(renderer, points, view, aspect):
     camera.SetFocalPoint(*centre)
     camera.SetPosition(*(centre + towards * 4 * max(np.ptp(points, axis=0))))
     camera.SetViewUp(*up)
-    renderer.ResetCameraClippingRange()
+    return 2 * scale
 
 
 def in_view(reference, now):
@@ -291,7 +334,7 @@ def surface_actor(arguments, triangles, arrays, elements):
         numbers, table = categories(arrays[arguments.field])
         return actor_of(polydata(triangles, arguments.field, numbers[elements]), table), None, None
     title, unit, size = FIELDS[arguments.field]
-    title = f"{title} [{unit}]" if unit else title
+    title = f"{title}\n[{unit}]" if unit else title
     if arguments.field == "damage":
         return actor_of(polydata(triangles), colour=STONE), table_of(DAMAGE, *(arguments.range or (0, 1))), title
     values = arrays["von_mises"] if arguments.field == "von_mises" else np.linalg.norm(arrays["velocity"], axis=1)
@@ -313,20 +356,28 @@ def build(arguments):
     shown = ~np.isin(arrays["body"], arguments.hide)
     if not shown.any():
         stop("every body is hidden")
-    elements, faces = outer_faces(reference, arrays["fragment"])
-    kept = shown[elements]
-    elements, faces = elements[kept], faces[kept]
-    triangles = now[elements[:, None], FACES[faces]]
+    numbers = point_numbers(reference)
+    whole = outer_faces(numbers, first["fragment"]) & shown[:, None]
+    fracture = outer_faces(numbers, arrays["fragment"]) & shown[:, None] & ~whole
+    elements, faces = np.nonzero(whole)
 
     renderer = vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     renderer.SetBackground2(0.90, 0.92, 0.94)
     renderer.GradientBackgroundOn()
-    width, height = arguments.pixels
-    surface, table, title = surface_actor(arguments, triangles, arrays, elements)
+    add_lights(renderer)
+    width, height = (FINER * n for n in arguments.pixels)
+    surface, table, title = surface_actor(arguments, now[elements[:, None], FACES[faces]], arrays, elements)
     renderer.AddActor(surface)
     if table is not None:
         renderer.AddViewProp(colour_bar(table, title, height))
+    elements, faces = np.nonzero(fracture)
+    if len(elements) > 0 and arguments.field != "damage":
+        renderer.AddActor(actor_of(polydata(now[elements[:, None], FACES[faces]]), colour=FRACTURE))
+    line = max(1.0, arguments.pixels[1] / 700)
+    for (owner, ends), opacity in zip(edges_between(numbers, reference, whole, arrays["fragment"]), (1.0, 0.6)):
+        if len(owner) > 0:
+            renderer.AddActor(lines_of(now[owner[:, None], ends], line, opacity))
 
     joint_frames = [frame for frame in series(arguments.run, "joints") if frame[0] == time]
     joints, damage = read(joint_frames[0][1]) if joint_frames else (np.zeros((0, 3, 3)), {})
@@ -336,13 +387,18 @@ def build(arguments):
         coloured = actor_of(polydata(joints, "damage", damage["damage"]), table)
         coloured.GetProperty().SetAmbient(0.6)
         renderer.AddActor(coloured)
-    if broken.any():
-        renderer.AddActor(lines_of(joints[broken], INK, max(1.0, height / 600)))
+    tall = aim(renderer, in_view(reference[shown], now[shown]), arguments.view, width / height)
+    narrow = broken & (damage["opening"] < 3 * tall / arguments.pixels[1]) if damage else broken  # wider ones show by themselves
+    if arguments.field != "damage" and broken.any():
+        renderer.AddActor(actor_of(polydata(joints[broken]), colour=FRACTURE))
+    if narrow.any():
+        renderer.AddActor(lines_of(joints[narrow], line))
 
-    what = f"{len(np.unique(arrays['fragment'][shown])):,} fragments, {int(broken.sum()):,} broken joints"
-    renderer.AddViewProp(label(f"t = {time_text(time)}", height, 0.03, 0.945, bold=True))
-    renderer.AddViewProp(label(what, height, 0.03, 0.905))
-    aim(renderer, in_view(reference[shown], now[shown]), arguments.view, width / height)
+    texts = (f"t = {time_text(time)}", f"{len(np.unique(arrays['fragment'][shown])):,} fragments",
+             f"{int(broken.sum()):,} broken joints")
+    for i, text in enumerate(texts):
+        renderer.AddViewProp(label(text, height, 0.03, 0.945 - 0.036 * i, bold=i == 0))
+    renderer.ResetCameraClippingRange()
     return renderer
 
 
@@ -351,19 +407,30 @@ def main():
     if not os.environ.get("DISPLAY"):
         stop('drawing needs an X display; put xvfb-run -a -s "-screen 0 1600x1000x24 -noreset" before the command')
     renderer = build(arguments)
+    renderer.UseDepthPeelingOn()
     window = vtkRenderWindow()
     window.SetOffScreenRendering(1)
-    window.SetMultiSamples(8)
-    window.SetSize(*arguments.pixels)
+    window.SetMultiSamples(0)
+    window.SetSize(*(FINER * n for n in arguments.pixels))
     window.AddRenderer(renderer)
-    renderer.UseDepthPeelingOn()
     window.Render()
-    image = vtkWindowToImageFilter()
-    image.SetInput(window)
-    image.ReadFrontBufferOff()
+    grab = vtkWindowToImageFilter()
+    grab.SetInput(window)
+    grab.ReadFrontBufferOff()
+    grab.Update()
+    save(grab.GetOutput(), arguments)
+
+
+def save(fine, arguments):
+    width, height = arguments.pixels
+    colours = vtk_to_numpy(fine.GetPointData().GetScalars()).reshape(height, FINER, width, FINER, 3)
+    mean = np.rint(colours.mean(axis=(1, 3))).astype(np.uint8)
+    image = vtkImageData()
+    image.SetDimensions(width, height, 1)
+    image.GetPointData().SetScalars(numpy_to_vtk(mean.reshape(-1, 3), deep=1))
     writer = vtkPNGWriter()
     writer.SetFileName(arguments.picture)
-    writer.SetInputConnection(image.GetOutputPort())
+    writer.SetInputData(image)
     writer.Write()
     if writer.GetErrorCode() != 0:
         stop(f"cannot write {arguments.picture}")

@@ -12,6 +12,7 @@ from vtkmodules.vtkIOImage import vtkPNGReader
 render, run, work = sys.argv[1:4]
 WIDTH, HEIGHT = 480, 300
 DARK = 90          # of 255: cracks and outlines; every other colour of the picture is lighter
+OUTLINE = 195      # also the edges of the plate, thin and half transparent
 BLOCK = 0.006 / 0.05   # half width of the block that hides the plate's middle, of the plate's half width
 failures = []
 
@@ -34,7 +35,7 @@ def square_of(dark):
     return rows.min(), rows.max(), columns.min(), columns.max()
 
 
-whole = picture("--time", "0", "--field", "body", "--hide", "1") < 140
+whole = picture("--time", "0", "--field", "body", "--hide", "1") < OUTLINE
 bottom, top, left, right = square_of(whole)
 if abs((top - bottom) - (right - left)) > 2:
     failures.append(f"the square plate is drawn {right - left} wide and {top - bottom} high")
