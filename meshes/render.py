@@ -28,7 +28,7 @@ FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])  # of a tetrahedr
 # Colours from weak to strong; light enough everywhere for dark cracks to stand out.
 SEQUENTIAL = [(0.00, 0.93, 0.94, 0.95), (0.20, 0.72, 0.84, 0.91), (0.45, 0.45, 0.68, 0.82), (0.65, 0.98, 0.85, 0.55),
               (0.85, 0.95, 0.55, 0.35), (1.00, 0.80, 0.22, 0.24)]
-DAMAGE = [(0.00, 0.99, 0.90, 0.70), (0.50, 0.93, 0.45, 0.25), (0.99, 0.62, 0.07, 0.15), (1.00, *INK)]
+DAMAGE = [(0.00, 0.99, 0.90, 0.70), (0.50, 0.93, 0.45, 0.25), (1.00, 0.62, 0.07, 0.15)]
 FIELDS = {  # title, unit, the unit in SI
     "von_mises": ("von Mises", "MPa", 1e6),
     "speed": ("speed", "m/s", 1.0),
@@ -36,7 +36,12 @@ FIELDS = {  # title, unit, the unit in SI
     "fragment": None,
     "body": None,
 }
-VIEWS = {"front": ((0, 0, 1), (0, 1, 0)), "top": ((0, 1, 0), (0, 0, -1)), "iso": ((0.8, 0.75, 1.0), (0, 1, 0))}  # from, up
+VIEWS = {  # from where, what is up
+    "front": ((0, 0, 1), (0, 1, 0)),
+    "top": ((0, 1, 0), (0, 0, -1)),
+    "bottom": ((0, -1, 0), (0, 0, 1)),
+    "iso": ((0.8, 0.75, 1.0), (0, 1, 0)),
+}
 SIZE_OF_TEXT = 0.024   # of the picture's height
 FINER = 2              # drawn so many times finer than asked for, then averaged: smooth edges on any machine
 SHARP = math.cos(math.radians(40))  # faces that meet at a larger angle form an edge that is drawn
@@ -64,7 +69,8 @@ def parse_arguments():
     when.add_argument("--last", action="store_true", help="the last frame (default)")
     parser.add_argument("--view", choices=list(VIEWS), default="iso")
     parser.add_argument("--size", default="1600x1000", help="pixels, WIDTHxHEIGHT")
-    parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"), help="of the colours, in the unit shown")
+    parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"), 
+                        help="of the colours, in the unit shown; less damaged joints than LOW are left out")
     parser.add_argument("--hide", type=int, action="append", default=[], metavar="BODY", help="leave out this body (repeatable)")
     arguments = parser.parse_args()
     try:
@@ -384,12 +390,13 @@ def build(arguments):
     broken = damage["broken"] != 0 if damage else np.zeros(0, dtype=bool)
     if arguments.field == "damage" and len(joints) > 0:
         surface.GetProperty().SetOpacity(0.35)
-        coloured = actor_of(polydata(joints, "damage", damage["damage"]), table)
+        drawn = ~broken & (damage["damage"] >= table.GetTableRange()[0])
+        coloured = actor_of(polydata(joints[drawn], "damage", damage["damage"][drawn]), table)
         coloured.GetProperty().SetAmbient(0.6)
         renderer.AddActor(coloured)
     tall = aim(renderer, in_view(reference[shown], now[shown]), arguments.view, width / height)
     narrow = broken & (damage["opening"] < 3 * tall / arguments.pixels[1]) if damage else broken  # wider ones show by themselves
-    if arguments.field != "damage" and broken.any():
+    if broken.any():
         renderer.AddActor(actor_of(polydata(joints[broken]), colour=FRACTURE))
     if narrow.any():
         renderer.AddActor(lines_of(joints[narrow], line))
