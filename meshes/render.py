@@ -69,7 +69,7 @@ def parse_arguments():
     when.add_argument("--last", action="store_true", help="the last frame (default)")
     parser.add_argument("--view", choices=list(VIEWS), default="iso")
     parser.add_argument("--size", default="1600x1000", help="pixels, WIDTHxHEIGHT")
-    parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"), 
+    parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),
                         help="of the colours, in the unit shown; less damaged joints than LOW are left out")
     parser.add_argument("--hide", type=int, action="append", default=[], metavar="BODY", help="leave out this body (repeatable)")
     arguments = parser.parse_args()
@@ -350,6 +350,25 @@ def surface_actor(arguments, triangles, arrays, elements):
     return actor_of(polydata(triangles, arguments.field, values), table), table, title
 
 
+def add_joints(renderer, arguments, time, table, line, narrow):
+    """Broken joints dark, with their edges where they gape less than `narrow` (m): wider cracks show by themselves. In a
+    picture of the damage also the others, in the table's colours. Returns how many are broken."""
+    frames = [frame for frame in series(arguments.run, "joints") if frame[0] == time]
+    joints, arrays = read(frames[0][1]) if frames else (np.zeros((0, 3, 3)), {})
+    if len(joints) == 0:
+        return 0
+    broken = arrays["broken"] != 0
+    if arguments.field == "damage":
+        drawn = ~broken & (arrays["damage"] >= table.GetTableRange()[0])
+        coloured = actor_of(polydata(joints[drawn], "damage", arrays["damage"][drawn]), table)
+        coloured.GetProperty().SetAmbient(0.6)
+        renderer.AddActor(coloured)
+    if broken.any():
+        renderer.AddActor(actor_of(polydata(joints[broken]), colour=FRACTURE))
+        renderer.AddActor(lines_of(joints[broken & (arrays["opening"] < narrow)], line))
+    return int(broken.sum())
+
+
 def build(arguments):
     frames = series(arguments.run, "elements")
     if not frames:
@@ -384,25 +403,12 @@ def build(arguments):
     for (owner, ends), opacity in zip(edges_between(numbers, reference, whole, arrays["fragment"]), (1.0, 0.6)):
         if len(owner) > 0:
             renderer.AddActor(lines_of(now[owner[:, None], ends], line, opacity))
-
-    joint_frames = [frame for frame in series(arguments.run, "joints") if frame[0] == time]
-    joints, damage = read(joint_frames[0][1]) if joint_frames else (np.zeros((0, 3, 3)), {})
-    broken = damage["broken"] != 0 if damage else np.zeros(0, dtype=bool)
-    if arguments.field == "damage" and len(joints) > 0:
-        surface.GetProperty().SetOpacity(0.35)
-        drawn = ~broken & (damage["damage"] >= table.GetTableRange()[0])
-        coloured = actor_of(polydata(joints[drawn], "damage", damage["damage"][drawn]), table)
-        coloured.GetProperty().SetAmbient(0.6)
-        renderer.AddActor(coloured)
     tall = aim(renderer, in_view(reference[shown], now[shown]), arguments.view, width / height)
-    narrow = broken & (damage["opening"] < 3 * tall / arguments.pixels[1]) if damage else broken  # wider ones show by themselves
-    if broken.any():
-        renderer.AddActor(actor_of(polydata(joints[broken]), colour=FRACTURE))
-    if narrow.any():
-        renderer.AddActor(lines_of(joints[narrow], line))
-
+    if arguments.field == "damage":
+        surface.GetProperty().SetOpacity(0.35)
+    broken = add_joints(renderer, arguments, time, table, line, 3 * tall / arguments.pixels[1])
     texts = (f"t = {time_text(time)}", f"{len(np.unique(arrays['fragment'][shown])):,} fragments",
-             f"{int(broken.sum()):,} broken joints")
+             f"{broken:,} broken joints")
     for i, text in enumerate(texts):
         renderer.AddViewProp(label(text, height, 0.03, 0.945 - 0.036 * i, bold=i == 0))
     renderer.ResetCameraClippingRange()
