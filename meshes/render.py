@@ -11,7 +11,6 @@ import sys
 import numpy as np
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  registers the text renderer
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  registers the back end
-from vtkmodules.numpy_interface.dataset_adapter import numpyTovtkDataArray
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
@@ -163,7 +162,7 @@ def edges_between(numbers, points, surface, fragment):
     return [(element[chosen], ends[chosen]) for chosen in both]
 
 
-def polydata(corners, name=None, values=None):
+def polydata(corners, values=None):
     """Triangles or lines with points of their own, (num_cells, 3 or 2, 3), and a value a cell."""
     n, k = corners.shape[:2]
     points = vtkPoints()
@@ -177,7 +176,7 @@ def polydata(corners, name=None, values=None):
     else:
         surface.SetPolys(cells)
     if values is not None:
-        surface.GetCellData().SetScalars(numpyTovtkDataArray(np.ascontiguousarray(values, dtype=float), name))
+        surface.GetCellData().SetScalars(numpy_to_vtk(np.ascontiguousarray(values, dtype=float), deep=1))
     return surface
 
 
@@ -338,7 +337,7 @@ def surface_actor(arguments, triangles, arrays, elements):
     """The fragments' surface, its colour table and the title of the bar (None: no bar)."""
     if FIELDS[arguments.field] is None:
         numbers, table = categories(arrays[arguments.field])
-        return actor_of(polydata(triangles, arguments.field, numbers[elements]), table), None, None
+        return actor_of(polydata(triangles, numbers[elements]), table), None, None
     title, unit, size = FIELDS[arguments.field]
     title = f"{title}\n[{unit}]" if unit else title
     if arguments.field == "damage":
@@ -347,7 +346,7 @@ def surface_actor(arguments, triangles, arrays, elements):
     values = values[elements].astype(float) / size
     high = rounded_up(np.quantile(values[np.isfinite(values)], 0.99)) if np.isfinite(values).any() else 1.0
     table = table_of(SEQUENTIAL, *(arguments.range or (0, high)))
-    return actor_of(polydata(triangles, arguments.field, values), table), table, title
+    return actor_of(polydata(triangles, values), table), table, title
 
 
 def add_joints(renderer, arguments, time, table, line, narrow):
@@ -360,7 +359,7 @@ def add_joints(renderer, arguments, time, table, line, narrow):
     broken = arrays["broken"] != 0
     if arguments.field == "damage":
         drawn = ~broken & (arrays["damage"] >= table.GetTableRange()[0])
-        coloured = actor_of(polydata(joints[drawn], "damage", arrays["damage"][drawn]), table)
+        coloured = actor_of(polydata(joints[drawn], arrays["damage"][drawn]), table)
         coloured.GetProperty().SetAmbient(0.6)
         renderer.AddActor(coloured)
     if broken.any():
