@@ -70,6 +70,8 @@ def parse_arguments():
     parser.add_argument("--size", default="1600x1000", help="pixels, WIDTHxHEIGHT")
     parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),
                         help="of the colours, in the unit shown; less damaged joints than LOW are left out")
+    parser.add_argument("--explode", type=float, default=1.0, metavar="FACTOR",
+                        help="every fragment is moved by its mean displacement times this, to show them apart (default 1: as it is)")
     parser.add_argument("--hide", type=int, action="append", default=[], metavar="BODY", help="leave out this body (repeatable)")
     arguments = parser.parse_args()
     try:
@@ -325,6 +327,13 @@ def aim(renderer, points, view, aspect):
     return 2 * scale
 
 
+def exploded(points, arrays, factor):
+    """Points of the elements with each fragment moved on by (factor - 1) times its mean displacement."""
+    numbers = np.unique(arrays["fragment"], return_inverse=True)[1]
+    sums = np.stack([np.bincount(numbers, weights=component) for component in arrays["displacement"].T], axis=1)
+    return points + (factor - 1) * (sums / np.bincount(numbers)[:, None])[numbers][:, None, :]
+
+
 def in_view(reference, now):
     """Points the picture must show: the reference shape and where almost all of the material is now (dust may fly out)."""
     centres = now.mean(axis=1)
@@ -357,6 +366,8 @@ def add_joints(renderer, arguments, time, table, line, narrow):
     if len(joints) == 0:
         return 0
     broken = arrays["broken"] != 0
+    if arguments.explode != 1:  # the joints lie where the fragments were
+        return int(broken.sum())
     if arguments.field == "damage":
         drawn = ~broken & (arrays["damage"] >= table.GetTableRange()[0])
         coloured = actor_of(polydata(joints[drawn], arrays["damage"][drawn]), table)
@@ -377,6 +388,7 @@ def build(arguments):
     now, arrays = read(file)
     if len(now) == 0 or len(reference) != len(now) or not np.array_equal(first["id"], arrays["id"]):
         stop(f"{file} and the first frame do not hold the same elements")
+    now = exploded(now, arrays, arguments.explode)
     shown = ~np.isin(arrays["body"], arguments.hide)
     if not shown.any():
         stop("every body is hidden")
