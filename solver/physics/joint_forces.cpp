@@ -26,7 +26,8 @@ struct Kinematics {
   JointFrame frame;  // of the mid-surface
 };
 
-Kinematics kinematics(const JointLawParams& law, const LocalMesh& mesh, const double* position, const ActiveJoint& joint) {
+Kinematics kinematics(const JointLawParams& law, const LocalMesh& mesh, const double* position,
+                      const ActiveJoint& joint) {
   Kinematics k;
   Triple middle;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -118,19 +119,14 @@ Triple evaluate_and_book(const JointLawParams& law, const Kinematics& k, ActiveJ
   return force;
 }
 
-/// Every point, and every corner, which differ for mid-edge points.
-bool open_everywhere(const Kinematics& k, const ActiveJoint& joint) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (!(joint.points[i].normal_opening > 0) || !(k.opening[i].dot(k.frame.normal) > 0)) return false;
-  }
-  return true;
+/// At the corners, and so at mid-edge points too.
+bool open_everywhere(const Kinematics& k) {
+  return std::all_of(k.opening.begin(), k.opening.end(), [&](const Vec3& o) { return o.dot(k.frame.normal) > 0; });
 }
 
 }  // namespace
 
-double ActiveJoint::damage() const {
-  return std::max({points[0].damage, points[1].damage, points[2].damage});
-}
+double ActiveJoint::damage() const { return std::max({points[0].damage, points[1].damage, points[2].damage}); }
 
 double ActiveJoint::opening() const {
   return (points[0].normal_opening + points[1].normal_opening + points[2].normal_opening) / 3.0;
@@ -161,7 +157,7 @@ void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& 
       joint.state = JointState::failed;
       work.failed.push_back(joint.id);
     }
-    if (joint.state == JointState::failed && open_everywhere(k, joint)) {
+    if (joint.state == JointState::failed && open_everywhere(k)) {
       // Open and broken everywhere: no force, and nothing stored, friction springs included.
       work.released.push_back({joint.id, joint.slot_a, joint.face_a, joint.mode()});
       continue;
@@ -182,8 +178,8 @@ void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& 
   });
 }
 
-void virgin_forces(const JointLawParams& law, const LocalMesh& mesh, const double* position, const ActiveJoint& joint, bool side_a,
-                   double* force) {
+void virgin_forces(const JointLawParams& law, const LocalMesh& mesh, const double* position, const ActiveJoint& joint,
+                   bool side_a, double* force) {
   ActiveJoint trial = joint;
   const Triple on_a = evaluate(law, kinematics(law, mesh, position, joint), trial);
   for (int i = 0; i < 3; ++i) {
@@ -193,8 +189,8 @@ void virgin_forces(const JointLawParams& law, const LocalMesh& mesh, const doubl
   }
 }
 
-void start_history(std::span<const JointLawParams> laws, const LocalMesh& mesh, const double* position, std::span<ActiveJoint> joints,
-                   JointWork& work) {
+void start_history(std::span<const JointLawParams> laws, const LocalMesh& mesh, const double* position,
+                   std::span<ActiveJoint> joints, JointWork& work) {
   CompensatedSum held(work.stored);
   for (ActiveJoint& joint : joints) {
     const JointLawParams& law = laws[at(joint.law)];

@@ -24,11 +24,11 @@ double softening_width(const JointLawParams& law, double energy, double strength
 
 /// An opening in the joint's axes.
 struct Components {
-  double normal = 0;         // delta_n
-  double open = 0;           // <delta_n>
-  double pressure = 0;       // p, Pa
+  double normal = 0;    // delta_n
+  double open = 0;      // <delta_n>
+  double pressure = 0;  // p, Pa
   Vec3 shear_vector{0, 0, 0};
-  double shear2 = 0;         // |delta_s|^2
+  double shear2 = 0;  // |delta_s|^2
 };
 
 Components split(const JointLawParams& law, const JointFrame& frame, const Vec3& opening) {
@@ -43,7 +43,7 @@ Components split(const JointLawParams& law, const JointFrame& frame, const Vec3&
 
 /// What is left of the stiffness k of each component.
 struct Left {
-  double z = 1.0;                         // factor of both
+  double z = 1.0;  // factor of both
   double secant_normal = 1.0, secant_shear = 1.0;
   [[nodiscard]] double shear() const { return z * secant_shear; }
 };
@@ -60,7 +60,8 @@ double grow_mixed_mode(const JointLawParams& law, const Components& c, JointPoin
   const double reach = c.pressure > 0 ? (law.stiffness * std::sqrt(c.shear2) - coulomb) / law.cohesion : r;
   const double end_of_elastic = std::min(1.0 / reach, 1.0);
   if (h.damage >= 1.0) return end_of_elastic;
-  const double level = (r - 1.0) / r2 * (normal2 * law.onset_normal / law.width_normal + shear2 * onset_shear / law.width_shear);
+  const double level =
+      (r - 1.0) / r2 * (normal2 * law.onset_normal / law.width_normal + shear2 * onset_shear / law.width_shear);
   if (level >= 1.0) {
     h.damage = h.level = 1.0;
     h.left = 0.0;
@@ -126,9 +127,9 @@ Held held_by(const JointLawParams& law, double onset, double z, double secant, d
 
 /// State of a point after its damage is known.
 struct Answer {
-  double normal = 0;                          // sigma
-  double shear_stiffness = 0;                 // tau = shear_stiffness delta_s + friction
-  std::array<double, 2> friction{0, 0};       // along the tangents
+  double normal = 0;                     // sigma
+  double shear_stiffness = 0;            // tau = shear_stiffness delta_s + friction
+  std::array<double, 2> friction{0, 0};  // along the tangents
   double stored_normal = 0, stored_shear = 0, stored_friction = 0;
 };
 
@@ -146,11 +147,12 @@ Answer answer_of(const JointLawParams& law, const Components& c, const Left& lef
 
 /// Friction of the damaged share: moves the slip so that the spring stays within Coulomb's limit. Returns what friction of the
 /// last state and this one, in the mean, dissipates on this slip.
-double slide(const JointLawParams& law, const JointFrame& frame, const Components& c, double weight, JointPointHistory& h,
-             Answer& answer) {
+double slide(const JointLawParams& law, const JointFrame& frame, const Components& c, double weight,
+             JointPointHistory& h, Answer& answer) {
   const double limit = law.friction * c.pressure / law.stiffness;
   std::array<double, 2> spring{}, moved{};
-  for (std::size_t i = 0; i < 2; ++i) spring[i] = c.shear_vector.dot(frame.tangent[i]) - h.slip[static_cast<Eigen::Index>(i)];
+  for (std::size_t i = 0; i < 2; ++i)
+    spring[i] = c.shear_vector.dot(frame.tangent[i]) - h.slip[static_cast<Eigen::Index>(i)];
   const double length2 = spring[0] * spring[0] + spring[1] * spring[1];
   if (length2 > limit * limit) {
     const double keep = limit / std::sqrt(length2);
@@ -170,7 +172,8 @@ double slide(const JointLawParams& law, const JointFrame& frame, const Component
   return h.friction_weight > 0 ? dissipated : 0.0;
 }
 
-void remember(const Vec3& opening, const Vec3& traction, double normal_opening, const Answer& answer, JointPointHistory& h) {
+void remember(const Vec3& opening, const Vec3& traction, double normal_opening, const Answer& answer,
+              JointPointHistory& h) {
   h.fresh = false;
   h.opening = opening;
   h.traction = traction;
@@ -183,7 +186,8 @@ void remember(const Vec3& opening, const Vec3& traction, double normal_opening, 
 }
 
 /// Puts a fresh history where the ray of the opening left the elastic range.
-void start_at_limit(const JointLawParams& law, const JointFrame& frame, const Vec3& opening, double share, JointPointHistory& h) {
+void start_at_limit(const JointLawParams& law, const JointFrame& frame, const Vec3& opening, double share,
+                    JointPointHistory& h) {
   const Vec3 limit = share * opening;
   const Components c = split(law, frame, limit);
   const Answer answer = answer_of(law, c, Left{});
@@ -202,13 +206,16 @@ void check_numbers(const JointLawParams& law, std::ostringstream& problems) {
   if (!(law.friction >= 0 && std::isfinite(law.friction))) problems << "the friction must not be negative; ";
   if (law.points_to_fail < 1 || law.points_to_fail > 3) problems << "points_to_fail must be 1, 2 or 3; ";
   if (law.rise != JointRise::parabolic) return;
-  if (law.law != JointLaw::independent_peaks) problems << "rise = \"parabolic\" goes with law = \"independent_peaks\" only; ";
+  if (law.law != JointLaw::independent_peaks)
+    problems << "rise = \"parabolic\" goes with law = \"independent_peaks\" only; ";
   if (law.friction > 0) problems << "rise = \"parabolic\" does not go with friction; ";
 }
 
-void check_energy(const JointLawParams& law, const char* mode, double energy, double strength, std::ostringstream& problems) {
+void check_energy(const JointLawParams& law, const char* mode, double energy, double strength,
+                  std::ostringstream& problems) {
   // Even where the energies are those of the softening branch, the rise must not hold more than they.
-  const double least = law.energy_of_whole_curve ? rise_energy(law, strength) : 0.5 * strength * strength / law.stiffness;
+  const double least =
+      law.energy_of_whole_curve ? rise_energy(law, strength) : 0.5 * strength * strength / law.stiffness;
   if (energy > least) return;
   problems << "penalty too soft for this strength and energy in " << mode << ": the elastic part alone holds " << least
            << " J/m2 of " << energy << " J/m2; raise the penalty by more than a factor of " << least / energy << "; ";
@@ -254,11 +261,13 @@ std::string prepare(JointLawParams& law) {
   return {};
 }
 
-JointPointResponse evaluate_point(const JointLawParams& law, const JointFrame& frame, const Vec3& opening, JointPointHistory& history) {
+JointPointResponse evaluate_point(const JointLawParams& law, const JointFrame& frame, const Vec3& opening,
+                                  JointPointHistory& history) {
   const Components c = split(law, frame, opening);
   double end_of_elastic = 1.0;
   if (law.breakable() && (history.damage < 1.0 || history.fresh)) {
-    end_of_elastic = law.law == JointLaw::mixed_mode ? grow_mixed_mode(law, c, history) : grow_independent_peaks(law, c, history);
+    end_of_elastic =
+        law.law == JointLaw::mixed_mode ? grow_mixed_mode(law, c, history) : grow_independent_peaks(law, c, history);
   }
   const Left left = left_of(law, history);
   Answer answer = answer_of(law, c, left);

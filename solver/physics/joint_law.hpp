@@ -44,24 +44,24 @@ struct JointLawParams {
   JointLaw law = JointLaw::mixed_mode;
   JointRise rise = JointRise::linear;
   JointPoints points = JointPoints::nodal;
-  double stiffness = 0;           ///< k = p/h, Pa/m
-  double tensile_strength = 0;    ///< f_t, Pa; infinite: unbreakable
-  double cohesion = 0;            ///< c, Pa: shear strength without pressure
-  double friction = 0;            ///< mu
-  double energy_mode_1 = 0;       ///< G_I, J/m2
-  double energy_mode_2 = 0;       ///< G_II, J/m2
+  double stiffness = 0;         ///< k = p/h, Pa/m
+  double tensile_strength = 0;  ///< f_t, Pa; infinite: unbreakable
+  double cohesion = 0;          ///< c, Pa: shear strength without pressure
+  double friction = 0;          ///< mu
+  double energy_mode_1 = 0;     ///< G_I, J/m2
+  double energy_mode_2 = 0;     ///< G_II, J/m2
   bool energy_of_whole_curve = true;
   Softening softening;
   int points_to_fail = 3;
 
   // Derived by `prepare`.
   SofteningCurve curve;
-  double area = 0;                ///< A
-  double onset_normal = 0;        ///< d_nt, m
-  double onset_shear = 0;         ///< d_st without pressure, m
-  double width_normal = 0;        ///< D_n, m
-  double width_shear = 0;         ///< D_s, m
-  double screen = 0;              ///< m2
+  double area = 0;          ///< A
+  double onset_normal = 0;  ///< d_nt, m
+  double onset_shear = 0;   ///< d_st without pressure, m
+  double width_normal = 0;  ///< D_n, m
+  double width_shear = 0;   ///< D_s, m
+  double screen = 0;        ///< m2
 
   /// Squared opening up to which the joint is linear elastic whatever its direction, so that the sweep can evaluate it;
   /// 0: the sweep does not know this law.
@@ -74,7 +74,9 @@ struct JointLawParams {
 [[nodiscard]] std::string prepare(JointLawParams& law);
 
 /// Stiffness of one corner of a joint's face, N/m: k A0 / 3.
-[[nodiscard]] inline double corner_stiffness(const JointLawParams& law, double area) { return law.stiffness * area / 3.0; }
+[[nodiscard]] inline double corner_stiffness(const JointLawParams& law, double area) {
+  return law.stiffness * area / 3.0;
+}
 
 /// Axes of a joint: n from a to b and two in the mid-surface that turn with it. The slip is kept in the latter, so that no
 /// rigid rotation, not even about n, changes the friction.
@@ -85,20 +87,20 @@ struct JointFrame {
 
 /// What a point of a joint remembers.
 struct JointPointHistory {
-  double damage = 0;          ///< mixed_mode: d; independent_peaks: D. Set to 1 from outside it breaks the point by hand
-  double level = 0;           ///< D at which the damage grew last
-  double left = 1;            ///< z there
-  double secant_normal = 1;   ///< s_n, s_s (independent_peaks)
+  double damage = 0;         ///< mixed_mode: d; independent_peaks: D. Set to 1 from outside it breaks the point by hand
+  double level = 0;          ///< D at which the damage grew last
+  double left = 1;           ///< z there
+  double secant_normal = 1;  ///< s_n, s_s (independent_peaks)
   double secant_shear = 1;
-  Vec3 slip{0, 0, 0};         ///< m, s along the two tangents; the third component is unused
+  Vec3 slip{0, 0, 0};  ///< m, s along the two tangents; the third component is unused
   // The last evaluation, for the work of the next step.
-  bool fresh = true;          ///< never evaluated
-  bool gone = false;          ///< nothing was left of the cohesion
+  bool fresh = true;  ///< never evaluated
+  bool gone = false;  ///< nothing was left of the cohesion
   double friction_weight = 0;
-  std::array<double, 2> friction_traction{0, 0};  ///< Pa, weighted, along the tangents
-  Vec3 opening{0, 0, 0};      ///< m
-  Vec3 traction{0, 0, 0};     ///< Pa
-  double normal_opening = 0, normal_traction = 0;  ///< m, Pa
+  std::array<double, 2> friction_traction{0, 0};                    ///< Pa, weighted, along the tangents
+  Vec3 opening{0, 0, 0};                                            ///< m
+  Vec3 traction{0, 0, 0};                                           ///< Pa
+  double normal_opening = 0, normal_traction = 0;                   ///< m, Pa
   double stored_normal = 0, stored_shear = 0, stored_friction = 0;  ///< J/m2
 
   [[nodiscard]] double stored() const { return stored_normal + stored_shear + stored_friction; }
@@ -108,9 +110,9 @@ struct JointPointHistory {
 
 /// One evaluation of a point.
 struct JointPointResponse {
-  Vec3 traction{0, 0, 0};   ///< Pa, on side a
+  Vec3 traction{0, 0, 0};                       ///< Pa, on side a
   double mode_1 = 0, mode_2 = 0, friction = 0;  ///< J/m2 dissipated since the last evaluation
-  bool elastic = true;      ///< undamaged with linear rise: traction = k opening
+  bool elastic = true;                          ///< undamaged with linear rise: traction = k opening
 };
 
 /// Traction at a point; brings its history up to date.

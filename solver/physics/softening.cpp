@@ -53,9 +53,12 @@ SofteningCurve::SofteningCurve(const Softening& s) : s_(s) {
 double SofteningCurve::operator()(double damage) const {
   const double left = 1.0 - damage;
   switch (s_.shape) {
-    case SofteningShape::linear: return left;
-    case SofteningShape::exponential: return (std::exp(-s_.exponent * damage) - rest_) * scale_;
-    case SofteningShape::z_curve: break;
+    case SofteningShape::linear:
+      return left;
+    case SofteningShape::exponential:
+      return (std::exp(-s_.exponent * damage) - rest_) * scale_;
+    case SofteningShape::z_curve:
+      break;
   }
   const double tail = whole_c_ > 0 ? power(left, whole_c_) : std::pow(left, s_.c);
   return (1.0 - weight_ * std::exp(damage * rate_)) * (s_.a * left + s_.b * tail);
@@ -73,13 +76,15 @@ double SofteningCurve::closed_form_area() const {
 
 double SofteningCurve::area() const {
   switch (s_.shape) {
-    case SofteningShape::linear: return 0.5;
+    case SofteningShape::linear:
+      return 0.5;
     case SofteningShape::exponential: {
       const double s = s_.exponent;
       // 1/s - 1/(e^s - 1); its series where the difference would lose digits.
       return s < 0.01 ? 0.5 - s / 12.0 + s * s * s / 720.0 : 1.0 / s - 1.0 / std::expm1(s);
     }
-    case SofteningShape::z_curve: break;
+    case SofteningShape::z_curve:
+      break;
   }
   constexpr double kLargestGrowth = 1e4;  // of round-off by the recursion: m!/k^m
   double growth = 1.0;
@@ -100,7 +105,8 @@ std::string softening_problem(const Softening& s) {
   for (int i = 1; i <= samples; ++i) {
     const double damage = static_cast<double>(i) / samples, value = z(damage);
     if (!(value <= previous + slack) || !(value >= -slack)) {
-      text << "the softening curve must fall from 1 to 0, but goes from " << previous << " to " << value << " at damage " << damage;
+      text << "the softening curve must fall from 1 to 0, but goes from " << previous << " to " << value
+           << " at damage " << damage;
       return text.str();
     }
     previous = value;

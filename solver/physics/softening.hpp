@@ -34,9 +34,9 @@ class SofteningCurve {
   [[nodiscard]] double closed_form_area() const;
 
   Softening s_;
-  int whole_c_ = -1;                ///< c if it is whole and small, else -1
-  double weight_ = 0, rate_ = 0;    ///< z-curve: (a+b-1)/(a+b) and k
-  double rest_ = 0, scale_ = 0;     ///< exponential: e^(-s) and 1/(1 - e^(-s))
+  int whole_c_ = -1;              ///< c if it is whole and small, else -1
+  double weight_ = 0, rate_ = 0;  ///< z-curve: (a+b-1)/(a+b) and k
+  double rest_ = 0, scale_ = 0;   ///< exponential: e^(-s) and 1/(1 - e^(-s))
 };
 
 /// Empty if z is a softening curve: finite, 1 at 0, 0 at 1, within [0, 1], never rising; else what is wrong.

@@ -18,9 +18,9 @@ using test::opening_of;
 using test::PointDriver;
 using test::prepared;
 
-constexpr double kArea = 173.205081e-6;      // m2, face of a regular tetrahedron of edge 20 mm
-constexpr double kEnergyTolerance = 1e-3;    // asked of the law
-constexpr double kClosure = 1e-12;           // round-off of some 10^4 terms
+constexpr double kArea = 173.205081e-6;    // m2, face of a regular tetrahedron of edge 20 mm
+constexpr double kEnergyTolerance = 1e-3;  // asked of the law
+constexpr double kClosure = 1e-12;         // round-off of some 10^4 terms
 constexpr std::array<double, 5> kAngles{0, 30, 45, 60, 90};
 
 Vec3 at_angle(double degrees, double length) {
@@ -61,7 +61,8 @@ TEST(JointEnergy, shares_of_both_modes_add_up_to_one_for_strengths_and_energies_
       law = prepared(law);
       for (const double angle : kAngles) {
         const PointDriver point = opened(law, angle, 40000);
-        EXPECT_NEAR(point.mode_1 / law.energy_mode_1 + point.mode_2 / law.energy_mode_2, 1.0, kEnergyTolerance) << factor << ", " << angle;
+        EXPECT_NEAR(point.mode_1 / law.energy_mode_1 + point.mode_2 / law.energy_mode_2, 1.0, kEnergyTolerance)
+            << factor << ", " << angle;
       }
       EXPECT_NEAR(opened(law, 0, 1000).mode_2, 0.0, kClosure);
       EXPECT_NEAR(opened(law, 90, 1000).mode_1, 0.0, kClosure);
@@ -110,12 +111,15 @@ TEST(JointEnergy, softening_branch_of_the_published_law_is_15_5467_um_wide_and_t
 TEST(JointEnergy, published_law_takes_what_its_closed_form_says_in_all) {
   // Rise: f^2/(2k) linear, 4 f^2/(3k) parabolic, on top of the softening branch.
   const double unit = test::kStrength * test::kStrength / example_law().stiffness;
-  EXPECT_NEAR(opened(test::reference_law(JointRise::linear), 0, 40000).dissipated(), kEnergy + unit / 2, kEnergyTolerance * kEnergy);
-  EXPECT_NEAR(opened(test::reference_law(JointRise::parabolic), 0, 40000).dissipated(), kEnergy + 4 * unit / 3, kEnergyTolerance * kEnergy);
+  EXPECT_NEAR(opened(test::reference_law(JointRise::linear), 0, 40000).dissipated(), kEnergy + unit / 2,
+              kEnergyTolerance * kEnergy);
+  EXPECT_NEAR(opened(test::reference_law(JointRise::parabolic), 0, 40000).dissipated(), kEnergy + 4 * unit / 3,
+              kEnergyTolerance * kEnergy);
 }
 
 TEST(JointEnergy, dissipation_is_never_negative_along_a_path_that_damages) {
-  for (const JointLawParams& law : {prepared(example_law()), test::reference_law(JointRise::linear), test::reference_law(JointRise::parabolic)}) {
+  for (const JointLawParams& law :
+       {prepared(example_law()), test::reference_law(JointRise::linear), test::reference_law(JointRise::parabolic)}) {
     for (const double angle : kAngles) {
       PointDriver point{law};
       double before = 0;
@@ -170,8 +174,10 @@ JointLawParams random_law(int i) {
   law.cohesion = (1 + i % 2) * law.tensile_strength;
   law.energy_mode_2 = 5 * law.energy_mode_1;
   if (i % 4 >= 2) law.law = JointLaw::independent_peaks;
-  if (i % 8 == 2) law.rise = JointRise::parabolic;
-  else if (i % 2 == 1) law.friction = 0.6;
+  if (i % 8 == 2)
+    law.rise = JointRise::parabolic;
+  else if (i % 2 == 1)
+    law.friction = 0.6;
   return prepared(law);
 }
 

@@ -149,8 +149,9 @@ TEST(JointFailure, waits_for_as_many_points_as_asked_and_books_what_the_others_h
     NodalWork work(pair);
     bool failed = false;
     for (int step = 1; step <= 4000 && !pair.joints.empty(); ++step) {
-      pair.open(Vec3(open * std::min(step / 10.0, 1.0), 0, 0));
-      hinge(pair, open * std::min(step / 10.0, 1.0) + step * 1e-8);
+      const double others = open * (std::min(step / 10.0, 1.0) + step / 8000.0);
+      pair.open(Vec3(others, 0, 0));
+      hinge(pair, others + step * 1e-8);
       const double held = pair.work.stored;
       pair.evaluate();
       work.add();

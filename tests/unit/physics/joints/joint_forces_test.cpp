@@ -100,7 +100,8 @@ TEST(JointForces, of_a_crossing_joint_are_the_same_bits_from_both_sides_and_from
       pair.evaluate();
       const int face_b = pair.virgin.code / 3;
       for (int i = 0; i < 3; ++i) {
-        const Index node_b = pair.local.corner_node(pair.virgin.slot_b, kFaceCorners[static_cast<std::size_t>(face_b)][static_cast<std::size_t>(i)]);
+        const Index node_b = pair.local.corner_node(
+            pair.virgin.slot_b, kFaceCorners[static_cast<std::size_t>(face_b)][static_cast<std::size_t>(i)]);
         for (int axis = 0; axis < 3; ++axis) {
           EXPECT_EQ(on_a[3 * i + axis], pair.force(true, i)[axis]);
           EXPECT_EQ(on_b[3 * i + axis], pair.forces.get(node_b)[axis]);
@@ -147,6 +148,21 @@ TEST(JointForces, conserve_linear_momentum_and_where_open_angular_momentum) {
   }
 }
 
+TEST(JointForces, of_mid_edge_points_go_to_the_two_corners_of_each_edge) {
+  JointLawParams law = example_law();
+  law.points = JointPoints::mid_edge;
+  JointPair pair(prepared(law));
+  const double opening = 0.1 * pair.laws[0].onset_normal;
+  const Index node = pair.corner(false, 0);
+  store_node(pair.position.data(), node, load_node(pair.position.data(), node) + Vec3(opening, 0, 0));
+  pair.evaluate();
+  // Half the opening on the two edges at corner 0: of their tractions k opening/2 on A/3 half stays there, a quarter goes to each other.
+  const double whole = pair.laws[0].stiffness * opening * kArea / 3;
+  EXPECT_NEAR(pair.force(true, 0)[0] / (whole / 2), 1.0, 1e-6);
+  EXPECT_NEAR(pair.force(true, 1)[0] / (whole / 4), 1.0, 1e-6);
+  EXPECT_NEAR(pair.force(true, 2)[0] / (whole / 4), 1.0, 1e-6);
+}
+
 TEST(JointForces, turn_with_the_body_and_take_the_same_energy) {
   JointLawParams law = example_law();
   law.friction = 0.6;
@@ -168,7 +184,8 @@ TEST(JointForces, turn_with_the_body_and_take_the_same_energy) {
     moving.evaluate();
     ASSERT_EQ(still.joints.size(), moving.joints.size());
     // Positions are rounded to 1e-17 m on openings whose k times that is some 1e-4 N/m2 a metre: relative to the peak force.
-    for (int i = 0; i < 3; ++i) ASSERT_LT((moving.force(false, i) - turn * still.force(false, i)).norm(), 1e-7 * 866) << step;
+    for (int i = 0; i < 3; ++i)
+      ASSERT_LT((moving.force(false, i) - turn * still.force(false, i)).norm(), 1e-7 * 866) << step;
     if (still.joints.empty()) break;
     ASSERT_NEAR(moving.work.stored, still.work.stored, 1e-7 * kEnergy * kArea);
   }
@@ -221,7 +238,8 @@ TEST(JointForces, crossing_into_damage_keeps_the_budget_to_second_order_in_the_s
   const double onset = law.onset_normal;
   const auto worst = [&](double step) {
     double error = 0;
-    for (double at = 0.05; at < 1; at += 0.1) error = std::max(error, std::abs(crossing_error(law, onset - at * step, onset + (1 - at) * step)));
+    for (double at = 0.05; at < 1; at += 0.1)
+      error = std::max(error, std::abs(crossing_error(law, onset - at * step, onset + (1 - at) * step)));
     return error;
   };
   const double coarse = worst(0.1 * onset), fine = worst(0.05 * onset);

@@ -39,7 +39,8 @@ TEST(JointFriction, shear_under_pressure_peaks_at_mohr_coulomb_and_ends_at_coulo
         point.move_to(opening_of(axes(), closed, 40e-6), 40000);
         EXPECT_EQ(point.history.damage, 1.0);
         // 40,000 steps meet the peak to within one step of the rise.
-        EXPECT_NEAR(point.peak_shear / (law.cohesion + kFriction * pressure), 1.0, 2e-2 * factor / 100 + 1e-3) << factor << ", " << pressure;
+        EXPECT_NEAR(point.peak_shear / (law.cohesion + kFriction * pressure), 1.0, 2e-2 * factor / 100 + 1e-3)
+            << factor << ", " << pressure;
         EXPECT_LE(point.peak_shear, (law.cohesion + kFriction * pressure) * (1 + kRoundOff));
         EXPECT_NEAR(point.traction[0] / (kFriction * pressure), 1.0, kRoundOff);
       }
@@ -71,6 +72,23 @@ TEST(JointFriction, undamaged_joint_has_none) {
   point.move_to(opening_of(axes(), -1e-7, 0), 50);
   EXPECT_EQ(point.dissipated(), 0.0);
   EXPECT_NEAR(point.traction[0], 0.0, kRoundOff * law.cohesion);
+}
+
+TEST(JointFriction, has_no_share_in_the_step_that_starts_the_damage) {
+  // The slip that the first damage finds was not slid.
+  const JointLawParams law = mohr_coulomb(JointLaw::mixed_mode);
+  PointDriver point{law};
+  const double pressure = 5e6, closed = -pressure / law.stiffness;
+  point.move_to(opening_of(axes(), closed, 0), 5);
+  const double limit = (law.cohesion + kFriction * pressure) / law.stiffness;
+  point.step(opening_of(axes(), closed, limit * (1 - 1e-6)));
+  EXPECT_EQ(point.history.damage, 0.0);
+  point.step(opening_of(axes(), closed, limit * 1.1));
+  EXPECT_GT(point.history.damage, 0.0);
+  EXPECT_EQ(point.friction, 0.0);
+  EXPECT_GT(point.mode_2, 0.0);
+  point.step(opening_of(axes(), closed, limit * 1.2));
+  EXPECT_GT(point.friction, 0.0);
 }
 
 /// A point broken in shear under pressure.
@@ -134,12 +152,26 @@ TEST(JointFriction, spring_that_is_let_go_on_opening_is_dissipated_by_friction) 
   EXPECT_NEAR(point.friction - friction, spring, 1e-3 * spring);
 }
 
+TEST(JointFriction, takes_all_that_a_broken_point_dissipates) {
+  const JointLawParams law = mohr_coulomb(JointLaw::mixed_mode);
+  PointDriver point = broken(law, 5e6);
+  const double mode_1 = point.mode_1, mode_2 = point.mode_2, before = point.friction,
+               held = point.work - point.dissipated();
+  // In coarse steps through closing and opening, where the trapezoid knows no mode.
+  for (int i = 0; i < 50; ++i) point.step(opening_of(axes(), (i % 3 - 1) * 1.3e-8, 40e-6 + i * 1e-7));
+  EXPECT_EQ(point.mode_1, mode_1);
+  EXPECT_EQ(point.mode_2, mode_2);
+  EXPECT_NE(point.friction, before);
+  EXPECT_NEAR(point.work - point.dissipated() - point.history.stored(), 0.0, 1e-9 * held);
+}
+
 TEST(JointFriction, rigid_rotation_of_the_joint_changes_nothing_but_directions) {
   const JointLawParams law = mohr_coulomb(JointLaw::mixed_mode);
   for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(0.6, 0, 0.8)}) {
     PointDriver point = broken(law, 5e6);
     const Vec3 opening = point.opening, traction = point.traction;
-    const double dissipated = point.dissipated(), stored = point.history.stored(), friction = point.history.stored_friction;
+    const double dissipated = point.dissipated(), stored = point.history.stored(),
+                 friction = point.history.stored_friction;
     for (int i = 1; i <= 200; ++i) {
       const Mat3 turn = Eigen::AngleAxisd(0.03 * i, axis).toRotationMatrix();
       point.frame = {turn * Vec3(0, 0, 1), {turn * Vec3(1, 0, 0), turn * Vec3(0, 1, 0)}};

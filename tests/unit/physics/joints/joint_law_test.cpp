@@ -55,7 +55,8 @@ TEST(JointLaw, refuses_numbers_and_combinations_without_meaning) {
     return prepare(law);
   };
   EXPECT_THAT(problem([](JointLawParams& l) { l.stiffness = 0; }), HasSubstr("stiffness"));
-  EXPECT_THAT(problem([](JointLawParams& l) { l.stiffness = std::numeric_limits<double>::infinity(); }), HasSubstr("stiffness"));
+  EXPECT_THAT(problem([](JointLawParams& l) { l.stiffness = std::numeric_limits<double>::infinity(); }),
+              HasSubstr("stiffness"));
   EXPECT_THAT(problem([](JointLawParams& l) { l.tensile_strength = -1; }), HasSubstr("tensile"));
   EXPECT_THAT(problem([](JointLawParams& l) { l.cohesion = std::nan(""); }), HasSubstr("shear strength"));
   EXPECT_THAT(problem([](JointLawParams& l) { l.energy_mode_2 = 0; }), HasSubstr("mode II"));
@@ -90,6 +91,7 @@ TEST(JointLaw, below_the_screen_limit_is_elastic_in_every_direction_to_the_last_
   std::normal_distribution<double> part;
   for (int i = 0; i < 10000; ++i) {
     Vec3 opening(part(random), part(random), part(random));
+    if (i == 0) opening = Vec3(0, 0, 1);  // the weakest of all
     opening *= std::sqrt(law.screen_limit()) * (1 - 1e-15) / opening.norm();
     JointPointHistory history;
     const JointPointResponse r = evaluate_point(law, axes(), opening, history);
@@ -125,7 +127,8 @@ TEST(JointLaw, without_strength_it_never_breaks) {
 }
 
 TEST(JointLaw, compression_alone_never_damages) {
-  for (const JointLawParams& law : {prepared(example_law()), test::reference_law(JointRise::linear), test::reference_law(JointRise::parabolic)}) {
+  for (const JointLawParams& law :
+       {prepared(example_law()), test::reference_law(JointRise::linear), test::reference_law(JointRise::parabolic)}) {
     PointDriver point{law};
     point.move_to(Vec3(0, 0, -1e-3), 100);
     EXPECT_EQ(point.history.damage, 0.0);
@@ -142,7 +145,8 @@ TEST(JointLaw, tension_pulls_side_a_towards_b) {
 }
 
 TEST(JointLaw, unloads_to_the_origin_and_reloads_to_where_it_left) {
-  for (const JointLawParams& law : {prepared(example_law()), test::reference_law(JointRise::linear), test::reference_law(JointRise::parabolic)}) {
+  for (const JointLawParams& law :
+       {prepared(example_law()), test::reference_law(JointRise::linear), test::reference_law(JointRise::parabolic)}) {
     for (const Vec3& direction : {Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(1, 0, 1)}) {
       const Vec3 far = direction * (law.onset_normal + 0.3 * law.width_normal);
       PointDriver point{law};
@@ -167,7 +171,8 @@ TEST(JointLaw, damage_never_heals_and_tractions_never_pass_the_strengths) {
   std::normal_distribution<double> part;
   JointLawParams mohr = example_law();
   mohr.friction = 0.7;
-  for (const JointLawParams& law : {prepared(mohr), test::reference_law(JointRise::linear), test::reference_law(JointRise::parabolic)}) {
+  for (const JointLawParams& law :
+       {prepared(mohr), test::reference_law(JointRise::linear), test::reference_law(JointRise::parabolic)}) {
     PointDriver point{law};
     double damage = 0;
     for (int i = 0; i < 20000; ++i) {

@@ -16,7 +16,8 @@ namespace breccia::test {
 inline Mesh two_tetrahedra(int turned_a, int turned_b) {
   const double r = kEdge / std::sqrt(3.0), height = kEdge * std::sqrt(2.0 / 3.0);
   Mesh mesh;
-  for (int i = 0; i < 3; ++i) mesh.nodes.emplace_back(0, r * std::cos(2.0943951023931953 * i), r * std::sin(2.0943951023931953 * i));
+  for (int i = 0; i < 3; ++i)
+    mesh.nodes.emplace_back(0, r * std::cos(2.0943951023931953 * i), r * std::sin(2.0943951023931953 * i));
   mesh.nodes.emplace_back(-height, 0, 0);
   mesh.nodes.emplace_back(height, 0, 0);
   const auto turned = [&](std::array<Index, 4> corners, int turn) {
@@ -29,7 +30,8 @@ inline Mesh two_tetrahedra(int turned_a, int turned_b) {
   for (auto& e : mesh.elements) {
     const auto x = [&](std::size_t c) { return mesh.nodes[static_cast<std::size_t>(e[c])]; };
     const Vec3 u = x(1) - x(0), v = x(2) - x(0), w = x(3) - x(0);
-    if (u.dot(Vec3(v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0])) < 0) std::swap(e[2], e[3]);
+    if (u.dot(Vec3(v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0])) < 0)
+      std::swap(e[2], e[3]);
   }
   mesh.element_group = {0, 0};
   mesh.element_body = {0, 0};
@@ -49,11 +51,15 @@ struct JointPair {
   NodalForces forces;
   JointWork work;
 
-  explicit JointPair(const JointLawParams& law, Discretisation kind = Discretisation::own_nodes, int turned_a = 0, int turned_b = 0)
+  explicit JointPair(const JointLawParams& law, Discretisation kind = Discretisation::own_nodes, int turned_a = 0,
+                     int turned_b = 0)
       : JointPair(law, two_tetrahedra(turned_a, turned_b), kind) {}
 
   JointPair(const JointLawParams& law, const Mesh& mesh, Discretisation kind)
-      : laws{law}, local(build_local_mesh(mesh, {kind}, {1000.0})), position(local.reference), forces(local.num_own_blocks(), local.num_nodes) {
+      : laws{law},
+        local(build_local_mesh(mesh, {kind}, {1000.0})),
+        position(local.reference),
+        forces(local.num_own_blocks(), local.num_nodes) {
     const std::vector<JointFace> faces = find_joints(mesh, build_topology(mesh));
     EXPECT_EQ(faces.size(), 1U);
     virgin.id = 7;
@@ -78,7 +84,8 @@ struct JointPair {
     for (const Index slot : {virgin.slot_a, virgin.slot_b}) {
       for (int c = 0; c < 4; ++c) {
         const Index node = local.corner_node(slot, c);
-        store_node(position.data(), node, load_node(position.data(), node) + size * Vec3(part(random), part(random), part(random)));
+        store_node(position.data(), node,
+                   load_node(position.data(), node) + size * Vec3(part(random), part(random), part(random)));
       }
     }
   }
@@ -88,8 +95,10 @@ struct JointPair {
   }
 
   [[nodiscard]] Index corner(bool side_a, int i) const {
-    return side_a ? local.corner_node(virgin.slot_a, kFaceCorners[static_cast<std::size_t>(virgin.face_a)][static_cast<std::size_t>(i)])
-                  : local.corner_node(virgin.slot_b, matching_corner(virgin.code, i));
+    return side_a
+               ? local.corner_node(virgin.slot_a,
+                                   kFaceCorners[static_cast<std::size_t>(virgin.face_a)][static_cast<std::size_t>(i)])
+               : local.corner_node(virgin.slot_b, matching_corner(virgin.code, i));
   }
   [[nodiscard]] Vec3 force(bool side_a, int i) const { return forces.get(corner(side_a, i)); }
   [[nodiscard]] Vec3 place(bool side_a, int i) const { return load_node(position.data(), corner(side_a, i)); }

@@ -8,8 +8,8 @@
 namespace breccia {
 namespace {
 
-constexpr double kRoundOff = 1e-13;     // some operations on numbers of order one
-constexpr double kMidpointError = 1e-9; // of a sum with 200,000 strips over these curves
+constexpr double kRoundOff = 1e-13;      // some operations on numbers of order one
+constexpr double kMidpointError = 1e-9;  // of a sum with 200,000 strips over these curves
 
 /// The published curve, term by term.
 double published(double a, double b, double c, double d) {
@@ -51,12 +51,14 @@ TEST(Softening, z_curve_leaves_the_peak_without_a_kink_and_falls_fastest_at_0_14
 }
 
 TEST(Softening, areas_are_those_of_the_curves_for_whole_and_broken_exponents) {
-  for (const Softening& s : {Softening{SofteningShape::z_curve, 0.63, 1.8, 6.0, 0}, Softening{SofteningShape::z_curve, 0.63, 1.8, 5.5, 0},
-                             Softening{SofteningShape::z_curve, 0.63, 1.8, 30.0, 0}, Softening{SofteningShape::z_curve, 1.2, 10.0, 7.3, 0},
-                             Softening{SofteningShape::z_curve, 0.5, 0.501, 2.0, 0}, Softening{SofteningShape::linear, 0, 0, 0, 0},
-                             Softening{SofteningShape::exponential, 0, 0, 0, 5.0}, Softening{SofteningShape::exponential, 0, 0, 0, 1e-3}}) {
+  for (const Softening& s :
+       {Softening{SofteningShape::z_curve, 0.63, 1.8, 6.0, 0}, Softening{SofteningShape::z_curve, 0.63, 1.8, 5.5, 0},
+        Softening{SofteningShape::z_curve, 0.63, 1.8, 30.0, 0}, Softening{SofteningShape::z_curve, 1.2, 10.0, 7.3, 0},
+        Softening{SofteningShape::z_curve, 0.5, 0.501, 2.0, 0}, Softening{SofteningShape::linear, 0, 0, 0, 0},
+        Softening{SofteningShape::exponential, 0, 0, 0, 5.0}, Softening{SofteningShape::exponential, 0, 0, 0, 1e-3}}) {
     const SofteningCurve z(s);
-    EXPECT_NEAR(z.area(), area_by_strips(z), kMidpointError * std::fmax(1.0, s.c)) << "a, b, c, s = " << s.a << ' ' << s.b << ' ' << s.c << ' ' << s.exponent;
+    EXPECT_NEAR(z.area(), area_by_strips(z), kMidpointError * std::fmax(1.0, s.c))
+        << "a, b, c, s = " << s.a << ' ' << s.b << ' ' << s.c << ' ' << s.exponent;
   }
 }
 
@@ -68,17 +70,18 @@ TEST(Softening, exponential_area_does_not_jump_where_its_series_takes_over) {
 
 TEST(Softening, accepts_curves_that_fall_from_1_to_0) {
   EXPECT_EQ(softening_problem(Softening{}), "");
-  EXPECT_EQ(softening_problem(Softening{SofteningShape::z_curve, 0.4, 0.6, 3.0, 0}), "");  // a + b = 1: the exponential's limit
+  EXPECT_EQ(softening_problem(Softening{SofteningShape::z_curve, 0.4, 0.6, 3.0, 0}),
+            "");  // a + b = 1: the exponential's limit
   EXPECT_EQ(softening_problem(Softening{SofteningShape::linear, 0, 0, 0, 0}), "");
   EXPECT_EQ(softening_problem(Softening{SofteningShape::exponential, 0, 0, 0, 5.0}), "");
 }
 
 TEST(Softening, refuses_what_is_no_softening_curve) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(softening_problem(Softening{SofteningShape::z_curve, 0.63, 1.8, 0.0, 0}), "");   // does not end at 0
-  EXPECT_NE(softening_problem(Softening{SofteningShape::z_curve, 3.0, -1.5, 6.0, 0}), "");   // rises
+  EXPECT_NE(softening_problem(Softening{SofteningShape::z_curve, 0.63, 1.8, 0.0, 0}), "");  // does not end at 0
+  EXPECT_NE(softening_problem(Softening{SofteningShape::z_curve, 3.0, -1.5, 6.0, 0}), "");  // rises
   EXPECT_NE(softening_problem(Softening{SofteningShape::z_curve, nan, 1.8, 6.0, 0}), "");
-  EXPECT_NE(softening_problem(Softening{SofteningShape::exponential, 0, 0, 0, 0.0}), "");    // 0/0
+  EXPECT_NE(softening_problem(Softening{SofteningShape::exponential, 0, 0, 0, 0.0}), "");  // 0/0
   EXPECT_NE(softening_problem(Softening{SofteningShape::z_curve, 0.0, 0.0, 6.0, 0}), "");
 }
 
