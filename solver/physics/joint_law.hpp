@@ -17,7 +17,7 @@ enum class JointPoints { nodal, mid_edge };
 
 /// Cohesive law of a joint. Opening delta = x_b - x_a, m; n points from a to b; delta_n = delta . n, tension positive;
 /// delta_s = delta - delta_n n; traction t acts on side a, -t on side b, Pa: tension pulls the sides together. One
-/// stiffness k for both components, so that t is parallel to delta wherever the joint is open. Compression is elastic:
+/// stiffness k for both components: mixed_mode's t is parallel to delta wherever the joint is open. Compression is elastic:
 /// sigma = k delta_n, p = <-sigma> its pressure. Damage never heals. A is the area under z(D).
 ///
 /// mixed_mode, history d (0..1); mu = tan(phi); the shear strength is Mohr-Coulomb's, f_s = c + mu p:
