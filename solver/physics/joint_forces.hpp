@@ -54,12 +54,12 @@ struct JointWork {
   std::vector<ReleasedJoint> released;      ///< in the last step, ascending
 };
 
-/// Forces of the active joints, in the order given (ascending ids), added to both sides; histories are brought up to date.
-/// On each corner i of the face of a: +A0/3 t_i, on the matching corner of b the opposite; with mid-edge points each
-/// force goes to the two corners of its edge in halves. n is the unit normal of the mid-surface.
+/// Forces of the active joints, in the order given (ascending ids), added to both sides; histories are brought up to
+/// date. On each corner i of the face of a: +A0/3 t_i, on the matching corner of b the opposite; with mid-edge points
+/// each force goes to the two corners of its edge in halves. n is the unit normal of the mid-surface.
 ///
-/// A joint fails when points_to_fail points are at damage 1; the others lose what they hold in the same step. Failed, it
-/// remains a frictional interface while it is closed (sigma = k delta_n, Coulomb friction). When all its corners are
+/// A joint fails when points_to_fail points are at damage 1; the others lose what they hold in the same step. Failed,
+/// it remains a frictional interface while it is closed (sigma = k delta_n, Coulomb friction). When all its corners are
 /// open at once it is released: it carries no force and holds no energy from then on and is taken off the list.
 /// O(joints), allocates only when joints fail, throws nothing.
 void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& mesh, const double* position,
@@ -71,8 +71,8 @@ void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& 
 void virgin_forces(const JointLawParams& law, const LocalMesh& mesh, const double* position, const ActiveJoint& joint,
                    bool side_a, double* force);
 
-/// Gives joints that have just left the elastic range their histories at x_n and books what they dissipate, with the forces
-/// that virgin_forces gave (evaluate_point says what a first evaluation books).
+/// Gives joints that have just left the elastic range their histories at x_n and books what they dissipate, with the
+/// forces that virgin_forces gave (evaluate_point says what a first evaluation books).
 void start_history(std::span<const JointLawParams> laws, const LocalMesh& mesh, const double* position,
                    std::span<ActiveJoint> joints, JointWork& work);
 

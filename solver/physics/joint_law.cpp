@@ -48,7 +48,8 @@ struct Left {
   [[nodiscard]] double shear() const { return z * secant_shear; }
 };
 
-/// Takes the damage of an opening. Returns the share of the opening, along its ray, at which the elastic range ends; at most 1.
+/// Takes the damage of an opening. Returns the share of the opening, along its ray, at which the elastic range ends; at
+/// most 1.
 double grow_mixed_mode(const JointLawParams& law, const Components& c, JointPointHistory& h) {
   const double coulomb = law.friction * c.pressure;
   const double onset_shear = (law.cohesion + coulomb) / law.stiffness;
@@ -145,8 +146,8 @@ Answer answer_of(const JointLawParams& law, const Components& c, const Left& lef
   return answer;
 }
 
-/// Friction of the damaged share: moves the slip so that the spring stays within Coulomb's limit. Returns what friction of the
-/// last state and this one, in the mean, dissipates on this slip.
+/// Friction of the damaged share: moves the slip so that the spring stays within Coulomb's limit. Returns what friction
+/// of the last state and this one, in the mean, dissipates on this slip.
 double slide(const JointLawParams& law, const JointFrame& frame, const Components& c, double weight,
              JointPointHistory& h, Answer& answer) {
   const double limit = law.friction * c.pressure / law.stiffness;

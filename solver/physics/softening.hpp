@@ -26,8 +26,8 @@ class SofteningCurve {
 
   /// z(D). @pre 0 <= D <= 1
   [[nodiscard]] double operator()(double damage) const;
-  /// Area under z over 0 <= D <= 1: 0.3863073 for a, b, c = 0.63, 1.8, 6. The z-curve by its closed form where c is whole
-  /// and the recursion is stable, else by Gauss-Legendre quadrature to round-off.
+  /// Area under z over 0 <= D <= 1: 0.3863073 for a, b, c = 0.63, 1.8, 6. The z-curve by its closed form where c is
+  /// whole and the recursion is stable, else by Gauss-Legendre quadrature to round-off.
   [[nodiscard]] double area() const;
 
  private:

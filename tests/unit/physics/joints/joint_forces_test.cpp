@@ -156,7 +156,8 @@ TEST(JointForces, of_mid_edge_points_go_to_the_two_corners_of_each_edge) {
   const Index node = pair.corner(false, 0);
   store_node(pair.position.data(), node, load_node(pair.position.data(), node) + Vec3(opening, 0, 0));
   pair.evaluate();
-  // Half the opening on the two edges at corner 0: of their tractions k opening/2 on A/3 half stays there, a quarter goes to each other.
+  // Half the opening on the two edges at corner 0: of their tractions k opening/2 on A/3 half stays there, a quarter
+  // goes to each other.
   const double whole = pair.laws[0].stiffness * opening * kArea / 3;
   EXPECT_NEAR(pair.force(true, 0)[0] / (whole / 2), 1.0, 1e-6);
   EXPECT_NEAR(pair.force(true, 1)[0] / (whole / 4), 1.0, 1e-6);
@@ -183,7 +184,8 @@ TEST(JointForces, turn_with_the_body_and_take_the_same_energy) {
     }
     moving.evaluate();
     ASSERT_EQ(still.joints.size(), moving.joints.size());
-    // Positions are rounded to 1e-17 m on openings whose k times that is some 1e-4 N/m2 a metre: relative to the peak force.
+    // Positions are rounded to 1e-17 m on openings whose k times that is some 1e-4 N/m2 a metre: relative to the peak
+    // force.
     for (int i = 0; i < 3; ++i)
       ASSERT_LT((moving.force(false, i) - turn * still.force(false, i)).norm(), 1e-7 * 866) << step;
     if (still.joints.empty()) break;

@@ -180,7 +180,8 @@ TEST(JointFriction, rigid_rotation_of_the_joint_changes_nothing_but_directions) 
     }
     EXPECT_NEAR(point.history.stored(), stored, 1e-9 * stored);
     EXPECT_NEAR(point.history.stored_friction, friction, 1e-9 * friction);
-    // About n tau turns with delta_s, to which it is parallel. About other axes the couple delta x t of pressure and slip works.
+    // About n tau turns with delta_s, to which it is parallel. About other axes the couple delta x t of pressure and
+    // slip works.
     if (axis == Vec3(0, 0, 1)) {
       EXPECT_NEAR(point.dissipated(), dissipated, 1e-9 * dissipated);
     }

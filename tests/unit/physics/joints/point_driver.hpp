@@ -44,7 +44,8 @@ inline Vec3 opening_of(const JointFrame& frame, double normal, double shear) {
   return normal * frame.normal + shear * frame.tangent[0];
 }
 
-/// Leads one point along a path and adds up the work done on it, J/m2, by the trapezoid rule, apart from what the law books.
+/// Leads one point along a path and adds up the work done on it, J/m2, by the trapezoid rule, apart from what the law
+/// books.
 struct PointDriver {
   const JointLawParams& law;
   JointFrame frame = axes();
