@@ -97,6 +97,7 @@ int main(int argc, char** argv) {
   }
   std::signal(SIGINT, stop_handler);
   std::signal(SIGTERM, stop_handler);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file over its limit is an error of the write, told with the file's name
   try {
     return dispatch(app, arguments, argc, argv);
   } catch (const InputError& error) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "physics/contact/contact_field.hpp"
 #include "physics/contact/friction.hpp"
@@ -56,7 +57,8 @@ class Pass {
   [[nodiscard]] Vec3 relative_motion(const ContactPoint& point, Index slot, const std::array<double, 4>& lambda) const;
   [[nodiscard]] double first_offset(Index point, const Candidate& candidate) const;
   void follow(const ContactLaw& law, double scale, double length, const Candidate& candidate, TouchingCouple& h);
-  void act(Index point, const Candidate& candidate);
+  void keep_step(const ContactPoint& point, Index slot, double g_old, Candidate& candidate) const;
+  void act(Index point, Candidate& candidate);
   void press(const ContactLaw& law, const ContactPoint& point, Index slot, double length, const Candidate& candidate,
              TouchingCouple& h);
   void distribute(const ContactPoint& point, const Candidate& candidate, const Vec3& force);
@@ -139,13 +141,17 @@ void Pass::prepare_contactors() {
 
 void Pass::push_back_into_sphere() {
   const SphericalBoundary& sphere = *params_.sphere;
+  contact_.boundary_offset.resize(contact_.points.size(), std::numeric_limits<double>::infinity());
   for (const Index index : contact_.order) {
     const ContactPoint& point = point_at(index);
     const Vec3 from_centre = at_point(rule_, point, state_.position.data()) - sphere.centre;
     const double r = from_centre.norm();
-    if (!(r > sphere.radius)) continue;
+    // A point that comes into being outside, on a face freed by fracture, is not thrown back with energy from nowhere.
+    double& offset = contact_.boundary_offset[static_cast<std::size_t>(index)];
+    offset = std::min(offset, std::max(r - sphere.radius, 0.0));
+    const double beyond = r - sphere.radius - offset;
+    if (!(beyond > 0)) continue;
     const double stiffness = point.weight * sphere.penalty / length_of(point.slot);
-    const double beyond = r - sphere.radius;
     const Vec3 force = (-stiffness * beyond / r) * from_centre;
     const std::array<double, 3>& shape = rule_.shape[static_cast<std::size_t>(point.k)];
     for (std::size_t i = 0; i < 3; ++i) forces_.add(point.nodes[i], shape[i] * force);
@@ -169,7 +175,7 @@ void Pass::consider(Index contactor, const std::array<double, 4>& lambda) {
 void Pass::touch_point(Index point) {
   if (candidates_.size() > 1) drop_ambiguous();
   find_histories(point);
-  for (const Candidate& candidate : candidates_) act(point, candidate);
+  for (Candidate& candidate : candidates_) act(point, candidate);
 }
 
 /// A point on the border of neighbouring elements is inside all of them (kInside): the first one counts.
@@ -284,7 +290,14 @@ void Pass::follow(const ContactLaw& law, double scale, double length, const Cand
   work_.dissipated.add(scale * (stored - normal_law::stored(law, h.d, h.d_max)));
 }
 
-void Pass::act(Index index, const Candidate& candidate) {
+/// A point that moves on into another element finds the field it leaves only while the two are bonded. What the overlap
+/// changes by more than the point has moved (the field's slope is below 2) is a change of field, not of place.
+void Pass::keep_step(const ContactPoint& point, Index slot, double g_old, Candidate& candidate) const {
+  const double reach = 2.0 * relative_motion(point, slot, candidate.lambda).norm();
+  candidate.g_before = std::clamp(candidate.g_before, g_old - reach, g_old + reach);
+}
+
+void Pass::act(Index index, Candidate& candidate) {
   const ContactPoint& point = point_at(index);
   const Index slot = slot_of(candidate.contactor);
   const ContactLaw& law = law_of(index, candidate.contactor);
@@ -292,6 +305,7 @@ void Pass::act(Index index, const Candidate& candidate) {
   TouchingCouple& h = contact_.touching.emplace_back();
   if (candidate.old >= 0) {
     h = contact_.touching_before[static_cast<std::size_t>(candidate.old)];
+    if (h.contactor != candidate.contactor) keep_step(point, slot, h.d * length + h.offset, candidate);
   } else {
     h.offset = first_offset(index, candidate);
   }

@@ -66,6 +66,7 @@ struct ContactState {
   // History and forces of the last step.
   std::vector<TouchingCouple> touching;  ///< by (point id, contactor)
   std::vector<BoundaryForce> boundary;   ///< by point id
+  std::vector<double> boundary_offset;   ///< (points) m outside the sphere without force: where the point was first seen
 
   // Scratch, worth keeping only for its storage.
   std::vector<TouchingCouple> touching_before;
