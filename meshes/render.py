@@ -1,6 +1,7 @@
 """Picture of a run: pvbatch meshes/render.py RUN_FOLDER OUT.png [options]
 
-Draws what was the bodies' surface before anything broke in the colour of a field, fracture surfaces and cracks dark. Needs an X display; without one: xvfb-run -a -s "-screen 0 1600x1000x24 -noreset" pvbatch meshes/render.py ...
+Draws what was the bodies' surface before anything broke in the colour of a field, fracture surfaces and cracks dark.
+Needs an X display; without one: xvfb-run -a -s "-screen 0 1600x1000x24 -noreset" pvbatch meshes/render.py ...
 """
 import argparse
 import json
@@ -32,8 +33,7 @@ FIELDS = {  # title, unit, the unit in SI
     "von_mises": ("von Mises", "MPa", 1e6),
     "speed": ("speed", "m/s", 1.0),
     "damage": ("joint damage", "", 1.0),
-    "fragment": None,
-    "body": None,
+    "fragment": None, "body": None,
 }
 VIEWS = {  # from where, what is up
     "front": ((0, 0, 1), (0, 1, 0)),
@@ -71,7 +71,7 @@ def parse_arguments():
     parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),
                         help="of the colours, in the unit shown; less damaged joints than LOW are left out")
     parser.add_argument("--explode", type=float, default=1.0, metavar="FACTOR",
-                        help="every fragment is moved by its mean displacement times this, to show them apart (default 1: as it is)")
+                        help="fragments move this times as far as they did, which shows them apart")
     parser.add_argument("--hide", type=int, action="append", default=[], metavar="BODY", help="leave out this body (repeatable)")
     arguments = parser.parse_args()
     try:
@@ -84,7 +84,6 @@ def parse_arguments():
 
 
 # ---- reading ----------------------------------------------------------------------------------------------------
-
 def series(run, part):
     """[(time, file)] of the complete frames."""
     folder = os.path.join(run, "frames")
@@ -95,10 +94,6 @@ def series(run, part):
         if part == "elements":
             stop(f"{run} holds no frames of elements: {error.strerror}")
         return []
-
-
-def nearest(frames, time):
-    return frames[-1] if time is None else min(frames, key=lambda frame: abs(frame[0] - time))
 
 
 def read(file):
@@ -116,7 +111,6 @@ def read(file):
 
 
 # ---- geometry ---------------------------------------------------------------------------------------------------
-
 def point_numbers(points):
     """The same number for points at the same place (to 1e-6 of an element's size)."""
     size = np.median(np.ptp(points, axis=1).max(axis=1))
@@ -130,7 +124,6 @@ def point_numbers(points):
 
 def outer_faces(numbers, fragment):
     """(num_elements, 4) True for the faces that no other element of the same fragment shares.
-
     numbers: of the elements' corners in the first frame. Every element has corners of its own, so whether two of them
     share a face is asked there, where their corners still lie in the same places."""
     corners = np.sort(numbers[:, FACES], axis=2).reshape(-1, 3)
@@ -144,7 +137,6 @@ def outer_faces(numbers, fragment):
 
 def edges_between(numbers, points, surface, fragment):
     """Edges of surface faces along which the fragment changes, and those where the surface has a sharp bend.
-
     Each as (elements, ends): an edge from corner ends[:, 0] to ends[:, 1] of an element, once for either side."""
     elements, faces = np.nonzero(surface)
     corners = FACES[faces]
@@ -173,17 +165,13 @@ def polydata(corners, values=None):
     cells.SetData(numpy_to_vtkIdTypeArray(np.arange(0, k * n + 1, k), deep=1), numpy_to_vtkIdTypeArray(np.arange(k * n), deep=1))
     surface = vtkPolyData()
     surface.SetPoints(points)
-    if k == 2:
-        surface.SetLines(cells)
-    else:
-        surface.SetPolys(cells)
+    (surface.SetLines if k == 2 else surface.SetPolys)(cells)
     if values is not None:
         surface.GetCellData().SetScalars(numpy_to_vtk(np.ascontiguousarray(values, dtype=float), deep=1))
     return surface
 
 
 # ---- colours ----------------------------------------------------------------------------------------------------
-
 def table_of(stops, low, high):
     """256 colours between the stops (position 0..1, red, green, blue)."""
     function = vtkColorTransferFunction()
@@ -221,7 +209,6 @@ def rounded_up(value):
 
 
 # ---- scene ------------------------------------------------------------------------------------------------------
-
 def actor_of(surface, table=None, colour=None):
     mapper = vtkPolyDataMapper()
     mapper.SetInputData(surface)
@@ -305,9 +292,8 @@ def label(text, height, x, y, bold=False):
 
 
 def aim(renderer, points, view, aspect):
-    """Turns the camera so that the points fill the picture's left nine tenths; the colour bar has the rest.
-
-    Returns the height of the picture, m."""
+    """Turns the camera so that the points fill the picture's left nine tenths; the colour bar has the rest. Returns
+    the height of the picture, m."""
     towards, up = (np.array(v, dtype=float) for v in VIEWS[view])
     towards /= np.linalg.norm(towards)
     right = np.cross(up, towards)
@@ -383,7 +369,8 @@ def build(arguments):
     frames = series(arguments.run, "elements")
     if not frames:
         stop(f"{arguments.run} holds no complete frame")
-    time, file = nearest(frames, arguments.time)
+    wanted = frames[-1][0] if arguments.time is None else arguments.time
+    time, file = min(frames, key=lambda frame: abs(frame[0] - wanted))
     reference, first = read(frames[0][1])
     now, arrays = read(file)
     if len(now) == 0 or len(reference) != len(now) or not np.array_equal(first["id"], arrays["id"]):
@@ -418,8 +405,8 @@ def build(arguments):
     if arguments.field == "damage":
         surface.GetProperty().SetOpacity(0.35)
     broken = add_joints(renderer, arguments, time, table, line, 3 * tall / arguments.pixels[1])
-    texts = (f"t = {time_text(time)}", f"{len(np.unique(arrays['fragment'][shown])):,} fragments",
-             f"{broken:,} broken joints")
+    fragments = len(np.unique(arrays["fragment"][shown]))
+    texts = (f"t = {time_text(time)}", f"{fragments:,} fragments", f"{broken:,} broken joints")
     for i, text in enumerate(texts):
         renderer.AddViewProp(label(text, height, 0.03, 0.945 - 0.036 * i, bold=i == 0))
     renderer.ResetCameraClippingRange()
