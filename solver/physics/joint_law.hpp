@@ -33,10 +33,10 @@ enum class JointPoints { nodal, mid_edge };
 /// come on top of a cohesive part that contains it already, with peaks of up to 1.4 (c + mu p).
 ///
 /// independent_peaks, histories D, s_n, s_s: sigma rises to f_t and tau to f_s on their own (linear: at f/k;
-///   parabolic: at 2 f/k), D = max(D, sqrt((<delta_n - d_nt>/D_n)^2 + (<|delta_s| - d_st>/D_s)^2)); both are multiplied by
-///   z(D). A component that has passed its peak follows its secant: sigma = z s_n k delta_n, tau = z s_s k delta_s with s_n the
-///   least of f_t/(k delta_n) and s_s the least of c/(k |delta_s| - mu p) so far. The same friction with weight 1 - z
-///   s_s; none with the parabolic rise.
+///   parabolic: at 2 f/k), D = max(D, sqrt((<delta_n - d_nt>/D_n)^2 + (<|delta_s| - d_st>/D_s)^2)); z(D) multiplies both.
+///   A component that has passed its peak follows its secant: sigma = z s_n k delta_n, tau = z s_s k delta_s with s_n
+///   the least of f_t/(k delta_n) and s_s the least of c/(k |delta_s| - mu p) so far. The same friction with weight
+///   1 - z s_s; none with the parabolic rise.
 /// Both laws have a stored energy whose derivative is the traction and whose parameters only ever lower it, so no
 /// closed loop creates energy.
 /// Source: [Schiava 2012, 3.5]; mixed mode after [Camanho 2003]; friction after [Alfano 2006].
