@@ -24,6 +24,8 @@ Index corner_b(const LocalMesh& mesh, const ActiveJoint& joint, std::size_t i) {
 struct Kinematics {
   Triple opening;    // at the corners
   JointFrame frame;  // of the mid-surface
+  std::array<Vec3, 2> edge;  // of the mid-surface, from its corner 0 to 1 and 2
+  double doubled_area = 0;
 };
 
 Kinematics kinematics(const JointLawParams& law, const LocalMesh& mesh, const double* position,
@@ -35,10 +37,11 @@ Kinematics kinematics(const JointLawParams& law, const LocalMesh& mesh, const do
     k.opening[i] = b - a;
     middle[i] = 0.5 * (a + b);
   }
-  const Vec3 edge = middle[1] - middle[0];
-  k.frame.normal = edge.cross(middle[2] - middle[0]);
-  const double length = k.frame.normal.norm();
-  if (length > 0) k.frame.normal *= 1.0 / length;
+  k.edge = {middle[1] - middle[0], middle[2] - middle[0]};
+  const Vec3& edge = k.edge[0];
+  k.frame.normal = edge.cross(k.edge[1]);
+  k.doubled_area = k.frame.normal.norm();
+  if (k.doubled_area > 0) k.frame.normal *= 1.0 / k.doubled_area;
   if (law.friction > 0) {
     const double edge_length = edge.norm();
     if (edge_length > 0) k.frame.tangent[0] = edge * (1.0 / edge_length);
@@ -119,6 +122,39 @@ Triple evaluate_and_book(const JointLawParams& law, const Kinematics& k, ActiveJ
   return force;
 }
 
+/// What turning the mid-surface does to a closed joint that has slid: its normal energy k d delta_n^2 / 2 beyond the isotropic
+/// part depends on the normal. T = sum A0/3 k d delta_n delta_s, N: dU = T . dn.
+Vec3 tilting(const JointLawParams& law, const Kinematics& k, const ActiveJoint& joint) {
+  Vec3 tilt = Vec3::Zero();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const JointPointHistory& p = joint.points[i];
+    const double share = law.law == JointLaw::mixed_mode ? p.damage : (p.damage >= 1.0 ? 1.0 : 0.0);
+    if (share <= 0 || p.normal_opening >= 0) continue;
+    const Vec3 shear = p.opening - p.normal_opening * k.frame.normal;
+    tilt += joint.area / 3.0 * law.stiffness * share * p.normal_opening * shear;
+  }
+  return tilt;
+}
+
+/// Forces on the three pairs of corners that go with `tilt`, so that forces are the gradient of the energy also after a long
+/// slip, and books their work. Each of a pair gets half of -dU/dm, m the corner of the mid-surface.
+Triple tilting_forces(const Kinematics& k, const Vec3& tilt, ActiveJoint& joint, JointWork& work) {
+  if (joint.turned) {
+    const double turning = 0.5 * (joint.tilt + tilt).dot(k.frame.normal - joint.normal);
+    joint.friction += turning;
+    work.friction.add(turning);
+  }
+  joint.turned = true;
+  joint.tilt = tilt;
+  joint.normal = k.frame.normal;
+  Triple force{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  if (k.doubled_area <= 0) return force;
+  force[1] = k.edge[1].cross(tilt) * (-0.5 / k.doubled_area);
+  force[2] = tilt.cross(k.edge[0]) * (-0.5 / k.doubled_area);
+  force[0] = -(force[1] + force[2]);
+  return force;
+}
+
 /// At the corners, and so at mid-edge points too.
 bool open_everywhere(const Kinematics& k) {
   return std::all_of(k.opening.begin(), k.opening.end(), [&](const Vec3& o) { return o.dot(k.frame.normal) > 0; });
@@ -163,9 +199,10 @@ void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& 
       continue;
     }
     held.add(stored(joint));
+    const Triple turning = tilting_forces(k, tilting(law, k, joint), joint, work);
     for (std::size_t i = 0; i < 3; ++i) {
-      forces.add(corner_a(mesh, joint, i), force[i]);
-      forces.add(corner_b(mesh, joint, i), -force[i]);
+      forces.add(corner_a(mesh, joint, i), force[i] + turning[i]);
+      forces.add(corner_b(mesh, joint, i), turning[i] - force[i]);
     }
   }
   work.stored = held.value();

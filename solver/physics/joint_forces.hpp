@@ -31,6 +31,9 @@ struct ActiveJoint {
   double area = 0;  ///< m2, reference
   std::array<JointPointHistory, 3> points;
   double mode_1 = 0, mode_2 = 0, friction = 0;  ///< J dissipated so far
+  // The last evaluation's moment of a closed joint that has slid, N, and normal; for its work.
+  bool turned = false;
+  Vec3 tilt{0, 0, 0}, normal{0, 0, 0};
 
   [[nodiscard]] double damage() const;   ///< largest of the points
   [[nodiscard]] double opening() const;  ///< m, mean normal opening
