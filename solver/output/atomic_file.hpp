@@ -11,7 +11,8 @@
 namespace breccia {
 
 /// OutputError that reads "path: what: text of error_number" (an errno value; 0 leaves the last part out).
-[[nodiscard]] OutputError output_error(const std::filesystem::path& path, const std::string& what, int error_number = 0);
+[[nodiscard]] OutputError output_error(const std::filesystem::path& path, const std::string& what,
+                                       int error_number = 0);
 
 /// Replaces the whole file `path` at once: a reader, and a run killed at any instant, sees the old content or the new
 /// one, never a part. Writes `.name.tmp` in the same folder, syncs it to the disk, renames it and syncs the folder.
@@ -26,8 +27,8 @@ struct FileContent {
   std::span<const std::byte> content;
 };
 
-/// Several files of one folder, which is synced once for all of them: all are on the disk before the first one is renamed, and
-/// they are renamed in the order given, so a file never refers to a later one that is missing.
+/// Several files of one folder, which is synced once for all of them. All are on the disk before the first one is
+/// renamed, and they are renamed in the order given: an index comes after what it lists.
 /// @throws OutputError as above; no temporary stays, files renamed before the failure are complete.
 void write_files_atomically(std::span<const FileContent> files);
 

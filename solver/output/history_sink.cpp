@@ -27,8 +27,8 @@ struct Vector {
   const char* unit;
   Vec3 HistoryRow::*value;
 };
-constexpr std::array<Vector, 2> kVectors{{{"momentum", "kg m/s", &HistoryRow::momentum},
-                                          {"angular momentum", "kg m2/s", &HistoryRow::angular_momentum}}};
+constexpr std::array<Vector, 2> kVectors{
+    {{"momentum", "kg m/s", &HistoryRow::momentum}, {"angular momentum", "kg m2/s", &HistoryRow::angular_momentum}}};
 
 struct GaugeVector {
   const char* name;
@@ -89,7 +89,8 @@ std::vector<std::string> history_columns(const std::vector<std::string>& gauges)
   columns.emplace_back("sum of |stress yy| [Pa]");
   for (const std::string& gauge : gauges) {
     for (const GaugeVector& vector : kGaugeVectors) {
-      for (const char axis : kAxes) columns.push_back(fmt::format("{} {} {} [{}]", gauge, vector.name, axis, vector.unit));
+      for (const char axis : kAxes)
+        columns.push_back(fmt::format("{} {} {} [{}]", gauge, vector.name, axis, vector.unit));
     }
   }
   return columns;

@@ -16,8 +16,8 @@ namespace breccia {
 [[nodiscard]] std::vector<std::string> history_columns(const std::vector<std::string>& gauges);
 
 /// `history.csv`: a header line, then one line a row, numbers with 17 significant digits (they read back as the same
-/// doubles; not-a-number is written nan). Names that hold a comma or quote are quoted as RFC 4180 asks. Every line is handed to the
-/// system at once, so a killed run keeps all of them.
+/// doubles; not-a-number is written nan). Names that hold a comma or quote are quoted as RFC 4180 asks. Every line is
+/// handed to the system at once, so a killed run keeps all of them.
 class HistorySink final : public Sink {
  public:
   explicit HistorySink(std::filesystem::path file) : path_(std::move(file)) {}

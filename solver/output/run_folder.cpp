@@ -90,7 +90,8 @@ RunFolder prepare_run_folder(const fs::path& root, const std::string& resolved_c
   const RunFolder folder{root};
   create_folder(root);
   if (!holds_nothing(root) && !is_run(folder)) {
-    refuse(root, "this folder holds other things than a run of breccia", "an empty or new folder, or one of an earlier run");
+    refuse(root, "this folder holds other things than a run of breccia",
+           "an empty or new folder, or one of an earlier run");
   }
   const std::vector<fs::path> results = results_in(folder);
   if (!results.empty() && old_results == OldResults::refuse) {

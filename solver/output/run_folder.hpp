@@ -8,13 +8,13 @@ namespace breccia {
 
 /// Where a result came from: `provenance.json`.
 struct Provenance {
-  std::string version;       ///< of the program
-  std::string host;          ///< name of the machine
-  std::string processor;     ///< model
-  int cores = 0;             ///< hardware threads
-  std::string compiler;      ///< name and version
-  std::string flags;         ///< build type and options
-  std::string started;       ///< UTC, ISO 8601
+  std::string version;    ///< of the program
+  std::string host;       ///< name of the machine
+  std::string processor;  ///< model
+  int cores = 0;          ///< hardware threads
+  std::string compiler;   ///< name and version
+  std::string flags;      ///< build type and options
+  std::string started;    ///< UTC, ISO 8601
   std::vector<std::string> command_line;
 };
 

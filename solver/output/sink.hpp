@@ -18,14 +18,14 @@ struct RunStart {
 /// How far a run has come. SI.
 struct StatusLine {
   std::int64_t step = 0;
-  std::int64_t steps_total = 0;     ///< expected, at the present step size
-  double time = 0;                  ///< s, simulated
-  double end = 0;                   ///< s, simulated
-  double share = 0;                 ///< 0..1 of the run
-  double element_steps_per_s = 0;   ///< since the run's start or over the last interval, as the caller likes
-  double wall_s = 0;                ///< since the run's start
-  double eta_s = 0;                 ///< wall time still to go; negative or NaN: unknown
-  double energy_residual = 0;       ///< relative
+  std::int64_t steps_total = 0;    ///< expected, at the present step size
+  double time = 0;                 ///< s, simulated
+  double end = 0;                  ///< s, simulated
+  double share = 0;                ///< 0..1 of the run
+  double element_steps_per_s = 0;  ///< since the run's start or over the last interval, as the caller likes
+  double wall_s = 0;               ///< since the run's start
+  double eta_s = 0;                ///< wall time still to go; negative or NaN: unknown
+  double energy_residual = 0;      ///< relative
   std::int64_t broken_joints = 0, fragments = 0;
   std::string stage;
 };

@@ -19,10 +19,14 @@ constexpr int kBarWidth = 24;
 
 const char* name_of(RunState state) {
   switch (state) {
-    case RunState::running: return "running";
-    case RunState::complete: return "complete";
-    case RunState::stopped: return "stopped";
-    case RunState::failed: break;
+    case RunState::running:
+      return "running";
+    case RunState::complete:
+      return "complete";
+    case RunState::stopped:
+      return "stopped";
+    case RunState::failed:
+      break;
   }
   return "failed";
 }
@@ -50,9 +54,7 @@ StatusLine last_line(StatusLine line, const Summary& summary) {
 }
 
 /// What finish has to say beyond the state.
-std::string message_of(const Summary& summary) {
-  return state_of(summary) == RunState::complete ? "" : summary.status;
-}
+std::string message_of(const Summary& summary) { return state_of(summary) == RunState::complete ? "" : summary.status; }
 
 double percent(const StatusLine& line) { return 100 * std::clamp(line.share, 0.0, 1.0); }
 
@@ -116,10 +118,10 @@ int terminal_columns(int descriptor) {
 }
 
 std::string progress_text(const StatusLine& line) {
-  std::string text = fmt::format("{:5.1f} %  step {} of {}  {} of {}  {}  {} to go  residual {:.1e}", percent(line),
-                                 count_text(line.step), count_text(line.steps_total), quantity_text(line.time, "s"),
-                                 quantity_text(line.end, "s"), quantity_text(line.element_steps_per_s, "element-steps/s"),
-                                 duration_text(line.eta_s), line.energy_residual);
+  std::string text = fmt::format(
+      "{:5.1f} %  step {} of {}  {} of {}  {}  {} to go  residual {:.1e}", percent(line), count_text(line.step),
+      count_text(line.steps_total), quantity_text(line.time, "s"), quantity_text(line.end, "s"),
+      quantity_text(line.element_steps_per_s, "element-steps/s"), duration_text(line.eta_s), line.energy_residual);
   text += fmt::format("  broken joints {}  fragments {}", count_text(line.broken_joints), count_text(line.fragments));
   if (!line.stage.empty()) text += fmt::format("  [{}]", line.stage);
   return text;
@@ -127,8 +129,8 @@ std::string progress_text(const StatusLine& line) {
 
 std::string bar_text(const StatusLine& line, int columns) {
   const int filled = std::isfinite(line.share) ? static_cast<int>(percent(line) / 100 * kBarWidth) : 0;
-  std::string text = fmt::format("[{:#<{}}{:.<{}}] {:5.1f} %  {}  {}  {} to go  {} broken, {} fragments", "", filled, "",
-                                 kBarWidth - filled, percent(line), quantity_text(line.time, "s"),
+  std::string text = fmt::format("[{:#<{}}{:.<{}}] {:5.1f} %  {}  {}  {} to go  {} broken, {} fragments", "", filled,
+                                 "", kBarWidth - filled, percent(line), quantity_text(line.time, "s"),
                                  quantity_text(line.element_steps_per_s, "element-steps/s"), duration_text(line.eta_s),
                                  count_text(line.broken_joints), count_text(line.fragments));
   if (!line.stage.empty()) text += fmt::format("  [{}]", line.stage);
@@ -155,12 +157,17 @@ void ProgressSink::show(const StatusLine& line, RunState state, const std::strin
   constexpr const char* redraw = "\r\033[K";
   const std::string ending = state == RunState::running ? "" : fmt::format("  {}", name_of(state));
   switch (mode_) {
-    case ProgressMode::none: return;
+    case ProgressMode::none:
+      return;
     case ProgressMode::bar:
       stream_ << redraw << bar_text(line, columns_) << (state == RunState::running ? "" : "\n") << std::flush;
       return;
-    case ProgressMode::log: stream_ << progress_text(line) << ending << '\n' << std::flush; return;
-    case ProgressMode::json: stream_ << status_json(line, state, message) << '\n' << std::flush; return;
+    case ProgressMode::log:
+      stream_ << progress_text(line) << ending << '\n' << std::flush;
+      return;
+    case ProgressMode::json:
+      stream_ << status_json(line, state, message) << '\n' << std::flush;
+      return;
   }
 }
 

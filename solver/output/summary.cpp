@@ -25,7 +25,8 @@ void add_line(std::string& text, std::string_view label, std::string_view value)
 }
 
 void add_share(std::string& text, std::string_view label, const std::string& value, double share) {
-  fmt::format_to(std::back_inserter(text), "    {:<{}} {:>12} {:>7.2f} %\n", label, kLabelWidth - 2, value, 100 * share);
+  fmt::format_to(std::back_inserter(text), "    {:<{}} {:>12} {:>7.2f} %\n", label, kLabelWidth - 2, value,
+                 100 * share);
 }
 
 double largest_energy(const EnergyBudget& energy) {
@@ -85,8 +86,9 @@ std::string summary_json(const Summary& summary) {
 
 std::string summary_text(const Summary& summary) {
   std::string text = fmt::format("{}: {}\n", summary.title.empty() ? "run" : summary.title, summary.status);
-  add_line(text, "simulated", fmt::format("{} in {} steps of {}", quantity_text(summary.simulated_time, "s"),
-                                          count_text(summary.steps), quantity_text(summary.time_step, "s")));
+  add_line(text, "simulated",
+           fmt::format("{} in {} steps of {}", quantity_text(summary.simulated_time, "s"), count_text(summary.steps),
+                       quantity_text(summary.time_step, "s")));
   add_line(text, "elements", count_text(summary.elements));
   add_line(text, "joints", fmt::format("{}, {} broken", count_text(summary.joints), count_text(summary.broken_joints)));
   add_line(text, "fragments", count_text(summary.fragments));
@@ -98,8 +100,8 @@ std::string summary_text(const Summary& summary) {
   add_energies(text, summary.energy);
   add_line(text, "relative energy residual", fmt::format("{:.2e}", summary.energy.residual_relative));
   add_line(text, "memory", bytes_text(summary.max_rss_bytes));
-  add_line(text, "host", fmt::format("{}, {} rank{}, {}", summary.host, summary.ranks, summary.ranks == 1 ? "" : "s",
-                                     summary.simd));
+  add_line(text, "host",
+           fmt::format("{}, {} rank{}, {}", summary.host, summary.ranks, summary.ranks == 1 ? "" : "s", summary.simd));
   add_line(text, "version", summary.version);
   add_line(text, "state hash", summary.state_hash);
   return text;

@@ -81,8 +81,8 @@ void write_dataset(hid_t parent, const std::string& name, std::span<const T> val
     checked(H5Pset_shuffle(creation), name.c_str());
     checked(H5Pset_deflate(creation, kDeflateLevel), name.c_str());
   }
-  const Handle data(H5Dcreate2(parent, name.c_str(), native_type<T>(), space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose,
-                    name.c_str());
+  const Handle data(H5Dcreate2(parent, name.c_str(), native_type<T>(), space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                    H5Dclose, name.c_str());
   if (values.empty()) return;
   checked(H5Dwrite(data, native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name.c_str());
 }
@@ -101,8 +101,8 @@ void write_format_attributes(hid_t root) {
   const std::array<std::int64_t, 2> version{1, 0};
   const hsize_t length = version.size();
   const Handle version_space(H5Screate_simple(1, &length, nullptr), H5Sclose, "Version");
-  const Handle version_attribute(
-      H5Acreate2(root, "Version", H5T_NATIVE_INT64, version_space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "Version");
+  const Handle version_attribute(H5Acreate2(root, "Version", H5T_NATIVE_INT64, version_space, H5P_DEFAULT, H5P_DEFAULT),
+                                 H5Aclose, "Version");
   checked(H5Awrite(version_attribute, H5T_NATIVE_INT64, version.data()), "Version");
 
   const std::string type = "UnstructuredGrid";
@@ -121,9 +121,12 @@ struct Shape {
 
 Shape shape_of(CellKind kind) {
   switch (kind) {
-    case CellKind::tetrahedra: return {4, 10};
-    case CellKind::triangles: return {3, 5};
-    case CellKind::vertices: break;
+    case CellKind::tetrahedra:
+      return {4, 10};
+    case CellKind::triangles:
+      return {3, 5};
+    case CellKind::vertices:
+      break;
   }
   return {1, 1};
 }
@@ -155,12 +158,14 @@ void write_cell_arrays(hid_t root, const GridView& grid) {
   for (const CellArray& array : grid.arrays) {
     std::visit(
         [&](auto values) {
-          DEMAND(values.size() == cells * static_cast<std::size_t>(array.components),
-                 array.name + " has " + std::to_string(values.size()) + " values for " + std::to_string(cells) + " cells");
+          DEMAND(
+              values.size() == cells * static_cast<std::size_t>(array.components),
+              array.name + " has " + std::to_string(values.size()) + " values for " + std::to_string(cells) + " cells");
           using T = std::remove_const_t<typename decltype(values)::element_type>;
           if constexpr (std::is_same_v<T, double>) {
             floats.resize(values.size());
-            std::transform(values.begin(), values.end(), floats.begin(), [](double v) { return static_cast<float>(v); });
+            std::transform(values.begin(), values.end(), floats.begin(),
+                           [](double v) { return static_cast<float>(v); });
             write_dataset<float>(group, array.name, floats, array.components, Packing::plain);
           } else {
             write_dataset<T>(group, array.name, values, array.components, Packing::deflated);

@@ -27,8 +27,8 @@ struct GridView {
   CellKind kind = CellKind::tetrahedra;
   std::span<const double> points;  ///< (n num_cells, 3), m, kept in 64 bits
   std::vector<CellArray> arrays;
-  double time = 0;                 ///< s, field data "time"
-  std::int64_t step = 0;           ///< field data "step"
+  double time = 0;        ///< s, field data "time"
+  std::int64_t step = 0;  ///< field data "step"
 };
 
 /// The bytes of a VTKHDF 1.0 file (HDF5, one UnstructuredGrid, one piece) as ParaView 5.11 and later read it. Zero cells

@@ -14,16 +14,15 @@ struct FrameParts {
 };
 
 /// Frames for ParaView: `<folder>/elements_000012.vtkhdf` (tetrahedra), `joints_...` (triangles), `contacts_...` (vertices
-/// with force vectors), and one index of times for each, `elements.hdf.series`: the file to open (ParaView 5.11 knows the reader by
-/// the ending .hdf alone, and the times only from here). An index lists
-/// complete files only, whenever the run is killed. Cell arrays carry the names of Frame's members; stress has the
-/// components XX YY ZZ XY YZ XZ.
+/// with force vectors), and one index of times for each, `elements.hdf.series`: the file to open (ParaView 5.11 knows the
+/// reader by the ending .hdf alone, and the times only from here). An index lists complete files only, whenever the run
+/// is killed. Cell arrays carry the names of Frame's members; stress has the components XX YY ZZ XY YZ XZ.
 class VtkhdfSink final : public Sink {
  public:
   /// @pre folder exists
   explicit VtkhdfSink(std::filesystem::path folder, FrameParts parts = {});
 
-  /// Writes the parts and their indices, all at once. Throws OutputError naming the file; what was there before stays as it was.
+  /// Writes the parts and their indices, all at once. Throws OutputError naming the file; what was there before stays.
   void frame(const Frame& frame) override;
 
  private:

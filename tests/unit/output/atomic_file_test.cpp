@@ -114,7 +114,8 @@ TEST(LineFile, CutsOffThePartOfALineThatDidNotFit) {
 
 TEST(LineFile, ReportsAFullDevice) {
   LineFile file("/dev/full");
-  EXPECT_THAT(error_of([&] { file.append_line("x"); }), HasSubstr("/dev/full: cannot append a line to this file: No space left"));
+  EXPECT_THAT(error_of([&] { file.append_line("x"); }),
+              HasSubstr("/dev/full: cannot append a line to this file: No space left"));
 }
 
 TEST(LineFile, ReportsAPlaceWhereNoFileCanBeCreated) {

@@ -71,7 +71,8 @@ TEST(KilledRun, LeavesOnlyWholeFilesAtWhateverInstantItDies) {
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
     if (child == 0) write_without_end(folder, frame);
-    for (int look = 0; look < kLooks && !std::filesystem::exists(folder / "elements.hdf.series"); ++look) ::usleep(kLook);
+    for (int look = 0; look < kLooks && !std::filesystem::exists(folder / "elements.hdf.series"); ++look)
+      ::usleep(kLook);
     ::usleep(life(random));
     ::kill(child, SIGKILL);
     int status = 0;

@@ -32,7 +32,8 @@ void touch(const fs::path& path) { std::ofstream(path) << "old\n"; }
 
 TEST(RunFolderTest, GetsTheResolvedCaseItsProvenanceAndAPlaceForFrames) {
   const TemporaryFolder place;
-  const RunFolder folder = prepare_run_folder(place.path() / "runs" / "glass", "title = \"x\"\n", kProvenance, OldResults::refuse);
+  const RunFolder folder =
+      prepare_run_folder(place.path() / "runs" / "glass", "title = \"x\"\n", kProvenance, OldResults::refuse);
   EXPECT_EQ(content_of(folder.case_file()), "title = \"x\"\n");
   EXPECT_TRUE(fs::is_directory(folder.frames()));
   const auto json = nlohmann::json::parse(content_of(folder.provenance()));
@@ -46,7 +47,8 @@ TEST(RunFolderTest, KnowsTheMachineAndTheBuild) {
   EXPECT_GE(kProvenance.cores, 1);
   EXPECT_THAT(kProvenance.compiler, HasSubstr("."));
   EXPECT_THAT(kProvenance.flags, HasSubstr("-ffp-contract=off"));
-  EXPECT_THAT(kProvenance.started, testing::MatchesRegex("20[0-9][0-9]-[0-9][0-9]-[0-9][0-9]T[0-9][0-9]:[0-9][0-9]:[0-9][0-9]Z"));
+  EXPECT_THAT(kProvenance.started,
+              testing::MatchesRegex("20[0-9][0-9]-[0-9][0-9]-[0-9][0-9]T[0-9][0-9]:[0-9][0-9]:[0-9][0-9]Z"));
 }
 
 TEST(RunFolderTest, RefusesAFolderThatHoldsOtherThingsAndTouchesNothingInIt) {
@@ -63,7 +65,8 @@ TEST(RunFolderTest, RefusesResultsOfAnEarlierRunUnlessTheyMayGo) {
   const TemporaryFolder place;
   const RunFolder folder = prepare_run_folder(place.path(), "old", kProvenance, OldResults::refuse);
   EXPECT_EQ(error_of(place.path(), OldResults::refuse), "") << "a prepared folder without results is free";
-  for (const fs::path& result : {folder.history(), folder.status(), folder.summary(), folder.frames() / "joints_000007.vtkhdf"}) {
+  for (const fs::path& result :
+       {folder.history(), folder.status(), folder.summary(), folder.frames() / "joints_000007.vtkhdf"}) {
     touch(result);
     EXPECT_THAT(error_of(place.path(), OldResults::refuse), HasSubstr("results of an earlier run")) << result;
     fs::remove(result);
@@ -73,10 +76,15 @@ TEST(RunFolderTest, RefusesResultsOfAnEarlierRunUnlessTheyMayGo) {
 TEST(RunFolderTest, OverwritingRemovesResultsAndNothingElse) {
   const TemporaryFolder place;
   const RunFolder folder = prepare_run_folder(place.path(), "old", kProvenance, OldResults::refuse);
-  const std::vector<fs::path> results{folder.history(), folder.status(), folder.summary(),
-                                      folder.frames() / "elements_000000.vtkhdf", folder.frames() / "elements_1000000.vtkhdf",
-                                      folder.frames() / "elements.hdf.series", folder.frames() / ".contacts_000001.vtkhdf.tmp"};
-  const std::vector<fs::path> others{place.path() / "notes.txt", folder.frames() / "elements.png", folder.frames() / "my.vtkhdf"};
+  const std::vector<fs::path> results{folder.history(),
+                                      folder.status(),
+                                      folder.summary(),
+                                      folder.frames() / "elements_000000.vtkhdf",
+                                      folder.frames() / "elements_1000000.vtkhdf",
+                                      folder.frames() / "elements.hdf.series",
+                                      folder.frames() / ".contacts_000001.vtkhdf.tmp"};
+  const std::vector<fs::path> others{place.path() / "notes.txt", folder.frames() / "elements.png",
+                                     folder.frames() / "my.vtkhdf"};
   for (const fs::path& path : results) touch(path);
   for (const fs::path& path : others) touch(path);
   EXPECT_EQ(error_of(place.path(), OldResults::overwrite), "");

@@ -97,10 +97,19 @@ TEST(StatusFile, InAnUnwritablePlaceIsAnOutputError) {
 TEST(StatusJson, HoldsEveryMemberOnOneLine) {
   const std::string text = status_json(example_line(), RunState::running, "");
   EXPECT_THAT(text, Not(HasSubstr("\n")));
-  EXPECT_EQ(json::parse(text),
-            json({{"state", "running"}, {"stage", "impact"}, {"step", 1234}, {"steps_total", 10000}, {"time", 1.234e-5},
-                  {"end", 1e-4}, {"share", 0.1234}, {"element_steps_per_s", 1.31e7}, {"wall_s", 10.0}, {"eta_s", 71.0},
-                  {"energy_residual", 2e-5}, {"broken_joints", 231}, {"fragments", 12}}));
+  EXPECT_EQ(json::parse(text), json({{"state", "running"},
+                                     {"stage", "impact"},
+                                     {"step", 1234},
+                                     {"steps_total", 10000},
+                                     {"time", 1.234e-5},
+                                     {"end", 1e-4},
+                                     {"share", 0.1234},
+                                     {"element_steps_per_s", 1.31e7},
+                                     {"wall_s", 10.0},
+                                     {"eta_s", 71.0},
+                                     {"energy_residual", 2e-5},
+                                     {"broken_joints", 231},
+                                     {"fragments", 12}}));
 }
 
 TEST(StatusJson, IsValidForNumbersAndNamesThatJsonCannotHold) {

@@ -56,9 +56,9 @@ TEST(SummaryJson, HasExactlyTheFieldsThatReadersKnow) {
                                    "inverted_elements", "wall_s", "element_steps_per_s", "phases", "energy",
                                    "energy_residual_relative", "max_rss_bytes", "state_hash"));
   EXPECT_THAT(names_of(summary.at("energy")),
-              UnorderedElementsAre("kinetic", "elastic", "joint_elastic", "contact_stored", "joint_mode_1", "joint_mode_2",
-                                   "joint_friction", "contact_dissipated", "contact_friction", "viscous", "damping",
-                                   "external_work", "residual"));
+              UnorderedElementsAre("kinetic", "elastic", "joint_elastic", "contact_stored", "joint_mode_1",
+                                   "joint_mode_2", "joint_friction", "contact_dissipated", "contact_friction",
+                                   "viscous", "damping", "external_work", "residual"));
 }
 
 TEST(SummaryJson, HoldsTheValues) {
