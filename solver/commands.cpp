@@ -14,6 +14,7 @@
 #include "output/summary.hpp"
 #include "output/vtkhdf_sink.hpp"
 #include "simulation/check.hpp"
+#include "simulation/convert.hpp"
 #include "simulation/model.hpp"
 #include "simulation/observe.hpp"
 #include "simulation/run.hpp"
@@ -55,7 +56,7 @@ int mesh_command(const MeshCommand& asked) {
   const Model model = build_model(input);
   fmt::print("{}", mesh_report({model.mesh, model.mesh_report}));
   std::filesystem::create_directories(asked.folder);
-  const Stepper rest(model, {});
+  const Stepper rest(model, search_params(input, model));
   VtkhdfSink(asked.folder, {true, false, false}).frame(make_frame(rest, 0, {true, false, false}));
   fmt::print("elements for ParaView in {}\n", asked.folder.string());
   return 0;

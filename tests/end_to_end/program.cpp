@@ -34,7 +34,7 @@ penalty = "40 MPa"
 friction = 0.3
 [[initial_velocity]]
 group = "box"
-random = ["10 m/s", "20 m/s"]
+random = ["1 m/s", "2 m/s"]
 seed = 3
 [sphere]
 centre = ["20 mm", "10 mm", "5 mm"]
@@ -42,12 +42,12 @@ radius = "26 mm"
 penalty = "40 MPa"
 [[stage]]
 name = "fly"
-end = "2 ms"
+end = "4 ms"
 [[stage.constraint]]
 group = "box.x0"
 velocity = { z = 0 }
 [output]
-frame_interval = "0.5 ms"
+frame_interval = "1 ms"
 gauges = ["box"]
 )";
 

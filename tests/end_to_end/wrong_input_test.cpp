@@ -22,7 +22,7 @@ const std::vector<Wrong>& wrongs() {
   static const std::vector<Wrong> table{
       // The command line.
       {"no_command", "", "", {"subcommand"}, "", kUsage},
-      {"unknown_command", "", "", {"shatter"}, "shatter CASE", kUsage},
+      {"unknown_command", "", "", {"subcommand"}, "shatter CASE", kUsage},
       {"no_case", "", "", {"case"}, "run", kUsage},
       {"unknown_option", "", "", {"--fast"}, "run CASE --fast", kUsage},
       {"unknown_progress", "", "", {"--progress", "loud"}, "run CASE --progress loud", kUsage},
@@ -50,8 +50,8 @@ const std::vector<Wrong>& wrongs() {
       {"unknown_choice", "\"breakable\"", "\"brittle\"", {"joints", "brittle", "breakable"}},
       {"missing_key", "density = \"2340 kg/m3\"\n", "", {"density"}},
       {"negative_friction", "friction = 0.3", "friction = -0.1", {"friction", "-0.1"}},
-      {"stage_without_end", "end = \"2 ms\"\n", "", {"end"}},
-      {"stage_of_no_length", "\"2 ms\"", "0", {"end"}},
+      {"stage_without_end", "end = \"4 ms\"\n", "", {"end"}},
+      {"stage_of_no_length", "\"4 ms\"", "0", {"end"}},
       {"constraint_without_kind", "velocity = { z = 0 }\n", "", {"constraint"}},
       {"unknown_axis", "{ z = 0 }", "{ w = 0 }", {"w"}},
       {"zero_cells", "cells = [2, 2, 1]", "cells = [2, 0, 1]", {"cells"}},
