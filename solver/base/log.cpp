@@ -15,9 +15,12 @@ namespace {
 
 spdlog::level::level_enum native(Level level) {
   switch (level) {
-    case Level::info: return spdlog::level::info;
-    case Level::warning: return spdlog::level::warn;
-    case Level::error: break;
+    case Level::info:
+      return spdlog::level::info;
+    case Level::warning:
+      return spdlog::level::warn;
+    case Level::error:
+      break;
   }
   return spdlog::level::err;
 }
@@ -55,7 +58,8 @@ void open_file(const std::filesystem::path& file) {
   try {
     next = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), true);
   } catch (const spdlog::spdlog_ex& failure) {
-    throw OutputError(Problem{file.string(), 0, "", std::string("the log cannot be written: ") + failure.what(), "", ""});
+    throw OutputError(
+        Problem{file.string(), 0, "", std::string("the log cannot be written: ") + failure.what(), "", ""});
   }
   next->set_pattern("%Y-%m-%d %H:%M:%S.%e %l: %v");
   Channels& c = channels();

@@ -17,7 +17,8 @@ TEST(Problem, names_file_line_key_what_is_wrong_what_is_allowed_and_what_was_giv
 
 TEST(Problem, leaves_out_what_is_not_known) {
   EXPECT_EQ((Problem{"", 0, "", "something is wrong", "", ""}.text()), "something is wrong");
-  EXPECT_EQ((Problem{"plate.msh", 0, "element 17", "has no volume", "", ""}.text()), "plate.msh: element 17: has no volume");
+  EXPECT_EQ((Problem{"plate.msh", 0, "element 17", "has no volume", "", ""}.text()),
+            "plate.msh: element 17: has no volume");
   EXPECT_EQ((Problem{"a.toml", 3, "", "unreadable", "", "x"}.text()), "a.toml:3: unreadable; given: x");
 }
 

@@ -34,9 +34,9 @@ class Log : public ::testing::Test {
   }
 
   // One folder a test: tests run at the same time.
-  std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) /
-                                  (std::string("breccia_log_") +
-                                   ::testing::UnitTest::GetInstance()->current_test_info()->name());
+  std::filesystem::path folder_ =
+      std::filesystem::path(::testing::TempDir()) /
+      (std::string("breccia_log_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 TEST_F(Log, writes_level_and_message_to_stderr_and_nothing_to_stdout) {
