@@ -218,11 +218,15 @@ void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& 
 void virgin_forces(const JointLawParams& law, const LocalMesh& mesh, const double* position, const ActiveJoint& joint,
                    bool side_a, double* force) {
   ActiveJoint trial = joint;
-  const Triple on_a = evaluate(law, kinematics(law, mesh, position, joint), trial);
+  JointWork ignored;
+  const Kinematics k = kinematics(law, mesh, position, joint);
+  const Triple pull = evaluate(law, k, trial);
+  const Triple turning = tilting_forces(k, tilting(law, k, trial), trial, ignored);
   for (int i = 0; i < 3; ++i) {
     // Corner i of the face of b meets corner (rotation - i) of the face of a.
     const auto from = static_cast<std::size_t>(side_a ? i : (joint.code % 3 - i + 3) % 3);
-    for (int axis = 0; axis < 3; ++axis) force[3 * i + axis] = side_a ? on_a[from][axis] : -on_a[from][axis];
+    const Vec3 sum = side_a ? Vec3(pull[from] + turning[from]) : Vec3(turning[from] - pull[from]);
+    for (int axis = 0; axis < 3; ++axis) force[3 * i + axis] = sum[axis];
   }
 }
 
@@ -231,7 +235,9 @@ void start_history(std::span<const JointLawParams> laws, const LocalMesh& mesh, 
   CompensatedSum held(work.stored);
   for (ActiveJoint& joint : joints) {
     const JointLawParams& law = laws[at(joint.law)];
-    (void)evaluate_and_book(law, kinematics(law, mesh, position, joint), joint, work);
+    const Kinematics k = kinematics(law, mesh, position, joint);
+    (void)evaluate_and_book(law, k, joint, work);
+    (void)tilting_forces(k, tilting(law, k, joint), joint, work);
     held.add(stored(joint));
   }
   work.stored = held.value();

@@ -70,7 +70,7 @@ void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& 
 
 /// Forces of a joint that leaves its elastic range in this step, as active_joint_forces would give them to one without
 /// history: on corners 0..2 of the face of side a, or of the face of side b, each in the order of that side's face.
-/// Both sides get the same bits with opposite signs; nothing is remembered.
+/// Both sides are computed from the same numbers in the same order; nothing is remembered.
 void virgin_forces(const JointLawParams& law, const LocalMesh& mesh, const double* position, const ActiveJoint& joint,
                    bool side_a, double* force);
 
