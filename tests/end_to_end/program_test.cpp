@@ -59,6 +59,18 @@ TEST(Program, a_run_leaves_everything_it_promises) {
   }
 }
 
+TEST(Program, boxes_that_burst_into_debris_create_no_energy) {
+  // At half the speed of sound everything is crushed, slides far on closed cracks and ends as single tetrahedra that overlap.
+  const Scratch scratch;
+  const json summary = summary_of(scratch,
+                                  "--set time.safety=0.2 --set 'stage[0].end=2 ms' "
+                                  "--set 'initial_velocity[0].random=[\"10 m/s\", \"20 m/s\"]'");
+  constexpr double kStepError = 0.02;  // falls with the step; a jump in overlap or force costs several per cent at once
+  EXPECT_LT(summary["energy_residual_relative"].get<double>(), kStepError);
+  EXPECT_GT(summary["energy"]["joint_friction"].get<double>(), -1e-3 * summary["energy"]["kinetic"].get<double>());
+  EXPECT_GT(summary["fragments"].get<int>(), 150);
+}
+
 TEST(Program, the_resolved_case_gives_the_same_bits_again) {
   const Scratch scratch;
   const json first = summary_of(scratch, "");

@@ -246,5 +246,36 @@ TEST(JointFailure, takes_only_the_released_joints_off_the_list_and_keeps_the_ord
   EXPECT_TRUE(pair.work.released.empty());
 }
 
+TEST(JointFailure, a_closed_joint_that_has_slid_far_pushes_with_the_gradient_of_its_energy) {
+  JointPair pair(prepared(example_law()));
+  pair.open({-1e-6, 4e-3, 1e-3});  // a fifth of the edge: far beyond failure in shear, closed
+  pair.evaluate();
+  ASSERT_EQ(pair.joints.size(), 1U);
+  ASSERT_EQ(pair.joints[0].state, JointState::failed);
+  std::mt19937 random(5);
+  pair.shake(random, 2e-7);
+  const auto energy = [&](Index node, const Vec3& by) {
+    JointPair moved = pair;
+    store_node(moved.position.data(), node, load_node(moved.position.data(), node) + by);
+    moved.evaluate();
+    return moved.work.stored;
+  };
+  pair.evaluate();
+  constexpr double kStep = 1e-9;        // m
+  constexpr double kDifference = 1e-4;  // of the largest force: error of the central difference
+  const double scale = pair.force(true, 0).norm() + pair.force(true, 1).norm() + pair.force(true, 2).norm();
+  ASSERT_GT(scale, 1.0);
+  for (const bool side_a : {true, false}) {
+    for (int i = 0; i < 3; ++i) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vec3 by = kStep * Vec3::Unit(axis);
+        const Index node = pair.corner(side_a, i);
+        const double slope = (energy(node, by) - energy(node, -by)) / (2 * kStep);
+        EXPECT_NEAR(pair.force(side_a, i)[axis], -slope, kDifference * scale);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace breccia
