@@ -10,6 +10,9 @@ namespace breccia {
 SweepStatus sweep_sse2(const SweepArgs& args);
 SweepStatus sweep_avx2(const SweepArgs& args);
 SweepStatus sweep_avx512(const SweepArgs& args);
+void rate_work_sse2(const SweepArgs& args);
+void rate_work_avx2(const SweepArgs& args);
+void rate_work_avx512(const SweepArgs& args);
 
 std::string_view name_of(Simd simd) {
   switch (simd) {
@@ -47,6 +50,19 @@ SweepFunction sweep_for(Simd simd) {
     case Simd::sse2: break;
   }
   return sweep_sse2;
+}
+
+RateWorkFunction rate_work_for(Simd simd) {
+  DEMAND(simd_available(simd), std::string(name_of(simd)));
+  switch (simd) {
+    case Simd::avx512:
+      return rate_work_avx512;
+    case Simd::avx2:
+      return rate_work_avx2;
+    case Simd::sse2:
+      break;
+  }
+  return rate_work_sse2;
 }
 
 }  // namespace breccia

@@ -63,10 +63,14 @@ struct SweepArgs {
   double* viscous_after = nullptr;
   double* stress_before = nullptr;
   double* stress_after = nullptr;
-  double* shared_stress = nullptr;  ///< scratch [shared block][18][8], needed when one of the four above is wanted
+  double* kept_stress = nullptr;    ///< scratch [block][18][8], needed when one of the four above is wanted
   double* damping_before = nullptr;
   double* damping_after = nullptr;
 };
+
+/// Books the halves after t_n of viscous and stress work, from the stress the sweep has kept and the velocities as they are
+/// after constraints. To be called once a step when kept_stress is given. O(elements of such laws).
+using RateWorkFunction = void (*)(const SweepArgs&);
 
 /// One step of all elements and nodes, the heart of the solver.
 ///
@@ -87,5 +91,6 @@ enum class Simd { sse2, avx2, avx512 };
 [[nodiscard]] bool simd_available(Simd simd);
 /// @pre simd_available(simd)
 [[nodiscard]] SweepFunction sweep_for(Simd simd);
+[[nodiscard]] RateWorkFunction rate_work_for(Simd simd);
 
 }  // namespace breccia

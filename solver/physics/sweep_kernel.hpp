@@ -86,6 +86,20 @@ inline void evaluate_stress(const SweepArgs& args, const ElasticParams& p, std::
   }
 }
 
+inline bool needs_rate(const SweepArgs& args, const ElasticParams& p) {
+  return p.viscosity > 0 || (p.law != ElasticLaw::neo_hookean && args.stress_before != nullptr);
+}
+
+/// Keeps the stress for book_after.
+inline void keep_stress(const SweepArgs& args, const ElasticParams& p, const Stress& s, std::size_t block, std::size_t lane) {
+  if (args.kept_stress == nullptr || !needs_rate(args, p)) return;
+  double* kept = args.kept_stress + block * 144 + lane;
+  for (std::size_t i = 0; i < 9; ++i) {
+    store(s.total[i], kept + i * kLanes);
+    store(p.viscosity > 0 ? s.viscous[i] : Real(0.0), kept + 72 + i * kLanes);
+  }
+}
+
 /// Books half a step's work of the viscous stress, and of the elastic stress of laws that have no energy.
 inline void book_stress_work(const SweepArgs& args, const ElasticParams& p, const Stress& s, const Corners& v,
                              std::size_t slot, double* viscous, double* stress) {
@@ -223,6 +237,7 @@ inline void sweep_own(const SweepArgs& args, const Mover& mover, std::size_t blo
     }
   }
   book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_before, args.stress_before);
+  keep_stress(args, p, stress, block, lane);
   const Real mass = load(args.node_mass + block * 4 * kLanes + lane);
   for (std::size_t c = 0; c < 4; ++c) {
     v[c] = mover.move(v[c], force[c], mass, (block * 4 + c) * kLanes + lane);
@@ -232,7 +247,6 @@ inline void sweep_own(const SweepArgs& args, const Mover& mover, std::size_t blo
       store(x[c][i] + args.dt * v[c][i], args.next_position + field + (3 * c + i) * kLanes);
     }
   }
-  book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_after, args.stress_after);
 }
 
 /// Corners of W shared-node elements out of a nodal field.
@@ -246,10 +260,6 @@ inline Corners gather(const double* field, const std::int32_t* corners) {
   return value;
 }
 
-inline bool needs_rate(const SweepArgs& args, const ElasticParams& p) {
-  return p.viscosity > 0 || (p.law != ElasticLaw::neo_hookean && args.stress_before != nullptr);
-}
-
 /// Internal forces of W shared-node elements, scattered in ascending lanes.
 inline void scatter_shared(const SweepArgs& args, std::size_t block, std::size_t lane, Totals& totals) {
   const ElasticParams& p = args.params[args.block_group[block]];
@@ -259,13 +269,7 @@ inline void scatter_shared(const SweepArgs& args, std::size_t block, std::size_t
   Stress stress;
   evaluate_stress(args, p, block, lane, x, v, totals, stress);
   book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_before, args.stress_before);
-  if (args.shared_stress != nullptr && needs_rate(args, p)) {
-    double* kept = args.shared_stress + (block - static_cast<std::size_t>(args.num_own_blocks)) * 144 + lane;
-    for (std::size_t i = 0; i < 9; ++i) {
-      store(stress.total[i], kept + i * kLanes);
-      store(p.viscosity > 0 ? stress.viscous[i] : Real(0.0), kept + 72 + i * kLanes);
-    }
-  }
+  keep_stress(args, p, stress, block, lane);
   const Corners force = el::corner_forces(stress.total, stress.inverse, stress.volume);
   double lanes[12][kWidth];
   for (std::size_t k = 0; k < 12; ++k) store(force[k / 3][k % 3], lanes[k]);
@@ -297,21 +301,31 @@ inline void move_shared(const SweepArgs& args, const Mover& mover, std::size_t n
   }
 }
 
-/// Second half of the stress work of W shared-node elements, when their nodes' new velocities are known.
-inline void book_shared_after(const SweepArgs& args, std::size_t block, std::size_t lane) {
+/// Second half of the stress work of W elements, when their nodes' velocities are final.
+inline void book_after(const SweepArgs& args, std::size_t block, std::size_t lane) {
   const ElasticParams& p = args.params[args.block_group[block]];
   if (!needs_rate(args, p)) return;
-  const std::size_t shared_block = block - static_cast<std::size_t>(args.num_own_blocks);
   Stress stress;
   for (std::size_t i = 0; i < 9; ++i) {
-    const double* kept = args.shared_stress + shared_block * 144 + i * kLanes + lane;
+    const double* kept = args.kept_stress + block * 144 + i * kLanes + lane;
     stress.inverse[i] = load(args.gradient + block * 72 + i * kLanes + lane);
     stress.total[i] = load(kept);
     stress.viscous[i] = load(kept + 72);
   }
   stress.volume = load(args.volume + block * kLanes + lane);
-  const Corners v = gather(args.velocity, args.shared_corners + shared_block * 32 + lane);
+  Corners v;
+  if (block < static_cast<std::size_t>(args.num_own_blocks)) {
+    for (std::size_t k = 0; k < 12; ++k) v[k / 3][k % 3] = load(args.velocity + block * 96 + k * kLanes + lane);
+  } else {
+    v = gather(args.velocity, args.shared_corners + (block - static_cast<std::size_t>(args.num_own_blocks)) * 32 + lane);
+  }
   book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_after, args.stress_after);
+}
+
+inline void book_rate_work(const SweepArgs& args) {
+  for (std::size_t block = 0; block < static_cast<std::size_t>(args.num_blocks); ++block) {
+    for (std::size_t lane = 0; lane < kLanes; lane += kWidth) book_after(args, block, lane);
+  }
 }
 
 inline SweepStatus sweep(const SweepArgs& args) {
@@ -333,11 +347,6 @@ inline SweepStatus sweep(const SweepArgs& args) {
   }
   for (auto node = own * 4 * kLanes; node < static_cast<std::size_t>(args.num_nodes); node += kWidth) {
     move_shared(args, mover, node, totals);
-  }
-  if (args.shared_stress != nullptr) {
-    for (std::size_t block = own; block < all; ++block) {
-      for (std::size_t lane = 0; lane < kLanes; lane += kWidth) book_shared_after(args, block, lane);
-    }
   }
   totals.status.max_speed_squared = stdx::hmax(totals.max_speed_squared);
   totals.status.speed_squared_sum = stdx::reduce(totals.speed_squared_sum);

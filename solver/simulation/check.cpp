@@ -91,7 +91,7 @@ std::string quality_advice(const QualityReport& quality) {
                                      [](const QualityReport::Worst& w) { return w.quality.radius_ratio < kSliver; });
   if (slivers == 0) return {};
   return fmt::format("- {}{} elements are slivers (radius ratio below {}), the worst is element {}: they set the time step. Optimise the mesh "
-                     "(Mesh.Optimize, Mesh.OptimizeNetgen) or merge them.\n",
+                     "(Mesh.Optimize, Mesh.OptimizeThreshold) or merge them.\n",
                      slivers == 20 ? "At least " : "", slivers, kSliver, quality.worst.front().element);
 }
 

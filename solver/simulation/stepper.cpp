@@ -30,6 +30,19 @@ std::vector<Index> blocked_corners(const LocalMesh& local) {
   return blocked;
 }
 
+/// Damping force that the sweep put on a node, N, regained from what it did to its velocity (sweep_kernel.hpp, Mover).
+Vec3 damping_force(const SweepArgs& args, const Vec3& before, const Vec3& after, double mass) {
+  const double half = 0.5 * args.mass_damping * args.dt;
+  Vec3 force;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const double net = mass * ((1.0 + half) * after[i] - (1.0 - half) * before[i]) / args.dt;  // unbalanced and local
+    const double opposed = before[i] == 0.0 ? 0.0 : (net > 0) == (before[i] > 0) ? -args.local_damping : args.local_damping;
+    const double unbalanced = net / (1.0 + opposed);
+    force[i] = net - unbalanced - 0.5 * args.mass_damping * mass * (before[i] + after[i]);
+  }
+  return force;
+}
+
 }  // namespace
 
 Stepper::Stepper(const Model& model, const ContactSearchParams& search)
@@ -53,7 +66,12 @@ Stepper::Stepper(const Model& model, const ContactSearchParams& search)
   }
   if (viscous_on_) viscous_.resize(at(local.num_slots));
   if (stress_work_on_) stress_work_.resize(at(local.num_slots));
-  if (viscous_on_ || stress_work_on_) shared_stress_.resize(static_cast<std::size_t>(local.num_slots - local.num_own_slots) * 18);
+  if (viscous_on_ || stress_work_on_) kept_stress_.resize(at(local.num_slots) * 18);
+  for (Index s = 0; s < local.num_slots; ++s) {
+    // Strains below 1e-10 are round-off of positions: energies of that size are no measure for a residual.
+    const ElasticParams& p = model.elastic[at(local.block_group[at(s / kLanes)])];
+    energy_floor_ += 1e-20 * local.volume[at(s)] * (p.lambda + 2 * p.mu);
+  }
   start_joints();
   if (model.has_contact) contact_ = std::make_unique<ContactSearch>(search, model.contact, model.mesh, model.topology, local);
 }
@@ -133,8 +151,10 @@ void Stepper::step(bool sample) {
   contact_forces();
   Field<double> velocity_before;
   if (sample) velocity_before = state_.velocity;
-  sweep(sample);
-  finish_motion();
+  const SweepArgs args = sweep_args(sample);
+  remember_held();
+  sweep(args);
+  finish_motion(args);
   activate_crossing();
   if (sample) take_budget(velocity_before);
   book_after(sample);
@@ -174,8 +194,7 @@ void Stepper::contact_forces() {
   contact_->forces(state_, dt_before_, forces_, contact_work_);
 }
 
-void Stepper::sweep(bool sample) {
-  const auto lap = timer_.measure(Phase::sweep);
+SweepArgs Stepper::sweep_args(bool sample) {
   const LocalMesh& local = model_.local;
   SweepArgs args;
   args.num_own_blocks = local.num_own_blocks();
@@ -202,7 +221,7 @@ void Stepper::sweep(bool sample) {
   args.gravity = gravity_now_;
   args.mass_damping = mass_damping_;
   args.local_damping = local_damping_;
-  args.shared_stress = shared_stress_.empty() ? nullptr : shared_stress_.data();
+  args.kept_stress = kept_stress_.empty() ? nullptr : kept_stress_.data();
   // When the budget is taken, the half of the work that belongs to the time after t_n must wait.
   const auto split = [&](Field<double>& work, Field<double>& late, double*& before, double*& after) {
     if (work.empty()) return;
@@ -213,6 +232,11 @@ void Stepper::sweep(bool sample) {
   split(viscous_, viscous_late_, args.viscous_before, args.viscous_after);
   split(stress_work_, stress_work_late_, args.stress_before, args.stress_after);
   split(damping_, damping_late_, args.damping_before, args.damping_after);
+  return args;
+}
+
+void Stepper::sweep(const SweepArgs& args) {
+  const auto lap = timer_.measure(Phase::sweep);
   const SweepStatus status = sweep_for(simd_)(args);
   crushed_ += status.crushed;
   check_finite(status);
@@ -229,17 +253,51 @@ void Stepper::check_finite(const SweepStatus& status) const {
                         "; the time step is too long for what happens there: lower time.safety (or time.step), or the penalties");
 }
 
-void Stepper::finish_motion() {
+/// Velocities before the sweep of the nodes that constraints will hold: their damping has to be booked anew.
+void Stepper::remember_held() {
+  if (mass_damping_ <= 0 && local_damping_ <= 0) return;
+  held_before_.clear();
+  for (const NodalConstraint& entry : entries_) {
+    for (const Index node : entry.nodes) held_before_.push_back(load_node(state_.velocity.data(), node));
+  }
+}
+
+/// The sweep booked the damping of held nodes with the velocities they would have had; @param free  those
+void Stepper::rebook_damping(const SweepArgs& args, const std::vector<Vec3>& free) {
+  std::size_t i = 0;
+  for (const NodalConstraint& entry : entries_) {
+    for (const Index node : entry.nodes) {
+      const Vec3 held = load_node(state_.velocity.data(), node);
+      const Vec3 force = damping_force(args, held_before_[i], free[i], model_.local.node_mass[at(node)]);
+      // A node that two entries hold is met twice: what is final after the first visit changes nothing at the second.
+      if (rebooked_.insert(node).second) args.damping_after[at(node)] += 0.5 * dt_ * force.dot(free[i] - held);
+      ++i;
+    }
+  }
+  rebooked_.clear();
+}
+
+void Stepper::finish_motion(const SweepArgs& args) {
   const auto lap = timer_.measure(Phase::loads);
   if (!constraints_.empty()) {
+    const bool damped = args.damping_after != nullptr && (mass_damping_ > 0 || local_damping_ > 0);
+    std::vector<Vec3> free;
+    for (const NodalConstraint& entry : entries_) {
+      for (const Index node : entry.nodes) {
+        if (damped) free.push_back(load_node(state_.velocity.data(), node));
+      }
+    }
     constraints_.apply(model_.local, state_, time_, dt_before_, dt_);
+    if (damped) rebook_damping(args, free);
     for (const NodalConstraint& entry : entries_) {
       for (const Index node : entry.nodes) max_speed_ = std::max(max_speed_, load_node(state_.velocity.data(), node).norm());
     }
   }
+  if (args.kept_stress != nullptr) rate_work_for(simd_)(args);
   for (const Index node : padding_nodes_) {
     store_node(state_.velocity.data(), node, Vec3::Zero());
     store_node(state_.next_position.data(), node, load_node(state_.position.data(), node));
+    if (args.damping_after != nullptr) args.damping_before[at(node)] = args.damping_after[at(node)] = 0.0;
   }
 }
 
@@ -297,7 +355,7 @@ void Stepper::take_budget(const Field<double>& velocity_before) {
   }
   if (!first_total_) first_total_ = total - e.external_work;
   e.residual = *first_total_ + e.external_work - total;
-  e.residual_relative = largest > 0 ? std::abs(e.residual) / largest : 0.0;
+  e.residual_relative = std::abs(e.residual) / std::max(largest, energy_floor_);
 }
 
 void Stepper::book_after(bool sample) {

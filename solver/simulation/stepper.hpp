@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -83,9 +84,12 @@ class Stepper {
   void external_forces();
   void joint_forces();
   void contact_forces();
-  void sweep(bool sample);
+  [[nodiscard]] SweepArgs sweep_args(bool sample);
+  void sweep(const SweepArgs& args);
+  void remember_held();
+  void rebook_damping(const SweepArgs& args, const std::vector<Vec3>& free);
   void check_finite(const SweepStatus& status) const;
-  void finish_motion();
+  void finish_motion(const SweepArgs& args);
   void activate_crossing();
   void take_budget(const Field<double>& velocity_before);
   void book_after(bool sample);
@@ -124,12 +128,15 @@ class Stepper {
   Field<double> damping_;                   ///< (num_nodes) once damping has been asked for
   Field<double> viscous_late_, stress_work_late_, damping_late_;
   std::optional<double> first_total_;       ///< energy minus external work at the first sample
+  double energy_floor_ = 0;                 ///< J, energies below are round-off
   EnergyBudget budget_;
   GlobalId worst_element_ = -1;
 
   // For the sweep.
   std::vector<Index> shared_corners_;       ///< [shared block][4][8]
-  Field<double> shared_stress_;
+  Field<double> kept_stress_;               ///< [block][18][8]
+  std::vector<Vec3> held_before_;           ///< of the nodes of all constraints in turn, m/s
+  std::set<Index> rebooked_;
   std::vector<Index> padding_nodes_;
   PhaseTimer timer_;
 };

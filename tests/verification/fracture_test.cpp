@@ -1,0 +1,79 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "verification/recorder.hpp"
+
+namespace breccia::test {
+namespace {
+
+constexpr double kArea = 173.2050808e-6;   // m2
+constexpr double kStrength = 5e6;          // Pa
+constexpr double kEnergy = 30.0291;        // J/m2
+constexpr double kSpeed = 30e-6 / 1e-3;    // m/s of the right tetrahedron
+constexpr double kPeak = 5e-4, kWidth = 5e-4, kWork = 1e-3;  // asked of the law
+
+/// Largest force on the fixed side along an axis, N.
+double peak(const Recording& run, int axis) {
+  double largest = 0;
+  for (const HistoryRow& row : run.rows) largest = std::max(largest, std::abs(row.gauges[0].reaction[axis]));
+  return largest;
+}
+
+/// Displacement from the peak to zero force along an axis, m.
+double softening_width(const Recording& run, int axis) {
+  double at_peak = 0, at_end = 0, largest = 0;
+  for (const HistoryRow& row : run.rows) {
+    const double force = std::abs(row.gauges[0].reaction[axis]);
+    if (force > largest) {
+      largest = force;
+      at_peak = row.time;
+    }
+    if (force > 1e-6 * kArea * kStrength) at_end = row.time;
+  }
+  return (at_end - at_peak) * kSpeed;
+}
+
+TEST(JointPair, of_the_published_law_softens_over_15_55_um_from_866_N_in_each_mode) {
+  for (const auto& [file, axis] : {std::pair{"joint_pair/case_mode_1.toml", 0}, {"joint_pair/case_mode_2.toml", 1}}) {
+    const Recording run = run_case_file(file);
+    EXPECT_NEAR(peak(run, axis) / 866.025, 1.0, kPeak);
+    EXPECT_NEAR(softening_width(run, axis) / 15.5467e-6, 1.0, kWidth);
+    const EnergyBudget& e = run.rows.back().energy;
+    const double rise = 0.5 * kStrength * kStrength / (26.6e9 / 0.02);  // held by the rising branch, J/m2
+    EXPECT_NEAR((e.joint_mode_1 + e.joint_mode_2) / kArea - rise, kEnergy, kWork * kEnergy);
+  }
+}
+
+TEST(JointPair, of_the_published_law_reaches_both_peaks_at_once) {
+  const Recording run = run_case_file("joint_pair/case_mixed.toml");
+  EXPECT_NEAR(peak(run, 0) / 866.025, 1.0, kPeak);
+  EXPECT_NEAR(peak(run, 1) / 866.025, 1.0, kPeak);
+}
+
+TEST(JointPair, of_the_default_law_takes_the_fracture_energy_in_every_direction) {
+  for (const double degrees : {0.0, 30.0, 45.0, 60.0, 90.0}) {
+    const double angle = degrees * std::acos(-1.0) / 180.0;
+    const auto table = [](double part) { return "{table = [[0, 0], [1e-3, " + std::to_string(part) + "e-6]]}"; };
+    const Recording run = run_case_file("joint_pair/case.toml",
+                                        {"stage[0].constraint[1].displacement={x = " + table(30 * std::cos(angle)) +
+                                         ", y = " + table(30 * std::sin(angle)) + ", z = 0}"});
+    const EnergyBudget& e = run.rows.back().energy;
+    EXPECT_NEAR((e.joint_mode_1 + e.joint_mode_2) / (kEnergy * kArea), 1.0, kWork) << degrees;
+    if (degrees == 45.0) {
+      EXPECT_NEAR(peak(run, 0) / 612.4, 1.0, kPeak);
+    }
+    EXPECT_LT(run.worst_residual(), 1e-3);
+  }
+}
+
+TEST(SlitPlate, breaks_from_the_slit_with_a_closed_budget) {
+  const Recording run = run_case_file("slit_plate/case_a.toml");
+  EXPECT_GT(run.summary.broken_joints, 0);
+  constexpr double kResidual = 1e-3;
+  EXPECT_LT(run.worst_residual(), kResidual);
+}
+
+}  // namespace
+}  // namespace breccia::test

@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "verification/recorder.hpp"
+
+namespace breccia::test {
+namespace {
+
+/// Two elastic cubes of 24 tetrahedra, turned at random, fly at each other and part again.
+std::string colliding_cubes(int seed) {
+  return "title = \"two cubes\"\n[mesh.raster]\ncells = 1\ncell_size = 0.1\nboxes = [2, 1, 1]\ngap = [0.08, 0, 0]\ngroup = \"cube\"\n"
+         "random_orientation = true\nseed = " + std::to_string(seed) +
+         "\n[[material]]\ngroup = \"cube\"\nyoung = \"4 MPa\"\npoisson = 0.3\ndensity = 2340\njoints = \"none\"\n"
+         "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"40 MPa\"\n[contact_points]\nper_face = 6\n"
+         "[[initial_velocity]]\ngroup = \"cube\"\nrandom = [0.3, 0.5]\nseed = " + std::to_string(seed) +
+         "\n[[stage]]\nname = \"fly\"\nend = 0.6\n[time]\nsafety = 0.1\n";
+}
+
+TEST(CollidingCubes, keep_linear_and_angular_momentum_to_round_off_and_their_energy) {
+  int collisions = 0;
+  for (const int seed : {10, 14, 19, 24}) {  // of those whose cubes meet
+    const Recording run = run_case_text(colliding_cubes(seed));
+    const HistoryRow &first = run.rows.front(), &last = run.rows.back();
+    const double speed = first.max_speed, mass = 2 * 2340 * 1e-3;
+    constexpr double kRoundOff = 1e-12;
+    EXPECT_LT((last.momentum - first.momentum).norm(), kRoundOff * mass * speed);
+    EXPECT_LT((last.angular_momentum - first.angular_momentum).norm(), kRoundOff * mass * speed * 1.0);
+    constexpr double kLost = 5e-3;  // kinks of the overlap at edges, met with finite steps
+    EXPECT_LT(run.worst_residual(), kLost);
+    for (const HistoryRow& row : run.rows) collisions += row.contacts > 0 ? 1 : 0;
+  }
+  EXPECT_GT(collisions, 0) << "nothing has touched: the test shows nothing";
+}
+
+TEST(SlidingBlock, stops_where_friction_has_taken_its_energy) {
+  const Recording run = run_case_file("sliding_block/case.toml");
+  constexpr double kExpected = 1.0 / (2 * 0.5 * 9.81);  // m, v^2 / (2 mu g)
+  constexpr double kTolerance = 0.01;
+  EXPECT_NEAR(run.rows.back().gauges[0].displacement[0] / kExpected, 1.0, kTolerance);
+  EXPECT_LT(run.worst_residual(), 1e-3);
+}
+
+TEST(ContactPair, returns_two_over_b_plus_one_of_what_it_took) {
+  // Work goes in until the turn and comes out on the way back; sampled at the history interval.
+  for (const auto& [file, returned] : {std::pair{"contact_pair/case.toml", 1.0}, {"contact_pair/case_b.toml", 2.0 / 3.0}}) {
+    const Recording run = run_case_file(file);
+    double largest = 0;
+    for (const HistoryRow& row : run.rows) largest = std::max(largest, row.energy.external_work);
+    constexpr double kSampling = 2e-3;
+    EXPECT_NEAR(1 - run.rows.back().energy.external_work / largest, returned, kSampling) << file;
+    EXPECT_LT(run.worst_residual(), 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace breccia::test

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "output/frame.hpp"
+
+namespace breccia::test {
+
+/// What a run told: all lines of its history and its summary.
+struct Recording {
+  std::vector<HistoryRow> rows;
+  Summary summary;
+
+  /// Largest relative energy residual of all lines.
+  [[nodiscard]] double worst_residual() const;
+};
+
+/// Runs a case of meshes/. @param file  "bar_wave/case.toml";  @param overrides  key=value
+Recording run_case_file(const std::string& file, const std::vector<std::string>& overrides = {});
+
+/// Runs a case given as text.
+Recording run_case_text(const std::string& text);
+
+}  // namespace breccia::test
