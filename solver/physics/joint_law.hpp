@@ -39,7 +39,7 @@ enum class JointPoints { nodal, mid_edge };
 ///   1 - z s_s; none with the parabolic rise.
 /// Both laws have a stored energy whose derivative is the traction and whose parameters only ever lower it, so no
 /// closed loop creates energy.
-/// Source: [Schiava 2012, 3.5]; mixed mode after [Camanho 2003]; friction after [Alfano 2006].
+/// Source: [Schiava, 3.5]; mixed mode after [Camanho 2003]; friction after [Alfano 2006].
 struct JointLawParams {
   JointLaw law = JointLaw::mixed_mode;
   JointRise rise = JointRise::linear;

@@ -9,7 +9,7 @@
 
 namespace breccia::detection {
 
-/// Integer coordinates of space cells: floor(x / size), negative coordinates included, Source: [Schiava 2012, eq. (6.3)]
+/// Integer coordinates of space cells: floor(x / size), negative coordinates included, Source: [Schiava, eq. (6.3)]
 /// with floor in the place of truncation, which would make the cell around 0 twice as wide.
 ///
 /// Beyond +-2^30 cells the coordinate stays at that bound. `of` never decreases with x, so the cells of a point in a box

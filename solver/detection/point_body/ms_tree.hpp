@@ -9,13 +9,13 @@
 
 namespace breccia::detection {
 
-/// Cell of a point. Cells are ordered by z, then y, then x. Source: [Schiava 2012, eq. (6.6)]
+/// Cell of a point. Cells are ordered by z, then y, then x. Source: [Schiava, eq. (6.6)]
 struct CellKey {
   std::int32_t z, y, x;
   auto operator<=>(const CellKey&) const = default;
 };
 
-/// MS-tree: a balanced binary tree that is a sorted list at the same time. Source: [Schiava 2012, ch. 4 and 6.3]
+/// MS-tree: a balanced binary tree that is a sorted list at the same time. Source: [Schiava, ch. 4 and 6.3]
 ///
 /// A node's left son is greater or equal, its right son smaller or equal; nodes of equal key coexist, in the order in which
 /// they were added. The balance of a node, height of its right sub-tree minus height of its left one, is -1, 0 or 1, so n

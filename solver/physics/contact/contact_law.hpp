@@ -17,7 +17,7 @@ struct ContactLaw {
   [[nodiscard]] bool active() const { return penalty > 0; }
 };
 
-/// Normal law with a plateau and a steeper unloading curve. Source: [Schiava 2012, ch. 8] with the state reduced to one
+/// Normal law with a plateau and a steeper unloading curve. Source: [Schiava, ch. 8] with the state reduced to one
 /// number, the largest overlap d_max since the overlap began.
 ///
 ///   d <= 0:      sigma = 0, d_max forgotten

@@ -5,7 +5,7 @@
 
 #include "scene.hpp"
 
-/// Two tetrahedra face to face with imposed motion: the test of the non-elastic law. Source: [Schiava 2012, 8.3.1 and
+/// Two tetrahedra face to face with imposed motion: the test of the non-elastic law. Source: [Schiava, 8.3.1 and
 /// 8.3.2]
 namespace breccia {
 namespace {
