@@ -11,6 +11,10 @@ namespace breccia {
 
 namespace {
 
+/// Slope that the overlap field does not exceed: 1 for distances, less than 2 for the bubble of all but slivers.
+constexpr double kSteepest = 2.0;
+
+
 Index group_of(const LocalMesh& local, Index slot) {
   return local.block_group[static_cast<std::size_t>(slot / kLanes)];
 }
@@ -264,8 +268,11 @@ double Pass::first_offset(Index point, const Candidate& candidate) const {
                                                              [&](const ContactCouple& a, const ContactCouple& b) {
                                                                return contact_.before(a, b);
                                                              });
-  const bool neighbours = is_fresh || share_vertex(local_, point_at(point).slot, slot_of(candidate.contactor));
-  return neighbours ? std::max(candidate.g_before, 0.0) : 0.0;
+  const Index slot = slot_of(candidate.contactor);
+  if (is_fresh || share_vertex(local_, point_at(point).slot, slot)) return std::max(candidate.g_before, 0.0);
+  // A point that comes through a gap between elements, an opened joint say, is deep inside at once: deeper than it moved.
+  const double moved = relative_motion(point_at(point), slot, candidate.lambda).norm();
+  return moved > 0 ? std::max(candidate.g_before - kSteepest * moved, 0.0) : 0.0;
 }
 
 /// The law follows the motion (field at rest), then the field (points at rest), so that the energy each of them moves
@@ -291,9 +298,9 @@ void Pass::follow(const ContactLaw& law, double scale, double length, const Cand
 }
 
 /// A point that moves on into another element finds the field it leaves only while the two are bonded. What the overlap
-/// changes by more than the point has moved (the field's slope is below 2) is a change of field, not of place.
+/// changes by more than the point has moved is a change of field, not of place.
 void Pass::keep_step(const ContactPoint& point, Index slot, double g_old, Candidate& candidate) const {
-  const double reach = 2.0 * relative_motion(point, slot, candidate.lambda).norm();
+  const double reach = kSteepest * relative_motion(point, slot, candidate.lambda).norm();
   candidate.g_before = std::clamp(candidate.g_before, g_old - reach, g_old + reach);
 }
 

@@ -43,12 +43,19 @@ TEST(sliding, at_constant_depth_has_a_constant_normal_force_and_no_tangential_fo
   constexpr double ripple = 0.01, depth = 0.1;
   Drag drag({kPenalty, kInfinite, 1, 0, 1}, depth);
   const double expected = area() * kPenalty * depth / drag.scene.contact.body_length[0];
+  drag.move({0, 0, 0});  // set down at that depth
   for (int i = 0; i < 800; ++i) {
     const Vec3 force = drag.move({0.005, 0.0011, 0});
     ASSERT_NEAR(force[2] / expected, 1, ripple) << "step " << i;
     ASSERT_NEAR(std::hypot(force[0], force[1]) / expected, 0, ripple) << "step " << i;
     ASSERT_EQ(drag.scene.contact.touching.size(), 1u);
   }
+}
+
+TEST(sliding, a_point_that_is_deep_inside_at_once_starts_without_force) {
+  // As through a gap that has opened between elements: it has not moved as far as it is deep.
+  Drag drag({kPenalty, kInfinite, 1, 0, 1}, 0.1);
+  EXPECT_LT(drag.move({0.005, 0, 0}).norm(), 0.11 * area() * kPenalty * 0.1 / drag.scene.contact.body_length[0]);
 }
 
 TEST(sliding, hands_the_history_from_element_to_element) {
