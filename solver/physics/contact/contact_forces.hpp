@@ -29,6 +29,7 @@ struct ContactWork {
 /// TouchingCouple while it touches; when the point has moved to another contactor of the same body that shares a mesh
 /// vertex with the old one the history moves along. A new couple starts with offset = g if point and contactor share a
 /// mesh vertex or if fracture has just made it, else with 0, so that freeing a face makes no force.
+/// A new couple that is deeper at once than its point has moved takes the excess as its offset.
 /// The first thing done is one step of the field's ramps. The offset of a couple follows a change of g that comes from
 /// the field alone, down to 0 at least: a field that rises pushes nobody, one that sinks lets go of stored energy,
 /// which is booked as dissipated.
