@@ -2,13 +2,10 @@
 
 #include <cstdio>
 #include <fmt/core.h>
-#include <fstream>
 #include <iostream>
 
-#include "base/log.hpp"
 #include "case/explain.hpp"
 #include "case/reader.hpp"
-#include "mesh/quality.hpp"
 #include "output/history_sink.hpp"
 #include "output/run_folder.hpp"
 #include "output/summary.hpp"

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include "base/error.hpp"
-#include "base/log.hpp"
 #include "commands.hpp"
 #include "simulation/run.hpp"
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "base/log.hpp"
 #include "output/run_folder.hpp"
 #include "output/summary.hpp"
 #include "simulation/convert.hpp"
