@@ -58,7 +58,7 @@ void CornerClusters::break_faces(std::span<const Topology::Face> faces, std::vec
   nodes_.clear();
   for (const auto& [element, face] : faces) {
     const FaceLink& link = topology_->links[at(element)][at(face)];
-    if (link.free() || broken(element, face)) continue;
+    if (!link.inner() || broken(element, face)) continue;
     broken_[at(element)] |= static_cast<std::uint8_t>(1u << face);
     broken_[at(link.neighbour)] |= static_cast<std::uint8_t>(1u << link.face());
     for (const int corner : kFaceCorners[at(face)]) nodes_.push_back(mesh_->elements[at(element)][at(corner)]);
@@ -79,7 +79,7 @@ void CornerClusters::cluster_corners_at(Index node, std::vector<Index>& changed)
     for (int face = 0; face < 4; ++face) {
       const FaceLink& link = topology_->links[at(element)][at(face)];
       // The face opposite to the corner does not touch the node; every bond is met from its higher element.
-      if (face == own_corner || link.neighbour >= element || link.free() || broken(element, face)) continue;
+      if (face == own_corner || link.neighbour >= element || !link.inner() || broken(element, face)) continue;
       const auto twin = std::lower_bound(corners.begin(), corners.end(), 4 * link.neighbour);
       const Index a = root_of(parent_, static_cast<Index>(k));
       const Index b = root_of(parent_, static_cast<Index>(twin - corners.begin()));

@@ -8,11 +8,12 @@
 
 namespace breccia {
 
-/// The whole model as meshed, on the rank that reads it. Lengths in m.
+/// The model as meshed, whole on the rank that reads it, or the piece of it that a rank works on. Lengths in m.
 ///
 /// Invariants after `finish_mesh` (mesh/finish.hpp): every element has a positive volume, every node belongs to
 /// an element, bodies that are not glued share no node, elements are sorted by (volume group, space-filling rank of
-/// the centroid). Element index = global element id.
+/// the centroid). In the whole mesh an element's index is its global id; a piece keeps the ids of its elements and nodes,
+/// both ascending, so that the order of indices is the order of ids there as well.
 struct Mesh {
   std::string source;  ///< file or generator, for messages
 
@@ -21,6 +22,8 @@ struct Mesh {
   std::vector<Index> element_group;                 ///< (num_elements) index into volume_groups
   std::vector<Index> element_body;                  ///< (num_elements) 0..num_bodies-1, one a meshed volume
   std::vector<std::int64_t> element_source_id;      ///< (num_elements) id in the file, for messages
+  std::vector<GlobalId> element_ids;                ///< (num_elements) ascending; empty: the whole mesh
+  std::vector<GlobalId> node_ids;                   ///< (num_nodes) ascending; empty: the whole mesh
 
   /// Triangle of a physical surface. `nodes` need not be oriented.
   struct SurfaceFace {
@@ -35,6 +38,12 @@ struct Mesh {
 
   [[nodiscard]] Index num_elements() const { return static_cast<Index>(elements.size()); }
   [[nodiscard]] Index num_nodes() const { return static_cast<Index>(nodes.size()); }
+  [[nodiscard]] GlobalId element_id(Index element) const {
+    return element_ids.empty() ? element : element_ids[static_cast<std::size_t>(element)];
+  }
+  [[nodiscard]] GlobalId node_id(Index node) const {
+    return node_ids.empty() ? node : node_ids[static_cast<std::size_t>(node)];
+  }
 };
 
 }  // namespace breccia

@@ -14,10 +14,14 @@ namespace breccia {
 /// code = 3 * face_of_neighbour + rotation. Corner i (0..2) of the own face coincides in the reference mesh with
 /// corner (rotation - i) mod 3 of the neighbour's face: the neighbour sees the face with the opposite sense.
 struct FaceLink {
-  Index neighbour = -1;  ///< element across the face, -1 on the free surface
+  Index neighbour = kFree;  ///< element across the face, or one of the below
   std::int8_t code = 0;  ///< 0..11
 
-  [[nodiscard]] bool free() const { return neighbour < 0; }
+  static constexpr Index kFree = -1;    ///< the free surface
+  static constexpr Index kBeyond = -2;  ///< in a piece of a mesh: an element that the piece does not hold
+
+  [[nodiscard]] bool free() const { return neighbour == kFree; }
+  [[nodiscard]] bool inner() const { return neighbour >= 0; }
   [[nodiscard]] int face() const { return code / 3; }
   [[nodiscard]] int rotation() const { return code % 3; }
 };

@@ -115,16 +115,12 @@ void average_over_shared_nodes(const StepModel& model, std::vector<Shares>& shar
 /// omega_c^2 of every face that has points, kept as the largest by slot.
 void add_contact_shares(const StepModel& model, std::vector<Shares>& shares) {
   const LocalMesh& mesh = model.mesh;
-  double lightest = std::numeric_limits<double>::infinity();
-  for (std::size_t n = 0; n < mesh.node_mass.size(); ++n) {
-    if (mesh.node_id[n] >= 0) lightest = std::min(lightest, mesh.node_mass[n]);
-  }
   double face_sum = 0;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const ContactStiffness& point = model.contacts[k];
     const bool same_face =
         k > 0 && model.contacts[k - 1].slot == point.slot && model.contacts[k - 1].face == point.face;
-    double inverse_mass = 1.0 / lightest;
+    double inverse_mass = 1.0 / model.lightest_node;
     for (std::size_t i = 0; i < 3; ++i) {
       const Index node = mesh.corner_node(point.slot, kFaceCorners[static_cast<std::size_t>(point.face)][i]);
       inverse_mass += point.shape[i] * point.shape[i] / mesh.node_mass[static_cast<std::size_t>(node)];
@@ -171,6 +167,14 @@ std::vector<Shares> all_shares(const StepModel& model, const Field<double>& posi
 
 }  // namespace
 
+double lightest_node(const LocalMesh& mesh) {
+  double lightest = std::numeric_limits<double>::infinity();
+  for (std::size_t n = 0; n < mesh.node_mass.size(); ++n) {
+    if (mesh.node_id[n] >= 0) lightest = std::min(lightest, mesh.node_mass[n]);
+  }
+  return lightest;
+}
+
 StableStep stable_step(const StepModel& model, const Field<double>& position) {
   const std::vector<Shares> shares = all_shares(model, position);
   constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -180,7 +184,7 @@ StableStep stable_step(const StepModel& model, const Field<double>& position) {
   Index worst = -1;
   for (Index s = 0; s < model.mesh.num_slots; ++s) {
     const Shares& mine = shares[static_cast<std::size_t>(s)];
-    if (model.mesh.element_of_slot[static_cast<std::size_t>(s)] < 0) continue;
+    if (!model.mesh.is_original(s)) continue;
     const double step = step_of(mine.element + mine.joint + mine.contact, mine.damping);
     steps.push_back(step);
     result.element_step = std::min(result.element_step, step_of(mine.element, mine.damping));

@@ -27,7 +27,11 @@ struct StepModel {
   std::span<const ElasticParams> params;       ///< (volume groups)
   std::span<const double> density;             ///< (volume groups) kg/m3
   std::span<const ContactStiffness> contacts;  ///< points of a face in a row; empty: no contact
+  double lightest_node = 0;                    ///< kg, of the whole model
 };
+
+/// Smallest mass of a node, kg; infinite without one. O(nodes).
+[[nodiscard]] double lightest_node(const LocalMesh& mesh);
 
 enum class StepLimit { element, joint, contact };
 
@@ -59,7 +63,7 @@ struct StableStep {
 ///   node as light as the lightest of the model. An element pressed on several faces at once is left to the safety
 ///   factor.
 ///
-/// @param position  nodal field, m. O(elements).
+/// @param position  nodal field, m. The result is that of the originals. O(elements).
 [[nodiscard]] StableStep stable_step(const StepModel& model, const Field<double>& position);
 
 /// The limit itself at rest, for elements (Hooke) and intact joints (links with a neighbour): 2/omega of the largest

@@ -26,9 +26,11 @@ using CrossingFunction = void (*)(void* context, Index slot, int face, double* f
 /// Everything the sweep reads and writes; raw pointers, so that one kernel source serves every instruction set.
 /// Layouts: state/layout.hpp, state/local_mesh.hpp, state/joint_links.hpp, state/nodal_forces.hpp.
 struct SweepArgs {
-  Index num_own_blocks = 0;
-  Index num_blocks = 0;
-  Index num_nodes = 0;                      ///< with padding
+  Index first_own_block = 0;                ///< own-node blocks to sweep: from this one
+  Index end_own_block = 0;                  ///< to before this one
+  Index num_own_blocks = 0;                 ///< of the model: where shared-node blocks begin
+  Index num_blocks = 0;                     ///< end of the shared-node blocks to sweep
+  Index num_moved_nodes = 0;                ///< end of the shared nodes to move
 
   const double* position = nullptr;         ///< nodal field, x_n
   double* next_position = nullptr;          ///< nodal field, out: x_(n+1)

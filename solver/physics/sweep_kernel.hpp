@@ -333,9 +333,10 @@ inline SweepStatus sweep(const SweepArgs& args) {
   Totals totals;
   double checked_sum = 0;
   const auto own = static_cast<std::size_t>(args.num_own_blocks), all = static_cast<std::size_t>(args.num_blocks);
-  for (std::size_t block = 0; block < own; ++block) {
+  const auto end = static_cast<std::size_t>(args.end_own_block);
+  for (auto block = static_cast<std::size_t>(args.first_own_block); block < end; ++block) {
     for (std::size_t lane = 0; lane < kLanes; lane += kWidth) sweep_own(args, mover, block, lane, totals);
-    if ((block & 63) == 63 || block + 1 == own) {  // NaN is sought every 512 elements: near enough to name the place
+    if ((block & 63) == 63 || block + 1 == end) {  // NaN is sought every 512 elements: near enough to name the place
       checked_sum = stdx::reduce(totals.speed_squared_sum);
       if (!(checked_sum < 1e300) && totals.status.first_not_finite < 0) {
         totals.status.first_not_finite = static_cast<Index>(block & ~std::size_t{63});
@@ -345,7 +346,7 @@ inline SweepStatus sweep(const SweepArgs& args) {
   for (std::size_t block = own; block < all; ++block) {
     for (std::size_t lane = 0; lane < kLanes; lane += kWidth) scatter_shared(args, block, lane, totals);
   }
-  for (auto node = own * 4 * kLanes; node < static_cast<std::size_t>(args.num_nodes); node += kWidth) {
+  for (auto node = own * 4 * kLanes; node < static_cast<std::size_t>(args.num_moved_nodes); node += kWidth) {
     move_shared(args, mover, node, totals);
   }
   totals.status.max_speed_squared = stdx::hmax(totals.max_speed_squared);

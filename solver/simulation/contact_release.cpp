@@ -38,9 +38,9 @@ void ContactSearch::release_faces(std::span<const FreedFace> faces) {
 void ContactSearch::collect_sides(std::span<const FreedFace> faces) {
   sides_.clear();
   for (const FreedFace& freed : faces) {
-    const auto element = static_cast<Index>(local_->element_of_slot[at(freed.slot)]);
+    const Index element = local_->mesh_element[at(freed.slot)];
     const FaceLink& link = topology_->links[at(element)][at(freed.face)];
-    if (link.free() || clusters_.broken(element, freed.face)) continue;
+    if (!link.inner() || clusters_.broken(element, freed.face)) continue;
     sides_.push_back({element, freed.face});
     sides_.push_back({link.neighbour, link.face()});
   }

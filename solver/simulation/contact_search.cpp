@@ -56,7 +56,7 @@ ContactSearch::ContactSearch(const ContactSearchParams& search, const ContactPar
   for (const Topology::Face& face : search.faces) {
     carries_[at(face.element)] |= static_cast<std::uint8_t>(1 << face.face);
     const FaceLink& link = topology.links[at(face.element)][at(face.face)];
-    if (!link.free()) carries_[at(link.neighbour)] |= static_cast<std::uint8_t>(1 << link.face());
+    if (link.inner()) carries_[at(link.neighbour)] |= static_cast<std::uint8_t>(1 << link.face());
   }
   choose_contactors();
   for (Index e = 0; e < mesh.num_elements(); ++e) {
@@ -98,8 +98,7 @@ bool ContactSearch::has_law(Index slot, Index other) const {
 
 bool ContactSearch::may_touch(Index point, Index contactor) const {
   const Index slot = contact_.points[at(point)].slot, other = contact_.contactors[at(contactor)];
-  return has_law(slot, other) && !clusters_.bonded(static_cast<Index>(local_->element_of_slot[at(slot)]),
-                                                   static_cast<Index>(local_->element_of_slot[at(other)]));
+  return has_law(slot, other) && !clusters_.bonded(local_->mesh_element[at(slot)], local_->mesh_element[at(other)]);
 }
 
 void ContactSearch::update(const State& state, double max_speed, double dt) {

@@ -130,15 +130,13 @@ std::vector<Index> nodes_of_group(const Model& model, const std::string& group) 
       for (int c = 0; c < 4; ++c) take(s, c);
     }
   } else if (const Index surface = group_index(model.mesh.surface_groups, group); surface >= 0) {
-    std::vector<bool> on_surface(model.mesh.nodes.size(), false);
-    for (const Mesh::SurfaceFace& face : model.mesh.surface_faces) {
-      if (face.group != surface) continue;
-      for (const Index node : face.nodes) on_surface[static_cast<std::size_t>(node)] = true;
-    }
-    for (Index s = 0; s < local.num_slots; ++s) {
-      for (int c = 0; c < 4; ++c) {
-        const Index vertex = local.vertex[static_cast<std::size_t>(s)][static_cast<std::size_t>(c)];
-        if (vertex >= 0 && on_surface[static_cast<std::size_t>(vertex)]) take(s, c);
+    auto tag = model.corner_tags.begin();
+    for (Index e = 0; e < model.mesh.num_elements(); ++e) {
+      for (; tag != model.corner_tags.end() && tag->element == model.mesh.element_id(e); ++tag) {
+        if (tag->group != surface) continue;
+        for (int c = 0; c < 4; ++c) {
+          if ((tag->corners >> c & 1) != 0) take(local.slot_of_element[static_cast<std::size_t>(e)], c);
+        }
       }
     }
   }

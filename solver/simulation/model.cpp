@@ -1,10 +1,14 @@
 #include "simulation/model.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
 #include "base/error.hpp"
+#include "physics/contact/contact_field.hpp"
+#include "physics/stable_step.hpp"
 #include "simulation/convert.hpp"
 
 namespace breccia {
@@ -68,10 +72,12 @@ void break_initial(const case_::Case& input, Model& model) {
   }
 }
 
-/// Joint law of every pair of groups that has joints, made on first use.
+/// Joint law of every pair of groups that has joints, found on first use.
 class LawTable {
  public:
-  LawTable(const case_::Case& input, Model& model) : input_(input), model_(model) {}
+  LawTable(const case_::Case& input, Model& model) : input_(input), model_(model) {
+    for (const WholeModel::JointGroups& groups : model.whole.joint_groups) (void)law_of(groups.a, groups.b);
+  }
 
   /// Index of the law between two groups; -1 and a problem when the case names none.
   Index law_of(Index a, Index b) {
@@ -137,12 +143,18 @@ void take_joints(const case_::Case& input, Model& model) {
     const Index law = table.law_of(model.mesh.element_group[index(face.a)], model.mesh.element_group[index(face.b)]);
     if (law >= 0) model.joints.push_back({face, law});
   }
-  const std::vector<double> sizes = mean_sizes(model, table.size());
+  if (model.whole.joint_groups.empty()) {
+    const std::vector<double> sizes = mean_sizes(model, table.size());
+    for (std::size_t l = 0; l < table.size(); ++l) {
+      const auto [a, b] = table.groups(static_cast<Index>(l));
+      model.whole.joint_groups.push_back({a, b, sizes[l]});
+    }
+  }
   for (std::size_t l = 0; l < table.size(); ++l) {
     const case_::Joint& entry = table.entry(static_cast<Index>(l));
     const auto [a, b] = table.groups(static_cast<Index>(l));
     const bool unbreakable = !model.breakable[index(a)] && !model.breakable[index(b)];
-    model.joint_sizes.push_back(entry.size > 0 ? entry.size : sizes[l]);
+    model.joint_sizes.push_back(entry.size > 0 ? entry.size : model.whole.joint_groups[l].size);
     JointLawParams params = joint_law_params(entry, model.joint_sizes.back(), unbreakable);
     if (const std::string problem = prepare(params); !problem.empty()) {
       table.problems.push_back({input.file.string(), entry.origin.line, entry.origin.key, problem, "", ""});
@@ -163,6 +175,62 @@ void take_contact(const case_::Case& input, Model& model) {
   }
 }
 
+/// Every element corner that lies on a physical surface.
+std::vector<CornerTag> tag_corners(const Mesh& mesh) {
+  std::vector<CornerTag> tags;
+  std::vector<bool> on_surface;
+  for (std::size_t g = 0; g < mesh.surface_groups.size(); ++g) {
+    on_surface.assign(mesh.nodes.size(), false);
+    for (const Mesh::SurfaceFace& face : mesh.surface_faces) {
+      if (index(face.group) != g) continue;
+      for (const Index node : face.nodes) on_surface[index(node)] = true;
+    }
+    for (Index e = 0; e < mesh.num_elements(); ++e) {
+      std::uint8_t corners = 0;
+      for (std::size_t c = 0; c < 4; ++c) {
+        if (on_surface[index(mesh.elements[index(e)][c])]) corners |= static_cast<std::uint8_t>(1U << c);
+      }
+      if (corners != 0) tags.push_back({mesh.element_id(e), static_cast<Index>(g), corners});
+    }
+  }
+  std::sort(tags.begin(), tags.end(), [](const CornerTag& p, const CornerTag& q) {
+    return std::pair(p.element, p.group) < std::pair(q.element, q.group);
+  });
+  return tags;
+}
+
+double longest_edge(const Mesh& mesh) {
+  double square = 0;
+  for (const auto& corners : mesh.elements) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = i + 1; j < 4; ++j) {
+        square = std::max(square, (mesh.nodes[index(corners[i])] - mesh.nodes[index(corners[j])]).squaredNorm());
+      }
+    }
+  }
+  return std::sqrt(square);
+}
+
+/// The rest of WholeModel, from the finished model.
+void summarise(Model& model) {
+  const LocalMesh& local = model.local;
+  WholeModel& whole = model.whole;
+  whole.num_elements = model.mesh.num_elements();
+  whole.num_joints = static_cast<std::int64_t>(model.joints.size());
+  whole.body_length = mean_inradii(local);
+  whole.group_length.assign(model.mesh.volume_groups.size(), std::numeric_limits<double>::infinity());
+  whole.lightest_node = lightest_node(local);
+  for (Index s = 0; s < local.num_slots; ++s) {
+    if (local.element_of_slot[index(s)] < 0) continue;
+    const std::size_t group = index(local.block_group[index(s / kLanes)]);
+    whole.group_length[group] = std::min(whole.group_length[group], whole.body_length[index(local.slot_body[index(s)])]);
+    // Strains below 1e-10 are round-off of positions: energies of that size are no measure for a residual.
+    const ElasticParams& p = model.elastic[group];
+    whole.energy_floor += 1e-20 * local.volume[index(s)] * (p.lambda + 2 * p.mu);
+  }
+  whole.longest_edge = longest_edge(model.mesh);
+}
+
 }  // namespace
 
 Model build_model(const case_::Case& input) {
@@ -171,11 +239,27 @@ Model build_model(const case_::Case& input) {
   model.mesh = std::move(made.mesh);
   model.mesh_report = std::move(made.report);
   model.topology = build_topology(model.mesh);
+  model.corner_tags = tag_corners(model.mesh);
   take_materials(input, model);
   break_initial(input, model);
   take_joints(input, model);
   take_contact(input, model);
   model.local = build_local_mesh(model.mesh, model.discretisation, model.density);
+  summarise(model);
+  return model;
+}
+
+Model build_piece(const case_::Case& input, WholeModel whole, Mesh mesh, Topology topology,
+                  const std::vector<std::uint8_t>& original, std::vector<CornerTag> corner_tags) {
+  Model model;
+  model.mesh = std::move(mesh);
+  model.topology = std::move(topology);
+  model.whole = std::move(whole);
+  model.corner_tags = std::move(corner_tags);
+  take_materials(input, model);
+  take_joints(input, model);
+  take_contact(input, model);
+  model.local = build_local_mesh(model.mesh, model.discretisation, model.density, original);
   return model;
 }
 

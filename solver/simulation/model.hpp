@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,34 @@ struct ModelJoint {
   Index law = 0;    ///< index into Model::joint_laws
 };
 
+/// Elements whose corners lie on a physical surface, with a face or only an edge or a point of theirs.
+struct CornerTag {
+  GlobalId element;
+  Index group;           ///< index into Mesh::surface_groups
+  std::uint8_t corners;  ///< a bit a corner
+};
+
+/// What depends on the model as a whole, the same on every rank.
+struct WholeModel {
+  /// A pair of groups that joints hold together. Index = index of the law.
+  struct JointGroups {
+    Index a, b;   ///< a <= b
+    double size;  ///< m, mean edge of their joints
+  };
+  std::int64_t num_elements = 0, num_joints = 0;
+  std::vector<JointGroups> joint_groups;
+  std::vector<double> body_length;   ///< (bodies) H of contact, m: mean inradius of the elements
+  std::vector<double> group_length;  ///< (volume groups) m, the smallest H among the group's bodies
+  double contactor_size = 0;         ///< m, mean size of the contactors
+  double lightest_node = 0;          ///< kg
+  double longest_edge = 0;           ///< m, of all elements, reference
+  double energy_floor = 0;           ///< J, energies below are round-off
+  double step_ratio = 0;             ///< of the true stable step to the bound at rest (time_step.hpp); 0: not found yet
+};
+
 /// Everything that is known before the first step: the case turned into discretised bodies and the small parameter structs
-/// of the kernels. Physics never sees the case; this is where it ends.
+/// of the kernels. Physics never sees the case; this is where it ends. Of the whole model, or of the piece that a rank
+/// works on.
 struct Model {
   Mesh mesh;
   Topology topology;   ///< faces across which nothing holds (initially broken) are free here
@@ -35,21 +62,35 @@ struct Model {
   std::vector<Discretisation> discretisation; ///< (volume groups)
   std::vector<bool> breakable;                ///< (volume groups)
 
+  WholeModel whole;
+
   std::vector<JointLawParams> joint_laws;
   std::vector<std::string> joint_law_names;   ///< "glass", "glass-steel": for reports
   std::vector<double> joint_sizes;            ///< h of k = p/h by law, m
-  std::vector<ModelJoint> joints;             ///< ascending (a, face): index = joint id; without those broken from the start
+  std::vector<ModelJoint> joints;             ///< ascending (a, face) and so by id; without those broken from the start
   ContactParams contact;
   std::vector<Topology::Face> contact_faces;  ///< faces that carry points when restricted to surfaces
   bool contact_everywhere = true;
   bool has_contact = false;
+  std::vector<CornerTag> corner_tags;         ///< by (element, group)
 
-  MeshReport mesh_report;
+  MeshReport mesh_report;                     ///< of the whole mesh, on the rank that has read it
+
+  /// Id of a joint in the whole model.
+  [[nodiscard]] GlobalId joint_id(std::size_t joint) const {
+    return 4 * mesh.element_id(joints[joint].face.a) + joints[joint].face.face_a;
+  }
 };
 
 /// Reads or generates the mesh, checks the case's groups against it and builds the model.
 /// Throws InputError with every problem found.
 [[nodiscard]] Model build_model(const case_::Case& input);
+
+/// The model of a piece of the mesh.
+/// @param mesh, topology  the piece, faces broken from the start cut;  @param original  (elements) 1: the rank's own
+/// @param whole           as build_model found it;  @param corner_tags  of the piece's elements, by (element, group)
+[[nodiscard]] Model build_piece(const case_::Case& input, WholeModel whole, Mesh mesh, Topology topology,
+                                const std::vector<std::uint8_t>& original, std::vector<CornerTag> corner_tags);
 
 /// The mesh alone, read or generated, with the case's groups checked against it.
 [[nodiscard]] FinishedMesh build_mesh(const case_::Case& input);

@@ -197,9 +197,9 @@ void Stepper::contact_forces() {
 SweepArgs Stepper::sweep_args(bool sample) {
   const LocalMesh& local = model_.local;
   SweepArgs args;
-  args.num_own_blocks = local.num_own_blocks();
+  args.end_own_block = args.num_own_blocks = local.num_own_blocks();
   args.num_blocks = local.num_blocks();
-  args.num_nodes = local.num_nodes;
+  args.num_moved_nodes = local.num_moved_nodes;
   args.position = state_.position.data();
   args.next_position = state_.next_position.data();
   args.velocity = state_.velocity.data();

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 
-#include "mesh/quality.hpp"
 #include "physics/contact/contact_point.hpp"
 
 namespace breccia {
@@ -12,29 +11,9 @@ namespace {
 
 std::size_t index(Index i) { return static_cast<std::size_t>(i); }
 
-/// Smallest mean inradius of a body's elements, by volume group: the H that makes a penalty stiffest.
-std::vector<double> smallest_lengths(const Model& model) {
-  std::vector<double> sum(index(model.mesh.num_bodies), 0.0);
-  std::vector<Index> count(index(model.mesh.num_bodies), 0), group(index(model.mesh.num_bodies), 0);
-  for (Index e = 0; e < model.mesh.num_elements(); ++e) {
-    std::array<Vec3, 4> corners;
-    for (std::size_t c = 0; c < 4; ++c) corners[c] = model.mesh.nodes[index(model.mesh.elements[index(e)][c])];
-    const std::size_t body = index(model.mesh.element_body[index(e)]);
-    sum[body] += element_quality(corners).inradius;
-    ++count[body];
-    group[body] = model.mesh.element_group[index(e)];
-  }
-  std::vector<double> length(model.mesh.volume_groups.size(), 1e300);
-  for (std::size_t b = 0; b < sum.size(); ++b) {
-    double& l = length[index(group[b])];
-    if (count[b] > 0) l = std::min(l, sum[b] / static_cast<double>(count[b]));
-  }
-  return length;
-}
-
 /// Stiffest contact a point of each group can meet, Pa/m: kappa b.
 std::vector<double> contact_slopes(const Model& model) {
-  const std::vector<double> length = smallest_lengths(model);
+  const std::vector<double>& length = model.whole.group_length;
   const std::size_t groups = model.mesh.volume_groups.size();
   std::vector<double> slope(groups, 0.0);
   for (std::size_t a = 0; a < groups; ++a) {
@@ -70,10 +49,13 @@ std::vector<ContactStiffness> contact_stiffness(const Model& model) {
 }  // namespace
 
 TimeStep::TimeStep(const Model& model) : model_(model), links_(build_links(model)), contacts_(contact_stiffness(model)) {
-  ratio_ = std::max(1.0, true_stable_step(step_model()) / at(model.local.reference).step);
+  ratio_ = model.whole.step_ratio > 0 ? model.whole.step_ratio
+                                      : std::max(1.0, true_stable_step(step_model()) / at(model.local.reference).step);
 }
 
-StepModel TimeStep::step_model() const { return {model_.local, links_, model_.elastic, model_.density, contacts_}; }
+StepModel TimeStep::step_model() const {
+  return {model_.local, links_, model_.elastic, model_.density, contacts_, model_.whole.lightest_node};
+}
 
 StableStep TimeStep::at(const Field<double>& position) const { return stable_step(step_model(), position); }
 

@@ -14,10 +14,11 @@ namespace breccia {
 /// ratio that is found once by iteration and kept: fracture makes nothing stiffer.
 class TimeStep {
  public:
-  /// @pre model outlives this object. O(elements) times some dozens.
+  /// @pre model outlives this object; it is whole, or its WholeModel holds the ratio. O(elements) times some dozens to find
+  /// the ratio.
   explicit TimeStep(const Model& model);
 
-  /// Largest stable step at these positions, s, with what limits it.
+  /// Largest stable step of the originals at these positions, s, with what limits it.
   [[nodiscard]] StableStep at(const Field<double>& position) const;
   /// As `at`, times the ratio of the true limit to the bound at rest.
   [[nodiscard]] double limit(const Field<double>& position) const { return ratio_ * at(position).step; }

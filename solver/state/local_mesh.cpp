@@ -1,6 +1,6 @@
 #include "state/local_mesh.hpp"
 
-#include <algorithm>
+#include <limits>
 #include <string>
 
 #include <Eigen/LU>
@@ -11,53 +11,94 @@
 namespace breccia {
 namespace {
 
-/// Elements of each volume group, ascending.
-std::vector<std::vector<Index>> elements_by_group(const Mesh& mesh) {
-  std::vector<std::vector<Index>> members(mesh.volume_groups.size());
+/// Places the elements of one volume group that are wanted, ascending, in whole blocks.
+template <class Wanted>
+void append_group(LocalMesh& local, const Mesh& mesh, Index group, Wanted&& wanted) {
   for (Index e = 0; e < mesh.num_elements(); ++e) {
-    members[static_cast<std::size_t>(mesh.element_group[static_cast<std::size_t>(e)])].push_back(e);
+    if (mesh.element_group[static_cast<std::size_t>(e)] != group || !wanted(e)) continue;
+    local.slot_of_element[static_cast<std::size_t>(e)] = static_cast<Index>(local.mesh_element.size());
+    local.mesh_element.push_back(e);
   }
-  return members;
+  local.mesh_element.resize(static_cast<std::size_t>(padded(static_cast<Index>(local.mesh_element.size()))), -1);
+  local.block_group.resize(local.mesh_element.size() / kLanes, group);
 }
 
-/// Appends the elements of one group as whole blocks.
-void append_group(LocalMesh& local, Index group, const std::vector<Index>& members) {
-  for (const Index e : members) {
-    local.slot_of_element[static_cast<std::size_t>(e)] = static_cast<Index>(local.element_of_slot.size());
-    local.element_of_slot.push_back(e);
+/// Slots of all elements in the order that LocalMesh describes.
+void place_elements(LocalMesh& local, const Mesh& mesh, const std::vector<Discretisation>& discretisation,
+                    const std::vector<std::uint8_t>& original) {
+  const auto own = [&](Index e) { return original.empty() || original[static_cast<std::size_t>(e)] != 0; };
+  const auto append = [&](Discretisation kind, auto&& wanted) {
+    for (std::size_t g = 0; g < discretisation.size(); ++g) {
+      if (discretisation[g] == kind) append_group(local, mesh, static_cast<Index>(g), wanted);
+    }
+    return static_cast<Index>(local.mesh_element.size());
+  };
+  local.slot_of_element.assign(mesh.elements.size(), -1);
+  local.num_own_originals = append(Discretisation::own_nodes, own);
+  local.num_own_slots = append(Discretisation::own_nodes, [&](Index e) { return !own(e); });
+  DEMAND(local.mesh_element.size() <= static_cast<std::size_t>(kMaxSlots),
+         "a rank holds at most " + std::to_string(kMaxSlots) + " elements");
+  local.num_slots = append(Discretisation::shared_nodes, [](Index) { return true; });
+  local.element_of_slot.assign(local.mesh_element.size(), -1);
+  local.original.assign(local.mesh_element.size(), 0);
+  for (std::size_t s = 0; s < local.mesh_element.size(); ++s) {
+    const Index e = local.mesh_element[s];
+    if (e < 0) continue;
+    local.element_of_slot[s] = mesh.element_id(e);
+    local.original[s] = own(e) ? 1 : 0;
   }
-  local.element_of_slot.resize(static_cast<std::size_t>(padded(static_cast<Index>(local.element_of_slot.size()))), -1);
-  local.block_group.resize(local.element_of_slot.size() / kLanes, group);
 }
 
-/// Gives the corners of shared-node elements local nodes, numbered by first use; padding gets four spare nodes a block.
-/// Returns the mesh node of every shared node, -1 for padding.
+/// Gives the corners of shared-node elements local nodes, numbered by first use, those that originals touch first; padding
+/// gets four spare nodes a block. Returns the mesh node of every shared node, -1 for padding.
 std::vector<Index> number_shared_nodes(LocalMesh& local, const Mesh& mesh) {
   std::vector<Index> local_of(mesh.nodes.size(), -1);
   std::vector<Index> mesh_node_of;
   const Index first = local.num_own_nodes();
+  const auto fresh = [&](Index mesh_node) {
+    mesh_node_of.push_back(mesh_node);
+    return first + static_cast<Index>(mesh_node_of.size()) - 1;
+  };
+  const auto number = [&](bool originals) {
+    for (Index s = local.num_own_slots; s < local.num_slots; ++s) {
+      const Index e = local.mesh_element[static_cast<std::size_t>(s)];
+      if (e < 0 || local.is_original(s) != originals) continue;
+      for (const Index node : mesh.elements[static_cast<std::size_t>(e)]) {
+        Index& known = local_of[static_cast<std::size_t>(node)];
+        if (known < 0) known = fresh(node);
+      }
+    }
+    while (mesh_node_of.size() % kLanes != 0) fresh(-1);
+    return first + static_cast<Index>(mesh_node_of.size());
+  };
+  local.num_moved_nodes = number(true);
+  number(false);
   local.shared_corners.resize(static_cast<std::size_t>(local.num_slots - local.num_own_slots));
   for (Index s = local.num_own_slots; s < local.num_slots; ++s) {
-    const GlobalId e = local.element_of_slot[static_cast<std::size_t>(s)];
+    const Index e = local.mesh_element[static_cast<std::size_t>(s)];
     auto& corners = local.shared_corners[static_cast<std::size_t>(s - local.num_own_slots)];
     for (std::size_t c = 0; c < 4; ++c) {
-      if (e < 0) {
-        corners[c] = first + static_cast<Index>(mesh_node_of.size());
-        mesh_node_of.push_back(-1);
-        continue;
-      }
-      const Index node = mesh.elements[static_cast<std::size_t>(e)][c];
-      Index& known = local_of[static_cast<std::size_t>(node)];
-      if (known < 0) {
-        known = first + static_cast<Index>(mesh_node_of.size());
-        mesh_node_of.push_back(node);
-      }
-      corners[c] = known;
+      corners[c] = e < 0 ? fresh(-1) : local_of[static_cast<std::size_t>(mesh.elements[static_cast<std::size_t>(e)][c])];
     }
   }
-  mesh_node_of.resize(static_cast<std::size_t>(padded(static_cast<Index>(mesh_node_of.size()))), -1);
+  while (mesh_node_of.size() % kLanes != 0) fresh(-1);
   local.num_nodes = first + static_cast<Index>(mesh_node_of.size());
   return mesh_node_of;
+}
+
+/// A node is counted by the rank that owns its lowest element.
+void count_nodes(LocalMesh& local) {
+  local.counted.assign(static_cast<std::size_t>(local.num_nodes), 0);
+  std::vector<GlobalId> lowest(static_cast<std::size_t>(local.num_nodes), std::numeric_limits<GlobalId>::max());
+  for (Index s = 0; s < local.num_slots; ++s) {
+    const GlobalId id = local.element_of_slot[static_cast<std::size_t>(s)];
+    for (int c = 0; c < 4 && id >= 0; ++c) {
+      const auto node = static_cast<std::size_t>(local.corner_node(s, c));
+      if (id >= lowest[node]) continue;
+      lowest[node] = id;
+      local.counted[node] = local.original[static_cast<std::size_t>(s)];
+    }
+  }
 }
 
 /// Corners of a padding element: a unit tetrahedron, so that nothing divides by zero.
@@ -65,7 +106,7 @@ const std::array<Vec3, 4> kPaddingCorners{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 
 
 void fill_element(LocalMesh& local, const Mesh& mesh, const std::vector<double>& density, Index slot) {
   const auto s = static_cast<std::size_t>(slot);
-  const GlobalId e = local.element_of_slot[s];
+  const Index e = local.mesh_element[s];
   std::array<Vec3, 4> x = kPaddingCorners;
   if (e >= 0) {
     for (std::size_t c = 0; c < 4; ++c) {
@@ -96,20 +137,10 @@ void fill_element(LocalMesh& local, const Mesh& mesh, const std::vector<double>&
 }  // namespace
 
 LocalMesh build_local_mesh(const Mesh& mesh, const std::vector<Discretisation>& discretisation,
-                           const std::vector<double>& density) {
+                           const std::vector<double>& density, const std::vector<std::uint8_t>& original) {
   LocalMesh local;
   local.num_elements = mesh.num_elements();
-  local.slot_of_element.assign(mesh.elements.size(), -1);
-  const auto members = elements_by_group(mesh);
-  for (const Discretisation kind : {Discretisation::own_nodes, Discretisation::shared_nodes}) {
-    for (std::size_t g = 0; g < members.size(); ++g) {
-      if (discretisation[g] == kind) append_group(local, static_cast<Index>(g), members[g]);
-    }
-    if (kind == Discretisation::own_nodes) local.num_own_slots = static_cast<Index>(local.element_of_slot.size());
-  }
-  DEMAND(local.element_of_slot.size() <= static_cast<std::size_t>(kMaxSlots),
-         "a rank holds at most " + std::to_string(kMaxSlots) + " elements");
-  local.num_slots = static_cast<Index>(local.element_of_slot.size());
+  place_elements(local, mesh, discretisation, original);
   const std::vector<Index> mesh_node_of = number_shared_nodes(local, mesh);
 
   const auto slots = static_cast<std::size_t>(local.num_slots);
@@ -130,10 +161,11 @@ LocalMesh build_local_mesh(const Mesh& mesh, const std::vector<Discretisation>& 
     const GlobalId e = local.element_of_slot[static_cast<std::size_t>(s)];
     for (int c = 0; c < 4 && e >= 0; ++c) local.node_id[static_cast<std::size_t>(own_corner_node(s, c))] = 4 * e + c;
   }
-  const GlobalId first_shared_id = 4 * static_cast<GlobalId>(mesh.num_elements());
   for (std::size_t n = 0; n < mesh_node_of.size(); ++n) {
-    if (mesh_node_of[n] >= 0) local.node_id[static_cast<std::size_t>(local.num_own_nodes()) + n] = first_shared_id + mesh_node_of[n];
+    if (mesh_node_of[n] < 0) continue;
+    local.node_id[static_cast<std::size_t>(local.num_own_nodes()) + n] = kFirstSharedNode + mesh.node_id(mesh_node_of[n]);
   }
+  count_nodes(local);
   return local;
 }
 

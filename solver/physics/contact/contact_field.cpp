@@ -31,20 +31,6 @@ double inradius(const LocalMesh& local, Index slot) {
 
 bool exists(const LocalMesh& local, Index slot) { return local.element_of_slot[static_cast<std::size_t>(slot)] >= 0; }
 
-std::vector<double> mean_inradii(const LocalMesh& local) {
-  const Index bodies =
-      local.slot_body.empty() ? 0 : 1 + *std::max_element(local.slot_body.begin(), local.slot_body.end());
-  std::vector<double> sum(static_cast<std::size_t>(bodies), 0.0), count(static_cast<std::size_t>(bodies), 0.0);
-  for (Index s = 0; s < local.num_slots; ++s) {
-    if (!exists(local, s)) continue;
-    const auto body = static_cast<std::size_t>(local.slot_body[static_cast<std::size_t>(s)]);
-    sum[body] += inradius(local, s);
-    count[body] += 1;
-  }
-  for (std::size_t b = 0; b < sum.size(); ++b) sum[b] /= std::max(count[b], 1.0);
-  return sum;
-}
-
 bool all_on_surface(const FieldValues& values) {
   return values[0] == 0 && values[1] == 0 && values[2] == 0 && values[3] == 0;
 }
@@ -74,6 +60,20 @@ void drop_finished_ramps(ContactState& contact) {
 }
 
 }  // namespace
+
+std::vector<double> mean_inradii(const LocalMesh& local) {
+  const Index bodies =
+      local.slot_body.empty() ? 0 : 1 + *std::max_element(local.slot_body.begin(), local.slot_body.end());
+  std::vector<double> sum(static_cast<std::size_t>(bodies), 0.0), count(static_cast<std::size_t>(bodies), 0.0);
+  for (Index s = 0; s < local.num_slots; ++s) {
+    if (!exists(local, s)) continue;
+    const auto body = static_cast<std::size_t>(local.slot_body[static_cast<std::size_t>(s)]);
+    sum[body] += inradius(local, s);
+    count[body] += 1;
+  }
+  for (std::size_t b = 0; b < sum.size(); ++b) sum[b] /= std::max(count[b], 1.0);
+  return sum;
+}
 
 void build_field(const ContactParams& params, const LocalMesh& local, std::span<const double> surface_distance,
                  ContactState& contact) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "physics/contact/contact_params.hpp"
 #include "physics/contact/contact_state.hpp"
@@ -16,6 +17,9 @@ namespace breccia {
 /// to element. For a lone tetrahedron g = 4 min(lambda) inradius.
 ///
 /// H, the length that makes the overlap dimensionless, is the mean inradius of a body's elements.
+
+/// H of every body, m: the mean inradius of its elements. @param local  of the whole model. O(num_slots).
+[[nodiscard]] std::vector<double> mean_inradii(const LocalMesh& local);
 
 /// Fills `body_length` and `field` for the contactors in `contact.contactors`.
 /// @param surface_distance  (mesh vertices) m, 0 on the free surface

@@ -57,7 +57,7 @@ TEST_P(LocalMeshOf, AModelKeepsCornersVerticesAndIds) {
       EXPECT_EQ(mesh.vertex[at(slot)][at(c)], vertex);
       EXPECT_EQ(load_node(mesh.reference.data(), mesh.corner_node(slot, c)), model.nodes[at(vertex)]);
       EXPECT_EQ(mesh.node_id[at(mesh.corner_node(slot, c))],
-                GetParam() == Discretisation::own_nodes ? 4 * e + c : 4 * model.num_elements() + vertex);
+                GetParam() == Discretisation::own_nodes ? 4 * e + c : kFirstSharedNode + vertex);
     }
   }
 }
