@@ -18,20 +18,26 @@
 
 namespace breccia {
 
-int run_command(const RunCommand& asked) {
-  const case_::Case input = case_::read_case(asked.case_file, asked.overrides);
-  const Model model = build_model(input);
-  const std::filesystem::path root = asked.folder.empty() ? default_run_folder(input.file) : asked.folder;
-  const RunFolder folder = prepare_run_folder(root, input.resolved, collect_provenance(BRECCIA_VERSION, asked.command_line),
-                                              asked.overwrite ? OldResults::overwrite : OldResults::refuse);
+int run_command(const RunCommand& asked, const Communicator& world) {
+  case_::Case input;
+  std::unique_ptr<Model> model;
   std::vector<std::unique_ptr<Sink>> sinks;
-  sinks.push_back(std::make_unique<VtkhdfSink>(folder.frames(), FrameParts{input.output.elements, input.output.joints, input.output.contacts}));
-  sinks.push_back(std::make_unique<HistorySink>(folder.history()));
-  sinks.push_back(std::make_unique<StatusSink>(folder.status()));
-  sinks.push_back(std::make_unique<ProgressSink>(asked.progress, std::cout, terminal_columns(fileno(stdout))));
-  sinks.push_back(std::make_unique<SummarySink>(folder.summary()));
-  const Summary summary = run_case(input, model, sinks);
-  if (asked.progress != ProgressMode::json && asked.progress != ProgressMode::none) {
+  std::filesystem::path root;
+  world.agree([&] {
+    input = case_::read_case(asked.case_file, asked.overrides);
+    root = asked.folder.empty() ? default_run_folder(input.file) : asked.folder;
+    if (!world.is_root()) return;
+    model = std::make_unique<Model>(build_model(input));
+    const RunFolder folder = prepare_run_folder(root, input.resolved, collect_provenance(BRECCIA_VERSION, asked.command_line),
+                                                asked.overwrite ? OldResults::overwrite : OldResults::refuse);
+    sinks.push_back(std::make_unique<VtkhdfSink>(folder.frames(), FrameParts{input.output.elements, input.output.joints, input.output.contacts}));
+    sinks.push_back(std::make_unique<HistorySink>(folder.history()));
+    sinks.push_back(std::make_unique<StatusSink>(folder.status()));
+    sinks.push_back(std::make_unique<ProgressSink>(asked.progress, std::cout, terminal_columns(fileno(stdout))));
+    sinks.push_back(std::make_unique<SummarySink>(folder.summary()));
+  });
+  const Summary summary = run_case(input, std::move(model), sinks, world);
+  if (world.is_root() && asked.progress != ProgressMode::json && asked.progress != ProgressMode::none) {
     fmt::print("{}results in {}\n", summary_text(summary), root.string());
   }
   return 0;

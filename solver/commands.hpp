@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "output/status_sink.hpp"
+#include "parallel/communicator.hpp"
 
 /// The sub-commands of the program; main.cpp reads their arguments. Each returns the exit code of success or throws.
 namespace breccia {
@@ -17,7 +18,8 @@ struct RunCommand {
   ProgressMode progress = ProgressMode::log;
   std::vector<std::string> command_line;
 };
-int run_command(const RunCommand& asked);
+/// Collective over the world; the others are the work of one rank.
+int run_command(const RunCommand& asked, const Communicator& world);
 
 struct CheckCommand {
   std::filesystem::path case_file;

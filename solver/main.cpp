@@ -3,10 +3,12 @@
 #include <cstdio>
 #include <exception>
 #include <map>
+#include <sstream>
 #include <unistd.h>
 
 #include "base/error.hpp"
 #include "commands.hpp"
+#include "parallel/mpi_session.hpp"
 #include "simulation/run.hpp"
 
 namespace {
@@ -62,51 +64,64 @@ void define(CLI::App& app, Arguments& a) {
   explain->add_option("key", a.key, "such as material.young, or the name of a section");
 }
 
-int dispatch(const CLI::App& app, Arguments& a, int argc, char** argv) {
+int dispatch(const CLI::App& app, Arguments& a, const Communicator& world, int argc, char** argv) {
   if (app.got_subcommand("run")) {
     const std::map<std::string, ProgressMode> modes{{"bar", ProgressMode::bar}, {"log", ProgressMode::log},
                                                     {"json", ProgressMode::json}, {"none", ProgressMode::none}};
     const auto mode = modes.find(a.progress);
     a.run.progress = mode != modes.end() ? mode->second : default_progress_mode(STDOUT_FILENO);
     a.run.command_line.assign(argv, argv + argc);
-    return run_command(a.run);
+    return run_command(a.run, world);
   }
+  if (!world.is_root()) return code(ExitCode::success);  // what follows is the work of one
   if (app.got_subcommand("check")) return check_command(a.check);
   if (app.got_subcommand("mesh")) return mesh_command(a.mesh);
   return explain_command(a.key);
 }
 
-/// One line a problem on stderr, and the exit code that goes with the kind of error.
-int report(const std::exception& error, ExitCode exit_code) {
-  std::fprintf(stderr, "breccia: error: %s\n", error.what());
+/// What went wrong, told by `speaks` alone.
+int report(bool speaks, const std::string& what, ExitCode exit_code) {
+  if (speaks) std::fprintf(stderr, "breccia: error: %s\n", what.c_str());
   return code(exit_code);
+}
+
+/// Errors of the first three kinds are agreed upon: all ranks have the same one and one of them tells it. Others are of one
+/// rank, and the rest would wait for it for ever.
+int guarded(const CLI::App& app, Arguments& arguments, MpiSession& session, int argc, char** argv) {
+  const bool root = session.world().is_root();
+  int ended = 0;
+  try {
+    return dispatch(app, arguments, session.world(), argc, argv);
+  } catch (const InputError& error) {
+    return report(root, error.what(), ExitCode::input);
+  } catch (const SimulationError& error) {
+    return report(root, error.what(), ExitCode::simulation);
+  } catch (const std::bad_alloc&) {
+    ended = report(true, "out of memory; `breccia check` tells how much a case needs", ExitCode::input);
+  } catch (const std::exception& error) {
+    ended = report(true, error.what(), ExitCode::internal);
+  }
+  session.abort(ended);
+  return ended;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  MpiSession session(argc, argv);
   CLI::App app{"Breccia: combined finite-discrete element simulation of solids that break"};
   Arguments arguments;
   define(app, arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int answer = app.exit(error);
+    std::ostringstream nowhere;
+    const bool root = session.world().is_root();
+    const int answer = root ? app.exit(error) : app.exit(error, nowhere, nowhere);
     return answer == 0 ? code(ExitCode::success) : code(ExitCode::usage);
   }
   std::signal(SIGINT, stop_handler);
   std::signal(SIGTERM, stop_handler);
   std::signal(SIGXFSZ, SIG_IGN);  // a file over its limit is an error of the write, told with the file's name
-  try {
-    return dispatch(app, arguments, argc, argv);
-  } catch (const InputError& error) {
-    return report(error, ExitCode::input);
-  } catch (const SimulationError& error) {
-    return report(error, ExitCode::simulation);
-  } catch (const std::bad_alloc& error) {
-    std::fprintf(stderr, "breccia: error: out of memory; `breccia check` tells how much a case needs\n");
-    return code(ExitCode::input);
-  } catch (const std::exception& error) {
-    return report(error, ExitCode::internal);
-  }
+  return guarded(app, arguments, session, argc, argv);
 }

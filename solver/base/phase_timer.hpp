@@ -7,11 +7,11 @@
 namespace breccia {
 
 /// Where the time of a run goes; the names appear in summary.json under "phases".
-enum class Phase { setup, joints, search, contact, sweep, loads, energy, output, count };
+enum class Phase { setup, joints, search, contact, sweep, loads, energy, communication, decomposition, output, count };
 
 [[nodiscard]] constexpr std::string_view name_of(Phase phase) {
   constexpr std::array<std::string_view, static_cast<std::size_t>(Phase::count)> names{
-      "setup", "joints", "search", "contact", "sweep", "loads", "energy", "output"};
+      "setup", "joints", "search", "contact", "sweep", "loads", "energy", "communication", "decomposition", "output"};
   return names[static_cast<std::size_t>(phase)];
 }
 
@@ -33,6 +33,9 @@ class PhaseTimer {
   };
 
   [[nodiscard]] Lap measure(Phase phase) { return Lap(seconds_[static_cast<std::size_t>(phase)]); }
+  void add(const PhaseTimer& other) {
+    for (std::size_t p = 0; p < seconds_.size(); ++p) seconds_[p] += other.seconds_[p];
+  }
   [[nodiscard]] double seconds(Phase phase) const { return seconds_[static_cast<std::size_t>(phase)]; }
 
  private:

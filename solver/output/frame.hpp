@@ -40,6 +40,7 @@ struct Frame {
 
   /// Contact points that carry a force.
   struct Contacts {
+    std::vector<std::int64_t> id;         ///< (num_contacts) of the contact point: 24 element + 6 face + number
     std::vector<double> points;           ///< (num_contacts, 3)
     std::vector<double> force;            ///< (num_contacts, 3) on the point's body, N
     std::vector<std::int32_t> body, other_body;

@@ -1,6 +1,8 @@
 #include "physics/constraints.hpp"
 
+#include <algorithm>
 #include <map>
+#include <utility>
 
 namespace breccia {
 
@@ -54,6 +56,26 @@ void Constraints::book_after(double dt) {
     for (const Hold& hold : entry.holds) power.add(hold.reaction * hold.velocity);
   }
   work_.add_after(power.value(), dt);
+}
+
+std::vector<Constraints::Anchor> Constraints::anchors() const {
+  std::vector<Anchor> anchors;
+  for (std::size_t e = 0; e < entries_.size(); ++e) {
+    for (const Hold& h : entries_[e].holds) anchors.push_back({e, h.node, h.axis, h.start, h.velocity});
+  }
+  return anchors;
+}
+
+void Constraints::restore(std::span<const Anchor> anchors) {
+  const auto place = [](const auto& h) { return std::pair(h.node, h.axis); };
+  for (const Anchor& anchor : anchors) {
+    std::vector<Hold>& holds = entries_[anchor.entry].holds;
+    const auto found = std::lower_bound(holds.begin(), holds.end(), place(anchor),
+                                        [&](const Hold& h, const auto& wanted) { return place(h) < wanted; });
+    if (found == holds.end() || place(*found) != place(anchor)) continue;
+    found->start = anchor.start;
+    found->velocity = anchor.velocity;
+  }
 }
 
 }  // namespace breccia

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "base/compensated_sum.hpp"
@@ -50,6 +51,19 @@ class Constraints {
   [[nodiscard]] double work() const { return work_.value(); }
   /// Force of an entry on the nodes and axes it rules, summed by ascending node, N, at t_n.
   [[nodiscard]] const Vec3& reaction(std::size_t entry) const { return entries_[entry].reaction; }
+  /// What an entry remembers of one axis of a node.
+  struct Anchor {
+    std::size_t entry;
+    Index node;
+    int axis;
+    double start;     ///< m, where displacements count from
+    double velocity;  ///< m/s, of the last step
+  };
+  /// By entry, node and axis.
+  [[nodiscard]] std::vector<Anchor> anchors() const;
+  /// Takes over what was remembered elsewhere; anchors that hold nothing here are passed over. O(n log n).
+  void restore(std::span<const Anchor> anchors);
+
   [[nodiscard]] std::size_t num_entries() const { return entries_.size(); }
   [[nodiscard]] bool empty() const { return entries_.empty(); }
 

@@ -40,6 +40,15 @@ std::vector<bool> nodes_between_groups(const Mesh& mesh) {
 
 ContactSearch::ContactSearch(const ContactSearchParams& search, const ContactParams& params, const Mesh& mesh,
                              const Topology& topology, const LocalMesh& local)
+    : ContactSearch(search, params, mesh, topology, local, nullptr) {
+  choose_contactors();
+  add_free_points();
+  sort_points(contact_);
+}
+
+/// What needs no history: who may carry points.
+ContactSearch::ContactSearch(const ContactSearchParams& search, const ContactParams& params, const Mesh& mesh,
+                             const Topology& topology, const LocalMesh& local, std::nullptr_t)
     : search_(search),
       params_(&params),
       mesh_(&mesh),
@@ -58,13 +67,14 @@ ContactSearch::ContactSearch(const ContactSearchParams& search, const ContactPar
     const FaceLink& link = topology.links[at(face.element)][at(face.face)];
     if (link.inner()) carries_[at(link.neighbour)] |= static_cast<std::uint8_t>(1 << link.face());
   }
-  choose_contactors();
-  for (Index e = 0; e < mesh.num_elements(); ++e) {
+}
+
+void ContactSearch::add_free_points() {
+  for (Index e = 0; e < mesh_->num_elements(); ++e) {
     for (int f = 0; f < 4; ++f) {
-      if (topology.links[at(e)][at(f)].free()) add_points_of(e, f);
+      if (topology_->links[at(e)][at(f)].free()) add_points_of(e, f);
     }
   }
-  sort_points(contact_);
 }
 
 void ContactSearch::choose_contactors() {

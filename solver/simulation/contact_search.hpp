@@ -11,6 +11,7 @@
 #include "mesh/corner_clusters.hpp"
 #include "mesh/topology.hpp"
 #include "physics/contact/contact_forces.hpp"
+#include "simulation/records.hpp"
 
 namespace breccia {
 
@@ -52,6 +53,12 @@ class ContactSearch {
   ContactSearch(const ContactSearchParams& search, const ContactParams& params, const Mesh& mesh,
                 const Topology& topology, const LocalMesh& local);
 
+  /// Contact of a piece of the model as its records remember it. @param records  of the elements of model.mesh
+  ContactSearch(const ContactSearchParams& search, const Model& model, const Records& records);
+
+  /// Writes what contact remembers of an element into its record and the lists; elements ascending.
+  void remember(Index element, ElementRecord& record, Records& records) const;
+
   /// Brings the couples up to date; every step, before `forces`.
   /// @param max_speed  m/s, at least the largest speed of a node from t_(n-1) to t_n;  @param dt  s, that step
   /// Throws InternalError naming the pair if `verify` finds one that touches and is no couple.
@@ -69,10 +76,16 @@ class ContactSearch {
   [[nodiscard]] const ContactState& contact() const { return contact_; }
   [[nodiscard]] const CornerClusters& clusters() const { return clusters_; }
   [[nodiscard]] double buffer() const { return buffer_; }                    ///< m, of the last search
+  [[nodiscard]] double contactor_size() const { return size_; }              ///< m, mean
   [[nodiscard]] std::int64_t num_searches() const { return num_searches_; }  ///< full ones
 
  private:
+  ContactSearch(const ContactSearchParams& search, const ContactParams& params, const Mesh& mesh, const Topology& topology,
+                const LocalMesh& local, std::nullptr_t);
   void choose_contactors();
+  void add_free_points();
+  void restore_contactors(const Records& records);
+  void restore_histories(const Records& records);
   void add_points_of(Index element, int face);
   void full_search(const State& state, double step_length);
   [[nodiscard]] double largest_displacement(const State& state) const;

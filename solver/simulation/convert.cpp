@@ -144,6 +144,12 @@ std::vector<Index> nodes_of_group(const Model& model, const std::string& group) 
   return nodes;
 }
 
+std::vector<Index> counted_nodes_of_group(const Model& model, const std::string& group) {
+  std::vector<Index> nodes = nodes_of_group(model, group);
+  std::erase_if(nodes, [&](Index node) { return model.local.counted[static_cast<std::size_t>(node)] == 0; });
+  return nodes;
+}
+
 std::vector<LoadedFace> faces_of_surface(const Model& model, const std::string& surface) {
   std::vector<LoadedFace> faces;
   const Index group = group_index(model.mesh.surface_groups, surface);

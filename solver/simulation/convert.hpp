@@ -33,6 +33,9 @@ struct Model;
 /// bodies that have the surface's faces: also of elements that touch it with an edge or a corner only.
 [[nodiscard]] std::vector<Index> nodes_of_group(const Model& model, const std::string& group);
 
+/// Of these, the ones that this rank counts.
+[[nodiscard]] std::vector<Index> counted_nodes_of_group(const Model& model, const std::string& group);
+
 /// Faces of a surface group as the loads want them.
 [[nodiscard]] std::vector<LoadedFace> faces_of_surface(const Model& model, const std::string& surface);
 

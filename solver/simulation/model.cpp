@@ -215,6 +215,9 @@ double longest_edge(const Mesh& mesh) {
 void summarise(Model& model) {
   const LocalMesh& local = model.local;
   WholeModel& whole = model.whole;
+  whole.source = model.mesh.source;
+  whole.volume_groups = model.mesh.volume_groups;
+  whole.surface_groups = model.mesh.surface_groups;
   whole.num_elements = model.mesh.num_elements();
   whole.num_joints = static_cast<std::int64_t>(model.joints.size());
   whole.body_length = mean_inradii(local);

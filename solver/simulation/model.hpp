@@ -38,6 +38,8 @@ struct WholeModel {
     Index a, b;   ///< a <= b
     double size;  ///< m, mean edge of their joints
   };
+  std::string source;  ///< of the mesh, for messages
+  std::vector<std::string> volume_groups, surface_groups;
   std::int64_t num_elements = 0, num_joints = 0;
   std::vector<JointGroups> joint_groups;
   std::vector<double> body_length;   ///< (bodies) H of contact, m: mean inradius of the elements

@@ -28,7 +28,7 @@ void add_element(const Stepper& stepper, const Fragments& fragments, Index slot,
   out.id.push_back(local.element_of_slot[at(slot)]);
   out.body.push_back(local.slot_body[at(slot)]);
   out.material.push_back(group);
-  out.rank.push_back(0);
+  out.rank.push_back(stepper.communicator().rank());
   out.fragment.push_back(fragments.of_slot[at(slot)]);
   const Mat3 stress = cauchy_stress(local, stepper.model().elastic[at(group)], slot, x, v);
   const auto six = components(stress);
@@ -39,18 +39,25 @@ void add_element(const Stepper& stepper, const Fragments& fragments, Index slot,
   append(out.displacement, centroid(local, x, slot) - centroid(local, local.reference.data(), slot));
 }
 
-/// Triangle halfway between the two faces of a joint that is still held; on the face of a once it is released.
-void add_joint(const Stepper& stepper, GlobalId id, bool released, Frame::Joints& out) {
+/// Triangle on the face of a.
+void add_released_joint(const Stepper& stepper, const ReleasedJoint& joint, Frame::Joints& out) {
   const LocalMesh& local = stepper.model().local;
-  const JointFace& face = stepper.model().joints[static_cast<std::size_t>(id)].face;
-  const double* x = stepper.state().position.data();
-  const Index a = local.slot_of_element[at(face.a)], b = local.slot_of_element[at(face.b)];
-  for (int i = 0; i < 3; ++i) {
-    const Vec3 on_a = load_node(x, local.corner_node(a, kFaceCorners[at(face.face_a)][at(i)]));
-    const Vec3 on_b = load_node(x, local.corner_node(b, matching_corner(face.code, i)));
-    append(out.points, released ? on_a : Vec3(0.5 * (on_a + on_b)));
+  for (const int corner : kFaceCorners[at(joint.face_a)]) {
+    append(out.points, load_node(stepper.state().position.data(), local.corner_node(joint.slot_a, corner)));
   }
-  out.id.push_back(id);
+  out.id.push_back(joint.id);
+}
+
+/// Triangle halfway between the two faces of a joint that is still held.
+void add_active_joint(const Stepper& stepper, const ActiveJoint& joint, Frame::Joints& out) {
+  const LocalMesh& local = stepper.model().local;
+  const double* x = stepper.state().position.data();
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 on_a = load_node(x, local.corner_node(joint.slot_a, kFaceCorners[at(joint.face_a)][at(i)]));
+    const Vec3 on_b = load_node(x, local.corner_node(joint.slot_b, matching_corner(joint.code, i)));
+    append(out.points, Vec3(0.5 * (on_a + on_b)));
+  }
+  out.id.push_back(joint.id);
 }
 
 void add_joints(const Stepper& stepper, Frame::Joints& out) {
@@ -58,7 +65,7 @@ void add_joints(const Stepper& stepper, Frame::Joints& out) {
   std::sort(released.begin(), released.end(), [](const ReleasedJoint& p, const ReleasedJoint& q) { return p.id < q.id; });
   const std::vector<ActiveJoint>& active = stepper.active_joints();
   const auto add_released = [&](const ReleasedJoint& joint) {
-    add_joint(stepper, joint.id, true, out);
+    add_released_joint(stepper, joint, out);
     out.damage.push_back(1.0);
     out.mode.push_back(static_cast<std::int32_t>(joint.mode));
     out.opening.push_back(0.0);  // its faces have parted: there is no opening left to speak of
@@ -68,8 +75,8 @@ void add_joints(const Stepper& stepper, Frame::Joints& out) {
   auto next = released.begin();
   for (const ActiveJoint& joint : active) {
     for (; next != released.end() && next->id < joint.id; ++next) add_released(*next);
-    if (joint.damage() <= 0) continue;
-    add_joint(stepper, joint.id, false, out);
+    if (joint.damage() <= 0 || !stepper.model().local.is_original(joint.slot_a)) continue;
+    add_active_joint(stepper, joint, out);
     out.damage.push_back(joint.damage());
     out.mode.push_back(static_cast<std::int32_t>(joint.mode()));
     out.opening.push_back(joint.opening());
@@ -86,8 +93,9 @@ void add_contacts(const Stepper& stepper, Frame::Contacts& out) {
   const FaceRule& rule = face_rule(stepper.model().contact.points_per_face);
   const double* x = stepper.state().position.data();
   for (const TouchingCouple& couple : contact.touching) {
-    if (couple.force.squaredNorm() == 0.0) continue;
     const ContactPoint& point = contact.points[at(couple.point)];
+    if (couple.force.squaredNorm() == 0.0 || !local.is_original(point.slot)) continue;
+    out.id.push_back(point.id);
     append(out.points, at_point(rule, point, x));
     append(out.force, couple.force);
     out.body.push_back(local.slot_body[at(point.slot)]);
@@ -132,15 +140,6 @@ double sum_of_stress_yy(const Stepper& stepper) {
 
 }  // namespace
 
-Fragments find_fragments(const Stepper& stepper) {
-  FragmentFinder finder(stepper.model().local);
-  finder.join_linked(stepper.links());
-  for (const ActiveJoint& joint : stepper.active_joints()) {
-    if (joint.state == JointState::holding) finder.join(joint.slot_a, joint.slot_b);
-  }
-  return finder.find();
-}
-
 Frame make_frame(const Stepper& stepper, std::int64_t number, const FrameParts& parts) {
   Frame frame;
   frame.step = stepper.steps();
@@ -149,7 +148,9 @@ Frame make_frame(const Stepper& stepper, std::int64_t number, const FrameParts& 
   const LocalMesh& local = stepper.model().local;
   if (parts.elements) {
     const Fragments fragments = find_fragments(stepper);
-    for (const Index slot : local.slot_of_element) add_element(stepper, fragments, slot, frame.elements);
+    for (const Index slot : local.slot_of_element) {
+      if (local.is_original(slot)) add_element(stepper, fragments, slot, frame.elements);
+    }
   }
   if (parts.joints) add_joints(stepper, frame.joints);
   if (parts.contacts) add_contacts(stepper, frame.contacts);
@@ -188,19 +189,33 @@ HistoryRow make_history_row(const Stepper& stepper, const std::vector<Gauge>& ga
 }
 
 StateHash hash_of(const Stepper& stepper) {
-  std::vector<double> damage, contact;
+  const LocalMesh& local = stepper.model().local;
+  StateHash mine = hash_elements(local, stepper.state());
   for (const ActiveJoint& joint : stepper.active_joints()) {
-    damage.push_back(static_cast<double>(joint.id));
-    for (const JointPointHistory& p : joint.points) damage.insert(damage.end(), {p.damage, p.slip[0], p.slip[1], p.slip[2]});
+    if (!local.is_original(joint.slot_a)) continue;
+    SequenceHash hash;
+    hash.add(static_cast<std::uint64_t>(joint.id));
+    for (const JointPointHistory& p : joint.points) {
+      hash.add(p.damage);
+      for (const double slip : p.slip) hash.add(slip);
+    }
+    mine.add(hash);
   }
   if (stepper.contact() != nullptr) {
-    const ContactState& state = stepper.contact()->contact();
-    for (const TouchingCouple& c : state.touching) {
-      contact.push_back(static_cast<double>(state.id(c.point)));
-      contact.insert(contact.end(), {c.d, c.d_max, c.offset, c.spring[0], c.spring[1], c.spring[2]});
+    const ContactState& contact = stepper.contact()->contact();
+    for (const TouchingCouple& c : contact.touching) {
+      if (!local.is_original(contact.points[at(c.point)].slot)) continue;
+      SequenceHash hash;
+      hash.add(static_cast<std::uint64_t>(contact.id(c.point)));
+      hash.add(static_cast<std::uint64_t>(local.element_of_slot[at(contact.contactors[at(c.contactor)])]));
+      for (const double number : {c.d, c.d_max, c.offset, c.spring[0], c.spring[1], c.spring[2]}) hash.add(number);
+      mine.add(hash);
     }
   }
-  return hash_state(stepper.model().local, stepper.state(), damage, contact);
+  StateHash all;
+  const std::uint64_t sum = mine.value();
+  for (const auto& part : stepper.communicator().all_gather(std::span<const std::uint64_t>(&sum, 1))) all.add(StateHash(part[0]));
+  return all;
 }
 
 }  // namespace breccia

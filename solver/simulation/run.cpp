@@ -9,8 +9,8 @@
 #include "output/summary.hpp"
 #include "simulation/convert.hpp"
 #include "simulation/observe.hpp"
-#include "simulation/stepper.hpp"
-#include "simulation/time_step.hpp"
+#include "simulation/frame_gather.hpp"
+#include "simulation/share.hpp"
 
 namespace breccia {
 
@@ -45,23 +45,21 @@ std::string scientific(double value) {
 
 class Runner {
  public:
-  Runner(const case_::Case& input, const Model& model, const std::vector<std::unique_ptr<Sink>>& sinks)
+  Runner(const case_::Case& input, std::unique_ptr<Model> whole, const std::vector<std::unique_ptr<Sink>>& sinks,
+         const Communicator& communicator)
       : input_(input),
-        model_(model),
         sinks_(sinks),
-        stepper_(model, search_params(input, model)),
-        time_step_(model),
+        communicator_(communicator),
+        share_(input, communicator, std::move(whole)),
         end_(input.stages.back().end),
         histories_(input.output.history_interval > 0 ? input.output.history_interval : end_ / 500),
-        frames_(input.output.frame_interval) {
-    for (const case_::InitialVelocity& entry : input.initial_velocities) stepper_.add_velocity(initial_velocity(entry, model));
-    make_gauges();
-  }
+        frames_(input.output.frame_interval) {}
 
   Summary run() {
     tell_start();
     try {
       for (std::size_t s = 0; s < input_.stages.size() && status_ == "complete"; ++s) run_stage(input_.stages[s]);
+      stepper().conclude();
       write_frame();
     } catch (const SimulationError& error) {
       finish(error.what());
@@ -71,108 +69,113 @@ class Runner {
   }
 
  private:
-  void tell_start() {
-    RunStart start{input_.title, model_.mesh.num_elements(), static_cast<std::int64_t>(model_.joints.size()), {}};
-    for (const Gauge& gauge : gauges_) start.gauges.push_back(gauge.group);
-    for (const auto& sink : sinks_) sink->start(start);
+  /// What concerns sinks concerns all ranks: an error on one is an error on all.
+  template <class Tell>
+  void tell(Tell&& tell_one) {
+    communicator_.agree([&] {
+      for (const auto& sink : sinks_) tell_one(*sink);
+    });
   }
 
-  void make_gauges() {
+  void tell_start() {
+    const RunStart start{input_.title, share_.whole().num_elements, share_.whole().num_joints, input_.output.gauges};
+    tell([&](Sink& sink) { sink.start(start); });
+  }
+
+  /// The groups' nodes on this rank as it is now.
+  void make_gauges(const case_::Stage& stage) {
+    gauges_.clear();
+    gauged_ = share_.decompositions();
     for (const std::string& group : input_.output.gauges) {
       Gauge gauge;
       gauge.group = group;
-      gauge.nodes = nodes_of_group(model_, group);
-      const auto& names = model_.mesh.volume_groups;
+      gauge.nodes = counted_nodes_of_group(share_.model(), group);
+      const auto& names = share_.model().mesh.volume_groups;
       const auto found = std::find(names.begin(), names.end(), group);
       if (found != names.end()) gauge.volume_group = static_cast<Index>(found - names.begin());
+      for (std::size_t c = 0; c < stage.constraints.size(); ++c) {
+        if (stage.constraints[c].group == gauge.group) gauge.constraints.push_back(c);
+      }
       gauges_.push_back(std::move(gauge));
     }
   }
 
-  void begin_stage(const case_::Stage& stage) {
-    stage_name_ = stage.name;
-    for (Gauge& gauge : gauges_) {
-      gauge.constraints.clear();
-      for (std::size_t c = 0; c < stage.constraints.size(); ++c) {
-        if (stage.constraints[c].group == gauge.group) gauge.constraints.push_back(c);
-      }
-    }
-    for (const std::string& surface : stage.broken_surfaces) stepper_.break_joints(faces_of_surface(model_, surface));
-    stepper_.begin_stage(stage_loads(stage, model_), step_to(stage.end));
-  }
-
   /// Length of the next steps: what is allowed, shortened so that a whole number of them ends at `end`.
   double step_to(double end) {
-    const double allowed =
-        input_.time.step > 0 ? input_.time.step : input_.time.safety * time_step_.limit(stepper_.state().position);
-    const double left = end - stepper_.time();
+    const double allowed = input_.time.step > 0 ? input_.time.step : input_.time.safety * share_.stable_step();
+    const double left = end - stepper().time();
     return left / std::max(1.0, std::ceil(left / allowed * (1.0 - 1e-9)));
   }
 
   void run_stage(const case_::Stage& stage) {
-    begin_stage(stage);
+    stage_name_ = stage.name;
+    share_.begin_stage(stage, step_to(stage.end));
+    make_gauges(stage);
     std::int64_t until_check = kStepsBetweenChecks;
-    while (stepper_.time() < stage.end - 0.5 * stepper_.dt()) {
+    while (stepper().time() < stage.end - 0.5 * stepper().dt()) {
       if (--until_check == 0 && input_.time.step <= 0) {
         until_check = kStepsBetweenChecks;
         const double dt = step_to(stage.end);
         // Follow a shrinking limit at once, a growing one only when it is worth it.
-        if (dt < 0.99 * stepper_.dt() || dt > 1.2 * stepper_.dt()) stepper_.set_dt(dt);
+        if (dt < 0.99 * stepper().dt() || dt > 1.2 * stepper().dt()) stepper().set_dt(dt);
       }
+      if (gauged_ != share_.decompositions()) make_gauges(stage);
       advance();
-      if (stop_requested) status_ = "stopped: by request";
-      if (input_.time.max_steps > 0 && stepper_.steps() >= input_.time.max_steps) status_ = "stopped: time.max_steps reached";
+      if (stepper().stop_agreed()) status_ = "stopped: by request";
+      if (input_.time.max_steps > 0 && stepper().steps() >= input_.time.max_steps) status_ = "stopped: time.max_steps reached";
       if (status_ != "complete") return;
     }
   }
 
   void advance() {
-    const double time = stepper_.time();
-    if (frames_.due(time, stepper_.dt())) write_frame();
-    const bool sample = histories_.due(time, stepper_.dt());
-    stepper_.step(sample);
+    const double time = stepper().time();
+    if (frames_.due(time, stepper().dt())) write_frame();
+    const bool sample = histories_.due(time, stepper().dt());
+    stepper().step(sample, stop_requested);
     if (sample) {
-      const HistoryRow row = make_history_row(stepper_, gauges_, time);
+      const HistoryRow row = make_history_row(stepper(), gauges_, time);
       last_fragments_ = row.fragments;
-      for (const auto& sink : sinks_) sink->history(row);
+      last_broken_ = row.broken_joints;
+      tell([&](Sink& sink) { sink.history(row); });
       check_residual(time);
     }
     for (const auto& sink : sinks_) {
       if (sink->status_due()) sink->status(status_line());
     }
+    share_.keep_reach();
   }
 
   void check_residual(double time) const {
-    const EnergyBudget& e = stepper_.budget();
+    const EnergyBudget& e = stepper().budget();
     if (!(e.residual_relative > input_.time.residual_limit) && std::isfinite(e.residual)) return;
-    throw SimulationError("step " + std::to_string(stepper_.steps() - 1) + ", time " + scientific(time) + " s: the energy residual is " +
+    throw SimulationError("step " + std::to_string(stepper().steps() - 1) + ", time " + scientific(time) + " s: the energy residual is " +
                           scientific(100 * e.residual_relative) + " % of the largest term (limit " +
                           scientific(100 * input_.time.residual_limit) + " %); the strain energy is densest in element " +
-                          std::to_string(stepper_.worst_element()) + "; lower time.safety, or raise time.residual_limit if you trust the run");
+                          std::to_string(stepper().worst_element()) + "; lower time.safety, or raise time.residual_limit if you trust the run");
   }
 
   void write_frame() {
-    const auto lap = stepper_.timer().measure(Phase::output);
+    const auto lap = stepper().timer().measure(Phase::output);
     const FrameParts parts{input_.output.elements, input_.output.joints, input_.output.contacts};
-    const Frame frame = make_frame(stepper_, frame_number_++, parts);
-    for (const auto& sink : sinks_) sink->frame(frame);
+    const Frame frame = gather_frame(communicator_, make_frame(stepper(), frame_number_++, parts));
+    tell([&](Sink& sink) { sink.frame(frame); });
   }
 
   double wall() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count(); }
 
   StatusLine status_line() {
     StatusLine line;
-    const double left = end_ - stepper_.time();
-    line.step = stepper_.steps();
-    line.steps_total = line.step + static_cast<std::int64_t>(std::llround(left / stepper_.dt()));
-    line.time = stepper_.time();
+    const double left = end_ - stepper().time();
+    line.step = stepper().steps();
+    line.steps_total = line.step + static_cast<std::int64_t>(std::llround(left / stepper().dt()));
+    line.time = stepper().time();
     line.end = end_;
-    line.share = stepper_.time() / end_;
+    line.share = stepper().time() / end_;
     line.wall_s = wall();
-    line.element_steps_per_s = static_cast<double>(model_.mesh.num_elements()) * static_cast<double>(line.step) / line.wall_s;
+    line.element_steps_per_s = static_cast<double>(share_.whole().num_elements) * static_cast<double>(line.step) / line.wall_s;
     line.eta_s = line.share > 0 ? line.wall_s * (1.0 - line.share) / line.share : -1.0;
-    line.energy_residual = stepper_.budget().residual_relative;
-    line.broken_joints = stepper_.broken_joints();
+    line.energy_residual = stepper().budget().residual_relative;
+    line.broken_joints = last_broken_;
     line.fragments = last_fragments_;
     line.stage = stage_name_;
     return line;
@@ -186,49 +189,54 @@ class Runner {
     summary.version = provenance.version;
     summary.host = provenance.host;
     summary.status = status;
-    summary.steps = stepper_.steps();
-    summary.simulated_time = stepper_.time();
-    summary.time_step = stepper_.dt();
-    summary.elements = model_.mesh.num_elements();
-    summary.joints = static_cast<std::int64_t>(model_.joints.size());
-    summary.broken_joints = stepper_.broken_joints();
-    summary.fragments = find_fragments(stepper_).count;
-    summary.searches = stepper_.contact() != nullptr ? stepper_.contact()->num_searches() : 0;
-    summary.inverted_elements = stepper_.crushed();
+    summary.steps = stepper().steps();
+    summary.simulated_time = stepper().time();
+    summary.time_step = stepper().dt();
+    summary.ranks = communicator_.size();
+    summary.elements = share_.whole().num_elements;
+    summary.joints = share_.whole().num_joints;
+    summary.broken_joints = last_broken_ = communicator_.sum(stepper().broken_joints());
+    summary.fragments = find_fragments(stepper()).count;
+    summary.searches = communicator_.max(stepper().searches());
+    summary.inverted_elements = communicator_.sum(stepper().crushed());
     summary.wall_s = wall();
     summary.element_steps_per_s = static_cast<double>(summary.elements) * static_cast<double>(summary.steps) / summary.wall_s;
     for (int p = 0; p < static_cast<int>(Phase::count); ++p) {
       const auto phase = static_cast<Phase>(p);
-      summary.phases.emplace_back(std::string(name_of(phase)), stepper_.timer().seconds(phase));
+      summary.phases.emplace_back(std::string(name_of(phase)), communicator_.max(stepper().timer().seconds(phase)));
     }
-    summary.energy = stepper_.budget();
-    summary.max_rss_bytes = max_resident_bytes();
-    summary.simd = std::string(name_of(stepper_.simd()));
-    summary.state_hash = hash_of(stepper_).text();
-    for (const auto& sink : sinks_) {
-      sink->status(status_line());
-      sink->finish(summary);
-    }
+    summary.energy = stepper().budget();
+    summary.max_rss_bytes = static_cast<std::uint64_t>(communicator_.sum(static_cast<std::int64_t>(max_resident_bytes())));
+    summary.simd = std::string(name_of(stepper().simd()));
+    summary.state_hash = hash_of(stepper()).text();
+    tell([&](Sink& sink) {
+      sink.status(status_line());
+      sink.finish(summary);
+    });
     return summary;
   }
 
+  [[nodiscard]] Stepper& stepper() { return share_.stepper(); }
+  [[nodiscard]] const Stepper& stepper() const { return share_.stepper(); }
+
   const case_::Case& input_;
-  const Model& model_;
   const std::vector<std::unique_ptr<Sink>>& sinks_;
-  Stepper stepper_;
-  TimeStep time_step_;
+  Communicator communicator_;
+  Share share_;
   double end_;
   Schedule histories_, frames_;
   std::vector<Gauge> gauges_;
   std::string stage_name_, status_ = "complete";
-  std::int64_t frame_number_ = 0, last_fragments_ = 0;
+  std::int64_t frame_number_ = 0, last_fragments_ = 0, last_broken_ = 0;
+  std::int64_t gauged_ = 0;  ///< decomposition for which the gauges were made
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace
 
-Summary run_case(const case_::Case& input, const Model& model, const std::vector<std::unique_ptr<Sink>>& sinks) {
-  return Runner(input, model, sinks).run();
+Summary run_case(const case_::Case& input, std::unique_ptr<Model> whole, const std::vector<std::unique_ptr<Sink>>& sinks,
+                 const Communicator& communicator) {
+  return Runner(input, std::move(whole), sinks, communicator).run();
 }
 
 }  // namespace breccia

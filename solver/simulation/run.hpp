@@ -6,6 +6,7 @@
 
 #include "case/case.hpp"
 #include "output/sink.hpp"
+#include "parallel/communicator.hpp"
 #include "simulation/model.hpp"
 
 namespace breccia {
@@ -13,10 +14,12 @@ namespace breccia {
 /// Set from outside (a signal handler) to end the run after the present step, with everything written.
 extern std::atomic<bool> stop_requested;
 
-/// Carries a case through all its stages and tells the sinks.
-/// @param model  built from the case
+/// Carries a case through all its stages and tells the sinks. Collective.
+/// @param whole  the model built from the case, on the root; null elsewhere
+/// @param sinks  of this rank: those that write for all are on the root alone; frames hold the rank's own elements
 /// Returns the summary, which the sinks have got too. Throws SimulationError after a last frame and a summary that names the
 /// error; OutputError as it comes from a sink.
-Summary run_case(const case_::Case& input, const Model& model, const std::vector<std::unique_ptr<Sink>>& sinks);
+Summary run_case(const case_::Case& input, std::unique_ptr<Model> whole, const std::vector<std::unique_ptr<Sink>>& sinks,
+                 const Communicator& communicator = {});
 
 }  // namespace breccia

@@ -45,7 +45,13 @@ Vec3 damping_force(const SweepArgs& args, const Vec3& before, const Vec3& after,
 
 }  // namespace
 
-Stepper::Stepper(const Model& model, const ContactSearchParams& search)
+Stepper::Stepper(const Model& model, const ContactSearchParams& search) : Stepper(model, nullptr) {
+  start_joints();
+  if (model.has_contact) contact_ = std::make_unique<ContactSearch>(search, model.contact, model.mesh, model.topology, model.local);
+}
+
+/// Fields at rest, links, and what the sweep wants.
+Stepper::Stepper(const Model& model, std::nullptr_t)
     : model_(model),
       links_(build_links(model)),
       forces_(model.local.num_own_blocks(), model.local.num_nodes),
@@ -53,41 +59,41 @@ Stepper::Stepper(const Model& model, const ContactSearchParams& search)
       gravity_work_(model.local, model.local.reference),
       simd_(best_simd()),
       shared_corners_(blocked_corners(model.local)) {
-  const LocalMesh& local = model.local;
+  const LocalMesh& local = model_.local;
   state_.position = local.reference;
   state_.next_position = local.reference;
   state_.velocity.assign(local.reference.size(), 0.0);
   for (Index n = 0; n < local.num_nodes; ++n) {
     if (local.node_id[at(n)] < 0) padding_nodes_.push_back(n);
   }
-  for (const ElasticParams& p : model.elastic) {
+  for (const ElasticParams& p : model_.elastic) {
     viscous_on_ = viscous_on_ || p.viscosity > 0;
     stress_work_on_ = stress_work_on_ || p.law != ElasticLaw::neo_hookean;
   }
   if (viscous_on_) viscous_.resize(at(local.num_slots));
   if (stress_work_on_) stress_work_.resize(at(local.num_slots));
   if (viscous_on_ || stress_work_on_) kept_stress_.resize(at(local.num_slots) * 18);
-  for (Index s = 0; s < local.num_slots; ++s) {
-    // Strains below 1e-10 are round-off of positions: energies of that size are no measure for a residual.
-    const ElasticParams& p = model.elastic[at(local.block_group[at(s / kLanes)])];
-    energy_floor_ += 1e-20 * local.volume[at(s)] * (p.lambda + 2 * p.mu);
-  }
-  start_joints();
-  if (model.has_contact) contact_ = std::make_unique<ContactSearch>(search, model.contact, model.mesh, model.topology, local);
+  freed_.assign(model_.mesh.elements.size(), 0);
+  index_joints();
 }
 
-void Stepper::start_joints() {
+void Stepper::index_joints() {
   const LocalMesh& local = model_.local;
-  joint_of_face_.assign(at(local.num_own_slots) * 4, -1);
-  std::vector<ActiveJoint> from_start;
-  const auto note = [&](Index slot, int face, std::size_t joint) {
-    if (slot < local.num_own_slots) joint_of_face_[at(slot) * 4 + static_cast<std::size_t>(face)] = static_cast<Index>(joint);
+  joint_of_face_.assign(at(local.num_slots) * 4, -1);
+  const auto note = [&](Index element, int face, std::size_t joint) {
+    joint_of_face_[at(local.slot_of_element[at(element)]) * 4 + static_cast<std::size_t>(face)] = static_cast<Index>(joint);
   };
   for (std::size_t j = 0; j < model_.joints.size(); ++j) {
     const JointFace& face = model_.joints[j].face;
-    note(local.slot_of_element[at(face.a)], face.face_a, j);
-    note(local.slot_of_element[at(face.b)], face.code / 3, j);
-    if (!starts_intact(model_, model_.joints[j])) from_start.push_back(make_active(static_cast<GlobalId>(j)));
+    note(face.a, face.face_a, j);
+    note(face.b, face.code / 3, j);
+  }
+}
+
+void Stepper::start_joints() {
+  std::vector<ActiveJoint> from_start;
+  for (std::size_t j = 0; j < model_.joints.size(); ++j) {
+    if (!starts_intact(model_, model_.joints[j])) from_start.push_back(make_active(j));
   }
   insert_active(std::move(from_start));
 }
@@ -100,10 +106,10 @@ void Stepper::insert_active(std::vector<ActiveJoint> batch) {
                      [](const ActiveJoint& x, const ActiveJoint& y) { return x.id < y.id; });
 }
 
-ActiveJoint Stepper::make_active(GlobalId id) const {
-  const ModelJoint& joint = model_.joints[static_cast<std::size_t>(id)];
+ActiveJoint Stepper::make_active(std::size_t index) const {
+  const ModelJoint& joint = model_.joints[index];
   ActiveJoint active;
-  active.id = id;
+  active.id = model_.joint_id(index);
   active.slot_a = model_.local.slot_of_element[at(joint.face.a)];
   active.slot_b = model_.local.slot_of_element[at(joint.face.b)];
   active.face_a = joint.face.face_a;
@@ -129,11 +135,11 @@ void Stepper::begin_stage(StageLoads loads, double dt) {
 void Stepper::break_joints(std::span<const LoadedFace> faces) {
   std::vector<GlobalId> by_hand;
   for (const LoadedFace& face : faces) {
-    if (face.slot >= model_.local.num_own_slots) continue;
     const Index id = joint_of_face_[at(face.slot) * 4 + static_cast<std::size_t>(face.face)];
-    const bool intact = id >= 0 && JointLinks::code_of(links_.link[JointLinks::at(face.slot, face.face)]) < 12;
-    if (intact) crossed_.push_back(id);
-    if (id >= 0) by_hand.push_back(id);
+    const bool swept = id >= 0 && face.slot < model_.local.num_own_slots;
+    const bool intact = swept && JointLinks::code_of(links_.link[JointLinks::at(face.slot, face.face)]) < 12;
+    if (intact) crossed_.push_back(at(id));
+    if (id >= 0) by_hand.push_back(model_.joint_id(at(id)));
   }
   std::sort(crossed_.begin(), crossed_.end());
   crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());
@@ -145,9 +151,18 @@ void Stepper::break_joints(std::span<const LoadedFace> faces) {
   }
 }
 
-void Stepper::step(bool sample) {
+void Stepper::connect(const Communicator& communicator, Halo& halo, std::vector<SharedElements> shared) {
+  communicator_ = communicator;
+  shared_elements_ = std::move(shared);
+  halo_ = &halo;
+  vote_.emplace(communicator, 3);
+  cast_votes(false);
+}
+
+void Stepper::step(bool sample, bool stop) {
   external_forces();
   joint_forces();
+  hear_votes();
   contact_forces();
   Field<double> velocity_before;
   if (sample) velocity_before = state_.velocity;
@@ -158,6 +173,8 @@ void Stepper::step(bool sample) {
   activate_crossing();
   if (sample) take_budget(velocity_before);
   book_after(sample);
+  cast_votes(stop);
+  gather_proxies();
   std::swap(state_.position, state_.next_position);
   time_ += dt_;
   dt_before_ = dt_;
@@ -176,7 +193,43 @@ void Stepper::joint_forces() {
   const auto lap = timer_.measure(Phase::joints);
   active_joint_forces(model_.joint_laws, model_.local, state_.position.data(), active_, forces_, joint_work_);
   broken_joints_ += static_cast<std::int64_t>(joint_work_.failed.size());
-  released_.insert(released_.end(), joint_work_.released.begin(), joint_work_.released.end());
+  for (const ReleasedJoint& joint : joint_work_.released) {
+    if (model_.local.is_original(joint.slot_a)) released_.push_back(joint);
+    const Index index = joint_of_face_[at(joint.slot_a) * 4 + static_cast<std::size_t>(joint.face_a)];
+    const JointFace& face = model_.joints[at(index)].face;
+    mark_released(face.a, face.face_a);
+    mark_released(face.b, face.code / 3);
+  }
+}
+
+/// What all ranks said at the end of the last step.
+void Stepper::hear_votes() {
+  max_speed_anywhere_ = max_speed_;
+  if (!vote_) return;
+  const auto lap = timer_.measure(Phase::communication);
+  const std::span<const double> largest = vote_->take();
+  max_speed_anywhere_ = largest[0];
+  stop_agreed_ = largest[2] > 0;
+  if (!(largest[1] > 0)) return;
+  communicator_.agree([&] {
+    if (failure_) throw SimulationError(*failure_);
+  });
+}
+
+void Stepper::cast_votes(bool stop) {
+  if (vote_) vote_->post(std::array{max_speed_, failure_ ? 1.0 : 0.0, stop ? 1.0 : 0.0});
+}
+
+void Stepper::conclude() {
+  hear_votes();
+  vote_.reset();
+}
+
+void Stepper::gather_proxies() {
+  if (halo_ == nullptr) return;
+  const auto lap = timer_.measure(Phase::communication);
+  halo_->gather_begin(std::array{state_.next_position.data(), state_.velocity.data()});
+  halo_->gather_end();
 }
 
 void Stepper::contact_forces() {
@@ -188,7 +241,7 @@ void Stepper::contact_forces() {
       for (const ReleasedJoint& joint : joint_work_.released) freed.push_back({joint.slot_a, joint.face_a});
       contact_->release_faces(freed);
     }
-    contact_->update(state_, max_speed_, dt_before_);
+    contact_->update(state_, max_speed_anywhere_, dt_before_);
   }
   const auto lap = timer_.measure(Phase::contact);
   contact_->forces(state_, dt_before_, forces_, contact_work_);
@@ -197,7 +250,8 @@ void Stepper::contact_forces() {
 SweepArgs Stepper::sweep_args(bool sample) {
   const LocalMesh& local = model_.local;
   SweepArgs args;
-  args.end_own_block = args.num_own_blocks = local.num_own_blocks();
+  args.end_own_block = local.num_own_originals / kLanes;
+  args.num_own_blocks = local.num_own_blocks();
   args.num_blocks = local.num_blocks();
   args.num_moved_nodes = local.num_moved_nodes;
   args.position = state_.position.data();
@@ -241,16 +295,24 @@ void Stepper::sweep(const SweepArgs& args) {
   crushed_ += status.crushed;
   check_finite(status);
   max_speed_ = std::sqrt(status.max_speed_squared);
+  // Proxies are swept for the sake of their joints, which must leave the elastic range here when they do so elsewhere; where
+  // they go, their originals tell.
+  SweepArgs proxies = args;
+  proxies.first_own_block = args.end_own_block;
+  proxies.end_own_block = proxies.num_blocks = args.num_own_blocks;
+  proxies.num_moved_nodes = 0;
+  if (proxies.first_own_block < proxies.end_own_block) (void)sweep_for(simd_)(proxies);
 }
 
-void Stepper::check_finite(const SweepStatus& status) const {
+void Stepper::check_finite(const SweepStatus& status) {
   if (status.speed_squared_sum < 1e300) return;
   std::string place;
   if (status.first_not_finite >= 0) {
     place = " near element " + std::to_string(model_.local.element_of_slot[at(status.first_not_finite) * kLanes]);
   }
-  throw SimulationError("step " + std::to_string(steps_) + ", time " + std::to_string(time_) + " s: a velocity is not finite" + place +
-                        "; the time step is too long for what happens there: lower time.safety (or time.step), or the penalties");
+  failure_ = "step " + std::to_string(steps_) + ", time " + std::to_string(time_) + " s: a velocity is not finite" + place +
+                        "; the time step is too long for what happens there: lower time.safety (or time.step), or the penalties";
+  if (!vote_) throw SimulationError(*failure_);
 }
 
 /// Velocities before the sweep of the nodes that constraints will hold: their damping has to be booked anew.
@@ -290,7 +352,10 @@ void Stepper::finish_motion(const SweepArgs& args) {
     constraints_.apply(model_.local, state_, time_, dt_before_, dt_);
     if (damped) rebook_damping(args, free);
     for (const NodalConstraint& entry : entries_) {
-      for (const Index node : entry.nodes) max_speed_ = std::max(max_speed_, load_node(state_.velocity.data(), node).norm());
+      for (const Index node : entry.nodes) {
+        if (model_.local.counted[at(node)] == 0) continue;
+        max_speed_ = std::max(max_speed_, load_node(state_.velocity.data(), node).norm());
+      }
     }
   }
   if (args.kept_stress != nullptr) rate_work_for(simd_)(args);
@@ -304,10 +369,10 @@ void Stepper::finish_motion(const SweepArgs& args) {
 void Stepper::crossing(void* context, Index slot, int face, double* force) {
   auto& self = *static_cast<Stepper*>(context);
   const Index id = self.joint_of_face_[at(slot) * 4 + static_cast<std::size_t>(face)];
-  const ActiveJoint virgin = self.make_active(id);
+  const ActiveJoint virgin = self.make_active(at(id));
   const bool side_a = virgin.slot_a == slot;
   virgin_forces(self.model_.joint_laws[at(virgin.law)], self.model_.local, self.state_.position.data(), virgin, side_a, force);
-  if (side_a) self.crossed_.push_back(id);
+  if (side_a) self.crossed_.push_back(at(id));
 }
 
 void Stepper::activate_crossing() {
@@ -315,8 +380,8 @@ void Stepper::activate_crossing() {
   const auto lap = timer_.measure(Phase::joints);
   std::sort(crossed_.begin(), crossed_.end());
   std::vector<ActiveJoint> batch;
-  for (const GlobalId id : crossed_) {
-    batch.push_back(make_active(id));
+  for (const std::size_t joint_index : crossed_) {
+    batch.push_back(make_active(joint_index));
     const ActiveJoint& joint = batch.back();
     links_.detach(joint.slot_a, joint.face_a);
     links_.detach(joint.slot_b, joint.code / 3);
@@ -355,7 +420,7 @@ void Stepper::take_budget(const Field<double>& velocity_before) {
   }
   if (!first_total_) first_total_ = total - e.external_work;
   e.residual = *first_total_ + e.external_work - total;
-  e.residual_relative = std::abs(e.residual) / std::max(largest, energy_floor_);
+  e.residual_relative = std::abs(e.residual) / std::max(largest, model_.whole.energy_floor);
 }
 
 void Stepper::book_after(bool sample) {

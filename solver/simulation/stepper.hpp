@@ -6,21 +6,38 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/phase_timer.hpp"
 #include "output/frame.hpp"
+#include "parallel/communicator.hpp"
+#include "parallel/halo.hpp"
 #include "physics/energy.hpp"
 #include "physics/initial_velocity.hpp"
 #include "physics/joint_forces.hpp"
 #include "physics/sweep.hpp"
 #include "simulation/contact_search.hpp"
 #include "simulation/model.hpp"
+#include "simulation/records.hpp"
 #include "simulation/stage_loads.hpp"
 #include "state/nodal_forces.hpp"
 #include "state/state.hpp"
 
 namespace breccia {
+
+/// What a rank takes along when its elements change: clock and books. Sums over ranks do not depend on who holds what.
+struct Ledger {
+  double time = 0, dt = 0, dt_before = 0;  ///< s
+  double max_speed = 0;                    ///< m/s
+  PhaseTimer timer;
+  std::int64_t steps = 0, crushed = 0, broken_joints = 0, searches = 0;
+  double past_external = 0;                ///< J, work of loads and constraints up to now
+  JointWork joint_work;
+  ContactWork contact_work;
+  std::optional<double> first_total;       ///< J, energy minus external work of the whole model at the first sample
+  EnergyBudget budget;                     ///< of the last sample
+};
 
 /// The conductor of one step: owns everything that changes, calls the kernels in their order, computes nothing itself.
 ///
@@ -28,11 +45,14 @@ namespace breccia {
 ///  1. pressure on faces, then the active joints, by ascending ids; joints that have come apart hand their faces to contact;
 ///  2. contact: a new search if one is due, then the forces of every couple, by ascending ids;
 ///  3. the sweep: every element's internal forces, its side of its intact joints, and the motion of its nodes;
-///  4. constraints; joints that have left their elastic range join the active list.
+///  4. constraints; joints that have left their elastic range join the active list;
+///  5. proxies are gathered from their originals.
 class Stepper {
  public:
   /// @pre model outlives this object and does not change.
   Stepper(const Model& model, const ContactSearchParams& search);
+  /// Goes on where others stopped. @param records  of the elements of model.mesh
+  Stepper(const Model& model, const ContactSearchParams& search, const Records& records, Ledger ledger);
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 
@@ -46,9 +66,24 @@ class Stepper {
   /// Takes the joints on these faces away; what they store is booked as dissipated in mode I. Joints broken already stay so.
   void break_joints(std::span<const LoadedFace> faces);
 
-  /// One step. With `sample`, the energy budget at t_n is taken on the way: budget().
-  /// Throws SimulationError when a velocity is not finite.
-  void step(bool sample);
+  /// All that this rank's originals remember, ascending; between two steps.
+  [[nodiscard]] Records records() const;
+  /// Clock and books as of now. The stage's loads end with it.
+  [[nodiscard]] Ledger close();
+  /// After begin_stage of a stage that had begun before: displacements count from where they did.
+  void restore_holds(const Records& records);
+
+  /// From now on this rank is one of several: proxies are gathered after every step, and all ranks learn of the largest speed,
+  /// of failures and of the wish to stop. @pre the halo outlives this object. Collective.
+  void connect(const Communicator& communicator, Halo& halo, std::vector<SharedElements> shared);
+
+  /// Hears what was said at the end of the last step; after this no more steps. Collective.
+  void conclude();
+
+  /// One step. With `sample`, the energy budget at t_n is taken on the way: budget(). Collective.
+  /// @param stop  this rank has been asked to stop: stop_agreed()
+  /// Throws SimulationError on all ranks when a velocity was not finite at the end of the last step.
+  void step(bool sample, bool stop = false);
 
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] double time() const { return time_; }               ///< s, t_n: of position
@@ -61,8 +96,14 @@ class Stepper {
   [[nodiscard]] const ContactWork& contact_work() const { return contact_work_; }
   [[nodiscard]] const Constraints& constraints() const { return constraints_; }
   [[nodiscard]] PhaseTimer& timer() { return timer_; }
-  [[nodiscard]] double max_speed() const { return max_speed_; }     ///< m/s, after the last step
+  [[nodiscard]] double max_speed() const { return max_speed_; }     ///< m/s, of the rank's originals after the last step
+  [[nodiscard]] bool stop_agreed() const { return stop_agreed_; }   ///< some rank asked for it a step ago
+  [[nodiscard]] double max_speed_anywhere() const { return max_speed_anywhere_; }  ///< m/s, of all ranks, a step ago
+  [[nodiscard]] const std::vector<SharedElements>& shared_elements() const { return shared_elements_; }
+  [[nodiscard]] Index element_with(GlobalId id) const;  ///< index in the rank's mesh. @pre it is there
+  [[nodiscard]] const Communicator& communicator() const { return communicator_; }
   [[nodiscard]] std::int64_t crushed() const { return crushed_; }   ///< element-steps with J below its floor
+  [[nodiscard]] std::int64_t searches() const { return searches_before_ + (contact_ ? contact_->num_searches() : 0); }
   [[nodiscard]] Simd simd() const { return simd_; }
   void use_simd(Simd simd) { simd_ = simd; }
 
@@ -78,17 +119,28 @@ class Stepper {
   [[nodiscard]] GlobalId worst_element() const { return worst_element_; }
 
  private:
+  Stepper(const Model& model, std::nullptr_t);
+  void index_joints();
   void start_joints();
+  void restore_elements(const Records& records);
+  void restore_joints(const Records& records);
+  void mark_released(Index element, int face);
+  void detach(Index slot, int face);
+  void remember_joints(Records& records) const;
+  void remember_holds(Records& records) const;
   void insert_active(std::vector<ActiveJoint> batch);
-  [[nodiscard]] ActiveJoint make_active(GlobalId joint) const;
+  [[nodiscard]] ActiveJoint make_active(std::size_t joint) const;
   void external_forces();
   void joint_forces();
+  void hear_votes();
+  void cast_votes(bool stop);
   void contact_forces();
   [[nodiscard]] SweepArgs sweep_args(bool sample);
   void sweep(const SweepArgs& args);
+  void gather_proxies();
   void remember_held();
   void rebook_damping(const SweepArgs& args, const std::vector<Vec3>& free);
-  void check_finite(const SweepStatus& status) const;
+  void check_finite(const SweepStatus& status);
   void finish_motion(const SweepArgs& args);
   void activate_crossing();
   void take_budget(const Field<double>& velocity_before);
@@ -98,10 +150,11 @@ class Stepper {
   const Model& model_;
   State state_;
   JointLinks links_;
-  std::vector<Index> joint_of_face_;        ///< (own slots, 4) joint id, -1: none
+  std::vector<Index> joint_of_face_;        ///< (slots, 4) index of the joint, -1: none
   std::vector<ActiveJoint> active_;         ///< ascending id
   std::vector<ReleasedJoint> released_;     ///< whose faces belong to contact, in the order of their release
-  std::vector<GlobalId> crossed_;           ///< joints that left their elastic range in this step
+  std::vector<std::uint8_t> freed_;         ///< (elements) a bit a face: belongs to contact since its joint was released
+  std::vector<std::size_t> crossed_;        ///< joints that left their elastic range in this step
   std::int64_t broken_joints_ = 0;
   NodalForces forces_;
   std::unique_ptr<ContactSearch> contact_;
@@ -115,9 +168,16 @@ class Stepper {
   double mass_damping_ = 0, local_damping_ = 0;
 
   double time_ = 0, dt_ = 0, dt_before_ = 0;
-  std::int64_t steps_ = 0, crushed_ = 0;
-  double max_speed_ = 0;
+  std::int64_t steps_ = 0, crushed_ = 0, searches_before_ = 0;
+  double max_speed_ = 0, max_speed_anywhere_ = 0;
   Simd simd_;
+
+  Communicator communicator_;               ///< alone unless connected
+  Halo* halo_ = nullptr;
+  std::vector<SharedElements> shared_elements_;
+  std::optional<Vote> vote_;
+  std::optional<std::string> failure_;      ///< of this rank in the last step
+  bool stop_agreed_ = false;
 
   // Books, J.
   double past_external_ = 0;                ///< work of the loads and constraints of earlier stages
@@ -128,7 +188,6 @@ class Stepper {
   Field<double> damping_;                   ///< (num_nodes) once damping has been asked for
   Field<double> viscous_late_, stress_work_late_, damping_late_;
   std::optional<double> first_total_;       ///< energy minus external work at the first sample
-  double energy_floor_ = 0;                 ///< J, energies below are round-off
   EnergyBudget budget_;
   GlobalId worst_element_ = -1;
 

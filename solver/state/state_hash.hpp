@@ -10,9 +10,8 @@
 
 namespace breccia {
 
-/// 64-bit hash of a sequence of numbers, for "are these two runs the same bits?". Depends on every bit and on the
-/// order. Not cryptographic.
-class StateHash {
+/// 64-bit hash of a sequence of numbers. Depends on every bit and on the order. Not cryptographic.
+class SequenceHash {
  public:
   void add(std::uint64_t word) {
     hash_ = (std::rotl(hash_, 27) ^ mixed(word)) * 0x9e3779b97f4a7c15ULL + 0x632be59bd9b4e019ULL;
@@ -24,8 +23,6 @@ class StateHash {
   }
 
   [[nodiscard]] std::uint64_t value() const { return mixed(hash_); }
-  /// 16 lower-case hexadecimal digits.
-  [[nodiscard]] std::string text() const;
 
  private:
   /// Two rounds of xor-shift and multiplication: a bijection in which every bit reaches every other.
@@ -38,11 +35,26 @@ class StateHash {
   std::uint64_t hash_ = 0x243f6a8885a308d3ULL;
 };
 
-/// Positions and velocities of the four corners of every element by global id, corner and axis, then the histories. The
-/// same for every layout of the same state.
-/// @param damage, contact  histories in global order (joint, point; point, couple). O(elements), 10 ns an
-///   element-corner.
-[[nodiscard]] StateHash hash_state(const LocalMesh& mesh, const State& state, std::span<const double> damage,
-                                   std::span<const double> contact);
+/// Hash of the whole state, for "are these two runs the same bits?": the sum of the hashes of its entities, each of which
+/// begins with the entity's global id. The same in whatever order and on whatever ranks entities are added.
+class StateHash {
+ public:
+  StateHash() = default;
+  explicit StateHash(std::uint64_t sum) : sum_(sum) {}
+
+  void add(const SequenceHash& entity) { sum_ += entity.value(); }
+  void add(const StateHash& other) { sum_ += other.sum_; }
+
+  [[nodiscard]] std::uint64_t value() const { return sum_; }
+  /// 16 lower-case hexadecimal digits.
+  [[nodiscard]] std::string text() const;
+
+ private:
+  std::uint64_t sum_ = 0;
+};
+
+/// Hash of this rank's originals: positions and velocities of the four corners by corner and axis. The same for every layout
+/// of the same state. O(elements), 10 ns an element-corner.
+[[nodiscard]] StateHash hash_elements(const LocalMesh& mesh, const State& state);
 
 }  // namespace breccia

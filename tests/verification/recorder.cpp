@@ -27,7 +27,7 @@ Recording run(const case_::Case& input) {
   Recording recording;
   std::vector<std::unique_ptr<Sink>> sinks;
   sinks.push_back(std::make_unique<Recorder>(recording));
-  run_case(input, build_model(input), sinks);
+  run_case(input, std::make_unique<Model>(build_model(input)), sinks);
   return recording;
 }
 

@@ -1,0 +1,234 @@
+#include "parallel/communicator.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <limits>
+#include <sched.h>
+
+#include "base/error.hpp"
+#include "parallel/mpi_handle.hpp"
+
+namespace breccia {
+namespace {
+
+constexpr std::size_t kLargestMessage = std::size_t{1} << 30;
+
+/// Sum, smallest or largest over all ranks, in place.
+template <class T>
+void reduce(const std::shared_ptr<Communicator::Handle>& handle, T* values, std::size_t count, MPI_Datatype type, MPI_Op op) {
+  if (!handle) return;
+  DEMAND(count <= static_cast<std::size_t>(std::numeric_limits<int>::max()), std::to_string(count) + " values");
+  MPI_Request request;
+  check_mpi(MPI_Iallreduce(MPI_IN_PLACE, values, static_cast<int>(count), type, op, handle->comm, &request), "MPI_Iallreduce");
+  const int everybody = -1;
+  wait_for(*handle, std::span(&request, 1), std::span(&everybody, 1));
+}
+
+template <class T>
+T reduced(const std::shared_ptr<Communicator::Handle>& handle, T value, MPI_Datatype type, MPI_Op op) {
+  reduce(handle, &value, 1, type, op);
+  return value;
+}
+
+/// The pieces of a message, none longer than MPI can count.
+template <class Byte>
+std::vector<std::span<Byte>> pieces(std::span<Byte> bytes) {
+  std::vector<std::span<Byte>> parts;
+  for (std::size_t at = 0; at < bytes.size(); at += kLargestMessage) {
+    parts.push_back(bytes.subspan(at, std::min(kLargestMessage, bytes.size() - at)));
+  }
+  return parts;
+}
+
+std::string ranks_text(std::span<const MPI_Request> requests, std::span<const int> ranks) {
+  std::string text;
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    if (requests[i] == MPI_REQUEST_NULL) continue;
+    if (ranks[i] < 0) return "all others";
+    text += (text.empty() ? "rank " : ", ") + std::to_string(ranks[i]);
+  }
+  return text;
+}
+
+}  // namespace
+
+Communicator::Handle::Handle(MPI_Comm of) {
+  check_mpi(MPI_Comm_dup(of, &comm), "MPI_Comm_dup");
+  check_mpi(MPI_Comm_set_errhandler(comm, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+  check_mpi(MPI_Comm_rank(comm, &rank), "MPI_Comm_rank");
+  check_mpi(MPI_Comm_size(comm, &size), "MPI_Comm_size");
+}
+
+Communicator::Handle::~Handle() {
+  int finalized = 0;
+  MPI_Finalized(&finalized);
+  if (finalized == 0) MPI_Comm_free(&comm);
+}
+
+void check_mpi(int result, const char* call) {
+  if (result == MPI_SUCCESS) return;
+  char text[MPI_MAX_ERROR_STRING] = "";
+  int length = 0;
+  MPI_Error_string(result, text, &length);
+  throw InternalError(std::string(call) + ": " + text);
+}
+
+void wait_for(const Communicator::Handle& handle, std::span<MPI_Request> requests, std::span<const int> ranks) {
+  using Clock = std::chrono::steady_clock;
+  constexpr int kSpins = 2000;
+  int done = 0;
+  for (int spin = 0; spin < kSpins && done == 0; ++spin) {
+    check_mpi(MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE), "MPI_Testall");
+  }
+  const Clock::time_point start = Clock::now();
+  bool told = false;
+  while (done == 0) {
+    sched_yield();
+    check_mpi(MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE), "MPI_Testall");
+    const double waited = std::chrono::duration<double>(Clock::now() - start).count();
+    if (done != 0 || waited < handle.patience) continue;
+    const std::string text = "rank " + std::to_string(handle.rank) + " has waited " + std::to_string(static_cast<long>(waited)) +
+                             " s for " + ranks_text(requests, ranks) + " in phase \"" + handle.phase + "\"";
+    if (!told) std::fprintf(stderr, "breccia: %s\n", text.c_str());
+    told = true;
+    if (waited > 2 * handle.patience) throw InternalError(text);
+  }
+}
+
+int Communicator::rank() const { return handle_ ? handle_->rank : 0; }
+int Communicator::size() const { return handle_ ? handle_->size : 1; }
+
+void Communicator::set_phase(const char* phase) const {
+  if (handle_) handle_->phase = phase;
+}
+
+void Communicator::set_patience(double seconds) const {
+  if (handle_) handle_->patience = seconds;
+}
+
+void Communicator::barrier() const { (void)sum(std::int64_t{0}); }
+
+double Communicator::min(double value) const { return reduced(handle_, value, MPI_DOUBLE, MPI_MIN); }
+double Communicator::max(double value) const { return reduced(handle_, value, MPI_DOUBLE, MPI_MAX); }
+std::int64_t Communicator::max(std::int64_t value) const { return reduced(handle_, value, MPI_INT64_T, MPI_MAX); }
+std::int64_t Communicator::sum(std::int64_t value) const { return reduced(handle_, value, MPI_INT64_T, MPI_SUM); }
+
+void Communicator::sum(std::span<std::int64_t> values) const {
+  reduce(handle_, values.data(), values.size(), MPI_INT64_T, MPI_SUM);
+}
+
+void Communicator::max(std::span<double> values) const { reduce(handle_, values.data(), values.size(), MPI_DOUBLE, MPI_MAX); }
+
+void Communicator::broadcast(std::vector<std::byte>& bytes) const {
+  if (!handle_) return;
+  std::vector<Parcel> parcels;
+  for (int r = 0; is_root() && r < size(); ++r) parcels.push_back({r, bytes});
+  bytes = exchange(std::move(parcels)).at(0).bytes;
+}
+
+std::vector<std::vector<std::byte>> Communicator::all_gather_bytes(std::span<const std::byte> mine) const {
+  std::vector<Parcel> parcels;
+  for (int r = 0; r < size(); ++r) parcels.push_back({r, {mine.begin(), mine.end()}});
+  std::vector<std::vector<std::byte>> lists;
+  for (Parcel& parcel : exchange(std::move(parcels))) lists.push_back(std::move(parcel.bytes));
+  return lists;
+}
+
+std::vector<std::vector<std::byte>> Communicator::gather_bytes(std::span<const std::byte> mine) const {
+  std::vector<Parcel> parcels;
+  parcels.push_back({0, {mine.begin(), mine.end()}});
+  std::vector<std::vector<std::byte>> lists;
+  for (Parcel& parcel : exchange(std::move(parcels))) lists.push_back(std::move(parcel.bytes));
+  return lists;
+}
+
+std::vector<Communicator::Parcel> Communicator::exchange(std::vector<Parcel> parcels) const {
+  const auto by_rank = [](const Parcel& a, const Parcel& b) { return a.rank < b.rank; };
+  std::sort(parcels.begin(), parcels.end(), by_rank);
+  if (!handle_) return parcels;
+  constexpr std::int64_t kNone = -1;
+  const auto ranks = static_cast<std::size_t>(size());
+  std::vector<std::int64_t> give(ranks, kNone), get(ranks, kNone);
+  for (const Parcel& parcel : parcels) {
+    std::int64_t& length = give.at(static_cast<std::size_t>(parcel.rank));
+    DEMAND(length == kNone, "two parcels for rank " + std::to_string(parcel.rank));
+    length = static_cast<std::int64_t>(parcel.bytes.size());
+  }
+  MPI_Request counts;
+  check_mpi(MPI_Ialltoall(give.data(), 1, MPI_INT64_T, get.data(), 1, MPI_INT64_T, handle_->comm, &counts), "MPI_Ialltoall");
+  const int everybody = -1;
+  wait_for(*handle_, std::span(&counts, 1), std::span(&everybody, 1));
+
+  std::vector<Parcel> received;
+  std::vector<MPI_Request> requests;
+  std::vector<int> partners;
+  for (int r = 0; r < size(); ++r) {
+    const std::int64_t length = get[static_cast<std::size_t>(r)];
+    if (length == kNone) continue;
+    received.push_back({r, std::vector<std::byte>(static_cast<std::size_t>(length))});
+  }
+  const auto post = [&](auto&& start, auto&& piece, int partner) {
+    requests.emplace_back();
+    partners.push_back(partner);
+    check_mpi(start(piece.data(), static_cast<int>(piece.size()), MPI_BYTE, partner, static_cast<int>(Tag::parcel), handle_->comm,
+                    &requests.back()),
+              "MPI_Isend or MPI_Irecv");
+  };
+  for (Parcel& parcel : received) {
+    if (parcel.rank == rank()) continue;
+    for (const auto& piece : pieces(std::span(parcel.bytes))) post(MPI_Irecv, piece, parcel.rank);
+  }
+  for (Parcel& parcel : parcels) {
+    if (parcel.rank == rank()) {
+      std::find_if(received.begin(), received.end(), [&](const Parcel& p) { return p.rank == rank(); })->bytes = std::move(parcel.bytes);
+      continue;
+    }
+    for (const auto& piece : pieces(std::span(parcel.bytes))) post(MPI_Isend, piece, parcel.rank);
+  }
+  wait_for(*handle_, requests, partners);
+  return received;
+}
+
+// --- Vote ---------------------------------------------------------------------------------------------------------------
+
+class Vote::Request {
+ public:
+  Request(std::shared_ptr<Communicator::Handle> handle, std::size_t count) : handle_(std::move(handle)), mine_(count), all_(count) {}
+  Request(const Request&) = delete;
+  Request& operator=(const Request&) = delete;
+  ~Request() {
+    if (request_ != MPI_REQUEST_NULL) MPI_Wait(&request_, MPI_STATUS_IGNORE);
+  }
+
+  void post(std::span<const double> values) {
+    std::copy(values.begin(), values.end(), mine_.begin());
+    if (!handle_) {
+      all_ = mine_;
+      return;
+    }
+    check_mpi(MPI_Iallreduce(mine_.data(), all_.data(), static_cast<int>(mine_.size()), MPI_DOUBLE, MPI_MAX, handle_->comm, &request_),
+              "MPI_Iallreduce");
+  }
+  std::span<const double> take() {
+    const int everybody = -1;
+    if (handle_) wait_for(*handle_, std::span(&request_, 1), std::span(&everybody, 1));
+    return all_;
+  }
+
+ private:
+  std::shared_ptr<Communicator::Handle> handle_;
+  std::vector<double> mine_, all_;
+  MPI_Request request_ = MPI_REQUEST_NULL;
+};
+
+Vote::Vote(const Communicator& communicator, std::size_t count)
+    : request_(std::make_unique<Request>(communicator.handle(), count)) {}
+Vote::Vote(Vote&&) noexcept = default;
+Vote& Vote::operator=(Vote&&) noexcept = default;
+Vote::~Vote() = default;
+
+void Vote::post(std::span<const double> values) { request_->post(values); }
+std::span<const double> Vote::take() { return request_->take(); }
+
+}  // namespace breccia

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace breccia {
+
+/// A group of ranks that work on one model. Every call is collective and in the same order on all ranks. Without MPI (default
+/// constructed) a rank is alone: every call does what it does for one rank.
+/// Throws InternalError when MPI reports an error.
+class Communicator {
+ public:
+  Communicator() = default;  ///< alone
+
+  [[nodiscard]] int rank() const;
+  [[nodiscard]] int size() const;
+  [[nodiscard]] bool is_root() const { return rank() == 0; }
+
+  void barrier() const;
+  [[nodiscard]] double min(double value) const;
+  [[nodiscard]] double max(double value) const;
+  [[nodiscard]] std::int64_t max(std::int64_t value) const;
+  [[nodiscard]] std::int64_t sum(std::int64_t value) const;
+  /// Element by element. There is no sum of doubles: it would depend on the number of ranks.
+  void sum(std::span<std::int64_t> values) const;
+  void max(std::span<double> values) const;
+
+  void broadcast(std::vector<std::byte>& bytes) const;  ///< from the root
+
+  /// What each rank gave, by rank, on all ranks.
+  template <class T>
+  [[nodiscard]] std::vector<std::vector<T>> all_gather(std::span<const T> mine) const {
+    return lists_of<T>(all_gather_bytes(std::as_bytes(mine)));
+  }
+  /// Likewise, on the root; empty elsewhere.
+  template <class T>
+  [[nodiscard]] std::vector<std::vector<T>> gather(std::span<const T> mine) const {
+    return lists_of<T>(gather_bytes(std::as_bytes(mine)));
+  }
+
+  /// Bytes for a rank, or from one.
+  struct Parcel {
+    int rank = 0;
+    std::vector<std::byte> bytes;
+  };
+  /// Anybody to anybody, at most one parcel a pair; who receives need not know who sends. A rank may send to itself.
+  /// Returns what was sent here by ascending rank. One all-to-all of counts and a message a parcel.
+  [[nodiscard]] std::vector<Parcel> exchange(std::vector<Parcel> parcels) const;
+
+  /// Runs `work` here and everywhere. If it throws on any rank, all ranks throw what the lowest of these threw: InputError,
+  /// SimulationError, OutputError, or InternalError for everything else. One small reduction when nobody throws.
+  void agree(const std::function<void()>& work) const;
+
+  /// Names what the rank is about to do, for the message of a wait that lasts too long.
+  void set_phase(const char* phase) const;
+  /// Waits longer than this are told on stderr, waits twice as long end with InternalError; s. Default 300.
+  void set_patience(double seconds) const;
+
+  class Handle;  ///< what MPI needs; parallel/mpi_handle.hpp
+  explicit Communicator(std::shared_ptr<Handle> handle) : handle_(std::move(handle)) {}
+  [[nodiscard]] const std::shared_ptr<Handle>& handle() const { return handle_; }
+
+ private:
+  [[nodiscard]] std::vector<std::vector<std::byte>> all_gather_bytes(std::span<const std::byte> mine) const;
+  [[nodiscard]] std::vector<std::vector<std::byte>> gather_bytes(std::span<const std::byte> mine) const;
+
+  template <class T>
+  static std::vector<std::vector<T>> lists_of(const std::vector<std::vector<std::byte>>& bytes) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::vector<std::vector<T>> lists(bytes.size());
+    for (std::size_t r = 0; r < bytes.size(); ++r) {
+      lists[r].resize(bytes[r].size() / sizeof(T));
+      if (!bytes[r].empty()) std::memcpy(lists[r].data(), bytes[r].data(), bytes[r].size());
+    }
+    return lists;
+  }
+
+  std::shared_ptr<Handle> handle_;
+};
+
+/// A reduction to the largest that is posted in one step and taken in the next, so that no step waits for it.
+class Vote {
+ public:
+  Vote(const Communicator& communicator, std::size_t count);
+  Vote(Vote&&) noexcept;
+  Vote& operator=(Vote&&) noexcept;
+  ~Vote();  ///< waits for what is on its way
+
+  /// @param values  (count)
+  void post(std::span<const double> values);
+  /// The largest of what all ranks posted last, value by value. @pre posted since the last take
+  [[nodiscard]] std::span<const double> take();
+
+ private:
+  class Request;
+  std::unique_ptr<Request> request_;
+};
+
+}  // namespace breccia

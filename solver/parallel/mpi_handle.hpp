@@ -1,0 +1,35 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <span>
+
+#include "parallel/communicator.hpp"
+
+namespace breccia {
+
+/// A duplicate of the communicator it was made of, freed at the end. For parallel/*.cpp alone.
+class Communicator::Handle {
+ public:
+  explicit Handle(MPI_Comm of);
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  ~Handle();
+
+  MPI_Comm comm = MPI_COMM_NULL;
+  int rank = 0, size = 1;
+  const char* phase = "";
+  double patience = 300;
+};
+
+/// All messages between ranks, so that no two kinds are mistaken for each other.
+enum class Tag : int { parcel = 1, part = 2, halo = 3 };
+
+/// Throws InternalError with MPI's own text unless the call succeeded.
+void check_mpi(int result, const char* call);
+
+/// Waits for all requests by polling, so that more ranks than cores share them; with an eye on the patience.
+/// @param ranks  whom each request waits for, -1: everybody
+void wait_for(const Communicator::Handle& handle, std::span<MPI_Request> requests, std::span<const int> ranks);
+
+}  // namespace breccia

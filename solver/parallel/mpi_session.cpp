@@ -1,0 +1,36 @@
+#include "parallel/mpi_session.hpp"
+
+#include <cstdlib>
+
+#include "parallel/mpi_handle.hpp"
+
+namespace breccia {
+namespace {
+
+bool launched() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE", "MPI_LOCALRANKID", "SLURM_PROCID"}) {
+    if (std::getenv(name) != nullptr) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+MpiSession::MpiSession(int& argc, char**& argv) {
+  if (!launched()) return;
+  int provided = 0;
+  check_mpi(MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
+  active_ = true;
+  world_ = Communicator(std::make_shared<Communicator::Handle>(MPI_COMM_WORLD));
+}
+
+MpiSession::~MpiSession() {
+  world_ = {};
+  if (active_) MPI_Finalize();
+}
+
+void MpiSession::abort(int code) {
+  if (active_ && world_.size() > 1) MPI_Abort(MPI_COMM_WORLD, code);
+}
+
+}  // namespace breccia

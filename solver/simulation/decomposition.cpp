@@ -1,0 +1,161 @@
+#include "simulation/decomposition.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+namespace breccia {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+struct Box {
+  std::array<double, 3> lower, upper;
+
+  static Box empty() {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  }
+  void add(const ElementRecord& element) {
+    for (const auto& x : element.position) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        lower[i] = std::min(lower[i], x[i]);
+        upper[i] = std::max(upper[i], x[i]);
+      }
+    }
+  }
+  [[nodiscard]] bool within(const Box& other, double distance) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!(lower[i] - distance <= other.upper[i] && other.lower[i] <= upper[i] + distance)) return false;
+    }
+    return true;
+  }
+};
+
+Box box_of(const ElementRecord& element) {
+  Box box = Box::empty();
+  box.add(element);
+  return box;
+}
+
+Vec3 centroid(const ElementRecord& element) {
+  Vec3 sum = Vec3::Zero();
+  for (const auto& x : element.position) sum += Vec3(x[0], x[1], x[2]);
+  return 0.25 * sum;
+}
+
+/// Sends marked elements to the ranks that want them. @param wanted  [rank](elements)
+std::vector<Communicator::Parcel> exchange(const Communicator& communicator, const Records& records,
+                                           const std::vector<std::vector<std::uint8_t>>& wanted) {
+  std::vector<Communicator::Parcel> parcels;
+  for (std::size_t r = 0; r < wanted.size(); ++r) {
+    const bool any = std::find(wanted[r].begin(), wanted[r].end(), std::uint8_t{1}) != wanted[r].end();
+    if (any) parcels.push_back({static_cast<int>(r), pack(records, wanted[r])});
+  }
+  return communicator.exchange(std::move(parcels));
+}
+
+using Marks = std::vector<std::vector<std::uint8_t>>;
+
+Records migrate(const Communicator& communicator, const Records& mine, const std::vector<int>& owner) {
+  Marks wanted(static_cast<std::size_t>(communicator.size()), std::vector<std::uint8_t>(mine.elements.size(), 0));
+  for (std::size_t e = 0; e < owner.size(); ++e) wanted[static_cast<std::size_t>(owner[e])][e] = 1;
+  Records owned;
+  for (const Communicator::Parcel& parcel : exchange(communicator, mine, wanted)) unpack(parcel.bytes, owned);
+  sort(owned);
+  return owned;
+}
+
+/// Originals that other ranks need.
+Marks needed_elsewhere(const Communicator& communicator, const Records& owned, double reach) {
+  Box box = Box::empty();
+  for (const ElementRecord& element : owned.elements) box.add(element);
+  const std::vector<std::vector<Box>> boxes = communicator.all_gather(std::span<const Box>(&box, 1));
+  Marks wanted(boxes.size());
+  for (std::size_t r = 0; r < boxes.size(); ++r) {
+    wanted[r].assign(owned.elements.size(), 0);
+    if (static_cast<int>(r) == communicator.rank() || !box.within(boxes[r][0], reach)) continue;
+    for (std::size_t e = 0; e < owned.elements.size(); ++e) {
+      if (box_of(owned.elements[e]).within(boxes[r][0], reach)) wanted[r][e] = 1;
+    }
+  }
+  return wanted;
+}
+
+}  // namespace
+
+Piece decompose(const Communicator& communicator, const DomainSpec& domains, Records mine, const std::vector<double>& weight,
+                const Reach& reach) {
+  std::vector<Vec3> centroids;
+  for (const ElementRecord& element : mine.elements) centroids.push_back(centroid(element));
+  Records owned = migrate(communicator, mine, assign_domains(communicator, domains, communicator.size(), centroids, weight));
+  mine = {};
+
+  Piece piece;
+  const Marks wanted = needed_elsewhere(communicator, owned, reach.margin + reach.ring);
+  std::vector<SharedElements> by_rank(wanted.size());
+  for (std::size_t r = 0; r < wanted.size(); ++r) {
+    by_rank[r].rank = static_cast<int>(r);
+    for (std::size_t e = 0; e < owned.elements.size(); ++e) {
+      if (wanted[r][e] != 0) by_rank[r].send.push_back(owned.elements[e].id);
+    }
+  }
+  const std::vector<Communicator::Parcel> parcels = exchange(communicator, owned, wanted);
+  std::vector<GlobalId> own_ids;
+  for (const ElementRecord& element : owned.elements) own_ids.push_back(element.id);
+  piece.records = std::move(owned);
+  for (const Communicator::Parcel& parcel : parcels) {
+    const std::size_t before = piece.records.elements.size();
+    unpack(parcel.bytes, piece.records);
+    auto& receive = by_rank[static_cast<std::size_t>(parcel.rank)].receive;
+    for (std::size_t e = before; e < piece.records.elements.size(); ++e) receive.push_back(piece.records.elements[e].id);
+  }
+  sort(piece.records);
+  for (const ElementRecord& element : piece.records.elements) {
+    piece.original.push_back(std::binary_search(own_ids.begin(), own_ids.end(), element.id) ? 1 : 0);
+  }
+  for (SharedElements& neighbour : by_rank) {
+    if (!neighbour.send.empty() || !neighbour.receive.empty()) piece.neighbours.push_back(std::move(neighbour));
+  }
+  return piece;
+}
+
+double longest_edge(const Communicator& communicator, const Records& mine) {
+  double square = 0;
+  for (const ElementRecord& element : mine.elements) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = i + 1; j < 4; ++j) {
+        double sum = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const double d = element.position[i][k] - element.position[j][k];
+          sum += d * d;
+        }
+        square = std::max(square, sum);
+      }
+    }
+  }
+  return communicator.max(std::sqrt(square));
+}
+
+std::vector<HaloNeighbour> halo_plan(const Piece& piece, const LocalMesh& local) {
+  const auto places = [&](const std::vector<GlobalId>& ids) {
+    std::vector<std::size_t> list;
+    std::set<Index> shared;  // a shared node goes once
+    for (const GlobalId id : ids) {
+      const Index slot = local.slot_of_element[at(piece.records.place_of(id))];
+      for (int c = 0; c < 4; ++c) {
+        const Index node = local.corner_node(slot, c);
+        if (slot >= local.num_own_slots && !shared.insert(node).second) continue;
+        list.push_back(nodal(node, 0));
+      }
+    }
+    return list;
+  };
+  std::vector<HaloNeighbour> plan;
+  for (const SharedElements& neighbour : piece.neighbours) {
+    plan.push_back({neighbour.rank, places(neighbour.send), places(neighbour.receive)});
+  }
+  return plan;
+}
+
+}  // namespace breccia

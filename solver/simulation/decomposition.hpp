@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "parallel/communicator.hpp"
+#include "parallel/domain_topology.hpp"
+#include "parallel/halo.hpp"
+#include "simulation/records.hpp"
+
+namespace breccia {
+
+/// What a rank works on until the next decomposition.
+struct Piece {
+  Records records;                     ///< originals and proxies
+  std::vector<std::uint8_t> original;  ///< (elements) 1: this rank's own
+  std::vector<SharedElements> neighbours;  ///< ascending ranks
+};
+
+/// How far the proxies reach.
+///
+/// A rank holds every element whose box comes within `margin` + `ring` of the box around its originals. Until a node has
+/// moved by `allowed_motion()` since, that is enough for the same bits as on one rank:
+/// - whatever touches an original then, or has touched what is passing its history on to it, was within 4 motions of
+///   it, i.e. within the margin;
+/// - around such elements corner clusters are complete, since what is bonded to them at a vertex is no further away than
+///   the largest element: the ring.
+struct Reach {
+  double margin = 0;  ///< m
+  double ring = 0;    ///< m
+
+  [[nodiscard]] double allowed_motion() const { return margin / 4; }
+};
+
+/// Gives every element to the domain it lies in and every rank the proxies it needs. Collective.
+/// @param mine    this rank's originals, in their present state; on the first call all elements on one rank
+/// @param weight  (elements of mine) relative cost
+/// O(elements log elements) and two exchanges of elements, those that change hands and proxies.
+/// Throws on all ranks what assign_domains throws.
+[[nodiscard]] Piece decompose(const Communicator& communicator, const DomainSpec& domains, Records mine,
+                              const std::vector<double>& weight, const Reach& reach);
+
+/// Longest edge in the present state, m; collective.
+[[nodiscard]] double longest_edge(const Communicator& communicator, const Records& mine);
+
+/// Which nodal values go where. @param local  the mesh built from the piece's records
+[[nodiscard]] std::vector<HaloNeighbour> halo_plan(const Piece& piece, const LocalMesh& local);
+
+}  // namespace breccia

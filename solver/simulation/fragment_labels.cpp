@@ -1,0 +1,97 @@
+#include "simulation/fragment_labels.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <utility>
+
+namespace breccia {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// Two labels of one fragment, as two ranks see it.
+struct Meeting {
+  GlobalId here, there;
+  auto operator<=>(const Meeting&) const = default;
+};
+
+Fragments fragments_of_rank(const Stepper& stepper) {
+  FragmentFinder finder(stepper.model().local);
+  finder.join_linked(stepper.links());
+  for (const ActiveJoint& joint : stepper.active_joints()) {
+    if (joint.state == JointState::holding) finder.join(joint.slot_a, joint.slot_b);
+  }
+  return finder.find();
+}
+
+GlobalId label_of(const Stepper& stepper, const Fragments& fragments, GlobalId element) {
+  return fragments.of_slot[at(stepper.model().local.slot_of_element[at(stepper.element_with(element))])];
+}
+
+/// Every rank tells its neighbours what it calls their elements.
+std::vector<Meeting> meetings(const Stepper& stepper, const Fragments& fragments) {
+  std::vector<Communicator::Parcel> parcels;
+  for (const SharedElements& shared : stepper.shared_elements()) {
+    if (shared.receive.empty()) continue;
+    std::vector<GlobalId> labels;
+    for (const GlobalId id : shared.receive) labels.push_back(label_of(stepper, fragments, id));
+    const auto bytes = std::as_bytes(std::span(labels));
+    parcels.push_back({shared.rank, {bytes.begin(), bytes.end()}});
+  }
+  std::vector<Meeting> met;
+  for (const Communicator::Parcel& parcel : stepper.communicator().exchange(std::move(parcels))) {
+    for (const SharedElements& shared : stepper.shared_elements()) {
+      if (shared.rank != parcel.rank) continue;
+      std::vector<GlobalId> labels(shared.send.size());
+      std::memcpy(labels.data(), parcel.bytes.data(), labels.size() * sizeof(GlobalId));
+      for (std::size_t i = 0; i < labels.size(); ++i) met.push_back({label_of(stepper, fragments, shared.send[i]), labels[i]});
+    }
+  }
+  std::erase_if(met, [](const Meeting& m) { return m.here == m.there; });
+  std::sort(met.begin(), met.end());
+  met.erase(std::unique(met.begin(), met.end()), met.end());
+  return met;
+}
+
+/// Labels that mean the same fragment, each with the lowest of them.
+class LabelUnion {
+ public:
+  GlobalId lowest(GlobalId label) {
+    const auto found = parent_.find(label);
+    if (found == parent_.end() || found->second == label) return label;
+    return found->second = lowest(found->second);
+  }
+  void join(GlobalId a, GlobalId b) {
+    a = lowest(a);
+    b = lowest(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::map<GlobalId, GlobalId> parent_;
+};
+
+}  // namespace
+
+Fragments find_fragments(const Stepper& stepper) {
+  Fragments fragments = fragments_of_rank(stepper);
+  if (stepper.communicator().size() == 1) return fragments;
+  const std::vector<Meeting> mine = meetings(stepper, fragments);
+  LabelUnion labels;
+  for (const std::vector<Meeting>& part : stepper.communicator().all_gather(std::span<const Meeting>(mine))) {
+    for (const Meeting& meeting : part) labels.join(meeting.here, meeting.there);
+  }
+  const LocalMesh& local = stepper.model().local;
+  std::int64_t lowest_here = 0;
+  for (Index s = 0; s < local.num_slots; ++s) {
+    GlobalId& label = fragments.of_slot[at(s)];
+    if (label < 0) continue;
+    label = labels.lowest(label);
+    if (local.is_original(s) && label == local.element_of_slot[at(s)]) ++lowest_here;
+  }
+  fragments.count = static_cast<Index>(stepper.communicator().sum(lowest_here));
+  return fragments;
+}
+
+}  // namespace breccia

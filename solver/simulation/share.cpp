@@ -1,0 +1,115 @@
+#include "simulation/share.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "simulation/convert.hpp"
+
+namespace breccia {
+namespace {
+
+/// Margin of the proxies in longest edges: the smaller, the fewer proxies; the larger, the fewer decompositions.
+constexpr double kMargin = 1.0;
+/// A decomposition is done when nodes have really used up this share of their allowance; else the bound is brought down.
+constexpr double kUsedUp = 0.75;
+
+/// Some body is an ordinary finite-element body.
+bool any_shared_nodes(const case_::Case& input) {
+  return std::any_of(input.materials.begin(), input.materials.end(),
+                     [](const case_::Material& m) { return m.joints == case_::JointPlacement::none; });
+}
+
+}  // namespace
+
+Share::Share(const case_::Case& input, const Communicator& communicator, std::unique_ptr<Model> whole)
+    : input_(input), communicator_(communicator), model_(std::move(whole)) {
+  if (model_) start_whole();
+  if (communicator_.size() == 1) return;
+  decompose_anew(stepper_ ? stepper_->records() : Records{}, Ledger{});
+}
+
+void Share::start_whole() {
+  stepper_ = std::make_unique<Stepper>(*model_, search_params(input_, *model_));
+  for (const case_::InitialVelocity& entry : input_.initial_velocities) stepper_->add_velocity(initial_velocity(entry, *model_));
+  time_step_ = std::make_unique<TimeStep>(*model_);
+  model_->whole.step_ratio = time_step_->ratio();
+  if (stepper_->contact() != nullptr) model_->whole.contactor_size = stepper_->contact()->contactor_size();
+  ++decompositions_;
+}
+
+void Share::decompose_anew(Records mine, Ledger ledger) {
+  std::vector<std::byte> bytes;
+  if (decompositions_ <= 1) {
+    if (communicator_.is_root()) bytes = pack(model_->whole);
+    communicator_.broadcast(bytes);
+  }
+  WholeModel whole = bytes.empty() ? model_->whole : unpack_whole(bytes);
+  stepper_.reset();
+  time_step_.reset();
+  halo_.reset();
+  model_.reset();
+  const double edge = longest_edge(communicator_, mine);
+  reach_.margin = kMargin * edge;
+  // Forces meet at shared nodes that come from what touches any of their elements: one more ring.
+  reach_.ring = (any_shared_nodes(input_) ? 2 : 1) * edge;
+  const std::vector<double> weight(mine.elements.size(), 1.0);
+  build(decompose(communicator_, DomainSpec{}, std::move(mine), weight, reach_), std::move(whole), std::move(ledger));
+  decompositions_ = std::max<std::int64_t>(decompositions_, 1);
+}
+
+void Share::build(const Piece& piece, WholeModel whole, Ledger ledger) {
+  const double dt = ledger.dt;
+  Mesh mesh = mesh_of(piece.records, whole);
+  Topology topology = topology_of(piece.records, mesh);
+  model_ = std::make_unique<Model>(
+      build_piece(input_, std::move(whole), std::move(mesh), std::move(topology), piece.original, piece.records.corners));
+  stepper_ = std::make_unique<Stepper>(*model_, search_params(input_, *model_), piece.records, std::move(ledger));
+  halo_ = std::make_unique<Halo>(communicator_, halo_plan(piece, model_->local), 2);
+  stepper_->connect(communicator_, *halo_, piece.neighbours);
+  time_step_ = std::make_unique<TimeStep>(*model_);
+  if (stage_ != nullptr) {
+    stepper_->begin_stage(stage_loads(*stage_, *model_), dt);
+    stepper_->restore_holds(piece.records);
+  }
+  anchor_ = stepper_->state().position;
+  moved_ = 0;
+}
+
+void Share::begin_stage(const case_::Stage& stage, double dt) {
+  stage_ = &stage;
+  for (const std::string& surface : stage.broken_surfaces) stepper_->break_joints(faces_of_surface(*model_, surface));
+  stepper_->begin_stage(stage_loads(stage, *model_), dt);
+}
+
+void Share::keep_reach() {
+  if (communicator_.size() == 1 || !left_reach()) return;
+  PhaseTimer timer;
+  {
+    const auto lap = timer.measure(Phase::decomposition);
+    Records mine = stepper_->records();
+    decompose_anew(std::move(mine), stepper_->close());
+    ++decompositions_;
+  }
+  stepper_->timer().add(timer);
+}
+
+/// The sum of the largest speeds bounds the largest displacement; they are known a step late, so that the last step and the
+/// next are counted beforehand, at twice the speed.
+bool Share::left_reach() {
+  const double last = stepper_->max_speed_anywhere() * stepper_->dt();
+  moved_ += last;
+  const double allowed = reach_.allowed_motion();
+  if (moved_ + 4 * last <= allowed) return false;
+  const LocalMesh& local = model_->local;
+  const Field<double>& now = stepper_->state().position;
+  double square = 0;
+  for (Index n = 0; n < local.num_nodes; ++n) {
+    if (local.counted[static_cast<std::size_t>(n)] == 0) continue;
+    square = std::max(square, (load_node(now.data(), n) - load_node(anchor_.data(), n)).squaredNorm());
+  }
+  moved_ = communicator_.max(std::sqrt(square));
+  return !(moved_ + 4 * last <= kUsedUp * allowed);
+}
+
+}  // namespace breccia

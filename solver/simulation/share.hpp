@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+
+#include "case/case.hpp"
+#include "simulation/decomposition.hpp"
+#include "simulation/stepper.hpp"
+#include "simulation/time_step.hpp"
+
+namespace breccia {
+
+/// A rank's share of the model: its originals and proxies, and everything that is built upon them. When a node has gone so
+/// far that proxies may be missing, elements are given to domains anew and the share is rebuilt from what they remember.
+class Share {
+ public:
+  /// Collective. @param whole  the model on the root, null elsewhere
+  /// @pre input outlives this object
+  Share(const case_::Case& input, const Communicator& communicator, std::unique_ptr<Model> whole);
+
+  [[nodiscard]] Stepper& stepper() { return *stepper_; }
+  [[nodiscard]] const Stepper& stepper() const { return *stepper_; }
+  [[nodiscard]] const Model& model() const { return *model_; }
+  [[nodiscard]] const WholeModel& whole() const { return model_->whole; }
+  [[nodiscard]] const Communicator& communicator() const { return communicator_; }
+  [[nodiscard]] std::int64_t decompositions() const { return decompositions_; }  ///< so far, the first included
+
+  /// Breaks the stage's surfaces and lets its loads act, with steps of dt, s. Collective.
+  void begin_stage(const case_::Stage& stage, double dt);
+  /// After every step: a new decomposition if one is due. Collective.
+  void keep_reach();
+  /// Stable step of the whole model at present, s. Collective.
+  [[nodiscard]] double stable_step() const { return communicator_.min(time_step_->limit(stepper_->state().position)); }
+
+ private:
+  void start_whole();
+  void decompose_anew(Records mine, Ledger ledger);
+  void build(const Piece& piece, WholeModel whole, Ledger ledger);
+  [[nodiscard]] bool left_reach();
+
+  const case_::Case& input_;
+  Communicator communicator_;
+  std::unique_ptr<Model> model_;
+  std::unique_ptr<Halo> halo_;
+  std::unique_ptr<Stepper> stepper_;
+  std::unique_ptr<TimeStep> time_step_;
+  const case_::Stage* stage_ = nullptr;
+  std::int64_t decompositions_ = 0;
+  Reach reach_;
+  double moved_ = 0;      ///< m, bound of the largest displacement since the decomposition
+  Field<double> anchor_;  ///< nodal field, positions then
+};
+
+}  // namespace breccia
