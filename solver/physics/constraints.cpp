@@ -6,10 +6,10 @@
 
 namespace breccia {
 
-Constraints::Constraints(const std::vector<NodalConstraint>& entries, const State& state) {
+Constraints::Constraints(const std::vector<NodalConstraint>& entries, const LocalMesh& mesh, const State& state) {
   std::map<Index, std::array<std::size_t, 3>> ruler;  // 1 + entry that rules an axis of a node
   for (std::size_t e = 0; e < entries.size(); ++e) {
-    entries_.push_back({entries[e].kind, entries[e].value, {}, Vec3::Zero()});
+    entries_.push_back({entries[e].kind, entries[e].value, {}});
     for (const Index node : entries[e].nodes) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         if (entries[e].axes[axis]) ruler[node][axis] = e + 1;
@@ -21,41 +21,44 @@ Constraints::Constraints(const std::vector<NodalConstraint>& entries, const Stat
       if (rules[axis] == 0) continue;
       const std::size_t at = nodal(node, static_cast<int>(axis));
       entries_[rules[axis] - 1].holds.push_back(
-          {node, static_cast<int>(axis), state.position[at], state.velocity[at], 0.0});
+          {node, static_cast<int>(axis), state.position[at], state.velocity[at], 0.0, mesh.counted[static_cast<std::size_t>(node)] != 0});
     }
   }
 }
 
 void Constraints::apply(const LocalMesh& mesh, State& state, double time, double dt_before, double dt) {
-  CompensatedSum power;
   for (Entry& entry : entries_) {
     const bool displacement = entry.kind == PrescribedMotion::displacement;
     const double when = displacement ? time + dt : time + 0.5 * dt;
     const std::array<double, 3> target{entry.value[0](when), entry.value[1](when), entry.value[2](when)};
-    std::array<CompensatedSum, 3> sum;
     for (Hold& hold : entry.holds) {
       const std::size_t at = nodal(hold.node, hold.axis);
       const auto axis = static_cast<std::size_t>(hold.axis);
       const double x = state.position[at];
       const double v = displacement ? (target[axis] - (x - hold.start)) / dt : target[axis];
       hold.reaction = mesh.node_mass[static_cast<std::size_t>(hold.node)] * (v - state.velocity[at]) / dt;
-      power.add(hold.reaction * hold.velocity);
-      sum[axis].add(hold.reaction);
+      if (hold.counted) work_.add_before(hold.reaction * hold.velocity, dt_before);
       hold.velocity = v;
       state.velocity[at] = v;
       state.next_position[at] = x + dt * v;
     }
-    entry.reaction = {sum[0].value(), sum[1].value(), sum[2].value()};
   }
-  work_.add_before(power.value(), dt_before);
 }
 
 void Constraints::book_after(double dt) {
-  CompensatedSum power;
   for (const Entry& entry : entries_) {
-    for (const Hold& hold : entry.holds) power.add(hold.reaction * hold.velocity);
+    for (const Hold& hold : entry.holds) {
+      if (hold.counted) work_.add_after(hold.reaction * hold.velocity, dt);
+    }
   }
-  work_.add_after(power.value(), dt);
+}
+
+std::array<ExactSum, 3> Constraints::reaction(std::size_t entry) const {
+  std::array<ExactSum, 3> sum;
+  for (const Hold& hold : entries_[entry].holds) {
+    if (hold.counted) sum[static_cast<std::size_t>(hold.axis)].add(hold.reaction);
+  }
+  return sum;
 }
 
 std::vector<Constraints::Anchor> Constraints::anchors() const {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "base/compensated_sum.hpp"
+#include "base/work_sum.hpp"
 #include "base/field.hpp"
 #include "base/time_function.hpp"
 #include "base/types.hpp"
@@ -34,8 +34,9 @@ struct NodalConstraint {
 /// nodes), no allocation, throws nothing.
 class Constraints {
  public:
+  Constraints() = default;
   /// @param state  position at the stage's start, where displacements count from; velocity of the step before it
-  Constraints(const std::vector<NodalConstraint>& entries, const State& state);
+  Constraints(const std::vector<NodalConstraint>& entries, const LocalMesh& mesh, const State& state);
 
   /// Overwrites v(n+1/2): by the velocity asked for at t_(n+1/2), or by (u(t_(n+1)) - (x_n - x_start)) / dt, with which
   /// positions hold to round-off; and next_position by x_n + dt v. Keeps the reactions m (v - v_free) / dt and books
@@ -47,10 +48,10 @@ class Constraints {
   /// Books the work of the same reactions over the step that begins at t_n.
   void book_after(double dt);
 
-  /// Work of the reactions on the model, J; up to t_n between `apply` and `book_after`.
-  [[nodiscard]] double work() const { return work_.value(); }
-  /// Force of an entry on the nodes and axes it rules, summed by ascending node, N, at t_n.
-  [[nodiscard]] const Vec3& reaction(std::size_t entry) const { return entries_[entry].reaction; }
+  /// Work of the reactions on the nodes that this rank counts, J; up to t_n between `apply` and `book_after`.
+  [[nodiscard]] const ExactSum& work() const { return work_.sum(); }
+  /// Force of an entry on the nodes and axes it rules and this rank counts, by axis, N, at t_n. O(nodes).
+  [[nodiscard]] std::array<ExactSum, 3> reaction(std::size_t entry) const;
   /// What an entry remembers of one axis of a node.
   struct Anchor {
     std::size_t entry;
@@ -75,12 +76,12 @@ class Constraints {
     double start;     ///< m
     double velocity;  ///< m/s, of the last step, on this axis
     double reaction;  ///< N
+    bool counted;     ///< by this rank
   };
   struct Entry {
     PrescribedMotion kind;
     std::array<TimeFunction, 3> value;
     std::vector<Hold> holds;  ///< ascending nodes
-    Vec3 reaction{0, 0, 0};
   };
   std::vector<Entry> entries_;
   WorkSum work_;

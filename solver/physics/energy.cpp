@@ -1,9 +1,6 @@
 #include "physics/energy.hpp"
 
 #include <Eigen/Geometry>
-
-#include "base/compensated_sum.hpp"
-
 namespace breccia {
 namespace {
 
@@ -18,24 +15,24 @@ elasticity::Corners<double> corners_of(const LocalMesh& mesh, const double* fiel
 
 }  // namespace
 
-double kinetic_energy(const LocalMesh& mesh, const double* velocity_before, const double* velocity_after) {
-  CompensatedSum sum;
+ExactSum kinetic_energy(const LocalMesh& mesh, const double* velocity_before, const double* velocity_after) {
+  ExactSum sum;
   for (Index n = 0; n < mesh.num_nodes; ++n) {
+    if (mesh.counted[static_cast<std::size_t>(n)] == 0) continue;
     const std::size_t at = nodal(n, 0);
     const double product = velocity_before[at] * velocity_after[at] + velocity_before[at + 8] * velocity_after[at + 8] +
                            velocity_before[at + 16] * velocity_after[at + 16];
     sum.add(0.5 * mesh.node_mass[static_cast<std::size_t>(n)] * product);
   }
-  return sum.value();
+  return sum;
 }
 
 ElasticEnergy elastic_energy(const LocalMesh& mesh, std::span<const ElasticParams> params_of_group, const double* position) {
   ElasticEnergy energy;
-  CompensatedSum sum;
   for (Index s = 0; s < mesh.num_slots; ++s) {
     const auto i = static_cast<std::size_t>(s);
     const ElasticParams& p = params_of_group[static_cast<std::size_t>(mesh.block_group[i / kLanes])];
-    if (mesh.element_of_slot[i] < 0 || p.law != ElasticLaw::neo_hookean) continue;
+    if (!mesh.is_original(s) || p.law != ElasticLaw::neo_hookean) continue;
     elasticity::Tensor<double> inverse;
     for (std::size_t k = 0; k < 9; ++k) inverse[k] = mesh.gradient[i / kLanes * 72 + k * kLanes + i % kLanes];
     const double density = elasticity::neo_hookean_energy(elasticity::deformation(corners_of(mesh, position, s), inverse), p);
@@ -43,19 +40,19 @@ ElasticEnergy elastic_energy(const LocalMesh& mesh, std::span<const ElasticParam
       energy.largest_density = density;
       energy.worst_slot = s;
     }
-    sum.add(mesh.volume[i] * density);
+    energy.total.add(mesh.volume[i] * density);
   }
-  energy.total = sum.value();
   return energy;
 }
 
-double intact_joint_energy(const LocalMesh& mesh, const JointLinks& links, const double* position) {
-  CompensatedSum sum;
-  for (Index s = 0; s < mesh.num_own_slots; ++s) {
+ExactSum intact_joint_energy(const LocalMesh& mesh, const JointLinks& links, const double* position) {
+  const auto id = [&](Index slot) { return mesh.element_of_slot[static_cast<std::size_t>(slot)]; };
+  ExactSum sum;
+  for (Index s = 0; s < mesh.num_own_originals; ++s) {
     for (int face = 0; face < 4; ++face) {
       const std::int32_t link = links.link[JointLinks::at(s, face)];
       const int code = JointLinks::code_of(link);
-      if (code >= 12 || JointLinks::slot_of(link) < s) continue;
+      if (code >= 12 || id(JointLinks::slot_of(link)) < id(s)) continue;
       double squares = 0;
       for (int i = 0; i < 3; ++i) {
         const Index own = own_corner_node(s, kFaceCorners[static_cast<std::size_t>(face)][static_cast<std::size_t>(i)]);
@@ -65,20 +62,21 @@ double intact_joint_energy(const LocalMesh& mesh, const JointLinks& links, const
       sum.add(0.5 * links.stiffness[JointLinks::at(s, face)] * squares);
     }
   }
-  return sum.value();
+  return sum;
 }
 
 Momentum momentum(const LocalMesh& mesh, const double* position, const double* velocity) {
-  std::array<CompensatedSum, 6> sums;
+  Momentum sums;
   for (Index n = 0; n < mesh.num_nodes; ++n) {
+    if (mesh.counted[static_cast<std::size_t>(n)] == 0) continue;
     const Vec3 p = mesh.node_mass[static_cast<std::size_t>(n)] * load_node(velocity, n);
     const Vec3 l = load_node(position, n).cross(p);
     for (std::size_t i = 0; i < 3; ++i) {
-      sums[i].add(p[static_cast<Eigen::Index>(i)]);
-      sums[3 + i].add(l[static_cast<Eigen::Index>(i)]);
+      sums.linear[i].add(p[static_cast<Eigen::Index>(i)]);
+      sums.angular[i].add(l[static_cast<Eigen::Index>(i)]);
     }
   }
-  return {{sums[0].value(), sums[1].value(), sums[2].value()}, {sums[3].value(), sums[4].value(), sums[5].value()}};
+  return sums;
 }
 
 }  // namespace breccia

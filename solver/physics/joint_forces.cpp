@@ -112,14 +112,19 @@ double stored(const ActiveJoint& joint) {
   return joint.area / 3.0 * (joint.points[0].stored() + joint.points[1].stored() + joint.points[2].stored());
 }
 
-/// Evaluates the joint and books what it dissipated.
-Triple evaluate_and_book(const JointLawParams& law, const Kinematics& k, ActiveJoint& joint, JointWork& work) {
-  const double mode_1 = joint.mode_1, mode_2 = joint.mode_2, friction = joint.friction;
-  const Triple force = evaluate(law, k, joint);
-  work.mode_1.add(joint.mode_1 - mode_1);
-  work.mode_2.add(joint.mode_2 - mode_2);
-  work.friction.add(joint.friction - friction);
-  return force;
+/// What a joint has dissipated, to tell what an evaluation adds.
+struct Dissipated {
+  double mode_1, mode_2, friction;
+  explicit Dissipated(const ActiveJoint& joint) : mode_1(joint.mode_1), mode_2(joint.mode_2), friction(joint.friction) {}
+};
+
+/// Joints are computed wherever one side is at home, and booked with side a.
+void book(const LocalMesh& mesh, const ActiveJoint& joint, const Dissipated& before, JointWork& work) {
+  if (!mesh.is_original(joint.slot_a)) return;
+  work.mode_1.add(joint.mode_1 - before.mode_1);
+  work.mode_2.add(joint.mode_2 - before.mode_2);
+  work.friction.add(joint.friction - before.friction);
+  work.stored.add(stored(joint));
 }
 
 /// What turning the mid-surface does to a closed joint that has slid: its normal energy k d delta_n^2 / 2 beyond the isotropic
@@ -137,13 +142,9 @@ Vec3 tilting(const JointLawParams& law, const Kinematics& k, const ActiveJoint& 
 }
 
 /// Forces on the three pairs of corners that go with `tilt`, so that forces are the gradient of the energy also after a long
-/// slip, and books their work. Each of a pair gets half of -dU/dm, m the corner of the mid-surface.
-Triple tilting_forces(const Kinematics& k, const Vec3& tilt, ActiveJoint& joint, JointWork& work) {
-  if (joint.turned) {
-    const double turning = 0.5 * (joint.tilt + tilt).dot(k.frame.normal - joint.normal);
-    joint.friction += turning;
-    work.friction.add(turning);
-  }
+/// slip, with their work among the friction. Each of a pair gets half of -dU/dm, m the corner of the mid-surface.
+Triple tilting_forces(const Kinematics& k, const Vec3& tilt, ActiveJoint& joint) {
+  if (joint.turned) joint.friction += 0.5 * (joint.tilt + tilt).dot(k.frame.normal - joint.normal);
   joint.turned = true;
   joint.tilt = tilt;
   joint.normal = k.frame.normal;
@@ -184,28 +185,29 @@ void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& 
                          std::vector<ActiveJoint>& joints, NodalForces& forces, JointWork& work) {
   work.failed.clear();
   work.released.clear();
-  CompensatedSum held;
+  work.stored = {};
   for (ActiveJoint& joint : joints) {
     const JointLawParams& law = laws[at(joint.law)];
     const Kinematics k = kinematics(law, mesh, position, joint);
-    const Triple force = evaluate_and_book(law, k, joint, work);
+    const Dissipated before(joint);
+    const Triple force = evaluate(law, k, joint);
     if (joint.state == JointState::holding && gone(joint, law.points_to_fail)) {
       joint.state = JointState::failed;
-      work.failed.push_back(joint.id);
+      if (mesh.is_original(joint.slot_a)) work.failed.push_back(joint.id);
     }
     if (joint.state == JointState::failed && open_everywhere(k)) {
       // Open and broken everywhere: no force, and nothing stored, friction springs included.
       work.released.push_back({joint.id, joint.slot_a, joint.face_a, joint.mode()});
+      book(mesh, joint, before, work);
       continue;
     }
-    held.add(stored(joint));
-    const Triple turning = tilting_forces(k, tilting(law, k, joint), joint, work);
+    const Triple turning = tilting_forces(k, tilting(law, k, joint), joint);
+    book(mesh, joint, before, work);
     for (std::size_t i = 0; i < 3; ++i) {
       forces.add(corner_a(mesh, joint, i), force[i] + turning[i]);
       forces.add(corner_b(mesh, joint, i), turning[i] - force[i]);
     }
   }
-  work.stored = held.value();
   if (work.released.empty()) return;
   auto next = work.released.begin();
   std::erase_if(joints, [&](const ActiveJoint& joint) {
@@ -218,10 +220,9 @@ void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& 
 void virgin_forces(const JointLawParams& law, const LocalMesh& mesh, const double* position, const ActiveJoint& joint,
                    bool side_a, double* force) {
   ActiveJoint trial = joint;
-  JointWork ignored;
   const Kinematics k = kinematics(law, mesh, position, joint);
   const Triple pull = evaluate(law, k, trial);
-  const Triple turning = tilting_forces(k, tilting(law, k, trial), trial, ignored);
+  const Triple turning = tilting_forces(k, tilting(law, k, trial), trial);
   for (int i = 0; i < 3; ++i) {
     // Corner i of the face of b meets corner (rotation - i) of the face of a.
     const auto from = static_cast<std::size_t>(side_a ? i : (joint.code % 3 - i + 3) % 3);
@@ -232,15 +233,14 @@ void virgin_forces(const JointLawParams& law, const LocalMesh& mesh, const doubl
 
 void start_history(std::span<const JointLawParams> laws, const LocalMesh& mesh, const double* position,
                    std::span<ActiveJoint> joints, JointWork& work) {
-  CompensatedSum held(work.stored);
   for (ActiveJoint& joint : joints) {
     const JointLawParams& law = laws[at(joint.law)];
     const Kinematics k = kinematics(law, mesh, position, joint);
-    (void)evaluate_and_book(law, k, joint, work);
-    (void)tilting_forces(k, tilting(law, k, joint), joint, work);
-    held.add(stored(joint));
+    const Dissipated before(joint);
+    (void)evaluate(law, k, joint);
+    (void)tilting_forces(k, tilting(law, k, joint), joint);
+    book(mesh, joint, before, work);
   }
-  work.stored = held.value();
 }
 
 }  // namespace breccia

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "base/compensated_sum.hpp"
+#include "base/exact_sum.hpp"
 #include "physics/joint_law.hpp"
 #include "state/local_mesh.hpp"
 #include "state/nodal_forces.hpp"
@@ -49,12 +49,13 @@ struct ReleasedJoint {
   FailureMode mode = FailureMode::none;
 };
 
-/// What the joints on the active list hold and have consumed, J; and who failed.
+/// What the joints on the active list hold and have consumed, J, and who failed: those whose side a is an original. Who was
+/// released: all.
 struct JointWork {
-  CompensatedSum mode_1, mode_2, friction;  ///< over the run
-  double stored = 0;                        ///< at the last evaluation
-  std::vector<GlobalId> failed;             ///< in the last step, ascending
-  std::vector<ReleasedJoint> released;      ///< in the last step, ascending
+  ExactSum mode_1, mode_2, friction;    ///< over the run
+  ExactSum stored;                      ///< at the last evaluation
+  std::vector<GlobalId> failed;         ///< in the last step, ascending
+  std::vector<ReleasedJoint> released;  ///< in the last step, ascending
 };
 
 /// Forces of the active joints, in the order given (ascending ids), added to both sides; histories are brought up to

@@ -32,6 +32,16 @@ PressureLoad::PressureLoad(std::vector<LoadedFace> faces, TimeFunction pressure)
   corner_force_.assign(faces_.size(), Vec3::Zero());
 }
 
+template <class Book>
+void PressureLoad::for_each_power(const LocalMesh& mesh, const Field<double>& velocity, Book&& book) const {
+  for (std::size_t k = 0; k < faces_.size(); ++k) {
+    if (!mesh.is_original(faces_[k].slot)) continue;
+    Vec3 v = Vec3::Zero();
+    for (const Index node : face_nodes(mesh, faces_[k])) v += load_node(velocity.data(), node);
+    book(corner_force_[k].dot(v));
+  }
+}
+
 void PressureLoad::apply(const LocalMesh& mesh, const State& state, double time, double dt_before,
                          NodalForces& forces) {
   const double factor = -pressure_(time) / 6.0;  // area vector = half the cross product, a third to each corner
@@ -43,22 +53,11 @@ void PressureLoad::apply(const LocalMesh& mesh, const State& state, double time,
     corner_force_[k] = factor * a.cross(b);
     for (const Index node : nodes) forces.add(node, corner_force_[k]);
   }
-  work_.add_before(power(mesh, state.velocity), dt_before);
+  for_each_power(mesh, state.velocity, [&](double power) { work_.add_before(power, dt_before); });
 }
 
 void PressureLoad::book_after(const LocalMesh& mesh, const State& state, double dt_after) {
-  work_.add_after(power(mesh, state.velocity), dt_after);
-}
-
-double PressureLoad::power(const LocalMesh& mesh, const Field<double>& velocity) const {
-  CompensatedSum sum;
-  for (std::size_t k = 0; k < faces_.size(); ++k) {
-    const auto nodes = face_nodes(mesh, faces_[k]);
-    Vec3 v = Vec3::Zero();
-    for (const Index node : nodes) v += load_node(velocity.data(), node);
-    sum.add(corner_force_[k].dot(v));
-  }
-  return sum.value();
+  for_each_power(mesh, state.velocity, [&](double power) { work_.add_after(power, dt_after); });
 }
 
 Vec3 PressureLoad::resultant() const {
@@ -67,62 +66,68 @@ Vec3 PressureLoad::resultant() const {
   return sum;
 }
 
-GravityWork::GravityWork(const LocalMesh& mesh, const Field<double>& position) : mass_(mesh.node_mass) {
-  for (std::size_t n = 0; n < mass_.size(); ++n) {
-    if (mesh.node_id[n] < 0) mass_[n] = 0.0;
+namespace {
+
+/// Sum of m g . (x - y) over this rank's elements and the shared nodes it counts. @param minus  nullptr: y = 0
+ExactSum potential(const LocalMesh& mesh, const Vec3& g, const double* plus, const double* minus) {
+  const auto term = [&](Index node) {
+    const Vec3 x = minus != nullptr ? Vec3(load_node(plus, node) - load_node(minus, node)) : load_node(plus, node);
+    return mesh.node_mass[static_cast<std::size_t>(node)] * g.dot(x);
+  };
+  ExactSum sum;
+  for (Index s = 0; s < mesh.num_own_originals; ++s) {
+    if (!mesh.is_original(s)) continue;
+    sum.add((term(own_corner_node(s, 0)) + term(own_corner_node(s, 1))) + (term(own_corner_node(s, 2)) + term(own_corner_node(s, 3))));
   }
-  anchor_ = moment(mesh, position);
+  for (Index n = mesh.num_own_nodes(); n < mesh.num_nodes; ++n) {
+    if (mesh.counted[static_cast<std::size_t>(n)] != 0) sum.add(term(n));
+  }
+  return sum;
 }
 
-Vec3 GravityWork::moment(const LocalMesh& mesh, const Field<double>& position) const {
-  return weighted_sum(mass_, position.data(), mesh.reference.data());
+ExactSum negative(const ExactSum& sum) {
+  auto words = sum.words();
+  for (std::int64_t& word : words) word = -word;
+  return ExactSum::from_words(words);
+}
+
+}  // namespace
+
+GravityWork::GravityWork(Carried carried, const LocalMesh& mesh, const Field<double>& position)
+    : past_(carried.past), gravity_(carried.gravity), started_(carried.started), changing_(carried.changing) {
+  if (started_ && !changing_) anchor_ = potential(mesh, gravity_, position.data(), mesh.reference.data());
 }
 
 void GravityWork::advance(const LocalMesh& mesh, const State& state, const Vec3& gravity, double dt_before) {
+  const auto here = [&](const Vec3& g) { return potential(mesh, g, state.position.data(), mesh.reference.data()); };
+  const auto last_step = [&](const Vec3& g) { return potential(mesh, Vec3(dt_before * g), state.velocity.data(), nullptr); };
+  const bool changes = started_ && gravity != gravity_;
   if (!started_) {
-    started_ = true;
-    gravity_ = gravity;
-    return;
+    anchor_ = here(gravity);
+  } else if (changes && !changing_) {
+    // The old value from the anchor up to t_(n-1), its mean with the new one over the last step.
+    past_.add(here(gravity_));
+    past_.add(negative(anchor_));
+    past_.add(last_step(0.5 * (gravity - gravity_)));
+  } else if (changing_) {
+    past_.add(last_step(0.5 * (gravity_ + gravity)));
+    if (!changes) anchor_ = here(gravity);
   }
-  if (gravity == gravity_) {
-    anchored_last_step_ = false;
-    return;
-  }
-  // g changed between t_(n-1) and t_n: the old value holds from the anchor to t_(n-1), their mean over the last step.
-  const Vec3 last_step = dt_before * weighted_sum(mass_, state.velocity.data(), nullptr);
-  const Vec3 now = anchored_last_step_ ? Vec3(anchor_ + last_step) : moment(mesh, state.position);
-  const Vec3 before_it = now - last_step - anchor_;
-  past_.add(gravity_.dot(before_it));
-  past_.add(0.5 * (gravity_ + gravity).dot(last_step));
+  started_ = true;
+  changing_ = changes;
   gravity_ = gravity;
-  anchor_ = now;
-  anchored_last_step_ = true;
 }
 
-double GravityWork::work(const LocalMesh& mesh, const Field<double>& position) const {
-  if (anchored_last_step_) return past_.value();
-  return past_.value() + gravity_.dot(moment(mesh, position) - anchor_);
+ExactSum GravityWork::work(const LocalMesh& mesh, const Field<double>& position) const {
+  ExactSum sum = past_;
+  if (!started_ || changing_) return sum;
+  sum.add(potential(mesh, gravity_, position.data(), mesh.reference.data()));
+  sum.add(negative(anchor_));
+  return sum;
 }
 
-Vec3 weighted_sum(const Field<double>& mass, const double* plus, const double* minus) {
-  constexpr std::size_t kRun = 64;  // blocks summed plainly before compensation: rounding grows with its root only
-  const std::size_t blocks = mass.size() / kLanes;
-  std::array<CompensatedSum, 3> total;
-  for (std::size_t first = 0; first < blocks; first += kRun) {
-    double lanes[3][kLanes] = {};
-    for (std::size_t b = first; b < std::min(first + kRun, blocks); ++b) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::size_t at = b * 24 + axis * 8;
-        for (std::size_t l = 0; l < kLanes; ++l) {
-          lanes[axis][l] += mass[b * 8 + l] * (minus ? plus[at + l] - minus[at + l] : plus[at + l]);
-        }
-      }
-    }
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (const double lane : lanes[axis]) total[axis].add(lane);
-    }
-  }
-  return {total[0].value(), total[1].value(), total[2].value()};
+GravityWork::Carried GravityWork::close(const LocalMesh& mesh, const Field<double>& position) const {
+  return {work(mesh, position), gravity_, started_, changing_};
 }
 
 }  // namespace breccia

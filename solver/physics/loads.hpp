@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "base/compensated_sum.hpp"
+#include "base/work_sum.hpp"
 #include "base/field.hpp"
 #include "base/time_function.hpp"
 #include "base/types.hpp"
@@ -37,13 +37,15 @@ class PressureLoad {
   /// Books the work of the same forces over the step that begins at t_n. @param state velocity at t_(n+1/2)
   void book_after(const LocalMesh& mesh, const State& state, double dt_after);
 
-  /// Work on the body, J; up to t_n between `apply` and `book_after`.
-  [[nodiscard]] double work() const { return work_.value(); }
+  /// Work on the faces of this rank's originals, J; up to t_n between `apply` and `book_after`.
+  [[nodiscard]] const ExactSum& work() const { return work_.sum(); }
   /// Sum of the forces at t_n, N.
   [[nodiscard]] Vec3 resultant() const;
 
  private:
-  [[nodiscard]] double power(const LocalMesh& mesh, const Field<double>& velocity) const;
+  /// Calls book(power of the face's forces) for every face of an original.
+  template <class Book>
+  void for_each_power(const LocalMesh& mesh, const Field<double>& velocity, Book&& book) const;
 
   std::vector<LoadedFace> faces_;
   std::vector<Vec3> corner_force_;  ///< (faces) N, at t_n
@@ -51,16 +53,25 @@ class PressureLoad {
   WorkSum work_;
 };
 
-/// Work of gravity, J, to the same trapezoid rule as every other force. The sweep applies gravity as an acceleration.
+/// Work of gravity on this rank's originals, J, to the same trapezoid rule as every other force. The sweep applies gravity as
+/// an acceleration.
 ///
-/// Gravity is uniform in space, so its work is a functional of the first moment S = sum m (x - X): as long as g does
-/// not change it is g . (S_n - S_start), and nothing is computed until someone asks. In a step where g changes, S and
-/// the momentum are needed. Cost of `advance`: three comparisons while g is constant; O(nodes), 32 bytes a node, for
-/// every step of a ramp (80 bytes in its first). Cost of `work`: O(nodes), 56 bytes a node.
+/// Gravity is uniform in space, so its work is a functional of the potential m g . (x - X): as long as g does not change it
+/// is the difference to where g took its value, and nothing is computed until someone asks. In the steps where g changes, the
+/// work of the step is taken from the velocities. Cost of `advance`: three comparisons while g is constant; O(elements) for
+/// every step of a ramp. Cost of `work`: O(elements).
 class GravityWork {
  public:
-  /// @param position  nodal field at the time of the first `advance`
-  GravityWork(const LocalMesh& mesh, const Field<double>& position);
+  /// What goes on when elements change hands.
+  struct Carried {
+    ExactSum past;
+    Vec3 gravity{0, 0, 0};
+    bool started = false, changing = false;
+  };
+
+  GravityWork() = default;
+  /// @param position  nodal field at the time when the other was closed
+  GravityWork(Carried carried, const LocalMesh& mesh, const Field<double>& position);
 
   /// To be called once a step, before the sweep.
   /// @param gravity    g(t_n), m/s2
@@ -68,22 +79,16 @@ class GravityWork {
   void advance(const LocalMesh& mesh, const State& state, const Vec3& gravity, double dt_before);
 
   /// Work up to t_n, J. @param position  nodal field at t_n, the one of the last `advance`
-  [[nodiscard]] double work(const LocalMesh& mesh, const Field<double>& position) const;
+  [[nodiscard]] ExactSum work(const LocalMesh& mesh, const Field<double>& position) const;
+  /// @param position  nodal field at t_n, before the `advance` of that time
+  [[nodiscard]] Carried close(const LocalMesh& mesh, const Field<double>& position) const;
 
  private:
-  [[nodiscard]] Vec3 moment(const LocalMesh& mesh, const Field<double>& position) const;
-
-  Field<double> mass_;     ///< (num_nodes) kg, 0 for padding
-  Vec3 gravity_{0, 0, 0};  ///< since the anchor
-  Vec3 anchor_;            ///< kg m: S when gravity_ took its value
-  bool anchored_last_step_ = false;
+  ExactSum past_;          ///< work up to the anchor, or up to the last `advance` while g changes
+  ExactSum anchor_;        ///< potential with gravity_ when it took its value
+  Vec3 gravity_{0, 0, 0};
   bool started_ = false;
-  CompensatedSum past_;  ///< work up to the anchor
+  bool changing_ = false;  ///< g changed at the last `advance`
 };
-
-/// Sum over all nodes of mass times the difference of two nodal fields, in a fixed order: partial sums of the eight
-/// lanes over runs of blocks, then compensated. O(nodes).
-/// @param mass  (num_nodes);  @param minus  nodal field, or nullptr for zero
-[[nodiscard]] Vec3 weighted_sum(const Field<double>& mass, const double* plus, const double* minus);
 
 }  // namespace breccia

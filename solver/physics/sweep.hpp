@@ -60,7 +60,7 @@ struct SweepArgs {
 
   /// Work done so far against viscosity and by the elastic stress of laws without an energy, by element slot, J; dissipated
   /// by damping, by node, J. Each step adds its half before t_n to *_before and its half after t_n to *_after
-  /// (base/compensated_sum.hpp says why); both may be the same array. Null: not wanted.
+  /// (base/work_sum.hpp says why); both may be the same array. Null: not wanted.
   double* viscous_before = nullptr;
   double* viscous_after = nullptr;
   double* stress_before = nullptr;

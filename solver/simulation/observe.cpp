@@ -5,6 +5,7 @@
 
 #include "mesh/tetrahedron.hpp"
 #include "physics/cauchy_stress.hpp"
+#include "simulation/reduction.hpp"
 
 namespace breccia {
 namespace {
@@ -103,39 +104,116 @@ void add_contacts(const Stepper& stepper, Frame::Contacts& out) {
   }
 }
 
-GaugeReading read_gauge(const Stepper& stepper, const Gauge& gauge) {
-  const LocalMesh& local = stepper.model().local;
-  GaugeReading reading;
-  for (const std::size_t entry : gauge.constraints) reading.reaction += stepper.constraints().reaction(entry);
-  if (gauge.volume_group >= 0 && stepper.contact() != nullptr) {
-    reading.contact_force = contact_force_on_group(stepper.contact()->contact(), local, gauge.volume_group);
-  }
-  const double* x = stepper.state().position.data();
-  const double* v = stepper.state().velocity.data();
-  for (const Index node : gauge.nodes) {
-    const Vec3 displacement = load_node(x, node) - load_node(local.reference.data(), node);
-    reading.displacement += displacement;
-    reading.velocity += load_node(v, node);
-    for (int i = 0; i < 3; ++i) {
-      if (std::abs(displacement[i]) > std::abs(reading.max_displacement[i])) reading.max_displacement[i] = displacement[i];
+/// What a gauge reads on this rank, as sums: reaction, contact force, displacement and velocity of the nodes, their number.
+class GaugeSums {
+ public:
+  static constexpr std::size_t kCount = 13;
+
+  GaugeSums(const Stepper& stepper, const Gauge& gauge) {
+    const LocalMesh& local = stepper.model().local;
+    for (const std::size_t entry : gauge.constraints) add(0, stepper.constraints().reaction(entry));
+    if (gauge.volume_group >= 0 && stepper.contact() != nullptr) {
+      add(3, contact_force_on_group(stepper.contact()->contact(), local, gauge.volume_group));
+    }
+    const double* x = stepper.state().position.data();
+    for (const Index node : gauge.nodes) {
+      add(6, load_node(x, node) - load_node(local.reference.data(), node));
+      add(9, load_node(stepper.state().velocity.data(), node));
+      sums_[12].add(1.0);
     }
   }
-  if (!gauge.nodes.empty()) {
-    reading.displacement /= static_cast<double>(gauge.nodes.size());
-    reading.velocity /= static_cast<double>(gauge.nodes.size());
+  [[nodiscard]] const std::array<ExactSum, kCount>& sums() const { return sums_; }
+
+ private:
+  void add(std::size_t first, const std::array<ExactSum, 3>& vector) {
+    for (std::size_t i = 0; i < 3; ++i) sums_[first + i].add(vector[i]);
   }
-  return reading;
+  void add(std::size_t first, const Vec3& vector) {
+    for (std::size_t i = 0; i < 3; ++i) sums_[first + i].add(vector[static_cast<Eigen::Index>(i)]);
+  }
+  std::array<ExactSum, kCount> sums_;
+};
+
+/// Largest displacements of a gauge's nodes, upwards and downwards by axis, m.
+std::array<double, 6> extremes(const Stepper& stepper, const Gauge& gauge) {
+  std::array<double, 6> most{};
+  for (const Index node : gauge.nodes) {
+    const Vec3 displacement = load_node(stepper.state().position.data(), node) - load_node(stepper.model().local.reference.data(), node);
+    for (std::size_t i = 0; i < 3; ++i) {
+      most[2 * i] = std::max(most[2 * i], displacement[static_cast<Eigen::Index>(i)]);
+      most[2 * i + 1] = std::max(most[2 * i + 1], -displacement[static_cast<Eigen::Index>(i)]);
+    }
+  }
+  return most;
 }
 
-double sum_of_stress_yy(const Stepper& stepper) {
+std::vector<GaugeReading> read_gauges(const Stepper& stepper, const std::vector<Gauge>& gauges) {
+  std::vector<ExactSum> parts;
+  std::vector<double> most;
+  for (const Gauge& gauge : gauges) {
+    const GaugeSums of_gauge(stepper, gauge);
+    parts.insert(parts.end(), of_gauge.sums().begin(), of_gauge.sums().end());
+    const auto of_nodes = extremes(stepper, gauge);
+    most.insert(most.end(), of_nodes.begin(), of_nodes.end());
+  }
+  const std::vector<double> sums = totals(stepper.communicator(), parts);
+  stepper.communicator().max(most);
+  std::vector<GaugeReading> readings;
+  for (std::size_t g = 0; g < gauges.size(); ++g) {
+    const double* s = sums.data() + g * GaugeSums::kCount;
+    const double* m = most.data() + g * 6;
+    const double count = std::max(s[12], 1.0);
+    GaugeReading reading;
+    reading.reaction = {s[0], s[1], s[2]};
+    reading.contact_force = {s[3], s[4], s[5]};
+    reading.displacement = Vec3(s[6], s[7], s[8]) / count;
+    reading.velocity = Vec3(s[9], s[10], s[11]) / count;
+    for (int i = 0; i < 3; ++i) reading.max_displacement[i] = m[2 * i] >= m[2 * i + 1] ? m[2 * i] : -m[2 * i + 1];
+    readings.push_back(reading);
+  }
+  return readings;
+}
+
+ExactSum sum_of_stress_yy(const Stepper& stepper) {
   const LocalMesh& local = stepper.model().local;
-  CompensatedSum sum;
+  ExactSum sum;
   for (Index s = 0; s < local.num_slots; ++s) {
-    if (local.element_of_slot[at(s)] < 0) continue;
+    if (!local.is_original(s)) continue;
     const ElasticParams& params = stepper.model().elastic[at(local.block_group[at(s / kLanes)])];
     sum.add(std::abs(cauchy_stress(local, params, s, stepper.state().position.data(), nullptr)(1, 1)));
   }
-  return sum.value();
+  return sum;
+}
+
+/// Adds up this rank's counts over all ranks.
+void count_joints(const Stepper& stepper, HistoryRow& row) {
+  const auto count_mode = [&](FailureMode mode) {
+    if (mode == FailureMode::mode_1) ++row.broken_mode_1;
+    if (mode == FailureMode::mode_2) ++row.broken_mode_2;
+  };
+  row.broken_joints = stepper.broken_joints();
+  for (const ActiveJoint& joint : stepper.active_joints()) {
+    if (!stepper.model().local.is_original(joint.slot_a)) continue;
+    if (joint.damage() > 0) ++row.damaged_joints;
+    if (joint.state == JointState::failed) count_mode(joint.mode());
+  }
+  for (const ReleasedJoint& joint : stepper.released_joints()) count_mode(joint.mode);
+  row.damaged_joints += static_cast<std::int64_t>(stepper.released_joints().size());
+  if (stepper.contact() != nullptr) {
+    const ContactState& contact = stepper.contact()->contact();
+    row.couples = std::count_if(contact.couples.begin(), contact.couples.end(), [&](const ContactCouple& c) {
+      return stepper.model().local.is_original(contact.points[at(c.point)].slot);
+    });
+    row.contacts = stepper.contact_work().touching;
+  }
+  std::array counts{row.broken_joints, row.broken_mode_1, row.broken_mode_2, row.damaged_joints, row.couples, row.contacts};
+  stepper.communicator().sum(counts);
+  row.broken_joints = counts[0];
+  row.broken_mode_1 = counts[1];
+  row.broken_mode_2 = counts[2];
+  row.damaged_joints = counts[3];
+  row.couples = counts[4];
+  row.contacts = counts[5];
 }
 
 }  // namespace
@@ -163,28 +241,16 @@ HistoryRow make_history_row(const Stepper& stepper, const std::vector<Gauge>& ga
   row.time = time;
   row.time_step = stepper.dt();
   row.energy = stepper.budget();
-  row.broken_joints = stepper.broken_joints();
-  const auto count_mode = [&](FailureMode mode) {
-    if (mode == FailureMode::mode_1) ++row.broken_mode_1;
-    if (mode == FailureMode::mode_2) ++row.broken_mode_2;
-  };
-  for (const ActiveJoint& joint : stepper.active_joints()) {
-    if (joint.damage() > 0) ++row.damaged_joints;
-    if (joint.state == JointState::failed) count_mode(joint.mode());
-  }
-  for (const ReleasedJoint& joint : stepper.released_joints()) count_mode(joint.mode);
-  row.damaged_joints += static_cast<std::int64_t>(stepper.released_joints().size());
+  count_joints(stepper, row);
   row.fragments = find_fragments(stepper).count;
-  if (stepper.contact() != nullptr) {
-    row.couples = static_cast<std::int64_t>(stepper.contact()->contact().couples.size());
-    row.contacts = stepper.contact_work().touching;
-  }
   const Momentum p = momentum(stepper.model().local, stepper.state().position.data(), stepper.state().velocity.data());
-  row.momentum = p.linear;
-  row.angular_momentum = p.angular;
-  row.max_speed = stepper.max_speed();
-  row.stress_yy_sum = sum_of_stress_yy(stepper);
-  for (const Gauge& gauge : gauges) row.gauges.push_back(read_gauge(stepper, gauge));
+  const std::vector<double> sums = totals(stepper.communicator(), std::array{p.linear[0], p.linear[1], p.linear[2], p.angular[0],
+                                                                             p.angular[1], p.angular[2], sum_of_stress_yy(stepper)});
+  row.momentum = {sums[0], sums[1], sums[2]};
+  row.angular_momentum = {sums[3], sums[4], sums[5]};
+  row.stress_yy_sum = sums[6];
+  row.max_speed = stepper.communicator().max(stepper.max_speed());
+  row.gauges = read_gauges(stepper, gauges);
   return row;
 }
 

@@ -2,20 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
 #include "base/error.hpp"
+#include "simulation/reduction.hpp"
 
 namespace breccia {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-double sum_of(const Field<double>& values) {
-  CompensatedSum sum;
-  for (const double value : values) sum.add(value);
-  return sum.value();
+/// Sum over what this rank counts. @param counted  as long as the values
+ExactSum sum_of(const Field<double>& values, const std::vector<std::uint8_t>& counted) {
+  ExactSum sum;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (counted[i] != 0) sum.add(values[i]);
+  }
+  return sum;
 }
 
 /// Corners of shared-node elements as the sweep wants them: [shared block][4][8].
@@ -55,8 +60,6 @@ Stepper::Stepper(const Model& model, std::nullptr_t)
     : model_(model),
       links_(build_links(model)),
       forces_(model.local.num_own_blocks(), model.local.num_nodes),
-      constraints_({}, state_),
-      gravity_work_(model.local, model.local.reference),
       simd_(best_simd()),
       shared_corners_(blocked_corners(model.local)) {
   const LocalMesh& local = model_.local;
@@ -120,12 +123,12 @@ ActiveJoint Stepper::make_active(std::size_t index) const {
 }
 
 void Stepper::begin_stage(StageLoads loads, double dt) {
-  for (const PressureLoad& p : pressures_) past_external_ += p.work();
-  past_external_ += constraints_.work();
+  for (const PressureLoad& p : pressures_) past_external_.add(p.work());
+  past_external_.add(constraints_.work());
   pressures_ = std::move(loads.pressures);
   gravity_ = std::move(loads.gravity);
   entries_ = std::move(loads.constraints);
-  constraints_ = Constraints(entries_, state_);
+  constraints_ = Constraints(entries_, model_.local, state_);
   mass_damping_ = loads.mass_damping;
   local_damping_ = loads.local_damping;
   if (mass_damping_ > 0 || local_damping_ > 0) damping_.resize(at(model_.local.num_nodes));
@@ -391,36 +394,48 @@ void Stepper::activate_crossing() {
   insert_active(std::move(batch));
 }
 
+ExactSum Stepper::external_work() const {
+  ExactSum sum = past_external_;
+  sum.add(constraints_.work());
+  sum.add(gravity_work_.work(model_.local, state_.position));
+  for (const PressureLoad& p : pressures_) sum.add(p.work());
+  return sum;
+}
+
 void Stepper::take_budget(const Field<double>& velocity_before) {
   const auto lap = timer_.measure(Phase::energy);
   const LocalMesh& local = model_.local;
-  EnergyBudget& e = budget_;
-  e.kinetic = kinetic_energy(local, velocity_before.data(), state_.velocity.data());
-  const ElasticEnergy elastic = elastic_energy(local, model_.elastic, state_.position.data());
-  e.elastic = elastic.total + sum_of(stress_work_);
-  worst_element_ = elastic.worst_slot < 0 ? -1 : local.element_of_slot[at(elastic.worst_slot)];
-  e.joint_elastic = intact_joint_energy(local, links_, state_.position.data()) + joint_work_.stored;
-  e.joint_mode_1 = joint_work_.mode_1.value();
-  e.joint_mode_2 = joint_work_.mode_2.value();
-  e.joint_friction = joint_work_.friction.value();
-  e.contact_stored = contact_work_.stored + contact_work_.friction_stored;
-  e.contact_dissipated = contact_work_.dissipated.value();
-  e.contact_friction = contact_work_.friction_dissipated.value();
-  e.viscous = sum_of(viscous_);
-  e.damping = sum_of(damping_);
-  e.external_work = past_external_ + constraints_.work() + gravity_work_.work(local, state_.position);
-  for (const PressureLoad& p : pressures_) e.external_work += p.work();
+  ElasticEnergy elastic = elastic_energy(local, model_.elastic, state_.position.data());
+  elastic.total.add(sum_of(stress_work_, local.original));
+  ExactSum joints = intact_joint_energy(local, links_, state_.position.data());
+  joints.add(joint_work_.stored);
+  ExactSum contact = contact_work_.stored;
+  contact.add(contact_work_.friction_stored);
+  const std::vector<double> terms = totals(
+      communicator_, std::array{kinetic_energy(local, velocity_before.data(), state_.velocity.data()), elastic.total, joints, contact,
+                                joint_work_.mode_1, joint_work_.mode_2, joint_work_.friction, contact_work_.dissipated,
+                                contact_work_.friction_dissipated, sum_of(viscous_, local.original), sum_of(damping_, local.counted),
+                                external_work()});
+  budget_ = {terms[0], terms[1], terms[2], terms[3], terms[4], terms[5], terms[6], terms[7], terms[8], terms[9], terms[10], terms[11]};
+  find_worst(elastic);
 
-  const std::array<double, 11> terms{e.kinetic, e.elastic, e.joint_elastic, e.contact_stored, e.joint_mode_1, e.joint_mode_2,
-                                     e.joint_friction, e.contact_dissipated, e.contact_friction, e.viscous, e.damping};
-  double total = 0, largest = std::abs(e.external_work);
-  for (const double term : terms) {
-    total += term;
-    largest = std::max(largest, std::abs(term));
+  double total = 0, largest = std::abs(budget_.external_work);
+  for (std::size_t t = 0; t + 1 < terms.size(); ++t) {
+    total += terms[t];
+    largest = std::max(largest, std::abs(terms[t]));
   }
-  if (!first_total_) first_total_ = total - e.external_work;
-  e.residual = *first_total_ + e.external_work - total;
-  e.residual_relative = std::abs(e.residual) / std::max(largest, model_.whole.energy_floor);
+  if (!first_total_) first_total_ = total - budget_.external_work;
+  budget_.residual = *first_total_ + budget_.external_work - total;
+  budget_.residual_relative = std::abs(budget_.residual) / std::max(largest, model_.whole.energy_floor);
+}
+
+/// The element of largest strain energy density on any rank; of equal ones the lowest.
+void Stepper::find_worst(const ElasticEnergy& elastic) {
+  const double largest = communicator_.max(elastic.largest_density);
+  const bool mine = elastic.worst_slot >= 0 && elastic.largest_density == largest;
+  constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();
+  const std::int64_t lowest = communicator_.max(mine ? -model_.local.element_of_slot[at(elastic.worst_slot)] : kNone);
+  worst_element_ = lowest == kNone ? -1 : -lowest;
 }
 
 void Stepper::book_after(bool sample) {

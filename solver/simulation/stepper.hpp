@@ -32,7 +32,8 @@ struct Ledger {
   double max_speed = 0;                    ///< m/s
   PhaseTimer timer;
   std::int64_t steps = 0, crushed = 0, broken_joints = 0, searches = 0;
-  double past_external = 0;                ///< J, work of loads and constraints up to now
+  ExactSum past_external;                  ///< J, work of loads and constraints up to now
+  GravityWork::Carried gravity;
   JointWork joint_work;
   ContactWork contact_work;
   std::optional<double> first_total;       ///< J, energy minus external work of the whole model at the first sample
@@ -108,14 +109,14 @@ class Stepper {
   void use_simd(Simd simd) { simd_ = simd; }
 
   [[nodiscard]] const JointLinks& links() const { return links_; }
-  /// Joints that have failed and opened.
+  /// Joints of this rank (side a) that have failed and opened.
   [[nodiscard]] const std::vector<ReleasedJoint>& released_joints() const { return released_; }
-  /// Joints that no longer hold, opened or not.
+  /// Joints of this rank (side a) that no longer hold, opened or not.
   [[nodiscard]] std::int64_t broken_joints() const { return broken_joints_; }
 
-  /// Budget at the last sampled step; residual against the first sample.
+  /// Budget of the whole model at the last sampled step; residual against the first sample.
   [[nodiscard]] const EnergyBudget& budget() const { return budget_; }
-  /// Element with the largest strain energy density at the last sample, -1: none.
+  /// Element of the whole model with the largest strain energy density at the last sample, -1: none.
   [[nodiscard]] GlobalId worst_element() const { return worst_element_; }
 
  private:
@@ -144,6 +145,8 @@ class Stepper {
   void finish_motion(const SweepArgs& args);
   void activate_crossing();
   void take_budget(const Field<double>& velocity_before);
+  void find_worst(const ElasticEnergy& elastic);
+  [[nodiscard]] ExactSum external_work() const;
   void book_after(bool sample);
   static void crossing(void* context, Index slot, int face, double* force);
 
@@ -180,7 +183,7 @@ class Stepper {
   bool stop_agreed_ = false;
 
   // Books, J.
-  double past_external_ = 0;                ///< work of the loads and constraints of earlier stages
+  ExactSum past_external_;                  ///< work of the loads and constraints of earlier stages
   JointWork joint_work_;
   ContactWork contact_work_;
   bool viscous_on_ = false, stress_work_on_ = false;

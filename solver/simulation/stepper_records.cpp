@@ -66,7 +66,7 @@ Stepper::Stepper(const Model& model, const ContactSearchParams& search, const Re
   crushed_ = ledger.crushed;
   broken_joints_ = ledger.broken_joints;
   searches_before_ = ledger.searches;
-  past_external_ = ledger.past_external;
+  past_external_ = std::move(ledger.past_external);
   joint_work_ = std::move(ledger.joint_work);
   contact_work_ = std::move(ledger.contact_work);
   first_total_ = ledger.first_total;
@@ -74,7 +74,7 @@ Stepper::Stepper(const Model& model, const ContactSearchParams& search, const Re
   timer_ = ledger.timer;
   restore_elements(records);
   restore_joints(records);
-  gravity_work_ = GravityWork(model.local, state_.position);
+  gravity_work_ = GravityWork(ledger.gravity, model.local, state_.position);
   if (model.has_contact) contact_ = std::make_unique<ContactSearch>(search, model, records);
 }
 
@@ -217,6 +217,7 @@ Ledger Stepper::close() {
   ledger.broken_joints = broken_joints_;
   ledger.searches = searches();
   ledger.past_external = past_external_;
+  ledger.gravity = gravity_work_.close(model_.local, state_.position);
   ledger.joint_work = joint_work_;
   ledger.contact_work = contact_work_;
   ledger.first_total = first_total_;

@@ -89,6 +89,10 @@ class Pass {
     const Index slot = slot_of(contactor);
     return overlap_shape(params_.field, local_, slot, values, length_of(slot));
   }
+  /// Where the work at a point is booked: couples are computed wherever one side is at home, and booked with their points.
+  [[nodiscard]] ExactSum& book(const ContactPoint& point, ExactSum& sum) {
+    return local_.is_original(point.slot) ? sum : ignored_;
+  }
   /// Adds the contactor to the candidates if its overlap is positive now or was so before the field moved.
   void consider(Index contactor, const std::array<double, 4>& lambda);
 
@@ -103,8 +107,7 @@ class Pass {
   std::vector<Candidate> candidates_;  ///< of the point at hand, ascending
   std::vector<bool> taken_;            ///< old histories of the point at hand that live on
   std::size_t old_ = 0;                ///< first old history not yet looked at
-  CompensatedSum stored_, friction_stored_;
-  Index pressing_ = 0;
+  ExactSum ignored_;  ///< what other ranks book
 };
 
 void Pass::run() {
@@ -112,6 +115,9 @@ void Pass::run() {
   contact_.touching_before.swap(contact_.touching);
   contact_.touching.clear();
   contact_.boundary.clear();
+  work_.stored = {};
+  work_.friction_stored = {};
+  work_.touching = 0;
   if (params_.sphere) push_back_into_sphere();
   prepare_contactors();
 
@@ -129,9 +135,6 @@ void Pass::run() {
   }
   for (; old_ < contact_.touching_before.size(); ++old_) forget(contact_.touching_before[old_]);
   contact_.fresh.clear();
-  work_.stored = stored_.value();
-  work_.friction_stored = friction_stored_.value();
-  work_.touching = pressing_;
 }
 
 void Pass::prepare_contactors() {
@@ -159,7 +162,7 @@ void Pass::push_back_into_sphere() {
     const Vec3 force = (-stiffness * beyond / r) * from_centre;
     const std::array<double, 3>& shape = rule_.shape[static_cast<std::size_t>(point.k)];
     for (std::size_t i = 0; i < 3; ++i) forces_.add(point.nodes[i], shape[i] * force);
-    stored_.add(0.5 * stiffness * beyond * beyond);
+    book(point, work_.stored).add(0.5 * stiffness * beyond * beyond);
     contact_.boundary.push_back({index, force});
   }
 }
@@ -254,10 +257,10 @@ void Pass::forget(const TouchingCouple& old) {
       const Vec3 x = at_point(rule_, point, state_.position.data());
       lost -= 0.5 * old.friction.dot(relative_motion(point, slot, barycentric(*tetra, x)));
     }
-    work_.friction_dissipated.add(lost);
+    book(point, work_.friction_dissipated).add(lost);
   }
   // A contactor that was crushed while it was touched gives nothing back.
-  if (crushed) work_.dissipated.add(point.weight * length * normal_law::stored(law, old.d, old.d_max));
+  if (crushed) book(point, work_.dissipated).add(point.weight * length * normal_law::stored(law, old.d, old.d_max));
 }
 
 /// Overlap that makes no force, m, of a couple seen for the first time.
@@ -278,6 +281,7 @@ double Pass::first_offset(Index point, const Candidate& candidate) const {
 /// The law follows the motion (field at rest), then the field (points at rest), so that the energy each of them moves
 /// is known apart.
 void Pass::follow(const ContactLaw& law, double scale, double length, const Candidate& candidate, TouchingCouple& h) {
+  ExactSum& dissipated = book(point_at(h.point), work_.dissipated);
   const auto go_to = [&](double g) {
     h.offset = std::clamp(g, 0.0, h.offset);
     const double d = std::max(0.0, g - h.offset) / length;
@@ -287,14 +291,14 @@ void Pass::follow(const ContactLaw& law, double scale, double length, const Cand
     h.d_max = d_max;
     return scale * lost;
   };
-  work_.dissipated.add(go_to(candidate.g_before));
+  dissipated.add(go_to(candidate.g_before));
   if (candidate.g == candidate.g_before) return;
   // The offset takes up the field's change: what rises makes no force, what sinks takes force away once the offset is
   // gone.
   const double stored = normal_law::stored(law, h.d, h.d_max);
   h.offset = std::max(0.0, h.offset + (candidate.g - candidate.g_before));
   go_to(candidate.g);
-  work_.dissipated.add(scale * (stored - normal_law::stored(law, h.d, h.d_max)));
+  dissipated.add(scale * (stored - normal_law::stored(law, h.d, h.d_max)));
 }
 
 /// A point that moves on into another element finds the field it leaves only while the two are bonded. What the overlap
@@ -342,13 +346,13 @@ void Pass::press(const ContactLaw& law, const ContactPoint& point, Index slot, d
     const double held = 0.5 * k * h.spring.squaredNorm();
     const Vec3 friction = friction_force(-here.gradient / slope, motion, k, law.friction * pressure * slope, h.spring);
     const double holds = 0.5 * k * h.spring.squaredNorm();
-    work_.friction_dissipated.add(-0.5 * (h.friction + friction).dot(motion) - (holds - held));
-    friction_stored_.add(holds);
+    book(point, work_.friction_dissipated).add(-0.5 * (h.friction + friction).dot(motion) - (holds - held));
+    book(point, work_.friction_stored).add(holds);
     h.friction = friction;
     h.force += friction;
   }
-  stored_.add(point.weight * length * normal_law::stored(law, h.d, h.d_max));
-  pressing_ += h.d > 0 ? 1 : 0;
+  book(point, work_.stored).add(point.weight * length * normal_law::stored(law, h.d, h.d_max));
+  if (h.d > 0 && local_.is_original(point.slot)) ++work_.touching;
   distribute(point, candidate, h.force);
 }
 
@@ -369,14 +373,21 @@ void contact_forces(const ContactParams& params, const LocalMesh& local, const S
   Pass(params, local, state, dt, contact, forces, work).run();
 }
 
-Vec3 contact_force_on_group(const ContactState& contact, const LocalMesh& local, Index group) {
-  Vec3 sum = Vec3::Zero();
+std::array<ExactSum, 3> contact_force_on_group(const ContactState& contact, const LocalMesh& local, Index group) {
+  std::array<ExactSum, 3> sum;
+  const auto add = [&](const Vec3& force) {
+    for (std::size_t i = 0; i < 3; ++i) sum[i].add(force[static_cast<Eigen::Index>(i)]);
+  };
+  const auto slot_of = [&](Index point) { return contact.points[static_cast<std::size_t>(point)].slot; };
   for (const BoundaryForce& b : contact.boundary) {
-    if (group_of(local, contact.points[static_cast<std::size_t>(b.point)].slot) == group) sum += b.force;
+    const Index slot = slot_of(b.point);
+    if (local.is_original(slot) && group_of(local, slot) == group) add(b.force);
   }
   for (const TouchingCouple& t : contact.touching) {
-    if (group_of(local, contact.points[static_cast<std::size_t>(t.point)].slot) == group) sum += t.force;
-    if (group_of(local, contact.contactors[static_cast<std::size_t>(t.contactor)]) == group) sum -= t.force;
+    const Index slot = slot_of(t.point);
+    if (!local.is_original(slot)) continue;
+    if (group_of(local, slot) == group) add(t.force);
+    if (group_of(local, contact.contactors[static_cast<std::size_t>(t.contactor)]) == group) add(-t.force);
   }
   return sum;
 }

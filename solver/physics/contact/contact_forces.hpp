@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/compensated_sum.hpp"
+#include "base/exact_sum.hpp"
 #include "physics/contact/contact_params.hpp"
 #include "physics/contact/contact_state.hpp"
 #include "state/local_mesh.hpp"
@@ -9,14 +9,14 @@
 
 namespace breccia {
 
-/// What contact holds and has consumed, J. `stored` and `friction_stored` belong to the last call, the dissipated ones
-/// add up over the run.
+/// What contact holds and has consumed, J, by the points of this rank's originals. `stored` and `friction_stored` belong to
+/// the last call, the dissipated ones add up over the run.
 struct ContactWork {
-  double stored = 0;                   ///< normal overlap and spherical boundary
-  double friction_stored = 0;          ///< tangential springs
-  CompensatedSum dissipated;           ///< normal law; also what a moving overlap field takes away
-  CompensatedSum friction_dissipated;  ///< sliding
-  Index touching = 0;                  ///< couples that press on each other
+  ExactSum stored;               ///< normal overlap and spherical boundary
+  ExactSum friction_stored;      ///< tangential springs
+  ExactSum dissipated;           ///< normal law; also what a moving overlap field takes away
+  ExactSum friction_dissipated;  ///< sliding
+  std::int64_t touching = 0;     ///< couples that press on each other
 };
 
 /// Forces of all couples and of the spherical boundary at t_n.
@@ -42,8 +42,8 @@ struct ContactWork {
 void contact_forces(const ContactParams& params, const LocalMesh& local, const State& state, double dt,
                     ContactState& contact, NodalForces& forces, ContactWork& work);
 
-/// Sum of the contact forces of the last step on the elements of a volume group, N: forces on its points (the spherical
-/// boundary's included), reactions on its contactors. O(touching couples).
-[[nodiscard]] Vec3 contact_force_on_group(const ContactState& contact, const LocalMesh& local, Index group);
+/// Sum of the contact forces of the last step on the elements of a volume group by axis, N: forces on its points (the
+/// spherical boundary's included), reactions on its contactors; of the points of this rank's originals. O(touching couples).
+[[nodiscard]] std::array<ExactSum, 3> contact_force_on_group(const ContactState& contact, const LocalMesh& local, Index group);
 
 }  // namespace breccia

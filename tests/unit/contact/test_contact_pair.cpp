@@ -96,12 +96,12 @@ TEST(contact_pair, books_what_the_closed_forms_return_and_keep) {
     const double put_in = 2 * kArea * inradius * kPenalty * (0.5 * yield * yield + yield * (d - yield));
     const double g = d / yield;
     const double share = 2 / (c.exponent + 1) * g / (2 * g - 1);
-    EXPECT_NEAR(pair.scene.work.stored, share * put_in, kRoundOff * put_in) << c.name;
+    EXPECT_NEAR(pair.scene.work.stored.value(), share * put_in, kRoundOff * put_in) << c.name;
     EXPECT_NEAR(pair.scene.work.dissipated.value(), (1 - share) * put_in, kRoundOff * put_in) << c.name;
     EXPECT_EQ(pair.scene.work.touching, 2);
     const double lost = pair.scene.work.dissipated.value();
     for (int i = 39; i >= -1; --i) pair.force_at(kDeepest * i / 40);
-    EXPECT_EQ(pair.scene.work.stored, 0) << c.name;
+    EXPECT_EQ(pair.scene.work.stored.value(), 0) << c.name;
     EXPECT_EQ(pair.scene.work.dissipated.value(), lost) << c.name;
   }
 }
@@ -116,7 +116,7 @@ TEST(contact_pair, groups_see_equal_and_opposite_forces) {
 TEST(contact_pair, a_crushed_contactor_books_what_it_no_longer_returns) {
   Pair pair(kCases[0]);
   pair.force_at(kDeepest);
-  const double stored = pair.scene.work.stored;
+  const double stored = pair.scene.work.stored.value();
   // Flattened to a thousandth along x about the contact plane: neither tetrahedron is a contactor any more.
   for (const Index body : {0, 1}) {
     for (const Index n : pair.scene.nodes_of(body)) {
@@ -126,7 +126,7 @@ TEST(contact_pair, a_crushed_contactor_books_what_it_no_longer_returns) {
     }
   }
   pair.scene.evaluate(1e-6);
-  EXPECT_EQ(pair.scene.work.stored, 0);
+  EXPECT_EQ(pair.scene.work.stored.value(), 0);
   EXPECT_NEAR(pair.scene.work.dissipated.value(), stored, kRoundOff * stored);
 }
 
@@ -145,7 +145,7 @@ TEST(contact_pair, a_sphere_pushes_points_back_with_the_force_of_its_energy) {
     scene.evaluate(1e-6);
     const double beyond = std::max(0.0, x + 0.03 - 0.028);
     EXPECT_NEAR(scene.force_on(0)[0], -kArea * 5e6 * beyond / inradius, kRoundOff * kArea * 5e6);
-    EXPECT_NEAR(scene.work.stored, 0.5 * kArea * 5e6 * beyond * beyond / inradius, kRoundOff * kArea * 5e6);
+    EXPECT_NEAR(scene.work.stored.value(), 0.5 * kArea * 5e6 * beyond * beyond / inradius, kRoundOff * kArea * 5e6);
     EXPECT_EQ(scene.contact.boundary.size(), beyond > 0 ? 1u : 0u);
   }
 }

@@ -92,10 +92,10 @@ void expect_force_is_gradient(test::Scene& scene, const char* what) {
       const double x0 = x;
       x = x0 + step;
       scene.evaluate(1e-6);
-      const double up = scene.work.stored;
+      const double up = scene.work.stored.value();
       x = x0 - step;
       scene.evaluate(1e-6);
-      const double down = scene.work.stored;
+      const double down = scene.work.stored.value();
       x = x0;
       EXPECT_NEAR(forces.get(n)[axis], -(up - down) / (2 * step), tolerance * largest) << what << ", node " << n;
     }

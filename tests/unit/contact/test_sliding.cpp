@@ -115,7 +115,7 @@ TEST(sliding, with_friction_drags_with_mu_times_the_normal_force_and_books_the_s
     ASSERT_NEAR(force[0], -std::min(mu * normal, stiffness * path), 1e-9 * normal) << "step " << i;
   }
   const double spring = mu * normal / stiffness;
-  EXPECT_NEAR(drag.scene.work.friction_stored, 0.5 * stiffness * spring * spring, 1e-9 * normal);
+  EXPECT_NEAR(drag.scene.work.friction_stored.value(), 0.5 * stiffness * spring * spring, 1e-9 * normal);
   EXPECT_NEAR(drag.scene.work.friction_dissipated.value(), mu * normal * (path - spring), 1e-9 * normal * path);
 }
 

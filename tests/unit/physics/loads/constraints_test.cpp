@@ -88,7 +88,7 @@ TEST(Constraints, OnNothingDoNothing) {
   constraints.book_after(0.1);
   EXPECT_TRUE(constraints.empty());
   EXPECT_EQ(model.state.velocity, before);
-  EXPECT_EQ(constraints.work(), 0.0);
+  EXPECT_EQ(constraints.work().value(), 0.0);
 }
 
 }  // namespace

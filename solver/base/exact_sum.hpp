@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+
+namespace breccia {
+
+/// Exact sum of doubles, and so the same for any order of the terms and however they are spread over ranks.
+///
+/// A fixed-point number wide enough for every double: limb k holds multiples of 2^(32 k - 1088). A term's 53 bits go to three
+/// limbs; each addition changes a limb by less than 2^32, so carries have to be passed on once in 2^30 additions only. Source
+/// of the idea: [Kulisch 2011]. `add` takes some 3 ns, `value` 100.
+class ExactSum {
+ public:
+  static constexpr std::size_t kLimbs = 68;
+
+  ExactSum() = default;
+  explicit ExactSum(double term) { add(term); }
+
+  /// A term that is not finite makes the sum NaN for ever.
+  void add(double term) {
+    const auto bits = std::bit_cast<std::uint64_t>(term);
+    const auto exponent = static_cast<int>(bits >> 52 & 0x7FF);
+    if (exponent == 0x7FF) {
+      finite_ = false;
+      return;
+    }
+    const std::uint64_t fraction = bits & 0xFFFFFFFFFFFFFULL;
+    const std::uint64_t mantissa = exponent == 0 ? fraction : fraction | 1ULL << 52;
+    // term = mantissa 2^(e - 1075) with e = max(exponent, 1), and the lowest limb counts 2^-1088.
+    const int shift = (exponent == 0 ? 1 : exponent) + 13;
+    const auto limb = static_cast<std::size_t>(shift / 32);
+    const int rest = shift % 32;
+    const std::uint64_t low = mantissa << rest, high = rest == 0 ? 0 : mantissa >> (64 - rest);
+    const std::int64_t sign = static_cast<std::int64_t>(bits) < 0 ? -1 : 1;
+    limbs_[limb] += sign * static_cast<std::int64_t>(low & 0xFFFFFFFFULL);
+    limbs_[limb + 1] += sign * static_cast<std::int64_t>(low >> 32);
+    limbs_[limb + 2] += sign * static_cast<std::int64_t>(high);
+    if (++pending_ == kMostPending) carry();
+  }
+  void add(const ExactSum& other);
+
+  /// The sum rounded to the nearest double, ties away from zero; NaN if a term was not finite.
+  [[nodiscard]] double value() const;
+
+  /// As integers that ranks may add up, up to 2^30 of them, and back.
+  static constexpr std::size_t kWords = kLimbs + 1;
+  [[nodiscard]] std::array<std::int64_t, kWords> words() const;
+  [[nodiscard]] static ExactSum from_words(std::span<const std::int64_t, kWords> words);
+
+  friend bool operator==(const ExactSum& a, const ExactSum& b) { return a.words() == b.words(); }
+
+ private:
+  static constexpr std::int64_t kMostPending = std::int64_t{1} << 30;
+  void carry();
+
+  std::array<std::int64_t, kLimbs> limbs_{};  ///< after `carry` in 0 .. 2^32 - 1, the last one signed
+  std::int64_t pending_ = 0;                  ///< additions since
+  bool finite_ = true;
+};
+
+}  // namespace breccia
