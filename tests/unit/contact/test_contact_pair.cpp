@@ -109,8 +109,8 @@ TEST(contact_pair, books_what_the_closed_forms_return_and_keep) {
 TEST(contact_pair, groups_see_equal_and_opposite_forces) {
   Pair pair(kCases[0]);
   const double force = pair.force_at(kDeepest);
-  EXPECT_NEAR(contact_force_on_group(pair.scene.contact, pair.scene.local, 1)[0], force, kRoundOff * force);
-  EXPECT_NEAR(contact_force_on_group(pair.scene.contact, pair.scene.local, 0)[0], -force, kRoundOff * force);
+  EXPECT_NEAR(contact_force_on_group(pair.scene.contact, pair.scene.local, 1)[0].value(), force, kRoundOff * force);
+  EXPECT_NEAR(contact_force_on_group(pair.scene.contact, pair.scene.local, 0)[0].value(), -force, kRoundOff * force);
 }
 
 TEST(contact_pair, a_crushed_contactor_books_what_it_no_longer_returns) {

@@ -41,7 +41,7 @@ Frame two_elements(std::int64_t number, double time) {
   e.velocity = {.5, .25, .125, 1, 2, 4};
   e.displacement = {-1, -2, -4, -8, -16, -32};
   frame.joints = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {42}, {0.75}, {3}, {1e-6}, {2e-6}, {0}};
-  frame.contacts = {{9, 8, 7}, {1, 2, 3}, {0}, {1}};
+  frame.contacts = {{24}, {9, 8, 7}, {1, 2, 3}, {0}, {1}};
   return frame;
 }
 

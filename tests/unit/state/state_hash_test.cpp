@@ -69,9 +69,9 @@ TEST(StateHash, OfTwoRanksAddsUpToThatOfOne) {
   source.cells = {2, 1, 1};
   const Mesh mesh = make_raster(source).mesh;
   StateHash sum;
-  for (const std::uint8_t rank : {0, 1}) {
+  for (const int rank : {0, 1}) {
     std::vector<std::uint8_t> original(mesh.elements.size());
-    for (std::size_t e = 0; e < original.size(); ++e) original[e] = e % 3 == 0 ? rank : 1 - rank;
+    for (std::size_t e = 0; e < original.size(); ++e) original[e] = (e % 3 == 0) == (rank == 0) ? 1 : 0;
     Model part(Discretisation::own_nodes);
     part.local = build_local_mesh(mesh, {Discretisation::own_nodes}, {1000.0}, original);
     part.state.position = part.local.reference;
