@@ -216,6 +216,15 @@ void bind(A& a, Detection& detection) {
 }
 
 template <class A>
+void bind(A& a, Domains& domains) {
+  a.origin(domains.origin);
+  a.choice("kind", domains.kind);
+  a.value("n", domains.n);
+  a.value("rebalance", domains.rebalance);
+  a.value("margin", domains.margin);
+}
+
+template <class A>
 void bind(A& a, Output& output) {
   a.origin(output.origin);
   a.value("frame_interval", output.frame_interval);
@@ -244,6 +253,7 @@ void bind(A& a, Case& c) {
   a.list("stage", c.stages);
   a.section("time", [&](auto& s) { bind(s, c.time); });
   a.section("detection", [&](auto& s) { bind(s, c.detection); });
+  a.section("domains", [&](auto& s) { bind(s, c.domains); });
   a.section("output", [&](auto& s) { bind(s, c.output); });
 }
 

@@ -202,6 +202,18 @@ struct Detection {
   friend bool operator==(const Detection&, const Detection&) = default;
 };
 
+enum class DomainKind { rcb, grid };
+
+/// [domains]: how a run on several ranks divides the model.
+struct Domains {
+  DomainKind kind = DomainKind::rcb;
+  std::array<int, 3> n{0, 0, 0};  ///< grid: domains along x, y, z; 0: automatic
+  bool rebalance = true;          ///< divide anew when ranks wait for each other
+  double margin = 1;              ///< of the proxies, in longest edges
+  Origin origin;
+  friend bool operator==(const Domains&, const Domains&) = default;
+};
+
 /// [output]
 struct Output {
   double frame_interval = 0;    ///< s; 0: no frames but the last
@@ -228,6 +240,7 @@ struct Case {
   std::vector<Stage> stages;
   TimeControl time;
   Detection detection;
+  Domains domains;
   Output output;
   std::string resolved;  ///< the case as TOML, SI, every default written out; copied to the run folder
   friend bool operator==(const Case&, const Case&) = default;

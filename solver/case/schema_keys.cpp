@@ -13,6 +13,7 @@ constexpr Range not_negative{.lower = 0};
 constexpr Range at_least_one{.lower = 1};
 constexpr Range share{.lower = 0, .upper = 1};
 constexpr Range count{.lower = 1, .upper = 100000};
+constexpr Range at_most_100000{.lower = 0, .upper = 100000};
 constexpr Range seed{.lower = 0, .upper = 9.2e18};
 constexpr Range steps{.lower = 0, .upper = 9.2e18};
 
@@ -264,6 +265,20 @@ constexpr auto table = std::to_array<Key>({
      .help = "Edge of a cell of the grid. auto: from buffer and element size.", .example = "\"5 mm\""},
     {.path = "detection.verify", .type = boolean, .fallback = "false",
      .help = "Compare every step with all against all; slow.", .example = "true"},
+
+    {.path = "domains", .type = section,
+     .help = "How a run on several ranks (mpiexec -n N) divides the model. It changes the speed, never the results."},
+    {.path = "domains.kind", .type = choice, .fallback = "rcb", .choices = "rcb|grid",
+     .help = "rcb: bisected again and again so that all ranks have the same work; grid: equal cuboids.",
+     .example = "\"grid\""},
+    {.path = "domains.n", .type = integers_or_one, .fallback = "[0, 0, 0]", .range = at_most_100000,
+     .help = "Cuboids of the grid along x, y and z, as many as ranks; 0: chosen so that the least area is cut.",
+     .example = "[2, 2, 1]"},
+    {.path = "domains.rebalance", .type = boolean, .fallback = "true",
+     .help = "Divide anew when that pays: when ranks wait for each other for longer than it takes.", .example = "false"},
+    {.path = "domains.margin", .type = number, .fallback = "1", .range = {.lower = 0.1, .upper = 100},
+     .help = "How far beyond a domain a rank knows its neighbours' elements, in longest edges of an element. Larger: fewer new "
+             "divisions while bodies move, but more to exchange.", .example = "2"},
 
     {.path = "output", .type = section, .help = "What a run writes, and how often."},
     {.path = "output.frame_interval", .type = number, .unit = "s", .fallback = "0", .range = not_negative,

@@ -1,25 +1,105 @@
 #include "parallel/domain_topology.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
-namespace breccia {
+#include "base/error.hpp"
+#include "parallel/bisection.hpp"
 
-std::vector<int> assign_domains(const Communicator& communicator, const DomainSpec&, int parts, std::span<const Vec3> centroid,
-                                std::span<const double>) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Vec3& x : centroid) {
-    low = std::min(low, x[0]);
-    high = std::max(high, x[0]);
+namespace breccia {
+namespace {
+
+std::string text_of(const std::array<int, 3>& n) {
+  return "[" + std::to_string(n[0]) + ", " + std::to_string(n[1]) + ", " + std::to_string(n[2]) + "]";
+}
+
+template <class Visit>
+void for_each_factorisation(int parts, Visit&& visit) {
+  for (int x = 1; x <= parts; ++x) {
+    if (parts % x != 0) continue;
+    for (int y = 1; y <= parts / x; ++y) {
+      if (parts / x % y == 0) visit(std::array{x, y, parts / x / y});
+    }
   }
-  low = communicator.min(low);
-  high = communicator.max(high);
-  std::vector<int> owner;
+}
+
+/// Area of all planes between domains, m2.
+double cut_area(const std::array<int, 3>& n, const std::array<double, 3>& edge) {
+  return (n[0] - 1) * edge[1] * edge[2] + (n[1] - 1) * edge[2] * edge[0] + (n[2] - 1) * edge[0] * edge[1];
+}
+
+std::array<int, 3> least_cut(int parts, const std::array<double, 3>& edge) {
+  std::array<int, 3> best{parts, 1, 1};
+  for_each_factorisation(parts, [&](const std::array<int, 3>& n) {
+    if (cut_area(n, edge) < cut_area(best, edge)) best = n;
+  });
+  return best;
+}
+
+DomainBox box_around(const Communicator& communicator, std::span<const Vec3> centroid) {
+  std::array<double, 6> most;  // upper corner, negative lower corner
+  most.fill(-std::numeric_limits<double>::infinity());
   for (const Vec3& x : centroid) {
-    const double share = (x[0] - low) / std::max(high - low, 1e-300);
-    owner.push_back(std::min(parts - 1, static_cast<int>(share * parts)));
+    for (std::size_t i = 0; i < 3; ++i) {
+      most[i] = std::max(most[i], x[static_cast<Eigen::Index>(i)]);
+      most[3 + i] = std::max(most[3 + i], -x[static_cast<Eigen::Index>(i)]);
+    }
   }
-  return owner;
+  communicator.max(most);
+  return {{-most[3], -most[4], -most[5]}, {most[0], most[1], most[2]}};
+}
+
+std::vector<int> assign_grid(const std::array<int, 3>& n, const DomainBox& box, std::span<const Vec3> centroid) {
+  std::vector<int> domain;
+  domain.reserve(centroid.size());
+  for (const Vec3& x : centroid) {
+    std::array<int, 3> cell{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double edge = box.upper[i] - box.lower[i];
+      const double share = edge > 0 ? (x[static_cast<Eigen::Index>(i)] - box.lower[i]) / edge : 0.0;
+      cell[i] = std::clamp(static_cast<int>(share * n[i]), 0, n[i] - 1);
+    }
+    domain.push_back((cell[2] * n[1] + cell[1]) * n[0] + cell[0]);
+  }
+  return domain;
+}
+
+}  // namespace
+
+std::array<int, 3> grid_of(const DomainSpec& spec, int parts, const DomainBox& box, double longest_edge) {
+  std::array<double, 3> edge{};
+  for (std::size_t i = 0; i < 3; ++i) edge[i] = box.upper[i] - box.lower[i] + longest_edge;  // the box is that of centroids
+  const bool automatic = spec.n == std::array{0, 0, 0};
+  const std::array<int, 3> n = automatic ? least_cut(parts, edge) : spec.n;
+  if (n[0] * n[1] * n[2] != parts) {
+    std::string allowed;
+    for_each_factorisation(parts, [&](const std::array<int, 3>& m) { allowed += (allowed.empty() ? "" : ", ") + text_of(m); });
+    throw InputError(Problem{spec.file, spec.line, "domains.n", "the grid has " + std::to_string(n[0] * n[1] * n[2]) + " domains for " +
+                             std::to_string(parts) + " ranks", allowed, text_of(n)});
+  }
+  std::array<int, 3> most{};
+  bool fits = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    most[i] = std::max(1, static_cast<int>(edge[i] / longest_edge));
+    fits = fits && n[i] <= most[i];
+  }
+  if (fits) return n;
+  throw InputError(Problem{spec.file, spec.line, "domains.n", "domains would be smaller than the largest element",
+                           "at most " + text_of(most) + " domains along x, y and z", text_of(n)});
+}
+
+std::vector<int> assign_domains(const Communicator& communicator, const DomainSpec& spec, int parts, std::span<const Vec3> centroid,
+                                std::span<const double> weight, double longest_edge) {
+  const std::int64_t elements = communicator.sum(static_cast<std::int64_t>(centroid.size()));
+  if (elements < parts) {
+    throw InputError(Problem{spec.file, spec.line, "domains", "the model has fewer elements than there are ranks",
+                             "at most " + std::to_string(elements) + " ranks", std::to_string(parts)});
+  }
+  if (parts == 1) return std::vector<int>(centroid.size(), 0);
+  if (spec.kind == DomainKind::rcb) return bisect(communicator, parts, centroid, weight);
+  const DomainBox box = box_around(communicator, centroid);
+  return assign_grid(grid_of(spec, parts, box, longest_edge), box, centroid);
 }
 
 }  // namespace breccia

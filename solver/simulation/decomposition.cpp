@@ -88,7 +88,7 @@ Piece decompose(const Communicator& communicator, const DomainSpec& domains, Rec
                 const Reach& reach) {
   std::vector<Vec3> centroids;
   for (const ElementRecord& element : mine.elements) centroids.push_back(centroid(element));
-  Records owned = migrate(communicator, mine, assign_domains(communicator, domains, communicator.size(), centroids, weight));
+  Records owned = migrate(communicator, mine, assign_domains(communicator, domains, communicator.size(), centroids, weight, reach.ring));
   mine = {};
 
   Piece piece;

@@ -9,10 +9,13 @@
 namespace breccia {
 namespace {
 
-/// Margin of the proxies in longest edges: the smaller, the fewer proxies; the larger, the fewer decompositions.
-constexpr double kMargin = 1.0;
 /// A decomposition is done when nodes have really used up this share of their allowance; else the bound is brought down.
 constexpr double kUsedUp = 0.75;
+
+DomainSpec domain_spec(const case_::Case& input) {
+  const case_::Domains& asked = input.domains;
+  return {asked.kind == case_::DomainKind::grid ? DomainKind::grid : DomainKind::rcb, asked.n, input.file.string(), asked.origin.line};
+}
 
 /// Some body is an ordinary finite-element body.
 bool any_shared_nodes(const case_::Case& input) {
@@ -50,11 +53,11 @@ void Share::decompose_anew(Records mine, Ledger ledger) {
   halo_.reset();
   model_.reset();
   const double edge = longest_edge(communicator_, mine);
-  reach_.margin = kMargin * edge;
+  reach_.margin = input_.domains.margin * edge;
   // Forces meet at shared nodes that come from what touches any of their elements: one more ring.
   reach_.ring = (any_shared_nodes(input_) ? 2 : 1) * edge;
   const std::vector<double> weight(mine.elements.size(), 1.0);
-  build(decompose(communicator_, DomainSpec{}, std::move(mine), weight, reach_), std::move(whole), std::move(ledger));
+  build(decompose(communicator_, domain_spec(input_), std::move(mine), weight, reach_), std::move(whole), std::move(ledger));
   decompositions_ = std::max<std::int64_t>(decompositions_, 1);
 }
 
