@@ -217,6 +217,15 @@ void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& 
   });
 }
 
+double largest_opening_squared(const LocalMesh& mesh, const double* position, const ActiveJoint& joint) {
+  double largest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 d = load_node(position, corner_b(mesh, joint, i)) - load_node(position, corner_a(mesh, joint, i));
+    largest = std::max(largest, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  }
+  return largest;
+}
+
 void virgin_forces(const JointLawParams& law, const LocalMesh& mesh, const double* position, const ActiveJoint& joint,
                    bool side_a, double* force) {
   ActiveJoint trial = joint;

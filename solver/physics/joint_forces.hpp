@@ -69,6 +69,9 @@ struct JointWork {
 void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& mesh, const double* position,
                          std::vector<ActiveJoint>& joints, NodalForces& forces, JointWork& work);
 
+/// Square of the largest opening at the three corners, m2, in the very products the sweep uses; the same from both sides.
+[[nodiscard]] double largest_opening_squared(const LocalMesh& mesh, const double* position, const ActiveJoint& joint);
+
 /// Forces of a joint that leaves its elastic range in this step, as active_joint_forces would give them to one without
 /// history: on corners 0..2 of the face of side a, or of the face of side b, each in the order of that side's face.
 /// Both sides are computed from the same numbers in the same order; nothing is remembered.

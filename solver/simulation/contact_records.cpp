@@ -72,13 +72,68 @@ void ContactSearch::restore_histories(const Records& records) {
     contact_.boundary_offset.assign(contact_.points.size(), std::numeric_limits<double>::infinity());
     for (const OffsetRecord& record : records.offsets) contact_.boundary_offset[at(point_with(record.point))] = record.offset;
   }
-  for (const CoupleRecord& record : records.couples) {
-    const Index place = records.place_of(record.contactor);
-    if (place < 0) continue;  // what the point touches is nobody's concern here
-    TouchingCouple couple = record.couple;
-    couple.point = point_with(record.point);
-    couple.contactor = contact_.contactor_of_slot[at(local_->slot_of_element[at(place)])];
-    contact_.touching.push_back(couple);
+  adopt(records.couples);
+}
+
+TouchingCouple ContactSearch::restored(const CoupleRecord& record) const {
+  TouchingCouple couple = record.couple;
+  couple.point = couple.contactor = -1;
+  const auto found = std::lower_bound(contact_.order.begin(), contact_.order.end(), record.point,
+                                      [&](Index point, GlobalId id) { return contact_.id(point) < id; });
+  if (found != contact_.order.end() && contact_.id(*found) == record.point) couple.point = *found;
+  const auto contactor = std::lower_bound(contact_.contactors.begin(), contact_.contactors.end(), record.contactor,
+                                          [&](Index slot, GlobalId id) { return local_->element_of_slot[at(slot)] < id; });
+  if (contactor != contact_.contactors.end() && local_->element_of_slot[at(*contactor)] == record.contactor) {
+    couple.contactor = static_cast<Index>(contactor - contact_.contactors.begin());
+  }
+  return couple;
+}
+
+void ContactSearch::adopt(std::span<const CoupleRecord> touching) {
+  std::vector<TouchingCouple>& known = contact_.touching;
+  std::erase_if(known, [&](const TouchingCouple& c) { return !local_->is_original(contact_.points[at(c.point)].slot); });
+  for (const CoupleRecord& record : touching) {
+    const TouchingCouple couple = restored(record);
+    // What a point touches beyond this rank's elements is nobody's concern here.
+    if (couple.point >= 0 && couple.contactor >= 0) known.push_back(couple);
+  }
+  std::sort(known.begin(), known.end(), [&](const TouchingCouple& a, const TouchingCouple& b) {
+    return contact_.before({a.point, a.contactor}, {b.point, b.contactor});
+  });
+}
+
+void ContactSearch::touching_of(GlobalId element, std::vector<CoupleRecord>& touching) const {
+  const GlobalId first = kPointsAnElement * element;
+  for (const TouchingCouple& couple : entries_of(contact_.touching, first, first + kPointsAnElement,
+                                                 [&](const TouchingCouple& c) { return contact_.id(c.point); })) {
+    const GlobalId other = local_->element_of_slot[at(contact_.contactors[at(couple.contactor)])];
+    touching.push_back({element, other, contact_.id(couple.point), couple});
+  }
+}
+
+void ContactSearch::restrict_to(std::vector<std::uint8_t> relevant) {
+  DEMAND(!searched_, "couples are there already");
+  contact_.relevant = std::move(relevant);
+}
+
+/// A point's couples stand in a row; they stay together, since what it touches decides what it may touch next.
+void ContactSearch::keep_relevant() {
+  std::vector<ContactCouple>& couples = contact_.couples;
+  std::size_t kept = 0;
+  for (std::size_t first = 0, end = 0; first < couples.size(); first = end) {
+    bool matters = contact_.matters(contact_.points[at(couples[first].point)].slot);
+    for (end = first; end < couples.size() && couples[end].point == couples[first].point; ++end) {
+      matters = matters || contact_.matters(contact_.contactors[at(couples[end].contactor)]);
+    }
+    for (std::size_t i = first; i < end && matters; ++i) couples[kept++] = couples[i];
+  }
+  couples.resize(kept);
+}
+
+void ContactSearch::mark_coupled(std::vector<std::uint8_t>& marks) const {
+  for (const ContactCouple& couple : contact_.couples) {
+    marks[at(contact_.points[at(couple.point)].slot)] = 1;
+    marks[at(contact_.contactors[at(couple.contactor)])] = 1;
   }
 }
 
@@ -99,11 +154,7 @@ void ContactSearch::remember(Index element, ElementRecord& record, Records& reco
       records.offsets.push_back({record.id, contact_.id(point), contact_.boundary_offset[at(point)]});
     }
   }
-  for (const TouchingCouple& couple :
-       entries_of(contact_.touching, first, end, [&](const TouchingCouple& c) { return contact_.id(c.point); })) {
-    const GlobalId other = local_->element_of_slot[at(contact_.contactors[at(couple.contactor)])];
-    records.couples.push_back({record.id, other, contact_.id(couple.point), couple});
-  }
+  touching_of(record.id, records.couples);
 }
 
 }  // namespace breccia

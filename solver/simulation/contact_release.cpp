@@ -135,7 +135,14 @@ void ContactSearch::add_made() {
   std::sort(made_.begin(), made_.end(),
             [&](const ContactCouple& a, const ContactCouple& b) { return contact_.before(a, b); });
   made_.erase(std::unique(made_.begin(), made_.end()), made_.end());
+  if (made_.empty()) return;
+  if (contact_.relevant.empty()) return add_fresh_couples(made_, contact_);
+  // A couple that matters makes its point's others matter.
+  contact_.couples.swap(all_couples_);
   add_fresh_couples(made_, contact_);
+  all_couples_ = contact_.couples;
+  keep_relevant();
+  couples_replaced(contact_);
 }
 
 }  // namespace breccia

@@ -112,16 +112,18 @@ bool ContactSearch::may_touch(Index point, Index contactor) const {
 }
 
 void ContactSearch::update(const State& state, double max_speed, double dt) {
-  if (!any_law_ || contact_.points.empty()) return;
+  if (due(state, max_speed, dt, {})) search(state, max_speed * dt);
+  verify(state);
+}
+
+bool ContactSearch::due(const State& state, double max_speed, double dt, const Communicator& communicator) {
+  if (!any_law_) return false;
   moved_ += max_speed * dt;
   const double allowed = 0.5 * buffer_;
-  if (!searched_) {
-    full_search(state, max_speed * dt);
-  } else if (!(moved_ <= allowed)) {
-    moved_ = largest_displacement(state);
-    if (!(moved_ <= kUsedUp * allowed)) full_search(state, max_speed * dt);
-  }
-  if (search_.verify) verify(state);
+  if (!searched_) return true;
+  if (moved_ <= allowed) return false;
+  moved_ = communicator.max(largest_displacement(state));
+  return !(moved_ <= kUsedUp * allowed);
 }
 
 double ContactSearch::largest_displacement(const State& state) const {
@@ -130,6 +132,7 @@ double ContactSearch::largest_displacement(const State& state) const {
   double largest = 0;
   for (std::size_t block = 0; block < reference_.size(); block += 3 * kLanes) {
     for (std::size_t lane = block; lane < block + kLanes; ++lane) {
+      if (local_->counted[block / 3 + (lane - block)] == 0) continue;
       const double x = now[lane] - then[lane], y = now[lane + 8] - then[lane + 8], z = now[lane + 16] - then[lane + 16];
       const double square = x * x + y * y + z * z;
       largest = square > largest ? square : largest;
@@ -138,7 +141,7 @@ double ContactSearch::largest_displacement(const State& state) const {
   return std::sqrt(largest);
 }
 
-void ContactSearch::full_search(const State& state, double step_length) {
+void ContactSearch::search(const State& state, double step_length) {
   buffer_ = search_.buffer > 0
                 ? search_.buffer
                 : std::clamp(2 * kBufferSteps * step_length, kSmallestBuffer * size_, kLargestBuffer * size_);
@@ -155,6 +158,10 @@ void ContactSearch::full_search(const State& state, double step_length) {
     const Index point = contact_.order[at(c.point)];
     if (may_touch(point, c.contactor)) contact_.couples.push_back({point, c.contactor});
   }
+  if (!contact_.relevant.empty()) {
+    all_couples_ = contact_.couples;
+    keep_relevant();
+  }
   couples_replaced(contact_);
   searched_ = true;
   grid_built_ = false;
@@ -163,6 +170,7 @@ void ContactSearch::full_search(const State& state, double step_length) {
 }
 
 void ContactSearch::verify(const State& state) const {
+  if (!search_.verify) return;
   const FaceRule& rule = face_rule(params_->points_per_face);
   for (std::size_t c = 0; c < contact_.contactors.size(); ++c) {
     const Index slot = contact_.contactors[c];
@@ -171,6 +179,7 @@ void ContactSearch::verify(const State& state) const {
     for (const Index p : contact_.order) {
       if (!inside(barycentric(tetra, at_point(rule, contact_.points[at(p)], state.position.data())))) continue;
       if (!may_touch(p, contactor)) continue;
+      if (!contact_.matters(contact_.points[at(p)].slot) && !contact_.matters(slot)) continue;
       const bool known =
           std::binary_search(contact_.couples.begin(), contact_.couples.end(), ContactCouple{p, contactor},
                              [&](const ContactCouple& a, const ContactCouple& b) { return contact_.before(a, b); });

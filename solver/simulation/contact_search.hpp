@@ -10,6 +10,7 @@
 #include "detection/point_body/search.hpp"
 #include "mesh/corner_clusters.hpp"
 #include "mesh/topology.hpp"
+#include "parallel/communicator.hpp"
 #include "physics/contact/contact_forces.hpp"
 #include "simulation/records.hpp"
 
@@ -59,10 +60,30 @@ class ContactSearch {
   /// Writes what contact remembers of an element into its record and the lists; elements ascending.
   void remember(Index element, ElementRecord& record, Records& records) const;
 
-  /// Brings the couples up to date; every step, before `forces`.
+  /// Brings the couples up to date; every step, before `forces`. For a rank that is alone.
   /// @param max_speed  m/s, at least the largest speed of a node from t_(n-1) to t_n;  @param dt  s, that step
-  /// Throws InternalError naming the pair if `verify` finds one that touches and is no couple.
+  /// Throws as `verify`.
   void update(const State& state, double max_speed, double dt);
+
+  // The same in parts, for several ranks: all search at the same time.
+
+  /// Whether a search is due. Collective. @param max_speed  of all ranks
+  [[nodiscard]] bool due(const State& state, double max_speed, double dt, const Communicator& communicator);
+  /// A full search. @param step_length  m, max_speed dt
+  void search(const State& state, double step_length);
+  /// Where the case asks for it: throws InternalError naming the pair if a pair touches and is no couple.
+  void verify(const State& state) const;
+  [[nodiscard]] bool verifies() const { return search_.verify; }
+
+  /// From now on only those couples are kept whose forces, or whose point's other forces, act on elements that matter.
+  /// @param relevant  (num_slots)  @pre before the first search
+  void restrict_to(std::vector<std::uint8_t> relevant);
+  /// Marks the slots of all points and contactors in couples. @param marks  (num_slots)
+  void mark_coupled(std::vector<std::uint8_t>& marks) const;
+  /// What the points of an element touch, appended.
+  void touching_of(GlobalId element, std::vector<CoupleRecord>& touching) const;
+  /// Takes what other ranks know of the touch of their points. @param touching  by (element, point, contactor)
+  void adopt(std::span<const CoupleRecord> touching);
 
   /// Faces freed by fracture: their points, the couples they make, the couples of elements no longer bonded, and the
   /// change of the overlap field. Faces that are free already are passed over.
@@ -87,11 +108,11 @@ class ContactSearch {
   void restore_contactors(const Records& records);
   void restore_histories(const Records& records);
   void add_points_of(Index element, int face);
-  void full_search(const State& state, double step_length);
   [[nodiscard]] double largest_displacement(const State& state) const;
   [[nodiscard]] bool may_touch(Index point, Index contactor) const;
   [[nodiscard]] bool has_law(Index slot, Index other) const;
-  void verify(const State& state) const;
+  void keep_relevant();
+  [[nodiscard]] TouchingCouple restored(const CoupleRecord& record) const;
 
   void collect_sides(std::span<const FreedFace> faces);
   void note_clusters();
@@ -113,6 +134,7 @@ class ContactSearch {
   std::vector<std::uint8_t> carries_;              ///< (elements) a bit a face: may carry points
   std::vector<std::array<Index, 4>> first_point_;  ///< (elements) of the points of a face, -1: none
   bool any_law_ = false;
+  std::vector<ContactCouple> all_couples_;         ///< with those that do not matter, when couples are restricted
 
   // The last full search.
   bool searched_ = false;

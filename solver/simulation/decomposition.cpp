@@ -1,13 +1,11 @@
 #include "simulation/decomposition.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-#include <set>
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 struct Box {
   std::array<double, 3> lower, upper;
@@ -135,27 +133,6 @@ double longest_edge(const Communicator& communicator, const Records& mine) {
     }
   }
   return communicator.max(std::sqrt(square));
-}
-
-std::vector<HaloNeighbour> halo_plan(const Piece& piece, const LocalMesh& local) {
-  const auto places = [&](const std::vector<GlobalId>& ids) {
-    std::vector<std::size_t> list;
-    std::set<Index> shared;  // a shared node goes once
-    for (const GlobalId id : ids) {
-      const Index slot = local.slot_of_element[at(piece.records.place_of(id))];
-      for (int c = 0; c < 4; ++c) {
-        const Index node = local.corner_node(slot, c);
-        if (slot >= local.num_own_slots && !shared.insert(node).second) continue;
-        list.push_back(nodal(node, 0));
-      }
-    }
-    return list;
-  };
-  std::vector<HaloNeighbour> plan;
-  for (const SharedElements& neighbour : piece.neighbours) {
-    plan.push_back({neighbour.rank, places(neighbour.send), places(neighbour.receive)});
-  }
-  return plan;
 }
 
 }  // namespace breccia

@@ -5,7 +5,6 @@
 
 #include "parallel/communicator.hpp"
 #include "parallel/domain_topology.hpp"
-#include "parallel/halo.hpp"
 #include "simulation/records.hpp"
 
 namespace breccia {
@@ -42,8 +41,5 @@ struct Reach {
 
 /// Longest edge in the present state, m; collective.
 [[nodiscard]] double longest_edge(const Communicator& communicator, const Records& mine);
-
-/// Which nodal values go where. @param local  the mesh built from the piece's records
-[[nodiscard]] std::vector<HaloNeighbour> halo_plan(const Piece& piece, const LocalMesh& local);
 
 }  // namespace breccia

@@ -50,7 +50,6 @@ void Share::decompose_anew(Records mine, Ledger ledger) {
   WholeModel whole = bytes.empty() ? model_->whole : unpack_whole(bytes);
   stepper_.reset();
   time_step_.reset();
-  halo_.reset();
   model_.reset();
   const double edge = longest_edge(communicator_, mine);
   reach_.margin = input_.domains.margin * edge;
@@ -68,8 +67,7 @@ void Share::build(const Piece& piece, WholeModel whole, Ledger ledger) {
   model_ = std::make_unique<Model>(
       build_piece(input_, std::move(whole), std::move(mesh), std::move(topology), piece.original, piece.records.corners));
   stepper_ = std::make_unique<Stepper>(*model_, search_params(input_, *model_), piece.records, std::move(ledger));
-  halo_ = std::make_unique<Halo>(communicator_, halo_plan(piece, model_->local), 2);
-  stepper_->connect(communicator_, *halo_, piece.neighbours);
+  stepper_->connect(communicator_, piece.neighbours);
   time_step_ = std::make_unique<TimeStep>(*model_);
   if (stage_ != nullptr) {
     stepper_->begin_stage(stage_loads(*stage_, *model_), dt);

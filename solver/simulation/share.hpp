@@ -40,7 +40,6 @@ class Share {
   const case_::Case& input_;
   Communicator communicator_;
   std::unique_ptr<Model> model_;
-  std::unique_ptr<Halo> halo_;
   std::unique_ptr<Stepper> stepper_;
   std::unique_ptr<TimeStep> time_step_;
   const case_::Stage* stage_ = nullptr;

@@ -65,8 +65,8 @@ Stepper::Stepper(const Model& model, std::nullptr_t)
   if (viscous_on_) viscous_.resize(at(local.num_slots));
   if (stress_work_on_) stress_work_.resize(at(local.num_slots));
   if (viscous_on_ || stress_work_on_) kept_stress_.resize(at(local.num_slots) * 18);
-  freed_.assign(model_.mesh.elements.size(), 0);
   index_joints();
+  find_relevant();
 }
 
 void Stepper::index_joints() {
@@ -126,15 +126,17 @@ void Stepper::begin_stage(StageLoads loads, double dt) {
 
 void Stepper::break_joints(std::span<const LoadedFace> faces) {
   std::vector<GlobalId> by_hand;
+  const auto matters = [&](std::size_t joint) {
+    const JointFace& face = model_.joints[joint].face;
+    return relevant(model_.local.slot_of_element[at(face.a)]) || relevant(model_.local.slot_of_element[at(face.b)]);
+  };
   for (const LoadedFace& face : faces) {
     const Index id = joint_of_face_[at(face.slot) * 4 + static_cast<std::size_t>(face.face)];
     const bool swept = id >= 0 && face.slot < model_.local.num_own_slots;
     const bool intact = swept && JointLinks::code_of(links_.link[JointLinks::at(face.slot, face.face)]) < 12;
-    if (intact) crossed_.push_back(at(id));
+    if (intact && matters(at(id))) crossed_.push_back(at(id));
     if (id >= 0) by_hand.push_back(model_.joint_id(at(id)));
   }
-  std::sort(crossed_.begin(), crossed_.end());
-  crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());
   std::sort(by_hand.begin(), by_hand.end());
   activate_crossing();
   for (ActiveJoint& joint : active_) {
@@ -143,18 +145,11 @@ void Stepper::break_joints(std::span<const LoadedFace> faces) {
   }
 }
 
-void Stepper::connect(const Communicator& communicator, Halo& halo, std::vector<SharedElements> shared) {
-  communicator_ = communicator;
-  shared_elements_ = std::move(shared);
-  halo_ = &halo;
-  vote_.emplace(communicator, 3);
-  cast_votes(false);
-}
-
 void Stepper::step(bool sample, bool stop) {
+  hear_votes();
+  hear_releases();
   external_forces();
   joint_forces();
-  hear_votes();
   contact_forces();
   Field<double> velocity_before;
   if (sample) velocity_before = state_.velocity;
@@ -186,59 +181,15 @@ void Stepper::joint_forces() {
   active_joint_forces(model_.joint_laws, model_.local, state_.position.data(), active_, forces_, joint_work_);
   broken_joints_ += static_cast<std::int64_t>(joint_work_.failed.size());
   for (const ReleasedJoint& joint : joint_work_.released) {
-    if (model_.local.is_original(joint.slot_a)) released_.push_back(joint);
-    const Index index = joint_of_face_[at(joint.slot_a) * 4 + static_cast<std::size_t>(joint.face_a)];
-    const JointFace& face = model_.joints[at(index)].face;
-    mark_released(face.a, face.face_a);
-    mark_released(face.b, face.code / 3);
+    if (!model_.local.is_original(joint.slot_a)) continue;
+    released_.push_back(joint);
+    releasing_.push_back(joint.id);
   }
-}
-
-/// What all ranks said at the end of the last step.
-void Stepper::hear_votes() {
-  max_speed_anywhere_ = max_speed_;
-  if (!vote_) return;
-  const auto lap = timer_.measure(Phase::communication);
-  const std::span<const double> largest = vote_->take();
-  max_speed_anywhere_ = largest[0];
-  stop_agreed_ = largest[2] > 0;
-  if (!(largest[1] > 0)) return;
-  communicator_.agree([&] {
-    if (failure_) throw SimulationError(*failure_);
-  });
-}
-
-void Stepper::cast_votes(bool stop) {
-  if (vote_) {
-    vote_->post(std::array{max_speed_, failure_ ? 1.0 : 0.0, stop ? 1.0 : 0.0});
-  } else {
-    stop_agreed_ = stop;
-  }
-}
-
-void Stepper::conclude() {
-  hear_votes();
-  vote_.reset();
-}
-
-void Stepper::gather_proxies() {
-  if (halo_ == nullptr) return;
-  const auto lap = timer_.measure(Phase::communication);
-  halo_->gather_begin(std::array{state_.next_position.data(), state_.velocity.data()});
-  halo_->gather_end();
 }
 
 void Stepper::contact_forces() {
   if (!contact_) return;
-  {
-    const auto lap = timer_.measure(Phase::search);
-    if (!joint_work_.released.empty()) {
-      std::vector<FreedFace> freed;
-      for (const ReleasedJoint& joint : joint_work_.released) freed.push_back({joint.slot_a, joint.face_a});
-      contact_->release_faces(freed);
-    }
-    contact_->update(state_, max_speed_anywhere_, dt_before_);
-  }
+  update_contact();
   const auto lap = timer_.measure(Phase::contact);
   contact_->forces(state_, dt_before_, forces_, contact_work_);
 }
@@ -291,13 +242,6 @@ void Stepper::sweep(const SweepArgs& args) {
   crushed_ += status.crushed;
   check_finite(status);
   max_speed_ = std::sqrt(status.max_speed_squared);
-  // Proxies are swept for the sake of their joints, which must leave the elastic range here when they do so elsewhere; where
-  // they go, their originals tell.
-  SweepArgs proxies = args;
-  proxies.first_own_block = args.end_own_block;
-  proxies.end_own_block = proxies.num_blocks = args.num_own_blocks;
-  proxies.num_moved_nodes = 0;
-  if (proxies.first_own_block < proxies.end_own_block) (void)sweep_for(simd_)(proxies);
 }
 
 void Stepper::check_finite(const SweepStatus& status) {
@@ -362,19 +306,24 @@ void Stepper::finish_motion(const SweepArgs& args) {
   }
 }
 
+/// An element's limit is that of its weakest joint: whether this one has left its elastic range is seen here, alike from both
+/// sides, since only one of them may be swept on this rank.
 void Stepper::crossing(void* context, Index slot, int face, double* force) {
   auto& self = *static_cast<Stepper*>(context);
   const Index id = self.joint_of_face_[at(slot) * 4 + static_cast<std::size_t>(face)];
   const ActiveJoint virgin = self.make_active(at(id));
-  const bool side_a = virgin.slot_a == slot;
-  virgin_forces(self.model_.joint_laws[at(virgin.law)], self.model_.local, self.state_.position.data(), virgin, side_a, force);
-  if (side_a) self.crossed_.push_back(at(id));
+  const JointLawParams& law = self.model_.joint_laws[at(virgin.law)];
+  const double* x = self.state_.position.data();
+  if (!(largest_opening_squared(self.model_.local, x, virgin) > law.screen_limit())) return;
+  virgin_forces(law, self.model_.local, x, virgin, virgin.slot_a == slot, force);
+  self.crossed_.push_back(at(id));
 }
 
 void Stepper::activate_crossing() {
   if (crossed_.empty()) return;
   const auto lap = timer_.measure(Phase::joints);
   std::sort(crossed_.begin(), crossed_.end());
+  crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());
   std::vector<ActiveJoint> batch;
   for (const std::size_t joint_index : crossed_) {
     batch.push_back(make_active(joint_index));

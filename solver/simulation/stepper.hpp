@@ -32,10 +32,12 @@ struct Ledger {
   double max_speed = 0;                    ///< m/s
   PhaseTimer timer;
   std::int64_t steps = 0, crushed = 0, broken_joints = 0, searches = 0;
+  std::int64_t messages = 0, bytes = 0;    ///< sent to gather proxies
   ExactSum past_external;                  ///< J, work of loads and constraints up to now
   GravityWork::Carried gravity;
   JointWork joint_work;
   ContactWork contact_work;
+  std::vector<GlobalId> released;          ///< joints that other ranks have not heard of yet
   std::optional<double> first_total;       ///< J, energy minus external work of the whole model at the first sample
   EnergyBudget budget;                     ///< of the last sample
 };
@@ -43,11 +45,17 @@ struct Ledger {
 /// The conductor of one step: owns everything that changes, calls the kernels in their order, computes nothing itself.
 ///
 /// Step n takes x_n, v_(n-1/2) to x_(n+1), v_(n+1/2):
-///  1. pressure on faces, then the active joints, by ascending ids; joints that have come apart hand their faces to contact;
-///  2. contact: a new search if one is due, then the forces of every couple, by ascending ids;
+///  1. pressure on faces, then the active joints, by ascending ids;
+///  2. contact: joints that came apart a step ago hand over their faces, all ranks having heard of them meanwhile; a new
+///     search if one is due; then the forces of every couple, by ascending ids;
 ///  3. the sweep: every element's internal forces, its side of its intact joints, and the motion of its nodes;
 ///  4. constraints; joints that have left their elastic range join the active list;
 ///  5. proxies are gathered from their originals.
+///
+/// On several ranks a rank computes the forces on its originals, nothing else: joints and couples with an element of
+/// another rank are computed on both, from the same numbers in the same order. Of its proxies only the near ones are
+/// gathered in every step, those that share a joint or a couple with an original; all of them when there is news: a search
+/// is due, or joints have come apart. Then ranks also tell each other what the points of their elements touch.
 class Stepper {
  public:
   /// @pre model outlives this object and does not change.
@@ -74,9 +82,8 @@ class Stepper {
   /// After begin_stage of a stage that had begun before: displacements count from where they did.
   void restore_holds(const Records& records);
 
-  /// From now on this rank is one of several: proxies are gathered after every step, and all ranks learn of the largest speed,
-  /// of failures and of the wish to stop. @pre the halo outlives this object. Collective.
-  void connect(const Communicator& communicator, Halo& halo, std::vector<SharedElements> shared);
+  /// From now on this rank is one of several. @pre before the first step of this object. Collective.
+  void connect(const Communicator& communicator, std::vector<SharedElements> shared);
 
   /// Hears what was said at the end of the last step; after this no more steps. Collective.
   void conclude();
@@ -100,6 +107,8 @@ class Stepper {
   [[nodiscard]] double max_speed() const { return max_speed_; }     ///< m/s, of the rank's originals after the last step
   [[nodiscard]] bool stop_agreed() const { return stop_agreed_; }   ///< some rank asked for it a step ago
   [[nodiscard]] double max_speed_anywhere() const { return max_speed_anywhere_; }  ///< m/s, of all ranks, a step ago
+  [[nodiscard]] std::int64_t messages() const;                      ///< that gathered this rank's originals so far
+  [[nodiscard]] std::int64_t bytes() const;                         ///< in them
   [[nodiscard]] const std::vector<SharedElements>& shared_elements() const { return shared_elements_; }
   [[nodiscard]] Index element_with(GlobalId id) const;  ///< index in the rank's mesh. @pre it is there
   [[nodiscard]] const Communicator& communicator() const { return communicator_; }
@@ -125,7 +134,6 @@ class Stepper {
   void start_joints();
   void restore_elements(const Records& records);
   void restore_joints(const Records& records);
-  void mark_released(Index element, int face);
   void detach(Index slot, int face);
   void remember_joints(Records& records) const;
   void remember_holds(Records& records) const;
@@ -133,6 +141,14 @@ class Stepper {
   [[nodiscard]] ActiveJoint make_active(std::size_t joint) const;
   void external_forces();
   void joint_forces();
+  void find_relevant();
+  [[nodiscard]] bool relevant(Index slot) const { return relevant_[static_cast<std::size_t>(slot)] != 0; }
+  [[nodiscard]] std::vector<HaloNeighbour> halo_plan(const std::vector<SharedElements>& shared) const;
+  [[nodiscard]] std::vector<std::uint8_t> near_slots() const;
+  void plan_near();
+  void hear_releases();
+  void exchange_touching();
+  void update_contact();
   void hear_votes();
   void cast_votes(bool stop);
   void contact_forces();
@@ -156,7 +172,10 @@ class Stepper {
   std::vector<Index> joint_of_face_;        ///< (slots, 4) index of the joint, -1: none
   std::vector<ActiveJoint> active_;         ///< ascending id
   std::vector<ReleasedJoint> released_;     ///< whose faces belong to contact, in the order of their release
-  std::vector<std::uint8_t> freed_;         ///< (elements) a bit a face: belongs to contact since its joint was released
+  std::vector<std::uint8_t> relevant_;      ///< (slots) 1: forces on its nodes are computed here: originals, and elements
+                                            ///< with which they share nodes
+  std::vector<GlobalId> releasing_;         ///< joints of this rank that came apart in the last step
+  std::vector<FreedFace> freed_;            ///< faces that contact gets in this step
   std::vector<std::size_t> crossed_;        ///< joints that left their elastic range in this step
   std::int64_t broken_joints_ = 0;
   NodalForces forces_;
@@ -176,8 +195,10 @@ class Stepper {
   Simd simd_;
 
   Communicator communicator_;               ///< alone unless connected
-  Halo* halo_ = nullptr;
   std::vector<SharedElements> shared_elements_;
+  std::unique_ptr<Halo> all_, near_;        ///< proxies; none when alone
+  bool news_ = false;                       ///< some rank's joints came apart
+  std::int64_t messages_ = 0, bytes_ = 0;   ///< of halos that are gone
   std::optional<Vote> vote_;
   std::optional<std::string> failure_;      ///< of this rank in the last step
   bool stop_agreed_ = false;

@@ -67,6 +67,9 @@ Stepper::Stepper(const Model& model, const ContactSearchParams& search, const Re
   broken_joints_ = ledger.broken_joints;
   searches_before_ = ledger.searches;
   past_external_ = std::move(ledger.past_external);
+  releasing_ = std::move(ledger.released);
+  messages_ = ledger.messages;
+  bytes_ = ledger.bytes;
   joint_work_ = std::move(ledger.joint_work);
   contact_work_ = std::move(ledger.contact_work);
   first_total_ = ledger.first_total;
@@ -83,7 +86,6 @@ void Stepper::restore_elements(const Records& records) {
   for (std::size_t e = 0; e < records.elements.size(); ++e) {
     const ElementRecord& record = records.elements[e];
     const Index slot = local.slot_of_element[e];
-    freed_[e] = record.released;
     if (viscous_on_) viscous_[at(slot)] = record.viscous;
     if (stress_work_on_) stress_work_[at(slot)] = record.stress_work;
     const bool damped = std::any_of(record.damping.begin(), record.damping.end(), [](double w) { return w != 0; });
@@ -107,31 +109,30 @@ void Stepper::restore_joints(const Records& records) {
     ActiveJoint joint = record.joint;
     joint.slot_a = local.slot_of_element[at(a)];
     joint.slot_b = local.slot_of_element[at(b)];
-    active.push_back(joint);
+    if (relevant(joint.slot_a) || relevant(joint.slot_b)) active.push_back(joint);
   }
   insert_active(std::move(active));
-  for (const ReleasedRecord& record : records.released) {
-    const Index slot = local.slot_of_element[at(records.place_of(record.element))];
-    if (!local.is_original(slot)) continue;
-    released_.push_back(record.joint);
-    released_.back().slot_a = slot;
-  }
-  for (const ModelJoint& joint : model_.joints) {
-    if ((freed_[at(joint.face.a)] >> joint.face.face_a & 1) == 0) continue;
-    detach(local.slot_of_element[at(joint.face.a)], joint.face.face_a);
-    detach(local.slot_of_element[at(joint.face.b)], joint.face.code / 3);
-  }
   for (const ActiveJoint& joint : active_) {
     detach(joint.slot_a, joint.face_a);
     detach(joint.slot_b, joint.code / 3);
+  }
+  for (const ReleasedRecord& record : records.released) {
+    const Index slot = local.slot_of_element[at(records.place_of(record.element))];
+    const Index joint = joint_of_face_[at(slot) * 4 + at(record.joint.face_a)];
+    if (joint >= 0) {
+      const JointFace& face = model_.joints[at(joint)].face;
+      detach(slot, face.face_a);
+      detach(local.slot_of_element[at(face.b)], face.code / 3);
+    }
+    if (!local.is_original(slot)) continue;
+    released_.push_back(record.joint);
+    released_.back().slot_a = slot;
   }
 }
 
 void Stepper::detach(Index slot, int face) {
   if (slot < model_.local.num_own_slots) links_.detach(slot, face);
 }
-
-void Stepper::mark_released(Index element, int face) { freed_[at(element)] |= static_cast<std::uint8_t>(1U << face); }
 
 Records Stepper::records() const {
   const LocalMesh& local = model_.local;
@@ -142,7 +143,6 @@ Records Stepper::records() const {
     const Index slot = local.slot_of_element[at(e)];
     if (!local.is_original(slot)) continue;
     ElementRecord record = bare_record(model_, e);
-    record.released = freed_[at(e)];
     if (viscous_on_) record.viscous = viscous_[at(slot)];
     if (stress_work_on_) record.stress_work = stress_work_[at(slot)];
     for (int c = 0; c < 4; ++c) {
@@ -217,6 +217,9 @@ Ledger Stepper::close() {
   ledger.broken_joints = broken_joints_;
   ledger.searches = searches();
   ledger.past_external = past_external_;
+  ledger.released = releasing_;
+  ledger.messages = messages();
+  ledger.bytes = bytes();
   ledger.gravity = gravity_work_.close(model_.local, state_.position);
   ledger.joint_work = joint_work_;
   ledger.contact_work = contact_work_;

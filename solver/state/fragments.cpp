@@ -42,7 +42,9 @@ void FragmentFinder::join_linked(const JointLinks& links) {
   for (Index s = 0; s < mesh_.num_own_slots; ++s) {
     for (int face = 0; face < 4; ++face) {
       const std::int32_t link = links.link[JointLinks::at(s, face)];
-      if (JointLinks::code_of(link) < 12 && JointLinks::slot_of(link) > s) join(s, JointLinks::slot_of(link));
+      const Index other = JointLinks::slot_of(link);
+      if (JointLinks::code_of(link) >= 12 || other < s) continue;
+      if (mesh_.is_original(s) || mesh_.is_original(other)) join(s, other);  // of others this rank need not know
     }
   }
 }

@@ -151,6 +151,7 @@ void Pass::push_back_into_sphere() {
   contact_.boundary_offset.resize(contact_.points.size(), std::numeric_limits<double>::infinity());
   for (const Index index : contact_.order) {
     const ContactPoint& point = point_at(index);
+    if (!contact_.matters(point.slot)) continue;
     const Vec3 from_centre = at_point(rule_, point, state_.position.data()) - sphere.centre;
     const double r = from_centre.norm();
     // A point that comes into being outside, on a face freed by fracture, is not thrown back with energy from nowhere.
