@@ -167,8 +167,9 @@ void Stepper::update_contact() {
   }
   {
     const auto lap = timer_.measure(Phase::search);
-    if (!freed_.empty()) contact_->release_faces(freed_);
+    // In this order, so that what fracture makes touch is known as such also when nothing has been searched yet.
     if (due) contact_->search(state_, max_speed_anywhere_ * dt_before_);
+    if (!freed_.empty()) contact_->release_faces(freed_);
   }
   if (stale) {
     const auto lap = timer_.measure(Phase::communication);
