@@ -40,11 +40,11 @@ int sync_folder(const std::filesystem::path& folder) {
   return error;
 }
 
-/// Creates `path` with `content`, on the disk when it returns. Returns 0 or errno.
-int write_synced(const std::filesystem::path& path, std::span<const std::byte> content) {
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kFileMode);
+/// Creates `path` with `content`, or takes the file as it is; on the disk when it returns. Returns 0 or errno.
+int write_synced(const std::filesystem::path& path, std::optional<std::span<const std::byte>> content) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | (content ? O_CREAT | O_TRUNC : 0), kFileMode);
   if (descriptor < 0) return errno;
-  int error = write_all(descriptor, content);
+  int error = content ? write_all(descriptor, *content) : 0;
   if (error == 0) error = sync_descriptor(descriptor);
   if (::close(descriptor) != 0 && error == 0) error = errno;
   return error;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,7 +25,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
 
 struct FileContent {
   std::filesystem::path path;
-  std::span<const std::byte> content;
+  std::optional<std::span<const std::byte>> content;  ///< none: its temporary has been written already
 };
 
 /// Several files of one folder, which is synced once for all of them. All are on the disk before the first one is

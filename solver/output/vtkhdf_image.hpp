@@ -2,10 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "parallel/communicator.hpp"
 
 namespace breccia {
 
@@ -37,5 +40,11 @@ struct GridView {
 /// @pre values.size() == num_cells * components for every array; points.size() a multiple of 3 n
 /// O(bytes), allocates twice the size of the file. Throws OutputError when HDF5 fails (out of memory).
 [[nodiscard]] std::vector<std::byte> vtkhdf_image(const GridView& grid);
+
+/// Writes the grid of all ranks as one file with a piece a rank, in the order of ranks, under the name temporary_of(path):
+/// to be renamed when all is well. Collective, through MPI-IO; nothing is deflated. A piece may be empty.
+/// @pre as above; more than one rank; arrays, kind, time and step alike on all
+/// Throws OutputError that names `path` on all ranks when anything fails on any; then the temporary may remain.
+void write_vtkhdf_temporary(const std::filesystem::path& path, const GridView& grid, const Communicator& communicator);
 
 }  // namespace breccia

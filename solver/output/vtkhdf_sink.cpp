@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "output/atomic_file.hpp"
 #include "output/vtkhdf_image.hpp"
@@ -53,7 +54,8 @@ GridView view_of(const Frame& frame, const std::string& part) {
 
 }  // namespace
 
-VtkhdfSink::VtkhdfSink(std::filesystem::path folder, FrameParts parts) : folder_(std::move(folder)) {
+VtkhdfSink::VtkhdfSink(std::filesystem::path folder, FrameParts parts, Communicator communicator)
+    : folder_(std::move(folder)), communicator_(std::move(communicator)) {
   if (parts.elements) series_.push_back({"elements", {}});
   if (parts.joints) series_.push_back({"joints", {}});
   if (parts.contacts) series_.push_back({"contacts", {}});
@@ -61,20 +63,48 @@ VtkhdfSink::VtkhdfSink(std::filesystem::path folder, FrameParts parts) : folder_
 
 void VtkhdfSink::frame(const Frame& frame) {
   std::vector<Series> series = series_;
-  std::vector<std::vector<std::byte>> images;
-  std::vector<std::string> indices;
-  for (Series& part : series) {
-    part.entries.push_back({fmt::format("{}_{:06}.vtkhdf", part.part, frame.number), frame.time});
-    images.push_back(vtkhdf_image(view_of(frame, part.part)));
-    indices.push_back(index_text(part));
+  for (Series& part : series) part.entries.push_back({fmt::format("{}_{:06}.vtkhdf", part.part, frame.number), frame.time});
+  if (communicator_.size() == 1) {
+    write_alone(frame, series);
+  } else {
+    write_together(frame, series);
   }
+  series_ = std::move(series);
+}
+
+void VtkhdfSink::write_alone(const Frame& frame, const std::vector<Series>& series) const {
+  std::vector<std::vector<std::byte>> images;
+  for (const Series& part : series) images.push_back(vtkhdf_image(view_of(frame, part.part)));
+  publish(series, images);
+}
+
+void VtkhdfSink::write_together(const Frame& frame, const std::vector<Series>& series) const {
+  try {
+    for (const Series& part : series) write_vtkhdf_temporary(newest(part), view_of(frame, part.part), communicator_);
+  } catch (...) {  // the same on all ranks
+    std::error_code ignored;
+    for (const Series& part : series) {
+      if (communicator_.is_root()) std::filesystem::remove(temporary_of(newest(part)), ignored);
+    }
+    throw;
+  }
+  communicator_.agree([&] {
+    if (communicator_.is_root()) publish(series, {});
+  });
+}
+
+void VtkhdfSink::publish(const std::vector<Series>& series, const std::vector<std::vector<std::byte>>& images) const {
+  std::vector<std::string> indices;
   std::vector<FileContent> files;  // first the frames, then the indices that name them
-  for (std::size_t i = 0; i < series.size(); ++i) files.push_back({folder_ / series[i].entries.back().file, images[i]});
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    indices.push_back(index_text(series[i]));
+    files.push_back({newest(series[i]), {}});
+    if (!images.empty()) files.back().content = images[i];
+  }
   for (std::size_t i = 0; i < series.size(); ++i) {
     files.push_back({folder_ / (series[i].part + ".hdf.series"), std::as_bytes(std::span(indices[i]))});
   }
   write_files_atomically(files);
-  series_ = std::move(series);
 }
 
 std::string VtkhdfSink::index_text(const Series& series) {

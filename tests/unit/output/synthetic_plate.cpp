@@ -226,4 +226,29 @@ Frame SyntheticPlate::frame(std::int64_t number, double time) const {
   return frame;
 }
 
+namespace {
+
+/// The rows of a piece, of `rows` in all.
+template <class T>
+void cut(std::vector<T>& values, std::size_t rows, int number, int count) {
+  if (values.empty()) return;
+  const std::size_t width = values.size() / rows, n = static_cast<std::size_t>(number), all = static_cast<std::size_t>(count);
+  const auto at = [&](std::size_t piece) { return values.begin() + static_cast<std::ptrdiff_t>(rows * piece / all * width); };
+  values = std::vector<T>(at(n), at(n + 1));
+}
+
+}  // namespace
+
+Frame piece_of(const Frame& whole, int number, int count) {
+  Frame piece = whole;
+  const auto cut_all = [&](std::size_t rows, auto&... arrays) { (cut(arrays, rows, number, count), ...); };
+  auto& [points, id, body, material, rank, fragment, stress, von_mises, principal, velocity, displacement] = piece.elements;
+  cut_all(id.size(), points, body, material, rank, fragment, stress, von_mises, principal, velocity, displacement, id);
+  auto& j = piece.joints;
+  cut_all(j.id.size(), j.points, j.damage, j.mode, j.opening, j.slip, j.broken, j.id);
+  auto& c = piece.contacts;
+  cut_all(c.body.size(), c.id, c.points, c.force, c.other_body, c.body);
+  return piece;
+}
+
 }  // namespace breccia::test

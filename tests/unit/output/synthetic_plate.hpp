@@ -16,4 +16,7 @@ struct SyntheticPlate {
   [[nodiscard]] Frame frame(std::int64_t number, double time) const;
 };
 
+/// One of `count` pieces of nearly equal size: consecutive elements, joints and contacts.
+[[nodiscard]] Frame piece_of(const Frame& whole, int number, int count);
+
 }  // namespace breccia::test
