@@ -1,5 +1,6 @@
 #include "commands.hpp"
 
+#include <array>
 #include <cstdio>
 #include <fmt/core.h>
 #include <iostream>
@@ -43,10 +44,17 @@ int run_command(const RunCommand& asked, const Communicator& world) {
   return 0;
 }
 
-int check_command(const CheckCommand& asked) {
+int check_command(const CheckCommand& asked, int launched) {
   const case_::Case input = case_::read_case(asked.case_file, asked.overrides);
+  if (asked.ranks > 0) {
+    fmt::print("{}", domain_table(input, build_bare_model(input), asked.ranks));
+    return 0;
+  }
   const Model model = build_model(input);
   fmt::print("{}", check_report(input, model));
+  const std::array<int, 3>& n = input.domains.n;
+  const int ranks = launched > 1 ? launched : n[0] * n[1] * n[2];  // the product is bounded by the case's validation
+  if (ranks > 1) fmt::print("{}", domain_line(input, model, ranks));
   return 0;
 }
 

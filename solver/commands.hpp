@@ -24,8 +24,10 @@ int run_command(const RunCommand& asked, const Communicator& world);
 struct CheckCommand {
   std::filesystem::path case_file;
   std::vector<std::string> overrides;
+  int ranks = 0;                        ///< > 0: only how the model is divided among so many
 };
-int check_command(const CheckCommand& asked);
+/// @param launched  ranks that the launcher has started
+int check_command(const CheckCommand& asked, int launched);
 
 struct MeshCommand {
   std::filesystem::path case_file;

@@ -55,6 +55,9 @@ void define(CLI::App& app, Arguments& a) {
   check->add_option("case", a.check.case_file, kCaseHelp)->required();
   check->add_option("--set", a.check.overrides, kSetHelp)->allow_extra_args(false)->take_all();
 
+  check->add_option("--ranks", a.check.ranks, "tell only how a run on so many ranks (mpiexec -n) would divide the model")
+      ->check(CLI::Range(1, 1000000));
+
   CLI::App* mesh = app.add_subcommand("mesh", "Read or generate the mesh of a case and report its bodies, groups and quality");
   mesh->add_option("case", a.mesh.case_file, kCaseHelp)->required();
   mesh->add_option("--set", a.mesh.overrides, kSetHelp)->allow_extra_args(false)->take_all();
@@ -74,7 +77,7 @@ int dispatch(const CLI::App& app, Arguments& a, const Communicator& world, int a
     return run_command(a.run, world);
   }
   if (!world.is_root()) return code(ExitCode::success);  // what follows is the work of one
-  if (app.got_subcommand("check")) return check_command(a.check);
+  if (app.got_subcommand("check")) return check_command(a.check, world.size());
   if (app.got_subcommand("mesh")) return mesh_command(a.mesh);
   return explain_command(a.key);
 }

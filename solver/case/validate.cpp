@@ -1,6 +1,7 @@
 #include "case/validate.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <set>
 
 #include "case/nearest.hpp"
@@ -9,6 +10,8 @@ namespace breccia::case_ {
 namespace {
 
 constexpr const char* every_group = "*";
+
+constexpr std::int64_t most_domains = 1000000;
 
 using Pair = std::array<std::string, 2>;
 
@@ -31,6 +34,7 @@ class Validator {
     for (const InitialVelocity& v : c_.initial_velocities) initial_velocity(v);
     stages();
     gauges();
+    domains();
     return std::move(problems_);
   }
 
@@ -69,6 +73,16 @@ class Validator {
         problem(mesh.origin, "parameters", "a finished mesh takes no parameters", "parameters of a .geo file");
     }
     if (mesh.raster) raster(*mesh.raster);
+  }
+
+  void domains() {
+    const Domains& domains = c_.domains;
+    const auto [x, y, z] = domains.n;
+    const std::string given = "[" + std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) + "]";
+    if (domains.kind != DomainKind::grid && domains.n != std::array{0, 0, 0})
+      problem(domains.origin, "n", "belongs to a grid", "domains.kind = \"grid\", or no n", given);
+    else if (std::int64_t{1} * x * y * z > most_domains)
+      problem(domains.origin, "n", "is a grid of too many domains", "at most 1000000 in all", given);
   }
 
   void raster(const Raster& raster) {

@@ -1,6 +1,7 @@
 #include "parallel/bisection.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -9,13 +10,17 @@ namespace breccia {
 namespace {
 
 constexpr std::size_t kBins = 256;  ///< of a histogram; each pass looks into the bin where the cut must lie
-constexpr int kPasses = 4;          ///< 2^-32 of the box: finer than elements are apart
+constexpr int kPasses = 5;          ///< 2^-40 of the box: finer than elements are apart, along the tilted normal too
+/// Cuts are planes tilted by this slope, and by its square along the third axis: regular meshes have many centroids in one
+/// plane, which could only go to one side together.
+constexpr double kTilt = 1e-4;
+constexpr double kRoundOff = 1e-12;  ///< of a box, so that its own elements are never outside
 
 /// Several domains that are still one part.
 struct Part {
   int first, count;                    ///< domains
   int axis = 0;
-  double lower = 0, upper = 0;         ///< m, where the cut lies along the axis
+  double lower = 0, upper = 0;         ///< m, where the cut lies along its normal
   std::int64_t below = 0, total = 0;   ///< weight below `lower`, and of the part
 };
 
@@ -44,7 +49,14 @@ class Bisection {
  private:
   static constexpr double kHeaviest = 1e6;
 
-  [[nodiscard]] double coordinate(std::size_t e, int axis) const { return centroid_[e][axis]; }
+  static double along_normal(int axis, double x, double y, double z) {
+    const std::array<double, 3> p{x, y, z};
+    const auto a = static_cast<std::size_t>(axis);
+    return p[a] + kTilt * (p[(a + 1) % 3] + kTilt * p[(a + 2) % 3]);
+  }
+  [[nodiscard]] double place(std::size_t e, int axis) const {
+    return along_normal(axis, centroid_[e][0], centroid_[e][1], centroid_[e][2]);
+  }
 
   /// Boxes of the parts; the cut is sought along the longest side.
   void measure() {
@@ -54,8 +66,8 @@ class Bisection {
       double* of_part = most.data() + 6 * part_[e];
       total[part_[e]] += weight_[e];
       for (int i = 0; i < 3; ++i) {
-        of_part[i] = std::max(of_part[i], coordinate(e, i));
-        of_part[3 + i] = std::max(of_part[3 + i], -coordinate(e, i));
+        of_part[i] = std::max(of_part[i], centroid_[e][i]);
+        of_part[3 + i] = std::max(of_part[3 + i], -centroid_[e][i]);
       }
     }
     communicator_.max(most);
@@ -67,8 +79,10 @@ class Bisection {
       for (int i = 1; i < 3; ++i) {
         if (m[i] + m[3 + i] > m[part.axis] + m[3 + part.axis]) part.axis = i;
       }
-      part.lower = -m[3 + part.axis];
-      part.upper = m[part.axis];
+      const double lower = along_normal(part.axis, -m[3], -m[4], -m[5]), upper = along_normal(part.axis, m[0], m[1], m[2]);
+      const double slack = kRoundOff * (std::abs(lower) + std::abs(upper));
+      part.lower = lower - slack;
+      part.upper = upper + slack;
       part.below = 0;
       part.total = total[p];
     }
@@ -82,8 +96,9 @@ class Bisection {
     std::vector<std::int64_t> bins(kBins * parts_.size(), 0);
     for (std::size_t e = 0; e < part_.size(); ++e) {
       const Part& part = parts_[part_[e]];
-      const double x = coordinate(e, part.axis);
-      if (part.count == 1 || x < part.lower || x > part.upper) continue;
+      if (part.count == 1) continue;
+      const double x = place(e, part.axis);
+      if (x < part.lower || x > part.upper) continue;
       bins[part_[e] * kBins + bin_of(part, x)] += weight_[e];
     }
     communicator_.sum(bins);
@@ -92,7 +107,7 @@ class Bisection {
       if (part.count == 1) continue;
       const auto wanted = static_cast<std::int64_t>(static_cast<double>(part.total) * lower_count(part) / part.count);
       std::size_t bin = 0;
-      while (bin + 1 < kBins && part.below + bins[p * kBins + bin] <= wanted) part.below += bins[p * kBins + bin++];
+      while (bin + 1 < kBins && part.below < wanted && part.below + bins[p * kBins + bin] <= wanted) part.below += bins[p * kBins + bin++];
       const double width = (part.upper - part.lower) / static_cast<double>(kBins);
       part.lower += width * static_cast<double>(bin);
       part.upper = bin + 1 == kBins ? part.upper : part.lower + width;
@@ -121,7 +136,8 @@ class Bisection {
     }
     for (std::size_t e = 0; e < part_.size(); ++e) {
       const Part& part = parts_[part_[e]];
-      part_[e] = coordinate(e, part.axis) < 0.5 * (part.lower + part.upper) ? lower[part_[e]] : upper[part_[e]];
+      const bool below = part.count > 1 && place(e, part.axis) < 0.5 * (part.lower + part.upper);
+      part_[e] = below ? lower[part_[e]] : upper[part_[e]];
     }
     parts_ = std::move(halves);
   }

@@ -29,12 +29,16 @@ double cut_area(const std::array<int, 3>& n, const std::array<double, 3>& edge) 
   return (n[0] - 1) * edge[1] * edge[2] + (n[1] - 1) * edge[2] * edge[0] + (n[2] - 1) * edge[0] * edge[1];
 }
 
-std::array<int, 3> least_cut(int parts, const std::array<double, 3>& edge) {
-  std::array<int, 3> best{parts, 1, 1};
-  for_each_factorisation(parts, [&](const std::array<int, 3>& n) {
-    if (cut_area(n, edge) < cut_area(best, edge)) best = n;
-  });
-  return best;
+/// Differences below are round-off: the first of equals is taken.
+constexpr double kSameArea = 1e-9;
+
+/// Agrees with what was asked for; 0 agrees with everything.
+bool agrees(const std::array<int, 3>& n, const std::array<int, 3>& asked) {
+  return std::equal(n.begin(), n.end(), asked.begin(), [](int given, int wanted) { return wanted == 0 || given == wanted; });
+}
+
+bool within(const std::array<int, 3>& n, const std::array<int, 3>& most) {
+  return std::equal(n.begin(), n.end(), most.begin(), [](int given, int limit) { return given <= limit; });
 }
 
 DomainBox box_around(const Communicator& communicator, std::span<const Vec3> centroid) {
@@ -58,7 +62,7 @@ std::vector<int> assign_grid(const std::array<int, 3>& n, const DomainBox& box, 
     for (std::size_t i = 0; i < 3; ++i) {
       const double edge = box.upper[i] - box.lower[i];
       const double share = edge > 0 ? (x[static_cast<Eigen::Index>(i)] - box.lower[i]) / edge : 0.0;
-      cell[i] = std::clamp(static_cast<int>(share * n[i]), 0, n[i] - 1);
+      cell[i] = static_cast<int>(std::clamp(share * n[i], 0.0, n[i] - 1.0));
     }
     domain.push_back((cell[2] * n[1] + cell[1]) * n[0] + cell[0]);
   }
@@ -69,24 +73,38 @@ std::vector<int> assign_grid(const std::array<int, 3>& n, const DomainBox& box, 
 
 std::array<int, 3> grid_of(const DomainSpec& spec, int parts, const DomainBox& box, double longest_edge) {
   std::array<double, 3> edge{};
-  for (std::size_t i = 0; i < 3; ++i) edge[i] = box.upper[i] - box.lower[i] + longest_edge;  // the box is that of centroids
-  const bool automatic = spec.n == std::array{0, 0, 0};
-  const std::array<int, 3> n = automatic ? least_cut(parts, edge) : spec.n;
-  if (n[0] * n[1] * n[2] != parts) {
-    std::string allowed;
-    for_each_factorisation(parts, [&](const std::array<int, 3>& m) { allowed += (allowed.empty() ? "" : ", ") + text_of(m); });
-    throw InputError(Problem{spec.file, spec.line, "domains.n", "the grid has " + std::to_string(n[0] * n[1] * n[2]) + " domains for " +
-                             std::to_string(parts) + " ranks", allowed, text_of(n)});
-  }
   std::array<int, 3> most{};
-  bool fits = true;
   for (std::size_t i = 0; i < 3; ++i) {
-    most[i] = std::max(1, static_cast<int>(edge[i] / longest_edge));
-    fits = fits && n[i] <= most[i];
+    edge[i] = box.upper[i] - box.lower[i] + longest_edge;  // the box is that of centroids
+    most[i] = static_cast<int>(std::clamp(edge[i] / longest_edge, 1.0, 1e9));
   }
-  if (fits) return n;
+  std::optional<std::array<int, 3>> best;
+  bool possible = false;
+  std::string all;
+  for_each_factorisation(parts, [&](const std::array<int, 3>& n) {
+    all += (all.empty() ? "" : ", ") + text_of(n);
+    if (!agrees(n, spec.n)) return;
+    possible = true;
+    if (!within(n, most)) return;
+    if (!best || cut_area(n, edge) < (1 - kSameArea) * cut_area(*best, edge)) best = n;
+  });
+  if (best) return *best;
+  if (!possible) {
+    throw InputError(Problem{spec.file, spec.line, "domains.n", "the grid does not have as many domains as there are ranks, " +
+                             std::to_string(parts), all, text_of(spec.n)});
+  }
+  const std::string given = spec.n == std::array{0, 0, 0} ? std::to_string(parts) + " domains" : text_of(spec.n);
   throw InputError(Problem{spec.file, spec.line, "domains.n", "domains would be smaller than the largest element",
-                           "at most " + text_of(most) + " domains along x, y and z", text_of(n)});
+                           "at most " + text_of(most) + " domains along x, y and z", given});
+}
+
+DomainSpec settled(const Communicator& communicator, const DomainSpec& spec, int parts, std::span<const Vec3> centroid,
+                   double longest_edge) {
+  DomainSpec grid = spec;
+  if (spec.kind != DomainKind::grid || spec.box) return grid;
+  grid.box = box_around(communicator, centroid);
+  grid.n = grid_of(spec, parts, *grid.box, longest_edge);
+  return grid;
 }
 
 std::vector<int> assign_domains(const Communicator& communicator, const DomainSpec& spec, int parts, std::span<const Vec3> centroid,
@@ -98,8 +116,9 @@ std::vector<int> assign_domains(const Communicator& communicator, const DomainSp
   }
   if (parts == 1) return std::vector<int>(centroid.size(), 0);
   if (spec.kind == DomainKind::rcb) return bisect(communicator, parts, centroid, weight);
-  const DomainBox box = box_around(communicator, centroid);
-  return assign_grid(grid_of(spec, parts, box, longest_edge), box, centroid);
+  if (spec.box) return assign_grid(spec.n, *spec.box, centroid);
+  const DomainSpec grid = settled(communicator, spec, parts, centroid, longest_edge);
+  return assign_grid(grid.n, *grid.box, centroid);
 }
 
 }  // namespace breccia

@@ -1,15 +1,19 @@
 #include "simulation/check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <fmt/core.h>
 #include <numbers>
+#include <numeric>
 
 #include "mesh/quality.hpp"
 #include "output/quantity_text.hpp"
 #include "output/summary.hpp"
+#include "parallel/domain_report.hpp"
 #include "simulation/convert.hpp"
+#include "simulation/decomposition.hpp"
 #include "simulation/stepper.hpp"
 #include "simulation/time_step.hpp"
 
@@ -95,7 +99,95 @@ std::string quality_advice(const QualityReport& quality) {
                      slivers == 20 ? "At least " : "", slivers, kSliver, quality.worst.front().element);
 }
 
+struct Division {
+  std::string how;  ///< "rcb", "grid of [2, 2, 1]"
+  DomainReport report;
+};
+
+Division divide(const case_::Case& input, const Model& model, int parts) {
+  const Mesh& mesh = model.mesh;
+  std::vector<Vec3> centroids;
+  centroids.reserve(mesh.elements.size());
+  for (const auto& c : mesh.elements) {
+    centroids.push_back(0.25 * (mesh.nodes[index(c[0])] + mesh.nodes[index(c[1])] + mesh.nodes[index(c[2])] + mesh.nodes[index(c[3])]));
+  }
+  const Communicator alone;
+  const double edge = model.whole.longest_edge;
+  const DomainSpec spec = settled(alone, domain_spec(input), parts, centroids, edge);
+  const std::vector<double> weight(centroids.size(), 1.0);
+  const std::vector<int> owner = assign_domains(alone, spec, parts, centroids, weight, edge);
+  std::vector<std::uint8_t> own_nodes;
+  for (const Discretisation d : model.discretisation) own_nodes.push_back(d == Discretisation::own_nodes ? 1 : 0);
+  const Reach reach = reach_of(input, edge);
+  return {spec.kind == DomainKind::rcb ? "rcb" : fmt::format("grid of {} x {} x {}", spec.n[0], spec.n[1], spec.n[2]),
+          report_domains(mesh, model.topology, own_nodes, owner, parts, reach.margin + reach.ring)};
+}
+
+constexpr std::size_t kMostLines = 16;
+constexpr std::size_t kSlowest = 3;
+
+/// Columns of the table of domains.
+constexpr std::array<const char*, 8> kColumns{"elements", "joints", "shared", "cut faces", "proxies", "gathered", "messages", "kB a step"};
+
+std::array<double, 8> columns(const DomainLoad& load) {
+  const auto number = [](auto n) { return static_cast<double>(n); };
+  return {number(load.elements), number(load.joints), number(load.shared), number(load.cut_faces),
+          number(load.held), number(load.gathered), number(load.neighbours), 1e-3 * number(load.bytes())};
+}
+
+std::string table_line(const std::string& name, const std::array<double, 8>& values) {
+  std::string text = fmt::format("  {:<10}", name);
+  for (const double value : values) text += fmt::format(" {:>11.0f}", value);
+  return text + "\n";
+}
+
+/// Least, mean and most of each column; the columns are apart from each other.
+std::string extremes(const std::vector<DomainLoad>& domains) {
+  std::array<double, 8> least = columns(domains.front()), most = least, sum{};
+  for (const DomainLoad& load : domains) {
+    const auto values = columns(load);
+    for (std::size_t c = 0; c < values.size(); ++c) {
+      least[c] = std::min(least[c], values[c]);
+      most[c] = std::max(most[c], values[c]);
+      sum[c] += values[c] / static_cast<double>(domains.size());
+    }
+  }
+  return table_line("least", least) + table_line("mean", sum) + table_line("most", most);
+}
+
+std::string verdict(const Division& division) {
+  return fmt::format("{} domains, {}: imbalance {:.3f}, predicted efficiency {:.1f} %", division.report.domains.size(), division.how,
+                     division.report.imbalance, 100 * division.report.efficiency);
+}
+
 }  // namespace
+
+std::string domain_line(const case_::Case& input, const Model& model, int parts) {
+  return verdict(divide(input, model, parts)) + "\n";
+}
+
+std::string domain_table(const case_::Case& input, const Model& model, int parts) {
+  const Division division = divide(input, model, parts);
+  const std::vector<DomainLoad>& domains = division.report.domains;
+  std::string text = fmt::format("{}\n{} elements, {}\n  {:<10}", input.title, model.mesh.num_elements(), verdict(division), "domain");
+  for (const char* column : kColumns) text += fmt::format(" {:>11}", column);
+  text += "\n";
+  std::vector<std::size_t> shown(domains.size());
+  std::iota(shown.begin(), shown.end(), std::size_t{0});
+  if (domains.size() > kMostLines) {
+    text += extremes(domains) + "  the slowest\n";
+    std::partial_sort(shown.begin(), shown.begin() + kSlowest, shown.end(), [&](std::size_t a, std::size_t b) {
+      return domains[a].step != domains[b].step ? domains[a].step > domains[b].step : a < b;
+    });
+    shown.resize(kSlowest);
+  }
+  for (const std::size_t d : shown) text += table_line(std::to_string(d), columns(domains[d]));
+  const auto empty = std::count_if(domains.begin(), domains.end(), [](const DomainLoad& load) { return load.elements == 0; });
+  if (empty > 0) {
+    text += fmt::format("- {} domains hold no element and their ranks have nothing to do: use domains.kind = \"rcb\".\n", empty);
+  }
+  return text;
+}
 
 std::string mesh_report(const FinishedMesh& made) {
   const MeshReport& r = made.report;

@@ -82,11 +82,26 @@ Marks needed_elsewhere(const Communicator& communicator, const Records& owned, d
 
 }  // namespace
 
-Piece decompose(const Communicator& communicator, const DomainSpec& domains, Records mine, const std::vector<double>& weight,
+Reach reach_of(const case_::Case& input, double edge) {
+  // Forces meet at shared nodes that come from what touches any of their elements: one more ring.
+  const bool shared_nodes = std::any_of(input.materials.begin(), input.materials.end(),
+                                        [](const case_::Material& m) { return m.joints == case_::JointPlacement::none; });
+  return {input.domains.margin * edge, (shared_nodes ? 2 : 1) * edge};
+}
+
+DomainSpec domain_spec(const case_::Case& input) {
+  const case_::Domains& asked = input.domains;
+  return {asked.kind == case_::DomainKind::grid ? DomainKind::grid : DomainKind::rcb, asked.n, input.file.string(), asked.origin.line,
+          {}};
+}
+
+Piece decompose(const Communicator& communicator, DomainSpec& domains, Records mine, const std::vector<double>& weight,
                 const Reach& reach) {
   std::vector<Vec3> centroids;
   for (const ElementRecord& element : mine.elements) centroids.push_back(centroid(element));
-  Records owned = migrate(communicator, mine, assign_domains(communicator, domains, communicator.size(), centroids, weight, reach.ring));
+  const double edge = longest_edge(communicator, mine);
+  domains = settled(communicator, domains, communicator.size(), centroids, edge);
+  Records owned = migrate(communicator, mine, assign_domains(communicator, domains, communicator.size(), centroids, weight, edge));
   mine = {};
 
   Piece piece;

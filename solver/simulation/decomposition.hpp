@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "case/case.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/domain_topology.hpp"
 #include "simulation/records.hpp"
@@ -31,12 +32,19 @@ struct Reach {
   [[nodiscard]] double allowed_motion() const { return margin / 4; }
 };
 
+/// @param edge  m, longest of an element
+[[nodiscard]] Reach reach_of(const case_::Case& input, double edge);
+
+/// What the case asks for.
+[[nodiscard]] DomainSpec domain_spec(const case_::Case& input);
+
 /// Gives every element to the domain it lies in and every rank the proxies it needs. Collective.
+/// @param domains a grid is settled by the first call
 /// @param mine    this rank's originals, in their present state; on the first call all elements on one rank
 /// @param weight  (elements of mine) relative cost
 /// O(elements log elements) and two exchanges of elements, those that change hands and proxies.
 /// Throws on all ranks what assign_domains throws.
-[[nodiscard]] Piece decompose(const Communicator& communicator, const DomainSpec& domains, Records mine,
+[[nodiscard]] Piece decompose(const Communicator& communicator, DomainSpec& domains, Records mine,
                               const std::vector<double>& weight, const Reach& reach);
 
 /// Longest edge in the present state, m; collective.

@@ -231,20 +231,25 @@ void summarise(Model& model) {
     const ElasticParams& p = model.elastic[group];
     whole.energy_floor += 1e-20 * local.volume[index(s)] * (p.lambda + 2 * p.mu);
   }
-  whole.longest_edge = longest_edge(model.mesh);
 }
 
 }  // namespace
 
-Model build_model(const case_::Case& input) {
+Model build_bare_model(const case_::Case& input) {
   Model model;
   FinishedMesh made = build_mesh(input);
   model.mesh = std::move(made.mesh);
   model.mesh_report = std::move(made.report);
   model.topology = build_topology(model.mesh);
-  model.corner_tags = tag_corners(model.mesh);
+  model.whole.longest_edge = longest_edge(model.mesh);
   take_materials(input, model);
   break_initial(input, model);
+  return model;
+}
+
+Model build_model(const case_::Case& input) {
+  Model model = build_bare_model(input);
+  model.corner_tags = tag_corners(model.mesh);
   take_joints(input, model);
   take_contact(input, model);
   model.local = build_local_mesh(model.mesh, model.discretisation, model.density);

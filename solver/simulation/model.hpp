@@ -88,6 +88,10 @@ struct Model {
 /// Throws InputError with every problem found.
 [[nodiscard]] Model build_model(const case_::Case& input);
 
+/// The part of it that tells how the model is divided among ranks, in a fraction of the memory: mesh, topology, materials
+/// and the longest edge.
+[[nodiscard]] Model build_bare_model(const case_::Case& input);
+
 /// The model of a piece of the mesh.
 /// @param mesh, topology  the piece, faces broken from the start cut;  @param original  (elements) 1: the rank's own
 /// @param whole           as build_model found it;  @param corner_tags  of the piece's elements, by (element, group)

@@ -12,21 +12,10 @@ namespace {
 /// A decomposition is done when nodes have really used up this share of their allowance; else the bound is brought down.
 constexpr double kUsedUp = 0.75;
 
-DomainSpec domain_spec(const case_::Case& input) {
-  const case_::Domains& asked = input.domains;
-  return {asked.kind == case_::DomainKind::grid ? DomainKind::grid : DomainKind::rcb, asked.n, input.file.string(), asked.origin.line};
-}
-
-/// Some body is an ordinary finite-element body.
-bool any_shared_nodes(const case_::Case& input) {
-  return std::any_of(input.materials.begin(), input.materials.end(),
-                     [](const case_::Material& m) { return m.joints == case_::JointPlacement::none; });
-}
-
 }  // namespace
 
 Share::Share(const case_::Case& input, const Communicator& communicator, std::unique_ptr<Model> whole)
-    : input_(input), communicator_(communicator), model_(std::move(whole)) {
+    : input_(input), communicator_(communicator), model_(std::move(whole)), domains_(domain_spec(input)) {
   if (model_) start_whole();
   if (communicator_.size() == 1) return;
   decompose_anew(stepper_ ? stepper_->records() : Records{}, Ledger{});
@@ -51,12 +40,9 @@ void Share::decompose_anew(Records mine, Ledger ledger) {
   stepper_.reset();
   time_step_.reset();
   model_.reset();
-  const double edge = longest_edge(communicator_, mine);
-  reach_.margin = input_.domains.margin * edge;
-  // Forces meet at shared nodes that come from what touches any of their elements: one more ring.
-  reach_.ring = (any_shared_nodes(input_) ? 2 : 1) * edge;
+  reach_ = reach_of(input_, longest_edge(communicator_, mine));
   const std::vector<double> weight(mine.elements.size(), 1.0);
-  build(decompose(communicator_, domain_spec(input_), std::move(mine), weight, reach_), std::move(whole), std::move(ledger));
+  build(decompose(communicator_, domains_, std::move(mine), weight, reach_), std::move(whole), std::move(ledger));
   decompositions_ = std::max<std::int64_t>(decompositions_, 1);
 }
 

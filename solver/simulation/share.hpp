@@ -40,6 +40,7 @@ class Share {
   const case_::Case& input_;
   Communicator communicator_;
   std::unique_ptr<Model> model_;
+  DomainSpec domains_;
   std::unique_ptr<Stepper> stepper_;
   std::unique_ptr<TimeStep> time_step_;
   const case_::Stage* stage_ = nullptr;

@@ -1,0 +1,205 @@
+#include "parallel/domain_report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "base/types.hpp"
+
+namespace breccia {
+namespace {
+
+template <class T>
+std::size_t at(T i) {
+  return static_cast<std::size_t>(i);
+}
+
+struct Box {
+  Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 upper = -lower;
+
+  void add(const Vec3& x) {
+    lower = lower.cwiseMin(x);
+    upper = upper.cwiseMax(x);
+  }
+  [[nodiscard]] bool empty() const { return !(lower[0] <= upper[0]); }
+  [[nodiscard]] bool within(const Box& other, double distance) const {
+    return ((lower.array() - distance) <= other.upper.array()).all() && (other.lower.array() <= (upper.array() + distance)).all();
+  }
+};
+
+Box box_of(const Mesh& mesh, std::size_t element) {
+  Box box;
+  for (const Index node : mesh.elements[element]) box.add(mesh.nodes[at(node)]);
+  return box;
+}
+
+/// Domains whose boxes may be within a distance of an element, by cell of a grid.
+class NearDomains {
+ public:
+  NearDomains(const std::vector<Box>& boxes, const Box& all, double distance) : lower_(all.lower) {
+    const double cells = std::clamp(std::cbrt(8.0 * static_cast<double>(boxes.size())), 1.0, 64.0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      n_[i] = static_cast<int>(cells);
+      const double edge = all.upper[static_cast<int>(i)] - all.lower[static_cast<int>(i)];
+      inverse_[static_cast<int>(i)] = edge > 0 ? n_[i] / edge : 0.0;
+    }
+    domains_.resize(at(n_[0]) * at(n_[1]) * at(n_[2]));
+    for (std::size_t d = 0; d < boxes.size(); ++d) {
+      if (boxes[d].empty()) continue;
+      const auto first = cell(boxes[d].lower - Vec3::Constant(distance)), last = cell(boxes[d].upper + Vec3::Constant(distance));
+      for (int z = first[2]; z <= last[2]; ++z) {
+        for (int y = first[1]; y <= last[1]; ++y) {
+          for (int x = first[0]; x <= last[0]; ++x) domains_[place({x, y, z})].push_back(static_cast<int>(d));
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] const std::vector<int>& of(const Vec3& x) const { return domains_[place(cell(x))]; }
+
+ private:
+  using Cell = std::array<int, 3>;
+
+  [[nodiscard]] Cell cell(const Vec3& x) const {
+    Cell c{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double share = (x[static_cast<int>(i)] - lower_[static_cast<int>(i)]) * inverse_[static_cast<int>(i)];
+      c[i] = static_cast<int>(std::clamp(share, 0.0, n_[i] - 1.0));
+    }
+    return c;
+  }
+  [[nodiscard]] std::size_t place(const Cell& c) const { return (at(c[2]) * at(n_[1]) + at(c[1])) * at(n_[0]) + at(c[0]); }
+
+  std::array<int, 3> n_{};
+  Vec3 lower_, inverse_;
+  std::vector<std::vector<int>> domains_;
+};
+
+class Counter {
+ public:
+  Counter(const Mesh& mesh, const Topology& topology, std::span<const std::uint8_t> own_nodes, std::span<const int> owner, int parts)
+      : mesh_(mesh), topology_(topology), own_nodes_(own_nodes), owner_(owner), from_(at(parts)) {
+    report_.domains.resize(at(parts));
+  }
+
+  DomainReport run(double reach) {
+    find_sharers();
+    for (std::size_t e = 0; e < owner_.size(); ++e) count_element(e);
+    count_held(reach);
+    predict();
+    return std::move(report_);
+  }
+
+ private:
+  [[nodiscard]] bool has_own_nodes(std::size_t e) const { return own_nodes_[at(mesh_.element_group[e])] != 0; }
+
+  /// Domains whose bodies without joints meet at a node.
+  void find_sharers() {
+    const bool any = std::find(own_nodes_.begin(), own_nodes_.end(), std::uint8_t{0}) != own_nodes_.end();
+    if (!any) return;
+    first_.assign(mesh_.nodes.size(), -1);
+    for (std::size_t e = 0; e < owner_.size(); ++e) {
+      if (has_own_nodes(e)) continue;
+      for (const Index node : mesh_.elements[e]) {
+        int& first = first_[at(node)];
+        if (first < 0) first = owner_[e];
+        if (first == owner_[e]) continue;
+        std::vector<int>& others = others_[node];
+        if (std::find(others.begin(), others.end(), owner_[e]) == others.end()) others.push_back(owner_[e]);
+      }
+    }
+  }
+
+  void count_element(std::size_t e) {
+    DomainLoad& own = report_.domains[at(owner_[e])];
+    ++own.elements;
+    takers_.clear();
+    for (const FaceLink& link : topology_.links[e]) {
+      if (!link.inner()) continue;
+      const std::size_t other = at(link.neighbour);
+      const bool joint = has_own_nodes(e) || has_own_nodes(other), cut = owner_[other] != owner_[e];
+      own.joints += joint && e < other;
+      own.shared += joint && cut;
+      own.cut_faces += cut;
+      if (joint && cut) take(owner_[other]);
+    }
+    if (!has_own_nodes(e)) {
+      for (const Index node : mesh_.elements[e]) {
+        const auto others = others_.find(node);
+        if (others == others_.end()) continue;
+        if (first_[at(node)] != owner_[e]) take(first_[at(node)]);
+        for (const int domain : others->second) {
+          if (domain != owner_[e]) take(domain);
+        }
+      }
+    }
+    for (const int domain : takers_) {
+      ++report_.domains[at(domain)].gathered;
+      std::vector<int>& from = from_[at(domain)];
+      if (std::find(from.begin(), from.end(), owner_[e]) == from.end()) from.push_back(owner_[e]);
+    }
+  }
+
+  /// Notes that a domain gathers the present element, once.
+  void take(int domain) {
+    if (std::find(takers_.begin(), takers_.end(), domain) == takers_.end()) takers_.push_back(domain);
+  }
+
+  void count_held(double reach) {
+    std::vector<Box> boxes(report_.domains.size());
+    Box all;
+    double largest = 0;
+    for (std::size_t e = 0; e < owner_.size(); ++e) {
+      const Box box = box_of(mesh_, e);
+      for (const Vec3& x : {box.lower, box.upper}) {
+        boxes[at(owner_[e])].add(x);
+        all.add(x);
+      }
+      largest = std::max(largest, (box.upper - box.lower).maxCoeff());
+    }
+    const NearDomains near(boxes, all, reach + largest);
+    for (std::size_t e = 0; e < owner_.size(); ++e) {
+      const Box box = box_of(mesh_, e);
+      for (const int domain : near.of(box.lower)) {
+        if (domain != owner_[e] && box.within(boxes[at(domain)], reach)) ++report_.domains[at(domain)].held;
+      }
+    }
+  }
+
+  void predict() {
+    const double parts = static_cast<double>(report_.domains.size()), mean = static_cast<double>(owner_.size()) / parts;
+    double most = 0, slowest = 0;
+    for (std::size_t d = 0; d < report_.domains.size(); ++d) {
+      DomainLoad& load = report_.domains[d];
+      load.neighbours = static_cast<int>(from_[d].size());
+      load.step = kSecondsAnElement * static_cast<double>(load.elements) + kSecondsAMessage * load.neighbours +
+                  static_cast<double>(load.bytes()) / kBytesASecond;
+      most = std::max(most, static_cast<double>(load.elements));
+      slowest = std::max(slowest, load.step);
+    }
+    report_.imbalance = most / mean;
+    report_.efficiency = kSecondsAnElement * mean / slowest;
+  }
+
+  const Mesh& mesh_;
+  const Topology& topology_;
+  std::span<const std::uint8_t> own_nodes_;
+  std::span<const int> owner_;
+  std::vector<int> first_;                     ///< (nodes) a domain with the node, -1: none
+  std::map<Index, std::vector<int>> others_;   ///< further ones
+  std::vector<std::vector<int>> from_;         ///< (domains) whom it gathers from
+  std::vector<int> takers_;                    ///< of the present element
+  DomainReport report_;
+};
+
+}  // namespace
+
+DomainReport report_domains(const Mesh& mesh, const Topology& topology, std::span<const std::uint8_t> own_nodes,
+                            std::span<const int> owner, int parts, double reach) {
+  return Counter(mesh, topology, own_nodes, owner, parts).run(reach);
+}
+
+}  // namespace breccia
