@@ -13,14 +13,14 @@ constexpr int kLowest = -1088;
 }  // namespace
 
 void ExactSum::carry() {
-  std::int64_t over = 0;
-  for (std::size_t k = 0; k < kLimbs; ++k) {
-    const std::int64_t limb = limbs_[k] + over;
-    over = limb >> 32;
-    limbs_[k] = limb & 0xFFFFFFFF;
-  }
-  limbs_.back() += over * (std::int64_t{1} << 32);  // the last limb keeps the sign
   pending_ = 0;
+  if (first_ > last_) return;
+  const auto keeps_sign = [](std::int64_t limb) { return limb == static_cast<std::int32_t>(limb); };
+  for (std::size_t k = first_; k < last_ || !keeps_sign(limbs_[k]); ++k) {
+    limbs_[k + 1] += limbs_[k] >> 32;
+    limbs_[k] &= 0xFFFFFFFF;
+    last_ = std::max(last_, k + 1);
+  }
 }
 
 void ExactSum::add(const ExactSum& other) {
@@ -28,7 +28,9 @@ void ExactSum::add(const ExactSum& other) {
   if (pending_ + 1 >= kMostPending) carry();
   ExactSum carried = other;
   carried.carry();
-  for (std::size_t k = 0; k < kLimbs; ++k) limbs_[k] += carried.limbs_[k];
+  for (std::size_t k = carried.first_; k <= carried.last_; ++k) limbs_[k] += carried.limbs_[k];
+  first_ = std::min(first_, carried.first_);
+  last_ = std::max(last_, carried.last_);
   ++pending_;
 }
 
@@ -36,13 +38,13 @@ double ExactSum::value() const {
   if (!finite_) return std::numeric_limits<double>::quiet_NaN();
   ExactSum magnitude = *this;
   magnitude.carry();
-  const bool negative = magnitude.limbs_.back() < 0;
+  const bool negative = magnitude.limbs_[magnitude.last_] < 0;
   if (negative) {
-    for (std::int64_t& limb : magnitude.limbs_) limb = -limb;
+    for (std::size_t k = magnitude.first_; k <= magnitude.last_; ++k) magnitude.limbs_[k] *= -1;
     magnitude.carry();
   }
   const auto& limbs = magnitude.limbs_;
-  std::size_t top = kLimbs;
+  std::size_t top = magnitude.last_ + 1;
   while (top > 0 && limbs[top - 1] == 0) --top;
   if (top == 0) return 0.0;
   // The 64 bits from the leading one on; what lies below them does not matter to rounding half away from zero.
@@ -76,8 +78,21 @@ ExactSum ExactSum::from_words(std::span<const std::int64_t, kWords> words) {
   ExactSum sum;
   std::copy(words.begin(), words.end() - 1, sum.limbs_.begin());
   sum.finite_ = words.back() == 0;
+  for (std::size_t k = 0; k < kLimbs; ++k) {
+    if (sum.limbs_[k] == 0) continue;
+    sum.first_ = std::min(sum.first_, k);
+    sum.last_ = k;
+  }
   sum.carry();
   return sum;
+}
+
+bool operator==(const ExactSum& a, const ExactSum& b) {
+  auto difference = a.words();
+  const auto of_b = b.words();
+  for (std::size_t w = 0; w < difference.size(); ++w) difference[w] -= of_b[w];
+  const auto carried = ExactSum::from_words(difference).words();
+  return std::all_of(carried.begin(), carried.end(), [](std::int64_t word) { return word == 0; });
 }
 
 }  // namespace breccia

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -11,7 +12,7 @@ namespace breccia {
 ///
 /// A fixed-point number wide enough for every double: limb k holds multiples of 2^(32 k - 1088). A term's 53 bits go to three
 /// limbs; each addition changes a limb by less than 2^32, so carries have to be passed on once in 2^30 additions only. Source
-/// of the idea: [Kulisch 2011]. `add` takes some 3 ns, `value` 100.
+/// of the idea: [Kulisch 2011]. `add` takes some 3 ns, `value` 40.
 class ExactSum {
  public:
   static constexpr std::size_t kLimbs = 68;
@@ -38,6 +39,8 @@ class ExactSum {
     limbs_[limb] += sign * static_cast<std::int64_t>(low & 0xFFFFFFFFULL);
     limbs_[limb + 1] += sign * static_cast<std::int64_t>(low >> 32);
     limbs_[limb + 2] += sign * static_cast<std::int64_t>(high);
+    first_ = std::min(first_, limb);
+    last_ = std::max(last_, limb + 2);
     if (++pending_ == kMostPending) carry();
   }
   void add(const ExactSum& other);
@@ -50,14 +53,15 @@ class ExactSum {
   [[nodiscard]] std::array<std::int64_t, kWords> words() const;
   [[nodiscard]] static ExactSum from_words(std::span<const std::int64_t, kWords> words);
 
-  friend bool operator==(const ExactSum& a, const ExactSum& b) { return a.words() == b.words(); }
+  friend bool operator==(const ExactSum& a, const ExactSum& b);
 
  private:
   static constexpr std::int64_t kMostPending = std::int64_t{1} << 30;
   void carry();
 
-  std::array<std::int64_t, kLimbs> limbs_{};  ///< after `carry` in 0 .. 2^32 - 1, the last one signed
-  std::int64_t pending_ = 0;                  ///< additions since
+  std::array<std::int64_t, kLimbs> limbs_{};  ///< after `carry` in 0 .. 2^32 - 1, the last used one in -2^31 .. 2^31 - 1
+  std::size_t first_ = kLimbs, last_ = 0;     ///< limbs in use; the others are zero
+  std::int64_t pending_ = 0;                  ///< additions since `carry`
   bool finite_ = true;
 };
 

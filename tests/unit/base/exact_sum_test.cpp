@@ -90,6 +90,17 @@ TEST(ExactSum, IsTheSameInAnyOrderAndHoweverSpread) {
   }
 }
 
+TEST(ExactSum, EqualsAnotherOfTheSameValueWhateverItsTermsWere) {
+  ExactSum plain(-1.0), roundabout;
+  for (const double term : {1e300, -3.0, kSmallest, -1e300, 2.0, -kSmallest}) roundabout.add(term);
+  EXPECT_EQ(roundabout, plain);
+  roundabout.add(kSmallest);
+  EXPECT_FALSE(roundabout == plain);
+  ExactSum broken(-1.0);
+  broken.add(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_FALSE(broken == plain);
+}
+
 TEST(ExactSum, OfTenMillionTenthsIsExact) {
   ExactSum sum;
   for (int i = 0; i < 10'000'000; ++i) sum.add(0.1);
