@@ -173,6 +173,11 @@ algorithm = "ms_slices"
 buffer = "0.5 mm"
 cell = "5 mm"
 verify = true
+[domains]
+kind = "grid"
+n = [2, 0, 1]
+rebalance = false
+margin = 2.5
 [output]
 frame_interval = "1 us"
 history_interval = "100 ns"

@@ -14,6 +14,7 @@ TEST(Reader, AMinimalCaseGetsTheDefaultsOfTheStructs) {
   const Case c = read_text(minimal);
   EXPECT_EQ(c.time, TimeControl{});
   EXPECT_EQ(c.detection, Detection{});
+  EXPECT_EQ(c.domains, Domains{});
   EXPECT_EQ(c.output, Output{});
   EXPECT_EQ(c.contact_points, ContactPoints{});
   EXPECT_FALSE(c.sphere.has_value());
@@ -186,6 +187,10 @@ TEST(Reader, TimeDetectionAndOutputAreRead) {
   EXPECT_EQ(c.detection.buffer, 0.5e-3);
   EXPECT_EQ(c.detection.cell, 5e-3);
   EXPECT_TRUE(c.detection.verify);
+  EXPECT_EQ(c.domains.kind, DomainKind::grid);
+  EXPECT_EQ(c.domains.n, (std::array{2, 0, 1}));
+  EXPECT_FALSE(c.domains.rebalance);
+  EXPECT_EQ(c.domains.margin, 2.5);
   EXPECT_EQ(c.output.frame_interval, 1e-6);
   EXPECT_EQ(c.output.history_interval, 1e-7);
   EXPECT_FALSE(c.output.elements || c.output.joints || c.output.contacts);
