@@ -29,9 +29,15 @@ int run_command(const RunCommand& asked, const Communicator& world) {
     root = asked.folder.empty() ? default_run_folder(input.file) : asked.folder;
     if (!world.is_root()) return;
     model = std::make_unique<Model>(build_model(input));
-    const RunFolder folder = prepare_run_folder(root, input.resolved, collect_provenance(BRECCIA_VERSION, asked.command_line),
-                                                asked.overwrite ? OldResults::overwrite : OldResults::refuse);
-    sinks.push_back(std::make_unique<VtkhdfSink>(folder.frames(), FrameParts{input.output.elements, input.output.joints, input.output.contacts}));
+    (void)prepare_run_folder(root, input.resolved, collect_provenance(BRECCIA_VERSION, asked.command_line),
+                             asked.overwrite ? OldResults::overwrite : OldResults::refuse);
+  });
+  const RunFolder folder{root};
+  world.agree([&] {
+    // Frames are written by all ranks together, everything else by the root.
+    const FrameParts parts{input.output.elements, input.output.joints, input.output.contacts};
+    sinks.push_back(std::make_unique<VtkhdfSink>(folder.frames(), parts, world));
+    if (!world.is_root()) return;
     sinks.push_back(std::make_unique<HistorySink>(folder.history()));
     sinks.push_back(std::make_unique<StatusSink>(folder.status()));
     sinks.push_back(std::make_unique<ProgressSink>(asked.progress, std::cout, terminal_columns(fileno(stdout))));

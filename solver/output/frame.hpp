@@ -84,6 +84,9 @@ struct HistoryRow {
 struct Summary {
   std::string title, version, host, status;  ///< status: "complete", "stopped: ..." or the error
   int ranks = 1;
+  std::int64_t decompositions = 1;                   ///< divisions of the model among the ranks
+  double imbalance = 1;                              ///< largest over mean working time of the ranks, at the last look
+  std::int64_t messages = 0, message_bytes = 0;      ///< that gathered proxies, of all ranks
   std::int64_t steps = 0;
   double simulated_time = 0, time_step = 0;
   std::int64_t elements = 0, joints = 0, broken_joints = 0, fragments = 0, searches = 0, inverted_elements = 0;

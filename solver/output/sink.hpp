@@ -27,6 +27,8 @@ struct StatusLine {
   double eta_s = 0;                ///< wall time still to go; negative or NaN: unknown
   double energy_residual = 0;      ///< relative
   std::int64_t broken_joints = 0, fragments = 0;
+  double imbalance = 1;             ///< largest over mean working time of the ranks
+  std::int64_t decompositions = 1;  ///< divisions of the model among the ranks so far
   std::string stage;
 };
 

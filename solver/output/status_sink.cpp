@@ -82,6 +82,8 @@ std::string status_json(const StatusLine& line, RunState state, const std::strin
     json["eta_s"] = nullptr;
   }
   json["energy_residual"] = line.energy_residual;
+  json["imbalance"] = line.imbalance;
+  json["decompositions"] = line.decompositions;
   json["broken_joints"] = line.broken_joints;
   json["fragments"] = line.fragments;
   if (!message.empty()) json["message"] = message;

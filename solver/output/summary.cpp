@@ -63,6 +63,10 @@ std::string summary_json(const Summary& summary) {
   json["host"] = summary.host;
   json["simd"] = summary.simd;
   json["ranks"] = summary.ranks;
+  json["decompositions"] = summary.decompositions;
+  json["imbalance"] = summary.imbalance;
+  json["messages"] = summary.messages;
+  json["message_bytes"] = summary.message_bytes;
   json["steps"] = summary.steps;
   json["simulated_time"] = summary.simulated_time;
   json["time_step"] = summary.time_step;
@@ -102,6 +106,10 @@ std::string summary_text(const Summary& summary) {
   add_line(text, "memory", bytes_text(summary.max_rss_bytes));
   add_line(text, "host",
            fmt::format("{}, {} rank{}, {}", summary.host, summary.ranks, summary.ranks == 1 ? "" : "s", summary.simd));
+  if (summary.ranks > 1) {
+    add_line(text, "divisions of the model", fmt::format("{}, imbalance {:.2f}", count_text(summary.decompositions), summary.imbalance));
+    add_line(text, "messages", fmt::format("{}, {}", count_text(summary.messages), bytes_text(static_cast<std::uint64_t>(summary.message_bytes))));
+  }
   add_line(text, "version", summary.version);
   add_line(text, "state hash", summary.state_hash);
   return text;

@@ -9,7 +9,6 @@
 #include "output/summary.hpp"
 #include "simulation/convert.hpp"
 #include "simulation/observe.hpp"
-#include "simulation/frame_gather.hpp"
 #include "simulation/share.hpp"
 
 namespace breccia {
@@ -142,7 +141,7 @@ class Runner {
     for (const auto& sink : sinks_) {
       if (sink->status_due()) sink->status(status_line());
     }
-    share_.keep_reach();
+    share_.keep_up();
   }
 
   void check_residual(double time) const {
@@ -157,7 +156,7 @@ class Runner {
   void write_frame() {
     const auto lap = stepper().timer().measure(Phase::output);
     const FrameParts parts{input_.output.elements, input_.output.joints, input_.output.contacts};
-    const Frame frame = gather_frame(communicator_, make_frame(stepper(), frame_number_++, parts));
+    const Frame frame = make_frame(stepper(), frame_number_++, parts);
     tell([&](Sink& sink) { sink.frame(frame); });
   }
 
@@ -177,6 +176,8 @@ class Runner {
     line.energy_residual = stepper().budget().residual_relative;
     line.broken_joints = last_broken_;
     line.fragments = last_fragments_;
+    line.imbalance = share_.imbalance();
+    line.decompositions = share_.decompositions();
     line.stage = stage_name_;
     return line;
   }
@@ -193,6 +194,10 @@ class Runner {
     summary.simulated_time = stepper().time();
     summary.time_step = stepper().dt();
     summary.ranks = communicator_.size();
+    summary.decompositions = share_.decompositions();
+    summary.imbalance = share_.imbalance();
+    summary.messages = communicator_.sum(stepper().messages());
+    summary.message_bytes = communicator_.sum(stepper().bytes());
     summary.elements = share_.whole().num_elements;
     summary.joints = share_.whole().num_joints;
     summary.broken_joints = last_broken_ = communicator_.sum(stepper().broken_joints());

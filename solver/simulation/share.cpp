@@ -11,6 +11,8 @@ namespace {
 
 /// A decomposition is done when nodes have really used up this share of their allowance; else the bound is brought down.
 constexpr double kUsedUp = 0.75;
+/// Steps for which a new division is expected to serve, and the imbalance below which measurement is mostly noise.
+constexpr double kHorizon = 1000, kWorthBalancing = 1.05;
 
 }  // namespace
 
@@ -18,7 +20,8 @@ Share::Share(const case_::Case& input, const Communicator& communicator, std::un
     : input_(input), communicator_(communicator), model_(std::move(whole)), domains_(domain_spec(input)) {
   if (model_) start_whole();
   if (communicator_.size() == 1) return;
-  decompose_anew(stepper_ ? stepper_->records() : Records{}, Ledger{});
+  const std::vector<double> weight = stepper_ ? balance_.weights(*stepper_) : std::vector<double>{};
+  decompose_anew(stepper_ ? stepper_->records() : Records{}, weight, Ledger{});
 }
 
 void Share::start_whole() {
@@ -30,7 +33,7 @@ void Share::start_whole() {
   ++decompositions_;
 }
 
-void Share::decompose_anew(Records mine, Ledger ledger) {
+void Share::decompose_anew(Records mine, const std::vector<double>& weight, Ledger ledger) {
   std::vector<std::byte> bytes;
   if (decompositions_ <= 1) {
     if (communicator_.is_root()) bytes = pack(model_->whole);
@@ -41,7 +44,6 @@ void Share::decompose_anew(Records mine, Ledger ledger) {
   time_step_.reset();
   model_.reset();
   reach_ = reach_of(input_, longest_edge(communicator_, mine));
-  const std::vector<double> weight(mine.elements.size(), 1.0);
   build(decompose(communicator_, domains_, std::move(mine), weight, reach_), std::move(whole), std::move(ledger));
   decompositions_ = std::max<std::int64_t>(decompositions_, 1);
 }
@@ -69,16 +71,29 @@ void Share::begin_stage(const case_::Stage& stage, double dt) {
   stepper_->begin_stage(stage_loads(stage, *model_), dt);
 }
 
-void Share::keep_reach() {
-  if (communicator_.size() == 1 || !left_reach()) return;
+void Share::keep_up() {
+  if (communicator_.size() == 1) return;
+  const bool due = left_reach(), pays = balancing_pays();
+  if (!due && !pays) return;
   PhaseTimer timer;
   {
     const auto lap = timer.measure(Phase::decomposition);
+    const std::vector<double> weight = balance_.weights(*stepper_);
     Records mine = stepper_->records();
-    decompose_anew(std::move(mine), stepper_->close());
+    decompose_anew(std::move(mine), weight, stepper_->close());
     ++decompositions_;
   }
+  decomposition_s_ = communicator_.max(timer.seconds(Phase::decomposition));
   stepper_->timer().add(timer);
+  balance_.restart(*stepper_);
+}
+
+/// A grid stays where it is, whatever its cuboids hold.
+bool Share::balancing_pays() {
+  if (stepper_->steps() % Balance::kInterval != 0) return false;
+  const double lost = balance_.look(*stepper_);
+  return input_.domains.rebalance && domains_.kind == DomainKind::rcb && balance_.imbalance() > kWorthBalancing &&
+         lost * kHorizon > decomposition_s_;
 }
 
 /// The sum of the largest speeds bounds the largest displacement; they are known a step late, so that the last step and the

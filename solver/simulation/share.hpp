@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "case/case.hpp"
+#include "simulation/balance.hpp"
 #include "simulation/decomposition.hpp"
 #include "simulation/stepper.hpp"
 #include "simulation/time_step.hpp"
@@ -10,7 +11,8 @@
 namespace breccia {
 
 /// A rank's share of the model: its originals and proxies, and everything that is built upon them. When a node has gone so
-/// far that proxies may be missing, elements are given to domains anew and the share is rebuilt from what they remember.
+/// far that proxies may be missing, or when ranks wait for each other for longer than it takes, elements are given to domains
+/// anew and the share is rebuilt from what they remember.
 class Share {
  public:
   /// Collective. @param whole  the model on the root, null elsewhere
@@ -26,16 +28,19 @@ class Share {
 
   /// Breaks the stage's surfaces and lets its loads act, with steps of dt, s. Collective.
   void begin_stage(const case_::Stage& stage, double dt);
+  [[nodiscard]] double imbalance() const { return balance_.imbalance(); }    ///< largest over mean working time of the ranks
+
   /// After every step: a new decomposition if one is due. Collective.
-  void keep_reach();
+  void keep_up();
   /// Stable step of the whole model at present, s. Collective.
   [[nodiscard]] double stable_step() const { return communicator_.min(time_step_->limit(stepper_->state().position)); }
 
  private:
   void start_whole();
-  void decompose_anew(Records mine, Ledger ledger);
+  void decompose_anew(Records mine, const std::vector<double>& weight, Ledger ledger);
   void build(const Piece& piece, WholeModel whole, Ledger ledger);
   [[nodiscard]] bool left_reach();
+  [[nodiscard]] bool balancing_pays();
 
   const case_::Case& input_;
   Communicator communicator_;
@@ -45,6 +50,8 @@ class Share {
   std::unique_ptr<TimeStep> time_step_;
   const case_::Stage* stage_ = nullptr;
   std::int64_t decompositions_ = 0;
+  Balance balance_;
+  double decomposition_s_ = 0;  ///< s, that the last decomposition took on the slowest rank
   Reach reach_;
   double moved_ = 0;      ///< m, bound of the largest displacement since the decomposition
   Field<double> anchor_;  ///< nodal field, positions then

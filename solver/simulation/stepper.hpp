@@ -104,6 +104,7 @@ class Stepper {
   [[nodiscard]] const ContactWork& contact_work() const { return contact_work_; }
   [[nodiscard]] const Constraints& constraints() const { return constraints_; }
   [[nodiscard]] PhaseTimer& timer() { return timer_; }
+  [[nodiscard]] const PhaseTimer& timer() const { return timer_; }
   [[nodiscard]] double max_speed() const { return max_speed_; }     ///< m/s, of the rank's originals after the last step
   [[nodiscard]] bool stop_agreed() const { return stop_agreed_; }   ///< some rank asked for it a step ago
   [[nodiscard]] double max_speed_anywhere() const { return max_speed_anywhere_; }  ///< m/s, of all ranks, a step ago

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "simulation/stepper.hpp"
+
+namespace breccia {
+
+/// Watches how evenly the ranks are loaded, and what elements, joints and couples cost.
+class Balance {
+ public:
+  /// Steps between two looks.
+  static constexpr std::int64_t kInterval = 100;
+
+  /// Seconds that ranks wait for the slowest in a step, on average since the last look. Collective; to be called every
+  /// kInterval steps.
+  [[nodiscard]] double look(const Stepper& stepper);
+  /// Largest over mean of the ranks' working time at the last look; 1: none yet.
+  [[nodiscard]] double imbalance() const { return imbalance_; }
+
+  /// Relative cost of this rank's originals, ascending by id: measured per element, joint and couple over all ranks, or our
+  /// estimate before the first look.
+  [[nodiscard]] std::vector<double> weights(const Stepper& stepper) const;
+
+  /// The stepper has been replaced by one that goes on with its timer.
+  void restart(const Stepper& stepper) { seen_ = work(stepper); }
+
+ private:
+  /// Seconds in the sweep, joints and contact.
+  using Work = std::array<double, 3>;
+  [[nodiscard]] static Work work(const Stepper& stepper);
+
+  Work seen_{};
+  Work unit_{1.0, 2.0, 2.0};  ///< cost of an element that owns its nodes, an active joint, a couple
+  double imbalance_ = 1.0;
+};
+
+}  // namespace breccia
