@@ -73,10 +73,14 @@ Failure unpacked(std::span<const std::byte> bytes) {
 
 [[noreturn]] void raise(Failure failure) {
   switch (failure.kind) {
-    case Kind::input: throw InputError(std::move(failure.problems));
-    case Kind::output: throw OutputError(std::move(failure.problems));
-    case Kind::simulation: throw SimulationError(std::move(failure.text));
-    case Kind::internal: break;
+    case Kind::input:
+      throw InputError(std::move(failure.problems));
+    case Kind::output:
+      throw OutputError(std::move(failure.problems));
+    case Kind::simulation:
+      throw SimulationError(std::move(failure.text));
+    case Kind::internal:
+      break;
   }
   throw InternalError(std::move(failure.text));
 }
@@ -92,6 +96,8 @@ std::optional<Failure> failure_of(const std::function<void()>& work) {
     return Failure{Kind::simulation, {}, error.what()};
   } catch (const std::exception& error) {
     return Failure{Kind::internal, {}, error.what()};
+  } catch (...) {
+    return Failure{Kind::internal, {}, "an exception without a text"};
   }
   return std::nullopt;
 }

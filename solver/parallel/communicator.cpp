@@ -1,10 +1,10 @@
 #include "parallel/communicator.hpp"
 
+#include <sched.h>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <limits>
-#include <sched.h>
 
 #include "base/error.hpp"
 #include "parallel/mpi_handle.hpp"
@@ -12,15 +12,15 @@
 namespace breccia {
 namespace {
 
-constexpr std::size_t kLargestMessage = std::size_t{1} << 30;
-
 /// Sum, smallest or largest over all ranks, in place.
 template <class T>
-void reduce(const std::shared_ptr<Communicator::Handle>& handle, T* values, std::size_t count, MPI_Datatype type, MPI_Op op) {
+void reduce(const std::shared_ptr<Communicator::Handle>& handle, T* values, std::size_t count, MPI_Datatype type,
+            MPI_Op op) {
   if (!handle) return;
   DEMAND(count <= static_cast<std::size_t>(std::numeric_limits<int>::max()), std::to_string(count) + " values");
   MPI_Request request;
-  check_mpi(MPI_Iallreduce(MPI_IN_PLACE, values, static_cast<int>(count), type, op, handle->comm, &request), "MPI_Iallreduce");
+  check_mpi(MPI_Iallreduce(MPI_IN_PLACE, values, static_cast<int>(count), type, op, handle->comm, &request),
+            "MPI_Iallreduce");
   const int everybody = -1;
   wait_for(*handle, std::span(&request, 1), std::span(&everybody, 1));
 }
@@ -31,12 +31,11 @@ T reduced(const std::shared_ptr<Communicator::Handle>& handle, T value, MPI_Data
   return value;
 }
 
-/// The pieces of a message, none longer than MPI can count.
-template <class Byte>
-std::vector<std::span<Byte>> pieces(std::span<Byte> bytes) {
-  std::vector<std::span<Byte>> parts;
-  for (std::size_t at = 0; at < bytes.size(); at += kLargestMessage) {
-    parts.push_back(bytes.subspan(at, std::min(kLargestMessage, bytes.size() - at)));
+/// The pieces of a message.
+std::vector<std::span<std::byte>> pieces(std::span<std::byte> bytes, std::size_t largest) {
+  std::vector<std::span<std::byte>> parts;
+  for (std::size_t at = 0; at < bytes.size(); at += largest) {
+    parts.push_back(bytes.subspan(at, std::min(largest, bytes.size() - at)));
   }
   return parts;
 }
@@ -79,17 +78,20 @@ void wait_for(const Communicator::Handle& handle, std::span<MPI_Request> request
   constexpr int kSpins = 2000;
   int done = 0;
   for (int spin = 0; spin < kSpins && done == 0; ++spin) {
-    check_mpi(MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE), "MPI_Testall");
+    check_mpi(MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE),
+              "MPI_Testall");
   }
   const Clock::time_point start = Clock::now();
   bool told = false;
   while (done == 0) {
     sched_yield();
-    check_mpi(MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE), "MPI_Testall");
+    check_mpi(MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE),
+              "MPI_Testall");
     const double waited = std::chrono::duration<double>(Clock::now() - start).count();
     if (done != 0 || waited < handle.patience) continue;
-    const std::string text = "rank " + std::to_string(handle.rank) + " has waited " + std::to_string(static_cast<long>(waited)) +
-                             " s for " + ranks_text(requests, ranks) + " in phase \"" + handle.phase + "\"";
+    const std::string text = "rank " + std::to_string(handle.rank) + " has waited " +
+                             std::to_string(static_cast<long>(waited)) + " s for " + ranks_text(requests, ranks) +
+                             " in phase \"" + handle.phase + "\"";
     if (!told) std::fprintf(stderr, "breccia: %s\n", text.c_str());
     told = true;
     if (waited > 2 * handle.patience) throw InternalError(text);
@@ -118,13 +120,23 @@ void Communicator::sum(std::span<std::int64_t> values) const {
   reduce(handle_, values.data(), values.size(), MPI_INT64_T, MPI_SUM);
 }
 
-void Communicator::max(std::span<double> values) const { reduce(handle_, values.data(), values.size(), MPI_DOUBLE, MPI_MAX); }
+void Communicator::max(std::span<double> values) const {
+  reduce(handle_, values.data(), values.size(), MPI_DOUBLE, MPI_MAX);
+}
 
 void Communicator::broadcast(std::vector<std::byte>& bytes) const {
   if (!handle_) return;
-  std::vector<Parcel> parcels;
-  for (int r = 0; is_root() && r < size(); ++r) parcels.push_back({r, bytes});
-  bytes = exchange(std::move(parcels)).at(0).bytes;
+  const auto send = [&](std::span<std::byte> piece) {
+    MPI_Request request;
+    check_mpi(MPI_Ibcast(piece.data(), static_cast<int>(piece.size()), MPI_BYTE, 0, handle_->comm, &request),
+              "MPI_Ibcast");
+    const int awaited = is_root() ? -1 : 0;
+    wait_for(*handle_, std::span(&request, 1), std::span(&awaited, 1));
+  };
+  auto length = static_cast<std::int64_t>(bytes.size());
+  send(std::as_writable_bytes(std::span(&length, 1)));
+  bytes.resize(static_cast<std::size_t>(length));
+  for (const std::span<std::byte> piece : pieces(bytes, handle_->largest_message)) send(piece);
 }
 
 std::vector<std::vector<std::byte>> Communicator::all_gather_bytes(std::span<const std::byte> mine) const {
@@ -156,7 +168,8 @@ std::vector<Communicator::Parcel> Communicator::exchange(std::vector<Parcel> par
     length = static_cast<std::int64_t>(parcel.bytes.size());
   }
   MPI_Request counts;
-  check_mpi(MPI_Ialltoall(give.data(), 1, MPI_INT64_T, get.data(), 1, MPI_INT64_T, handle_->comm, &counts), "MPI_Ialltoall");
+  check_mpi(MPI_Ialltoall(give.data(), 1, MPI_INT64_T, get.data(), 1, MPI_INT64_T, handle_->comm, &counts),
+            "MPI_Ialltoall");
   const int everybody = -1;
   wait_for(*handle_, std::span(&counts, 1), std::span(&everybody, 1));
 
@@ -171,20 +184,25 @@ std::vector<Communicator::Parcel> Communicator::exchange(std::vector<Parcel> par
   const auto post = [&](auto&& start, auto&& piece, int partner) {
     requests.emplace_back();
     partners.push_back(partner);
-    check_mpi(start(piece.data(), static_cast<int>(piece.size()), MPI_BYTE, partner, static_cast<int>(Tag::parcel), handle_->comm,
-                    &requests.back()),
+    check_mpi(start(piece.data(), static_cast<int>(piece.size()), MPI_BYTE, partner, static_cast<int>(Tag::parcel),
+                    handle_->comm, &requests.back()),
               "MPI_Isend or MPI_Irecv");
   };
   for (Parcel& parcel : received) {
     if (parcel.rank == rank()) continue;
-    for (const auto& piece : pieces(std::span(parcel.bytes))) post(MPI_Irecv, piece, parcel.rank);
+    for (const auto& piece : pieces(std::span(parcel.bytes), handle_->largest_message)) {
+      post(MPI_Irecv, piece, parcel.rank);
+    }
   }
   for (Parcel& parcel : parcels) {
     if (parcel.rank == rank()) {
-      std::find_if(received.begin(), received.end(), [&](const Parcel& p) { return p.rank == rank(); })->bytes = std::move(parcel.bytes);
+      std::find_if(received.begin(), received.end(), [&](const Parcel& p) { return p.rank == rank(); })->bytes =
+          std::move(parcel.bytes);
       continue;
     }
-    for (const auto& piece : pieces(std::span(parcel.bytes))) post(MPI_Isend, piece, parcel.rank);
+    for (const auto& piece : pieces(std::span(parcel.bytes), handle_->largest_message)) {
+      post(MPI_Isend, piece, parcel.rank);
+    }
   }
   wait_for(*handle_, requests, partners);
   return received;
@@ -194,11 +212,21 @@ std::vector<Communicator::Parcel> Communicator::exchange(std::vector<Parcel> par
 
 class Vote::Request {
  public:
-  Request(std::shared_ptr<Communicator::Handle> handle, std::size_t count) : handle_(std::move(handle)), mine_(count), all_(count) {}
+  Request(std::shared_ptr<Communicator::Handle> handle, std::size_t count)
+      : handle_(std::move(handle)), mine_(count), all_(count) {}
   Request(const Request&) = delete;
   Request& operator=(const Request&) = delete;
-  ~Request() {
-    if (request_ != MPI_REQUEST_NULL) MPI_Wait(&request_, MPI_STATUS_IGNORE);
+  ~Request() = default;
+  /// Whether nothing is on its way any more, soon.
+  [[nodiscard]] bool settled() {
+    constexpr std::chrono::milliseconds kPatience(500);
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    int done = request_ == MPI_REQUEST_NULL ? 1 : 0;
+    while (done == 0 && MPI_Test(&request_, &done, MPI_STATUS_IGNORE) == MPI_SUCCESS &&
+           std::chrono::steady_clock::now() < end) {
+      if (done == 0) sched_yield();
+    }
+    return done != 0;
   }
 
   void post(std::span<const double> values) {
@@ -207,7 +235,8 @@ class Vote::Request {
       all_ = mine_;
       return;
     }
-    check_mpi(MPI_Iallreduce(mine_.data(), all_.data(), static_cast<int>(mine_.size()), MPI_DOUBLE, MPI_MAX, handle_->comm, &request_),
+    check_mpi(MPI_Iallreduce(mine_.data(), all_.data(), static_cast<int>(mine_.size()), MPI_DOUBLE, MPI_MAX,
+                             handle_->comm, &request_),
               "MPI_Iallreduce");
   }
   std::span<const double> take() {
@@ -225,8 +254,15 @@ class Vote::Request {
 Vote::Vote(const Communicator& communicator, std::size_t count)
     : request_(std::make_unique<Request>(communicator.handle(), count)) {}
 Vote::Vote(Vote&&) noexcept = default;
-Vote& Vote::operator=(Vote&&) noexcept = default;
-Vote::~Vote() = default;
+Vote& Vote::operator=(Vote&& other) noexcept {
+  std::swap(request_, other.request_);  // what may be on its way here is settled with the other
+  return *this;
+}
+
+Vote::~Vote() {
+  // An error that others do not know of must not wait for them; MPI may still write into what it has been given.
+  if (request_ && !request_->settled()) (void)request_.release();
+}
 
 void Vote::post(std::span<const double> values) { request_->post(values); }
 std::span<const double> Vote::take() { return request_->take(); }

@@ -55,12 +55,14 @@ class Communicator {
   [[nodiscard]] std::vector<Parcel> exchange(std::vector<Parcel> parcels) const;
 
   /// Runs `work` here and everywhere. If it throws on any rank, all ranks throw what the lowest of these threw: InputError,
-  /// SimulationError, OutputError, or InternalError for everything else. One small reduction when nobody throws.
+  /// SimulationError, OutputError, or InternalError for everything else. One small reduction when nobody throws. A rank that
+  /// is alone throws what `work` threw.
   void agree(const std::function<void()>& work) const;
 
   /// Names what the rank is about to do, for the message of a wait that lasts too long.
   void set_phase(const char* phase) const;
-  /// Waits longer than this are told on stderr, waits twice as long end with InternalError; s. Default 300.
+  /// Waits longer than this are told on stderr, waits twice as long end with InternalError; s. Default 300. After that error
+  /// only a vote and a halo may be waited for again; anything else has left MPI with memory that is gone: end the process.
   void set_patience(double seconds) const;
 
   class Handle;  ///< what MPI needs; parallel/mpi_handle.hpp
@@ -91,7 +93,7 @@ class Vote {
   Vote(const Communicator& communicator, std::size_t count);
   Vote(Vote&&) noexcept;
   Vote& operator=(Vote&&) noexcept;
-  ~Vote();  ///< waits for what is on its way
+  ~Vote();  ///< waits half a second for what is on its way, then leaves it behind
 
   /// @param values  (count)
   void post(std::span<const double> values);

@@ -85,7 +85,8 @@ class EdgeColours {
   /// Each edge of the fan gets the colour of the next, the last one d.
   void rotate(int u, const std::vector<Spoke>& fan, std::size_t d) {
     for (std::size_t i = 1; i < fan.size(); ++i) {
-      DEMAND(partner(u, fan[i].colour) == fan[i].vertex && is_free(fan[i - 1].vertex, fan[i].colour), "a fan that is none");
+      DEMAND(partner(u, fan[i].colour) == fan[i].vertex && is_free(fan[i - 1].vertex, fan[i].colour),
+             "a fan that is none");
       unset(u, fan[i].vertex, fan[i].colour);
     }
     for (std::size_t i = 1; i < fan.size(); ++i) set(u, fan[i - 1].vertex, fan[i].colour);

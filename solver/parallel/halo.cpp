@@ -1,68 +1,125 @@
 #include "parallel/halo.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 #include <string>
 #include <utility>
 
 #include "base/error.hpp"
+#include "parallel/exchange_schedule.hpp"
 #include "parallel/mpi_handle.hpp"
 
 namespace breccia {
 
-class Halo::Requests {
+class Halo::Messages {
  public:
-  std::vector<MPI_Request> list;  ///< receives, then sends, by neighbour
-  std::vector<int> ranks;         ///< of the list's entries
+  std::vector<std::vector<double>> outgoing, incoming;  ///< values by neighbour
+  std::vector<MPI_Request> list;                        ///< receive and send by neighbour
+  std::vector<int> ranks;                               ///< of the list's entries
 };
 
-Halo::Halo(const Communicator& communicator, std::vector<HaloNeighbour> neighbours, std::size_t fields)
-    : communicator_(communicator), neighbours_(std::move(neighbours)), fields_(fields), requests_(std::make_unique<Requests>()) {
+Halo::Halo(const Communicator& communicator, std::vector<HaloNeighbour> neighbours, std::size_t fields,
+           ExchangeKind kind)
+    : communicator_(communicator),
+      kind_(kind),
+      neighbours_(std::move(neighbours)),
+      fields_(fields),
+      messages_(std::make_unique<Messages>()) {
+  DEMAND(neighbours_.empty() || communicator_.handle(), "a rank that is alone has no neighbours");
+  if (kind_ == ExchangeKind::pairwise) order_by_couples();
   for (const HaloNeighbour& n : neighbours_) {
     const std::size_t most = std::max(n.send.size(), n.receive.size()) * 3 * fields;
-    DEMAND(most <= static_cast<std::size_t>(std::numeric_limits<int>::max()), std::to_string(most) + " values in a message");
-    outgoing_.emplace_back(n.send.size() * 3 * fields);
-    incoming_.emplace_back(n.receive.size() * 3 * fields);
+    DEMAND(most <= static_cast<std::size_t>(std::numeric_limits<int>::max()),
+           std::to_string(most) + " values in a message");
+    messages_->outgoing.emplace_back(n.send.size() * 3 * fields);
+    messages_->incoming.emplace_back(n.receive.size() * 3 * fields);
+    messages_->ranks.insert(messages_->ranks.end(), 2, n.rank);
   }
-  DEMAND(neighbours_.empty() || communicator_.handle(), "a rank that is alone has no neighbours");
-  requests_->list.assign(2 * neighbours_.size(), MPI_REQUEST_NULL);
-  for (int side = 0; side < 2; ++side) {
-    for (const HaloNeighbour& n : neighbours_) requests_->ranks.push_back(n.rank);
+  messages_->list.assign(2 * neighbours_.size(), MPI_REQUEST_NULL);
+}
+
+Halo::~Halo() {
+  // After an error in a gather MPI may still write into what it has been given.
+  const auto is_done = [](MPI_Request request) { return request == MPI_REQUEST_NULL; };
+  if (!std::all_of(messages_->list.begin(), messages_->list.end(), is_done)) (void)messages_.release();
+}
+
+void Halo::order_by_couples() {
+  std::vector<int> mine;
+  for (const HaloNeighbour& n : neighbours_) mine.push_back(n.rank);
+  const std::vector<std::vector<int>> all = communicator_.all_gather(std::span<const int>(mine));
+  std::vector<RankPair> pairs;
+  for (int rank = 0; rank < communicator_.size(); ++rank) {
+    for (const int other : all[static_cast<std::size_t>(rank)]) {
+      pairs.push_back({std::min(rank, other), std::max(rank, other)});
+    }
+  }
+  std::vector<HaloNeighbour> ordered;
+  for (const std::vector<RankPair>& step : exchange_schedule(std::move(pairs))) {
+    for (const RankPair& pair : step) {
+      if (pair.a != communicator_.rank() && pair.b != communicator_.rank()) continue;
+      const int other = pair.a == communicator_.rank() ? pair.b : pair.a;
+      const auto is_other = [&](const HaloNeighbour& n) { return n.rank == other; };
+      const auto found = std::find_if(neighbours_.begin(), neighbours_.end(), is_other);
+      if (found != neighbours_.end()) ordered.push_back(std::move(*found));
+    }
+  }
+  neighbours_ = std::move(ordered);
+}
+
+void Halo::pack(std::size_t neighbour) {
+  double* out = messages_->outgoing[neighbour].data();
+  for (const std::size_t place : neighbours_[neighbour].send) {
+    for (const double* field : fields_) {
+      for (std::size_t i = 0; i < 3; ++i) *out++ = field[place + i * kHaloStride];
+    }
   }
 }
 
-Halo::~Halo() = default;
+void Halo::receive(std::size_t neighbour) {
+  std::vector<double>& values = messages_->incoming[neighbour];
+  if (values.empty()) return;
+  check_mpi(MPI_Irecv(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, neighbours_[neighbour].rank,
+                      static_cast<int>(Tag::halo), communicator_.handle()->comm, &messages_->list[2 * neighbour]),
+            "MPI_Irecv");
+}
+
+void Halo::send(std::size_t neighbour) {
+  const std::vector<double>& values = messages_->outgoing[neighbour];
+  if (values.empty()) return;
+  check_mpi(MPI_Isend(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, neighbours_[neighbour].rank,
+                      static_cast<int>(Tag::halo), communicator_.handle()->comm, &messages_->list[2 * neighbour + 1]),
+            "MPI_Isend");
+  ++sent_;
+  bytes_ += static_cast<std::int64_t>(values.size() * sizeof(double));
+}
 
 void Halo::gather_begin(std::span<double* const> fields) {
   DEMAND(fields.size() == fields_.size(), std::to_string(fields.size()) + " fields");
   std::copy(fields.begin(), fields.end(), fields_.begin());
+  underway_ = kind_ == ExchangeKind::pairwise ? std::min<std::size_t>(neighbours_.size(), 1) : neighbours_.size();
+  for (std::size_t n = 0; n < underway_; ++n) receive(n);
   for (std::size_t n = 0; n < neighbours_.size(); ++n) {
-    if (incoming_[n].empty()) continue;
-    check_mpi(MPI_Irecv(incoming_[n].data(), static_cast<int>(incoming_[n].size()), MPI_DOUBLE, neighbours_[n].rank,
-                        static_cast<int>(Tag::halo), communicator_.handle()->comm, &requests_->list[n]),
-              "MPI_Irecv");
-  }
-  for (std::size_t n = 0; n < neighbours_.size(); ++n) {
-    if (outgoing_[n].empty()) continue;
-    double* out = outgoing_[n].data();
-    for (const std::size_t place : neighbours_[n].send) {
-      for (const double* field : fields_) {
-        for (std::size_t i = 0; i < 3; ++i) *out++ = field[place + i * kHaloStride];
-      }
-    }
-    check_mpi(MPI_Isend(outgoing_[n].data(), static_cast<int>(outgoing_[n].size()), MPI_DOUBLE, neighbours_[n].rank,
-                        static_cast<int>(Tag::halo), communicator_.handle()->comm, &requests_->list[neighbours_.size() + n]),
-              "MPI_Isend");
-    ++messages_;
-    bytes_ += static_cast<std::int64_t>(outgoing_[n].size() * sizeof(double));
+    pack(n);
+    if (n < underway_) send(n);
   }
 }
 
 void Halo::gather_end() {
   if (neighbours_.empty()) return;
-  wait_for(*communicator_.handle(), requests_->list, requests_->ranks);
+  const auto start = std::chrono::steady_clock::now();
+  const auto requests = std::span(messages_->list);
+  wait_for(*communicator_.handle(), requests, messages_->ranks);
+  while (underway_ < neighbours_.size()) {
+    const std::size_t next = underway_++;  // counted before the wait, which may throw
+    receive(next);
+    send(next);
+    wait_for(*communicator_.handle(), requests.subspan(2 * next, 2), std::span(messages_->ranks).subspan(2 * next, 2));
+  }
+  waiting_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (std::size_t n = 0; n < neighbours_.size(); ++n) {
-    const double* in = incoming_[n].data();
+    const double* in = messages_->incoming[n].data();
     for (const std::size_t place : neighbours_[n].receive) {
       for (double* field : fields_) {
         for (std::size_t i = 0; i < 3; ++i) field[place + i * kHaloStride] = *in++;

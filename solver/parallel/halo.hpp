@@ -19,33 +19,49 @@ struct HaloNeighbour {
 
 inline constexpr std::size_t kHaloStride = 8;
 
+/// How the messages of a gather go; the values are the same.
+enum class ExchangeKind {
+  non_blocking,  ///< all at once, underway between begin and end
+  pairwise,  ///< couple after couple (parallel/exchange_schedule.hpp): the first between begin and end, the rest in end
+};
+
 /// Brings the proxies of a rank up to date: gathers nodal values from their originals on other ranks, one message a neighbour
 /// for all fields together. Plan and buffers are made once; a gather allocates nothing.
 class Halo {
  public:
   /// Collective. @param neighbours  in any order, each rank at most once
   /// @param fields  number of nodal fields that one gather takes
-  Halo(const Communicator& communicator, std::vector<HaloNeighbour> neighbours, std::size_t fields);
+  Halo(const Communicator& communicator, std::vector<HaloNeighbour> neighbours, std::size_t fields,
+       ExchangeKind kind = ExchangeKind::non_blocking);
   Halo(const Halo&) = delete;
   Halo& operator=(const Halo&) = delete;
   ~Halo();
 
-  /// Posts the receives, then packs and sends. @param fields  the same number as ever
+  /// Packs; posts receives before sends. @param fields  (fields of the constructor); a node's values as they are now are sent
   void gather_begin(std::span<double* const> fields);
-  /// Waits for the values and puts them into the fields of gather_begin.
+  /// Waits for the values and puts them into the fields of gather_begin. Throws InternalError past the communicator's patience;
+  /// may be called again then.
   void gather_end();
 
-  [[nodiscard]] std::int64_t messages() const { return messages_; }   ///< sent so far
-  [[nodiscard]] std::int64_t bytes() const { return bytes_; }         ///< sent so far
+  [[nodiscard]] std::int64_t messages() const { return sent_; }      ///< sent so far
+  [[nodiscard]] std::int64_t bytes() const { return bytes_; }        ///< sent so far
+  [[nodiscard]] double seconds_waiting() const { return waiting_; }  ///< in gather_end so far
 
  private:
-  class Requests;
+  class Messages;
+  void order_by_couples();
+  void pack(std::size_t neighbour);
+  void receive(std::size_t neighbour);
+  void send(std::size_t neighbour);
+
   Communicator communicator_;
-  std::vector<HaloNeighbour> neighbours_;
-  std::vector<std::vector<double>> outgoing_, incoming_;  ///< by neighbour
+  ExchangeKind kind_;
+  std::vector<HaloNeighbour> neighbours_;  ///< if pairwise, in the order of the couples
   std::vector<double*> fields_;
-  std::unique_ptr<Requests> requests_;
-  std::int64_t messages_ = 0, bytes_ = 0;
+  std::unique_ptr<Messages> messages_;
+  std::size_t underway_ = 0;  ///< the first of the neighbours, whose messages are on their way or here
+  std::int64_t sent_ = 0, bytes_ = 0;
+  double waiting_ = 0;  ///< s
 };
 
 }  // namespace breccia

@@ -19,16 +19,19 @@ class Communicator::Handle {
   MPI_Comm comm = MPI_COMM_NULL;
   int rank = 0, size = 1;
   const char* phase = "";
-  double patience = 300;
+  double patience = 300;                               ///< s
+  std::size_t largest_message = std::size_t{1} << 30;  ///< bytes; longer ones go in pieces. MPI counts by int
 };
 
 /// All messages between ranks, so that no two kinds are mistaken for each other.
-enum class Tag : int { parcel = 1, part = 2, halo = 3 };
+enum class Tag : int { parcel = 1, halo = 2 };
 
 /// Throws InternalError with MPI's own text unless the call succeeded.
 void check_mpi(int result, const char* call);
 
-/// Waits for all requests by polling, so that more ranks than cores share them; with an eye on the patience.
+/// Waits for all requests by polling, so that more ranks than cores share them; past the patience tells on stderr whom it
+/// waits for and in which phase, past twice the patience throws InternalError. Requests stay as they are then: their buffers
+/// must outlive them or the process must end.
 /// @param ranks  whom each request waits for, -1: everybody
 void wait_for(const Communicator::Handle& handle, std::span<MPI_Request> requests, std::span<const int> ranks);
 

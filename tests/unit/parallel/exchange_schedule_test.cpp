@@ -71,7 +71,9 @@ TEST(ExchangeSchedule, LetsTheDomainsOfAGridMeetOnceInAtMostOneStepMoreThanTheyH
 }
 
 TEST(ExchangeSchedule, DoesSoOnCompleteAndOnRandomGraphs) {
-  for (int ranks = 2; ranks <= 17; ++ranks) expect_every_pair_once(complete(ranks), "complete, " + std::to_string(ranks));
+  for (int ranks = 2; ranks <= 17; ++ranks) {
+    expect_every_pair_once(complete(ranks), "complete, " + std::to_string(ranks));
+  }
   std::mt19937 random(7);
   for (int trial = 0; trial < 300; ++trial) {
     const int ranks = 3 + static_cast<int>(random() % 30);
