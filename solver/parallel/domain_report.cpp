@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "base/types.hpp"
+#include "parallel/exchange_schedule.hpp"
 
 namespace breccia {
 namespace {
@@ -172,14 +174,17 @@ class Counter {
   void predict() {
     const double parts = static_cast<double>(report_.domains.size()), mean = static_cast<double>(owner_.size()) / parts;
     double most = 0, slowest = 0;
+    std::vector<RankPair> pairs;
     for (std::size_t d = 0; d < report_.domains.size(); ++d) {
       DomainLoad& load = report_.domains[d];
       load.neighbours = static_cast<int>(from_[d].size());
+      for (const int other : from_[d]) pairs.push_back({std::min(other, static_cast<int>(d)), std::max(other, static_cast<int>(d))});
       load.step = kSecondsAnElement * static_cast<double>(load.elements) + kSecondsAMessage * load.neighbours +
                   static_cast<double>(load.bytes()) / kBytesASecond;
       most = std::max(most, static_cast<double>(load.elements));
       slowest = std::max(slowest, load.step);
     }
+    report_.exchange_steps = static_cast<int>(exchange_schedule(std::move(pairs)).size());
     report_.imbalance = most / mean;
     report_.efficiency = kSecondsAnElement * mean / slowest;
   }

@@ -34,6 +34,7 @@ struct DomainLoad {
 struct DomainReport {
   std::vector<DomainLoad> domains;
   double imbalance = 1;   ///< most elements of a domain / mean
+  int exchange_steps = 0;  ///< of the schedule of pairwise exchanges (exchange_schedule.hpp)
   double efficiency = 1;  ///< predicted time of one rank / (ranks x time of the slowest)
 };
 

@@ -109,7 +109,9 @@ Division divide(const case_::Case& input, const Model& model, int parts) {
   std::vector<Vec3> centroids;
   centroids.reserve(mesh.elements.size());
   for (const auto& c : mesh.elements) {
-    centroids.push_back(0.25 * (mesh.nodes[index(c[0])] + mesh.nodes[index(c[1])] + mesh.nodes[index(c[2])] + mesh.nodes[index(c[3])]));
+    Vec3 sum = Vec3::Zero();
+    for (const Index node : c) sum += mesh.nodes[index(node)];
+    centroids.emplace_back(0.25 * sum);
   }
   const Communicator alone;
   const double edge = model.whole.longest_edge;
@@ -127,7 +129,8 @@ constexpr std::size_t kMostLines = 16;
 constexpr std::size_t kSlowest = 3;
 
 /// Columns of the table of domains.
-constexpr std::array<const char*, 8> kColumns{"elements", "joints", "shared", "cut faces", "proxies", "gathered", "messages", "kB a step"};
+constexpr std::array<const char*, 8> kColumns{"elements", "joints",   "shared",   "cut faces",
+                                                "proxies",  "gathered", "messages", "kB a step"};
 
 std::array<double, 8> columns(const DomainLoad& load) {
   const auto number = [](auto n) { return static_cast<double>(n); };
@@ -156,8 +159,9 @@ std::string extremes(const std::vector<DomainLoad>& domains) {
 }
 
 std::string verdict(const Division& division) {
-  return fmt::format("{} domains, {}: imbalance {:.3f}, predicted efficiency {:.1f} %", division.report.domains.size(), division.how,
-                     division.report.imbalance, 100 * division.report.efficiency);
+  const DomainReport& report = division.report;
+  return fmt::format("{} domains, {}: imbalance {:.3f}, pairwise exchanges in {} steps, predicted efficiency {:.1f} %",
+                     report.domains.size(), division.how, report.imbalance, report.exchange_steps, 100 * report.efficiency);
 }
 
 }  // namespace
@@ -169,7 +173,8 @@ std::string domain_line(const case_::Case& input, const Model& model, int parts)
 std::string domain_table(const case_::Case& input, const Model& model, int parts) {
   const Division division = divide(input, model, parts);
   const std::vector<DomainLoad>& domains = division.report.domains;
-  std::string text = fmt::format("{}\n{} elements, {}\n  {:<10}", input.title, model.mesh.num_elements(), verdict(division), "domain");
+  std::string text = fmt::format("{}\n{} elements, {}\n  {:<10}", input.title, model.mesh.num_elements(), verdict(division),
+                                 "domain");
   for (const char* column : kColumns) text += fmt::format(" {:>11}", column);
   text += "\n";
   std::vector<std::size_t> shown(domains.size());

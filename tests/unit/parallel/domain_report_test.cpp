@@ -119,6 +119,7 @@ TEST(DomainReport, OfTwoCubesIsThatOfAHandCalculation) {
     EXPECT_EQ(load.bytes(), 4 * 192);
     EXPECT_EQ(load.neighbours, 1);
   }
+  EXPECT_EQ(report.exchange_steps, 1);
   EXPECT_EQ(report.imbalance, 1.0);
   const double step = 24 * kSecondsAnElement + kSecondsAMessage + 4 * 192 / kBytesASecond;
   EXPECT_DOUBLE_EQ(report.efficiency, 24 * kSecondsAnElement / step);
