@@ -64,12 +64,37 @@ std::string Scratch::write(const std::string& name, const std::string& text) con
   return "'" + path(name).string() + "'";
 }
 
-Outcome call(const std::string& arguments, const std::string& environment) {
+namespace {
+
+/// As root, too, as in a container.
+std::string launch(int ranks, const std::string& arguments) {
+  return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 exec '" BRECCIA_MPIEXEC "' --oversubscribe -n " + std::to_string(ranks) +
+         " '" BRECCIA_PROGRAM "' " + arguments;
+}
+
+Outcome outcome_of(const std::string& command) {
   const Scratch scratch;
   const std::string out = scratch.path("out").string(), err = scratch.path("err").string();
-  const std::string command = environment + " '" BRECCIA_PROGRAM "' " + arguments + " > '" + out + "' 2> '" + err + "' < /dev/null";
-  const int status = std::system(command.c_str());
+  const int status = std::system((command + " > '" + out + "' 2> '" + err + "' < /dev/null").c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out), read_text(err)};
+}
+
+}  // namespace
+
+Outcome call(const std::string& arguments, const std::string& environment) {
+  return outcome_of(environment + " '" BRECCIA_PROGRAM "' " + arguments);
+}
+
+Outcome call_ranks(int ranks, const std::string& arguments) { return outcome_of(launch(ranks, arguments)); }
+
+pid_t start_ranks(int ranks, const std::string& arguments) {
+  const std::string command = launch(ranks, arguments) + " > /dev/null 2>&1 < /dev/null";
+  const pid_t process = fork();
+  if (process == 0) {
+    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    _exit(127);
+  }
+  return process;
 }
 
 std::string changed(const std::string& from, const std::string& to) {

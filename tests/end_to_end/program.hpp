@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <sys/types.h>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,11 @@ struct Outcome {
 
 /// Runs the built program. @param environment  "NAME=value ..." put before the command
 Outcome call(const std::string& arguments, const std::string& environment = "");
+
+/// Likewise on several ranks, which may be more than there are cores. @pre compiled with BRECCIA_MPIEXEC
+Outcome call_ranks(int ranks, const std::string& arguments);
+/// Starts the program on several ranks and does not wait for it. Returns the launcher, whose children the ranks are.
+pid_t start_ranks(int ranks, const std::string& arguments);
 
 /// A folder of its own for one test, removed with the object.
 class Scratch {

@@ -1,0 +1,215 @@
+#include <gtest/gtest.h>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "end_to_end/program.hpp"
+
+/// The shipped program on several ranks against the same program on one.
+namespace breccia {
+namespace {
+
+using test::Outcome;
+using test::Scratch;
+
+/// History without the number of couples: a new division of the model also searches anew, with other buffers.
+std::string history_without_couples(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::string text, line;
+  std::size_t left_out = std::string::npos;
+  while (std::getline(stream, line)) {
+    std::istringstream cells(line);
+    std::string cell;
+    for (std::size_t column = 0; std::getline(cells, cell, ','); ++column) {
+      if (cell == "couples") left_out = column;
+      if (column != left_out) text += cell + ",";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+/// What must not depend on the ranks.
+struct Result {
+  std::string hash, history;
+  nlohmann::json summary;
+};
+
+Result result_of(const std::filesystem::path& folder) {
+  const auto summary = nlohmann::json::parse(test::read_text(folder / "summary.json"));
+  return {summary.at("state_hash"), history_without_couples(folder / "history.csv"), summary};
+}
+
+/// Runs a case on 1 rank and in other ways, and compares.
+class SameBits {
+ public:
+  explicit SameBits(std::string case_file) : case_file_(std::move(case_file)) {
+    const Outcome one = test::call("run --progress none -o " + folder("one") + " " + case_file_);
+    EXPECT_EQ(one.exit_code, 0) << one.err;
+    one_ = result_of(scratch_.path("one"));
+  }
+
+  /// Returns the summary. @param settings  of the case
+  nlohmann::json on(int ranks, const std::string& settings = "") {
+    const std::string name = "run" + std::to_string(++number_);
+    const Outcome outcome = test::call_ranks(ranks, "run --progress none -o " + folder(name) + " " + case_file_ + " " + settings);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    if (outcome.exit_code != 0) return {};
+    const Result result = result_of(scratch_.path(name));
+    EXPECT_EQ(result.hash, one_.hash) << ranks << " ranks " << settings;
+    EXPECT_EQ(result.history, one_.history) << ranks << " ranks " << settings;
+    EXPECT_EQ(result.summary.at("ranks"), ranks);
+    return result.summary;
+  }
+  [[nodiscard]] const nlohmann::json& alone() const { return one_.summary; }
+  Scratch& scratch() { return scratch_; }
+
+ private:
+  [[nodiscard]] std::string folder(const std::string& name) const { return "'" + scratch_.path(name).string() + "'"; }
+
+  Scratch scratch_;
+  std::string case_file_;
+  Result one_;
+  int number_ = 0;
+};
+
+std::string mesh_case(const std::string& name) { return "'" BRECCIA_MESHES "/" + name + "'"; }
+
+TEST(Ranks, GiveTheSameBitsWhileBoxesBreakRubAndAreHeld) {
+  const Scratch scratch;
+  SameBits boxes(scratch.write("case.toml", test::kSmallCase));
+  EXPECT_GT(boxes.alone().at("broken_joints"), 0);
+  for (const int ranks : {2, 3, 8}) boxes.on(ranks);
+  boxes.on(4, "--set domains.kind=grid");
+  boxes.on(2, "--set domains.kind=grid --set domains.n=[1,2,1] --set domains.rebalance=false");
+}
+
+TEST(Ranks, GiveTheSameBitsWhenTheModelIsDividedAgainAndAgain) {
+  const Scratch scratch;
+  SameBits boxes(scratch.write("case.toml", test::kSmallCase));
+  EXPECT_GT(boxes.on(2, "--set domains.margin=0.1").at("decompositions"), 5);
+  EXPECT_GT(boxes.on(4, "--set domains.margin=0.1 --set detection.algorithm=ms").at("decompositions"), 5);
+}
+
+TEST(Ranks, GiveTheSameBitsWhile64BoxesShatterInASphere) {
+  SameBits boxes(mesh_case("bouncing_cubes/case_breaking.toml"));
+  EXPECT_GT(boxes.alone().at("broken_joints"), 100);
+  EXPECT_GT(boxes.alone().at("steps"), 2000);
+  boxes.on(2);
+  boxes.on(3, "--set domains.kind=grid --set domains.rebalance=false");
+}
+
+TEST(Ranks, GiveTheSameBitsWhileGlassShatters) {
+  SameBits glass(mesh_case("glass_impact/case_smoke.toml"));
+  EXPECT_GT(glass.alone().at("broken_joints"), 0);
+  glass.on(2);
+  glass.on(4, "--set domains.kind=grid");
+}
+
+TEST(Ranks, GiveTheSameBitsWhileASlitOpensAndABlockFalls) {
+  SameBits plate(mesh_case("slit_plate/case_smoke.toml"));
+  plate.on(2);
+  plate.on(3);
+  SameBits block(mesh_case("block_drop/case_smoke.toml"));
+  block.on(2);
+  block.on(4, "--set domains.kind=grid");
+}
+
+TEST(Ranks, GiveTheSameBitsForElementsThatShareNodesUnderGravityAndDamping) {
+  SameBits bar(mesh_case("cantilever/case_smoke.toml"));
+  bar.on(2);
+  bar.on(3);
+}
+
+TEST(Ranks, TellAWrongCaseOnce) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", test::changed("2340 kg/m3", "-1 kg/m3"));
+  const Outcome outcome = test::call_ranks(3, "run -o '" + scratch.path("out").string() + "' " + file);
+  EXPECT_EQ(outcome.exit_code, 2);
+  const std::size_t first = outcome.err.find("material[0].density");
+  ASSERT_NE(first, std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("material[0].density", first + 1), std::string::npos) << outcome.err;
+}
+
+TEST(Ranks, RefuseADivisionThatCannotBe) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", test::kSmallCase);
+  const std::string run = "run -o '" + scratch.path("out").string() + "' " + file + " --set domains.kind=grid --set domains.n=";
+  const Outcome product = test::call_ranks(4, run + "[3,1,1]");
+  EXPECT_EQ(product.exit_code, 2);
+  EXPECT_NE(product.err.find("[2, 2, 1]"), std::string::npos) << product.err;
+  const Outcome thin = test::call_ranks(8, run + "[1,1,8]");
+  EXPECT_EQ(thin.exit_code, 2);
+  EXPECT_NE(thin.err.find("smaller than the largest element"), std::string::npos) << thin.err;
+}
+
+TEST(Ranks, EndTogetherWhenTheNumbersGoWrongOnOne) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", test::kSmallCase);
+  const Outcome outcome =
+      test::call_ranks(2, "run --progress none -o '" + scratch.path("out").string() + "' " + file + " --set time.step=1e-4");
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  const std::size_t first = outcome.err.find("breccia: error: step ");
+  ASSERT_NE(first, std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("breccia: error:", first + 1), std::string::npos) << outcome.err;
+}
+
+/// Processes whose parent is this one.
+std::vector<pid_t> children_of(pid_t parent) {
+  std::vector<pid_t> children;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    const std::string stat = test::read_text(entry.path() / "stat");
+    const std::size_t after_name = stat.rfind(')');
+    if (after_name == std::string::npos) continue;
+    std::istringstream fields(stat.substr(after_name + 1));
+    std::string state;
+    pid_t of = 0;
+    fields >> state >> of;
+    if (of == parent) children.push_back(std::stoi(name));
+  }
+  return children;
+}
+
+/// Waits at most so long for something to become true.
+template <class Condition>
+bool within(std::chrono::seconds limit, Condition&& condition) {
+  const auto end = std::chrono::steady_clock::now() + limit;
+  while (std::chrono::steady_clock::now() < end) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return false;
+}
+
+TEST(Ranks, DieTogetherWhenOneIsKilledAndLeaveCompleteFrames) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", test::changed("end = \"4 ms\"", "end = \"4 s\""));
+  const pid_t launcher = test::start_ranks(2, "run --progress none -o '" + scratch.path("out").string() + "' " + file);
+  const auto series = scratch.path("out") / "frames" / "elements.hdf.series";
+  ASSERT_TRUE(within(std::chrono::seconds(60), [&] { return std::filesystem::exists(series) && children_of(launcher).size() >= 2; }));
+  ASSERT_EQ(kill(children_of(launcher).back(), SIGKILL), 0);
+  int status = 0;
+  const bool ended = within(std::chrono::seconds(20), [&] { return waitpid(launcher, &status, WNOHANG) == launcher; });
+  if (!ended) kill(launcher, SIGKILL);
+  ASSERT_TRUE(ended);
+  EXPECT_FALSE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  const auto index = nlohmann::json::parse(test::read_text(series));
+  ASSERT_FALSE(index.at("files").empty());
+  for (const auto& frame : index.at("files")) {
+    EXPECT_TRUE(std::filesystem::exists(series.parent_path() / frame.at("name").get<std::string>()));
+  }
+}
+
+}  // namespace
+}  // namespace breccia
