@@ -12,7 +12,7 @@ namespace breccia {
 ///
 /// A fixed-point number wide enough for every double: limb k holds multiples of 2^(32 k - 1088). A term's 53 bits go to three
 /// limbs; each addition changes a limb by less than 2^32, so carries have to be passed on once in 2^30 additions only. Source
-/// of the idea: [Kulisch 2011]. `add` takes some 3 ns, `value` 40.
+/// of the idea: [Kulisch 2011]. `add` takes 2 to 4 ns, `value` 50.
 class ExactSum {
  public:
   static constexpr std::size_t kLimbs = 68;
@@ -28,17 +28,18 @@ class ExactSum {
       finite_ = false;
       return;
     }
-    const std::uint64_t fraction = bits & 0xFFFFFFFFFFFFFULL;
-    const std::uint64_t mantissa = exponent == 0 ? fraction : fraction | 1ULL << 52;
+    const std::uint64_t normal = exponent != 0 ? 1 : 0;
+    const std::uint64_t mantissa = (bits & 0xFFFFFFFFFFFFFULL) | normal << 52;
     // term = mantissa 2^(e - 1075) with e = max(exponent, 1), and the lowest limb counts 2^-1088.
-    const int shift = (exponent == 0 ? 1 : exponent) + 13;
-    const auto limb = static_cast<std::size_t>(shift / 32);
-    const int rest = shift % 32;
-    const std::uint64_t low = mantissa << rest, high = rest == 0 ? 0 : mantissa >> (64 - rest);
-    const std::int64_t sign = static_cast<std::int64_t>(bits) < 0 ? -1 : 1;
-    limbs_[limb] += sign * static_cast<std::int64_t>(low & 0xFFFFFFFFULL);
-    limbs_[limb + 1] += sign * static_cast<std::int64_t>(low >> 32);
-    limbs_[limb + 2] += sign * static_cast<std::int64_t>(high);
+    const auto shift = static_cast<unsigned>(exponent) + 14 - static_cast<unsigned>(normal);
+    const std::size_t limb = shift / 32;
+    const unsigned rest = shift % 32;
+    const std::uint64_t low = mantissa << rest, high = mantissa >> 1 >> (63 - rest);
+    const std::int64_t sign = static_cast<std::int64_t>(bits) >> 63;  // 0 or -1: (x ^ sign) - sign is x or -x
+    const auto with_sign = [sign](std::uint64_t x) { return (static_cast<std::int64_t>(x) ^ sign) - sign; };
+    limbs_[limb] += with_sign(low & 0xFFFFFFFFULL);
+    limbs_[limb + 1] += with_sign(low >> 32);
+    limbs_[limb + 2] += with_sign(high);
     first_ = std::min(first_, limb);
     last_ = std::max(last_, limb + 2);
     if (++pending_ == kMostPending) carry();

@@ -1,6 +1,11 @@
 #include "physics/energy.hpp"
 
+#include <array>
+#include <span>
+#include <utility>
+
 #include <Eigen/Geometry>
+
 namespace breccia {
 namespace {
 
@@ -13,17 +18,34 @@ elasticity::Corners<double> corners_of(const LocalMesh& mesh, const double* fiel
   return x;
 }
 
+/// Calls book(nodes) for all that this rank counts: an element with its own four nodes, whose terms may be added up as they are
+/// on whatever rank it is, or a shared node.
+template <class Book>
+void for_each_carrier(const LocalMesh& mesh, Book&& book) {
+  for (Index s = 0; s < mesh.num_own_originals; ++s) {
+    if (!mesh.is_original(s)) continue;
+    const std::array nodes{own_corner_node(s, 0), own_corner_node(s, 1), own_corner_node(s, 2), own_corner_node(s, 3)};
+    book(std::span<const Index>(nodes));
+  }
+  for (Index n = mesh.num_own_nodes(); n < mesh.num_nodes; ++n) {
+    if (mesh.counted[static_cast<std::size_t>(n)] != 0) book(std::span(&std::as_const(n), 1));
+  }
+}
+
 }  // namespace
 
 ExactSum kinetic_energy(const LocalMesh& mesh, const double* velocity_before, const double* velocity_after) {
   ExactSum sum;
-  for (Index n = 0; n < mesh.num_nodes; ++n) {
-    if (mesh.counted[static_cast<std::size_t>(n)] == 0) continue;
-    const std::size_t at = nodal(n, 0);
-    const double product = velocity_before[at] * velocity_after[at] + velocity_before[at + 8] * velocity_after[at + 8] +
-                           velocity_before[at + 16] * velocity_after[at + 16];
-    sum.add(0.5 * mesh.node_mass[static_cast<std::size_t>(n)] * product);
-  }
+  for_each_carrier(mesh, [&](std::span<const Index> nodes) {
+    double energy = 0;
+    for (const Index n : nodes) {
+      const std::size_t at = nodal(n, 0);
+      const double product = velocity_before[at] * velocity_after[at] + velocity_before[at + 8] * velocity_after[at + 8] +
+                             velocity_before[at + 16] * velocity_after[at + 16];
+      energy += 0.5 * mesh.node_mass[static_cast<std::size_t>(n)] * product;
+    }
+    sum.add(energy);
+  });
   return sum;
 }
 
@@ -67,15 +89,18 @@ ExactSum intact_joint_energy(const LocalMesh& mesh, const JointLinks& links, con
 
 Momentum momentum(const LocalMesh& mesh, const double* position, const double* velocity) {
   Momentum sums;
-  for (Index n = 0; n < mesh.num_nodes; ++n) {
-    if (mesh.counted[static_cast<std::size_t>(n)] == 0) continue;
-    const Vec3 p = mesh.node_mass[static_cast<std::size_t>(n)] * load_node(velocity, n);
-    const Vec3 l = load_node(position, n).cross(p);
-    for (std::size_t i = 0; i < 3; ++i) {
-      sums.linear[i].add(p[static_cast<Eigen::Index>(i)]);
-      sums.angular[i].add(l[static_cast<Eigen::Index>(i)]);
+  for_each_carrier(mesh, [&](std::span<const Index> nodes) {
+    Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+    for (const Index n : nodes) {
+      const Vec3 p = mesh.node_mass[static_cast<std::size_t>(n)] * load_node(velocity, n);
+      linear += p;
+      angular += load_node(position, n).cross(p);
     }
-  }
+    for (std::size_t i = 0; i < 3; ++i) {
+      sums.linear[i].add(linear[static_cast<Eigen::Index>(i)]);
+      sums.angular[i].add(angular[static_cast<Eigen::Index>(i)]);
+    }
+  });
   return sums;
 }
 
