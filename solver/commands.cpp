@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <fmt/core.h>
 #include <iostream>
+#include <thread>
+#include <unistd.h>
 
 #include "case/explain.hpp"
 #include "case/reader.hpp"
@@ -11,6 +13,7 @@
 #include "output/run_folder.hpp"
 #include "output/summary.hpp"
 #include "output/vtkhdf_sink.hpp"
+#include "simulation/balance.hpp"
 #include "simulation/check.hpp"
 #include "simulation/convert.hpp"
 #include "simulation/model.hpp"
@@ -18,6 +21,22 @@
 #include "simulation/run.hpp"
 
 namespace breccia {
+
+namespace {
+
+/// Ranks that share a core wait for each other: it works, slowly.
+void warn_of_crowding(const Communicator& world) {
+  char name[256] = "";
+  gethostname(name, sizeof name - 1);
+  const std::string host = name;
+  std::int64_t here = 0;
+  for (const std::vector<char>& other : world.all_gather(std::span<const char>(host))) here += std::string(other.begin(), other.end()) == host;
+  const auto cores = static_cast<std::int64_t>(std::thread::hardware_concurrency());
+  if (!world.is_root() || world.size() == 1 || here <= cores) return;
+  fmt::print(stderr, "breccia: warning: {} ranks share the {} cores of {}; more ranks than cores make a run slower\n", here, cores, host);
+}
+
+}  // namespace
 
 int run_command(const RunCommand& asked, const Communicator& world) {
   case_::Case input;
@@ -32,6 +51,7 @@ int run_command(const RunCommand& asked, const Communicator& world) {
     (void)prepare_run_folder(root, input.resolved, collect_provenance(BRECCIA_VERSION, asked.command_line),
                              asked.overwrite ? OldResults::overwrite : OldResults::refuse);
   });
+  warn_of_crowding(world);
   const RunFolder folder{root};
   world.agree([&] {
     // Frames are written by all ranks together, everything else by the root.
@@ -74,7 +94,7 @@ int mesh_command(const MeshCommand& asked) {
   fmt::print("{}", mesh_report({model.mesh, model.mesh_report}));
   std::filesystem::create_directories(asked.folder);
   const Stepper rest(model, search_params(input, model));
-  VtkhdfSink(asked.folder, {true, false, false}).frame(make_frame(rest, 0, {true, false, false}));
+  VtkhdfSink(asked.folder, {true, false, false}).frame(make_frame(rest, 0, {true, false, false}, Balance().weights(rest)));
   fmt::print("elements for ParaView in {}\n", asked.folder.string());
   return 0;
 }

@@ -220,6 +220,7 @@ void bind(A& a, Domains& domains) {
   a.origin(domains.origin);
   a.choice("kind", domains.kind);
   a.value("n", domains.n);
+  a.choice("exchange", domains.exchange);
   a.value("rebalance", domains.rebalance);
   a.value("margin", domains.margin);
 }

@@ -203,11 +203,13 @@ struct Detection {
 };
 
 enum class DomainKind { rcb, grid };
+enum class Exchange { non_blocking, pairwise };
 
 /// [domains]: how a run on several ranks divides the model.
 struct Domains {
   DomainKind kind = DomainKind::rcb;
   std::array<int, 3> n{0, 0, 0};  ///< grid: domains along x, y, z; 0: automatic
+  Exchange exchange = Exchange::non_blocking;
   bool rebalance = true;          ///< divide anew when ranks wait for each other
   double margin = 1;              ///< of the proxies, in longest edges
   Origin origin;

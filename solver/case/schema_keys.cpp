@@ -274,6 +274,9 @@ constexpr auto table = std::to_array<Key>({
     {.path = "domains.n", .type = integers_or_one, .fallback = "[0, 0, 0]", .range = at_most_100000,
      .help = "Cuboids of the grid along x, y and z, as many as ranks; 0: chosen so that the least area is cut.",
      .example = "[2, 2, 1]"},
+    {.path = "domains.exchange", .type = choice, .fallback = "non_blocking", .choices = "non_blocking|pairwise",
+     .help = "non_blocking: a rank sends to all its neighbours at once; pairwise: couple by couple, by a schedule in which "
+             "nobody waits for a third.", .example = "\"pairwise\""},
     {.path = "domains.rebalance", .type = boolean, .fallback = "true",
      .help = "Divide anew when that pays: when ranks wait for each other for longer than it takes.", .example = "false"},
     {.path = "domains.margin", .type = number, .fallback = "1", .range = {.lower = 0.1, .upper = 100},

@@ -26,6 +26,7 @@ struct Frame {
     std::vector<double> principal;        ///< (num_elements, 3) descending, Pa
     std::vector<double> velocity;         ///< (num_elements, 3) of the centroid, m/s
     std::vector<double> displacement;     ///< (num_elements, 3) of the centroid, m
+    std::vector<double> cost;             ///< relative to an element that has its own nodes and neither active joint nor couple
   } elements;
 
   /// Triangles on the mid-surface of the joints that carry damage or have failed.

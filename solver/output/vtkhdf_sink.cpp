@@ -22,6 +22,7 @@ GridView view_of(const Frame::Elements& elements) {
                      {"stress", elements.stress, 6},
                      {"von_mises", elements.von_mises},
                      {"principal", elements.principal, 3},
+                     {"cost", elements.cost},
                      {"velocity", elements.velocity, 3},
                      {"displacement", elements.displacement, 3}}};
 }

@@ -51,7 +51,7 @@ double Balance::look(const Stepper& stepper) {
     sum += busy;
   }
   for (std::size_t k = 0; k < 3; ++k) {
-    if (all.amount[k] > 0) unit_[k] = all.seconds[k] / all.amount[k];
+    if (all.amount[k] > 0 && all.seconds[0] > 0) unit_[k] = all.seconds[k] / all.amount[k] * all.amount[0] / all.seconds[0];
   }
   const double mean = sum / static_cast<double>(shares.size());
   imbalance_ = mean > 0 ? slowest / mean : 1.0;

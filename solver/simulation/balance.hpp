@@ -20,8 +20,8 @@ class Balance {
   /// Largest over mean of the ranks' working time at the last look; 1: none yet.
   [[nodiscard]] double imbalance() const { return imbalance_; }
 
-  /// Relative cost of this rank's originals, ascending by id: measured per element, joint and couple over all ranks, or our
-  /// estimate before the first look.
+  /// Cost of this rank's originals, ascending by id, in that of an element that has its own nodes and nothing else: measured
+  /// per element, joint and couple over all ranks, or our estimate before the first look.
   [[nodiscard]] std::vector<double> weights(const Stepper& stepper) const;
 
   /// The stepper has been replaced by one that goes on with its timer.

@@ -218,7 +218,7 @@ void count_joints(const Stepper& stepper, HistoryRow& row) {
 
 }  // namespace
 
-Frame make_frame(const Stepper& stepper, std::int64_t number, const FrameParts& parts) {
+Frame make_frame(const Stepper& stepper, std::int64_t number, const FrameParts& parts, std::vector<double> cost) {
   Frame frame;
   frame.step = stepper.steps();
   frame.time = stepper.time();
@@ -229,6 +229,7 @@ Frame make_frame(const Stepper& stepper, std::int64_t number, const FrameParts& 
     for (const Index slot : local.slot_of_element) {
       if (local.is_original(slot)) add_element(stepper, fragments, slot, frame.elements);
     }
+    frame.elements.cost = std::move(cost);
   }
   if (parts.joints) add_joints(stepper, frame.joints);
   if (parts.contacts) add_contacts(stepper, frame.contacts);

@@ -14,8 +14,8 @@ namespace breccia {
 /// What is told of a running model; looks, changes nothing.
 
 /// A complete picture of this rank's originals at the stepper's time. Collective.
-/// @param parts  the others stay empty
-[[nodiscard]] Frame make_frame(const Stepper& stepper, std::int64_t number, const FrameParts& parts);
+/// @param parts  the others stay empty;  @param cost  (originals) relative, ascending by id
+[[nodiscard]] Frame make_frame(const Stepper& stepper, std::int64_t number, const FrameParts& parts, std::vector<double> cost);
 
 /// A group whose forces and motion are recorded.
 struct Gauge {

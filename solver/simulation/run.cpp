@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "base/error.hpp"
 #include "output/run_folder.hpp"
@@ -71,9 +72,22 @@ class Runner {
   /// What concerns sinks concerns all ranks: an error on one is an error on all.
   template <class Tell>
   void tell(Tell&& tell_one) {
+    communicator_.set_phase("output");
     communicator_.agree([&] {
+      if (status_error_) throw OutputError(*status_error_);
       for (const auto& sink : sinks_) tell_one(*sink);
     });
+  }
+
+  /// Only the clock of the rank with such a sink knows when: what goes wrong waits until all ranks speak next.
+  void tell_status() {
+    try {
+      for (const auto& sink : sinks_) {
+        if (sink->status_due()) sink->status(status_line());
+      }
+    } catch (const OutputError& error) {
+      if (!status_error_) status_error_ = error;
+    }
   }
 
   void tell_start() {
@@ -138,9 +152,7 @@ class Runner {
       tell([&](Sink& sink) { sink.history(row); });
       check_residual(time);
     }
-    for (const auto& sink : sinks_) {
-      if (sink->status_due()) sink->status(status_line());
-    }
+    tell_status();
     share_.keep_up();
   }
 
@@ -156,7 +168,7 @@ class Runner {
   void write_frame() {
     const auto lap = stepper().timer().measure(Phase::output);
     const FrameParts parts{input_.output.elements, input_.output.joints, input_.output.contacts};
-    const Frame frame = make_frame(stepper(), frame_number_++, parts);
+    const Frame frame = make_frame(stepper(), frame_number_++, parts, share_.costs());
     tell([&](Sink& sink) { sink.frame(frame); });
   }
 
@@ -233,6 +245,7 @@ class Runner {
   std::vector<Gauge> gauges_;
   std::string stage_name_, status_ = "complete";
   std::int64_t frame_number_ = 0, last_fragments_ = 0, last_broken_ = 0;
+  std::optional<OutputError> status_error_;
   std::int64_t gauged_ = 0;  ///< decomposition for which the gauges were made
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };

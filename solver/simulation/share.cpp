@@ -55,7 +55,8 @@ void Share::build(const Piece& piece, WholeModel whole, Ledger ledger) {
   model_ = std::make_unique<Model>(
       build_piece(input_, std::move(whole), std::move(mesh), std::move(topology), piece.original, piece.records.corners));
   stepper_ = std::make_unique<Stepper>(*model_, search_params(input_, *model_), piece.records, std::move(ledger));
-  stepper_->connect(communicator_, piece.neighbours);
+  const bool pairwise = input_.domains.exchange == case_::Exchange::pairwise;
+  stepper_->connect(communicator_, piece.neighbours, pairwise ? ExchangeKind::pairwise : ExchangeKind::non_blocking);
   time_step_ = std::make_unique<TimeStep>(*model_);
   if (stage_ != nullptr) {
     stepper_->begin_stage(stage_loads(*stage_, *model_), dt);
@@ -78,6 +79,7 @@ void Share::keep_up() {
   PhaseTimer timer;
   {
     const auto lap = timer.measure(Phase::decomposition);
+    communicator_.set_phase("division of the model");
     const std::vector<double> weight = balance_.weights(*stepper_);
     Records mine = stepper_->records();
     decompose_anew(std::move(mine), weight, stepper_->close());

@@ -28,6 +28,7 @@ class Share {
 
   /// Breaks the stage's surfaces and lets its loads act, with steps of dt, s. Collective.
   void begin_stage(const case_::Stage& stage, double dt);
+  [[nodiscard]] std::vector<double> costs() const { return balance_.weights(*stepper_); }  ///< of the originals, ascending by id
   [[nodiscard]] double imbalance() const { return balance_.imbalance(); }    ///< largest over mean working time of the ranks
 
   /// After every step: a new decomposition if one is due. Collective.

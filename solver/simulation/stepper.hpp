@@ -83,7 +83,7 @@ class Stepper {
   void restore_holds(const Records& records);
 
   /// From now on this rank is one of several. @pre before the first step of this object. Collective.
-  void connect(const Communicator& communicator, std::vector<SharedElements> shared);
+  void connect(const Communicator& communicator, std::vector<SharedElements> shared, ExchangeKind kind);
 
   /// Hears what was said at the end of the last step; after this no more steps. Collective.
   void conclude();
@@ -198,6 +198,7 @@ class Stepper {
   Communicator communicator_;               ///< alone unless connected
   std::vector<SharedElements> shared_elements_;
   std::unique_ptr<Halo> all_, near_;        ///< proxies; none when alone
+  ExchangeKind exchange_ = ExchangeKind::non_blocking;
   bool news_ = false;                       ///< some rank's joints came apart
   std::int64_t messages_ = 0, bytes_ = 0;   ///< of halos that are gone
   std::optional<Vote> vote_;

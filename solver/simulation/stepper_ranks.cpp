@@ -27,10 +27,11 @@ std::vector<T> list_of(const std::vector<std::byte>& bytes) {
 
 }  // namespace
 
-void Stepper::connect(const Communicator& communicator, std::vector<SharedElements> shared) {
+void Stepper::connect(const Communicator& communicator, std::vector<SharedElements> shared, ExchangeKind kind) {
   communicator_ = communicator;
+  exchange_ = kind;
   shared_elements_ = std::move(shared);
-  all_ = std::make_unique<Halo>(communicator_, halo_plan(shared_elements_), 2);
+  all_ = std::make_unique<Halo>(communicator_, halo_plan(shared_elements_), 2, exchange_);
   if (contact_) contact_->restrict_to(relevant_);
   plan_near();
   vote_.emplace(communicator, 4);
@@ -102,7 +103,7 @@ void Stepper::plan_near() {
     messages_ += near_->messages();
     bytes_ += near_->bytes();
   }
-  near_ = std::make_unique<Halo>(communicator_, halo_plan(wanted), 2);
+  near_ = std::make_unique<Halo>(communicator_, halo_plan(wanted), 2, exchange_);
 }
 
 std::int64_t Stepper::messages() const { return messages_ + (all_ ? all_->messages() + near_->messages() : 0); }
@@ -114,6 +115,7 @@ void Stepper::hear_votes() {
   news_ = !releasing_.empty();
   if (!vote_) return;
   const auto lap = timer_.measure(Phase::communication);
+  communicator_.set_phase("votes at the end of a step");
   const std::span<const double> largest = vote_->take();
   max_speed_anywhere_ = largest[0];
   stop_agreed_ = largest[2] > 0;
@@ -142,6 +144,7 @@ void Stepper::hear_releases() {
   freed_.clear();
   if (!news_) return;
   const auto lap = timer_.measure(Phase::communication);
+  communicator_.set_phase("news of joints that came apart");
   for (const std::vector<GlobalId>& of_rank : communicator_.all_gather(std::span<const GlobalId>(releasing_))) {
     for (const GlobalId id : of_rank) {
       const Index a = element_with(id / 4);
@@ -155,6 +158,7 @@ void Stepper::hear_releases() {
 
 void Stepper::update_contact() {
   bool due = false;
+  communicator_.set_phase("contact search");
   {
     const auto lap = timer_.measure(Phase::search);
     due = contact_->due(state_, max_speed_anywhere_, dt_before_, communicator_);
@@ -198,6 +202,7 @@ void Stepper::exchange_touching() {
 void Stepper::gather_proxies() {
   if (!near_) return;
   const auto lap = timer_.measure(Phase::communication);
+  communicator_.set_phase("gather of proxies");
   near_->gather_begin(std::array{state_.next_position.data(), state_.velocity.data()});
   near_->gather_end();
 }

@@ -242,8 +242,8 @@ void cut(std::vector<T>& values, std::size_t rows, int number, int count) {
 Frame piece_of(const Frame& whole, int number, int count) {
   Frame piece = whole;
   const auto cut_all = [&](std::size_t rows, auto&... arrays) { (cut(arrays, rows, number, count), ...); };
-  auto& [points, id, body, material, rank, fragment, stress, von_mises, principal, velocity, displacement] = piece.elements;
-  cut_all(id.size(), points, body, material, rank, fragment, stress, von_mises, principal, velocity, displacement, id);
+  auto& [points, id, body, material, rank, fragment, stress, von_mises, principal, velocity, displacement, cost] = piece.elements;
+  cut_all(id.size(), points, body, material, rank, fragment, stress, von_mises, principal, velocity, displacement, cost, id);
   auto& j = piece.joints;
   cut_all(j.id.size(), j.points, j.damage, j.mode, j.opening, j.slip, j.broken, j.id);
   auto& c = piece.contacts;
