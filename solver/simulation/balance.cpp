@@ -54,8 +54,9 @@ double Balance::look(const Stepper& stepper) {
     if (all.amount[k] > 0 && all.seconds[0] > 0) unit_[k] = all.seconds[k] / all.amount[k] * all.amount[0] / all.seconds[0];
   }
   const double mean = sum / static_cast<double>(shares.size());
-  imbalance_ = mean > 0 ? slowest / mean : 1.0;
-  return (slowest - mean) / static_cast<double>(kInterval);
+  before_ = now_;
+  now_ = {(slowest - mean) / static_cast<double>(kInterval), mean > 0 ? slowest / mean : 1.0};
+  return std::min(now_.lost, before_.lost);
 }
 
 std::vector<double> Balance::weights(const Stepper& stepper) const {

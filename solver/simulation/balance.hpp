@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -14,18 +15,21 @@ class Balance {
   /// Steps between two looks.
   static constexpr std::int64_t kInterval = 100;
 
-  /// Seconds that ranks wait for the slowest in a step, on average since the last look. Collective; to be called every
-  /// kInterval steps.
+  /// Seconds that ranks wait for the slowest in a step, on average over two looks: the shorter of the two, since others on the
+  /// machine come and go. Collective; to be called every kInterval steps.
   [[nodiscard]] double look(const Stepper& stepper);
-  /// Largest over mean of the ranks' working time at the last look; 1: none yet.
-  [[nodiscard]] double imbalance() const { return imbalance_; }
+  /// Largest over mean of the ranks' working time, the smaller of the last two looks; 1: none yet.
+  [[nodiscard]] double imbalance() const { return std::min(now_.imbalance, before_.imbalance); }
 
   /// Cost of this rank's originals, ascending by id, in that of an element that has its own nodes and nothing else: measured
   /// per element, joint and couple over all ranks, or our estimate before the first look.
   [[nodiscard]] std::vector<double> weights(const Stepper& stepper) const;
 
-  /// The stepper has been replaced by one that goes on with its timer.
-  void restart(const Stepper& stepper) { seen_ = work(stepper); }
+  /// The model has been divided anew, and the stepper replaced by one that goes on with its timer.
+  void restart(const Stepper& stepper) {
+    seen_ = work(stepper);
+    now_ = before_ = {};
+  }
 
  private:
   /// Seconds in the sweep, joints and contact.
@@ -34,7 +38,11 @@ class Balance {
 
   Work seen_{};
   Work unit_{1.0, 2.0, 2.0};  ///< cost of an element that owns its nodes, an active joint, a couple
-  double imbalance_ = 1.0;
+  struct Look {
+    double lost = 0;       ///< s a step
+    double imbalance = 1;
+  };
+  Look now_, before_;
 };
 
 }  // namespace breccia

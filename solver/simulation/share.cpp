@@ -11,8 +11,8 @@ namespace {
 
 /// A decomposition is done when nodes have really used up this share of their allowance; else the bound is brought down.
 constexpr double kUsedUp = 0.75;
-/// Steps for which a new division is expected to serve, and the imbalance below which measurement is mostly noise.
-constexpr double kHorizon = 1000, kWorthBalancing = 1.05;
+/// A new division must have paid for itself after so many steps; an imbalance below this is mostly noise.
+constexpr double kHorizon = 500, kWorthBalancing = 1.05;
 
 }  // namespace
 
@@ -34,6 +34,19 @@ void Share::start_whole() {
 }
 
 void Share::decompose_anew(Records mine, const std::vector<double>& weight, Ledger ledger) {
+  communicator_.set_phase("division of the model");
+  const Phase phase = stage_ != nullptr ? Phase::decomposition : Phase::setup;  // the first one is before all stages
+  PhaseTimer timer;
+  {
+    const auto lap = timer.measure(phase);
+    rebuild(std::move(mine), weight, std::move(ledger));
+  }
+  decomposition_s_ = communicator_.max(timer.seconds(phase));
+  stepper_->timer().add(timer);
+  balance_.restart(*stepper_);
+}
+
+void Share::rebuild(Records mine, const std::vector<double>& weight, Ledger ledger) {
   std::vector<std::byte> bytes;
   if (decompositions_ <= 1) {
     if (communicator_.is_root()) bytes = pack(model_->whole);
@@ -76,18 +89,10 @@ void Share::keep_up() {
   if (communicator_.size() == 1) return;
   const bool due = left_reach(), pays = balancing_pays();
   if (!due && !pays) return;
-  PhaseTimer timer;
-  {
-    const auto lap = timer.measure(Phase::decomposition);
-    communicator_.set_phase("division of the model");
-    const std::vector<double> weight = balance_.weights(*stepper_);
-    Records mine = stepper_->records();
-    decompose_anew(std::move(mine), weight, stepper_->close());
-    ++decompositions_;
-  }
-  decomposition_s_ = communicator_.max(timer.seconds(Phase::decomposition));
-  stepper_->timer().add(timer);
-  balance_.restart(*stepper_);
+  const std::vector<double> weight = balance_.weights(*stepper_);
+  Records mine = stepper_->records();
+  decompose_anew(std::move(mine), weight, stepper_->close());
+  ++decompositions_;
 }
 
 /// A grid stays where it is, whatever its cuboids hold.

@@ -39,6 +39,7 @@ class Share {
  private:
   void start_whole();
   void decompose_anew(Records mine, const std::vector<double>& weight, Ledger ledger);
+  void rebuild(Records mine, const std::vector<double>& weight, Ledger ledger);
   void build(const Piece& piece, WholeModel whole, Ledger ledger);
   [[nodiscard]] bool left_reach();
   [[nodiscard]] bool balancing_pays();
