@@ -1,0 +1,150 @@
+"""Speed-up on several ranks, beside the reference's (experiments E5 A, E5 B and E6 of A. Schiava's thesis, chapter 9).
+
+usage: scaling.py PROGRAM MESHES FOLDER [--ranks 1,2] [--cases e5a,e5b,e6] [--largest ELEMENTS] [--steps N] [--repeat N] [--set KEY=VALUE]...
+
+Every case runs on each number of ranks in turn, --repeat times; the shortest wall time counts. Writes FOLDER/scaling.csv and, where
+gnuplot is there, FOLDER/scaling.svg. Ends with 1 if two runs of a case differ in a single bit of their state or kinetic energy.
+"""
+
+import argparse
+import csv
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+SILENT = ["--set", "output.elements=false", "--set", "output.joints=false", "--set", "output.contacts=false",
+          "--set", "output.frame_interval=0"]
+
+
+def boxes(case, edge):
+    radius = 0.5 * 3**0.5 * edge * 15e-3 + 0.1e-3
+    centre = 0.5 * (edge * 15e-3 - 5e-3)
+    return [f"bouncing_cubes/{case}", f"mesh.raster.boxes={edge}", f"sphere.radius={radius}", f"sphere.centre=[{centre},{centre},{centre}]"]
+
+
+def plate(cells, size):
+    return ["slit_plate/case_a.toml", f"mesh.raster.cells=[{6 * cells},{6 * cells},{cells}]", f'mesh.raster.cell_size="{size} mm"']
+
+
+# Elements -> case with its settings, the reference's speed-ups on 2 and 4 ranks: of the whole, of contact detection.
+CASES = {
+    "e5a": {24 * n**3: (boxes("case.toml", n), whole, search) for n, whole, search in (
+        (4, {2: 1.87, 4: 2.92}, {2: 2.01, 4: 4.12}), (8, {2: 1.93, 4: 3.67}, {2: 2.03, 4: 4.12}),
+        (16, {2: 1.98, 4: 3.87}, {2: 2.05, 4: 4.18}), (28, {2: 1.99, 4: 3.93}, {2: 2.05, 4: 4.19}))},
+    "e5b": {24 * n**3: (boxes("case_breaking.toml", n), whole, search) for n, whole, search in (
+        (4, {2: 1.85, 4: 2.92}, {2: 2.11, 4: 4.27}), (8, {2: 1.98, 4: 3.80}, {2: 2.03, 4: 4.07}),
+        (16, {2: 2.01, 4: 3.94}, {2: 2.04, 4: 4.08}), (28, {2: 2.02, 4: 4.03}, {2: 2.04, 4: 4.13}))},
+    "e6": {864 * 8**k: (plate(2**k, 10 / 2**k), whole, {}) for k, whole in (
+        (0, {2: 1.85, 4: 3.29}), (1, {2: 1.94, 4: 3.65}), (2, {2: 1.94, 4: 3.67}), (3, {2: 1.97, 4: 3.76}))},
+}
+
+PLOT = """set terminal svg size 900,600 background "white"
+set output "scaling.svg"
+set datafile separator ","
+set logscale x
+set xlabel "elements"
+set ylabel "speed-up"
+set key outside
+set grid
+plot {curves}
+"""
+
+
+def run(arguments, elements, case, ranks):
+    """One run; returns its summary and its kinetic energies."""
+    folder = arguments.folder / f"{case}_{elements}_{ranks}"
+    (file, *settings), _, _ = CASES[case][elements]
+    command = [arguments.program, "run", "-f", "--progress", "none", "-o", folder, arguments.meshes / file, *SILENT]
+    for setting in settings + [f"time.max_steps={arguments.steps}"] + arguments.set:
+        command += ["--set", setting]
+    if ranks > 1:
+        command = ["mpiexec", "--oversubscribe", "-n", str(ranks)] + command
+    environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    subprocess.run(command, check=True, env=environment)
+    with open(folder / "history.csv", newline="") as stream:
+        kinetic = [row["kinetic [J]"] for row in csv.DictReader(stream)]
+    return json.loads((folder / "summary.json").read_text()), kinetic
+
+
+def measure(arguments, case, elements):
+    """Rows of the table for one size; stops the program when ranks disagree."""
+    best, first = {}, None
+    for _ in range(arguments.repeat):
+        for ranks in arguments.ranks:
+            summary, kinetic = run(arguments, elements, case, ranks)
+            bits = (summary["state_hash"], kinetic)
+            first = first or bits
+            if bits != first:
+                sys.exit(f"{case}, {elements} elements: {ranks} ranks give other bits")
+            if ranks not in best or summary["wall_s"] < best[ranks]["wall_s"]:
+                best[ranks] = summary
+    _, whole, search = CASES[case][elements]
+    for ranks, s in best.items():
+        one = best.get(1, s)
+        phases, steps = s["phases"], max(s["steps"], 1)
+        yield {
+            "case": case, "elements": elements, "ranks": ranks, "steps": s["steps"], "wall_s": round(s["wall_s"], 3),
+            "speedup": round(one["wall_s"] / s["wall_s"], 3) if 1 in best else "", "reference_speedup": whole.get(ranks, ""),
+            "search_s": round(phases["search"], 4),
+            "search_speedup": round(one["phases"]["search"] / phases["search"], 3) if 1 in best and phases["search"] > 0 else "",
+            "reference_search_speedup": search.get(ranks, ""),
+            "search_percent_of_one_rank": round(100 * phases["search"] / one["wall_s"], 2),
+            "communication_percent": round(100 * phases["communication"] / s["wall_s"], 2),
+            "decomposition_percent": round(100 * phases["decomposition"] / s["wall_s"], 2),
+            "decompositions": s["decompositions"], "searches": s["searches"], "broken_joints": s["broken_joints"],
+            "messages_a_step": round(s["messages"] / steps, 2), "kB_a_step": round(s["message_bytes"] / steps / 1000, 2),
+            "element_steps_per_s": round(s["element_steps_per_s"]), "state_hash": s["state_hash"]}
+
+
+def plot(arguments, rows):
+    curves = []
+    for case in arguments.cases:
+        for ranks in arguments.ranks:
+            mine = [r for r in rows if r["case"] == case and r["ranks"] == ranks and ranks > 1]
+            if not mine:
+                continue
+            for column, name in (("speedup", "Breccia"), ("reference_speedup", "reference")):
+                points = [(r["elements"], r[column]) for r in mine if r[column] != ""]
+                if not points:
+                    continue
+                data = f"{case}_{ranks}_{name}.dat"
+                (arguments.folder / data).write_text("".join(f"{x},{y}\n" for x, y in points))
+                curves.append(f'"{data}" with linespoints title "{case}, {ranks} ranks, {name}"')
+    if curves and shutil.which("gnuplot"):
+        (arguments.folder / "scaling.gp").write_text(PLOT.format(curves=", \\\n  ".join(curves)))
+        subprocess.run(["gnuplot", "scaling.gp"], cwd=arguments.folder, check=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("program", type=Path)
+    parser.add_argument("meshes", type=Path)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--ranks", type=lambda text: [int(n) for n in text.split(",")], default=[1, 2])
+    parser.add_argument("--cases", type=lambda text: text.split(","), default=list(CASES))
+    parser.add_argument("--largest", type=int, default=10**9)
+    parser.add_argument("--steps", type=int, default=2000)
+    parser.add_argument("--repeat", type=int, default=1)
+    parser.add_argument("--set", action="append", default=[])
+    arguments = parser.parse_args()
+    arguments.folder.mkdir(parents=True, exist_ok=True)
+    rows = []
+    for case in arguments.cases:
+        for elements in CASES[case]:
+            if elements > arguments.largest:
+                continue
+            for row in measure(arguments, case, elements):
+                print(" ".join(f"{k}={v}" for k, v in row.items() if v != ""), flush=True)
+                rows.append(row)
+            with open(arguments.folder / "scaling.csv", "w", newline="") as stream:
+                table = csv.DictWriter(stream, fieldnames=list(rows[0]))
+                table.writeheader()
+                table.writerows(rows)
+    plot(arguments, rows)
+
+
+if __name__ == "__main__":
+    main()
