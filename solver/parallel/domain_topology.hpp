@@ -41,7 +41,7 @@ struct DomainSpec {
 
 /// Domain of each element handed in. Collective: elements may lie on the ranks in any way, the answer does not depend on it.
 ///
-/// grid: equal cuboids of the box around all centroids, or of the one settled. Domains may be empty. Source: [Schiava 2009, 9.2.1]
+/// grid: equal cuboids of the box around all centroids, or of the one settled. Domains may be empty. Source: [Schiava, 9.2.1]
 /// rcb: recursive bisection of weight; each cut is normal to the longest side of the part's box (but for a slope of 1e-4 that
 /// parts elements in one plane), and lies where the weights of both sides are as the numbers of domains they get.
 /// Our own: a library's cuts depend on how elements are spread, and it needs MPI in a process that is alone. A little more

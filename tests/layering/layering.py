@@ -34,7 +34,6 @@ THIRD_PARTY = [
     (r"(toml\.hpp|toml\+\+/.*|toml\+\+\.h|tomlplusplus/.*)", ["case/*reader*.cpp"]),
     (r"gmsh(c|\.h_cwrap)?\.h", ["mesh/gmsh_reader.cpp"]),
     (r"mpi\.h", ["parallel/*"]),
-    (r"zoltan.*\.h", ["parallel/domain_topology.cpp"]),
     (r"(hdf5(_hl)?|H5\w*)\.h", ["output/vtkhdf_sink.cpp", "output/vtkhdf_image.cpp", "output/*hdf5*.cpp"]),
     (r"nlohmann/.*", ["output/*.cpp"]),
     (r"CLI/.*", ["main.cpp", "commands*.cpp"]),
