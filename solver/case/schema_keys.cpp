@@ -280,8 +280,9 @@ constexpr auto table = std::to_array<Key>({
     {.path = "domains.rebalance", .type = boolean, .fallback = "true",
      .help = "Divide anew when that pays: when ranks wait for each other for longer than it takes.", .example = "false"},
     {.path = "domains.margin", .type = number, .fallback = "1", .range = {.lower = 0.1, .upper = 100},
-     .help = "How far beyond a domain a rank knows its neighbours' elements, in longest edges of an element. Larger: fewer new "
-             "divisions while bodies move, but more to exchange.", .example = "2"},
+     .help = "How far beyond a domain a rank knows its neighbours' elements at least, in longest edges of an element. Larger: "
+             "fewer new divisions while bodies move, but more to search. Where they follow each other soon it grows by itself.",
+     .example = "2"},
 
     {.path = "output", .type = section, .help = "What a run writes, and how often."},
     {.path = "output.frame_interval", .type = number, .unit = "s", .fallback = "0", .range = not_negative,

@@ -29,7 +29,8 @@ struct SweepArgs {
   Index first_own_block = 0;                ///< own-node blocks to sweep: from this one
   Index end_own_block = 0;                  ///< to before this one
   Index num_own_blocks = 0;                 ///< of the model: where shared-node blocks begin
-  Index num_blocks = 0;                     ///< end of the shared-node blocks to sweep
+  const Index* shared_blocks = nullptr;     ///< shared-node blocks to sweep, ascending
+  Index num_shared_blocks = 0;
   Index num_moved_nodes = 0;                ///< end of the shared nodes to move
 
   const double* position = nullptr;         ///< nodal field, x_n

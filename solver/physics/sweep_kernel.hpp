@@ -323,16 +323,18 @@ inline void book_after(const SweepArgs& args, std::size_t block, std::size_t lan
 }
 
 inline void book_rate_work(const SweepArgs& args) {
-  for (std::size_t block = 0; block < static_cast<std::size_t>(args.num_blocks); ++block) {
-    for (std::size_t lane = 0; lane < kLanes; lane += kWidth) book_after(args, block, lane);
-  }
+  const auto book = [&](Index block) {
+    for (std::size_t lane = 0; lane < kLanes; lane += kWidth) book_after(args, static_cast<std::size_t>(block), lane);
+  };
+  for (Index block = args.first_own_block; block < args.end_own_block; ++block) book(block);
+  for (Index b = 0; b < args.num_shared_blocks; ++b) book(args.shared_blocks[b]);
 }
 
 inline SweepStatus sweep(const SweepArgs& args) {
   const Mover mover(args);
   Totals totals;
   double checked_sum = 0;
-  const auto own = static_cast<std::size_t>(args.num_own_blocks), all = static_cast<std::size_t>(args.num_blocks);
+  const auto own = static_cast<std::size_t>(args.num_own_blocks);
   const auto end = static_cast<std::size_t>(args.end_own_block);
   for (auto block = static_cast<std::size_t>(args.first_own_block); block < end; ++block) {
     for (std::size_t lane = 0; lane < kLanes; lane += kWidth) sweep_own(args, mover, block, lane, totals);
@@ -343,7 +345,8 @@ inline SweepStatus sweep(const SweepArgs& args) {
       }
     }
   }
-  for (std::size_t block = own; block < all; ++block) {
+  for (Index b = 0; b < args.num_shared_blocks; ++b) {
+    const auto block = static_cast<std::size_t>(args.shared_blocks[b]);
     for (std::size_t lane = 0; lane < kLanes; lane += kWidth) scatter_shared(args, block, lane, totals);
   }
   for (auto node = own * 4 * kLanes; node < static_cast<std::size_t>(args.num_moved_nodes); node += kWidth) {

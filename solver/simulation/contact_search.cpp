@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 
 #include "base/error.hpp"
@@ -146,17 +147,18 @@ void ContactSearch::search(const State& state, double step_length) {
                 ? search_.buffer
                 : std::clamp(2 * kBufferSteps * step_length, kSmallestBuffer * size_, kLargestBuffer * size_);
   reference_ = state.position;
-  positions_.clear();
-  const FaceRule& rule = face_rule(params_->points_per_face);
-  for (const Index p : contact_.order) positions_.push_back(at_point(rule, contact_.points[at(p)], reference_.data()));
   corners_.clear();
   for (const Index slot : contact_.contactors) corners_.push_back(load_corners(*local_, reference_.data(), slot));
+  choose_searched();
+  positions_.clear();
+  const FaceRule& rule = face_rule(params_->points_per_face);
+  for (const Index p : searched_points_) positions_.push_back(at_point(rule, contact_.points[at(p)], reference_.data()));
 
-  detection_->search(positions_, corners_, buffer_, found_);
+  detection_->search(positions_, searched_corners_, buffer_, found_);
   contact_.couples.clear();
   for (const detection::Couple& c : found_) {
-    const Index point = contact_.order[at(c.point)];
-    if (may_touch(point, c.contactor)) contact_.couples.push_back({point, c.contactor});
+    const Index point = searched_points_[at(c.point)], contactor = searched_contactors_[at(c.contactor)];
+    if (may_touch(point, contactor)) contact_.couples.push_back({point, contactor});
   }
   if (!contact_.relevant.empty()) {
     all_couples_ = contact_.couples;
@@ -167,6 +169,66 @@ void ContactSearch::search(const State& state, double step_length) {
   grid_built_ = false;
   moved_ = 0;
   ++num_searches_;
+}
+
+namespace {
+
+/// Box of positions.
+struct Extent {
+  Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+
+  void add(const Vec3& x) {
+    lower = lower.cwiseMin(x);
+    upper = upper.cwiseMax(x);
+  }
+  [[nodiscard]] bool near(const Extent& other, double distance) const {
+    return ((lower - other.upper).array() <= distance).all() && ((other.lower - upper).array() <= distance).all();
+  }
+};
+
+Extent extent_of(const detection::Corners& corners) {
+  Extent extent;
+  for (const Vec3& x : corners) extent.add(x);
+  return extent;
+}
+
+}  // namespace
+
+/// Points and contactors that can come together with an element that matters, or with a point of which that is true: within
+/// two contactors of the box around those elements.
+void ContactSearch::choose_searched() {
+  if (contact_.relevant.empty()) {
+    searched_points_ = contact_.order;
+    searched_contactors_.resize(contact_.contactors.size());
+    std::iota(searched_contactors_.begin(), searched_contactors_.end(), 0);
+    searched_corners_ = corners_;
+    return;
+  }
+  Extent ours;
+  for (Index s = 0; s < local_->num_slots; ++s) {
+    if (!contact_.matters(s)) continue;
+    for (const Vec3& x : load_corners(*local_, reference_.data(), s)) ours.add(x);
+  }
+  double reach = 0;
+  for (const detection::Corners& corners : corners_) {
+    const Extent extent = extent_of(corners);
+    reach = std::max(reach, (extent.upper - extent.lower).maxCoeff());
+  }
+  reach = 2 * (reach + buffer_);
+  searched_contactors_.clear();
+  searched_corners_.clear();
+  for (std::size_t c = 0; c < corners_.size(); ++c) {
+    if (!extent_of(corners_[c]).near(ours, reach)) continue;
+    searched_contactors_.push_back(static_cast<Index>(c));
+    searched_corners_.push_back(corners_[c]);
+  }
+  searched_points_.clear();
+  const FaceRule& rule = face_rule(params_->points_per_face);
+  for (const Index p : contact_.order) {
+    Extent point;
+    point.add(at_point(rule, contact_.points[at(p)], reference_.data()));
+    if (point.near(ours, reach)) searched_points_.push_back(p);
+  }
 }
 
 void ContactSearch::verify(const State& state) const {

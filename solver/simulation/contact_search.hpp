@@ -111,6 +111,7 @@ class ContactSearch {
   [[nodiscard]] double largest_displacement(const State& state) const;
   [[nodiscard]] bool may_touch(Index point, Index contactor) const;
   [[nodiscard]] bool has_law(Index slot, Index other) const;
+  void choose_searched();
   void keep_relevant();
   [[nodiscard]] TouchingCouple restored(const CoupleRecord& record) const;
 
@@ -147,6 +148,8 @@ class ContactSearch {
   std::vector<detection::Corners> corners_;  ///< (contactors)
 
   // Work space.
+  std::vector<Index> searched_points_, searched_contactors_;  ///< by ascending ids
+  std::vector<detection::Corners> searched_corners_;
   std::vector<Vec3> positions_;
   std::vector<detection::Couple> found_;
   std::vector<ContactCouple> made_;

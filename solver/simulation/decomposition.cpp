@@ -55,13 +55,16 @@ std::vector<Communicator::Parcel> exchange(const Communicator& communicator, con
 
 using Marks = std::vector<std::vector<std::uint8_t>>;
 
-Records migrate(const Communicator& communicator, const Records& mine, const std::vector<int>& owner) {
+Records migrate(const Communicator& communicator, Records mine, const std::vector<int>& owner) {
   Marks wanted(static_cast<std::size_t>(communicator.size()), std::vector<std::uint8_t>(mine.elements.size(), 0));
   for (std::size_t e = 0; e < owner.size(); ++e) wanted[static_cast<std::size_t>(owner[e])][e] = 1;
-  Records owned;
-  for (const Communicator::Parcel& parcel : exchange(communicator, mine, wanted)) unpack(parcel.bytes, owned);
-  sort(owned);
-  return owned;
+  std::vector<std::uint8_t> stay(mine.elements.size(), 0);
+  stay.swap(wanted[static_cast<std::size_t>(communicator.rank())]);
+  Records arrivals;
+  for (const Communicator::Parcel& parcel : exchange(communicator, mine, wanted)) unpack(parcel.bytes, arrivals);
+  keep(mine, stay);
+  merge(mine, std::move(arrivals));
+  return mine;
 }
 
 /// Originals that other ranks need.
@@ -101,8 +104,8 @@ Piece decompose(const Communicator& communicator, DomainSpec& domains, Records m
   for (const ElementRecord& element : mine.elements) centroids.push_back(centroid(element));
   const double edge = longest_edge(communicator, mine);
   domains = settled(communicator, domains, communicator.size(), centroids, edge);
-  Records owned = migrate(communicator, mine, assign_domains(communicator, domains, communicator.size(), centroids, weight, edge));
-  mine = {};
+  const std::vector<int> owner = assign_domains(communicator, domains, communicator.size(), centroids, weight, edge);
+  Records owned = migrate(communicator, std::move(mine), owner);
 
   Piece piece;
   const Marks wanted = needed_elsewhere(communicator, owned, reach.margin + reach.ring);
@@ -117,13 +120,14 @@ Piece decompose(const Communicator& communicator, DomainSpec& domains, Records m
   std::vector<GlobalId> own_ids;
   for (const ElementRecord& element : owned.elements) own_ids.push_back(element.id);
   piece.records = std::move(owned);
+  Records proxies;
   for (const Communicator::Parcel& parcel : parcels) {
-    const std::size_t before = piece.records.elements.size();
-    unpack(parcel.bytes, piece.records);
+    const std::size_t before = proxies.elements.size();
+    unpack(parcel.bytes, proxies);
     auto& receive = by_rank[static_cast<std::size_t>(parcel.rank)].receive;
-    for (std::size_t e = before; e < piece.records.elements.size(); ++e) receive.push_back(piece.records.elements[e].id);
+    for (std::size_t e = before; e < proxies.elements.size(); ++e) receive.push_back(proxies.elements[e].id);
   }
-  sort(piece.records);
+  merge(piece.records, std::move(proxies));
   for (const ElementRecord& element : piece.records.elements) {
     piece.original.push_back(std::binary_search(own_ids.begin(), own_ids.end(), element.id) ? 1 : 0);
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
+#include <string>
 #include <type_traits>
 
 #include "base/error.hpp"
@@ -61,20 +63,55 @@ Index Records::place_of(GlobalId element) const {
   return found != elements.end() && found->id == element ? static_cast<Index>(found - elements.begin()) : -1;
 }
 
+namespace {
+
+/// Calls visit(entry) for the entries of a list whose elements are marked.
+template <class List, class Visit>
+void for_each_wanted(const std::vector<ElementRecord>& elements, std::span<const std::uint8_t> wanted, List& list, Visit&& visit) {
+  std::size_t place = 0;
+  for (auto& entry : list) {
+    while (place < elements.size() && elements[place].id < key(entry)) ++place;
+    DEMAND(place < elements.size() && elements[place].id == key(entry), "element " + std::to_string(key(entry)));
+    if (wanted[place] != 0) visit(entry);
+  }
+}
+
+template <class T>
+void erase_unwanted(const std::vector<ElementRecord>& elements, std::span<const std::uint8_t> wanted, std::vector<T>& list) {
+  std::size_t kept = 0;
+  for_each_wanted(elements, wanted, list, [&](T& entry) {
+    if (&list[kept] != &entry) list[kept] = entry;
+    ++kept;
+  });
+  list.resize(kept);
+}
+
+}  // namespace
+
 std::vector<std::byte> pack(const Records& records, std::span<const std::uint8_t> wanted) {
   DEMAND(wanted.size() == records.elements.size(), std::to_string(wanted.size()) + " marks");
   std::vector<std::byte> bytes;
   for_each_list(records, [&](const auto& list) {
     std::decay_t<decltype(list)> chosen;
-    std::size_t place = 0;
-    for (const auto& record : list) {
-      while (place < records.elements.size() && records.elements[place].id < key(record)) ++place;
-      DEMAND(place < records.elements.size() && records.elements[place].id == key(record), "element " + std::to_string(key(record)));
-      if (wanted[place] != 0) chosen.push_back(record);
-    }
+    for_each_wanted(records.elements, wanted, list, [&](const auto& entry) { chosen.push_back(entry); });
     put(chosen, bytes);
   });
   return bytes;
+}
+
+void keep(Records& records, std::span<const std::uint8_t> wanted) {
+  DEMAND(wanted.size() == records.elements.size(), std::to_string(wanted.size()) + " marks");
+  std::vector<ElementRecord> elements;
+  elements.swap(records.elements);  // the others are told by it
+  for_each_list(records, [&](auto& list) { erase_unwanted(elements, wanted, list); });
+  std::size_t kept = 0;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    if (wanted[e] == 0) continue;
+    if (kept != e) elements[kept] = elements[e];
+    ++kept;
+  }
+  elements.resize(kept);
+  records.elements.swap(elements);
 }
 
 void unpack(std::span<const std::byte> bytes, Records& records) {
@@ -83,11 +120,32 @@ void unpack(std::span<const std::byte> bytes, Records& records) {
   DEMAND(at == bytes.size(), std::to_string(bytes.size() - at) + " bytes left");
 }
 
-void sort(Records& records) {
-  for_each_list(records, [](auto& list) {
-    const auto before = [](const auto& a, const auto& b) { return key(a) < key(b); };
-    if (!std::is_sorted(list.begin(), list.end(), before)) std::stable_sort(list.begin(), list.end(), before);
-  });
+namespace {
+
+template <class T>
+void merge_list(std::vector<T>& list, std::vector<T>& arrivals) {
+  const auto before = [](const T& a, const T& b) { return key(a) < key(b); };
+  if (!std::is_sorted(arrivals.begin(), arrivals.end(), before)) std::stable_sort(arrivals.begin(), arrivals.end(), before);
+  if (list.empty()) return list.swap(arrivals);
+  if (arrivals.empty()) return;
+  std::vector<T> merged;
+  merged.reserve(list.size() + arrivals.size());
+  std::merge(list.begin(), list.end(), arrivals.begin(), arrivals.end(), std::back_inserter(merged), before);
+  list.swap(merged);
+}
+
+}  // namespace
+
+void merge(Records& records, Records arrivals) {
+  merge_list(records.elements, arrivals.elements);
+  merge_list(records.joints, arrivals.joints);
+  merge_list(records.released, arrivals.released);
+  merge_list(records.couples, arrivals.couples);
+  merge_list(records.ramps, arrivals.ramps);
+  merge_list(records.offsets, arrivals.offsets);
+  merge_list(records.holds, arrivals.holds);
+  merge_list(records.faces, arrivals.faces);
+  merge_list(records.corners, arrivals.corners);
 }
 
 std::vector<std::byte> pack(const WholeModel& whole) {
@@ -137,21 +195,55 @@ WholeModel unpack_whole(std::span<const std::byte> bytes) {
   return whole;
 }
 
+namespace {
+
+/// Places of ascending ids: by a table where it is not much longer than the list, else by bisection.
+class PlaceTable {
+ public:
+  explicit PlaceTable(const std::vector<GlobalId>& ids) : ids_(ids) {
+    if (ids.empty() || ids.back() - ids.front() >= kSparse * static_cast<GlobalId>(ids.size())) return;
+    table_.assign(static_cast<std::size_t>(ids.back() - ids.front()) + 1, -1);
+    for (std::size_t i = 0; i < ids.size(); ++i) table_[static_cast<std::size_t>(ids[i] - ids.front())] = static_cast<Index>(i);
+  }
+  /// -1: not there
+  [[nodiscard]] Index operator()(GlobalId id) const {
+    if (ids_.empty() || id < ids_.front() || id > ids_.back()) return -1;
+    if (!table_.empty()) return table_[static_cast<std::size_t>(id - ids_.front())];
+    const auto found = std::lower_bound(ids_.begin(), ids_.end(), id);
+    return *found == id ? static_cast<Index>(found - ids_.begin()) : -1;
+  }
+
+ private:
+  static constexpr GlobalId kSparse = 64;
+  const std::vector<GlobalId>& ids_;
+  std::vector<Index> table_;
+};
+
+/// All mesh nodes of the records, ascending.
+std::vector<GlobalId> nodes_of(const Records& records) {
+  std::vector<GlobalId> ids;
+  ids.reserve(4 * records.elements.size());
+  for (const ElementRecord& r : records.elements) ids.insert(ids.end(), r.vertex.begin(), r.vertex.end());
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+}  // namespace
+
 Mesh mesh_of(const Records& records, const WholeModel& whole) {
   Mesh mesh;
   mesh.source = whole.source;
   mesh.volume_groups = whole.volume_groups;
   mesh.surface_groups = whole.surface_groups;
   mesh.num_bodies = static_cast<Index>(whole.body_length.size());
-  for (const ElementRecord& r : records.elements) mesh.node_ids.insert(mesh.node_ids.end(), r.vertex.begin(), r.vertex.end());
-  std::sort(mesh.node_ids.begin(), mesh.node_ids.end());
-  mesh.node_ids.erase(std::unique(mesh.node_ids.begin(), mesh.node_ids.end()), mesh.node_ids.end());
+  mesh.node_ids = nodes_of(records);
   mesh.nodes.resize(mesh.node_ids.size());
+  const PlaceTable place(mesh.node_ids);
   for (const ElementRecord& r : records.elements) {
     std::array<Index, 4> corners{};
     for (std::size_t c = 0; c < 4; ++c) {
-      const auto found = std::lower_bound(mesh.node_ids.begin(), mesh.node_ids.end(), r.vertex[c]);
-      corners[c] = static_cast<Index>(found - mesh.node_ids.begin());
+      corners[c] = place(r.vertex[c]);
       mesh.nodes[static_cast<std::size_t>(corners[c])] = Vec3(r.reference[c][0], r.reference[c][1], r.reference[c][2]);
     }
     mesh.elements.push_back(corners);
@@ -166,18 +258,18 @@ Mesh mesh_of(const Records& records, const WholeModel& whole) {
 Topology topology_of(const Records& records, const Mesh& mesh) {
   Topology topology;
   topology.links.resize(records.elements.size());
+  const PlaceTable place(mesh.element_ids);
   for (std::size_t e = 0; e < records.elements.size(); ++e) {
     const ElementRecord& r = records.elements[e];
     for (std::size_t f = 0; f < 4; ++f) {
-      FaceLink& link = topology.links[e][f];
       if (r.neighbour[f] < 0) continue;
-      const Index place = records.place_of(r.neighbour[f]);
-      link = {place >= 0 ? place : FaceLink::kBeyond, r.code[f]};
+      const Index neighbour = place(r.neighbour[f]);
+      topology.links[e][f] = {neighbour >= 0 ? neighbour : FaceLink::kBeyond, r.code[f]};
     }
   }
   topology.surface_groups.resize(mesh.surface_groups.size());
   for (const FaceTag& tag : records.faces) {
-    topology.surface_groups[static_cast<std::size_t>(tag.group)].push_back({records.place_of(tag.element), tag.face});
+    topology.surface_groups[static_cast<std::size_t>(tag.group)].push_back({place(tag.element), tag.face});
   }
   return topology;
 }

@@ -104,8 +104,11 @@ struct SharedElements {
 /// Appends what `pack` made. @pre the bytes come from the same build on the same kind of machine
 void unpack(std::span<const std::byte> bytes, Records& records);
 
-/// Brings all lists into the order of their elements; equal ones keep theirs.
-void sort(Records& records);
+/// Keeps the elements marked, with what belongs to them. @param wanted (elements) 1: yes
+void keep(Records& records, std::span<const std::uint8_t> wanted);
+
+/// Takes in elements that arrived in any order. O(records + arrivals log arrivals).
+void merge(Records& records, Records arrivals);
 
 [[nodiscard]] std::vector<std::byte> pack(const WholeModel& whole);
 [[nodiscard]] WholeModel unpack_whole(std::span<const std::byte> bytes);

@@ -11,6 +11,9 @@ namespace {
 
 /// A decomposition is done when nodes have really used up this share of their allowance; else the bound is brought down.
 constexpr double kUsedUp = 0.75;
+/// Where divisions follow each other within so many steps the margin is stretched, where they do not it is let go again.
+constexpr std::int64_t kSoon = 300, kLate = 2000;
+constexpr double kStretch = 1.5, kMostStretched = 5;
 /// A new division must have paid for itself after so many steps; an imbalance below this is mostly noise.
 constexpr double kHorizon = 500, kWorthBalancing = 1.05;
 
@@ -56,7 +59,12 @@ void Share::rebuild(Records mine, const std::vector<double>& weight, Ledger ledg
   stepper_.reset();
   time_step_.reset();
   model_.reset();
+  const std::int64_t since = ledger.steps - divided_at_;
+  if (divided_at_ > 0 && since < kSoon) stretch_ = std::min(stretch_ * kStretch, kMostStretched);
+  if (since > kLate) stretch_ = std::max(stretch_ / kStretch, 1.0);
+  divided_at_ = ledger.steps;
   reach_ = reach_of(input_, longest_edge(communicator_, mine));
+  reach_.margin *= stretch_;
   build(decompose(communicator_, domains_, std::move(mine), weight, reach_), std::move(whole), std::move(ledger));
   decompositions_ = std::max<std::int64_t>(decompositions_, 1);
 }

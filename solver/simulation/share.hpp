@@ -55,6 +55,8 @@ class Share {
   Balance balance_;
   double decomposition_s_ = 0;  ///< s, that the last decomposition took on the slowest rank
   Reach reach_;
+  double stretch_ = 1;           ///< of the margin
+  std::int64_t divided_at_ = 0;  ///< step of the last division
   double moved_ = 0;      ///< m, bound of the largest displacement since the decomposition
   Field<double> anchor_;  ///< nodal field, positions then
 };

@@ -199,7 +199,8 @@ SweepArgs Stepper::sweep_args(bool sample) {
   SweepArgs args;
   args.end_own_block = local.num_own_originals / kLanes;
   args.num_own_blocks = local.num_own_blocks();
-  args.num_blocks = local.num_blocks();
+  args.shared_blocks = shared_blocks_.data();
+  args.num_shared_blocks = static_cast<Index>(shared_blocks_.size());
   args.num_moved_nodes = local.num_moved_nodes;
   args.position = state_.position.data();
   args.next_position = state_.next_position.data();

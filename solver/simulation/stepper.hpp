@@ -219,6 +219,7 @@ class Stepper {
 
   // For the sweep.
   std::vector<Index> shared_corners_;       ///< [shared block][4][8]
+  std::vector<Index> shared_blocks_;        ///< shared-node blocks with an element that matters here
   Field<double> kept_stress_;               ///< [block][18][8]
   std::vector<Vec3> held_before_;           ///< of the nodes of all constraints in turn, m/s
   std::set<Index> rebooked_;

@@ -47,6 +47,8 @@ void Stepper::find_relevant() {
     for (int c = 0; c < 4; ++c) {
       if (local.corner_node(s, c) < local.num_moved_nodes) relevant_[at(s)] = 1;
     }
+    const Index block = s / kLanes;
+    if (relevant(s) && (shared_blocks_.empty() || shared_blocks_.back() != block)) shared_blocks_.push_back(block);
   }
 }
 

@@ -61,7 +61,8 @@ def run(arguments, elements, case, ranks):
     for setting in settings + [f"time.max_steps={arguments.steps}"] + arguments.set:
         command += ["--set", setting]
     if ranks > 1:
-        command = ["mpiexec", "--oversubscribe", "-n", str(ranks)] + command
+        placed = ["--bind-to", "core"] if ranks <= (os.cpu_count() or 1) else ["--oversubscribe"]
+        command = ["mpiexec", *placed, "-n", str(ranks)] + command
     environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     subprocess.run(command, check=True, env=environment)
     with open(folder / "history.csv", newline="") as stream:
