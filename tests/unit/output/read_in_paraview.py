@@ -15,7 +15,7 @@ TIME_TOLERANCE = 1e-15                      # relative: times go through 17 deci
 VOLUME_TOLERANCE = 1e-12                    # relative: points are kept in double precision
 FIELD_TOLERANCE = 1e-6                      # relative: fields are kept in single precision
 ARRAYS = {
-    "elements": {"id": 1, "body": 1, "material": 1, "rank": 1, "fragment": 1, "stress": 6, "von_mises": 1,
+    "elements": {"id": 1, "body": 1, "material": 1, "rank": 1, "fragment": 1, "stress": 6, "von_mises": 1, "cost": 1,
                  "principal": 3, "velocity": 3, "displacement": 3},
     "joints": {"id": 1, "damage": 1, "mode": 1, "opening": 1, "slip": 1, "broken": 1},
     "contacts": {"force": 3, "body": 1, "other_body": 1},

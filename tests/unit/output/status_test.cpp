@@ -35,6 +35,8 @@ StatusLine example_line() {
   line.energy_residual = 2e-5;
   line.broken_joints = 231;
   line.fragments = 12;
+  line.imbalance = 1.125;
+  line.decompositions = 3;
   line.stage = "impact";
   return line;
 }
@@ -108,6 +110,8 @@ TEST(StatusJson, HoldsEveryMemberOnOneLine) {
                                      {"wall_s", 10.0},
                                      {"eta_s", 71.0},
                                      {"energy_residual", 2e-5},
+                                     {"imbalance", 1.125},
+                                     {"decompositions", 3},
                                      {"broken_joints", 231},
                                      {"fragments", 12}}));
 }

@@ -166,6 +166,7 @@ Frame SyntheticPlate::frame(std::int64_t number, double time) const {
     out.body.push_back(element.body);
     out.material.push_back(element.body);
     out.rank.push_back(0);
+    out.cost.push_back(1.0 + 0.5 * noise(static_cast<int>(e), 3));
     out.fragment.push_back(first[piece[e]]);
     const double radius = std::hypot(element.centre.x(), element.centre.z());
     const double wave = 2e7 * std::exp(-std::abs(radius - front) / 0.015) * (1 + 0.2 * noise(static_cast<int>(e), 7));

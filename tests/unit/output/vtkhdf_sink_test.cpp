@@ -40,6 +40,7 @@ Frame two_elements(std::int64_t number, double time) {
   e.principal = {3, 2, 1, 6, 5, 4};
   e.velocity = {.5, .25, .125, 1, 2, 4};
   e.displacement = {-1, -2, -4, -8, -16, -32};
+  e.cost = {1, 1.5};
   frame.joints = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {42}, {0.75}, {3}, {1e-6}, {2e-6}, {0}};
   frame.contacts = {{24}, {9, 8, 7}, {1, 2, 3}, {0}, {1}};
   return frame;
@@ -81,6 +82,7 @@ TEST(VtkhdfSinkTest, StoresEveryElementArrayWithItsShapeAndValues) {
   EXPECT_EQ(grid.values("CellData/principal"), frame.elements.principal);
   EXPECT_EQ(grid.values("CellData/velocity"), frame.elements.velocity);
   EXPECT_EQ(grid.values("CellData/displacement"), frame.elements.displacement);
+  EXPECT_EQ(grid.values("CellData/cost"), frame.elements.cost);
   EXPECT_THAT(grid.values("FieldData/time"), ElementsAre(0.5));
   EXPECT_THAT(grid.values("FieldData/step"), ElementsAre(12000));
 }
