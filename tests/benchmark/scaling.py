@@ -1,6 +1,6 @@
 """Speed-up on several ranks, beside the reference's (experiments E5 A, E5 B and E6 of A. Schiava's thesis, chapter 9).
 
-usage: scaling.py PROGRAM MESHES FOLDER [--ranks 1,2] [--cases e5a,e5b,e6] [--largest ELEMENTS] [--steps N] [--repeat N] [--set KEY=VALUE]...
+usage: scaling.py PROGRAM MESHES FOLDER [--ranks 1,2] [--cases e5a,e5b,e6] [--smallest ELEMENTS] [--largest ELEMENTS] [--steps N] [--repeat N] [--set KEY=VALUE]...
 
 Every case runs on each number of ranks in turn, --repeat times; the shortest wall time counts. Writes FOLDER/scaling.csv and, where
 gnuplot is there, FOLDER/scaling.svg. Ends with 1 if two runs of a case differ in a single bit of their state or kinetic energy.
@@ -126,6 +126,7 @@ def main():
     parser.add_argument("folder", type=Path)
     parser.add_argument("--ranks", type=lambda text: [int(n) for n in text.split(",")], default=[1, 2])
     parser.add_argument("--cases", type=lambda text: text.split(","), default=list(CASES))
+    parser.add_argument("--smallest", type=int, default=0)
     parser.add_argument("--largest", type=int, default=10**9)
     parser.add_argument("--steps", type=int, default=2000)
     parser.add_argument("--repeat", type=int, default=1)
@@ -135,7 +136,7 @@ def main():
     rows = []
     for case in arguments.cases:
         for elements in CASES[case]:
-            if elements > arguments.largest:
+            if not arguments.smallest <= elements <= arguments.largest:
                 continue
             for row in measure(arguments, case, elements):
                 print(" ".join(f"{k}={v}" for k, v in row.items() if v != ""), flush=True)
