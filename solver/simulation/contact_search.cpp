@@ -194,8 +194,8 @@ Extent extent_of(const detection::Corners& corners) {
 
 }  // namespace
 
-/// Points and contactors that can come together with an element that matters, or with a point of which that is true: within
-/// two contactors of the box around those elements.
+/// Points that may be in a couple with an element that matters, no further than the buffer from the box around those elements,
+/// and all contactors that may be in a couple with one of these points, no further than twice the buffer; and some more.
 void ContactSearch::choose_searched() {
   if (contact_.relevant.empty()) {
     searched_points_ = contact_.order;
@@ -209,16 +209,10 @@ void ContactSearch::choose_searched() {
     if (!contact_.matters(s)) continue;
     for (const Vec3& x : load_corners(*local_, reference_.data(), s)) ours.add(x);
   }
-  double reach = 0;
-  for (const detection::Corners& corners : corners_) {
-    const Extent extent = extent_of(corners);
-    reach = std::max(reach, (extent.upper - extent.lower).maxCoeff());
-  }
-  reach = 2 * (reach + buffer_);
   searched_contactors_.clear();
   searched_corners_.clear();
   for (std::size_t c = 0; c < corners_.size(); ++c) {
-    if (!extent_of(corners_[c]).near(ours, reach)) continue;
+    if (!extent_of(corners_[c]).near(ours, 3 * buffer_)) continue;
     searched_contactors_.push_back(static_cast<Index>(c));
     searched_corners_.push_back(corners_[c]);
   }
@@ -227,7 +221,7 @@ void ContactSearch::choose_searched() {
   for (const Index p : contact_.order) {
     Extent point;
     point.add(at_point(rule, contact_.points[at(p)], reference_.data()));
-    if (point.near(ours, reach)) searched_points_.push_back(p);
+    if (point.near(ours, 1.5 * buffer_)) searched_points_.push_back(p);
   }
 }
 
