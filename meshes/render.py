@@ -83,7 +83,6 @@ def parse_arguments():
     return arguments
 
 
-# ---- reading ----------------------------------------------------------------------------------------------------
 def series(run, part):
     """[(time, file)] of the complete frames."""
     folder = os.path.join(run, "frames")
@@ -97,7 +96,7 @@ def series(run, part):
 
 
 def read(file):
-    """(num_cells, corners, 3) points and the cell arrays by name."""
+    """(num_cells, corners, 3) points and the cell arrays by name, by ascending id, whichever ranks have written them."""
     reader = vtkHDFReader()
     reader.SetFileName(file)
     reader.Update()
@@ -107,10 +106,11 @@ def read(file):
         return np.zeros((0, 3, 3)), {}
     points = vtk_to_numpy(grid.GetPoints().GetData()).reshape(cells, -1, 3)
     data = grid.GetCellData()
-    return points, {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
+    arrays = {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
+    order = np.argsort(arrays["id"])
+    return points[order], {name: values[order] for name, values in arrays.items()}
 
 
-# ---- geometry ---------------------------------------------------------------------------------------------------
 def point_numbers(points):
     """The same number for points at the same place (to 1e-6 of an element's size)."""
     size = np.median(np.ptp(points, axis=1).max(axis=1))
@@ -171,7 +171,6 @@ def polydata(corners, values=None):
     return surface
 
 
-# ---- colours ----------------------------------------------------------------------------------------------------
 def table_of(stops, low, high):
     """256 colours between the stops (position 0..1, red, green, blue)."""
     function = vtkColorTransferFunction()
@@ -208,7 +207,6 @@ def rounded_up(value):
     return next(step * power for step in (1, 1.5, 2, 3, 4, 5, 6, 8, 10) if step * power >= value * (1 - 1e-9))
 
 
-# ---- scene ------------------------------------------------------------------------------------------------------
 def actor_of(surface, table=None, colour=None):
     mapper = vtkPolyDataMapper()
     mapper.SetInputData(surface)
