@@ -56,6 +56,7 @@ double Balance::look(const Stepper& stepper) {
   const double mean = sum / static_cast<double>(shares.size());
   before_ = now_;
   now_ = {(slowest - mean) / static_cast<double>(kInterval), mean > 0 ? slowest / mean : 1.0};
+  told_ = now_.imbalance;
   return std::min(now_.lost, before_.lost);
 }
 

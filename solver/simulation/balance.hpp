@@ -18,8 +18,10 @@ class Balance {
   /// Seconds that ranks wait for the slowest in a step, on average over two looks: the shorter of the two, since others on the
   /// machine come and go. Collective; to be called every kInterval steps.
   [[nodiscard]] double look(const Stepper& stepper);
-  /// Largest over mean of the ranks' working time, the smaller of the last two looks; 1: none yet.
-  [[nodiscard]] double imbalance() const { return std::min(now_.imbalance, before_.imbalance); }
+  /// Largest over mean of the ranks' working time at the last look; 1: none yet.
+  [[nodiscard]] double imbalance() const { return told_; }
+  /// The smaller of the last two looks since the model was divided.
+  [[nodiscard]] double lasting_imbalance() const { return std::min(now_.imbalance, before_.imbalance); }
 
   /// Cost of this rank's originals, ascending by id, in that of an element that has its own nodes and nothing else: measured
   /// per element, joint and couple over all ranks, or our estimate before the first look.
@@ -43,6 +45,7 @@ class Balance {
     double imbalance = 1;
   };
   Look now_, before_;
+  double told_ = 1;
 };
 
 }  // namespace breccia

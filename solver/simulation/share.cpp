@@ -23,8 +23,11 @@ Share::Share(const case_::Case& input, const Communicator& communicator, std::un
     : input_(input), communicator_(communicator), model_(std::move(whole)), domains_(domain_spec(input)) {
   if (model_) start_whole();
   if (communicator_.size() == 1) return;
+  std::vector<std::byte> whole_model;
+  if (communicator_.is_root()) whole_model = pack(model_->whole);
+  communicator_.broadcast(whole_model);
   const std::vector<double> weight = stepper_ ? balance_.weights(*stepper_) : std::vector<double>{};
-  decompose_anew(stepper_ ? stepper_->records() : Records{}, weight, Ledger{});
+  decompose_anew(unpack_whole(whole_model), stepper_ ? stepper_->records() : Records{}, weight, Ledger{});
 }
 
 void Share::start_whole() {
@@ -33,29 +36,22 @@ void Share::start_whole() {
   time_step_ = std::make_unique<TimeStep>(*model_);
   model_->whole.step_ratio = time_step_->ratio();
   if (stepper_->contact() != nullptr) model_->whole.contactor_size = stepper_->contact()->contactor_size();
-  ++decompositions_;
 }
 
-void Share::decompose_anew(Records mine, const std::vector<double>& weight, Ledger ledger) {
+void Share::decompose_anew(WholeModel whole, Records mine, const std::vector<double>& weight, Ledger ledger) {
   communicator_.set_phase("division of the model");
   const Phase phase = stage_ != nullptr ? Phase::decomposition : Phase::setup;  // the first one is before all stages
   PhaseTimer timer;
   {
     const auto lap = timer.measure(phase);
-    rebuild(std::move(mine), weight, std::move(ledger));
+    rebuild(std::move(whole), std::move(mine), weight, std::move(ledger));
   }
   decomposition_s_ = communicator_.max(timer.seconds(phase));
   stepper_->timer().add(timer);
   balance_.restart(*stepper_);
 }
 
-void Share::rebuild(Records mine, const std::vector<double>& weight, Ledger ledger) {
-  std::vector<std::byte> bytes;
-  if (decompositions_ <= 1) {
-    if (communicator_.is_root()) bytes = pack(model_->whole);
-    communicator_.broadcast(bytes);
-  }
-  WholeModel whole = bytes.empty() ? model_->whole : unpack_whole(bytes);
+void Share::rebuild(WholeModel whole, Records mine, const std::vector<double>& weight, Ledger ledger) {
   stepper_.reset();
   time_step_.reset();
   model_.reset();
@@ -66,7 +62,6 @@ void Share::rebuild(Records mine, const std::vector<double>& weight, Ledger ledg
   reach_ = reach_of(input_, longest_edge(communicator_, mine));
   reach_.margin *= stretch_;
   build(decompose(communicator_, domains_, std::move(mine), weight, reach_), std::move(whole), std::move(ledger));
-  decompositions_ = std::max<std::int64_t>(decompositions_, 1);
 }
 
 void Share::build(const Piece& piece, WholeModel whole, Ledger ledger) {
@@ -99,7 +94,7 @@ void Share::keep_up() {
   if (!due && !pays) return;
   const std::vector<double> weight = balance_.weights(*stepper_);
   Records mine = stepper_->records();
-  decompose_anew(std::move(mine), weight, stepper_->close());
+  decompose_anew(model_->whole, std::move(mine), weight, stepper_->close());
   ++decompositions_;
 }
 
@@ -107,7 +102,7 @@ void Share::keep_up() {
 bool Share::balancing_pays() {
   if (stepper_->steps() % Balance::kInterval != 0) return false;
   const double lost = balance_.look(*stepper_);
-  return input_.domains.rebalance && domains_.kind == DomainKind::rcb && balance_.imbalance() > kWorthBalancing &&
+  return input_.domains.rebalance && domains_.kind == DomainKind::rcb && balance_.lasting_imbalance() > kWorthBalancing &&
          lost * kHorizon > decomposition_s_;
 }
 

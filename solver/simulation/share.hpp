@@ -38,8 +38,8 @@ class Share {
 
  private:
   void start_whole();
-  void decompose_anew(Records mine, const std::vector<double>& weight, Ledger ledger);
-  void rebuild(Records mine, const std::vector<double>& weight, Ledger ledger);
+  void decompose_anew(WholeModel whole, Records mine, const std::vector<double>& weight, Ledger ledger);
+  void rebuild(WholeModel whole, Records mine, const std::vector<double>& weight, Ledger ledger);
   void build(const Piece& piece, WholeModel whole, Ledger ledger);
   [[nodiscard]] bool left_reach();
   [[nodiscard]] bool balancing_pays();
@@ -51,7 +51,7 @@ class Share {
   std::unique_ptr<Stepper> stepper_;
   std::unique_ptr<TimeStep> time_step_;
   const case_::Stage* stage_ = nullptr;
-  std::int64_t decompositions_ = 0;
+  std::int64_t decompositions_ = 1;
   Balance balance_;
   double decomposition_s_ = 0;  ///< s, that the last decomposition took on the slowest rank
   Reach reach_;
