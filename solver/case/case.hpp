@@ -219,7 +219,7 @@ struct Domains {
 /// [output]
 struct Output {
   double frame_interval = 0;    ///< s; 0: no frames but the last
-  double history_interval = 0;  ///< s; 0: end / 500
+  double history_interval = 0;  ///< s; 0: chosen by the run
   bool elements = true, joints = true, contacts = true;
   std::vector<std::string>
       gauges;  ///< groups whose reaction, contact and applied force, displacement and velocity are recorded

@@ -281,14 +281,14 @@ constexpr auto table = std::to_array<Key>({
      .help = "Divide anew when that pays: when ranks wait for each other for longer than it takes.", .example = "false"},
     {.path = "domains.margin", .type = number, .fallback = "1", .range = {.lower = 0.1, .upper = 100},
      .help = "How far beyond a domain a rank knows its neighbours' elements at least, in longest edges of an element. Larger: "
-             "fewer new divisions while bodies move, but more to search. Where they follow each other soon it grows by itself.",
+             "fewer new divisions while bodies move, but more to search. For fast bodies it is widened up to fivefold by itself.",
      .example = "2"},
 
     {.path = "output", .type = section, .help = "What a run writes, and how often."},
     {.path = "output.frame_interval", .type = number, .unit = "s", .fallback = "0", .range = not_negative,
      .help = "Simulated time between frames for ParaView; 0: the last state only.", .example = "\"1 us\""},
     {.path = "output.history_interval", .type = number, .unit = "s", .fallback = "auto", .range = positive,
-     .word = "auto", .help = "Simulated time between lines of the history. auto: 500 lines a run.",
+     .word = "auto", .help = "Simulated time between lines of the history. auto: 500 lines a run, but no more than one in 20 steps.",
      .example = "\"100 ns\""},
     {.path = "output.elements", .type = boolean, .fallback = "true", .help = "Elements in frames.", .example = "false"},
     {.path = "output.joints", .type = boolean, .fallback = "true", .help = "Joints in frames.", .example = "false"},

@@ -21,19 +21,24 @@ namespace {
 /// Steps between two looks at the stable step, which shrinks when elements are crushed.
 constexpr std::int64_t kStepsBetweenChecks = 100;
 
-/// Times at which something is due: 0, interval, 2 interval, ...; never twice in one step.
+/// Taking stock costs about as much as a step: lines of the history that nobody has ordered come no closer than so many steps.
+constexpr std::int64_t kStepsBetweenLines = 20;
+
+/// Times at which something is due: 0, interval, 2 interval, ...; never twice within `least_steps`.
 class Schedule {
  public:
-  explicit Schedule(double interval) : interval_(interval) {}
-  /// True when the next due time lies within the step that begins at `time`; moves on.
-  bool due(double time, double dt) {
-    if (interval_ <= 0 || time + 0.5 * dt < interval_ * static_cast<double>(next_)) return false;
+  explicit Schedule(double interval, std::int64_t least_steps = 1) : interval_(interval), least_steps_(least_steps) {}
+  /// True when the next due time lies before the end of the step that begins at `time`; moves on.
+  bool due(double time, double dt, std::int64_t step) {
+    if (interval_ <= 0 || step < free_step_ || time + 0.5 * dt < interval_ * static_cast<double>(next_)) return false;
     next_ = static_cast<std::int64_t>(std::floor((time + 0.5 * dt) / interval_)) + 1;
+    free_step_ = step + least_steps_;
     return true;
   }
 
  private:
   double interval_;
+  std::int64_t least_steps_, free_step_ = 0;
   std::int64_t next_ = 0;
 };
 
@@ -52,7 +57,7 @@ class Runner {
         communicator_(communicator),
         share_(input, communicator, std::move(whole)),
         end_(input.stages.back().end),
-        histories_(input.output.history_interval > 0 ? input.output.history_interval : end_ / 500),
+        histories_(input.output.history_interval > 0 ? Schedule(input.output.history_interval) : Schedule(end_ / 500, kStepsBetweenLines)),
         frames_(input.output.frame_interval) {}
 
   Summary run() {
@@ -142,8 +147,8 @@ class Runner {
 
   void advance() {
     const double time = stepper().time();
-    if (frames_.due(time, stepper().dt())) write_frame();
-    const bool sample = histories_.due(time, stepper().dt());
+    if (frames_.due(time, stepper().dt(), stepper().steps())) write_frame();
+    const bool sample = histories_.due(time, stepper().dt(), stepper().steps());
     stepper().step(sample, stop_requested);
     if (sample) {
       const HistoryRow row = make_history_row(stepper(), gauges_, time);
