@@ -2,6 +2,8 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <limits>
+#include <malloc.h>
 #include <map>
 #include <sstream>
 #include <unistd.h>
@@ -21,6 +23,13 @@ int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 void stop_handler(int signal) {
   stop_requested = true;
   std::signal(signal, SIG_DFL);
+}
+
+/// What is freed is soon asked for again, above all when elements change ranks; getting large blocks anew from the kernel each
+/// time costs more than the work on them.
+void keep_freed_memory() {
+  mallopt(M_MMAP_MAX, 0);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 }
 
 /// What one invocation asked for.
@@ -111,6 +120,7 @@ int guarded(const CLI::App& app, Arguments& arguments, MpiSession& session, int 
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   MpiSession session(argc, argv);
   CLI::App app{"Breccia: combined finite-discrete element simulation of solids that break"};
   Arguments arguments;

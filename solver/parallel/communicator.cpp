@@ -147,14 +147,6 @@ std::vector<std::vector<std::byte>> Communicator::all_gather_bytes(std::span<con
   return lists;
 }
 
-std::vector<std::vector<std::byte>> Communicator::gather_bytes(std::span<const std::byte> mine) const {
-  std::vector<Parcel> parcels;
-  parcels.push_back({0, {mine.begin(), mine.end()}});
-  std::vector<std::vector<std::byte>> lists;
-  for (Parcel& parcel : exchange(std::move(parcels))) lists.push_back(std::move(parcel.bytes));
-  return lists;
-}
-
 std::vector<Communicator::Parcel> Communicator::exchange(std::vector<Parcel> parcels) const {
   const auto by_rank = [](const Parcel& a, const Parcel& b) { return a.rank < b.rank; };
   std::sort(parcels.begin(), parcels.end(), by_rank);

@@ -39,11 +39,6 @@ class Communicator {
   [[nodiscard]] std::vector<std::vector<T>> all_gather(std::span<const T> mine) const {
     return lists_of<T>(all_gather_bytes(std::as_bytes(mine)));
   }
-  /// Likewise, on the root; empty elsewhere.
-  template <class T>
-  [[nodiscard]] std::vector<std::vector<T>> gather(std::span<const T> mine) const {
-    return lists_of<T>(gather_bytes(std::as_bytes(mine)));
-  }
 
   /// Bytes for a rank, or from one.
   struct Parcel {
@@ -53,6 +48,25 @@ class Communicator {
   /// Anybody to anybody, at most one parcel a pair; who receives need not know who sends. A rank may send to itself.
   /// Returns what was sent here by ascending rank. One all-to-all of counts and a message a parcel.
   [[nodiscard]] std::vector<Parcel> exchange(std::vector<Parcel> parcels) const;
+
+  /// A list for a rank, or from one; of plain numbers, Eigen's small vectors included.
+  template <class T>
+  struct ListOf {
+    int rank = 0;
+    std::vector<T> entries;
+  };
+  /// Likewise with lists; empty ones are not sent.
+  template <class T>
+  [[nodiscard]] std::vector<ListOf<T>> exchange(const std::vector<ListOf<T>>& lists) const {
+    std::vector<Parcel> parcels;
+    for (const ListOf<T>& list : lists) {
+      const auto bytes = std::as_bytes(std::span(list.entries));
+      if (!bytes.empty()) parcels.push_back({list.rank, {bytes.begin(), bytes.end()}});
+    }
+    std::vector<ListOf<T>> received;
+    for (const Parcel& parcel : exchange(std::move(parcels))) received.push_back({parcel.rank, list_of<T>(parcel.bytes)});
+    return received;
+  }
 
   /// Runs `work` here and everywhere. If it throws on any rank, all ranks throw what the lowest of these threw: InputError,
   /// SimulationError, OutputError, or InternalError for everything else. One small reduction when nobody throws. A rank that
@@ -71,16 +85,18 @@ class Communicator {
 
  private:
   [[nodiscard]] std::vector<std::vector<std::byte>> all_gather_bytes(std::span<const std::byte> mine) const;
-  [[nodiscard]] std::vector<std::vector<std::byte>> gather_bytes(std::span<const std::byte> mine) const;
 
   template <class T>
+  static std::vector<T> list_of(std::span<const std::byte> bytes) {
+    static_assert(std::is_standard_layout_v<T> && std::is_trivially_destructible_v<T>);
+    std::vector<T> list(bytes.size() / sizeof(T));
+    if (!bytes.empty()) std::memcpy(static_cast<void*>(list.data()), bytes.data(), bytes.size());
+    return list;
+  }
+  template <class T>
   static std::vector<std::vector<T>> lists_of(const std::vector<std::vector<std::byte>>& bytes) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    std::vector<std::vector<T>> lists(bytes.size());
-    for (std::size_t r = 0; r < bytes.size(); ++r) {
-      lists[r].resize(bytes[r].size() / sizeof(T));
-      if (!bytes[r].empty()) std::memcpy(lists[r].data(), bytes[r].data(), bytes[r].size());
-    }
+    std::vector<std::vector<T>> lists;
+    for (const std::vector<std::byte>& part : bytes) lists.push_back(list_of<T>(part));
     return lists;
   }
 

@@ -102,13 +102,22 @@ void ContactSearch::adopt(std::span<const CoupleRecord> touching) {
   });
 }
 
-void ContactSearch::touching_of(GlobalId element, std::vector<CoupleRecord>& touching) const {
-  const GlobalId first = kPointsAnElement * element;
-  for (const TouchingCouple& couple : entries_of(contact_.touching, first, first + kPointsAnElement,
-                                                 [&](const TouchingCouple& c) { return contact_.id(c.point); })) {
-    const GlobalId other = local_->element_of_slot[at(contact_.contactors[at(couple.contactor)])];
-    touching.push_back({element, other, contact_.id(couple.point), couple});
+std::vector<CoupleRecord> ContactSearch::touching_of(std::span<const Index> slots) const {
+  std::vector<CoupleRecord> touching;
+  const auto before = [&](Index slot, GlobalId element) { return local_->element_of_slot[at(slot)] < element; };
+  auto next = slots.begin();
+  for (const TouchingCouple& couple : contact_.touching) {
+    const Index slot = contact_.points[at(couple.point)].slot;
+    const GlobalId element = local_->element_of_slot[at(slot)];
+    next = std::lower_bound(next, slots.end(), element, before);
+    if (next == slots.end()) break;
+    if (*next == slot) touching.push_back(record_of(couple, element));
   }
+  return touching;
+}
+
+CoupleRecord ContactSearch::record_of(const TouchingCouple& couple, GlobalId element) const {
+  return {element, local_->element_of_slot[at(contact_.contactors[at(couple.contactor)])], contact_.id(couple.point), couple};
 }
 
 void ContactSearch::restrict_to(std::vector<std::uint8_t> relevant) {
@@ -154,7 +163,10 @@ void ContactSearch::remember(Index element, ElementRecord& record, Records& reco
       records.offsets.push_back({record.id, contact_.id(point), contact_.boundary_offset[at(point)]});
     }
   }
-  touching_of(record.id, records.couples);
+  for (const TouchingCouple& couple :
+       entries_of(contact_.touching, first, end, [&](const TouchingCouple& c) { return contact_.id(c.point); })) {
+    records.couples.push_back(record_of(couple, record.id));
+  }
 }
 
 }  // namespace breccia

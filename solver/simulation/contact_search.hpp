@@ -80,8 +80,8 @@ class ContactSearch {
   void restrict_to(std::vector<std::uint8_t> relevant);
   /// Marks the slots of all points and contactors in couples. @param marks  (num_slots)
   void mark_coupled(std::vector<std::uint8_t>& marks) const;
-  /// What the points of an element touch, appended.
-  void touching_of(GlobalId element, std::vector<CoupleRecord>& touching) const;
+  /// What the points of these elements touch. @param slots  ascending by element id
+  [[nodiscard]] std::vector<CoupleRecord> touching_of(std::span<const Index> slots) const;
   /// Takes what other ranks know of the touch of their points. @param touching  by (element, point, contactor)
   void adopt(std::span<const CoupleRecord> touching);
 
@@ -114,6 +114,7 @@ class ContactSearch {
   void choose_searched();
   void keep_relevant();
   [[nodiscard]] TouchingCouple restored(const CoupleRecord& record) const;
+  [[nodiscard]] CoupleRecord record_of(const TouchingCouple& couple, GlobalId element) const;
 
   void collect_sides(std::span<const FreedFace> faces);
   void note_clusters();

@@ -1,7 +1,6 @@
 #include "simulation/fragment_labels.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <map>
 #include <utility>
 
@@ -25,30 +24,23 @@ Fragments fragments_of_rank(const Stepper& stepper) {
   return finder.find();
 }
 
-GlobalId label_of(const Stepper& stepper, const Fragments& fragments, GlobalId element) {
-  return fragments.of_slot[at(stepper.model().local.slot_of_element[at(stepper.element_with(element))])];
-}
-
 /// Every rank tells its neighbours what it calls their elements.
 std::vector<Meeting> meetings(const Stepper& stepper, const Fragments& fragments) {
-  std::vector<Communicator::Parcel> parcels;
-  for (const SharedElements& shared : stepper.shared_elements()) {
-    if (shared.receive.empty()) continue;
-    std::vector<GlobalId> labels;
-    for (const GlobalId id : shared.receive) labels.push_back(label_of(stepper, fragments, id));
-    const auto bytes = std::as_bytes(std::span(labels));
-    parcels.push_back({shared.rank, {bytes.begin(), bytes.end()}});
+  std::vector<Communicator::ListOf<GlobalId>> lists;
+  for (const SharedSlots& shared : stepper.shared_slots()) {
+    std::vector<GlobalId>& labels = lists.emplace_back(shared.rank).entries;
+    for (const Index slot : shared.receive) labels.push_back(fragments.of_slot[at(slot)]);
   }
   std::vector<Meeting> met;
-  for (const Communicator::Parcel& parcel : stepper.communicator().exchange(std::move(parcels))) {
-    for (const SharedElements& shared : stepper.shared_elements()) {
-      if (shared.rank != parcel.rank) continue;
-      std::vector<GlobalId> labels(shared.send.size());
-      std::memcpy(labels.data(), parcel.bytes.data(), labels.size() * sizeof(GlobalId));
-      for (std::size_t i = 0; i < labels.size(); ++i) met.push_back({label_of(stepper, fragments, shared.send[i]), labels[i]});
+  for (const auto& [rank, labels] : stepper.communicator().exchange(lists)) {
+    for (const SharedSlots& shared : stepper.shared_slots()) {
+      if (shared.rank != rank) continue;
+      for (std::size_t i = 0; i < labels.size(); ++i) {
+        const GlobalId here = fragments.of_slot[at(shared.send[i])];
+        if (here != labels[i]) met.push_back({here, labels[i]});
+      }
     }
   }
-  std::erase_if(met, [](const Meeting& m) { return m.here == m.there; });
   std::sort(met.begin(), met.end());
   met.erase(std::unique(met.begin(), met.end()), met.end());
   return met;

@@ -93,6 +93,9 @@ std::vector<std::byte> pack(const Records& records, std::span<const std::uint8_t
   std::vector<std::byte> bytes;
   for_each_list(records, [&](const auto& list) {
     std::decay_t<decltype(list)> chosen;
+    if constexpr (std::is_same_v<decltype(chosen), std::vector<ElementRecord>>) {
+      chosen.reserve(static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), std::uint8_t{1})));
+    }
     for_each_wanted(records.elements, wanted, list, [&](const auto& entry) { chosen.push_back(entry); });
     put(chosen, bytes);
   });

@@ -98,6 +98,12 @@ struct SharedElements {
   std::vector<GlobalId> receive;  ///< proxies whose originals are there
 };
 
+/// The same by slots of this rank, in the same order.
+struct SharedSlots {
+  int rank = 0;
+  std::vector<Index> send, receive;
+};
+
 /// The elements marked, packed for a message. @param wanted (elements) 1: yes. O(elements + lists).
 [[nodiscard]] std::vector<std::byte> pack(const Records& records, std::span<const std::uint8_t> wanted);
 

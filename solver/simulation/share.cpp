@@ -11,9 +11,8 @@ namespace {
 
 /// A decomposition is done when nodes have really used up this share of their allowance; else the bound is brought down.
 constexpr double kUsedUp = 0.75;
-/// Where divisions follow each other within so many steps the margin is stretched, where they do not it is let go again.
-constexpr std::int64_t kSoon = 300, kLate = 2000;
-constexpr double kStretch = 1.5, kMostStretched = 5;
+/// The margin is stretched, but no further than this, so that at the present speed a division lasts for so many steps.
+constexpr double kLasting = 300, kMostStretched = 5;
 /// A new division must have paid for itself after so many steps; an imbalance below this is mostly noise.
 constexpr double kHorizon = 500, kWorthBalancing = 1.05;
 
@@ -27,7 +26,17 @@ Share::Share(const case_::Case& input, const Communicator& communicator, std::un
   if (communicator_.is_root()) whole_model = pack(model_->whole);
   communicator_.broadcast(whole_model);
   const std::vector<double> weight = stepper_ ? balance_.weights(*stepper_) : std::vector<double>{};
+  motion_ = communicator_.max(stepper_ ? first_motion() : 0.0);
   decompose_anew(unpack_whole(whole_model), stepper_ ? stepper_->records() : Records{}, weight, Ledger{});
+}
+
+/// How far a node moves in a step at the start, m.
+double Share::first_motion() const {
+  const State& state = stepper_->state();
+  double square = 0;
+  for (Index n = 0; n < model_->local.num_nodes; ++n) square = std::max(square, load_node(state.velocity.data(), n).squaredNorm());
+  const double dt = input_.time.step > 0 ? input_.time.step : input_.time.safety * time_step_->limit(state.position);
+  return std::sqrt(square) * dt;
 }
 
 void Share::start_whole() {
@@ -55,12 +64,8 @@ void Share::rebuild(WholeModel whole, Records mine, const std::vector<double>& w
   stepper_.reset();
   time_step_.reset();
   model_.reset();
-  const std::int64_t since = ledger.steps - divided_at_;
-  if (divided_at_ > 0 && since < kSoon) stretch_ = std::min(stretch_ * kStretch, kMostStretched);
-  if (since > kLate) stretch_ = std::max(stretch_ / kStretch, 1.0);
-  divided_at_ = ledger.steps;
   reach_ = reach_of(input_, longest_edge(communicator_, mine));
-  reach_.margin *= stretch_;
+  reach_.margin *= std::clamp(kLasting * motion_ / (kUsedUp * reach_.allowed_motion()), 1.0, kMostStretched);
   build(decompose(communicator_, domains_, std::move(mine), weight, reach_), std::move(whole), std::move(ledger));
 }
 
@@ -109,10 +114,10 @@ bool Share::balancing_pays() {
 /// The sum of the largest speeds bounds the largest displacement; they are known a step late, so that the last step and the
 /// next are counted beforehand, at twice the speed.
 bool Share::left_reach() {
-  const double last = stepper_->max_speed_anywhere() * stepper_->dt();
-  moved_ += last;
+  motion_ = stepper_->max_speed_anywhere() * stepper_->dt();
+  moved_ += motion_;
   const double allowed = reach_.allowed_motion();
-  if (moved_ + 4 * last <= allowed) return false;
+  if (moved_ + 4 * motion_ <= allowed) return false;
   const LocalMesh& local = model_->local;
   const Field<double>& now = stepper_->state().position;
   double square = 0;
@@ -121,7 +126,7 @@ bool Share::left_reach() {
     square = std::max(square, (load_node(now.data(), n) - load_node(anchor_.data(), n)).squaredNorm());
   }
   moved_ = communicator_.max(std::sqrt(square));
-  return !(moved_ + 4 * last <= kUsedUp * allowed);
+  return !(moved_ + 4 * motion_ <= kUsedUp * allowed);
 }
 
 }  // namespace breccia

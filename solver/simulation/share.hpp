@@ -38,6 +38,7 @@ class Share {
 
  private:
   void start_whole();
+  [[nodiscard]] double first_motion() const;
   void decompose_anew(WholeModel whole, Records mine, const std::vector<double>& weight, Ledger ledger);
   void rebuild(WholeModel whole, Records mine, const std::vector<double>& weight, Ledger ledger);
   void build(const Piece& piece, WholeModel whole, Ledger ledger);
@@ -55,8 +56,7 @@ class Share {
   Balance balance_;
   double decomposition_s_ = 0;  ///< s, that the last decomposition took on the slowest rank
   Reach reach_;
-  double stretch_ = 1;           ///< of the margin
-  std::int64_t divided_at_ = 0;  ///< step of the last division
+  double motion_ = 0;     ///< m, largest of a node in a step, at present
   double moved_ = 0;      ///< m, bound of the largest displacement since the decomposition
   Field<double> anchor_;  ///< nodal field, positions then
 };

@@ -83,7 +83,7 @@ class Stepper {
   void restore_holds(const Records& records);
 
   /// From now on this rank is one of several. @pre before the first step of this object. Collective.
-  void connect(const Communicator& communicator, std::vector<SharedElements> shared, ExchangeKind kind);
+  void connect(const Communicator& communicator, const std::vector<SharedElements>& shared, ExchangeKind kind);
 
   /// Hears what was said at the end of the last step; after this no more steps. Collective.
   void conclude();
@@ -110,8 +110,7 @@ class Stepper {
   [[nodiscard]] double max_speed_anywhere() const { return max_speed_anywhere_; }  ///< m/s, of all ranks, a step ago
   [[nodiscard]] std::int64_t messages() const;                      ///< that gathered this rank's originals so far
   [[nodiscard]] std::int64_t bytes() const;                         ///< in them
-  [[nodiscard]] const std::vector<SharedElements>& shared_elements() const { return shared_elements_; }
-  [[nodiscard]] Index element_with(GlobalId id) const;  ///< index in the rank's mesh. @pre it is there
+  [[nodiscard]] const std::vector<SharedSlots>& shared_slots() const { return shared_; }
   [[nodiscard]] const Communicator& communicator() const { return communicator_; }
   [[nodiscard]] std::int64_t crushed() const { return crushed_; }   ///< element-steps with J below its floor
   [[nodiscard]] std::int64_t searches() const { return searches_before_ + (contact_ ? contact_->num_searches() : 0); }
@@ -144,7 +143,8 @@ class Stepper {
   void joint_forces();
   void find_relevant();
   [[nodiscard]] bool relevant(Index slot) const { return relevant_[static_cast<std::size_t>(slot)] != 0; }
-  [[nodiscard]] std::vector<HaloNeighbour> halo_plan(const std::vector<SharedElements>& shared) const;
+  [[nodiscard]] Index element_with(GlobalId id) const;
+  [[nodiscard]] std::vector<HaloNeighbour> halo_plan(const std::vector<SharedSlots>& shared) const;
   [[nodiscard]] std::vector<std::uint8_t> near_slots() const;
   void plan_near();
   void hear_releases();
@@ -196,7 +196,7 @@ class Stepper {
   Simd simd_;
 
   Communicator communicator_;               ///< alone unless connected
-  std::vector<SharedElements> shared_elements_;
+  std::vector<SharedSlots> shared_;         ///< with every neighbour
   std::unique_ptr<Halo> all_, near_;        ///< proxies; none when alone
   ExchangeKind exchange_ = ExchangeKind::non_blocking;
   bool news_ = false;                       ///< some rank's joints came apart

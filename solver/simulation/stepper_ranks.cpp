@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <cstring>
-#include <set>
 #include <utility>
 
 #include "base/error.hpp"
@@ -12,26 +10,18 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-template <class T>
-std::vector<std::byte> bytes_of(const std::vector<T>& list) {
-  const auto* raw = reinterpret_cast<const std::byte*>(list.data());
-  return {raw, raw + list.size() * sizeof(T)};
-}
-
-template <class T>
-std::vector<T> list_of(const std::vector<std::byte>& bytes) {
-  std::vector<T> list(bytes.size() / sizeof(T));
-  if (!bytes.empty()) std::memcpy(static_cast<void*>(list.data()), bytes.data(), bytes.size());
-  return list;
-}
-
 }  // namespace
 
-void Stepper::connect(const Communicator& communicator, std::vector<SharedElements> shared, ExchangeKind kind) {
+void Stepper::connect(const Communicator& communicator, const std::vector<SharedElements>& shared, ExchangeKind kind) {
   communicator_ = communicator;
   exchange_ = kind;
-  shared_elements_ = std::move(shared);
-  all_ = std::make_unique<Halo>(communicator_, halo_plan(shared_elements_), 2, exchange_);
+  const auto slots = [&](const std::vector<GlobalId>& ids) {
+    std::vector<Index> list;
+    for (const GlobalId id : ids) list.push_back(model_.local.slot_of_element[at(element_with(id))]);
+    return list;
+  };
+  for (const SharedElements& elements : shared) shared_.push_back({elements.rank, slots(elements.send), slots(elements.receive)});
+  all_ = std::make_unique<Halo>(communicator_, halo_plan(shared_), 2, exchange_);
   if (contact_) contact_->restrict_to(relevant_);
   plan_near();
   vote_.emplace(communicator, 4);
@@ -52,23 +42,23 @@ void Stepper::find_relevant() {
   }
 }
 
-std::vector<HaloNeighbour> Stepper::halo_plan(const std::vector<SharedElements>& shared) const {
+std::vector<HaloNeighbour> Stepper::halo_plan(const std::vector<SharedSlots>& shared) const {
   const LocalMesh& local = model_.local;
-  const auto places = [&](const std::vector<GlobalId>& ids) {
+  std::vector<Index> listed(at(local.num_nodes), -1);  // the last list a shared node is in: it goes once
+  Index number = 0;
+  const auto places = [&](const std::vector<Index>& slots) {
     std::vector<std::size_t> list;
-    std::set<Index> known;  // a shared node goes once
-    for (const GlobalId id : ids) {
-      const Index slot = local.slot_of_element[at(element_with(id))];
+    for (const Index slot : slots) {
       for (int c = 0; c < 4; ++c) {
         const Index node = local.corner_node(slot, c);
-        if (slot >= local.num_own_slots && !known.insert(node).second) continue;
-        list.push_back(nodal(node, 0));
+        if (std::exchange(listed[at(node)], number) != number) list.push_back(nodal(node, 0));
       }
     }
+    ++number;
     return list;
   };
   std::vector<HaloNeighbour> plan;
-  for (const SharedElements& elements : shared) plan.push_back({elements.rank, places(elements.send), places(elements.receive)});
+  for (const SharedSlots& slots : shared) plan.push_back({slots.rank, places(slots.send), places(slots.receive)});
   return plan;
 }
 
@@ -83,23 +73,25 @@ std::vector<std::uint8_t> Stepper::near_slots() const {
   return near;
 }
 
-/// Asks the owners of near proxies for them.
+/// Asks the owners of near proxies for them, by their places among what is shared.
 void Stepper::plan_near() {
   const std::vector<std::uint8_t> near = near_slots();
-  std::vector<SharedElements> wanted;
-  std::vector<Communicator::Parcel> parcels;
-  for (const SharedElements& shared : shared_elements_) {
-    SharedElements& ask = wanted.emplace_back();
-    ask.rank = shared.rank;
-    for (const GlobalId id : shared.receive) {
-      if (near[at(model_.local.slot_of_element[at(element_with(id))])] != 0) ask.receive.push_back(id);
+  std::vector<SharedSlots> wanted;
+  std::vector<Communicator::ListOf<Index>> lists;
+  for (const SharedSlots& shared : shared_) {
+    SharedSlots& ask = wanted.emplace_back(shared.rank);
+    std::vector<Index>& places = lists.emplace_back(shared.rank).entries;
+    for (std::size_t i = 0; i < shared.receive.size(); ++i) {
+      if (near[at(shared.receive[i])] == 0) continue;
+      ask.receive.push_back(shared.receive[i]);
+      places.push_back(static_cast<Index>(i));
     }
-    if (!ask.receive.empty()) parcels.push_back({ask.rank, bytes_of(ask.receive)});
   }
-  for (const Communicator::Parcel& parcel : communicator_.exchange(std::move(parcels))) {
-    const auto of_rank = std::find_if(wanted.begin(), wanted.end(), [&](const SharedElements& s) { return s.rank == parcel.rank; });
-    DEMAND(of_rank != wanted.end(), "rank " + std::to_string(parcel.rank) + " is no neighbour");
-    of_rank->send = list_of<GlobalId>(parcel.bytes);
+  for (const auto& [rank, places] : communicator_.exchange(lists)) {
+    const auto k = static_cast<std::size_t>(std::find_if(shared_.begin(), shared_.end(), [&](const auto& s) { return s.rank == rank; }) -
+                                            shared_.begin());
+    DEMAND(k < shared_.size(), "rank " + std::to_string(rank) + " is no neighbour");
+    for (const Index place : places) wanted[k].send.push_back(shared_[k].send[at(place)]);
   }
   if (near_) {
     messages_ += near_->messages();
@@ -187,17 +179,10 @@ void Stepper::update_contact() {
 
 /// Every rank tells its neighbours what the points of their proxies touch.
 void Stepper::exchange_touching() {
-  std::vector<Communicator::Parcel> parcels;
-  for (const SharedElements& shared : shared_elements_) {
-    std::vector<CoupleRecord> touching;
-    for (const GlobalId id : shared.send) contact_->touching_of(id, touching);
-    if (!touching.empty()) parcels.push_back({shared.rank, bytes_of(touching)});
-  }
+  std::vector<Communicator::ListOf<CoupleRecord>> lists;
+  for (const SharedSlots& shared : shared_) lists.push_back({shared.rank, contact_->touching_of(shared.send)});
   std::vector<CoupleRecord> heard;
-  for (const Communicator::Parcel& parcel : communicator_.exchange(std::move(parcels))) {
-    const auto of_rank = list_of<CoupleRecord>(parcel.bytes);
-    heard.insert(heard.end(), of_rank.begin(), of_rank.end());
-  }
+  for (const auto& [rank, touching] : communicator_.exchange(lists)) heard.insert(heard.end(), touching.begin(), touching.end());
   contact_->adopt(heard);
 }
 

@@ -139,6 +139,7 @@ Records Stepper::records() const {
   Records records;
   const std::vector<FaceTag> faces = face_tags(model_);
   std::size_t next_face = 0, next_corner = 0;
+  records.elements.reserve(at(model_.mesh.num_elements()));
   for (Index e = 0; e < model_.mesh.num_elements(); ++e) {
     const Index slot = local.slot_of_element[at(e)];
     if (!local.is_original(slot)) continue;
@@ -176,10 +177,11 @@ void Stepper::remember_joints(Records& records) const {
 void Stepper::remember_holds(Records& records) const {
   const LocalMesh& local = model_.local;
   std::vector<Constraints::Anchor> anchors = constraints_.anchors();
+  if (anchors.empty()) return;
   std::sort(anchors.begin(), anchors.end(), [](const auto& p, const auto& q) { return p.node < q.node; });
   for (const ElementRecord& record : records.elements) {
     const Index slot = local.slot_of_element[at(element_with(record.id))];
-    for (int c = 0; c < 4 && !anchors.empty(); ++c) {
+    for (int c = 0; c < 4; ++c) {
       const Index node = local.corner_node(slot, c);
       auto anchor = std::lower_bound(anchors.begin(), anchors.end(), node, [](const auto& p, Index n) { return p.node < n; });
       for (; anchor != anchors.end() && anchor->node == node; ++anchor) {
@@ -190,6 +192,7 @@ void Stepper::remember_holds(Records& records) const {
   }
 }
 
+/// Index in the rank's mesh of an element that is there, or where it would stand.
 Index Stepper::element_with(GlobalId id) const {
   const std::vector<GlobalId>& ids = model_.mesh.element_ids;
   return ids.empty() ? static_cast<Index>(id) : static_cast<Index>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());

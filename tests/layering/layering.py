@@ -41,7 +41,7 @@ THIRD_PARTY = [
 
 # Of the operating system and the compiler; anything else with a slash or ".h" needs a line in THIRD_PARTY.
 SYSTEM = re.compile(
-    r"(experimental/simd|(x86|imm)intrin\.h|dlfcn\.h|fcntl\.h|sched\.h|unistd\.h|cpuid\.h|sys/(ioctl|resource|stat|statvfs|types|utsname)\.h)")
+    r"(experimental/simd|(x86|imm)intrin\.h|dlfcn\.h|fcntl\.h|malloc\.h|sched\.h|unistd\.h|cpuid\.h|sys/(ioctl|resource|stat|statvfs|types|utsname)\.h)")
 
 SOURCE_SUFFIXES = {".cpp", ".hpp", ".h", ".cxx", ".py"}
 MAX_LINES = 450

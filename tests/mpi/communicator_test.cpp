@@ -96,11 +96,17 @@ TEST(Communicator, GathersListsOfDifferentLengthByRank) {
   for (int r = 0; r < world().size(); ++r) {
     EXPECT_EQ(all[static_cast<std::size_t>(r)], std::vector<double>(static_cast<std::size_t>(r), r + 0.25));
   }
-  const auto gathered = world().gather(std::span<const double>(mine));
-  if (world().is_root()) {
-    EXPECT_EQ(gathered, all);
-  } else {
-    EXPECT_THAT(gathered, IsEmpty());
+}
+
+TEST(Communicator, ExchangesListsAndSendsNoEmptyOnes) {
+  const int rank = world().rank();
+  std::vector<Communicator::ListOf<double>> lists;
+  for (int to = 0; to < world().size(); ++to) lists.push_back({to, std::vector<double>(static_cast<std::size_t>(to), rank + 0.5)});
+  const auto received = world().exchange(lists);
+  ASSERT_EQ(received.size(), static_cast<std::size_t>(rank == 0 ? 0 : world().size()));
+  for (std::size_t from = 0; from < received.size(); ++from) {
+    EXPECT_EQ(received[from].rank, static_cast<int>(from));
+    EXPECT_EQ(received[from].entries, std::vector<double>(static_cast<std::size_t>(rank), static_cast<double>(from) + 0.5));
   }
 }
 
