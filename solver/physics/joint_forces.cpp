@@ -11,6 +11,9 @@ namespace {
 
 using Triple = std::array<Vec3, 3>;
 
+/// Of the square of the elastic range: half the opening.
+constexpr double kCalm = 0.25;
+
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Index corner_a(const LocalMesh& mesh, const ActiveJoint& joint, std::size_t i) {
@@ -28,14 +31,26 @@ struct Kinematics {
   double doubled_area = 0;
 };
 
-Kinematics kinematics(const JointLawParams& law, const LocalMesh& mesh, const double* position,
-                      const ActiveJoint& joint) {
+/// Corners of a joint's two faces, matching.
+struct Sides {
+  Triple a, b;
+};
+
+Sides sides_of(const LocalMesh& mesh, const double* position, const ActiveJoint& joint) {
+  Sides sides;
+  for (std::size_t i = 0; i < 3; ++i) {
+    sides.a[i] = load_node(position, corner_a(mesh, joint, i));
+    sides.b[i] = load_node(position, corner_b(mesh, joint, i));
+  }
+  return sides;
+}
+
+Kinematics kinematics(const JointLawParams& law, const Sides& sides) {
   Kinematics k;
   Triple middle;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 a = load_node(position, corner_a(mesh, joint, i)), b = load_node(position, corner_b(mesh, joint, i));
-    k.opening[i] = b - a;
-    middle[i] = 0.5 * (a + b);
+    k.opening[i] = sides.b[i] - sides.a[i];
+    middle[i] = 0.5 * (sides.a[i] + sides.b[i]);
   }
   k.edge = {middle[1] - middle[0], middle[2] - middle[0]};
   const Vec3& edge = k.edge[0];
@@ -108,25 +123,6 @@ Triple evaluate(const JointLawParams& law, const Kinematics& k, ActiveJoint& joi
   return force;
 }
 
-double stored(const ActiveJoint& joint) {
-  return joint.area / 3.0 * (joint.points[0].stored() + joint.points[1].stored() + joint.points[2].stored());
-}
-
-/// What a joint has dissipated, to tell what an evaluation adds.
-struct Dissipated {
-  double mode_1, mode_2, friction;
-  explicit Dissipated(const ActiveJoint& joint) : mode_1(joint.mode_1), mode_2(joint.mode_2), friction(joint.friction) {}
-};
-
-/// Joints are computed wherever one side is at home, and booked with side a.
-void book(const LocalMesh& mesh, const ActiveJoint& joint, const Dissipated& before, JointWork& work) {
-  if (!mesh.is_original(joint.slot_a)) return;
-  work.mode_1.add(joint.mode_1 - before.mode_1);
-  work.mode_2.add(joint.mode_2 - before.mode_2);
-  work.friction.add(joint.friction - before.friction);
-  work.stored.add(stored(joint));
-}
-
 /// What turning the mid-surface does to a closed joint that has slid: its normal energy k d delta_n^2 / 2 beyond the isotropic
 /// part depends on the normal. T = sum A0/3 k d delta_n delta_s, N: dU = T . dn.
 Vec3 tilting(const JointLawParams& law, const Kinematics& k, const ActiveJoint& joint) {
@@ -156,6 +152,34 @@ Triple tilting_forces(const Kinematics& k, const Vec3& tilt, ActiveJoint& joint)
   return force;
 }
 
+/// In the very products the sweep uses.
+double largest_opening_squared(const Sides& sides) {
+  double largest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 d = sides.b[i] - sides.a[i];
+    largest = std::max(largest, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  }
+  return largest;
+}
+
+/// Evaluates a joint that is surely elastic and has no damage; returns the force on each corner of a, as the sweep would.
+Triple evaluate_elastic(const JointLawParams& law, const Sides& sides, ActiveJoint& joint) {
+  Triple force;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 opening = sides.b[i] - sides.a[i];
+    (void)evaluate_elastic_point(law, opening, joint.points[i]);
+    force[i] = corner_stiffness(law, joint.area) * opening;
+  }
+  return force;
+}
+
+void add_forces(const LocalMesh& mesh, const ActiveJoint& joint, const Triple& on_a, const Triple& on_b, NodalForces& forces) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    forces.add(corner_a(mesh, joint, i), on_a[i]);
+    forces.add(corner_b(mesh, joint, i), on_b[i]);
+  }
+}
+
 /// At the corners, and so at mid-edge points too.
 bool open_everywhere(const Kinematics& k) {
   return std::all_of(k.opening.begin(), k.opening.end(), [&](const Vec3& o) { return o.dot(k.frame.normal) > 0; });
@@ -181,36 +205,75 @@ FailureMode ActiveJoint::mode() const {
   return FailureMode::mixed;
 }
 
+namespace {
+
+/// Evaluates a joint of the list and adds its forces; true when it is released.
+bool act(const JointLawParams& law, const LocalMesh& mesh, const double* position, ActiveJoint& joint, NodalForces& forces,
+         JointWork& work) {
+  const Sides sides = sides_of(mesh, position, joint);
+  joint.calm = false;
+  if (law.screen_limit() > 0 && joint.damage() <= 0) {
+    const double largest = largest_opening_squared(sides);
+    if (largest <= law.screen_limit()) {
+      joint.calm = largest <= kCalm * law.screen_limit();
+      const Triple force = evaluate_elastic(law, sides, joint);
+      add_forces(mesh, joint, force, {-force[0], -force[1], -force[2]}, forces);
+      return false;
+    }
+  }
+  const Kinematics k = kinematics(law, sides);
+  const Triple force = evaluate(law, k, joint);
+  if (joint.state == JointState::holding && gone(joint, law.points_to_fail)) {
+    joint.state = JointState::failed;
+    if (mesh.is_original(joint.slot_a)) work.failed.push_back(joint.id);
+  }
+  // Open and broken everywhere: no force, and nothing stored, friction springs included.
+  if (joint.state == JointState::failed && open_everywhere(k)) return true;
+  const Triple turning = tilting_forces(k, tilting(law, k, joint), joint);
+  add_forces(mesh, joint, {force[0] + turning[0], force[1] + turning[1], force[2] + turning[2]},
+             {turning[0] - force[0], turning[1] - force[1], turning[2] - force[2]}, forces);
+  return false;
+}
+
+/// Joints lie scattered in memory: the next ones are asked for while one is computed.
+void prefetch(const ActiveJoint& joint) {
+  const auto* bytes = reinterpret_cast<const char*>(&joint);
+  for (std::size_t line = 0; line < sizeof joint; line += 64) __builtin_prefetch(bytes + line, 1);
+}
+
+}  // namespace
+
+double ActiveJoint::stored() const { return area / 3.0 * (points[0].stored() + points[1].stored() + points[2].stored()); }
+
+JointEnergy joint_energy(const LocalMesh& mesh, const ActiveJoints& joints, const JointWork& work) {
+  JointEnergy energy{work.mode_1, work.mode_2, work.friction, {}};
+  for (const ActiveJoint& joint : joints) {
+    if (!mesh.is_original(joint.slot_a)) continue;
+    energy.mode_1.add(joint.mode_1);
+    energy.mode_2.add(joint.mode_2);
+    energy.friction.add(joint.friction);
+    energy.stored.add(joint.stored());
+  }
+  return energy;
+}
+
 void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& mesh, const double* position,
-                         std::vector<ActiveJoint>& joints, NodalForces& forces, JointWork& work) {
+                         ActiveJoints& joints, NodalForces& forces, JointWork& work) {
   work.failed.clear();
   work.released.clear();
-  work.stored = {};
-  for (ActiveJoint& joint : joints) {
-    const JointLawParams& law = laws[at(joint.law)];
-    const Kinematics k = kinematics(law, mesh, position, joint);
-    const Dissipated before(joint);
-    const Triple force = evaluate(law, k, joint);
-    if (joint.state == JointState::holding && gone(joint, law.points_to_fail)) {
-      joint.state = JointState::failed;
-      if (mesh.is_original(joint.slot_a)) work.failed.push_back(joint.id);
-    }
-    if (joint.state == JointState::failed && open_everywhere(k)) {
-      // Open and broken everywhere: no force, and nothing stored, friction springs included.
-      work.released.push_back({joint.id, joint.slot_a, joint.face_a, joint.mode()});
-      book(mesh, joint, before, work);
-      continue;
-    }
-    const Triple turning = tilting_forces(k, tilting(law, k, joint), joint);
-    book(mesh, joint, before, work);
-    for (std::size_t i = 0; i < 3; ++i) {
-      forces.add(corner_a(mesh, joint, i), force[i] + turning[i]);
-      forces.add(corner_b(mesh, joint, i), turning[i] - force[i]);
-    }
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    if (i + 2 < joints.size()) prefetch(joints[i + 2]);
+    ActiveJoint& joint = joints[i];
+    if (!act(laws[at(joint.law)], mesh, position, joint, forces, work)) continue;
+    work.released.push_back({joint.id, joint.slot_a, joint.face_a, joint.mode()});
+    if (!mesh.is_original(joint.slot_a)) continue;
+    work.mode_1.add(joint.mode_1);
+    work.mode_2.add(joint.mode_2);
+    work.friction.add(joint.friction);
   }
   if (work.released.empty()) return;
   auto next = work.released.begin();
-  std::erase_if(joints, [&](const ActiveJoint& joint) {
+  joints.erase_if([&](const ActiveJoint& joint) {
     if (next == work.released.end() || joint.id != next->id) return false;
     ++next;
     return true;
@@ -218,18 +281,13 @@ void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& 
 }
 
 double largest_opening_squared(const LocalMesh& mesh, const double* position, const ActiveJoint& joint) {
-  double largest = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 d = load_node(position, corner_b(mesh, joint, i)) - load_node(position, corner_a(mesh, joint, i));
-    largest = std::max(largest, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-  }
-  return largest;
+  return largest_opening_squared(sides_of(mesh, position, joint));
 }
 
 void virgin_forces(const JointLawParams& law, const LocalMesh& mesh, const double* position, const ActiveJoint& joint,
                    bool side_a, double* force) {
   ActiveJoint trial = joint;
-  const Kinematics k = kinematics(law, mesh, position, joint);
+  const Kinematics k = kinematics(law, sides_of(mesh, position, joint));
   const Triple pull = evaluate(law, k, trial);
   const Triple turning = tilting_forces(k, tilting(law, k, trial), trial);
   for (int i = 0; i < 3; ++i) {
@@ -241,14 +299,12 @@ void virgin_forces(const JointLawParams& law, const LocalMesh& mesh, const doubl
 }
 
 void start_history(std::span<const JointLawParams> laws, const LocalMesh& mesh, const double* position,
-                   std::span<ActiveJoint> joints, JointWork& work) {
+                   std::span<ActiveJoint> joints) {
   for (ActiveJoint& joint : joints) {
     const JointLawParams& law = laws[at(joint.law)];
-    const Kinematics k = kinematics(law, mesh, position, joint);
-    const Dissipated before(joint);
+    const Kinematics k = kinematics(law, sides_of(mesh, position, joint));
     (void)evaluate(law, k, joint);
     (void)tilting_forces(k, tilting(law, k, joint), joint);
-    book(mesh, joint, before, work);
   }
 }
 

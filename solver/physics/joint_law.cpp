@@ -175,7 +175,7 @@ double slide(const JointLawParams& law, const JointFrame& frame, const Component
 
 void remember(const Vec3& opening, const Vec3& traction, double normal_opening, const Answer& answer,
               JointPointHistory& h) {
-  h.fresh = false;
+  h.fresh = h.whole = false;
   h.opening = opening;
   h.traction = traction;
   h.normal_opening = normal_opening;
@@ -193,6 +193,13 @@ void start_at_limit(const JointLawParams& law, const JointFrame& frame, const Ve
   const Components c = split(law, frame, limit);
   const Answer answer = answer_of(law, c, Left{});
   remember(limit, answer.normal * frame.normal + answer.shear_stiffness * c.shear_vector, c.normal, answer, h);
+}
+
+/// Parts of an elastic history whose last evaluation did not ask for the normal.
+void split_history(const JointLawParams& law, const JointFrame& frame, JointPointHistory& h) {
+  const Vec3 opening = h.opening, traction = h.traction;
+  const Components c = split(law, frame, opening);
+  remember(opening, traction, c.normal, answer_of(law, c, Left{}), h);
 }
 
 /// What is wrong with single numbers.
@@ -280,6 +287,7 @@ JointPointResponse evaluate_point(const JointLawParams& law, const JointFrame& f
     return response;
   }
   if (history.fresh) start_at_limit(law, frame, opening, end_of_elastic, history);
+  if (history.whole) split_history(law, frame, history);
 
   const double weight = law.friction > 0 ? 1.0 - left.shear() : 0.0;
   response.traction = answer.normal * frame.normal + answer.shear_stiffness * c.shear_vector;

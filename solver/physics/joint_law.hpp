@@ -94,7 +94,8 @@ struct JointPointHistory {
   double secant_shear = 1;
   Vec3 slip{0, 0, 0};  ///< m, s along the two tangents; the third component is unused
   // The last evaluation, for the work of the next step.
-  bool fresh = true;  ///< never evaluated
+  bool fresh = true;   ///< never evaluated
+  bool whole = false;  ///< by evaluate_elastic_point: parts along the normal are missing, stored_normal holds all energy
   bool gone = false;  ///< nothing was left of the cohesion
   double friction_weight = 0;
   std::array<double, 2> friction_traction{0, 0};                    ///< Pa, weighted, along the tangents
@@ -131,5 +132,16 @@ struct JointPointResponse {
 /// @param frame  unit vectors.  No allocation, throws nothing. exp only where damage may grow.
 [[nodiscard]] JointPointResponse evaluate_point(const JointLawParams& law, const JointFrame& frame, const Vec3& opening,
                                                 JointPointHistory& history);
+
+/// The same for a point without damage that the caller knows to be elastic, without a frame. Returns the traction on side a.
+inline Vec3 evaluate_elastic_point(const JointLawParams& law, const Vec3& opening, JointPointHistory& history) {
+  history.fresh = false;
+  history.whole = true;
+  history.opening = opening;
+  history.traction = law.stiffness * opening;
+  history.stored_normal = 0.5 * law.stiffness * opening.squaredNorm();
+  history.stored_shear = 0;
+  return history.traction;
+}
 
 }  // namespace breccia

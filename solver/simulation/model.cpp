@@ -292,9 +292,7 @@ JointLinks build_links(const Model& model) {
     const JointLawParams& law = model.joint_laws[index(joint.law)];
     const Index a = local.slot_of_element[index(joint.face.a)], b = local.slot_of_element[index(joint.face.b)];
     const int face_b = joint.face.code / 3;
-    // The other side sees the same match of corners: own corner i <-> (rotation - i), which is its own inverse.
-    links.link[JointLinks::at(a, joint.face.face_a)] = JointLinks::make_link(b, joint.face.code);
-    links.link[JointLinks::at(b, face_b)] = JointLinks::make_link(a, 3 * joint.face.face_a + joint.face.code % 3);
+    links.attach(a, joint.face.face_a, b, joint.face.code);
     const double stiffness = corner_stiffness(law, joint.face.area);
     links.stiffness[JointLinks::at(a, joint.face.face_a)] = stiffness;
     links.stiffness[JointLinks::at(b, face_b)] = stiffness;

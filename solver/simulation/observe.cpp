@@ -64,7 +64,6 @@ void add_active_joint(const Stepper& stepper, const ActiveJoint& joint, Frame::J
 void add_joints(const Stepper& stepper, Frame::Joints& out) {
   std::vector<ReleasedJoint> released = stepper.released_joints();
   std::sort(released.begin(), released.end(), [](const ReleasedJoint& p, const ReleasedJoint& q) { return p.id < q.id; });
-  const std::vector<ActiveJoint>& active = stepper.active_joints();
   const auto add_released = [&](const ReleasedJoint& joint) {
     add_released_joint(stepper, joint, out);
     out.damage.push_back(1.0);
@@ -74,7 +73,7 @@ void add_joints(const Stepper& stepper, Frame::Joints& out) {
     out.broken.push_back(1);
   };
   auto next = released.begin();
-  for (const ActiveJoint& joint : active) {
+  for (const ActiveJoint& joint : stepper.active_joints()) {
     for (; next != released.end() && next->id < joint.id; ++next) add_released(*next);
     if (joint.damage() <= 0 || !stepper.model().local.is_original(joint.slot_a)) continue;
     add_active_joint(stepper, joint, out);

@@ -87,15 +87,7 @@ void Stepper::start_joints() {
   for (std::size_t j = 0; j < model_.joints.size(); ++j) {
     if (!starts_intact(model_, model_.joints[j])) from_start.push_back(make_active(j));
   }
-  insert_active(std::move(from_start));
-}
-
-/// @pre batch ascends by id
-void Stepper::insert_active(std::vector<ActiveJoint> batch) {
-  const auto middle = static_cast<std::ptrdiff_t>(active_.size());
-  active_.insert(active_.end(), batch.begin(), batch.end());
-  std::inplace_merge(active_.begin(), active_.begin() + middle, active_.end(),
-                     [](const ActiveJoint& x, const ActiveJoint& y) { return x.id < y.id; });
+  active_.insert(from_start);
 }
 
 ActiveJoint Stepper::make_active(std::size_t index) const {
@@ -159,6 +151,7 @@ void Stepper::step(bool sample, bool stop) {
   finish_motion(args);
   activate_crossing();
   if (sample) take_budget(velocity_before);
+  return_calm();
   book_after(sample);
   cast_votes(stop);
   gather_proxies();
@@ -333,8 +326,19 @@ void Stepper::activate_crossing() {
     links_.detach(joint.slot_b, joint.code / 3);
   }
   crossed_.clear();
-  start_history(model_.joint_laws, model_.local, state_.position.data(), batch, joint_work_);
-  insert_active(std::move(batch));
+  start_history(model_.joint_laws, model_.local, state_.position.data(), batch);
+  active_.insert(batch);
+}
+
+/// Joints that are as if nothing had happened go back to the sweep, which has them far cheaper.
+void Stepper::return_calm() {
+  const auto lap = timer_.measure(Phase::joints);
+  active_.erase_if([&](const ActiveJoint& joint) {
+    const Index end = model_.local.num_own_slots;  // the sweep looks across the faces of these only
+    if (!joint.calm || joint.slot_a >= end || joint.slot_b >= end) return false;
+    links_.attach(joint.slot_a, joint.face_a, joint.slot_b, joint.code);
+    return true;
+  });
 }
 
 void Stepper::book_after(bool sample) {

@@ -49,7 +49,7 @@ struct Ledger {
 ///  2. contact: joints that came apart a step ago hand over their faces, all ranks having heard of them meanwhile; a new
 ///     search if one is due; then the forces of every couple, by ascending ids;
 ///  3. the sweep: every element's internal forces, its side of its intact joints, and the motion of its nodes;
-///  4. constraints; joints that have left their elastic range join the active list;
+///  4. constraints; joints that have left their elastic range join the active list, those that are back in it leave it;
 ///  5. proxies are gathered from their originals.
 ///
 /// On several ranks a rank computes the forces on its originals, nothing else: joints and couples with an element of
@@ -98,8 +98,7 @@ class Stepper {
   [[nodiscard]] double dt() const { return dt_; }                   ///< s
   [[nodiscard]] std::int64_t steps() const { return steps_; }       ///< done
   [[nodiscard]] const State& state() const { return state_; }
-  [[nodiscard]] const std::vector<ActiveJoint>& active_joints() const { return active_; }
-  [[nodiscard]] const JointWork& joint_work() const { return joint_work_; }
+  [[nodiscard]] const ActiveJoints& active_joints() const { return active_; }
   [[nodiscard]] const ContactSearch* contact() const { return contact_.get(); }  ///< nullptr: no contact in this case
   [[nodiscard]] const ContactWork& contact_work() const { return contact_work_; }
   [[nodiscard]] const Constraints& constraints() const { return constraints_; }
@@ -137,7 +136,6 @@ class Stepper {
   void detach(Index slot, int face);
   void remember_joints(Records& records) const;
   void remember_holds(Records& records) const;
-  void insert_active(std::vector<ActiveJoint> batch);
   [[nodiscard]] ActiveJoint make_active(std::size_t joint) const;
   void external_forces();
   void joint_forces();
@@ -161,6 +159,7 @@ class Stepper {
   void check_finite(const SweepStatus& status);
   void finish_motion(const SweepArgs& args);
   void activate_crossing();
+  void return_calm();
   void take_budget(const Field<double>& velocity_before);
   void find_worst(const ElasticEnergy& elastic);
   [[nodiscard]] ExactSum external_work() const;
@@ -171,7 +170,7 @@ class Stepper {
   State state_;
   JointLinks links_;
   std::vector<Index> joint_of_face_;        ///< (slots, 4) index of the joint, -1: none
-  std::vector<ActiveJoint> active_;         ///< ascending id
+  ActiveJoints active_;
   std::vector<ReleasedJoint> released_;     ///< whose faces belong to contact, in the order of their release
   std::vector<std::uint8_t> relevant_;      ///< (slots) 1: forces on its nodes are computed here: originals, and elements
                                             ///< with which they share nodes

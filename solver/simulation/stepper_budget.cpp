@@ -35,13 +35,13 @@ void Stepper::take_budget(const Field<double>& velocity_before) {
   const LocalMesh& local = model_.local;
   ElasticEnergy elastic = elastic_energy(local, model_.elastic, state_.position.data());
   elastic.total.add(sum_of(stress_work_, local.original));
-  ExactSum joints = intact_joint_energy(local, links_, state_.position.data());
-  joints.add(joint_work_.stored);
+  JointEnergy joints = joint_energy(local, active_, joint_work_);
+  joints.stored.add(intact_joint_energy(local, links_, state_.position.data()));
   ExactSum contact = contact_work_.stored;
   contact.add(contact_work_.friction_stored);
   const std::vector<double> terms = totals(
-      communicator_, std::array{kinetic_energy(local, velocity_before.data(), state_.velocity.data()), elastic.total, joints, contact,
-                                joint_work_.mode_1, joint_work_.mode_2, joint_work_.friction, contact_work_.dissipated,
+      communicator_, std::array{kinetic_energy(local, velocity_before.data(), state_.velocity.data()), elastic.total, joints.stored, contact,
+                                joints.mode_1, joints.mode_2, joints.friction, contact_work_.dissipated,
                                 contact_work_.friction_dissipated, sum_of(viscous_, local.original), sum_of(damping_, local.counted),
                                 external_work()});
   budget_ = {terms[0], terms[1], terms[2], terms[3], terms[4], terms[5], terms[6], terms[7], terms[8], terms[9], terms[10], terms[11]};

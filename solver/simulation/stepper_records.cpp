@@ -111,7 +111,7 @@ void Stepper::restore_joints(const Records& records) {
     joint.slot_b = local.slot_of_element[at(b)];
     if (relevant(joint.slot_a) || relevant(joint.slot_b)) active.push_back(joint);
   }
-  insert_active(std::move(active));
+  active_.insert(active);
   for (const ActiveJoint& joint : active_) {
     detach(joint.slot_a, joint.face_a);
     detach(joint.slot_b, joint.code / 3);

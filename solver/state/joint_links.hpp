@@ -27,6 +27,12 @@ struct JointLinks {
   [[nodiscard]] static constexpr Index slot_of(std::int32_t link) { return link >> 4; }
   [[nodiscard]] static constexpr int code_of(std::int32_t link) { return link & 15; }
 
+  /// The joint between face `face_a` of slot a and the face of slot b that `code` names (FaceLink) is intact. The other side sees
+  /// the same match of corners: own corner i <-> (rotation - i), which is its own inverse.
+  void attach(Index a, int face_a, Index b, int code) {
+    link[at(a, face_a)] = make_link(b, code);
+    link[at(b, code / 3)] = make_link(a, 3 * face_a + code % 3);
+  }
   /// The joint on this face is no longer the sweep's business.
   void detach(Index slot, int face) { link[at(slot, face)] = self_link(slot, face); }
 };

@@ -47,7 +47,7 @@ struct JointPair {
   LocalMesh local;
   Field<double> position;
   ActiveJoint virgin;               ///< the joint without history
-  std::vector<ActiveJoint> joints;  ///< the active list
+  ActiveJoints joints;              ///< the active list
   NodalForces forces;
   JointWork work;
 
@@ -68,7 +68,7 @@ struct JointPair {
     virgin.face_a = faces[0].face_a;
     virgin.code = faces[0].code;
     virgin.area = faces[0].area;
-    joints = {virgin};
+    joints = ActiveJoints({virgin});
   }
 
   /// Moves element b by an opening and element a not at all. The normal is +x.
@@ -104,7 +104,11 @@ struct JointPair {
   [[nodiscard]] Vec3 place(bool side_a, int i) const { return load_node(position.data(), corner(side_a, i)); }
   /// On the whole of side b.
   [[nodiscard]] Vec3 force_on_b() const { return force(false, 0) + force(false, 1) + force(false, 2); }
-  [[nodiscard]] double dissipated() const { return work.mode_1.value() + work.mode_2.value() + work.friction.value(); }
+  [[nodiscard]] double dissipated() const {
+    const JointEnergy energy = joint_energy(local, joints, work);
+    return energy.mode_1.value() + energy.mode_2.value() + energy.friction.value();
+  }
+  [[nodiscard]] double stored() const { return joint_energy(local, joints, work).stored.value(); }
 };
 
 /// Work of the joint's forces on the nodes, J, by the trapezoid rule and from outside: from forces and positions alone.

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "physics/joint_law.hpp"
+
+namespace breccia {
+
+enum class JointState : std::uint8_t {
+  holding,  ///< elastic or damaged
+  failed    ///< damage 1 at points_to_fail points: a frictional interface until it is open everywhere
+};
+
+/// How a joint failed, by the energy it dissipated: a mode alone when it took more than three quarters.
+enum class FailureMode : std::uint8_t { none = 0, mode_1 = 1, mode_2 = 2, mixed = 3 };
+
+/// A joint that is evaluated once a step, apart from the sweep: one that has left its elastic range, or whose law
+/// the sweep does not know. Side a is the element of lower global id.
+struct ActiveJoint {
+  GlobalId id = 0;
+  Index slot_a = 0, slot_b = 0;
+  std::int8_t face_a = 0, code = 0;  ///< as in JointFace
+  JointState state = JointState::holding;
+  Index law = 0;
+  double area = 0;  ///< m2, reference
+  std::array<JointPointHistory, 3> points;
+  double mode_1 = 0, mode_2 = 0, friction = 0;  ///< J dissipated so far
+  bool calm = false;                            ///< without damage, and well within the elastic range at the last evaluation
+  // The last evaluation's moment of a closed joint that has slid, N, and normal; for its work.
+  bool turned = false;
+  Vec3 tilt{0, 0, 0}, normal{0, 0, 0};
+
+  [[nodiscard]] double damage() const;   ///< largest of the points
+  [[nodiscard]] double stored() const;   ///< J
+  [[nodiscard]] double opening() const;  ///< m, mean normal opening
+  [[nodiscard]] double slip() const;     ///< m, mean length of the shear opening
+  [[nodiscard]] FailureMode mode() const;
+};
+
+}  // namespace breccia
