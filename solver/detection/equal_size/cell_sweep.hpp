@@ -50,7 +50,7 @@ class CellSweep {
  private:
   /// An earlier row needs no test for the end of the array: its three cells end before the body's own place.
   template <class Keys, class Record, class Visit>
-  static void sweep(const Keys& keys, std::span<Record> sorted, Visit& visit) {
+  static void sweep(const Keys keys, std::span<Record> sorted, Visit& visit) {
     std::array<std::size_t, earlier_rows<D>().size()> row_begin{};
     for (std::size_t place = 0; place < sorted.size(); ++place) {
       const Record own = sorted[place];

@@ -29,7 +29,7 @@ class RadixSort {
   /// @param padding              writable records behind the sorted ones
   /// @pre num_passes > 0, num_records < 2^32. Throws std::bad_alloc.
   template <class Make, class Digit>
-  std::span<Record> sort(std::size_t num_records, int num_passes, int digit_bits, const Make& make, const Digit& digit,
+  std::span<Record> sort(std::size_t num_records, int num_passes, int digit_bits, Make make, Digit digit,
                          std::size_t padding);
 
   [[nodiscard]] std::size_t bytes() const {
@@ -45,32 +45,32 @@ class RadixSort {
 
 template <class Record>
 template <class Make, class Digit>
-std::span<Record> RadixSort<Record>::sort(std::size_t num_records, int num_passes, int digit_bits, const Make& make,
-                                          const Digit& digit, std::size_t padding) {
+std::span<Record> RadixSort<Record>::sort(std::size_t num_records, int num_passes, int digit_bits, Make make,
+                                          Digit digit, std::size_t padding) {
   const std::size_t num_buckets = std::size_t{1} << digit_bits;
   const auto passes = static_cast<std::size_t>(num_passes);
   sorted_.resize(num_records + padding);
   spare_.resize(num_records + padding);
   next_place_.assign(passes * num_buckets, 0);
+  std::uint32_t* const places = next_place_.data();
   for (std::size_t i = 0; i < num_records; ++i) {
     const Record record = make(i);
-    for (int pass = 0; pass < num_passes; ++pass) {
-      ++next_place_[static_cast<std::size_t>(pass) * num_buckets + digit(record, pass)];
-    }
+    std::uint32_t* count = places;
+    for (int pass = 0; pass < num_passes; ++pass, count += num_buckets) ++count[digit(record, pass)];
   }
 
-  to_first_places(next_place_.data(), num_buckets, num_records);
+  to_first_places(places, num_buckets, num_records);
+  Record* const made = sorted_.data();
   for (std::size_t i = 0; i < num_records; ++i) {
     const Record record = make(i);
-    sorted_[next_place_[digit(record, 0)]++] = record;
+    made[places[digit(record, 0)]++] = record;
   }
   for (int pass = 1; pass < num_passes; ++pass) {
-    std::uint32_t* const place = &next_place_[static_cast<std::size_t>(pass) * num_buckets];
+    std::uint32_t* const place = places + static_cast<std::size_t>(pass) * num_buckets;
     if (to_first_places(place, num_buckets, num_records)) continue;
-    for (std::size_t i = 0; i < num_records; ++i) {
-      const Record record = sorted_[i];
-      spare_[place[digit(record, pass)]++] = record;
-    }
+    const Record* const from = sorted_.data();
+    Record* const to = spare_.data();
+    for (std::size_t i = 0; i < num_records; ++i) to[place[digit(from[i], pass)]++] = from[i];
     std::swap(sorted_, spare_);
   }
   return {sorted_.data(), num_records};

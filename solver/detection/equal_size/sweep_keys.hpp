@@ -96,13 +96,14 @@ class PackedKeys {
     const int num_passes = (key_bits_ + widest - 1) / widest;
     const int digit_bits = (key_bits_ + num_passes - 1) / num_passes;
     const std::uint64_t mask = (std::uint64_t{1} << digit_bits) - 1;
-    const auto make = [&](std::size_t body) {
+    // By value: the compiler has to expect that writing the records changes what is only referred to.
+    const auto make = [box, stride = stride_, body_bits = body_bits_](std::size_t body) {
       std::uint64_t key = 0;
-      for (std::size_t axis = 0; axis < D; ++axis) key += (std::uint64_t{box.at(body, axis)} + 1) * stride_[axis];
-      return key << body_bits_ | body;
+      for (std::size_t axis = 0; axis < D; ++axis) key += (std::uint64_t{box.at(body, axis)} + 1) * stride[axis];
+      return key << body_bits | body;
     };
-    const auto digit = [this, mask, digit_bits](Record record, int pass) {
-      return static_cast<std::size_t>(record >> (body_bits_ + pass * digit_bits) & mask);
+    const auto digit = [mask, digit_bits, body_bits = body_bits_](Record record, int pass) {
+      return static_cast<std::size_t>(record >> (body_bits + pass * digit_bits) & mask);
     };
     const auto sorted = radix_sort.sort(box.size(), num_passes, digit_bits, make, digit, padding);
     std::fill_n(sorted.data() + sorted.size(), padding, UINT64_MAX);
