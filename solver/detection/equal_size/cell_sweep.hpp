@@ -19,10 +19,10 @@ namespace breccia::detection {
 /// reading is sequential, and nothing depends on how large or how empty the space is.
 ///
 /// Why this form won over the others tried: cell and body in one number make a comparison and a move one instruction each;
-/// counting the steps of a position instead of branching on them avoids most mispredictions, which cost the plain sweep half
-/// of its time in sparse, random sets. Gathering the bodies of equal cells into runs first, or the pairs in a buffer before
-/// visiting them, costs more passes than it saves unless the set is dense. The last order is not repaired: when all bodies
-/// may move, the sort from nothing takes less time than the sweep.
+/// counting the steps of a position instead of branching on them takes away nearly half of the sweep in sparse random sets,
+/// where every other branch is mispredicted. Gathering the bodies of equal cells into runs, or the pairs in a buffer before
+/// they are visited, is slower in sparse sets and no clear gain in dense ones. Repairing the last order is no rival where
+/// most bodies move: one cell along z takes a body past a whole layer of others.
 ///
 /// O(n and the pairs). 16 bytes a body; where the cells of the box and the bodies together need more than 64 bits, other
 /// records of 4 (D + 1) bytes, two a body, are sorted and compared coordinate by coordinate, more slowly.
