@@ -74,9 +74,10 @@ const char* kRaceFooter =
     R"(Every algorithm races with every buffer, from the same state to the same step, in three laps of which the least
 times count. All must end in the same state: how contact is looked for never changes a result.
 
-The table has, the fastest first: searches in a lap, the time of all and of one, couples at the end, the time of
-contact forces, and of a step as a whole, on several ranks (mpiexec -n N) that of the slowest. Below it stand the
-lines for the case file; `breccia explain detection` tells what they mean.
+The table has, the fastest first: searches in a lap and how many of them were used up (the last one lasts beyond the
+lap), the time of all searching and of one search, couples at the end, the time of contact forces, and that of a step
+as a whole, which pays for searches used up; on several ranks (mpiexec -n N) times are those of the slowest. Below it
+stand the lines for the case file; `breccia explain detection` tells what they mean.
 
 Race where it matters, once things fly:  breccia race case.toml --from "50 us"
 Ctrl-C ends the race after the present step; what all have finished is told.)";

@@ -60,12 +60,7 @@ class Race {
 
   RaceResult run(std::unique_ptr<Model> whole) {
     result_.stopped = !reach_start(std::move(whole)) || !warm_up() || !race();
-    for (std::size_t i = 0; i < least_.size() && result_.rounds > 0; ++i) {
-      least_[i].sum_up(entries_[i].least);
-      result_.entries.push_back(entries_[i]);
-    }
-    std::stable_sort(result_.entries.begin(), result_.entries.end(),
-                     [](const RaceEntry& a, const RaceEntry& b) { return a.least.wall < b.least.wall; });
+    if (result_.rounds > 0) rank();
     progress_.finish();
     return result_;
   }
@@ -91,6 +86,17 @@ class Race {
     until_look_ = course.until_look();
     start_ = share.snapshot();
     return true;
+  }
+
+  void rank() {
+    for (const LapPieces& least : least_) least_.front().keep_least_rest(least);
+    for (std::size_t i = 0; i < least_.size(); ++i) {
+      least_[i].keep_least_rest(least_.front());
+      least_[i].sum_up(entries_[i].least, communicator_.size() == 1);
+    }
+    result_.entries = entries_;
+    std::stable_sort(result_.entries.begin(), result_.entries.end(),
+                     [](const RaceEntry& a, const RaceEntry& b) { return a.least.lasting() < b.least.lasting(); });
   }
 
   [[nodiscard]] InputError starts_too_late() const {
@@ -144,21 +150,18 @@ class Race {
   bool warm_up() {
     const double most = kAllLaps / static_cast<double>(num_racers() * kRounds + 1);
     double buffer = 0;
-    bool searched_last = false;  // a lap ends before a search, so that it has as many intervals as searches
     const auto enough = [&](const Share& share, std::int64_t steps) {
       if (settings_.steps > 0) return steps >= settings_.steps;
       if (settings_.time > 0)
         return share.stepper().time() >= result_.start + settings_.time - 0.5 * share.stepper().dt();
-      const std::int64_t searches = share.stepper().searches() - start_.ledger.searches;
-      searched_last = steps > kFewestSteps && searches > std::max(kSearches, searches_);
-      searches_ = searches;
-      return searched_last || (steps % kStepsBetweenLooks == 0 && communicator_.max(seconds_since(started_)) > most);
+      if (steps >= kFewestSteps && share.stepper().searches() - start_.ledger.searches > kSearches) return true;
+      return steps % kStepsBetweenLooks == 0 && communicator_.max(seconds_since(started_)) > most;
     };
     started_ = Clock::now();
     const Racer own{input_.detection.algorithm, input_.detection.buffer, true};
     const bool finished = run_lap(own, enough, [&](const Share& share, const LapPieces&) {
       buffer = communicator_.max(share.stepper().contact()->buffer());
-      result_.steps = share.stepper().steps() - start_.ledger.steps - (searched_last ? 1 : 0);
+      result_.steps = share.stepper().steps() - start_.ledger.steps;
       if (share.stepper().searches() == start_.ledger.searches) throw nothing_touches();
     });
     if (!finished) return false;
@@ -191,16 +194,15 @@ class Race {
     Share share(as_raced, communicator_, start_);
     Course course(as_raced, share, start_.stage, until_look_);
     communicator_.barrier();
-    LapPieces pieces(share);
+    LapPieces pieces(share, piece_);
     std::int64_t steps = 0;
     while (!course.over() && (steps == 0 || !enough(share, steps))) {
       course.step(stop_requested);
       ++steps;
+      pieces.step(share);
       if (share.stepper().stop_agreed()) return false;
-      if (steps % piece_ == 0) pieces.cut(share);
       if (progress_.due()) tell_lap(racer, steps);
     }
-    pieces.cut(share);
     share.stepper().conclude();
     if (share.stepper().stop_agreed()) return false;
     pieces.agree(communicator_);
@@ -213,8 +215,11 @@ class Race {
     result_.end = share.stepper().time();
     check_state(entries_[turn].racer, hash_of(share.stepper()).text());
     if (result_.rounds > 0) return least_[turn].keep_least(pieces);
-    entries_[turn].least.searches = share.stepper().searches() - start_.ledger.searches;
-    entries_[turn].least.couples = couples_of(share);
+    Lap& least = entries_[turn].least;
+    least.searches = share.stepper().searches() - start_.ledger.searches;
+    least.used = static_cast<double>(least.searches - 1) +
+                 communicator_.max(share.stepper().contact()->used_up(share.stepper().state()));
+    least.couples = couples_of(share);
     least_.push_back(pieces);
   }
 
@@ -246,7 +251,6 @@ class Race {
   std::vector<RaceEntry> entries_;
   std::vector<LapPieces> least_;  ///< (entries) of all laps
   std::int64_t piece_ = 1;        ///< steps
-  std::int64_t searches_ = 0;     ///< of the warm-up so far
   std::size_t laps_ = 0;
   Clock::time_point started_;  ///< the warm-up, then the race
   std::string first_;          ///< who has set the state in which all must end

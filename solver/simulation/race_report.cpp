@@ -10,15 +10,11 @@ namespace {
 
 /// A gain of less than this is not worth a line in the case file.
 constexpr double kWorthIt = 0.03;
-/// With fewer searches in a lap what a buffer costs and saves is hardly seen.
-constexpr std::int64_t kFewSearches = 3;
 
-double step_s(const RaceResult& result, const Lap& lap) { return lap.wall / static_cast<double>(result.steps); }
-
-double search_s(const Lap& lap) { return lap.searches > 0 ? lap.search / static_cast<double>(lap.searches) : 0.0; }
+double step_s(const RaceResult& result, const Lap& lap) { return lap.lasting() / static_cast<double>(result.steps); }
 
 double speed(const RaceResult& result, const Lap& lap) {
-  return static_cast<double>(result.elements) * static_cast<double>(result.steps) / lap.wall;
+  return static_cast<double>(result.elements) * static_cast<double>(result.steps) / lap.lasting();
 }
 
 std::string head(const RaceResult& result) {
@@ -30,9 +26,9 @@ std::string head(const RaceResult& result) {
 
 std::string line(const RaceResult& result, const RaceEntry& entry, bool best) {
   const Lap& lap = entry.least;
-  return fmt::format("{} {:<11} {:<12} {:>9} {:>9} {:>10} {:>9} {:>9} {:>9} {:>16}{}\n", best ? '*' : ' ',
-                     entry.racer.algorithm_text(), entry.racer.buffer_text(), count_text(lap.searches),
-                     quantity_text(lap.search, "s"), quantity_text(search_s(lap), "s"), count_text(lap.couples),
+  return fmt::format("{} {:<11} {:<12} {:>8} {:>8.2f} {:>9} {:>10} {:>9} {:>9} {:>9} {:>16}{}\n", best ? '*' : ' ',
+                     entry.racer.algorithm_text(), entry.racer.buffer_text(), count_text(lap.searches), lap.used,
+                     quantity_text(lap.search, "s"), quantity_text(lap.one_search(), "s"), count_text(lap.couples),
                      quantity_text(lap.contact, "s"), quantity_text(step_s(result, lap), "s"),
                      count_text(static_cast<std::int64_t>(speed(result, lap))),
                      entry.racer.as_in_case ? "  as in the case" : "");
@@ -44,7 +40,7 @@ std::string verdict(const RaceResult& result) {
       std::find_if(result.entries.begin(), result.entries.end(), [](const RaceEntry& e) { return e.racer.as_in_case; });
   std::string text = "best: " + best.racer.name();
   if (own != result.entries.end()) {
-    const double gain = 1.0 - best.least.wall / own->least.wall;
+    const double gain = 1.0 - best.least.lasting() / own->least.lasting();
     if (own == result.entries.begin()) {
       text += ", as in the case";
     } else if (gain < kWorthIt) {
@@ -55,11 +51,6 @@ std::string verdict(const RaceResult& result) {
   }
   text += fmt::format("\n\n[detection]\nalgorithm = \"{}\"\nbuffer = \"{}\"\n", best.racer.algorithm_text(),
                       best.racer.buffer_text());
-  if (best.least.searches < kFewSearches) {
-    text += fmt::format(
-        "\nThe best has searched fewer than {} times in a lap: longer laps (--steps, --time) judge buffers better.\n",
-        kFewSearches);
-  }
   return text;
 }
 
@@ -68,9 +59,9 @@ std::string verdict(const RaceResult& result) {
 std::string race_table(const RaceResult& result) {
   std::string text;
   if (!result.entries.empty()) {
-    text = head(result) + fmt::format("\n  {:<11} {:<12} {:>9} {:>9} {:>10} {:>9} {:>9} {:>9} {:>16}\n", "algorithm",
-                                      "buffer", "searches", "searching", "one search", "couples", "contact", "a step",
-                                      "element-steps/s");
+    text = head(result) + fmt::format("\n  {:<11} {:<12} {:>8} {:>8} {:>9} {:>10} {:>9} {:>9} {:>9} {:>16}\n",
+                                      "algorithm", "buffer", "searches", "used up", "searching", "one search",
+                                      "couples", "contact", "a step", "element-steps/s");
     for (const RaceEntry& entry : result.entries) text += line(result, entry, &entry == &result.entries.front());
     if (!result.left_out.empty()) text += "  " + result.left_out + "\n";
     text += fmt::format("all have ended in state {}\n", result.state_hash) + verdict(result);
@@ -83,12 +74,12 @@ std::string race_table(const RaceResult& result) {
 
 std::string race_csv(const RaceResult& result) {
   std::string text =
-      "algorithm,buffer,as in the case,searches,search [s],one search [s],couples,contact [s],step "
+      "algorithm,buffer,as in the case,searches,searches used up,search [s],one search [s],couples,contact [s],step "
       "[s],element-steps/s,steps,state hash\n";
   for (const auto& [racer, lap] : result.entries) {
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", racer.algorithm_text(), racer.buffer_text(),
-                        racer.as_in_case ? 1 : 0, lap.searches, lap.search, search_s(lap), lap.couples, lap.contact,
-                        step_s(result, lap), speed(result, lap), result.steps, result.state_hash);
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", racer.algorithm_text(), racer.buffer_text(),
+                        racer.as_in_case ? 1 : 0, lap.searches, lap.used, lap.search, lap.one_search(), lap.couples,
+                        lap.contact, step_s(result, lap), speed(result, lap), result.steps, result.state_hash);
   }
   return text;
 }
@@ -98,10 +89,11 @@ std::string race_json(const RaceResult& result) {
   for (const auto& [racer, lap] : result.entries) {
     text +=
         fmt::format(
-            R"({{"algorithm":"{}","buffer":"{}","as_in_case":{},"searches":{},"search_s":{},"couples":{},"contact_s":{},"step_s":{},)"
+            R"({{"algorithm":"{}","buffer":"{}","as_in_case":{},"searches":{},"used_up":{},"search_s":{},"one_search_s":{},"couples":{},"contact_s":{},"step_s":{},)"
             R"("element_steps_per_s":{},"steps":{},"state_hash":"{}"}})",
-            racer.algorithm_text(), racer.buffer_text(), racer.as_in_case, lap.searches, lap.search, lap.couples,
-            lap.contact, step_s(result, lap), speed(result, lap), result.steps, result.state_hash) +
+            racer.algorithm_text(), racer.buffer_text(), racer.as_in_case, lap.searches, lap.used, lap.search,
+            lap.one_search(), lap.couples, lap.contact, step_s(result, lap), speed(result, lap), result.steps,
+            result.state_hash) +
         "\n";
   }
   return text + fmt::format(R"({{"state":"{}","rounds":{}}})", result.stopped ? "stopped" : "complete", result.rounds) +

@@ -6,7 +6,7 @@
 
 namespace breccia {
 
-/// What a race has found, in three forms. Times a step are of the least lap; a search and its couples are means.
+/// What a race has found, in three forms. All times as in Lap; a step is that of a long run.
 
 /// A table, the best first, and the lines for the case file. For a terminal.
 [[nodiscard]] std::string race_table(const RaceResult& result);

@@ -57,7 +57,12 @@ TEST(Race, every_algorithm_races_with_every_buffer_and_with_the_case_s_own) {
     EXPECT_GT(racer["couples"].get<int>(), 0);
     EXPECT_GT(racer["search_s"].get<double>(), 0);
     EXPECT_GT(racer["contact_s"].get<double>(), 0);
-    EXPECT_LT(racer["search_s"].get<double>() + racer["contact_s"].get<double>(), 60 * racer["step_s"].get<double>());
+    const double searches = racer["searches"], used = racer["used_up"], one = racer["one_search_s"], search = racer["search_s"];
+    EXPECT_GE(used, searches - 1);
+    EXPECT_LE(used, searches);
+    EXPECT_GT(one, 0);
+    EXPECT_LE(searches * one, 1.001 * search) << "searches are a part of all searching";
+    EXPECT_LT(search - (searches - used) * one + racer["contact_s"].get<double>(), 60 * racer["step_s"].get<double>());
     EXPECT_GE(racer["step_s"].get<double>(), before) << "the fastest comes first";
     before = racer["step_s"];
   }
