@@ -71,7 +71,7 @@ struct RaceResult {
 /// fro, so that nobody is always first.
 /// Unless the settings give its length a lap lasts for ten searches of the case's own setting and at least fifty steps, or for
 /// as long as all laps fit into a minute; where rebuilding takes so long that they do not, there are fewer rounds than three.
-/// No lap goes beyond the end of the case.
+/// No lap goes beyond the end of the case; time.max_steps binds runs only.
 ///
 /// Collective. @param whole  the model built from the case, on the root; null elsewhere
 /// @param progress           of this rank
