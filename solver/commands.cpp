@@ -1,6 +1,7 @@
 #include "commands.hpp"
 
 #include <array>
+#include <cerrno>
 #include <cstdio>
 #include <fmt/core.h>
 #include <iostream>
@@ -9,6 +10,7 @@
 
 #include "case/explain.hpp"
 #include "case/reader.hpp"
+#include "output/atomic_file.hpp"
 #include "output/history_sink.hpp"
 #include "output/run_folder.hpp"
 #include "output/summary.hpp"
@@ -18,6 +20,7 @@
 #include "simulation/convert.hpp"
 #include "simulation/model.hpp"
 #include "simulation/observe.hpp"
+#include "simulation/race_report.hpp"
 #include "simulation/run.hpp"
 
 namespace breccia {
@@ -67,6 +70,30 @@ int run_command(const RunCommand& asked, const Communicator& world) {
   if (world.is_root() && asked.progress != ProgressMode::json && asked.progress != ProgressMode::none) {
     fmt::print("{}results in {}\n", summary_text(summary), root.string());
   }
+  return 0;
+}
+
+int race_command(const RaceCommand& asked, const Communicator& world) {
+  case_::Case input;
+  std::unique_ptr<Model> model;
+  const std::filesystem::path file = asked.folder / "race.csv";
+  const bool writes = world.is_root() && !asked.folder.empty();
+  world.agree([&] {
+    input = case_::read_case(asked.case_file, asked.overrides);
+    if (world.is_root()) model = std::make_unique<Model>(build_model(input));
+    if (!writes) return;
+    std::error_code error;
+    std::filesystem::create_directories(asked.folder, error);
+    if (error) throw output_error(asked.folder, "the folder cannot be made", error.value());
+    if (access(asked.folder.c_str(), W_OK) != 0) throw output_error(asked.folder, "nothing can be written into the folder", errno);
+  });
+  warn_of_crowding(world);
+  RaceProgress progress(world.is_root() ? asked.progress : ProgressMode::none, std::cout, terminal_columns(fileno(stdout)));
+  const RaceResult result = race_case(input, asked.settings, std::move(model), progress, world);
+  if (world.is_root()) fmt::print("{}", asked.progress == ProgressMode::json ? race_json(result) : race_table(result));
+  world.agree([&] {
+    if (writes) write_file_atomically(file, race_csv(result));
+  });
   return 0;
 }
 

@@ -6,6 +6,7 @@
 
 #include "output/status_sink.hpp"
 #include "parallel/communicator.hpp"
+#include "simulation/race.hpp"
 
 /// The sub-commands of the program; main.cpp reads their arguments. Each returns the exit code of success or throws.
 namespace breccia {
@@ -20,6 +21,16 @@ struct RunCommand {
 };
 /// Collective over the world; the others are the work of one rank.
 int run_command(const RunCommand& asked, const Communicator& world);
+
+struct RaceCommand {
+  std::filesystem::path case_file;
+  std::filesystem::path folder;         ///< of race.csv; empty: nothing is written
+  std::vector<std::string> overrides;
+  RaceSettings settings;
+  ProgressMode progress = ProgressMode::log;
+};
+/// Collective over the world.
+int race_command(const RaceCommand& asked, const Communicator& world);
 
 struct CheckCommand {
   std::filesystem::path case_file;

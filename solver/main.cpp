@@ -1,4 +1,6 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -9,6 +11,8 @@
 #include <unistd.h>
 
 #include "base/error.hpp"
+#include "case/schema.hpp"
+#include "case/units.hpp"
 #include "commands.hpp"
 #include "parallel/mpi_session.hpp"
 #include "simulation/run.hpp"
@@ -35,6 +39,7 @@ void keep_freed_memory() {
 /// What one invocation asked for.
 struct Arguments {
   RunCommand run;
+  RaceCommand race;
   CheckCommand check;
   MeshCommand mesh;
   std::string key;
@@ -44,6 +49,90 @@ struct Arguments {
 const char* kCaseHelp = "case file (TOML); `breccia explain` lists its keys";
 const char* kSetHelp =
     "override a key of the case: material.glass.young=\"70 GPa\", time.safety=0.5; may be given several times";
+
+const char* kProgressHelp =
+    "bar, log (a line every few seconds), json (JSON lines on stdout), none; default auto: a bar on a terminal";
+
+const CLI::IsMember& progress_modes() {
+  static const CLI::IsMember modes({"auto", "bar", "log", "json", "none"});
+  return modes;
+}
+
+/// Seconds of simulated time, with a unit or without.
+double seconds_of(const std::string& text) {
+  double value = 0;
+  if (!CLI::detail::lexical_cast(text, value)) value = case_::to_si(text, "s");
+  return value;
+}
+
+/// Refuses what is no simulated time, and 0 unless it is allowed.
+CLI::Validator simulated_time(bool zero_allowed) {
+  const auto check = [zero_allowed](const std::string& text) -> std::string {
+    try {
+      const double value = seconds_of(text);
+      if (std::isfinite(value) && (value > 0 || (zero_allowed && value == 0))) return {};
+    } catch (const case_::UnitError&) {
+    }
+    return std::string("a simulated time ") + (zero_allowed ? "of at least" : "above") +
+           " 0 is allowed, such as \"20 us\"; given: " + text;
+  };
+  return {check, "TIME"};
+}
+
+const char* kRaceFooter =
+    R"(Every algorithm races with every buffer, from the same state to the same step, in three laps of which the least
+times count. All must end in the same state: how contact is looked for never changes a result.
+
+The table has, the fastest first: searches in a lap and how many of them were used up (the last one lasts beyond the
+lap), the time of all searching and of one search, couples at the end, the time of contact forces, and that of a step
+as a whole, which pays for searches used up; on several ranks (mpiexec -n N) times are those of the slowest. Below it
+stand the lines for the case file; `breccia explain detection` tells what they mean.
+
+Race where it matters, once things fly:  breccia race case.toml --from "50 us"
+Ctrl-C ends the race after the present step; what all have finished is told.)";
+
+void define_race(CLI::App& app, Arguments& a) {
+  CLI::App* race =
+      app.add_subcommand("race", "Which contact search is the fastest for a case: run a stretch of it with each");
+  RaceSettings& s = a.race.settings;
+  race->add_option("case", a.race.case_file, kCaseHelp)->required();
+  const auto set_time = [&s](const std::string& text) { s.time = seconds_of(text); };
+  const auto set_from = [&s](const std::string& text) { s.from = seconds_of(text); };
+  CLI::Option* time =
+      race->add_option_function<std::string>(
+              "--time", set_time,
+              "length of a lap in simulated time, such as \"20 us\"; default: ten searches, and a minute for all laps")
+          ->check(simulated_time(false));
+  race->add_option("--steps", s.steps, "length of a lap in steps")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000000}))
+      ->excludes(time);
+  race->add_option_function<std::string>(
+          "--from", set_from, "simulated time at which the race starts: the case is run that far once; default 0")
+      ->check(simulated_time(true));
+  const std::vector<std::string> names = case_::key_of("detection.algorithm").choice_list();
+  const auto choose = [&s, names](const std::vector<std::string>& chosen) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (std::find(chosen.begin(), chosen.end(), names[i]) != chosen.end())
+        s.algorithms.push_back(static_cast<case_::DetectionAlgorithm>(i));
+    }
+  };
+  race->add_option_function<std::vector<std::string>>(
+          "--algorithms", choose,
+          "who races, such as ms,sorted_grid; default: all, brute_force only where the model is small")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(names));
+  race->add_option("--buffers", s.buffers,
+                   "buffers as multiples of the case's own, which races in any event; default 0.5,1,2,4")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(0.01, 100.0));
+  race->add_option("--set", a.race.overrides, kSetHelp)->allow_extra_args(false)->take_all();
+  race->add_option("-o,--output", a.race.folder,
+                   "write the table as race.csv into this folder; default: nothing is written");
+  race->add_option("--progress", a.progress, kProgressHelp)->check(progress_modes());
+  race->footer(kRaceFooter);
+}
 
 void define(CLI::App& app, Arguments& a) {
   app.require_subcommand(1);
@@ -55,10 +144,11 @@ void define(CLI::App& app, Arguments& a) {
   run->add_option("-o,--output", a.run.folder, "folder of the results; default runs/<folder of the case>");
   run->add_option("--set", a.run.overrides, kSetHelp)->allow_extra_args(false)->take_all();
   run->add_flag("-f,--overwrite", a.run.overwrite, "replace the results of an earlier run in that folder");
-  run->add_option("--progress", a.progress, "bar, log (a line every few seconds), json (JSON lines on stdout), none; default auto: a bar on a terminal")
-      ->check(CLI::IsMember({"auto", "bar", "log", "json", "none"}));
+  run->add_option("--progress", a.progress, kProgressHelp)->check(progress_modes());
   run->footer("Writes frames for ParaView (frames/*.series), history.csv, status.jsonl, summary.json, the resolved case and provenance.json.\n"
               "Ctrl-C ends the run after the present step with everything written.");
+
+  define_race(app, a);
 
   CLI::App* check = app.add_subcommand("check", "Everything short of the first step: time step, memory, run time, advice");
   check->add_option("case", a.check.case_file, kCaseHelp)->required();
@@ -77,11 +167,12 @@ void define(CLI::App& app, Arguments& a) {
 }
 
 int dispatch(const CLI::App& app, Arguments& a, const Communicator& world, int argc, char** argv) {
-  if (app.got_subcommand("run")) {
+  if (app.got_subcommand("run") || app.got_subcommand("race")) {
     const std::map<std::string, ProgressMode> modes{{"bar", ProgressMode::bar}, {"log", ProgressMode::log},
                                                     {"json", ProgressMode::json}, {"none", ProgressMode::none}};
     const auto mode = modes.find(a.progress);
-    a.run.progress = mode != modes.end() ? mode->second : default_progress_mode(STDOUT_FILENO);
+    a.run.progress = a.race.progress = mode != modes.end() ? mode->second : default_progress_mode(STDOUT_FILENO);
+    if (app.got_subcommand("race")) return race_command(a.race, world);
     a.run.command_line.assign(argv, argv + argc);
     return run_command(a.run, world);
   }

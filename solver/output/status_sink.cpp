@@ -31,11 +31,6 @@ const char* name_of(RunState state) {
   return "failed";
 }
 
-std::chrono::milliseconds interval_of(ProgressMode mode) {
-  using namespace std::chrono_literals;
-  return mode == ProgressMode::bar ? 200ms : mode == ProgressMode::json ? 500ms : 5000ms;
-}
-
 /// The last line of a run: where it was when it ended.
 StatusLine last_line(StatusLine line, const Summary& summary) {
   line.step = summary.steps;
@@ -117,6 +112,11 @@ int terminal_columns(int descriptor) {
   winsize size{};
   if (::ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kUsualColumns;
   return size.ws_col;
+}
+
+std::chrono::milliseconds interval_of(ProgressMode mode) {
+  using namespace std::chrono_literals;
+  return mode == ProgressMode::bar ? 200ms : mode == ProgressMode::json ? 500ms : 5000ms;
 }
 
 std::string progress_text(const StatusLine& line) {

@@ -57,6 +57,9 @@ enum class ProgressMode { none, bar, log, json };
 /// Columns of the terminal behind the descriptor; 100 when it is none.
 [[nodiscard]] int terminal_columns(int descriptor);
 
+/// Wall time between two lines of a mode.
+[[nodiscard]] std::chrono::milliseconds interval_of(ProgressMode mode);
+
 /// One line of text for a log: share, step, time, speed, time to go, residual, joints, fragments, stage.
 [[nodiscard]] std::string progress_text(const StatusLine& line);
 /// The bar: at most `columns` characters, as much of the text as fits.

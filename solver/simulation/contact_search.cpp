@@ -142,6 +142,8 @@ double ContactSearch::largest_displacement(const State& state) const {
   return std::sqrt(largest);
 }
 
+double ContactSearch::used_up(const State& state) const { return std::min(1.0, largest_displacement(state) / (0.5 * buffer_)); }
+
 void ContactSearch::search(const State& state, double step_length) {
   buffer_ = search_.buffer > 0
                 ? search_.buffer

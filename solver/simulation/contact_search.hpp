@@ -97,6 +97,8 @@ class ContactSearch {
   [[nodiscard]] const ContactState& contact() const { return contact_; }
   [[nodiscard]] const CornerClusters& clusters() const { return clusters_; }
   [[nodiscard]] double buffer() const { return buffer_; }                    ///< m, of the last search
+  /// Share, 0..1, of what nodes may move after the last search that they have moved. @pre there was one
+  [[nodiscard]] double used_up(const State& state) const;
   [[nodiscard]] double contactor_size() const { return size_; }              ///< m, mean
   [[nodiscard]] std::int64_t num_searches() const { return num_searches_; }  ///< full ones
 

@@ -11,15 +11,13 @@
 #include "simulation/convert.hpp"
 #include "simulation/observe.hpp"
 #include "simulation/share.hpp"
+#include "simulation/stage_steps.hpp"
 
 namespace breccia {
 
 std::atomic<bool> stop_requested{false};
 
 namespace {
-
-/// Steps between two looks at the stable step, which shrinks when elements are crushed.
-constexpr std::int64_t kStepsBetweenChecks = 100;
 
 /// Taking stock costs about as much as a step: lines of the history that nobody has ordered come no closer than so many steps.
 constexpr std::int64_t kStepsBetweenLines = 20;
@@ -118,25 +116,12 @@ class Runner {
     }
   }
 
-  /// Length of the next steps: what is allowed, shortened so that a whole number of them ends at `end`.
-  double step_to(double end) {
-    const double allowed = input_.time.step > 0 ? input_.time.step : input_.time.safety * share_.stable_step();
-    const double left = end - stepper().time();
-    return left / std::max(1.0, std::ceil(left / allowed * (1.0 - 1e-9)));
-  }
-
   void run_stage(const case_::Stage& stage) {
     stage_name_ = stage.name;
-    share_.begin_stage(stage, step_to(stage.end));
+    StageSteps steps(input_, stage, share_);
     make_gauges(stage);
-    std::int64_t until_check = kStepsBetweenChecks;
-    while (stepper().time() < stage.end - 0.5 * stepper().dt()) {
-      if (--until_check == 0 && input_.time.step <= 0) {
-        until_check = kStepsBetweenChecks;
-        const double dt = step_to(stage.end);
-        // Follow a shrinking limit at once, a growing one only when it is worth it.
-        if (dt < 0.99 * stepper().dt() || dt > 1.2 * stepper().dt()) stepper().set_dt(dt);
-      }
+    while (!steps.over()) {
+      steps.look();
       if (gauged_ != share_.decompositions()) make_gauges(stage);
       advance();
       if (stepper().stop_agreed()) status_ = "stopped: by request";

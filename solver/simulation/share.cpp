@@ -39,6 +39,17 @@ double Share::first_motion() const {
   return std::sqrt(square) * dt;
 }
 
+Share::Share(const case_::Case& input, const Communicator& communicator, Snapshot from)
+    : input_(input), communicator_(communicator), domains_(std::move(from.domains)), stage_(&input.stages[from.stage]), motion_(from.motion) {
+  decompose_anew(std::move(from.whole), std::move(from.mine), from.weight, std::move(from.ledger));
+}
+
+Snapshot Share::snapshot() {
+  Snapshot now{model_->whole, stepper_->records(), costs(), {}, domains_, motion_, static_cast<std::size_t>(stage_ - input_.stages.data())};
+  now.ledger = stepper_->close();
+  return now;
+}
+
 void Share::start_whole() {
   stepper_ = std::make_unique<Stepper>(*model_, search_params(input_, *model_));
   for (const case_::InitialVelocity& entry : input_.initial_velocities) stepper_->add_velocity(initial_velocity(entry, *model_));
@@ -77,7 +88,7 @@ void Share::build(const Piece& piece, WholeModel whole, Ledger ledger) {
       build_piece(input_, std::move(whole), std::move(mesh), std::move(topology), piece.original, piece.records.corners));
   stepper_ = std::make_unique<Stepper>(*model_, search_params(input_, *model_), piece.records, std::move(ledger));
   const bool pairwise = input_.domains.exchange == case_::Exchange::pairwise;
-  stepper_->connect(communicator_, piece.neighbours, pairwise ? ExchangeKind::pairwise : ExchangeKind::non_blocking);
+  if (communicator_.size() > 1) stepper_->connect(communicator_, piece.neighbours, pairwise ? ExchangeKind::pairwise : ExchangeKind::non_blocking);
   time_step_ = std::make_unique<TimeStep>(*model_);
   if (stage_ != nullptr) {
     stepper_->begin_stage(stage_loads(*stage_, *model_), dt);

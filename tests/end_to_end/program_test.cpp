@@ -26,7 +26,7 @@ json summary_of(const Scratch& scratch, const std::string& arguments, const std:
 
 TEST(Program, tells_its_version_and_helps) {
   EXPECT_NE(call("--version").out.find("breccia"), std::string::npos);
-  for (const char* command : {"", "run", "check", "mesh", "explain"}) {
+  for (const char* command : {"", "run", "race", "check", "mesh", "explain"}) {
     const Outcome outcome = call(std::string(command) + " --help");
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_GT(outcome.out.size(), 200u) << command;

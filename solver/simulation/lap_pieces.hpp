@@ -1,0 +1,79 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+#include "simulation/race.hpp"
+#include "simulation/share.hpp"
+
+namespace breccia {
+
+/// Where the time of a lap goes, piece by piece: every lap does the same work in the same piece, and what disturbs the
+/// machine seldom disturbs the same piece of every lap.
+class LapPieces {
+ public:
+  /// @param length  of a piece, steps
+  LapPieces(const Share& share, std::int64_t length) : length_(length), before_(look(share)) {}
+
+  /// After every step.
+  void step(const Share& share) {
+    if (steps_++ % length_ == 0) pieces_.push_back({});
+    const Looked now = look(share);
+    Piece& piece = pieces_.back();
+    const double wall = now.wall - before_.wall, search = now.search - before_.search,
+                 contact = now.contact - before_.contact;
+    piece[kWall] += wall;
+    piece[kSearch] += search;
+    piece[kContact] += contact;
+    piece[kRest] += wall - search - contact;
+    if (now.searches > before_.searches) piece[kFull] += search;
+    before_ = now;
+  }
+  /// The slowest rank's. Collective.
+  void agree(const Communicator& communicator) {
+    for (Piece& piece : pieces_) communicator.max(piece);
+  }
+  void keep_least(const LapPieces& other) { keep_least(other, 0); }
+  /// Keeps the least of what is neither search nor contact, and so the same for all racers.
+  void keep_least_rest(const LapPieces& other) { keep_least(other, kRest, kRest + 1); }
+
+  /// @param alone  wall time is put together from its parts, of which the rest may be that of another lap: on one rank, where
+  ///               nobody waits
+  void sum_up(Lap& lap, bool alone) const {
+    Piece sum{};
+    for (const Piece& piece : pieces_) {
+      for (std::size_t k = 0; k < kKinds; ++k) sum[k] += piece[k];
+    }
+    lap.wall = alone ? sum[kRest] + sum[kSearch] + sum[kContact] : sum[kWall];
+    lap.search = sum[kSearch];
+    lap.full_search = sum[kFull];
+    lap.contact = sum[kContact];
+  }
+
+ private:
+  enum Kind : std::size_t { kWall, kRest, kSearch, kFull, kContact, kKinds };
+  using Piece = std::array<double, kKinds>;
+  struct Looked {
+    double wall, search, contact;
+    std::int64_t searches;
+  };
+  static Looked look(const Share& share) {
+    const PhaseTimer& timer = share.stepper().timer();
+    return {std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(),
+            timer.seconds(Phase::search), timer.seconds(Phase::contact), share.stepper().searches()};
+  }
+  void keep_least(const LapPieces& other, std::size_t from, std::size_t to = kKinds) {
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      for (std::size_t k = from; k < to; ++k) pieces_[i][k] = std::min(pieces_[i][k], other.pieces_[i][k]);
+    }
+  }
+
+  std::int64_t length_, steps_ = 0;
+  Looked before_;
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace breccia

@@ -1,0 +1,273 @@
+#include "simulation/race.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/core.h>
+#include <set>
+
+#include "base/error.hpp"
+#include "case/schema.hpp"
+#include "output/quantity_text.hpp"
+#include "simulation/course.hpp"
+#include "simulation/lap_pieces.hpp"
+#include "simulation/observe.hpp"
+#include "simulation/run.hpp"
+
+namespace breccia {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kRounds = 3;
+/// A lap whose length nobody has given: see race_case.
+constexpr std::int64_t kSearches = 10, kFewestSteps = 50;
+constexpr double kAllLaps = 60;  ///< s
+/// Steps between two looks at the clock, which all ranks take together.
+constexpr std::int64_t kStepsBetweenLooks = 10;
+constexpr std::int64_t kMostPieces = 1000;  ///< of a lap (LapPieces)
+/// Points times contactors of a rank up to which all against all may race: some 60 ms a search, at 6 ns a pair.
+constexpr double kSmallEnough = 1e7;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// As it is written in a case file, so that what is printed is what has raced.
+double rounded(double length) { return std::stod(fmt::format("{:.3g}", length)); }
+
+/// Points and contactors of this rank, proxies with them.
+double pairs_of(const Share& share) {
+  const ContactState& contact = share.stepper().contact()->contact();
+  return static_cast<double>(contact.points.size()) * static_cast<double>(contact.contactors.size());
+}
+
+std::int64_t couples_of(const Share& share) {
+  const ContactState& contact = share.stepper().contact()->contact();
+  const auto mine = [&](const ContactCouple& couple) {
+    return share.model().local.is_original(contact.points[static_cast<std::size_t>(couple.point)].slot);
+  };
+  return share.communicator().sum(
+      static_cast<std::int64_t>(std::count_if(contact.couples.begin(), contact.couples.end(), mine)));
+}
+
+class Race {
+ public:
+  Race(const case_::Case& input, const RaceSettings& settings, RaceProgress& progress, const Communicator& communicator)
+      : input_(input), settings_(settings), progress_(progress), communicator_(communicator) {
+    input_.domains.rebalance = false;  // measured times would decide when
+    input_.detection.verify = false;
+    result_.title = input.title;
+    result_.ranks = communicator.size();
+  }
+
+  RaceResult run(std::unique_ptr<Model> whole) {
+    result_.stopped = !reach_start(std::move(whole)) || !warm_up() || !race();
+    if (result_.rounds > 0) rank();
+    progress_.finish();
+    return result_;
+  }
+
+ private:
+  /// False: stopped by request; so with all functions below.
+  bool reach_start(std::unique_ptr<Model> whole) {
+    if (!(settings_.from < input_.stages.back().end)) throw starts_too_late();
+    const auto started = Clock::now();
+    Share share(input_, communicator_, std::move(whole));
+    if (share.stepper().contact() == nullptr) throw nothing_touches();
+    result_.elements = share.whole().num_elements;
+    Course course(input_, share);
+    while (!course.over() && share.stepper().time() < settings_.from - 0.5 * share.stepper().dt()) {
+      course.step(stop_requested);
+      if (share.stepper().stop_agreed()) return false;
+      if (progress_.due())
+        progress_.tell({"on the way to the start", share.stepper().time() / settings_.from, seconds_since(started)});
+    }
+    if (course.over()) throw starts_too_late();
+    choose_algorithms(communicator_.max(pairs_of(share)));
+    result_.start = share.stepper().time();
+    until_look_ = course.until_look();
+    start_ = share.snapshot();
+    return true;
+  }
+
+  void rank() {
+    for (const LapPieces& least : least_) least_.front().keep_least_rest(least);
+    for (std::size_t i = 0; i < least_.size(); ++i) {
+      least_[i].keep_least_rest(least_.front());
+      least_[i].sum_up(entries_[i].least, communicator_.size() == 1);
+    }
+    result_.entries = entries_;
+    std::stable_sort(result_.entries.begin(), result_.entries.end(),
+                     [](const RaceEntry& a, const RaceEntry& b) { return a.least.lasting() < b.least.lasting(); });
+  }
+
+  [[nodiscard]] InputError starts_too_late() const {
+    return InputError(Problem{input_.file.string(), 0, "--from", "the race would start at the end of the case or later",
+                              "less than " + quantity_text(input_.stages.back().end, "s"),
+                              quantity_text(settings_.from, "s")});
+  }
+
+  [[nodiscard]] InputError nothing_touches() const {
+    return InputError(Problem{input_.file.string(), 0, "contact",
+                              "nothing can touch: there is no contact to search for",
+                              "a law in [[contact]] between the case's groups", ""});
+  }
+
+  void choose_algorithms(double pairs) {
+    algorithms_ = settings_.algorithms;
+    if (!algorithms_.empty()) return;
+    using enum case_::DetectionAlgorithm;
+    algorithms_ = {ms, ms_slices, sorted_grid};
+    if (pairs <= kSmallEnough) {
+      algorithms_.push_back(brute_force);
+    } else {
+      result_.left_out = fmt::format(
+          "brute_force was left out: {:.2g} pairs of a point and an element at every search; "
+          "--algorithms brute_force lets it race all the same",
+          pairs);
+    }
+  }
+
+  [[nodiscard]] std::size_t num_racers() const {
+    const std::set<double> multiples(settings_.buffers.begin(), settings_.buffers.end());
+    return algorithms_.size() * (multiples.size() + (multiples.contains(1.0) ? 0 : 1));
+  }
+
+  /// @param own  m, the case's own buffer or, if it is automatic, the last one
+  void choose_racers(double own) {
+    std::set<double> multiples(settings_.buffers.begin(), settings_.buffers.end());
+    multiples.insert(1.0);
+    for (const auto algorithm : algorithms_) {
+      for (const double multiple : multiples) {
+        const bool as_given = multiple == 1.0;
+        const Racer racer{algorithm, as_given ? input_.detection.buffer : rounded(multiple * own),
+                          as_given && algorithm == input_.detection.algorithm};
+        entries_.push_back({racer, {}});
+      }
+    }
+  }
+
+  [[nodiscard]] bool length_given() const { return settings_.steps > 0 || settings_.time > 0; }
+
+  bool warm_up() {
+    const double most = kAllLaps / static_cast<double>(num_racers() * kRounds + 1);
+    double buffer = 0;
+    const auto enough = [&](const Share& share, std::int64_t steps) {
+      if (settings_.steps > 0) return steps >= settings_.steps;
+      if (settings_.time > 0)
+        return share.stepper().time() >= result_.start + settings_.time - 0.5 * share.stepper().dt();
+      if (steps >= kFewestSteps && share.stepper().searches() - start_.ledger.searches > kSearches) return true;
+      return steps % kStepsBetweenLooks == 0 && communicator_.max(seconds_since(started_)) > most;
+    };
+    started_ = Clock::now();
+    const Racer own{input_.detection.algorithm, input_.detection.buffer, true};
+    const bool finished = run_lap(own, enough, [&](const Share& share, const LapPieces&) {
+      buffer = communicator_.max(share.stepper().contact()->buffer());
+      result_.steps = share.stepper().steps() - start_.ledger.steps;
+      if (share.stepper().searches() == start_.ledger.searches) throw nothing_touches();
+    });
+    if (!finished) return false;
+    choose_racers(input_.detection.buffer > 0 ? input_.detection.buffer : buffer);
+    piece_ = (result_.steps + kMostPieces - 1) / kMostPieces;
+    return true;
+  }
+
+  bool race() {
+    started_ = Clock::now();
+    const auto enough = [&](const Share&, std::int64_t steps) { return steps >= result_.steps; };
+    while (result_.rounds < kRounds) {
+      for (std::size_t i = 0; i < entries_.size(); ++i) {
+        const std::size_t turn = result_.rounds % 2 == 0 ? i : entries_.size() - 1 - i;
+        const auto take = [&](const Share& share, const LapPieces& pieces) { finish_lap(turn, share, pieces); };
+        if (!run_lap(entries_[turn].racer, enough, take)) return false;
+      }
+      ++result_.rounds;
+      if (!length_given() && communicator_.max(seconds_since(started_)) > kAllLaps) break;
+    }
+    return true;
+  }
+
+  /// @param enough  (share, steps): the lap is over;  @param finish  (share, pieces) at its end
+  template <class Enough, class Finish>
+  bool run_lap(const Racer& racer, const Enough& enough, const Finish& finish) {
+    case_::Case as_raced = input_;
+    as_raced.detection.algorithm = racer.algorithm;
+    as_raced.detection.buffer = racer.buffer;
+    Share share(as_raced, communicator_, start_);
+    Course course(as_raced, share, start_.stage, until_look_);
+    communicator_.barrier();
+    LapPieces pieces(share, piece_);
+    std::int64_t steps = 0;
+    while (!course.over() && (steps == 0 || !enough(share, steps))) {
+      course.step(stop_requested);
+      ++steps;
+      pieces.step(share);
+      if (share.stepper().stop_agreed()) return false;
+      if (progress_.due()) tell_lap(racer, steps);
+    }
+    share.stepper().conclude();
+    if (share.stepper().stop_agreed()) return false;
+    pieces.agree(communicator_);
+    finish(share, pieces);
+    return true;
+  }
+
+  void finish_lap(std::size_t turn, const Share& share, const LapPieces& pieces) {
+    ++laps_;
+    result_.end = share.stepper().time();
+    check_state(entries_[turn].racer, hash_of(share.stepper()).text());
+    if (result_.rounds > 0) return least_[turn].keep_least(pieces);
+    Lap& least = entries_[turn].least;
+    least.searches = share.stepper().searches() - start_.ledger.searches;
+    least.used = static_cast<double>(least.searches - 1) +
+                 communicator_.max(share.stepper().contact()->used_up(share.stepper().state()));
+    least.couples = couples_of(share);
+    least_.push_back(pieces);
+  }
+
+  void tell_lap(const Racer& racer, std::int64_t steps) {
+    if (entries_.empty()) return progress_.tell({"warming up", 0, 0});
+    const double done = static_cast<double>(laps_) + static_cast<double>(steps) / static_cast<double>(result_.steps);
+    const auto all = static_cast<double>(entries_.size() * kRounds);
+    progress_.tell(
+        {fmt::format("lap {} of {}: {}", laps_ + 1, all, racer.name()), done / all, seconds_since(started_)});
+  }
+
+  /// Results never depend on how contact is looked for.
+  void check_state(const Racer& racer, const std::string& hash) {
+    if (result_.state_hash.empty()) {
+      first_ = racer.name();
+      result_.state_hash = hash;
+    }
+    DEMAND(hash == result_.state_hash, fmt::format("({}) ends in state {}, ({}) in state {} after the same {} steps",
+                                                   first_, result_.state_hash, racer.name(), hash, result_.steps));
+  }
+
+  case_::Case input_;
+  const RaceSettings& settings_;
+  RaceProgress& progress_;
+  Communicator communicator_;
+  Snapshot start_;
+  std::int64_t until_look_ = 0;  ///< of the course at the start
+  std::vector<case_::DetectionAlgorithm> algorithms_;
+  std::vector<RaceEntry> entries_;
+  std::vector<LapPieces> least_;  ///< (entries) of all laps
+  std::int64_t piece_ = 1;        ///< steps
+  std::size_t laps_ = 0;
+  Clock::time_point started_;  ///< the warm-up, then the race
+  std::string first_;          ///< who has set the state in which all must end
+  RaceResult result_;
+};
+
+}  // namespace
+
+std::string Racer::algorithm_text() const {
+  return case_::key_of("detection.algorithm").choice_list()[static_cast<std::size_t>(algorithm)];
+}
+
+std::string Racer::buffer_text() const { return buffer > 0 ? fmt::format("{} m", buffer) : "auto"; }
+
+RaceResult race_case(const case_::Case& input, const RaceSettings& settings, std::unique_ptr<Model> whole,
+                     RaceProgress& progress, const Communicator& communicator) {
+  return Race(input, settings, progress, communicator).run(std::move(whole));
+}
+
+}  // namespace breccia

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "simulation/race.hpp"
+
+namespace breccia {
+
+/// What a race has found, in three forms. All times as in Lap; a step is that of a long run.
+
+/// A table, the best first, and the lines for the case file. For a terminal.
+[[nodiscard]] std::string race_table(const RaceResult& result);
+/// The content of race.csv: SI, a line a racer, the best first.
+[[nodiscard]] std::string race_csv(const RaceResult& result);
+/// A JSON object a racer, the best first, each on its line.
+[[nodiscard]] std::string race_json(const RaceResult& result);
+
+}  // namespace breccia

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+
+#include "simulation/share.hpp"
+
+namespace breccia {
+
+/// The steps of one stage: how long they are, and when the stage is over. A stage is a whole number of equal steps, as long as
+/// is stable; every hundred steps the stable step is looked at again, since it shrinks when elements are crushed.
+class StageSteps {
+ public:
+  /// Begins the stage. Collective.  @pre input, stage and share outlive this object
+  StageSteps(const case_::Case& input, const case_::Stage& stage, Share& share);
+  /// Goes on in a stage that has begun. @param until_look  as it was
+  StageSteps(const case_::Case& input, const case_::Stage& stage, Share& share, std::int64_t until_look)
+      : input_(input), stage_(stage), share_(share), until_look_(until_look) {}
+
+  [[nodiscard]] bool over() const { return !(share_.stepper().time() < stage_.end - 0.5 * share_.stepper().dt()); }
+  /// Before every step: a new length if it is time to look and the limit has moved. Collective.
+  void look();
+  [[nodiscard]] std::int64_t until_look() const { return until_look_; }
+
+ private:
+  /// What is allowed, shortened so that a whole number of steps ends with the stage, s.
+  [[nodiscard]] double length() const;
+
+  const case_::Case& input_;
+  const case_::Stage& stage_;
+  Share& share_;
+  std::int64_t until_look_;
+};
+
+}  // namespace breccia
