@@ -21,7 +21,7 @@ namespace breccia::detection {
 template <int D, class Coordinate>
 class Bbts {
  public:
-  static constexpr const char* name = "bbts";
+  static constexpr std::string_view name = "bbts";
 
   /// @pre fewer than 2^31 - 1 bodies. Throws std::bad_alloc.
   template <class Visit>

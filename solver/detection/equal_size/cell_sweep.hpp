@@ -29,7 +29,7 @@ namespace breccia::detection {
 template <int D, class Coordinate>
 class CellSweep {
  public:
-  static constexpr const char* name = "cell_sweep";
+  static constexpr std::string_view name = "cell_sweep";
 
   /// @pre fewer than 2^31 bodies. Throws std::bad_alloc.
   template <class Visit>
