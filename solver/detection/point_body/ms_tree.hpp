@@ -2,10 +2,10 @@
 
 #include <compare>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "base/types.hpp"
+#include "detection/balanced_path.hpp"
 
 namespace breccia::detection {
 
@@ -24,7 +24,7 @@ struct CellKey {
 /// again. Node numbers stay valid until their node is removed or the tree cleared.
 class MsTree {
  public:
-  static constexpr Index none = -1;
+  static constexpr Index none = BalancedPath::none;
 
   MsTree() { clear(); }
 
@@ -62,7 +62,8 @@ class MsTree {
   /// @}
 
  private:
-  enum Side : std::uint8_t { left = 0, right = 1 };
+  using enum BalancedPath::Side;
+  using Side = BalancedPath::Side;
 
   struct Node {
     CellKey key;
@@ -72,36 +73,15 @@ class MsTree {
     std::int8_t balance;
   };
 
-  /// The way down from the empty node above the root: nodes and the sides by which they were left.
-  /// 1.45 log2(2^31) < 46 levels, the empty node and the removed one's place make 48.
-  struct Path {
-    Index node[48];
-    Side side[48];
-    int length = 0;
-
-    void clear() { length = 0; }
-    void push(Index n, Side s) {
-      node[length] = n;
-      side[length] = s;
-      ++length;
-    }
-  };
-
   [[nodiscard]] Node& at(Index node) { return nodes_[static_cast<std::size_t>(node)]; }
   [[nodiscard]] const Node& at(Index node) const { return nodes_[static_cast<std::size_t>(node)]; }
-  static int weight(Side side) { return side == right ? 1 : -1; }
-  static Side other(Side side) { return side == right ? left : right; }
 
   Index new_node(const CellKey& key, Index object);
   [[nodiscard]] Index find(Index subtree, const CellKey& key, Index object);
   [[nodiscard]] Index predecessor_of(Index node) const;
-  void unlink(Index node);
-  void retrace_added();
-  void retrace_removed();
-  std::pair<Index, bool> rotate(Index node);
 
   std::vector<Node> nodes_;  ///< nodes_[0]: the empty node above the root, which is its left son
-  Path path_;
+  BalancedPath path_;
   Index first_ = none;
   Index free_ = none;  ///< places of removed nodes, chained by `next`
   std::size_t size_ = 0;
