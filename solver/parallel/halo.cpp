@@ -29,11 +29,12 @@ Halo::Halo(const Communicator& communicator, std::vector<HaloNeighbour> neighbou
   DEMAND(neighbours_.empty() || communicator_.handle(), "a rank that is alone has no neighbours");
   if (kind_ == ExchangeKind::pairwise) order_by_couples();
   for (const HaloNeighbour& n : neighbours_) {
-    const std::size_t most = std::max(n.send.size(), n.receive.size()) * 3 * fields;
-    DEMAND(most <= static_cast<std::size_t>(std::numeric_limits<int>::max()),
-           std::to_string(most) + " values in a message");
-    messages_->outgoing.emplace_back(n.send.size() * 3 * fields);
-    messages_->incoming.emplace_back(n.receive.size() * 3 * fields);
+    const std::size_t outgoing = 3 * (n.send.size() * fields + n.send_first.size());
+    const std::size_t incoming = 3 * (n.receive.size() * fields + n.receive_first.size());
+    DEMAND(std::max(outgoing, incoming) <= static_cast<std::size_t>(std::numeric_limits<int>::max()),
+           std::to_string(std::max(outgoing, incoming)) + " values in a message");
+    messages_->outgoing.emplace_back(outgoing);
+    messages_->incoming.emplace_back(incoming);
     messages_->ranks.insert(messages_->ranks.end(), 2, n.rank);
   }
   messages_->list.assign(2 * neighbours_.size(), MPI_REQUEST_NULL);
@@ -70,11 +71,13 @@ void Halo::order_by_couples() {
 
 void Halo::pack(std::size_t neighbour) {
   double* out = messages_->outgoing[neighbour].data();
+  const auto put = [&](const double* node) {
+    for (std::size_t i = 0; i < 3; ++i) *out++ = node[i * kHaloStride];
+  };
   for (const std::size_t place : neighbours_[neighbour].send) {
-    for (const double* field : fields_) {
-      for (std::size_t i = 0; i < 3; ++i) *out++ = field[place + i * kHaloStride];
-    }
+    for (const double* field : fields_) put(field + place);
   }
+  for (const std::size_t place : neighbours_[neighbour].send_first) put(fields_[0] + place);
 }
 
 void Halo::receive(std::size_t neighbour) {
@@ -120,11 +123,13 @@ void Halo::gather_end() {
   waiting_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (std::size_t n = 0; n < neighbours_.size(); ++n) {
     const double* in = messages_->incoming[n].data();
+    const auto take = [&](double* node) {
+      for (std::size_t i = 0; i < 3; ++i) node[i * kHaloStride] = *in++;
+    };
     for (const std::size_t place : neighbours_[n].receive) {
-      for (double* field : fields_) {
-        for (std::size_t i = 0; i < 3; ++i) field[place + i * kHaloStride] = *in++;
-      }
+      for (double* field : fields_) take(field + place);
     }
+    for (const std::size_t place : neighbours_[n].receive_first) take(fields_[0] + place);
   }
 }
 

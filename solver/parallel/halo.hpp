@@ -15,6 +15,7 @@ namespace breccia {
 struct HaloNeighbour {
   int rank = 0;
   std::vector<std::size_t> send, receive;
+  std::vector<std::size_t> send_first{}, receive_first{};  ///< nodes of which only the first of the fields goes
 };
 
 inline constexpr std::size_t kHaloStride = 8;

@@ -102,6 +102,7 @@ struct SharedElements {
 struct SharedSlots {
   int rank = 0;
   std::vector<Index> send, receive;
+  std::vector<Index> send_position{}, receive_position{};  ///< without their velocities
 };
 
 /// The elements marked, packed for a message. @param wanted (elements) 1: yes. O(elements + lists).

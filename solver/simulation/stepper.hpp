@@ -54,8 +54,9 @@ struct Ledger {
 ///
 /// On several ranks a rank computes the forces on its originals, nothing else: joints and couples with an element of
 /// another rank are computed on both, from the same numbers in the same order. Of its proxies only the near ones are
-/// gathered in every step, those that share a joint or a couple with an original; all of them when there is news: a search
-/// is due, or joints have come apart. Then ranks also tell each other what the points of their elements touch.
+/// gathered in every step, those that share a joint or a couple with an original, the former without velocities; all of
+/// them when there is news: a search is due, or joints have come apart. Then ranks also tell each other what the points of
+/// their elements touch.
 class Stepper {
  public:
   /// @pre model outlives this object and does not change.
@@ -144,6 +145,7 @@ class Stepper {
   [[nodiscard]] Index element_with(GlobalId id) const;
   [[nodiscard]] std::vector<HaloNeighbour> halo_plan(const std::vector<SharedSlots>& shared) const;
   [[nodiscard]] std::vector<std::uint8_t> near_slots() const;
+  [[nodiscard]] std::vector<std::uint8_t> moving_slots() const;
   void plan_near();
   void hear_releases();
   void exchange_touching();

@@ -58,11 +58,13 @@ std::vector<HaloNeighbour> Stepper::halo_plan(const std::vector<SharedSlots>& sh
     return list;
   };
   std::vector<HaloNeighbour> plan;
-  for (const SharedSlots& slots : shared) plan.push_back({slots.rank, places(slots.send), places(slots.receive)});
+  for (const SharedSlots& slots : shared) {
+    plan.push_back({slots.rank, places(slots.send), places(slots.receive), places(slots.send_position), places(slots.receive_position)});
+  }
   return plan;
 }
 
-/// Elements whose motion the forces computed here depend on.
+/// Elements on whose positions the forces computed here depend.
 std::vector<std::uint8_t> Stepper::near_slots() const {
   std::vector<std::uint8_t> near = relevant_;
   for (const ModelJoint& joint : model_.joints) {
@@ -73,25 +75,36 @@ std::vector<std::uint8_t> Stepper::near_slots() const {
   return near;
 }
 
-/// Asks the owners of near proxies for them, by their places among what is shared.
+/// Elements on whose velocities they depend as well: those that contact may touch, and of shared nodes (viscosity).
+std::vector<std::uint8_t> Stepper::moving_slots() const {
+  std::vector<std::uint8_t> moving(relevant_.size(), 0);
+  std::fill(moving.begin() + model_.local.num_own_slots, moving.end(), std::uint8_t{1});
+  if (contact_) contact_->mark_coupled(moving);
+  return moving;
+}
+
+/// Asks the owners of near proxies for them, by their places among what is shared: the place, or ~place if the position suffices.
 void Stepper::plan_near() {
-  const std::vector<std::uint8_t> near = near_slots();
+  const std::vector<std::uint8_t> near = near_slots(), moving = moving_slots();
   std::vector<SharedSlots> wanted;
   std::vector<Communicator::ListOf<Index>> lists;
   for (const SharedSlots& shared : shared_) {
     SharedSlots& ask = wanted.emplace_back(shared.rank);
     std::vector<Index>& places = lists.emplace_back(shared.rank).entries;
     for (std::size_t i = 0; i < shared.receive.size(); ++i) {
-      if (near[at(shared.receive[i])] == 0) continue;
-      ask.receive.push_back(shared.receive[i]);
-      places.push_back(static_cast<Index>(i));
+      const Index slot = shared.receive[i], place = static_cast<Index>(i);
+      if (near[at(slot)] == 0) continue;
+      (moving[at(slot)] != 0 ? ask.receive : ask.receive_position).push_back(slot);
+      places.push_back(moving[at(slot)] != 0 ? place : ~place);
     }
   }
   for (const auto& [rank, places] : communicator_.exchange(lists)) {
     const auto k = static_cast<std::size_t>(std::find_if(shared_.begin(), shared_.end(), [&](const auto& s) { return s.rank == rank; }) -
                                             shared_.begin());
     DEMAND(k < shared_.size(), "rank " + std::to_string(rank) + " is no neighbour");
-    for (const Index place : places) wanted[k].send.push_back(shared_[k].send[at(place)]);
+    for (const Index place : places) {
+      (place >= 0 ? wanted[k].send : wanted[k].send_position).push_back(shared_[k].send[at(place >= 0 ? place : ~place)]);
+    }
   }
   if (near_) {
     messages_ += near_->messages();

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 #include "base/error.hpp"
@@ -123,6 +124,35 @@ TEST_P(HaloOf, AnyPartitionGivesEveryProxyTheValuesOfItsOriginalStepAfterStep) {
       EXPECT_TRUE(fields.complete(round)) << "seed " << seed << ", round " << round;
     }
   }
+}
+
+TEST_P(HaloOf, TheFirstFieldAloneLeavesTheOthersAsTheyWere) {
+  // Rank r owns the nodes 2 r, of which all fields go everywhere, and 2 r + 1, of which only the first does.
+  const auto ranks = static_cast<std::size_t>(world().size()), mine = static_cast<std::size_t>(world().rank());
+  std::vector<HaloNeighbour> neighbours;
+  for (std::size_t other = 0; other < ranks; ++other) {
+    if (other == mine) continue;
+    neighbours.push_back({static_cast<int>(other), {place_of(2 * mine)}, {place_of(2 * other)}, {place_of(2 * mine + 1)}, {place_of(2 * other + 1)}});
+  }
+  Halo halo(world(), neighbours, 2, GetParam());
+  const auto value = [](std::size_t field, std::size_t node, std::size_t i) { return static_cast<double>(100 * field + 10 * node + i); };
+  std::vector<std::vector<double>> fields(2, std::vector<double>(place_of(2 * ranks + kHaloStride) + 3 * kHaloStride, kUntouched));
+  const auto fill = [&](std::vector<double>& values, std::size_t field, std::size_t node) {
+    for (std::size_t i = 0; i < 3; ++i) values[place_of(node) + i * kHaloStride] = value(field, node, i);
+  };
+  for (std::size_t field = 0; field < 2; ++field) {
+    fill(fields[field], field, 2 * mine);
+    fill(fields[field], field, 2 * mine + 1);
+  }
+  auto expected = fields;
+  for (std::size_t rank = 0; rank < ranks; ++rank) {
+    fill(expected[0], 0, 2 * rank);
+    fill(expected[0], 0, 2 * rank + 1);
+    fill(expected[1], 1, 2 * rank);
+  }
+  halo.gather_begin(std::array{fields[0].data(), fields[1].data()});
+  halo.gather_end();
+  EXPECT_EQ(fields, expected);
 }
 
 TEST_P(HaloOf, ValuesAtTheBeginSendsThoseAndNotLaterOnes) {
