@@ -89,6 +89,7 @@ typedef struct {
 typedef struct {
   int32_t stop, pause, extract;
   double frame_interval;
+  double waited; /* s of this call that a person let the run wait: a live view that was paused. No cost of the pipeline's. */
 } BrecciaRequests;
 
 /* A message is written into text[0..size), cut to fit, always ended with 0; one line, no newline. */

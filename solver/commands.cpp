@@ -12,12 +12,14 @@
 #include "case/reader.hpp"
 #include "output/atomic_file.hpp"
 #include "output/history_sink.hpp"
+#include "output/insitu_plugin.hpp"
 #include "output/run_folder.hpp"
 #include "output/summary.hpp"
 #include "output/vtkhdf_sink.hpp"
 #include "simulation/balance.hpp"
 #include "simulation/check.hpp"
 #include "simulation/convert.hpp"
+#include "simulation/frames.hpp"
 #include "simulation/model.hpp"
 #include "simulation/observe.hpp"
 #include "simulation/race_report.hpp"
@@ -49,6 +51,7 @@ int run_command(const RunCommand& asked, const Communicator& world) {
   world.agree([&] {
     input = case_::read_case(asked.case_file, asked.overrides);
     root = asked.folder.empty() ? default_run_folder(input.file) : asked.folder;
+    if (input.insitu.asked_for()) InSituPlugin();  // before anything is made: stays loaded
     if (!world.is_root()) return;
     model = std::make_unique<Model>(build_model(input));
     (void)prepare_run_folder(root, input.resolved, collect_provenance(BRECCIA_VERSION, asked.command_line),
@@ -66,7 +69,7 @@ int run_command(const RunCommand& asked, const Communicator& world) {
     sinks.push_back(std::make_unique<ProgressSink>(asked.progress, std::cout, terminal_columns(fileno(stdout))));
     sinks.push_back(std::make_unique<SummarySink>(folder.summary()));
   });
-  const Summary summary = run_case(input, std::move(model), sinks, world);
+  const Summary summary = run_case(input, std::move(model), sinks, world, &folder);
   if (world.is_root() && asked.progress != ProgressMode::json && asked.progress != ProgressMode::none) {
     fmt::print("{}results in {}\n", summary_text(summary), root.string());
   }
@@ -121,7 +124,7 @@ int mesh_command(const MeshCommand& asked) {
   fmt::print("{}", mesh_report({model.mesh, model.mesh_report}));
   std::filesystem::create_directories(asked.folder);
   const Stepper rest(model, search_params(input, model));
-  VtkhdfSink(asked.folder, {true, false, false}).frame(make_frame(rest, 0, {true, false, false}, Balance().weights(rest)));
+  VtkhdfSink(asked.folder, {true, false, false}).frame(make_frame(rest, 0, {true, false, false}, Balance().weights(rest), 1.0));
   fmt::print("elements for ParaView in {}\n", asked.folder.string());
   return 0;
 }

@@ -22,6 +22,31 @@ struct RunCommand {
 /// Collective over the world; the others are the work of one rank.
 int run_command(const RunCommand& asked, const Communicator& world);
 
+struct ControlCommand {
+  std::filesystem::path folder;         ///< of the run
+  std::string command;
+  double patience = 60;                 ///< s
+};
+int control_command(const ControlCommand& asked);
+
+struct LiveCommand {
+  std::filesystem::path case_file;
+  std::vector<std::string> overrides;
+};
+/// Becomes ParaView, which listens at the address of the case; returns only by throwing.
+int live_command(const LiveCommand& asked);
+
+struct ReplayCommand {
+  std::filesystem::path run;            ///< folder of a run with recorded extracts
+  std::vector<std::string> pipelines;   ///< names, or scripts
+  std::filesystem::path folder;         ///< of what they write; empty: replay in the folder of the run
+};
+/// Collective over the world.
+int replay_command(const ReplayCommand& asked, const Communicator& world);
+
+/// What the in-situ adaptor is, or what is missing.
+int insitu_info_command();
+
 struct RaceCommand {
   std::filesystem::path case_file;
   std::filesystem::path folder;         ///< of race.csv; empty: nothing is written

@@ -42,6 +42,9 @@ struct Arguments {
   RaceCommand race;
   CheckCommand check;
   MeshCommand mesh;
+  ControlCommand control;
+  LiveCommand live;
+  ReplayCommand replay;
   std::string key;
   std::string progress = "auto";
 };
@@ -134,6 +137,61 @@ void define_race(CLI::App& app, Arguments& a) {
   race->footer(kRaceFooter);
 }
 
+const char* kControlFooter =
+    R"(Commands:
+  pause, resume               wait between two steps, and go on
+  stop                        end after the present step, with everything written
+  extract                     let all in-situ pipelines work on the present state
+  frame                       write a frame
+  frame_interval TIME         from now on a frame every so much simulated time, such as "2 us"
+The answer comes when it is done. Whatever writes such a line into the file `control` of the run's folder asks the same.)";
+
+void define_control(CLI::App& app, Arguments& a) {
+  CLI::App* control = app.add_subcommand("control", "Ask something of a run that goes on: pause, resume, stop, extract, ...");
+  control->add_option("run", a.control.folder, "folder of the run")->required();
+  const auto join = [&a](const std::vector<std::string>& words) {
+    for (const std::string& word : words) a.control.command += (a.control.command.empty() ? "" : " ") + word;
+  };
+  control->add_option_function<std::vector<std::string>>("command", join, "see below")->required();
+  control->add_option("--patience", a.control.patience, "seconds to wait for the answer; default 60")->check(CLI::PositiveNumber);
+  control->footer(kControlFooter);
+}
+
+void define_insitu(CLI::App& app, Arguments& a) {
+  CLI::App* live = app.add_subcommand("live", "Start ParaView so that it sees a run of this case that is started with --live");
+  live->add_option("case", a.live.case_file, kCaseHelp)->required();
+  live->add_option("--set", a.live.overrides, kSetHelp)->allow_extra_args(false)->take_all();
+
+  CLI::App* insitu = app.add_subcommand("insitu", "Pipelines that work while a run goes on: try them, or see what they need");
+  insitu->require_subcommand(1);
+  insitu->add_subcommand("info", "what the in-situ adaptor is, or what is missing");
+  CLI::App* replay = insitu->add_subcommand("replay", "Feed what a run has recorded (pipelines volume, surface, fractures, ...) through pipelines");
+  replay->add_option("run", a.replay.run, "folder of the run")->required();
+  replay->add_option("pipelines", a.replay.pipelines, "scripts exported from ParaView, or names of pipelines")->required();
+  replay->add_option("-o,--output", a.replay.folder, "folder of what they write; default: replay in the folder of the run");
+}
+
+/// What --live and --insitu add to the case, as overrides.
+void define_run_insitu(CLI::App& run, Arguments& a) {
+  const auto live = [&a](const std::vector<std::string>& address) {
+    a.run.overrides.push_back("insitu.live.address=\"" + (address.empty() || address[0].empty() ? "localhost:22222" : address[0]) + "\"");
+  };
+  run.add_option_function<std::vector<std::string>>("--live", live, "offer the run to ParaView (Catalyst > Connect there), which listens at host:port; default localhost:22222")
+      ->expected(0, 1)
+      ->type_name("[HOST:PORT]");
+  run.add_flag_callback("--live-remote", [&a] { a.run.overrides.emplace_back("insitu.live.remote=true"); },
+                        "allow --live to go to another machine; nothing is encrypted");
+  const auto pipelines = [&a](const std::vector<std::string>& names) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "\"" : ", \"") + (case_::is_script(name) ? std::filesystem::absolute(name).string() : name) + "\"";
+    a.run.overrides.push_back("insitu.run=[" + list + "]");
+  };
+  run.add_option_function<std::vector<std::string>>("--insitu", pipelines, "pipelines that work while the run goes on, such as fractures,stress or a script; `breccia explain insitu`")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->take_all();
+}
+
 void define(CLI::App& app, Arguments& a) {
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("breccia ") + BRECCIA_VERSION);
@@ -148,6 +206,10 @@ void define(CLI::App& app, Arguments& a) {
   run->footer("Writes frames for ParaView (frames/*.series), history.csv, status.jsonl, summary.json, the resolved case and provenance.json.\n"
               "Ctrl-C ends the run after the present step with everything written.");
 
+  define_run_insitu(*run, a);
+
+  define_control(app, a);
+  define_insitu(app, a);
   define_race(app, a);
 
   CLI::App* check = app.add_subcommand("check", "Everything short of the first step: time step, memory, run time, advice");
@@ -176,9 +238,13 @@ int dispatch(const CLI::App& app, Arguments& a, const Communicator& world, int a
     a.run.command_line.assign(argv, argv + argc);
     return run_command(a.run, world);
   }
+  if (app.got_subcommand("insitu") && app.get_subcommand("insitu")->got_subcommand("replay")) return replay_command(a.replay, world);
   if (!world.is_root()) return code(ExitCode::success);  // what follows is the work of one
   if (app.got_subcommand("check")) return check_command(a.check, world.size());
   if (app.got_subcommand("mesh")) return mesh_command(a.mesh);
+  if (app.got_subcommand("control")) return control_command(a.control);
+  if (app.got_subcommand("live")) return live_command(a.live);
+  if (app.got_subcommand("insitu")) return insitu_info_command();
   return explain_command(a.key);
 }
 

@@ -7,7 +7,7 @@
 /// Which key of the schema stands for which member of a case: written once, walked by the reader and by the writer.
 /// An archive A offers: A::reads; value(key, member); choice(key, enumeration); axis_functions(key, axes, values);
 /// section(key, visitor), optional_section(key, member), list(key, members); origin(member) and, to read only:
-/// has(key), exactly_one(keys), at_most_one(keys), smallest_young(groups).
+/// has(key), exactly_one(keys), at_most_one(keys), smallest_young(groups), resolve_script(name).
 namespace breccia::case_ {
 
 template <class A>
@@ -236,6 +236,44 @@ void bind(A& a, Output& output) {
   a.value("gauges", output.gauges);
 }
 
+template <class A>
+void bind(A& a, Pipeline& pipeline) {
+  a.origin(pipeline.origin);
+  a.value("name", pipeline.name);
+  a.value("every_steps", pipeline.every_steps);
+  a.value("every_time", pipeline.every_time);
+  a.value("every_wall", pipeline.every_wall);
+  a.value("every_broken", pipeline.every_broken);
+  a.value("first_break", pipeline.first_break);
+  a.value("strict", pipeline.strict);
+  a.value("parameters", pipeline.parameters);
+}
+
+template <class A>
+void bind(A& a, Live& live) {
+  a.origin(live.origin);
+  a.value("address", live.address);
+  a.value("remote", live.remote);
+  a.value("interval", live.interval);
+  a.value("channels", live.channels);
+  a.value("max_overhead", live.max_overhead);
+}
+
+template <class A>
+void bind(A& a, InSitu& insitu) {
+  a.origin(insitu.origin);
+  a.value("max_overhead", insitu.max_overhead);
+  a.choice("on_error", insitu.on_error);
+  a.optional_section("live", insitu.live);
+  a.list("pipeline", insitu.pipelines);
+  if constexpr (A::reads) {
+    std::vector<std::string> names;
+    a.value("run", names);
+    for (const std::string& name : names) insitu.pipelines.emplace_back().name = name;
+    for (Pipeline& pipeline : insitu.pipelines) a.resolve_script(pipeline.name);
+  }
+}
+
 /// Materials come before joints, whose penalty may be a multiple of Young's modulus.
 template <class A>
 void bind(A& a, Case& c) {
@@ -256,6 +294,7 @@ void bind(A& a, Case& c) {
   a.section("detection", [&](auto& s) { bind(s, c.detection); });
   a.section("domains", [&](auto& s) { bind(s, c.domains); });
   a.section("output", [&](auto& s) { bind(s, c.output); });
+  a.section("insitu", [&](auto& s) { bind(s, c.insitu); });
 }
 
 }  // namespace breccia::case_

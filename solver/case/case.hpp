@@ -227,6 +227,50 @@ struct Output {
   friend bool operator==(const Output&, const Output&) = default;
 };
 
+/// [[insitu.pipeline]]: done with the state while the run goes on, whenever a trigger says so.
+struct Pipeline {
+  std::string name;                ///< one of the adaptor's own, or a script: an absolute path
+  std::int64_t every_steps = 0;    ///< 0: not by steps, and so on
+  double every_time = 0;           ///< s, simulated; a pipeline without any trigger runs 50 times
+  double every_wall = 0;           ///< s
+  std::int64_t every_broken = 0;   ///< joints
+  bool first_break = false;
+  bool strict = false;             ///< whatever it costs
+  std::map<std::string, double> parameters;
+  Origin origin;
+  [[nodiscard]] bool has_trigger() const {
+    return every_steps > 0 || every_time > 0 || every_wall > 0 || every_broken > 0 || first_break;
+  }
+  friend bool operator==(const Pipeline&, const Pipeline&) = default;
+};
+
+/// True for the name of a pipeline that is a script of the user's.
+[[nodiscard]] inline bool is_script(const std::string& name) { return name.ends_with(".py"); }
+
+/// [insitu.live]
+struct Live {
+  std::string address;                ///< host:port at which ParaView listens
+  bool remote = false;                ///< the host may be another machine
+  double interval = 1;                ///< s, wall
+  std::vector<std::string> channels;
+  double max_overhead = 0.05;         ///< of the wall time
+  Origin origin;
+  friend bool operator==(const Live&, const Live&) = default;
+};
+
+enum class OnError { warn, stop };
+
+/// [insitu]
+struct InSitu {
+  std::vector<Pipeline> pipelines;    ///< those of insitu.run included
+  std::optional<Live> live;
+  double max_overhead = 0.02;         ///< of the wall time
+  OnError on_error = OnError::warn;
+  Origin origin;
+  [[nodiscard]] bool asked_for() const { return !pipelines.empty() || live; }
+  friend bool operator==(const InSitu&, const InSitu&) = default;
+};
+
 struct Case {
   std::string title;
   std::filesystem::path file;  ///< absolute
@@ -244,6 +288,7 @@ struct Case {
   Detection detection;
   Domains domains;
   Output output;
+  InSitu insitu;
   std::string resolved;  ///< the case as TOML, SI, every default written out; copied to the run folder
   friend bool operator==(const Case&, const Case&) = default;
 };

@@ -94,6 +94,11 @@ class SectionReader {
                       "only one of " + words(names), joined(given, " and "));
   }
 
+  // A script is named relative to the case file.
+  void resolve_script(std::string& name) const {
+    if (is_script(name)) name = (model_.file.parent_path() / name).lexically_normal().string();
+  }
+
   // 0 when a material is missing, which validate() reports.
   [[nodiscard]] double smallest_young(const std::array<std::string, 2>& groups) const {
     double smallest = 0;

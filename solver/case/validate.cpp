@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <set>
 
+#include "case/live_address.hpp"
 #include "case/nearest.hpp"
+#include "case/schema.hpp"
 
 namespace breccia::case_ {
 namespace {
@@ -12,6 +14,8 @@ namespace {
 constexpr const char* every_group = "*";
 
 constexpr std::int64_t most_domains = 1000000;
+
+constexpr std::size_t most_pipelines = 31;  // and the live view: a mask of 32
 
 using Pair = std::array<std::string, 2>;
 
@@ -35,6 +39,7 @@ class Validator {
     stages();
     gauges();
     domains();
+    insitu();
     return std::move(problems_);
   }
 
@@ -202,6 +207,42 @@ class Validator {
       if (!seen.insert(c_.output.gauges[i]).second)
         problem(c_.output.origin, "gauges[" + std::to_string(i) + "]", "the gauge stands twice", "each group once",
                 c_.output.gauges[i]);
+  }
+
+  void insitu() {
+    for (const Pipeline& pipeline : c_.insitu.pipelines) this->pipeline(pipeline);
+    if (c_.insitu.pipelines.size() > most_pipelines)
+      problem(c_.insitu.origin, "", "asks for too many pipelines", "at most " + std::to_string(most_pipelines),
+              std::to_string(c_.insitu.pipelines.size()));
+    if (c_.insitu.live) live(*c_.insitu.live);
+  }
+
+  void pipeline(const Pipeline& pipeline) {
+    const Origin& origin = pipeline.origin.key.empty() ? c_.insitu.origin : pipeline.origin;
+    const std::string key = pipeline.origin.key.empty() ? "run" : "name";
+    if (is_script(pipeline.name)) {
+      std::error_code error;
+      if (!std::filesystem::is_regular_file(pipeline.name, error))
+        problem(origin, key, "the script does not exist", "a Python script exported from ParaView", pipeline.name);
+      return;
+    }
+    const std::vector<std::string> known = key_of("insitu.pipeline[].name").choice_list();
+    if (pipeline.name.empty() || std::find(known.begin(), known.end(), pipeline.name) != known.end()) return;
+    problem(origin, key, "no pipeline has this name",
+            joined(nearest_first(pipeline.name, known)) + ", or a script whose name ends with .py", pipeline.name);
+  }
+
+  void live(const Live& live) {
+    const std::vector<std::string> known = key_of("insitu.live.channels").choice_list();
+    for (const std::string& channel : live.channels)
+      if (std::find(known.begin(), known.end(), channel) == known.end())
+        problem(live.origin, "channels", "there is no such channel", joined(nearest_first(channel, known)), channel);
+    const auto address = host_and_port(live.address);
+    if (!address)
+      problem(live.origin, "address", "is no address", "host:port, the port between 1 and 65535", live.address);
+    else if (!live.remote && !is_loopback(address->first))
+      problem(live.origin, "address", "is on another machine",
+              "localhost, 127.0.0.1 or ::1, or insitu.live.remote = true", live.address);
   }
 
   const Case& c_;

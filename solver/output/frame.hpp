@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,8 +45,28 @@ struct Frame {
     std::vector<std::int64_t> id;         ///< (num_contacts) of the contact point: 24 element + 6 face + number
     std::vector<double> points;           ///< (num_contacts, 3)
     std::vector<double> force;            ///< (num_contacts, 3) on the point's body, N
+    std::vector<double> normal_force, tangential_force;  ///< (num_contacts, 3) its parts, N
     std::vector<std::int32_t> body, other_body;
   } contacts;
+
+  /// Free faces: of the bodies' surfaces, and both sides of every failed joint.
+  struct Surface {
+    Elements cells;                       ///< of the elements behind the faces; points are (3 num_faces, 3), outward sense
+    std::vector<std::int32_t> face;       ///< (num_faces) 0..3, opposite to that corner
+  } surface;
+
+  /// What this rank has to do; a rank without elements has no box.
+  struct Domain {
+    std::vector<double> points;           ///< (8, 3) box around its elements, corners in the order of VTK's hexahedron
+    std::vector<std::int32_t> rank;       ///< (1), as the following
+    std::vector<std::int64_t> elements, joints, couples;  ///< own elements; active joints and couples worked on
+    std::vector<double> load;             ///< working time over that of the mean rank, at the last look
+  } domain;
+};
+
+/// Which parts of a frame are asked for; the others stay empty.
+struct FrameParts {
+  bool elements = true, joints = true, contacts = true, surface = false, domain = false;
 };
 
 /// The budget at one instant, J.
@@ -79,6 +100,16 @@ struct HistoryRow {
   double max_speed = 0;
   double stress_yy_sum = 0;     ///< sum |sigma_yy| over the elements, Pa
   std::vector<GaugeReading> gauges;
+  std::optional<double> insitu_share;  ///< of the wall time, that pipelines have taken on the first rank
+};
+
+/// What a pipeline has done in a run.
+struct PipelineReport {
+  std::string name;
+  std::int64_t executed = 0, passed_over = 0, failed = 0;
+  double start_s = 0;      ///< s, of the first execution, which starts what stays (Python, a renderer)
+  double seconds = 0;      ///< s, of all others, on the slowest rank
+  std::int64_t bytes = 0;  ///< written by all ranks
 };
 
 /// Written to summary.json at the end of a run.
@@ -93,6 +124,7 @@ struct Summary {
   std::int64_t elements = 0, joints = 0, broken_joints = 0, fragments = 0, searches = 0, inverted_elements = 0;
   double wall_s = 0, element_steps_per_s = 0;
   std::vector<std::pair<std::string, double>> phases;
+  std::vector<PipelineReport> insitu;
   EnergyBudget energy;
   std::uint64_t max_rss_bytes = 0;
   std::string simd;          ///< "sse2", "avx2", "avx512"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <iterator>
+#include <utility>
 
 #include "output/energy_terms.hpp"
 
@@ -61,23 +61,20 @@ std::string quoted(const std::string& field) {
   return text + '"';
 }
 
-class RowText {
+class Numbers {
  public:
-  void add(double value) { fmt::format_to(std::back_inserter(text_), "{}{:.17g}", comma(), value); }
-  void add(std::int64_t value) { fmt::format_to(std::back_inserter(text_), "{}{}", comma(), value); }
-  void add(const Vec3& value) {
-    for (int axis = 0; axis < 3; ++axis) add(value[axis]);
-  }
-  [[nodiscard]] const std::string& text() const { return text_; }
+  void add(double value) { values_.push_back(value); }
+  void add(std::int64_t value) { values_.push_back(static_cast<double>(value)); }
+  void add(const Vec3& value) { values_.insert(values_.end(), {value[0], value[1], value[2]}); }
+  [[nodiscard]] std::vector<double> take() { return std::move(values_); }
 
  private:
-  [[nodiscard]] const char* comma() const { return text_.empty() ? "" : ","; }
-  std::string text_;
+  std::vector<double> values_;
 };
 
 }  // namespace
 
-std::vector<std::string> history_columns(const std::vector<std::string>& gauges) {
+std::vector<std::string> history_columns(const std::vector<std::string>& gauges, bool insitu) {
   std::vector<std::string> columns{"step", "time [s]", "time step [s]"};
   for (const EnergyTerm& term : kEnergyTerms) columns.push_back(words_of(term.name) + " [J]");
   columns.emplace_back("relative residual");
@@ -93,13 +90,14 @@ std::vector<std::string> history_columns(const std::vector<std::string>& gauges)
         columns.push_back(fmt::format("{} {} {} [{}]", gauge, vector.name, axis, vector.unit));
     }
   }
+  if (insitu) columns.emplace_back("in situ share of wall time");
   return columns;
 }
 
 void HistorySink::start(const RunStart& run) {
   gauges_ = run.gauges.size();
   std::string header;
-  for (const std::string& column : history_columns(run.gauges)) {
+  for (const std::string& column : history_columns(run.gauges, run.insitu)) {
     if (!header.empty()) header += ',';
     header += quoted(column);
   }
@@ -107,22 +105,27 @@ void HistorySink::start(const RunStart& run) {
   file_->append_line(header);
 }
 
+std::vector<double> history_values(const HistoryRow& row) {
+  Numbers numbers;
+  numbers.add(row.step);
+  numbers.add(row.time);
+  numbers.add(row.time_step);
+  for (const EnergyTerm& term : kEnergyTerms) numbers.add(row.energy.*term.value);
+  numbers.add(row.energy.residual_relative);
+  for (const Count& count : kCounts) numbers.add(row.*count.value);
+  for (const Vector& vector : kVectors) numbers.add(row.*vector.value);
+  numbers.add(row.max_speed);
+  numbers.add(row.stress_yy_sum);
+  for (const GaugeReading& gauge : row.gauges) {
+    for (const GaugeVector& vector : kGaugeVectors) numbers.add(gauge.*vector.value);
+  }
+  if (row.insitu_share) numbers.add(*row.insitu_share);
+  return numbers.take();
+}
+
 void HistorySink::history(const HistoryRow& row) {
   DEMAND(file_.has_value() && row.gauges.size() == gauges_, std::to_string(row.gauges.size()) + " gauge readings");
-  RowText text;
-  text.add(row.step);
-  text.add(row.time);
-  text.add(row.time_step);
-  for (const EnergyTerm& term : kEnergyTerms) text.add(row.energy.*term.value);
-  text.add(row.energy.residual_relative);
-  for (const Count& count : kCounts) text.add(row.*count.value);
-  for (const Vector& vector : kVectors) text.add(row.*vector.value);
-  text.add(row.max_speed);
-  text.add(row.stress_yy_sum);
-  for (const GaugeReading& gauge : row.gauges) {
-    for (const GaugeVector& vector : kGaugeVectors) text.add(gauge.*vector.value);
-  }
-  file_->append_line(text.text());
+  file_->append_line(fmt::format("{:.17g}", fmt::join(history_values(row), ",")));
 }
 
 void HistorySink::finish(const Summary&) {

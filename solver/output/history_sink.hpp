@@ -13,7 +13,11 @@ namespace breccia {
 
 /// Names of the history's columns with their units, "time [s]", "kinetic [J]", ..., then for each gauge
 /// "<group> reaction x [N]", ... The order of history_values.
-[[nodiscard]] std::vector<std::string> history_columns(const std::vector<std::string>& gauges);
+/// @param insitu  pipelines work while the run goes on: their share of the wall time is the last column
+[[nodiscard]] std::vector<std::string> history_columns(const std::vector<std::string>& gauges, bool insitu = false);
+
+/// The numbers of a row in the order of the columns.
+[[nodiscard]] std::vector<double> history_values(const HistoryRow& row);
 
 /// `history.csv`: a header line, then one line a row, numbers with 17 significant digits (they read back as the same
 /// doubles; not-a-number is written nan). Names that hold a comma or quote are quoted as RFC 4180 asks. Every line is

@@ -13,6 +13,7 @@ struct RunStart {
   std::string title;
   std::int64_t elements = 0, joints = 0;
   std::vector<std::string> gauges;  ///< groups, in the order of HistoryRow::gauges
+  bool insitu = false;              ///< pipelines work while it goes on: HistoryRow::insitu_share
 };
 
 /// How far a run has come. SI.
@@ -30,6 +31,17 @@ struct StatusLine {
   double imbalance = 1;             ///< largest over mean working time of the ranks
   std::int64_t decompositions = 1;  ///< divisions of the model among the ranks so far
   std::string stage;
+  bool paused = false;
+};
+
+/// Something that happened besides the physics.
+struct RunEvent {
+  std::string kind;        ///< "control": the answer to a command; "insitu": news of a pipeline
+  std::string text;        ///< what happened, in words
+  std::string id;          ///< of the command
+  bool accepted = true;    ///< the command was carried out; false also for news that is a warning
+  std::int64_t step = 0;
+  double time = 0;         ///< s, simulated
 };
 
 /// Receives what a run produces. Calls come in the order: start, then any of frame, history and status, then finish.
@@ -47,6 +59,7 @@ class Sink {
   /// True when the sink would use a status line now: asked every step, so that nobody makes a line in vain.
   [[nodiscard]] virtual bool status_due() const { return false; }
   virtual void status(const StatusLine&) {}
+  virtual void event(const RunEvent&) {}
   /// Also after an error: Summary::status tells ("complete", "stopped: ..." or the error's text).
   virtual void finish(const Summary&) {}
 };

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
@@ -21,6 +22,8 @@ const char* name_of(RunState state) {
   switch (state) {
     case RunState::running:
       return "running";
+    case RunState::paused:
+      return "paused";
     case RunState::complete:
       return "complete";
     case RunState::stopped:
@@ -50,6 +53,8 @@ StatusLine last_line(StatusLine line, const Summary& summary) {
 
 /// What finish has to say beyond the state.
 std::string message_of(const Summary& summary) { return state_of(summary) == RunState::complete ? "" : summary.status; }
+
+RunState state_now(const StatusLine& line) { return line.paused ? RunState::paused : RunState::running; }
 
 double percent(const StatusLine& line) { return 100 * std::clamp(line.share, 0.0, 1.0); }
 
@@ -86,6 +91,17 @@ std::string status_json(const StatusLine& line, RunState state, const std::strin
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
+std::string event_json(const RunEvent& event) {
+  nlohmann::ordered_json json;
+  json["event"] = event.kind;
+  json["step"] = event.step;
+  json["time"] = event.time;
+  json["accepted"] = event.accepted;
+  json["text"] = event.text;
+  if (!event.id.empty()) json["id"] = event.id;
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 StatusSink::StatusSink(std::filesystem::path file, std::chrono::milliseconds interval)
     : path_(std::move(file)), pace_(interval) {}
 
@@ -95,7 +111,11 @@ void StatusSink::status(const StatusLine& line) {
   last_ = line;
   if (!file_ || !pace_.due()) return;
   pace_.done();
-  file_->append_line(status_json(line, RunState::running, ""));
+  file_->append_line(status_json(line, state_now(line), ""));
+}
+
+void StatusSink::event(const RunEvent& event) {
+  if (file_) file_->append_line(event_json(event));
 }
 
 void StatusSink::finish(const Summary& summary) {
@@ -148,7 +168,17 @@ void ProgressSink::status(const StatusLine& line) {
   last_ = line;
   if (!status_due()) return;
   pace_.done();
-  show(line, RunState::running, "");
+  show(line, state_now(line), "");
+}
+
+void ProgressSink::event(const RunEvent& event) {
+  if (mode_ == ProgressMode::json) {
+    stream_ << event_json(event) << '\n' << std::flush;
+  } else if (!event.accepted) {
+    std::cerr << (mode_ == ProgressMode::bar ? "\n" : "") << "breccia: warning: " << event.text << '\n';
+  } else if (mode_ != ProgressMode::none) {
+    stream_ << (mode_ == ProgressMode::bar ? "\r\033[K" : "") << event.text << '\n' << std::flush;
+  }
 }
 
 void ProgressSink::finish(const Summary& summary) {
@@ -157,12 +187,13 @@ void ProgressSink::finish(const Summary& summary) {
 
 void ProgressSink::show(const StatusLine& line, RunState state, const std::string& message) {
   constexpr const char* redraw = "\r\033[K";
+  const bool goes_on = state == RunState::running || state == RunState::paused;
   const std::string ending = state == RunState::running ? "" : fmt::format("  {}", name_of(state));
   switch (mode_) {
     case ProgressMode::none:
       return;
     case ProgressMode::bar:
-      stream_ << redraw << bar_text(line, columns_) << (state == RunState::running ? "" : "\n") << std::flush;
+      stream_ << redraw << bar_text(line, columns_) << (goes_on ? "" : "\n") << std::flush;
       return;
     case ProgressMode::log:
       stream_ << progress_text(line) << ending << '\n' << std::flush;

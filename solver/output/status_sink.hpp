@@ -7,31 +7,19 @@
 #include <string>
 
 #include "output/atomic_file.hpp"
+#include "output/pace.hpp"
 #include "output/sink.hpp"
 
 namespace breccia {
 
 /// Where a run stands.
-enum class RunState { running, complete, stopped, failed };
+enum class RunState { running, paused, complete, stopped, failed };
 /// From Summary::status: "complete", "stopped..." or anything else, which is an error.
 [[nodiscard]] RunState state_of(const Summary& summary);
 
 /// One JSON object without line breaks: the members of StatusLine by name, "state", and "message" unless it is empty.
 /// Numbers that are not finite and an unknown eta are null.
 [[nodiscard]] std::string status_json(const StatusLine& line, RunState state, const std::string& message);
-
-/// Says "now" at most once an interval of wall time, and at first.
-class Pace {
- public:
-  explicit Pace(std::chrono::milliseconds interval) : interval_(interval) {}
-  [[nodiscard]] bool due() const { return !last_ || Clock::now() - *last_ >= interval_; }
-  void done() { last_ = Clock::now(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  std::chrono::milliseconds interval_;
-  std::optional<Clock::time_point> last_;
-};
 
 /// `status.jsonl`: one JSON line at the first step, about one every two seconds, and one at the end with the run's state.
 class StatusSink final : public Sink {
@@ -42,6 +30,8 @@ class StatusSink final : public Sink {
   [[nodiscard]] bool status_due() const override { return pace_.due(); }
   /// Writes the line if it is due; keeps it for the end.
   void status(const StatusLine& line) override;
+  /// Writes it at once: event_json.
+  void event(const RunEvent& event) override;
   void finish(const Summary& summary) override;
 
  private:
@@ -50,6 +40,9 @@ class StatusSink final : public Sink {
   Pace pace_;
   StatusLine last_;
 };
+
+/// One JSON object without line breaks: the members of RunEvent by name, "event" being its kind; id only if there is one.
+[[nodiscard]] std::string event_json(const RunEvent& event);
 
 enum class ProgressMode { none, bar, log, json };
 /// A bar where it can be redrawn (descriptor is a terminal), else lines for a log.
@@ -75,6 +68,8 @@ class ProgressSink final : public Sink {
 
   [[nodiscard]] bool status_due() const override { return mode_ != ProgressMode::none && pace_.due(); }
   void status(const StatusLine& line) override;
+  /// A line of its own; warnings go to stderr in any mode but json.
+  void event(const RunEvent& event) override;
   void finish(const Summary& summary) override;
 
  private:

@@ -53,6 +53,36 @@ void add_energies(std::string& text, const EnergyBudget& energy) {
   }
 }
 
+/// Share of the wall time that pipelines took, starts excepted.
+double insitu_share(const Summary& summary) {
+  double seconds = 0;
+  for (const PipelineReport& p : summary.insitu) seconds += p.seconds;
+  return summary.wall_s > 0 ? seconds / summary.wall_s : 0.0;
+}
+
+Json insitu_json(const Summary& summary) {
+  Json json;
+  json["share"] = insitu_share(summary);
+  json["pipelines"] = Json::array();
+  for (const PipelineReport& p : summary.insitu) {
+    json["pipelines"].push_back({{"name", p.name}, {"executed", p.executed}, {"passed_over", p.passed_over}, {"failed", p.failed},
+                                 {"start_s", p.start_s}, {"seconds", p.seconds}, {"bytes", p.bytes}});
+  }
+  return json;
+}
+
+void add_pipelines(std::string& text, const Summary& summary) {
+  if (summary.insitu.empty()) return;
+  add_line(text, "in situ", fmt::format("{:.2f} % of the wall time", 100 * insitu_share(summary)));
+  for (const PipelineReport& p : summary.insitu) {
+    std::string line = fmt::format("    {}: {} times, first in {}, {} in all, {}", p.name, count_text(p.executed), duration_text(p.start_s),
+                                   duration_text(p.seconds), bytes_text(static_cast<std::uint64_t>(p.bytes)));
+    if (p.passed_over > 0) line += fmt::format("; {} times passed over to keep below max_overhead", count_text(p.passed_over));
+    if (p.failed > 0) line += fmt::format("; failed {} times", count_text(p.failed));
+    text += line + "\n";
+  }
+}
+
 }  // namespace
 
 std::string summary_json(const Summary& summary) {
@@ -80,6 +110,7 @@ std::string summary_json(const Summary& summary) {
   json["element_steps_per_s"] = summary.element_steps_per_s;
   json["phases"] = Json::object();
   for (const auto& [name, seconds] : summary.phases) json["phases"][name] = seconds;
+  if (!summary.insitu.empty()) json["insitu"] = insitu_json(summary);
   json["energy"] = Json::object();
   for (const EnergyTerm& term : kEnergyTerms) json["energy"][term.name] = summary.energy.*term.value;
   json["energy_residual_relative"] = summary.energy.residual_relative;
@@ -101,6 +132,7 @@ std::string summary_text(const Summary& summary) {
   add_line(text, "wall time", duration_text(summary.wall_s));
   add_line(text, "speed", quantity_text(summary.element_steps_per_s, "element-steps/s"));
   add_phases(text, summary);
+  add_pipelines(text, summary);
   add_energies(text, summary.energy);
   add_line(text, "relative energy residual", fmt::format("{:.2e}", summary.energy.residual_relative));
   add_line(text, "memory", bytes_text(summary.max_rss_bytes));

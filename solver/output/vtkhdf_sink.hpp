@@ -9,11 +9,6 @@
 
 namespace breccia {
 
-/// Which parts of a frame become files.
-struct FrameParts {
-  bool elements = true, joints = true, contacts = true;
-};
-
 /// Frames for ParaView: `<folder>/elements_000012.vtkhdf` (tetrahedra), `joints_...` (triangles), `contacts_...` (vertices
 /// with force vectors), and one index of times for each, `elements.hdf.series`: the file to open (ParaView 5.11 knows the
 /// reader by the ending .hdf alone, and the times only from here). An index lists complete files only, whenever the run

@@ -109,6 +109,12 @@ void Communicator::set_patience(double seconds) const {
   if (handle_) handle_->patience = seconds;
 }
 
+Communicator Communicator::duplicate() const {
+  return handle_ ? Communicator(std::make_shared<Handle>(handle_->comm)) : Communicator();
+}
+
+int Communicator::fortran_handle() const { return handle_ ? static_cast<int>(MPI_Comm_c2f(handle_->comm)) : -1; }
+
 void Communicator::barrier() const { (void)sum(std::int64_t{0}); }
 
 double Communicator::min(double value) const { return reduced(handle_, value, MPI_DOUBLE, MPI_MIN); }

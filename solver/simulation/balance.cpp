@@ -57,6 +57,7 @@ double Balance::look(const Stepper& stepper) {
   before_ = now_;
   now_ = {(slowest - mean) / static_cast<double>(kInterval), mean > 0 ? slowest / mean : 1.0};
   told_ = now_.imbalance;
+  load_ = mean > 0 ? std::accumulate(mine.seconds.begin(), mine.seconds.end(), 0.0) / mean : 1.0;
   return std::min(now_.lost, before_.lost);
 }
 

@@ -20,6 +20,8 @@ class Balance {
   [[nodiscard]] double look(const Stepper& stepper);
   /// Largest over mean of the ranks' working time at the last look; 1: none yet.
   [[nodiscard]] double imbalance() const { return told_; }
+  /// This rank's working time over the mean at the last look; 1: none yet.
+  [[nodiscard]] double load() const { return load_; }
   /// The smaller of the last two looks since the model was divided.
   [[nodiscard]] double lasting_imbalance() const { return std::min(now_.imbalance, before_.imbalance); }
 
@@ -45,7 +47,7 @@ class Balance {
     double imbalance = 1;
   };
   Look now_, before_;
-  double told_ = 1;
+  double told_ = 1, load_ = 1;
 };
 
 }  // namespace breccia

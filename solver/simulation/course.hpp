@@ -26,7 +26,7 @@ class Course {
   /// One step; a stage that ends with it is followed by the next one. Collective. @pre not over
   void step(bool stop) {
     steps_->look();
-    share_.stepper().step(false, stop);
+    share_.stepper().step(false, {.stop = stop});
     share_.keep_up();
     while (steps_->over() && !over()) steps_.emplace(input_, input_.stages[++stage_], share_);
   }

@@ -12,97 +12,6 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-void append(std::vector<double>& values, const Vec3& v) { values.insert(values.end(), {v[0], v[1], v[2]}); }
-
-Vec3 centroid(const LocalMesh& local, const double* field, Index slot) {
-  Vec3 sum = Vec3::Zero();
-  for (int c = 0; c < 4; ++c) sum += load_node(field, local.corner_node(slot, c));
-  return 0.25 * sum;
-}
-
-void add_element(const Stepper& stepper, const Fragments& fragments, Index slot, Frame::Elements& out) {
-  const LocalMesh& local = stepper.model().local;
-  const double* x = stepper.state().position.data();
-  const double* v = stepper.state().velocity.data();
-  const Index group = local.block_group[at(slot / kLanes)];
-  for (int c = 0; c < 4; ++c) append(out.points, load_node(x, local.corner_node(slot, c)));
-  out.id.push_back(local.element_of_slot[at(slot)]);
-  out.body.push_back(local.slot_body[at(slot)]);
-  out.material.push_back(group);
-  out.rank.push_back(stepper.communicator().rank());
-  out.fragment.push_back(fragments.of_slot[at(slot)]);
-  const Mat3 stress = cauchy_stress(local, stepper.model().elastic[at(group)], slot, x, v);
-  const auto six = components(stress);
-  out.stress.insert(out.stress.end(), six.begin(), six.end());
-  out.von_mises.push_back(von_mises(stress));
-  append(out.principal, principal_stresses(stress));
-  append(out.velocity, centroid(local, v, slot));
-  append(out.displacement, centroid(local, x, slot) - centroid(local, local.reference.data(), slot));
-}
-
-/// Triangle on the face of a.
-void add_released_joint(const Stepper& stepper, const ReleasedJoint& joint, Frame::Joints& out) {
-  const LocalMesh& local = stepper.model().local;
-  for (const int corner : kFaceCorners[at(joint.face_a)]) {
-    append(out.points, load_node(stepper.state().position.data(), local.corner_node(joint.slot_a, corner)));
-  }
-  out.id.push_back(joint.id);
-}
-
-/// Triangle halfway between the two faces of a joint that is still held.
-void add_active_joint(const Stepper& stepper, const ActiveJoint& joint, Frame::Joints& out) {
-  const LocalMesh& local = stepper.model().local;
-  const double* x = stepper.state().position.data();
-  for (int i = 0; i < 3; ++i) {
-    const Vec3 on_a = load_node(x, local.corner_node(joint.slot_a, kFaceCorners[at(joint.face_a)][at(i)]));
-    const Vec3 on_b = load_node(x, local.corner_node(joint.slot_b, matching_corner(joint.code, i)));
-    append(out.points, Vec3(0.5 * (on_a + on_b)));
-  }
-  out.id.push_back(joint.id);
-}
-
-void add_joints(const Stepper& stepper, Frame::Joints& out) {
-  std::vector<ReleasedJoint> released = stepper.released_joints();
-  std::sort(released.begin(), released.end(), [](const ReleasedJoint& p, const ReleasedJoint& q) { return p.id < q.id; });
-  const auto add_released = [&](const ReleasedJoint& joint) {
-    add_released_joint(stepper, joint, out);
-    out.damage.push_back(1.0);
-    out.mode.push_back(static_cast<std::int32_t>(joint.mode));
-    out.opening.push_back(0.0);  // its faces have parted: there is no opening left to speak of
-    out.slip.push_back(0.0);
-    out.broken.push_back(1);
-  };
-  auto next = released.begin();
-  for (const ActiveJoint& joint : stepper.active_joints()) {
-    for (; next != released.end() && next->id < joint.id; ++next) add_released(*next);
-    if (joint.damage() <= 0 || !stepper.model().local.is_original(joint.slot_a)) continue;
-    add_active_joint(stepper, joint, out);
-    out.damage.push_back(joint.damage());
-    out.mode.push_back(static_cast<std::int32_t>(joint.mode()));
-    out.opening.push_back(joint.opening());
-    out.slip.push_back(joint.slip());
-    out.broken.push_back(joint.state == JointState::failed ? 1 : 0);
-  }
-  for (; next != released.end(); ++next) add_released(*next);
-}
-
-void add_contacts(const Stepper& stepper, Frame::Contacts& out) {
-  if (stepper.contact() == nullptr) return;
-  const LocalMesh& local = stepper.model().local;
-  const ContactState& contact = stepper.contact()->contact();
-  const FaceRule& rule = face_rule(stepper.model().contact.points_per_face);
-  const double* x = stepper.state().position.data();
-  for (const TouchingCouple& couple : contact.touching) {
-    const ContactPoint& point = contact.points[at(couple.point)];
-    if (couple.force.squaredNorm() == 0.0 || !local.is_original(point.slot)) continue;
-    out.id.push_back(point.id);
-    append(out.points, at_point(rule, point, x));
-    append(out.force, couple.force);
-    out.body.push_back(local.slot_body[at(point.slot)]);
-    out.other_body.push_back(local.slot_body[at(contact.contactors[at(couple.contactor)])]);
-  }
-}
-
 /// What a gauge reads on this rank, as sums: reaction, contact force, displacement and velocity of the nodes, their number.
 class GaugeSums {
  public:
@@ -216,24 +125,6 @@ void count_joints(const Stepper& stepper, HistoryRow& row) {
 }
 
 }  // namespace
-
-Frame make_frame(const Stepper& stepper, std::int64_t number, const FrameParts& parts, std::vector<double> cost) {
-  Frame frame;
-  frame.step = stepper.steps();
-  frame.time = stepper.time();
-  frame.number = number;
-  const LocalMesh& local = stepper.model().local;
-  if (parts.elements) {
-    const Fragments fragments = find_fragments(stepper);
-    for (const Index slot : local.slot_of_element) {
-      if (local.is_original(slot)) add_element(stepper, fragments, slot, frame.elements);
-    }
-    frame.elements.cost = std::move(cost);
-  }
-  if (parts.joints) add_joints(stepper, frame.joints);
-  if (parts.contacts) add_contacts(stepper, frame.contacts);
-  return frame;
-}
 
 HistoryRow make_history_row(const Stepper& stepper, const std::vector<Gauge>& gauges, double time) {
   HistoryRow row;

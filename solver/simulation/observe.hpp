@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "output/frame.hpp"
-#include "output/vtkhdf_sink.hpp"
 #include "simulation/fragment_labels.hpp"
 #include "simulation/stepper.hpp"
 #include "state/state_hash.hpp"
@@ -12,10 +11,6 @@
 namespace breccia {
 
 /// What is told of a running model; looks, changes nothing.
-
-/// A complete picture of this rank's originals at the stepper's time. Collective.
-/// @param parts  the others stay empty;  @param cost  (originals) relative, ascending by id
-[[nodiscard]] Frame make_frame(const Stepper& stepper, std::int64_t number, const FrameParts& parts, std::vector<double> cost);
 
 /// A group whose forces and motion are recorded.
 struct Gauge {

@@ -76,7 +76,7 @@ class Race {
     Course course(input_, share);
     while (!course.over() && share.stepper().time() < settings_.from - 0.5 * share.stepper().dt()) {
       course.step(stop_requested);
-      if (share.stepper().stop_agreed()) return false;
+      if (share.stepper().heard().stop) return false;
       if (progress_.due())
         progress_.tell({"on the way to the start", share.stepper().time() / settings_.from, seconds_since(started)});
     }
@@ -200,11 +200,11 @@ class Race {
       course.step(stop_requested);
       ++steps;
       pieces.step(share);
-      if (share.stepper().stop_agreed()) return false;
+      if (share.stepper().heard().stop) return false;
       if (progress_.due()) tell_lap(racer, steps);
     }
     share.stepper().conclude();
-    if (share.stepper().stop_agreed()) return false;
+    if (share.stepper().heard().stop) return false;
     pieces.agree(communicator_);
     finish(share, pieces);
     return true;

@@ -43,6 +43,7 @@ class Share {
   void begin_stage(const case_::Stage& stage, double dt);
   [[nodiscard]] std::vector<double> costs() const { return balance_.weights(*stepper_); }  ///< of the originals, ascending by id
   [[nodiscard]] double imbalance() const { return balance_.imbalance(); }    ///< largest over mean working time of the ranks
+  [[nodiscard]] double load() const { return balance_.load(); }              ///< this rank's over the mean working time
 
   /// After every step: a new decomposition if one is due. Collective.
   void keep_up();

@@ -124,9 +124,7 @@ void Stepper::break_joints(std::span<const LoadedFace> faces) {
   };
   for (const LoadedFace& face : faces) {
     const Index id = joint_of_face_[at(face.slot) * 4 + static_cast<std::size_t>(face.face)];
-    const bool swept = id >= 0 && face.slot < model_.local.num_own_slots;
-    const bool intact = swept && JointLinks::code_of(links_.link[JointLinks::at(face.slot, face.face)]) < 12;
-    if (intact && matters(at(id))) crossed_.push_back(at(id));
+    if (id >= 0 && swept(face.slot, face.face) && matters(at(id))) crossed_.push_back(at(id));
     if (id >= 0) by_hand.push_back(model_.joint_id(at(id)));
   }
   std::sort(by_hand.begin(), by_hand.end());
@@ -137,7 +135,7 @@ void Stepper::break_joints(std::span<const LoadedFace> faces) {
   }
 }
 
-void Stepper::step(bool sample, bool stop) {
+void Stepper::step(bool sample, const Word& word) {
   hear_votes();
   hear_releases();
   external_forces();
@@ -153,7 +151,8 @@ void Stepper::step(bool sample, bool stop) {
   if (sample) take_budget(velocity_before);
   return_calm();
   book_after(sample);
-  cast_votes(stop);
+  said_ = word;
+  cast_votes();
   gather_proxies();
   std::swap(state_.position, state_.next_position);
   time_ += dt_;

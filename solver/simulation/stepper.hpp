@@ -26,6 +26,13 @@
 
 namespace breccia {
 
+/// What ranks tell each other besides the physics, heard by all of them a step later.
+struct Word {
+  bool stop = false;         ///< somebody asks for the end of the run
+  bool broke = false;        ///< joints have broken on some rank since it was last counted
+  std::uint64_t orders = 0;  ///< of the root, fewer than 53 bits
+};
+
 /// What a rank takes along when its elements change: clock and books. Sums over ranks do not depend on who holds what.
 struct Ledger {
   double time = 0, dt = 0, dt_before = 0;  ///< s
@@ -37,6 +44,7 @@ struct Ledger {
   GravityWork::Carried gravity;
   JointWork joint_work;
   ContactWork contact_work;
+  Word word;                               ///< said and not heard yet
   std::vector<GlobalId> released;          ///< joints that other ranks have not heard of yet
   std::optional<double> first_total;       ///< J, energy minus external work of the whole model at the first sample
   EnergyBudget budget;                     ///< of the last sample
@@ -90,9 +98,9 @@ class Stepper {
   void conclude();
 
   /// One step. With `sample`, the energy budget at t_n is taken on the way: budget(). Collective.
-  /// @param stop  this rank has been asked to stop: stop_agreed()
+  /// @param word  of this rank, to be heard a step later: heard()
   /// Throws SimulationError on all ranks when a velocity was not finite at the end of the last step.
-  void step(bool sample, bool stop = false);
+  void step(bool sample, const Word& word = {});
 
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] double time() const { return time_; }               ///< s, t_n: of position
@@ -106,7 +114,7 @@ class Stepper {
   [[nodiscard]] PhaseTimer& timer() { return timer_; }
   [[nodiscard]] const PhaseTimer& timer() const { return timer_; }
   [[nodiscard]] double max_speed() const { return max_speed_; }     ///< m/s, of the rank's originals after the last step
-  [[nodiscard]] bool stop_agreed() const { return stop_agreed_; }   ///< some rank asked for it a step ago
+  [[nodiscard]] const Word& heard() const { return heard_; }        ///< what ranks said a step ago, alike on all of them
   [[nodiscard]] double max_speed_anywhere() const { return max_speed_anywhere_; }  ///< m/s, of all ranks, a step ago
   [[nodiscard]] std::int64_t messages() const;                      ///< that gathered this rank's originals so far
   [[nodiscard]] std::int64_t bytes() const;                         ///< in them
@@ -118,6 +126,14 @@ class Stepper {
   void use_simd(Simd simd) { simd_ = simd; }
 
   [[nodiscard]] const JointLinks& links() const { return links_; }
+  /// Whether the face had a joint when the model was built.
+  [[nodiscard]] bool has_joint(Index slot, int face) const {
+    return joint_of_face_[static_cast<std::size_t>(slot) * 4 + static_cast<std::size_t>(face)] >= 0;
+  }
+  /// Whether it has an intact one that the sweep looks after.
+  [[nodiscard]] bool swept(Index slot, int face) const {
+    return slot < model_.local.num_own_slots && JointLinks::code_of(links_.link[JointLinks::at(slot, face)]) < 12;
+  }
   /// Joints of this rank (side a) that have failed and opened.
   [[nodiscard]] const std::vector<ReleasedJoint>& released_joints() const { return released_; }
   /// Joints of this rank (side a) that no longer hold, opened or not.
@@ -151,7 +167,7 @@ class Stepper {
   void exchange_touching();
   void update_contact();
   void hear_votes();
-  void cast_votes(bool stop);
+  void cast_votes();
   void contact_forces();
   [[nodiscard]] SweepArgs sweep_args(bool sample);
   void sweep(const SweepArgs& args);
@@ -204,7 +220,7 @@ class Stepper {
   std::int64_t messages_ = 0, bytes_ = 0;   ///< of halos that are gone
   std::optional<Vote> vote_;
   std::optional<std::string> failure_;      ///< of this rank in the last step
-  bool stop_agreed_ = false;
+  Word said_, heard_;                       ///< by this rank in the last step, by all in the one before
 
   // Books, J.
   ExactSum past_external_;                  ///< work of the loads and constraints of earlier stages

@@ -24,8 +24,8 @@ void Stepper::connect(const Communicator& communicator, const std::vector<Shared
   all_ = std::make_unique<Halo>(communicator_, halo_plan(shared_), 2, exchange_);
   if (contact_) contact_->restrict_to(relevant_);
   plan_near();
-  vote_.emplace(communicator, 4);
-  cast_votes(false);
+  vote_.emplace(communicator, 6);
+  cast_votes();
 }
 
 /// Originals, and elements that put forces on nodes of originals.
@@ -120,25 +120,25 @@ std::int64_t Stepper::bytes() const { return bytes_ + (all_ ? all_->bytes() + ne
 void Stepper::hear_votes() {
   max_speed_anywhere_ = max_speed_;
   news_ = !releasing_.empty();
+  heard_ = said_;
   if (!vote_) return;
   const auto lap = timer_.measure(Phase::communication);
   communicator_.set_phase("votes at the end of a step");
   const std::span<const double> largest = vote_->take();
   max_speed_anywhere_ = largest[0];
-  stop_agreed_ = largest[2] > 0;
-  news_ = largest[3] > 0;
+  news_ = largest[2] > 0;
+  heard_ = {largest[3] > 0, largest[4] > 0, static_cast<std::uint64_t>(largest[5])};
   if (!(largest[1] > 0)) return;
   communicator_.agree([&] {
     if (failure_) throw SimulationError(*failure_);
   });
 }
 
-void Stepper::cast_votes(bool stop) {
-  if (!vote_) {
-    stop_agreed_ = stop;
-    return;
-  }
-  vote_->post(std::array{max_speed_, failure_ ? 1.0 : 0.0, stop ? 1.0 : 0.0, releasing_.empty() ? 0.0 : 1.0});
+void Stepper::cast_votes() {
+  if (!vote_) return;
+  const auto flag = [](bool value) { return value ? 1.0 : 0.0; };
+  vote_->post(std::array{max_speed_, flag(failure_.has_value()), flag(!releasing_.empty()), flag(said_.stop), flag(said_.broke),
+                         static_cast<double>(said_.orders)});
 }
 
 void Stepper::conclude() {

@@ -67,6 +67,7 @@ Stepper::Stepper(const Model& model, const ContactSearchParams& search, const Re
   broken_joints_ = ledger.broken_joints;
   searches_before_ = ledger.searches;
   past_external_ = std::move(ledger.past_external);
+  said_ = ledger.word;
   releasing_ = std::move(ledger.released);
   messages_ = ledger.messages;
   bytes_ = ledger.bytes;
@@ -220,6 +221,7 @@ Ledger Stepper::close() {
   ledger.broken_joints = broken_joints_;
   ledger.searches = searches();
   ledger.past_external = past_external_;
+  ledger.word = heard_;
   ledger.released = releasing_;
   ledger.messages = messages();
   ledger.bytes = bytes();

@@ -30,7 +30,7 @@ IN_SITU_HEADER = "catalyst/insitu_abi.h"
 THIRD_PARTY = [
     (r"Eigen/.*", ["*"]),
     (r"spdlog/.*", ["base/log.cpp"]),
-    (r"fmt/.*", ["base/log.cpp", "output/*.cpp", "simulation/*.cpp", "commands.cpp"]),
+    (r"fmt/.*", ["base/log.cpp", "output/*.cpp", "simulation/*.cpp", "commands*.cpp"]),
     (r"(toml\.hpp|toml\+\+/.*|toml\+\+\.h|tomlplusplus/.*)", ["case/*reader*.cpp"]),
     (r"gmsh(c|\.h_cwrap)?\.h", ["mesh/gmsh_reader.cpp"]),
     (r"mpi\.h", ["parallel/*"]),

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace breccia::case_ {
+
+/// "host:port" or "port", an IPv6 host in brackets; nothing if it is neither.
+[[nodiscard]] std::optional<std::pair<std::string, int>> host_and_port(std::string_view address);
+
+/// True for names of the machine itself: localhost, 127.x.x.x, ::1.
+[[nodiscard]] bool is_loopback(std::string_view host);
+
+}  // namespace breccia::case_

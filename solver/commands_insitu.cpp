@@ -1,0 +1,73 @@
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <fmt/core.h>
+#include <optional>
+
+#include "case/live_address.hpp"
+#include "case/reader.hpp"
+#include "commands.hpp"
+#include "output/atomic_file.hpp"
+#include "output/control.hpp"
+#include "output/insitu_config.hpp"
+#include "output/insitu_plugin.hpp"
+#include "output/run_folder.hpp"
+
+namespace breccia {
+
+int control_command(const ControlCommand& asked) {
+  const Command command = parse_command(asked.command);
+  if (command.kind == Command::Kind::refused) throw InputError(Problem{"", 0, asked.command, command.complaint, "", ""});
+  fmt::print("{}: done\n", ask_run(asked.folder, command.text, asked.patience));
+  return 0;
+}
+
+int live_command(const LiveCommand& asked) {
+  const case_::Case input = case_::read_case(asked.case_file, asked.overrides);
+  const auto address = case_::host_and_port(input.insitu.live.value_or(case_::Live{}).address);
+  const std::string port = std::to_string(address->second);
+  fmt::print("ParaView listens at port {}; start the run with --live, before or afterwards.\n", port);
+  std::fflush(stdout);
+  const std::string option = "--live=" + port;
+  ::execlp("paraview", "paraview", option.c_str(), static_cast<char*>(nullptr));
+  throw output_error("paraview", "cannot be started; apt-get install paraview brings it", errno);
+}
+
+int replay_command(const ReplayCommand& asked, const Communicator& world) {
+  const std::filesystem::path folder = std::filesystem::absolute(asked.folder.empty() ? asked.run / "replay" : asked.folder);
+  case_::InSitu insitu;
+  for (const std::string& name : asked.pipelines) {
+    insitu.pipelines.emplace_back().name = case_::is_script(name) ? std::filesystem::absolute(name).string() : name;
+  }
+  world.agree([&] {
+    if (!world.is_root()) return;
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw output_error(folder, "cannot create this folder", error.value());
+  });
+  std::optional<InSituPlugin> plugin;
+  world.agree([&] { plugin.emplace(); });
+  const Communicator own = world.duplicate();
+  const InSituConfig config(insitu, "replay of " + asked.run.string(), folder, own);
+  const auto checked = [&](auto&& call) {
+    std::int32_t result = 0;
+    const std::string text = words_of([&](char* words, std::size_t size) { result = call(words, size); });
+    world.agree([&] {
+      if (result != 0) throw InputError(insitu_problems({}, text));
+    });
+  };
+  checked([&](char* words, std::size_t size) { return plugin->api().preflight(&config.get(), words, size); });
+  const std::string records = std::filesystem::absolute(RunFolder{asked.run}.extracts()).string();
+  checked([&](char* words, std::size_t size) { return plugin->api().replay(&config.get(), records.c_str(), words, size); });
+  if (world.is_root()) fmt::print("results in {}\n", folder.string());
+  return 0;
+}
+
+int insitu_info_command() {
+  const InSituPlugin plugin;
+  fmt::print("{}\n{}\n", plugin.api().description, InSituPlugin::place().string());
+  return 0;
+}
+
+}  // namespace breccia

@@ -1,0 +1,157 @@
+#include "output/control.hpp"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <system_error>
+#include <thread>
+
+#include "case/units.hpp"
+#include "output/atomic_file.hpp"
+#include "output/run_folder.hpp"
+
+namespace breccia {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto kGlance = std::chrono::milliseconds(20);  // between two looks for an answer
+
+std::string trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
+  return first == std::string_view::npos ? std::string() : std::string(text.substr(first, last - first + 1));
+}
+
+/// Takes " id=WORD" off the end.
+std::string take_id(std::string& text) {
+  const std::size_t start = text.rfind(" id=");
+  if (start == std::string::npos) return {};
+  const std::string id = trimmed(text.substr(start + 4));
+  text = trimmed(text.substr(0, start));
+  return id;
+}
+
+void set_interval(Command& command, const std::string& time) {
+  try {
+    command.value = case_::to_si(time, "s");
+    if (std::isfinite(command.value) && command.value >= 0) {
+      command.kind = Command::Kind::frame_interval;
+      return;
+    }
+    command.complaint = "frame_interval is out of range; allowed: a simulated time >= 0, such as \"2 us\"; given: " + time;
+  } catch (const case_::UnitError& error) {
+    command.complaint = "frame_interval " + std::string(error.what()) + "; allowed: a simulated time with its unit, such as \"2 us\"; given: " + time;
+  }
+}
+
+std::vector<std::string> lines_of(std::istream& stream) {
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) {
+    if (!trimmed(line).empty()) lines.push_back(trimmed(line));
+  }
+  return lines;
+}
+
+OutputError no_answer(const fs::path& folder, const std::string& what, const std::string& allowed) {
+  Problem problem;
+  problem.file = folder.string();
+  problem.what = what;
+  problem.allowed = allowed;
+  return OutputError(problem);
+}
+
+/// Reads what a growing file of JSON lines has got since the last look.
+class Tail {
+ public:
+  Tail(const fs::path& path, std::streamoff start) : path_(path), read_(start) {}
+  [[nodiscard]] std::vector<nlohmann::json> news() {
+    std::ifstream file(path_);
+    file.seekg(read_);
+    std::vector<nlohmann::json> found;
+    for (std::string line; std::getline(file, line) && !file.eof();) {  // a line without its end is still being written
+      read_ += static_cast<std::streamoff>(line.size()) + 1;
+      auto json = nlohmann::json::parse(line, nullptr, /*allow_exceptions=*/false);
+      if (json.is_object()) found.push_back(std::move(json));
+    }
+    return found;
+  }
+
+ private:
+  fs::path path_;
+  std::streamoff read_ = 0;
+};
+
+bool is_over(const nlohmann::json& line) {
+  const std::string state = line.value("state", "");
+  return state == "complete" || state == "stopped" || state == "failed";
+}
+
+}  // namespace
+
+Command parse_command(std::string_view line) {
+  Command command;
+  command.text = trimmed(line);
+  command.id = take_id(command.text);
+  std::istringstream words(command.text);
+  std::string word, rest;
+  words >> word;
+  std::getline(words, rest);
+  rest = trimmed(rest);
+  using Kind = Command::Kind;
+  if (word == "frame_interval" && !rest.empty()) {
+    set_interval(command, rest);
+    return command;
+  }
+  for (const auto& [name, kind] : {std::pair{"pause", Kind::pause}, {"resume", Kind::resume}, {"stop", Kind::stop},
+                                   {"extract", Kind::extract}, {"frame", Kind::frame}}) {
+    if (word == name && rest.empty()) command.kind = kind;
+  }
+  if (command.kind == Kind::refused) command.complaint = "no such command; allowed: " + std::string(kCommandWords) + "; given: " + command.text;
+  return command;
+}
+
+std::vector<std::string> ControlFile::take() {
+  if (!pace_.due()) return {};
+  pace_.done();
+  const fs::path taken = temporary_of(path_);
+  std::error_code error;
+  fs::rename(path_, taken, error);  // what is written from now on is another file
+  if (error) return {};
+  std::ifstream file(taken);
+  std::vector<std::string> lines = lines_of(file);
+  fs::remove(taken, error);
+  return lines;
+}
+
+std::string ask_run(const fs::path& run_folder, const std::string& command, double patience) {
+  const RunFolder folder{run_folder};
+  std::error_code error;
+  const auto size = fs::file_size(folder.status(), error);
+  if (error) throw no_answer(run_folder, "no run of breccia writes here", "the folder of a run that goes on");
+  for (const nlohmann::json& line : Tail(folder.status(), 0).news()) {
+    if (is_over(line)) throw no_answer(run_folder, "this run has ended", "the folder of a run that goes on");
+  }
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
+  const auto in_time = [&] { return std::chrono::steady_clock::now() < end; };
+  while (fs::exists(folder.control(), error) && in_time()) std::this_thread::sleep_for(kGlance);  // somebody else's turn
+  const std::string id = std::to_string(::getpid()) + "." + std::to_string(std::chrono::steady_clock::now().time_since_epoch().count());
+  write_file_atomically(folder.control(), command + " id=" + id + "\n");
+  Tail tail(folder.status(), static_cast<std::streamoff>(size));
+  while (in_time()) {
+    for (const nlohmann::json& line : tail.news()) {
+      if (line.value("id", "") == id) {
+        if (line.value("accepted", false)) return line.value("text", "");
+        throw no_answer(run_folder, "the run refuses: " + line.value("text", ""), "");
+      }
+      if (is_over(line)) throw no_answer(run_folder, "the run has ended meanwhile", "");
+    }
+    std::this_thread::sleep_for(kGlance);
+  }
+  fs::remove(folder.control(), error);
+  throw no_answer(run_folder, "the run does not answer; is it still there?", "the folder of a run that goes on");
+}
+
+}  // namespace breccia

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+#include "output/frame.hpp"
+#include "output/insitu_plugin.hpp"
+#include "output/sink.hpp"
+#include "output/trigger.hpp"
+#include "parallel/communicator.hpp"
+
+namespace breccia {
+
+/// The pipelines of a case that work on the state while the run goes on: when each is due, what it may cost, what its failure
+/// means. The work itself is the adaptor's (catalyst/insitu_abi.h).
+///
+/// Triggers by step, simulated time and broken joints are known to all ranks alike and hit the very step; those by wall time
+/// are the root's, which tells the others by its orders, heard a step later. Which triggers are passed over for the sake of the
+/// overhead is the root's to say as well. With nothing due a step costs a few comparisons.
+class InSitu {
+ public:
+  /// Hears news in words; called on all ranks. The flag is false for a warning.
+  using Tell = std::function<void(const std::string& text, bool good)>;
+
+  /// Loads the adaptor, looks whether everything asked for could work, and starts it. Collective.
+  /// @param folder  of the extracts; made when it is not there
+  /// Throws InputError with every problem, on all ranks alike.
+  InSitu(const case_::Case& input, const std::filesystem::path& folder, const Communicator& communicator, Tell tell);
+  InSitu(const InSitu&) = delete;
+  InSitu& operator=(const InSitu&) = delete;
+  ~InSitu();
+
+  /// Pipelines that are due by wall time, each once, to be heard by all ranks; empty on all but the root.
+  [[nodiscard]] std::uint64_t orders();
+  /// Whether some trigger needs the number of broken joints.
+  [[nodiscard]] bool counts_broken() const;
+
+  /// What is to be done in this step.
+  struct Plan {
+    std::uint32_t pipelines = 0, channels = 0;  ///< masks; 0: nothing
+    explicit operator bool() const { return pipelines != 0; }
+  };
+  /// @param ordered  mask of pipelines that are due by order; @param all  all of them are, whatever they cost
+  /// Collective when something is due; the same on all ranks.
+  [[nodiscard]] Plan plan(const Moment& now, std::uint32_t ordered, bool all);
+  /// Does it. @param frame  has the parts of the plan's channels
+  /// Throws OutputError on all ranks when a pipeline fails and on_error is stop. Collective.
+  void execute(const Plan& plan, const Frame& frame, const std::vector<std::string>& columns, const std::optional<std::vector<double>>& row);
+  /// What the scripts of the last execution ask of the run; the root's counts.
+  [[nodiscard]] const BrecciaRequests& requests() const { return requests_; }
+
+  /// Whether on_error has ended the run.
+  [[nodiscard]] bool failed() const { return failed_; }
+  /// Share of the wall time that pipelines have taken on this rank, starts excepted.
+  [[nodiscard]] double share() const;
+  /// Ends all pipelines. Collective.
+  [[nodiscard]] std::vector<PipelineReport> finish();
+
+ private:
+  struct Pipeline {
+    std::string name;
+    double every_wall;            ///< s; 0: no
+    bool strict;
+    Trigger trigger;
+    Overhead overhead;
+    double last_wall = 0;         ///< s, when it was last executed
+    std::int64_t passed_over = 0, failures = 0;
+    bool off = false, ordered = false;
+  };
+  void make_pipelines(const case_::Case& input);
+  void open(const case_::Case& input, const std::filesystem::path& folder);
+  [[nodiscard]] double elapsed() const;
+  [[nodiscard]] std::uint32_t affordable(std::uint32_t due) const;
+  void run_one(std::size_t pipeline, const BrecciaInstant& instant, double shared_cost);
+  void fail(Pipeline& pipeline, const std::string& why);
+
+  using Clock = std::chrono::steady_clock;
+  InSituPlugin plugin_;
+  Communicator communicator_;     ///< the adaptor's own
+  Tell tell_;
+  bool stop_on_error_, failed_ = false;
+  std::vector<Pipeline> pipelines_;
+  void* adaptor_ = nullptr;
+  BrecciaRequests requests_{};
+  Clock::time_point started_ = Clock::now(), planned_;
+};
+
+}  // namespace breccia

@@ -1,0 +1,49 @@
+#include "output/insitu_config.hpp"
+
+#include <sstream>
+
+#include "case/live_address.hpp"
+#include "output/channels.hpp"
+
+namespace breccia {
+
+InSituConfig::InSituConfig(const case_::InSitu& insitu, const std::string& title, const std::filesystem::path& folder,
+                           const Communicator& communicator)
+    : insitu_(insitu), title_(title), folder_(folder.string()) {
+  parameters_.reserve(insitu_.pipelines.size());
+  for (const case_::Pipeline& pipeline : insitu_.pipelines) add(pipeline);
+  if (insitu_.live) {
+    const auto address = case_::host_and_port(insitu_.live->address);
+    DEMAND(address.has_value(), insitu_.live->address);
+    live_host_ = address->first;
+    config_.live_port = address->second;
+    pipelines_.push_back({"live", channel_mask(insitu_.live->channels), 0, nullptr, nullptr});
+  }
+  config_.abi_version = BRECCIA_INSITU_ABI_VERSION;
+  config_.communicator = communicator.fortran_handle();
+  config_.rank = communicator.rank();
+  config_.size = communicator.size();
+  config_.title = title_.c_str();
+  config_.folder = folder_.c_str();
+  config_.live_host = live_host_.c_str();
+  config_.num_pipelines = static_cast<std::int32_t>(pipelines_.size());
+  config_.pipelines = pipelines_.data();
+}
+
+void InSituConfig::add(const case_::Pipeline& pipeline) {
+  Parameters& p = parameters_.emplace_back();
+  for (const auto& [name, value] : pipeline.parameters) {
+    p.names.push_back(name.c_str());
+    p.values.push_back(value);
+  }
+  pipelines_.push_back({pipeline.name.c_str(), 0, static_cast<std::int32_t>(p.names.size()), p.names.data(), p.values.data()});
+}
+
+std::vector<Problem> insitu_problems(const std::filesystem::path& case_file, const std::string& lines) {
+  std::vector<Problem> problems;
+  std::istringstream stream(lines);
+  for (std::string line; std::getline(stream, line);) problems.push_back({case_file.string(), 0, "insitu", line, "", ""});
+  return problems;
+}
+
+}  // namespace breccia

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace breccia {
+
+/// Simulated times at which something is due: 0, interval, 2 interval, ...; never twice within `least_steps`.
+class Schedule {
+ public:
+  /// @param interval  s; 0: never
+  explicit Schedule(double interval, std::int64_t least_steps = 1) : interval_(interval), least_steps_(least_steps) {}
+  /// True when the next due time lies before the end of the step of length dt that begins at `time`; moves on.
+  bool due(double time, double dt, std::int64_t step) {
+    if (interval_ <= 0 || step < free_step_ || time + 0.5 * dt < interval_ * static_cast<double>(next_)) return false;
+    next_ = following(time, dt);
+    free_step_ = step + least_steps_;
+    return true;
+  }
+  /// From now on another interval, next due at its first multiple after `time`.
+  void change(double interval, double time, double dt) {
+    interval_ = interval;
+    if (interval_ > 0) next_ = following(time, dt);
+  }
+
+ private:
+  [[nodiscard]] std::int64_t following(double time, double dt) const {
+    return static_cast<std::int64_t>(std::floor((time + 0.5 * dt) / interval_)) + 1;
+  }
+  double interval_;
+  std::int64_t least_steps_, free_step_ = 0;
+  std::int64_t next_ = 0;
+};
+
+}  // namespace breccia

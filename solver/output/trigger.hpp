@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+
+#include "case/case.hpp"
+#include "output/schedule.hpp"
+
+namespace breccia {
+
+/// Where a run is, alike on all ranks.
+struct Moment {
+  std::int64_t step = 0;
+  double time = 0, dt = 0;     ///< s, simulated; the step that begins now
+  std::int64_t broken = 0;     ///< joints of the whole model, as last counted
+};
+
+/// When a pipeline is due by what all ranks know: steps, simulated time, broken joints. Wall time is the root's to tell.
+class Trigger {
+ public:
+  /// Without any trigger of the user's: so many times over the run.
+  static constexpr double kTimes = 50;
+
+  /// @param end  s, of the run
+  Trigger(const case_::Pipeline& pipeline, double end)
+      : every_steps_(pipeline.every_steps),
+        every_broken_(pipeline.every_broken),
+        first_break_(pipeline.first_break),
+        times_(pipeline.has_trigger() ? pipeline.every_time : end / kTimes) {}
+
+  /// To be asked once a step; moves on.
+  [[nodiscard]] bool due(const Moment& now) {
+    const bool by_time = times_.due(now.time, now.dt, now.step);
+    const bool by_steps = every_steps_ > 0 && now.step % every_steps_ == 0;
+    const bool first = first_break_ && told_ == 0 && now.broken > 0;
+    const bool by_broken = every_broken_ > 0 && now.broken >= next_broken_;
+    if (by_broken || told_ == 0) told_ = now.broken;
+    if (by_broken) next_broken_ = (now.broken / every_broken_ + 1) * every_broken_;
+    return by_time || by_steps || first || by_broken;
+  }
+  /// Whether joints that break must be counted for it.
+  [[nodiscard]] bool counts_broken() const { return every_broken_ > 0 || (first_break_ && told_ == 0); }
+
+ private:
+  std::int64_t every_steps_, every_broken_;
+  bool first_break_;
+  Schedule times_;
+  std::int64_t told_ = 0, next_broken_ = every_broken_;
+};
+
+/// Keeps what something costs below a share of the wall time. The first time is for free: it starts what stays.
+class Overhead {
+ public:
+  explicit Overhead(double share) : share_(share) {}
+  /// Whether once more, at the cost of the last time, stays within the share of the wall time gone so far, s.
+  [[nodiscard]] bool allows(double elapsed) const { return times_ == 0 || spent_ + last_ <= share_ * elapsed; }
+  void book(double seconds) {
+    if (times_++ == 0) {
+      start_ = seconds;
+      return;
+    }
+    last_ = seconds;
+    spent_ += seconds;
+  }
+  [[nodiscard]] std::int64_t times() const { return times_; }
+  [[nodiscard]] double spent() const { return spent_; }   ///< s, without the first time
+  [[nodiscard]] double start() const { return start_; }   ///< s, of the first time
+
+ private:
+  double share_;
+  double start_ = 0, last_ = 0, spent_ = 0;
+  std::int64_t times_ = 0;
+};
+
+}  // namespace breccia

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "output/control.hpp"
+#include "parallel/communicator.hpp"
+
+namespace breccia {
+
+/// Commands from a run's control file, which the root alone reads, for all ranks.
+class RunControl {
+ public:
+  /// @param file  nothing: nobody can ask anything
+  RunControl(std::optional<std::filesystem::path> file, const Communicator& communicator) : communicator_(communicator) {
+    if (file && communicator.is_root()) file_.emplace(*file);
+  }
+
+  /// Looks into the file; true on the root while there are lines that nobody has heard.
+  [[nodiscard]] bool asks();
+  /// What has been asked, the same on all ranks. Collective.
+  [[nodiscard]] std::vector<Command> hear();
+
+ private:
+  Communicator communicator_;
+  std::optional<ControlFile> file_;
+  std::vector<std::string> lines_;
+};
+
+}  // namespace breccia
