@@ -31,7 +31,8 @@ std::vector<BrecciaArray> arrays_of(const Frame::Elements& e) {
 
 std::vector<BrecciaArray> arrays_of(const Frame::Joints& j) {
   return {array("id", j.id),           array("damage", j.damage), array("mode", j.mode),
-          array("opening", j.opening), array("slip", j.slip),     array("broken", j.broken)};
+          array("opening", j.opening), array("slip", j.slip),     array("broken", j.broken),
+          array("time_of_failure", j.time_of_failure), array("state", j.state)};
 }
 
 /// Entries [n i, n i + n) of a list, for the places i where `keep` is not 0.
@@ -46,7 +47,8 @@ std::vector<T> picked(const std::vector<T>& values, const std::vector<std::int32
 
 Frame::Joints broken_ones(const Frame::Joints& j) {
   return {picked(j.points, j.broken, 9), picked(j.id, j.broken),   picked(j.damage, j.broken), picked(j.mode, j.broken),
-          picked(j.opening, j.broken),   picked(j.slip, j.broken), picked(j.broken, j.broken)};
+          picked(j.opening, j.broken),   picked(j.slip, j.broken), picked(j.broken, j.broken),
+          picked(j.time_of_failure, j.broken), picked(j.state, j.broken)};
 }
 
 bool has(std::uint32_t mask, int channel) { return (mask >> channel & 1U) != 0; }

@@ -32,12 +32,20 @@ struct Frame {
 
   /// Triangles on the mid-surface of the joints that carry damage or have failed.
   struct Joints {
+    enum State : std::int32_t {
+      elastic = 0,    ///< without damage: such joints are in no frame
+      softening = 1,  ///< damaged, and holds
+      failed = 2,     ///< closed somewhere: a frictional interface
+      apart = 3       ///< failed, and has been open everywhere: its faces belong to contact
+    };
     std::vector<double> points;           ///< (3 num_joints, 3)
     std::vector<std::int64_t> id;
     std::vector<double> damage;           ///< largest of the points, 0..1
     std::vector<std::int32_t> mode;       ///< 0 undamaged, 1 mostly mode I, 2 mostly mode II, 3 mixed
     std::vector<double> opening, slip;    ///< mean over the points, m
-    std::vector<std::int32_t> broken;     ///< 0 or 1
+    std::vector<std::int32_t> broken;     ///< 0 or 1: its state is failed or apart
+    std::vector<double> time_of_failure;  ///< s, start of the step in which it failed; -1: it holds
+    std::vector<std::int32_t> state;      ///< State
   } joints;
 
   /// Contact points that carry a force.

@@ -35,7 +35,9 @@ GridView view_of(const Frame::Joints& joints) {
                      {"mode", joints.mode},
                      {"opening", joints.opening},
                      {"slip", joints.slip},
-                     {"broken", joints.broken}}};
+                     {"broken", joints.broken},
+                     {"time_of_failure", joints.time_of_failure},
+                     {"state", joints.state}}};
 }
 
 GridView view_of(const Frame::Contacts& contacts) {

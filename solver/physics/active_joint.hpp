@@ -26,6 +26,7 @@ struct ActiveJoint {
   double area = 0;  ///< m2, reference
   std::array<JointPointHistory, 3> points;
   double mode_1 = 0, mode_2 = 0, friction = 0;  ///< J dissipated so far
+  double time_of_failure = -1;                  ///< s, t_n of the step in which the state became failed; -1 before
   bool calm = false;                            ///< without damage, and well within the elastic range at the last evaluation
   // The last evaluation's moment of a closed joint that has slid, N, and normal; for its work.
   bool turned = false;

@@ -208,8 +208,8 @@ FailureMode ActiveJoint::mode() const {
 namespace {
 
 /// Evaluates a joint of the list and adds its forces; true when it is released.
-bool act(const JointLawParams& law, const LocalMesh& mesh, const double* position, ActiveJoint& joint, NodalForces& forces,
-         JointWork& work) {
+bool act(const JointLawParams& law, const LocalMesh& mesh, const double* position, double time, ActiveJoint& joint,
+         NodalForces& forces, JointWork& work) {
   const Sides sides = sides_of(mesh, position, joint);
   joint.calm = false;
   if (law.screen_limit() > 0 && joint.damage() <= 0) {
@@ -225,6 +225,7 @@ bool act(const JointLawParams& law, const LocalMesh& mesh, const double* positio
   const Triple force = evaluate(law, k, joint);
   if (joint.state == JointState::holding && gone(joint, law.points_to_fail)) {
     joint.state = JointState::failed;
+    joint.time_of_failure = time;
     if (mesh.is_original(joint.slot_a)) work.failed.push_back(joint.id);
   }
   // Open and broken everywhere: no force, and nothing stored, friction springs included.
@@ -258,14 +259,14 @@ JointEnergy joint_energy(const LocalMesh& mesh, const ActiveJoints& joints, cons
 }
 
 void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& mesh, const double* position,
-                         ActiveJoints& joints, NodalForces& forces, JointWork& work) {
+                         double time, ActiveJoints& joints, NodalForces& forces, JointWork& work) {
   work.failed.clear();
   work.released.clear();
   for (std::size_t i = 0; i < joints.size(); ++i) {
     if (i + 2 < joints.size()) prefetch(joints[i + 2]);
     ActiveJoint& joint = joints[i];
-    if (!act(laws[at(joint.law)], mesh, position, joint, forces, work)) continue;
-    work.released.push_back({joint.id, joint.slot_a, joint.face_a, joint.mode()});
+    if (!act(laws[at(joint.law)], mesh, position, time, joint, forces, work)) continue;
+    work.released.push_back({joint.id, joint.slot_a, joint.face_a, joint.mode(), joint.time_of_failure});
     if (!mesh.is_original(joint.slot_a)) continue;
     work.mode_1.add(joint.mode_1);
     work.mode_2.add(joint.mode_2);

@@ -17,6 +17,7 @@ struct ReleasedJoint {
   Index slot_a = 0;
   std::int8_t face_a = 0;
   FailureMode mode = FailureMode::none;
+  double time_of_failure = -1;  ///< s, as in ActiveJoint
 };
 
 /// What joints that are no longer on the list have consumed over the run, J: those whose side a is an original. Who failed:
@@ -45,9 +46,10 @@ struct JointEnergy {
 /// open at once it is released: it carries no force and holds no energy from then on and is taken off the list.
 /// A joint without damage whose opening is back within half the surely elastic range is marked `calm`: the sweep may have it
 /// back after this step.
+/// @param time  s, t_n: of the positions
 /// O(joints), allocates only when joints fail, throws nothing.
 void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& mesh, const double* position,
-                         ActiveJoints& joints, NodalForces& forces, JointWork& work);
+                         double time, ActiveJoints& joints, NodalForces& forces, JointWork& work);
 
 /// Square of the largest opening at the three corners, m2, in the very products the sweep uses; the same from both sides.
 [[nodiscard]] double largest_opening_squared(const LocalMesh& mesh, const double* position, const ActiveJoint& joint);

@@ -152,6 +152,8 @@ void add_joints(const Stepper& stepper, Frame::Joints& out) {
     out.opening.push_back(0.0);  // its faces have parted: there is no opening left to speak of
     out.slip.push_back(0.0);
     out.broken.push_back(1);
+    out.time_of_failure.push_back(joint.time_of_failure);
+    out.state.push_back(Frame::Joints::apart);
   };
   auto next = released.begin();
   for (const ActiveJoint& joint : stepper.active_joints()) {
@@ -162,7 +164,10 @@ void add_joints(const Stepper& stepper, Frame::Joints& out) {
     out.mode.push_back(static_cast<std::int32_t>(joint.mode()));
     out.opening.push_back(joint.opening());
     out.slip.push_back(joint.slip());
-    out.broken.push_back(joint.state == JointState::failed ? 1 : 0);
+    const bool broken = joint.state == JointState::failed;
+    out.broken.push_back(broken ? 1 : 0);
+    out.time_of_failure.push_back(joint.time_of_failure);
+    out.state.push_back(broken ? Frame::Joints::failed : Frame::Joints::softening);
   }
   for (; next != released.end(); ++next) add_released(*next);
 }

@@ -170,7 +170,7 @@ void Stepper::external_forces() {
 
 void Stepper::joint_forces() {
   const auto lap = timer_.measure(Phase::joints);
-  active_joint_forces(model_.joint_laws, model_.local, state_.position.data(), active_, forces_, joint_work_);
+  active_joint_forces(model_.joint_laws, model_.local, state_.position.data(), time_, active_, forces_, joint_work_);
   broken_joints_ += static_cast<std::int64_t>(joint_work_.failed.size());
   for (const ReleasedJoint& joint : joint_work_.released) {
     if (!model_.local.is_original(joint.slot_a)) continue;

@@ -3,6 +3,8 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <sys/wait.h>
@@ -13,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "end_to_end/program.hpp"
+#include "unit/output/hdf5_reader.hpp"
 
 /// The shipped program on several ranks against the same program on one.
 namespace breccia {
@@ -38,15 +41,33 @@ std::string history_without_couples(const std::filesystem::path& file) {
   return text;
 }
 
+/// By frame and joint: when it failed, state.
+using Failures = std::map<std::pair<std::string, double>, std::pair<double, double>>;
+
+Failures failures_in(const std::filesystem::path& frames) {
+  Failures failures;
+  for (const auto& file : std::filesystem::directory_iterator(frames)) {
+    const std::string name = file.path().filename();
+    if (name.find("joints_") != 0) continue;
+    const test::Hdf5Reader joints(file.path());
+    const std::vector<double> id = joints.values("CellData/id"), time = joints.values("CellData/time_of_failure"),
+                              state = joints.values("CellData/state");
+    for (std::size_t j = 0; j < id.size(); ++j) failures[{name, id[j]}] = {time.at(j), state.at(j)};
+  }
+  return failures;
+}
+
 /// What must not depend on the ranks.
 struct Result {
   std::string hash, history;
   nlohmann::json summary;
+  Failures failures;
 };
 
 Result result_of(const std::filesystem::path& folder) {
   const auto summary = nlohmann::json::parse(test::read_text(folder / "summary.json"));
-  return {summary.at("state_hash"), history_without_couples(folder / "history.csv"), summary};
+  return {summary.at("state_hash"), history_without_couples(folder / "history.csv"), summary,
+          failures_in(folder / "frames")};
 }
 
 /// Runs a case on 1 rank and in other ways, and compares.
@@ -67,10 +88,12 @@ class SameBits {
     const Result result = result_of(scratch_.path(name));
     EXPECT_EQ(result.hash, one_.hash) << ranks << " ranks " << settings;
     EXPECT_EQ(result.history, one_.history) << ranks << " ranks " << settings;
+    EXPECT_EQ(result.failures, one_.failures) << ranks << " ranks " << settings;
     EXPECT_EQ(result.summary.at("ranks"), ranks);
     return result.summary;
   }
   [[nodiscard]] const nlohmann::json& alone() const { return one_.summary; }
+  [[nodiscard]] const Failures& failures() const { return one_.failures; }
   Scratch& scratch() { return scratch_; }
 
  private:
@@ -97,6 +120,7 @@ TEST(Ranks, GiveTheSameBitsWhenTheModelIsDividedAgainAndAgain) {
   const Scratch scratch;
   SameBits boxes(scratch.write("case.toml", test::kSmallCase));
   EXPECT_GT(boxes.on(2, "--set domains.margin=0.1").at("decompositions"), 5);
+  EXPECT_GT(boxes.on(3, "--set domains.margin=0.1").at("decompositions"), 5);
   EXPECT_GT(boxes.on(4, "--set domains.margin=0.1 --set detection.algorithm=ms").at("decompositions"), 5);
 }
 
@@ -106,6 +130,23 @@ TEST(Ranks, GiveTheSameBitsWhile64BoxesShatterInASphere) {
   EXPECT_GT(boxes.alone().at("steps"), 2000);
   boxes.on(2);
   boxes.on(3, "--set domains.kind=grid --set domains.rebalance=false");
+}
+
+/// Frames of the small case: at 0, 1, 2, 3 and 4 ms.
+TEST(Ranks, KnowWhenTheirJointsFailed) {
+  const Scratch scratch;
+  SameBits boxes(scratch.write("case.toml", test::kSmallCase));
+  std::set<double> times, states;
+  for (const auto& [joint, failure] : boxes.failures()) {
+    const auto& [time, state] = failure;
+    const double frame = 1e-3 * std::stoi(joint.first.substr(std::string("joints_").size()));  // s
+    EXPECT_LE(time, frame) << joint.first;
+    EXPECT_EQ(time >= 0, state >= 2) << joint.first;
+    if (time >= 0) times.insert(time);
+    states.insert(state);
+  }
+  EXPECT_GT(times.size(), 5);
+  EXPECT_GE(states.size(), 2);
 }
 
 TEST(Ranks, GiveTheSameBitsWhileGlassShatters) {

@@ -75,5 +75,59 @@ TEST(SlitPlate, breaks_from_the_slit_with_a_closed_budget) {
   EXPECT_LT(run.worst_residual(), kResidual);
 }
 
+/// A plate at rest, of which the second stage takes the joints on a face away and pulls the halves apart.
+constexpr const char* kCutPlate = R"(title = "cut by the second stage"
+[mesh.raster]
+cells = [2, 2, 1]
+cell_size = "10 mm"
+group = "plate"
+slit = { lower = [0, "10 mm", 0], upper = ["20 mm", "10 mm", "10 mm"] }
+[[material]]
+group = "plate"
+young = "26.6 GPa"
+poisson = 0.205
+density = "2340 kg/m3"
+joints = "breakable"
+[[joint]]
+group = "plate"
+penalty_factor = 50
+tensile_strength = "5 MPa"
+energy_mode_1 = "30 J/m2"
+[[contact]]
+between = ["*", "*"]
+penalty = "266 GPa"
+[[stage]]
+name = "rest"
+end = "10 us"
+[[stage]]
+name = "cut"
+end = "30 us"
+broken = ["plate.slit"]
+[[stage.pressure]]
+surface = "plate.slit"
+value = "0.1 MPa"
+[output]
+frame_interval = "10 us"
+)";
+
+TEST(Stage, that_breaks_joints_gives_them_its_start_as_the_time_of_failure) {
+  const Recording run = run_case_text(kCutPlate);
+  ASSERT_EQ(run.frames.size(), 4U);
+  EXPECT_TRUE(run.frames[0].joints.id.empty());
+  // The frame between the stages has them without strength; they fail in the step that follows.
+  for (const std::int32_t state : run.frames[1].joints.state) EXPECT_EQ(state, Frame::Joints::softening);
+  const double start = run.frames[1].time;
+  EXPECT_NEAR(start, 10e-6, 1e-12);
+  for (std::size_t f = 2; f < 4; ++f) {
+    const Frame::Joints& joints = run.frames[f].joints;
+    ASSERT_EQ(joints.id.size(), 8U) << "four faces a cube";
+    for (std::size_t j = 0; j < 8; ++j) {
+      EXPECT_EQ(joints.time_of_failure[j], start);
+      EXPECT_EQ(joints.broken[j], 1);
+      EXPECT_EQ(joints.state[j], Frame::Joints::apart);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace breccia::test

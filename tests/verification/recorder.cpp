@@ -16,6 +16,7 @@ namespace {
 class Recorder final : public Sink {
  public:
   explicit Recorder(Recording& recording) : recording_(recording) {}
+  void frame(const Frame& frame) override { recording_.frames.push_back(frame); }
   void history(const HistoryRow& row) override { recording_.rows.push_back(row); }
   void finish(const Summary& summary) override { recording_.summary = summary; }
 

@@ -7,9 +7,10 @@
 
 namespace breccia::test {
 
-/// What a run told: all lines of its history and its summary.
+/// What a run told: all lines of its history, all frames and its summary.
 struct Recording {
   std::vector<HistoryRow> rows;
+  std::vector<Frame> frames;
   Summary summary;
 
   /// Largest relative energy residual of all lines.

@@ -13,6 +13,7 @@ namespace breccia::test {
 namespace {
 
 constexpr double kWidth = 0.1, kThickness = 0.005, kBlockWidth = 0.012;
+constexpr double kCrackEnd = 0.075;  // m, where the cracks are at the end
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
 /// Twice the cell coordinates: corners are even, face and cube centres have odd entries.
@@ -135,7 +136,7 @@ Frame SyntheticPlate::frame(std::int64_t number, double time) const {
   const double fall = 0.003 * (1 - time / end);
   add_cubes({{2, 2, 2}, {-kBlockWidth / 2, kThickness, -kBlockWidth / 2}, Vec3::Constant(block_cell), 0}, 1, elements);
 
-  const double share = time / end, front = 0.075 * share;
+  const double share = time / end, front = kCrackEnd * share;
   const auto n = static_cast<Index>(elements.size());
   std::vector<int> piece(elements.size());
   std::map<int, Vec3> centre_sum;
@@ -192,10 +193,10 @@ Frame SyntheticPlate::frame(std::int64_t number, double time) const {
       ++inner_face;
       const auto& [other, other_corner] = found->second;
       const Vec3& centre = elements[e].centre;
-      const double ahead = std::hypot(centre.x(), centre.z()) - front;
+      const Vec3& beyond = elements[other].centre;
+      const double radius = std::hypot(centre.x(), centre.z()), ahead = radius - front;
       const bool broken = piece[e] != piece[other];
-      const bool weak = !broken && front > 0 && ahead > 0 && ahead < 0.01 &&
-                        piece_of(centre, 1) != piece_of(elements[other].centre, 1);
+      const bool weak = !broken && front > 0 && ahead > 0 && ahead < 0.01 && piece_of(centre, 1) != piece_of(beyond, 1);
       if (!broken && !weak) continue;
       Vec3 gap{0, 0, 0};
       for (std::size_t i = 0; i < 3; ++i) {
@@ -212,6 +213,9 @@ Frame SyntheticPlate::frame(std::int64_t number, double time) const {
       frame.joints.opening.push_back(gap.norm());
       frame.joints.slip.push_back(0);
       frame.joints.broken.push_back(broken ? 1 : 0);
+      frame.joints.time_of_failure.push_back(
+          broken ? end * std::min(radius, std::hypot(beyond.x(), beyond.z())) / kCrackEnd : -1.0);
+      frame.joints.state.push_back(broken ? Frame::Joints::apart : Frame::Joints::softening);
     }
   }
 
@@ -246,7 +250,7 @@ Frame piece_of(const Frame& whole, int number, int count) {
   auto& [points, id, body, material, rank, fragment, stress, von_mises, principal, velocity, displacement, cost] = piece.elements;
   cut_all(id.size(), points, body, material, rank, fragment, stress, von_mises, principal, velocity, displacement, cost, id);
   auto& j = piece.joints;
-  cut_all(j.id.size(), j.points, j.damage, j.mode, j.opening, j.slip, j.broken, j.id);
+  cut_all(j.id.size(), j.points, j.damage, j.mode, j.opening, j.slip, j.broken, j.time_of_failure, j.state, j.id);
   auto& c = piece.contacts;
   cut_all(c.body.size(), c.id, c.points, c.force, c.other_body, c.body);
   return piece;

@@ -41,7 +41,7 @@ Frame two_elements(std::int64_t number, double time) {
   e.velocity = {.5, .25, .125, 1, 2, 4};
   e.displacement = {-1, -2, -4, -8, -16, -32};
   e.cost = {1, 1.5};
-  frame.joints = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {42}, {0.75}, {3}, {1e-6}, {2e-6}, {0}};
+  frame.joints = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {42}, {0.75}, {3}, {1e-6}, {2e-6}, {1}, {0.375}, {2}};
   frame.contacts = {{24}, {9, 8, 7}, {1, 2, 3}, {0}, {1}};
   return frame;
 }
@@ -97,7 +97,9 @@ TEST(VtkhdfSinkTest, StoresJointsAsTrianglesAndContactsAsVerticesWithForces) {
   EXPECT_THAT(joints.values("CellData/mode"), ElementsAre(3));
   EXPECT_THAT(joints.values("CellData/opening"), ElementsAre(1e-6F));
   EXPECT_THAT(joints.values("CellData/slip"), ElementsAre(2e-6F));
-  EXPECT_THAT(joints.values("CellData/broken"), ElementsAre(0));
+  EXPECT_THAT(joints.values("CellData/broken"), ElementsAre(1));
+  EXPECT_THAT(joints.values("CellData/time_of_failure"), ElementsAre(0.375));
+  EXPECT_THAT(joints.values("CellData/state"), ElementsAre(2));
   const Hdf5Reader contacts(folder / "contacts_000000.vtkhdf");
   EXPECT_THAT(contacts.values("Types"), ElementsAre(1));
   EXPECT_THAT(contacts.values("Points"), ElementsAre(9, 8, 7));

@@ -167,6 +167,37 @@ TEST(JointFailure, waits_for_as_many_points_as_asked_and_books_what_the_others_h
   }
 }
 
+TEST(JointFailure, is_remembered_with_the_time_of_its_evaluation_until_the_joint_is_released) {
+  JointPair pair(rough());
+  const double closed = -4e6 / pair.laws[0].stiffness;
+  pair.time = 0.5;
+  pair.open(Vec3(closed, 0, 0));
+  pair.evaluate();
+  EXPECT_EQ(pair.joints[0].time_of_failure, -1.0);
+  pair.time = 1.25;
+  pair.open(Vec3(closed, 40e-6, 0));
+  pair.evaluate();
+  ASSERT_EQ(pair.work.failed.size(), 1U);
+  EXPECT_EQ(pair.joints[0].time_of_failure, 1.25);
+  pair.time = 2.0;
+  pair.evaluate();
+  EXPECT_EQ(pair.joints[0].time_of_failure, 1.25);
+  pair.time = 3.0;
+  pair.open(Vec3(1e-6, 40e-6, 0));
+  pair.evaluate();
+  ASSERT_EQ(pair.work.released.size(), 1U);
+  EXPECT_EQ(pair.work.released[0].time_of_failure, 1.25);
+}
+
+TEST(JointFailure, that_opens_at_once_is_released_with_its_time) {
+  JointPair pair(rough());
+  pair.time = 0.75;
+  pair.open(Vec3(20e-6, 0, 0));
+  pair.evaluate();
+  ASSERT_EQ(pair.work.released.size(), 1U);
+  EXPECT_EQ(pair.work.released[0].time_of_failure, 0.75);
+}
+
 TEST(JointFailure, by_hand_books_what_the_joint_held) {
   JointPair pair(rough());
   Mover mover{pair};

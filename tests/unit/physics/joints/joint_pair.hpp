@@ -50,6 +50,7 @@ struct JointPair {
   ActiveJoints joints;              ///< the active list
   NodalForces forces;
   JointWork work;
+  double time = 0;  ///< s, of the next evaluation
 
   explicit JointPair(const JointLawParams& law, Discretisation kind = Discretisation::own_nodes, int turned_a = 0,
                      int turned_b = 0)
@@ -91,7 +92,7 @@ struct JointPair {
   }
   void evaluate() {
     forces.clear();
-    active_joint_forces(laws, local, position.data(), joints, forces, work);
+    active_joint_forces(laws, local, position.data(), time, joints, forces, work);
   }
 
   [[nodiscard]] Index corner(bool side_a, int i) const {
