@@ -185,6 +185,25 @@ elements = false
 joints = false
 contacts = false
 gauges = ["support"]
+[insitu]
+run = ["stress"]
+max_overhead = 0.1
+on_error = "stop"
+[insitu.live]
+address = "10.0.0.7:22333"
+remote = true
+interval = "500 ms"
+channels = ["surface"]
+max_overhead = 0.25
+[[insitu.pipeline]]
+name = "fractures"
+every_steps = 100
+every_time = "2 us"
+every_wall = "30 s"
+every_broken = 50
+first_break = true
+strict = true
+parameters = { width = 640, zoom = 1.5 }
 )";
 
 /// The text with its first occurrence of `from` replaced; a test that names a text not there fails.

@@ -80,6 +80,24 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& param_info) { return param_info.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
+    InSitu, WrongCase,
+    testing::Values(
+        Wrong{"no_such_pipeline", "name = \"fractures\"", "name = \"fracture\"",
+              {"insitu.pipeline[0].name: no pipeline has this name; allowed: fractures", "ends with .py"}},
+        Wrong{"no_such_pipeline_in_the_list", "run = [\"stress\"]", "run = [\"stres\"]", {"insitu.run: no pipeline has this name; allowed: stress"}},
+        Wrong{"missing_script", "name = \"fractures\"", "name = \"mine.py\"", {"insitu.pipeline[0].name: the script does not exist", "mine.py"}},
+        Wrong{"negative_steps", "every_steps = 100", "every_steps = -1", {"insitu.pipeline[0].every_steps: is out of range"}},
+        Wrong{"no_overhead", "max_overhead = 0.1", "max_overhead = 0", {"insitu.max_overhead: is out of range"}},
+        Wrong{"unknown_way_with_errors", "on_error = \"stop\"", "on_error = \"stopp\"", {"insitu.on_error: ", "did you mean \"stop\"?"}},
+        Wrong{"no_such_channel", "channels = [\"surface\"]", "channels = [\"skin\"]", {"insitu.live.channels: there is no such channel"}},
+        Wrong{"address_without_port", "10.0.0.7:22333", "10.0.0.7:", {"insitu.live.address: is no address; allowed: host:port"}},
+        Wrong{"port_too_large", "10.0.0.7:22333", "10.0.0.7:70000", {"insitu.live.address: is no address"}},
+        Wrong{"another_machine_by_accident", "remote = true", "remote = false",
+              {"insitu.live.address: is on another machine; allowed: localhost, 127.0.0.1 or ::1, or insitu.live.remote = true"}},
+        Wrong{"unknown_trigger", "every_steps = 100", "every_step = 100", {"insitu.pipeline[0].every_step: unknown key; did you mean \"every_steps\"?"}}),
+    [](const auto& param_info) { return param_info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
     Types, WrongCase,
     testing::Values(
         Wrong{"number_is_boolean",

@@ -1,0 +1,149 @@
+"""What Breccia's picture pipelines share: the look of a view, where its camera stands, words over it, sums over ranks.
+
+Parameters of every picture: width, height (pixels), azimuth, elevation (degrees, from the front: along -z, y up), zoom, and orbit: so many
+pictures around the model, as a Cinema database (data.csv names every picture); 0: one picture.
+"""
+
+import math
+
+from paraview.simple import ColorBy, CreateExtractor, CreateRenderView, GetColorTransferFunction, GetScalarBar, SetActiveView, Show, Text
+from vtkmodules.vtkCommonCore import vtkDoubleArray
+from vtkmodules.vtkParallelCore import vtkCommunicator, vtkMultiProcessController
+
+import breccia_insitu
+
+INK = [0.13, 0.14, 0.17]
+STONE = [0.82, 0.83, 0.85]
+FRACTURE = [0.25, 0.26, 0.30]
+# Position and red, green, blue, from weak to strong: light enough everywhere for dark cracks to stand out.
+SEQUENTIAL = [0.00, 0.93, 0.94, 0.95, 0.20, 0.72, 0.84, 0.91, 0.45, 0.45, 0.68, 0.82, 0.65, 0.98, 0.85, 0.55, 0.85, 0.95, 0.55, 0.35,
+              1.00, 0.80, 0.22, 0.24]
+AGES = [0.00, 0.27, 0.00, 0.33, 0.35, 0.20, 0.41, 0.55, 0.65, 0.13, 0.57, 0.55, 0.85, 0.55, 0.78, 0.30, 1.00, 0.99, 0.80, 0.10]
+
+
+def over_ranks(value, operation=vtkCommunicator.SUM_OP):
+    """Sum (or another reduction) of a number over all ranks, on all of them."""
+    controller = vtkMultiProcessController.GetGlobalController()
+    if controller is None or controller.GetNumberOfProcesses() == 1:
+        return value
+    mine, all_ranks = vtkDoubleArray(), vtkDoubleArray()
+    mine.InsertNextValue(value)
+    all_ranks.InsertNextValue(0)
+    controller.AllReduce(mine, all_ranks, operation)
+    return all_ranks.GetValue(0)
+
+
+def largest(value):
+    return over_ranks(value, vtkCommunicator.MAX_OP)
+
+
+def data_of(producer):
+    """The channel's data on this rank."""
+    return producer.GetClientSideObject().GetOutputDataObject(0)
+
+
+def cells_of(producer):
+    """Cells of a channel on all ranks."""
+    return int(over_ranks(data_of(producer).GetNumberOfCells()))
+
+
+def quantity(value, unit):
+    """1.2e-5, "s" -> "12 µs" """
+    if value == 0 or not math.isfinite(value):
+        return f"{value:g} {unit}"
+    for prefix, size in (("G", 1e9), ("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("\u00b5", 1e-6), ("n", 1e-9)):
+        if abs(value) >= size * 0.9999:
+            return f"{value / size:.4g} {prefix}{unit}"
+    return f"{value:.3g} {unit}"
+
+
+class Picture:
+    """A view, and the extractor that writes it as folder/NAME_000000123.png."""
+
+    def __init__(self):
+        self.view = CreateRenderView()
+        self.view.ViewSize = [breccia_insitu.parameter("width", 1600), breccia_insitu.parameter("height", 1000)]
+        self.view.UseColorPaletteForBackground = 0
+        self.view.Background = [1, 1, 1]
+        self.view.OrientationAxesVisibility = 0
+        self.view.CameraParallelProjection = 1
+        SetActiveView(self.view)
+        self._placed = False
+        self._words = Text()
+        words = Show(self._words, self.view)
+        words.WindowLocation = "Upper Left Corner"
+        words.Color = INK
+        words.FontSize = max(8, self.view.ViewSize[1] // 45)
+        name = breccia_insitu.pipeline() or "picture"
+        self.extractor = CreateExtractor("PNG", self.view)
+        self.extractor.Trigger = "TimeStep"
+        self.extractor.Writer.FileName = name + "_{timestep:09d}{camera}.png"
+        self.extractor.Writer.ImageResolution = self.view.ViewSize
+        orbit = breccia_insitu.parameter("orbit", 0)
+        if orbit > 0:
+            self.extractor.Writer.CameraMode = "Phi-Theta"
+            self.extractor.Writer.PhiResolution = orbit
+            self.extractor.Writer.ThetaResolution = max(2, orbit // 2)
+        else:
+            self.extractor.Writer.FileName = name + "_{timestep:09d}.png"
+
+    def solid(self, producer, colour, opacity=1.0):
+        shown = Show(producer, self.view)
+        ColorBy(shown, None)
+        shown.DiffuseColor = shown.AmbientColor = colour
+        shown.Opacity = opacity
+        shown.Ambient, shown.Diffuse = 0.3, 0.75
+        return shown
+
+    def coloured(self, producer, array, colours, title, label="%-#6.3g"):
+        """Shows cells in the colours of an array; with a bar. Returns the colour table, whose range is the caller's."""
+        shown = Show(producer, self.view)
+        ColorBy(shown, ("CELLS", array))
+        shown.Ambient, shown.Diffuse = 0.3, 0.75
+        table = GetColorTransferFunction(array)
+        table.AutomaticRescaleRangeMode = "Never"
+        table.ColorSpace = "RGB"
+        table.RGBPoints = colours
+        if title is not None:
+            bar = GetScalarBar(table, self.view)
+            bar.Title, bar.ComponentTitle = title, ""
+            bar.TitleColor = bar.LabelColor = INK
+            bar.RangeLabelFormat = bar.LabelFormat = label
+            bar.AutomaticLabelFormat = 0
+            bar.WindowLocation = "Any Location"
+            bar.Position = [0.88, 0.2]
+            bar.ScalarBarLength = 0.6
+            shown.SetScalarBarVisibility(self.view, True)
+        return table
+
+    def lines(self, producer, colour=INK, width=2.0):
+        shown = Show(producer, self.view)
+        shown.SetRepresentationType("Wireframe")
+        ColorBy(shown, None)
+        shown.DiffuseColor = shown.AmbientColor = colour
+        shown.LineWidth = width
+        return shown
+
+    def say(self, time, *lines):
+        self._words.Text = "\n".join(("t = " + quantity(time, "s"),) + lines)
+
+    def place_camera(self):
+        """Where the parameters say, so that everything is seen; once, so that pictures can be laid over each other."""
+        if self._placed:
+            return
+        self._placed = True
+        azimuth = math.radians(breccia_insitu.parameter("azimuth", 38.0))
+        elevation = math.radians(breccia_insitu.parameter("elevation", 32.0))
+        towards = [math.sin(azimuth) * math.cos(elevation), math.sin(elevation), math.cos(azimuth) * math.cos(elevation)]
+        up = [-math.sin(azimuth) * math.sin(elevation), math.cos(elevation), -math.cos(azimuth) * math.sin(elevation)]
+        self.view.CameraFocalPoint = [0, 0, 0]
+        self.view.CameraPosition = towards
+        self.view.CameraViewUp = up
+        self.view.ResetCamera()
+        self.view.CameraParallelScale /= breccia_insitu.parameter("zoom", 1.0) * 1.15
+
+
+def table_range(table, low, high):
+    if high <= low:
+        high = low + (abs(low) or 1.0)
+    table.RescaleTransferFunction(low, high)

@@ -1,0 +1,69 @@
+# script-version: 2.0
+"""Forces where bodies and fragments touch: an arrow at every contact point, normal forces red, friction blue; bodies translucent.
+
+Parameters besides those of every picture (breccia_pictures.py): upper, the force of the longest arrow, N; default: the largest so far.
+"""
+
+from paraview import catalyst
+from paraview.simple import CellCenters, Glyph, TrivialProducer
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+import breccia_insitu
+import breccia_pictures as pictures
+
+options = catalyst.Options()
+options.GenerateCinemaSpecification = 1
+
+NORMAL, FRICTION = [0.78, 0.20, 0.22], [0.15, 0.35, 0.75]
+LONGEST = 0.12  # arrow, of the model's size
+
+surface = TrivialProducer(registrationName="surface")
+contacts = TrivialProducer(registrationName="contacts")
+points = CellCenters(Input=contacts, VertexCells=1)
+
+picture = pictures.Picture()
+picture.solid(surface, pictures.STONE, opacity=0.25)
+
+
+def arrows(array, colour):
+    glyph = Glyph(Input=points, GlyphType="Arrow", GlyphMode="All Points")
+    glyph.OrientationArray = ["POINTS", array]
+    glyph.ScaleArray = ["POINTS", array]
+    glyph.VectorScaleMode = "Scale by Magnitude"
+    picture.solid(glyph, colour)
+    return glyph
+
+
+glyphs = [arrows("normal_force", NORMAL), arrows("tangential_force", FRICTION)]
+upper = breccia_insitu.parameter("upper", 0.0)
+largest_so_far = 0.0
+
+
+def largest_force():
+    forces = pictures.data_of(contacts).GetCellData().GetArray("force")
+    if forces is None or forces.GetNumberOfTuples() == 0:
+        return pictures.largest(0.0)
+    return pictures.largest(float((vtk_to_numpy(forces) ** 2).sum(axis=1).max() ** 0.5))
+
+
+def model_size():
+    """Largest extent of the surface, m."""
+    bounds = data_bounds()
+    return max(pictures.largest(bounds[2 * i + 1]) + pictures.largest(-bounds[2 * i]) for i in range(3))
+
+
+def data_bounds():
+    data = pictures.data_of(surface)
+    return data.GetBounds() if data.GetNumberOfPoints() > 0 else (1e300, -1e300) * 3
+
+
+def catalyst_execute(info):
+    global largest_so_far
+    surface.UpdatePipeline()
+    contacts.UpdatePipeline()
+    largest_so_far = max(largest_so_far, largest_force())
+    force = upper or largest_so_far
+    for glyph in glyphs:
+        glyph.ScaleFactor = LONGEST * model_size() / force if force > 0 else 1.0
+    picture.say(info.time, f"{pictures.cells_of(contacts):,} contact points, largest force so far {pictures.quantity(largest_so_far, 'N')}")
+    picture.place_camera()

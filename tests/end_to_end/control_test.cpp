@@ -1,0 +1,128 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <utility>
+
+#include "end_to_end/program.hpp"
+
+namespace breccia::test {
+namespace {
+
+using nlohmann::json;
+
+/// A run of the small case that would last for hours, on several ranks; ended with the object.
+class LongRun {
+ public:
+  explicit LongRun(int ranks) : folder_(scratch_.path("run").string()) {
+    const std::string file = scratch_.write("case.toml", kSmallCase);
+    launcher_ = start_ranks(ranks, "run " + file + " --progress none --set 'stage[0].end=1000 s' --set 'output.frame_interval=0 s' -o '" + folder_ + "'");
+    for (int look = 0; look < 500 && lines().empty(); ++look) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  LongRun(const LongRun&) = delete;
+  LongRun& operator=(const LongRun&) = delete;
+  ~LongRun() {
+    if (launcher_ > 0) {
+      kill(launcher_, SIGTERM);
+      waitpid(launcher_, nullptr, 0);
+    }
+  }
+
+  [[nodiscard]] Outcome ask(const std::string& command) const { return call("control '" + folder_ + "' " + command); }
+  [[nodiscard]] std::vector<json> lines() const {
+    std::vector<json> found;
+    std::ifstream file(folder_ + "/status.jsonl");
+    for (std::string line; std::getline(file, line);) {
+      json parsed = json::parse(line, nullptr, false);
+      if (parsed.is_object()) found.push_back(std::move(parsed));
+    }
+    return found;
+  }
+  /// The last line that tells the state of the run.
+  [[nodiscard]] json state() const {
+    json last;
+    for (const json& line : lines()) {
+      if (line.contains("state")) last = line;
+    }
+    return last;
+  }
+  int wait_for_end() {
+    int status = 0;
+    waitpid(std::exchange(launcher_, 0), &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  [[nodiscard]] const std::string& folder() const { return folder_; }
+
+ private:
+  Scratch scratch_;
+  std::string folder_;
+  pid_t launcher_ = 0;
+};
+
+class Control : public testing::TestWithParam<int> {};
+
+TEST_P(Control, pauses_and_lets_go_on) {
+  LongRun run(GetParam());
+  ASSERT_EQ(run.ask("pause").exit_code, 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(2500));  // status lines come every two seconds
+  const json paused = run.state();
+  EXPECT_EQ(paused["state"], "paused");
+  std::this_thread::sleep_for(std::chrono::milliseconds(2500));
+  EXPECT_EQ(run.state()["step"], paused["step"]) << "a paused run went on";
+  EXPECT_EQ(run.ask("pause").exit_code, 2) << "a second pause";
+  ASSERT_EQ(run.ask("resume").exit_code, 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(2500));
+  EXPECT_EQ(run.state()["state"], "running");
+  EXPECT_GT(run.state()["step"].get<std::int64_t>(), paused["step"].get<std::int64_t>());
+}
+
+TEST_P(Control, stops_in_order_also_while_paused) {
+  LongRun run(GetParam());
+  ASSERT_EQ(run.ask("pause").exit_code, 0);
+  ASSERT_EQ(run.ask("stop").exit_code, 0);
+  EXPECT_EQ(run.wait_for_end(), 0);
+  EXPECT_EQ(run.state()["state"], "stopped");
+  EXPECT_EQ(json::parse(read_text(run.folder() + "/summary.json"))["status"].get<std::string>().substr(0, 7), "stopped");
+  EXPECT_EQ(run.ask("pause").exit_code, 2) << "of a run that has ended";
+}
+
+TEST_P(Control, gets_a_frame_at_once_and_then_as_often_as_asked) {
+  LongRun run(GetParam());
+  ASSERT_EQ(run.ask("frame").exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(run.folder() + "/frames/elements_000000.vtkhdf"));
+  EXPECT_FALSE(std::filesystem::exists(run.folder() + "/frames/elements_000001.vtkhdf"));
+  ASSERT_EQ(run.ask("frame_interval 1 ms").exit_code, 0);
+  for (int look = 0; look < 500 && !std::filesystem::exists(run.folder() + "/frames/elements_000002.vtkhdf"); ++look) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_TRUE(std::filesystem::exists(run.folder() + "/frames/elements_000002.vtkhdf"));
+}
+
+TEST_P(Control, refuses_what_cannot_be_and_says_why) {
+  LongRun run(GetParam());
+  const Outcome extract = run.ask("extract");
+  EXPECT_EQ(extract.exit_code, 2);
+  EXPECT_NE(extract.err.find("no pipelines"), std::string::npos) << extract.err;
+  const Outcome resume = run.ask("resume");
+  EXPECT_EQ(resume.exit_code, 2);
+  EXPECT_NE(resume.err.find("not paused"), std::string::npos) << resume.err;
+  std::ofstream(run.folder() + "/control") << "dance id=7\n";
+  json answer;
+  for (int look = 0; look < 250 && answer.is_null(); ++look) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    for (const json& line : run.lines()) {
+      if (line.value("id", "") == "7") answer = line;
+    }
+  }
+  EXPECT_FALSE(answer.value("accepted", true));
+  EXPECT_NE(answer.value("text", "").find("pause, resume, stop"), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfRanks, Control, testing::Values(1, 2), testing::PrintToStringParamName());
+
+}  // namespace
+}  // namespace breccia::test

@@ -1,0 +1,97 @@
+#include "output/trigger.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace breccia {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+constexpr double kEnd = 1e-3;  // s, of a run of 1000 steps
+
+/// Steps of the run at which a trigger is due. @param broken  joints in each step; none when empty
+std::vector<std::int64_t> due_steps(const case_::Pipeline& pipeline, const std::vector<std::int64_t>& broken = {}, std::int64_t steps = 1000) {
+  Trigger trigger(pipeline, kEnd);
+  std::vector<std::int64_t> due;
+  for (std::int64_t step = 0; step < steps; ++step) {
+    const std::int64_t count = broken.empty() ? 0 : broken[std::min(static_cast<std::size_t>(step), broken.size() - 1)];
+    if (trigger.due({step, 1e-6 * static_cast<double>(step), 1e-6, count})) due.push_back(step);
+  }
+  return due;
+}
+
+TEST(Trigger, WithoutAnyRunsFiftyTimes) {
+  const auto due = due_steps({});
+  EXPECT_EQ(due.size(), 50u);
+  EXPECT_EQ(due.front(), 0);
+  EXPECT_EQ(due[1], 20);
+}
+
+TEST(Trigger, BySteps) {
+  case_::Pipeline pipeline;
+  pipeline.every_steps = 400;
+  EXPECT_THAT(due_steps(pipeline), ElementsAre(0, 400, 800));
+}
+
+TEST(Trigger, BySimulatedTime) {
+  case_::Pipeline pipeline;
+  pipeline.every_time = 2.5e-4;
+  EXPECT_THAT(due_steps(pipeline), ElementsAre(0, 250, 500, 750));
+}
+
+TEST(Trigger, ByTheFirstBreakAlone) {
+  case_::Pipeline pipeline;
+  pipeline.first_break = true;
+  EXPECT_THAT(due_steps(pipeline, {0, 0, 0, 2, 2, 9}), ElementsAre(3));
+  EXPECT_THAT(due_steps(pipeline), IsEmpty());
+}
+
+TEST(Trigger, ByBrokenJointsCountsFromOneMultipleToTheNext) {
+  case_::Pipeline pipeline;
+  pipeline.every_broken = 10;
+  EXPECT_THAT(due_steps(pipeline, {0, 9, 10, 11, 19, 45, 49, 50, 50}), ElementsAre(2, 5, 7));
+}
+
+TEST(Trigger, ByWallTimeIsNobodysBusinessHere) {
+  case_::Pipeline pipeline;
+  pipeline.every_wall = 1;
+  EXPECT_THAT(due_steps(pipeline), IsEmpty());
+}
+
+TEST(Trigger, NeedsTheCountOnlyWhileItMatters) {
+  case_::Pipeline pipeline;
+  pipeline.first_break = true;
+  Trigger trigger(pipeline, kEnd);
+  EXPECT_TRUE(trigger.counts_broken());
+  EXPECT_TRUE(trigger.due({5, 5e-6, 1e-6, 3}));
+  EXPECT_FALSE(trigger.counts_broken());
+}
+
+TEST(Overhead, LetsTheFirstTimeGoAndCountsItNot) {
+  Overhead overhead(0.02);
+  EXPECT_TRUE(overhead.allows(0));
+  overhead.book(5);
+  EXPECT_EQ(overhead.spent(), 0);
+  EXPECT_EQ(overhead.start(), 5);
+}
+
+TEST(Overhead, StaysBelowItsShare) {
+  constexpr double kShare = 0.02, kCost = 0.3;
+  Overhead overhead(kShare);
+  overhead.book(4);
+  std::int64_t times = 0;
+  for (double wall = 0; wall < 100; wall += 0.1) {
+    if (!overhead.allows(wall)) continue;
+    overhead.book(kCost);
+    ++times;
+    EXPECT_LE(overhead.spent(), kShare * wall + kCost);  // the first dear one is known only afterwards
+  }
+  EXPECT_EQ(times, 6);  // 2 % of 100 s are 2 s
+}
+
+}  // namespace
+}  // namespace breccia
