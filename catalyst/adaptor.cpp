@@ -1,0 +1,127 @@
+#include "catalyst/adaptor.hpp"
+
+#include "catalyst/extract_pipeline.hpp"
+#include "catalyst/live_pipeline.hpp"
+#include "catalyst/messages.hpp"
+#include "catalyst/pipeline_choice.hpp"
+#include "catalyst/script_check.hpp"
+#include "catalyst/whole_file.hpp"
+
+namespace breccia::insitu {
+namespace {
+
+constexpr std::uint32_t kLiveDefault = bit(BRECCIA_SURFACE) | bit(BRECCIA_FRACTURES) | bit(BRECCIA_DOMAINS);
+
+}  // namespace
+
+Adaptor::Adaptor(const BrecciaConfig& config) : ranks_(config.communicator) {
+  capture_messages();
+  start_display(config);
+  for (std::int32_t i = 0; i < config.num_pipelines; ++i) {
+    std::string error;
+    std::unique_ptr<Pipeline> work;
+    try {
+      work = made(config.pipelines[i], config);
+    } catch (const std::exception& failure) {
+      error = failure.what();
+    }
+    error = ranks_.agree(error);
+    if (!error.empty()) throw PipelineError(std::string(config.pipelines[i].name) + ": " + error);
+    pipelines_.push_back({config.pipelines[i].name, std::move(work)});
+  }
+}
+
+Adaptor::~Adaptor() {
+  for (Named& pipeline : pipelines_) pipeline.work->finish();
+}
+
+void Adaptor::start_display(const BrecciaConfig& config) {
+  // The first rank reads the scripts for all: one file, one answer.
+  std::string error;
+  std::int64_t draws = 0;
+  script_channels_.assign(static_cast<std::size_t>(config.num_pipelines), 0);
+  for (std::int32_t i = 0; ranks_.is_root() && i < config.num_pipelines; ++i) {
+    try {
+      const PipelineChoice choice = choose(config.pipelines[i]);
+      if (choice.kind != PipelineKind::script) continue;
+      const ScriptNeeds needs = check_script(choice.file);
+      script_channels_[static_cast<std::size_t>(i)] = needs.channels;
+      draws |= std::int64_t{needs.draws};
+    } catch (const std::exception& failure) {
+      error = failure.what();
+    }
+  }
+  ranks_.throw_agreed(error);
+  for (std::uint32_t& mask : script_channels_) mask = static_cast<std::uint32_t>(ranks_.from_root(std::int64_t{mask}));
+  if (ranks_.from_root(draws) != 0) display_ = std::make_unique<Display>(ranks_);
+}
+
+CatalystBackend& Adaptor::backend() {
+  if (!backend_) backend_ = std::make_unique<CatalystBackend>(ranks_);
+  return *backend_;
+}
+
+std::unique_ptr<Pipeline> Adaptor::made(const BrecciaPipeline& pipeline, const BrecciaConfig& config) {
+  const PipelineChoice choice = choose(pipeline);
+  const std::filesystem::path folder = std::filesystem::path(config.folder) / choice.folder;
+  switch (choice.kind) {
+    case PipelineKind::extract:
+      return std::make_unique<ExtractPipeline>(ranks_, choice.channel, folder);
+    case PipelineKind::history:
+      return std::make_unique<HistoryPipeline>(ranks_, folder);
+    case PipelineKind::live: {
+      const std::uint32_t channels = choice.channels == 0 ? kLiveDefault : choice.channels & kAllChannels;
+      return std::make_unique<LivePipeline>((backend(), ranks_), config.live_host, config.live_port, channels);
+    }
+    case PipelineKind::script:
+      break;
+  }
+  make_folder(folder);
+  const std::uint32_t channels = script_channels_[static_cast<std::size_t>(&pipeline - config.pipelines)];
+  return backend().script(choice.name, choice.file, folder, channels, choice.parameters);
+}
+
+std::uint32_t Adaptor::channels(int pipeline, std::int64_t step, double time) {
+  return pipelines_.at(static_cast<std::size_t>(pipeline)).work->channels(step, time);
+}
+
+std::uint32_t Adaptor::execute(std::uint32_t pipelines, const BrecciaInstant& instant, BrecciaRequests& requests,
+                               std::string& text) {
+  std::string error;
+  Frame frame;
+  try {
+    frame = frames_.wrap(instant);
+  } catch (const std::exception& failure) {
+    error = failure.what();
+  }
+  error = ranks_.agree(error);
+  if (error.empty()) return execute(pipelines, frame, requests, text);
+  std::uint32_t failed = 0;
+  for (int i = 0; i < num_pipelines(); ++i) {
+    if ((pipelines & bit(i)) == 0) continue;
+    failed |= bit(i);
+    text += name(i) + ": " + one_line(error) + '\n';
+  }
+  return failed;
+}
+
+std::uint32_t Adaptor::execute(std::uint32_t pipelines, const Frame& frame, BrecciaRequests& requests,
+                               std::string& text) {
+  std::uint32_t failed = 0;
+  for (int i = 0; i < num_pipelines(); ++i) {
+    if ((pipelines & bit(i)) == 0) continue;
+    std::string error;
+    try {
+      pipelines_[static_cast<std::size_t>(i)].work->execute(frame, requests);
+    } catch (const std::exception& failure) {
+      error = failure.what();
+    }
+    error = ranks_.agree(error);
+    if (error.empty()) continue;
+    failed |= bit(i);
+    text += name(i) + ": " + one_line(error) + '\n';
+  }
+  return failed;
+}
+
+}  // namespace breccia::insitu

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "catalyst/catalyst_backend.hpp"
+#include "catalyst/display.hpp"
+#include "catalyst/frame_to_vtk.hpp"
+#include "catalyst/pipeline.hpp"
+#include "catalyst/ranks.hpp"
+
+namespace breccia::insitu {
+
+/// The pipelines of a run, ready to be executed. Members are collective unless they say otherwise.
+class Adaptor {
+ public:
+  /// Starts what the pipelines need and no more: ParaView for scripts and the live link, Python for scripts, a display for pictures.
+  /// Throws PipelineError, on all ranks.
+  explicit Adaptor(const BrecciaConfig& config);
+  Adaptor(const Adaptor&) = delete;
+  Adaptor& operator=(const Adaptor&) = delete;
+  ~Adaptor();
+
+  [[nodiscard]] const Ranks& ranks() const { return ranks_; }
+  [[nodiscard]] int num_pipelines() const { return static_cast<int>(pipelines_.size()); }
+  [[nodiscard]] const std::string& name(int pipeline) const {
+    return pipelines_.at(static_cast<std::size_t>(pipeline)).name;
+  }
+
+  /// Channels that a pipeline wants; 0: nothing to do.
+  [[nodiscard]] std::uint32_t channels(int pipeline, std::int64_t step, double time);
+
+  /// Executes pipelines; those that fail on any rank are returned and add a line "name: what" to `text`.
+  std::uint32_t execute(std::uint32_t pipelines, const BrecciaInstant& instant, BrecciaRequests& requests,
+                        std::string& text);
+  std::uint32_t execute(std::uint32_t pipelines, const Frame& frame, BrecciaRequests& requests, std::string& text);
+
+  /// On this rank; not collective.
+  [[nodiscard]] std::int64_t bytes_written(int pipeline) const {
+    return pipelines_.at(static_cast<std::size_t>(pipeline)).work->bytes_written();
+  }
+
+ private:
+  struct Named {
+    std::string name;
+    std::unique_ptr<Pipeline> work;
+  };
+
+  void start_display(const BrecciaConfig& config);
+  [[nodiscard]] std::unique_ptr<Pipeline> made(const BrecciaPipeline& pipeline, const BrecciaConfig& config);
+  CatalystBackend& backend();
+
+  Ranks ranks_;
+  FrameToVtk frames_;
+  std::vector<std::uint32_t> script_channels_;  ///< by pipeline; of scripts
+  std::unique_ptr<Display> display_;
+  std::unique_ptr<CatalystBackend> backend_;
+  std::vector<Named> pipelines_;
+};
+
+}  // namespace breccia::insitu

@@ -1,0 +1,223 @@
+#include "catalyst/catalyst_backend.hpp"
+
+#include <mpi.h>
+#include <vtkCPDataDescription.h>
+#include <vtkCPInputDataDescription.h>
+#include <vtkCPProcessor.h>
+#include <vtkCPPythonScriptV2Pipeline.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIntArray.h>
+#include <vtkMPI.h>
+#include <vtkNew.h>
+#include <vtkPVTrivialProducer.h>
+#include <vtkPVVersion.h>
+#include <vtkSMProxy.h>
+#include <vtkSMProxyIterator.h>
+
+#include "catalyst/folders.hpp"
+#include "catalyst/frame_to_vtk.hpp"
+#include "catalyst/messages.hpp"
+#include "catalyst/python_guard.hpp"
+
+namespace breccia::insitu {
+namespace {
+
+/// MPI for one rank, where the solver runs without.
+class OwnMpi {
+ public:
+  OwnMpi() { MPI_Init(nullptr, nullptr); }
+  OwnMpi(const OwnMpi&) = delete;
+  OwnMpi& operator=(const OwnMpi&) = delete;
+  ~OwnMpi() { MPI_Finalize(); }
+};
+
+/// The requests as arrays of one value in the user data of a description.
+class UserData {
+ public:
+  UserData() {
+    int_value("stop");
+    int_value("pause");
+    int_value("extract");
+    vtkNew<vtkDoubleArray> interval;
+    interval->SetName("frame_interval");
+    interval->InsertNextValue(0.0);
+    data_->AddArray(interval);
+  }
+  [[nodiscard]] vtkFieldData* data() { return data_; }
+  void add_to(BrecciaRequests& requests) {
+    requests.stop |= static_cast<std::int32_t>(value("stop") != 0.0);
+    requests.pause |= static_cast<std::int32_t>(value("pause") != 0.0);
+    requests.extract |= static_cast<std::int32_t>(value("extract") != 0.0);
+    if (const double interval = value("frame_interval"); interval > 0.0) requests.frame_interval = interval;
+  }
+
+ private:
+  void int_value(const char* name) {
+    vtkNew<vtkIntArray> array;
+    array->SetName(name);
+    array->InsertNextValue(0);
+    data_->AddArray(array);
+  }
+  /// 0 when the script has removed or emptied the array.
+  [[nodiscard]] double value(const char* name) {
+    vtkDataArray* array = data_->GetArray(name);
+    return array == nullptr || array->GetNumberOfTuples() < 1 ? 0.0 : array->GetComponent(0, 0);
+  }
+
+  vtkNew<vtkFieldData> data_;
+};
+
+/// The producers keep the last data that they were given: empty ones take their place, so that nothing of the solver's memory is read
+/// before the next execution.
+void empty_producers() {
+  vtkNew<vtkSMProxyIterator> proxies;
+  proxies->SetModeToOneGroup();
+  for (proxies->Begin("sources"); proxies->IsAtEnd() == 0; proxies->Next()) {
+    auto* producer = vtkPVTrivialProducer::SafeDownCast(proxies->GetProxy()->GetClientSideObject());
+    if (producer == nullptr || producer->GetOutputDataObject(0) == nullptr) continue;
+    const auto empty = empty_like(producer->GetOutputDataObject(0));
+    double time = 0.0;
+    if (vtkDataArray* times = empty->GetFieldData()->GetArray("TimeValue"); times != nullptr)
+      time = times->GetComponent(0, 0);
+    producer->SetOutput(empty, time);
+    proxies->GetProxy()->MarkModified(proxies->GetProxy());
+  }
+}
+
+struct ScriptDescription {
+  std::string name;
+  std::filesystem::path file;
+  std::filesystem::path folder;
+  std::uint32_t channels = 0;
+  std::map<std::string, double> parameters;
+};
+
+class ScriptPipeline final : public Pipeline {
+ public:
+  ScriptPipeline(const Ranks& ranks, ScriptDescription description) : ranks_(ranks), is_(std::move(description)) {
+    enter();
+    const bool registered = script_->Initialize(is_.file.c_str());
+    const std::string error = error_now();
+    if (!registered || !error.empty())
+      throw PipelineError(error.empty() ? is_.file.string() + ": cannot be loaded" : error);
+    written_before_ = bytes_in_folder(is_.folder);
+  }
+
+  std::uint32_t channels(std::int64_t step, double time) override {
+    if (!pending_.empty()) return is_.channels;
+    const auto description = described(step, time);
+    enter();
+    const bool wanted = script_->RequestDataDescription(description) != 0;
+    // A script that raises here is executed, so that its error is told.
+    pending_ = ranks_.agree(error_now());
+    if (!pending_.empty()) return is_.channels;
+    std::uint32_t mask = 0;
+    for (int channel = 0; wanted && channel < BRECCIA_NUM_CHANNELS; ++channel) {
+      vtkCPInputDataDescription* input =
+          description->GetInputDescriptionByName(kChannelNames[static_cast<std::size_t>(channel)]);
+      // Before its first execution the script has not been imported and marks nothing.
+      if (input != nullptr && (!executed_ || input->GetIfGridIsNecessary())) mask |= bit(channel);
+    }
+    return mask;
+  }
+
+  void execute(const Frame& frame, BrecciaRequests& requests) override {
+    if (!pending_.empty()) throw PipelineError(std::exchange(pending_, {}));
+    const auto description = described(frame.step, frame.time);
+    UserData user_data;
+    description->SetUserData(user_data.data());
+    for (int channel = 0; channel < BRECCIA_NUM_CHANNELS; ++channel) {
+      const auto index = static_cast<std::size_t>(channel);
+      if ((is_.channels & bit(channel)) == 0) continue;
+      vtkCPInputDataDescription* input = description->GetInputDescriptionByName(kChannelNames[index]);
+      input->AllFieldsOn();
+      input->GenerateMeshOn();
+      input->SetGrid(frame.channels[index]);
+    }
+    enter();
+    executed_ = true;
+    script_->CoProcess(description);  // its result is also 0 when a trigger of the script is not met
+    empty_producers();
+    const std::string error = error_now();
+    if (!error.empty()) throw PipelineError(error);
+    user_data.add_to(requests);
+  }
+
+  [[nodiscard]] std::int64_t bytes_written() const override {
+    return ranks_.is_root() ? bytes_in_folder(is_.folder) - written_before_ : 0;
+  }
+
+  void finish() override {
+    enter();
+    script_->Finalize();
+    static_cast<void>(error_now());
+  }
+
+ private:
+  void enter() const { python::enter(is_.name, is_.file, is_.folder, is_.parameters); }
+
+  /// What Python raised or VTK reported since the last call.
+  [[nodiscard]] static std::string error_now() {
+    const std::string raised = python::take_error();
+    const std::string reported = take_errors();
+    return raised.empty() ? reported : raised;
+  }
+
+  [[nodiscard]] vtkSmartPointer<vtkCPDataDescription> described(std::int64_t step, double time) const {
+    auto description = vtkSmartPointer<vtkCPDataDescription>::New();
+    for (int channel = 0; channel < BRECCIA_NUM_CHANNELS; ++channel) {
+      if ((is_.channels & bit(channel)) != 0) description->AddInput(kChannelNames[static_cast<std::size_t>(channel)]);
+    }
+    description->SetTimeData(time, step);
+    return description;
+  }
+
+  const Ranks& ranks_;
+  ScriptDescription is_;
+  vtkNew<vtkCPPythonScriptV2Pipeline> script_;
+  bool executed_ = false;
+  std::string pending_;  ///< what the script raised when it was asked for its channels
+  std::int64_t written_before_ = 0;
+};
+
+}  // namespace
+
+struct CatalystBackend::Session {
+  std::unique_ptr<OwnMpi> mpi;  // first: ended last
+  vtkNew<vtkCPProcessor> processor;
+};
+
+CatalystBackend::CatalystBackend(const Ranks& ranks) : ranks_(ranks), session_(std::make_unique<Session>()) {
+  MPI_Comm communicator = ranks.communicator();
+  if (communicator == MPI_COMM_NULL) {
+    int started = 0;
+    MPI_Initialized(&started);
+    if (started == 0) session_->mpi = std::make_unique<OwnMpi>();
+    communicator = MPI_COMM_SELF;
+  }
+  vtkMPICommunicatorOpaqueComm wrapped(&communicator);
+  const bool started = session_->processor->Initialize(wrapped) != 0;
+  capture_messages();
+  if (!started) throw PipelineError("ParaView cannot be started");
+}
+
+CatalystBackend::~CatalystBackend() {
+  session_->processor->Finalize();
+  static_cast<void>(take_errors());
+}
+
+std::unique_ptr<Pipeline> CatalystBackend::script(const std::string& name, const std::filesystem::path& file,
+                                                  const std::filesystem::path& folder, std::uint32_t channels,
+                                                  const std::map<std::string, double>& parameters) {
+  python::start(data_folder() / "pipelines", data_folder() / "python");
+  capture_messages();
+  return std::make_unique<ScriptPipeline>(ranks_, ScriptDescription{name, file, folder, channels, parameters});
+}
+
+const char* backend_description() {
+  static const std::string text = std::string("ParaView Catalyst ") + PARAVIEW_VERSION_FULL;
+  return text.c_str();
+}
+
+}  // namespace breccia::insitu

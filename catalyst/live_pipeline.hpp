@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vtkSmartPointer.h>
+
+#include <array>
+#include <chrono>
+#include <string>
+
+#include "catalyst/pipeline.hpp"
+#include "catalyst/ranks.hpp"
+
+class vtkLiveInsituLink;
+class vtkSMSession;
+class vtkSMSessionProxyManager;
+class vtkSMSourceProxy;
+
+namespace breccia::insitu {
+
+/// The link to a ParaView that listens on host:port (Catalyst > Connect), which may come and go: channels are published as sources of their
+/// names, ParaView takes those it wants, may pause the run, and lets it go on. Without a listener nothing is asked of the solver and an attempt
+/// to connect is made at most every half second, and so that attempts take at most 2 % of the time. Starts no Python.
+/// A pause blocks execute on all ranks until ParaView continues or dies.
+class LivePipeline final : public Pipeline {
+ public:
+  /// @pre a CatalystBackend lives as long as this
+  LivePipeline(const Ranks& ranks, std::string host, int port, std::uint32_t channels);
+  ~LivePipeline() override;
+
+  std::uint32_t channels(std::int64_t step, double time) override;
+  void execute(const Frame& frame, BrecciaRequests& requests) override;
+
+ private:
+  void publish(const Frame& frame);
+  void withdraw();
+
+  const Ranks& ranks_;
+  std::uint32_t mask_;
+  vtkSmartPointer<vtkSMSession> session_;  ///< of its own: sources of scripts are not seen live
+  vtkSMSessionProxyManager* proxies_ = nullptr;
+  std::array<vtkSmartPointer<vtkSMSourceProxy>, BRECCIA_NUM_CHANNELS> sources_;
+  vtkSmartPointer<vtkLiveInsituLink> link_;
+  bool connected_ = false;
+  std::chrono::steady_clock::time_point next_attempt_;  ///< on the first rank
+};
+
+}  // namespace breccia::insitu

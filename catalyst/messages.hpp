@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+namespace breccia::insitu {
+
+/// VTK's messages go to us instead of the terminal: errors are kept, warnings and the rest are dropped. Idempotent; called again after ParaView
+/// has started, since that installs its own.
+void capture_messages();
+
+/// The errors since the last call, in one line, "class: message; class: message"; empty when there were none.
+[[nodiscard]] std::string take_errors();
+
+}  // namespace breccia::insitu

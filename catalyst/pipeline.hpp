@@ -1,0 +1,53 @@
+#pragma once
+
+#include <vtkDataObject.h>
+#include <vtkSmartPointer.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "catalyst/insitu_abi.h"
+#include "catalyst/pipeline_error.hpp"
+
+namespace breccia::insitu {
+
+constexpr std::array<const char*, BRECCIA_NUM_CHANNELS> kChannelNames = BRECCIA_CHANNEL_NAMES;
+
+constexpr std::uint32_t bit(int channel) { return std::uint32_t{1} << channel; }
+constexpr std::uint32_t kAllChannels = bit(BRECCIA_NUM_CHANNELS) - 1;
+
+/// Index of a channel's name, or -1.
+int channel_of(const std::string& name);
+
+/// An instant as VTK sees it: null where a channel was not asked for. A channel has the same arrays, by name, type and components,
+/// on all ranks; elements and domains are vtkUnstructuredGrid, history is vtkTable, the others vtkPolyData.
+struct Frame {
+  std::int64_t step = 0;
+  double time = 0.0;  ///< s
+  std::array<vtkSmartPointer<vtkDataObject>, BRECCIA_NUM_CHANNELS> channels{};
+};
+
+/// What is done with the frames of a run. Members are collective unless they say otherwise.
+class Pipeline {
+ public:
+  Pipeline() = default;
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+  virtual ~Pipeline() = default;
+
+  /// Mask of the channels that it wants now, the same on all ranks; 0: nothing to do. Throws PipelineError.
+  virtual std::uint32_t channels(std::int64_t step, double time) = 0;
+
+  /// Does its work on a frame that has all its channels. What it asks of the solver is added to `requests`.
+  /// It may throw PipelineError on some ranks only, but not between its own collective operations.
+  virtual void execute(const Frame& frame, BrecciaRequests& requests) = 0;
+
+  /// Bytes written on this rank. Not collective.
+  [[nodiscard]] virtual std::int64_t bytes_written() const { return 0; }
+
+  /// Ends it; it is not used any more.
+  virtual void finish() {}
+};
+
+}  // namespace breccia::insitu

@@ -1,0 +1,76 @@
+#include "catalyst/pipeline_choice.hpp"
+
+#include <algorithm>
+
+#include "catalyst/folders.hpp"
+#include "catalyst/pipeline.hpp"
+
+namespace breccia::insitu {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kModule = "breccia_insitu";  ///< for scripts, none itself
+
+/// "volume" is the channel elements, other recordings are called like their channels; -1: no recording.
+int recorded_channel(const std::string& name) {
+  if (name == "volume") return BRECCIA_ELEMENTS;
+  return name == kChannelNames[BRECCIA_ELEMENTS] ? -1 : channel_of(name);
+}
+
+std::vector<std::string> ready_scripts() {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(data_folder() / "pipelines", error)) {
+    if (entry.path().extension() == ".py" && entry.path().stem() != kModule) names.push_back(entry.path().stem());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string unknown(const std::string& name) {
+  std::string text = name + ": no pipeline has this name; allowed: ";
+  for (const std::string& known : pipeline_names()) text += known + ", ";
+  return text + "or the absolute path of a script, /.../name.py";
+}
+
+}  // namespace
+
+std::vector<std::string> pipeline_names() {
+  std::vector<std::string> names{"volume"};
+  for (int channel = BRECCIA_ELEMENTS + 1; channel < BRECCIA_NUM_CHANNELS; ++channel)
+    names.emplace_back(kChannelNames[static_cast<std::size_t>(channel)]);
+  names.emplace_back("live");
+  const auto scripts = ready_scripts();
+  names.insert(names.end(), scripts.begin(), scripts.end());
+  return names;
+}
+
+PipelineChoice choose(const BrecciaPipeline& pipeline) {
+  PipelineChoice choice;
+  choice.name = pipeline.name;
+  choice.channels = pipeline.channels;
+  for (std::int32_t i = 0; i < pipeline.num_parameters; ++i)
+    choice.parameters[pipeline.parameter_names[i]] = pipeline.parameters[i];
+  if (choice.name == "live") {
+    choice.kind = PipelineKind::live;
+  } else if (const int channel = recorded_channel(choice.name); channel >= 0) {
+    choice.kind = channel == BRECCIA_HISTORY ? PipelineKind::history : PipelineKind::extract;
+    choice.channel = channel;
+    choice.folder = kChannelNames[static_cast<std::size_t>(channel)];
+  } else {
+    choice.kind = PipelineKind::script;
+    choice.file = choice.name;
+    if (!choice.file.is_absolute()) {
+      const auto scripts = ready_scripts();
+      if (std::find(scripts.begin(), scripts.end(), choice.name) == scripts.end())
+        throw PipelineError(unknown(choice.name));
+      choice.ready = true;
+      choice.file = data_folder() / "pipelines" / (choice.name + ".py");
+    }
+    choice.folder = choice.file.stem();
+  }
+  return choice;
+}
+
+}  // namespace breccia::insitu

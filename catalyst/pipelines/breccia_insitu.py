@@ -1,0 +1,52 @@
+"""What a Catalyst script may know of the Breccia run that executes it, and what it may ask of it.
+
+    import breccia_insitu
+
+    width = breccia_insitu.parameter("width", 1600)     # from the case file, or the default
+    path = breccia_insitu.folder()                      # where the files of this script go
+    breccia_insitu.request(info, extract=1)             # in catalyst_execute(info)
+
+Outside a run (pvbatch script.py) the folder is $BRECCIA_INSITU_FOLDER or the current one and parameters have their defaults.
+"""
+
+import os
+
+_name = ""
+_folder = os.environ.get("BRECCIA_INSITU_FOLDER", os.getcwd())
+_parameters = {}
+
+REQUESTS = ("stop", "pause", "extract", "frame_interval")
+
+
+def set_active(name, folder, parameters):
+    """Called by the adaptor whenever a script's turn begins."""
+    global _name, _folder, _parameters
+    _name, _folder, _parameters = name, folder, dict(parameters)
+
+
+def pipeline():
+    """Name of the pipeline; "" outside a run."""
+    return _name
+
+
+def folder():
+    """Absolute folder of the pipeline's files; exists in a run. Extractors write there by themselves."""
+    return _folder
+
+
+def parameter(name, default):
+    """A number from the pipeline's parameters in the case file, or the default; a whole number where the default is one.
+
+    Write the name as a literal: before a run it is checked which parameters a pipeline knows.
+    """
+    value = _parameters.get(name, default)
+    return int(round(value)) if isinstance(default, int) and not isinstance(default, bool) else value
+
+
+def request(info, **wishes):
+    """Asks the solver to stop, pause or extract (1), or to change its frame_interval (s); `info` is that of catalyst_execute."""
+    data = info.dataDescription.GetUserData()
+    for name, value in wishes.items():
+        if name not in REQUESTS:
+            raise ValueError(f"{name} cannot be requested; what can: {', '.join(REQUESTS)}")
+        data.GetArray(name).SetValue(0, value)

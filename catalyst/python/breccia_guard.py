@@ -1,0 +1,109 @@
+"""Stands between ParaView Catalyst and the scripts that it runs; the adaptor calls it.
+
+What a script raises is kept as one line instead of being printed as a traceback; when it raises on one rank, it has raised on all of them, so
+that no rank goes on alone into work that needs the others; sys.exit ends the script's step, not the process.
+"""
+
+import os
+import sys
+import traceback
+
+import breccia_insitu
+
+_error = ""
+_script = ""
+
+
+def install():
+    """Wraps the functions through which ParaView calls scripts. Once is enough, twice does no harm."""
+    from paraview.catalyst import v2_internals
+
+    if getattr(v2_internals, "breccia_guarded", False):
+        return
+    v2_internals.breccia_guarded = True
+    import_and_validate = v2_internals.import_and_validate
+
+    def import_into_folder(name):
+        module = import_and_validate(name)
+        # Extracts go where the solver wants them, whatever folder stood in ParaView's dialogue when the script was exported.
+        module.options.ExtractsOutputDirectory = breccia_insitu.folder()
+        return module
+
+    v2_internals.import_and_validate = _guarded(import_into_folder)
+    for name in ("register_module", "do_request_data_description", "do_catalyst_initialize", "do_catalyst_execute",
+                 "do_catalyst_finalize"):
+        setattr(v2_internals, name, _guarded(getattr(v2_internals, name)))
+    # ParaView prints what we raise through this hook; it has been kept already.
+    sys.excepthook = _keep_unseen
+
+
+def enter(name, script, folder, parameters):
+    """A pipeline's turn begins."""
+    global _error, _script
+    _error = ""
+    _script = script
+    breccia_insitu.set_active(name, folder, parameters)
+    directory = os.path.dirname(script)
+    if directory not in sys.path:
+        sys.path.append(directory)  # modules beside the script
+
+
+def take_error():
+    """One line of what went wrong since the last call, "" when nothing did."""
+    global _error
+    text, _error = _error, ""
+    return text
+
+
+class ScriptFailed(Exception):
+    """A script raised, on this rank or on another one."""
+
+
+def _guarded(function):
+    def call(*arguments):
+        global _error
+        result, text = None, ""
+        try:
+            result = function(*arguments)
+        except BaseException as error:  # SystemExit and KeyboardInterrupt too: the solver decides when to end
+            text = _described(error)
+        if _any_rank(bool(text)):
+            _error = _error or text or "failed on another rank"
+            raise ScriptFailed(_error)
+        return result
+
+    return call
+
+
+def _keep_unseen(kind, error, trace):
+    global _error
+    if kind is not ScriptFailed and not _error:
+        _error = _described(error)
+
+
+def _described(error):
+    """ "TypeError: what (script.py:12)": the line of the script, or the deepest one when the script's own does not occur."""
+    if isinstance(error, SyntaxError):
+        place = (error.filename or "", error.lineno)
+        message = error.msg
+    else:
+        frames = traceback.extract_tb(error.__traceback__)
+        own = [frame for frame in frames if os.path.abspath(frame.filename) == _script] or frames
+        place = (own[-1].filename, own[-1].lineno) if own else ("", 0)
+        message = "called sys.exit" if isinstance(error, SystemExit) else str(error)
+    where = f" ({os.path.basename(place[0])}:{place[1]})" if place[0] else ""
+    return " ".join(f"{type(error).__name__}: {message}{where}".split())
+
+
+def _any_rank(flag):
+    from vtkmodules.vtkCommonCore import vtkIntArray
+    from vtkmodules.vtkParallelCore import vtkCommunicator, vtkMultiProcessController
+
+    controller = vtkMultiProcessController.GetGlobalController()
+    if controller is None or controller.GetNumberOfProcesses() == 1:
+        return flag
+    mine, most = vtkIntArray(), vtkIntArray()
+    mine.InsertNextValue(int(flag))
+    most.InsertNextValue(0)
+    controller.AllReduce(mine, most, vtkCommunicator.MAX_OP)
+    return most.GetValue(0) > 0

@@ -1,0 +1,103 @@
+"""Reads a Catalyst script without running it and tells what it needs; run by the plain Python interpreter, before any ParaView.
+
+usage: check_script.py SCRIPT PIPELINES CHANNEL...
+PIPELINES is a folder of modules that scripts may import. Prints lines of a word and a text:
+  error what (file:line)     the script does not compile
+  draws                      it makes pictures, so it needs a display
+  channel name               a channel that it names as a source
+  parameter name             a parameter that it asks breccia_insitu for
+"""
+
+import ast
+import os
+import re
+import sys
+
+DRAWING_CALLS = {"GetActiveViewOrCreate", "GetRenderView", "Render", "RenderAllViews", "SaveAnimation", "SaveScreenshot", "Show"}
+DRAWING_VIEW = re.compile(r"Create\w*View")
+DRAWING_EXTRACTORS = {"PNG", "JPG", "CinemaVolumetricPNG", "RecolorableImage"}
+
+
+def called(node):
+    """Name of the function that a call calls, without what stands before its last dot."""
+    return node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+
+
+def literal(node):
+    return node.value if isinstance(node, ast.Constant) and isinstance(node.value, str) else None
+
+
+def draws(call):
+    name = called(call)
+    if name == "CreateExtractor":
+        return bool(call.args) and literal(call.args[0]) in DRAWING_EXTRACTORS
+    return name in DRAWING_CALLS or DRAWING_VIEW.fullmatch(name) is not None
+
+
+def imported_modules(tree):
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            yield node.module
+
+
+def sources(script, folders):
+    """Trees of the script and of the modules that it imports from the folders, each once. Raises SyntaxError, OSError, ValueError."""
+    waiting, seen = [script], set()
+    while waiting:
+        path = waiting.pop()
+        if path in seen:
+            continue
+        seen.add(path)
+        with open(path, "rb") as file:
+            tree = ast.parse(file.read(), filename=path)
+        yield tree
+        for module in imported_modules(tree):
+            found = (os.path.join(folder, module + ".py") for folder in folders)
+            waiting.extend(candidate for candidate in found if os.path.isfile(candidate))
+
+
+def channel_of(text, channels):
+    """A source is named after its channel, or after the file of a recording that ParaView has opened: surface, surface.pvd."""
+    match = re.fullmatch(r"(\w+?)(_\d+)?(\.\w+\*?)?", text)
+    return match[1] if match and match[1] in channels else None
+
+
+def named_channels(tree, channels):
+    """Channels by the registrationName of sources; by any text of that name where one is computed."""
+    names = [keyword.value for node in ast.walk(tree) if isinstance(node, ast.Call) for keyword in node.keywords
+             if keyword.arg == "registrationName"]
+    if not names or any(literal(name) is None for name in names):
+        names = [node for node in ast.walk(tree) if literal(node) is not None]
+    return {channel_of(literal(name), channels) for name in names} - {None}
+
+
+def needs(script, pipelines, channels):
+    """Lines as above, without their order."""
+    found = set()
+    for tree in sources(script, [os.path.dirname(script), pipelines]):
+        calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
+        if any(draws(call) for call in calls):
+            found.add("draws")
+        found |= {f"channel {name}" for name in named_channels(tree, channels)}
+        found |= {f"parameter {literal(call.args[0])}" for call in calls
+                  if called(call) == "parameter" and call.args and literal(call.args[0])}
+    return found
+
+
+def main():
+    if len(sys.argv) < 4:
+        sys.exit(__doc__)
+    script, pipelines, channels = sys.argv[1], sys.argv[2], sys.argv[3:]
+    try:
+        lines = sorted(needs(script, pipelines, channels))
+    except SyntaxError as error:
+        lines = [f"error {error.msg} ({os.path.basename(error.filename or script)}:{error.lineno})"]
+    except (OSError, ValueError) as error:
+        lines = [f"error {error}"]
+    print("\n".join(" ".join(line.split()) for line in lines))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,71 @@
+#include <vtkPython.h>  // first: it sets macros that the system's headers heed
+
+#include "catalyst/python_guard.hpp"
+
+#include <vtkPythonInterpreter.h>
+#include <vtkSmartPyObject.h>
+
+#include "catalyst/pipeline_error.hpp"
+#include "catalyst/whole_file.hpp"
+
+namespace breccia::insitu::python {
+namespace {
+
+constexpr const char* kGuard = "breccia_guard";
+
+/// Type and message of the exception that Python has raised to us; it is cleared.
+std::string raised() {
+  PyObject* type = nullptr;
+  PyObject* value = nullptr;
+  PyObject* trace = nullptr;
+  PyErr_Fetch(&type, &value, &trace);
+  const vtkSmartPyObject text(value == nullptr ? nullptr : PyObject_Str(value));
+  const char* what = text ? PyUnicode_AsUTF8(text) : nullptr;
+  std::string line = type == nullptr ? "unknown" : reinterpret_cast<PyTypeObject*>(type)->tp_name;
+  if (what != nullptr) line += std::string(": ") + what;
+  Py_XDECREF(type);
+  Py_XDECREF(value);
+  Py_XDECREF(trace);
+  PyErr_Clear();
+  return one_line(line);
+}
+
+/// Calls function(arguments) of the guard; `arguments` is a tuple, which is released. Throws PipelineError with what it raises.
+vtkSmartPyObject call(const char* function, PyObject* arguments) {
+  const vtkSmartPyObject tuple(arguments);
+  const vtkSmartPyObject module(PyImport_ImportModule(kGuard));
+  const vtkSmartPyObject callable(module ? PyObject_GetAttrString(module, function) : nullptr);
+  vtkSmartPyObject result(callable && tuple ? PyObject_CallObject(callable, tuple) : nullptr);
+  if (!result) throw PipelineError("Python: " + raised());
+  return result;
+}
+
+}  // namespace
+
+void start(const std::filesystem::path& pipelines, const std::filesystem::path& guard) {
+  vtkPythonInterpreter::Initialize();
+  const vtkPythonScopeGilEnsurer lock;
+  vtkPythonInterpreter::PrependPythonPath(pipelines.c_str());
+  vtkPythonInterpreter::PrependPythonPath(guard.c_str());
+  call("install", PyTuple_New(0));
+}
+
+void enter(const std::string& name, const std::filesystem::path& script, const std::filesystem::path& folder,
+           const std::map<std::string, double>& parameters) {
+  const vtkPythonScopeGilEnsurer lock;
+  PyObject* values = PyDict_New();
+  for (const auto& [key, value] : parameters) {
+    const vtkSmartPyObject number(PyFloat_FromDouble(value));
+    PyDict_SetItemString(values, key.c_str(), number);
+  }
+  call("enter", Py_BuildValue("(sssN)", name.c_str(), script.c_str(), folder.c_str(), values));
+}
+
+std::string take_error() {
+  const vtkPythonScopeGilEnsurer lock;
+  const vtkSmartPyObject text = call("take_error", PyTuple_New(0));
+  const char* line = PyUnicode_AsUTF8(text);
+  return line == nullptr ? raised() : std::string(line);
+}
+
+}  // namespace breccia::insitu::python

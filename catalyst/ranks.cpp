@@ -1,0 +1,58 @@
+#include "catalyst/ranks.hpp"
+
+#include "catalyst/pipeline_error.hpp"
+
+namespace breccia::insitu {
+
+Ranks::Ranks(std::int32_t communicator) {
+  if (communicator == -1) return;
+  MPI_Comm_dup(MPI_Comm_f2c(communicator), &communicator_);
+  MPI_Comm_rank(communicator_, &rank_);
+  MPI_Comm_size(communicator_, &size_);
+  MPI_Comm_split_type(communicator_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine_);
+}
+
+Ranks::~Ranks() {
+  if (communicator_ == MPI_COMM_NULL) return;
+  MPI_Comm_free(&machine_);
+  MPI_Comm_free(&communicator_);
+}
+
+std::string Ranks::broadcast(std::string text, int source, MPI_Comm communicator) const {
+  if (communicator == MPI_COMM_NULL) return text;
+  auto length = static_cast<int>(text.size());
+  MPI_Bcast(&length, 1, MPI_INT, source, communicator);
+  text.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(text.data(), length, MPI_CHAR, source, communicator);
+  return text;
+}
+
+std::string Ranks::agree(const std::string& error) const {
+  if (size_ == 1) return error;
+  const int mine = error.empty() ? size_ : rank_;
+  int lowest = size_;
+  MPI_Allreduce(&mine, &lowest, 1, MPI_INT, MPI_MIN, communicator_);
+  return lowest == size_ ? std::string() : broadcast(error, lowest, communicator_);
+}
+
+void Ranks::throw_agreed(const std::string& error) const {
+  if (const std::string text = agree(error); !text.empty()) throw PipelineError(text);
+}
+
+std::int64_t Ranks::from_root(std::int64_t value) const {
+  if (size_ > 1) MPI_Bcast(&value, 1, MPI_INT64_T, 0, communicator_);
+  return value;
+}
+
+std::string Ranks::from_root(const std::string& text) const { return broadcast(text, 0, communicator_); }
+
+std::string Ranks::from_first_of_machine(const std::string& text) const { return broadcast(text, 0, machine_); }
+
+bool Ranks::is_first_of_machine() const {
+  if (machine_ == MPI_COMM_NULL) return true;
+  int rank = 0;
+  MPI_Comm_rank(machine_, &rank);
+  return rank == 0;
+}
+
+}  // namespace breccia::insitu

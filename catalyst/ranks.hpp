@@ -1,0 +1,46 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <string>
+
+namespace breccia::insitu {
+
+/// The ranks of a run: a duplicate of the solver's communicator, or one rank without MPI. Members are collective unless they say otherwise.
+class Ranks {
+ public:
+  /// @param communicator of Fortran (MPI_Comm_c2f), -1: one rank, MPI is not used
+  explicit Ranks(std::int32_t communicator);
+  Ranks(const Ranks&) = delete;
+  Ranks& operator=(const Ranks&) = delete;
+  ~Ranks();
+
+  [[nodiscard]] int rank() const { return rank_; }
+  [[nodiscard]] int size() const { return size_; }
+  [[nodiscard]] bool is_root() const { return rank_ == 0; }
+  /// MPI_COMM_NULL: without MPI.
+  [[nodiscard]] MPI_Comm communicator() const { return communicator_; }
+
+  /// The text of the lowest rank that brings one, on all ranks; empty: none did.
+  [[nodiscard]] std::string agree(const std::string& error) const;
+  /// Throws PipelineError(agree(error)) on all ranks when any brings a text.
+  void throw_agreed(const std::string& error) const;
+  /// The first rank's values on all ranks.
+  [[nodiscard]] std::int64_t from_root(std::int64_t value) const;
+  [[nodiscard]] std::string from_root(const std::string& text) const;
+  /// Text of the lowest rank on the same machine as this one; `text` matters on that rank alone. See is_first_of_machine.
+  [[nodiscard]] std::string from_first_of_machine(const std::string& text) const;
+  /// True on the lowest rank of each machine.
+  [[nodiscard]] bool is_first_of_machine() const;
+
+ private:
+  [[nodiscard]] std::string broadcast(std::string text, int source, MPI_Comm communicator) const;
+
+  MPI_Comm communicator_ = MPI_COMM_NULL;
+  MPI_Comm machine_ = MPI_COMM_NULL;
+  int rank_ = 0;
+  int size_ = 1;
+};
+
+}  // namespace breccia::insitu

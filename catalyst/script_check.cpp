@@ -1,0 +1,40 @@
+#include "catalyst/script_check.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <sstream>
+
+#include "catalyst/child_process.hpp"
+#include "catalyst/folders.hpp"
+#include "catalyst/pipeline.hpp"
+
+namespace breccia::insitu {
+
+ScriptNeeds check_script(const std::filesystem::path& script) {
+  if (script.extension() != ".py") throw PipelineError(script.string() + ": a script's name ends with .py");
+  if (::access(script.c_str(), R_OK) != 0) throw PipelineError(script.string() + ": " + std::strerror(errno));
+  const std::filesystem::path folder = data_folder();
+  // -E -s: nothing of the user's Python environment matters; -B: no files are left behind.
+  std::vector<std::string> command{
+      BRECCIA_PYTHON, "-E", "-s", "-B", folder / "python/check_script.py", script.string(), folder / "pipelines"};
+  command.insert(command.end(), kChannelNames.begin(), kChannelNames.end());
+  std::istringstream lines(output_of(command));
+  ScriptNeeds needs;
+  for (std::string line; std::getline(lines, line);) {
+    const auto blank = line.find(' ');
+    const std::string word = line.substr(0, blank);
+    const std::string text = blank == std::string::npos ? std::string() : line.substr(blank + 1);
+    if (word == "error")
+      throw PipelineError(text.find(script.filename().string()) == std::string::npos ? script.string() + ": " + text
+                                                                                     : text);
+    if (word == "draws") needs.draws = true;
+    if (word == "channel") needs.channels |= bit(channel_of(text));
+    if (word == "parameter") needs.parameters.insert(text);
+  }
+  if (needs.channels == 0) needs.channels = kAllChannels;
+  return needs;
+}
+
+}  // namespace breccia::insitu

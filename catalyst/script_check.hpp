@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <string>
+
+namespace breccia::insitu {
+
+/// What a script needs, as far as its text tells; python/check_script.py says how that is found.
+struct ScriptNeeds {
+  bool draws = false;
+  std::uint32_t channels = 0;  ///< mask of the channels that it names; all when it names none
+  std::set<std::string> parameters;
+};
+
+/// Reads a script, in a Python interpreter of its own (some 50 ms); no Python starts in this process. Not collective.
+/// Throws PipelineError when it is missing, cannot be read or does not compile, and when there is no interpreter.
+[[nodiscard]] ScriptNeeds check_script(const std::filesystem::path& script);
+
+}  // namespace breccia::insitu

@@ -1,0 +1,108 @@
+#include "catalyst/whole_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "catalyst/pipeline_error.hpp"
+
+namespace breccia::insitu {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const char* what, int number) {
+  throw PipelineError(path.string() + ": " + what + ": " + std::strerror(number));
+}
+
+/// Closes what it holds.
+class Descriptor {
+ public:
+  Descriptor(const std::filesystem::path& path, int flags) : value_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
+    if (value_ < 0) fail(path, "cannot be opened for writing", errno);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() { ::close(value_); }
+  [[nodiscard]] int value() const { return value_; }
+
+ private:
+  int value_;
+};
+
+void write_all(const std::filesystem::path& path, int descriptor, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(descriptor, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail(path, "cannot be written", errno);
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+}  // namespace
+
+std::int64_t replace_file(const std::filesystem::path& path, std::string_view content) {
+  std::filesystem::path temporary = path;
+  temporary.replace_filename("." + path.filename().string() + ".tmp");
+  try {
+    {
+      const Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
+      write_all(temporary, file.value(), content);
+      if (::fsync(file.value()) != 0) fail(temporary, "cannot be synced to the disk", errno);
+    }
+    if (::rename(temporary.c_str(), path.c_str()) != 0) fail(path, "cannot be replaced", errno);
+  } catch (const PipelineError&) {
+    ::unlink(temporary.c_str());
+    throw;
+  }
+  return static_cast<std::int64_t>(content.size());
+}
+
+std::int64_t append_to_file(const std::filesystem::path& path, std::string_view content) {
+  const Descriptor file(path, O_WRONLY | O_CREAT | O_APPEND);
+  write_all(path, file.value(), content);
+  return static_cast<std::int64_t>(content.size());
+}
+
+std::string file_content(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) return {};
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream content;
+  content << file.rdbuf();
+  if (!file) fail(path, "cannot be read", EIO);
+  return content.str();
+}
+
+void make_folder(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  // An existing file of that name is not always an error to create_directories.
+  if (!error && !std::filesystem::is_directory(path)) error = std::make_error_code(std::errc::not_a_directory);
+  if (error) throw PipelineError(path.string() + ": the folder cannot be made: " + error.message());
+}
+
+std::string exact(double value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
+std::string one_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    const bool blank = static_cast<unsigned char>(c) <= ' ';
+    if (!blank) {
+      line += c;
+    } else if (!line.empty() && line.back() != ' ') {
+      line += ' ';
+    }
+  }
+  while (!line.empty() && line.back() == ' ') line.pop_back();
+  return line;
+}
+
+}  // namespace breccia::insitu

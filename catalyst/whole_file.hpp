@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace breccia::insitu {
+
+/// Replaces a file at once: a temporary beside it is written, synced and renamed, so that a kill leaves the old or the new content.
+/// Returns the bytes written. Throws PipelineError "path: what: reason"; then the temporary is gone.
+std::int64_t replace_file(const std::filesystem::path& path, std::string_view content);
+
+/// Appends at the end of a file, which is made when it is not there. Throws PipelineError.
+std::int64_t append_to_file(const std::filesystem::path& path, std::string_view content);
+
+/// Content of a file; empty when there is none. Throws PipelineError when it cannot be read.
+[[nodiscard]] std::string file_content(const std::filesystem::path& path);
+
+/// Makes a folder and those above it. Throws PipelineError.
+void make_folder(const std::filesystem::path& path);
+
+/// The shortest decimal that reads back as the same double.
+[[nodiscard]] std::string exact(double value);
+
+/// A text in one line: line ends and control characters become spaces, runs of them one.
+[[nodiscard]] std::string one_line(std::string_view text);
+
+}  // namespace breccia::insitu
