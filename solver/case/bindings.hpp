@@ -266,9 +266,9 @@ void bind(A& a, InSitu& insitu) {
   a.choice("on_error", insitu.on_error);
   a.optional_section("live", insitu.live);
   a.list("pipeline", insitu.pipelines);
+  std::vector<std::string> names;  // written as pipelines of their own
+  a.value("run", names);
   if constexpr (A::reads) {
-    std::vector<std::string> names;
-    a.value("run", names);
     for (const std::string& name : names) insitu.pipelines.emplace_back().name = name;
     for (Pipeline& pipeline : insitu.pipelines) a.resolve_script(pipeline.name);
   }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <utility>
+#include <iterator>
 
 #include "output/energy_terms.hpp"
 
@@ -61,15 +61,32 @@ std::string quoted(const std::string& field) {
   return text + '"';
 }
 
-class Numbers {
- public:
-  void add(double value) { values_.push_back(value); }
-  void add(std::int64_t value) { values_.push_back(static_cast<double>(value)); }
-  void add(const Vec3& value) { values_.insert(values_.end(), {value[0], value[1], value[2]}); }
-  [[nodiscard]] std::vector<double> take() { return std::move(values_); }
+/// Hands out the numbers of a row in the order of the columns: counts as they are, vectors by component.
+template <class Add>
+void each_number(const HistoryRow& row, Add add) {
+  const auto add_vector = [&](const Vec3& v) {
+    for (int axis = 0; axis < 3; ++axis) add(v[axis]);
+  };
+  add(row.step);
+  add(row.time);
+  add(row.time_step);
+  for (const EnergyTerm& term : kEnergyTerms) add(row.energy.*term.value);
+  add(row.energy.residual_relative);
+  for (const Count& count : kCounts) add(row.*count.value);
+  for (const Vector& vector : kVectors) add_vector(row.*vector.value);
+  add(row.max_speed);
+  add(row.stress_yy_sum);
+  for (const GaugeReading& gauge : row.gauges) {
+    for (const GaugeVector& vector : kGaugeVectors) add_vector(gauge.*vector.value);
+  }
+  if (row.insitu_share) add(*row.insitu_share);
+}
 
- private:
-  std::vector<double> values_;
+struct NumberText {
+  std::string& text;
+  void operator()(double value) const { fmt::format_to(std::back_inserter(text), "{}{:.17g}", comma(), value); }
+  void operator()(std::int64_t value) const { fmt::format_to(std::back_inserter(text), "{}{}", comma(), value); }
+  [[nodiscard]] const char* comma() const { return text.empty() ? "" : ","; }
 };
 
 }  // namespace
@@ -106,26 +123,16 @@ void HistorySink::start(const RunStart& run) {
 }
 
 std::vector<double> history_values(const HistoryRow& row) {
-  Numbers numbers;
-  numbers.add(row.step);
-  numbers.add(row.time);
-  numbers.add(row.time_step);
-  for (const EnergyTerm& term : kEnergyTerms) numbers.add(row.energy.*term.value);
-  numbers.add(row.energy.residual_relative);
-  for (const Count& count : kCounts) numbers.add(row.*count.value);
-  for (const Vector& vector : kVectors) numbers.add(row.*vector.value);
-  numbers.add(row.max_speed);
-  numbers.add(row.stress_yy_sum);
-  for (const GaugeReading& gauge : row.gauges) {
-    for (const GaugeVector& vector : kGaugeVectors) numbers.add(gauge.*vector.value);
-  }
-  if (row.insitu_share) numbers.add(*row.insitu_share);
-  return numbers.take();
+  std::vector<double> values;
+  each_number(row, [&](auto value) { values.push_back(static_cast<double>(value)); });
+  return values;
 }
 
 void HistorySink::history(const HistoryRow& row) {
   DEMAND(file_.has_value() && row.gauges.size() == gauges_, std::to_string(row.gauges.size()) + " gauge readings");
-  file_->append_line(fmt::format("{:.17g}", fmt::join(history_values(row), ",")));
+  std::string text;
+  each_number(row, NumberText{text});
+  file_->append_line(text);
 }
 
 void HistorySink::finish(const Summary&) {

@@ -42,7 +42,7 @@ Frame two_elements(std::int64_t number, double time) {
   e.displacement = {-1, -2, -4, -8, -16, -32};
   e.cost = {1, 1.5};
   frame.joints = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {42}, {0.75}, {3}, {1e-6}, {2e-6}, {1}, {0.375}, {2}};
-  frame.contacts = {{24}, {9, 8, 7}, {1, 2, 3}, {0}, {1}};
+  frame.contacts = {{24}, {9, 8, 7}, {1, 2, 3}, {1, 2, 3}, {0, 0, 0}, {0}, {1}};
   return frame;
 }
 
