@@ -1,92 +1,93 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "physics/active_joint.hpp"
+#include "physics/joint_block.hpp"
 
 namespace breccia {
 
-/// The active list: joints in ascending order of their ids. Each stays in its place in memory while others come and go, since
-/// in a breaking body some do in almost every step.
+/// The active list: joints in ascending order of their ids. They stand in blocks of eight of one law, by rows, for the kernel; a
+/// joint is told and taken in as an ActiveJoint. Each stays in its place in memory while others come and go, since in a breaking
+/// body some do in almost every step, until so many have that all are put in order again.
 class ActiveJoints {
  public:
-  template <class Joint, class Pool>
+  /// What the kernel need not know of a joint.
+  struct Identity {
+    GlobalId id = 0;
+    Index slot_a = 0, slot_b = 0;
+    std::int8_t face_a = 0, code = 0;
+    double time_of_failure = -1;
+  };
+
   class Iterator {
    public:
-    using iterator_category = std::forward_iterator_tag;
+    using iterator_category = std::input_iterator_tag;
     using value_type = ActiveJoint;
     using difference_type = std::ptrdiff_t;
-    using pointer = Joint*;
-    using reference = Joint&;
+    using pointer = void;
+    using reference = const ActiveJoint;
 
-    Iterator() = default;
-    Iterator(Pool* pool, const Index* place) : pool_(pool), place_(place) {}
-    Joint& operator*() const { return (*pool_)[static_cast<std::size_t>(*place_)]; }
-    Joint* operator->() const { return &**this; }
+    Iterator(const ActiveJoints* joints, std::size_t i) : joints_(joints), i_(i) {}
+    const ActiveJoint operator*() const { return (*joints_)[i_]; }
     Iterator& operator++() {
-      ++place_;
+      ++i_;
       return *this;
     }
-    Iterator operator++(int) { return std::exchange(*this, Iterator(pool_, place_ + 1)); }
-    bool operator==(const Iterator& other) const { return place_ == other.place_; }
+    void operator++(int) { ++i_; }
+    bool operator==(const Iterator& other) const { return i_ == other.i_; }
 
    private:
-    Pool* pool_ = nullptr;
-    const Index* place_ = nullptr;
+    const ActiveJoints* joints_;
+    std::size_t i_;
   };
 
   ActiveJoints() = default;
   /// @param joints  ascending by id
-  explicit ActiveJoints(const std::vector<ActiveJoint>& joints) { insert(joints); }
+  explicit ActiveJoints(std::span<const ActiveJoint> joints) { insert(joints); }
 
   [[nodiscard]] std::size_t size() const { return order_.size(); }
   [[nodiscard]] bool empty() const { return order_.empty(); }
-  [[nodiscard]] ActiveJoint& operator[](std::size_t i) { return pool_[static_cast<std::size_t>(order_[i])]; }
-  [[nodiscard]] const ActiveJoint& operator[](std::size_t i) const { return pool_[static_cast<std::size_t>(order_[i])]; }
-  [[nodiscard]] auto begin() { return Iterator<ActiveJoint, std::vector<ActiveJoint>>(&pool_, order_.data()); }
-  [[nodiscard]] auto end() { return Iterator<ActiveJoint, std::vector<ActiveJoint>>(&pool_, order_.data() + order_.size()); }
-  [[nodiscard]] auto begin() const { return Iterator<const ActiveJoint, const std::vector<ActiveJoint>>(&pool_, order_.data()); }
-  [[nodiscard]] auto end() const {
-    return Iterator<const ActiveJoint, const std::vector<ActiveJoint>>(&pool_, order_.data() + order_.size());
-  }
+  /// A copy of the i-th joint: some 90 numbers.
+  [[nodiscard]] const ActiveJoint operator[](std::size_t i) const;
+  [[nodiscard]] Iterator begin() const { return {this, 0}; }
+  [[nodiscard]] Iterator end() const { return {this, size()}; }
 
-  /// @param batch  ascending by id, none of them on the list. O(list + batch), 4 B a joint of the list are moved.
-  void insert(const std::vector<ActiveJoint>& batch) {
-    const auto middle = static_cast<std::ptrdiff_t>(order_.size());
-    for (const ActiveJoint& joint : batch) order_.push_back(keep(joint));
-    std::inplace_merge(order_.begin(), order_.begin() + middle, order_.end(),
-                       [&](Index a, Index b) { return pool_[static_cast<std::size_t>(a)].id < pool_[static_cast<std::size_t>(b)].id; });
-  }
+  /// @param batch  ascending by id, none of them on the list. O(list + batch): 4 B a joint of the list are moved, seldom all of it.
+  void insert(std::span<const ActiveJoint> batch);
+  /// Takes joints off the list. @param ids  ascending, all of them on the list. O(list), none when there are none
+  void erase(std::span<const GlobalId> ids);
+  /// Breaks all points of joints that have not failed: they fail at their next evaluation, which books what they held.
+  /// @param ids  ascending; those that are not on the list do not matter. O(list)
+  void break_points(std::span<const GlobalId> ids);
 
-  /// Takes the joints off the list for which leaves(joint). O(list).
-  template <class Leaves>
-  void erase_if(Leaves&& leaves) {
-    std::erase_if(order_, [&](Index place) {
-      if (!leaves(std::as_const(pool_[static_cast<std::size_t>(place)]))) return false;
-      vacant_.push_back(place);
-      return true;
-    });
-  }
+  // For the kernel and its caller. A place is a lane of a block: kLanes block + lane.
+  [[nodiscard]] std::span<const Index> order() const { return order_; }  ///< places by ascending id
+  [[nodiscard]] std::span<JointBlock> blocks() { return blocks_; }
+  [[nodiscard]] std::span<const Index> laws() const { return laws_; }  ///< (blocks)
+  [[nodiscard]] Identity& identity(Index place) { return identity_[static_cast<std::size_t>(place)]; }
+  [[nodiscard]] const Identity& identity(Index place) const { return identity_[static_cast<std::size_t>(place)]; }
+  /// Places taken since the last call: their nodes are not in the blocks yet.
+  [[nodiscard]] std::vector<Index> take_newcomers() { return std::exchange(newcomers_, {}); }
 
  private:
-  Index keep(const ActiveJoint& joint) {
-    if (vacant_.empty()) {
-      pool_.push_back(joint);
-      return static_cast<Index>(pool_.size() - 1);
-    }
-    const Index place = vacant_.back();
-    vacant_.pop_back();
-    pool_[static_cast<std::size_t>(place)] = joint;
-    return place;
-  }
+  [[nodiscard]] Index vacant_place(Index law);
+  [[nodiscard]] Index keep(const ActiveJoint& joint);
+  void put_in_order();
+  void note_changes(std::size_t number);
 
-  std::vector<ActiveJoint> pool_;
-  std::vector<Index> order_;   ///< places in the pool, by ascending id
-  std::vector<Index> vacant_;  ///< places free again
+  std::vector<JointBlock> blocks_;
+  std::vector<Index> laws_;                 ///< (blocks)
+  std::vector<Identity> identity_;          ///< (places)
+  std::vector<Index> order_;                ///< places by ascending id
+  std::vector<std::vector<Index>> vacant_;  ///< by law: places that are free, the next to be taken last
+  std::vector<Index> newcomers_;
+  std::size_t changes_ = 0;  ///< joints that have come or gone since all were put in order
 };
 
 }  // namespace breccia

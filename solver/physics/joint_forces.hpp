@@ -6,6 +6,7 @@
 #include "base/exact_sum.hpp"
 #include "physics/active_joints.hpp"
 #include "physics/joint_law.hpp"
+#include "physics/sweep.hpp"
 #include "state/local_mesh.hpp"
 #include "state/nodal_forces.hpp"
 
@@ -20,12 +21,20 @@ struct ReleasedJoint {
   double time_of_failure = -1;  ///< s, as in ActiveJoint
 };
 
+/// A joint that is as if nothing had happened to it.
+struct CalmJoint {
+  GlobalId id = 0;
+  Index slot_a = 0, slot_b = 0;
+  std::int8_t face_a = 0, code = 0;
+};
+
 /// What joints that are no longer on the list have consumed over the run, J: those whose side a is an original. Who failed:
-/// likewise. Who was released: all.
+/// likewise. Who was released or is calm: all.
 struct JointWork {
   ExactSum mode_1, mode_2, friction;
   std::vector<GlobalId> failed;         ///< in the last step, ascending
   std::vector<ReleasedJoint> released;  ///< in the last step, ascending
+  std::vector<CalmJoint> calm;          ///< on the list after the last step, ascending
 };
 
 /// What joints hold and have consumed, J.
@@ -47,9 +56,10 @@ struct JointEnergy {
 /// A joint without damage whose opening is back within half the surely elastic range is marked `calm`: the sweep may have it
 /// back after this step.
 /// @param time  s, t_n: of the positions
-/// O(joints), allocates only when joints fail, throws nothing.
+/// @param simd  instruction set; the bits are the same with every one
+/// O(joints), allocates only when joints come, fail or are calm, throws nothing.
 void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& mesh, const double* position,
-                         double time, ActiveJoints& joints, NodalForces& forces, JointWork& work);
+                         double time, Simd simd, ActiveJoints& joints, NodalForces& forces, JointWork& work);
 
 /// Square of the largest opening at the three corners, m2, in the very products the sweep uses; the same from both sides.
 [[nodiscard]] double largest_opening_squared(const LocalMesh& mesh, const double* position, const ActiveJoint& joint);

@@ -129,10 +129,7 @@ void Stepper::break_joints(std::span<const LoadedFace> faces) {
   }
   std::sort(by_hand.begin(), by_hand.end());
   activate_crossing();
-  for (ActiveJoint& joint : active_) {
-    if (joint.state == JointState::failed || !std::binary_search(by_hand.begin(), by_hand.end(), joint.id)) continue;
-    for (JointPointHistory& p : joint.points) p.damage = 1.0;  // fails at its next evaluation, which books what it held
-  }
+  active_.break_points(by_hand);
 }
 
 void Stepper::step(bool sample, const Word& word) {
@@ -170,7 +167,7 @@ void Stepper::external_forces() {
 
 void Stepper::joint_forces() {
   const auto lap = timer_.measure(Phase::joints);
-  active_joint_forces(model_.joint_laws, model_.local, state_.position.data(), time_, active_, forces_, joint_work_);
+  active_joint_forces(model_.joint_laws, model_.local, state_.position.data(), time_, simd_, active_, forces_, joint_work_);
   broken_joints_ += static_cast<std::int64_t>(joint_work_.failed.size());
   for (const ReleasedJoint& joint : joint_work_.released) {
     if (!model_.local.is_original(joint.slot_a)) continue;
@@ -332,12 +329,14 @@ void Stepper::activate_crossing() {
 /// Joints that are as if nothing had happened go back to the sweep, which has them far cheaper.
 void Stepper::return_calm() {
   const auto lap = timer_.measure(Phase::joints);
-  active_.erase_if([&](const ActiveJoint& joint) {
-    const Index end = model_.local.num_own_slots;  // the sweep looks across the faces of these only
-    if (!joint.calm || joint.slot_a >= end || joint.slot_b >= end) return false;
+  const Index end = model_.local.num_own_slots;  // the sweep looks across the faces of these only
+  std::vector<GlobalId> ids;
+  for (const CalmJoint& joint : joint_work_.calm) {
+    if (joint.slot_a >= end || joint.slot_b >= end) continue;
     links_.attach(joint.slot_a, joint.face_a, joint.slot_b, joint.code);
-    return true;
-  });
+    ids.push_back(joint.id);
+  }
+  active_.erase(ids);
 }
 
 void Stepper::book_after(bool sample) {

@@ -124,8 +124,10 @@ TEST(JointFailure, of_a_mid_edge_joint_waits_for_the_corners_to_open) {
   JointLawParams law = example_law();
   law.points = JointPoints::mid_edge;
   JointPair pair(prepared(law));
-  pair.joints[0].state = JointState::failed;
-  for (JointPointHistory& p : pair.joints[0].points) p.damage = 1.0;
+  ActiveJoint failed = pair.virgin;
+  failed.state = JointState::failed;
+  for (JointPointHistory& p : failed.points) p.damage = 1.0;
+  pair.put_on_list(failed);
   pair.open(Vec3(1e-6, 0, 0));
   const Index node = pair.corner(false, 0);
   store_node(pair.position.data(), node, load_node(pair.position.data(), pair.corner(true, 0)) - Vec3(5e-7, 0, 0));
@@ -205,7 +207,7 @@ TEST(JointFailure, by_hand_books_what_the_joint_held) {
   const double held = pair.stored();
   ASSERT_GT(held, 0.0);
   ASSERT_EQ(pair.dissipated(), 0.0);
-  for (JointPointHistory& p : pair.joints[0].points) p.damage = 1.0;
+  pair.joints.break_points(std::vector{pair.virgin.id});
   mover.go(mover.at * 1.001, 1);
   EXPECT_EQ(pair.work.failed.size(), 1U);
   EXPECT_TRUE(pair.joints.empty());

@@ -246,7 +246,7 @@ double crossing_error(const JointLawParams& law, double before, double after) {
   virgin_forces(law, pair.local, pair.position.data(), pair.virgin, true, on_a);
   const double crossing = 0.5 * (stiffness * before + on_a[0] + on_a[3] + on_a[6]) * (after - before);
   start_history(pair.laws, pair.local, pair.position.data(), std::span(&pair.virgin, 1));
-  pair.joints = ActiveJoints({pair.virgin});
+  pair.put_on_list(pair.virgin);
   return elastic + crossing - pair.dissipated() - pair.stored();
 }
 
@@ -273,7 +273,7 @@ TEST(JointForces, crossing_joint_starts_with_the_history_that_the_active_list_wo
   for (JointPair* pair : {&listed, &crossing}) pair->open(Vec3(1.5, 0.4, 0) * law.onset_normal);
   listed.evaluate();
   start_history(crossing.laws, crossing.local, crossing.position.data(), std::span(&crossing.virgin, 1));
-  crossing.joints = ActiveJoints({crossing.virgin});
+  crossing.put_on_list(crossing.virgin);
   EXPECT_EQ(crossing.stored(), listed.stored());
   EXPECT_EQ(crossing.dissipated(), listed.dissipated());
   EXPECT_GT(listed.dissipated(), 0.0);

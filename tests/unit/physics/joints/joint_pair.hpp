@@ -51,6 +51,7 @@ struct JointPair {
   NodalForces forces;
   JointWork work;
   double time = 0;  ///< s, of the next evaluation
+  Simd simd = best_simd();
 
   explicit JointPair(const JointLawParams& law, Discretisation kind = Discretisation::own_nodes, int turned_a = 0,
                      int turned_b = 0)
@@ -69,8 +70,11 @@ struct JointPair {
     virgin.face_a = faces[0].face_a;
     virgin.code = faces[0].code;
     virgin.area = faces[0].area;
-    joints = ActiveJoints({virgin});
+    put_on_list(virgin);
   }
+
+  /// Makes it the only joint on the list.
+  void put_on_list(const ActiveJoint& joint) { joints = ActiveJoints(std::vector{joint}); }
 
   /// Moves element b by an opening and element a not at all. The normal is +x.
   void open(const Vec3& by) {
@@ -92,7 +96,7 @@ struct JointPair {
   }
   void evaluate() {
     forces.clear();
-    active_joint_forces(laws, local, position.data(), time, joints, forces, work);
+    active_joint_forces(laws, local, position.data(), time, simd, joints, forces, work);
   }
 
   [[nodiscard]] Index corner(bool side_a, int i) const {

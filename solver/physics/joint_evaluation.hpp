@@ -1,0 +1,197 @@
+#pragma once
+
+// A joint as a whole, for T = double and for T = simd (joint_point.hpp): geometry of its mid-surface, its three points, the forces on
+// its corners.
+
+#include "physics/joint_point.hpp"
+
+namespace breccia::joint_point {
+
+template <class T>
+using Triple = std::array<Vector<T>, 3>;
+
+/// Corners of a joint's two faces, matching, m.
+template <class T>
+struct Sides {
+  Triple<T> a, b;
+};
+
+template <class T>
+struct Kinematics {
+  Triple<T> opening;  // at the corners
+  Frame<T> frame;     // of the mid-surface
+  Vector<T> edge[2];  // of the mid-surface, from its corner 0 to 1 and 2
+  T doubled_area;
+};
+
+/// ActiveJoint, but for its identity.
+template <class T>
+struct Joint {
+  Point<T> points[3];
+  T area, mode_1, mode_2, friction;
+  Vector<T> tilt, normal;
+  T turned;  // 0 or 1
+  T failed;  // 0 or 1
+};
+
+/// Forces of a joint on its corners, N: force + turning on those of a, turning - force on those of b.
+template <class T>
+struct Forces {
+  Triple<T> force, turning;
+};
+
+/// Square of the largest opening, m2, in the very products the sweep uses.
+template <class T>
+[[nodiscard]] inline T largest_opening_squared(const Sides<T>& sides) {
+  T largest = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector<T> d = minus(sides.b[i], sides.a[i]);
+    const T square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    largest = select(largest < square, square, largest);
+  }
+  return largest;
+}
+
+template <class T>
+[[nodiscard]] inline Kinematics<T> kinematics(const JointLawParams& law, const Sides<T>& sides) {
+  const T zero = 0.0, one = 1.0;
+  Kinematics<T> k;
+  Triple<T> middle;
+  for (std::size_t i = 0; i < 3; ++i) {
+    k.opening[i] = minus(sides.b[i], sides.a[i]);
+    middle[i] = times(T(0.5), plus(sides.a[i], sides.b[i]));
+  }
+  k.edge[0] = minus(middle[1], middle[0]);
+  k.edge[1] = minus(middle[2], middle[0]);
+  const Vector<T> across = cross(k.edge[0], k.edge[1]);
+  k.doubled_area = root(dot(across, across));
+  const Mask<T> flat = !(k.doubled_area > zero);
+  k.frame.normal = times(select(flat, one, T(1.0 / k.doubled_area)), across);
+  k.frame.tangent[0] = k.frame.tangent[1] = {zero, zero, zero};
+  if (law.friction > 0) {
+    const T length = root(dot(k.edge[0], k.edge[0]));
+    k.frame.tangent[0] = times(select(length > zero, T(1.0 / length), zero), k.edge[0]);
+    k.frame.tangent[1] = cross(k.frame.normal, k.frame.tangent[0]);
+  }
+  return k;
+}
+
+/// Opening at an integration point.
+template <class T>
+[[nodiscard]] inline Vector<T> point_opening(const JointLawParams& law, const Triple<T>& corners, std::size_t i) {
+  return law.points == JointPoints::nodal ? corners[i] : times(T(0.5), plus(corners[i], corners[(i + 1) % 3]));
+}
+
+/// At the corners, and so at mid-edge points too.
+template <class T>
+[[nodiscard]] inline Mask<T> open_everywhere(const Kinematics<T>& k) {
+  Mask<T> open = dot(k.opening[0], k.frame.normal) > 0.0;
+  for (std::size_t i = 1; i < 3; ++i) open = open && dot(k.opening[i], k.frame.normal) > 0.0;
+  return open;
+}
+
+/// Enough points have given way for the joint to fail.
+template <class T>
+[[nodiscard]] inline Mask<T> gone(const JointLawParams& law, const Joint<T>& joint) {
+  T full = 0.0;
+  for (const Point<T>& p : joint.points) full += select(p.damage >= 1.0, T(1.0), T(0.0));
+  return full >= static_cast<double>(law.points_to_fail);
+}
+
+template <class T>
+[[nodiscard]] inline Point<T> select_point(const Mask<T>& mask, const Point<T>& a, const Point<T>& b) {
+  Point<T> p = b;
+  const auto take = [&](T& x, const T& y) { x = select(mask, y, x); };
+  for_each_number(p, a, take);
+  return p;
+}
+
+/// If enough points give way for the joint to fail, the others give way with them, at once. @param before  of this evaluation
+template <class T>
+inline void drag_along(const JointLawParams& law, const Kinematics<T>& k, const Point<T>* before, Joint<T>& joint,
+                       Response<T>* response) {
+  const Mask<T> failing = gone(law, joint) && joint.failed == 0.0;
+  if (!any(failing)) return;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Mask<T> dragged = failing && joint.points[i].damage < 1.0;
+    if (!any(dragged)) continue;
+    Point<T> anew = before[i];
+    anew.damage = 1.0;
+    const Response<T> r = evaluate(law, k.frame, point_opening(law, k.opening, i), anew);
+    joint.points[i] = select_point(dragged, anew, joint.points[i]);
+    response[i] = {select3<T>(dragged, r.traction, response[i].traction), select(dragged, r.mode_1, response[i].mode_1),
+                   select(dragged, r.mode_2, response[i].mode_2), select(dragged, r.friction, response[i].friction),
+                   response[i].elastic && !dragged};
+  }
+}
+
+/// Evaluates the points; returns the force on each corner of a.
+template <class T>
+[[nodiscard]] inline Triple<T> evaluate_points(const JointLawParams& law, const Kinematics<T>& k, Joint<T>& joint) {
+  Response<T> response[3];
+  if (law.points_to_fail < 3) {
+    const Point<T> before[3] = {joint.points[0], joint.points[1], joint.points[2]};
+    for (std::size_t i = 0; i < 3; ++i)
+      response[i] = evaluate(law, k.frame, point_opening(law, k.opening, i), joint.points[i]);
+    drag_along(law, k, before, joint, response);
+  } else {
+    for (std::size_t i = 0; i < 3; ++i)
+      response[i] = evaluate(law, k.frame, point_opening(law, k.opening, i), joint.points[i]);
+  }
+  const T share = joint.area / 3.0, elastic = law.stiffness * joint.area / 3.0;
+  for (const Response<T>& r : response) {
+    joint.mode_1 += share * r.mode_1;
+    joint.mode_2 += share * r.mode_2;
+    joint.friction += share * r.friction;
+  }
+  Triple<T> force;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (law.points == JointPoints::mid_edge) {
+      force[i] = times(T(joint.area / 6.0), plus(response[i].traction, response[(i + 2) % 3].traction));
+    } else {
+      // Elastic ones in the very product the sweep uses: the same bits on either path.
+      force[i] = select3<T>(response[i].elastic, times(elastic, k.opening[i]), times(share, response[i].traction));
+    }
+  }
+  return force;
+}
+
+/// What turning the mid-surface does to a closed joint that has slid: its normal energy k d delta_n^2 / 2 beyond the isotropic
+/// part depends on the normal. T = sum A0/3 k d delta_n delta_s, N: dU = T . dn.
+template <class T>
+[[nodiscard]] inline Vector<T> tilting(const JointLawParams& law, const Kinematics<T>& k, const Joint<T>& joint) {
+  const T zero = 0.0;
+  Vector<T> tilt{zero, zero, zero};
+  for (const Point<T>& p : joint.points) {
+    const T share = law.law == JointLaw::mixed_mode ? p.damage : select(p.damage >= 1.0, T(1.0), zero);
+    const Mask<T> tilts = share > zero && p.normal_opening < zero;
+    if (!any(tilts)) continue;
+    const Vector<T> shear = minus(p.opening, times(p.normal_opening, k.frame.normal));
+    const T weight = joint.area / 3.0 * law.stiffness * share * p.normal_opening;
+    tilt = select3<T>(tilts, plus(tilt, times(weight, shear)), tilt);
+  }
+  return tilt;
+}
+
+/// Forces on the three pairs of corners that go with tilting, so that forces are the gradient of the energy also after a long
+/// slip, with their work among the friction. Each of a pair gets half of -dU/dm, m the corner of the mid-surface.
+/// Books nothing and returns 0 where not `on`.
+template <class T>
+[[nodiscard]] inline Triple<T> tilting_forces(const JointLawParams& law, const Kinematics<T>& k, const Mask<T>& on,
+                                              Joint<T>& joint) {
+  const T zero = 0.0;
+  const Vector<T> tilt = tilting(law, k, joint);
+  const T work = 0.5 * dot(plus(joint.tilt, tilt), minus(k.frame.normal, joint.normal));
+  joint.friction = select(on && joint.turned > zero, T(joint.friction + work), joint.friction);
+  joint.turned = select(on, T(1.0), joint.turned);
+  joint.tilt = select3<T>(on, tilt, joint.tilt);
+  joint.normal = select3<T>(on, k.frame.normal, joint.normal);
+  const Mask<T> turns = on && k.doubled_area > zero;
+  const T half = select(turns, T(-0.5 / k.doubled_area), zero);
+  const Vector<T> second = times(half, cross(k.edge[1], tilt)), third = times(half, cross(tilt, k.edge[0]));
+  Vector<T> first;
+  for (std::size_t i = 0; i < 3; ++i) first[i] = -(second[i] + third[i]);
+  return {first, second, third};
+}
+
+}  // namespace breccia::joint_point

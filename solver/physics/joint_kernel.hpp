@@ -1,0 +1,162 @@
+#pragma once
+
+// The kernel of the active joints, included once by each translation unit joint_kernel_<instruction set>.cpp and compiled for its
+// set, as the sweep is (sweep_kernel.hpp).
+
+#include "physics/joint_block.hpp"
+#include "physics/joint_evaluation.hpp"
+
+namespace breccia {
+namespace {
+
+namespace stdx = std::experimental;
+namespace jp = joint_point;
+
+using Real = stdx::native_simd<double>;
+using Lanes = Real::mask_type;
+constexpr std::size_t kWidth = Real::size();
+static_assert(kLanes % kWidth == 0);
+
+/// Of the square of the elastic range: half the opening.
+constexpr double kCalmShare = 0.25;
+
+inline Real load(const double* p) { return Real(p, stdx::element_aligned); }
+inline void store(const Real& value, double* p) { value.copy_to(p, stdx::element_aligned); }
+
+inline jp::Sides<Real> gather(const double* position, const JointBlock& block, std::size_t lane) {
+  jp::Sides<Real> sides;
+  for (std::size_t corner = 0; corner < 6; ++corner) {
+    const double* place[kWidth];
+    for (std::size_t l = 0; l < kWidth; ++l) place[l] = position + nodal(block.node[corner][lane + l], 0);
+    jp::Vector<Real>& x = corner < 3 ? sides.a[corner] : sides.b[corner - 3];
+    for (std::size_t axis = 0; axis < 3; ++axis) x[axis] = Real([&](auto l) { return place[l][axis * kLanes]; });
+  }
+  return sides;
+}
+
+inline void load_points(const JointLawParams& law, const JointBlock& block, std::size_t lane, jp::Joint<Real>& joint) {
+  const bool slides = law.friction > 0, peaks = law.law == JointLaw::independent_peaks;
+  for (std::size_t i = 0; i < 3; ++i) {
+    jp::Point<Real>& p = joint.points[i];
+    p.slip[0] = p.slip[1] = p.friction_weight = p.friction_traction[0] = p.friction_traction[1] = p.stored_friction =
+        0.0;
+    p.secant_normal = p.secant_shear = 1.0;
+    jp::for_each_number(
+        p, block.points[i], [&](Real& x, const JointRow& row) { x = load(row + lane); }, slides, peaks);
+  }
+}
+
+inline void store_points(const JointLawParams& law, const jp::Joint<Real>& joint, std::size_t lane, JointBlock& block) {
+  const bool slides = law.friction > 0, peaks = law.law == JointLaw::independent_peaks;
+  for (std::size_t i = 0; i < 3; ++i) {
+    jp::for_each_number(
+        joint.points[i], block.points[i], [&](const Real& x, JointRow& row) { store(x, row + lane); }, slides, peaks);
+  }
+}
+
+inline void load_sums(const JointBlock& block, std::size_t lane, jp::Joint<Real>& joint) {
+  joint.area = load(block.area + lane);
+  joint.mode_1 = load(block.mode_1 + lane);
+  joint.mode_2 = load(block.mode_2 + lane);
+  joint.friction = load(block.friction + lane);
+  for (std::size_t i = 0; i < 3; ++i) {
+    joint.tilt[i] = load(block.tilt[i] + lane);
+    joint.normal[i] = load(block.normal[i] + lane);
+  }
+  joint.turned = load(block.turned + lane);
+  joint.failed = load(block.failed + lane);
+}
+
+inline void store_sums(const jp::Joint<Real>& joint, std::size_t lane, JointBlock& block) {
+  store(joint.mode_1, block.mode_1 + lane);
+  store(joint.mode_2, block.mode_2 + lane);
+  store(joint.friction, block.friction + lane);
+  for (std::size_t i = 0; i < 3; ++i) {
+    store(joint.tilt[i], block.tilt[i] + lane);
+    store(joint.normal[i], block.normal[i] + lane);
+  }
+  store(joint.turned, block.turned + lane);
+  store(joint.failed, block.failed + lane);
+}
+
+inline void note(const Lanes& lanes, JointNews news, std::size_t lane, JointBlock& block) {
+  if (stdx::none_of(lanes)) return;
+  for (std::size_t l = 0; l < kWidth; ++l) {
+    if (lanes[l]) block.news[lane + l] = static_cast<std::uint8_t>(block.news[lane + l] | news);
+  }
+}
+
+/// Joints without damage whose openings are within the surely elastic range: as the sweep would, without their normal.
+inline Lanes elastic_lanes(const JointLawParams& law, const jp::Sides<Real>& sides, std::size_t lane,
+                           JointBlock& block) {
+  if (!(law.screen > 0)) return Lanes(false);
+  Lanes elastic(true);
+  for (const JointPointRows& p : block.points) elastic = elastic && load(p.damage + lane) <= 0.0;
+  if (stdx::none_of(elastic)) return elastic;
+  const Real largest = jp::largest_opening_squared(sides);
+  elastic = elastic && largest <= law.screen;
+  note(elastic && largest <= kCalmShare * law.screen, kCalm, lane, block);
+  return elastic;
+}
+
+inline void store_forces(const jp::Triple<Real>& force, JointRow (&rows)[3][3], std::size_t lane) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) store(force[i][axis], rows[i][axis] + lane);
+  }
+}
+
+/// W joints beyond their elastic range, but for those lanes that are `elastic`.
+inline void act_beyond(const JointLawParams& law, const jp::Sides<Real>& sides, const Lanes& elastic, std::size_t lane,
+                       jp::Joint<Real>& joint, JointBlock& block) {
+  load_sums(block, lane, joint);
+  const jp::Kinematics<Real> k = jp::kinematics(law, sides);
+  store_forces(jp::evaluate_points(law, k, joint), block.force, lane);
+  const Lanes failing = jp::gone(law, joint) && joint.failed == 0.0;
+  joint.failed = jp::select(failing, Real(1.0), joint.failed);
+  note(failing, kFailing, lane, block);
+  // Open and broken everywhere: no force, and nothing stored, friction springs included.
+  const Lanes released = joint.failed > 0.0 && jp::open_everywhere(k);
+  note(released, kReleased, lane, block);
+  const Lanes stays = !elastic && !released;
+  const jp::Triple<Real> turning = jp::tilting_forces(law, k, stays, joint);
+  store_sums(joint, lane, block);
+  const Lanes turns = stays && (joint.tilt[0] != 0.0 || joint.tilt[1] != 0.0 || joint.tilt[2] != 0.0);
+  if (stdx::none_of(turns)) return;
+  note(turns, kTurning, lane, block);
+  store_forces(turning, block.turning, lane);
+}
+
+/// W joints of a block.
+inline void act(const JointLawParams& law, const double* position, std::size_t lane, JointBlock& block) {
+  for (std::size_t l = 0; l < kWidth; ++l) block.news[lane + l] = 0;
+  const jp::Sides<Real> sides = gather(position, block, lane);
+  const Lanes elastic = elastic_lanes(law, sides, lane, block);
+  jp::Joint<Real> joint;
+  load_points(law, block, lane, joint);
+  if (stdx::none_of(elastic)) {
+    act_beyond(law, sides, elastic, lane, joint, block);
+  } else {
+    jp::Point<Real> points[3] = {joint.points[0], joint.points[1], joint.points[2]};
+    const Real stiffness = law.stiffness * load(block.area + lane) / 3.0;
+    jp::Triple<Real> force;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const jp::Vector<Real> opening = jp::minus(sides.b[i], sides.a[i]);
+      jp::evaluate_elastic(law, opening, elastic, points[i]);
+      force[i] = jp::times(stiffness, opening);
+    }
+    if (stdx::all_of(elastic)) {
+      store_forces(force, block.force, lane);
+    } else {
+      act_beyond(law, sides, elastic, lane, joint, block);  // gives elastic lanes the same forces, in the same products
+    }
+    for (std::size_t i = 0; i < 3; ++i) joint.points[i] = jp::select_point(elastic, points[i], joint.points[i]);
+  }
+  store_points(law, joint, lane, block);
+}
+
+inline void act_block(const JointLawParams& law, const double* position, JointBlock& block) {
+  for (std::size_t lane = 0; lane < kLanes; lane += kWidth) act(law, position, lane, block);
+}
+
+}  // namespace
+}  // namespace breccia
