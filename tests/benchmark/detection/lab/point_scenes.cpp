@@ -71,7 +71,7 @@ Scene block(const std::string& name, int n, bool broken, double buffer) {
 }
 
 /// `n` regular tetrahedra, turned at random, of edges between 1 and 1 / ratio (evenly in the logarithm), in a cube in
-/// which their bounding boxes would fill the volume once; contact points at the centres of their faces.
+/// which their bounding boxes, end to end, would fill the volume 1.2 times; contact points at the centres of their faces.
 Scene mixture(int n, double ratio) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> coordinate(-1, 1);
@@ -81,7 +81,7 @@ Scene mixture(int n, double ratio) {
     edges.push_back(std::pow(ratio, -0.5 * (1 + coordinate(random))));
     volume += edges.back() * edges.back() * edges.back();
   }
-  const double half_side = 0.5 * std::cbrt(0.6 * volume);  // a turned tetrahedron's box holds about 0.6 edge^3
+  const double half_side = 0.5 * std::cbrt(0.6 * volume);  // boxes hold 0.72 edge^3 in the mean
   Scene scene{"sizes 1:" + std::to_string(static_cast<int>(ratio)), 0.02 / ratio, {}, {}};
   for (const double edge : edges) {
     Vec3 centre;
