@@ -1,4 +1,4 @@
-#include <emmintrin.h>
+#include <immintrin.h>
 
 #include "detection/point_body/packed_tree_walk.hpp"
 
