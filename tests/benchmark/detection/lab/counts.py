@@ -30,15 +30,16 @@ def events_of(file):
 
 
 def count(program, folder, algorithm, experiment, scene, bodies):
+    """Bodies or tetrahedra there were, and event -> total of one detection of them."""
     out = folder / f"callgrind.{algorithm}.out"
     out.unlink(missing_ok=True)
-    subprocess.run(["valgrind", "--tool=callgrind", "--quiet", "--cache-sim=yes", "--branch-sim=yes", "--collect-atstart=no",
+    told = subprocess.run(["valgrind", "--tool=callgrind", "--quiet", "--cache-sim=yes", "--branch-sim=yes", "--collect-atstart=no",
                     "--toggle-collect=breccia_counted_cycle", f"--callgrind-out-file={out}",
                     program, "--count", algorithm, "--experiments", experiment, "--scene", scene, "--largest", str(bodies)],
-                   check=True, stdout=subprocess.DEVNULL)
+                   check=True, stdout=subprocess.PIPE, text=True).stdout
     events = events_of(out)
     out.unlink()
-    return events
+    return int(re.search(r": (\d+) ", told.splitlines()[-1]).group(1)), events  # experiments round the number to a cube
 
 
 def main():
@@ -61,10 +62,10 @@ def main():
             for name in (n for k, n in names if k == kind and n not in LEFT_OUT):
                 if asked.algorithms and name not in asked.algorithms:
                     continue
-                events = count(asked.program, asked.folder, name, experiment, scene, asked.bodies)
-                table.writerow([experiment, scene, name, asked.bodies, *(events[e] for e in EVENTS)])
+                bodies, events = count(asked.program, asked.folder, name, experiment, scene, asked.bodies)
+                table.writerow([experiment, scene, name, bodies, *(events[e] for e in EVENTS)])
                 stream.flush()
-                each = [events[e] / asked.bodies for e in EVENTS]
+                each = [events[e] / bodies for e in EVENTS]
                 print(f"{name:14}{each[0]:14,.0f}{each[1]:11.2f}{each[2]:11.3f}{each[3]:14.2f}", flush=True)
 
 
