@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 
 #include <Eigen/Geometry>
 
@@ -165,6 +166,36 @@ TEST(LabPlacement, is_the_same_for_all_searches_and_refuses_an_unknown_experimen
   }
   EXPECT_EQ(one.cells(), two.cells());
   EXPECT_THROW(Placement("VIII", 1000, 1), std::invalid_argument);
+}
+
+TEST(LabScenes, in_order_hold_the_same_tetrahedra_and_points_with_neighbours_near_in_memory) {
+  std::vector<Scene> scenes;
+  for (const PointScene& make : point_scenes(3000)) scenes.push_back(make());
+  int compared = 0;
+  for (const Scene& ordered : scenes) {
+    for (const Scene& random : scenes) {
+      if (ordered.name != "in order, " + random.name) continue;
+      ++compared;
+      const auto sorted = [](std::vector<Vec3> points) {
+        std::sort(points.begin(), points.end(),
+                  [](const Vec3& p, const Vec3& q) { return std::tie(p[0], p[1], p[2]) < std::tie(q[0], q[1], q[2]); });
+        return points;
+      };
+      EXPECT_EQ(sorted(ordered.points), sorted(random.points)) << ordered.name;
+      const auto path = [](const Scene& scene) {
+        double length = 0;
+        for (std::size_t c = 1; c < scene.contactors.size(); ++c)
+          length += (scene.contactors[c][0] - scene.contactors[c - 1][0]).norm();
+        return length;
+      };
+      EXPECT_LT(path(ordered), 0.3 * path(random)) << ordered.name;
+      for (std::size_t c = 0; c < ordered.contactors.size(); ++c) {
+        ASSERT_EQ(ordered.points[4 * c],
+                  (ordered.contactors[c][1] + ordered.contactors[c][2] + ordered.contactors[c][3]) / 3);
+      }
+    }
+  }
+  EXPECT_EQ(compared, 3);
 }
 
 double edge_of(const detection::Corners& c) { return (c[1] - c[0]).norm(); }

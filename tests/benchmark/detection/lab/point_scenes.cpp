@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "detection/point_body/curve_order.hpp"
+
 namespace breccia::lab {
 namespace {
 
@@ -92,6 +94,20 @@ Scene mixture(int n, double ratio) {
   return scene;
 }
 
+/// The same tetrahedra and points numbered along a curve through space, as elements of a mesh are.
+Scene in_order(const Scene& scene) {
+  std::vector<Vec3> centres;
+  for (const detection::Corners& c : scene.contactors) centres.push_back((c[0] + c[1] + c[2] + c[3]) / 4);
+  Scene ordered{"in order, " + scene.name, scene.buffer, {}, {}};
+  detection::CurveOrder order;
+  for (const auto& record :
+       order.sort(centres.size(), detection::frame_of(centres), [&](std::size_t c) { return centres[c]; })) {
+    ordered.contactors.push_back(scene.contactors[record.number]);
+    for (std::size_t a = 0; a < 4; ++a) ordered.points.push_back(scene.points[4 * record.number + a]);
+  }
+  return ordered;
+}
+
 }  // namespace
 
 std::vector<PointScene> point_scenes(std::size_t largest) {
@@ -102,7 +118,10 @@ std::vector<PointScene> point_scenes(std::size_t largest) {
           [] { return block("the same block, every joint broken", 10, true, 0.05); },
           [n] { return mixture(n, 1); },
           [n] { return mixture(n, 10); },
-          [n] { return mixture(n, 100); }};
+          [n] { return mixture(n, 100); },
+          [n] { return in_order(mixture(n, 1)); },
+          [n] { return in_order(mixture(n, 10)); },
+          [n] { return in_order(mixture(n, 100)); }};
 }
 
 }  // namespace breccia::lab
