@@ -37,8 +37,8 @@ Scene scene_named(const std::string& text, std::size_t largest) {
   throw std::invalid_argument("no scene whose name holds '" + text + "'");
 }
 
-void count_points(const Options& options, PointContender& contender, const std::string& scene_text) {
-  const Scene scene = scene_named(scene_text, options.largest);
+void count_points(const Options& options, PointContender& contender) {
+  const Scene scene = scene_named(options.scene, options.largest);
   contender.detect(scene.points, scene.contactors, scene.buffer);
   Tally tally;
   breccia_counted_cycle([&] { tally = contender.detect(scene.points, scene.contactors, scene.buffer); });
@@ -58,10 +58,10 @@ void count_equal_size(const Options& options, Contender& contender) {
 
 }  // namespace
 
-void count_cycle(const Options& options, const std::string& algorithm, const std::string& scene) {
+void count_cycle(const Options& options, const std::string& algorithm) {
   All all(options.peers);
   if (options.experiments.front() == "points") {
-    count_points(options, find(all.points, algorithm), scene);
+    count_points(options, find(all.points, algorithm));
   } else {
     count_equal_size(options, find(all.equal_size, algorithm));
   }

@@ -13,6 +13,7 @@ struct Options {
   int repeat = 3;                       ///< runs of each experiment; the shortest time counts
   double budget = 60;                   ///< s, of one algorithm in one run; longer runs are not begun
   std::vector<std::string> algorithms;  ///< all where empty
+  std::string scene;                    ///< points: only scenes whose name holds this
   bool peers = true;
   std::filesystem::path folder = "runs/detection";
 };
@@ -28,10 +29,10 @@ void run_memory_order(const Options& options);
 void run_points(const Options& options);
 
 /// One detection of one algorithm on the first of options.experiments with options.largest bodies or tetrahedra (points: in the
-/// first scene whose name holds `scene`), inside the function breccia_counted_cycle, for callgrind's --toggle-collect. A detection
+/// first scene), inside the function breccia_counted_cycle, for callgrind's --toggle-collect. A detection
 /// before it and a move of the bodies are left out, so that storage is there and old orders are used. Prints what it has seen.
 /// Throws std::invalid_argument if there is no such algorithm, experiment or scene.
-void count_cycle(const Options& options, const std::string& algorithm, const std::string& scene);
+void count_cycle(const Options& options, const std::string& algorithm);
 /// "equal_size NAME" or "points NAME", a line for each algorithm at hand.
 void print_names(const Options& options);
 

@@ -1,7 +1,7 @@
 // The contact detection laboratory: chapter 7 of the thesis on the machine at hand, with libraries beside it.
 //
 //   bench_detection_lab [--largest N] [--repeat R] [--budget SECONDS] [--experiments I,II,...,points] [--algorithms ...]
-//                       [--no-peers] [--folder FOLDER]
+//                       [--scene TEXT] [--no-peers] [--folder FOLDER]
 //   bench_detection_lab --names
 //   bench_detection_lab --count ALGORITHM --experiments III|points [--scene TEXT] --largest N   one detection, for callgrind
 //
@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
   using namespace breccia::lab;
   Options options;
   bool no_peers = false, names = false;
-  std::string counted, scene;
+  std::string counted;
   CLI::App app(
       "Contact detection: experiments I to VII of the thesis, points against tetrahedra, and libraries beside them.");
   app.add_option("--largest", options.largest, "largest number of bodies");
@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
   app.add_option("--folder", options.folder, "where the tables are written");
   app.add_flag("--names", names, "list the algorithms and end");
   app.add_option("--count", counted, "one detection of this algorithm on the first experiment, to be counted by callgrind");
-  app.add_option("--scene", scene, "with --count of points: the first scene whose name holds this");
+  app.add_option("--scene", options.scene, "points: only scenes whose name holds this");
   CLI11_PARSE(app, argc, argv);
   options.peers = !no_peers;
   const auto chosen = [&](const char* name) {
@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
   };
   try {
     if (names) print_names(options);
-    if (!counted.empty()) count_cycle(options, counted, scene);
+    if (!counted.empty()) count_cycle(options, counted);
     if (names || !counted.empty()) return 0;
     std::filesystem::create_directories(options.folder);
     run_equal_size(options);
