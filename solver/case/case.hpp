@@ -191,13 +191,13 @@ struct TimeControl {
   friend bool operator==(const TimeControl&, const TimeControl&) = default;
 };
 
-enum class DetectionAlgorithm { ms, ms_slices, sorted_grid, brute_force };
+enum class DetectionAlgorithm { ms, ms_slices, sorted_grid, packed_tree, brute_force };
 
 /// [detection]
 struct Detection {
-  DetectionAlgorithm algorithm = DetectionAlgorithm::sorted_grid;
+  DetectionAlgorithm algorithm = DetectionAlgorithm::packed_tree;
   double buffer = 0;    ///< m; 0: a share of the mean element size
-  double cell = 0;      ///< m; 0: chosen from buffer and element size
+  double cell = 0;      ///< m, of ms, ms_slices and sorted_grid; 0: chosen from buffer and element size
   bool verify = false;  ///< compare every step's couples with brute force
   friend bool operator==(const Detection&, const Detection&) = default;
 };

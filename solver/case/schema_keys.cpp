@@ -254,15 +254,15 @@ constexpr auto table = std::to_array<Key>({
 
     {.path = "detection", .type = section,
      .help = "Search for points and elements that may touch. It changes the speed, never the results."},
-    {.path = "detection.algorithm", .type = choice, .fallback = "sorted_grid",
-     .choices = "ms|ms_slices|sorted_grid|brute_force",
-     .help = "ms: the MS-tree and MS-search; ms_slices: the same one slice at a time; a sorted grid; or all against "
-             "all.", .example = "\"ms\""},
+    {.path = "detection.algorithm", .type = choice, .fallback = "packed_tree",
+     .choices = "ms|ms_slices|sorted_grid|packed_tree|brute_force",
+     .help = "ms: the MS-tree and MS-search; ms_slices: the same one slice at a time; a sorted grid; a packed tree, "
+             "the fastest where sizes differ or the order in memory is poor; or all against all.", .example = "\"ms\""},
     {.path = "detection.buffer", .type = number, .unit = "m", .fallback = "auto", .range = positive, .word = "auto",
      .help = "Distance by which boxes are enlarged, so that a search lasts several steps. auto: a share of the element "
              "size.", .example = "\"0.5 mm\""},
     {.path = "detection.cell", .type = number, .unit = "m", .fallback = "auto", .range = positive, .word = "auto",
-     .help = "Edge of a cell of the grid. auto: from buffer and element size.", .example = "\"5 mm\""},
+     .help = "Edge of a cell of ms, ms_slices and sorted_grid; the others have none. auto: from buffer and element size.", .example = "\"5 mm\""},
     {.path = "detection.verify", .type = boolean, .fallback = "false",
      .help = "Compare every step with all against all; slow.", .example = "true"},
 

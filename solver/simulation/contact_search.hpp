@@ -18,7 +18,7 @@ namespace breccia {
 
 /// How contact is looked for.
 struct ContactSearchParams {
-  detection::Algorithm algorithm = detection::Algorithm::sorted_grid;
+  detection::Algorithm algorithm = detection::Algorithm::packed_tree;
   double cell = 0;                    ///< m; 0: chosen by the algorithm
   double buffer = 0;                  ///< m; 0: chosen at every search (ContactSearch)
   bool verify = false;                ///< compare the couples that touch with brute force at every step

@@ -115,7 +115,7 @@ class Race {
     algorithms_ = settings_.algorithms;
     if (!algorithms_.empty()) return;
     using enum case_::DetectionAlgorithm;
-    algorithms_ = {ms, ms_slices, sorted_grid};
+    algorithms_ = {ms, ms_slices, sorted_grid, packed_tree};
     if (pairs <= kSmallEnough) {
       algorithms_.push_back(brute_force);
     } else {

@@ -22,7 +22,7 @@ using nlohmann::json;
 
 const std::string kCubes = "'" BRECCIA_MESHES "/bouncing_cubes/case_smoke.toml'";
 /// Long enough for the boxes to meet, short enough for a test.
-const std::string kShort = " --from '40 us' --steps 60 --buffers 0.5,3 --algorithms sorted_grid,ms,brute_force --progress json";
+const std::string kShort = " --from '40 us' --steps 60 --buffers 0.5,3 --algorithms packed_tree,ms,brute_force --progress json";
 
 /// The racers of a race with --progress json, the fastest first; the last line is checked and left out.
 std::vector<json> racers(const Outcome& outcome, const std::string& state = "complete") {
@@ -70,7 +70,7 @@ TEST(Race, every_algorithm_races_with_every_buffer_and_with_the_case_s_own) {
   EXPECT_EQ(names.size(), 9u);
   EXPECT_EQ(hashes.size(), 1u);
   const auto own = std::count_if(found.begin(), found.end(), [](const json& r) {
-    return r["as_in_case"] && r["algorithm"] == "sorted_grid" && r["buffer"] == "auto";
+    return r["as_in_case"] && r["algorithm"] == "packed_tree" && r["buffer"] == "auto";
   });
   EXPECT_EQ(own, 1);
 }
@@ -121,7 +121,7 @@ TEST(Race, the_table_ends_with_lines_that_the_case_takes) {
   const std::string file = scratch.write("case.toml", kSmallCase);
   const Outcome outcome = call("race " + file + " --steps 50 --progress none");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  for (const char* word : {"* ", "ms_slices", "sorted_grid", "brute_force", "as in the case", "element-steps/s", "best: "}) {
+  for (const char* word : {"* ", "ms_slices", "sorted_grid", "packed_tree", "brute_force", "as in the case", "element-steps/s", "best: "}) {
     EXPECT_NE(outcome.out.find(word), std::string::npos) << word << " in\n" << outcome.out;
   }
   const std::size_t from = outcome.out.find("[detection]");

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "detection/point_body/brute_force.hpp"
 #include "detection/point_body/ms.hpp"
+#include "detection/point_body/packed_tree.hpp"
 #include "detection/point_body/sorted_grid.hpp"
 
 namespace breccia::detection {
@@ -19,6 +20,8 @@ std::unique_ptr<PointBodySearch> make_search(Algorithm algorithm, double cell) {
       return std::make_unique<Ms>(cell, true);
     case Algorithm::sorted_grid:
       return std::make_unique<SortedGrid>(cell);
+    case Algorithm::packed_tree:
+      return std::make_unique<PackedTree>();
     case Algorithm::brute_force:
       return std::make_unique<BruteForce>();
   }

@@ -49,11 +49,12 @@ enum class Algorithm {
   ms,           ///< MS-tree and MS-search over the contactor's cell box
   ms_slices,    ///< the same with the box cut into slices that hug the tetrahedron
   sorted_grid,  ///< points sorted by cell, cells found by hash
+  packed_tree,  ///< points in a packed tree of boxes along a Hilbert curve
   brute_force   ///< every pair: the oracle
 };
 
-/// @param cell  m, size of the space cells; 0: chosen at every search from the contactors' mean size and the buffer.
-///              It changes the speed only. Throws InternalError if negative or not finite.
+/// @param cell  m, size of the space cells of ms, ms_slices and sorted_grid; 0: chosen at every search from the contactors'
+///              mean size and the buffer. It changes the speed only. Throws InternalError if negative or not finite.
 [[nodiscard]] std::unique_ptr<PointBodySearch> make_search(Algorithm algorithm, double cell);
 
 }  // namespace breccia::detection

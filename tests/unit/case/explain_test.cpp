@@ -40,7 +40,7 @@ TEST(Explain, AKeyIsExplainedWithUnitDefaultRangeAndExample) {
 }
 
 TEST(Explain, AChoiceListsItsWords) {
-  EXPECT_THAT(explain("detection.algorithm"), HasSubstr("ms, ms_slices, sorted_grid, brute_force"));
+  EXPECT_THAT(explain("detection.algorithm"), HasSubstr("ms, ms_slices, sorted_grid, packed_tree, brute_force"));
 }
 
 TEST(Explain, IndicesAndBracketsMayBeLeftOutOrGiven) {

@@ -86,7 +86,7 @@ inline Scene raster(int n, double spacing) {
 
 /// Name of an algorithm in a test's name.
 inline std::string name_of(Algorithm algorithm) {
-  constexpr std::array names{"ms", "ms_slices", "sorted_grid", "brute_force"};
+  constexpr std::array names{"ms", "ms_slices", "sorted_grid", "packed_tree", "brute_force"};
   return names[static_cast<std::size_t>(algorithm)];
 }
 

@@ -196,6 +196,21 @@ TEST_P(Search, finds_couples_of_one_large_contactor_among_thousands_of_small_one
   expect_definition(scene, 1e-3, 2400);
 }
 
+TEST_P(Search, finds_couples_where_a_few_elements_are_a_thousand_times_as_large_as_a_crowd_of_others) {
+  // A crowd of small elements in one corner of a scene of large ones, numbered at random: sizes and distances of points
+  // differ by three orders, and no two neighbours in space are neighbours in memory.
+  Scene scene = scenes::cloud(19, 150, 6, 0.3);
+  const Scene crowd = scenes::cloud(20, 600, 6, 0.3);
+  const auto shrunk = [](const Vec3& x) { return Vec3(Vec3(1, -2, 1.5) + 1e-3 * x); };
+  for (const Corners& c : crowd.contactors)
+    scene.contactors.push_back({shrunk(c[0]), shrunk(c[1]), shrunk(c[2]), shrunk(c[3])});
+  for (const Vec3& p : crowd.points) scene.points.push_back(shrunk(p));
+  Random random(21);
+  std::shuffle(scene.contactors.begin(), scene.contactors.end(), random);
+  std::shuffle(scene.points.begin(), scene.points.end(), random);
+  for (const double buffer : {0.0, 1e-5, 1e-2}) expect_definition(scene, buffer, 2500);
+}
+
 TEST_P(Search, refuses_a_buffer_that_is_no_length) {
   const Scene scene = scenes::raster(1, 1);
   for (const double buffer :
@@ -214,7 +229,10 @@ INSTANTIATE_TEST_SUITE_P(All, Search,
                          testing::Combine(testing::Values(Algorithm::ms, Algorithm::ms_slices, Algorithm::sorted_grid),
                                           testing::Values(0.0, 0.05, 0.5, 1000.0)),
                          name_of);
-INSTANTIATE_TEST_SUITE_P(Oracle, Search, testing::Values(std::tuple(Algorithm::brute_force, 0.0)), name_of);
+INSTANTIATE_TEST_SUITE_P(WithoutCells, Search,
+                         testing::Combine(testing::Values(Algorithm::packed_tree, Algorithm::brute_force),
+                                          testing::Values(0.0)),
+                         name_of);
 
 TEST(MakeSearch, refuses_a_cell_size_that_is_no_length) {
   for (const double cell : {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {

@@ -63,7 +63,7 @@ TEST_P(SearchGuarantee, is_not_met_by_listing_everything) {
 std::string name_of(const testing::TestParamInfo<Algorithm>& info) { return scenes::name_of(info.param); }
 
 INSTANTIATE_TEST_SUITE_P(All, SearchGuarantee,
-                         testing::Values(Algorithm::ms, Algorithm::ms_slices, Algorithm::sorted_grid,
+                         testing::Values(Algorithm::ms, Algorithm::ms_slices, Algorithm::sorted_grid, Algorithm::packed_tree,
                                          Algorithm::brute_force),
                          name_of);
 

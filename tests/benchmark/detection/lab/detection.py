@@ -1,6 +1,6 @@
 """The contact detection laboratory: runs bench_detection_lab, fits its times as the thesis does, and draws its figures.
 
-usage: detection.py PROGRAM FOLDER [arguments of bench_detection_lab: --largest, --repeat, --budget, --experiments, --no-peers, ...]
+usage: detection.py PROGRAM FOLDER [arguments of bench_detection_lab: --largest, --repeat, --budget, --experiments, --scene, --no-peers, ...]
 
 Reads FOLDER/equal_size.csv, memory_order.csv and points.csv; writes FOLDER/fits.csv and one SVG and PNG a figure where gnuplot is there.
 """

@@ -1,7 +1,9 @@
 // The contact detection laboratory: chapter 7 of the thesis on the machine at hand, with libraries beside it.
 //
 //   bench_detection_lab [--largest N] [--repeat R] [--budget SECONDS] [--experiments I,II,...,points] [--algorithms ...]
-//                       [--no-peers] [--folder FOLDER]
+//                       [--scene TEXT] [--no-peers] [--folder FOLDER]
+//   bench_detection_lab --names
+//   bench_detection_lab --count ALGORITHM --experiments III|points [--scene TEXT] --largest N   one detection, for callgrind
 //
 // Ends with 1 where two searches see different pairs.
 
@@ -32,7 +34,8 @@ double now() {
 int main(int argc, char** argv) {
   using namespace breccia::lab;
   Options options;
-  bool no_peers = false;
+  bool no_peers = false, names = false;
+  std::string counted;
   CLI::App app(
       "Contact detection: experiments I to VII of the thesis, points against tetrahedra, and libraries beside them.");
   app.add_option("--largest", options.largest, "largest number of bodies");
@@ -45,12 +48,18 @@ int main(int argc, char** argv) {
   app.add_option("--algorithms", options.algorithms, "only these")->delimiter(',');
   app.add_flag("--no-peers", no_peers, "Breccia's own searches only");
   app.add_option("--folder", options.folder, "where the tables are written");
+  app.add_flag("--names", names, "list the algorithms and end");
+  app.add_option("--count", counted, "one detection of this algorithm on the first experiment, to be counted by callgrind");
+  app.add_option("--scene", options.scene, "points: only scenes whose name holds this");
   CLI11_PARSE(app, argc, argv);
   options.peers = !no_peers;
   const auto chosen = [&](const char* name) {
     return std::find(options.experiments.begin(), options.experiments.end(), name) != options.experiments.end();
   };
   try {
+    if (names) print_names(options);
+    if (!counted.empty()) count_cycle(options, counted);
+    if (names || !counted.empty()) return 0;
     std::filesystem::create_directories(options.folder);
     run_equal_size(options);
     if (chosen("bytes")) run_bytes(options);

@@ -92,6 +92,7 @@ PointContenders own_point_searches() {
   all.push_back(std::make_unique<OwnPoint>(Algorithm::ms, "ms"));
   all.push_back(std::make_unique<OwnPoint>(Algorithm::ms_slices, "ms_slices"));
   all.push_back(std::make_unique<OwnPoint>(Algorithm::sorted_grid, "sorted_grid"));
+  all.push_back(std::make_unique<OwnPoint>(Algorithm::packed_tree, "packed_tree"));
   return all;
 }
 

@@ -31,6 +31,7 @@ void run_points(const Options& options) {
   table << "scene,algorithm,points,contactors,couples,least_s,most_s\n";
   for (const PointScene& make : point_scenes(options.largest)) {
     const Scene scene = make();
+    if (scene.name.find(options.scene) == std::string::npos) continue;
     std::printf("%s: %zu points, %zu contactors, buffer %g\n", scene.name.c_str(), scene.points.size(),
                 scene.contactors.size(), scene.buffer);
     PointContenders contenders = own_point_searches();
