@@ -5,6 +5,8 @@ pictures around the model, as a Cinema database (data.csv names every picture); 
 """
 
 import math
+import os
+import re
 
 from paraview.simple import ColorBy, CreateExtractor, CreateRenderView, GetColorTransferFunction, GetScalarBar, SetActiveView, Show, Text
 from vtkmodules.vtkCommonCore import vtkDoubleArray
@@ -47,6 +49,13 @@ def cells_of(producer):
     return int(over_ranks(data_of(producer).GetNumberOfCells()))
 
 
+def bounds_of(producer):
+    """Lowest and highest corner of a channel's box over all ranks; low > high when it is empty everywhere."""
+    data = data_of(producer)
+    bounds = data.GetBounds() if data.GetNumberOfPoints() > 0 else (1e300, -1e300) * 3
+    return [-largest(-bounds[2 * i]) for i in range(3)], [largest(bounds[2 * i + 1]) for i in range(3)]
+
+
 def quantity(value, unit):
     """1.2e-5, "s" -> "12 µs" """
     if value == 0 or not math.isfinite(value):
@@ -73,8 +82,10 @@ class Picture:
         words = Show(self._words, self.view)
         words.WindowLocation = "Upper Left Corner"
         words.Color = INK
+        words.Justification = "Left"
         words.FontSize = max(8, self.view.ViewSize[1] // 45)
-        name = breccia_insitu.pipeline() or "picture"
+        self._name = name = breccia_insitu.pipeline() or "picture"
+        self._times = {}
         self.extractor = CreateExtractor("PNG", self.view)
         self.extractor.Trigger = "TimeStep"
         self.extractor.Writer.FileName = name + "_{timestep:09d}{camera}.png"
@@ -89,7 +100,7 @@ class Picture:
 
     def solid(self, producer, colour, opacity=1.0):
         shown = Show(producer, self.view)
-        ColorBy(shown, None)
+        shown.ColorArrayName = ["POINTS", ""]
         shown.DiffuseColor = shown.AmbientColor = colour
         shown.Opacity = opacity
         shown.Ambient, shown.Diffuse = 0.3, 0.75
@@ -119,28 +130,61 @@ class Picture:
     def lines(self, producer, colour=INK, width=2.0):
         shown = Show(producer, self.view)
         shown.SetRepresentationType("Wireframe")
-        ColorBy(shown, None)
+        shown.ColorArrayName = ["POINTS", ""]
         shown.DiffuseColor = shown.AmbientColor = colour
         shown.LineWidth = width
         return shown
 
-    def say(self, time, *lines):
-        self._words.Text = "\n".join(("t = " + quantity(time, "s"),) + lines)
+    def say(self, info, *lines):
+        """The time and other words in the corner of the picture that is drawn next."""
+        self._words.Text = "\n".join(("t = " + quantity(info.time, "s"),) + lines)
+        self.list_pictures()
+        self._times[info.timestep] = info.time
 
-    def place_camera(self):
-        """Where the parameters say, so that everything is seen; once, so that pictures can be laid over each other."""
+    def list_pictures(self):
+        """Writes data.csv, which makes the folder a Cinema database (specification D): the pictures that are complete."""
+        controller = vtkMultiProcessController.GetGlobalController()
+        if controller is not None and controller.GetLocalProcessId() > 0:
+            return
+        folder = breccia_insitu.folder()
+        pattern = re.compile(re.escape(self._name) + r"_(\d{9})(\D*([-\d.]+)\D+([-\d.]+)\D*)?\.png")
+        found = (match for match in map(pattern.fullmatch, sorted(os.listdir(folder))) if match)
+        rows = [(self._times[int(m[1])], m[3], m[4], m[0]) for m in found if int(m[1]) in self._times]
+        turns = any(row[1] for row in rows)
+        lines = ["time,phi,theta,FILE" if turns else "time,FILE"]
+        lines += [f"{time!r},{phi},{theta},{file}" if turns else f"{time!r},{file}" for time, phi, theta, file in rows]
+        temporary = os.path.join(folder, ".data.csv.tmp")
+        with open(temporary, "w", encoding="utf-8") as table:
+            table.write("\n".join(lines) + "\n")
+            table.flush()
+            os.fsync(table.fileno())
+        os.replace(temporary, os.path.join(folder, "data.csv"))
+
+    def place_camera(self, producer):
+        """Where the parameters say, so that the channel is seen whole; once, so that pictures can be laid over each other."""
         if self._placed:
             return
+        low, high = bounds_of(producer)
+        if low[0] > high[0]:
+            return  # nothing to see yet
         self._placed = True
         azimuth = math.radians(breccia_insitu.parameter("azimuth", 38.0))
         elevation = math.radians(breccia_insitu.parameter("elevation", 32.0))
         towards = [math.sin(azimuth) * math.cos(elevation), math.sin(elevation), math.cos(azimuth) * math.cos(elevation)]
         up = [-math.sin(azimuth) * math.sin(elevation), math.cos(elevation), -math.cos(azimuth) * math.sin(elevation)]
-        self.view.CameraFocalPoint = [0, 0, 0]
-        self.view.CameraPosition = towards
+        right = [math.cos(azimuth), 0.0, -math.sin(azimuth)]
+        # The shadow of a box on an axis is the sum of the shadows of its edges.
+        wide, tall = (sum(abs(axis[i]) * (high[i] - low[i]) for i in range(3)) for axis in (right, up))
+        aspect = self.view.ViewSize[0] / self.view.ViewSize[1]
+        scale = 0.5 * max(tall / 0.85, wide / (0.80 * aspect)) / breccia_insitu.parameter("zoom", 1.0)
+        shift = 0.06 * aspect * 2 * scale  # the bar of the colours stands on the right
+        centre = [(low[i] + high[i]) / 2 + shift * right[i] for i in range(3)]
+        distance = 4 * max(high[i] - low[i] for i in range(3))
+        self.view.CameraFocalPoint = centre
+        self.view.CameraPosition = [centre[i] + distance * towards[i] for i in range(3)]
         self.view.CameraViewUp = up
-        self.view.ResetCamera()
-        self.view.CameraParallelScale /= breccia_insitu.parameter("zoom", 1.0) * 1.15
+        self.view.CameraParallelScale = scale
+        self.view.CenterOfRotation = centre
 
 
 def table_range(table, low, high):

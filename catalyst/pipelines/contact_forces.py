@@ -4,15 +4,11 @@
 Parameters besides those of every picture (breccia_pictures.py): upper, the force of the longest arrow, N; default: the largest so far.
 """
 
-from paraview import catalyst
 from paraview.simple import CellCenters, Glyph, TrivialProducer
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import breccia_insitu
 import breccia_pictures as pictures
-
-options = catalyst.Options()
-options.GenerateCinemaSpecification = 1
 
 NORMAL, FRICTION = [0.78, 0.20, 0.22], [0.15, 0.35, 0.75]
 LONGEST = 0.12  # arrow, of the model's size
@@ -48,13 +44,8 @@ def largest_force():
 
 def model_size():
     """Largest extent of the surface, m."""
-    bounds = data_bounds()
-    return max(pictures.largest(bounds[2 * i + 1]) + pictures.largest(-bounds[2 * i]) for i in range(3))
-
-
-def data_bounds():
-    data = pictures.data_of(surface)
-    return data.GetBounds() if data.GetNumberOfPoints() > 0 else (1e300, -1e300) * 3
+    low, high = pictures.bounds_of(surface)
+    return max(high[i] - low[i] for i in range(3))
 
 
 def catalyst_execute(info):
@@ -65,5 +56,9 @@ def catalyst_execute(info):
     force = upper or largest_so_far
     for glyph in glyphs:
         glyph.ScaleFactor = LONGEST * model_size() / force if force > 0 else 1.0
-    picture.say(info.time, f"{pictures.cells_of(contacts):,} contact points, largest force so far {pictures.quantity(largest_so_far, 'N')}")
-    picture.place_camera()
+    picture.say(info, f"{pictures.cells_of(contacts):,} contact points, largest force so far {pictures.quantity(largest_so_far, 'N')}")
+    picture.place_camera(surface)
+
+
+def catalyst_finalize():
+    picture.list_pictures()

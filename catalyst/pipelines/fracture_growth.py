@@ -4,14 +4,10 @@
 Parameters besides those of every picture (breccia_pictures.py): upper, the time of the newest colour, s; default: the present.
 """
 
-from paraview import catalyst
 from paraview.simple import TrivialProducer
 
 import breccia_insitu
 import breccia_pictures as pictures
-
-options = catalyst.Options()
-options.GenerateCinemaSpecification = 1
 
 surface = TrivialProducer(registrationName="surface")
 fractures = TrivialProducer(registrationName="fractures")
@@ -26,5 +22,9 @@ def catalyst_execute(info):
     surface.UpdatePipeline()
     fractures.UpdatePipeline()
     pictures.table_range(ages, 0.0, upper or info.time or 1e-12)
-    picture.say(info.time, f"{pictures.cells_of(fractures):,} broken joints")
-    picture.place_camera()
+    picture.say(info, f"{pictures.cells_of(fractures):,} broken joints")
+    picture.place_camera(surface)
+
+
+def catalyst_finalize():
+    picture.list_pictures()

@@ -4,13 +4,9 @@
 Parameters: those of every picture (breccia_pictures.py).
 """
 
-from paraview import catalyst
 from paraview.simple import TrivialProducer
 
 import breccia_pictures as pictures
-
-options = catalyst.Options()
-options.GenerateCinemaSpecification = 1
 
 # Twelve colours that stay apart, also for most who see colours differently; ranks beyond them begin anew.
 COLOURS = [0.40, 0.62, 0.85, 0.96, 0.70, 0.35, 0.55, 0.78, 0.52, 0.85, 0.47, 0.45, 0.68, 0.60, 0.82, 0.75, 0.66, 0.55,
@@ -53,5 +49,9 @@ def catalyst_execute(info):
         channel.UpdatePipeline()
     count = pictures.cells_of(domains)
     name_ranks(count)
-    picture.say(info.time, f"{count} ranks, largest load {imbalance():.2f} of the mean")
-    picture.place_camera()
+    picture.say(info, f"{count} rank{'s' if count != 1 else ''}, largest load {imbalance():.2f} of the mean")
+    picture.place_camera(surface)
+
+
+def catalyst_finalize():
+    picture.list_pictures()

@@ -5,15 +5,11 @@ Parameters besides those of every picture (breccia_pictures.py): lower, upper, e
 quantile so far.
 """
 
-from paraview import catalyst
 from paraview.simple import Calculator, TrivialProducer
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import breccia_insitu
 import breccia_pictures as pictures
-
-options = catalyst.Options()
-options.GenerateCinemaSpecification = 1
 
 surface = TrivialProducer(registrationName="surface")
 fractures = TrivialProducer(registrationName="fractures")
@@ -41,5 +37,9 @@ def catalyst_execute(info):
     surface.UpdatePipeline()
     fractures.UpdatePipeline()
     pictures.table_range(colours, lower * 1e-6, upper_end() * 1e-6)
-    picture.say(info.time, f"{pictures.cells_of(fractures):,} broken joints")
-    picture.place_camera()
+    picture.say(info, f"{pictures.cells_of(fractures):,} broken joints")
+    picture.place_camera(surface)
+
+
+def catalyst_finalize():
+    picture.list_pictures()

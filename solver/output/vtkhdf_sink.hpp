@@ -21,8 +21,6 @@ class VtkhdfSink final : public Sink {
 
   /// Writes the parts and their indices, all at once. Throws OutputError naming the file, on all ranks; what was there
   /// before stays. Collective. @pre step, time and number alike on all ranks
-  /// The first rank takes the space beforehand, so a full disk is told by all; an error that only another rank meets in the
-  /// middle of writing together is up to MPI-IO, which may leave ranks waiting.
   void frame(const Frame& frame) override;
 
  private:

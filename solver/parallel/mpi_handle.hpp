@@ -8,7 +8,7 @@
 
 namespace breccia {
 
-/// A duplicate of the communicator it was made of, freed at the end. For parallel/*.cpp, and for HDF5 in output.
+/// A duplicate of the communicator it was made of, freed at the end. For parallel/*.cpp.
 class Communicator::Handle {
  public:
   explicit Handle(MPI_Comm of);

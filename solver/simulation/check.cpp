@@ -104,6 +104,13 @@ struct Division {
   DomainReport report;
 };
 
+/// Mean size of all elements, m: about that of the contactors.
+double mean_size(const LocalMesh& local) {
+  double volume = 0;
+  for (Index s = 0; s < local.num_slots; ++s) volume += local.volume[index(s)];
+  return std::cbrt(6 * std::sqrt(2.0) * volume / static_cast<double>(local.num_elements));
+}
+
 Division divide(const case_::Case& input, const Model& model, int parts) {
   const Mesh& mesh = model.mesh;
   std::vector<Vec3> centroids;
@@ -120,9 +127,10 @@ Division divide(const case_::Case& input, const Model& model, int parts) {
   const std::vector<int> owner = assign_domains(alone, spec, parts, centroids, weight, edge);
   std::vector<std::uint8_t> own_nodes;
   for (const Discretisation d : model.discretisation) own_nodes.push_back(d == Discretisation::own_nodes ? 1 : 0);
-  const Reach reach = reach_of(input, edge);
+  const double buffer = model.has_contact ? largest_buffer(input.detection.buffer, mean_size(model.local)) : 0.0;
+  const Reach reach = reach_of(input, edge, buffer);
   return {spec.kind == DomainKind::rcb ? "rcb" : fmt::format("grid of {} x {} x {}", spec.n[0], spec.n[1], spec.n[2]),
-          report_domains(mesh, model.topology, own_nodes, owner, parts, reach.margin + reach.ring)};
+          report_domains(mesh, model.topology, own_nodes, owner, parts, reach.distance())};
 }
 
 constexpr std::size_t kMostLines = 16;

@@ -10,6 +10,7 @@
 #include "mesh/point_distance.hpp"
 #include "physics/contact/contact_couples.hpp"
 #include "physics/contact/contact_field.hpp"
+#include "simulation/cell_marks.hpp"
 
 namespace breccia {
 
@@ -17,8 +18,6 @@ namespace {
 
 constexpr double kSmallestBuffer = 0.1, kLargestBuffer = 0.4;  ///< shares of the mean size, see the class comment
 constexpr double kBufferSteps = 20;                            ///< steps that a chosen buffer should last for
-/// A search is done when the nodes have really used up this share of their allowance; else the bound is brought down.
-constexpr double kUsedUp = 0.75;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -38,6 +37,8 @@ std::vector<bool> nodes_between_groups(const Mesh& mesh) {
 }
 
 }  // namespace
+
+double largest_buffer(double asked, double contactor_size) { return asked > 0 ? asked : kLargestBuffer * contactor_size; }
 
 ContactSearch::ContactSearch(const ContactSearchParams& search, const ContactParams& params, const Mesh& mesh,
                              const Topology& topology, const LocalMesh& local)
@@ -119,39 +120,31 @@ void ContactSearch::update(const State& state, double max_speed, double dt) {
 
 bool ContactSearch::due(const State& state, double max_speed, double dt, const Communicator& communicator) {
   if (!any_law_) return false;
-  moved_ += max_speed * dt;
-  const double allowed = 0.5 * buffer_;
   if (!searched_) return true;
-  if (moved_ <= allowed) return false;
-  moved_ = communicator.max(largest_displacement(state));
-  return !(moved_ <= kUsedUp * allowed);
+  moved_.step(max_speed * dt);
+  return moved_.used_up(0.5 * buffer_, 0, *local_, state.position, reference_, communicator);
 }
 
-double ContactSearch::largest_displacement(const State& state) const {
-  const double* now = state.position.data();
-  const double* then = reference_.data();
-  double largest = 0;
-  for (std::size_t block = 0; block < reference_.size(); block += 3 * kLanes) {
-    for (std::size_t lane = block; lane < block + kLanes; ++lane) {
-      if (local_->counted[block / 3 + (lane - block)] == 0) continue;
-      const double x = now[lane] - then[lane], y = now[lane + 8] - then[lane + 8], z = now[lane + 16] - then[lane + 16];
-      const double square = x * x + y * y + z * z;
-      largest = square > largest ? square : largest;
-    }
-  }
-  return std::sqrt(largest);
+double ContactSearch::used_up(const State& state, const Communicator& communicator) const {
+  return std::min(1.0, relative_displacement(*local_, state.position, reference_, communicator) / (0.5 * buffer_));
 }
 
-double ContactSearch::used_up(const State& state) const { return std::min(1.0, largest_displacement(state) / (0.5 * buffer_)); }
+double ContactSearch::buffer_for(double step_length) const {
+  const double largest = largest_buffer(search_.buffer, size_);
+  return search_.buffer > 0 ? largest : std::clamp(2 * kBufferSteps * step_length, kSmallestBuffer * size_, largest);
+}
 
-void ContactSearch::search(const State& state, double step_length) {
-  buffer_ = search_.buffer > 0
-                ? search_.buffer
-                : std::clamp(2 * kBufferSteps * step_length, kSmallestBuffer * size_, kLargestBuffer * size_);
+void ContactSearch::search(const State& state, double step_length, std::span<const std::uint8_t> current) {
+  buffer_ = buffer_for(step_length);
   reference_ = state.position;
+  detection::Corners far;
+  far.fill(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
   corners_.clear();
-  for (const Index slot : contact_.contactors) corners_.push_back(load_corners(*local_, reference_.data(), slot));
-  choose_searched();
+  for (const Index slot : contact_.contactors) {
+    corners_.push_back(current.empty() || current[at(slot)] != 0 ? load_corners(*local_, reference_.data(), slot)
+                                                                 : far);
+  }
+  choose_searched(current);
   positions_.clear();
   const FaceRule& rule = face_rule(params_->points_per_face);
   for (const Index p : searched_points_) positions_.push_back(at_point(rule, contact_.points[at(p)], reference_.data()));
@@ -169,36 +162,26 @@ void ContactSearch::search(const State& state, double step_length) {
   couples_replaced(contact_);
   searched_ = true;
   grid_built_ = false;
-  moved_ = 0;
+  moved_.restart();
   ++num_searches_;
 }
 
-namespace {
-
-/// Box of positions.
-struct Extent {
-  Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
-
-  void add(const Vec3& x) {
-    lower = lower.cwiseMin(x);
-    upper = upper.cwiseMax(x);
-  }
-  [[nodiscard]] bool near(const Extent& other, double distance) const {
-    return ((lower - other.upper).array() <= distance).all() && ((other.lower - upper).array() <= distance).all();
-  }
-};
-
-Extent extent_of(const detection::Corners& corners) {
+Extent ContactSearch::extent(const Field<double>& position) const {
   Extent extent;
-  for (const Vec3& x : corners) extent.add(x);
+  for (Index s = 0; s < local_->num_slots; ++s) {
+    if (!contact_.matters(s)) continue;
+    for (const Vec3& x : load_corners(*local_, position.data(), s)) extent.add(x);
+  }
   return extent;
 }
 
-}  // namespace
+detection::Corners ContactSearch::corners_of(Index slot) const {
+  const Index contactor = contact_.contactor_of_slot[at(slot)];
+  return contactor >= 0 ? corners_[at(contactor)] : load_corners(*local_, reference_.data(), slot);
+}
 
-/// Points that may be in a couple with an element that matters, no further than the buffer from the box around those elements,
-/// and all contactors that may be in a couple with one of these points, no further than twice the buffer; and some more.
-void ContactSearch::choose_searched() {
+/// All points and contactors of elements that matter, and what may be in couples with these.
+void ContactSearch::choose_searched(std::span<const std::uint8_t> current) {
   if (contact_.relevant.empty()) {
     searched_points_ = contact_.order;
     searched_contactors_.resize(contact_.contactors.size());
@@ -206,24 +189,48 @@ void ContactSearch::choose_searched() {
     searched_corners_ = corners_;
     return;
   }
-  Extent ours;
-  for (Index s = 0; s < local_->num_slots; ++s) {
-    if (!contact_.matters(s)) continue;
-    for (const Vec3& x : load_corners(*local_, reference_.data(), s)) ours.add(x);
-  }
+  choose_foreign(current);
   searched_contactors_.clear();
   searched_corners_.clear();
   for (std::size_t c = 0; c < corners_.size(); ++c) {
-    if (!extent_of(corners_[c]).near(ours, 3 * buffer_)) continue;
+    const Index slot = contact_.contactors[c];
+    if (!contact_.matters(slot) && foreign_[at(slot)] == 0) continue;
     searched_contactors_.push_back(static_cast<Index>(c));
     searched_corners_.push_back(corners_[c]);
   }
   searched_points_.clear();
-  const FaceRule& rule = face_rule(params_->points_per_face);
   for (const Index p : contact_.order) {
-    Extent point;
-    point.add(at_point(rule, contact_.points[at(p)], reference_.data()));
-    if (point.near(ours, 1.5 * buffer_)) searched_points_.push_back(p);
+    const Index slot = contact_.points[at(p)].slot;
+    if (contact_.matters(slot) || foreign_[at(slot)] > 1) searched_points_.push_back(p);
+  }
+}
+
+/// Elements that do not matter by themselves: 2 if their points may be in a couple with one that does, no further than the buffer
+/// from it, 1 if they may be in a couple with such a point, no further than twice the buffer.
+void ContactSearch::choose_foreign(std::span<const std::uint8_t> current) {
+  foreign_.assign(at(local_->num_slots), 0);
+  const Extent ours = extent(reference_);
+  Extent region;
+  for (Index s = 0; s < local_->num_slots; ++s) {
+    if (contact_.matters(s) || local_->element_of_slot[at(s)] < 0 || (!current.empty() && current[at(s)] == 0)) continue;
+    const Extent element = extent_of(corners_of(s));
+    if (!element.near(ours, kContactorReach * buffer_)) continue;
+    foreign_[at(s)] = 1;
+    region.add(element.lower);
+    region.add(element.upper);
+  }
+  const double cell = std::max(size_, buffer_);
+  CellMarks near(region, cell), nearest(region, cell);
+  for (Index s = 0; s < local_->num_slots; ++s) {
+    if (!contact_.matters(s)) continue;
+    const Extent element = extent_of(corners_of(s));
+    near.mark(element, kContactorReach * buffer_);
+    nearest.mark(element, kPointReach * buffer_);
+  }
+  for (Index s = 0; s < local_->num_slots; ++s) {
+    if (foreign_[at(s)] == 0) continue;
+    const Extent element = extent_of(corners_of(s));
+    foreign_[at(s)] = nearest.any(element) ? 2 : near.any(element) ? 1 : 0;
   }
 }
 

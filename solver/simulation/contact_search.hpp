@@ -12,6 +12,8 @@
 #include "mesh/topology.hpp"
 #include "parallel/communicator.hpp"
 #include "physics/contact/contact_forces.hpp"
+#include "simulation/displacement.hpp"
+#include "simulation/extent.hpp"
 #include "simulation/records.hpp"
 
 namespace breccia {
@@ -33,6 +35,10 @@ struct FreedFace {
   int face;
 };
 
+/// Largest buffer, m, that searches choose. @param asked  m, of the case; 0: chosen at every search
+/// @param contactor_size  m, mean
+[[nodiscard]] double largest_buffer(double asked, double contactor_size);
+
 /// Contact of one rank: joins detection, histories and forces.
 ///
 /// Targets are the points of free faces, contactors all elements of breakable groups and those elements of the others
@@ -41,9 +47,11 @@ struct FreedFace {
 /// around a corner (an element is bonded to itself). This definition is kept at all times: points and couples that a
 /// freed face brings are found by the same test at the same positions, so a full search would find no other set.
 ///
-/// With buffer b the set holds every pair that touches while no node has moved by more than b/2 since the search. The
+/// With buffer b the set holds every pair that touches while no node has moved by more than b/2 since the search, beside
+/// what all have moved together. The
 /// sum of max_speed dt bounds the largest displacement from above; only when it passes b/2 the displacement itself is
-/// looked at, and either the sum is brought down to it or a search is done. Without a buffer given b is 10 % of the
+/// looked at, less what all nodes have moved together (simulation/displacement.hpp), and either the sum is brought down to it
+/// or a search is done. Without a buffer given b is 10 % of the
 /// contactors' mean size (the edge of the regular tetrahedron of their mean volume): the number of couples grows as
 /// (1 + 5 b/size)^3, and so small a buffer still lasts for hundreds of steps of a stiff material. In a run so fast that
 /// it would last for less than 20 steps it is larger, up to 40 %.
@@ -70,7 +78,12 @@ class ContactSearch {
   /// Whether a search is due. Collective. @param max_speed  of all ranks
   [[nodiscard]] bool due(const State& state, double max_speed, double dt, const Communicator& communicator);
   /// A full search. @param step_length  m, max_speed dt
-  void search(const State& state, double step_length);
+  /// @param current  (num_slots) 1: at its position of now; others are further than search_reach() from what matters. Empty: all
+  void search(const State& state, double step_length, std::span<const std::uint8_t> current = {});
+  /// How far around extent() a search will look, m.
+  [[nodiscard]] double search_reach(double step_length) const { return kContactorReach * buffer_for(step_length); }
+  /// Box around the elements that matter.
+  [[nodiscard]] Extent extent(const Field<double>& position) const;
   /// Where the case asks for it: throws InternalError naming the pair if a pair touches and is no couple.
   void verify(const State& state) const;
   [[nodiscard]] bool verifies() const { return search_.verify; }
@@ -98,7 +111,8 @@ class ContactSearch {
   [[nodiscard]] const CornerClusters& clusters() const { return clusters_; }
   [[nodiscard]] double buffer() const { return buffer_; }                    ///< m, of the last search
   /// Share, 0..1, of what nodes may move after the last search that they have moved. @pre there was one
-  [[nodiscard]] double used_up(const State& state) const;
+  /// Collective.
+  [[nodiscard]] double used_up(const State& state, const Communicator& communicator) const;
   [[nodiscard]] double contactor_size() const { return size_; }              ///< m, mean
   [[nodiscard]] std::int64_t num_searches() const { return num_searches_; }  ///< full ones
 
@@ -110,10 +124,12 @@ class ContactSearch {
   void restore_contactors(const Records& records);
   void restore_histories(const Records& records);
   void add_points_of(Index element, int face);
-  [[nodiscard]] double largest_displacement(const State& state) const;
+  [[nodiscard]] double buffer_for(double step_length) const;
   [[nodiscard]] bool may_touch(Index point, Index contactor) const;
   [[nodiscard]] bool has_law(Index slot, Index other) const;
-  void choose_searched();
+  [[nodiscard]] detection::Corners corners_of(Index slot) const;
+  void choose_searched(std::span<const std::uint8_t> current);
+  void choose_foreign(std::span<const std::uint8_t> current);
   void keep_relevant();
   [[nodiscard]] TouchingCouple restored(const CoupleRecord& record) const;
   [[nodiscard]] CoupleRecord record_of(const TouchingCouple& couple, GlobalId element) const;
@@ -125,6 +141,10 @@ class ContactSearch {
   void couple_separated(std::size_t first);
   void couple_points_of(Index element, Index other, std::size_t first);
   void add_made();
+
+  // In buffers: how far points in couples with elements that matter are from these at most, and what is in couples with such
+  // points. A little more for round-off.
+  static constexpr double kPointReach = 1.01, kContactorReach = 2.02;
 
   ContactSearchParams search_;
   const ContactParams* params_;
@@ -145,14 +165,15 @@ class ContactSearch {
   bool grid_built_ = false;
   double buffer_ = 0;  ///< m
   double size_ = 0;    ///< m, mean size of a contactor
-  double moved_ = 0;   ///< m, bound of the largest displacement since
+  DisplacementWatch moved_;
   std::int64_t num_searches_ = 0;
   Field<double> reference_;                  ///< nodal field, positions
-  std::vector<detection::Corners> corners_;  ///< (contactors)
+  std::vector<detection::Corners> corners_;  ///< (contactors) NaN: out of reach
 
   // Work space.
   std::vector<Index> searched_points_, searched_contactors_;  ///< by ascending ids
   std::vector<detection::Corners> searched_corners_;
+  std::vector<std::uint8_t> foreign_;                         ///< (slots) choose_foreign()
   std::vector<Vec3> positions_;
   std::vector<detection::Couple> found_;
   std::vector<ContactCouple> made_;

@@ -2,38 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "simulation/extent.hpp"
 
 namespace breccia {
 namespace {
 
-struct Box {
-  std::array<double, 3> lower, upper;
-
-  static Box empty() {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    return {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
-  }
-  void add(const ElementRecord& element) {
-    for (const auto& x : element.position) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        lower[i] = std::min(lower[i], x[i]);
-        upper[i] = std::max(upper[i], x[i]);
-      }
-    }
-  }
-  [[nodiscard]] bool within(const Box& other, double distance) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!(lower[i] - distance <= other.upper[i] && other.lower[i] <= upper[i] + distance)) return false;
-    }
-    return true;
-  }
-};
-
-Box box_of(const ElementRecord& element) {
-  Box box = Box::empty();
-  box.add(element);
-  return box;
+Extent extent_of(const ElementRecord& element) {
+  Extent extent;
+  for (const auto& x : element.position) extent.add(Vec3(x[0], x[1], x[2]));
+  return extent;
 }
 
 Vec3 centroid(const ElementRecord& element) {
@@ -69,15 +47,20 @@ Records migrate(const Communicator& communicator, Records mine, const std::vecto
 
 /// Originals that other ranks need.
 Marks needed_elsewhere(const Communicator& communicator, const Records& owned, double reach) {
-  Box box = Box::empty();
-  for (const ElementRecord& element : owned.elements) box.add(element);
-  const std::vector<std::vector<Box>> boxes = communicator.all_gather(std::span<const Box>(&box, 1));
-  Marks wanted(boxes.size());
-  for (std::size_t r = 0; r < boxes.size(); ++r) {
+  std::vector<Extent> elements;
+  Extent all;
+  for (const ElementRecord& element : owned.elements) {
+    elements.push_back(extent_of(element));
+    all.add(elements.back().lower);
+    all.add(elements.back().upper);
+  }
+  const std::vector<std::vector<Extent>> extents = communicator.all_gather(std::span<const Extent>(&all, 1));
+  Marks wanted(extents.size());
+  for (std::size_t r = 0; r < extents.size(); ++r) {
     wanted[r].assign(owned.elements.size(), 0);
-    if (static_cast<int>(r) == communicator.rank() || !box.within(boxes[r][0], reach)) continue;
+    if (static_cast<int>(r) == communicator.rank() || !all.near(extents[r][0], reach)) continue;
     for (std::size_t e = 0; e < owned.elements.size(); ++e) {
-      if (box_of(owned.elements[e]).within(boxes[r][0], reach)) wanted[r][e] = 1;
+      if (elements[e].near(extents[r][0], reach)) wanted[r][e] = 1;
     }
   }
   return wanted;
@@ -85,11 +68,11 @@ Marks needed_elsewhere(const Communicator& communicator, const Records& owned, d
 
 }  // namespace
 
-Reach reach_of(const case_::Case& input, double edge) {
+Reach reach_of(const case_::Case& input, double edge, double buffer) {
   // Forces meet at shared nodes that come from what touches any of their elements: one more ring.
   const bool shared_nodes = std::any_of(input.materials.begin(), input.materials.end(),
                                         [](const case_::Material& m) { return m.joints == case_::JointPlacement::none; });
-  return {input.domains.margin * edge, (shared_nodes ? 2 : 1) * edge};
+  return {input.domains.margin * edge, (shared_nodes ? 2 : 1) * edge, 2 * buffer};
 }
 
 DomainSpec domain_spec(const case_::Case& input) {
@@ -108,7 +91,7 @@ Piece decompose(const Communicator& communicator, DomainSpec& domains, Records m
   Records owned = migrate(communicator, std::move(mine), owner);
 
   Piece piece;
-  const Marks wanted = needed_elsewhere(communicator, owned, reach.margin + reach.ring);
+  const Marks wanted = needed_elsewhere(communicator, owned, reach.distance());
   std::vector<SharedElements> by_rank(wanted.size());
   for (std::size_t r = 0; r < wanted.size(); ++r) {
     by_rank[r].rank = static_cast<int>(r);

@@ -19,21 +19,26 @@ struct Piece {
 
 /// How far the proxies reach.
 ///
-/// A rank holds every element whose box comes within `margin` + `ring` of the box around its originals. Until a node has
-/// moved by `allowed_motion()` since, that is enough for the same bits as on one rank:
-/// - whatever touches an original then, or has touched what is passing its history on to it, was within 4 motions of
-///   it, i.e. within the margin;
+/// A rank holds every element whose box comes within distance() of the box around its originals. Until nodes have moved by more
+/// than allowed_motion() since, beside what all have moved together, that is enough for the same bits as on one rank:
+/// - what touches an original then is within twice that motion, the margin;
+/// - a point that comes to an original brings the history of what it touched on its way, which counts from the last search:
+///   then its rank told what it touched. Since then neither it nor any element has moved by more than half the search's buffer,
+///   so that all it touched is within two buffers more;
 /// - around such elements corner clusters are complete, since what is bonded to them at a vertex is no further away than
 ///   the largest element: the ring.
 struct Reach {
-  double margin = 0;  ///< m
-  double ring = 0;    ///< m
+  double margin = 0;   ///< m
+  double ring = 0;     ///< m
+  double buffers = 0;  ///< m, two of the largest
 
-  [[nodiscard]] double allowed_motion() const { return margin / 4; }
+  [[nodiscard]] double allowed_motion() const { return margin / 2; }
+  [[nodiscard]] double distance() const { return margin + ring + buffers; }
 };
 
-/// @param edge  m, longest of an element
-[[nodiscard]] Reach reach_of(const case_::Case& input, double edge);
+/// @param edge    m, longest of an element
+/// @param buffer  m, largest that a search may choose
+[[nodiscard]] Reach reach_of(const case_::Case& input, double edge, double buffer);
 
 /// What the case asks for.
 [[nodiscard]] DomainSpec domain_spec(const case_::Case& input);

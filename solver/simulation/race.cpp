@@ -218,7 +218,7 @@ class Race {
     Lap& least = entries_[turn].least;
     least.searches = share.stepper().searches() - start_.ledger.searches;
     least.used = static_cast<double>(least.searches - 1) +
-                 communicator_.max(share.stepper().contact()->used_up(share.stepper().state()));
+                 share.stepper().contact()->used_up(share.stepper().state(), communicator_);
     least.couples = couples_of(share);
     least_.push_back(pieces);
   }

@@ -9,10 +9,8 @@
 namespace breccia {
 namespace {
 
-/// A decomposition is done when nodes have really used up this share of their allowance; else the bound is brought down.
-constexpr double kUsedUp = 0.75;
-/// The margin is stretched, but no further than this, so that at the present speed a division lasts for so many steps.
-constexpr double kLasting = 300, kMostStretched = 5;
+/// The margin is stretched, but no further than this, so that at the present speed nodes use it up in so many steps.
+constexpr double kLasting = 400, kMostStretched = 5;
 /// A new division must have paid for itself after so many steps; an imbalance below this is mostly noise.
 constexpr double kHorizon = 500, kWorthBalancing = 1.05;
 
@@ -75,8 +73,8 @@ void Share::rebuild(WholeModel whole, Records mine, const std::vector<double>& w
   stepper_.reset();
   time_step_.reset();
   model_.reset();
-  reach_ = reach_of(input_, longest_edge(communicator_, mine));
-  reach_.margin *= std::clamp(kLasting * motion_ / (kUsedUp * reach_.allowed_motion()), 1.0, kMostStretched);
+  reach_ = reach_of(input_, longest_edge(communicator_, mine), largest_buffer(input_.detection.buffer, whole.contactor_size));
+  reach_.margin *= std::clamp(kLasting * motion_ / reach_.allowed_motion(), 1.0, kMostStretched);
   build(decompose(communicator_, domains_, std::move(mine), weight, reach_), std::move(whole), std::move(ledger));
 }
 
@@ -95,7 +93,7 @@ void Share::build(const Piece& piece, WholeModel whole, Ledger ledger) {
     stepper_->restore_holds(piece.records);
   }
   anchor_ = stepper_->state().position;
-  moved_ = 0;
+  moved_.restart();
 }
 
 void Share::begin_stage(const case_::Stage& stage, double dt) {
@@ -122,22 +120,12 @@ bool Share::balancing_pays() {
          lost * kHorizon > decomposition_s_;
 }
 
-/// The sum of the largest speeds bounds the largest displacement; they are known a step late, so that the last step and the
-/// next are counted beforehand, at twice the speed.
+/// Speeds are known a step late, so that the last step and the next are counted beforehand, at twice the speed.
 bool Share::left_reach() {
   motion_ = stepper_->max_speed_anywhere() * stepper_->dt();
-  moved_ += motion_;
-  const double allowed = reach_.allowed_motion();
-  if (moved_ + 4 * motion_ <= allowed) return false;
-  const LocalMesh& local = model_->local;
-  const Field<double>& now = stepper_->state().position;
-  double square = 0;
-  for (Index n = 0; n < local.num_nodes; ++n) {
-    if (local.counted[static_cast<std::size_t>(n)] == 0) continue;
-    square = std::max(square, (load_node(now.data(), n) - load_node(anchor_.data(), n)).squaredNorm());
-  }
-  moved_ = communicator_.max(std::sqrt(square));
-  return !(moved_ + 4 * motion_ <= kUsedUp * allowed);
+  moved_.step(motion_);
+  return moved_.used_up(reach_.allowed_motion(), 4 * motion_, model_->local, stepper_->state().position, anchor_,
+                        communicator_);
 }
 
 }  // namespace breccia

@@ -5,6 +5,7 @@
 #include "case/case.hpp"
 #include "simulation/balance.hpp"
 #include "simulation/decomposition.hpp"
+#include "simulation/displacement.hpp"
 #include "simulation/stepper.hpp"
 #include "simulation/time_step.hpp"
 
@@ -73,8 +74,8 @@ class Share {
   double decomposition_s_ = 0;  ///< s, that the last decomposition took on the slowest rank
   Reach reach_;
   double motion_ = 0;     ///< m, largest of a node in a step, at present
-  double moved_ = 0;      ///< m, bound of the largest displacement since the decomposition
-  Field<double> anchor_;  ///< nodal field, positions then
+  DisplacementWatch moved_;
+  Field<double> anchor_;  ///< nodal field, positions at the decomposition, from which moved_ counts
 };
 
 }  // namespace breccia

@@ -62,9 +62,9 @@ struct Ledger {
 ///
 /// On several ranks a rank computes the forces on its originals, nothing else: joints and couples with an element of
 /// another rank are computed on both, from the same numbers in the same order. Of its proxies only the near ones are
-/// gathered in every step, those that share a joint or a couple with an original, the former without velocities; all of
-/// them when there is news: a search is due, or joints have come apart. Then ranks also tell each other what the points of
-/// their elements touch.
+/// gathered in every step, those that share a joint or a couple with an original, the former without velocities. Before a
+/// search those are that have come near to the originals of the rank; after it, and when joints have come apart, ranks tell
+/// each other what the points of their elements touch.
 class Stepper {
  public:
   /// @pre model outlives this object and does not change.
@@ -164,6 +164,7 @@ class Stepper {
   [[nodiscard]] std::vector<std::uint8_t> moving_slots() const;
   void plan_near();
   void hear_releases();
+  void hear_positions(double distance);
   void exchange_touching();
   void update_contact();
   void hear_votes();
@@ -172,6 +173,8 @@ class Stepper {
   [[nodiscard]] SweepArgs sweep_args(bool sample);
   void sweep(const SweepArgs& args);
   void gather_proxies();
+  void gather(Halo& halo, Field<double>& position);
+  [[nodiscard]] const SharedSlots& neighbour(int rank) const;
   void remember_held();
   void rebook_damping(const SweepArgs& args, const std::vector<Vec3>& free);
   void check_finite(const SweepStatus& status);
@@ -214,7 +217,9 @@ class Stepper {
 
   Communicator communicator_;               ///< alone unless connected
   std::vector<SharedSlots> shared_;         ///< with every neighbour
-  std::unique_ptr<Halo> all_, near_;        ///< proxies; none when alone
+  std::unique_ptr<Halo> near_;              ///< proxies that forces here depend on; none when alone
+  std::unique_ptr<Halo> all_;               ///< all of them, where the case wants couples verified
+  std::vector<std::uint8_t> current_;       ///< (slots) 1: near enough to be searched, and where it is now
   ExchangeKind exchange_ = ExchangeKind::non_blocking;
   bool news_ = false;                       ///< some rank's joints came apart
   std::int64_t messages_ = 0, bytes_ = 0;   ///< of halos that are gone

@@ -21,7 +21,7 @@ void Stepper::connect(const Communicator& communicator, const std::vector<Shared
     return list;
   };
   for (const SharedElements& elements : shared) shared_.push_back({elements.rank, slots(elements.send), slots(elements.receive)});
-  all_ = std::make_unique<Halo>(communicator_, halo_plan(shared_), 2, exchange_);
+  if (contact_ && contact_->verifies()) all_ = std::make_unique<Halo>(communicator_, halo_plan(shared_), 2, exchange_);
   if (contact_) contact_->restrict_to(relevant_);
   plan_near();
   vote_.emplace(communicator, 6);
@@ -83,6 +83,12 @@ std::vector<std::uint8_t> Stepper::moving_slots() const {
   return moving;
 }
 
+const SharedSlots& Stepper::neighbour(int rank) const {
+  const auto found = std::find_if(shared_.begin(), shared_.end(), [&](const SharedSlots& s) { return s.rank == rank; });
+  DEMAND(found != shared_.end(), "rank " + std::to_string(rank) + " is no neighbour");
+  return *found;
+}
+
 /// Asks the owners of near proxies for them, by their places among what is shared: the place, or ~place if the position suffices.
 void Stepper::plan_near() {
   const std::vector<std::uint8_t> near = near_slots(), moving = moving_slots();
@@ -99,9 +105,7 @@ void Stepper::plan_near() {
     }
   }
   for (const auto& [rank, places] : communicator_.exchange(lists)) {
-    const auto k = static_cast<std::size_t>(std::find_if(shared_.begin(), shared_.end(), [&](const auto& s) { return s.rank == rank; }) -
-                                            shared_.begin());
-    DEMAND(k < shared_.size(), "rank " + std::to_string(rank) + " is no neighbour");
+    const auto k = static_cast<std::size_t>(&neighbour(rank) - shared_.data());
     for (const Index place : places) {
       (place >= 0 ? wanted[k].send : wanted[k].send_position).push_back(shared_[k].send[at(place >= 0 ? place : ~place)]);
     }
@@ -113,8 +117,10 @@ void Stepper::plan_near() {
   near_ = std::make_unique<Halo>(communicator_, halo_plan(wanted), 2, exchange_);
 }
 
-std::int64_t Stepper::messages() const { return messages_ + (all_ ? all_->messages() + near_->messages() : 0); }
-std::int64_t Stepper::bytes() const { return bytes_ + (all_ ? all_->bytes() + near_->bytes() : 0); }
+std::int64_t Stepper::messages() const {
+  return messages_ + (near_ ? near_->messages() : 0) + (all_ ? all_->messages() : 0);
+}
+std::int64_t Stepper::bytes() const { return bytes_ + (near_ ? near_->bytes() : 0) + (all_ ? all_->bytes() : 0); }
 
 /// What all ranks said at the end of the last step.
 void Stepper::hear_votes() {
@@ -164,30 +170,69 @@ void Stepper::hear_releases() {
 }
 
 void Stepper::update_contact() {
+  const double step_length = max_speed_anywhere_ * dt_before_;
   bool due = false;
   communicator_.set_phase("contact search");
   {
     const auto lap = timer_.measure(Phase::search);
     due = contact_->due(state_, max_speed_anywhere_, dt_before_, communicator_);
   }
-  const bool stale = vote_ && (due || news_ || contact_->verifies());
-  if (stale) {
+  if (vote_ && (due || all_)) {
     const auto lap = timer_.measure(Phase::communication);
-    all_->gather_begin(std::array{state_.position.data(), state_.velocity.data()});
-    all_->gather_end();
+    if (all_) gather(*all_, state_.position);
+    if (due) hear_positions(contact_->search_reach(step_length));
   }
   {
     const auto lap = timer_.measure(Phase::search);
     // In this order, so that what fracture makes touch is known as such also when nothing has been searched yet.
-    if (due) contact_->search(state_, max_speed_anywhere_ * dt_before_);
+    if (due) contact_->search(state_, step_length, current_);
     if (!freed_.empty()) contact_->release_faces(freed_);
   }
-  if (stale) {
+  if (vote_ && (due || news_)) {
     const auto lap = timer_.measure(Phase::communication);
     exchange_touching();
     plan_near();
+    gather(*near_, state_.position);
   }
   contact_->verify(state_);
+}
+
+namespace {
+
+struct MovedElement {
+  std::int64_t place;  ///< among what is shared
+  detection::Corners corners;
+};
+
+}  // namespace
+
+/// Every rank tells the others where those of its elements are that have come near to what matters to them.
+void Stepper::hear_positions(double distance) {
+  const Extent mine = contact_->extent(state_.position);
+  const auto extents = communicator_.all_gather(std::span(&mine, 1));
+  std::vector<Communicator::ListOf<MovedElement>> lists;
+  for (const SharedSlots& shared : shared_) {
+    const Extent& theirs = extents[static_cast<std::size_t>(shared.rank)][0];
+    std::vector<MovedElement>& moved = lists.emplace_back(shared.rank).entries;
+    for (std::size_t i = 0; i < shared.send.size(); ++i) {
+      const detection::Corners corners = load_corners(model_.local, state_.position.data(), shared.send[i]);
+      if (extent_of(corners).near(theirs, distance)) moved.push_back({static_cast<std::int64_t>(i), corners});
+    }
+    if (moved.empty()) continue;
+    ++messages_;
+    bytes_ += static_cast<std::int64_t>(moved.size() * sizeof(MovedElement));
+  }
+  current_ = relevant_;
+  for (const auto& [rank, elements] : communicator_.exchange(lists)) {
+    const std::vector<Index>& receive = neighbour(rank).receive;
+    for (const MovedElement& element : elements) {
+      const Index slot = receive[static_cast<std::size_t>(element.place)];
+      for (int c = 0; c < 4; ++c)
+        store_node(state_.position.data(), model_.local.corner_node(slot, c),
+                   element.corners[static_cast<std::size_t>(c)]);
+      current_[at(slot)] = 1;
+    }
+  }
 }
 
 /// Every rank tells its neighbours what the points of their proxies touch.
@@ -203,8 +248,12 @@ void Stepper::gather_proxies() {
   if (!near_) return;
   const auto lap = timer_.measure(Phase::communication);
   communicator_.set_phase("gather of proxies");
-  near_->gather_begin(std::array{state_.next_position.data(), state_.velocity.data()});
-  near_->gather_end();
+  gather(*near_, state_.next_position);
+}
+
+void Stepper::gather(Halo& halo, Field<double>& position) {
+  halo.gather_begin(std::array{position.data(), state_.velocity.data()});
+  halo.gather_end();
 }
 
 }  // namespace breccia

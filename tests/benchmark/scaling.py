@@ -3,7 +3,11 @@
 The case "corner" compares a fixed grid, all of whose bodies are pulled into one half, with domains that follow the work; it runs
 to its end and takes its sizes from --smallest and --largest, but not --steps.
 
-usage: scaling.py PROGRAM MESHES FOLDER [--ranks 1,2] [--cases e5a,e5b,e6,corner] [--smallest ELEMENTS] [--largest ELEMENTS] [--steps N] [--repeat N] [--set KEY=VALUE]...
+What the machine itself allows is measured beside it: as many runs on one rank as there are ranks, each of a share of the model and
+on a core of its own, at once and one alone. The column "ceiling" is the ranks times the time alone over the time at once: cores
+share memory, caches and their clock, and a speed-up beyond that cannot be had but by smaller working sets.
+
+usage: scaling.py PROGRAM MESHES FOLDER [--ranks 1,2] [--cases e5a,e5b,e6,corner] [--smallest ELEMENTS] [--largest ELEMENTS] [--steps N] [--repeat N] [--no-ceiling] [--set KEY=VALUE]...
 
 Every case runs on each number of ranks in turn, --repeat times; the shortest wall time counts. Writes FOLDER/scaling.csv and, where
 gnuplot is there, FOLDER/scaling.svg. Ends with 1 if two runs of a case differ in a single bit of their state or kinetic energy.
@@ -32,6 +36,16 @@ def plate(cells, size):
     return ["slit_plate/case_a.toml", f"mesh.raster.cells=[{6 * cells},{6 * cells},{cells}]", f'mesh.raster.cell_size="{size} mm"']
 
 
+def share_of_boxes(elements, ranks):
+    n = round((elements / 24) ** (1 / 3))
+    return f"mesh.raster.boxes=[{n},{n},{max(1, n // ranks)}]"
+
+
+def share_of_plate(elements, ranks):
+    n = round((elements / 864) ** (1 / 3))
+    return f"mesh.raster.cells=[{6 * n},{6 * n},{max(1, n // ranks)}]"
+
+
 # Elements -> case with its settings, the reference's speed-ups on 2 and 4 ranks: of the whole, of contact detection.
 CASES = {
     "e5a": {24 * n**3: (boxes("case.toml", n), whole, search) for n, whole, search in (
@@ -47,6 +61,12 @@ CASES = {
 # Cases that run in several divisions of space on several ranks: name of the division -> its settings.
 DIVISIONS = {"corner": {"grid": lambda ranks: ["domains.kind=grid", f"domains.n=[{ranks},1,1]"], "rcb": lambda ranks: []}}
 TO_THE_END = {"corner"}
+
+# A share of a case's model as a model of its own, for the ceiling: elements, ranks -> settings.
+SHARES = {
+    "e5a": lambda elements, ranks: [share_of_boxes(elements, ranks)], "e5b": lambda elements, ranks: [share_of_boxes(elements, ranks)],
+    "e6": lambda elements, ranks: [share_of_plate(elements, ranks)],
+}
 
 PLOT = """set terminal svg size 900,600 background "white"
 set output "scaling.svg"
@@ -64,17 +84,42 @@ def divisions(case, ranks):
     return DIVISIONS.get(case, {}) if ranks > 1 else {}
 
 
+def command_of(arguments, elements, case, folder, more):
+    (file, *settings), _, _ = CASES[case][elements]
+    command = [arguments.program, "run", "-f", "--progress", "none", "-o", folder, arguments.meshes / file, *SILENT]
+    if case not in TO_THE_END:
+        settings = settings + [f"time.max_steps={arguments.steps}"]
+    for setting in settings + more + arguments.set:
+        command += ["--set", setting]
+    return command
+
+
+def seconds_at_once(arguments, elements, case, ranks, copies):
+    """The longest wall time of so many runs at once, each of the share of one of `ranks`, on a core of its own."""
+    folders = [arguments.folder / f"{case}_{elements}_share{copy}" for copy in range(copies)]
+    more = SHARES[case](elements, ranks)
+    cores = sorted(os.sched_getaffinity(0))
+    runs = []
+    for copy, folder in enumerate(folders):
+        command = ["taskset", "-c", str(cores[copy])] + command_of(arguments, elements, case, folder, more)
+        runs.append(subprocess.Popen(command))
+    if any([process.wait() != 0 for process in runs]):
+        sys.exit(f"{case}, {elements} elements: a run of a share failed")
+    return max(json.loads((folder / "summary.json").read_text())["wall_s"] for folder in folders)
+
+
+def ceiling(arguments, case, elements, ranks):
+    """What so many cores of this machine allow; "" where that is not measured."""
+    if arguments.no_ceiling or case not in SHARES or not 1 < ranks <= len(os.sched_getaffinity(0)) or not shutil.which("taskset"):
+        return ""
+    alone, together = ([seconds_at_once(arguments, elements, case, ranks, copies) for _ in range(arguments.repeat)] for copies in (1, ranks))
+    return round(ranks * min(alone) / min(together), 3)
+
+
 def run(arguments, elements, case, ranks, division):
     """One run; returns its summary and its kinetic energies."""
     folder = arguments.folder / f"{case}_{elements}_{ranks}{division}"
-    (file, *settings), _, _ = CASES[case][elements]
-    command = [arguments.program, "run", "-f", "--progress", "none", "-o", folder, arguments.meshes / file, *SILENT]
-    if division:
-        settings = settings + DIVISIONS[case][division](ranks)
-    if case not in TO_THE_END:
-        settings = settings + [f"time.max_steps={arguments.steps}"]
-    for setting in settings + arguments.set:
-        command += ["--set", setting]
+    command = command_of(arguments, elements, case, folder, DIVISIONS[case][division](ranks) if division else [])
     if ranks > 1:
         placed = ["--bind-to", "core"] if ranks <= (os.cpu_count() or 1) else ["--oversubscribe"]
         command = ["mpiexec", *placed, "-n", str(ranks)] + command
@@ -100,12 +145,13 @@ def measure(arguments, case, elements):
                 if key not in best or summary["wall_s"] < best[key]["wall_s"]:
                     best[key] = summary
     _, whole, search = CASES[case][elements]
+    ceilings = {ranks: ceiling(arguments, case, elements, ranks) for ranks in arguments.ranks}
     for (ranks, division), s in best.items():
         one = best.get((1, ""), s)
         phases, steps = s["phases"], max(s["steps"], 1)
         yield {
             "case": case, "elements": elements, "ranks": ranks, "division": division, "steps": s["steps"], "wall_s": round(s["wall_s"], 3),
-            "speedup": round(one["wall_s"] / s["wall_s"], 3) if (1, "") in best else "", "reference_speedup": whole.get(ranks, ""),
+            "speedup": round(one["wall_s"] / s["wall_s"], 3) if (1, "") in best else "", "ceiling": ceilings[ranks], "reference_speedup": whole.get(ranks, ""),
             "search_s": round(phases["search"], 4),
             "search_speedup": round(one["phases"]["search"] / phases["search"], 3) if (1, "") in best and phases["search"] > 0 else "",
             "reference_search_speedup": search.get(ranks, ""),
@@ -147,6 +193,7 @@ def main():
     parser.add_argument("--largest", type=int, default=10**9)
     parser.add_argument("--steps", type=int, default=2000)
     parser.add_argument("--repeat", type=int, default=1)
+    parser.add_argument("--no-ceiling", action="store_true")
     parser.add_argument("--set", action="append", default=[])
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True, exist_ok=True)

@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -118,10 +119,11 @@ TEST(Ranks, GiveTheSameBitsWhileBoxesBreakRubAndAreHeld) {
 
 TEST(Ranks, GiveTheSameBitsWhenTheModelIsDividedAgainAndAgain) {
   const Scratch scratch;
-  SameBits boxes(scratch.write("case.toml", test::kSmallCase));
+  SameBits boxes(scratch.write("case.toml", test::changed("end = \"4 ms\"", "end = \"10 ms\"")));
   EXPECT_GT(boxes.on(2, "--set domains.margin=0.1").at("decompositions"), 5);
   EXPECT_GT(boxes.on(3, "--set domains.margin=0.1").at("decompositions"), 5);
   EXPECT_GT(boxes.on(4, "--set domains.margin=0.1 --set detection.algorithm=ms").at("decompositions"), 5);
+  EXPECT_GT(boxes.on(3, "--set domains.margin=0.1 --set detection.verify=true").at("decompositions"), 5);
 }
 
 TEST(Ranks, GiveTheSameBitsWhile64BoxesShatterInASphere) {
@@ -248,6 +250,25 @@ TEST(Ranks, DieTogetherWhenOneIsKilledAndLeaveCompleteFrames) {
   const auto index = nlohmann::json::parse(test::read_text(series));
   ASSERT_FALSE(index.at("files").empty());
   for (const auto& frame : index.at("files")) {
+    EXPECT_TRUE(std::filesystem::exists(series.parent_path() / frame.at("name").get<std::string>()));
+  }
+}
+
+TEST(Ranks, EndTogetherWhenOneCannotWriteItsPieceOfAFrame) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", test::changed("end = \"4 ms\"", "end = \"4 s\""));
+  const pid_t launcher = test::start_ranks(3, "run --progress none -o '" + scratch.path("out").string() + "' " + file);
+  const auto series = scratch.path("out") / "frames" / "elements.hdf.series";
+  ASSERT_TRUE(within(std::chrono::seconds(60), [&] { return std::filesystem::exists(series) && children_of(launcher).size() >= 3; }));
+  const rlimit nothing{0, 0};
+  ASSERT_EQ(prlimit(children_of(launcher)[1], RLIMIT_FSIZE, &nothing, nullptr), 0);
+  int status = 0;
+  const bool ended = within(std::chrono::seconds(60), [&] { return waitpid(launcher, &status, WNOHANG) == launcher; });
+  if (!ended) kill(launcher, SIGKILL);
+  ASSERT_TRUE(ended);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  for (const auto& frame : nlohmann::json::parse(test::read_text(series)).at("files")) {
     EXPECT_TRUE(std::filesystem::exists(series.parent_path() / frame.at("name").get<std::string>()));
   }
 }

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <tuple>
 #include <vector>
 
 #include "base/error.hpp"
@@ -117,6 +118,21 @@ TEST(Records, OfAPieceKeepIdsAndTellFreeFacesFromElementsBeyond) {
   EXPECT_GT(beyond, 10);
 }
 
+/// Equal member by member; the bytes between members are nobody's.
+void expect_equal(const Records& a, const Records& b) {
+  const auto each = [](const auto& left, const auto& right, auto&& members) {
+    ASSERT_EQ(left.size(), right.size());
+    for (std::size_t i = 0; i < left.size(); ++i) EXPECT_EQ(members(left[i]), members(right[i]));
+  };
+  each(a.elements, b.elements, [](const ElementRecord& e) {
+    return std::tuple(e.id, e.source_id, e.group, e.body, e.vertex, e.neighbour, e.code, e.reference, e.position);
+  });
+  each(a.joints, b.joints, [](const JointRecord& j) { return std::tuple(j.element, j.other, j.joint.mode_1); });
+  each(a.holds, b.holds, [](const HoldRecord& h) { return std::tuple(h.element, h.entry, h.corner, h.axis, h.start, h.velocity); });
+  each(a.faces, b.faces, [](const FaceTag& f) { return std::tuple(f.element, f.group, f.face); });
+  each(a.corners, b.corners, [](const CornerTag& c) { return c.element; });
+}
+
 TEST(Records, SentAwayAndMergedAgainAreComplete) {
   const Mesh mesh = cubes();
   const Records all = records_of(mesh, build_topology(mesh));
@@ -128,8 +144,7 @@ TEST(Records, SentAwayAndMergedAgainAreComplete) {
   Records arrivals;
   unpack(pack(all, odd), arrivals);
   merge(back, std::move(arrivals));
-  const std::vector<std::uint8_t> everything(all.elements.size(), 1);
-  EXPECT_EQ(pack(back, everything), pack(all, everything));
+  expect_equal(back, all);
 }
 
 TEST(Records, RefuseBytesThatAreCutOff) {
