@@ -15,6 +15,8 @@
 #include <vtkSMProxy.h>
 #include <vtkSMProxyIterator.h>
 
+#include <utility>
+
 #include "catalyst/folders.hpp"
 #include "catalyst/frame_to_vtk.hpp"
 #include "catalyst/messages.hpp"
@@ -189,6 +191,9 @@ struct CatalystBackend::Session {
 };
 
 CatalystBackend::CatalystBackend(const Ranks& ranks) : ranks_(ranks), session_(std::make_unique<Session>()) {
+  static bool begun = false;
+  if (std::exchange(begun, true))
+    throw PipelineError("ParaView has been started in this process before; it cannot be started twice");
   MPI_Comm communicator = ranks.communicator();
   if (communicator == MPI_COMM_NULL) {
     int started = 0;
@@ -211,7 +216,6 @@ std::unique_ptr<Pipeline> CatalystBackend::script(const std::string& name, const
                                                   const std::filesystem::path& folder, std::uint32_t channels,
                                                   const std::map<std::string, double>& parameters) {
   python::start(data_folder() / "pipelines", data_folder() / "python");
-  capture_messages();
   return std::make_unique<ScriptPipeline>(ranks_, ScriptDescription{name, file, folder, channels, parameters});
 }
 

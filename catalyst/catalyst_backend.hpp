@@ -10,7 +10,8 @@
 
 namespace breccia::insitu {
 
-/// ParaView Catalyst, started: needed by scripts and by the live link, not by the recordings. One at a time in a process.
+/// ParaView Catalyst, started: needed by scripts and by the live link, not by the recordings. Once in a process: ParaView cannot be
+/// started again after its end.
 /// Together with its source file this is all that knows vtkCPProcessor and data descriptions.
 class CatalystBackend {
  public:

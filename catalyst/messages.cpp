@@ -6,15 +6,15 @@
 #include <vtkOutputWindow.h>
 
 #include <regex>
+#include <utility>
 
 #include "catalyst/whole_file.hpp"
 
 namespace breccia::insitu {
 namespace {
 
-constexpr std::size_t kMostText = 2000;  // of a flood of errors the first ones tell most
-
-std::string errors;
+std::string first_error;  // the others of an execution mostly follow from it
+int further_errors = 0;
 
 /// "ERROR: In file.cxx, line 12\nvtkName (0x55d0): what" -> "vtkName: what".
 std::string shortened(const std::string& text) {
@@ -34,9 +34,11 @@ class KeepErrors final : public vtkOutputWindow {
     static_cast<void>(text);
   }
   void DisplayErrorText(const char* text) override {
-    if (errors.size() > kMostText) return;
-    if (!errors.empty()) errors += "; ";
-    errors += shortened(text);
+    if (first_error.empty()) {
+      first_error = shortened(text);
+    } else {
+      ++further_errors;
+    }
   }
   void DisplayWarningText(const char*) override {}
   void DisplayGenericWarningText(const char*) override {}
@@ -51,12 +53,16 @@ vtkStandardNewMacro(KeepErrors);
 }  // namespace
 
 void capture_messages() {
-  // Errors reach us through the window below. Not VERBOSITY_OFF: that makes ParaView's Python log everything, and fail over it.
-  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_ERROR);
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // errors reach us through the window
   vtkNew<KeepErrors> window;
   vtkOutputWindow::SetInstance(window);
 }
 
-std::string take_errors() { return std::exchange(errors, {}); }
+std::string take_errors() {
+  const int further = std::exchange(further_errors, 0);
+  std::string text = std::exchange(first_error, {});
+  if (further > 0) text += " (and " + std::to_string(further) + " more)";
+  return text;
+}
 
 }  // namespace breccia::insitu

@@ -8,7 +8,7 @@ namespace breccia::insitu {
 /// has started, since that installs its own.
 void capture_messages();
 
-/// The errors since the last call, in one line, "class: message; class: message"; empty when there were none.
+/// The first error since the last call, in one line, "class: message (and 3 more)"; empty when there was none.
 [[nodiscard]] std::string take_errors();
 
 }  // namespace breccia::insitu

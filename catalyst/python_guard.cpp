@@ -2,9 +2,11 @@
 
 #include "catalyst/python_guard.hpp"
 
+#include <vtkLogger.h>
 #include <vtkPythonInterpreter.h>
 #include <vtkSmartPyObject.h>
 
+#include "catalyst/messages.hpp"
 #include "catalyst/pipeline_error.hpp"
 #include "catalyst/whole_file.hpp"
 
@@ -44,10 +46,13 @@ vtkSmartPyObject call(const char* function, PyObject* arguments) {
 
 void start(const std::filesystem::path& pipelines, const std::filesystem::path& guard) {
   vtkPythonInterpreter::Initialize();
+  // ParaView's Python takes its level of logging from VTK's when it is imported; it does not understand "off" and would log all.
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_ERROR);
   const vtkPythonScopeGilEnsurer lock;
   vtkPythonInterpreter::PrependPythonPath(pipelines.c_str());
   vtkPythonInterpreter::PrependPythonPath(guard.c_str());
   call("install", PyTuple_New(0));
+  capture_messages();
 }
 
 void enter(const std::string& name, const std::filesystem::path& script, const std::filesystem::path& folder,

@@ -5,6 +5,7 @@ that no rank goes on alone into work that needs the others; sys.exit ends the sc
 """
 
 import os
+import re
 import sys
 import traceback
 
@@ -16,7 +17,7 @@ _script = ""
 
 def install():
     """Wraps the functions through which ParaView calls scripts. Once is enough, twice does no harm."""
-    from paraview.catalyst import v2_internals
+    from paraview.catalyst import detail, v2_internals
 
     if getattr(v2_internals, "breccia_guarded", False):
         return
@@ -30,11 +31,17 @@ def install():
         return module
 
     v2_internals.import_and_validate = _guarded(import_into_folder)
+    detail._transform_registration_name = _channel_of_source
     for name in ("register_module", "do_request_data_description", "do_catalyst_initialize", "do_catalyst_execute",
                  "do_catalyst_finalize"):
         setattr(v2_internals, name, _guarded(getattr(v2_internals, name)))
     # ParaView prints what we raise through this hook; it has been kept already.
     sys.excepthook = _keep_unseen
+
+
+def _channel_of_source(name):
+    """A source is named after its channel, or after the file of a recording that ParaView had opened: surface, surface.pvd."""
+    return re.sub(r"^(\w+?)(_\d+)?\.\w+\*?$", r"\1", name or "")
 
 
 def enter(name, script, folder, parameters):
@@ -68,7 +75,7 @@ def _guarded(function):
         except BaseException as error:  # SystemExit and KeyboardInterrupt too: the solver decides when to end
             text = _described(error)
         if _any_rank(bool(text)):
-            _error = _error or text or "failed on another rank"
+            _error = _error or text  # nothing where only another rank has something to tell
             raise ScriptFailed(_error)
         return result
 

@@ -9,6 +9,7 @@ PIPELINES is a folder of modules that scripts may import. Prints lines of a word
 """
 
 import ast
+import importlib.util
 import os
 import re
 import sys
@@ -60,8 +61,8 @@ def sources(script, folders):
 
 def channel_of(text, channels):
     """A source is named after its channel, or after the file of a recording that ParaView has opened: surface, surface.pvd."""
-    match = re.fullmatch(r"(\w+?)(_\d+)?(\.\w+\*?)?", text)
-    return match[1] if match and match[1] in channels else None
+    name = re.sub(r"^(\w+?)(_\d+)?\.\w+\*?$", r"\1", text)
+    return name if name in channels else None
 
 
 def named_channels(tree, channels):
@@ -90,6 +91,9 @@ def main():
     if len(sys.argv) < 4:
         sys.exit(__doc__)
     script, pipelines, channels = sys.argv[1], sys.argv[2], sys.argv[3:]
+    if importlib.util.find_spec("paraview") is None:
+        print("error ParaView's Python module is missing (Debian: apt-get install python3-paraview)")
+        return
     try:
         lines = sorted(needs(script, pipelines, channels))
     except SyntaxError as error:

@@ -26,6 +26,11 @@ const breccia::test::World& breccia::test::world() { return all_ranks; }
 
 void breccia::test::barrier() { MPI_Barrier(MPI_COMM_WORLD); }
 
+int breccia::test::broadcast(int value) {
+  MPI_Bcast(&value, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  return value;
+}
+
 std::filesystem::path breccia::test::fresh_folder(const std::string& name) {
   const auto folder = std::filesystem::path(BRECCIA_TEST_FOLDER) / (name + "_" + std::to_string(all_ranks.size));
   if (all_ranks.rank == 0) {

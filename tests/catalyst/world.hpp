@@ -16,6 +16,9 @@ const World& world();
 /// A folder of a test's own below the tests' place, empty, the same on all ranks; made by the first of them. Collective.
 std::filesystem::path fresh_folder(const std::string& name);
 
+/// The first rank's value on all. Collective.
+int broadcast(int value);
+
 /// Waits for all ranks. Collective.
 void barrier();
 

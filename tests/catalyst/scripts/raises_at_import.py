@@ -1,0 +1,5 @@
+# script-version: 2.0
+from paraview.simple import TrivialProducer
+
+surface = TrivialProducer(registrationName="surface")
+raise ValueError("no way\nto go on")
