@@ -58,7 +58,7 @@ const ActiveJoint ActiveJoints::operator[](std::size_t i) const {
   joint.face_a = who.face_a;
   joint.code = who.code;
   joint.time_of_failure = who.time_of_failure;
-  joint.law = laws_[block_of(place)];
+  joint.law = law(place / kLanes);
   get_joint(blocks_[block_of(place)], lane_of(place), joint);
   return joint;
 }
@@ -77,7 +77,7 @@ void ActiveJoints::erase(std::span<const GlobalId> ids) {
   std::erase_if(order_, [&](Index place) {
     if (next == ids.end() || identity(place).id != *next) return false;
     ++next;
-    vacant_[at(laws_[block_of(place)])].push_back(place);
+    vacant_[at(kinds_[block_of(place)])].push_back(place);
     return true;
   });
   note_changes(ids.size());
@@ -92,13 +92,13 @@ void ActiveJoints::break_points(std::span<const GlobalId> ids) {
   }
 }
 
-Index ActiveJoints::vacant_place(Index law) {
-  if (vacant_.size() <= at(law)) vacant_.resize(at(law) + 1);
-  std::vector<Index>& vacant = vacant_[at(law)];
+Index ActiveJoints::vacant_place(Index kind) {
+  if (vacant_.size() <= at(kind)) vacant_.resize(at(kind) + 1);
+  std::vector<Index>& vacant = vacant_[at(kind)];
   if (vacant.empty()) {
     const auto first = static_cast<Index>(identity_.size());
     blocks_.emplace_back();
-    laws_.push_back(law);
+    kinds_.push_back(kind);
     identity_.resize(identity_.size() + at(kLanes));
     for (Index lane = kLanes; lane > 0; --lane) vacant.push_back(first + lane - 1);
   }
@@ -108,7 +108,7 @@ Index ActiveJoints::vacant_place(Index law) {
 }
 
 Index ActiveJoints::keep(const ActiveJoint& joint) {
-  const Index place = vacant_place(joint.law);
+  const Index place = vacant_place(2 * joint.law + (joint.damage() > 0 ? 1 : 0));
   identity_[at(place)] = {joint.id, joint.slot_a, joint.slot_b, joint.face_a, joint.code, joint.time_of_failure};
   set_joint(joint, lane_of(place), blocks_[block_of(place)]);
   newcomers_.push_back(place);

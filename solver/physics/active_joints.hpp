@@ -12,8 +12,8 @@
 
 namespace breccia {
 
-/// The active list: joints in ascending order of their ids. They stand in blocks of eight of one law, by rows, for the kernel; a
-/// joint is told and taken in as an ActiveJoint. Each stays in its place in memory while others come and go, since in a breaking
+/// The active list: joints in ascending order of their ids. They stand in blocks of eight of one law, by rows, for the kernel,
+/// those that come with damage and those that come without apart; a joint is told and taken in as an ActiveJoint. Each stays in its place in memory while others come and go, since in a breaking
 /// body some do in almost every step, until so many have that all are put in order again.
 class ActiveJoints {
  public:
@@ -69,23 +69,23 @@ class ActiveJoints {
   // For the kernel and its caller. A place is a lane of a block: kLanes block + lane.
   [[nodiscard]] std::span<const Index> order() const { return order_; }  ///< places by ascending id
   [[nodiscard]] std::span<JointBlock> blocks() { return blocks_; }
-  [[nodiscard]] std::span<const Index> laws() const { return laws_; }  ///< (blocks)
+  [[nodiscard]] Index law(Index block) const { return kinds_[static_cast<std::size_t>(block)] / 2; }
   [[nodiscard]] Identity& identity(Index place) { return identity_[static_cast<std::size_t>(place)]; }
   [[nodiscard]] const Identity& identity(Index place) const { return identity_[static_cast<std::size_t>(place)]; }
   /// Places taken since the last call: their nodes are not in the blocks yet.
   [[nodiscard]] std::vector<Index> take_newcomers() { return std::exchange(newcomers_, {}); }
 
  private:
-  [[nodiscard]] Index vacant_place(Index law);
+  [[nodiscard]] Index vacant_place(Index kind);
   [[nodiscard]] Index keep(const ActiveJoint& joint);
   void put_in_order();
   void note_changes(std::size_t number);
 
   std::vector<JointBlock> blocks_;
-  std::vector<Index> laws_;                 ///< (blocks)
+  std::vector<Index> kinds_;                ///< (blocks) 2 law, + 1: the joints came with damage
   std::vector<Identity> identity_;          ///< (places)
   std::vector<Index> order_;                ///< places by ascending id
-  std::vector<std::vector<Index>> vacant_;  ///< by law: places that are free, the next to be taken last
+  std::vector<std::vector<Index>> vacant_;  ///< by kind: places that are free, the next to be taken last
   std::vector<Index> newcomers_;
   std::size_t changes_ = 0;  ///< joints that have come or gone since all were put in order
 };

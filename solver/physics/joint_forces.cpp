@@ -115,14 +115,26 @@ void seat_newcomers(const LocalMesh& mesh, ActiveJoints& joints) {
   }
 }
 
+/// Adds the vectors [corner][axis] to the forces on three nodes of one element.
+void add_to(const std::array<double*, 3>& places, const double (&vectors)[3][3]) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) places[i][axis * kLanes] += vectors[i][axis];
+  }
+}
+
 void add_forces(const JointBlock& block, Index lane, NodalForces& forces) {
-  const auto row = [&](const JointRow(&rows)[3]) { return Vec3(rows[0][lane], rows[1][lane], rows[2][lane]); };
+  double on_a[3][3], on_b[3][3];
   const bool turning = (block.news[lane] & kTurning) != 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 force = row(block.force[i]), turn = turning ? row(block.turning[i]) : Vec3::Zero();
-    forces.add(block.node[i][lane], force + turn);
-    forces.add(block.node[3 + i][lane], turn - force);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double force = block.force[i][axis][lane], turn = turning ? block.turning[i][axis][lane] : 0.0;
+      on_a[i][axis] = force + turn;
+      on_b[i][axis] = turn - force;
+    }
   }
+  const auto node = [&](std::size_t corner) { return block.node[corner][lane]; };
+  add_to(forces.places(node(0), node(1), node(2)), on_a);
+  add_to(forces.places(node(3), node(4), node(5)), on_b);
 }
 
 }  // namespace
@@ -141,7 +153,7 @@ void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& 
     const Index place = joints.order()[i], lane = place % kLanes;
     JointBlock& block = blocks[at(place / kLanes)];
     if (!block.computed) {  // here, while its forces are about to be used: blocks mostly come in their order
-      kernel(laws[at(joints.laws()[at(place / kLanes)])], position, block);
+      kernel(laws[at(joints.law(place / kLanes))], position, block);
       block.computed = true;
     }
     const std::uint8_t news = block.news[lane];

@@ -126,30 +126,42 @@ inline void act_beyond(const JointLawParams& law, const jp::Sides<Real>& sides, 
   store_forces(turning, block.turning, lane);
 }
 
+/// W joints that are all elastic: no more is touched than such joints remember.
+inline void act_elastic(const JointLawParams& law, const jp::Sides<Real>& sides, std::size_t lane, JointBlock& block) {
+  const Real stiffness = law.stiffness * load(block.area + lane) / 3.0;
+  jp::Triple<Real> force;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const jp::Vector<Real> opening = jp::minus(sides.b[i], sides.a[i]);
+    jp::Point<Real> p;
+    jp::set_elastic(law, opening, p);
+    JointPointRows& rows = block.points[i];
+    jp::for_each_elastic_number(p, rows, [&](const Real& x, JointRow& row) { store(x, row + lane); });
+    force[i] = jp::times(stiffness, opening);
+  }
+  store_forces(force, block.force, lane);
+}
+
 /// W joints of a block.
 inline void act(const JointLawParams& law, const double* position, std::size_t lane, JointBlock& block) {
   for (std::size_t l = 0; l < kWidth; ++l) block.news[lane + l] = 0;
   const jp::Sides<Real> sides = gather(position, block, lane);
   const Lanes elastic = elastic_lanes(law, sides, lane, block);
+  if (stdx::all_of(elastic)) {
+    act_elastic(law, sides, lane, block);
+    return;
+  }
   jp::Joint<Real> joint;
   load_points(law, block, lane, joint);
   if (stdx::none_of(elastic)) {
     act_beyond(law, sides, elastic, lane, joint, block);
   } else {
-    jp::Point<Real> points[3] = {joint.points[0], joint.points[1], joint.points[2]};
-    const Real stiffness = law.stiffness * load(block.area + lane) / 3.0;
-    jp::Triple<Real> force;
+    const jp::Point<Real> before[3] = {joint.points[0], joint.points[1], joint.points[2]};
+    act_beyond(law, sides, elastic, lane, joint, block);  // gives elastic lanes their forces in the same products
     for (std::size_t i = 0; i < 3; ++i) {
-      const jp::Vector<Real> opening = jp::minus(sides.b[i], sides.a[i]);
-      jp::evaluate_elastic(law, opening, elastic, points[i]);
-      force[i] = jp::times(stiffness, opening);
+      jp::Point<Real> undamaged = before[i];
+      jp::set_elastic(law, jp::minus(sides.b[i], sides.a[i]), undamaged);
+      joint.points[i] = jp::select_point(elastic, undamaged, joint.points[i]);
     }
-    if (stdx::all_of(elastic)) {
-      store_forces(force, block.force, lane);
-    } else {
-      act_beyond(law, sides, elastic, lane, joint, block);  // gives elastic lanes the same forces, in the same products
-    }
-    for (std::size_t i = 0; i < 3; ++i) joint.points[i] = jp::select_point(elastic, points[i], joint.points[i]);
   }
   store_points(law, joint, lane, block);
 }

@@ -403,14 +403,24 @@ template <class T>
   return response;
 }
 
-/// The same where the caller knows the point to be elastic and without damage, without a frame; `elastic` says where.
+/// The same where the caller knows the point to be elastic and without damage, without a frame: what it remembers of it.
 template <class T>
-inline void evaluate_elastic(const JointLawParams& law, const Vector<T>& opening, const Mask<T>& elastic, Point<T>& h) {
-  h.memory = select(elastic, T(kWhole), h.memory);
-  h.opening = select3<T>(elastic, opening, h.opening);
-  h.traction = select3<T>(elastic, times(T(law.stiffness), opening), h.traction);
-  h.stored_normal = select(elastic, T(0.5 * law.stiffness * dot(opening, opening)), h.stored_normal);
-  h.stored_shear = select(elastic, T(0.0), h.stored_shear);
+inline void set_elastic(const JointLawParams& law, const Vector<T>& opening, Point<T>& h) {
+  h.memory = kWhole;
+  h.opening = opening;
+  h.traction = times(T(law.stiffness), opening);
+  h.stored_normal = 0.5 * law.stiffness * dot(opening, opening);
+  h.stored_shear = 0.0;
+}
+
+/// As for_each_number, for what set_elastic sets.
+template <class P, class Q, class F>
+inline void for_each_elastic_number(P& p, Q& q, F&& f) {
+  f(p.memory, q.memory);
+  for (std::size_t i = 0; i < 3; ++i) f(p.opening[i], q.opening[i]);
+  for (std::size_t i = 0; i < 3; ++i) f(p.traction[i], q.traction[i]);
+  f(p.stored_normal, q.stored_normal);
+  f(p.stored_shear, q.stored_shear);
 }
 
 }  // namespace breccia::joint_point

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "base/field.hpp"
@@ -29,6 +30,15 @@ class NodalForces {
     p[0] += force[0];
     p[8] += force[1];
     p[16] += force[2];
+  }
+
+  /// Where the forces on three nodes of one element are summed, components kLanes apart: for callers that add as `add` does. Valid
+  /// until the next call that is not const.
+  [[nodiscard]] std::array<double*, 3> places(Index first, Index second, Index third) {
+    if (first >= num_own_nodes_) return {at(first), at(second), at(third)};
+    constexpr Index kBlock = 4 * kLanes;
+    double* block = at(first / kBlock * kBlock);
+    return {block + nodal(first % kBlock, 0), block + nodal(second % kBlock, 0), block + nodal(third % kBlock, 0)};
   }
 
   [[nodiscard]] Vec3 get(Index node) const;
