@@ -8,7 +8,7 @@ import math
 import os
 import re
 
-from paraview.simple import ColorBy, CreateExtractor, CreateRenderView, GetColorTransferFunction, GetScalarBar, SetActiveView, Show, Text
+from paraview.simple import ColorBy, CreateExtractor, CreateRenderView, GetColorTransferFunction, GetScalarBar, SetActiveView, Show, Text, Threshold
 from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkParallelCore import vtkCommunicator, vtkMultiProcessController
 
@@ -98,13 +98,18 @@ class Picture:
         else:
             self.extractor.Writer.FileName = name + "_{timestep:09d}.png"
 
-    def solid(self, producer, colour, opacity=1.0):
+    def solid(self, producer, colour):
         shown = Show(producer, self.view)
         shown.ColorArrayName = ["POINTS", ""]
         shown.DiffuseColor = shown.AmbientColor = colour
-        shown.Opacity = opacity
         shown.Ambient, shown.Diffuse = 0.3, 0.75
         return shown
+
+    def opened(self, surface):
+        """Shows the bodies as shells whose near side is left out, so that one looks at what is inside. Nothing here is translucent:
+        ranks would have to trade their geometry for it, which takes long and fails with the XML parser of Debian 12 (expat)."""
+        outside = Threshold(Input=surface, Scalars=["CELLS", "crack"], LowerThreshold=0, UpperThreshold=0.5, ThresholdMethod="Between")
+        self.solid(outside, STONE).BackfaceRepresentation = "Cull Frontface"
 
     def coloured(self, producer, array, colours, title, label="%-#6.3g"):
         """Shows cells in the colours of an array; with a bar. Returns the colour table, whose range is the caller's."""

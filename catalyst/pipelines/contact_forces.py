@@ -1,5 +1,5 @@
 # script-version: 2.0
-"""Forces where bodies and fragments touch: an arrow at every contact point, normal forces red, friction blue; bodies translucent.
+"""Forces where bodies and fragments touch: an arrow at every contact point, normal forces red, friction blue; bodies opened.
 
 Parameters besides those of every picture (breccia_pictures.py): upper, the force of the longest arrow, N; default: the largest so far.
 """
@@ -18,7 +18,7 @@ contacts = TrivialProducer(registrationName="contacts")
 points = CellCenters(Input=contacts, VertexCells=1)
 
 picture = pictures.Picture()
-picture.solid(surface, pictures.STONE, opacity=0.25)
+picture.opened(surface)
 
 
 def arrows(array, colour):

@@ -1,5 +1,5 @@
 # script-version: 2.0
-"""Cracks as they grow: failed joints in the colour of the time at which they failed, the bodies around them translucent.
+"""Cracks as they grow: failed joints in the colour of the time at which they failed, the bodies around them opened.
 
 Parameters besides those of every picture (breccia_pictures.py): upper, the time of the newest colour, s; default: the present.
 """
@@ -13,7 +13,7 @@ surface = TrivialProducer(registrationName="surface")
 fractures = TrivialProducer(registrationName="fractures")
 
 picture = pictures.Picture()
-picture.solid(surface, pictures.STONE, opacity=0.18)
+picture.opened(surface)
 ages = picture.coloured(fractures, "time_of_failure", pictures.AGES, "time of failure [s]", "%-#6.2e")
 upper = breccia_insitu.parameter("upper", 0.0)
 

@@ -89,6 +89,7 @@ Channels::Channels(const Frame& frame, std::uint32_t mask, const std::vector<std
   if (has(mask, BRECCIA_SURFACE)) {
     std::vector<BrecciaArray> arrays = arrays_of(frame.surface.cells);
     arrays.push_back(array("face", frame.surface.face));
+    arrays.push_back(array("crack", frame.surface.crack));
     add(BRECCIA_SURFACE, BRECCIA_TRIANGLE, frame.surface.cells.points, frame.surface.face.size(), std::move(arrays));
   }
   if (has(mask, BRECCIA_DOMAINS)) {

@@ -61,6 +61,7 @@ struct Frame {
   struct Surface {
     Elements cells;                       ///< of the elements behind the faces; points are (3 num_faces, 3), outward sense
     std::vector<std::int32_t> face;       ///< (num_faces) 0..3, opposite to that corner
+    std::vector<std::int32_t> crack;      ///< (num_faces) 1: laid bare by a joint that failed, 0: of the body's surface
   } surface;
 
   /// What this rank has to do; a rank without elements has no box.

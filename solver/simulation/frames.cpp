@@ -85,6 +85,7 @@ void add_surface(const Stepper& stepper, const Fragments& fragments, const std::
       add_cell(stepper, fragments, slot, out.cells);
       out.cells.cost.push_back(cost[original]);
       out.face.push_back(face);
+      out.crack.push_back(stepper.has_joint(slot, face) ? 1 : 0);
     }
     ++original;
   }
