@@ -90,7 +90,7 @@ void ExtractPipeline::index(const Frame& frame, vtkDataObject* object) {
   }
   std::erase_if(instants_, [&](const RecordedInstant& old) { return old.step >= frame.step; });
   const std::string file = instant_name(name, frame.step) + "." + summary_suffix(object);
-  bytes_ += replace_file(folder_ / file, summary_text(object, name, frame.step, ranks_.size()));
+  bytes_ += replace_file(folder_ / file, summary_text(object, name, frame.step, ranks_.size()), Sync::no);
   instants_.push_back({frame.step, frame.time, file});
   try {
     bytes_ += replace_file(list, pvd_text(instants_));

@@ -45,14 +45,14 @@ void write_all(const std::filesystem::path& path, int descriptor, std::string_vi
 
 }  // namespace
 
-std::int64_t replace_file(const std::filesystem::path& path, std::string_view content) {
+std::int64_t replace_file(const std::filesystem::path& path, std::string_view content, Sync sync) {
   std::filesystem::path temporary = path;
   temporary.replace_filename("." + path.filename().string() + ".tmp");
   try {
     {
       const Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
       write_all(temporary, file.value(), content);
-      if (::fsync(file.value()) != 0) fail(temporary, "cannot be synced to the disk", errno);
+      if (sync == Sync::yes && ::fsync(file.value()) != 0) fail(temporary, "cannot be synced to the disk", errno);
     }
     if (::rename(temporary.c_str(), path.c_str()) != 0) fail(path, "cannot be replaced", errno);
   } catch (const PipelineError&) {

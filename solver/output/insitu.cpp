@@ -74,9 +74,10 @@ std::uint64_t InSitu::orders() {
   std::uint64_t due = 0;
   for (std::size_t i = 0; i < pipelines_.size() && communicator_.is_root(); ++i) {
     Pipeline& p = pipelines_[i];
-    if (!(p.every_wall > 0) || p.off || p.ordered) continue;
-    p.ordered = p.overhead.times() == 0 || (elapsed() - p.last_wall >= p.every_wall && (p.strict || p.overhead.allows(elapsed())));
-    if (p.ordered) due |= bit(i);
+    const double now = elapsed();
+    if (!(p.every_wall > 0) || p.off || now < p.next_wall || !(p.strict || p.overhead.allows(now))) continue;
+    p.next_wall = now + p.every_wall;
+    due |= bit(i);
   }
   return due;
 }
@@ -98,7 +99,6 @@ InSitu::Plan InSitu::plan(const Moment& now, std::uint32_t ordered, bool all) {
   for (std::size_t i = 0; i < pipelines_.size(); ++i) {
     Pipeline& p = pipelines_[i];
     const bool triggered = p.trigger.due(now);  // asked in any event: it moves on
-    if ((ordered & bit(i)) != 0) p.ordered = false;
     if (!p.off && (triggered || all || (ordered & bit(i)) != 0)) due |= bit(i);
   }
   if (due == 0) return {};
@@ -140,7 +140,7 @@ void InSitu::run_one(std::size_t i, const BrecciaInstant& instant, double shared
     failed = plugin_.api().execute(adaptor_, bit(i), &instant, &asked, words, size);
   });
   p.overhead.book(shared_cost + std::max(seconds_since(start) - asked.waited, 0.0));
-  p.last_wall = elapsed();
+  p.next_wall = elapsed() + p.every_wall;
   requests_.stop |= asked.stop;
   requests_.pause |= asked.pause;
   requests_.extract |= asked.extract;

@@ -69,9 +69,9 @@ class InSitu {
     bool strict;
     Trigger trigger;
     Overhead overhead;
-    double last_wall = 0;         ///< s, when it was last executed
+    double next_wall = 0;         ///< s, when wall time makes it due again
     std::int64_t passed_over = 0, failures = 0;
-    bool off = false, ordered = false;
+    bool off = false;
   };
   void make_pipelines(const case_::Case& input);
   void open(const case_::Case& input, const std::filesystem::path& folder);

@@ -56,8 +56,9 @@ TEST(FrameToVtk, KeepsConnectivityUntilTheTopologyChanges) {
   test::SyntheticRun run(2, 0, 1, kNoRank);
   FrameToVtk to_vtk;
   const Frame first = to_vtk.wrap(run.at(1, kAllChannels));
-  const vtkCellArray* elements = to_vtk.channel(BRECCIA_ELEMENTS).cells();
-  const vtkCellArray* joints = to_vtk.channel(BRECCIA_JOINTS).cells();
+  // Held, so that what comes anew cannot lie at the same address.
+  const vtkSmartPointer<vtkCellArray> elements = to_vtk.channel(BRECCIA_ELEMENTS).cells();
+  const vtkSmartPointer<vtkCellArray> joints = to_vtk.channel(BRECCIA_JOINTS).cells();
   EXPECT_EQ(vtkUnstructuredGrid::SafeDownCast(first.channels[BRECCIA_ELEMENTS])->GetCells(), elements);
   const Frame second = to_vtk.wrap(run.at(2, kAllChannels));
   EXPECT_EQ(to_vtk.channel(BRECCIA_ELEMENTS).cells(), elements);

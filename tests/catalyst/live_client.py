@@ -47,8 +47,8 @@ for name, extract in extracts.items():
     wait(name, lambda: cells(extract) > 0)
     print(name, cells(extract), "cells", extract.CellData.keys(), file=log)
 first = cells(extracts["fractures"])
-wait("more fractures", lambda: cells(extracts["fractures"]) > first)
-print("fractures grew", file=log)
+wait("other fractures", lambda: cells(extracts["fractures"]) != first)
+print("fractures changed", file=log)
 
 live.PauseCatalyst(link, True)
 time.sleep(0.5)

@@ -11,6 +11,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -56,8 +57,11 @@ class Client {
     if (child_ != 0) return;
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     setpgid(0, 0);
-    execlp("xvfb-run", "xvfb-run", "-a", "-s", "-screen 0 800x600x24 -noreset", "pvpython", BRECCIA_LIVE_CLIENT,
-           std::to_string(port).c_str(), folder.c_str(), nullptr);
+    // Not a rank of this run: without what mpiexec has put into the environment.
+    const std::string path = std::string("PATH=") + std::getenv("PATH");
+    execlp("env", "env", "-i", path.c_str(), "HOME=/tmp", "OMPI_ALLOW_RUN_AS_ROOT=1",
+           "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", "xvfb-run", "-a", "-s", "-screen 0 800x600x24 -noreset", "pvpython",
+           BRECCIA_LIVE_CLIENT, std::to_string(port).c_str(), folder.c_str(), nullptr);
     _exit(127);
   }
   Client(const Client&) = delete;
@@ -122,7 +126,7 @@ TEST(Live, AParaViewConnectsInMidRunReceivesPausesContinuesAndDiesWhileTheRunGoe
   const std::string log = content(folder / "client.log");
   EXPECT_THAT(log, testing::HasSubstr("elements " + std::to_string(run.total(BRECCIA_ELEMENTS, 1)) + " cells"));
   EXPECT_THAT(log, testing::HasSubstr("domains " + std::to_string(world().size) + " cells"));
-  EXPECT_THAT(log, testing::HasSubstr("fractures grew"));
+  EXPECT_THAT(log, testing::HasSubstr("fractures changed"));
   EXPECT_THAT(log, testing::HasSubstr("stood still"));
   EXPECT_THAT(log, testing::HasSubstr("went on"));
   EXPECT_THAT(log, testing::HasSubstr("picture shows something"));

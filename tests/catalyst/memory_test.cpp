@@ -12,7 +12,7 @@
 namespace breccia::test {
 namespace {
 
-constexpr int kWarmUp = 200;
+constexpr int kWarmUp = 100;
 constexpr int kExecutions = 1000;
 constexpr double kGrowth = 0.01;  // asked for: flat to 1 %
 
@@ -25,11 +25,11 @@ double resident_mb() {
 }
 
 TEST(Memory, IsFlatOverAThousandExecutions) {
-  constexpr std::uint32_t kChannels = (1U << BRECCIA_SURFACE) | (1U << BRECCIA_FRACTURES) | (1U << BRECCIA_ELEMENTS);
+  constexpr std::uint32_t kChannels = (1U << BRECCIA_FRACTURES) | (1U << BRECCIA_HISTORY) | (1U << BRECCIA_ELEMENTS);
   const auto folder = fresh_folder("memory");
   SyntheticRun run(3, world().rank, world().size);
   Config config(folder, world().communicator, world().rank, world().size);
-  config.add("surface").add("fractures").add(std::string(BRECCIA_SCRIPTS) + "/count_cells.py");
+  config.add("fractures").add("history").add(std::string(BRECCIA_SCRIPTS) + "/count_cells.py");
   Adaptor adaptor(config.get());
   ASSERT_TRUE(adaptor.is_open());
   double warm = 0.0;

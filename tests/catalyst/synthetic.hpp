@@ -35,7 +35,7 @@ class SyntheticRun {
   /// @param without_cells this rank owns nothing (-1: none such)
   SyntheticRun(int side, int rank, int size, int without_cells = -1);
 
-  /// The state at a step: joints, fractures and contacts are empty at step 0 and grow; elements keep their topology.
+  /// The state at a step: joints, fractures and contacts are empty at step 0 and change; elements keep their topology.
   /// @param channels mask of those in the instant
   const BrecciaInstant& at(std::int64_t step, std::uint32_t channels);
 

@@ -26,6 +26,9 @@ PROGRAM = set(MAY_INCLUDE)  # what main.cpp and commands*.cpp may include: every
 # The C interface of the in-situ adaptor is the one header from outside solver/, for output alone.
 IN_SITU_HEADER = "catalyst/insitu_abi.h"
 
+# What catalyst/, the adaptor behind that interface, may include: itself, VTK and ParaView, MPI, Python (in VTK's wrapping) and X11.
+ADAPTOR = re.compile(r"(catalyst/\w+\.h(pp)?|vtk\w+\.h|mpi\.h|Python\.h|X11/\w+\.h)")
+
 # Third-party headers -> files of solver/ that may include them. Eigen is the vector type of base/types.hpp, so everywhere.
 THIRD_PARTY = [
     (r"Eigen/.*", ["*"]),
@@ -41,7 +44,8 @@ THIRD_PARTY = [
 
 # Of the operating system and the compiler; anything else with a slash or ".h" needs a line in THIRD_PARTY.
 SYSTEM = re.compile(
-    r"(experimental/simd|(x86|imm)intrin\.h|dlfcn\.h|fcntl\.h|malloc\.h|sched\.h|unistd\.h|cpuid\.h|sys/(ioctl|mman|resource|stat|statvfs|types|utsname)\.h)")
+    r"(experimental/simd|(x86|imm)intrin\.h|dlfcn\.h|fcntl\.h|malloc\.h|poll\.h|sched\.h|spawn\.h|unistd\.h|cpuid\.h"
+    r"|sys/(ioctl|mman|prctl|resource|stat|statvfs|types|utsname|wait)\.h)")
 
 SOURCE_SUFFIXES = {".cpp", ".hpp", ".h", ".cxx", ".py"}
 MAX_LINES = 450
@@ -88,6 +92,20 @@ def solver_problems(solver):
                 yield path, number, problem
 
 
+def adaptor_problems(adaptor):
+    for path in sorted(adaptor.rglob("*")):
+        if path.suffix not in SOURCE_SUFFIXES:
+            continue
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            match = INCLUDE.match(line)
+            if not match or ADAPTOR.fullmatch(match[2]) or SYSTEM.fullmatch(match[2]):
+                continue
+            # The interface is for programs in C too; other bare names are those of the C++ library.
+            if match[1] == "<" and (re.fullmatch(r"\w+", match[2]) or match[2] in ("stddef.h", "stdint.h")):
+                continue
+            yield path, number, f"catalyst must not include {match[2]}; it may include its own headers, VTK, ParaView, MPI, Python and X11"
+
+
 def text_problems(repository):
     """Sizes and things left open, in every source of the repository."""
     for top in ("solver", "catalyst", "gui", "plugins", "meshes", "tests"):
@@ -105,7 +123,7 @@ def text_problems(repository):
 def problems(repository):
     """Every violation in the repository as "file:line: what"."""
     repository = Path(repository)
-    found = [*solver_problems(repository / "solver"), *text_problems(repository)]
+    found = [*solver_problems(repository / "solver"), *adaptor_problems(repository / "catalyst"), *text_problems(repository)]
     return [f"{path.relative_to(repository)}:{line}: {what}" for path, line, what in found]
 
 
