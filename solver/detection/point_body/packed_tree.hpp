@@ -20,7 +20,7 @@ namespace breccia::detection {
 /// Boxes are floats about the middle of the points. Rounding is monotone, so no point is lost; couples are decided in double
 /// precision by CoupleTest's numbers. Points more than 1e7 contactor sizes away from most others cost more than they should.
 ///
-/// O(points + contactors (log points + candidates)). Memory a point 28 bytes, its boxes 3.5, 8 for the order of couples;
+/// O(points + contactors (log points + candidates)). Memory a point: 28 bytes, 4.5 for boxes and walk, 8 to order the couples;
 /// 20 bytes a point or contactor, whichever are more, for the order along the curve; and twice the couples.
 class PackedTree final : public PointBodySearch {
  public:
