@@ -67,6 +67,14 @@ void LivePipeline::publish(const Frame& frame) {
   }
 }
 
+/// Waits until ParaView wants something. @return  whether the run stays paused
+bool LivePipeline::paused_longer(BrecciaRequests& requests) {
+  const auto begin = Clock::now();
+  const bool stays = link_->WaitForLiveChange() == 0;
+  requests.waited += std::chrono::duration<double>(Clock::now() - begin).count();
+  return stays;
+}
+
 void LivePipeline::withdraw() {
   for (const auto& source : sources_) {
     if (!source) continue;
@@ -75,7 +83,7 @@ void LivePipeline::withdraw() {
   }
 }
 
-void LivePipeline::execute(const Frame& frame, BrecciaRequests&) {
+void LivePipeline::execute(const Frame& frame, BrecciaRequests& requests) {
   publish(frame);
   // Each turn sends what ParaView has asked for; while it pauses the run, a turn follows each of its wishes.
   do {
@@ -83,7 +91,7 @@ void LivePipeline::execute(const Frame& frame, BrecciaRequests&) {
     if (!connected_) break;
     link_->InsituUpdate(frame.time, frame.step);
     link_->InsituPostProcess(frame.time, frame.step);
-  } while (link_->GetSimulationPaused() != 0 && link_->WaitForLiveChange() == 0);
+  } while (link_->GetSimulationPaused() != 0 && paused_longer(requests));
   withdraw();
   static_cast<void>(take_errors());  // a ParaView that has gone is no failure of the run
 }

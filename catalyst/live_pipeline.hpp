@@ -32,6 +32,7 @@ class LivePipeline final : public Pipeline {
  private:
   void publish(const Frame& frame);
   void withdraw();
+  [[nodiscard]] bool paused_longer(BrecciaRequests& requests);
 
   const Ranks& ranks_;
   std::uint32_t mask_;
