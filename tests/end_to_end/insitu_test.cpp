@@ -1,0 +1,190 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "end_to_end/program.hpp"
+
+/// The shipped program with its in-situ adaptor. No display is inherited: what draws makes its own.
+namespace breccia::test {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+const std::string kRecordings = "volume,surface,fractures,joints,contacts,domains,history";
+
+/// A run of the small case; --progress none.
+struct Run {
+  Run(int ranks, const std::string& arguments, const std::string& environment = "") {
+    const std::string file = scratch.write("case.toml", kSmallCase);
+    const std::string line = "run " + file + " --progress none -o '" + folder().string() + "' " + arguments;
+    unsetenv("DISPLAY");
+    outcome = ranks > 1 ? call_ranks(ranks, line) : call(line, environment);
+  }
+  [[nodiscard]] fs::path folder() const { return scratch.path("run"); }
+  [[nodiscard]] json summary() const { return json::parse(read_text(folder() / "summary.json")); }
+  [[nodiscard]] json pipeline(const std::string& name) const {
+    for (const json& p : summary()["insitu"]["pipelines"]) {
+      if (p["name"] == name) return p;
+    }
+    return json::object();
+  }
+  Scratch scratch;
+  Outcome outcome;
+};
+
+/// Files of a folder whose names end so.
+std::ptrdiff_t count_files(const fs::path& folder, const std::string& ending) {
+  std::error_code error;
+  const fs::directory_iterator files(folder, error);
+  return std::count_if(begin(files), end(files), [&](const auto& f) { return f.path().string().ends_with(ending); });
+}
+
+class InSitu : public testing::TestWithParam<int> {};
+
+TEST_P(InSitu, changes_nothing_of_the_run) {
+  const Run plain(1, ""), watched(GetParam(), "--insitu " + kRecordings + " --set insitu.max_overhead=1");
+  ASSERT_EQ(watched.outcome.exit_code, 0) << watched.outcome.err;
+  EXPECT_EQ(watched.summary()["state_hash"], plain.summary()["state_hash"]);
+  EXPECT_EQ(watched.outcome.err, "");
+}
+
+TEST_P(InSitu, records_every_channel_and_tells_of_it) {
+  const Run run(GetParam(), "--insitu " + kRecordings + " --set insitu.max_overhead=1");
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  const fs::path extracts = run.folder() / "extracts";
+  for (const std::string channel : {"elements", "surface", "fractures", "joints", "contacts", "domains"}) {
+    EXPECT_TRUE(fs::exists(extracts / channel / (channel + ".pvd"))) << channel;
+    EXPECT_EQ(count_files(extracts / channel, ".pvtu") + count_files(extracts / channel, ".pvtp"), 51) << channel;  // 50, and the end
+  }
+  EXPECT_TRUE(fs::exists(extracts / "history" / "history.csv"));
+  EXPECT_EQ(run.pipeline("surface")["executed"], 51);
+  EXPECT_GT(run.pipeline("surface")["bytes"].get<int>(), 0);
+  EXPECT_NE(read_text(run.folder() / "history.csv").find("in situ share of wall time"), std::string::npos);
+}
+
+TEST_P(InSitu, triggers_by_the_first_break_and_by_broken_joints_hit_the_same_steps_on_any_number_of_ranks) {
+  const std::string triggers =
+      "--set 'insitu.pipeline=[{name=\"fractures\", first_break=true, strict=true}, {name=\"surface\", every_broken=40, strict=true}]'";
+  const Run alone(1, triggers), run(GetParam(), triggers);
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  for (const std::string channel : {"fractures", "surface"}) {
+    const std::string series = "extracts/" + channel + "/" + channel + ".pvd";
+    EXPECT_EQ(read_text(run.folder() / series), read_text(alone.folder() / series));
+  }
+  EXPECT_EQ(run.pipeline("fractures")["executed"], 2);  // at the first break, and at the end
+  EXPECT_GT(run.pipeline("surface")["executed"].get<int>(), 2);
+}
+
+TEST_P(InSitu, a_dear_pipeline_is_passed_over) {
+  const Run run(GetParam(), "--insitu volume --set insitu.max_overhead=1e-6");
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  EXPECT_GE(run.pipeline("volume")["passed_over"].get<int>(), 40);
+  EXPECT_LE(run.pipeline("volume")["executed"].get<int>(), 3);  // the first, the first that has a price, the last
+}
+
+TEST_P(InSitu, a_script_that_fails_three_times_is_switched_off_and_the_run_goes_on) {
+  const Scratch scratch;
+  const std::string script = scratch.write("always.py", "from paraview.simple import TrivialProducer\n"
+                                                        "surface = TrivialProducer(registrationName='surface')\n"
+                                                        "def catalyst_execute(info):\n"
+                                                        "    raise ValueError('on purpose')\n");
+  const Run run(GetParam(), "--set insitu.max_overhead=1 --insitu " + script + ",fractures");
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  EXPECT_NE(run.outcome.err.find("ValueError: on purpose (always.py:4)"), std::string::npos) << run.outcome.err;
+  EXPECT_NE(run.outcome.err.find("switched off after 3 failures"), std::string::npos) << run.outcome.err;
+  EXPECT_EQ(std::count(run.outcome.err.begin(), run.outcome.err.end(), '\n'), 3) << run.outcome.err;
+  EXPECT_EQ(run.pipeline("fractures")["executed"], 51);
+}
+
+TEST_P(InSitu, a_script_that_fails_ends_the_run_where_the_user_wants_that) {
+  const Run run(GetParam(), "--set insitu.max_overhead=1 --set insitu.on_error=stop --insitu " BRECCIA_SCRIPTS "/raises_at_seventh_call.py");
+  EXPECT_EQ(run.outcome.exit_code, 2);
+  EXPECT_NE(run.outcome.err.find("raises_at_seventh_call"), std::string::npos) << run.outcome.err;
+  EXPECT_NE(run.summary()["status"], "complete");
+}
+
+TEST_P(InSitu, a_script_that_does_not_compile_is_refused_before_the_first_step) {
+  const Run run(GetParam(), "--insitu fractures," BRECCIA_SCRIPTS "/syntax_error.py");
+  EXPECT_EQ(run.outcome.exit_code, 2);
+  EXPECT_NE(run.outcome.err.find("syntax_error.py"), std::string::npos) << run.outcome.err;
+  EXPECT_FALSE(fs::exists(run.folder() / "summary.json"));
+}
+
+TEST_P(InSitu, pictures_need_no_display) {
+  const Run run(GetParam(), "--set insitu.pipeline='[{name=\"stress\", every_time=\"2 ms\", strict=true, parameters={width=320, height=200}}]'");
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  EXPECT_EQ(run.outcome.err, "");
+  EXPECT_EQ(count_files(run.folder() / "extracts/stress", ".png"), 3);  // 0, 2 and 4 ms
+  std::istringstream table(read_text(run.folder() / "extracts/stress/data.csv"));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line, "time,FILE");
+  int rows = 0;
+  for (; std::getline(table, line); ++rows) EXPECT_TRUE(fs::exists(run.folder() / "extracts/stress" / line.substr(line.find(',') + 1))) << line;
+  EXPECT_EQ(rows, 3);
+}
+
+TEST_P(InSitu, nobody_listening_does_not_matter) {
+  const Run run(GetParam(), "--live localhost:1");
+  EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  EXPECT_EQ(run.outcome.err, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(OfRanks, InSitu, testing::Values(1, 2), testing::PrintToStringParamName());
+
+TEST(InSituAlone, without_an_adaptor_the_run_says_what_to_install) {
+  const Run run(1, "--insitu fractures", "BRECCIA_CATALYST=/nowhere/libbreccia_catalyst.so");
+  EXPECT_EQ(run.outcome.exit_code, 2);
+  EXPECT_NE(run.outcome.err.find("/nowhere/libbreccia_catalyst.so"), std::string::npos) << run.outcome.err;
+  EXPECT_NE(run.outcome.err.find("./run packages"), std::string::npos) << run.outcome.err;
+  EXPECT_FALSE(fs::exists(run.folder()));
+}
+
+TEST(InSituAlone, something_else_than_an_adaptor_is_refused) {
+  const Run run(1, "--insitu fractures", "BRECCIA_CATALYST=/bin/true");
+  EXPECT_EQ(run.outcome.exit_code, 2);
+  EXPECT_NE(run.outcome.err.find("cannot be loaded"), std::string::npos) << run.outcome.err;
+}
+
+TEST(InSituAlone, an_interrupt_still_ends_the_run_in_order) {
+  const Scratch scratch;
+  scratch.write("case.toml", kSmallCase);
+  const std::string folder = scratch.path("run").string();
+  const pid_t child = fork();
+  if (child == 0) {
+    const std::string file = scratch.path("case.toml").string();
+    unsetenv("DISPLAY");
+    execl(BRECCIA_PROGRAM, "breccia", "run", file.c_str(), "--progress", "none", "--insitu", "ranks,fractures", "--set", "stage[0].end=1000 s",
+          "-o", folder.c_str(), nullptr);
+    _exit(127);
+  }
+  for (int look = 0; look < 1000 && !fs::exists(folder + "/extracts/fractures/fractures.pvd"); ++look) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  kill(child, SIGTERM);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status)) << "signal " << WTERMSIG(status);
+  EXPECT_EQ(json::parse(read_text(folder + "/summary.json"))["status"].get<std::string>().substr(0, 7), "stopped");
+}
+
+TEST(InSituAlone, a_replay_draws_what_a_run_has_recorded) {
+  const Run run(1, "--set insitu.max_overhead=1 --insitu volume,fractures --set time.max_steps=50");
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  const Outcome replay = call("insitu replay '" + run.folder().string() + "' " BRECCIA_SCRIPTS "/count_cells.py");
+  EXPECT_EQ(replay.exit_code, 0) << replay.err;
+  EXPECT_TRUE(fs::exists(run.folder() / "replay/count_cells/rank_0.txt"));
+  const Outcome nothing = call("insitu replay '" + run.scratch.path("empty").string() + "' fractures");
+  EXPECT_EQ(nothing.exit_code, 2);
+}
+
+}  // namespace
+}  // namespace breccia::test
