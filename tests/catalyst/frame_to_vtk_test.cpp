@@ -53,7 +53,7 @@ TEST(FrameToVtk, WrapsPointsAndArraysWithoutCopyingThem) {
 }
 
 TEST(FrameToVtk, KeepsConnectivityUntilTheTopologyChanges) {
-  test::SyntheticRun run(2, 0, 1, kNoRank);
+  test::SyntheticRun run(4, 0, 1, kNoRank);
   FrameToVtk to_vtk;
   const Frame first = to_vtk.wrap(run.at(1, kAllChannels));
   // Held, so that what comes anew cannot lie at the same address.

@@ -13,7 +13,7 @@ from paraview import live
 from paraview.simple import ColorBy, CreateRenderView, Render, SaveScreenshot, Show
 
 PORT, FOLDER = int(sys.argv[1]), sys.argv[2]
-PATIENCE = 30.0  # s, for each thing waited for
+PATIENCE = 60.0  # s, for each thing waited for
 log = open(os.path.join(FOLDER, "client.log"), "w", encoding="utf-8", buffering=1)
 
 
