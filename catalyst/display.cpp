@@ -105,7 +105,7 @@ std::string display_problem() {
   return "pictures need an X display: none opens and Xvfb is not installed (Debian: apt-get install xvfb)";
 }
 
-Display::Display(const Ranks& ranks) {
+Display::Display(const Ranks& ranks) : ranks_(ranks) {
   // A display on every rank of all machines, or our own on all of them: mixtures draw differently.
   if (ranks.agree(display_opens() ? "" : "none").empty()) return;
   std::string error;
@@ -134,6 +134,8 @@ Display::Display(const Ranks& ranks) {
 Display::~Display() {
   if (replaced_ && was_set_) ::setenv("DISPLAY", old_.c_str(), 1);
   if (replaced_ && !was_set_) ::unsetenv("DISPLAY");
+  if (!replaced_) return;
+  static_cast<void>(ranks_.agree(""));  // others may still be taking leave of it, and Xlib ends a process whose server has gone
   if (xvfb_ > 0) stop(xvfb_);
 }
 

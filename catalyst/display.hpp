@@ -19,13 +19,14 @@ namespace breccia::insitu {
 /// ends with this object and with the process that has started it, however that ends. Sets $DISPLAY meanwhile.
 class Display {
  public:
-  /// Collective. Throws PipelineError, on all ranks.
+  /// Collective, as is its end. Throws PipelineError, on all ranks. @pre ranks outlives this
   explicit Display(const Ranks& ranks);
   Display(const Display&) = delete;
   Display& operator=(const Display&) = delete;
   ~Display();
 
  private:
+  const Ranks& ranks_;
   pid_t xvfb_ = 0;
   bool replaced_ = false;
   bool was_set_ = false;

@@ -9,8 +9,7 @@ namespace breccia::test {
 
 const BrecciaInsituApi& plugin() {
   static const BrecciaInsituApi* api = [] {
-    if (dlopen("libpython3.11.so.1.0", RTLD_NOW | RTLD_GLOBAL) == nullptr) throw std::runtime_error(dlerror());
-    void* library = dlopen(BRECCIA_PLUGIN, RTLD_NOW | RTLD_LOCAL);
+    void* library = dlopen(BRECCIA_PLUGIN, RTLD_NOW | RTLD_GLOBAL);
     if (library == nullptr) throw std::runtime_error(dlerror());
     const auto function = reinterpret_cast<decltype(&breccia_insitu_api)>(dlsym(library, "breccia_insitu_api"));
     if (function == nullptr) throw std::runtime_error(dlerror());

@@ -15,7 +15,7 @@ constexpr std::size_t kBytesBesides = 1 << 20;
 // Arrays by channel: name and, for doubles, components; 0 stands for i64, -1 for i32.
 using Arrays = std::vector<std::pair<const char*, int>>;
 const Arrays kElementArrays{{"id", 0},       {"body", -1},        {"material", -1}, {"rank", -1},
-                            {"fragment", 0}, {"stress", 6},       {"von_mises", 1}, {"principal_stress", 3},
+                            {"fragment", 0}, {"stress", 6},       {"von_mises", 1}, {"principal", 3},
                             {"velocity", 3}, {"displacement", 3}, {"cost", 1}};
 const Arrays kJointArrays{{"id", 0},    {"damage", 1}, {"opening", 1}, {"slip", 1}, {"time_of_failure", 1},
                           {"mode", -1}, {"state", -1}, {"broken", -1}};
