@@ -2,6 +2,7 @@
 #include <signal.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -43,13 +44,17 @@ class LongRun {
     }
     return found;
   }
-  /// The last line that tells the state of the run.
-  [[nodiscard]] json state() const {
-    json last;
-    for (const json& line : lines()) {
-      if (line.contains("state")) last = line;
+  /// The lines that tell the state of the run, as soon as they are as wanted, but no later than after half a minute.
+  template <class Wanted>
+  [[nodiscard]] std::vector<json> states_until(Wanted&& wanted) const {
+    std::vector<json> states;
+    for (int look = 0; look < 300; ++look) {
+      states = lines();
+      std::erase_if(states, [](const json& line) { return !line.contains("state"); });
+      if (!states.empty() && wanted(states)) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
-    return last;
+    return states;
   }
   int wait_for_end() {
     int status = 0;
@@ -64,21 +69,25 @@ class LongRun {
   pid_t launcher_ = 0;
 };
 
+std::ptrdiff_t count_paused(const std::vector<json>& states) {
+  return std::count_if(states.begin(), states.end(), [](const json& line) { return line["state"] == "paused"; });
+}
+
 class Control : public testing::TestWithParam<int> {};
 
 TEST_P(Control, pauses_and_lets_go_on) {
   LongRun run(GetParam());
   ASSERT_EQ(run.ask("pause").exit_code, 0);
-  std::this_thread::sleep_for(std::chrono::milliseconds(2500));  // status lines come every two seconds
-  const json paused = run.state();
-  EXPECT_EQ(paused["state"], "paused");
-  std::this_thread::sleep_for(std::chrono::milliseconds(2500));
-  EXPECT_EQ(run.state()["step"], paused["step"]) << "a paused run went on";
+  const std::vector<json> paused = run.states_until([](const std::vector<json>& seen) { return count_paused(seen) >= 2; });
+  ASSERT_GE(count_paused(paused), 2) << "no word of a pause";
+  EXPECT_EQ(paused.back()["step"], paused[paused.size() - 2]["step"]) << "a paused run went on";
   EXPECT_EQ(run.ask("pause").exit_code, 2) << "a second pause";
   ASSERT_EQ(run.ask("resume").exit_code, 0);
-  std::this_thread::sleep_for(std::chrono::milliseconds(2500));
-  EXPECT_EQ(run.state()["state"], "running");
-  EXPECT_GT(run.state()["step"].get<std::int64_t>(), paused["step"].get<std::int64_t>());
+  const std::int64_t step = paused.back()["step"];
+  const std::vector<json> after =
+      run.states_until([&](const std::vector<json>& seen) { return seen.back()["state"] == "running" && seen.back()["step"] > step; });
+  EXPECT_EQ(after.back()["state"], "running");
+  EXPECT_GT(after.back()["step"].get<std::int64_t>(), step);
 }
 
 TEST_P(Control, stops_in_order_also_while_paused) {
@@ -86,7 +95,7 @@ TEST_P(Control, stops_in_order_also_while_paused) {
   ASSERT_EQ(run.ask("pause").exit_code, 0);
   ASSERT_EQ(run.ask("stop").exit_code, 0);
   EXPECT_EQ(run.wait_for_end(), 0);
-  EXPECT_EQ(run.state()["state"], "stopped");
+  EXPECT_EQ(run.lines().back()["state"], "stopped");
   EXPECT_EQ(json::parse(read_text(run.folder() + "/summary.json"))["status"].get<std::string>().substr(0, 7), "stopped");
   EXPECT_EQ(run.ask("pause").exit_code, 2) << "of a run that has ended";
 }
