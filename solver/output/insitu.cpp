@@ -114,6 +114,10 @@ InSitu::Plan InSitu::plan(const Moment& now, std::uint32_t ordered, bool all) {
       continue;
     }
     const std::uint32_t channels = plugin_.api().channels(adaptor_, static_cast<std::int32_t>(i), now.step, now.time);
+    if (channels == 0 && pipelines_[i].failures > 0) {  // a script that failed when it was read: it is not read again
+      pipelines_[i].off = true;
+      tell_("pipeline " + pipelines_[i].name + ": switched off, it asks for nothing since it failed", false);
+    }
     if (channels == 0) continue;
     plan.channels |= channels;
     plan.pipelines |= bit(i);

@@ -119,6 +119,15 @@ TEST_P(InSitu, a_script_that_fails_ends_the_run_where_the_user_wants_that) {
   EXPECT_NE(run.summary()["status"], "complete");
 }
 
+TEST_P(InSitu, a_script_that_fails_when_it_is_read_is_switched_off_at_once) {
+  const WatchedRun run(GetParam(), strict({BRECCIA_SCRIPTS "/raises_at_import.py", "fractures"}));
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  EXPECT_NE(run.outcome.err.find("raises_at_import.py:"), std::string::npos) << run.outcome.err;
+  EXPECT_NE(run.outcome.err.find("switched off, it asks for nothing since it failed"), std::string::npos) << run.outcome.err;
+  EXPECT_EQ(std::count(run.outcome.err.begin(), run.outcome.err.end(), '\n'), 2) << run.outcome.err;
+  EXPECT_EQ(run.pipeline("fractures")["executed"], 51);
+}
+
 TEST_P(InSitu, a_script_that_does_not_compile_is_refused_before_the_first_step) {
   const WatchedRun run(GetParam(), "--insitu fractures," BRECCIA_SCRIPTS "/syntax_error.py");
   EXPECT_EQ(run.outcome.exit_code, 2);
