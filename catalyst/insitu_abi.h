@@ -74,7 +74,7 @@ typedef struct {
 
 typedef struct {
   int32_t abi_version;
-  int32_t communicator; /* MPI_Comm_c2f of the ranks' own communicator; -1: one rank, MPI not started */
+  int32_t communicator; /* MPI_Comm_c2f of the ranks, of which the adaptor makes a communicator of its own; -1: one rank, MPI not started */
   int32_t rank, size;
   const char* title;    /* of the case */
   const char* folder;   /* absolute, exists: pipelines write here and nowhere else */

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kModule = "breccia_insitu";  ///< for scripts, none itself
+constexpr const char* kModules = "breccia_";  ///< what scripts import is called so, and no script itself
 
 /// "volume" is the channel elements, other recordings are called like their channels; -1: no recording.
 int recorded_channel(const std::string& name) {
@@ -22,7 +22,8 @@ std::vector<std::string> ready_scripts() {
   std::vector<std::string> names;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(data_folder() / "pipelines", error)) {
-    if (entry.path().extension() == ".py" && entry.path().stem() != kModule) names.push_back(entry.path().stem());
+    const std::string name = entry.path().stem();
+    if (entry.path().extension() == ".py" && !name.starts_with(kModules)) names.push_back(name);
   }
   std::sort(names.begin(), names.end());
   return names;

@@ -44,8 +44,6 @@ std::int64_t Ranks::from_root(std::int64_t value) const {
   return value;
 }
 
-std::string Ranks::from_root(const std::string& text) const { return broadcast(text, 0, communicator_); }
-
 std::string Ranks::from_first_of_machine(const std::string& text) const { return broadcast(text, 0, machine_); }
 
 bool Ranks::is_first_of_machine() const {

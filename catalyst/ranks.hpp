@@ -28,7 +28,6 @@ class Ranks {
   void throw_agreed(const std::string& error) const;
   /// The first rank's values on all ranks.
   [[nodiscard]] std::int64_t from_root(std::int64_t value) const;
-  [[nodiscard]] std::string from_root(const std::string& text) const;
   /// Text of the lowest rank on the same machine as this one; `text` matters on that rank alone. See is_first_of_machine.
   [[nodiscard]] std::string from_first_of_machine(const std::string& text) const;
   /// True on the lowest rank of each machine.

@@ -9,10 +9,11 @@
 #include <unistd.h>
 
 #include "case/explain.hpp"
+#include "case/live_address.hpp"
 #include "case/reader.hpp"
 #include "output/atomic_file.hpp"
 #include "output/history_sink.hpp"
-#include "output/insitu_plugin.hpp"
+#include "output/insitu.hpp"
 #include "output/run_folder.hpp"
 #include "output/summary.hpp"
 #include "output/vtkhdf_sink.hpp"
@@ -41,6 +42,12 @@ void warn_of_crowding(const Communicator& world) {
   fmt::print(stderr, "breccia: warning: {} ranks share the {} cores of {}; more ranks than cores make a run slower\n", here, cores, host);
 }
 
+/// A live view that leaves the machine.
+void warn_of_strangers(const case_::InSitu& insitu) {
+  if (!insitu.live || case_::is_loopback(case_::host_and_port(insitu.live->address)->first)) return;
+  fmt::print(stderr, "breccia: warning: the run is offered to {}, another machine; what is sent there is neither encrypted nor checked\n", insitu.live->address);
+}
+
 }  // namespace
 
 int run_command(const RunCommand& asked, const Communicator& world) {
@@ -58,6 +65,7 @@ int run_command(const RunCommand& asked, const Communicator& world) {
                              asked.overwrite ? OldResults::overwrite : OldResults::refuse);
   });
   warn_of_crowding(world);
+  if (world.is_root()) warn_of_strangers(input.insitu);
   const RunFolder folder{root};
   world.agree([&] {
     // Frames are written by all ranks together, everything else by the root.
@@ -102,6 +110,7 @@ int race_command(const RaceCommand& asked, const Communicator& world) {
 
 int check_command(const CheckCommand& asked, int launched) {
   const case_::Case input = case_::read_case(asked.case_file, asked.overrides);
+  if (input.insitu.asked_for()) preflight(input, std::filesystem::temp_directory_path(), InSituPlugin(), {});
   if (asked.ranks > 0) {
     fmt::print("{}", domain_table(input, build_bare_model(input), asked.ranks));
     return 0;

@@ -48,8 +48,7 @@ int replay_command(const ReplayCommand& asked, const Communicator& world) {
   });
   std::optional<InSituPlugin> plugin;
   world.agree([&] { plugin.emplace(); });
-  const Communicator own = world.duplicate();
-  const InSituConfig config(insitu, "replay of " + asked.run.string(), folder, own);
+  const InSituConfig config(insitu, "replay of " + asked.run.string(), folder, world);
   const auto checked = [&](auto&& call) {
     std::int32_t result = 0;
     const std::string text = words_of([&](char* words, std::size_t size) { result = call(words, size); });

@@ -176,11 +176,12 @@ void define_run_insitu(CLI::App& run, Arguments& a) {
   const auto live = [&a](const std::vector<std::string>& address) {
     a.run.overrides.push_back("insitu.live.address=\"" + (address.empty() || address[0].empty() ? "localhost:22222" : address[0]) + "\"");
   };
-  run.add_option_function<std::vector<std::string>>("--live", live, "offer the run to ParaView (Catalyst > Connect there), which listens at host:port; default localhost:22222")
+  CLI::Option* asked = run.add_option_function<std::vector<std::string>>("--live", live, "offer the run to ParaView (Catalyst > Connect there), which listens at host:port; default localhost:22222")
       ->expected(0, 1)
       ->type_name("[HOST:PORT]");
   run.add_flag_callback("--live-remote", [&a] { a.run.overrides.emplace_back("insitu.live.remote=true"); },
-                        "allow --live to go to another machine; nothing is encrypted");
+                        "allow --live to go to another machine; nothing is encrypted")
+      ->needs(asked);
   const auto pipelines = [&a](const std::vector<std::string>& names) {
     std::string list;
     for (const std::string& name : names) list += (list.empty() ? "\"" : ", \"") + (case_::is_script(name) ? std::filesystem::absolute(name).string() : name) + "\"";

@@ -5,6 +5,7 @@ Parameters besides those of every picture (breccia_pictures.py): lower, upper, e
 quantile so far.
 """
 
+import numpy
 from paraview.simple import Calculator, TrivialProducer
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -27,8 +28,7 @@ def upper_end():
     values = pictures.data_of(surface).GetCellData().GetArray("von_mises")
     mine = 0.0
     if values is not None and values.GetNumberOfTuples() > 0:
-        sorted_values = sorted(vtk_to_numpy(values))
-        mine = float(sorted_values[int(0.99 * (len(sorted_values) - 1))])
+        mine = float(numpy.quantile(vtk_to_numpy(values), 0.99))
     largest_so_far = max(largest_so_far, pictures.largest(mine))
     return upper or largest_so_far
 

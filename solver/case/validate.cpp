@@ -234,6 +234,7 @@ class Validator {
 
   void live(const Live& live) {
     const std::vector<std::string> known = key_of("insitu.live.channels").choice_list();
+    if (live.channels.empty()) problem(live.origin, "channels", "names no channel", joined(known), "[]");
     for (const std::string& channel : live.channels)
       if (std::find(known.begin(), known.end(), channel) == known.end())
         problem(live.origin, "channels", "there is no such channel", joined(nearest_first(channel, known)), channel);

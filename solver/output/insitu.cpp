@@ -22,8 +22,15 @@ std::uint32_t bit(std::size_t i) { return std::uint32_t{1} << i; }
 
 }  // namespace
 
+void preflight(const case_::Case& input, const std::filesystem::path& folder, const InSituPlugin& plugin, const Communicator& communicator) {
+  const InSituConfig config(input.insitu, input.title, std::filesystem::absolute(folder), communicator);
+  std::int32_t result = 0;
+  const std::string text = words_of([&](char* words, std::size_t size) { result = plugin.api().preflight(&config.get(), words, size); });
+  if (result != 0) throw InputError(insitu_problems(input.file, text));
+}
+
 InSitu::InSitu(const case_::Case& input, const std::filesystem::path& folder, const Communicator& communicator, Tell tell)
-    : communicator_(communicator.duplicate()), tell_(std::move(tell)), stop_on_error_(input.insitu.on_error == case_::OnError::stop) {
+    : communicator_(communicator), tell_(std::move(tell)), stop_on_error_(input.insitu.on_error == case_::OnError::stop) {
   make_pipelines(input);
   open(input, folder);
   started_ = Clock::now();
@@ -51,14 +58,9 @@ void InSitu::open(const case_::Case& input, const std::filesystem::path& folder)
     std::filesystem::create_directories(folder, error);
     if (error) throw output_error(folder, "cannot create this folder", error.value());
   });
+  communicator_.agree([&] { preflight(input, folder, plugin_, communicator_); });
   const InSituConfig config(input.insitu, input.title, std::filesystem::absolute(folder), communicator_);
-  const BrecciaInsituApi& api = plugin_.api();
-  communicator_.agree([&] {
-    std::int32_t result = 0;
-    const std::string text = words_of([&](char* words, std::size_t size) { result = api.preflight(&config.get(), words, size); });
-    if (result != 0) throw InputError(insitu_problems(input.file, text));
-  });
-  const std::string text = words_of([&](char* words, std::size_t size) { adaptor_ = api.open(&config.get(), words, size); });
+  const std::string text = words_of([&](char* words, std::size_t size) { adaptor_ = plugin_.api().open(&config.get(), words, size); });
   communicator_.agree([&] {
     if (adaptor_ == nullptr) throw InputError(insitu_problems(input.file, "the in-situ adaptor does not start: " + text));
   });
@@ -103,7 +105,6 @@ InSitu::Plan InSitu::plan(const Moment& now, std::uint32_t ordered, bool all) {
   }
   if (due == 0) return {};
   planned_ = Clock::now();
-  // Also of the root alone: a mask of 32 bits is a whole number of any double.
   const auto told = static_cast<std::uint32_t>(communicator_.max(static_cast<std::int64_t>(communicator_.is_root() ? affordable(due) : 0)));
   const std::uint32_t go = all ? due : told;
   Plan plan;

@@ -17,6 +17,10 @@
 
 namespace breccia {
 
+/// Looks whether all pipelines of a case could run: names, parameters, scripts, a display for pictures, the folder of the extracts, which
+/// is there. Not collective. Throws InputError with every problem.
+void preflight(const case_::Case& input, const std::filesystem::path& folder, const InSituPlugin& plugin, const Communicator& communicator);
+
 /// The pipelines of a case that work on the state while the run goes on: when each is due, what it may cost, what its failure
 /// means. The work itself is the adaptor's (catalyst/insitu_abi.h).
 ///
@@ -82,7 +86,7 @@ class InSitu {
 
   using Clock = std::chrono::steady_clock;
   InSituPlugin plugin_;
-  Communicator communicator_;     ///< the adaptor's own
+  Communicator communicator_;
   Tell tell_;
   bool stop_on_error_, failed_ = false;
   std::vector<Pipeline> pipelines_;

@@ -31,20 +31,20 @@ class Trigger {
   [[nodiscard]] bool due(const Moment& now) {
     const bool by_time = times_.due(now.time, now.dt, now.step);
     const bool by_steps = every_steps_ > 0 && now.step % every_steps_ == 0;
-    const bool first = first_break_ && told_ == 0 && now.broken > 0;
+    const bool first = first_break_ && !broke_ && now.broken > 0;
     const bool by_broken = every_broken_ > 0 && now.broken >= next_broken_;
-    if (by_broken || told_ == 0) told_ = now.broken;
+    broke_ = broke_ || now.broken > 0;
     if (by_broken) next_broken_ = (now.broken / every_broken_ + 1) * every_broken_;
     return by_time || by_steps || first || by_broken;
   }
   /// Whether joints that break must be counted for it.
-  [[nodiscard]] bool counts_broken() const { return every_broken_ > 0 || (first_break_ && told_ == 0); }
+  [[nodiscard]] bool counts_broken() const { return every_broken_ > 0 || (first_break_ && !broke_); }
 
  private:
   std::int64_t every_steps_, every_broken_;
-  bool first_break_;
+  bool first_break_, broke_ = false;
   Schedule times_;
-  std::int64_t told_ = 0, next_broken_ = every_broken_;
+  std::int64_t next_broken_ = every_broken_;
 };
 
 /// Keeps what something costs below a share of the wall time. The first time is for free: it starts what stays.

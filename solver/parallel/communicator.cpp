@@ -109,10 +109,6 @@ void Communicator::set_patience(double seconds) const {
   if (handle_) handle_->patience = seconds;
 }
 
-Communicator Communicator::duplicate() const {
-  return handle_ ? Communicator(std::make_shared<Handle>(handle_->comm)) : Communicator();
-}
-
 int Communicator::fortran_handle() const { return handle_ ? static_cast<int>(MPI_Comm_c2f(handle_->comm)) : -1; }
 
 void Communicator::barrier() const { (void)sum(std::int64_t{0}); }

@@ -79,8 +79,6 @@ class Communicator {
   /// only a vote and a halo may be waited for again; anything else has left MPI with memory that is gone: end the process.
   void set_patience(double seconds) const;
 
-  /// The same ranks, whose messages are never mistaken for those of this one. Collective.
-  [[nodiscard]] Communicator duplicate() const;
   /// For libraries that use MPI themselves: MPI_Comm_c2f; -1 alone.
   [[nodiscard]] int fortran_handle() const;
 

@@ -186,8 +186,7 @@ class Runner {
     const auto ordered = static_cast<std::uint32_t>(stepper().heard().orders & ~kControlOrder);
     const InSitu::Plan plan = insitu_->plan(now, ordered, all || std::exchange(extract_commanded_, false));
     if (!plan) return;
-    const Frame frame = make_frame(stepper(), 0, parts_of(plan.channels), share_.costs(), share_.load());
-    insitu_->execute(plan, frame, columns_, last_row_);
+    insitu_->execute(plan, picture(0, parts_of(plan.channels)), columns_, last_row_);
     obey_scripts();
   }
 
@@ -269,8 +268,13 @@ class Runner {
   void write_frame() {
     const auto lap = stepper().timer().measure(Phase::output);
     const FrameParts parts{input_.output.elements, input_.output.joints, input_.output.contacts};
-    const Frame frame = make_frame(stepper(), frame_number_++, parts, share_.costs(), share_.load());
+    const Frame frame = picture(frame_number_++, parts);
     tell([&](Sink& sink) { sink.frame(frame); });
+  }
+
+  [[nodiscard]] Frame picture(std::int64_t number, const FrameParts& parts) const {
+    const bool tells_cost = parts.elements || parts.surface;
+    return make_frame(stepper(), number, parts, tells_cost ? share_.costs() : std::vector<double>{}, share_.load());
   }
 
   double wall() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count(); }

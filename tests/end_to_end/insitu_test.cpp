@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -156,6 +157,22 @@ TEST_P(InSitu, nobody_listening_does_not_matter) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfRanks, InSitu, testing::Values(1, 2), testing::PrintToStringParamName());
+
+TEST(InSituAlone, check_refuses_what_a_run_would) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", kSmallCase);
+  const Outcome outcome = call("check " + file + " --set 'insitu.pipeline=[{name=\"stress\", parameters={widht=3}}]'");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("stress: knows no parameter 'widht'; allowed: "), std::string::npos) << outcome.err;
+}
+
+TEST(InSituAlone, a_live_view_that_leaves_the_machine_is_warned_of) {
+  char host[256] = "";
+  ASSERT_EQ(gethostname(host, sizeof host - 1), 0);
+  const WatchedRun run(1, std::string("--live-remote --live ") + host + ":1 --set time.max_steps=3");
+  EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  EXPECT_NE(run.outcome.err.find("another machine"), std::string::npos) << run.outcome.err;
+}
 
 TEST(InSituAlone, without_an_adaptor_the_run_says_what_to_install) {
   const WatchedRun run(1, "--insitu fractures", "BRECCIA_CATALYST=/nowhere/libbreccia_catalyst.so");

@@ -56,6 +56,7 @@ const std::vector<Wrong>& wrongs() {
       {"insitu_missing_script", "", "", {"insitu.run", "nowhere.py", "does not exist"}, "run CASE --insitu nowhere.py"},
       {"live_to_another_machine", "", "", {"insitu.live.address", "another machine"}, "run CASE --live far.example:22222"},
       {"live_at_no_port", "", "", {"insitu.live.address", "localhost:0"}, "run CASE --live localhost:0"},
+      {"remote_without_live", "", "", {"--live-remote", "--live"}, "run CASE --live-remote", kUsage},
       {"replay_without_pipeline", "", "", {"pipelines"}, "insitu replay DIR", kUsage},
       {"insitu_without_command", "", "", {"subcommand"}, "insitu", kUsage},
       // The file.

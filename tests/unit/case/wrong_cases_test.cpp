@@ -73,6 +73,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"no_overhead", "max_overhead = 0.1", "max_overhead = 0", {"insitu.max_overhead: is out of range"}},
         Wrong{"unknown_way_with_errors", "on_error = \"stop\"", "on_error = \"stopp\"", {"insitu.on_error: ", "did you mean \"stop\"?"}},
         Wrong{"no_such_channel", "channels = [\"surface\"]", "channels = [\"skin\"]", {"insitu.live.channels: there is no such channel"}},
+        Wrong{"no_channel", "channels = [\"surface\"]", "channels = []", {"insitu.live.channels: names no channel; allowed: "}},
         Wrong{"address_without_port", "10.0.0.7:22333", "10.0.0.7:", {"insitu.live.address: is no address; allowed: host:port"}},
         Wrong{"port_too_large", "10.0.0.7:22333", "10.0.0.7:70000", {"insitu.live.address: is no address"}},
         Wrong{"another_machine_by_accident", "remote = true", "remote = false",
