@@ -14,7 +14,7 @@ constexpr std::uint32_t kLiveDefault = bit(BRECCIA_SURFACE) | bit(BRECCIA_FRACTU
 
 }  // namespace
 
-Adaptor::Adaptor(const BrecciaConfig& config) : ranks_(config.communicator) {
+Adaptor::Adaptor(const BrecciaConfig& config) : ranks_(config.communicator, config.patience) {
   capture_messages();
   start_display(config);
   for (std::int32_t i = 0; i < config.num_pipelines; ++i) {
@@ -116,7 +116,11 @@ std::uint32_t Adaptor::execute(std::uint32_t pipelines, const Frame& frame, Brec
     } catch (const std::exception& failure) {
       error = failure.what();
     }
-    error = ranks_.agree(error);
+    try {
+      error = ranks_.agree(error);
+    } catch (const Abandoned& wait) {
+      throw Abandoned(name(i) + ": " + wait.what());
+    }
     if (error.empty()) continue;
     failed |= bit(i);
     text += name(i) + ": " + one_line(error) + '\n';

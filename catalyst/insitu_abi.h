@@ -16,7 +16,7 @@
 extern "C" {
 #endif
 
-#define BRECCIA_INSITU_ABI_VERSION 1
+#define BRECCIA_INSITU_ABI_VERSION 2
 
 /* The channels: frozen names, in this order everywhere. A set of channels is a mask of bits 1 << channel. */
 enum {
@@ -76,6 +76,7 @@ typedef struct {
   int32_t abi_version;
   int32_t communicator; /* MPI_Comm_c2f of the ranks, of which the adaptor makes a communicator of its own; -1: one rank, MPI not started */
   int32_t rank, size;
+  double patience;      /* s that a rank which is done with a pipeline waits for the others */
   const char* title;    /* of the case */
   const char* folder;   /* absolute, exists: pipelines write here and nowhere else */
   const char* live_host;
@@ -110,8 +111,9 @@ typedef struct {
   uint32_t (*channels)(void* adaptor, int32_t pipeline, int64_t step, double time);
 
   /* Executes the pipelines of the mask on an instant that has all their channels. Returns the mask of those that failed on any
-   * rank; the text has a line for each of them: its name, what went wrong, and where. Collective. */
-  uint32_t (*execute)(void* adaptor, uint32_t pipelines, const BrecciaInstant* instant, BrecciaRequests* requests, char* text,
+   * rank; the text has a line for each of them: its name, what went wrong, and where. Collective.
+   * -1, on this rank alone: others have not come out of a pipeline in time. Nothing collective can follow, not even close. */
+  int64_t (*execute)(void* adaptor, uint32_t pipelines, const BrecciaInstant* instant, BrecciaRequests* requests, char* text,
                       size_t size);
 
   /* Bytes that a pipeline has written on this rank so far. */

@@ -57,7 +57,7 @@ std::uint32_t channels(void* adaptor, std::int32_t pipeline, std::int64_t step, 
   }
 }
 
-std::uint32_t execute(void* adaptor, std::uint32_t pipelines, const BrecciaInstant* instant, BrecciaRequests* requests,
+std::int64_t execute(void* adaptor, std::uint32_t pipelines, const BrecciaInstant* instant, BrecciaRequests* requests,
                       char* text, size_t size) {
   const SignalGuard signals;
   put({}, text, size);
@@ -68,6 +68,9 @@ std::uint32_t execute(void* adaptor, std::uint32_t pipelines, const BrecciaInsta
     if (!message.empty()) message.pop_back();  // no newline at the end
     put(message, text, size);
     return failed;
+  } catch (const Abandoned& wait) {
+    put(one_line(wait.what()), text, size);
+    return -1;
   } catch (const std::exception& error) {
     put(one_line(error.what()), text, size);
     return pipelines;

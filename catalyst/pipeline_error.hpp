@@ -9,4 +9,9 @@ class PipelineError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Other ranks have not come where this one waits for them: nothing collective can follow.
+class Abandoned : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 }  // namespace breccia::insitu

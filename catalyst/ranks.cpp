@@ -1,10 +1,15 @@
 #include "catalyst/ranks.hpp"
 
+#include <sched.h>
+
+#include <chrono>
+#include <cmath>
+
 #include "catalyst/pipeline_error.hpp"
 
 namespace breccia::insitu {
 
-Ranks::Ranks(std::int32_t communicator) {
+Ranks::Ranks(std::int32_t communicator, double patience) : patience_(patience) {
   if (communicator == -1) return;
   MPI_Comm_dup(MPI_Comm_f2c(communicator), &communicator_);
   MPI_Comm_rank(communicator_, &rank_);
@@ -31,8 +36,23 @@ std::string Ranks::agree(const std::string& error) const {
   if (size_ == 1) return error;
   const int mine = error.empty() ? size_ : rank_;
   int lowest = size_;
-  MPI_Allreduce(&mine, &lowest, 1, MPI_INT, MPI_MIN, communicator_);
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Iallreduce(&mine, &lowest, 1, MPI_INT, MPI_MIN, communicator_, &request);
+  wait(request, error);
   return lowest == size_ ? std::string() : broadcast(error, lowest, communicator_);
+}
+
+void Ranks::wait(MPI_Request& request, const std::string& error) const {
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  int done = 0;
+  for (MPI_Test(&request, &done, MPI_STATUS_IGNORE); done == 0; MPI_Test(&request, &done, MPI_STATUS_IGNORE)) {
+    sched_yield();
+    const double waited = std::chrono::duration<double>(Clock::now() - begin).count();
+    if (patience_ <= 0 || waited < patience_) continue;
+    const std::string what = "rank " + std::to_string(rank_) + " has waited " + std::to_string(std::lround(waited)) + " s for others that are still in it";
+    throw Abandoned(error.empty() ? what : what + "; here it failed: " + error);
+  }
 }
 
 void Ranks::throw_agreed(const std::string& error) const {

@@ -11,7 +11,8 @@ namespace breccia::insitu {
 class Ranks {
  public:
   /// @param communicator of Fortran (MPI_Comm_c2f), -1: one rank, MPI is not used
-  explicit Ranks(std::int32_t communicator);
+  /// @param patience  s; 0: without end
+  Ranks(std::int32_t communicator, double patience);
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
   ~Ranks();
@@ -22,7 +23,8 @@ class Ranks {
   /// MPI_COMM_NULL: without MPI.
   [[nodiscard]] MPI_Comm communicator() const { return communicator_; }
 
-  /// The text of the lowest rank that brings one, on all ranks; empty: none did.
+  /// The text of the lowest rank that brings one, on all ranks; empty: none did. Throws Abandoned with this rank's text when
+  /// patience is at an end before all ranks are here.
   [[nodiscard]] std::string agree(const std::string& error) const;
   /// Throws PipelineError(agree(error)) on all ranks when any brings a text.
   void throw_agreed(const std::string& error) const;
@@ -36,6 +38,9 @@ class Ranks {
  private:
   [[nodiscard]] std::string broadcast(std::string text, int source, MPI_Comm communicator) const;
 
+  void wait(MPI_Request& request, const std::string& error) const;
+
+  double patience_;
   MPI_Comm communicator_ = MPI_COMM_NULL;
   MPI_Comm machine_ = MPI_COMM_NULL;
   int rank_ = 0;

@@ -20,9 +20,9 @@
 #include "simulation/balance.hpp"
 #include "simulation/check.hpp"
 #include "simulation/convert.hpp"
+#include "simulation/fragment_labels.hpp"
 #include "simulation/frames.hpp"
 #include "simulation/model.hpp"
-#include "simulation/observe.hpp"
 #include "simulation/race_report.hpp"
 #include "simulation/run.hpp"
 
@@ -57,6 +57,7 @@ int run_command(const RunCommand& asked, const Communicator& world) {
   std::filesystem::path root;
   world.agree([&] {
     input = case_::read_case(asked.case_file, asked.overrides);
+    world.set_patience(input.domains.patience);
     root = asked.folder.empty() ? default_run_folder(input.file) : asked.folder;
     if (input.insitu.asked_for()) InSituPlugin();  // before anything is made: stays loaded
     if (!world.is_root()) return;
@@ -91,6 +92,7 @@ int race_command(const RaceCommand& asked, const Communicator& world) {
   const bool writes = world.is_root() && !asked.folder.empty();
   world.agree([&] {
     input = case_::read_case(asked.case_file, asked.overrides);
+    world.set_patience(input.domains.patience);
     if (world.is_root()) model = std::make_unique<Model>(build_model(input));
     if (!writes) return;
     std::error_code error;
@@ -133,7 +135,8 @@ int mesh_command(const MeshCommand& asked) {
   fmt::print("{}", mesh_report({model.mesh, model.mesh_report}));
   std::filesystem::create_directories(asked.folder);
   const Stepper rest(model, search_params(input, model));
-  VtkhdfSink(asked.folder, {true, false, false}).frame(make_frame(rest, 0, {true, false, false}, Balance().weights(rest), 1.0));
+  const FrameParts elements{true, false, false};
+  VtkhdfSink(asked.folder, elements).frame(make_frame(rest, 0, elements, {find_fragments(rest), Balance().weights(rest)}));
   fmt::print("elements for ParaView in {}\n", asked.folder.string());
   return 0;
 }

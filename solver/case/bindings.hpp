@@ -223,6 +223,7 @@ void bind(A& a, Domains& domains) {
   a.choice("exchange", domains.exchange);
   a.value("rebalance", domains.rebalance);
   a.value("margin", domains.margin);
+  a.value("patience", domains.patience);
 }
 
 template <class A>

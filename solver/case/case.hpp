@@ -212,6 +212,7 @@ struct Domains {
   Exchange exchange = Exchange::non_blocking;
   bool rebalance = true;          ///< divide anew when ranks wait for each other
   double margin = 1;              ///< of the proxies, in longest edges
+  double patience = 300;          ///< s, wall, that a rank waits for others before it says so; twice as long: the run ends
   Origin origin;
   friend bool operator==(const Domains&, const Domains&) = default;
 };

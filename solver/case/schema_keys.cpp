@@ -283,6 +283,9 @@ constexpr auto table = std::to_array<Key>({
      .help = "How far beyond a domain a rank knows its neighbours' elements at least, in longest edges of an element. Larger: "
              "fewer new divisions while bodies move, but more to search. For fast bodies it is widened up to fivefold by itself.",
      .example = "2"},
+    {.path = "domains.patience", .type = number, .unit = "s", .fallback = "300", .range = positive,
+     .help = "Wall time that a rank waits for others before it says for whom, and where; after twice as long the run ends.",
+     .example = "\"20 min\""},
 
     {.path = "output", .type = section, .help = "What a run writes, and how often."},
     {.path = "output.frame_interval", .type = number, .unit = "s", .fallback = "0", .range = not_negative,

@@ -140,7 +140,7 @@ void InSitu::run_one(std::size_t i, const BrecciaInstant& instant, double shared
   Pipeline& p = pipelines_[i];
   const auto start = Clock::now();
   BrecciaRequests asked{};
-  std::uint32_t failed = 0;
+  std::int64_t failed = 0;
   const std::string text = words_of([&](char* words, std::size_t size) {
     failed = plugin_.api().execute(adaptor_, bit(i), &instant, &asked, words, size);
   });
@@ -150,6 +150,10 @@ void InSitu::run_one(std::size_t i, const BrecciaInstant& instant, double shared
   requests_.pause |= asked.pause;
   requests_.extract |= asked.extract;
   if (asked.frame_interval > 0) requests_.frame_interval = asked.frame_interval;
+  if (failed < 0) {
+    adaptor_ = nullptr;  // it cannot be closed any more
+    throw InternalError("pipeline " + text);
+  }
   if (failed != 0) fail(p, text);
 }
 

@@ -23,6 +23,7 @@ InSituConfig::InSituConfig(const case_::InSitu& insitu, const std::string& title
   config_.communicator = communicator.fortran_handle();
   config_.rank = communicator.rank();
   config_.size = communicator.size();
+  config_.patience = 2 * communicator.patience();
   config_.title = title_.c_str();
   config_.folder = folder_.c_str();
   config_.live_host = live_host_.c_str();

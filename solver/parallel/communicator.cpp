@@ -109,6 +109,8 @@ void Communicator::set_patience(double seconds) const {
   if (handle_) handle_->patience = seconds;
 }
 
+double Communicator::patience() const { return handle_ ? handle_->patience : 0.0; }
+
 int Communicator::fortran_handle() const { return handle_ ? static_cast<int>(MPI_Comm_c2f(handle_->comm)) : -1; }
 
 void Communicator::barrier() const { (void)sum(std::int64_t{0}); }

@@ -78,6 +78,7 @@ class Communicator {
   /// Waits longer than this are told on stderr, waits twice as long end with InternalError; s. Default 300. After that error
   /// only a vote and a halo may be waited for again; anything else has left MPI with memory that is gone: end the process.
   void set_patience(double seconds) const;
+  [[nodiscard]] double patience() const;  ///< s; 0 alone
 
   /// For libraries that use MPI themselves: MPI_Comm_c2f; -1 alone.
   [[nodiscard]] int fortran_handle() const;

@@ -26,12 +26,12 @@ Mat3 cauchy_stress(const LocalMesh& mesh, const ElasticParams& params, Index slo
   el::Tensor<double> inverse;
   const auto s = static_cast<std::size_t>(slot);
   for (std::size_t i = 0; i < 9; ++i) inverse[i] = mesh.gradient[s / kLanes * 72 + i * kLanes + s % kLanes];
-  const el::Tensor<double> f = el::deformation(corners_of(mesh, slot, position), inverse);
+  const el::Tensor<double> f = el::deformation<double>(corners_of(mesh, slot, position), inverse);
   const el::Tensor<double> cof = el::cofactor(f);
   const double j = el::determinant(f, cof);
   el::Tensor<double> piola = el::elastic_piola(f, params);
   if (params.viscosity > 0 && velocity != nullptr) {
-    const el::Tensor<double> rate = el::deformation(corners_of(mesh, slot, velocity), inverse);
+    const el::Tensor<double> rate = el::deformation<double>(corners_of(mesh, slot, velocity), inverse);
     const el::Tensor<double> viscous = el::viscous_piola(rate, cof, j, params);
     for (std::size_t i = 0; i < 9; ++i) piola[i] += viscous[i];
   }

@@ -54,9 +54,10 @@ template <class Mask, class T>
   }
 }
 
-/// F from positions (m), or Fdot from velocities (m/s). @param inverse D_m^-1, row-major, 1/m
-template <class T>
-[[nodiscard]] inline Tensor<T> deformation(const Corners<T>& x, const Tensor<T>& inverse) {
+/// F from positions (m), or Fdot from velocities (m/s).
+/// @param x  x[c][i] as of Corners<T>   @param inverse  inverse[k] as of Tensor<T>: D_m^-1, row-major, 1/m
+template <class T, class X, class Inverse>
+[[nodiscard]] inline Tensor<T> deformation(const X& x, const Inverse& inverse) {
   Tensor<T> f;
   for (std::size_t i = 0; i < 3; ++i) {
     const T a = x[1][i] - x[0][i], b = x[2][i] - x[0][i], c = x[3][i] - x[0][i];
@@ -99,16 +100,13 @@ template <class T>
   return 0.5 * p.lambda * jc - (p.mu + 0.5 * p.lambda) / jc + volumetric_curvature(p.j_min, p) * (j - jc);
 }
 
-/// First Piola stress of the neo-Hookean law, Pa: P = mu F + psi'(J) cof F.
+/// First Piola stress of the neo-Hookean law, Pa: P = mu F + psi'(J) cof F. Into its place: a copy would cost as much.
 /// For J >= j_min this is mu F + [(lambda/2)(J^2 - 1) - mu] F^-T, i.e. the Cauchy stress
 /// T = (mu/J)(B - I) + (lambda/2)(J - 1/J) I.
 template <class T>
-[[nodiscard]] inline Tensor<T> neo_hookean_piola(const Tensor<T>& f, const Tensor<T>& cof, const T& j,
-                                                 const ElasticParams& p) {
+inline void neo_hookean_piola(const Tensor<T>& f, const Tensor<T>& cof, const T& j, const ElasticParams& p, Tensor<T>& piola) {
   const T slope = volumetric_slope(j, p);
-  Tensor<T> piola;
   for (std::size_t i = 0; i < 9; ++i) piola[i] = p.mu * f[i] + slope * cof[i];
-  return piola;
 }
 
 /// Cauchy stress of thesis eq. 3.10 without its viscous term, Pa, row-major:
@@ -151,8 +149,10 @@ template <class T>
 [[nodiscard]] inline Tensor<T> elastic_piola(const Tensor<T>& f, const ElasticParams& p) {
   const Tensor<T> cof = cofactor(f);
   const T j = determinant(f, cof);
-  if (p.law == ElasticLaw::neo_hookean) return neo_hookean_piola(f, cof, j, p);
-  return product(green_st_venant_stress(f, j, p), cof);
+  if (p.law != ElasticLaw::neo_hookean) return product(green_st_venant_stress(f, j, p), cof);
+  Tensor<T> piola;
+  neo_hookean_piola(f, cof, j, p, piola);
+  return piola;
 }
 
 /// First Piola stress of the viscous term, Pa: P_v = 2 mubar D F^-T with D = sym(Fdot F^-1), written
@@ -177,8 +177,8 @@ template <class T>
 }
 
 /// Forces on the four corners, N: f_c = -V0 P grad0 N_c; grad0 N_c is row c-1 of D_m^-1, f_0 = -(f_1 + f_2 + f_3).
-template <class T>
-[[nodiscard]] inline Corners<T> corner_forces(const Tensor<T>& piola, const Tensor<T>& inverse, const T& volume) {
+template <class T, class Inverse>
+[[nodiscard]] inline Corners<T> corner_forces(const Tensor<T>& piola, const Inverse& inverse, const T& volume) {
   Corners<T> force;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t c = 1; c < 4; ++c) {
@@ -232,11 +232,11 @@ template <class T>
 template <class T>
 [[nodiscard]] inline Corners<T> element_forces(const Corners<T>& x, const Corners<T>& v, const Tensor<T>& inverse,
                                                const T& volume, const ElasticParams& p) {
-  const Tensor<T> f = deformation(x, inverse);
+  const Tensor<T> f = deformation<T>(x, inverse);
   Tensor<T> piola = elastic_piola(f, p);
   if (p.viscosity > 0) {
     const Tensor<T> cof = cofactor(f);
-    const Tensor<T> viscous = viscous_piola(deformation(v, inverse), cof, determinant(f, cof), p);
+    const Tensor<T> viscous = viscous_piola(deformation<T>(v, inverse), cof, determinant(f, cof), p);
     for (std::size_t i = 0; i < 9; ++i) piola[i] += viscous[i];
   }
   return corner_forces(piola, inverse, volume);
@@ -246,7 +246,7 @@ template <class T>
 template <class T>
 [[nodiscard]] inline T element_energy(const Corners<T>& x, const Tensor<T>& inverse, const T& volume,
                                       const ElasticParams& p) {
-  return volume * neo_hookean_energy(deformation(x, inverse), p);
+  return volume * neo_hookean_energy(deformation<T>(x, inverse), p);
 }
 
 }  // namespace elasticity

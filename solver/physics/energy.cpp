@@ -57,7 +57,7 @@ ElasticEnergy elastic_energy(const LocalMesh& mesh, std::span<const ElasticParam
     if (!mesh.is_original(s) || p.law != ElasticLaw::neo_hookean) continue;
     elasticity::Tensor<double> inverse;
     for (std::size_t k = 0; k < 9; ++k) inverse[k] = mesh.gradient[i / kLanes * 72 + k * kLanes + i % kLanes];
-    const double density = elasticity::neo_hookean_energy(elasticity::deformation(corners_of(mesh, position, s), inverse), p);
+    const double density = elasticity::neo_hookean_energy(elasticity::deformation<double>(corners_of(mesh, position, s), inverse), p);
     if (density > energy.largest_density) {
       energy.largest_density = density;
       energy.worst_slot = s;

@@ -42,7 +42,7 @@ double element_share(const StepModel& model, Index slot, const Field<double>& po
   }
   el::Tensor<double> g;
   for (std::size_t i = 0; i < 9; ++i) g[i] = mesh.gradient[s / kLanes * 72 + i * kLanes + s % kLanes];
-  const el::Tensor<double> f = el::deformation(x, g);
+  const el::Tensor<double> f = el::deformation<double>(x, g);
   const el::Tensor<double> cof = el::cofactor(f);
   const double j = el::determinant(f, cof);
 

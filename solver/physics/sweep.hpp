@@ -42,6 +42,7 @@ struct SweepArgs {
   const std::int32_t* shared_corners = nullptr;  ///< [shared block][4][8] nodes
 
   const std::int32_t* link = nullptr;       ///< [own block][4][8]
+  const std::int32_t* place = nullptr;      ///< [own block][4][3][8]
   const double* stiffness = nullptr;        ///< [own block][4][8]
   const double* limit = nullptr;            ///< [own block][8]
   CrossingFunction crossing = nullptr;

@@ -28,22 +28,26 @@ inline Real load(const double* p) { return Real(p, stdx::element_aligned); }
 inline void store(const Real& value, double* p) { value.copy_to(p, stdx::element_aligned); }
 inline void add_to(double* p, const Real& value) { store(load(p) + value, p); }
 
-/// Distance in the nodal field from a linked element's slot base to its corner, by link code and corner of the face.
-struct CornerOffsets {
-  std::int32_t of[16][4];
+/// A tensor or a vector that stays in memory, component k of W elements at first + 8 k: loaded where it is used, as registers
+/// are scarcer than loads.
+struct Stored {
+  const double* first;
+  Real operator[](std::size_t k) const { return load(first + k * kLanes); }
 };
-constexpr CornerOffsets make_corner_offsets() {
-  CornerOffsets offsets{};
-  for (int code = 0; code < 16; ++code) {
-    for (int i = 0; i < 3; ++i) offsets.of[code][i] = linked_corner(code, i) * 3 * kLanes;
-  }
-  return offsets;
-}
-constexpr CornerOffsets kCornerOffsets = make_corner_offsets();
 
-struct Totals {
+/// Likewise the corners of W elements that own their nodes.
+struct StoredCorners {
+  const double* first;
+  Stored operator[](std::size_t c) const { return {first + c * 3 * kLanes}; }
+};
+
+struct Motion {
   Real max_speed_squared = 0;
   Real speed_squared_sum = 0;
+};
+
+struct Totals {
+  Motion motion;
   SweepStatus status;
 };
 
@@ -61,27 +65,30 @@ inline Real contract(const Tensor& a, const Tensor& b) {
 
 /// Elastic and viscous stress of W elements, kept until the velocities after the step are known.
 struct Stress {
-  Tensor inverse;   // D_m^-1
+  Stored inverse;   // D_m^-1
   Tensor total;     // first Piola
   Tensor viscous;   // its viscous part, set when the group is viscous
   Real volume;
 };
 
-inline void evaluate_stress(const SweepArgs& args, const ElasticParams& p, std::size_t block, std::size_t lane,
-                            const Corners& x, const Corners& v, Totals& totals, Stress& s) {
-  for (std::size_t i = 0; i < 9; ++i) s.inverse[i] = load(args.gradient + block * 72 + i * kLanes + lane);
+/// @tparam is_plain  the group has the neo-Hookean law and no viscosity, so that the stress need not pass through memory
+/// @param x, v  corners
+template <bool is_plain, class X>
+[[gnu::always_inline]] inline void evaluate_stress(const SweepArgs& args, const ElasticParams& p, std::size_t block, std::size_t lane,
+                            const X& x, const X& v, Totals& totals, Stress& s) {
+  s.inverse = {args.gradient + block * 72 + lane};
   s.volume = load(args.volume + block * kLanes + lane);
-  const Tensor f = el::deformation(x, s.inverse);
+  const Tensor f = el::deformation<Real>(x, s.inverse);
   const Tensor cof = el::cofactor(f);
   const Real j = el::determinant(f, cof);
   note_crushed(j < p.j_min, static_cast<Index>(block * kLanes + lane), totals.status);
-  if (p.law == ElasticLaw::neo_hookean) {
-    s.total = el::neo_hookean_piola(f, cof, j, p);
+  if (is_plain || p.law == ElasticLaw::neo_hookean) {
+    el::neo_hookean_piola(f, cof, j, p, s.total);
   } else {
     s.total = el::product(el::green_st_venant_stress(f, j, p), cof);
   }
-  if (p.viscosity > 0) {
-    s.viscous = el::viscous_piola(el::deformation(v, s.inverse), cof, j, p);
+  if (!is_plain && p.viscosity > 0) {
+    s.viscous = el::viscous_piola(el::deformation<Real>(v, s.inverse), cof, j, p);
     for (std::size_t i = 0; i < 9; ++i) s.total[i] += s.viscous[i];
   }
 }
@@ -101,12 +108,13 @@ inline void keep_stress(const SweepArgs& args, const ElasticParams& p, const Str
 }
 
 /// Books half a step's work of the viscous stress, and of the elastic stress of laws that have no energy.
-inline void book_stress_work(const SweepArgs& args, const ElasticParams& p, const Stress& s, const Corners& v,
+template <class X>
+inline void book_stress_work(const SweepArgs& args, const ElasticParams& p, const Stress& s, const X& v,
                              std::size_t slot, double* viscous, double* stress) {
   const bool no_energy = p.law != ElasticLaw::neo_hookean && stress != nullptr;
   const bool dissipates = p.viscosity > 0 && viscous != nullptr;
   if (!no_energy && !dissipates) return;
-  const Tensor rate = el::deformation(v, s.inverse);
+  const Tensor rate = el::deformation<Real>(v, s.inverse);
   const Real half = 0.5 * args.dt * s.volume;
   const Real viscous_work = p.viscosity > 0 ? half * contract(s.viscous, rate) : Real(0.0);
   if (dissipates) add_to(viscous + slot, viscous_work);
@@ -126,24 +134,19 @@ inline void book_stress_work(const SweepArgs& args, const ElasticParams& p, cons
 
 /// This side of the intact joints on one face. Self links (free faces and such) have opening zero.
 template <std::size_t kFace>
-[[gnu::always_inline]] inline void add_joint_forces(const SweepArgs& args, std::size_t block, std::size_t lane, const Corners& x,
-                                                    const Real& limit, Corners& force) {
+[[gnu::always_inline]] inline void add_joint_forces(const SweepArgs& args, std::size_t block, std::size_t lane,
+                                                    const StoredCorners& x, const Real& limit, Corners& force) {
   const std::size_t at = block * 32 + kFace * kLanes + lane;
-  const double* place[3][kWidth];
-  for (std::size_t l = 0; l < kWidth; ++l) {
-    const std::int32_t link = args.link[at + l];
-    const auto slot = static_cast<std::uint32_t>(link) >> 4;
-    const double* base = args.position + (static_cast<std::size_t>(slot / kLanes) * 96 + slot % kLanes);
-    const auto& offset = kCornerOffsets.of[link & 15];
-    for (std::size_t i = 0; i < 3; ++i) place[i][l] = base + offset[i];
-  }
+  const std::int32_t* const places = args.place + block * 96 + kFace * 24 + lane;
   Vector pull[3];
   Real largest = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
     constexpr auto corners = kFaceCorners[kFace];
-    const Vector& own = x[static_cast<std::size_t>(corners[i])];
+    const Stored own = x[static_cast<std::size_t>(corners[i])];
+    const double* linked[kWidth];
+    for (std::size_t l = 0; l < kWidth; ++l) linked[l] = args.position + places[i * kLanes + l];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      pull[i][axis] = Real([&](auto l) { return place[i][l][axis * kLanes]; }) - own[axis];
+      pull[i][axis] = Real([&](auto l) { return linked[l][axis * kLanes]; }) - own[axis];
     }
     const Vector& d = pull[i];
     largest = stdx::max(largest, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
@@ -179,7 +182,9 @@ struct Mover {
         gain(1.0 / (1.0 + 0.5 * a.mass_damping * a.dt)),
         damped(a.mass_damping > 0 || a.local_damping > 0) {}
 
-  Vector move(const Vector& v, const Vector& force, const Real& mass, std::size_t node) const {
+  /// @param v  as of Vector
+  template <class V>
+  Vector move(const V& v, const Vector& force, const Real& mass, std::size_t node) const {
     const Real dt_over_mass = args.dt / mass;
     Vector moved;
     if (!damped) {
@@ -204,25 +209,24 @@ struct Mover {
   }
 };
 
-inline void note_motion(const Vector& v, Totals& totals) {
+inline void note_motion(const Vector& v, Motion& motion) {
   const Real speed_squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-  totals.max_speed_squared = stdx::max(totals.max_speed_squared, speed_squared);
-  totals.speed_squared_sum += speed_squared;
+  motion.max_speed_squared = stdx::max(motion.max_speed_squared, speed_squared);
+  motion.speed_squared_sum += speed_squared;
 }
 
-/// W elements that own their nodes, from forces to new positions.
-inline void sweep_own(const SweepArgs& args, const Mover& mover, std::size_t block, std::size_t lane, Totals& totals) {
-  const ElasticParams& p = args.params[args.block_group[block]];
+inline void add_motion(const Motion& motion, Motion& total) {
+  total.max_speed_squared = stdx::max(total.max_speed_squared, motion.max_speed_squared);
+  total.speed_squared_sum += motion.speed_squared_sum;
+}
+
+/// W elements that own their nodes, from forces to new positions. @param p  of their group
+template <bool is_plain>
+inline void sweep_own(const SweepArgs& args, const ElasticParams& p, const Mover& mover, std::size_t block, std::size_t lane, Totals& totals) {
   const std::size_t field = block * 96 + lane;
-  Corners x, v;
-  for (std::size_t c = 0; c < 4; ++c) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      x[c][i] = load(args.position + field + (3 * c + i) * kLanes);
-      v[c][i] = load(args.velocity + field + (3 * c + i) * kLanes);
-    }
-  }
+  const StoredCorners x{args.position + field}, v{args.velocity + field};
   Stress stress;
-  evaluate_stress(args, p, block, lane, x, v, totals, stress);
+  evaluate_stress<is_plain>(args, p, block, lane, x, v, totals, stress);
   Corners force = el::corner_forces(stress.total, stress.inverse, stress.volume);
   const Real limit = load(args.limit + block * kLanes + lane);
   add_joint_forces<0>(args, block, lane, x, limit, force);
@@ -236,17 +240,22 @@ inline void sweep_own(const SweepArgs& args, const Mover& mover, std::size_t blo
       for (std::size_t i = 0; i < 3; ++i) force[c][i] += load(own + (3 * c + i) * kLanes);
     }
   }
-  book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_before, args.stress_before);
-  keep_stress(args, p, stress, block, lane);
+  if (!is_plain) {
+    book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_before, args.stress_before);
+    keep_stress(args, p, stress, block, lane);
+  }
   const Real mass = load(args.node_mass + block * 4 * kLanes + lane);
+  Motion motion;
   for (std::size_t c = 0; c < 4; ++c) {
-    v[c] = mover.move(v[c], force[c], mass, (block * 4 + c) * kLanes + lane);
-    note_motion(v[c], totals);
+    const Vector moved = mover.move(v[c], force[c], mass, (block * 4 + c) * kLanes + lane);
+    note_motion(moved, motion);
     for (std::size_t i = 0; i < 3; ++i) {
-      store(v[c][i], args.velocity + field + (3 * c + i) * kLanes);
-      store(x[c][i] + args.dt * v[c][i], args.next_position + field + (3 * c + i) * kLanes);
+      const std::size_t at = field + (3 * c + i) * kLanes;
+      store(moved[i], args.velocity + at);
+      store(x[c][i] + args.dt * moved[i], args.next_position + at);
     }
   }
+  add_motion(motion, totals.motion);
 }
 
 /// Corners of W shared-node elements out of a nodal field.
@@ -267,7 +276,7 @@ inline void scatter_shared(const SweepArgs& args, std::size_t block, std::size_t
   const Corners x = gather(args.position, corners);
   const Corners v = needs_rate(args, p) ? gather(args.velocity, corners) : Corners{};
   Stress stress;
-  evaluate_stress(args, p, block, lane, x, v, totals, stress);
+  evaluate_stress<false>(args, p, block, lane, x, v, totals, stress);
   book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_before, args.stress_before);
   keep_stress(args, p, stress, block, lane);
   const Corners force = el::corner_forces(stress.total, stress.inverse, stress.volume);
@@ -294,7 +303,7 @@ inline void move_shared(const SweepArgs& args, const Mover& mover, std::size_t n
     force[i] = load(f + i * kLanes);
   }
   v = mover.move(v, force, load(args.node_mass + node), node);
-  note_motion(v, totals);
+  note_motion(v, totals.motion);
   for (std::size_t i = 0; i < 3; ++i) {
     store(v[i], args.velocity + at + i * kLanes);
     store(load(args.position + at + i * kLanes) + args.dt * v[i], args.next_position + at + i * kLanes);
@@ -306,20 +315,19 @@ inline void book_after(const SweepArgs& args, std::size_t block, std::size_t lan
   const ElasticParams& p = args.params[args.block_group[block]];
   if (!needs_rate(args, p)) return;
   Stress stress;
+  stress.inverse = {args.gradient + block * 72 + lane};
   for (std::size_t i = 0; i < 9; ++i) {
     const double* kept = args.kept_stress + block * 144 + i * kLanes + lane;
-    stress.inverse[i] = load(args.gradient + block * 72 + i * kLanes + lane);
     stress.total[i] = load(kept);
     stress.viscous[i] = load(kept + 72);
   }
   stress.volume = load(args.volume + block * kLanes + lane);
-  Corners v;
+  const auto book = [&](const auto& v) { book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_after, args.stress_after); };
   if (block < static_cast<std::size_t>(args.num_own_blocks)) {
-    for (std::size_t k = 0; k < 12; ++k) v[k / 3][k % 3] = load(args.velocity + block * 96 + k * kLanes + lane);
+    book(StoredCorners{args.velocity + block * 96 + lane});
   } else {
-    v = gather(args.velocity, args.shared_corners + (block - static_cast<std::size_t>(args.num_own_blocks)) * 32 + lane);
+    book(gather(args.velocity, args.shared_corners + (block - static_cast<std::size_t>(args.num_own_blocks)) * 32 + lane));
   }
-  book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_after, args.stress_after);
 }
 
 inline void book_rate_work(const SweepArgs& args) {
@@ -337,9 +345,11 @@ inline SweepStatus sweep(const SweepArgs& args) {
   const auto own = static_cast<std::size_t>(args.num_own_blocks);
   const auto end = static_cast<std::size_t>(args.end_own_block);
   for (auto block = static_cast<std::size_t>(args.first_own_block); block < end; ++block) {
-    for (std::size_t lane = 0; lane < kLanes; lane += kWidth) sweep_own(args, mover, block, lane, totals);
+    const ElasticParams& p = args.params[args.block_group[block]];
+    const auto sweep_block = p.law == ElasticLaw::neo_hookean && !(p.viscosity > 0) ? sweep_own<true> : sweep_own<false>;
+    for (std::size_t lane = 0; lane < kLanes; lane += kWidth) sweep_block(args, p, mover, block, lane, totals);
     if ((block & 63) == 63 || block + 1 == end) {  // NaN is sought every 512 elements: near enough to name the place
-      checked_sum = stdx::reduce(totals.speed_squared_sum);
+      checked_sum = stdx::reduce(totals.motion.speed_squared_sum);
       if (!(checked_sum < 1e300) && totals.status.first_not_finite < 0) {
         totals.status.first_not_finite = static_cast<Index>(block & ~std::size_t{63});
       }
@@ -352,8 +362,8 @@ inline SweepStatus sweep(const SweepArgs& args) {
   for (auto node = own * 4 * kLanes; node < static_cast<std::size_t>(args.num_moved_nodes); node += kWidth) {
     move_shared(args, mover, node, totals);
   }
-  totals.status.max_speed_squared = stdx::hmax(totals.max_speed_squared);
-  totals.status.speed_squared_sum = stdx::reduce(totals.speed_squared_sum);
+  totals.status.max_speed_squared = stdx::hmax(totals.motion.max_speed_squared);
+  totals.status.speed_squared_sum = stdx::reduce(totals.motion.speed_squared_sum);
   return totals.status;
 }
 

@@ -86,4 +86,13 @@ Fragments find_fragments(const Stepper& stepper) {
   return fragments;
 }
 
+const Fragments& FragmentWatch::look(const Stepper& stepper, std::int64_t decompositions) {
+  const std::int64_t broken = stepper.communicator().sum(stepper.broken_joints());
+  if (broken == broken_ && decompositions == decompositions_) return fragments_;
+  fragments_ = find_fragments(stepper);
+  broken_ = broken;
+  decompositions_ = decompositions;
+  return fragments_;
+}
+
 }  // namespace breccia

@@ -10,4 +10,15 @@ namespace breccia {
 /// borders of domains, on all ranks).
 [[nodiscard]] Fragments find_fragments(const Stepper& stepper);
 
+/// Fragments that are looked for again only when joints have failed meanwhile, or elements have moved between ranks.
+class FragmentWatch {
+ public:
+  /// As of now, good until the next look. Collective. @param decompositions  so far
+  const Fragments& look(const Stepper& stepper, std::int64_t decompositions);
+
+ private:
+  Fragments fragments_;
+  std::int64_t broken_ = -1, decompositions_ = -1;  ///< for which fragments_ were found; joints of the whole model
+};
+
 }  // namespace breccia

@@ -6,7 +6,6 @@
 
 #include "mesh/tetrahedron.hpp"
 #include "physics/cauchy_stress.hpp"
-#include "simulation/fragment_labels.hpp"
 
 namespace breccia {
 namespace {
@@ -194,22 +193,19 @@ void add_contacts(const Stepper& stepper, Frame::Contacts& out) {
 
 }  // namespace
 
-Frame make_frame(const Stepper& stepper, std::int64_t number, const FrameParts& parts, const std::vector<double>& cost, double load) {
+Frame make_frame(const Stepper& stepper, std::int64_t number, const FrameParts& parts, const FrameLabels& labels) {
   Frame frame;
   frame.step = stepper.steps();
   frame.time = stepper.time();
   frame.number = number;
-  if (parts.elements || parts.surface) {
-    const Fragments fragments = find_fragments(stepper);
-    if (parts.elements) {
-      add_elements(stepper, fragments, frame.elements);
-      frame.elements.cost = cost;
-    }
-    if (parts.surface) add_surface(stepper, fragments, cost, frame.surface);
+  if (parts.elements) {
+    add_elements(stepper, labels.fragments, frame.elements);
+    frame.elements.cost = labels.cost;
   }
+  if (parts.surface) add_surface(stepper, labels.fragments, labels.cost, frame.surface);
   if (parts.joints) add_joints(stepper, frame.joints);
   if (parts.contacts) add_contacts(stepper, frame.contacts);
-  if (parts.domain) add_domain(stepper, load, frame.domain);
+  if (parts.domain) add_domain(stepper, labels.load, frame.domain);
   return frame;
 }
 

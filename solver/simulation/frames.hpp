@@ -4,13 +4,18 @@
 
 #include "output/frame.hpp"
 #include "simulation/stepper.hpp"
+#include "state/fragments.hpp"
 
 namespace breccia {
 
-/// A picture of this rank's originals at the stepper's time; looks, changes nothing. Collective.
-/// @param parts  the others stay empty;  @param cost  (originals) relative, ascending by id
-/// @param load   working time of this rank over that of the mean rank
-[[nodiscard]] Frame make_frame(const Stepper& stepper, std::int64_t number, const FrameParts& parts, const std::vector<double>& cost,
-                               double load);
+/// What a picture shows besides the stepper's state.
+struct FrameLabels {
+  const Fragments& fragments;  ///< of the elements, for elements and surface
+  std::vector<double> cost;    ///< (originals) relative, ascending by id, for elements and surface
+  double load = 1;             ///< working time of this rank over that of the mean rank, for the domain
+};
+
+/// A picture of this rank's originals at the stepper's time; looks, changes nothing. @param parts  the others stay empty
+[[nodiscard]] Frame make_frame(const Stepper& stepper, std::int64_t number, const FrameParts& parts, const FrameLabels& labels);
 
 }  // namespace breccia

@@ -279,14 +279,8 @@ bool starts_intact(const Model& model, const ModelJoint& joint) {
 
 JointLinks build_links(const Model& model) {
   const LocalMesh& local = model.local;
-  const auto blocks = index(local.num_own_blocks());
   JointLinks links;
-  links.link.resize(blocks * 32);
-  links.stiffness.assign(blocks * 32, 0.0);
-  links.limit.assign(blocks * kLanes, std::numeric_limits<double>::infinity());
-  for (Index s = 0; s < local.num_own_slots; ++s) {
-    for (int f = 0; f < 4; ++f) links.detach(s, f);
-  }
+  links.reset(local.num_own_slots);
   for (const ModelJoint& joint : model.joints) {
     if (!starts_intact(model, joint)) continue;
     const JointLawParams& law = model.joint_laws[index(joint.law)];

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mesh/tetrahedron.hpp"
 #include "physics/cauchy_stress.hpp"
+#include "simulation/convert.hpp"
+#include "simulation/frames.hpp"
 #include "simulation/reduction.hpp"
 
 namespace breccia {
@@ -126,14 +129,39 @@ void count_joints(const Stepper& stepper, HistoryRow& row) {
 
 }  // namespace
 
-HistoryRow make_history_row(const Stepper& stepper, const std::vector<Gauge>& gauges, double time) {
+void Observer::begin_stage(const case_::Stage& stage) {
+  stage_ = &stage;
+  make_gauges();
+}
+
+/// The groups' nodes on this rank as it is now.
+void Observer::make_gauges() {
+  gauges_.clear();
+  gauged_ = share_.decompositions();
+  for (const std::string& group : input_.output.gauges) {
+    Gauge gauge;
+    gauge.group = group;
+    gauge.nodes = counted_nodes_of_group(share_.model(), group);
+    const auto& names = share_.model().mesh.volume_groups;
+    const auto found = std::find(names.begin(), names.end(), group);
+    if (found != names.end()) gauge.volume_group = static_cast<Index>(found - names.begin());
+    for (std::size_t c = 0; c < stage_->constraints.size(); ++c) {
+      if (stage_->constraints[c].group == gauge.group) gauge.constraints.push_back(c);
+    }
+    gauges_.push_back(std::move(gauge));
+  }
+}
+
+HistoryRow Observer::row(double time) {
+  if (gauged_ != share_.decompositions()) make_gauges();
+  const Stepper& stepper = share_.stepper();
   HistoryRow row;
   row.step = stepper.steps();
   row.time = time;
   row.time_step = stepper.dt();
   row.energy = stepper.budget();
   count_joints(stepper, row);
-  row.fragments = find_fragments(stepper).count;
+  row.fragments = num_fragments();
   const Momentum p = momentum(stepper.model().local, stepper.state().position.data(), stepper.state().velocity.data());
   const std::vector<double> sums = totals(stepper.communicator(), std::array{p.linear[0], p.linear[1], p.linear[2], p.angular[0],
                                                                              p.angular[1], p.angular[2], sum_of_stress_yy(stepper)});
@@ -141,8 +169,15 @@ HistoryRow make_history_row(const Stepper& stepper, const std::vector<Gauge>& ga
   row.angular_momentum = {sums[3], sums[4], sums[5]};
   row.stress_yy_sum = sums[6];
   row.max_speed = stepper.communicator().max(stepper.max_speed());
-  row.gauges = read_gauges(stepper, gauges);
+  row.gauges = read_gauges(stepper, gauges_);
   return row;
+}
+
+Frame Observer::picture(std::int64_t number, const FrameParts& parts) {
+  static const Fragments none;
+  const bool labelled = parts.elements || parts.surface;
+  return make_frame(share_.stepper(), number, parts,
+                    {labelled ? labels() : none, labelled ? share_.costs() : std::vector<double>{}, share_.load()});
 }
 
 StateHash hash_of(const Stepper& stepper) {

@@ -1,16 +1,16 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "case/case.hpp"
 #include "output/frame.hpp"
 #include "simulation/fragment_labels.hpp"
-#include "simulation/stepper.hpp"
+#include "simulation/share.hpp"
 #include "state/state_hash.hpp"
 
 namespace breccia {
-
-/// What is told of a running model; looks, changes nothing.
 
 /// A group whose forces and motion are recorded.
 struct Gauge {
@@ -20,9 +20,33 @@ struct Gauge {
   std::vector<std::size_t> constraints;      ///< entries of the present stage that name this group
 };
 
-/// One line of the history of the whole model: budget and gauges of the last sampled step. Collective.
-/// @param time  s, of that step
-[[nodiscard]] HistoryRow make_history_row(const Stepper& stepper, const std::vector<Gauge>& gauges, double time);
+/// Looks at a running share for the history and for pictures; changes nothing. Collective, all of it.
+class Observer {
+ public:
+  /// @pre input and share outlive this object
+  Observer(const case_::Case& input, const Share& share) : input_(input), share_(share) {}
+
+  /// From now on gauges read the constraints of this stage. @pre stage outlives its use
+  void begin_stage(const case_::Stage& stage);
+
+  /// One line of the history of the whole model: budget and gauges of the last sampled step. @param time  s, of that step
+  [[nodiscard]] HistoryRow row(double time);
+  /// A picture of this rank's originals as they are. @param parts  the others stay empty
+  [[nodiscard]] Frame picture(std::int64_t number, const FrameParts& parts);
+  /// How many fragments the whole model is in.
+  [[nodiscard]] std::int64_t num_fragments() { return labels().count; }
+
+ private:
+  void make_gauges();
+  [[nodiscard]] const Fragments& labels() { return fragments_.look(share_.stepper(), share_.decompositions()); }
+
+  const case_::Case& input_;
+  const Share& share_;
+  const case_::Stage* stage_ = nullptr;
+  std::vector<Gauge> gauges_;
+  std::int64_t gauged_ = 0;  ///< decomposition for which the gauges were made
+  FragmentWatch fragments_;
+};
 
 /// Positions, velocities and histories of the whole model, the same for any number of ranks. Collective.
 [[nodiscard]] StateHash hash_of(const Stepper& stepper);

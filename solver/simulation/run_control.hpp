@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,9 @@
 #include "parallel/communicator.hpp"
 
 namespace breccia {
+
+/// Order of the root that its control file has something to say; those for pipelines are the 32 bits below.
+inline constexpr std::uint64_t kControlOrder = std::uint64_t{1} << 32;
 
 /// Commands from a run's control file, which the root alone reads, for all ranks.
 class RunControl {

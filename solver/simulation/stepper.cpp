@@ -199,6 +199,7 @@ SweepArgs Stepper::sweep_args(bool sample) {
   args.node_mass = local.node_mass.data();
   args.shared_corners = shared_corners_.data();
   args.link = links_.link.data();
+  args.place = links_.place.data();
   args.stiffness = links_.stiffness.data();
   args.limit = links_.limit.data();
   args.crossing = &Stepper::crossing;

@@ -1,6 +1,7 @@
 """A ParaView without windows that watches a run: connects, receives channels, pauses, continues, takes a picture, and dies without goodbye.
 
-usage: pvpython live_client.py PORT FOLDER
+usage: pvpython live_client.py PORT FOLDER [--briefly]
+--briefly: dies as soon as it has received the channels.
 Writes FOLDER/client.log; FOLDER/step is written by the run; FOLDER/done says that it was killed on purpose.
 """
 
@@ -38,6 +39,12 @@ def step():
         return int(file.read() or -1)
 
 
+def die():
+    with open(os.path.join(FOLDER, "done"), "w", encoding="utf-8"):
+        pass
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
 link = live.ConnectToCatalyst("localhost", PORT)
 proxies = link.GetInsituProxyManager
 wait("sources", lambda: proxies() and proxies().GetNumberOfProxies("sources") >= 3)
@@ -46,6 +53,8 @@ extracts = {name: live.ExtractCatalystData(link, name) for name in ("elements", 
 for name, extract in extracts.items():
     wait(name, lambda: cells(extract) > 0)
     print(name, cells(extract), "cells", extract.CellData.keys(), file=log)
+if "--briefly" in sys.argv:
+    die()
 first = cells(extracts["fractures"])
 wait("other fractures", lambda: cells(extracts["fractures"]) != first)
 print("fractures changed", file=log)
@@ -75,6 +84,4 @@ reader.SetFileName(picture)
 reader.Update()
 low, high = reader.GetOutput().GetScalarRange()
 print("picture shows something" if high - low > 50 else "picture is blank", file=log)
-with open(os.path.join(FOLDER, "done"), "w", encoding="utf-8"):
-    pass
-os.kill(os.getpid(), signal.SIGKILL)
+die()

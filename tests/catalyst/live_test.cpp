@@ -1,4 +1,5 @@
-// The live link: a ParaView without windows (live_client.py) connects in mid-run, receives, pauses, continues, dies; the run goes on.
+// The live link: a ParaView without windows (live_client.py) connects in mid-run, receives, pauses, continues, dies; the run goes on, and another
+// one connects.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -52,7 +53,8 @@ int free_port() {
 /// A child process that dies with us.
 class Client {
  public:
-  Client(int port, const std::filesystem::path& folder) {
+  /// @param how  an option of live_client.py, or nothing
+  Client(int port, const std::filesystem::path& folder, const char* how) {
     child_ = fork();
     if (child_ != 0) return;
     prctl(PR_SET_PDEATHSIG, SIGTERM);
@@ -61,7 +63,7 @@ class Client {
     const std::string path = std::string("PATH=") + std::getenv("PATH");
     execlp("env", "env", "-i", path.c_str(), "HOME=/tmp", "OMPI_ALLOW_RUN_AS_ROOT=1",
            "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", "xvfb-run", "-a", "-s", "-screen 0 800x600x24 -noreset", "pvpython",
-           BRECCIA_LIVE_CLIENT, std::to_string(port).c_str(), folder.c_str(), nullptr);
+           BRECCIA_LIVE_CLIENT, std::to_string(port).c_str(), folder.c_str(), how, nullptr);
     _exit(127);
   }
   Client(const Client&) = delete;
@@ -84,52 +86,90 @@ std::string content(const std::filesystem::path& file) {
   return text.str();
 }
 
-TEST(Live, AParaViewConnectsInMidRunReceivesPausesContinuesAndDiesWhileTheRunGoesOn) {
-  const auto folder = fresh_folder("live");
+/// A run that a client may watch.
+class WatchedRun {
+ public:
+  /// What became of it while a client came and went.
+  struct Course {
+    std::int64_t connected_steps = 0, steps_after_death = 0;
+    Clock::duration longest{};  ///< step
+  };
+
+  WatchedRun(const std::filesystem::path& folder, int port) : config_(folder, world().communicator, world().rank, world().size), port_(port) {
+    adaptor_.emplace(config_.add("live", kPublished).live(port).get());
+  }
+  [[nodiscard]] bool is_open() const { return adaptor_->is_open(); }
+  [[nodiscard]] std::uint32_t channels() { return adaptor_->channels(0, step_, SyntheticRun::time_of(step_)); }
+  [[nodiscard]] std::int64_t total(int channel) const { return run_.total(channel, 1); }
+
+  /// Goes on, with a client from the tenth step on, until some steps after it has died, or until patience is at an end. Collective.
+  /// @param folder  where the client leaves its word
+  Course go_on(const std::filesystem::path& folder, const char* how) {
+    Course course;
+    std::optional<Client> client;
+    const auto begin = Clock::now();
+    for (int i = 0; course.steps_after_death < kStepsAfterDeath && broadcast(Clock::now() - begin < kLongest ? 1 : 0) != 0; ++i) {
+      if (i == 10 && world().rank == 0) client.emplace(port_, folder, how);
+      const auto before = Clock::now();
+      if (step()) ++course.connected_steps;
+      course.longest = std::max(course.longest, Clock::now() - before);
+      const bool done = world().rank == 0 && std::filesystem::exists(folder / "done");
+      if (broadcast(done ? 1 : 0) != 0) ++course.steps_after_death;
+      if (world().rank == 0) std::ofstream(folder / "step") << step_;
+      std::this_thread::sleep_for(kStep);
+    }
+    return course;
+  }
+
+ private:
+  /// @return  whether somebody listened
+  bool step() {
+    ++step_;
+    const std::uint32_t wanted = channels();
+    if (wanted == 0) return false;
+    EXPECT_EQ(wanted, kPublished);
+    EXPECT_EQ(adaptor_->execute(1, run_.at(step_, wanted)), 0U) << adaptor_->text;
+    run_.take_away();
+    run_.give_back();
+    return true;
+  }
+
+  SyntheticRun run_{3, world().rank, world().size};
+  Config config_;
+  int port_;
+  std::optional<Adaptor> adaptor_;
+  std::int64_t step_ = 0;
+};
+
+TEST(Live, AParaViewConnectsInMidRunReceivesPausesContinuesAndDiesAndAnotherOneConnects) {
+  const auto folder = fresh_folder("live"), again = fresh_folder("live_again");
   const int port = broadcast(world().rank == 0 ? free_port() : 0);
   ASSERT_NE(port, 0);
-  SyntheticRun run(3, world().rank, world().size);
-  Config config(folder, world().communicator, world().rank, world().size);
-  Adaptor adaptor(config.add("live", kPublished).live(port).get());
-  ASSERT_TRUE(adaptor.is_open());
-  EXPECT_EQ(adaptor.channels(0, 0, 0.0), 0U) << "nobody listens: nothing is asked of the solver";
+  WatchedRun run(folder, port);
+  ASSERT_TRUE(run.is_open());
+  EXPECT_EQ(run.channels(), 0U) << "nobody listens: nothing is asked of the solver";
 
-  std::optional<Client> client;
-  const auto begin = Clock::now();
-  auto longest = Clock::duration::zero();
-  std::int64_t steps_after_death = 0;
-  std::int64_t connected_steps = 0;
-  for (std::int64_t number = 1;
-       steps_after_death < kStepsAfterDeath && broadcast(Clock::now() - begin < kLongest ? 1 : 0) != 0; ++number) {
-    if (number == 10 && world().rank == 0) client.emplace(port, folder);
-    const std::uint32_t channels = adaptor.channels(0, number, SyntheticRun::time_of(number));
-    const auto before = Clock::now();
-    if (channels != 0) {
-      EXPECT_EQ(channels, kPublished);
-      EXPECT_EQ(adaptor.execute(1, run.at(number, channels)), 0U) << adaptor.text;
-      run.take_away();
-      run.give_back();
-      ++connected_steps;
-    }
-    longest = std::max(longest, Clock::now() - before);
-    const bool done = world().rank == 0 && std::filesystem::exists(folder / "done");
-    if (broadcast(done ? 1 : 0) != 0) ++steps_after_death;
-    if (world().rank == 0) std::ofstream(folder / "step") << number;
-    std::this_thread::sleep_for(kStep);
-  }
-  EXPECT_EQ(steps_after_death, kStepsAfterDeath) << "the client did not come to its end:\n"
-                                                 << content(folder / "client.log");
-  EXPECT_GT(connected_steps, 0);
-  EXPECT_GT(longest, kPauseSeen) << "the pause held the run";
-  EXPECT_EQ(adaptor.channels(0, 1000000, 1.0), 0U) << "the dead client was noticed";
-  if (world().rank != 0) return;
+  const WatchedRun::Course first = run.go_on(folder, nullptr);
   const std::string log = content(folder / "client.log");
-  EXPECT_THAT(log, testing::HasSubstr("elements " + std::to_string(run.total(BRECCIA_ELEMENTS, 1)) + " cells"));
+  EXPECT_EQ(first.steps_after_death, kStepsAfterDeath) << "the client did not come to its end:\n" << log;
+  EXPECT_GT(first.connected_steps, 0);
+  EXPECT_GT(first.longest, kPauseSeen) << "the pause held the run";
+  EXPECT_EQ(run.channels(), 0U) << "the dead client was noticed";
+
+  const WatchedRun::Course second = run.go_on(again, "--briefly");
+  const std::string log_again = content(again / "client.log");
+  EXPECT_EQ(second.steps_after_death, kStepsAfterDeath) << "the second client did not come to its end:\n" << log_again;
+  EXPECT_GT(second.connected_steps, 0);
+
+  if (world().rank != 0) return;
+  const std::string elements = "elements " + std::to_string(run.total(BRECCIA_ELEMENTS)) + " cells";
+  EXPECT_THAT(log, testing::HasSubstr(elements));
   EXPECT_THAT(log, testing::HasSubstr("domains " + std::to_string(world().size) + " cells"));
   EXPECT_THAT(log, testing::HasSubstr("fractures changed"));
   EXPECT_THAT(log, testing::HasSubstr("stood still"));
   EXPECT_THAT(log, testing::HasSubstr("went on"));
   EXPECT_THAT(log, testing::HasSubstr("picture shows something"));
+  EXPECT_THAT(log_again, testing::HasSubstr(elements));
 }
 
 }  // namespace

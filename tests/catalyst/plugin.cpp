@@ -68,9 +68,9 @@ Adaptor::~Adaptor() {
   if (adaptor_ != nullptr) plugin().close(adaptor_);
 }
 
-std::uint32_t Adaptor::execute(std::uint32_t pipelines, const BrecciaInstant& instant) {
+std::int64_t Adaptor::execute(std::uint32_t pipelines, const BrecciaInstant& instant) {
   Text message;
-  const std::uint32_t failed =
+  const std::int64_t failed =
       plugin().execute(adaptor_, pipelines, &instant, &requests, message.text, sizeof message.text);
   text = message.string();
   return failed;

@@ -54,7 +54,7 @@ class Adaptor {
     return plugin().channels(adaptor_, pipeline, step, time);
   }
   /// Executes and keeps text and requests.
-  std::uint32_t execute(std::uint32_t pipelines, const BrecciaInstant& instant);
+  std::int64_t execute(std::uint32_t pipelines, const BrecciaInstant& instant);
   [[nodiscard]] std::int64_t bytes(int pipeline) const { return plugin().bytes_written(adaptor_, pipeline); }
 
   std::string text;

@@ -71,10 +71,11 @@ std::uint32_t step(Adaptor& adaptor, SyntheticRun& run, std::int64_t number, int
     if (wanted != 0) due |= 1U << i;
     channels |= wanted;
   }
-  const std::uint32_t failed = due == 0 ? 0 : adaptor.execute(due, run.at(number, channels));
+  const std::int64_t failed = due == 0 ? 0 : adaptor.execute(due, run.at(number, channels));
+  EXPECT_GE(failed, 0);
   run.take_away();
   run.give_back();
-  return failed;
+  return static_cast<std::uint32_t>(failed);
 }
 
 TEST(Scripts, ThatFailAreToldInOneLineEachWithTheirPlaceOnAllRanksAndTheOthersGoOn) {

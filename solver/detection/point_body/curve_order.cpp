@@ -2,6 +2,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 namespace breccia::detection {
@@ -72,6 +73,26 @@ CurveFrame frame_of(std::span<const Vec3> points) {
   frame.last_cell = static_cast<double>((1U << 2 * frame.pairs) - 1);
   frame.cells_a_metre = (frame.last_cell + 1) / std::clamp(width, 1e-290, 1e290);
   return frame;
+}
+
+bool is_short_path(std::span<Vec3> positions) {
+  constexpr double most = 1.4;
+  constexpr int pairs = 3;
+  constexpr double edge = 1 << 2 * pairs;
+  const auto finite_end = std::remove_if(positions.begin(), positions.end(), [](const Vec3& x) { return !x.allFinite(); });
+  const std::span<Vec3> path(positions.begin(), finite_end);
+  if (path.empty()) return true;
+  const Box box = box_of(path);
+  const auto length = [&] {
+    double sum = 0;  // halves, as a distance itself may overflow
+    for (std::size_t i = 1; i < path.size(); ++i) sum += (0.5 * path[i] - 0.5 * path[i - 1]).lpNorm<1>();
+    return sum;
+  };
+  const double given = length(), width = (0.5 * box.high - 0.5 * box.low).maxCoeff();
+  if (!(width > 1e-290) || !std::isfinite(given)) return false;
+  const CurveFrame frame{box.low, box.low, 0.5 * edge / width, pairs, edge - 1};
+  std::sort(path.begin(), path.end(), [&](const Vec3& a, const Vec3& b) { return frame.place(a) < frame.place(b); });
+  return given <= most * length();
 }
 
 std::span<CurveOrder::Record> CurveOrder::sort_places(int num_bits) {

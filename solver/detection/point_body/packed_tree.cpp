@@ -144,7 +144,7 @@ void PackedTree::search(std::span<const Vec3> points, std::span<const Corners> c
   demand_searchable(points.size(), contactors.size(), buffer);
   const CurveFrame frame = frame_of(points);
   centre_ = frame.centre;
-  fill_leaves(points, order_.sort(points.size(), frame, [&](std::size_t p) { return points[p]; }));
+  fill_leaves(points, order_.arrange(points.size(), frame, [&](std::size_t p) { return points[p]; }));
   const std::size_t num_leaves = in_groups(num_points_);
   lay_out_levels(num_leaves);
   for (std::size_t leaf = 0; leaf < num_leaves; ++leaf) set_leaf_box(leaf);
@@ -155,7 +155,7 @@ void PackedTree::search(std::span<const Vec3> points, std::span<const Corners> c
   }
 
   num_found_ = 0;
-  const auto order = order_.sort(contactors.size(), frame, [&](std::size_t c) { return centre_of(contactors[c]); });
+  const auto order = order_.arrange(contactors.size(), frame, [&](std::size_t c) { return centre_of(contactors[c]); });
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (i + contactors_ahead < order.size()) prefetch(contactors[order[i + contactors_ahead].number]);
     const CoupleTest test(contactors[order[i].number], buffer);

@@ -10,8 +10,8 @@
 
 namespace breccia::detection {
 
-/// A tree of boxes over the points, rebuilt at every search: points in the order of a Hilbert curve, eight to a leaf, eight
-/// leaves to a group, eight groups to a group and so on, without pointers. A contactor walks it level by level, eight boxes
+/// A tree of boxes over the points, rebuilt at every search: points in the order of a Hilbert curve, or in their own where
+/// that is about as good, eight to a leaf, eight leaves to a group, eight groups to a group and so on, without pointers. A contactor walks it level by level, eight boxes
 /// at a time (packed_tree_walk.hpp); contactors come in the order of the same curve, so one finds in the caches what the one
 /// before has used. No length is chosen: contactors and spacings of points may be as different as they like, and in any order
 /// in memory.

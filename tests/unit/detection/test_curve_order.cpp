@@ -105,6 +105,39 @@ TEST_F(CurveOrderOf, a_dense_crowd_is_as_good_whatever_lies_around_it) {
   }
 }
 
+TEST_F(CurveOrderOf, points_keeps_an_order_that_is_as_good_and_no_other) {
+  Random random(7);
+  std::vector<Vec3> points;
+  for (int k = 0; k < 20000; ++k) points.push_back(scenes::uniform_vector(random, 0, 1));
+  const auto arrange = [&] { return order_.arrange(points.size(), frame_of(points), [&](std::size_t i) { return points[i]; }); };
+  const auto is_kept = [](std::span<const CurveOrder::Record> order) {
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      if (order[i].number < order[i - 1].number) return false;
+    }
+    return true;
+  };
+  EXPECT_FALSE(is_kept(arrange()));
+  EXPECT_LT(mean_extent(points, arrange()), 1.01 * mean_extent(points, sort(points)));
+
+  std::vector<Vec3> in_order;
+  for (const auto& record : sort(points)) in_order.push_back(points[record.number]);
+  points = in_order;
+  points[777][0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(is_kept(arrange()));
+  EXPECT_EQ(arrange().size(), points.size() - 1);
+
+  points.clear();  // near ones are together, but the pieces are strewn
+  for (std::size_t piece = 0; piece < 1000; ++piece) {
+    const auto begin = in_order.begin() + static_cast<std::ptrdiff_t>(20 * (piece * 377 % 1000));
+    points.insert(points.end(), begin, begin + 20);
+  }
+  EXPECT_FALSE(is_kept(arrange()));
+
+  points = in_order;  // a fifth is in disorder
+  std::shuffle(points.begin() + 8000, points.begin() + 12000, random);
+  EXPECT_FALSE(is_kept(arrange()));
+}
+
 TEST_F(CurveOrderOf, points_in_one_place_ends) {
   const std::vector<Vec3> points(1000, Vec3(0.3, -2e5, 1e-300));
   EXPECT_EQ(sort(points).size(), points.size());

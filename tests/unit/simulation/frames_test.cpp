@@ -13,6 +13,7 @@
 #include "case/reader.hpp"
 #include "simulation/balance.hpp"
 #include "simulation/convert.hpp"
+#include "simulation/fragment_labels.hpp"
 #include "simulation/model.hpp"
 
 namespace breccia {
@@ -54,7 +55,7 @@ class TwoCubes : public testing::Test {
   TwoCubes() { stepper_.begin_stage(stage_loads(input_.stages[0], model_), kStep); }
   [[nodiscard]] Frame picture() const {
     const FrameParts parts{.elements = true, .joints = true, .contacts = true, .surface = true, .domain = true};
-    return make_frame(stepper_, 0, parts, Balance().weights(stepper_), 1.0);
+    return make_frame(stepper_, 0, parts, {find_fragments(stepper_), Balance().weights(stepper_)});
   }
   const case_::Case input_ = two_cubes();
   const Model model_ = build_model(input_);
@@ -88,6 +89,17 @@ TEST_F(TwoCubes, show_both_sides_of_a_joint_that_fails) {
   EXPECT_EQ(cracks(frame.surface), 2 * 4);
   EXPECT_EQ(frame.surface.face.size(), 10u * 4 + 2 * 4);
   EXPECT_EQ(frame.joints.id.size(), 4u);
+}
+
+TEST_F(TwoCubes, are_two_fragments_once_their_joints_have_failed) {
+  FragmentWatch watch;
+  EXPECT_EQ(watch.look(stepper_, 1).count, 1);
+  stepper_.break_joints(faces_of_surface(model_, "box.slit"));
+  EXPECT_EQ(watch.look(stepper_, 1).count, 1);
+  stepper_.step(false);
+  const Fragments& now = watch.look(stepper_, 1);
+  EXPECT_EQ(now.count, 2);
+  EXPECT_EQ(now.of_slot, find_fragments(stepper_).of_slot);
 }
 
 TEST_F(TwoCubes, have_the_fields_of_the_elements_on_their_surface) {

@@ -97,16 +97,15 @@ TEST(Fragments, PassThroughLinkedJointsAndStopAtDetachedOnes) {
   const Topology topology = build_topology(model);
   const LocalMesh mesh = local_mesh(model, Discretisation::own_nodes);
   JointLinks links;
-  links.link.resize(at(mesh.num_own_slots) * 4);
+  links.reset(mesh.num_own_slots);
   const Index lonely = 20;  // element whose joints have all failed
   for (Index s = 0; s < mesh.num_own_slots; ++s) {
     for (int f = 0; f < 4; ++f) {
-      links.detach(s, f);
       const GlobalId e = mesh.element_of_slot[at(s)];
       if (e < 0) continue;
       const FaceLink& there = topology.links[static_cast<std::size_t>(e)][at(f)];
       if (there.free() || e == lonely || there.neighbour == lonely) continue;
-      links.link[JointLinks::at(s, f)] = JointLinks::make_link(mesh.slot_of_element[at(there.neighbour)], there.code);
+      links.attach(s, f, mesh.slot_of_element[at(there.neighbour)], there.code);
     }
   }
   FragmentFinder finder(mesh);

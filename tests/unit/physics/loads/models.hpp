@@ -29,13 +29,7 @@ struct Model {
   Model(Mesh m, Discretisation kind, double density) : mesh(std::move(m)), topology(build_topology(mesh)) {
     const std::size_t groups = mesh.volume_groups.size();
     local = build_local_mesh(mesh, std::vector<Discretisation>(groups, kind), std::vector<double>(groups, density));
-    const auto own = at(local.num_own_slots);
-    links.stiffness.assign(own * 4, 0.0);
-    links.limit.assign(own, 0.0);
-    links.link.assign(own * 4, 0);
-    for (Index s = 0; s < local.num_own_slots; ++s) {
-      for (int f = 0; f < 4; ++f) links.detach(s, f);
-    }
+    links.reset(local.num_own_slots);
     state.position = local.reference;
     state.next_position = local.reference;
     state.velocity.assign(local.reference.size(), 0.0);
@@ -45,10 +39,8 @@ struct Model {
   void join(double k) {
     for (const JointFace& joint : find_joints(mesh, topology)) {
       const FaceLink& there = topology.links[at(joint.a)][at(joint.face_a)];
-      const FaceLink& back = topology.links[at(joint.b)][at(there.face())];
       const Index a = local.slot_of_element[at(joint.a)], b = local.slot_of_element[at(joint.b)];
-      links.link[JointLinks::at(a, joint.face_a)] = JointLinks::make_link(b, there.code);
-      links.link[JointLinks::at(b, there.face())] = JointLinks::make_link(a, back.code);
+      links.attach(a, joint.face_a, b, there.code);
       links.stiffness[JointLinks::at(a, joint.face_a)] = k * joint.area / 3.0;
       links.stiffness[JointLinks::at(b, there.face())] = k * joint.area / 3.0;
     }

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "output/control.hpp"
+#include "output/insitu.hpp"
+#include "simulation/observe.hpp"
+#include "simulation/share.hpp"
+
+namespace breccia {
+
+/// The pipelines of a run, between its steps: tells them what they want to know, hears what they want done.
+class InSituWatch {
+ public:
+  /// Starts the adaptor. Collective. @pre input and share outlive this object. Throws as InSitu does.
+  InSituWatch(const case_::Case& input, const std::filesystem::path& extracts, Share& share, InSitu::Tell tell);
+
+  /// What this rank has to tell the others at the end of a step.
+  void speak(Word& word);
+  /// A line of the history has been written.
+  void take_row(const HistoryRow& row);
+  [[nodiscard]] double share_of_time() const { return insitu_.share(); }
+
+  /// Lets the pipelines that are due work on the present state. Collective. @param all  every one of them, whatever it costs
+  /// @return  what their scripts ask of the run, as a person might, the same on all ranks
+  [[nodiscard]] std::vector<Command> look(Observer& observer, bool all);
+
+  [[nodiscard]] bool failed() const { return insitu_.failed(); }
+  [[nodiscard]] std::vector<PipelineReport> finish() { return insitu_.finish(); }
+
+ private:
+  void count_broken();
+  [[nodiscard]] std::vector<Command> asked_by_scripts() const;
+
+  Share& share_;
+  InSitu insitu_;
+  std::vector<std::string> columns_;             ///< of the history
+  std::optional<std::vector<double>> last_row_;  ///< of the history, on the root
+  std::int64_t broken_here_ = 0, broken_everywhere_ = 0;  ///< joints, when they were last counted
+};
+
+}  // namespace breccia

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/error.hpp"
+#include "output/sink.hpp"
+#include "parallel/communicator.hpp"
+
+namespace breccia {
+
+/// Tells the sinks of this rank what all ranks tell theirs.
+class Teller {
+ public:
+  /// @pre sinks outlive this object
+  Teller(const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator) : sinks_(sinks), communicator_(communicator) {}
+
+  /// An error on one rank is an error on all. Collective. @param tell_one  called with each sink
+  template <class Tell>
+  void tell(Tell&& tell_one) const {
+    communicator_.set_phase("output");
+    communicator_.agree([&] {
+      if (late_) throw OutputError(*late_);
+      for (const auto& sink : sinks_) tell_one(*sink);
+    });
+  }
+
+  /// Not collective, for only the clock of the rank with such a sink knows when: what goes wrong waits until all ranks speak next.
+  /// @param make_line  of the status, called when a sink would use one
+  template <class MakeLine>
+  void tell_status(MakeLine&& make_line) {
+    try {
+      for (const auto& sink : sinks_) {
+        if (sink->status_due()) sink->status(make_line());
+      }
+    } catch (const OutputError& error) {
+      if (!late_) late_ = error;
+    }
+  }
+
+ private:
+  const std::vector<std::unique_ptr<Sink>>& sinks_;
+  Communicator communicator_;
+  std::optional<OutputError> late_;
+};
+
+}  // namespace breccia
