@@ -105,22 +105,28 @@ std::uint32_t Adaptor::execute(std::uint32_t pipelines, const BrecciaInstant& in
   return failed;
 }
 
+std::string Adaptor::failure_of(int pipeline, const Frame& frame, BrecciaRequests& requests) {
+  std::string error;
+  try {
+    try {
+      pipelines_[static_cast<std::size_t>(pipeline)].work->execute(frame, requests);
+    } catch (const Abandoned&) {
+      throw;
+    } catch (const std::exception& failure) {
+      error = failure.what();
+    }
+    return ranks_.agree(error);
+  } catch (const Abandoned& wait) {
+    throw Abandoned(name(pipeline) + ": " + wait.what());
+  }
+}
+
 std::uint32_t Adaptor::execute(std::uint32_t pipelines, const Frame& frame, BrecciaRequests& requests,
                                std::string& text) {
   std::uint32_t failed = 0;
   for (int i = 0; i < num_pipelines(); ++i) {
     if ((pipelines & bit(i)) == 0) continue;
-    std::string error;
-    try {
-      pipelines_[static_cast<std::size_t>(i)].work->execute(frame, requests);
-    } catch (const std::exception& failure) {
-      error = failure.what();
-    }
-    try {
-      error = ranks_.agree(error);
-    } catch (const Abandoned& wait) {
-      throw Abandoned(name(i) + ": " + wait.what());
-    }
+    const std::string error = failure_of(i, frame, requests);
     if (error.empty()) continue;
     failed |= bit(i);
     text += name(i) + ": " + one_line(error) + '\n';

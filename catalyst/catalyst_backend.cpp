@@ -215,7 +215,7 @@ CatalystBackend::~CatalystBackend() {
 std::unique_ptr<Pipeline> CatalystBackend::script(const std::string& name, const std::filesystem::path& file,
                                                   const std::filesystem::path& folder, std::uint32_t channels,
                                                   const std::map<std::string, double>& parameters) {
-  python::start(data_folder() / "pipelines", data_folder() / "python");
+  python::start(data_folder() / "pipelines", data_folder() / "python", ranks_);
   return std::make_unique<ScriptPipeline>(ranks_, ScriptDescription{name, file, folder, channels, parameters});
 }
 

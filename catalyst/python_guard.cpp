@@ -15,6 +15,24 @@ namespace {
 
 constexpr const char* kGuard = "breccia_guard";
 
+/// What the wait for other ranks ended with, once it has ended in vain.
+std::string abandoned;
+
+/// Python's agree(text): whether any rank brings a text.
+PyObject* agree(PyObject* ranks, PyObject* text) {
+  const char* mine = PyUnicode_AsUTF8(text);
+  if (mine == nullptr) return nullptr;
+  try {
+    if (!abandoned.empty()) throw Abandoned(abandoned);
+    return PyBool_FromLong(static_cast<const Ranks*>(PyCapsule_GetPointer(ranks, nullptr))->agree(mine).empty() ? 0 : 1);
+  } catch (const Abandoned& error) {
+    abandoned = error.what();
+    PyErr_SetString(PyExc_RuntimeError, error.what());
+    return nullptr;
+  }
+}
+PyMethodDef agree_method{"agree", agree, METH_O, nullptr};
+
 /// Type and message of the exception that Python has raised to us; it is cleared.
 std::string raised() {
   PyObject* type = nullptr;
@@ -44,14 +62,15 @@ vtkSmartPyObject call(const char* function, PyObject* arguments) {
 
 }  // namespace
 
-void start(const std::filesystem::path& pipelines, const std::filesystem::path& guard) {
+void start(const std::filesystem::path& pipelines, const std::filesystem::path& guard, const Ranks& ranks) {
   vtkPythonInterpreter::Initialize();
   // ParaView's Python takes its level of logging from VTK's when it is imported; it does not understand "off" and would log all.
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_ERROR);
   const vtkPythonScopeGilEnsurer lock;
   vtkPythonInterpreter::PrependPythonPath(pipelines.c_str());
   vtkPythonInterpreter::PrependPythonPath(guard.c_str());
-  call("install", PyTuple_New(0));
+  const vtkSmartPyObject capsule(PyCapsule_New(const_cast<Ranks*>(&ranks), nullptr, nullptr));
+  call("install", Py_BuildValue("(N)", PyCFunction_New(&agree_method, capsule)));
   capture_messages();
 }
 
@@ -68,6 +87,7 @@ void enter(const std::string& name, const std::filesystem::path& script, const s
 
 std::string take_error() {
   const vtkPythonScopeGilEnsurer lock;
+  if (!abandoned.empty()) throw Abandoned(abandoned);
   const vtkSmartPyObject text = call("take_error", PyTuple_New(0));
   const char* line = PyUnicode_AsUTF8(text);
   return line == nullptr ? raised() : std::string(line);

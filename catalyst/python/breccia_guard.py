@@ -13,12 +13,16 @@ import breccia_insitu
 
 _error = ""
 _script = ""
+_agree = None
 
 
-def install():
-    """Wraps the functions through which ParaView calls scripts. Once is enough, twice does no harm."""
+def install(agree):
+    """Wraps the functions through which ParaView calls scripts. Once is enough, twice does no harm. agree(text) tells whether any rank
+    brings a text; it raises when others do not come."""
+    global _agree
     from paraview.catalyst import detail, v2_internals
 
+    _agree = agree
     if getattr(v2_internals, "breccia_guarded", False):
         return
     v2_internals.breccia_guarded = True
@@ -74,7 +78,7 @@ def _guarded(function):
             result = function(*arguments)
         except BaseException as error:  # SystemExit and KeyboardInterrupt too: the solver decides when to end
             text = _described(error)
-        if _any_rank(bool(text)):
+        if _agree(text):
             _error = _error or text  # nothing where only another rank has something to tell
             raise ScriptFailed(_error)
         return result
@@ -100,17 +104,3 @@ def _described(error):
         message = "called sys.exit" if isinstance(error, SystemExit) else str(error)
     where = f" ({os.path.basename(place[0])}:{place[1]})" if place[0] else ""
     return " ".join(f"{type(error).__name__}: {message}{where}".split())
-
-
-def _any_rank(flag):
-    from vtkmodules.vtkCommonCore import vtkIntArray
-    from vtkmodules.vtkParallelCore import vtkCommunicator, vtkMultiProcessController
-
-    controller = vtkMultiProcessController.GetGlobalController()
-    if controller is None or controller.GetNumberOfProcesses() == 1:
-        return flag
-    mine, most = vtkIntArray(), vtkIntArray()
-    mine.InsertNextValue(int(flag))
-    most.InsertNextValue(0)
-    controller.AllReduce(mine, most, vtkCommunicator.MAX_OP)
-    return most.GetValue(0) > 0

@@ -150,10 +150,7 @@ void InSitu::run_one(std::size_t i, const BrecciaInstant& instant, double shared
   requests_.pause |= asked.pause;
   requests_.extract |= asked.extract;
   if (asked.frame_interval > 0) requests_.frame_interval = asked.frame_interval;
-  if (failed < 0) {
-    adaptor_ = nullptr;  // it cannot be closed any more
-    throw InternalError("pipeline " + text);
-  }
+  if (failed < 0) throw InternalError("pipeline " + text);
   if (failed != 0) fail(p, text);
 }
 

@@ -63,6 +63,8 @@ class InSitu {
   [[nodiscard]] bool failed() const { return failed_; }
   /// Share of the wall time that pipelines have taken on this rank, starts excepted.
   [[nodiscard]] double share() const;
+  /// Leaves the adaptor as it is: other ranks will not come to close it.
+  void abandon() { adaptor_ = nullptr; }
   /// Ends all pipelines. Collective.
   [[nodiscard]] std::vector<PipelineReport> finish();
 

@@ -82,7 +82,7 @@ using RateWorkFunction = void (*)(const SweepArgs&);
 /// (f += k A0/3 (x_neighbour - x)), adds the forces others put on its nodes, and moves its nodes by central differences.
 /// No scatter: the order of summation of a node is fixed by its own element. Shared-node blocks: forces are scattered in
 /// ascending slots, then all shared nodes are moved.
-/// O(elements); 530 bytes an own-node element are moved. Allocates nothing, throws nothing. The same bits for every
+/// O(elements); 560 bytes an own-node element are read or written. Allocates nothing, throws nothing. The same bits for every
 /// instruction set.
 using SweepFunction = SweepStatus (*)(const SweepArgs&);
 

@@ -30,6 +30,7 @@ class InSituWatch {
   [[nodiscard]] std::vector<Command> look(Observer& observer, bool all);
 
   [[nodiscard]] bool failed() const { return insitu_.failed(); }
+  void abandon() { insitu_.abandon(); }
   [[nodiscard]] std::vector<PipelineReport> finish() { return insitu_.finish(); }
 
  private:

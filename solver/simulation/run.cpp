@@ -65,6 +65,9 @@ class Runner {
     } catch (const OutputError& error) {
       if (insitu_ && insitu_->failed()) finish(error.what());
       throw;
+    } catch (const InternalError&) {
+      if (insitu_) insitu_->abandon();
+      throw;
     }
     return finish(status_);
   }

@@ -175,9 +175,9 @@ TEST(InSituAlone, a_live_view_that_leaves_the_machine_is_warned_of) {
 }
 
 TEST(InSituAlone, a_script_in_which_ranks_wait_for_each_other_in_vain_ends_the_run) {
-  const WatchedRun run(2, "--set 'domains.patience=\"500 ms\"'" + strict({BRECCIA_SCRIPTS "/leaves_the_others.py"}));
+  const WatchedRun run(2, "--set 'domains.patience=\"2 s\"'" + strict({BRECCIA_SCRIPTS "/leaves_the_others.py"}));
   EXPECT_EQ(run.outcome.exit_code, 4);
-  EXPECT_NE(run.outcome.err.find("leaves_the_others.py: rank 1 has waited 1 s for others that are still in it; here it failed: "
+  EXPECT_NE(run.outcome.err.find("leaves_the_others.py: rank 1 has waited 4 s for others that are still in it; here it failed: "
                                  "RuntimeError: on my own (leaves_the_others.py:12)"), std::string::npos) << run.outcome.err;
 }
 
