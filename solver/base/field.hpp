@@ -32,7 +32,7 @@ struct CacheLineAllocator {
   }
 
  private:
-  static constexpr bool is_large(std::size_t bytes) { return bytes >= 2 * huge_page; }
+  static constexpr bool is_large(std::size_t bytes) { return bytes >= 8 * huge_page; }
   static constexpr std::align_val_t alignment_of(std::size_t bytes) { return is_large(bytes) ? std::align_val_t{huge_page} : alignment; }
 };
 

@@ -9,10 +9,10 @@
 
 namespace breccia {
 
-/// What a step costs, for predictions. Measured on a cloud machine: two cores of an AVX-512 Xeon, memory at 22 GB/s.
-inline constexpr double kSecondsAnElement = 110e-9;  ///< with its joints; the slit plate of 442,368 elements (README.md)
-/// A message both ways at once between two cores took 0.3 us with 8 bytes, 12 us with 8 kB, 49 us with 80 kB, 184 us with
-/// 800 kB: at most this and its bytes at this speed.
+/// What a step costs, for predictions. With its joints, on a core of an AMD EPYC; the slit plate of 442,368 elements (README.md).
+inline constexpr double kSecondsAnElement = 70e-9;
+/// On a cloud machine, two cores of an AVX-512 Xeon: a message both ways at once took 0.3 us with 8 bytes, 12 us with 8 kB, 49 us
+/// with 80 kB, 184 us with 800 kB: at most this and its bytes at this speed.
 inline constexpr double kSecondsAMessage = 10e-6;
 inline constexpr double kBytesASecond = 2.0e9;
 inline constexpr std::int64_t kBytesAProxy = 24 * 8;  ///< position and velocity of four nodes
