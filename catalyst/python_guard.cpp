@@ -21,7 +21,10 @@ std::string abandoned;
 /// Python's agree(text): whether any rank brings a text.
 PyObject* agree(PyObject* ranks, PyObject* text) {
   const char* mine = PyUnicode_AsUTF8(text);
-  if (mine == nullptr) return nullptr;
+  if (mine == nullptr) {
+    PyErr_Clear();
+    mine = "an error whose text is no text";
+  }
   try {
     if (!abandoned.empty()) throw Abandoned(abandoned);
     return PyBool_FromLong(static_cast<const Ranks*>(PyCapsule_GetPointer(ranks, nullptr))->agree(mine).empty() ? 0 : 1);

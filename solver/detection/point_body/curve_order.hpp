@@ -57,6 +57,7 @@ class CurveOrder {
   std::span<const Record> arrange(std::size_t count, const CurveFrame& frame, Position position) {
     if (!follows_curve(count, position)) return sort(count, frame, position);
     kept_.clear();
+    kept_.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
       if (position(i).allFinite()) kept_.push_back({0, static_cast<std::uint32_t>(i)});
     }

@@ -11,10 +11,10 @@
 namespace breccia::detection {
 
 /// A tree of boxes over the points, rebuilt at every search: points in the order of a Hilbert curve, or in their own where
-/// that is about as good, eight to a leaf, eight leaves to a group, eight groups to a group and so on, without pointers. A contactor walks it level by level, eight boxes
-/// at a time (packed_tree_walk.hpp); contactors come in the order of the same curve, so one finds in the caches what the one
-/// before has used. No length is chosen: contactors and spacings of points may be as different as they like, and in any order
-/// in memory.
+/// that is about as good, eight to a leaf, eight leaves to a group, eight groups to a group and so on, without pointers. A
+/// contactor walks it level by level, eight boxes at a time (packed_tree_walk.hpp); contactors come in such an order too, so
+/// one finds in the caches what the one before has used. No length is chosen: contactors and spacings of points may be as
+/// different as they like, and in any order in memory.
 /// After [Kamel and Faloutsos 1993]: the packed Hilbert R-tree, with eight entries a node for the width of the registers.
 ///
 /// Boxes are floats about the middle of the points. Rounding is monotone, so no point is lost; couples are decided in double
