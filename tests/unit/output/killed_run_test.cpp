@@ -17,6 +17,7 @@ namespace breccia {
 namespace {
 
 constexpr int kKills = 25;
+constexpr int kMostKills = 20 * kKills;
 constexpr useconds_t kLongestLife = 60000;  // us after the first frame: some more are written, not hundreds
 constexpr useconds_t kLook = 1000;          // us between two looks for the first frame
 constexpr int kLooks = 10000;               // ten seconds in all: a busy disk is no failure
@@ -66,14 +67,15 @@ TEST(KilledRun, LeavesOnlyWholeFilesAtWhateverInstantItDies) {
   std::mt19937 random(1);
   std::uniform_int_distribution<useconds_t> life(0, kLongestLife);
   std::size_t frames_kept = 0, killed_in_a_write = 0;
-  for (int i = 0; i < kKills; ++i) {
+  // A slow build is between two writes for most of the time: it gets longer lives until one has ended in a write.
+  for (int i = 0; i < kKills || (killed_in_a_write == 0 && i < kMostKills); ++i) {
     const test::TemporaryFolder folder;
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
     if (child == 0) write_without_end(folder, frame);
     for (int look = 0; look < kLooks && !std::filesystem::exists(folder / "elements.hdf.series"); ++look)
       ::usleep(kLook);
-    ::usleep(life(random));
+    ::usleep(life(random) * static_cast<useconds_t>(1 + i / kKills));
     ::kill(child, SIGKILL);
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
