@@ -8,7 +8,8 @@
 namespace breccia {
 
 /// Allocator of 64-byte aligned storage: a block of eight doubles is one cache line. Large arrays are asked for in huge pages, as
-/// the sweep goes through ten of them at once and jumps to neighbours, more than the processor's table of small pages holds.
+/// the sweep goes through ten of them at once and jumps to neighbours, more than the processor's table of small pages holds;
+/// smaller ones are not, since what a huge page does not use is lost.
 template <class T>
 struct CacheLineAllocator {
   using value_type = T;

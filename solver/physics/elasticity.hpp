@@ -100,7 +100,7 @@ template <class T>
   return 0.5 * p.lambda * jc - (p.mu + 0.5 * p.lambda) / jc + volumetric_curvature(p.j_min, p) * (j - jc);
 }
 
-/// First Piola stress of the neo-Hookean law, Pa: P = mu F + psi'(J) cof F. Into its place: a copy would cost as much.
+/// First Piola stress of the neo-Hookean law, Pa: P = mu F + psi'(J) cof F. Into its place, which spares a slow copy.
 /// For J >= j_min this is mu F + [(lambda/2)(J^2 - 1) - mu] F^-T, i.e. the Cauchy stress
 /// T = (mu/J)(B - I) + (lambda/2)(J - 1/J) I.
 template <class T>

@@ -75,7 +75,7 @@ struct Stress {
 /// @param x, v  corners
 template <bool is_plain, class X>
 [[gnu::always_inline]] inline void evaluate_stress(const SweepArgs& args, const ElasticParams& p, std::size_t block, std::size_t lane,
-                            const X& x, const X& v, Totals& totals, Stress& s) {
+                                                   const X& x, const X& v, Totals& totals, Stress& s) {
   s.inverse = {args.gradient + block * 72 + lane};
   s.volume = load(args.volume + block * kLanes + lane);
   const Tensor f = el::deformation<Real>(x, s.inverse);
@@ -222,7 +222,8 @@ inline void add_motion(const Motion& motion, Motion& total) {
 
 /// W elements that own their nodes, from forces to new positions. @param p  of their group
 template <bool is_plain>
-inline void sweep_own(const SweepArgs& args, const ElasticParams& p, const Mover& mover, std::size_t block, std::size_t lane, Totals& totals) {
+inline void sweep_own(const SweepArgs& args, const ElasticParams& p, const Mover& mover, std::size_t block, std::size_t lane,
+                      Totals& totals) {
   const std::size_t field = block * 96 + lane;
   const StoredCorners x{args.position + field}, v{args.velocity + field};
   Stress stress;
@@ -322,7 +323,9 @@ inline void book_after(const SweepArgs& args, std::size_t block, std::size_t lan
     stress.viscous[i] = load(kept + 72);
   }
   stress.volume = load(args.volume + block * kLanes + lane);
-  const auto book = [&](const auto& v) { book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_after, args.stress_after); };
+  const auto book = [&](const auto& v) {
+    book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_after, args.stress_after);
+  };
   if (block < static_cast<std::size_t>(args.num_own_blocks)) {
     book(StoredCorners{args.velocity + block * 96 + lane});
   } else {

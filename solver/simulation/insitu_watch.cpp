@@ -34,7 +34,7 @@ std::vector<Command> InSituWatch::look(Observer& observer, bool all) {
   const Moment now{stepper.steps(), stepper.time(), stepper.dt(), broken_everywhere_};
   const auto lap = stepper.timer().measure(Phase::insitu);
   share_.communicator().set_phase("in-situ pipelines");
-  const auto ordered = static_cast<std::uint32_t>(stepper.heard().orders);
+  const auto ordered = static_cast<std::uint32_t>(stepper.heard().orders);  // the lower half is for pipelines
   const InSitu::Plan plan = insitu_.plan(now, ordered, all);
   if (!plan) return {};
   insitu_.execute(plan, observer.picture(0, parts_of(plan.channels)), columns_, last_row_);

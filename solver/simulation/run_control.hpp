@@ -10,7 +10,7 @@
 
 namespace breccia {
 
-/// Order of the root that its control file has something to say; those for pipelines are the 32 bits below.
+/// Order of the root that its control file has something to say; those for pipelines are the 32 bits below it.
 inline constexpr std::uint64_t kControlOrder = std::uint64_t{1} << 32;
 
 /// Commands from a run's control file, which the root alone reads, for all ranks.

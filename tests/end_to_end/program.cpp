@@ -1,12 +1,15 @@
 #include "end_to_end/program.hpp"
 
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 namespace breccia::test {
 
@@ -79,6 +82,16 @@ Outcome outcome_of(const std::string& command) {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out), read_text(err)};
 }
 
+/// @return  the shell, which `exec` lets become the program itself
+pid_t start(const std::string& command) {
+  const pid_t process = fork();
+  if (process == 0) {
+    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    _exit(127);
+  }
+  return process;
+}
+
 }  // namespace
 
 Outcome call(const std::string& arguments, const std::string& environment) {
@@ -88,13 +101,16 @@ Outcome call(const std::string& arguments, const std::string& environment) {
 Outcome call_ranks(int ranks, const std::string& arguments) { return outcome_of(launch(ranks, arguments)); }
 
 pid_t start_ranks(int ranks, const std::string& arguments) {
-  const std::string command = launch(ranks, arguments) + " > /dev/null 2>&1 < /dev/null";
-  const pid_t process = fork();
-  if (process == 0) {
-    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-    _exit(127);
-  }
-  return process;
+  return start(launch(ranks, arguments) + " > /dev/null 2>&1 < /dev/null");
+}
+
+int call_interrupted(const std::string& arguments, int signal, const std::function<bool()>& ready) {
+  const pid_t process = start("exec '" BRECCIA_PROGRAM "' " + arguments);
+  for (int look = 0; look < 2500 && !ready(); ++look) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  kill(process, signal);
+  int status = 0;
+  waitpid(process, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 std::string changed(const std::string& from, const std::string& to) {

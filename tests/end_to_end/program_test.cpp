@@ -1,12 +1,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
-#include <fstream>
-#include <thread>
+#include <sstream>
 
 #include "end_to_end/program.hpp"
 
@@ -154,22 +150,11 @@ TEST(Program, a_full_disk_stops_the_run_with_code_2) {
 
 TEST(Program, an_interrupt_ends_the_run_in_order) {
   const Scratch scratch;
-  scratch.write("case.toml", kSmallCase);
-  const std::string folder = scratch.path("run").string();
-  const pid_t child = fork();
-  if (child == 0) {
-    const std::string file = scratch.path("case.toml").string();
-    execl(BRECCIA_PROGRAM, "breccia", "run", file.c_str(), "--progress", "none", "--set", "stage[0].end=100 s", "-o", folder.c_str(), nullptr);
-    _exit(127);
-  }
-  for (int i = 0; i < 1000 && !std::filesystem::exists(folder + "/frames/elements.hdf.series"); ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  kill(child, SIGINT);
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(json::parse(read_text(folder + "/summary.json"))["status"].get<std::string>().substr(0, 7), "stopped");
+  const std::string file = scratch.write("case.toml", kSmallCase);
+  const std::filesystem::path folder = scratch.path("run");
+  const std::string arguments = "run " + file + " --progress none --set 'stage[0].end=100 s' -o '" + folder.string() + "'";
+  EXPECT_EQ(call_interrupted(arguments, SIGINT, [&] { return std::filesystem::exists(folder / "frames/elements.hdf.series"); }), 0);
+  EXPECT_EQ(json::parse(read_text(folder / "summary.json"))["status"].get<std::string>().substr(0, 7), "stopped");
 }
 
 TEST(Program, check_advises_in_sentences) {

@@ -1,15 +1,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <set>
 #include <sstream>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -157,20 +153,9 @@ TEST(Race, brute_force_stays_away_from_a_large_model_unless_named) {
 
 TEST(Race, an_interrupt_ends_it_in_order) {
   const Scratch scratch;
-  scratch.write("case.toml", kSmallCase);
-  const std::string file = scratch.path("case.toml").string(), out = scratch.path("out").string();
-  const pid_t child = fork();
-  if (child == 0) {
-    if (freopen(out.c_str(), "w", stdout) == nullptr) _exit(127);
-    execl(BRECCIA_PROGRAM, "breccia", "race", file.c_str(), "--progress", "json", "--set", "stage[0].end=100 s", "--from", "90 s", nullptr);
-    _exit(127);
-  }
-  for (int i = 0; i < 1000 && read_text(out).empty(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  kill(child, SIGINT);
-  int status = 0;
-  waitpid(child, &status, 0);
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 0);
+  const std::string file = scratch.write("case.toml", kSmallCase), out = scratch.path("out").string();
+  const std::string arguments = "race " + file + " --progress json --set 'stage[0].end=100 s' --from '90 s' > '" + out + "'";
+  EXPECT_EQ(call_interrupted(arguments, SIGINT, [&] { return !read_text(out).empty(); }), 0);
   EXPECT_NE(read_text(out).find("{\"state\":\"stopped\""), std::string::npos) << read_text(out);
 }
 
