@@ -98,6 +98,17 @@ void wait_for(const Communicator::Handle& handle, std::span<MPI_Request> request
   }
 }
 
+bool settled(std::span<MPI_Request> requests) {
+  constexpr std::chrono::milliseconds kPatience(500);
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  int done = 0;
+  while (MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE) == MPI_SUCCESS && done == 0 &&
+         std::chrono::steady_clock::now() < end) {
+    sched_yield();
+  }
+  return done != 0;
+}
+
 int Communicator::rank() const { return handle_ ? handle_->rank : 0; }
 int Communicator::size() const { return handle_ ? handle_->size : 1; }
 
@@ -110,6 +121,11 @@ void Communicator::set_patience(double seconds) const {
 }
 
 double Communicator::patience() const { return handle_ ? handle_->patience : 0.0; }
+
+void Communicator::make_progress() const {
+  int found = 0;
+  if (handle_) check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, handle_->comm, &found, MPI_STATUS_IGNORE), "MPI_Iprobe");
+}
 
 int Communicator::fortran_handle() const { return handle_ ? static_cast<int>(MPI_Comm_c2f(handle_->comm)) : -1; }
 
@@ -213,17 +229,7 @@ class Vote::Request {
   Request(const Request&) = delete;
   Request& operator=(const Request&) = delete;
   ~Request() = default;
-  /// Whether nothing is on its way any more, soon.
-  [[nodiscard]] bool settled() {
-    constexpr std::chrono::milliseconds kPatience(500);
-    const auto end = std::chrono::steady_clock::now() + kPatience;
-    int done = request_ == MPI_REQUEST_NULL ? 1 : 0;
-    while (done == 0 && MPI_Test(&request_, &done, MPI_STATUS_IGNORE) == MPI_SUCCESS &&
-           std::chrono::steady_clock::now() < end) {
-      if (done == 0) sched_yield();
-    }
-    return done != 0;
-  }
+  [[nodiscard]] bool is_settled() { return request_ == MPI_REQUEST_NULL || settled(std::span(&request_, 1)); }
 
   void post(std::span<const double> values) {
     std::copy(values.begin(), values.end(), mine_.begin());
@@ -257,7 +263,7 @@ Vote& Vote::operator=(Vote&& other) noexcept {
 
 Vote::~Vote() {
   // An error that others do not know of must not wait for them; MPI may still write into what it has been given.
-  if (request_ && !request_->settled()) (void)request_.release();
+  if (request_ && !request_->is_settled()) (void)request_.release();
 }
 
 void Vote::post(std::span<const double> values) { request_->post(values); }

@@ -80,6 +80,9 @@ class Communicator {
   void set_patience(double seconds) const;
   [[nodiscard]] double patience() const;  ///< s; 0 alone
 
+  /// Lets messages that are on their way move on: MPI does so only while it is called.
+  void make_progress() const;
+
   /// For libraries that use MPI themselves: MPI_Comm_c2f; -1 alone.
   [[nodiscard]] int fortran_handle() const;
 

@@ -15,8 +15,8 @@ namespace breccia {
 class Halo::Messages {
  public:
   std::vector<std::vector<double>> outgoing, incoming;  ///< values by neighbour
-  std::vector<MPI_Request> list;                        ///< receive and send by neighbour
-  std::vector<int> ranks;                               ///< of the list's entries
+  std::vector<MPI_Request> receives, sends;             ///< by neighbour
+  std::vector<int> ranks;                               ///< of the neighbours
 };
 
 Halo::Halo(const Communicator& communicator, std::vector<HaloNeighbour> neighbours, std::size_t fields,
@@ -35,15 +35,16 @@ Halo::Halo(const Communicator& communicator, std::vector<HaloNeighbour> neighbou
            std::to_string(std::max(outgoing, incoming)) + " values in a message");
     messages_->outgoing.emplace_back(outgoing);
     messages_->incoming.emplace_back(incoming);
-    messages_->ranks.insert(messages_->ranks.end(), 2, n.rank);
+    messages_->ranks.push_back(n.rank);
   }
-  messages_->list.assign(2 * neighbours_.size(), MPI_REQUEST_NULL);
+  messages_->receives.assign(neighbours_.size(), MPI_REQUEST_NULL);
+  messages_->sends.assign(neighbours_.size(), MPI_REQUEST_NULL);
 }
 
 Halo::~Halo() {
-  // After an error in a gather MPI may still write into what it has been given.
+  // After an error in a gather MPI may still read and write what it has been given.
   const auto is_done = [](MPI_Request request) { return request == MPI_REQUEST_NULL; };
-  if (!std::all_of(messages_->list.begin(), messages_->list.end(), is_done)) (void)messages_.release();
+  if (!std::all_of(messages_->receives.begin(), messages_->receives.end(), is_done) || !settled(messages_->sends)) (void)messages_.release();
 }
 
 void Halo::order_by_couples() {
@@ -84,7 +85,7 @@ void Halo::receive(std::size_t neighbour) {
   std::vector<double>& values = messages_->incoming[neighbour];
   if (values.empty()) return;
   check_mpi(MPI_Irecv(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, neighbours_[neighbour].rank,
-                      static_cast<int>(Tag::halo), communicator_.handle()->comm, &messages_->list[2 * neighbour]),
+                      static_cast<int>(Tag::halo), communicator_.handle()->comm, &messages_->receives[neighbour]),
             "MPI_Irecv");
 }
 
@@ -92,14 +93,22 @@ void Halo::send(std::size_t neighbour) {
   const std::vector<double>& values = messages_->outgoing[neighbour];
   if (values.empty()) return;
   check_mpi(MPI_Isend(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, neighbours_[neighbour].rank,
-                      static_cast<int>(Tag::halo), communicator_.handle()->comm, &messages_->list[2 * neighbour + 1]),
+                      static_cast<int>(Tag::halo), communicator_.handle()->comm, &messages_->sends[neighbour]),
             "MPI_Isend");
   ++sent_;
   bytes_ += static_cast<std::int64_t>(values.size() * sizeof(double));
 }
 
+void Halo::wait(Way way) {
+  if (neighbours_.empty()) return;
+  const auto start = std::chrono::steady_clock::now();
+  wait_for(*communicator_.handle(), way == Way::in ? messages_->receives : messages_->sends, messages_->ranks);
+  waiting_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 void Halo::gather_begin(std::span<double* const> fields) {
   DEMAND(fields.size() == fields_.size(), std::to_string(fields.size()) + " fields");
+  wait(Way::out);
   std::copy(fields.begin(), fields.end(), fields_.begin());
   underway_ = kind_ == ExchangeKind::pairwise ? std::min<std::size_t>(neighbours_.size(), 1) : neighbours_.size();
   for (std::size_t n = 0; n < underway_; ++n) receive(n);
@@ -111,16 +120,14 @@ void Halo::gather_begin(std::span<double* const> fields) {
 
 void Halo::gather_end() {
   if (neighbours_.empty()) return;
-  const auto start = std::chrono::steady_clock::now();
-  const auto requests = std::span(messages_->list);
-  wait_for(*communicator_.handle(), requests, messages_->ranks);
+  wait(Way::in);
   while (underway_ < neighbours_.size()) {
+    wait(Way::out);
     const std::size_t next = underway_++;  // counted before the wait, which may throw
     receive(next);
     send(next);
-    wait_for(*communicator_.handle(), requests.subspan(2 * next, 2), std::span(messages_->ranks).subspan(2 * next, 2));
+    wait(Way::in);
   }
-  waiting_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (std::size_t n = 0; n < neighbours_.size(); ++n) {
     const double* in = messages_->incoming[n].data();
     const auto take = [&](double* node) {

@@ -38,19 +38,22 @@ class Halo {
   Halo& operator=(const Halo&) = delete;
   ~Halo();
 
-  /// Packs; posts receives before sends. @param fields  (fields of the constructor); a node's values as they are now are sent
+  /// Packs; posts receives before sends. Waits until the neighbours have what was sent last time, which they have unless they are a
+  /// whole gather behind. @param fields  (fields of the constructor); a node's values as they are now are sent
   void gather_begin(std::span<double* const> fields);
   /// Waits for the values and puts them into the fields of gather_begin. Throws InternalError past the communicator's patience;
-  /// may be called again then.
+  /// may be called again then. What this rank has sent may still be on its way.
   void gather_end();
 
   [[nodiscard]] std::int64_t messages() const { return sent_; }      ///< sent so far
   [[nodiscard]] std::int64_t bytes() const { return bytes_; }        ///< sent so far
-  [[nodiscard]] double seconds_waiting() const { return waiting_; }  ///< in gather_end so far
+  [[nodiscard]] double seconds_waiting() const { return waiting_; }  ///< for messages so far
 
  private:
   class Messages;
   void order_by_couples();
+  enum class Way { in, out };
+  void wait(Way way);
   void pack(std::size_t neighbour);
   void receive(std::size_t neighbour);
   void send(std::size_t neighbour);
@@ -60,9 +63,9 @@ class Halo {
   std::vector<HaloNeighbour> neighbours_;  ///< if pairwise, in the order of the couples
   std::vector<double*> fields_;
   std::unique_ptr<Messages> messages_;
-  std::size_t underway_ = 0;  ///< the first of the neighbours, whose messages are on their way or here
+  std::size_t underway_ = 0;  ///< pairwise: the first of the neighbours, with whom messages are on their way or here
   std::int64_t sent_ = 0, bytes_ = 0;
-  double waiting_ = 0;  ///< s
+  double waiting_ = 0;  ///< s, for values of others and for others to take theirs
 };
 
 }  // namespace breccia

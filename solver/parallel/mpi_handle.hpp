@@ -35,4 +35,7 @@ void check_mpi(int result, const char* call);
 /// @param ranks  whom each request waits for, -1: everybody
 void wait_for(const Communicator::Handle& handle, std::span<MPI_Request> requests, std::span<const int> ranks);
 
+/// Waits half a second at most, for the end of what may have failed elsewhere. Whether nothing is on its way any more.
+[[nodiscard]] bool settled(std::span<MPI_Request> requests);
+
 }  // namespace breccia

@@ -14,8 +14,15 @@ struct SweepStatus {
   double max_speed_squared = 0;     ///< m2/s2, over all nodes, after the step
   double speed_squared_sum = 0;     ///< m2/s2; NaN or infinite when any node's velocity is
   std::int64_t crushed = 0;         ///< elements with J < j_min in this step
-  Index first_crushed = -1;         ///< slot
   Index first_not_finite = -1;      ///< block
+
+  /// Likewise for more elements, which stand behind these.
+  void add(const SweepStatus& next) {
+    max_speed_squared = max_speed_squared < next.max_speed_squared ? next.max_speed_squared : max_speed_squared;
+    speed_squared_sum += next.speed_squared_sum;
+    crushed += next.crushed;
+    if (first_not_finite < 0) first_not_finite = next.first_not_finite;
+  }
 };
 
 /// A joint's opening has passed the range in which it is surely elastic: forces on the three corners of this side's face,

@@ -51,12 +51,6 @@ struct Totals {
   SweepStatus status;
 };
 
-inline void note_crushed(const Real::mask_type& crushed, Index first_slot, SweepStatus& status) {
-  if (stdx::none_of(crushed)) return;
-  status.crushed += stdx::popcount(crushed);
-  if (status.first_crushed < 0) status.first_crushed = first_slot + stdx::find_first_set(crushed);
-}
-
 inline Real contract(const Tensor& a, const Tensor& b) {
   Real sum = a[0] * b[0];
   for (std::size_t i = 1; i < 9; ++i) sum += a[i] * b[i];
@@ -81,7 +75,7 @@ template <bool is_plain, class X>
   const Tensor f = el::deformation<Real>(x, s.inverse);
   const Tensor cof = el::cofactor(f);
   const Real j = el::determinant(f, cof);
-  note_crushed(j < p.j_min, static_cast<Index>(block * kLanes + lane), totals.status);
+  totals.status.crushed += stdx::popcount(j < p.j_min);
   if (is_plain || p.law == ElasticLaw::neo_hookean) {
     el::neo_hookean_piola(f, cof, j, p, s.total);
   } else {

@@ -10,6 +10,8 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// An element that shares its nodes costs this much of one that owns them (no joints to look across).
 constexpr double kSharedNodes = 1.0 / 3;
+/// No rank is believed to be slower or faster than this at the same work.
+constexpr double kMostSlow = 2;
 
 /// How many elements (in cost), active joints and couples a rank has to compute.
 std::array<double, 3> amounts(const Stepper& stepper) {
@@ -46,18 +48,24 @@ double Balance::look(const Stepper& stepper) {
       all.seconds[k] += share[0].seconds[k];
       all.amount[k] += share[0].amount[k];
     }
-    const double busy = std::accumulate(share[0].seconds.begin(), share[0].seconds.end(), 0.0);
-    slowest = std::max(slowest, busy);
-    sum += busy;
+    const double seconds = std::accumulate(share[0].seconds.begin(), share[0].seconds.end(), 0.0);
+    slowest = std::max(slowest, seconds);
+    sum += seconds;
   }
   for (std::size_t k = 0; k < 3; ++k) {
     if (all.amount[k] > 0 && all.seconds[0] > 0) unit_[k] = all.seconds[k] / all.amount[k] * all.amount[0] / all.seconds[0];
   }
+  double usual = 0;  // s, for this rank's work at the speed of all
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (all.amount[k] > 0) usual += all.seconds[k] * mine.amount[k] / all.amount[k];
+  }
+  const double busy = std::accumulate(mine.seconds.begin(), mine.seconds.end(), 0.0);
+  if (usual > 0) slowness_ = 0.5 * (slowness_ + std::clamp(busy / usual, 1 / kMostSlow, kMostSlow));
   const double mean = sum / static_cast<double>(shares.size());
   before_ = now_;
   now_ = {(slowest - mean) / static_cast<double>(kInterval), mean > 0 ? slowest / mean : 1.0};
   told_ = now_.imbalance;
-  load_ = mean > 0 ? std::accumulate(mine.seconds.begin(), mine.seconds.end(), 0.0) / mean : 1.0;
+  load_ = mean > 0 ? busy / mean : 1.0;
   return std::min(now_.lost, before_.lost);
 }
 
@@ -78,7 +86,7 @@ std::vector<double> Balance::weights(const Stepper& stepper) const {
   }
   std::vector<double> weights;
   for (const Index slot : local.slot_of_element) {
-    if (local.is_original(slot)) weights.push_back(of_slot[at(slot)]);
+    if (local.is_original(slot)) weights.push_back(slowness_ * of_slot[at(slot)]);
   }
   return weights;
 }

@@ -26,7 +26,8 @@ class Balance {
   [[nodiscard]] double lasting_imbalance() const { return std::min(now_.imbalance, before_.imbalance); }
 
   /// Cost of this rank's originals, ascending by id, in that of an element that has its own nodes and nothing else: measured
-  /// per element, joint and couple over all ranks, or our estimate before the first look.
+  /// per element, joint and couple over all ranks, or our estimate before the first look; more where the rank is slower than
+  /// others at the same work.
   [[nodiscard]] std::vector<double> weights(const Stepper& stepper) const;
 
   /// The model has been divided anew, and the stepper replaced by one that goes on with its timer.
@@ -47,6 +48,7 @@ class Balance {
     double imbalance = 1;
   };
   Look now_, before_;
+  double slowness_ = 1;  ///< of this rank: what its work takes over what it takes on average, over the looks
   double told_ = 1, load_ = 1;
 };
 

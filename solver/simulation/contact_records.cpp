@@ -123,6 +123,8 @@ CoupleRecord ContactSearch::record_of(const TouchingCouple& couple, GlobalId ele
 void ContactSearch::restrict_to(std::vector<std::uint8_t> relevant) {
   DEMAND(!searched_, "couples are there already");
   contact_.relevant = std::move(relevant);
+  constexpr int kLate = 1;
+  moved_ = DisplacementWatch(kLate);
 }
 
 /// A point's couples stand in a row; they stay together, since what it touches decides what it may touch next.

@@ -114,14 +114,14 @@ bool ContactSearch::may_touch(Index point, Index contactor) const {
 }
 
 void ContactSearch::update(const State& state, double max_speed, double dt) {
-  if (due(state, max_speed, dt, {})) search(state, max_speed * dt);
+  if (due(state, max_speed * dt, {})) search(state, max_speed * dt);
   verify(state);
 }
 
-bool ContactSearch::due(const State& state, double max_speed, double dt, const Communicator& communicator) {
+bool ContactSearch::due(const State& state, double step_length, const Communicator& communicator) {
   if (!any_law_) return false;
   if (!searched_) return true;
-  moved_.step(max_speed * dt);
+  moved_.step(step_length);
   return moved_.used_up(0.5 * buffer_, 0, *local_, state.position, reference_, communicator);
 }
 

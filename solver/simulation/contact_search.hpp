@@ -75,9 +75,10 @@ class ContactSearch {
 
   // The same in parts, for several ranks: all search at the same time.
 
-  /// Whether a search is due. Collective. @param max_speed  of all ranks
-  [[nodiscard]] bool due(const State& state, double max_speed, double dt, const Communicator& communicator);
-  /// A full search. @param step_length  m, max_speed dt
+  /// Whether a search is due. Collective. @param step_length  m, the furthest that a node of any rank has gone in a step: the last, or
+  /// the one before that after restrict_to()
+  [[nodiscard]] bool due(const State& state, double step_length, const Communicator& communicator);
+  /// A full search. @param step_length  as for due()
   /// @param current  (num_slots) 1: at its position of now; others are further than search_reach() from what matters. Empty: all
   void search(const State& state, double step_length, std::span<const std::uint8_t> current = {});
   /// How far around extent() a search will look, m.
@@ -88,7 +89,8 @@ class ContactSearch {
   void verify(const State& state) const;
   [[nodiscard]] bool verifies() const { return search_.verify; }
 
-  /// From now on only those couples are kept whose forces, or whose point's other forces, act on elements that matter.
+  /// For one of several ranks, which hear of each other's speeds a step late. From now on only those couples are kept whose forces,
+  /// or whose point's other forces, act on elements that matter.
   /// @param relevant  (num_slots)  @pre before the first search
   void restrict_to(std::vector<std::uint8_t> relevant);
   /// Marks the slots of all points and contactors in couples. @param marks  (num_slots)

@@ -56,8 +56,9 @@ double relative_displacement(const LocalMesh& local, const Field<double>& now, c
 
 bool DisplacementWatch::used_up(double allowed, double ahead, const LocalMesh& local, const Field<double>& now,
                                 const Field<double>& then, const Communicator& communicator) {
-  if (bound_ + ahead <= allowed) return false;
-  bound_ = relative_displacement(local, now, then, communicator);
+  const double unknown = 2 * length_ * (late_ - before_);
+  if (bound_ + unknown + ahead <= allowed) return false;
+  start_from(relative_displacement(local, now, then, communicator));
   return !(bound_ + ahead <= kUsedUp * allowed);
 }
 

@@ -17,19 +17,40 @@ namespace breccia {
 
 /// Watches relative_displacement() against an allowance, and rarely has to look: in between it is bounded by the sum of the
 /// largest speeds times the step.
+///
+/// On several ranks the largest speed becomes known some steps late; each step not known yet counts as twice the last known. Only
+/// where nodes gather more than that speed within those steps, and more than what is left of the allowance, do they use it up unseen;
+/// a stable time step is too short for that.
 class DisplacementWatch {
  public:
+  /// @param late  steps by which lengths are told late
+  explicit DisplacementWatch(int late = 0) : late_(late) {}
   /// Positions are those of `then` from now on.
-  void restart() { bound_ = 0; }
-  /// @param length  m, at least as far as any node has moved in the step
-  void step(double length) { bound_ += length; }
+  void restart() { start_from(0); }
+  /// After every step. @param length  m, at least as far as any node has moved in the step, or in the one that many steps ago
+  void step(double length) {
+    length_ = length;
+    if (before_ > 0) {
+      --before_;
+    } else {
+      bound_ += length;
+    }
+  }
   /// Whether it is time to act: the nodes have really used up most of the allowance, or soon will. Collective.
   /// @param allowed  m;  @param ahead  m, that nodes may move before the next call
   [[nodiscard]] bool used_up(double allowed, double ahead, const LocalMesh& local, const Field<double>& now,
                              const Field<double>& then, const Communicator& communicator);
 
  private:
+  void start_from(double bound) {
+    bound_ = bound;
+    before_ = late_;
+  }
+
+  int late_;
+  int before_ = 0;    ///< lengths still to be told of steps that the bound holds already
   double bound_ = 0;  ///< m
+  double length_ = 0; ///< m, told last
 };
 
 }  // namespace breccia

@@ -120,11 +120,11 @@ bool Share::balancing_pays() {
          lost * kHorizon > decomposition_s_;
 }
 
-/// Speeds are known a step late, so that the last step and the next are counted beforehand, at twice the speed.
+/// The next step is counted beforehand, at twice the speed.
 bool Share::left_reach() {
-  motion_ = stepper_->max_speed_anywhere() * stepper_->dt();
+  motion_ = stepper_->motion_anywhere();
   moved_.step(motion_);
-  return moved_.used_up(reach_.allowed_motion(), 4 * motion_, model_->local, stepper_->state().position, anchor_,
+  return moved_.used_up(reach_.allowed_motion(), 2 * motion_, model_->local, stepper_->state().position, anchor_,
                         communicator_);
 }
 

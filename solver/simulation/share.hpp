@@ -74,7 +74,7 @@ class Share {
   double decomposition_s_ = 0;  ///< s, that the last decomposition took on the slowest rank
   Reach reach_;
   double motion_ = 0;     ///< m, largest of a node in a step, at present
-  DisplacementWatch moved_;
+  DisplacementWatch moved_{Stepper::kLateAfter};
   Field<double> anchor_;  ///< nodal field, positions at the decomposition, from which moved_ counts
 };
 

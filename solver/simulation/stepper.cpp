@@ -114,6 +114,7 @@ void Stepper::begin_stage(StageLoads loads, double dt) {
   local_damping_ = loads.local_damping;
   if (mass_damping_ > 0 || local_damping_ > 0) damping_.resize(at(model_.local.num_nodes));
   dt_ = dt;
+  if (near_) plan_order();
 }
 
 void Stepper::break_joints(std::span<const LoadedFace> faces) {
@@ -138,21 +139,23 @@ void Stepper::step(bool sample, const Word& word) {
   external_forces();
   joint_forces();
   contact_forces();
+  said_ = word;
+  cast_votes();
   Field<double> velocity_before;
   if (sample) velocity_before = state_.velocity;
   const SweepArgs args = sweep_args(sample);
   remember_held();
-  sweep(args);
+  move(args);
   finish_motion(args);
   activate_crossing();
+  if (sample) hear_failure();
   if (sample) take_budget(velocity_before);
   return_calm();
   book_after(sample);
-  said_ = word;
-  cast_votes();
-  gather_proxies();
+  receive_proxies();
   std::swap(state_.position, state_.next_position);
   time_ += dt_;
+  dt_earlier_ = dt_before_;
   dt_before_ = dt_;
   ++steps_;
 }
@@ -227,16 +230,34 @@ SweepArgs Stepper::sweep_args(bool sample) {
   return args;
 }
 
-void Stepper::sweep(const SweepArgs& args) {
-  const auto lap = timer_.measure(Phase::sweep);
-  const SweepStatus status = sweep_for(simd_)(args);
+/// From forces to velocities and next positions. On several ranks what others wait for is final, and on its way, before the
+/// rest is begun.
+void Stepper::move(const SweepArgs& args) {
+  max_speed_ = 0;
+  if (near_) {
+    note(sweep_ahead(args));
+    constrain(args);
+    if (failure_) stand_still();
+    send_proxies();
+    note(sweep_rest(args));
+    if (failure_) stand_still();
+    return;
+  }
+  {
+    const auto lap = timer_.measure(Phase::sweep);
+    note(sweep_for(simd_)(args));
+  }
+  constrain(args);
+}
+
+void Stepper::note(const SweepStatus& status) {
   crushed_ += status.crushed;
   check_finite(status);
-  max_speed_ = std::sqrt(status.max_speed_squared);
+  max_speed_ = std::max(max_speed_, std::sqrt(status.max_speed_squared));
 }
 
 void Stepper::check_finite(const SweepStatus& status) {
-  if (status.speed_squared_sum < 1e300) return;
+  if (status.speed_squared_sum < 1e300 || failure_) return;
   std::string place;
   if (status.first_not_finite >= 0) {
     place = " near element " + std::to_string(model_.local.element_of_slot[at(status.first_not_finite) * kLanes]);
@@ -270,25 +291,28 @@ void Stepper::rebook_damping(const SweepArgs& args, const std::vector<Vec3>& fre
   rebooked_.clear();
 }
 
-void Stepper::finish_motion(const SweepArgs& args) {
+void Stepper::constrain(const SweepArgs& args) {
+  if (constraints_.empty()) return;
   const auto lap = timer_.measure(Phase::loads);
-  if (!constraints_.empty()) {
-    const bool damped = args.damping_after != nullptr && (mass_damping_ > 0 || local_damping_ > 0);
-    std::vector<Vec3> free;
-    for (const NodalConstraint& entry : entries_) {
-      for (const Index node : entry.nodes) {
-        if (damped) free.push_back(load_node(state_.velocity.data(), node));
-      }
-    }
-    constraints_.apply(model_.local, state_, time_, dt_before_, dt_);
-    if (damped) rebook_damping(args, free);
-    for (const NodalConstraint& entry : entries_) {
-      for (const Index node : entry.nodes) {
-        if (model_.local.counted[at(node)] == 0) continue;
-        max_speed_ = std::max(max_speed_, load_node(state_.velocity.data(), node).norm());
-      }
+  const bool damped = args.damping_after != nullptr && (mass_damping_ > 0 || local_damping_ > 0);
+  std::vector<Vec3> free;
+  for (const NodalConstraint& entry : entries_) {
+    for (const Index node : entry.nodes) {
+      if (damped) free.push_back(load_node(state_.velocity.data(), node));
     }
   }
+  constraints_.apply(model_.local, state_, time_, dt_before_, dt_);
+  if (damped) rebook_damping(args, free);
+  for (const NodalConstraint& entry : entries_) {
+    for (const Index node : entry.nodes) {
+      if (model_.local.counted[at(node)] == 0) continue;
+      max_speed_ = std::max(max_speed_, load_node(state_.velocity.data(), node).norm());
+    }
+  }
+}
+
+void Stepper::finish_motion(const SweepArgs& args) {
+  const auto lap = timer_.measure(Phase::loads);
   if (args.kept_stress != nullptr) rate_work_for(simd_)(args);
   for (const Index node : padding_nodes_) {
     store_node(state_.velocity.data(), node, Vec3::Zero());

@@ -26,11 +26,16 @@
 
 namespace breccia {
 
-/// What ranks tell each other besides the physics, heard by all of them a step later.
+/// What ranks tell each other besides the physics, heard by all of them in the next step.
 struct Word {
   bool stop = false;         ///< somebody asks for the end of the run
   bool broke = false;        ///< joints have broken on some rank since it was last counted
   std::uint64_t orders = 0;  ///< of the root, fewer than 53 bits
+};
+
+/// Blocks first .. end - 1.
+struct BlockRun {
+  Index first, end;
 };
 
 /// What a rank takes along when its elements change: clock and books. Sums over ranks do not depend on who holds what.
@@ -56,9 +61,13 @@ struct Ledger {
 ///  1. pressure on faces, then the active joints, by ascending ids;
 ///  2. contact: joints that came apart a step ago hand over their faces, all ranks having heard of them meanwhile; a new
 ///     search if one is due; then the forces of every couple, by ascending ids;
-///  3. the sweep: every element's internal forces, its side of its intact joints, and the motion of its nodes;
-///  4. constraints; joints that have left their elastic range join the active list, those that are back in it leave it;
+///  3. the sweep: every element's internal forces, its side of its intact joints, and the motion of its nodes; constraints;
+///  4. joints that have left their elastic range join the active list, those that are back in it leave it;
 ///  5. proxies are gathered from their originals.
+///
+/// On several ranks the sweep begins with the elements that others wait for, which leave at once, as does, before the sweep, what
+/// ranks have to tell each other. So a rank waits for another only where that is behind by the rest of a sweep. What the
+/// sweep finds out, speeds and failures, is heard two steps later: a rank that has failed stands still until then.
 ///
 /// On several ranks a rank computes the forces on its originals, nothing else: joints and couples with an element of
 /// another rank are computed on both, from the same numbers in the same order. Of its proxies only the near ones are
@@ -99,7 +108,8 @@ class Stepper {
 
   /// One step. With `sample`, the energy budget at t_n is taken on the way: budget(). Collective.
   /// @param word  of this rank, to be heard a step later: heard()
-  /// Throws SimulationError on all ranks when a velocity was not finite at the end of the last step.
+  /// Throws SimulationError on all ranks when a velocity was not finite: on a rank that is alone, and when a budget is taken, in
+  /// that step, else in the one after the next, or in conclude().
   void step(bool sample, const Word& word = {});
 
   [[nodiscard]] const Model& model() const { return model_; }
@@ -115,7 +125,10 @@ class Stepper {
   [[nodiscard]] const PhaseTimer& timer() const { return timer_; }
   [[nodiscard]] double max_speed() const { return max_speed_; }     ///< m/s, of the rank's originals after the last step
   [[nodiscard]] const Word& heard() const { return heard_; }        ///< what ranks said a step ago, alike on all of them
-  [[nodiscard]] double max_speed_anywhere() const { return max_speed_anywhere_; }  ///< m/s, of all ranks, a step ago
+  /// Furthest that a node of any rank went, m, in the last step but one; on several ranks in the one before that.
+  [[nodiscard]] double motion_anywhere() const { return motion_anywhere_; }
+  /// On several ranks, after a step, so many of the last are not in motion_anywhere() yet.
+  static constexpr int kLateAfter = 2;
   [[nodiscard]] std::int64_t messages() const;                      ///< that gathered this rank's originals so far
   [[nodiscard]] std::int64_t bytes() const;                         ///< in them
   [[nodiscard]] const std::vector<SharedSlots>& shared_slots() const { return shared_; }
@@ -171,13 +184,21 @@ class Stepper {
   void cast_votes();
   void contact_forces();
   [[nodiscard]] SweepArgs sweep_args(bool sample);
-  void sweep(const SweepArgs& args);
-  void gather_proxies();
+  void move(const SweepArgs& args);
+  void plan_order();
+  [[nodiscard]] SweepStatus sweep_ahead(const SweepArgs& args);
+  [[nodiscard]] SweepStatus sweep_rest(const SweepArgs& args);
+  void note(const SweepStatus& status);
+  void send_proxies();
+  void receive_proxies();
   void gather(Halo& halo, Field<double>& position);
   [[nodiscard]] const SharedSlots& neighbour(int rank) const;
   void remember_held();
   void rebook_damping(const SweepArgs& args, const std::vector<Vec3>& free);
   void check_finite(const SweepStatus& status);
+  void stand_still();
+  void hear_failure();
+  void constrain(const SweepArgs& args);
   void finish_motion(const SweepArgs& args);
   void activate_crossing();
   void return_calm();
@@ -210,9 +231,9 @@ class Stepper {
   GravityWork gravity_work_;
   double mass_damping_ = 0, local_damping_ = 0;
 
-  double time_ = 0, dt_ = 0, dt_before_ = 0;
+  double time_ = 0, dt_ = 0, dt_before_ = 0, dt_earlier_ = 0;
   std::int64_t steps_ = 0, crushed_ = 0, searches_before_ = 0;
-  double max_speed_ = 0, max_speed_anywhere_ = 0;
+  double max_speed_ = 0, motion_anywhere_ = 0;
   Simd simd_;
 
   Communicator communicator_;               ///< alone unless connected
@@ -224,7 +245,7 @@ class Stepper {
   bool news_ = false;                       ///< some rank's joints came apart
   std::int64_t messages_ = 0, bytes_ = 0;   ///< of halos that are gone
   std::optional<Vote> vote_;
-  std::optional<std::string> failure_;      ///< of this rank in the last step
+  std::optional<std::string> failure_;      ///< of this rank, not heard yet
   Word said_, heard_;                       ///< by this rank in the last step, by all in the one before
 
   // Books, J.
@@ -242,6 +263,8 @@ class Stepper {
   // For the sweep.
   std::vector<Index> shared_corners_;       ///< [shared block][4][8]
   std::vector<Index> shared_blocks_;        ///< shared-node blocks with an element that matters here
+  std::vector<std::uint8_t> sent_;          ///< (own-node blocks) 1: with an element that others wait for
+  std::vector<BlockRun> ahead_, rest_;      ///< own-node blocks of originals: swept before the others, and the others
   Field<double> kept_stress_;               ///< [block][18][8]
   std::vector<Vec3> held_before_;           ///< of the nodes of all constraints in turn, m/s
   std::set<Index> rebooked_;

@@ -8,7 +8,22 @@
 namespace breccia {
 namespace {
 
+/// Blocks swept between two chances for messages to move on: about 0.3 ms.
+constexpr Index kLongestRun = 512;
+
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// Own-node blocks only. @param between  called after every run
+void sweep_runs(SweepFunction sweep, std::span<const BlockRun> runs, SweepArgs args, SweepStatus& status, const auto& between) {
+  args.num_shared_blocks = 0;
+  args.num_moved_nodes = 0;
+  for (const BlockRun& run : runs) {
+    args.first_own_block = run.first;
+    args.end_own_block = run.end;
+    status.add(sweep(args));
+    between();
+  }
+}
 
 }  // namespace
 
@@ -115,6 +130,61 @@ void Stepper::plan_near() {
     bytes_ += near_->bytes();
   }
   near_ = std::make_unique<Halo>(communicator_, halo_plan(wanted), 2, exchange_);
+  sent_.assign(at(model_.local.num_own_blocks()), 0);
+  for (const SharedSlots& shared : wanted) {
+    for (const auto* slots : {&shared.send, &shared.send_position}) {
+      for (const Index slot : *slots) {
+        if (slot < model_.local.num_own_slots) sent_[at(slot / kLanes)] = 1;
+      }
+    }
+  }
+  plan_order();
+}
+
+/// Which blocks are swept ahead of the others: those that are sent, and those that constraints hold, which are applied in
+/// one go. Shared nodes are all moved with them.
+void Stepper::plan_order() {
+  std::vector<std::uint8_t> first = sent_;
+  for (const NodalConstraint& entry : entries_) {
+    for (const Index node : entry.nodes) {
+      if (node < model_.local.num_own_nodes()) first[at(node / (4 * kLanes))] = 1;
+    }
+  }
+  ahead_.clear();
+  rest_.clear();
+  const Index end = model_.local.num_own_originals / kLanes;
+  for (Index block = 0; block < end; ++block) {
+    std::vector<BlockRun>& runs = first[at(block)] != 0 ? ahead_ : rest_;
+    const bool goes_on = !runs.empty() && runs.back().end == block && block - runs.back().first < kLongestRun;
+    if (goes_on) {
+      runs.back().end = block + 1;
+    } else {
+      runs.push_back({block, block + 1});
+    }
+  }
+}
+
+SweepStatus Stepper::sweep_ahead(const SweepArgs& args) {
+  const auto lap = timer_.measure(Phase::sweep);
+  SweepArgs only_shared = args;
+  only_shared.end_own_block = 0;
+  SweepStatus status = sweep_for(simd_)(only_shared);
+  sweep_runs(sweep_for(simd_), ahead_, args, status, [] {});
+  return status;
+}
+
+/// Messages move on between the runs.
+SweepStatus Stepper::sweep_rest(const SweepArgs& args) {
+  const auto lap = timer_.measure(Phase::sweep);
+  SweepStatus status;
+  sweep_runs(sweep_for(simd_), rest_, args, status, [&] { communicator_.make_progress(); });
+  return status;
+}
+
+/// What others have of this rank from now on is of some use to them.
+void Stepper::stand_still() {
+  state_.next_position = state_.position;
+  std::fill(state_.velocity.begin(), state_.velocity.end(), 0.0);
 }
 
 std::int64_t Stepper::messages() const {
@@ -124,17 +194,20 @@ std::int64_t Stepper::bytes() const { return bytes_ + (near_ ? near_->bytes() : 
 
 /// What all ranks said at the end of the last step.
 void Stepper::hear_votes() {
-  max_speed_anywhere_ = max_speed_;
+  motion_anywhere_ = max_speed_ * dt_before_;
   news_ = !releasing_.empty();
   heard_ = said_;
   if (!vote_) return;
   const auto lap = timer_.measure(Phase::communication);
   communicator_.set_phase("votes at the end of a step");
   const std::span<const double> largest = vote_->take();
-  max_speed_anywhere_ = largest[0];
+  motion_anywhere_ = largest[0] * std::max(dt_before_, dt_earlier_);
   news_ = largest[2] > 0;
   heard_ = {largest[3] > 0, largest[4] > 0, static_cast<std::uint64_t>(largest[5])};
-  if (!(largest[1] > 0)) return;
+  if (largest[1] > 0) hear_failure();
+}
+
+void Stepper::hear_failure() {
   communicator_.agree([&] {
     if (failure_) throw SimulationError(*failure_);
   });
@@ -149,6 +222,7 @@ void Stepper::cast_votes() {
 
 void Stepper::conclude() {
   hear_votes();
+  hear_failure();
   vote_.reset();
 }
 
@@ -170,22 +244,21 @@ void Stepper::hear_releases() {
 }
 
 void Stepper::update_contact() {
-  const double step_length = max_speed_anywhere_ * dt_before_;
   bool due = false;
   communicator_.set_phase("contact search");
   {
     const auto lap = timer_.measure(Phase::search);
-    due = contact_->due(state_, max_speed_anywhere_, dt_before_, communicator_);
+    due = contact_->due(state_, motion_anywhere_, communicator_);
   }
   if (vote_ && (due || all_)) {
     const auto lap = timer_.measure(Phase::communication);
     if (all_) gather(*all_, state_.position);
-    if (due) hear_positions(contact_->search_reach(step_length));
+    if (due) hear_positions(contact_->search_reach(motion_anywhere_));
   }
   {
     const auto lap = timer_.measure(Phase::search);
     // In this order, so that what fracture makes touch is known as such also when nothing has been searched yet.
-    if (due) contact_->search(state_, step_length, current_);
+    if (due) contact_->search(state_, motion_anywhere_, current_);
     if (!freed_.empty()) contact_->release_faces(freed_);
   }
   if (vote_ && (due || news_)) {
@@ -244,11 +317,17 @@ void Stepper::exchange_touching() {
   contact_->adopt(heard);
 }
 
-void Stepper::gather_proxies() {
+void Stepper::send_proxies() {
+  const auto lap = timer_.measure(Phase::communication);
+  communicator_.set_phase("gather of proxies");
+  near_->gather_begin(std::array{state_.next_position.data(), state_.velocity.data()});
+}
+
+void Stepper::receive_proxies() {
   if (!near_) return;
   const auto lap = timer_.measure(Phase::communication);
   communicator_.set_phase("gather of proxies");
-  gather(*near_, state_.next_position);
+  near_->gather_end();
 }
 
 void Stepper::gather(Halo& halo, Field<double>& position) {

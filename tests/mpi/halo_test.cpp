@@ -188,6 +188,30 @@ TEST_P(HaloOf, ManyNodesSendsOneMessageANeighbourAndCountsIt) {
   EXPECT_EQ(halo.seconds_waiting() > 0, world().size() > 1);
 }
 
+TEST(Halo, WaitsForWhatItGetsAndNotForWhatItGives) {
+  if (world().size() == 1) GTEST_SKIP() << "needs another rank";
+  const Communicator aside(std::make_shared<Communicator::Handle>(world().handle()->comm));
+  constexpr std::size_t kNodes = 100'000;  // more than MPI takes without the receiver
+  std::vector<std::size_t> all;
+  for (std::size_t node = 0; node < kNodes; ++node) all.push_back(place_of(node));
+  std::vector<HaloNeighbour> neighbours;
+  if (world().is_root()) {
+    for (int r = 1; r < world().size(); ++r) neighbours.push_back({r, all, {}});
+  } else {
+    neighbours.push_back({0, {}, all});
+  }
+  Halo halo(world(), std::move(neighbours), 1);
+  std::vector<double> field(3 * kNodes, world().is_root() ? 3.5 : 0.0);
+  double* const pointer = field.data();
+  if (!world().is_root()) aside.barrier();  // until the root has got all it waits for: nothing
+  halo.gather_begin(std::span(&pointer, 1));
+  halo.gather_end();
+  if (world().is_root()) aside.barrier();
+  EXPECT_EQ(field, std::vector<double>(3 * kNodes, 3.5));
+  halo.gather_begin(std::span(&pointer, 1));  // waits for what is on its way still
+  halo.gather_end();
+}
+
 TEST_P(HaloOf, AnySizeAllocatesNothingInAGather) {
   const Partition partition(500, 12);
   Halo halo(world(), partition.neighbours(), kFields, GetParam());

@@ -107,5 +107,30 @@ TEST(DisplacementWatch, ActsOnWhatHasReallyMovedAndOnNothingElse) {
   EXPECT_TRUE(used_up(0.2)) << "what is still to come counts";
 }
 
+/// A box that goes further with every step, the other at rest; lengths are told a step late or two.
+TEST(DisplacementWatch, CountsStepsTwiceThatAreNotKnownYet) {
+  for (const int late : {0, 1, 2}) {
+    TwoBoxes boxes;
+    DisplacementWatch watch(late);
+    Field<double> then = boxes.now();
+    int times = 0;
+    std::vector<double> lengths(static_cast<std::size_t>(late), 0.0);
+    for (int step = 0; step < 200; ++step) {
+      lengths.push_back(0.01 + 0.0002 * step);
+      boxes.move(1, {lengths.back(), 0, 0});
+      watch.step(lengths[lengths.size() - 1 - static_cast<std::size_t>(late)]);
+      const bool used_up = watch.used_up(0.3, 0, boxes.local(), boxes.now(), then, {});
+      EXPECT_LE(relative_displacement(boxes.local(), boxes.now(), then, {}), 0.3) << late << " late, step " << step;
+      if (!used_up) continue;
+      ++times;
+      then = boxes.now();
+      watch.restart();
+    }
+    // 5.98 m of way, half of it counts: ten times the allowance.
+    EXPECT_GE(times, 10) << late;
+    EXPECT_LE(times, 14) << late;
+  }
+}
+
 }  // namespace
 }  // namespace breccia
