@@ -38,8 +38,9 @@ InSituPlugin::InSituPlugin() {
     throw cannot_open(file, "the in-situ adaptor is not there: Breccia was built without ParaView",
                       "a build after `apt-get install $(./run packages)`, or its place in the environment variable BRECCIA_CATALYST");
   }
-  // Global, so that ParaView's library finds the symbols of Python, which it uses but does not name.
-  void* library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
+  // Global, so that ParaView's library finds the symbols of Python, which it uses but does not name. Lazy, as looking up at once
+  // what hundreds of libraries might call takes a second; the adaptor's own symbols are (catalyst/CMakeLists.txt).
+  void* library = ::dlopen(file.c_str(), RTLD_LAZY | RTLD_GLOBAL);
   if (library == nullptr) {
     const char* why = ::dlerror();
     throw cannot_open(file, "the in-situ adaptor cannot be loaded: " + std::string(why != nullptr ? why : "unknown reason"),

@@ -60,9 +60,10 @@ class FreeFaces {
     }
   }
   [[nodiscard]] bool operator()(Index slot, int face) const {
+    if (stepper_.swept(slot, face)) return false;  // nearly always
     const Model& model = stepper_.model();
     if (!stepper_.has_joint(slot, face)) return model.topology.links[at(model.local.mesh_element[at(slot)])][at(face)].free();
-    return held_[at(slot) * 4 + at(face)] == 0 && !stepper_.swept(slot, face);
+    return held_[at(slot) * 4 + at(face)] == 0;
   }
 
  private:
