@@ -4,6 +4,7 @@
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
 #include <vtkNew.h>
+#include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLDataElement.h>
@@ -15,11 +16,15 @@
 
 #include <cstdio>
 
+#include "catalyst/base64_stream.hpp"
 #include "catalyst/messages.hpp"
 #include "catalyst/pipeline.hpp"
 #include "catalyst/whole_file.hpp"
 
 namespace breccia::insitu {
+
+vtkStandardNewMacro(Base64Stream)
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -95,9 +100,9 @@ fs::path piece_name(vtkDataObject* object, const std::string& channel, std::int6
 std::int64_t write_piece(vtkDataObject* object, const fs::path& file) {
   vtkSmartPointer<vtkXMLWriter> writer;
   if (is_polygons(object)) {
-    writer = vtkSmartPointer<vtkXMLPolyDataWriter>::New();
+    writer = vtkSmartPointer<WithBase64Stream<vtkXMLPolyDataWriter>>::New();
   } else {
-    writer = vtkSmartPointer<vtkXMLUnstructuredGridWriter>::New();
+    writer = vtkSmartPointer<WithBase64Stream<vtkXMLUnstructuredGridWriter>>::New();
   }
   // A piece that is there already may be listed: it stays until the new one is complete.
   const fs::path temporary = file.parent_path() / ("." + file.filename().string() + ".tmp");
