@@ -22,17 +22,19 @@ class PhaseTimer {
 
   class Lap {
    public:
-    Lap(double& total) : total_(total), start_(Clock::now()) {}
+    Lap(PhaseTimer& timer, Phase phase) : timer_(timer), phase_(phase), start_(Clock::now()) {}
     Lap(const Lap&) = delete;
     Lap& operator=(const Lap&) = delete;
-    ~Lap() { total_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+    ~Lap() { timer_.add(phase_, std::chrono::duration<double>(Clock::now() - start_).count()); }
 
    private:
-    double& total_;
+    PhaseTimer& timer_;
+    Phase phase_;
     Clock::time_point start_;
   };
 
-  [[nodiscard]] Lap measure(Phase phase) { return Lap(seconds_[static_cast<std::size_t>(phase)]); }
+  [[nodiscard]] Lap measure(Phase phase) { return {*this, phase}; }
+  void add(Phase phase, double seconds) { seconds_[static_cast<std::size_t>(phase)] += seconds; }
   void add(const PhaseTimer& other) {
     for (std::size_t p = 0; p < seconds_.size(); ++p) seconds_[p] += other.seconds_[p];
   }
