@@ -16,9 +16,9 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-void ContactSearch::release_faces(std::span<const FreedFace> faces) {
+bool ContactSearch::release_faces(std::span<const FreedFace> faces) {
   collect_sides(faces);
-  if (sides_.empty()) return;
+  if (sides_.empty()) return false;
   note_clusters();
   clusters_.break_faces(sides_, changed_);
   const std::size_t first = contact_.points.size();
@@ -27,11 +27,11 @@ void ContactSearch::release_faces(std::span<const FreedFace> faces) {
     free_corners_of(side);
   }
   sort_points(contact_);
-  if (!searched_) return;
+  if (!searched_) return false;
   made_.clear();
   couple_new_points(first);
   couple_separated(first);
-  add_made();
+  return add_made();
 }
 
 /// Both sides of every face that is not free yet, each once.
@@ -131,18 +131,40 @@ void ContactSearch::couple_points_of(Index element, Index other, std::size_t fir
 }
 
 /// Brings `made_` into the couples. None is there yet: its point is new, or was bonded to the contactor until now.
-void ContactSearch::add_made() {
+/// Returns what release_faces() does.
+bool ContactSearch::add_made() {
   std::sort(made_.begin(), made_.end(),
             [&](const ContactCouple& a, const ContactCouple& b) { return contact_.before(a, b); });
   made_.erase(std::unique(made_.begin(), made_.end()), made_.end());
-  if (made_.empty()) return;
-  if (contact_.relevant.empty()) return add_fresh_couples(made_, contact_);
+  const auto is_of_others = [&](const ContactCouple& c) {
+    return !contact_.matters(contact_.points[at(c.point)].slot) || !contact_.matters(contact_.contactors[at(c.contactor)]);
+  };
+  const auto before = [&](const ContactCouple& a, const ContactCouple& b) { return contact_.before(a, b); };
+  const auto is_kept = [&](Index point) {
+    if (contact_.matters(contact_.points[at(point)].slot)) return true;
+    const auto found = std::lower_bound(contact_.couples.begin(), contact_.couples.end(), ContactCouple{point, 0}, before);
+    return found != contact_.couples.end() && found->point == point;
+  };
   // A couple that matters makes its point's others matter.
-  contact_.couples.swap(all_couples_);
+  const bool pulls = std::any_of(made_.begin(), made_.end(), [&](const ContactCouple& c) {
+    return contact_.matters(contact_.contactors[at(c.contactor)]) && !is_kept(c.point);
+  });
+  if (pulls) {
+    contact_.couples.swap(all_couples_);
+    const auto middle = contact_.couples.insert(contact_.couples.end(), made_since_.begin(), made_since_.end());
+    std::sort(middle, contact_.couples.end(), before);
+    std::inplace_merge(contact_.couples.begin(), middle, contact_.couples.end(), before);
+    made_since_.clear();
+    add_fresh_couples(made_, contact_);
+    all_couples_ = contact_.couples;
+    keep_relevant();
+    couples_replaced(contact_);
+    return true;
+  }
+  if (!contact_.relevant.empty()) made_since_.insert(made_since_.end(), made_.begin(), made_.end());
+  std::erase_if(made_, [&](const ContactCouple& c) { return !is_kept(c.point); });
   add_fresh_couples(made_, contact_);
-  all_couples_ = contact_.couples;
-  keep_relevant();
-  couples_replaced(contact_);
+  return std::any_of(made_.begin(), made_.end(), is_of_others);
 }
 
 }  // namespace breccia

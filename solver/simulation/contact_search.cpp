@@ -157,6 +157,7 @@ void ContactSearch::search(const State& state, double step_length, std::span<con
   }
   if (!contact_.relevant.empty()) {
     all_couples_ = contact_.couples;
+    made_since_.clear();
     keep_relevant();
   }
   couples_replaced(contact_);

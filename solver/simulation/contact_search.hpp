@@ -101,8 +101,9 @@ class ContactSearch {
   void adopt(std::span<const CoupleRecord> touching);
 
   /// Faces freed by fracture: their points, the couples they make, the couples of elements no longer bonded, and the
-  /// change of the overlap field. Faces that are free already are passed over.
-  void release_faces(std::span<const FreedFace> faces);
+  /// change of the overlap field. Faces that are free already are passed over. Returns whether couples with elements that do not
+  /// matter by themselves came about: of these, positions and what they touch have to be heard from now on.
+  bool release_faces(std::span<const FreedFace> faces);
 
   /// contact_forces on the couples at hand. @pre `update` has been called for this state
   void forces(const State& state, double dt, NodalForces& forces, ContactWork& work) {
@@ -142,7 +143,7 @@ class ContactSearch {
   void couple_new_points(std::size_t first);
   void couple_separated(std::size_t first);
   void couple_points_of(Index element, Index other, std::size_t first);
-  void add_made();
+  [[nodiscard]] bool add_made();
 
   // In buffers: how far points in couples with elements that matter are from these at most, and what is in couples with such
   // points. A little more for round-off.
@@ -160,7 +161,8 @@ class ContactSearch {
   std::vector<std::uint8_t> carries_;              ///< (elements) a bit a face: may carry points
   std::vector<std::array<Index, 4>> first_point_;  ///< (elements) of the points of a face, -1: none
   bool any_law_ = false;
-  std::vector<ContactCouple> all_couples_;         ///< with those that do not matter, when couples are restricted
+  // When couples are restricted: with those that do not matter, in order; and what fracture has made since the former were put together.
+  std::vector<ContactCouple> all_couples_, made_since_;
 
   // The last full search.
   bool searched_ = false;

@@ -18,16 +18,16 @@ namespace breccia {
 /// Watches relative_displacement() against an allowance, and rarely has to look: in between it is bounded by the sum of the
 /// largest speeds times the step.
 ///
-/// On several ranks the largest speed becomes known some steps late; each step not known yet counts as twice the last known. Only
-/// where nodes gather more than that speed within those steps, and more than what is left of the allowance, do they use it up unseen;
-/// a stable time step is too short for that.
+/// On several ranks the largest speed becomes known some steps late; each step not known yet counts as twice the last known. Nodes use
+/// up the allowance unseen only where they gain more speed than that within those steps, with next to nothing of it left: a stable time
+/// step is too short for that.
 class DisplacementWatch {
  public:
   /// @param late  steps by which lengths are told late
   explicit DisplacementWatch(int late = 0) : late_(late) {}
   /// Positions are those of `then` from now on.
   void restart() { start_from(0); }
-  /// After every step. @param length  m, at least as far as any node has moved in the step, or in the one that many steps ago
+  /// After every step. @param length  m, at least as far as any node has moved in the step `late` before it
   void step(double length) {
     length_ = length;
     if (before_ > 0) {
@@ -50,7 +50,7 @@ class DisplacementWatch {
   int late_;
   int before_ = 0;    ///< lengths still to be told of steps that the bound holds already
   double bound_ = 0;  ///< m
-  double length_ = 0; ///< m, told last
+  double length_ = 0;  ///< m, told last
 };
 
 }  // namespace breccia

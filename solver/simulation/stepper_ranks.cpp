@@ -248,7 +248,7 @@ void Stepper::hear_releases() {
 }
 
 void Stepper::update_contact() {
-  bool due = false;
+  bool due = false, meets_others = false;
   communicator_.set_phase("contact search");
   {
     const auto lap = timer_.measure(Phase::search);
@@ -263,13 +263,15 @@ void Stepper::update_contact() {
     const auto lap = timer_.measure(Phase::search);
     // In this order, so that what fracture makes touch is known as such also when nothing has been searched yet.
     if (due) contact_->search(state_, motion_anywhere_, current_);
-    if (!freed_.empty()) contact_->release_faces(freed_);
+    if (!freed_.empty()) meets_others = contact_->release_faces(freed_);
   }
   if (vote_ && (due || news_)) {
     const auto lap = timer_.measure(Phase::communication);
-    exchange_touching();
-    plan_near();
-    gather(*near_, state_.position);
+    if (due || communicator_.max(static_cast<std::int64_t>(meets_others)) != 0) {
+      exchange_touching();
+      plan_near();
+      gather(*near_, state_.position);
+    }
   }
   contact_->verify(state_);
 }
