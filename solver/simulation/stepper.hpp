@@ -72,8 +72,8 @@ struct Ledger {
 /// On several ranks a rank computes the forces on its originals, nothing else: joints and couples with an element of
 /// another rank are computed on both, from the same numbers in the same order. Of its proxies only the near ones are
 /// gathered in every step, those that share a joint or a couple with an original, the former without velocities. Before a
-/// search those are that have come near to the originals of the rank; after it, and when joints have come apart, ranks tell
-/// each other what the points of their elements touch.
+/// search those are that have come near to the originals of the rank; after it, and when joints that came apart bring elements
+/// of two ranks into couples, ranks tell each other what the points of their elements touch.
 class Stepper {
  public:
   /// @pre model outlives this object and does not change.
