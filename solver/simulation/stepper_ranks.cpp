@@ -8,26 +8,7 @@
 namespace breccia {
 namespace {
 
-/// Blocks swept between two chances for messages to move on, about 0.1 ms: a reduction needs several before it is done.
-constexpr Index kLongestRun = 128;
-
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-/// Own-node blocks only. @param pause  called now and then
-void sweep_runs(SweepFunction sweep, std::span<const BlockRun> runs, SweepArgs args, SweepStatus& status, const auto& pause) {
-  args.num_shared_blocks = 0;
-  args.num_moved_nodes = 0;
-  Index since_pause = 0;
-  for (const BlockRun& run : runs) {
-    args.first_own_block = run.first;
-    args.end_own_block = run.end;
-    status.add(sweep(args));
-    since_pause += run.end - run.first;
-    if (since_pause < kLongestRun) continue;
-    since_pause = 0;
-    pause();
-  }
-}
 
 }  // namespace
 
@@ -145,65 +126,19 @@ void Stepper::plan_near() {
   plan_order();
 }
 
-/// Which blocks are swept ahead of the others: those that are sent, and those that constraints hold, which are applied in
-/// one go. Shared nodes are all moved with them.
-void Stepper::plan_order() {
-  std::vector<std::uint8_t> first = sent_;
-  for (const NodalConstraint& entry : entries_) {
-    for (const Index node : entry.nodes) {
-      if (node < model_.local.num_own_nodes()) first[at(node / (4 * kLanes))] = 1;
-    }
-  }
-  ahead_.clear();
-  rest_.clear();
-  const Index end = model_.local.num_own_originals / kLanes;
-  for (Index block = 0; block < end; ++block) {
-    std::vector<BlockRun>& runs = first[at(block)] != 0 ? ahead_ : rest_;
-    const bool goes_on = !runs.empty() && runs.back().end == block && block - runs.back().first < kLongestRun;
-    if (goes_on) {
-      runs.back().end = block + 1;
-    } else {
-      runs.push_back({block, block + 1});
-    }
-  }
-}
-
-SweepStatus Stepper::sweep_ahead(const SweepArgs& args) {
-  const auto lap = timer_.measure(Phase::sweep);
-  SweepArgs only_shared = args;
-  only_shared.end_own_block = 0;
-  SweepStatus status = sweep_for(simd_)(only_shared);
-  sweep_runs(sweep_for(simd_), ahead_, args, status, [] {});
-  return status;
-}
-
-/// Messages move on meanwhile.
-SweepStatus Stepper::sweep_rest(const SweepArgs& args) {
-  const auto lap = timer_.measure(Phase::sweep);
-  SweepStatus status;
-  sweep_runs(sweep_for(simd_), rest_, args, status, [&] { communicator_.make_progress(); });
-  return status;
-}
-
-/// What others have of this rank from now on is of some use to them.
-void Stepper::stand_still() {
-  state_.next_position = state_.position;
-  std::fill(state_.velocity.begin(), state_.velocity.end(), 0.0);
-}
-
 std::int64_t Stepper::messages() const {
   return messages_ + (near_ ? near_->messages() : 0) + (all_ ? all_->messages() : 0);
 }
 std::int64_t Stepper::bytes() const { return bytes_ + (near_ ? near_->bytes() : 0) + (all_ ? all_->bytes() : 0); }
 
-/// What all ranks said at the end of the last step.
+/// What all ranks said in the last step.
 void Stepper::hear_votes() {
   motion_anywhere_ = max_speed_ * dt_before_;
   news_ = !releasing_.empty();
   heard_ = said_;
   if (!vote_) return;
   const auto lap = timer_.measure(Phase::communication);
-  communicator_.set_phase("votes at the end of a step");
+  communicator_.set_phase("votes of the last step");
   const std::span<const double> largest = vote_->take();
   motion_anywhere_ = largest[0] * std::max(dt_before_, dt_earlier_);
   news_ = largest[2] > 0;
