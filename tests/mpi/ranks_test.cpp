@@ -268,7 +268,9 @@ TEST(Ranks, EndTogetherWhenOneCannotWriteItsPieceOfAFrame) {
   ASSERT_TRUE(ended);
   EXPECT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 2);
-  for (const auto& frame : nlohmann::json::parse(test::read_text(series)).at("files")) {
+  const auto list = nlohmann::json::parse(test::read_text(series));
+  EXPECT_FALSE(list.at("files").empty());
+  for (const auto& frame : list.at("files")) {
     EXPECT_TRUE(std::filesystem::exists(series.parent_path() / frame.at("name").get<std::string>()));
   }
 }
