@@ -9,11 +9,11 @@
 
 namespace breccia::insitu {
 
-/// What vtkBase64OutputStream writes, but in one piece: that one hands every four characters to the stream, which takes more than half
-/// of the time of an XML file.
+/// What vtkBase64OutputStream writes, but in one piece: that one hands every four characters to the stream by themselves, which took
+/// half of the time of a large file.
 class Base64Stream : public vtkOutputStream {
  public:
-  vtkTypeMacro(Base64Stream, vtkOutputStream)  // NOLINT
+  vtkTypeMacro(Base64Stream, vtkOutputStream)
   static Base64Stream* New();
 
   int StartWriting() override {

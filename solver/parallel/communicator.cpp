@@ -100,6 +100,8 @@ void wait_for(const Communicator::Handle& handle, std::span<MPI_Request> request
 
 bool settled(std::span<MPI_Request> requests) {
   constexpr std::chrono::milliseconds kPatience(500);
+  const auto is_null = [](MPI_Request request) { return request == MPI_REQUEST_NULL; };
+  if (std::all_of(requests.begin(), requests.end(), is_null)) return true;  // also when there is no MPI
   const auto end = std::chrono::steady_clock::now() + kPatience;
   int done = 0;
   while (MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE) == MPI_SUCCESS && done == 0 &&
@@ -229,7 +231,7 @@ class Vote::Request {
   Request(const Request&) = delete;
   Request& operator=(const Request&) = delete;
   ~Request() = default;
-  [[nodiscard]] bool is_settled() { return request_ == MPI_REQUEST_NULL || settled(std::span(&request_, 1)); }
+  [[nodiscard]] bool is_settled() { return settled(std::span(&request_, 1)); }
 
   void post(std::span<const double> values) {
     std::copy(values.begin(), values.end(), mine_.begin());

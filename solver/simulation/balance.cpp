@@ -10,7 +10,7 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// An element that shares its nodes costs this much of one that owns them (no joints to look across).
 constexpr double kSharedNodes = 1.0 / 3;
-/// No rank is believed to be slower or faster than this at the same work.
+/// A look that finds a rank slower or faster than this at the same work has met a stall, and counts as this.
 constexpr double kMostSlow = 2;
 
 /// How many elements (in cost), active joints and couples a rank has to compute.

@@ -1,51 +1,26 @@
 #include "simulation/balance.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
-
-#include "case/reader.hpp"
 #include "mpi/world.hpp"
 #include "simulation/convert.hpp"
 #include "simulation/model.hpp"
+#include "unit/case/case_files.hpp"
 
 namespace breccia {
 namespace {
 
 using test::world;
 
-case_::Case one_cube() {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / ("breccia_balance_" + std::to_string(getpid()) + ".toml");
-  std::ofstream(file) << R"([mesh.raster]
-cells = [1, 1, 1]
-cell_size = "10 mm"
-group = "box"
-[[material]]
-group = "box"
-young = "1 GPa"
-poisson = 0.2
-density = 2000
-joints = "none"
-[[stage]]
-name = "rest"
-end = "1 ms"
-)";
-  case_::Case input = case_::read_case(file);
-  std::filesystem::remove(file);
-  return input;
-}
-
-/// Every rank has a cube; the root's core is twice as fast as the others.
-class CubesOnUnequalCores : public testing::Test {
+/// Every rank has the same model; the root's core is twice as fast as the others.
+class UnequalCores : public testing::Test {
  protected:
-  CubesOnUnequalCores() { stepper_.connect(world(), {}, ExchangeKind::non_blocking); }
-  ~CubesOnUnequalCores() override { stepper_.conclude(); }
+  UnequalCores() { stepper_.connect(world(), {}, ExchangeKind::non_blocking); }
+  ~UnequalCores() override { stepper_.conclude(); }
   void work() { stepper_.timer().add(Phase::sweep, seconds_); }
   [[nodiscard]] double weight() const { return balance_.weights(stepper_).at(0); }
 
-  const case_::Case input_ = one_cube();
+  const case_::Case input_ = case_::read_text(case_::minimal);
   const Model model_ = build_model(input_);
   Stepper stepper_{model_, search_params(input_, model_)};
   Balance balance_;
@@ -54,7 +29,7 @@ class CubesOnUnequalCores : public testing::Test {
   const double mean_ = (2.0 * world().size() - 1) / world().size();  // s
 };
 
-TEST_F(CubesOnUnequalCores, WeighMoreOnTheSlowOnesOverTime) {
+TEST_F(UnequalCores, MakeElementsWeighMoreOnTheSlowOnes) {
   const double at_first = weight();
   for (int look = 0; look < 10; ++look) {
     work();
@@ -65,7 +40,7 @@ TEST_F(CubesOnUnequalCores, WeighMoreOnTheSlowOnesOverTime) {
   EXPECT_NEAR(weight(), at_first * seconds_ / mean_, 2e-3 * at_first);
 }
 
-TEST_F(CubesOnUnequalCores, LoseWhatTheyWaitForTheSlowestUnlessItWasOneLookOnly) {
+TEST_F(UnequalCores, CostWhatOthersWaitForTheSlowestUnlessItWasOneLookOnly) {
   work();
   EXPECT_EQ(balance_.look(stepper_), 0);
   work();

@@ -1,20 +1,17 @@
 #include "simulation/frames.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <set>
 
-#include "case/reader.hpp"
 #include "simulation/balance.hpp"
 #include "simulation/convert.hpp"
 #include "simulation/fragment_labels.hpp"
 #include "simulation/model.hpp"
+#include "unit/case/case_files.hpp"
 
 namespace breccia {
 namespace {
@@ -24,8 +21,7 @@ constexpr double kStep = 1e-8;  // s
 
 /// A box of two cubes, each of 24 elements, with a slit of four faces between them that holds until somebody breaks it.
 case_::Case two_cubes() {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / ("breccia_frames_" + std::to_string(getpid()) + ".toml");
-  std::ofstream(file) << R"([mesh.raster]
+  return case_::read_text(R"([mesh.raster]
 cells = [2, 1, 1]
 cell_size = "10 mm"
 group = "box"
@@ -44,10 +40,7 @@ energy_mode_1 = "10 J/m2"
 [[stage]]
 name = "rest"
 end = "1 ms"
-)";
-  case_::Case input = case_::read_case(file);
-  std::filesystem::remove(file);
-  return input;
+)");
 }
 
 class TwoCubes : public testing::Test {
