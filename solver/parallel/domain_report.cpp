@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
+#include "base/extent.hpp"
 #include "base/types.hpp"
 #include "parallel/exchange_schedule.hpp"
 
@@ -18,22 +18,8 @@ std::size_t at(T i) {
   return static_cast<std::size_t>(i);
 }
 
-struct Box {
-  Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity());
-  Vec3 upper = -lower;
-
-  void add(const Vec3& x) {
-    lower = lower.cwiseMin(x);
-    upper = upper.cwiseMax(x);
-  }
-  [[nodiscard]] bool empty() const { return !(lower[0] <= upper[0]); }
-  [[nodiscard]] bool within(const Box& other, double distance) const {
-    return ((lower.array() - distance) <= other.upper.array()).all() && (other.lower.array() <= (upper.array() + distance)).all();
-  }
-};
-
-Box box_of(const Mesh& mesh, std::size_t element) {
-  Box box;
+Extent box_of(const Mesh& mesh, std::size_t element) {
+  Extent box;
   for (const Index node : mesh.elements[element]) box.add(mesh.nodes[at(node)]);
   return box;
 }
@@ -41,7 +27,7 @@ Box box_of(const Mesh& mesh, std::size_t element) {
 /// Domains whose boxes may be within a distance of an element, by cell of a grid.
 class NearDomains {
  public:
-  NearDomains(const std::vector<Box>& boxes, const Box& all, double distance) : lower_(all.lower) {
+  NearDomains(const std::vector<Extent>& boxes, const Extent& all, double distance) : lower_(all.lower) {
     const double cells = std::clamp(std::cbrt(8.0 * static_cast<double>(boxes.size())), 1.0, 64.0);
     for (std::size_t i = 0; i < 3; ++i) {
       n_[i] = static_cast<int>(cells);
@@ -151,11 +137,11 @@ class Counter {
   }
 
   void count_held(double reach) {
-    std::vector<Box> boxes(report_.domains.size());
-    Box all;
+    std::vector<Extent> boxes(report_.domains.size());
+    Extent all;
     double largest = 0;
     for (std::size_t e = 0; e < owner_.size(); ++e) {
-      const Box box = box_of(mesh_, e);
+      const Extent box = box_of(mesh_, e);
       for (const Vec3& x : {box.lower, box.upper}) {
         boxes[at(owner_[e])].add(x);
         all.add(x);
@@ -164,9 +150,9 @@ class Counter {
     }
     const NearDomains near(boxes, all, reach + largest);
     for (std::size_t e = 0; e < owner_.size(); ++e) {
-      const Box box = box_of(mesh_, e);
+      const Extent box = box_of(mesh_, e);
       for (const int domain : near.of(box.lower)) {
-        if (domain != owner_[e] && box.within(boxes[at(domain)], reach)) ++report_.domains[at(domain)].held;
+        if (domain != owner_[e] && box.near(boxes[at(domain)], reach)) ++report_.domains[at(domain)].held;
       }
     }
   }

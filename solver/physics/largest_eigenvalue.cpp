@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "base/field.hpp"
 #include "mesh/random_rotation.hpp"
 
 namespace breccia {
@@ -15,38 +16,79 @@ constexpr int kFirstCheck = 20, kCheckEvery = 5, kMostIterations = 400;
 constexpr double kResidual = 0.01;  // of the eigenvalue: half of it in the step
 constexpr double kMargin = 1.01;    // the residual may be that of the eigenvalue just below the largest
 
-void add_element(const LocalMesh& mesh, const ElasticParams& p, Index slot, const double* u, double* y) {
-  const auto s = static_cast<std::size_t>(slot);
-  const double* g = mesh.gradient.data() + s / kLanes * 72 + s % kLanes;
-  std::array<Vec3, 4> grad;
-  for (std::size_t c = 1; c < 4; ++c) {
-    const double* row = g + 3 * (c - 1) * kLanes;
-    grad[c] = {row[0], row[kLanes], row[2 * kLanes]};
+using Lanes = Eigen::Array<double, kLanes, 1>;
+using Triple = std::array<Lanes, 3>;
+
+Eigen::Map<const Lanes, Eigen::Aligned64> lanes(const double* first) { return Eigen::Map<const Lanes, Eigen::Aligned64>(first); }
+
+/// sum_c u_c g_c^T of eight elements, by row. @param u  of the block's corners
+std::array<Triple, 3> displacement_gradient(const std::array<Triple, 4>& grad, const double* u) {
+  std::array<Triple, 3> h;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      h[i][j] = Lanes::Zero();
+      for (std::size_t c = 0; c < 4; ++c) h[i][j] += lanes(u + (3 * c + i) * kLanes) * grad[c][j];
+    }
   }
-  grad[0] = -(grad[1] + grad[2] + grad[3]);
-  Mat3 h = Mat3::Zero();
-  for (int c = 0; c < 4; ++c)
-    h += load_node(u, mesh.corner_node(slot, c)) * grad[static_cast<std::size_t>(c)].transpose();
-  const Mat3 stress = mesh.volume[s] * (p.lambda * h.trace() * Mat3::Identity() + p.mu * (h + h.transpose()));
-  for (int c = 0; c < 4; ++c) {
-    const Index node = mesh.corner_node(slot, c);
-    store_node(y, node, load_node(y, node) + stress * grad[static_cast<std::size_t>(c)]);
+  return h;
+}
+
+/// Adds what eight elements' own sides of the intact joints on one face pull with. @param force  (corners)
+void add_joints(const JointLinks& links, std::size_t block, std::size_t face, const double* u, std::array<Triple, 4>& force) {
+  const auto stiffness = lanes(links.stiffness.data() + block * 32 + face * kLanes);
+  const std::int32_t* place = links.place.data() + block * 96 + face * 24;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto corner = static_cast<std::size_t>(kFaceCorners[face][i]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Lanes other;
+      for (std::size_t l = 0; l < kLanes; ++l) other[static_cast<Eigen::Index>(l)] = u[static_cast<std::size_t>(place[i * kLanes + l]) + axis * kLanes];
+      force[corner][axis] += stiffness * (lanes(u + block * 96 + (3 * corner + axis) * kLanes) - other);
+    }
   }
 }
 
-void add_joints(const JointLinks& links, Index slot, const double* u, double* y) {
-  for (int face = 0; face < 4; ++face) {
-    const std::size_t at = JointLinks::at(slot, face);
-    const int code = JointLinks::code_of(links.link[at]);
-    if (code >= 12) continue;
-    const Index other_slot = JointLinks::slot_of(links.link[at]);
-    for (int i = 0; i < 3; ++i) {
-      const Index own =
-          own_corner_node(slot, kFaceCorners[static_cast<std::size_t>(face)][static_cast<std::size_t>(i)]);
-      const Index other = own_corner_node(other_slot, linked_corner(code, i));
-      store_node(y, own, load_node(y, own) + links.stiffness[at] * (load_node(u, own) - load_node(u, other)));
-    }
+/// Hooke's forces on the corners of eight elements. @param u  of their corners, [12][8]
+std::array<Triple, 4> element_forces(const StepModel& model, std::size_t block, const double* u) {
+  const ElasticParams& p = model.params[static_cast<std::size_t>(model.mesh.block_group[block])];
+  const double* g = model.mesh.gradient.data() + block * 72;
+  std::array<Triple, 4> grad, force;
+  for (std::size_t j = 0; j < 3; ++j) {
+    for (std::size_t c = 1; c < 4; ++c) grad[c][j] = lanes(g + (3 * (c - 1) + j) * kLanes);
+    grad[0][j] = -(grad[1][j] + grad[2][j] + grad[3][j]);
   }
+  const std::array<Triple, 3> h = displacement_gradient(grad, u);
+  const Lanes pressure = p.lambda * (h[0][0] + h[1][1] + h[2][2]);
+  const auto volume = lanes(model.mesh.volume.data() + block * kLanes);
+  for (std::size_t i = 0; i < 3; ++i) {
+    Triple stress;
+    for (std::size_t j = 0; j < 3; ++j) {
+      stress[j] = p.mu * (h[i][j] + h[j][i]);
+      if (i == j) stress[j] += pressure;
+      stress[j] *= volume;
+    }
+    for (std::size_t c = 0; c < 4; ++c) force[c][i] = stress[0] * grad[c][0] + stress[1] * grad[c][1] + stress[2] * grad[c][2];
+  }
+  return force;
+}
+
+void act_on_own(const StepModel& model, std::size_t block, const double* u, double* y) {
+  std::array<Triple, 4> force = element_forces(model, block, u + block * 96);
+  for (std::size_t face = 0; face < 4; ++face) add_joints(model.links, block, face, u, force);
+  for (std::size_t k = 0; k < 12; ++k) Eigen::Map<Lanes, Eigen::Aligned64>(y + block * 96 + k * kLanes) = force[k / 3][k % 3];
+}
+
+void act_on_shared(const StepModel& model, std::size_t block, const double* u, double* y) {
+  const LocalMesh& mesh = model.mesh;
+  const auto* corners = mesh.shared_corners.data() + (block - static_cast<std::size_t>(mesh.num_own_blocks())) * kLanes;
+  alignas(64) std::array<double, 96> gathered;
+  const auto each = [&](auto&& visit) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      for (std::size_t k = 0; k < 12; ++k) visit(nodal(corners[lane][k / 3], static_cast<int>(k % 3)), lane, k);
+    }
+  };
+  each([&](std::size_t place, std::size_t lane, std::size_t k) { gathered[k * kLanes + lane] = u[place]; });
+  const std::array<Triple, 4> force = element_forces(model, block, gathered.data());
+  each([&](std::size_t place, std::size_t lane, std::size_t k) { y[place] += force[k / 3][k % 3][static_cast<Eigen::Index>(lane)]; });
 }
 
 /// Entries in -1..1 by global id of the node, zero on padding.
@@ -90,23 +132,22 @@ Ritz largest_ritz(const std::vector<double>& alpha, const std::vector<double>& b
 
 void stiffness_action(const StepModel& model, const double* u, double* y) {
   const LocalMesh& mesh = model.mesh;
-  std::fill_n(y, 3 * static_cast<std::size_t>(mesh.num_nodes), 0.0);
-  for (Index s = 0; s < mesh.num_slots; ++s) {
-    if (mesh.element_of_slot[static_cast<std::size_t>(s)] < 0) continue;
-    const Index group = mesh.block_group[static_cast<std::size_t>(s / kLanes)];
-    add_element(mesh, model.params[static_cast<std::size_t>(group)], s, u, y);
-    if (s < mesh.num_own_slots) add_joints(model.links, s, u, y);
-  }
+  const auto own = static_cast<std::size_t>(mesh.num_own_blocks()), all = static_cast<std::size_t>(mesh.num_blocks());
+  for (std::size_t block = 0; block < own; ++block) act_on_own(model, block, u, y);
+  std::fill(y + own * 96, y + 3 * static_cast<std::size_t>(mesh.num_nodes), 0.0);
+  for (std::size_t block = own; block < all; ++block) act_on_shared(model, block, u, y);
 }
 
 double largest_eigenvalue(const StepModel& model) {
   const Eigen::VectorXd scale = inverse_root_mass(model.mesh);
-  Eigen::VectorXd q = start_vector(model.mesh), previous = Eigen::VectorXd::Zero(q.size()), product(q.size());
+  Eigen::VectorXd q = start_vector(model.mesh), previous = Eigen::VectorXd::Zero(q.size());
+  Field<double> displacement(static_cast<std::size_t>(q.size())), force(displacement.size());
+  Eigen::Map<Eigen::VectorXd> scaled(displacement.data(), q.size()), product(force.data(), q.size());
   std::vector<double> alpha, beta;
   for (int k = 1;; ++k) {
-    stiffness_action(model, Eigen::VectorXd(scale.cwiseProduct(q)).data(), product.data());
-    product = product.cwiseProduct(scale);
-    if (!beta.empty()) product -= beta.back() * previous;
+    scaled = q.cwiseProduct(scale);
+    stiffness_action(model, displacement.data(), force.data());
+    product = product.cwiseProduct(scale) - (beta.empty() ? 0.0 : beta.back()) * previous;
     alpha.push_back(q.dot(product));
     product -= alpha.back() * q;
     beta.push_back(product.norm());
@@ -116,7 +157,7 @@ double largest_eigenvalue(const StepModel& model) {
       const Ritz ritz = largest_ritz(alpha, beta);
       if (last || ritz.residual <= kResidual * ritz.value) return kMargin * (ritz.value + ritz.residual);
     }
-    previous = q;
+    previous.swap(q);
     q = product / beta.back();
   }
 }

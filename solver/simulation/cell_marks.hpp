@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "simulation/extent.hpp"
+#include "base/extent.hpp"
 
 namespace breccia {
 

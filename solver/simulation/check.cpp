@@ -12,6 +12,7 @@
 #include "output/quantity_text.hpp"
 #include "output/summary.hpp"
 #include "parallel/domain_report.hpp"
+#include "parallel/whole_fragments.hpp"
 #include "simulation/convert.hpp"
 #include "simulation/decomposition.hpp"
 #include "simulation/stepper.hpp"
@@ -120,15 +121,21 @@ Division divide(const case_::Case& input, const Model& model, int parts) {
     for (const Index node : c) sum += mesh.nodes[index(node)];
     centroids.emplace_back(0.25 * sum);
   }
+  std::vector<std::array<Index, 4>> neighbours;
+  for (const auto& links : model.topology.links) {
+    neighbours.push_back({links[0].neighbour, links[1].neighbour, links[2].neighbour, links[3].neighbour});
+  }
   const Communicator alone;
   const double edge = model.whole.longest_edge;
-  const DomainSpec spec = settled(alone, domain_spec(input), parts, centroids, edge);
-  const std::vector<double> weight(centroids.size(), 1.0);
-  const std::vector<int> owner = assign_domains(alone, spec, parts, centroids, weight, edge);
-  std::vector<std::uint8_t> own_nodes;
-  for (const Discretisation d : model.discretisation) own_nodes.push_back(d == Discretisation::own_nodes ? 1 : 0);
   const double buffer = model.has_contact ? largest_buffer(input.detection.buffer, mean_size(model.local)) : 0.0;
   const Reach reach = reach_of(input, edge, buffer);
+  const DomainSpec spec = settled(alone, domain_spec(input), parts, centroids, edge);
+  const std::vector<double> weight(centroids.size(), 1.0);
+  const double share = static_cast<double>(centroids.size()) / parts;
+  const std::vector<Vec3> places = places_of_fragments(centroids, neighbours, share, reach.distance());
+  const std::vector<int> owner = assign_domains(alone, spec, parts, places, weight, edge);
+  std::vector<std::uint8_t> own_nodes;
+  for (const Discretisation d : model.discretisation) own_nodes.push_back(d == Discretisation::own_nodes ? 1 : 0);
   return {spec.kind == DomainKind::rcb ? "rcb" : fmt::format("grid of {} x {} x {}", spec.n[0], spec.n[1], spec.n[2]),
           report_domains(mesh, model.topology, own_nodes, owner, parts, reach.distance())};
 }

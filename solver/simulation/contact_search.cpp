@@ -209,29 +209,31 @@ void ContactSearch::choose_searched(std::span<const std::uint8_t> current) {
 /// Elements that do not matter by themselves: 2 if their points may be in a couple with one that does, no further than the buffer
 /// from it, 1 if they may be in a couple with such a point, no further than twice the buffer.
 void ContactSearch::choose_foreign(std::span<const std::uint8_t> current) {
-  foreign_.assign(at(local_->num_slots), 0);
-  const Extent ours = extent(reference_);
-  Extent region;
+  const std::size_t slots = at(local_->num_slots);
+  foreign_.assign(slots, 0);
+  extents_.resize(slots);
+  Extent ours, region;
+  for (Index s = 0; s < local_->num_slots; ++s) {
+    if (!contact_.matters(s)) continue;
+    extents_[at(s)] = extent_of(corners_of(s));
+    ours.add(extents_[at(s)]);
+  }
   for (Index s = 0; s < local_->num_slots; ++s) {
     if (contact_.matters(s) || local_->element_of_slot[at(s)] < 0 || (!current.empty() && current[at(s)] == 0)) continue;
-    const Extent element = extent_of(corners_of(s));
-    if (!element.near(ours, kContactorReach * buffer_)) continue;
+    extents_[at(s)] = extent_of(corners_of(s));
+    if (!extents_[at(s)].near(ours, kContactorReach * buffer_)) continue;
     foreign_[at(s)] = 1;
-    region.add(element.lower);
-    region.add(element.upper);
+    region.add(extents_[at(s)]);
   }
   const double cell = std::max(size_, buffer_);
   CellMarks near(region, cell), nearest(region, cell);
   for (Index s = 0; s < local_->num_slots; ++s) {
-    if (!contact_.matters(s)) continue;
-    const Extent element = extent_of(corners_of(s));
-    near.mark(element, kContactorReach * buffer_);
-    nearest.mark(element, kPointReach * buffer_);
+    if (!contact_.matters(s) || !extents_[at(s)].near(region, kContactorReach * buffer_)) continue;
+    near.mark(extents_[at(s)], kContactorReach * buffer_);
+    nearest.mark(extents_[at(s)], kPointReach * buffer_);
   }
-  for (Index s = 0; s < local_->num_slots; ++s) {
-    if (foreign_[at(s)] == 0) continue;
-    const Extent element = extent_of(corners_of(s));
-    foreign_[at(s)] = nearest.any(element) ? 2 : near.any(element) ? 1 : 0;
+  for (std::size_t s = 0; s < slots; ++s) {
+    if (foreign_[s] != 0) foreign_[s] = nearest.any(extents_[s]) ? 2 : near.any(extents_[s]) ? 1 : 0;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/extent.hpp"
 #include "detection/point_body/contactor_grid.hpp"
 #include "detection/point_body/search.hpp"
 #include "mesh/corner_clusters.hpp"
@@ -13,7 +14,6 @@
 #include "parallel/communicator.hpp"
 #include "physics/contact/contact_forces.hpp"
 #include "simulation/displacement.hpp"
-#include "simulation/extent.hpp"
 #include "simulation/records.hpp"
 
 namespace breccia {
@@ -178,6 +178,7 @@ class ContactSearch {
   std::vector<Index> searched_points_, searched_contactors_;  ///< by ascending ids
   std::vector<detection::Corners> searched_corners_;
   std::vector<std::uint8_t> foreign_;                         ///< (slots) choose_foreign()
+  std::vector<Extent> extents_;                               ///< (slots) for it
   std::vector<Vec3> positions_;
   std::vector<detection::Couple> found_;
   std::vector<ContactCouple> made_;

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulation/extent.hpp"
+#include "base/extent.hpp"
+#include "parallel/whole_fragments.hpp"
 
 namespace breccia {
 namespace {
@@ -18,6 +19,28 @@ Vec3 centroid(const ElementRecord& element) {
   Vec3 sum = Vec3::Zero();
   for (const auto& x : element.position) sum += Vec3(x[0], x[1], x[2]);
   return 0.25 * sum;
+}
+
+/// Where elements count as lying, mine among those of all ranks.
+std::vector<Vec3> places(const Communicator& communicator, const Records& mine, std::span<const Vec3> centroid, double reach) {
+  std::vector<GlobalId> ids;
+  for (const ElementRecord& element : mine.elements) ids.push_back(element.id);
+  const auto place_of = [&](std::size_t e, GlobalId id) {
+    const auto near = static_cast<std::ptrdiff_t>(e) + (id - ids[e]);  // as long as all elements are on one rank
+    if (near >= 0 && near < std::ssize(ids) && ids[static_cast<std::size_t>(near)] == id) return static_cast<Index>(near);
+    const auto found = std::lower_bound(ids.begin(), ids.end(), id);
+    return found != ids.end() && *found == id ? static_cast<Index>(found - ids.begin()) : FaceLink::kBeyond;
+  };
+  std::vector<std::array<Index, 4>> neighbours(ids.size());
+  for (std::size_t e = 0; e < ids.size(); ++e) {
+    const ElementRecord& element = mine.elements[e];
+    for (std::size_t f = 0; f < 4; ++f) {
+      const bool free = element.neighbour[f] < 0 || (element.released >> f & 1) != 0;
+      neighbours[e][f] = free ? FaceLink::kFree : place_of(e, element.neighbour[f]);
+    }
+  }
+  const auto all = static_cast<double>(communicator.sum(static_cast<std::int64_t>(ids.size())));
+  return places_of_fragments(centroid, neighbours, all / communicator.size(), reach);
 }
 
 /// Sends marked elements to the ranks that want them. @param wanted  [rank](elements)
@@ -51,8 +74,7 @@ Marks needed_elsewhere(const Communicator& communicator, const Records& owned, d
   Extent all;
   for (const ElementRecord& element : owned.elements) {
     elements.push_back(extent_of(element));
-    all.add(elements.back().lower);
-    all.add(elements.back().upper);
+    all.add(elements.back());
   }
   const std::vector<std::vector<Extent>> extents = communicator.all_gather(std::span<const Extent>(&all, 1));
   Marks wanted(extents.size());
@@ -87,7 +109,7 @@ Piece decompose(const Communicator& communicator, DomainSpec& domains, Records m
   for (const ElementRecord& element : mine.elements) centroids.push_back(centroid(element));
   const double edge = longest_edge(communicator, mine);
   domains = settled(communicator, domains, communicator.size(), centroids, edge);
-  const std::vector<int> owner = assign_domains(communicator, domains, communicator.size(), centroids, weight, edge);
+  const std::vector<int> owner = assign_domains(communicator, domains, communicator.size(), places(communicator, mine, centroids, reach.distance()), weight, edge);
   Records owned = migrate(communicator, std::move(mine), owner);
 
   Piece piece;

@@ -118,6 +118,7 @@ class Runner {
   }
 
   void take_line(double time) {
+    const auto lap = stepper().timer().measure(Phase::output);
     HistoryRow row = observer_.row(time);
     if (insitu_) row.insitu_share = insitu_->share_of_time();
     last_fragments_ = row.fragments;

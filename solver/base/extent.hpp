@@ -14,6 +14,11 @@ struct Extent {
     lower = lower.cwiseMin(x);
     upper = upper.cwiseMax(x);
   }
+  void add(const Extent& other) {
+    lower = lower.cwiseMin(other.lower);
+    upper = upper.cwiseMax(other.upper);
+  }
+  [[nodiscard]] bool empty() const { return !(lower[0] <= upper[0]); }
   /// No further than this along any axis.
   [[nodiscard]] bool near(const Extent& other, double distance) const {
     return ((lower - other.upper).array() <= distance).all() && ((other.lower - upper).array() <= distance).all();

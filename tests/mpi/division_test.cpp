@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "mpi/world.hpp"
+#include "simulation/convert.hpp"
+#include "simulation/decomposition.hpp"
+#include "simulation/model.hpp"
+#include "simulation/stepper.hpp"
+#include "unit/case/case_files.hpp"
+
+namespace breccia {
+namespace {
+
+using test::world;
+
+constexpr std::size_t kElementsABox = 24;
+
+/// 125 boxes of 24 elements each, all on the root.
+class FlyingBoxes : public testing::Test {
+ protected:
+  FlyingBoxes() {
+    if (!world().is_root()) return;
+    const Model model = build_model(input_);
+    mine_ = Stepper(model, search_params(input_, model)).records();
+  }
+
+  void divide() {
+    const Reach reach = reach_of(input_, longest_edge(world(), mine_), 0.0);
+    DomainSpec domains = domain_spec(input_);
+    const std::vector<double> weight(mine_.elements.size(), 1.0);
+    Piece piece = decompose(world(), domains, std::move(mine_), weight, reach);
+    keep(piece.records, piece.original);
+    mine_ = std::move(piece.records);
+  }
+  /// Elements of each box that are here.
+  [[nodiscard]] std::map<Index, std::size_t> here() const {
+    std::map<Index, std::size_t> count;
+    for (const ElementRecord& element : mine_.elements) ++count[element.body];
+    return count;
+  }
+
+  const case_::Case input_ = case_::read_text(case_::minimal, {"mesh.raster.boxes=5", "mesh.raster.gap=5 mm"});
+  Records mine_;
+};
+
+TEST_F(FlyingBoxes, StayWholeWhenTheModelIsDivided) {
+  for (int division = 0; division < 3; ++division) {
+    divide();
+    for (const auto& [box, elements] : here()) EXPECT_EQ(elements, kElementsABox) << "box " << box << ", division " << division;
+    EXPECT_EQ(world().sum(static_cast<std::int64_t>(mine_.elements.size())), 125 * 24);
+    EXPECT_LE(world().max(static_cast<double>(mine_.elements.size())) * world().size(), 125 * 24 * 1.1);
+    for (ElementRecord& element : mine_.elements) {  // apart along one axis, then together along another
+      for (auto& x : element.position) x[static_cast<std::size_t>(division)] *= 1.0 + 0.3 * element.body / 125;
+    }
+  }
+}
+
+TEST_F(FlyingBoxes, MayBeCutWhereTheyBroke) {
+  for (ElementRecord& element : mine_.elements) element.released = 0xF;
+  divide();
+  const auto boxes = here();
+  const bool cut = std::any_of(boxes.begin(), boxes.end(), [](const auto& box) { return box.second != kElementsABox; });
+  EXPECT_EQ(world().max(static_cast<std::int64_t>(cut)) != 0, world().size() > 1);
+}
+
+}  // namespace
+}  // namespace breccia
