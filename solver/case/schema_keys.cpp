@@ -269,7 +269,8 @@ constexpr auto table = std::to_array<Key>({
     {.path = "domains", .type = section,
      .help = "How a run on several ranks (mpiexec -n N) divides the model. It changes the speed, never the results."},
     {.path = "domains.kind", .type = choice, .fallback = "rcb", .choices = "rcb|grid",
-     .help = "rcb: bisected again and again so that all ranks have the same work; grid: equal cuboids.",
+     .help = "rcb: bisected again and again so that all ranks have the same work; grid: equal cuboids. A small fragment goes to "
+             "one domain, whole.",
      .example = "\"grid\""},
     {.path = "domains.n", .type = integers_or_one, .fallback = "[0, 0, 0]", .range = at_most_100000,
      .help = "Cuboids of the grid along x, y and z, as many as ranks; 0: chosen so that the least area is cut.",
@@ -278,7 +279,7 @@ constexpr auto table = std::to_array<Key>({
      .help = "non_blocking: a rank sends to all its neighbours at once; pairwise: couple by couple, by a schedule in which "
              "nobody waits for a third.", .example = "\"pairwise\""},
     {.path = "domains.rebalance", .type = boolean, .fallback = "true",
-     .help = "Divide anew when that pays: when ranks wait for each other for longer than it takes.", .example = "false"},
+     .help = "Divide anew when that pays: when ranks have waited for each other for as long as it takes.", .example = "false"},
     {.path = "domains.margin", .type = number, .fallback = "1", .range = {.lower = 0.1, .upper = 100},
      .help = "How far beyond a domain a rank knows its neighbours' elements at least, in longest edges of an element. Larger: "
              "fewer new divisions while bodies move, but more to search. For fast bodies it is widened up to fivefold by itself.",

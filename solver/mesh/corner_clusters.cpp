@@ -98,7 +98,11 @@ void CornerClusters::cluster_corners_at(Index node, std::vector<Index>& changed)
 bool CornerClusters::bonded(Index element_a, Index element_b) const {
   const auto& a = cluster_[at(element_a)];
   const auto& b = cluster_[at(element_b)];
-  return std::any_of(a.begin(), a.end(), [&](Index id) { return std::find(b.begin(), b.end(), id) != b.end(); });
+  bool common = false;  // no branches: most pairs that a search finds are asked about here
+  for (const Index id : a) {
+    for (const Index other : b) common |= id == other;
+  }
+  return common;
 }
 
 }  // namespace breccia

@@ -1,6 +1,7 @@
 #include "simulation/balance.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 namespace breccia {
@@ -10,6 +11,8 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// An element that shares its nodes costs this much of one that owns them (no joints to look across).
 constexpr double kSharedNodes = 1.0 / 3;
+/// What the last look counts for in a rank's slowness: others on the machine come and go.
+constexpr double kNewest = 0.25;
 /// A look that finds a rank slower or faster than this at the same work has met a stall, and counts as this.
 constexpr double kMostSlow = 2;
 
@@ -22,6 +25,11 @@ std::array<double, 3> amounts(const Stepper& stepper) {
   }
   const double couples = stepper.contact() != nullptr ? static_cast<double>(stepper.contact()->contact().couples.size()) : 0.0;
   return {elements, static_cast<double>(stepper.active_joints().size()), couples};
+}
+
+double largest_of(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 }  // namespace
@@ -41,16 +49,14 @@ double Balance::look(const Stepper& stepper) {
   for (std::size_t k = 0; k < 3; ++k) mine.seconds[k] -= seen_[k];
   seen_ = work(stepper);
   Share all{};
-  double slowest = 0, sum = 0;
   const auto shares = stepper.communicator().all_gather(std::span<const Share>(&mine, 1));
+  std::vector<double> busy;  // s, of each rank since the last look
   for (const std::vector<Share>& share : shares) {
     for (std::size_t k = 0; k < 3; ++k) {
       all.seconds[k] += share[0].seconds[k];
       all.amount[k] += share[0].amount[k];
     }
-    const double seconds = std::accumulate(share[0].seconds.begin(), share[0].seconds.end(), 0.0);
-    slowest = std::max(slowest, seconds);
-    sum += seconds;
+    busy.push_back(std::accumulate(share[0].seconds.begin(), share[0].seconds.end(), 0.0));
   }
   for (std::size_t k = 0; k < 3; ++k) {
     if (all.amount[k] > 0 && all.seconds[0] > 0) unit_[k] = all.seconds[k] / all.amount[k] * all.amount[0] / all.seconds[0];
@@ -59,14 +65,14 @@ double Balance::look(const Stepper& stepper) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (all.amount[k] > 0) usual += all.seconds[k] * mine.amount[k] / all.amount[k];
   }
-  const double busy = std::accumulate(mine.seconds.begin(), mine.seconds.end(), 0.0);
-  if (usual > 0) slowness_ = 0.5 * (slowness_ + std::clamp(busy / usual, 1 / kMostSlow, kMostSlow));
-  const double mean = sum / static_cast<double>(shares.size());
-  before_ = now_;
-  now_ = {(slowest - mean) / static_cast<double>(kInterval), mean > 0 ? slowest / mean : 1.0};
-  told_ = now_.imbalance;
-  load_ = mean > 0 ? busy / mean : 1.0;
-  return std::min(now_.lost, before_.lost);
+  const double here = busy[static_cast<std::size_t>(stepper.communicator().rank())];
+  if (usual > 0) slowness_ += kNewest * (std::clamp(here / usual, 1 / kMostSlow, kMostSlow) - slowness_);
+  const double mean = mean_of(busy);
+  told_ = mean > 0 ? largest_of(busy) / mean : 1.0;
+  load_ = mean > 0 ? here / mean : 1.0;
+  busy_.resize(busy.size());
+  std::transform(busy.begin(), busy.end(), busy_.begin(), busy_.begin(), std::plus<>());
+  return largest_of(busy_) - mean_of(busy_);
 }
 
 std::vector<double> Balance::weights(const Stepper& stepper) const {

@@ -15,15 +15,14 @@ class Balance {
   /// Steps between two looks.
   static constexpr std::int64_t kInterval = 100;
 
-  /// Seconds that ranks wait for the slowest in a step, on average over two looks: the shorter of the two, since others on the
-  /// machine come and go. Collective; to be called every kInterval steps.
+  /// Seconds that ranks have waited for the slowest since the model was divided: what its work took beyond the mean, all steps
+  /// taken together, so that what slows now one, now another, as others on the machine come and go, does not count. Collective;
+  /// to be called every kInterval steps.
   [[nodiscard]] double look(const Stepper& stepper);
   /// Largest over mean of the ranks' working time at the last look; 1: none yet.
   [[nodiscard]] double imbalance() const { return told_; }
   /// This rank's working time over the mean at the last look; 1: none yet.
   [[nodiscard]] double load() const { return load_; }
-  /// The smaller of the last two looks since the model was divided.
-  [[nodiscard]] double lasting_imbalance() const { return std::min(now_.imbalance, before_.imbalance); }
 
   /// Cost of this rank's originals, ascending by id, in that of an element that has its own nodes and nothing else: measured
   /// per element, joint and couple over all ranks, or our estimate before the first look; more where the rank is slower than
@@ -33,7 +32,7 @@ class Balance {
   /// The model has been divided anew, and the stepper replaced by one that goes on with its timer.
   void restart(const Stepper& stepper) {
     seen_ = work(stepper);
-    now_ = before_ = {};
+    busy_.clear();
   }
 
  private:
@@ -43,11 +42,7 @@ class Balance {
 
   Work seen_{};
   Work unit_{1.0, 2.0, 2.0};  ///< cost of an element that owns its nodes, an active joint, a couple
-  struct Look {
-    double lost = 0;       ///< s a step
-    double imbalance = 1;
-  };
-  Look now_, before_;
+  std::vector<double> busy_;  ///< (ranks) s, since the model was divided
   double slowness_ = 1;  ///< of this rank: what its work takes over what it takes on average, over the looks
   double told_ = 1, load_ = 1;
 };

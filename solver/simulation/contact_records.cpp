@@ -92,14 +92,17 @@ TouchingCouple ContactSearch::restored(const CoupleRecord& record) const {
 void ContactSearch::adopt(std::span<const CoupleRecord> touching) {
   std::vector<TouchingCouple>& known = contact_.touching;
   std::erase_if(known, [&](const TouchingCouple& c) { return !local_->is_original(contact_.points[at(c.point)].slot); });
+  const std::ptrdiff_t own = std::ssize(known);
   for (const CoupleRecord& record : touching) {
     const TouchingCouple couple = restored(record);
     // What a point touches beyond this rank's elements is nobody's concern here.
     if (couple.point >= 0 && couple.contactor >= 0) known.push_back(couple);
   }
-  std::sort(known.begin(), known.end(), [&](const TouchingCouple& a, const TouchingCouple& b) {
+  const auto before = [&](const TouchingCouple& a, const TouchingCouple& b) {
     return contact_.before({a.point, a.contactor}, {b.point, b.contactor});
-  });
+  };
+  std::sort(known.begin() + own, known.end(), before);
+  std::inplace_merge(known.begin(), known.begin() + own, known.end(), before);
 }
 
 std::vector<CoupleRecord> ContactSearch::touching_of(std::span<const Index> slots) const {

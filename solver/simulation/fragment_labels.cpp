@@ -24,12 +24,14 @@ Fragments fragments_of_rank(const Stepper& stepper) {
   return finder.find();
 }
 
-/// Every rank tells its neighbours what it calls their elements.
+constexpr GlobalId kNothingToTell = -1;
+
+/// Every rank tells its neighbours what it calls those of their elements that it knows to hang together with others.
 std::vector<Meeting> meetings(const Stepper& stepper, const Fragments& fragments) {
   std::vector<Communicator::ListOf<GlobalId>> lists;
   for (const SharedSlots& shared : stepper.shared_slots()) {
     std::vector<GlobalId>& labels = lists.emplace_back(shared.rank).entries;
-    for (const Index slot : shared.receive) labels.push_back(fragments.of_slot[at(slot)]);
+    for (const Index slot : shared.receive) labels.push_back(fragments.alone[at(slot)] != 0 ? kNothingToTell : fragments.of_slot[at(slot)]);
   }
   std::vector<Meeting> met;
   for (const auto& [rank, labels] : stepper.communicator().exchange(lists)) {
@@ -37,7 +39,7 @@ std::vector<Meeting> meetings(const Stepper& stepper, const Fragments& fragments
       if (shared.rank != rank) continue;
       for (std::size_t i = 0; i < labels.size(); ++i) {
         const GlobalId here = fragments.of_slot[at(shared.send[i])];
-        if (here != labels[i]) met.push_back({here, labels[i]});
+        if (labels[i] != kNothingToTell && labels[i] != here) met.push_back({here, labels[i]});
       }
     }
   }

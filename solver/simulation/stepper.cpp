@@ -119,6 +119,7 @@ void Stepper::break_joints(std::span<const LoadedFace> faces) {
 void Stepper::step(bool sample, const Word& word) {
   hear_votes();
   hear_releases();
+  update_contact();
   external_forces();
   joint_forces();
   contact_forces();
@@ -164,7 +165,6 @@ void Stepper::joint_forces() {
 
 void Stepper::contact_forces() {
   if (!contact_) return;
-  update_contact();
   const auto lap = timer_.measure(Phase::contact);
   contact_->forces(state_, dt_before_, forces_, contact_work_);
 }

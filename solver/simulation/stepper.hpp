@@ -58,9 +58,9 @@ struct Ledger {
 /// The conductor of one step: owns everything that changes, calls the kernels in their order, computes nothing itself.
 ///
 /// Step n takes x_n, v_(n-1/2) to x_(n+1), v_(n+1/2):
-///  1. pressure on faces, then the active joints, by ascending ids;
-///  2. contact: joints that came apart a step ago hand over their faces, all ranks having heard of them meanwhile; a new
-///     search if one is due; then the forces of every couple, by ascending ids;
+///  1. couples: a new search if one is due; joints that came apart a step ago hand over their faces to contact, all ranks having
+///     heard of them meanwhile;
+///  2. forces: pressure on faces, then the active joints, by ascending ids, then every couple, by ascending ids;
 ///  3. the sweep: every element's internal forces, its side of its intact joints, and the motion of its nodes; constraints;
 ///  4. joints that have left their elastic range join the active list, those that are back in it leave it;
 ///  5. proxies are gathered from their originals.
@@ -170,6 +170,7 @@ class Stepper {
   void external_forces();
   void joint_forces();
   void find_relevant();
+  void find_joined();
   [[nodiscard]] bool relevant(Index slot) const { return relevant_[static_cast<std::size_t>(slot)] != 0; }
   [[nodiscard]] Index element_with(GlobalId id) const;
   [[nodiscard]] std::vector<HaloNeighbour> halo_plan(const std::vector<SharedSlots>& shared) const;
@@ -216,6 +217,7 @@ class Stepper {
   std::vector<ReleasedJoint> released_;     ///< whose faces belong to contact, in the order of their release
   std::vector<std::uint8_t> relevant_;      ///< (slots) 1: forces on its nodes are computed here: originals, and elements
                                             ///< with which they share nodes
+  std::vector<std::uint8_t> joined_;        ///< (slots) 1: these, and elements that had a joint with them at first
   std::vector<GlobalId> releasing_;         ///< joints of this rank that came apart in the last step
   std::vector<FreedFace> freed_;            ///< faces that contact gets in this step
   std::vector<std::size_t> crossed_;        ///< joints that left their elastic range in this step

@@ -23,6 +23,7 @@ void Stepper::connect(const Communicator& communicator, const std::vector<Shared
   for (const SharedElements& elements : shared) shared_.push_back({elements.rank, slots(elements.send), slots(elements.receive)});
   if (contact_ && contact_->verifies()) all_ = std::make_unique<Halo>(communicator_, halo_plan(shared_), 2, exchange_);
   if (contact_) contact_->restrict_to(relevant_);
+  find_joined();
   plan_near();
   vote_.emplace(communicator, 6);
   cast_votes();
@@ -64,13 +65,17 @@ std::vector<HaloNeighbour> Stepper::halo_plan(const std::vector<SharedSlots>& sh
   return plan;
 }
 
-/// Elements on whose positions the forces computed here depend.
-std::vector<std::uint8_t> Stepper::near_slots() const {
-  std::vector<std::uint8_t> near = relevant_;
+void Stepper::find_joined() {
+  joined_ = relevant_;
   for (const ModelJoint& joint : model_.joints) {
     const Index a = model_.local.slot_of_element[at(joint.face.a)], b = model_.local.slot_of_element[at(joint.face.b)];
-    if (relevant(a) || relevant(b)) near[at(a)] = near[at(b)] = 1;
+    if (relevant(a) || relevant(b)) joined_[at(a)] = joined_[at(b)] = 1;
   }
+}
+
+/// Elements on whose positions the forces computed here depend.
+std::vector<std::uint8_t> Stepper::near_slots() const {
+  std::vector<std::uint8_t> near = joined_;
   if (contact_) contact_->mark_coupled(near);
   return near;
 }
@@ -182,7 +187,10 @@ void Stepper::hear_releases() {
   releasing_.clear();
 }
 
+/// Where ranks have to wait for each other they do so here, at the beginning of a step, one wait after the other: what makes one of
+/// them late in the rest of it is waited for once.
 void Stepper::update_contact() {
+  if (!contact_) return;
   bool due = false, meets_others = false;
   communicator_.set_phase("contact search");
   {

@@ -52,12 +52,17 @@ void FragmentFinder::join_linked(const JointLinks& links) {
 Fragments FragmentFinder::find() {
   Fragments fragments;
   fragments.of_slot.assign(parent_.size(), -1);
+  fragments.alone.assign(parent_.size(), 1);
   for (Index s = 0; s < mesh_.num_slots; ++s) {
     const auto i = static_cast<std::size_t>(s);
     if (mesh_.element_of_slot[i] < 0) continue;
     const Index top = root(s);
     fragments.of_slot[i] = mesh_.element_of_slot[static_cast<std::size_t>(top)];
-    if (top == s) ++fragments.count;
+    if (top == s) {
+      ++fragments.count;
+    } else {
+      fragments.alone[i] = fragments.alone[static_cast<std::size_t>(top)] = 0;
+    }
   }
   return fragments;
 }

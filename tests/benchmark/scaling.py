@@ -1,13 +1,13 @@
-"""Speed-up on several ranks, beside the reference's (experiments E5 A, E5 B and E6 of A. Schiava's thesis, chapter 9).
+"""Speed-up on several ranks, beside the reference's (experiments E5 A, E5 B and E6 of A. Schiava's thesis, chapter 9, and E3, chapter 6).
 
-The case "corner" compares a fixed grid, all of whose bodies are pulled into one half, with domains that follow the work; it runs
+The case "e3" is a raster of bodies of one tetrahedron each, searched by MS as published. The case "corner" compares a fixed grid, all of whose bodies are pulled into one half, with domains that follow the work; it runs
 to its end and takes its sizes from --smallest and --largest, but not --steps.
 
 What the machine itself allows is measured beside it: as many runs on one rank as there are ranks, each of a share of the model and
 on a core of its own, at once and one alone. The column "ceiling" is the ranks times the time alone over the time at once: cores
 share memory, caches and their clock, and a speed-up beyond that cannot be had but by smaller working sets.
 
-usage: scaling.py PROGRAM MESHES FOLDER [--ranks 1,2] [--cases e5a,e5b,e6,corner] [--smallest ELEMENTS] [--largest ELEMENTS] [--steps N] [--repeat N] [--no-ceiling] [--set KEY=VALUE]...
+usage: scaling.py PROGRAM MESHES FOLDER [--ranks 1,2] [--cases e5a,e5b,e6,e3,corner] [--smallest ELEMENTS] [--largest ELEMENTS] [--steps N] [--repeat N] [--no-ceiling] [--set KEY=VALUE]...
 
 Every case runs on each number of ranks in turn, --repeat times; the shortest wall time counts. Writes FOLDER/scaling.csv and, where
 gnuplot is there, FOLDER/scaling.svg. Ends with 1 if two runs of a case differ in a single bit of their state or kinetic energy.
@@ -30,6 +30,11 @@ def boxes(case, edge):
     radius = 0.5 * 3**0.5 * edge * 15e-3 + 0.1e-3
     centre = 0.5 * (edge * 15e-3 - 5e-3)
     return [f"bouncing_cubes/{case}", f"mesh.raster.boxes={edge}", f"sphere.radius={radius}", f"sphere.centre=[{centre},{centre},{centre}]"]
+
+
+def tetrahedra(edge):
+    file, *settings = boxes("case.toml", edge)
+    return [file, *settings, "mesh.raster.kind=tetrahedra", "material.box.density=2340", "detection.algorithm=ms"]
 
 
 def plate(cells, size):
@@ -56,11 +61,14 @@ CASES = {
         (16, {2: 2.01, 4: 3.94}, {2: 2.04, 4: 4.08}), (28, {2: 2.02, 4: 4.03}, {2: 2.04, 4: 4.13}))},
     "e6": {864 * 8**k: (plate(2**k, 10 / 2**k), whole, {}) for k, whole in (
         (0, {2: 1.85, 4: 3.29}), (1, {2: 1.94, 4: 3.65}), (2, {2: 1.94, 4: 3.67}), (3, {2: 1.97, 4: 3.76}))},
+    "e3": {n**3: (tetrahedra(n), {}, {2: round(100 / on_two, 2), 4: round(100 / on_four, 2)}) for n, on_two, on_four in (
+        (10, 46.3, 23.4), (48, 48.0, 24.3), (80, 47.9, 24.4), (110, 48.1, 24.6))},
     "corner": {24 * n**3: (boxes("case_corner.toml", n), {}, {}) for n in (8,)},
 }
 # Cases that run in several divisions of space on several ranks: name of the division -> its settings.
 DIVISIONS = {"corner": {"grid": lambda ranks: ["domains.kind=grid", f"domains.n=[{ranks},1,1]"], "rcb": lambda ranks: []}}
 TO_THE_END = {"corner"}
+ONLY_WHEN_ASKED_FOR = {"corner", "e3"}
 
 # A share of a case's model as a model of its own, for the ceiling: elements, ranks -> settings.
 SHARES = {
@@ -188,7 +196,7 @@ def main():
     parser.add_argument("meshes", type=Path)
     parser.add_argument("folder", type=Path)
     parser.add_argument("--ranks", type=lambda text: [int(n) for n in text.split(",")], default=[1, 2])
-    parser.add_argument("--cases", type=lambda text: text.split(","), default=[c for c in CASES if c != "corner"])
+    parser.add_argument("--cases", type=lambda text: text.split(","), default=[c for c in CASES if c not in ONLY_WHEN_ASKED_FOR])
     parser.add_argument("--smallest", type=int, default=0)
     parser.add_argument("--largest", type=int, default=10**9)
     parser.add_argument("--steps", type=int, default=2000)

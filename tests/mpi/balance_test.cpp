@@ -17,7 +17,7 @@ class UnequalCores : public testing::Test {
  protected:
   UnequalCores() { stepper_.connect(world(), {}, ExchangeKind::non_blocking); }
   ~UnequalCores() override { stepper_.conclude(); }
-  void work() { stepper_.timer().add(Phase::sweep, seconds_); }
+  void work(double seconds) { stepper_.timer().add(Phase::sweep, seconds); }
   [[nodiscard]] double weight() const { return balance_.weights(stepper_).at(0); }
 
   const case_::Case input_ = case_::read_text(case_::minimal);
@@ -31,8 +31,8 @@ class UnequalCores : public testing::Test {
 
 TEST_F(UnequalCores, MakeElementsWeighMoreOnTheSlowOnes) {
   const double at_first = weight();
-  for (int look = 0; look < 10; ++look) {
-    work();
+  for (int look = 0; look < 30; ++look) {
+    work(seconds_);
     static_cast<void>(balance_.look(stepper_));
     EXPECT_DOUBLE_EQ(balance_.imbalance(), slowest_ / mean_);
     EXPECT_DOUBLE_EQ(balance_.load(), seconds_ / mean_);
@@ -40,11 +40,21 @@ TEST_F(UnequalCores, MakeElementsWeighMoreOnTheSlowOnes) {
   EXPECT_NEAR(weight(), at_first * seconds_ / mean_, 2e-3 * at_first);
 }
 
-TEST_F(UnequalCores, CostWhatOthersWaitForTheSlowestUnlessItWasOneLookOnly) {
-  work();
-  EXPECT_EQ(balance_.look(stepper_), 0);
-  work();
-  EXPECT_DOUBLE_EQ(balance_.look(stepper_), (slowest_ - mean_) / Balance::kInterval);
+TEST_F(UnequalCores, CostWhatOthersHaveWaitedForTheSlowestSinceTheDivision) {
+  for (int look = 1; look < 4; ++look) {
+    work(seconds_);
+    EXPECT_DOUBLE_EQ(balance_.look(stepper_), look * (slowest_ - mean_));
+  }
+  balance_.restart(stepper_);
+  work(seconds_);
+  EXPECT_DOUBLE_EQ(balance_.look(stepper_), slowest_ - mean_);
+}
+
+TEST_F(UnequalCores, CostNothingWhereEachIsTheSlowOneInTurn) {
+  work(seconds_);
+  static_cast<void>(balance_.look(stepper_));
+  work(3 - seconds_);
+  EXPECT_DOUBLE_EQ(balance_.look(stepper_), 0);
 }
 
 }  // namespace

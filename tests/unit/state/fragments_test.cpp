@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+
 #include <algorithm>
 #include <queue>
 #include <random>
@@ -87,7 +88,11 @@ TEST(Fragments, AgreeWithAFloodFillInWhateverOrderJointsAreNamed) {
       for (const auto& [a, b] : pairs) finder.join(mesh.slot_of_element[at(a)], mesh.slot_of_element[at(b)]);
       const Fragments fragments = finder.find();
       EXPECT_EQ(fragments.count, count);
-      for (Index e = 0; e < 96; ++e) EXPECT_EQ(fragments.of_slot[at(mesh.slot_of_element[at(e)])], expected[at(e)]);
+      for (Index e = 0; e < 96; ++e) {
+        const std::size_t slot = at(mesh.slot_of_element[at(e)]);
+        EXPECT_EQ(fragments.of_slot[slot], expected[at(e)]);
+        EXPECT_EQ(fragments.alone[slot] != 0, std::count(expected.begin(), expected.end(), expected[at(e)]) == 1);
+      }
     }
   }
 }
