@@ -49,7 +49,7 @@ struct Ledger {
   GravityWork::Carried gravity;
   JointWork joint_work;
   ContactWork contact_work;
-  Word word;                               ///< said and not heard yet
+  Word heard, word;                        ///< in the last step; said in it and not heard yet
   std::vector<GlobalId> released;          ///< joints that other ranks have not heard of yet
   std::optional<double> first_total;       ///< J, energy minus external work of the whole model at the first sample
   EnergyBudget budget;                     ///< of the last sample

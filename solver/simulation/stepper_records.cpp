@@ -67,6 +67,7 @@ Stepper::Stepper(const Model& model, const ContactSearchParams& search, const Re
   broken_joints_ = ledger.broken_joints;
   searches_before_ = ledger.searches;
   past_external_ = std::move(ledger.past_external);
+  heard_ = ledger.heard;
   said_ = ledger.word;
   releasing_ = std::move(ledger.released);
   messages_ = ledger.messages;
@@ -209,9 +210,10 @@ void Stepper::restore_holds(const Records& records) {
 }
 
 Ledger Stepper::close() {
+  Ledger ledger;
+  ledger.heard = heard_;
   conclude();
   begin_stage({}, dt_);
-  Ledger ledger;
   ledger.time = time_;
   ledger.dt = dt_;
   ledger.dt_before = dt_before_;

@@ -64,5 +64,29 @@ TEST_F(FlyingBoxes, MayBeCutWhereTheyBroke) {
   EXPECT_EQ(world().max(static_cast<std::int64_t>(cut)) != 0, world().size() > 1);
 }
 
+/// Every rank has the same model.
+TEST(Words, AreHeardAStepAfterTheyAreSaidWhetherTheModelIsDividedMeanwhileOrNot) {
+  const case_::Case input = case_::read_text(case_::minimal);
+  const Model model = build_model(input);
+  Stepper before(model, search_params(input, model));
+  before.connect(world(), {}, ExchangeKind::non_blocking);
+  before.begin_stage({}, 1e-9);
+  before.step(false, {.broke = world().is_root(), .orders = 1});
+  before.step(false, {.orders = 2});
+  EXPECT_EQ(before.heard().orders, 1);
+  EXPECT_TRUE(before.heard().broke);
+
+  const Records records = before.records();
+  Stepper after(model, search_params(input, model), records, before.close());
+  after.connect(world(), {}, ExchangeKind::non_blocking);
+  after.begin_stage({}, 1e-9);
+  EXPECT_EQ(after.heard().orders, 1);
+  EXPECT_TRUE(after.heard().broke);
+  after.step(false);
+  EXPECT_EQ(after.heard().orders, 2);
+  EXPECT_FALSE(after.heard().broke);
+  after.conclude();
+}
+
 }  // namespace
 }  // namespace breccia
