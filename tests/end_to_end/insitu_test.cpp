@@ -78,8 +78,9 @@ TEST_P(InSitu, records_every_channel_and_tells_of_it) {
 TEST_P(InSitu, triggers_by_the_first_break_and_by_broken_joints_hit_the_same_steps_on_any_number_of_ranks) {
   const std::string triggers =
       "--set 'insitu.pipeline=[{name=\"fractures\", first_break=true, strict=true}, {name=\"surface\", every_broken=10, strict=true}]'";
-  const WatchedRun alone(1, triggers), run(GetParam(), triggers + " --set domains.margin=0.1");  // divided every few steps
+  const WatchedRun alone(1, triggers), run(GetParam(), triggers + " --set domains.margin=0.1");
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  EXPECT_EQ(run.summary()["decompositions"].get<int>() > 2, GetParam() > 1);
   for (const std::string channel : {"fractures", "surface"}) {
     const std::string series = "extracts/" + channel + "/" + channel + ".pvd";
     EXPECT_EQ(read_text(run.folder() / series), read_text(alone.folder() / series));
