@@ -142,10 +142,8 @@ class Counter {
     double largest = 0;
     for (std::size_t e = 0; e < owner_.size(); ++e) {
       const Extent box = box_of(mesh_, e);
-      for (const Vec3& x : {box.lower, box.upper}) {
-        boxes[at(owner_[e])].add(x);
-        all.add(x);
-      }
+      boxes[at(owner_[e])].add(box);
+      all.add(box);
       largest = std::max(largest, (box.upper - box.lower).maxCoeff());
     }
     const NearDomains near(boxes, all, reach + largest);

@@ -109,7 +109,8 @@ Piece decompose(const Communicator& communicator, DomainSpec& domains, Records m
   for (const ElementRecord& element : mine.elements) centroids.push_back(centroid(element));
   const double edge = longest_edge(communicator, mine);
   domains = settled(communicator, domains, communicator.size(), centroids, edge);
-  const std::vector<int> owner = assign_domains(communicator, domains, communicator.size(), places(communicator, mine, centroids, reach.distance()), weight, edge);
+  const std::vector<Vec3> place = places(communicator, mine, centroids, reach.distance());
+  const std::vector<int> owner = assign_domains(communicator, domains, communicator.size(), place, weight, edge);
   Records owned = migrate(communicator, std::move(mine), owner);
 
   Piece piece;

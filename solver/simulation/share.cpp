@@ -110,8 +110,8 @@ void Share::keep_up() {
   ++decompositions_;
 }
 
-/// Once ranks have waited for as long as a division takes: with no knowledge of the steps to come no other rule costs less in the
-/// worst case, twice what could be had. A grid stays where it is, whatever its cuboids hold.
+/// Once ranks have waited for as long as a division takes: whatever the steps to come bring, that costs at most twice what the
+/// best moment would have. A grid stays where it is, whatever its cuboids hold.
 bool Share::balancing_pays() {
   if (stepper_->steps() % Balance::kInterval != 0) return false;
   const double lost = balance_.look(*stepper_);
