@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "mesh/geometry.hpp"
 #include "mesh/quality.hpp"
 #include "output/quantity_text.hpp"
 #include "output/summary.hpp"
@@ -106,11 +107,16 @@ struct Division {
 };
 
 /// Mean size of all elements, m: about that of the contactors.
-double mean_size(const LocalMesh& local) {
+double mean_size(const Mesh& mesh) {
   double volume = 0;
-  for (Index s = 0; s < local.num_slots; ++s) volume += local.volume[index(s)];
-  return std::cbrt(6 * std::sqrt(2.0) * volume / static_cast<double>(local.num_elements));
+  for (const auto& c : mesh.elements) {
+    volume += geometry::tetra_volume(mesh.nodes[index(c[0])], mesh.nodes[index(c[1])], mesh.nodes[index(c[2])], mesh.nodes[index(c[3])]);
+  }
+  return std::cbrt(6 * std::sqrt(2.0) * volume / static_cast<double>(mesh.elements.size()));
 }
+
+/// Told from the case: a bare model knows nothing of contact.
+bool has_contact(const case_::Case& input) { return input.sphere || !input.contacts.empty(); }
 
 Division divide(const case_::Case& input, const Model& model, int parts) {
   const Mesh& mesh = model.mesh;
@@ -127,7 +133,7 @@ Division divide(const case_::Case& input, const Model& model, int parts) {
   }
   const Communicator alone;
   const double edge = model.whole.longest_edge;
-  const double buffer = model.has_contact ? largest_buffer(input.detection.buffer, mean_size(model.local)) : 0.0;
+  const double buffer = has_contact(input) ? largest_buffer(input.detection.buffer, mean_size(mesh)) : 0.0;
   const Reach reach = reach_of(input, edge, buffer);
   const DomainSpec spec = settled(alone, domain_spec(input), parts, centroids, edge);
   const std::vector<double> weight(centroids.size(), 1.0);
@@ -205,6 +211,9 @@ std::string domain_table(const case_::Case& input, const Model& model, int parts
   const auto empty = std::count_if(domains.begin(), domains.end(), [](const DomainLoad& load) { return load.elements == 0; });
   if (empty > 0) {
     text += fmt::format("- {} domains hold no element and their ranks have nothing to do: use domains.kind = \"rcb\".\n", empty);
+  }
+  if (has_contact(input)) {
+    text += "- Contact is not counted: a rank also gathers and searches what comes near to its elements, which depends on how bodies move.\n";
   }
   return text;
 }

@@ -167,6 +167,15 @@ TEST(Program, check_advises_in_sentences) {
   }
 }
 
+TEST(Program, check_tells_how_ranks_would_share_the_model) {
+  const Scratch scratch;
+  const Outcome outcome = call("check " + scratch.write("case.toml", kSmallCase) + " --ranks 3 --set mesh.raster.boxes=[12,1,1]");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* fragment : {"1152 elements, 3 domains, rcb", "predicted efficiency", "cut faces", "Contact is not counted"}) {
+    EXPECT_NE(outcome.out.find(fragment), std::string::npos) << fragment << " in\n" << outcome.out;
+  }
+}
+
 TEST(Program, mesh_reports_and_writes_the_elements) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
