@@ -115,9 +115,6 @@ double mean_size(const Mesh& mesh) {
   return std::cbrt(6 * std::sqrt(2.0) * volume / static_cast<double>(mesh.elements.size()));
 }
 
-/// Told from the case: a bare model knows nothing of contact.
-bool has_contact(const case_::Case& input) { return input.sphere || !input.contacts.empty(); }
-
 Division divide(const case_::Case& input, const Model& model, int parts) {
   const Mesh& mesh = model.mesh;
   std::vector<Vec3> centroids;
@@ -133,7 +130,7 @@ Division divide(const case_::Case& input, const Model& model, int parts) {
   }
   const Communicator alone;
   const double edge = model.whole.longest_edge;
-  const double buffer = has_contact(input) ? largest_buffer(input.detection.buffer, mean_size(mesh)) : 0.0;
+  const double buffer = model.has_contact ? largest_buffer(input.detection.buffer, mean_size(mesh)) : 0.0;
   const Reach reach = reach_of(input, edge, buffer);
   const DomainSpec spec = settled(alone, domain_spec(input), parts, centroids, edge);
   const std::vector<double> weight(centroids.size(), 1.0);
@@ -212,7 +209,7 @@ std::string domain_table(const case_::Case& input, const Model& model, int parts
   if (empty > 0) {
     text += fmt::format("- {} domains hold no element and their ranks have nothing to do: use domains.kind = \"rcb\".\n", empty);
   }
-  if (has_contact(input)) {
+  if (model.has_contact) {
     text += "- Contact is not counted: a rank also gathers and searches what comes near to its elements, which depends on how bodies move.\n";
   }
   return text;

@@ -243,6 +243,7 @@ Model build_bare_model(const case_::Case& input) {
   model.topology = build_topology(model.mesh);
   model.whole.longest_edge = longest_edge(model.mesh);
   take_materials(input, model);
+  take_contact(input, model);
   break_initial(input, model);
   return model;
 }
@@ -251,7 +252,6 @@ Model build_model(const case_::Case& input) {
   Model model = build_bare_model(input);
   model.corner_tags = tag_corners(model.mesh);
   take_joints(input, model);
-  take_contact(input, model);
   model.local = build_local_mesh(model.mesh, model.discretisation, model.density);
   summarise(model);
   return model;

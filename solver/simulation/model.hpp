@@ -88,8 +88,8 @@ struct Model {
 /// Throws InputError with every problem found.
 [[nodiscard]] Model build_model(const case_::Case& input);
 
-/// The part of it that tells how the model is divided among ranks, in a fraction of the memory: mesh, topology, materials
-/// and the longest edge.
+/// The part of it that tells how the model is divided among ranks, in a fraction of the memory: mesh, topology, materials,
+/// contact and the longest edge.
 [[nodiscard]] Model build_bare_model(const case_::Case& input);
 
 /// The model of a piece of the mesh.

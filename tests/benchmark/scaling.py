@@ -1,7 +1,8 @@
 """Speed-up on several ranks, beside the reference's (experiments E5 A, E5 B and E6 of A. Schiava's thesis, chapter 9, and E3, chapter 6).
 
-The case "e3" is a raster of bodies of one tetrahedron each, searched by MS as published. The case "corner" compares a fixed grid, all of whose bodies are pulled into one half, with domains that follow the work; it runs
-to its end and takes its sizes from --smallest and --largest, but not --steps.
+The case "e3" is a raster of bodies of one tetrahedron each, searched by MS as published. The case "corner" compares a fixed grid,
+all of whose bodies are pulled into one half, with domains that follow the work; it runs to its end and takes its sizes from
+--smallest and --largest, but not --steps.
 
 What the machine itself allows is measured beside it: as many runs on one rank as there are ranks, each of a share of the model and
 on a core of its own, at once and one alone. The column "ceiling" is the ranks times the time alone over the time at once: cores
