@@ -1,0 +1,50 @@
+# Every library of the solver and the tests, looked for once. What is missing is told in one list, with its package of Debian.
+set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON)
+set(HDF5_PREFER_PARALLEL ON)  # ParaView's packages bring this build; the serial one must not join it on a link line
+set(missing)
+
+# breccia_need(<what, for the list> <Debian package> <arguments of find_package>)
+macro(breccia_need what debian package)
+  find_package(${package} ${ARGN} QUIET)
+  if(NOT ${package}_FOUND)
+    list(APPEND missing "${what} (Debian: ${debian})")
+  endif()
+endmacro()
+
+breccia_need("Eigen 3.4" libeigen3-dev Eigen3 3.4 NO_MODULE)
+breccia_need("spdlog" libspdlog-dev spdlog)
+breccia_need("fmt 9 or newer" libfmt-dev fmt)
+breccia_need("toml++ 3.3 or newer" libtomlplusplus-dev tomlplusplus)
+breccia_need("nlohmann_json 3.11" nlohmann-json3-dev nlohmann_json 3.11)
+breccia_need("CLI11 2.1 or newer" libcli11-dev CLI11)
+breccia_need("MPI 3.1 or newer" "openmpi-bin libopenmpi-dev" MPI 3.1 COMPONENTS C)
+breccia_need("HDF5, its C library" libhdf5-openmpi-dev HDF5 COMPONENTS C)
+if(HDF5_FOUND AND NOT HDF5_IS_PARALLEL)
+  list(APPEND missing "HDF5 built with MPI; found is a serial one, ${HDF5_VERSION} (Debian: libhdf5-openmpi-dev)")
+endif()
+
+find_path(GMSH_INCLUDE_DIR gmsh.h)
+find_library(GMSH_LIBRARY gmsh)
+if(GMSH_INCLUDE_DIR AND GMSH_LIBRARY)
+  add_library(gmsh::gmsh UNKNOWN IMPORTED GLOBAL)
+  set_target_properties(gmsh::gmsh PROPERTIES IMPORTED_LOCATION ${GMSH_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${GMSH_INCLUDE_DIR})
+else()
+  list(APPEND missing "gmsh's C++ library (Debian: libgmsh-dev)")
+endif()
+
+if(BRECCIA_TESTS)
+  breccia_need("GoogleTest and GoogleMock 1.12" "libgtest-dev libgmock-dev" GTest 1.12)
+  # The Python of the system, which ParaView embeds, need not be the first one on PATH.
+  find_program(BRECCIA_SYSTEM_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
+  if(BRECCIA_SYSTEM_PYTHON)
+    set(Python3_EXECUTABLE ${BRECCIA_SYSTEM_PYTHON})
+  endif()
+  breccia_need("Python 3.9 or newer" python3 Python3 3.9 COMPONENTS Interpreter)
+endif()
+
+if(missing)
+  list(JOIN missing "\n  " missing)
+  message(FATAL_ERROR "This system lacks what Breccia is built with:\n  ${missing}\n"
+    "On Debian 12 and 13 './run build' installs it; './run packages' lists every package.")
+endif()
+unset(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL)
