@@ -9,7 +9,8 @@ std::filesystem::path data_folder() {
   if (dladdr(reinterpret_cast<const void*>(&data_folder), &library) != 0 && library.dli_fname != nullptr) {
     std::error_code error;
     const auto beside = std::filesystem::absolute(library.dli_fname, error).parent_path();
-    if (!error && std::filesystem::is_directory(beside / "pipelines", error)) return beside;
+    const auto installed = (beside / "../../share/breccia/catalyst").lexically_normal();
+    if (!error && std::filesystem::is_directory(installed / "pipelines", error)) return installed;
   }
   return BRECCIA_CATALYST_SOURCE;
 }

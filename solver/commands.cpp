@@ -76,7 +76,7 @@ int run_command(const RunCommand& asked, const Communicator& world) {
     sinks.push_back(std::make_unique<HistorySink>(folder.history()));
     sinks.push_back(std::make_unique<StatusSink>(folder.status()));
     sinks.push_back(std::make_unique<ProgressSink>(asked.progress, std::cout, terminal_columns(fileno(stdout))));
-    sinks.push_back(std::make_unique<SummarySink>(folder.summary()));
+    sinks.push_back(std::make_unique<SummarySink>(folder.summary(), folder.summary_text()));
   });
   const Summary summary = run_case(input, std::move(model), sinks, world, &folder);
   if (world.is_root() && asked.progress != ProgressMode::json && asked.progress != ProgressMode::none) {

@@ -176,18 +176,18 @@ void define_run_insitu(CLI::App& run, Arguments& a) {
   const auto live = [&a](const std::vector<std::string>& address) {
     a.run.overrides.push_back("insitu.live.address=\"" + (address.empty() || address[0].empty() ? "localhost:22222" : address[0]) + "\"");
   };
-  CLI::Option* asked = run.add_option_function<std::vector<std::string>>("--live", live, "offer the run to ParaView (Catalyst > Connect there), which listens at host:port; default localhost:22222")
+  CLI::Option* asked = run.add_option_function<std::vector<std::string>>("--live", live, "offer the run to ParaView (Catalyst > Connect there), which listens at host:port, default localhost:22222; after the case file, or --live=HOST:PORT")
       ->expected(0, 1)
       ->type_name("[HOST:PORT]");
   run.add_flag_callback("--live-remote", [&a] { a.run.overrides.emplace_back("insitu.live.remote=true"); },
-                        "allow --live to go to another machine; nothing is encrypted")
+                        "the live view may leave this machine; nothing is encrypted")
       ->needs(asked);
   const auto pipelines = [&a](const std::vector<std::string>& names) {
     std::string list;
     for (const std::string& name : names) list += (list.empty() ? "\"" : ", \"") + (case_::is_script(name) ? std::filesystem::absolute(name).string() : name) + "\"";
     a.run.overrides.push_back("insitu.run=[" + list + "]");
   };
-  run.add_option_function<std::vector<std::string>>("--insitu", pipelines, "pipelines that work while the run goes on, such as fractures,stress or a script; `breccia explain insitu`")
+  run.add_option_function<std::vector<std::string>>("--insitu", pipelines, "pipelines that work while the run goes on, separated by commas, such as fractures,stress; a script by its path; `breccia explain insitu`")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->take_all();
@@ -204,7 +204,7 @@ void define(CLI::App& app, Arguments& a) {
   run->add_option("--set", a.run.overrides, kSetHelp)->allow_extra_args(false)->take_all();
   run->add_flag("-f,--overwrite", a.run.overwrite, "replace the results of an earlier run in that folder");
   run->add_option("--progress", a.progress, kProgressHelp)->check(progress_modes());
-  run->footer("Writes frames for ParaView (frames/*.series), history.csv, status.jsonl, summary.json, the resolved case and provenance.json.\n"
+  run->footer("Writes frames for ParaView (frames/*.series), history.csv, status.jsonl, summary.json and .txt, the resolved case and provenance.json.\n"
               "Ctrl-C ends the run after the present step with everything written.");
 
   define_run_insitu(*run, a);

@@ -27,7 +27,7 @@ inline constexpr std::array<EnergyTerm, 13> kEnergyTerms{{
     {"viscous", "viscous", &EnergyBudget::viscous},
     {"damping", "damping", &EnergyBudget::damping},
     {"external_work", "initial + external work", &EnergyBudget::external_work},
-    {"residual", "residual, booked by nobody", &EnergyBudget::residual},
+    {"residual", "residual, unaccounted", &EnergyBudget::residual},
 }};
 
 }  // namespace breccia

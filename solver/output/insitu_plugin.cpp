@@ -28,15 +28,18 @@ std::filesystem::path InSituPlugin::place() {
   if (const char* named = std::getenv("BRECCIA_CATALYST"); named != nullptr && *named != '\0') return named;
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  return program.parent_path().parent_path() / "catalyst" / kLibrary;
+  const std::filesystem::path above = program.parent_path().parent_path();
+  const std::filesystem::path installed = above / "lib" / "breccia" / kLibrary, built = above / "catalyst" / kLibrary;
+  return std::filesystem::exists(built, error) ? built : installed;
 }
 
 InSituPlugin::InSituPlugin() {
   const std::filesystem::path file = place();
   std::error_code error;
   if (!std::filesystem::exists(file, error)) {
-    throw cannot_open(file, "the in-situ adaptor is not there: Breccia was built without ParaView",
-                      "a build after `apt-get install $(./run packages)`, or its place in the environment variable BRECCIA_CATALYST");
+    throw cannot_open(file, "the in-situ adaptor is not installed",
+                      "`./run build` in Breccia's source folder installs ParaView and builds it; among Debian packages it is breccia-insitu; "
+                      "the environment variable BRECCIA_CATALYST may name another place");
   }
   // Global, so that ParaView's library finds the symbols of Python, which it uses but does not name. Lazy, as looking up at once
   // what hundreds of libraries might call takes a second; the adaptor's own symbols are (catalyst/CMakeLists.txt).
@@ -44,7 +47,7 @@ InSituPlugin::InSituPlugin() {
   if (library == nullptr) {
     const char* why = ::dlerror();
     throw cannot_open(file, "the in-situ adaptor cannot be loaded: " + std::string(why != nullptr ? why : "unknown reason"),
-                      "ParaView 5.11 with Python: apt-get install paraview python3-paraview");
+                      "the ParaView it was built with: apt-get install paraview python3-paraview");
   }
   using Entry = const BrecciaInsituApi* (*)();
   const auto entry = reinterpret_cast<Entry>(::dlsym(library, "breccia_insitu_api"));

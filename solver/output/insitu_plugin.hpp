@@ -15,7 +15,8 @@ class InSituPlugin {
   InSituPlugin();
   [[nodiscard]] const BrecciaInsituApi& api() const { return *api_; }
 
-  /// Where it is looked for: the environment's BRECCIA_CATALYST, or ../catalyst beside the folder of the program.
+  /// Where it is looked for: the environment's BRECCIA_CATALYST, or relative to the folder of the program: ../lib/breccia where both are
+  /// installed, ../catalyst where they were built.
   [[nodiscard]] static std::filesystem::path place();
 
  private:

@@ -32,6 +32,7 @@ struct RunFolder {
   [[nodiscard]] std::filesystem::path history() const { return root / "history.csv"; }
   [[nodiscard]] std::filesystem::path status() const { return root / "status.jsonl"; }
   [[nodiscard]] std::filesystem::path summary() const { return root / "summary.json"; }
+  [[nodiscard]] std::filesystem::path summary_text() const { return root / "summary.txt"; }
   [[nodiscard]] std::filesystem::path control() const { return root / "control"; }
   [[nodiscard]] std::filesystem::path extracts() const { return root / "extracts"; }
 };

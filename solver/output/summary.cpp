@@ -153,6 +153,9 @@ std::uint64_t max_resident_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 }
 
-void SummarySink::finish(const Summary& summary) { write_file_atomically(path_, summary_json(summary)); }
+void SummarySink::finish(const Summary& summary) {
+  write_file_atomically(text_, summary_text(summary));
+  write_file_atomically(json_, summary_json(summary));
+}
 
 }  // namespace breccia

@@ -18,15 +18,15 @@ namespace breccia {
 /// Largest resident memory of this process so far, bytes.
 [[nodiscard]] std::uint64_t max_resident_bytes();
 
-/// Writes `summary.json` when the run ends, atomically.
+/// Writes the summary when the run ends, for programs (summary_json) and for people (summary_text), each file atomically.
 class SummarySink final : public Sink {
  public:
-  explicit SummarySink(std::filesystem::path file) : path_(std::move(file)) {}
+  SummarySink(std::filesystem::path json, std::filesystem::path text) : json_(std::move(json)), text_(std::move(text)) {}
   /// Throws OutputError.
   void finish(const Summary& summary) override;
 
  private:
-  std::filesystem::path path_;
+  std::filesystem::path json_, text_;
 };
 
 }  // namespace breccia

@@ -183,7 +183,7 @@ TEST(InSituAlone, without_an_adaptor_the_run_says_what_to_install) {
   const WatchedRun run(1, "--insitu fractures", "BRECCIA_CATALYST=/nowhere/libbreccia_catalyst.so");
   EXPECT_EQ(run.outcome.exit_code, 2);
   EXPECT_NE(run.outcome.err.find("/nowhere/libbreccia_catalyst.so"), std::string::npos) << run.outcome.err;
-  EXPECT_NE(run.outcome.err.find("./run packages"), std::string::npos) << run.outcome.err;
+  EXPECT_NE(run.outcome.err.find("./run build"), std::string::npos) << run.outcome.err;
   EXPECT_FALSE(fs::exists(run.folder()));
 }
 

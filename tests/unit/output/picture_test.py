@@ -1,4 +1,4 @@
-"""pvpython picture_test.py RENDER.PY RUN_FOLDER WORK_FOLDER: does meshes/render.py draw the synthetic plate?
+"""pvpython picture_test.py BRECCIA_PICTURE RUN_FOLDER WORK_FOLDER: does meshes/breccia-picture draw the synthetic plate?
 
 Seen from the top, the whole plate is a square of known share of the picture and without dark lines inside; cracked, it
 is crossed by dark lines where the cracks are."""
@@ -19,7 +19,7 @@ failures = []
 
 def picture(*options):
     file = f"{work}/picture.png"
-    subprocess.run(["pvbatch", render, run, file, "--view", "top", "--size", f"{WIDTH}x{HEIGHT}", *options], check=True)
+    subprocess.run([render, run, file, "--view", "top", "--size", f"{WIDTH}x{HEIGHT}", *options], check=True)
     reader = vtkPNGReader()
     reader.SetFileName(file)
     reader.Update()
@@ -53,7 +53,7 @@ for inner in numpy.arange(BLOCK, 0.8, 0.1):
     if not cracked[(radius >= inner) & (radius < inner + 0.1)].any():
         failures.append(f"no crack between {inner:.2f} and {inner + 0.1:.2f} of the plate's half width")
 
-refused = subprocess.run(["pvbatch", render, work, f"{work}/none.png"], capture_output=True, text=True, check=False)
+refused = subprocess.run([render, work, f"{work}/none.png"], capture_output=True, text=True, check=False)
 if refused.returncode != 2 or "holds no frames" not in refused.stderr:
     failures.append(f"a folder without frames: exit code {refused.returncode}, {refused.stderr}")
 

@@ -84,9 +84,11 @@ TEST(SummaryJson, IsValidWithNumbersThatJsonCannotHold) {
 
 TEST(SummaryFile, IsWrittenAtTheEnd) {
   const test::TemporaryFolder folder;
-  SummarySink(folder / "summary.json").finish(example_summary());
+  SummarySink(folder / "summary.json", folder / "summary.txt").finish(example_summary());
   EXPECT_EQ(json::parse(test::content_of(folder / "summary.json")).at("steps"), 10000);
-  EXPECT_THROW(SummarySink("/nonexistent/summary.json").finish(example_summary()), OutputError);
+  EXPECT_EQ(test::content_of(folder / "summary.txt"), summary_text(example_summary()));
+  EXPECT_THROW(SummarySink("/nonexistent/summary.json", folder / "summary.txt").finish(example_summary()), OutputError);
+  EXPECT_THROW(SummarySink(folder / "summary.json", "/nonexistent/summary.txt").finish(example_summary()), OutputError);
 }
 
 TEST(SummaryText, SpeaksInUnitsThatPeopleUse) {
