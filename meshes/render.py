@@ -1,7 +1,7 @@
-"""Picture of a run: pvbatch meshes/render.py RUN_FOLDER OUT.png [options]
+"""Picture of a run: meshes/breccia-picture RUN_FOLDER OUT.png [options]
 
 Draws what was the bodies' surface before anything broke in the colour of a field, fracture surfaces and cracks dark.
-Needs an X display; without one: xvfb-run -a -s "-screen 0 1600x1000x24 -noreset" pvbatch meshes/render.py ...
+breccia-picture runs this script with pvbatch under a virtual X display.
 """
 import argparse
 import json
@@ -48,7 +48,7 @@ SHARP = math.cos(math.radians(40))  # faces that meet at a larger angle form an 
 
 def stop(message):
     sys.stdout.flush()
-    print(f"render.py: {message}", file=sys.stderr, flush=True)
+    print(f"breccia-picture: {message}", file=sys.stderr, flush=True)
     os._exit(2)  # pvbatch turns sys.exit into success
 
 
@@ -59,7 +59,7 @@ class Arguments(argparse.ArgumentParser):
 
 
 def parse_arguments():
-    parser = Arguments(prog="pvbatch meshes/render.py", description=__doc__.splitlines()[0])
+    parser = Arguments(prog="breccia-picture", description=__doc__.splitlines()[0])
     parser.add_argument("run", help="folder of the run")
     parser.add_argument("picture", help="PNG file to write")
     parser.add_argument("--field", choices=list(FIELDS), default="von_mises")
@@ -414,7 +414,7 @@ def build(arguments):
 def main():
     arguments = parse_arguments()
     if not os.environ.get("DISPLAY"):
-        stop('drawing needs an X display; put xvfb-run -a -s "-screen 0 1600x1000x24 -noreset" before the command')
+        stop("drawing needs an X display; breccia-picture starts a virtual one (Debian: apt-get install xvfb xauth)")
     renderer = build(arguments)
     renderer.UseDepthPeelingOn()
     window = vtkRenderWindow()

@@ -1,0 +1,111 @@
+#!/usr/bin/env bash
+# What a newcomer does, on a system where nothing is installed: the working commit is cloned into a new Debian tree, where the README's first
+# command runs and the tests are configured (with --full: built and run). Called by `./run test --bare`.
+set -euo pipefail
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+repository=$(cd "$here/../.." && pwd)
+
+fail() {
+  echo "bare: $*" >&2
+  exit 1
+}
+
+release=bookworm depth=demo
+for argument in "$@"; do
+  case $argument in
+    bookworm | 12) release=bookworm ;;
+    trixie | 13) release=trixie ;;
+    --full) depth=full ;;
+    *) fail "'$argument': allowed are bookworm (12), trixie (13) and --full" ;;
+  esac
+done
+((EUID == 0)) || fail "a tree with a system of its own needs root: sudo ./run test --bare $release"
+for tool in mmdebstrap git unshare chroot; do command -v "$tool" >/dev/null || fail "$tool is missing"; done
+
+# In a mount and process namespace of its own: whatever ends this script, nothing stays mounted or running.
+if [[ -z ${BRECCIA_BARE_NAMESPACE:-} ]]; then
+  BRECCIA_BARE_NAMESPACE=1 exec unshare --mount --pid --fork --kill-child --propagation private "${BASH_SOURCE[0]}" "$@"
+fi
+
+# source_lines RELEASE: lines for its sources.list, from the places that this machine takes its own packages from.
+source_lines() {
+  local own uri suite component
+  own=$(. /etc/os-release && echo "${VERSION_CODENAME:-}")
+  # shellcheck disable=SC2016
+  apt-get indextargets --format '$(REPO_URI) $(RELEASE) $(COMPONENT)' 'Identifier: Packages' | sort -u |
+    while read -r uri suite component; do
+      [[ $component == main && ($suite == "$own" || $suite == "$own"-*) ]] || continue
+      echo "deb $uri $1${suite#"$own"} main"
+    done
+}
+
+# The tree without anything of ours, made once.
+base=${XDG_CACHE_HOME:-$HOME/.cache}/breccia/bare/$release-$(dpkg --print-architecture).tar
+if [[ ! -f $base ]]; then
+  echo "bare: making a Debian tree ($release), kept in $base"
+  mkdir -p "$(dirname "$base")"
+  sources=$(source_lines "$release")
+  [[ -n $sources ]] || fail "apt names no place from which Debian's packages come"
+  mmdebstrap --quiet --variant=minbase "$release" "$base.part" - <<<"$sources" || fail "mmdebstrap cannot make a tree of $release"
+  mv "$base.part" "$base"
+fi
+
+tree=$(mktemp -d "${TMPDIR:-/var/tmp}/breccia-bare.XXXXXX")
+out=$repository/runs/bare/$release
+leave() {
+  umount -R "$tree/dev" "$tree/proc" 2>/dev/null || true
+  rm -rf --one-file-system "$tree"
+}
+trap leave EXIT
+tar -C "$tree" -xpf "$base" --exclude='./dev/*'
+mount -t proc proc "$tree/proc"
+mount -t tmpfs -o mode=755,size=16M tmpfs "$tree/dev"
+for node in null zero full random urandom tty; do
+  touch "$tree/dev/$node"
+  mount --bind "/dev/$node" "$tree/dev/$node"
+done
+ln -s /proc/self/fd "$tree/dev/fd"
+for n in "0 stdin" "1 stdout" "2 stderr"; do ln -s "/proc/self/fd/${n% *}" "$tree/dev/${n#* }"; done
+mkdir "$tree/dev/shm" "$tree/dev/pts"
+mount -t tmpfs -o mode=1777 tmpfs "$tree/dev/shm"
+cp -L /etc/resolv.conf /etc/hosts "$tree/etc/"
+
+[[ -z "$(git -C "$repository" status --porcelain)" ]] || echo "bare: what is not committed is not in the clone"
+git clone --quiet --no-hardlinks "$repository" "$tree/root/breccia"
+rm -rf "$out"
+mkdir -p "$out"
+
+# in_tree COMMAND: as a newcomer would type it, with nothing of this machine's environment but its way to the network.
+in_tree() {
+  env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin TERM=dumb ${http_proxy:+http_proxy=$http_proxy} \
+    ${https_proxy:+https_proxy=$https_proxy} chroot "$tree" bash -c "cd /root/breccia && $1" </dev/null
+}
+
+# step NAME COMMAND: runs it in the tree, its output in NAME.log; says how long it took, fails with the log's end.
+step() {
+  local name=$1 start=$SECONDS
+  echo "bare: $2"
+  in_tree "$2" >"$out/$name.log" 2>&1 || {
+    tail -n 40 "$out/$name.log" >&2
+    fail "'$2' failed on a bare Debian $release; the whole of its output: $out/$name.log"
+  }
+  echo "bare: done in $((SECONDS - start)) s; the tree holds $(du -shx "$tree" | cut -f1)"
+}
+
+step demo "./run demo"
+grep -E '^(Need to get|After this operation|[0-9]+ upgraded)' "$out/demo.log" || true
+for picture in plate fragments stress_20us; do
+  file=$tree/root/breccia/runs/demo/$picture.png
+  # A picture of one colour takes a few kB.
+  [[ -s $file && $(stat -c %s "$file") -gt 50000 ]] || fail "the demo left no picture $picture.png"
+  cp "$file" "$out/"
+done
+grep -q '"status": "complete"' "$tree/root/breccia/runs/demo/summary.json" || fail "the demo did not come to its end"
+
+step configure "./run test --configure"
+grep -q "In-situ adaptor: with ParaView" "$out/configure.log" || fail "the in-situ adaptor would not be built; see $out/configure.log"
+if [[ $depth == full ]]; then
+  step test "./run test"
+  tail -n 12 "$out/test.log"
+fi
+echo "bare: Debian $release works; pictures and output in $out"
