@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # What a newcomer does, on a system where nothing is installed: the working commit is cloned into a new Debian tree, where the README's first
-# command runs and the tests are configured (with --full: built and run). Called by `./run test --bare`.
+# command runs and the tests are configured (with --full: built and run). With --package, the Debian packages in build/packages are installed there
+# instead, used by an ordinary user, and removed. Called by `./run test --bare`.
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 repository=$(cd "$here/../.." && pwd)
@@ -15,8 +16,8 @@ for argument in "$@"; do
   case $argument in
     bookworm | 12) release=bookworm ;;
     trixie | 13) release=trixie ;;
-    --full) depth=full ;;
-    *) fail "'$argument': allowed are bookworm (12), trixie (13) and --full" ;;
+    --full | --package) depth=${argument#--} ;;
+    *) fail "'$argument': allowed are bookworm (12), trixie (13), --full and --package" ;;
   esac
 done
 ((EUID == 0)) || fail "a tree with a system of its own needs root: sudo ./run test --bare $release"
@@ -46,8 +47,8 @@ if [[ ! -f $base ]]; then
   mkdir -p "$(dirname "$base")"
   sources=$(source_lines "$release")
   [[ -n $sources ]] || fail "apt names no place from which Debian's packages come"
-  mmdebstrap --quiet --variant=minbase "$release" "$base.part" - <<<"$sources" || fail "mmdebstrap cannot make a tree of $release"
-  mv "$base.part" "$base"
+  mmdebstrap --quiet --variant=minbase "$release" "${base%.tar}.part.tar" - <<<"$sources" || fail "mmdebstrap cannot make a tree of $release"
+  mv "${base%.tar}.part.tar" "$base"
 fi
 
 tree=$(mktemp -d "${TMPDIR:-/var/tmp}/breccia-bare.XXXXXX")
@@ -70,10 +71,8 @@ mkdir "$tree/dev/shm" "$tree/dev/pts"
 mount -t tmpfs -o mode=1777 tmpfs "$tree/dev/shm"
 cp -L /etc/resolv.conf /etc/hosts "$tree/etc/"
 
-[[ -z "$(git -C "$repository" status --porcelain)" ]] || echo "bare: what is not committed is not in the clone"
-git clone --quiet --no-hardlinks "$repository" "$tree/root/breccia"
 rm -rf "$out"
-mkdir -p "$out"
+mkdir -p "$out" "$tree/root/breccia"
 
 # in_tree COMMAND: as a newcomer would type it, with nothing of this machine's environment but its way to the network.
 in_tree() {
@@ -92,20 +91,37 @@ step() {
   echo "bare: done in $((SECONDS - start)) s; the tree holds $(du -shx "$tree" | cut -f1)"
 }
 
-step demo "./run demo"
-grep -E '^(Need to get|After this operation|[0-9]+ upgraded)' "$out/demo.log" || true
-for picture in plate fragments stress_20us; do
-  file=$tree/root/breccia/runs/demo/$picture.png
-  # A picture of one colour takes a few kB.
-  [[ -s $file && $(stat -c %s "$file") -gt 50000 ]] || fail "the demo left no picture $picture.png"
-  cp "$file" "$out/"
-done
-grep -q '"status": "complete"' "$tree/root/breccia/runs/demo/summary.json" || fail "the demo did not come to its end"
-
-step configure "./run test --configure"
-grep -q "In-situ adaptor: with ParaView" "$out/configure.log" || fail "the in-situ adaptor would not be built; see $out/configure.log"
-if [[ $depth == full ]]; then
+newcomer() {
+  [[ -z "$(git -C "$repository" status --porcelain)" ]] || echo "bare: what is not committed is not in the clone"
+  git clone --quiet --no-hardlinks "$repository" "$tree/root/breccia"
+  step demo "./run demo"
+  grep -E '^(Need to get|[0-9]+ upgraded)' "$out/demo.log" || true
+  local picture file
+  for picture in plate fragments stress_20us; do
+    file=$tree/root/breccia/runs/demo/$picture.png
+    # A picture of one colour takes a few kB.
+    [[ -s $file && $(stat -c %s "$file") -gt 50000 ]] || fail "the demo left no picture $picture.png"
+    cp "$file" "$out/"
+  done
+  grep -q '"status": "complete"' "$tree/root/breccia/runs/demo/summary.json" || fail "the demo did not come to its end"
+  step configure "./run test --configure"
+  grep -E '^(Need to get|[0-9]+ upgraded)' "$out/configure.log" || true
+  grep -q "In-situ adaptor: with ParaView" "$out/configure.log" || fail "the in-situ adaptor would not be built; see $out/configure.log"
+  [[ $depth == full ]] || return 0
   step test "./run test"
   tail -n 12 "$out/test.log"
-fi
-echo "bare: Debian $release works; pictures and output in $out"
+}
+
+user_of_packages() {
+  cp "$repository"/build/packages/*.deb "$here/../install/use_installed.sh" "$tree/tmp/"
+  chmod -R a+rX "$tree/tmp/"
+  step install "apt-get update && apt-get install -y --no-install-recommends /tmp/breccia*.deb"
+  step use "useradd --create-home newcomer && cd ~newcomer && su newcomer -c 'mkdir work && cd work && /tmp/use_installed.sh'"
+  step remove "DEBIAN_FRONTEND=noninteractive apt-get purge -y breccia breccia-insitu"
+  local left
+  left=$(find "$tree" -xdev -iname '*breccia*' ! -path "$tree/tmp/*" ! -path "$tree/home/*" ! -path "$tree" ! -path "$tree/root/breccia")
+  [[ -z $left ]] || fail "removed packages leave: $left"
+}
+
+if [[ $depth == package ]]; then user_of_packages; else newcomer; fi
+echo "bare: Debian $release works ($depth); pictures and output in $out"

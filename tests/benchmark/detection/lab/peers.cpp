@@ -4,31 +4,31 @@
 
 namespace breccia::lab {
 
-void add_peers(Contenders& searches, PointContenders& point_searches) {
+void add_peers([[maybe_unused]] Contenders& searches, [[maybe_unused]] PointContenders& point_searches) {
 #ifdef BRECCIA_PEER_CGAL
   add_cgal(searches, point_searches);
 #else
-  std::puts("skipped: CGAL (libcgal-dev is not installed)");
+  std::puts("skipped: CGAL (./run detection builds it in and installs libcgal-dev)");
 #endif
 #ifdef BRECCIA_PEER_BOOST
   add_boost(searches, point_searches);
 #else
-  std::puts("skipped: Boost.Geometry (libboost-dev is not installed)");
+  std::puts("skipped: Boost.Geometry (./run detection builds it in and installs libboost-dev)");
 #endif
 #ifdef BRECCIA_PEER_EMBREE
   add_embree(searches, point_searches);
 #else
-  std::puts("skipped: Embree (libembree-dev is not installed)");
+  std::puts("skipped: Embree (./run detection builds it in and installs libembree-dev)");
 #endif
 #ifdef BRECCIA_PEER_NANOFLANN
   add_nanoflann(searches, point_searches);
 #else
-  std::puts("skipped: nanoflann (libnanoflann-dev is not installed)");
+  std::puts("skipped: nanoflann (./run detection builds it in and installs libnanoflann-dev)");
 #endif
 #ifdef BRECCIA_PEER_BULLET
   add_bullet(searches, point_searches);
 #else
-  std::puts("skipped: Bullet (libbullet-dev is not installed)");
+  std::puts("skipped: Bullet (./run detection builds it in and installs libbullet-dev)");
 #endif
 }
 
