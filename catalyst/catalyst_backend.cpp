@@ -15,6 +15,7 @@
 #include <vtkSMProxy.h>
 #include <vtkSMProxyIterator.h>
 
+#include <cstdlib>
 #include <utility>
 
 #include "catalyst/folders.hpp"
@@ -28,7 +29,12 @@ namespace {
 /// MPI for one rank, where the solver runs without.
 class OwnMpi {
  public:
-  OwnMpi() { MPI_Init(nullptr, nullptr); }
+  OwnMpi() {
+    // Handlers of signals that UCX (below Open MPI 5) sets can't be taken back by SignalGuard.
+    ::setenv("UCX_ERROR_SIGNALS", "", 0);
+    ::setenv("UCX_DEBUG_SIGNO", "0", 0);
+    MPI_Init(nullptr, nullptr);
+  }
   OwnMpi(const OwnMpi&) = delete;
   OwnMpi& operator=(const OwnMpi&) = delete;
   ~OwnMpi() { MPI_Finalize(); }

@@ -54,12 +54,13 @@ fi
 tree=$(mktemp -d "${TMPDIR:-/var/tmp}/breccia-bare.XXXXXX")
 out=$repository/runs/bare/$release
 leave() {
-  umount -R "$tree/dev" "$tree/proc" 2>/dev/null || true
+  umount -R "$tree/dev" "$tree/proc" "$tree/sys" 2>/dev/null || true
   rm -rf --one-file-system "$tree"
 }
 trap leave EXIT
 tar -C "$tree" -xpf "$base" --exclude='./dev/*'
 mount -t proc proc "$tree/proc"
+mount -t sysfs sysfs "$tree/sys"
 mount -t tmpfs -o mode=755,size=16M tmpfs "$tree/dev"
 for node in null zero full random urandom tty; do
   touch "$tree/dev/$node"
