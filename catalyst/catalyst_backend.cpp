@@ -15,7 +15,6 @@
 #include <vtkSMProxy.h>
 #include <vtkSMProxyIterator.h>
 
-#include <cstdlib>
 #include <utility>
 
 #include "catalyst/folders.hpp"
@@ -29,12 +28,7 @@ namespace {
 /// MPI for one rank, where the solver runs without.
 class OwnMpi {
  public:
-  OwnMpi() {
-    // Handlers of signals that UCX (below Open MPI 5) sets can't be taken back by SignalGuard.
-    ::setenv("UCX_ERROR_SIGNALS", "", 0);
-    ::setenv("UCX_DEBUG_SIGNO", "0", 0);
-    MPI_Init(nullptr, nullptr);
-  }
+  OwnMpi() { MPI_Init(nullptr, nullptr); }
   OwnMpi(const OwnMpi&) = delete;
   OwnMpi& operator=(const OwnMpi&) = delete;
   ~OwnMpi() { MPI_Finalize(); }

@@ -14,17 +14,10 @@ bool launched() {
   return false;
 }
 
-/// UCX, through which Open MPI 5 may talk, takes SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGHUP for itself, for good; a hangup shall end a run.
-void leave_signals_alone() {
-  ::setenv("UCX_ERROR_SIGNALS", "", 0);
-  ::setenv("UCX_DEBUG_SIGNO", "0", 0);
-}
-
 }  // namespace
 
 MpiSession::MpiSession(int& argc, char**& argv) {
   if (!launched()) return;
-  leave_signals_alone();
   int provided = 0;
   check_mpi(MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
   active_ = true;
