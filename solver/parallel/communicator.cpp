@@ -162,10 +162,36 @@ void Communicator::broadcast(std::vector<std::byte>& bytes) const {
 }
 
 std::vector<std::vector<std::byte>> Communicator::all_gather_bytes(std::span<const std::byte> mine) const {
-  std::vector<Parcel> parcels;
-  for (int r = 0; r < size(); ++r) parcels.push_back({r, {mine.begin(), mine.end()}});
-  std::vector<std::vector<std::byte>> lists;
-  for (Parcel& parcel : exchange(std::move(parcels))) lists.push_back(std::move(parcel.bytes));
+  if (!handle_) return {{mine.begin(), mine.end()}};
+  const auto ranks = static_cast<std::size_t>(size());
+  const int everybody = -1;
+  const auto finished = [&](MPI_Request request) { wait_for(*handle_, std::span(&request, 1), std::span(&everybody, 1)); };
+  MPI_Request request;
+  std::vector<std::int64_t> lengths(ranks);
+  const auto length = static_cast<std::int64_t>(mine.size());
+  check_mpi(MPI_Iallgather(&length, 1, MPI_INT64_T, lengths.data(), 1, MPI_INT64_T, handle_->comm, &request), "MPI_Iallgather");
+  finished(request);
+
+  std::vector<std::vector<std::byte>> lists(ranks);
+  for (std::size_t r = 0; r < ranks; ++r) lists[r].resize(static_cast<std::size_t>(lengths[r]));
+  // MPI counts and places by int: in rounds, of each of which all ranks' shares fit into one message.
+  const std::int64_t longest = *std::max_element(lengths.begin(), lengths.end());
+  const auto share = static_cast<std::int64_t>(std::max<std::size_t>(1, handle_->largest_message / ranks));
+  std::vector<int> counts(ranks), places(ranks);
+  std::vector<std::byte> round;
+  for (std::int64_t done = 0; done < longest; done += share) {
+    const auto count_of = [&](std::int64_t whole) { return static_cast<int>(std::clamp<std::int64_t>(whole - done, 0, share)); };
+    for (std::size_t r = 0; r < ranks; ++r) {
+      counts[r] = count_of(lengths[r]);
+      places[r] = r == 0 ? 0 : places[r - 1] + counts[r - 1];
+    }
+    round.resize(static_cast<std::size_t>(places.back()) + static_cast<std::size_t>(counts.back()));
+    check_mpi(MPI_Iallgatherv(mine.data() + std::min(done, length), count_of(length), MPI_BYTE, round.data(), counts.data(), places.data(),
+                              MPI_BYTE, handle_->comm, &request),
+              "MPI_Iallgatherv");
+    finished(request);
+    for (std::size_t r = 0; r < ranks; ++r) std::copy_n(round.begin() + places[r], counts[r], lists[r].begin() + std::min(done, lengths[r]));
+  }
   return lists;
 }
 

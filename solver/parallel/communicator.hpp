@@ -34,7 +34,7 @@ class Communicator {
 
   void broadcast(std::vector<std::byte>& bytes) const;  ///< from the root
 
-  /// What each rank gave, by rank, on all ranks.
+  /// What each rank gave, by rank, on all ranks. A collective of MPI's for the lengths and one for the lists: not a message a pair.
   template <class T>
   [[nodiscard]] std::vector<std::vector<T>> all_gather(std::span<const T> mine) const {
     return lists_of<T>(all_gather_bytes(std::as_bytes(mine)));

@@ -12,6 +12,15 @@ enum class ElasticLaw {
   green_st_venant  ///< thesis eq. 3.10 as printed; not hyperelastic, its work must be integrated
 };
 
+/// Whether the law has a stored energy, a function of the deformation alone.
+[[gnu::always_inline]] constexpr bool is_hyperelastic(ElasticLaw law) {
+  switch (law) {
+    case ElasticLaw::neo_hookean: return true;
+    case ElasticLaw::green_st_venant: return false;
+  }
+  __builtin_unreachable();
+}
+
 /// Parameters of the element's kernels. Made by `make_elastic_params`.
 struct ElasticParams {
   ElasticLaw law = ElasticLaw::neo_hookean;
@@ -149,9 +158,11 @@ template <class T>
 [[nodiscard]] inline Tensor<T> elastic_piola(const Tensor<T>& f, const ElasticParams& p) {
   const Tensor<T> cof = cofactor(f);
   const T j = determinant(f, cof);
-  if (p.law != ElasticLaw::neo_hookean) return product(green_st_venant_stress(f, j, p), cof);
   Tensor<T> piola;
-  neo_hookean_piola(f, cof, j, p, piola);
+  switch (p.law) {
+    case ElasticLaw::neo_hookean: neo_hookean_piola(f, cof, j, p, piola); break;
+    case ElasticLaw::green_st_venant: piola = product(green_st_venant_stress(f, j, p), cof); break;
+  }
   return piola;
 }
 

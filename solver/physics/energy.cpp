@@ -54,7 +54,7 @@ ElasticEnergy elastic_energy(const LocalMesh& mesh, std::span<const ElasticParam
   for (Index s = 0; s < mesh.num_slots; ++s) {
     const auto i = static_cast<std::size_t>(s);
     const ElasticParams& p = params_of_group[static_cast<std::size_t>(mesh.block_group[i / kLanes])];
-    if (!mesh.is_original(s) || p.law != ElasticLaw::neo_hookean) continue;
+    if (!mesh.is_original(s) || !is_hyperelastic(p.law)) continue;
     elasticity::Tensor<double> inverse;
     for (std::size_t k = 0; k < 9; ++k) inverse[k] = mesh.gradient[i / kLanes * 72 + k * kLanes + i % kLanes];
     const double density = elasticity::neo_hookean_energy(elasticity::deformation<double>(corners_of(mesh, position, s), inverse), p);

@@ -79,7 +79,11 @@ template <class T>
 /// Opening at an integration point.
 template <class T>
 [[nodiscard]] inline Vector<T> point_opening(const JointLawParams& law, const Triple<T>& corners, std::size_t i) {
-  return law.points == JointPoints::nodal ? corners[i] : times(T(0.5), plus(corners[i], corners[(i + 1) % 3]));
+  switch (law.points) {
+    case JointPoints::nodal: return corners[i];
+    case JointPoints::mid_edge: return times(T(0.5), plus(corners[i], corners[(i + 1) % 3]));
+  }
+  __builtin_unreachable();
 }
 
 /// At the corners, and so at mid-edge points too.
@@ -146,14 +150,27 @@ template <class T>
   }
   Triple<T> force;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (law.points == JointPoints::mid_edge) {
-      force[i] = times(T(joint.area / 6.0), plus(response[i].traction, response[(i + 2) % 3].traction));
-    } else {
-      // Elastic ones in the very product the sweep uses: the same bits on either path.
-      force[i] = select3<T>(response[i].elastic, times(elastic, k.opening[i]), times(share, response[i].traction));
+    switch (law.points) {
+      case JointPoints::nodal:
+        // Elastic ones in the very product the sweep uses: the same bits on either path.
+        force[i] = select3<T>(response[i].elastic, times(elastic, k.opening[i]), times(share, response[i].traction));
+        break;
+      case JointPoints::mid_edge:
+        force[i] = times(T(joint.area / 6.0), plus(response[i].traction, response[(i + 2) % 3].traction));
+        break;
     }
   }
   return force;
+}
+
+/// Share of a point that has let go of its cohesion, so that its pressure no longer turns with the opening.
+template <class T>
+[[nodiscard]] inline T loose_share(const JointLawParams& law, const Point<T>& p) {
+  switch (law.law) {
+    case JointLaw::mixed_mode: return p.damage;
+    case JointLaw::independent_peaks: return select(p.damage >= 1.0, T(1.0), T(0.0));
+  }
+  __builtin_unreachable();
 }
 
 /// What turning the mid-surface does to a closed joint that has slid: its normal energy k d delta_n^2 / 2 beyond the isotropic
@@ -163,7 +180,7 @@ template <class T>
   const T zero = 0.0;
   Vector<T> tilt{zero, zero, zero};
   for (const Point<T>& p : joint.points) {
-    const T share = law.law == JointLaw::mixed_mode ? p.damage : select(p.damage >= 1.0, T(1.0), zero);
+    const T share = loose_share(law, p);
     const Mask<T> tilts = share > zero && p.normal_opening < zero;
     if (!any(tilts)) continue;
     const Vector<T> shear = minus(p.opening, times(p.normal_opening, k.frame.normal));

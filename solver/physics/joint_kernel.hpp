@@ -35,7 +35,7 @@ inline jp::Sides<Real> gather(const double* position, const JointBlock& block, s
 }
 
 inline void load_points(const JointLawParams& law, const JointBlock& block, std::size_t lane, jp::Joint<Real>& joint) {
-  const bool slides = law.friction > 0, peaks = law.law == JointLaw::independent_peaks;
+  const bool slides = law.friction > 0, peaks = has_secants(law.law);
   for (std::size_t i = 0; i < 3; ++i) {
     jp::Point<Real>& p = joint.points[i];
     p.slip[0] = p.slip[1] = p.friction_weight = p.friction_traction[0] = p.friction_traction[1] = p.stored_friction =
@@ -47,7 +47,7 @@ inline void load_points(const JointLawParams& law, const JointBlock& block, std:
 }
 
 inline void store_points(const JointLawParams& law, const jp::Joint<Real>& joint, std::size_t lane, JointBlock& block) {
-  const bool slides = law.friction > 0, peaks = law.law == JointLaw::independent_peaks;
+  const bool slides = law.friction > 0, peaks = has_secants(law.law);
   for (std::size_t i = 0; i < 3; ++i) {
     jp::for_each_number(
         joint.points[i], block.points[i], [&](const Real& x, JointRow& row) { store(x, row + lane); }, slides, peaks);

@@ -10,12 +10,25 @@
 namespace breccia {
 namespace {
 
-/// Opening at the peak over strength / k.
-double peak_factor(const JointLawParams& law) { return law.rise == JointRise::parabolic ? 2.0 : 1.0; }
-
 /// Energy under the rising branch up to the strength, J/m2: f^2/(2k) linear, 4 f^2/(3k) parabolic.
 double rise_energy(const JointLawParams& law, double strength) {
-  return (law.rise == JointRise::parabolic ? 4.0 / 3.0 : 0.5) * strength * strength / law.stiffness;
+  switch (law.rise) {
+    case JointRise::linear: return 0.5 * strength * strength / law.stiffness;
+    case JointRise::parabolic: return 4.0 / 3.0 * strength * strength / law.stiffness;
+  }
+  __builtin_unreachable();
+}
+
+/// Squared opening up to which a joint that can break is linear elastic in every direction, m2; 0: only a point can tell.
+double screen_of(const JointLawParams& law) {
+  if (law.points != JointPoints::nodal) return 0.0;
+  switch (law.law) {
+    case JointLaw::mixed_mode: break;
+    case JointLaw::independent_peaks: return 0.0;
+  }
+  // Pressure only raises the limit. Round-off must not hide an onset.
+  const double least = std::min(law.onset_normal, law.onset_shear);
+  return least * least * (1.0 - 1e-12);
 }
 
 double softening_width(const JointLawParams& law, double energy, double strength) {
@@ -33,7 +46,7 @@ void check_numbers(const JointLawParams& law, std::ostringstream& problems) {
   positive("the energy of mode II", law.energy_mode_2);
   if (!(law.friction >= 0 && std::isfinite(law.friction))) problems << "the friction must not be negative; ";
   if (law.points_to_fail < 1 || law.points_to_fail > 3) problems << "points_to_fail must be 1, 2 or 3; ";
-  if (law.rise != JointRise::parabolic) return;
+  if (rises_linearly(law.rise)) return;
   if (law.law != JointLaw::independent_peaks)
     problems << "rise = \"parabolic\" goes with law = \"independent_peaks\" only; ";
   if (law.friction > 0) problems << "rise = \"parabolic\" does not go with friction; ";
@@ -77,15 +90,11 @@ std::string prepare(JointLawParams& law) {
 
   law.curve = SofteningCurve(law.softening);
   law.area = law.curve.area();
-  law.onset_normal = peak_factor(law) * law.tensile_strength / law.stiffness;
-  law.onset_shear = peak_factor(law) * law.cohesion / law.stiffness;
+  law.onset_normal = peak_factor(law.rise) * law.tensile_strength / law.stiffness;
+  law.onset_shear = peak_factor(law.rise) * law.cohesion / law.stiffness;
   law.width_normal = softening_width(law, law.energy_mode_1, law.tensile_strength);
   law.width_shear = softening_width(law, law.energy_mode_2, law.cohesion);
-  if (law.law == JointLaw::mixed_mode && law.points == JointPoints::nodal) {
-    // Pressure only raises the limit. Round-off must not hide an onset.
-    const double least = std::min(law.onset_normal, law.onset_shear);
-    law.screen = least * least * (1.0 - 1e-12);
-  }
+  law.screen = screen_of(law);
   return {};
 }
 

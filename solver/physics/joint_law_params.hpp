@@ -13,6 +13,35 @@ enum class JointLaw {
 enum class JointRise { linear, parabolic };
 enum class JointPoints { nodal, mid_edge };
 
+// What sets laws apart, decided for each of them. Inlined everywhere, since units of wider instruction sets call them too.
+
+/// Opening at the peak over strength / k.
+[[gnu::always_inline]] constexpr double peak_factor(JointRise rise) {
+  switch (rise) {
+    case JointRise::linear: return 1.0;
+    case JointRise::parabolic: return 2.0;
+  }
+  __builtin_unreachable();
+}
+
+/// Whether the traction before the peak is k delta.
+[[gnu::always_inline]] constexpr bool rises_linearly(JointRise rise) {
+  switch (rise) {
+    case JointRise::linear: return true;
+    case JointRise::parabolic: return false;
+  }
+  __builtin_unreachable();
+}
+
+/// Whether points remember a secant for each component.
+[[gnu::always_inline]] constexpr bool has_secants(JointLaw law) {
+  switch (law) {
+    case JointLaw::mixed_mode: return false;
+    case JointLaw::independent_peaks: return true;
+  }
+  __builtin_unreachable();
+}
+
 /// Cohesive law of a joint. Opening delta = x_b - x_a, m; n points from a to b; delta_n = delta . n, tension positive;
 /// delta_s = delta - delta_n n; traction t acts on side a, -t on side b, Pa: tension pulls the sides together. One
 /// stiffness k for both components: mixed_mode's t is parallel to delta wherever the joint is open. Compression is

@@ -217,7 +217,7 @@ template <class T>
 [[nodiscard]] inline T grow_independent_peaks(const JointLawParams& law, const Components<T>& c, const Mask<T>& may,
                                               Point<T>& h) {
   const T zero = 0.0, one = 1.0;
-  const double factor = law.rise == JointRise::parabolic ? 2.0 : 1.0;  // opening at the peak over strength / k
+  const double factor = peak_factor(law.rise);
   const T coulomb = law.friction * c.pressure;
   const T onset_shear = factor * (law.cohesion + coulomb) / law.stiffness;
   const T shear = root(c.shear2);
@@ -242,6 +242,16 @@ template <class T>
   return lesser(end_of_elastic, one);
 }
 
+/// Takes the damage of an opening where it may grow, as the law wants it. Returns as grow_mixed_mode.
+template <class T>
+[[nodiscard]] inline T grow(const JointLawParams& law, const Components<T>& c, const Mask<T>& may, Point<T>& h) {
+  switch (law.law) {
+    case JointLaw::mixed_mode: return grow_mixed_mode(law, c, may, h);
+    case JointLaw::independent_peaks: return grow_independent_peaks(law, c, may, h);
+  }
+  __builtin_unreachable();
+}
+
 /// What is left of the stiffness k of each component.
 template <class T>
 struct Left {
@@ -252,7 +262,11 @@ struct Left {
 
 template <class T>
 [[nodiscard]] inline Left<T> left_of(const JointLawParams& law, const Point<T>& h) {
-  const T left = law.law == JointLaw::mixed_mode ? T(1.0 - h.damage) : h.left;
+  T left = h.left;
+  switch (law.law) {
+    case JointLaw::mixed_mode: left = 1.0 - h.damage; break;
+    case JointLaw::independent_peaks: break;
+  }
   return {select(h.damage >= 1.0, T(0.0), left), h.secant_normal, h.secant_shear};
 }
 
@@ -267,7 +281,7 @@ template <class T>
                                      const T& opening2) {
   const T stiffness = z * secant * law.stiffness;
   const Held<T> linear{stiffness, 0.5 * stiffness * opening2};
-  if (law.rise != JointRise::parabolic) return linear;
+  if (rises_linearly(law.rise)) return linear;
   // f (2x - x^2), x = opening/onset, onset = 2f/k: before the peak of this component.
   const Mask<T> rising = secant == 1.0;
   const T x = lesser(T(root(opening2) / onset), T(1.0));
@@ -357,15 +371,11 @@ template <class T>
   const T zero = 0.0;
   const Components<T> c = split(law, frame, opening);
   T end_of_elastic = 1.0;
-  if (law.breakable()) {
-    const Mask<T> may = h.damage < 1.0 || h.memory == kFresh;
-    end_of_elastic =
-        law.law == JointLaw::mixed_mode ? grow_mixed_mode(law, c, may, h) : grow_independent_peaks(law, c, may, h);
-  }
+  if (law.breakable()) end_of_elastic = grow(law, c, Mask<T>(h.damage < 1.0 || h.memory == kFresh), h);
   const Left<T> left = left_of(law, h);
   Answer<T> answer = answer_of(law, c, left);
   const Vector<T> elastic_traction = times(T(law.stiffness), opening);
-  Response<T> response{elastic_traction, zero, zero, zero, Mask<T>(law.rise == JointRise::linear) && h.damage == 0.0};
+  Response<T> response{elastic_traction, zero, zero, zero, Mask<T>(rises_linearly(law.rise)) && h.damage == 0.0};
   const Mask<T> damaged = !response.elastic;
   if (any(damaged)) {
     complete_memory(law, frame, opening, end_of_elastic, damaged, h);

@@ -76,10 +76,9 @@ template <bool is_plain, class X>
   const Tensor cof = el::cofactor(f);
   const Real j = el::determinant(f, cof);
   totals.status.crushed += stdx::popcount(j < p.j_min);
-  if (is_plain || p.law == ElasticLaw::neo_hookean) {
-    el::neo_hookean_piola(f, cof, j, p, s.total);
-  } else {
-    s.total = el::product(el::green_st_venant_stress(f, j, p), cof);
+  switch (is_plain ? ElasticLaw::neo_hookean : p.law) {
+    case ElasticLaw::neo_hookean: el::neo_hookean_piola(f, cof, j, p, s.total); break;
+    case ElasticLaw::green_st_venant: s.total = el::product(el::green_st_venant_stress(f, j, p), cof); break;
   }
   if (!is_plain && p.viscosity > 0) {
     s.viscous = el::viscous_piola(el::deformation<Real>(v, s.inverse), cof, j, p);
@@ -88,7 +87,7 @@ template <bool is_plain, class X>
 }
 
 inline bool needs_rate(const SweepArgs& args, const ElasticParams& p) {
-  return p.viscosity > 0 || (p.law != ElasticLaw::neo_hookean && args.stress_before != nullptr);
+  return p.viscosity > 0 || (!is_hyperelastic(p.law) && args.stress_before != nullptr);
 }
 
 /// Keeps the stress for book_after.
@@ -105,7 +104,7 @@ inline void keep_stress(const SweepArgs& args, const ElasticParams& p, const Str
 template <class X>
 inline void book_stress_work(const SweepArgs& args, const ElasticParams& p, const Stress& s, const X& v,
                              std::size_t slot, double* viscous, double* stress) {
-  const bool no_energy = p.law != ElasticLaw::neo_hookean && stress != nullptr;
+  const bool no_energy = !is_hyperelastic(p.law) && stress != nullptr;
   const bool dissipates = p.viscosity > 0 && viscous != nullptr;
   if (!no_energy && !dissipates) return;
   const Tensor rate = el::deformation<Real>(v, s.inverse);

@@ -24,6 +24,48 @@ SofteningShape shape_of(case_::Softening softening) {
   return SofteningShape::z_curve;
 }
 
+ElasticLaw elastic_law_of(case_::ElasticLaw law) {
+  switch (law) {
+    case case_::ElasticLaw::neo_hookean: break;
+    case case_::ElasticLaw::green_st_venant: return ElasticLaw::green_st_venant;
+  }
+  return ElasticLaw::neo_hookean;
+}
+
+JointLaw joint_law_of(case_::JointLaw law) {
+  switch (law) {
+    case case_::JointLaw::mixed_mode: break;
+    case case_::JointLaw::independent_peaks: return JointLaw::independent_peaks;
+  }
+  return JointLaw::mixed_mode;
+}
+
+JointRise rise_of(case_::JointRise rise) {
+  switch (rise) {
+    case case_::JointRise::linear: break;
+    case case_::JointRise::parabolic: return JointRise::parabolic;
+  }
+  return JointRise::linear;
+}
+
+JointPoints points_of(case_::JointPoints points) {
+  switch (points) {
+    case case_::JointPoints::nodal: break;
+    case case_::JointPoints::mid_edge: return JointPoints::mid_edge;
+  }
+  return JointPoints::nodal;
+}
+
+/// A fixed node has velocity zero.
+PrescribedMotion motion_of(case_::ConstraintKind kind) {
+  switch (kind) {
+    case case_::ConstraintKind::fixed:
+    case case_::ConstraintKind::velocity: break;
+    case case_::ConstraintKind::displacement: return PrescribedMotion::displacement;
+  }
+  return PrescribedMotion::velocity;
+}
+
 OverlapField field_of(case_::OverlapField field) {
   switch (field) {
     case case_::OverlapField::tet_potential: return OverlapField::tet_potential;
@@ -62,16 +104,14 @@ void sort_unique(std::vector<Index>& nodes) {
 }  // namespace
 
 ElasticParams elastic_params(const case_::Material& material) {
-  const ElasticLaw law =
-      material.law == case_::ElasticLaw::green_st_venant ? ElasticLaw::green_st_venant : ElasticLaw::neo_hookean;
-  return make_elastic_params(law, material.young, material.poisson, material.viscosity);
+  return make_elastic_params(elastic_law_of(material.law), material.young, material.poisson, material.viscosity);
 }
 
 JointLawParams joint_law_params(const case_::Joint& joint, double size, bool unbreakable) {
   JointLawParams law;
-  law.law = joint.law == case_::JointLaw::independent_peaks && !unbreakable ? JointLaw::independent_peaks : JointLaw::mixed_mode;
-  law.rise = joint.rise == case_::JointRise::parabolic && !unbreakable ? JointRise::parabolic : JointRise::linear;
-  law.points = joint.points == case_::JointPoints::mid_edge ? JointPoints::mid_edge : JointPoints::nodal;
+  law.law = unbreakable ? JointLaw::mixed_mode : joint_law_of(joint.law);
+  law.rise = unbreakable ? JointRise::linear : rise_of(joint.rise);
+  law.points = points_of(joint.points);
   law.stiffness = joint.penalty / size;
   law.tensile_strength = unbreakable ? kInfinity : joint.tensile_strength;
   law.cohesion = unbreakable ? kInfinity : joint.shear_strength;
@@ -170,8 +210,7 @@ StageLoads stage_loads(const case_::Stage& stage, const Model& model) {
     NodalConstraint constraint;
     constraint.nodes = nodes_of_group(model, entry.group);
     constraint.axes = entry.axes;
-    constraint.kind =
-        entry.kind == case_::ConstraintKind::displacement ? PrescribedMotion::displacement : PrescribedMotion::velocity;
+    constraint.kind = motion_of(entry.kind);
     if (entry.kind != case_::ConstraintKind::fixed) constraint.value = entry.value;
     loads.constraints.push_back(std::move(constraint));
   }

@@ -43,7 +43,7 @@ Stepper::Stepper(const Model& model, std::nullptr_t)
   }
   for (const ElasticParams& p : model_.elastic) {
     viscous_on_ = viscous_on_ || p.viscosity > 0;
-    stress_work_on_ = stress_work_on_ || p.law != ElasticLaw::neo_hookean;
+    stress_work_on_ = stress_work_on_ || !is_hyperelastic(p.law);
   }
   if (viscous_on_) viscous_.resize(at(local.num_slots));
   if (stress_work_on_) stress_work_.resize(at(local.num_slots));

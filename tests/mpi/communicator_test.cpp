@@ -98,6 +98,18 @@ TEST(Communicator, GathersListsOfDifferentLengthByRank) {
   }
 }
 
+TEST(Communicator, GathersListsThatAreLongerThanAMessage) {
+  const ShortMessages pieces(100);
+  for (const std::size_t step : {1U, 25U, 99U, 250U}) {
+    const std::size_t length = step * static_cast<std::size_t>(last() - world().rank());  // none of the last rank
+    const auto all = world().all_gather(std::span<const std::byte>(bytes_of(length, world().rank())));
+    ASSERT_EQ(all.size(), static_cast<std::size_t>(world().size()));
+    for (int r = 0; r < world().size(); ++r) {
+      EXPECT_EQ(all[static_cast<std::size_t>(r)], bytes_of(step * static_cast<std::size_t>(last() - r), r)) << step << ", rank " << r;
+    }
+  }
+}
+
 TEST(Communicator, ExchangesListsAndSendsNoEmptyOnes) {
   const int rank = world().rank();
   std::vector<Communicator::ListOf<double>> lists;
