@@ -13,7 +13,7 @@
 #include "base/error.hpp"
 #include "case/schema.hpp"
 #include "case/units.hpp"
-#include "commands.hpp"
+#include "commands/commands.hpp"
 #include "parallel/mpi_session.hpp"
 #include "simulation/run.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "mesh/tetrahedron.hpp"
 #include "physics/cauchy_stress.hpp"
-#include "simulation/convert.hpp"
+#include "model/parameters.hpp"
 #include "simulation/frames.hpp"
 #include "simulation/reduction.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "physics/contact/contact_state.hpp"
 #include "physics/joint_forces.hpp"
-#include "simulation/model.hpp"
+#include "model/model.hpp"
 
 namespace breccia {
 

@@ -8,7 +8,7 @@
 #include "output/run_folder.hpp"
 #include "output/sink.hpp"
 #include "parallel/communicator.hpp"
-#include "simulation/model.hpp"
+#include "model/model.hpp"
 
 namespace breccia {
 

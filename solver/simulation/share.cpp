@@ -1,10 +1,11 @@
 #include "simulation/share.hpp"
+#include "simulation/search_params.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "simulation/convert.hpp"
+#include "model/parameters.hpp"
 
 namespace breccia {
 namespace {

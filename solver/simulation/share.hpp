@@ -7,7 +7,7 @@
 #include "simulation/decomposition.hpp"
 #include "simulation/displacement.hpp"
 #include "simulation/stepper.hpp"
-#include "simulation/time_step.hpp"
+#include "model/time_step.hpp"
 
 namespace breccia {
 

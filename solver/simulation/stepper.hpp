@@ -18,9 +18,9 @@
 #include "physics/joint_forces.hpp"
 #include "physics/sweep.hpp"
 #include "simulation/contact_search.hpp"
-#include "simulation/model.hpp"
+#include "model/model.hpp"
 #include "simulation/records.hpp"
-#include "simulation/stage_loads.hpp"
+#include "model/stage_loads.hpp"
 #include "state/nodal_forces.hpp"
 #include "state/state.hpp"
 

@@ -15,10 +15,11 @@
 #include <vector>
 
 #include "case/reader.hpp"
-#include "simulation/convert.hpp"
+#include "model/parameters.hpp"
 #include "simulation/observe.hpp"
 #include "simulation/stepper.hpp"
-#include "simulation/time_step.hpp"
+#include "model/time_step.hpp"
+#include "simulation/search_params.hpp"
 
 namespace {
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "mpi/world.hpp"
-#include "simulation/convert.hpp"
-#include "simulation/model.hpp"
+#include "simulation/search_params.hpp"
+#include "model/model.hpp"
 #include "unit/case/case_files.hpp"
 
 namespace breccia {

@@ -4,9 +4,9 @@
 #include <map>
 
 #include "mpi/world.hpp"
-#include "simulation/convert.hpp"
+#include "simulation/search_params.hpp"
 #include "simulation/decomposition.hpp"
-#include "simulation/model.hpp"
+#include "model/model.hpp"
 #include "simulation/stepper.hpp"
 #include "unit/case/case_files.hpp"
 

@@ -1,4 +1,5 @@
 #include "simulation/frames.hpp"
+#include "simulation/search_params.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +9,9 @@
 #include <set>
 
 #include "simulation/balance.hpp"
-#include "simulation/convert.hpp"
+#include "model/parameters.hpp"
 #include "simulation/fragment_labels.hpp"
-#include "simulation/model.hpp"
+#include "model/model.hpp"
 #include "unit/case/case_files.hpp"
 
 namespace breccia {

@@ -1,4 +1,4 @@
-#include "simulation/check.hpp"
+#include "commands/check_report.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,10 +14,11 @@
 #include "output/summary.hpp"
 #include "parallel/domain_report.hpp"
 #include "parallel/whole_fragments.hpp"
-#include "simulation/convert.hpp"
+#include "model/parameters.hpp"
 #include "simulation/decomposition.hpp"
 #include "simulation/stepper.hpp"
-#include "simulation/time_step.hpp"
+#include "model/time_step.hpp"
+#include "simulation/search_params.hpp"
 
 namespace breccia {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "physics/stable_step.hpp"
-#include "simulation/model.hpp"
+#include "model/model.hpp"
 
 namespace breccia {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "simulation/race.hpp"
+#include "commands/race.hpp"
 
 namespace breccia {
 

@@ -6,7 +6,7 @@
 
 #include "output/status_sink.hpp"
 #include "parallel/communicator.hpp"
-#include "simulation/race.hpp"
+#include "commands/race.hpp"
 
 /// The sub-commands of the program; main.cpp reads their arguments. Each returns the exit code of success or throws.
 namespace breccia {

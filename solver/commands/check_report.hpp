@@ -4,7 +4,7 @@
 
 #include "case/case.hpp"
 #include "mesh/finish.hpp"
-#include "simulation/model.hpp"
+#include "model/model.hpp"
 
 namespace breccia {
 

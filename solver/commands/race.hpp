@@ -8,7 +8,7 @@
 #include "case/case.hpp"
 #include "output/race_progress.hpp"
 #include "parallel/communicator.hpp"
-#include "simulation/model.hpp"
+#include "model/model.hpp"
 
 namespace breccia {
 

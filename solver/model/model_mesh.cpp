@@ -4,7 +4,7 @@
 #include "case/validate.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/raster.hpp"
-#include "simulation/model.hpp"
+#include "model/model.hpp"
 
 namespace breccia {
 namespace {

@@ -9,8 +9,8 @@
 #include "base/error.hpp"
 #include "case/reader.hpp"
 #include "detection/point_body/brute_force.hpp"
-#include "simulation/convert.hpp"
-#include "simulation/race.hpp"
+#include "model/parameters.hpp"
+#include "commands/race.hpp"
 
 namespace breccia {
 

@@ -1,4 +1,4 @@
-#include "simulation/model.hpp"
+#include "model/model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "physics/contact/contact_field.hpp"
 #include "physics/stable_step.hpp"
-#include "simulation/convert.hpp"
+#include "model/parameters.hpp"
 
 namespace breccia {
 namespace {

@@ -1,4 +1,4 @@
-#include "simulation/race.hpp"
+#include "commands/race.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -8,8 +8,8 @@
 #include "base/error.hpp"
 #include "case/schema.hpp"
 #include "output/quantity_text.hpp"
-#include "simulation/course.hpp"
-#include "simulation/lap_pieces.hpp"
+#include "commands/course.hpp"
+#include "commands/lap_pieces.hpp"
 #include "simulation/observe.hpp"
 #include "simulation/run.hpp"
 

@@ -8,8 +8,7 @@
 #include "physics/elasticity.hpp"
 #include "physics/initial_velocity.hpp"
 #include "physics/joint_law.hpp"
-#include "simulation/contact_search.hpp"
-#include "simulation/stage_loads.hpp"
+#include "model/stage_loads.hpp"
 
 namespace breccia {
 
@@ -25,7 +24,6 @@ namespace breccia {
 [[nodiscard]] ContactParams contact_params(const case_::Case& input, const std::vector<std::string>& groups);
 
 struct Model;
-[[nodiscard]] ContactSearchParams search_params(const case_::Case& input, const Model& model);
 [[nodiscard]] InitialVelocity initial_velocity(const case_::InitialVelocity& entry, const Model& model);
 [[nodiscard]] StageLoads stage_loads(const case_::Stage& stage, const Model& model);
 

@@ -7,7 +7,7 @@
 
 #include "case/live_address.hpp"
 #include "case/reader.hpp"
-#include "commands.hpp"
+#include "commands/commands.hpp"
 #include "output/atomic_file.hpp"
 #include "output/control.hpp"
 #include "output/insitu_config.hpp"

@@ -1,9 +1,9 @@
-#include "simulation/convert.hpp"
+#include "model/parameters.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include "simulation/model.hpp"
+#include "model/model.hpp"
 
 namespace breccia {
 namespace {
@@ -75,17 +75,6 @@ OverlapField field_of(case_::OverlapField field) {
   return OverlapField::body;
 }
 
-detection::Algorithm algorithm_of(case_::DetectionAlgorithm algorithm) {
-  switch (algorithm) {
-    case case_::DetectionAlgorithm::ms: return detection::Algorithm::ms;
-    case case_::DetectionAlgorithm::ms_slices: return detection::Algorithm::ms_slices;
-    case case_::DetectionAlgorithm::brute_force: return detection::Algorithm::brute_force;
-    case case_::DetectionAlgorithm::sorted_grid: return detection::Algorithm::sorted_grid;
-    case case_::DetectionAlgorithm::packed_tree: break;
-  }
-  return detection::Algorithm::packed_tree;
-}
-
 ContactLaw contact_law(const case_::Contact& entry) {
   ContactLaw law;
   law.penalty = entry.penalty;
@@ -142,18 +131,6 @@ ContactParams contact_params(const case_::Case& input, const std::vector<std::st
     }
   }
   if (input.sphere) params.sphere = SphericalBoundary{input.sphere->centre, input.sphere->radius, input.sphere->penalty};
-  return params;
-}
-
-ContactSearchParams search_params(const case_::Case& input, const Model& model) {
-  ContactSearchParams params;
-  params.algorithm = algorithm_of(input.detection.algorithm);
-  params.cell = input.detection.cell;
-  params.buffer = input.detection.buffer;
-  params.verify = input.detection.verify;
-  params.breakable = model.breakable;
-  params.everywhere = model.contact_everywhere;
-  params.faces = model.contact_faces;
   return params;
 }
 

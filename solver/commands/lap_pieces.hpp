@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "simulation/race.hpp"
+#include "commands/race.hpp"
 #include "simulation/share.hpp"
 
 namespace breccia {

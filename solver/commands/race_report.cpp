@@ -1,4 +1,4 @@
-#include "simulation/race_report.hpp"
+#include "commands/race_report.hpp"
 
 #include <algorithm>
 #include <fmt/core.h>

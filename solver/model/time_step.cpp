@@ -1,4 +1,4 @@
-#include "simulation/time_step.hpp"
+#include "model/time_step.hpp"
 
 #include <algorithm>
 

@@ -1,0 +1,31 @@
+#include "commands/commands.hpp"
+
+#include <fmt/core.h>
+
+#include "case/reader.hpp"
+#include "commands/check_report.hpp"
+#include "output/vtkhdf_sink.hpp"
+#include "simulation/balance.hpp"
+#include "simulation/fragment_labels.hpp"
+#include "simulation/frames.hpp"
+#include "simulation/search_params.hpp"
+
+namespace breccia {
+
+int mesh_command(const MeshCommand& asked) {
+  const case_::Case input = case_::read_case(asked.case_file, asked.overrides);
+  if (asked.folder.empty()) {
+    fmt::print("{}", mesh_report(build_mesh(input)));
+    return 0;
+  }
+  const Model model = build_model(input);
+  fmt::print("{}", mesh_report({model.mesh, model.mesh_report}));
+  std::filesystem::create_directories(asked.folder);
+  const Stepper rest(model, search_params(input, model));
+  const FrameParts elements{true, false, false};
+  VtkhdfSink(asked.folder, elements).frame(make_frame(rest, 0, elements, {find_fragments(rest), Balance().weights(rest)}));
+  fmt::print("elements for ParaView in {}\n", asked.folder.string());
+  return 0;
+}
+
+}  // namespace breccia

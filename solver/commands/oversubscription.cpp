@@ -1,0 +1,25 @@
+#include "commands/oversubscription.hpp"
+
+#include <unistd.h>
+
+#include <cstdint>
+#include <fmt/core.h>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace breccia {
+
+void warn_of_oversubscription(const Communicator& world) {
+  char name[256] = "";
+  gethostname(name, sizeof name - 1);
+  const std::string host = name;
+  std::int64_t here = 0;
+  for (const std::vector<char>& other : world.all_gather(std::span<const char>(host))) here += std::string(other.begin(), other.end()) == host;
+  const auto cores = static_cast<std::int64_t>(std::thread::hardware_concurrency());
+  if (!world.is_root() || world.size() == 1 || here <= cores) return;
+  fmt::print(stderr, "breccia: warning: {} ranks share the {} cores of {}; more ranks than cores make a run slower\n", here, cores, host);
+}
+
+}  // namespace breccia

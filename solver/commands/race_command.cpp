@@ -1,0 +1,41 @@
+#include "commands/commands.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <fmt/core.h>
+#include <iostream>
+
+#include "case/reader.hpp"
+#include "commands/oversubscription.hpp"
+#include "commands/race_report.hpp"
+#include "output/atomic_file.hpp"
+
+namespace breccia {
+
+int race_command(const RaceCommand& asked, const Communicator& world) {
+  case_::Case input;
+  std::unique_ptr<Model> model;
+  const std::filesystem::path file = asked.folder / "race.csv";
+  const bool writes = world.is_root() && !asked.folder.empty();
+  world.agree([&] {
+    input = case_::read_case(asked.case_file, asked.overrides);
+    world.set_patience(input.domains.patience);
+    if (world.is_root()) model = std::make_unique<Model>(build_model(input));
+    if (!writes) return;
+    std::error_code error;
+    std::filesystem::create_directories(asked.folder, error);
+    if (error) throw output_error(asked.folder, "the folder cannot be made", error.value());
+    if (access(asked.folder.c_str(), W_OK) != 0) throw output_error(asked.folder, "nothing can be written into the folder", errno);
+  });
+  warn_of_oversubscription(world);
+  RaceProgress progress(world.is_root() ? asked.progress : ProgressMode::none, std::cout, terminal_columns(fileno(stdout)));
+  const RaceResult result = race_case(input, asked.settings, std::move(model), progress, world);
+  if (world.is_root()) fmt::print("{}", asked.progress == ProgressMode::json ? race_json(result) : race_table(result));
+  world.agree([&] {
+    if (writes) write_file_atomically(file, race_csv(result));
+  });
+  return 0;
+}
+
+}  // namespace breccia
