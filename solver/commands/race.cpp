@@ -8,8 +8,8 @@
 #include "base/error.hpp"
 #include "case/schema.hpp"
 #include "output/quantity_text.hpp"
-#include "commands/course.hpp"
-#include "commands/lap_pieces.hpp"
+#include "commands/stage_driver.hpp"
+#include "commands/timing_segments.hpp"
 #include "simulation/observe.hpp"
 #include "simulation/run.hpp"
 
@@ -24,7 +24,7 @@ constexpr std::int64_t kSearches = 10, kFewestSteps = 50;
 constexpr double kAllLaps = 60;  ///< s
 /// Steps between two looks at the clock, which all ranks take together.
 constexpr std::int64_t kStepsBetweenLooks = 10;
-constexpr std::int64_t kMostPieces = 1000;  ///< of a lap (LapPieces)
+constexpr std::int64_t kMostPieces = 1000;  ///< of a lap (TimingSegments)
 /// Points times contactors of a rank up to which all against all may race: some 60 ms a search, at 6 ns a pair.
 constexpr double kSmallEnough = 1e7;
 
@@ -34,17 +34,17 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 double rounded(double length) { return std::stod(fmt::format("{:.3g}", length)); }
 
 /// Points and contactors of this rank, proxies with them.
-double pairs_of(const Share& share) {
-  const ContactState& contact = share.stepper().contact()->contact();
+double pairs_of(const Partition& partition) {
+  const ContactState& contact = partition.stepper().contact()->contact();
   return static_cast<double>(contact.points.size()) * static_cast<double>(contact.contactors.size());
 }
 
-std::int64_t couples_of(const Share& share) {
-  const ContactState& contact = share.stepper().contact()->contact();
+std::int64_t couples_of(const Partition& partition) {
+  const ContactState& contact = partition.stepper().contact()->contact();
   const auto mine = [&](const ContactCouple& couple) {
-    return share.model().local.is_original(contact.points[static_cast<std::size_t>(couple.point)].slot);
+    return partition.model().local.is_original(contact.points[static_cast<std::size_t>(couple.point)].slot);
   };
-  return share.communicator().sum(
+  return partition.communicator().sum(
       static_cast<std::int64_t>(std::count_if(contact.couples.begin(), contact.couples.end(), mine)));
 }
 
@@ -70,26 +70,26 @@ class Race {
   bool reach_start(std::unique_ptr<Model> whole) {
     if (!(settings_.from < input_.stages.back().end)) throw starts_too_late();
     const auto started = Clock::now();
-    Share share(input_, communicator_, std::move(whole));
-    if (share.stepper().contact() == nullptr) throw nothing_touches();
-    result_.elements = share.whole().num_elements;
-    Course course(input_, share);
-    while (!course.over() && share.stepper().time() < settings_.from - 0.5 * share.stepper().dt()) {
-      course.step(stop_requested);
-      if (share.stepper().heard().stop) return false;
+    Partition partition(input_, communicator_, std::move(whole));
+    if (partition.stepper().contact() == nullptr) throw nothing_touches();
+    result_.elements = partition.whole().num_elements;
+    StageDriver driver(input_, partition);
+    while (!driver.over() && partition.stepper().time() < settings_.from - 0.5 * partition.stepper().dt()) {
+      driver.step(stop_requested);
+      if (partition.stepper().signals().stop) return false;
       if (progress_.due())
-        progress_.tell({"on the way to the start", share.stepper().time() / settings_.from, seconds_since(started)});
+        progress_.tell({"on the way to the start", partition.stepper().time() / settings_.from, seconds_since(started)});
     }
-    if (course.over()) throw starts_too_late();
-    choose_algorithms(communicator_.max(pairs_of(share)));
-    result_.start = share.stepper().time();
-    until_look_ = course.until_look();
-    start_ = share.snapshot();
+    if (driver.over()) throw starts_too_late();
+    choose_algorithms(communicator_.max(pairs_of(partition)));
+    result_.start = partition.stepper().time();
+    until_look_ = driver.until_look();
+    start_ = partition.snapshot();
     return true;
   }
 
   void rank() {
-    for (const LapPieces& least : least_) least_.front().keep_least_rest(least);
+    for (const TimingSegments& least : least_) least_.front().keep_least_rest(least);
     for (std::size_t i = 0; i < least_.size(); ++i) {
       least_[i].keep_least_rest(least_.front());
       least_[i].sum_up(entries_[i].least, communicator_.size() == 1);
@@ -150,19 +150,19 @@ class Race {
   bool warm_up() {
     const double most = kAllLaps / static_cast<double>(num_racers() * kRounds + 1);
     double buffer = 0;
-    const auto enough = [&](const Share& share, std::int64_t steps) {
+    const auto enough = [&](const Partition& partition, std::int64_t steps) {
       if (settings_.steps > 0) return steps >= settings_.steps;
       if (settings_.time > 0)
-        return share.stepper().time() >= result_.start + settings_.time - 0.5 * share.stepper().dt();
-      if (steps >= kFewestSteps && share.stepper().searches() - start_.ledger.searches > kSearches) return true;
+        return partition.stepper().time() >= result_.start + settings_.time - 0.5 * partition.stepper().dt();
+      if (steps >= kFewestSteps && partition.stepper().searches() - start_.accumulators.searches > kSearches) return true;
       return steps % kStepsBetweenLooks == 0 && communicator_.max(seconds_since(started_)) > most;
     };
     started_ = Clock::now();
     const Racer own{input_.detection.algorithm, input_.detection.buffer, true};
-    const bool finished = run_lap(own, enough, [&](const Share& share, const LapPieces&) {
-      buffer = communicator_.max(share.stepper().contact()->buffer());
-      result_.steps = share.stepper().steps() - start_.ledger.steps;
-      if (share.stepper().searches() == start_.ledger.searches) throw nothing_touches();
+    const bool finished = run_lap(own, enough, [&](const Partition& partition, const TimingSegments&) {
+      buffer = communicator_.max(partition.stepper().contact()->buffer());
+      result_.steps = partition.stepper().steps() - start_.accumulators.steps;
+      if (partition.stepper().searches() == start_.accumulators.searches) throw nothing_touches();
     });
     if (!finished) return false;
     choose_racers(input_.detection.buffer > 0 ? input_.detection.buffer : buffer);
@@ -172,11 +172,11 @@ class Race {
 
   bool race() {
     started_ = Clock::now();
-    const auto enough = [&](const Share&, std::int64_t steps) { return steps >= result_.steps; };
+    const auto enough = [&](const Partition&, std::int64_t steps) { return steps >= result_.steps; };
     while (result_.rounds < kRounds) {
       for (std::size_t i = 0; i < entries_.size(); ++i) {
         const std::size_t turn = result_.rounds % 2 == 0 ? i : entries_.size() - 1 - i;
-        const auto take = [&](const Share& share, const LapPieces& pieces) { finish_lap(turn, share, pieces); };
+        const auto take = [&](const Partition& partition, const TimingSegments& pieces) { finish_lap(turn, partition, pieces); };
         if (!run_lap(entries_[turn].racer, enough, take)) return false;
       }
       ++result_.rounds;
@@ -185,41 +185,41 @@ class Race {
     return true;
   }
 
-  /// @param enough  (share, steps): the lap is over;  @param finish  (share, pieces) at its end
+  /// @param enough  (partition, steps): the lap is over;  @param finish  (partition, pieces) at its end
   template <class Enough, class Finish>
   bool run_lap(const Racer& racer, const Enough& enough, const Finish& finish) {
     case_::Case as_raced = input_;
     as_raced.detection.algorithm = racer.algorithm;
     as_raced.detection.buffer = racer.buffer;
-    Share share(as_raced, communicator_, start_);
-    Course course(as_raced, share, start_.stage, until_look_);
+    Partition partition(as_raced, communicator_, start_);
+    StageDriver driver(as_raced, partition, start_.stage, until_look_);
     communicator_.barrier();
-    LapPieces pieces(share, piece_);
+    TimingSegments pieces(partition, piece_);
     std::int64_t steps = 0;
-    while (!course.over() && (steps == 0 || !enough(share, steps))) {
-      course.step(stop_requested);
+    while (!driver.over() && (steps == 0 || !enough(partition, steps))) {
+      driver.step(stop_requested);
       ++steps;
-      pieces.step(share);
-      if (share.stepper().heard().stop) return false;
+      pieces.step(partition);
+      if (partition.stepper().signals().stop) return false;
       if (progress_.due()) tell_lap(racer, steps);
     }
-    share.stepper().conclude();
-    if (share.stepper().heard().stop) return false;
+    partition.stepper().conclude();
+    if (partition.stepper().signals().stop) return false;
     pieces.agree(communicator_);
-    finish(share, pieces);
+    finish(partition, pieces);
     return true;
   }
 
-  void finish_lap(std::size_t turn, const Share& share, const LapPieces& pieces) {
+  void finish_lap(std::size_t turn, const Partition& partition, const TimingSegments& pieces) {
     ++laps_;
-    result_.end = share.stepper().time();
-    check_state(entries_[turn].racer, hash_of(share.stepper()).text());
+    result_.end = partition.stepper().time();
+    check_state(entries_[turn].racer, hash_of(partition.stepper()).text());
     if (result_.rounds > 0) return least_[turn].keep_least(pieces);
     Lap& least = entries_[turn].least;
-    least.searches = share.stepper().searches() - start_.ledger.searches;
+    least.searches = partition.stepper().searches() - start_.accumulators.searches;
     least.used = static_cast<double>(least.searches - 1) +
-                 share.stepper().contact()->used_up(share.stepper().state(), communicator_);
-    least.couples = couples_of(share);
+                 partition.stepper().contact()->used_up(partition.stepper().state(), communicator_);
+    least.couples = couples_of(partition);
     least_.push_back(pieces);
   }
 
@@ -246,10 +246,10 @@ class Race {
   RaceProgress& progress_;
   Communicator communicator_;
   Snapshot start_;
-  std::int64_t until_look_ = 0;  ///< of the course at the start
+  std::int64_t until_look_ = 0;  ///< of the driver at the start
   std::vector<case_::DetectionAlgorithm> algorithms_;
   std::vector<RaceEntry> entries_;
-  std::vector<LapPieces> least_;  ///< (entries) of all laps
+  std::vector<TimingSegments> least_;  ///< (entries) of all laps
   std::int64_t piece_ = 1;        ///< steps
   std::size_t laps_ = 0;
   Clock::time_point started_;  ///< the warm-up, then the race

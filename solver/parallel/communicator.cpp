@@ -248,9 +248,9 @@ std::vector<Communicator::Parcel> Communicator::exchange(std::vector<Parcel> par
   return received;
 }
 
-// --- Vote ---------------------------------------------------------------------------------------------------------------
+// --- PendingReduction -----------------------------------------------------------------------------------------------------------
 
-class Vote::Request {
+class PendingReduction::Request {
  public:
   Request(std::shared_ptr<Communicator::Handle> handle, std::size_t count)
       : handle_(std::move(handle)), mine_(count), all_(count) {}
@@ -259,7 +259,7 @@ class Vote::Request {
   ~Request() = default;
   [[nodiscard]] bool is_settled() { return settled(std::span(&request_, 1)); }
 
-  void post(std::span<const double> values) {
+  void begin(std::span<const double> values) {
     std::copy(values.begin(), values.end(), mine_.begin());
     if (!handle_) {
       all_ = mine_;
@@ -269,7 +269,7 @@ class Vote::Request {
                              handle_->comm, &request_),
               "MPI_Iallreduce");
   }
-  std::span<const double> take() {
+  std::span<const double> finish() {
     const int everybody = -1;
     if (handle_) wait_for(*handle_, std::span(&request_, 1), std::span(&everybody, 1));
     return all_;
@@ -281,20 +281,20 @@ class Vote::Request {
   MPI_Request request_ = MPI_REQUEST_NULL;
 };
 
-Vote::Vote(const Communicator& communicator, std::size_t count)
+PendingReduction::PendingReduction(const Communicator& communicator, std::size_t count)
     : request_(std::make_unique<Request>(communicator.handle(), count)) {}
-Vote::Vote(Vote&&) noexcept = default;
-Vote& Vote::operator=(Vote&& other) noexcept {
+PendingReduction::PendingReduction(PendingReduction&&) noexcept = default;
+PendingReduction& PendingReduction::operator=(PendingReduction&& other) noexcept {
   std::swap(request_, other.request_);  // what may be on its way here is settled with the other
   return *this;
 }
 
-Vote::~Vote() {
+PendingReduction::~PendingReduction() {
   // An error that others do not know of must not wait for them; MPI may still write into what it has been given.
   if (request_ && !request_->is_settled()) (void)request_.release();
 }
 
-void Vote::post(std::span<const double> values) { request_->post(values); }
-std::span<const double> Vote::take() { return request_->take(); }
+void PendingReduction::begin(std::span<const double> values) { request_->begin(values); }
+std::span<const double> PendingReduction::finish() { return request_->finish(); }
 
 }  // namespace breccia

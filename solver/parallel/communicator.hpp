@@ -76,7 +76,7 @@ class Communicator {
   /// Names what the rank is about to do, for the message of a wait that lasts too long.
   void set_phase(const char* phase) const;
   /// Waits longer than this are told on stderr, waits twice as long end with InternalError; s. Default 300. After that error
-  /// only a vote and a halo may be waited for again; anything else has left MPI with memory that is gone: end the process.
+  /// only a pending reduction and a halo may be waited for again; anything else has left MPI with memory that is gone: end the process.
   void set_patience(double seconds) const;
   [[nodiscard]] double patience() const;  ///< s; 0 alone
 
@@ -110,18 +110,18 @@ class Communicator {
   std::shared_ptr<Handle> handle_;
 };
 
-/// A reduction to the largest that is posted in one step and taken in the next, so that no step waits for it.
-class Vote {
+/// A reduction to the largest that begins in one step and is finished in the next, so that no step waits for it.
+class PendingReduction {
  public:
-  Vote(const Communicator& communicator, std::size_t count);
-  Vote(Vote&&) noexcept;
-  Vote& operator=(Vote&&) noexcept;
-  ~Vote();  ///< waits half a second for what is on its way, then leaves it behind
+  PendingReduction(const Communicator& communicator, std::size_t count);
+  PendingReduction(PendingReduction&&) noexcept;
+  PendingReduction& operator=(PendingReduction&&) noexcept;
+  ~PendingReduction();  ///< waits half a second for what is on its way, then leaves it behind
 
   /// @param values  (count)
-  void post(std::span<const double> values);
-  /// The largest of what all ranks posted last, value by value. @pre posted since the last take
-  [[nodiscard]] std::span<const double> take();
+  void begin(std::span<const double> values);
+  /// The largest of what all ranks gave to the last begin(), value by value. @pre begun since the last finish
+  [[nodiscard]] std::span<const double> finish();
 
  private:
   class Request;

@@ -35,7 +35,7 @@ void for_each_row(Numbers& numbers, Block& block, F&& f) {
 void set_joint(const ActiveJoint& joint, std::size_t lane, JointBlock& block) {
   const jp::Joint<double> numbers = jp::joint_of(joint);
   for_each_row(numbers, block, [&](double x, JointRow& row) { row[lane] = x; });
-  block.news[lane] = static_cast<std::uint8_t>(joint.calm ? kCalm : 0);
+  block.news[lane] = static_cast<std::uint8_t>(joint.elastic ? kElastic : 0);
 }
 
 void get_joint(const JointBlock& block, std::size_t lane, ActiveJoint& joint) {
@@ -43,7 +43,7 @@ void get_joint(const JointBlock& block, std::size_t lane, ActiveJoint& joint) {
   for_each_row(numbers, block, [&](double& x, const JointRow& row) { x = row[lane]; });
   jp::set_numbers(numbers, joint);
   joint.state = numbers.failed > 0 ? JointState::failed : JointState::holding;
-  joint.calm = (block.news[lane] & kCalm) != 0;
+  joint.elastic = (block.news[lane] & kElastic) != 0;
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct JointPointRows {
 
 /// What the last evaluation said of a joint, beside forces.
 enum JointNews : std::uint8_t {
-  kCalm = 1,      ///< without damage, and well within the elastic range
+  kElastic = 1,      ///< without damage, and well within the elastic range
   kFailing = 2,   ///< has failed in this step
   kReleased = 4,  ///< failed and open everywhere: no forces
   kTurning = 8    ///< a closed joint that has slid: turning holds its forces

@@ -143,7 +143,7 @@ void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& 
                          double time, Simd simd, ActiveJoints& joints, NodalForces& forces, JointWork& work) {
   work.failed.clear();
   work.released.clear();
-  work.calm.clear();
+  work.elastic.clear();
   seat_newcomers(mesh, joints);
   const JointKernel kernel = kernel_for(simd);
   const std::span<JointBlock> blocks = joints.blocks();
@@ -158,7 +158,7 @@ void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& 
     }
     const std::uint8_t news = block.news[lane];
     ActiveJoints::Identity& who = joints.identity(place);
-    if ((news & kCalm) != 0) work.calm.push_back({who.id, who.slot_a, who.slot_b, who.face_a, who.code});
+    if ((news & kElastic) != 0) work.elastic.push_back({who.id, who.slot_a, who.slot_b, who.face_a, who.code});
     if ((news & kFailing) != 0) {
       who.time_of_failure = time;
       if (mesh.is_original(who.slot_a)) work.failed.push_back(who.id);

@@ -21,20 +21,20 @@ struct ReleasedJoint {
   double time_of_failure = -1;  ///< s, as in ActiveJoint
 };
 
-/// A joint that is as if nothing had happened to it.
-struct CalmJoint {
+/// A joint without damage that is back in its elastic range.
+struct ElasticJoint {
   GlobalId id = 0;
   Index slot_a = 0, slot_b = 0;
   std::int8_t face_a = 0, code = 0;
 };
 
 /// What joints that are no longer on the list have consumed over the run, J: those whose side a is an original. Who failed:
-/// likewise. Who was released or is calm: all.
+/// likewise. Who was released or is elastic: all.
 struct JointWork {
   ExactSum mode_1, mode_2, friction;
   std::vector<GlobalId> failed;         ///< in the last step, ascending
   std::vector<ReleasedJoint> released;  ///< in the last step, ascending
-  std::vector<CalmJoint> calm;          ///< on the list after the last step, ascending
+  std::vector<ElasticJoint> elastic;    ///< on the list after the last step, ascending
 };
 
 /// What joints hold and have consumed, J.
@@ -53,11 +53,11 @@ struct JointEnergy {
 /// A joint fails when points_to_fail points are at damage 1; the others lose what they hold in the same step. Failed,
 /// it remains a frictional interface while it is closed (sigma = k delta_n, Coulomb friction). When all its corners are
 /// open at once it is released: it carries no force and holds no energy from then on and is taken off the list.
-/// A joint without damage whose opening is back within half the surely elastic range is marked `calm`: the sweep may have it
+/// A joint without damage whose opening is back within half the surely elastic range is marked `elastic`: the sweep may have it
 /// back after this step.
 /// @param time  s, t_n: of the positions
 /// @param simd  instruction set; the bits are the same with every one
-/// O(joints), allocates only when joints come, fail or are calm, throws nothing.
+/// O(joints), allocates only when joints come, fail or are elastic, throws nothing.
 void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& mesh, const double* position,
                          double time, Simd simd, ActiveJoints& joints, NodalForces& forces, JointWork& work);
 

@@ -95,7 +95,7 @@ inline Lanes elastic_lanes(const JointLawParams& law, const jp::Sides<Real>& sid
   if (stdx::none_of(elastic)) return elastic;
   const Real largest = jp::largest_opening_squared(sides);
   elastic = elastic && largest <= law.screen;
-  note(elastic && largest <= kCalmShare * law.screen, kCalm, lane, block);
+  note(elastic && largest <= kCalmShare * law.screen, kElastic, lane, block);
   return elastic;
 }
 

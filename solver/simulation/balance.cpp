@@ -41,17 +41,17 @@ Balance::Work Balance::work(const Stepper& stepper) {
 }
 
 double Balance::look(const Stepper& stepper) {
-  struct Share {
+  struct RankLoad {
     Work seconds;
     std::array<double, 3> amount;
   };
-  Share mine{work(stepper), amounts(stepper)};
+  RankLoad mine{work(stepper), amounts(stepper)};
   for (std::size_t k = 0; k < 3; ++k) mine.seconds[k] -= seen_[k];
   seen_ = work(stepper);
-  Share all{};
-  const auto shares = stepper.communicator().all_gather(std::span<const Share>(&mine, 1));
+  RankLoad all{};
+  const auto shares = stepper.communicator().all_gather(std::span<const RankLoad>(&mine, 1));
   std::vector<double> busy;  // s, of each rank since the last look
-  for (const std::vector<Share>& share : shares) {
+  for (const std::vector<RankLoad>& share : shares) {
     for (std::size_t k = 0; k < 3; ++k) {
       all.seconds[k] += share[0].seconds[k];
       all.amount[k] += share[0].amount[k];

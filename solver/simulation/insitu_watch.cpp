@@ -9,32 +9,32 @@
 
 namespace breccia {
 
-InSituWatch::InSituWatch(const case_::Case& input, const std::filesystem::path& extracts, Share& share, InSitu::Tell tell)
-    : share_(share),
-      insitu_(input, extracts, share.communicator(), std::move(tell)),
+InSituWatch::InSituWatch(const case_::Case& input, const std::filesystem::path& extracts, Partition& partition, InSitu::Tell tell)
+    : partition_(partition),
+      insitu_(input, extracts, partition.communicator(), std::move(tell)),
       columns_(history_columns(input.output.gauges, true)) {}
 
-void InSituWatch::speak(Word& word) {
-  word.orders |= insitu_.orders();
-  word.broke = insitu_.counts_broken() && share_.stepper().broken_joints() != broken_here_;
+void InSituWatch::add_signals(StepSignals& signals) {
+  signals.orders |= insitu_.orders();
+  signals.broke = insitu_.counts_broken() && partition_.stepper().broken_joints() != broken_here_;
 }
 
 void InSituWatch::take_row(const HistoryRow& row) {
-  if (share_.communicator().is_root()) last_row_ = history_values(row);
+  if (partition_.communicator().is_root()) last_row_ = history_values(row);
 }
 
 void InSituWatch::count_broken() {
-  broken_here_ = share_.stepper().broken_joints();
-  broken_everywhere_ = share_.communicator().sum(broken_here_);
+  broken_here_ = partition_.stepper().broken_joints();
+  broken_everywhere_ = partition_.communicator().sum(broken_here_);
 }
 
 std::vector<Command> InSituWatch::look(Observer& observer, bool all) {
-  Stepper& stepper = share_.stepper();
-  if (stepper.heard().broke) count_broken();
+  Stepper& stepper = partition_.stepper();
+  if (stepper.signals().broke) count_broken();
   const Moment now{stepper.steps(), stepper.time(), stepper.dt(), broken_everywhere_};
   const auto lap = stepper.timer().measure(Phase::insitu);
-  share_.communicator().set_phase("in-situ pipelines");
-  const auto ordered = static_cast<std::uint32_t>(stepper.heard().orders);  // the lower half is for pipelines
+  partition_.communicator().set_phase("in-situ pipelines");
+  const auto ordered = static_cast<std::uint32_t>(stepper.signals().orders);  // the lower half is for pipelines
   const InSitu::Plan plan = insitu_.plan(now, ordered, all);
   if (!plan) return {};
   insitu_.execute(plan, observer.picture(0, parts_of(plan.channels)), columns_, last_row_);
@@ -44,7 +44,7 @@ std::vector<Command> InSituWatch::look(Observer& observer, bool all) {
 std::vector<Command> InSituWatch::asked_by_scripts() const {
   const BrecciaRequests& asked = insitu_.requests();
   const std::array<double, 4> mine{double(asked.pause), double(asked.stop), double(asked.extract), asked.frame_interval};
-  const std::vector<double> roots = share_.communicator().all_gather(std::span<const double>(mine)).front();
+  const std::vector<double> roots = partition_.communicator().all_gather(std::span<const double>(mine)).front();
   std::vector<Command> commands;
   const auto add = [&](Command::Kind kind, const char* text, double value) {
     if (value > 0) commands.push_back({kind, value, std::string(text) + ", asked for by a script", "", ""});

@@ -9,18 +9,18 @@
 #include "output/control.hpp"
 #include "output/insitu.hpp"
 #include "simulation/observe.hpp"
-#include "simulation/share.hpp"
+#include "simulation/partition.hpp"
 
 namespace breccia {
 
 /// The pipelines of a run, between its steps: tells them what they want to know, hears what they want done.
 class InSituWatch {
  public:
-  /// Starts the adaptor. Collective. @pre input and share outlive this object. Throws as InSitu does.
-  InSituWatch(const case_::Case& input, const std::filesystem::path& extracts, Share& share, InSitu::Tell tell);
+  /// Starts the adaptor. Collective. @pre input and partition outlive this object. Throws as InSitu does.
+  InSituWatch(const case_::Case& input, const std::filesystem::path& extracts, Partition& partition, InSitu::Tell tell);
 
   /// What this rank has to tell the others at the end of a step.
-  void speak(Word& word);
+  void add_signals(StepSignals& signals);
   /// A line of the history has been written.
   void take_row(const HistoryRow& row);
   [[nodiscard]] double share_of_time() const { return insitu_.share(); }
@@ -37,7 +37,7 @@ class InSituWatch {
   void count_broken();
   [[nodiscard]] std::vector<Command> asked_by_scripts() const;
 
-  Share& share_;
+  Partition& partition_;
   InSitu insitu_;
   std::vector<std::string> columns_;             ///< of the history
   std::optional<std::vector<double>> last_row_;  ///< of the history, on the root

@@ -137,12 +137,12 @@ void Observer::begin_stage(const case_::Stage& stage) {
 /// The groups' nodes on this rank as it is now.
 void Observer::make_gauges() {
   gauges_.clear();
-  gauged_ = share_.decompositions();
+  gauged_ = partition_.decompositions();
   for (const std::string& group : input_.output.gauges) {
     Gauge gauge;
     gauge.group = group;
-    gauge.nodes = counted_nodes_of_group(share_.model(), group);
-    const auto& names = share_.model().mesh.volume_groups;
+    gauge.nodes = counted_nodes_of_group(partition_.model(), group);
+    const auto& names = partition_.model().mesh.volume_groups;
     const auto found = std::find(names.begin(), names.end(), group);
     if (found != names.end()) gauge.volume_group = static_cast<Index>(found - names.begin());
     for (std::size_t c = 0; c < stage_->constraints.size(); ++c) {
@@ -153,8 +153,8 @@ void Observer::make_gauges() {
 }
 
 HistoryRow Observer::row(double time) {
-  if (gauged_ != share_.decompositions()) make_gauges();
-  const Stepper& stepper = share_.stepper();
+  if (gauged_ != partition_.decompositions()) make_gauges();
+  const Stepper& stepper = partition_.stepper();
   HistoryRow row;
   row.step = stepper.steps();
   row.time = time;
@@ -176,8 +176,8 @@ HistoryRow Observer::row(double time) {
 Frame Observer::picture(std::int64_t number, const FrameParts& parts) {
   static const Fragments none;
   const bool labelled = parts.elements || parts.surface;
-  return make_frame(share_.stepper(), number, parts,
-                    {labelled ? labels() : none, labelled ? share_.costs() : std::vector<double>{}, share_.load()});
+  return make_frame(partition_.stepper(), number, parts,
+                    {labelled ? labels() : none, labelled ? partition_.costs() : std::vector<double>{}, partition_.load()});
 }
 
 StateHash hash_of(const Stepper& stepper) {

@@ -7,7 +7,7 @@
 #include "case/case.hpp"
 #include "output/frame.hpp"
 #include "simulation/fragment_labels.hpp"
-#include "simulation/share.hpp"
+#include "simulation/partition.hpp"
 #include "state/state_hash.hpp"
 
 namespace breccia {
@@ -20,11 +20,11 @@ struct Gauge {
   std::vector<std::size_t> constraints;      ///< entries of the present stage that name this group
 };
 
-/// Looks at a running share for the history and for pictures; changes nothing. Collective, all of it.
+/// Looks at a running partition for the history and for pictures; changes nothing. Collective, all of it.
 class Observer {
  public:
-  /// @pre input and share outlive this object
-  Observer(const case_::Case& input, const Share& share) : input_(input), share_(share) {}
+  /// @pre input and partition outlive this object
+  Observer(const case_::Case& input, const Partition& partition) : input_(input), partition_(partition) {}
 
   /// From now on gauges read the constraints of this stage. @pre stage outlives its use
   void begin_stage(const case_::Stage& stage);
@@ -38,10 +38,10 @@ class Observer {
 
  private:
   void make_gauges();
-  [[nodiscard]] const Fragments& labels() { return fragments_.look(share_.stepper(), share_.decompositions()); }
+  [[nodiscard]] const Fragments& labels() { return fragments_.look(partition_.stepper(), partition_.decompositions()); }
 
   const case_::Case& input_;
-  const Share& share_;
+  const Partition& partition_;
   const case_::Stage* stage_ = nullptr;
   std::vector<Gauge> gauges_;
   std::int64_t gauged_ = 0;  ///< decomposition for which the gauges were made

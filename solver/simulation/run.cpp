@@ -12,9 +12,9 @@
 #include "simulation/insitu_watch.hpp"
 #include "simulation/observe.hpp"
 #include "simulation/run_control.hpp"
-#include "simulation/share.hpp"
+#include "simulation/partition.hpp"
 #include "simulation/stage_steps.hpp"
-#include "simulation/teller.hpp"
+#include "simulation/sink_group.hpp"
 
 namespace breccia {
 
@@ -39,17 +39,17 @@ class Runner {
   Runner(const case_::Case& input, std::unique_ptr<Model> whole, const std::vector<std::unique_ptr<Sink>>& sinks,
          const Communicator& communicator, const RunFolder* folder)
       : input_(input),
-        teller_(sinks, communicator),
+        sink_group_(sinks, communicator),
         communicator_(communicator),
-        share_(input, communicator, std::move(whole)),
-        observer_(input, share_),
+        partition_(input, communicator, std::move(whole)),
+        observer_(input, partition_),
         end_(input.stages.back().end),
         histories_(input.output.history_interval > 0 ? Schedule(input.output.history_interval) : Schedule(end_ / 500, kStepsBetweenLines)),
         frames_(input.output.frame_interval),
         control_(folder != nullptr ? std::optional(folder->control()) : std::nullopt, communicator) {
     if (folder == nullptr || !input.insitu.asked_for()) return;
     communicator_.set_phase("start of the in-situ adaptor");
-    insitu_.emplace(input, folder->extracts(), share_, [this](const std::string& text, bool good) { tell_event("insitu", text, good); });
+    insitu_.emplace(input, folder->extracts(), partition_, [this](const std::string& text, bool good) { tell_event("insitu", text, good); });
   }
 
   Summary run() {
@@ -75,46 +75,46 @@ class Runner {
  private:
   void tell_event(const std::string& kind, const std::string& text, bool accepted, const std::string& id = {}) {
     const RunEvent event{kind, text, id, accepted, stepper().steps(), stepper().time()};
-    teller_.tell([&](Sink& sink) { sink.event(event); });
+    sink_group_.tell([&](Sink& sink) { sink.event(event); });
   }
 
   void tell_start() {
-    const RunStart start{input_.title, share_.whole().num_elements, share_.whole().num_joints, input_.output.gauges, insitu_.has_value()};
-    teller_.tell([&](Sink& sink) { sink.start(start); });
+    const RunStart start{input_.title, partition_.whole().num_elements, partition_.whole().num_joints, input_.output.gauges, insitu_.has_value()};
+    sink_group_.tell([&](Sink& sink) { sink.start(start); });
   }
 
   void run_stage(const case_::Stage& stage) {
     stage_name_ = stage.name;
-    StageSteps steps(input_, stage, share_);
+    StageSteps steps(input_, stage, partition_);
     observer_.begin_stage(stage);
     while (!steps.over()) {
       steps.look();
       advance();
-      if (stepper().heard().stop || stop_commanded_) status_ = "stopped: by request";
+      if (stepper().signals().stop || stop_commanded_) status_ = "stopped: by request";
       if (input_.time.max_steps > 0 && stepper().steps() >= input_.time.max_steps) status_ = "stopped: time.max_steps reached";
       if (status_ != "complete") return;
     }
   }
 
   void advance() {
-    if ((stepper().heard().orders & kControlOrder) != 0) obey(control_.hear());
+    if ((stepper().signals().orders & kControlOrder) != 0) obey(control_.hear());
     if (paused_) stay_paused();
     const double time = stepper().time();
     if (frames_.due(time, stepper().dt(), stepper().steps())) write_frame();
     look_in_situ(false);
     const bool sample = histories_.due(time, stepper().dt(), stepper().steps());
-    stepper().step(sample, word());
+    stepper().step(sample, signals());
     if (sample) take_line(time);
     tell_status();
-    share_.keep_up();
+    partition_.keep_up();
   }
 
   /// What this rank has to tell the others.
-  Word word() {
-    Word word{.stop = stop_requested};
-    if (control_.asks()) word.orders |= kControlOrder;
-    if (insitu_) insitu_->speak(word);
-    return word;
+  StepSignals signals() {
+    StepSignals signals{.stop = stop_requested};
+    if (control_.asks()) signals.orders |= kControlOrder;
+    if (insitu_) insitu_->add_signals(signals);
+    return signals;
   }
 
   void take_line(double time) {
@@ -124,7 +124,7 @@ class Runner {
     last_fragments_ = row.fragments;
     last_broken_ = row.broken_joints;
     if (insitu_) insitu_->take_row(row);
-    teller_.tell([&](Sink& sink) { sink.history(row); });
+    sink_group_.tell([&](Sink& sink) { sink.history(row); });
     check_residual(time);
   }
 
@@ -196,11 +196,11 @@ class Runner {
     const auto lap = stepper().timer().measure(Phase::output);
     const FrameParts parts{input_.output.elements, input_.output.joints, input_.output.contacts};
     const Frame frame = observer_.picture(frame_number_++, parts);
-    teller_.tell([&](Sink& sink) { sink.frame(frame); });
+    sink_group_.tell([&](Sink& sink) { sink.frame(frame); });
   }
 
   void tell_status() {
-    teller_.tell_status([this] { return status_line(); });
+    sink_group_.tell_status([this] { return status_line(); });
   }
 
   double wall() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count(); }
@@ -214,13 +214,13 @@ class Runner {
     line.end = end_;
     line.share = stepper().time() / end_;
     line.wall_s = wall();
-    line.element_steps_per_s = static_cast<double>(share_.whole().num_elements) * static_cast<double>(line.step) / line.wall_s;
+    line.element_steps_per_s = static_cast<double>(partition_.whole().num_elements) * static_cast<double>(line.step) / line.wall_s;
     line.eta_s = line.share > 0 ? line.wall_s * (1.0 - line.share) / line.share : -1.0;
     line.energy_residual = stepper().budget().residual_relative;
     line.broken_joints = last_broken_;
     line.fragments = last_fragments_;
-    line.imbalance = share_.imbalance();
-    line.decompositions = share_.decompositions();
+    line.imbalance = partition_.imbalance();
+    line.decompositions = partition_.decompositions();
     line.stage = stage_name_;
     line.paused = paused_;
     return line;
@@ -239,12 +239,12 @@ class Runner {
     summary.simulated_time = stepper().time();
     summary.time_step = stepper().dt();
     summary.ranks = communicator_.size();
-    summary.decompositions = share_.decompositions();
-    summary.imbalance = share_.imbalance();
+    summary.decompositions = partition_.decompositions();
+    summary.imbalance = partition_.imbalance();
     summary.messages = communicator_.sum(stepper().messages());
     summary.message_bytes = communicator_.sum(stepper().bytes());
-    summary.elements = share_.whole().num_elements;
-    summary.joints = share_.whole().num_joints;
+    summary.elements = partition_.whole().num_elements;
+    summary.joints = partition_.whole().num_joints;
     summary.broken_joints = last_broken_ = communicator_.sum(stepper().broken_joints());
     summary.fragments = observer_.num_fragments();
     summary.searches = communicator_.max(stepper().searches());
@@ -259,20 +259,20 @@ class Runner {
     summary.max_rss_bytes = static_cast<std::uint64_t>(communicator_.sum(static_cast<std::int64_t>(max_resident_bytes())));
     summary.simd = std::string(name_of(stepper().simd()));
     summary.state_hash = hash_of(stepper()).text();
-    teller_.tell([&](Sink& sink) {
+    sink_group_.tell([&](Sink& sink) {
       sink.status(status_line());
       sink.finish(summary);
     });
     return summary;
   }
 
-  [[nodiscard]] Stepper& stepper() { return share_.stepper(); }
-  [[nodiscard]] const Stepper& stepper() const { return share_.stepper(); }
+  [[nodiscard]] Stepper& stepper() { return partition_.stepper(); }
+  [[nodiscard]] const Stepper& stepper() const { return partition_.stepper(); }
 
   const case_::Case& input_;
-  Teller teller_;
+  SinkGroup sink_group_;
   Communicator communicator_;
-  Share share_;
+  Partition partition_;
   Observer observer_;
   double end_;
   Schedule histories_, frames_;

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "simulation/share.hpp"
+#include "simulation/partition.hpp"
 
 namespace breccia {
 
@@ -10,13 +10,13 @@ namespace breccia {
 /// is stable; every hundred steps the stable step is looked at again, since it shrinks when elements are crushed.
 class StageSteps {
  public:
-  /// Begins the stage. Collective.  @pre input, stage and share outlive this object
-  StageSteps(const case_::Case& input, const case_::Stage& stage, Share& share);
+  /// Begins the stage. Collective.  @pre input, stage and partition outlive this object
+  StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition);
   /// Goes on in a stage that has begun. @param until_look  as it was
-  StageSteps(const case_::Case& input, const case_::Stage& stage, Share& share, std::int64_t until_look)
-      : input_(input), stage_(stage), share_(share), until_look_(until_look) {}
+  StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition, std::int64_t until_look)
+      : input_(input), stage_(stage), partition_(partition), until_look_(until_look) {}
 
-  [[nodiscard]] bool over() const { return !(share_.stepper().time() < stage_.end - 0.5 * share_.stepper().dt()); }
+  [[nodiscard]] bool over() const { return !(partition_.stepper().time() < stage_.end - 0.5 * partition_.stepper().dt()); }
   /// Before every step: a new length if it is time to look and the limit has moved. Collective.
   void look();
   [[nodiscard]] std::int64_t until_look() const { return until_look_; }
@@ -27,7 +27,7 @@ class StageSteps {
 
   const case_::Case& input_;
   const case_::Stage& stage_;
-  Share& share_;
+  Partition& partition_;
   std::int64_t until_look_;
 };
 

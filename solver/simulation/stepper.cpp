@@ -116,15 +116,15 @@ void Stepper::break_joints(std::span<const LoadedFace> faces) {
   active_.break_points(by_hand);
 }
 
-void Stepper::step(bool sample, const Word& word) {
-  hear_votes();
-  hear_releases();
+void Stepper::step(bool sample, const StepSignals& signals) {
+  finish_reduction();
+  receive_releases();
   update_contact();
   external_forces();
   joint_forces();
   contact_forces();
-  said_ = word;
-  cast_votes();
+  sent_signals_ = signals;
+  begin_reduction();
   Field<double> velocity_before;
   if (sample) velocity_before = state_.velocity;
   const SweepArgs args = sweep_args(sample);
@@ -132,9 +132,9 @@ void Stepper::step(bool sample, const Word& word) {
   move(args);
   finish_motion(args);
   activate_crossing();
-  if (sample) hear_failure();
+  if (sample) agree_on_failure();
   if (sample) take_budget(velocity_before);
-  return_calm();
+  return_elastic();
   book_after(sample);
   receive_proxies();
   std::swap(state_.position, state_.next_position);
@@ -200,11 +200,11 @@ void Stepper::activate_crossing() {
 }
 
 /// Joints that are as if nothing had happened go back to the sweep, which has them far cheaper.
-void Stepper::return_calm() {
+void Stepper::return_elastic() {
   const auto lap = timer_.measure(Phase::joints);
   const Index end = model_.local.num_own_slots;  // the sweep looks across the faces of these only
   std::vector<GlobalId> ids;
-  for (const CalmJoint& joint : joint_work_.calm) {
+  for (const ElasticJoint& joint : joint_work_.elastic) {
     if (joint.slot_a >= end || joint.slot_b >= end) continue;
     links_.attach(joint.slot_a, joint.face_a, joint.slot_b, joint.code);
     ids.push_back(joint.id);

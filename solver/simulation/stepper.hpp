@@ -26,8 +26,8 @@
 
 namespace breccia {
 
-/// What ranks tell each other besides the physics, heard by all of them in the next step.
-struct Word {
+/// What ranks send each other besides the physics; all of them receive it in the next step.
+struct StepSignals {
   bool stop = false;         ///< somebody asks for the end of the run
   bool broke = false;        ///< joints have broken on some rank since it was last counted
   std::uint64_t orders = 0;  ///< of the root, fewer than 53 bits
@@ -38,8 +38,8 @@ struct BlockRun {
   Index first, end;
 };
 
-/// What a rank takes along when its elements change: clock and books. Sums over ranks do not depend on who holds what.
-struct Ledger {
+/// What a rank keeps when its elements change: clock and accumulated work. Sums over ranks do not depend on who holds what.
+struct Accumulators {
   double time = 0, dt = 0, dt_before = 0;  ///< s
   double max_speed = 0;                    ///< m/s
   PhaseTimer timer;
@@ -49,8 +49,8 @@ struct Ledger {
   GravityWork::Carried gravity;
   JointWork joint_work;
   ContactWork contact_work;
-  Word heard, word;                        ///< in the last step; said in it and not heard yet
-  std::vector<GlobalId> released;          ///< joints that other ranks have not heard of yet
+  StepSignals signals, pending_signals;    ///< received in the last step; sent in it and not received yet
+  std::vector<GlobalId> released;          ///< joints whose release other ranks have not received yet
   std::optional<double> first_total;       ///< J, energy minus external work of the whole model at the first sample
   EnergyBudget budget;                     ///< of the last sample
 };
@@ -79,7 +79,7 @@ class Stepper {
   /// @pre model outlives this object and does not change.
   Stepper(const Model& model, const ContactSearchParams& search);
   /// Goes on where others stopped. @param records  of the elements of model.mesh
-  Stepper(const Model& model, const ContactSearchParams& search, const Records& records, Ledger ledger);
+  Stepper(const Model& model, const ContactSearchParams& search, const Records& records, Accumulators accumulators);
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 
@@ -95,8 +95,8 @@ class Stepper {
 
   /// All that this rank's originals remember, ascending; between two steps.
   [[nodiscard]] Records records() const;
-  /// Clock and books as of now. The stage's loads end with it.
-  [[nodiscard]] Ledger close();
+  /// Clock and accumulated work as of now. The stage's loads end with it.
+  [[nodiscard]] Accumulators close();
   /// After begin_stage of a stage that had begun before: displacements count from where they did.
   void restore_holds(const Records& records);
 
@@ -107,10 +107,10 @@ class Stepper {
   void conclude();
 
   /// One step. With `sample`, the energy budget at t_n is taken on the way: budget(). Collective.
-  /// @param word  of this rank, to be heard a step later: heard()
+  /// @param signals  of this rank, received by all a step later: signals()
   /// Throws SimulationError on all ranks when a velocity was not finite: on a rank that is alone, and when a budget is taken, in
   /// that step, else in the one after the next, or in conclude().
-  void step(bool sample, const Word& word = {});
+  void step(bool sample, const StepSignals& signals = {});
 
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] double time() const { return time_; }               ///< s, t_n: of position
@@ -124,7 +124,7 @@ class Stepper {
   [[nodiscard]] PhaseTimer& timer() { return timer_; }
   [[nodiscard]] const PhaseTimer& timer() const { return timer_; }
   [[nodiscard]] double max_speed() const { return max_speed_; }     ///< m/s, of the rank's originals after the last step
-  [[nodiscard]] const Word& heard() const { return heard_; }        ///< what ranks said a step ago, alike on all of them
+  [[nodiscard]] const StepSignals& signals() const { return signals_; }        ///< what ranks sent a step ago, alike on all of them
   /// Furthest that a node of any rank went, m, in the last step but one; on several ranks in the one before that.
   [[nodiscard]] double motion_anywhere() const { return motion_anywhere_; }
   /// On several ranks, after a step, so many of the last are not in motion_anywhere() yet.
@@ -177,12 +177,12 @@ class Stepper {
   [[nodiscard]] std::vector<std::uint8_t> near_slots() const;
   [[nodiscard]] std::vector<std::uint8_t> moving_slots() const;
   void plan_near();
-  void hear_releases();
-  void hear_positions(double distance);
+  void receive_releases();
+  void receive_positions(double distance);
   void exchange_touching();
   void update_contact();
-  void hear_votes();
-  void cast_votes();
+  void finish_reduction();
+  void begin_reduction();
   void contact_forces();
   [[nodiscard]] SweepArgs sweep_args(bool sample);
   void move(const SweepArgs& args);
@@ -198,11 +198,11 @@ class Stepper {
   void rebook_damping(const SweepArgs& args, const std::vector<Vec3>& free);
   void check_finite(const SweepStatus& status);
   void stand_still();
-  void hear_failure();
+  void agree_on_failure();
   void constrain(const SweepArgs& args);
   void finish_motion(const SweepArgs& args);
   void activate_crossing();
-  void return_calm();
+  void return_elastic();
   void take_budget(const Field<double>& velocity_before);
   void find_worst(const ElasticEnergy& elastic);
   [[nodiscard]] ExactSum external_work() const;
@@ -246,11 +246,11 @@ class Stepper {
   ExchangeKind exchange_ = ExchangeKind::non_blocking;
   bool news_ = false;                       ///< some rank's joints came apart
   std::int64_t messages_ = 0, bytes_ = 0;   ///< of halos that are gone
-  std::optional<Vote> vote_;
+  std::optional<PendingReduction> reduction_;
   std::optional<std::string> failure_;      ///< of this rank, not heard yet
-  Word said_, heard_;                       ///< by this rank in the last step, by all in the one before
+  StepSignals sent_signals_, signals_;                       ///< by this rank in the last step, by all in the one before
 
-  // Books, J.
+  // Accumulated work, J.
   ExactSum past_external_;                  ///< work of the loads and constraints of earlier stages
   JointWork joint_work_;
   ContactWork contact_work_;

@@ -25,8 +25,8 @@ void Stepper::connect(const Communicator& communicator, const std::vector<Shared
   if (contact_) contact_->restrict_to(relevant_);
   find_joined();
   plan_near();
-  vote_.emplace(communicator, 6);
-  cast_votes();
+  reduction_.emplace(communicator, 6);
+  begin_reduction();
 }
 
 /// Originals, and elements that put forces on nodes of originals.
@@ -137,41 +137,41 @@ std::int64_t Stepper::messages() const {
 std::int64_t Stepper::bytes() const { return bytes_ + (near_ ? near_->bytes() : 0) + (all_ ? all_->bytes() : 0); }
 
 /// What all ranks said in the last step.
-void Stepper::hear_votes() {
+void Stepper::finish_reduction() {
   motion_anywhere_ = max_speed_ * dt_before_;
   news_ = !releasing_.empty();
-  heard_ = said_;
-  if (!vote_) return;
+  signals_ = sent_signals_;
+  if (!reduction_) return;
   const auto lap = timer_.measure(Phase::communication);
-  communicator_.set_phase("votes of the last step");
-  const std::span<const double> largest = vote_->take();
+  communicator_.set_phase("reduction of the last step");
+  const std::span<const double> largest = reduction_->finish();
   motion_anywhere_ = largest[0] * std::max(dt_before_, dt_earlier_);
   news_ = largest[2] > 0;
-  heard_ = {largest[3] > 0, largest[4] > 0, static_cast<std::uint64_t>(largest[5])};
-  if (largest[1] > 0) hear_failure();
+  signals_ = {largest[3] > 0, largest[4] > 0, static_cast<std::uint64_t>(largest[5])};
+  if (largest[1] > 0) agree_on_failure();
 }
 
-void Stepper::hear_failure() {
+void Stepper::agree_on_failure() {
   communicator_.agree([&] {
     if (failure_) throw SimulationError(*failure_);
   });
 }
 
-void Stepper::cast_votes() {
-  if (!vote_) return;
+void Stepper::begin_reduction() {
+  if (!reduction_) return;
   const auto flag = [](bool value) { return value ? 1.0 : 0.0; };
-  vote_->post(std::array{max_speed_, flag(failure_.has_value()), flag(!releasing_.empty()), flag(said_.stop), flag(said_.broke),
-                         static_cast<double>(said_.orders)});
+  reduction_->begin(std::array{max_speed_, flag(failure_.has_value()), flag(!releasing_.empty()), flag(sent_signals_.stop), flag(sent_signals_.broke),
+                         static_cast<double>(sent_signals_.orders)});
 }
 
 void Stepper::conclude() {
-  hear_votes();
-  hear_failure();
-  vote_.reset();
+  finish_reduction();
+  agree_on_failure();
+  reduction_.reset();
 }
 
 /// Joints that came apart on any rank in the last step.
-void Stepper::hear_releases() {
+void Stepper::receive_releases() {
   freed_.clear();
   if (!news_) return;
   const auto lap = timer_.measure(Phase::communication);
@@ -197,10 +197,10 @@ void Stepper::update_contact() {
     const auto lap = timer_.measure(Phase::search);
     due = contact_->due(state_, motion_anywhere_, communicator_);
   }
-  if (vote_ && (due || all_)) {
+  if (reduction_ && (due || all_)) {
     const auto lap = timer_.measure(Phase::communication);
     if (all_) gather(*all_, state_.position);
-    if (due) hear_positions(contact_->search_reach(motion_anywhere_));
+    if (due) receive_positions(contact_->search_reach(motion_anywhere_));
   }
   {
     const auto lap = timer_.measure(Phase::search);
@@ -208,7 +208,7 @@ void Stepper::update_contact() {
     if (due) contact_->search(state_, motion_anywhere_, current_);
     if (!freed_.empty()) meets_others = contact_->release_faces(freed_);
   }
-  if (vote_ && (due || news_)) {
+  if (reduction_ && (due || news_)) {
     const auto lap = timer_.measure(Phase::communication);
     if (due || communicator_.max(static_cast<std::int64_t>(meets_others)) != 0) {
       exchange_touching();
@@ -229,7 +229,7 @@ struct MovedElement {
 }  // namespace
 
 /// Every rank tells the others where those of its elements are that have come near to what matters to them.
-void Stepper::hear_positions(double distance) {
+void Stepper::receive_positions(double distance) {
   const Extent mine = contact_->extent(state_.position);
   const auto extents = communicator_.all_gather(std::span(&mine, 1));
   std::vector<Communicator::ListOf<MovedElement>> lists;

@@ -56,30 +56,30 @@ std::vector<FaceTag> face_tags(const Model& model) {
 
 }  // namespace
 
-Stepper::Stepper(const Model& model, const ContactSearchParams& search, const Records& records, Ledger ledger)
+Stepper::Stepper(const Model& model, const ContactSearchParams& search, const Records& records, Accumulators accumulators)
     : Stepper(model, nullptr) {
-  time_ = ledger.time;
-  dt_ = ledger.dt;
-  dt_before_ = ledger.dt_before;
-  max_speed_ = ledger.max_speed;
-  steps_ = ledger.steps;
-  crushed_ = ledger.crushed;
-  broken_joints_ = ledger.broken_joints;
-  searches_before_ = ledger.searches;
-  past_external_ = std::move(ledger.past_external);
-  heard_ = ledger.heard;
-  said_ = ledger.word;
-  releasing_ = std::move(ledger.released);
-  messages_ = ledger.messages;
-  bytes_ = ledger.bytes;
-  joint_work_ = std::move(ledger.joint_work);
-  contact_work_ = std::move(ledger.contact_work);
-  first_total_ = ledger.first_total;
-  budget_ = ledger.budget;
-  timer_ = ledger.timer;
+  time_ = accumulators.time;
+  dt_ = accumulators.dt;
+  dt_before_ = accumulators.dt_before;
+  max_speed_ = accumulators.max_speed;
+  steps_ = accumulators.steps;
+  crushed_ = accumulators.crushed;
+  broken_joints_ = accumulators.broken_joints;
+  searches_before_ = accumulators.searches;
+  past_external_ = std::move(accumulators.past_external);
+  signals_ = accumulators.signals;
+  sent_signals_ = accumulators.pending_signals;
+  releasing_ = std::move(accumulators.released);
+  messages_ = accumulators.messages;
+  bytes_ = accumulators.bytes;
+  joint_work_ = std::move(accumulators.joint_work);
+  contact_work_ = std::move(accumulators.contact_work);
+  first_total_ = accumulators.first_total;
+  budget_ = accumulators.budget;
+  timer_ = accumulators.timer;
   restore_elements(records);
   restore_joints(records);
-  gravity_work_ = GravityWork(ledger.gravity, model.local, state_.position);
+  gravity_work_ = GravityWork(accumulators.gravity, model.local, state_.position);
   if (model.has_contact) contact_ = std::make_unique<ContactSearch>(search, model, records);
 }
 
@@ -209,31 +209,31 @@ void Stepper::restore_holds(const Records& records) {
   constraints_.restore(anchors);
 }
 
-Ledger Stepper::close() {
-  Ledger ledger;
-  ledger.heard = heard_;
+Accumulators Stepper::close() {
+  Accumulators accumulators;
+  accumulators.signals = signals_;
   conclude();
   begin_stage({}, dt_);
-  ledger.time = time_;
-  ledger.dt = dt_;
-  ledger.dt_before = dt_before_;
-  ledger.max_speed = max_speed_;
-  ledger.steps = steps_;
-  ledger.crushed = crushed_;
-  ledger.broken_joints = broken_joints_;
-  ledger.searches = searches();
-  ledger.past_external = past_external_;
-  ledger.word = heard_;
-  ledger.released = releasing_;
-  ledger.messages = messages();
-  ledger.bytes = bytes();
-  ledger.gravity = gravity_work_.close(model_.local, state_.position);
-  ledger.joint_work = joint_work_;
-  ledger.contact_work = contact_work_;
-  ledger.first_total = first_total_;
-  ledger.budget = budget_;
-  ledger.timer = timer_;
-  return ledger;
+  accumulators.time = time_;
+  accumulators.dt = dt_;
+  accumulators.dt_before = dt_before_;
+  accumulators.max_speed = max_speed_;
+  accumulators.steps = steps_;
+  accumulators.crushed = crushed_;
+  accumulators.broken_joints = broken_joints_;
+  accumulators.searches = searches();
+  accumulators.past_external = past_external_;
+  accumulators.pending_signals = signals_;
+  accumulators.released = releasing_;
+  accumulators.messages = messages();
+  accumulators.bytes = bytes();
+  accumulators.gravity = gravity_work_.close(model_.local, state_.position);
+  accumulators.joint_work = joint_work_;
+  accumulators.contact_work = contact_work_;
+  accumulators.first_total = first_total_;
+  accumulators.budget = budget_;
+  accumulators.timer = timer_;
+  return accumulators;
 }
 
 }  // namespace breccia

@@ -124,7 +124,7 @@ void Stepper::check_finite(const SweepStatus& status) {
   }
   failure_ = "step " + std::to_string(steps_) + ", time " + std::to_string(time_) + " s: a velocity is not finite" + place +
                         "; the time step is too long for what happens there: lower time.safety (or time.step), or the penalties";
-  if (!vote_) throw SimulationError(*failure_);
+  if (!reduction_) throw SimulationError(*failure_);
 }
 
 /// Velocities before the sweep of the nodes that constraints will hold: their damping has to be booked anew.

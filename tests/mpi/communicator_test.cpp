@@ -259,23 +259,23 @@ TEST(Agree, MayBeUsedWithinItself) {
                SimulationError);
 }
 
-// --- votes and long waits -----------------------------------------------------------------------------------------------
+// --- pending reductions and long waits -----------------------------------------------------------------------------------------------
 
-TEST(Vote, GivesTheLargestOfEachValueOfThePostBefore) {
+TEST(PendingReduction, GivesTheLargestOfEachValueOfThePostBefore) {
   const int rank = world().rank();
-  Vote vote(world(), 2);
+  PendingReduction reduction(world(), 2);
   for (int step = 0; step < 50; ++step) {
-    vote.post(std::vector<double>{double(step + rank), double(step - rank)});
+    reduction.begin(std::vector<double>{double(step + rank), double(step - rank)});
     EXPECT_EQ(world().sum(std::int64_t{1}), world().size()) << "other reductions may come between";
-    const std::span<const double> all = vote.take();
+    const std::span<const double> all = reduction.finish();
     EXPECT_THAT(std::vector<double>(all.begin(), all.end()), ElementsAre(step + last(), step));
   }
 }
 
-TEST(Vote, MayBeLeftUntaken) {
+TEST(PendingReduction, MayBeLeftUntaken) {
   {
-    Vote vote(world(), 1);
-    vote.post(std::vector<double>{1.0});
+    PendingReduction reduction(world(), 1);
+    reduction.begin(std::vector<double>{1.0});
   }
   EXPECT_EQ(world().sum(std::int64_t{1}), world().size());
 }
@@ -285,18 +285,18 @@ TEST(Waiting, PastThePatienceNamesRankAndPhaseThenFailsAndCanBeTakenUpAgain) {
   constexpr double kPatience = 0.1;  // s
   const Communicator aside(std::make_shared<Communicator::Handle>(world().handle()->comm));
   const double usual = world().handle()->patience;
-  Vote vote(world(), 1);
+  PendingReduction reduction(world(), 1);
   std::string error, told;
   if (world().is_root()) {
     aside.barrier();  // until the others have lost their patience
-    vote.post(std::vector<double>{7.0});
+    reduction.begin(std::vector<double>{7.0});
   } else {
     world().set_patience(kPatience);
     world().set_phase("testing");
-    vote.post(std::vector<double>{1.0});
+    reduction.begin(std::vector<double>{1.0});
     testing::internal::CaptureStderr();
     try {
-      (void)vote.take();
+      (void)reduction.finish();
     } catch (const InternalError& thrown) {
       error = thrown.what();
     }
@@ -305,7 +305,7 @@ TEST(Waiting, PastThePatienceNamesRankAndPhaseThenFailsAndCanBeTakenUpAgain) {
     world().set_phase("");
     aside.barrier();
   }
-  EXPECT_THAT(vote.take(), ElementsAre(7.0));
+  EXPECT_THAT(reduction.finish(), ElementsAre(7.0));
   if (world().is_root()) return;
   const std::string waits = "rank " + std::to_string(world().rank()) + " has waited";
   for (const std::string& text : {error, told}) {

@@ -75,18 +75,18 @@ TEST(Words, AreHeardAStepAfterTheyAreSaidWhetherTheModelIsDividedMeanwhileOrNot)
   before.begin_stage({}, 1e-9);
   before.step(false, {.broke = world().is_root(), .orders = 1});
   before.step(false, {.orders = 2});
-  EXPECT_EQ(before.heard().orders, 1);
-  EXPECT_TRUE(before.heard().broke);
+  EXPECT_EQ(before.signals().orders, 1);
+  EXPECT_TRUE(before.signals().broke);
 
   const Records records = before.records();
   Stepper after(model, search_params(input, model), records, before.close());
   after.connect(world(), {}, ExchangeKind::non_blocking);
   after.begin_stage({}, 1e-9);
-  EXPECT_EQ(after.heard().orders, 1);
-  EXPECT_TRUE(after.heard().broke);
+  EXPECT_EQ(after.signals().orders, 1);
+  EXPECT_TRUE(after.signals().broke);
   after.step(false);
-  EXPECT_EQ(after.heard().orders, 2);
-  EXPECT_FALSE(after.heard().broke);
+  EXPECT_EQ(after.signals().orders, 2);
+  EXPECT_FALSE(after.signals().broke);
   after.conclude();
 }
 

@@ -89,7 +89,7 @@ TEST(JointForces, leave_a_joint_calm_only_without_damage_and_within_half_its_ela
   const auto calm_at = [&](double opening) {
     pair.open(Vec3(opening, 0, 0));
     pair.evaluate();
-    return pair.joints[0].calm;
+    return pair.joints[0].elastic;
   };
   EXPECT_TRUE(calm_at(0.49 * law.onset_normal));
   EXPECT_FALSE(calm_at(0.51 * law.onset_normal));

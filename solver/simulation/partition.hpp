@@ -11,27 +11,27 @@
 
 namespace breccia {
 
-/// All that a rank's share has come to: other shares can go on from it, with another search or on their own.
+/// The present state of a rank's partition: other partitions can go on from it, with another search or on their own.
 struct Snapshot {
   WholeModel whole;
   Records mine;                ///< the rank's originals
   std::vector<double> weight;  ///< their costs
-  Ledger ledger;
+  Accumulators accumulators;
   DomainSpec domains;
   double motion = 0;           ///< m, largest of a node in a step
   std::size_t stage = 0;       ///< of the case, begun
 };
 
-/// A rank's share of the model: its originals and proxies, and everything that is built upon them. When a node has gone so
+/// A rank's part of the model: its originals and proxies, and everything that is built upon them. When a node has gone so
 /// far that proxies may be missing, or when ranks wait for each other for longer than it takes, elements are given to domains
-/// anew and the share is rebuilt from what they remember.
-class Share {
+/// anew and the partition is rebuilt from what they remember.
+class Partition {
  public:
   /// Collective. @param whole  the model on the root, null elsewhere
   /// @pre input outlives this object
-  Share(const case_::Case& input, const Communicator& communicator, std::unique_ptr<Model> whole);
-  /// Goes on where another share was. Collective. @pre input differs from that share's in [detection] and [domains] at most
-  Share(const case_::Case& input, const Communicator& communicator, Snapshot from);
+  Partition(const case_::Case& input, const Communicator& communicator, std::unique_ptr<Model> whole);
+  /// Goes on where another partition was. Collective. @pre input differs from that partition's in [detection] and [domains] at most
+  Partition(const case_::Case& input, const Communicator& communicator, Snapshot from);
 
   [[nodiscard]] Stepper& stepper() { return *stepper_; }
   [[nodiscard]] const Stepper& stepper() const { return *stepper_; }
@@ -48,7 +48,7 @@ class Share {
 
   /// After every step: a new decomposition if one is due. Collective.
   void keep_up();
-  /// The share as it is, which ends with it: no more steps. Collective. @pre a stage has begun
+  /// The partition as it is, which ends with it: no more steps. Collective. @pre a stage has begun
   [[nodiscard]] Snapshot snapshot();
   /// Stable step of the whole model at present, s. Collective.
   [[nodiscard]] double stable_step() const { return communicator_.min(time_step_->limit(stepper_->state().position)); }
@@ -56,9 +56,9 @@ class Share {
  private:
   void start_whole();
   [[nodiscard]] double first_motion() const;
-  void decompose_anew(WholeModel whole, Records mine, const std::vector<double>& weight, Ledger ledger);
-  void rebuild(WholeModel whole, Records mine, const std::vector<double>& weight, Ledger ledger);
-  void build(const Piece& piece, WholeModel whole, Ledger ledger);
+  void decompose_anew(WholeModel whole, Records mine, const std::vector<double>& weight, Accumulators accumulators);
+  void rebuild(WholeModel whole, Records mine, const std::vector<double>& weight, Accumulators accumulators);
+  void build(const Piece& piece, WholeModel whole, Accumulators accumulators);
   [[nodiscard]] bool left_reach();
   [[nodiscard]] bool balancing_pays();
 

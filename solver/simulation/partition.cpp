@@ -1,4 +1,4 @@
-#include "simulation/share.hpp"
+#include "simulation/partition.hpp"
 #include "simulation/search_params.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ constexpr double kLasting = 400, kMostStretched = 5;
 
 }  // namespace
 
-Share::Share(const case_::Case& input, const Communicator& communicator, std::unique_ptr<Model> whole)
+Partition::Partition(const case_::Case& input, const Communicator& communicator, std::unique_ptr<Model> whole)
     : input_(input), communicator_(communicator), model_(std::move(whole)), domains_(domain_spec(input)) {
   if (model_) start_whole();
   if (communicator_.size() == 1) return;
@@ -24,11 +24,11 @@ Share::Share(const case_::Case& input, const Communicator& communicator, std::un
   communicator_.broadcast(whole_model);
   const std::vector<double> weight = stepper_ ? balance_.weights(*stepper_) : std::vector<double>{};
   motion_ = communicator_.max(stepper_ ? first_motion() : 0.0);
-  decompose_anew(unpack_whole(whole_model), stepper_ ? stepper_->records() : Records{}, weight, Ledger{});
+  decompose_anew(unpack_whole(whole_model), stepper_ ? stepper_->records() : Records{}, weight, Accumulators{});
 }
 
 /// How far a node moves in a step at the start, m.
-double Share::first_motion() const {
+double Partition::first_motion() const {
   const State& state = stepper_->state();
   double square = 0;
   for (Index n = 0; n < model_->local.num_nodes; ++n) square = std::max(square, load_node(state.velocity.data(), n).squaredNorm());
@@ -36,18 +36,18 @@ double Share::first_motion() const {
   return std::sqrt(square) * dt;
 }
 
-Share::Share(const case_::Case& input, const Communicator& communicator, Snapshot from)
+Partition::Partition(const case_::Case& input, const Communicator& communicator, Snapshot from)
     : input_(input), communicator_(communicator), domains_(std::move(from.domains)), stage_(&input.stages[from.stage]), motion_(from.motion) {
-  decompose_anew(std::move(from.whole), std::move(from.mine), from.weight, std::move(from.ledger));
+  decompose_anew(std::move(from.whole), std::move(from.mine), from.weight, std::move(from.accumulators));
 }
 
-Snapshot Share::snapshot() {
+Snapshot Partition::snapshot() {
   Snapshot now{model_->whole, stepper_->records(), costs(), {}, domains_, motion_, static_cast<std::size_t>(stage_ - input_.stages.data())};
-  now.ledger = stepper_->close();
+  now.accumulators = stepper_->close();
   return now;
 }
 
-void Share::start_whole() {
+void Partition::start_whole() {
   stepper_ = std::make_unique<Stepper>(*model_, search_params(input_, *model_));
   for (const case_::InitialVelocity& entry : input_.initial_velocities) stepper_->add_velocity(initial_velocity(entry, *model_));
   time_step_ = std::make_unique<TimeStep>(*model_);
@@ -55,35 +55,35 @@ void Share::start_whole() {
   if (stepper_->contact() != nullptr) model_->whole.contactor_size = stepper_->contact()->contactor_size();
 }
 
-void Share::decompose_anew(WholeModel whole, Records mine, const std::vector<double>& weight, Ledger ledger) {
+void Partition::decompose_anew(WholeModel whole, Records mine, const std::vector<double>& weight, Accumulators accumulators) {
   communicator_.set_phase("division of the model");
   const Phase phase = stage_ != nullptr ? Phase::decomposition : Phase::setup;  // the first one is before all stages
   PhaseTimer timer;
   {
     const auto lap = timer.measure(phase);
-    rebuild(std::move(whole), std::move(mine), weight, std::move(ledger));
+    rebuild(std::move(whole), std::move(mine), weight, std::move(accumulators));
   }
   decomposition_s_ = communicator_.max(timer.seconds(phase));
   stepper_->timer().add(timer);
   balance_.restart(*stepper_);
 }
 
-void Share::rebuild(WholeModel whole, Records mine, const std::vector<double>& weight, Ledger ledger) {
+void Partition::rebuild(WholeModel whole, Records mine, const std::vector<double>& weight, Accumulators accumulators) {
   stepper_.reset();
   time_step_.reset();
   model_.reset();
   reach_ = reach_of(input_, longest_edge(communicator_, mine), largest_buffer(input_.detection.buffer, whole.contactor_size));
   reach_.margin *= std::clamp(kLasting * motion_ / reach_.allowed_motion(), 1.0, kMostStretched);
-  build(decompose(communicator_, domains_, std::move(mine), weight, reach_), std::move(whole), std::move(ledger));
+  build(decompose(communicator_, domains_, std::move(mine), weight, reach_), std::move(whole), std::move(accumulators));
 }
 
-void Share::build(const Piece& piece, WholeModel whole, Ledger ledger) {
-  const double dt = ledger.dt;
+void Partition::build(const Piece& piece, WholeModel whole, Accumulators accumulators) {
+  const double dt = accumulators.dt;
   Mesh mesh = mesh_of(piece.records, whole);
   Topology topology = topology_of(piece.records, mesh);
   model_ = std::make_unique<Model>(
       build_piece(input_, std::move(whole), std::move(mesh), std::move(topology), piece.original, piece.records.corners));
-  stepper_ = std::make_unique<Stepper>(*model_, search_params(input_, *model_), piece.records, std::move(ledger));
+  stepper_ = std::make_unique<Stepper>(*model_, search_params(input_, *model_), piece.records, std::move(accumulators));
   const bool pairwise = input_.domains.exchange == case_::Exchange::pairwise;
   if (communicator_.size() > 1) stepper_->connect(communicator_, piece.neighbours, pairwise ? ExchangeKind::pairwise : ExchangeKind::non_blocking);
   time_step_ = std::make_unique<TimeStep>(*model_);
@@ -95,13 +95,13 @@ void Share::build(const Piece& piece, WholeModel whole, Ledger ledger) {
   moved_.restart();
 }
 
-void Share::begin_stage(const case_::Stage& stage, double dt) {
+void Partition::begin_stage(const case_::Stage& stage, double dt) {
   stage_ = &stage;
   for (const std::string& surface : stage.broken_surfaces) stepper_->break_joints(faces_of_surface(*model_, surface));
   stepper_->begin_stage(stage_loads(stage, *model_), dt);
 }
 
-void Share::keep_up() {
+void Partition::keep_up() {
   if (communicator_.size() == 1) return;
   const bool due = left_reach(), pays = balancing_pays();
   if (!due && !pays) return;
@@ -113,14 +113,14 @@ void Share::keep_up() {
 
 /// Once ranks have waited for as long as a division takes: whatever the steps to come bring, that costs at most twice what the
 /// best moment would have. A grid stays where it is, whatever its cuboids hold.
-bool Share::balancing_pays() {
+bool Partition::balancing_pays() {
   if (stepper_->steps() % Balance::kInterval != 0) return false;
   const double lost = balance_.look(*stepper_);
   return input_.domains.rebalance && domains_.kind == DomainKind::rcb && lost > decomposition_s_;
 }
 
 /// The next step is counted beforehand, at twice the speed.
-bool Share::left_reach() {
+bool Partition::left_reach() {
   motion_ = stepper_->motion_anywhere();
   moved_.step(motion_);
   return moved_.used_up(reach_.allowed_motion(), 2 * motion_, model_->local, stepper_->state().position, anchor_,

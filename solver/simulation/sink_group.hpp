@@ -11,10 +11,10 @@
 namespace breccia {
 
 /// Tells the sinks of this rank what all ranks tell theirs.
-class Teller {
+class SinkGroup {
  public:
   /// @pre sinks outlive this object
-  Teller(const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator) : sinks_(sinks), communicator_(communicator) {}
+  SinkGroup(const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator) : sinks_(sinks), communicator_(communicator) {}
 
   /// An error on one rank is an error on all. Collective. @param tell_one  called with each sink
   template <class Tell>

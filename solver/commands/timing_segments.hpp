@@ -7,21 +7,21 @@
 #include <vector>
 
 #include "commands/race.hpp"
-#include "simulation/share.hpp"
+#include "simulation/partition.hpp"
 
 namespace breccia {
 
 /// Where the time of a lap goes, piece by piece: every lap does the same work in the same piece, and what disturbs the
 /// machine seldom disturbs the same piece of every lap.
-class LapPieces {
+class TimingSegments {
  public:
   /// @param length  of a piece, steps
-  LapPieces(const Share& share, std::int64_t length) : length_(length), before_(look(share)) {}
+  TimingSegments(const Partition& partition, std::int64_t length) : length_(length), before_(look(partition)) {}
 
   /// After every step.
-  void step(const Share& share) {
+  void step(const Partition& partition) {
     if (steps_++ % length_ == 0) pieces_.push_back({});
-    const Looked now = look(share);
+    const Looked now = look(partition);
     Piece& piece = pieces_.back();
     const double wall = now.wall - before_.wall, search = now.search - before_.search,
                  contact = now.contact - before_.contact;
@@ -36,9 +36,9 @@ class LapPieces {
   void agree(const Communicator& communicator) {
     for (Piece& piece : pieces_) communicator.max(piece);
   }
-  void keep_least(const LapPieces& other) { keep_least(other, 0); }
+  void keep_least(const TimingSegments& other) { keep_least(other, 0); }
   /// Keeps the least of what is neither search nor contact, and so the same for all racers.
-  void keep_least_rest(const LapPieces& other) { keep_least(other, kRest, kRest + 1); }
+  void keep_least_rest(const TimingSegments& other) { keep_least(other, kRest, kRest + 1); }
 
   /// @param alone  wall time is put together from its parts, of which the rest may be that of another lap: on one rank, where
   ///               nobody waits
@@ -60,12 +60,12 @@ class LapPieces {
     double wall, search, contact;
     std::int64_t searches;
   };
-  static Looked look(const Share& share) {
-    const PhaseTimer& timer = share.stepper().timer();
+  static Looked look(const Partition& partition) {
+    const PhaseTimer& timer = partition.stepper().timer();
     return {std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(),
-            timer.seconds(Phase::search), timer.seconds(Phase::contact), share.stepper().searches()};
+            timer.seconds(Phase::search), timer.seconds(Phase::contact), partition.stepper().searches()};
   }
-  void keep_least(const LapPieces& other, std::size_t from, std::size_t to = kKinds) {
+  void keep_least(const TimingSegments& other, std::size_t from, std::size_t to = kKinds) {
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       for (std::size_t k = from; k < to; ++k) pieces_[i][k] = std::min(pieces_[i][k], other.pieces_[i][k]);
     }

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "simulation/stage_steps.hpp"
+
+namespace breccia {
+
+/// Takes a partition through the stages of the case, step by step as in a run, without output.
+class StageDriver {
+ public:
+  /// Begins the first stage. Collective.  @pre input and partition outlive this object
+  StageDriver(const case_::Case& input, Partition& partition) : input_(input), partition_(partition) {
+    steps_.emplace(input_, input_.stages[stage_], partition_);
+  }
+  /// Goes on from a snapshot. @param until_look  of the driver that it was taken of
+  StageDriver(const case_::Case& input, Partition& partition, std::size_t stage, std::int64_t until_look)
+      : input_(input), partition_(partition), stage_(stage) {
+    steps_.emplace(input_, input_.stages[stage_], partition_, until_look);
+  }
+
+  [[nodiscard]] bool over() const { return steps_->over() && stage_ + 1 == input_.stages.size(); }
+  [[nodiscard]] std::int64_t until_look() const { return steps_->until_look(); }
+
+  /// One step; a stage that ends with it is followed by the next one. Collective. @pre not over
+  void step(bool stop) {
+    steps_->look();
+    partition_.stepper().step(false, {.stop = stop});
+    partition_.keep_up();
+    while (steps_->over() && !over()) steps_.emplace(input_, input_.stages[++stage_], partition_);
+  }
+
+ private:
+  const case_::Case& input_;
+  Partition& partition_;
+  std::size_t stage_ = 0;
+  std::optional<StageSteps> steps_;
+};
+
+}  // namespace breccia
