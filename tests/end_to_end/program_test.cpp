@@ -2,7 +2,9 @@
 #include <nlohmann/json.hpp>
 #include <signal.h>
 
+#include <cmath>
 #include <sstream>
+#include <stdexcept>
 
 #include "end_to_end/program.hpp"
 
@@ -165,6 +167,27 @@ TEST(Program, check_advises_in_sentences) {
   for (const char* fragment : {"stable time step", "limited by", "softer", "memory", "fracture process zone", "steps of"}) {
     EXPECT_NE(outcome.out.find(fragment), std::string::npos) << fragment << " in\n" << outcome.out;
   }
+}
+
+/// The number that stands before some words.
+double number_before(const std::string& text, const std::string& words) {
+  const std::size_t end = text.find(words);
+  if (end == std::string::npos) throw std::runtime_error("no \"" + words + "\" in\n" + text);
+  return std::stod(text.substr(text.find_last_of(' ', end - 1) + 1));
+}
+
+TEST(Program, check_tells_how_much_softer_joints_make_the_body) {
+  const Scratch scratch;
+  const Outcome outcome = call("check " + scratch.write("case.toml", kSmallCase));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  // Joints in a cube of edge a: 24 triangles centre - face - corner of a^2/(4 sqrt 2), 12 centre - edge of
+  // a^2/(2 sqrt 2); and in a box of 2 x 2 cubes four faces between cubes.
+  constexpr double kEdge = 0.01, kYoung = 4e6;  // m, Pa
+  const double area_per_volume = (4 * (24 / (4 * std::sqrt(2.0)) + 12 / (2 * std::sqrt(2.0))) + 4) / (4 * kEdge);
+  const double softness = kYoung * area_per_volume / (3 * number_before(outcome.out, " Pa/m with"));
+  constexpr double kTwoDigits = 0.05;  // as many as are told
+  EXPECT_NEAR(number_before(outcome.out, " % softer") / (100 * softness), 1.0, kTwoDigits);
+  EXPECT_NEAR(number_before(outcome.out, " % softer. For 5 %") / (100 * softness), 1.0, kTwoDigits);
 }
 
 TEST(Program, check_tells_how_ranks_would_share_the_model) {

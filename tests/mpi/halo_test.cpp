@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <random>
 
@@ -186,6 +187,63 @@ TEST_P(HaloOf, ManyNodesSendsOneMessageANeighbourAndCountsIt) {
   EXPECT_EQ(halo.messages(), static_cast<std::int64_t>(kGathers * messages));
   EXPECT_EQ(halo.bytes(), static_cast<std::int64_t>(kGathers * sent * kFields * 3 * sizeof(double)));
   EXPECT_EQ(halo.seconds_waiting() > 0, world().size() > 1);
+}
+
+TEST_P(HaloOf, NeighboursOnAllRanksHasInPairsOneMessageUnderwayAndElseAll) {
+  // Every rank gives each of the others its own node.
+  const auto ranks = static_cast<std::size_t>(world().size()), mine = static_cast<std::size_t>(world().rank());
+  std::vector<HaloNeighbour> neighbours;
+  for (std::size_t other = 0; other < ranks; ++other) {
+    if (other != mine) neighbours.push_back({static_cast<int>(other), {place_of(mine)}, {place_of(other)}});
+  }
+  Halo halo(world(), neighbours, 1, GetParam());
+  std::vector<double> field(place_of(ranks) + 3 * kHaloStride, static_cast<double>(mine));
+  double* const pointer = field.data();
+  const auto all = static_cast<std::int64_t>(ranks - 1);
+  const std::int64_t at_once = GetParam() == ExchangeKind::pairwise ? std::min<std::int64_t>(all, 1) : all;
+  for (std::int64_t gather = 0; gather < 3; ++gather) {
+    halo.gather_begin(std::span(&pointer, 1));
+    EXPECT_EQ(halo.messages(), gather * all + at_once);
+    halo.gather_end();
+    EXPECT_EQ(halo.messages(), (gather + 1) * all);
+  }
+  for (std::size_t rank = 0; rank < ranks; ++rank) EXPECT_EQ(field[place_of(rank)], static_cast<double>(rank));
+}
+
+/// Ranks 1, 2, ... give rank 0 a node; those after its first partner keep it waiting, whose turns have not come.
+TEST(Halo, InPairsTurnsToTheNextNeighbourOnlyWhenTheOneBeforeHasAnswered) {
+  if (world().size() < 3) GTEST_SKIP() << "needs two other ranks";
+  constexpr double kPatience = 0.1;  // s
+  const Communicator aside(std::make_shared<Communicator::Handle>(world().handle()->comm));
+  const double usual = world().handle()->patience;
+  std::vector<HaloNeighbour> neighbours;
+  if (world().is_root()) {
+    for (int r = 1; r < world().size(); ++r) neighbours.push_back({r, {0}, {place_of(static_cast<std::size_t>(r))}});
+  } else {
+    neighbours.push_back({0, {place_of(static_cast<std::size_t>(world().rank()))}, {0}});
+  }
+  Halo halo(world(), std::move(neighbours), 1, ExchangeKind::pairwise);
+  std::vector<double> field(place_of(static_cast<std::size_t>(world().size())) + 3 * kHaloStride, world().rank());
+  double* const pointer = field.data();
+  if (world().is_root()) {
+    world().set_patience(kPatience);
+    halo.gather_begin(std::span(&pointer, 1));
+    testing::internal::CaptureStderr();
+    EXPECT_THROW(halo.gather_end(), InternalError);
+    (void)testing::internal::GetCapturedStderr();
+    EXPECT_EQ(halo.messages(), 1);
+    world().set_patience(usual);
+    aside.barrier();  // now the others may give
+  } else {
+    aside.barrier();
+    halo.gather_begin(std::span(&pointer, 1));
+  }
+  halo.gather_end();
+  EXPECT_EQ(field[0], 0);
+  if (world().is_root()) {
+    EXPECT_EQ(halo.messages(), world().size() - 1);
+    for (int r = 1; r < world().size(); ++r) EXPECT_EQ(field[place_of(static_cast<std::size_t>(r))], r);
+  }
 }
 
 TEST(Halo, WaitsForWhatItGetsAndNotForWhatItGives) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -171,6 +172,85 @@ TEST(Ranks, GiveTheSameBitsForElementsThatShareNodesUnderGravityAndDamping) {
   SameBits bar(mesh_case("cantilever/case_smoke.toml"));
   bar.on(2);
   bar.on(3);
+}
+
+/// The small case for 10 ms, in which it is divided again and again, with one thing changed.
+std::string longer(const std::string& from, const std::string& to) {
+  std::string text = test::changed("end = \"4 ms\"", "end = \"10 ms\"");
+  return text.replace(text.find(from), from.size(), to);
+}
+
+/// Compares one rank with 2 and 3, which divide the model anew on the way. Returns the summary of the one.
+nlohmann::json same_bits_of_migrants(const std::string& text) {
+  const Scratch scratch;
+  SameBits boxes(scratch.write("case.toml", text));
+  for (const int ranks : {2, 3}) EXPECT_GT(boxes.on(ranks, "--set domains.margin=0.1").at("decompositions"), 2);
+  return boxes.alone();
+}
+
+constexpr double kDampedResidual = 5e-3;  // of the largest term, at usual steps; a term that is left out is far larger
+
+TEST(Ranks, GiveTheSameBitsWithLocalDamping) {
+  const nlohmann::json summary = same_bits_of_migrants(longer("name = \"fly\"", "name = \"fly\"\nlocal_damping = 0.3"));
+  EXPECT_LT(summary.at("energy_residual_relative"), kDampedResidual);
+  EXPECT_GT(summary.at("energy").at("damping"), 0.1 * summary.at("energy").at("kinetic").get<double>());
+}
+
+TEST(Ranks, GiveTheSameBitsWithViscosity) {
+  for (const char* joints : {"breakable", "none"}) {
+    std::string text = longer("poisson = 0.3", "poisson = 0.3\nviscosity = \"200 Pa s\"");
+    const std::string breakable = "\"breakable\"";
+    text.replace(text.find(breakable), breakable.size(), std::string("\"") + joints + "\"");
+    if (std::string(joints) == "none") {
+      const std::size_t first = text.find("[[joint]]");
+      text.erase(first, text.find("[[contact]]") - first);
+    }
+    const nlohmann::json summary = same_bits_of_migrants(text);
+    EXPECT_LT(summary.at("energy_residual_relative"), kDampedResidual) << joints;
+    EXPECT_GT(summary.at("energy").at("viscous"), 0.01 * summary.at("energy").at("kinetic").get<double>()) << joints;
+  }
+}
+
+TEST(Ranks, GiveTheSameBitsWithTheLawOfGreenAndStVenant) {
+  const nlohmann::json summary =
+      same_bits_of_migrants(longer("poisson = 0.3", "poisson = 0.3\nlaw = \"green_st_venant\""));
+  const Scratch scratch;
+  const SameBits default_law(scratch.write("case.toml", test::changed("end = \"4 ms\"", "end = \"10 ms\"")));
+  EXPECT_NE(summary.at("state_hash"), default_law.alone().at("state_hash")) << "the law has done nothing";
+}
+
+TEST(Ranks, KeepTheWorkOfConstraintsWhenElementsMoveFromRankToRankAndStagesEnd) {
+  std::string text = longer("velocity = { z = 0 }", "velocity = { z = \"0.5 m/s\" }");
+  const std::string output = "[output]";
+  text.replace(text.find(output), output.size(), R"([[stage]]
+name = "let go"
+end = "12 ms"
+[output])");
+  const nlohmann::json summary = same_bits_of_migrants(text);
+  const nlohmann::json& energy = summary.at("energy");
+  EXPECT_GT(std::abs(energy.at("external_work").get<double>()), 0.01 * energy.at("kinetic").get<double>());
+}
+
+/// With this seed it is an element of the second box, which is not the root's.
+TEST(Ranks, NameTheSameElementWhenTheResidualPassesItsLimit) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", test::changed("seed = 3", "seed = 5"));
+  std::set<std::string> messages;
+  for (const int ranks : {1, 2, 3}) {
+    const std::string folder = scratch.path("out" + std::to_string(ranks)).string();
+    const Outcome outcome = test::call_ranks(
+        ranks, "run --progress none -o '" + folder + "' " + file + " --set time.residual_limit=1e-9");
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+    const std::size_t first = outcome.err.find("breccia: error: step ");
+    ASSERT_NE(first, std::string::npos) << outcome.err;
+    messages.insert(outcome.err.substr(first, outcome.err.find('\n', first) - first));
+    const std::string before = "densest in element ";
+    const std::size_t element = outcome.err.find(before, first);
+    ASSERT_NE(element, std::string::npos) << outcome.err;
+    constexpr int kElementsABox = 4 * 24;
+    EXPECT_GE(std::stoi(outcome.err.substr(element + before.size())), kElementsABox) << "the test shows nothing";
+  }
+  EXPECT_EQ(messages.size(), 1u) << *messages.begin() << "\n" << *messages.rbegin();
 }
 
 TEST(Ranks, TellAWrongCaseOnce) {

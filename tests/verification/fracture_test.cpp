@@ -46,6 +46,29 @@ TEST(JointPair, of_the_published_law_softens_over_15_55_um_from_866_N_in_each_mo
   }
 }
 
+TEST(JointPair, pulled_or_sheared_apart_is_shown_and_counted_as_broken_in_that_mode) {
+  struct Expected {
+    const char* file;
+    int mode;
+    std::int64_t in_mode_1, in_mode_2;
+  };
+  for (const auto& [file, mode, in_mode_1, in_mode_2] :
+       {Expected{"joint_pair/case_mode_1.toml", 1, 1, 0}, Expected{"joint_pair/case_mode_2.toml", 2, 0, 1}}) {
+    const Recording run = run_case_file(file);
+    const HistoryRow& last = run.rows.back();
+    EXPECT_EQ(last.broken_joints, 1) << file;
+    EXPECT_EQ(last.broken_mode_1, in_mode_1) << file;
+    EXPECT_EQ(last.broken_mode_2, in_mode_2) << file;
+    const Frame::Joints& joints = run.frames.back().joints;
+    ASSERT_EQ(joints.mode.size(), 1u) << file;
+    EXPECT_EQ(joints.mode[0], mode) << file;
+    EXPECT_EQ(joints.broken[0], 1) << file;
+    const EnergyBudget& e = last.energy;
+    EXPECT_GT(mode == 1 ? e.joint_mode_1 : e.joint_mode_2, 0) << file;
+    EXPECT_EQ(mode == 1 ? e.joint_mode_2 : e.joint_mode_1, 0) << file;
+  }
+}
+
 TEST(JointPair, of_the_published_law_reaches_both_peaks_at_once) {
   const Recording run = run_case_file("joint_pair/case_mixed.toml");
   EXPECT_NEAR(peak(run, 0) / 866.025, 1.0, kPeak);

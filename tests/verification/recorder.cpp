@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -36,7 +37,10 @@ Recording run(const case_::Case& input) {
 
 double Recording::worst_residual() const {
   double worst = 0;
-  for (const HistoryRow& row : rows) worst = std::max(worst, row.energy.residual_relative);
+  for (const HistoryRow& row : rows) {
+    if (std::isnan(row.energy.residual_relative)) return row.energy.residual_relative;
+    worst = std::max(worst, row.energy.residual_relative);
+  }
   return worst;
 }
 

@@ -13,7 +13,7 @@ struct Recording {
   std::vector<Frame> frames;
   Summary summary;
 
-  /// Largest relative energy residual of all lines.
+  /// Largest relative energy residual of all lines; NaN where one is.
   [[nodiscard]] double worst_residual() const;
 };
 

@@ -218,6 +218,17 @@ slit = { lower = ["-1 mm", 0, 0], upper = ["1 mm", 0, "2 mm"] })"));
   EXPECT_EQ(r.slit.value().upper, Vec3(0.001, 0, 0.002));
 }
 
+TEST(Reader, ALiveViewIsOfferedAllThatIsDrawnUnlessToldOtherwise) {
+  const Case c = read_text(minimal + "[insitu.live]\n");
+  // What ParaView can show; joints not broken yet and the history are there for those who ask.
+  EXPECT_EQ(c.insitu.live.value().channels,
+            (std::vector<std::string>{"surface", "fractures", "contacts", "domains", "elements"}));
+  EXPECT_EQ(c.insitu.live->address, "localhost:22222");
+  EXPECT_FALSE(c.insitu.live->remote);
+  const Case told = read_text(minimal + "[insitu.live]\nchannels = [\"history\"]\n");
+  EXPECT_EQ(told.insitu.live.value().channels, std::vector<std::string>{"history"});
+}
+
 TEST(Reader, SectionsRememberTheirLine) {
   const Case c = read_text(minimal);
   EXPECT_EQ(c.materials[0].origin.line, 3);

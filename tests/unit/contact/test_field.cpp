@@ -53,6 +53,27 @@ TEST(overlap_field, goes_to_its_target_linearly_and_then_rests) {
   EXPECT_EQ(scene.contact.ramp_of_contactor[0], -1);
 }
 
+TEST(overlap_field, of_a_corner_that_is_freed_again_goes_on_as_it_was) {
+  test::Scene scene(test::box({1, 1, 1}, 2.0), {kPenalty, kInfinite, 1, 0, 1});
+  scene.params.ramp_steps = 4;
+  int corner = 0;
+  while (scene.contact.field[0][at(corner)] == 0) ++corner;
+  // Every face of the corner that fracture frees says so anew.
+  for (int step = 1; step <= 4; ++step) {
+    free_corner(scene.params, scene.local, 0, corner, scene.contact);
+    const double bubble = step == 1 ? 0 : scene.contact.field[0][4];
+    advance_field(scene.contact);
+    EXPECT_NEAR(scene.contact.field[0][at(corner)], 1 - step / 4.0, kRoundOff) << "step " << step;
+    EXPECT_GT(scene.contact.field[0][4], bubble) << "step " << step;
+  }
+  EXPECT_EQ(scene.contact.field[0][at(corner)], 0);
+  const double risen = scene.contact.field[0][4];
+  free_corner(scene.params, scene.local, 0, corner, scene.contact);
+  advance_field(scene.contact);
+  EXPECT_EQ(scene.contact.field[0][4], risen);
+  EXPECT_TRUE(scene.contact.ramps.empty());
+}
+
 /// A small tetrahedron whose base sits at a depth of 0.03 under the top of a body of 3 x 3 x 3 cubes.
 struct Pressed {
   test::Scene scene;

@@ -48,7 +48,10 @@ HistoryRow example_row() {
   row.energy.kinetic = 0.1;
   row.energy.residual = -2.0 / 3;
   row.energy.residual_relative = 1e-300 / 7;
+  row.damaged_joints = 8;
   row.broken_joints = 5;
+  row.broken_mode_1 = 2;
+  row.broken_mode_2 = 3;
   row.couples = 11;
   row.momentum = {1, 2, 3};
   row.angular_momentum = {4, 5, 6};
@@ -84,7 +87,10 @@ TEST_F(HistoryTest, NumbersStandUnderTheirNamesAndReadBackAsTheSameDoubles) {
   EXPECT_EQ(number("kinetic [J]"), 0.1);
   EXPECT_EQ(number("residual [J]"), -2.0 / 3);
   EXPECT_EQ(number("relative residual"), 1e-300 / 7);
+  EXPECT_EQ(field("damaged joints"), "8");
   EXPECT_EQ(field("broken joints"), "5");
+  EXPECT_EQ(field("broken in mode I"), "2");
+  EXPECT_EQ(field("broken in mode II"), "3");
   EXPECT_EQ(field("couples"), "11");
   EXPECT_EQ(number("momentum y [kg m/s]"), 2);
   EXPECT_EQ(number("angular momentum z [kg m2/s]"), 6);

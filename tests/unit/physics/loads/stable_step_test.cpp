@@ -222,6 +222,19 @@ TEST(StableStep, KeepsAViscousBodyStableWhereTheUndampedStepWouldNot) {
   }
 }
 
+TEST(StableStep, OfViscousElementsThatShareNodesIsShorterByTheirDamping) {
+  // One material: damping is proportional to stiffness, and so are their means around a node.
+  for (const Mesh& mesh : {cubes(), distorted()}) {
+    const Problem elastic(mesh, Discretisation::shared_nodes);
+    const double omega = 2.0 / bound(elastic);
+    const ElasticParams& p = elastic.params[0];
+    for (const double xi : {0.5, 2.0}) {
+      const Problem viscous(mesh, Discretisation::shared_nodes, xi * (p.lambda + 2 * p.mu) / omega);
+      EXPECT_NEAR(bound(viscous), bound(elastic) * (std::sqrt(1 + xi * xi) - xi), 1e-12 * bound(elastic)) << xi;
+    }
+  }
+}
+
 TEST(StableStep, NamesTheStiffestJointAndTheElementsOnBothSides) {
   Problem problem(cubes(), Discretisation::own_nodes);
   problem.model.join(kYoung);

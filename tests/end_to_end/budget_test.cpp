@@ -1,0 +1,156 @@
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "end_to_end/program.hpp"
+
+/// What the energy budget of a run holds, and what ends a run early.
+namespace breccia::test {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kResidual = 1e-3;  // of the largest term: the limit for every case of the repository
+
+/// A call of `breccia run` and what it left.
+struct FinishedRun {
+  Outcome outcome;
+  json summary;
+  std::map<std::string, std::vector<double>> history;  ///< by column
+
+  /// @param arguments  the case and settings
+  explicit FinishedRun(const std::string& arguments) {
+    const Scratch scratch;
+    outcome = call("run " + arguments + " --progress none -o '" + scratch.path("run").string() + "'");
+    summary = json::parse(read_text(scratch.path("run/summary.json")));
+    std::istringstream lines(read_text(scratch.path("run/history.csv")));
+    std::vector<std::string> names;
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream cells(line);
+      std::size_t column = 0;
+      const bool header = names.empty();
+      for (std::string cell; std::getline(cells, cell, ','); ++column) {
+        if (header) names.push_back(cell);
+        if (!header) history[names.at(column)].push_back(std::stod(cell));
+      }
+    }
+  }
+
+  /// Of the absolute values of a column; NaN where one is.
+  [[nodiscard]] double largest(const std::string& column) const {
+    double most = 0;
+    for (const double value : history.at(column)) {
+      if (std::isnan(value)) return value;
+      most = std::max(most, std::abs(value));
+    }
+    return most;
+  }
+};
+
+/// An elastic box, pulled to 2 ms and held where it is then.
+const std::string kPulledThenHeld = R"(title = "pulled, then held"
+[mesh.raster]
+cells = [2, 1, 1]
+cell_size = "10 mm"
+group = "box"
+[[material]]
+group = "box"
+young = "4 MPa"
+poisson = 0.3
+density = "2340 kg/m3"
+joints = "none"
+[[stage]]
+name = "pull"
+end = "2 ms"
+[[stage.constraint]]
+group = "box.x0"
+fixed = "xyz"
+[[stage.constraint]]
+group = "box.x1"
+displacement = { x = { ramp = { to = "1 mm", end = "2 ms" } } }
+[[stage.pressure]]
+surface = "box.z1"
+value = { ramp = { to = "20 kPa", end = "2 ms" } }
+[[stage]]
+name = "hold"
+end = "4 ms"
+[[stage.constraint]]
+group = "box.x0"
+fixed = "xyz"
+[[stage.constraint]]
+group = "box.x1"
+fixed = "xyz"
+[[stage.pressure]]
+surface = "box.z1"
+value = "20 kPa"
+[time]
+safety = 0.2
+[output]
+history_interval = "50 us"
+)";
+
+TEST(Budget, whose_residual_passes_the_limit_stops_the_run_with_code_3) {
+  const Scratch scratch;
+  constexpr double kTiny = 1e-12;  // no run is that exact
+  const FinishedRun run(scratch.write("case.toml", kSmallCase) + " --set time.residual_limit=1e-12");
+  EXPECT_EQ(run.outcome.exit_code, 3);
+  for (const char* words : {"the energy residual is", "(limit 1e-10 %)", "time.residual_limit"}) {
+    EXPECT_NE(run.outcome.err.find(words), std::string::npos) << words << " in\n" << run.outcome.err;
+  }
+  EXPECT_NE(run.summary.at("status").get<std::string>().find("the energy residual is"), std::string::npos);
+  EXPECT_LT(run.summary.at("simulated_time").get<double>(), 4e-3);
+  // Only the last line passes the limit: the run has ended at the first that does.
+  const std::vector<double>& residual = run.history.at("relative residual");
+  ASSERT_FALSE(residual.empty());
+  EXPECT_GT(residual.back(), kTiny);
+  EXPECT_LE(*std::max_element(residual.begin(), residual.end() - 1), kTiny);
+}
+
+TEST(Budget, holds_the_work_of_constraints_and_pressures_of_earlier_stages) {
+  const Scratch scratch;
+  const FinishedRun run(scratch.write("case.toml", kPulledThenHeld));
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  EXPECT_LT(run.largest("relative residual"), kResidual);
+  const std::vector<double>&time = run.history.at("time [s]"), &work = run.history.at("external work [J]");
+  double pulled = 0;
+  for (std::size_t line = 0; line < time.size() && time[line] < 2e-3; ++line) pulled = work[line];
+  constexpr double kOfTheBox = 1e-3;  // J: E A (1 mm)^2 / (2 x 20 mm) = 1e-2 J, less what the free sides give
+  EXPECT_GT(pulled, kOfTheBox);
+  EXPECT_GT(work.back(), 0.5 * pulled) << "held, not taken back";
+}
+
+TEST(Budget, holds_what_the_springs_of_friction_store) {
+  // The right tetrahedron is pressed in by 0.5 mm and, from 2 ms on, moved along the face; friction makes it stick.
+  const std::string motion = "x = { table = [[0, 0], [\"2 ms\", \"-0.6 mm\"]] }, "
+                             "y = { table = [[\"2 ms\", 0], [\"4 ms\", \"0.2 mm\"]] }, z = 0";
+  const FinishedRun run("'" BRECCIA_MESHES "/contact_pair/case.toml' --set 'contact[0].friction=100' "
+                        "--set 'stage[0].constraint[1].displacement={ " + motion + " }'");
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  EXPECT_LT(run.largest("relative residual"), kResidual);
+  const std::vector<double>&time = run.history.at("time [s]"), &stored = run.history.at("contact stored [J]");
+  double pressed = 0;
+  for (std::size_t line = 0; line < time.size() && time[line] < 2e-3; ++line) pressed = stored[line];
+  // As stiff along the face as across: (0.2 mm / 0.5 mm)^2 of what pressing has stored.
+  constexpr double kShare = 0.16, kSampling = 0.01;
+  EXPECT_NEAR(stored.back() / pressed, 1 + kShare, kSampling);
+}
+
+TEST(MaxSteps, is_the_number_of_steps_after_which_a_run_stops) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", kSmallCase);
+  for (const int steps : {1, 7}) {
+    const FinishedRun run(file + " --set time.max_steps=" + std::to_string(steps));
+    EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+    EXPECT_EQ(run.summary.at("steps"), steps);
+    EXPECT_EQ(run.summary.at("status"), "stopped: time.max_steps reached");
+  }
+}
+
+}  // namespace
+}  // namespace breccia::test
