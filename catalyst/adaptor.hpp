@@ -15,8 +15,8 @@ namespace breccia::insitu {
 /// The pipelines of a run, ready to be executed. Members are collective unless they say otherwise.
 class Adaptor {
  public:
-  /// Starts what the pipelines need and no more: ParaView for scripts and the live link, Python for scripts, a display for pictures.
-  /// Throws PipelineError, on all ranks.
+  /// Starts what the pipelines need and no more: ParaView for scripts and the live link, Python for scripts, a display
+  /// for pictures. Throws PipelineError, on all ranks.
   explicit Adaptor(const BrecciaConfig& config);
   Adaptor(const Adaptor&) = delete;
   Adaptor& operator=(const Adaptor&) = delete;

@@ -9,12 +9,11 @@
 
 namespace breccia::insitu {
 
-/// What vtkBase64OutputStream writes, but in one piece: that one hands every four characters to the stream by themselves, which took
-/// half of the time of a large file.
+/// What vtkBase64OutputStream writes, but in one piece: that one hands every four characters to the stream by
+/// themselves, which took half of the time of a large file.
 class Base64Stream : public vtkOutputStream {
  public:
-  vtkTypeMacro(Base64Stream, vtkOutputStream)
-  static Base64Stream* New();
+  vtkTypeMacro(Base64Stream, vtkOutputStream) static Base64Stream* New();
 
   int StartWriting() override {
     bytes_.clear();

@@ -70,8 +70,8 @@ class UserData {
   vtkNew<vtkFieldData> data_;
 };
 
-/// The producers keep the last data that they were given: empty ones take their place, so that nothing of the solver's memory is read
-/// before the next execution.
+/// The producers keep the last data that they were given: empty ones take their place, so that nothing of the solver's
+/// memory is read before the next execution.
 void empty_producers() {
   vtkNew<vtkSMProxyIterator> proxies;
   proxies->SetModeToOneGroup();

@@ -135,7 +135,8 @@ Display::~Display() {
   if (replaced_ && was_set_) ::setenv("DISPLAY", old_.c_str(), 1);
   if (replaced_ && !was_set_) ::unsetenv("DISPLAY");
   if (!replaced_) return;
-  static_cast<void>(ranks_.agree(""));  // others may still be taking leave of it, and Xlib ends a process whose server has gone
+  static_cast<void>(
+      ranks_.agree(""));  // others may still be taking leave of it, and Xlib ends a process whose server has gone
   if (xvfb_ > 0) stop(xvfb_);
 }
 

@@ -15,8 +15,9 @@ namespace breccia::insitu {
 /// "" when pictures can be made here: a display opens or Xvfb is installed; else what to do about it.
 [[nodiscard]] std::string display_problem();
 
-/// A display for pictures, as long as it lives: the one that $DISPLAY names, or an Xvfb of our own, one a machine, started by the lowest rank there; it
-/// ends with this object and with the process that has started it, however that ends. Sets $DISPLAY meanwhile.
+/// A display for pictures, as long as it lives: the one that $DISPLAY names, or an Xvfb of our own, one a machine,
+/// started by the lowest rank there; it ends with this object and with the process that has started it, however that
+/// ends. Sets $DISPLAY meanwhile.
 class Display {
  public:
   /// Collective, as is its end. Throws PipelineError, on all ranks. @pre ranks outlives this

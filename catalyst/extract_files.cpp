@@ -25,61 +25,60 @@ namespace breccia::insitu {
 
 vtkStandardNewMacro(Base64Stream)
 
-namespace {
+    namespace {
+  namespace fs = std::filesystem;
 
-namespace fs = std::filesystem;
+  bool is_polygons(vtkDataObject * object) { return object->IsA("vtkPolyData") != 0; }
 
-bool is_polygons(vtkDataObject* object) { return object->IsA("vtkPolyData") != 0; }
-
-const char* type_name(vtkDataArray* array) {
-  switch (array->GetDataType()) {
-    case VTK_DOUBLE:
-      return "Float64";
-    case VTK_INT:
-      return "Int32";
-    default:
-      return "Int64";
-  }
-}
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
+  const char* type_name(vtkDataArray * array) {
+    switch (array->GetDataType()) {
+      case VTK_DOUBLE:
+        return "Float64";
+      case VTK_INT:
+        return "Int32";
       default:
-        result += c;
+        return "Int64";
     }
   }
-  return result;
-}
 
-vtkSmartPointer<vtkXMLDataElement> parsed(const fs::path& file) {
-  auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(file.c_str()));
-  static_cast<void>(take_errors());
-  if (!root) throw PipelineError(file.string() + ": is not an XML file, or cannot be read");
-  return root;
-}
+  std::string escaped(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+      switch (c) {
+        case '&':
+          result += "&amp;";
+          break;
+        case '<':
+          result += "&lt;";
+          break;
+        case '"':
+          result += "&quot;";
+          break;
+        default:
+          result += c;
+      }
+    }
+    return result;
+  }
 
-template <class Reader>
-vtkSmartPointer<vtkDataObject> read_with(const fs::path& file) {
-  vtkNew<Reader> reader;
-  reader->SetFileName(file.c_str());
-  reader->Update();
-  const std::string errors = take_errors();
-  if (reader->GetErrorCode() != 0 || !errors.empty())
-    throw PipelineError(file.string() +
-                        ": cannot be read: " + (errors.empty() ? "not a complete file of VTK" : errors));
-  return reader->GetOutputDataObject(0);
-}
+  vtkSmartPointer<vtkXMLDataElement> parsed(const fs::path& file) {
+    auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(file.c_str()));
+    static_cast<void>(take_errors());
+    if (!root) throw PipelineError(file.string() + ": is not an XML file, or cannot be read");
+    return root;
+  }
+
+  template <class Reader>
+  vtkSmartPointer<vtkDataObject> read_with(const fs::path& file) {
+    vtkNew<Reader> reader;
+    reader->SetFileName(file.c_str());
+    reader->Update();
+    const std::string errors = take_errors();
+    if (reader->GetErrorCode() != 0 || !errors.empty())
+      throw PipelineError(file.string() +
+                          ": cannot be read: " + (errors.empty() ? "not a complete file of VTK" : errors));
+    return reader->GetOutputDataObject(0);
+  }
 
 }  // namespace
 
@@ -108,8 +107,8 @@ std::int64_t write_piece(vtkDataObject* object, const fs::path& file) {
   const fs::path temporary = file.parent_path() / ("." + file.filename().string() + ".tmp");
   writer->SetInputDataObject(object);
   writer->SetFileName(temporary.c_str());
-  // Not appended: what is appended can be read no more by ParaView 5.11 with Debian's libexpat since its security update 2.5.0-1+deb12u2,
-  // https://gitlab.kitware.com/vtk/vtk/-/issues/19258.
+  // Not appended: what is appended can be read no more by ParaView 5.11 with Debian's libexpat since its security
+  // update 2.5.0-1+deb12u2, https://gitlab.kitware.com/vtk/vtk/-/issues/19258.
   writer->SetDataModeToBinary();
   writer->SetHeaderTypeToUInt64();
   writer->SetCompressorTypeToLZ4();

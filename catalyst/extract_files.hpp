@@ -11,9 +11,9 @@
 namespace breccia::insitu {
 
 /// Files of a recorded channel, all in one folder:
-///   channel.pvd                        the times and their .pvtu or .pvtp; replaced as a whole, after what it lists is complete
-///   channel_000000120.pvtu             the pieces of one instant
-///   channel_000000120/0000.vtu, ...    the piece of each rank, LZ4
+///   channel.pvd                        the times and their .pvtu or .pvtp; replaced as a whole, after what it lists is
+///   complete channel_000000120.pvtu             the pieces of one instant channel_000000120/0000.vtu, ...    the piece
+///   of each rank, LZ4
 struct RecordedInstant {
   std::int64_t step = 0;
   double time = 0.0;           ///< s
@@ -38,7 +38,8 @@ std::int64_t write_piece(vtkDataObject* object, const std::filesystem::path& fil
 
 [[nodiscard]] std::string pvd_text(const std::vector<RecordedInstant>& instants);
 
-/// Instants listed by a .pvd, in its order; none when the file is not there. Throws PipelineError when it cannot be understood.
+/// Instants listed by a .pvd, in its order; none when the file is not there. Throws PipelineError when it cannot be
+/// understood.
 [[nodiscard]] std::vector<RecordedInstant> read_pvd(const std::filesystem::path& file);
 
 /// Files of the pieces listed by a .pvtu or .pvtp, in its order, absolute if `file` is. Throws PipelineError.

@@ -50,7 +50,8 @@ std::vector<std::string> csv_lines(vtkTable* table) {
   return lines;
 }
 
-/// What of an earlier recording stays when one begins at `step`: nothing when its header differs; rows start with their step.
+/// What of an earlier recording stays when one begins at `step`: nothing when its header differs; rows start with their
+/// step.
 std::string rows_before(const std::string& content, const std::string& header, std::int64_t step) {
   std::string kept;
   std::istringstream stream(content);

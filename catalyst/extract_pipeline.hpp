@@ -9,8 +9,8 @@
 
 namespace breccia::insitu {
 
-/// Records a channel of cells: see extract_files.hpp. A recording of the same name that is already there is continued: its instants
-/// before the first new step stay.
+/// Records a channel of cells: see extract_files.hpp. A recording of the same name that is already there is continued:
+/// its instants before the first new step stay.
 class ExtractPipeline final : public Pipeline {
  public:
   /// @param folder of the channel; made when the first instant comes

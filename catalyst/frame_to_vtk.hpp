@@ -7,12 +7,13 @@
 
 namespace breccia::insitu {
 
-/// Turns a channel of the solver into a VTK object without copying points or arrays, which are wrapped. Connectivity is VTK's own and is
-/// kept: it is built anew only when BrecciaGrid::topology, the kind of cell or a count has changed.
+/// Turns a channel of the solver into a VTK object without copying points or arrays, which are wrapped. Connectivity is
+/// VTK's own and is kept: it is built anew only when BrecciaGrid::topology, the kind of cell or a count has changed.
 class ChannelToVtk {
  public:
-  /// The object reads the solver's memory: it must be out of use when that memory may change. Field data: TimeValue (s) and step.
-  /// Throws PipelineError when the channel is not what insitu_abi.h says. O(num_arrays); O(num_cells) when the topology has changed.
+  /// The object reads the solver's memory: it must be out of use when that memory may change. Field data: TimeValue (s)
+  /// and step. Throws PipelineError when the channel is not what insitu_abi.h says. O(num_arrays); O(num_cells) when
+  /// the topology has changed.
   [[nodiscard]] vtkSmartPointer<vtkDataObject> wrap(const BrecciaGrid& grid, std::int64_t step, double time);
 
   /// Connectivity of the last wrap; null before the first and for tables.

@@ -1,13 +1,13 @@
 #ifndef BRECCIA_CATALYST_INSITU_ABI_H
 #define BRECCIA_CATALYST_INSITU_ABI_H
 
-/* What the solver and an in-situ adaptor know of each other: plain arrays and C functions, no VTK, no MPI type. The solver
- * opens the adaptor, libbreccia_catalyst.so, with dlopen when a run asks for it, and takes its functions from
+/* What the solver and an in-situ adaptor know of each other: plain arrays and C functions, no VTK, no MPI type. The
+ * solver opens the adaptor, libbreccia_catalyst.so, with dlopen when a run asks for it, and takes its functions from
  * breccia_insitu_api(). Another back end (Catalyst 2, Ascent, ...) is another library with the same function.
  *
- * All lengths in m, all quantities SI. Strings are UTF-8 and end with 0. Functions marked "collective" are called by all ranks
- * of the communicator, in the same order and with the same pipelines; data are those of the rank. No function throws, ends the
- * process, or changes the handlers of signals when it returns. */
+ * All lengths in m, all quantities SI. Strings are UTF-8 and end with 0. Functions marked "collective" are called by
+ * all ranks of the communicator, in the same order and with the same pipelines; data are those of the rank. No function
+ * throws, ends the process, or changes the handlers of signals when it returns. */
 
 #include <stddef.h>
 #include <stdint.h>
@@ -29,10 +29,17 @@ enum {
   BRECCIA_HISTORY,      /* table, no points: a row of the history; on the first rank, empty on the others */
   BRECCIA_NUM_CHANNELS
 };
-#define BRECCIA_CHANNEL_NAMES {"elements", "joints", "fractures", "contacts", "surface", "domains", "history"}
+#define BRECCIA_CHANNEL_NAMES \
+  { "elements", "joints", "fractures", "contacts", "surface", "domains", "history" }
 
-enum { BRECCIA_F64 = 0, BRECCIA_I32, BRECCIA_I64 };                            /* BrecciaArray.type */
-enum { BRECCIA_TABLE = 0, BRECCIA_VERTEX = 1, BRECCIA_TRIANGLE = 5, BRECCIA_TETRAHEDRON = 10, BRECCIA_HEXAHEDRON = 12 }; /* BrecciaGrid.cell */
+enum { BRECCIA_F64 = 0, BRECCIA_I32, BRECCIA_I64 }; /* BrecciaArray.type */
+enum {
+  BRECCIA_TABLE = 0,
+  BRECCIA_VERTEX = 1,
+  BRECCIA_TRIANGLE = 5,
+  BRECCIA_TETRAHEDRON = 10,
+  BRECCIA_HEXAHEDRON = 12
+}; /* BrecciaGrid.cell */
 
 /* Values of the cells of a grid (rows of a table), components of one after another: xyz; xx yy zz xy yz xz. */
 typedef struct {
@@ -42,12 +49,12 @@ typedef struct {
   const void* values; /* (num_cells, components); may be NULL when there are no cells */
 } BrecciaArray;
 
-/* A channel on this rank: only what the rank owns, so that each cell is on exactly one rank. Also a rank without cells has all
- * arrays, with their names, types and components. */
+/* A channel on this rank: only what the rank owns, so that each cell is on exactly one rank. Also a rank without cells
+ * has all arrays, with their names, types and components. */
 typedef struct {
   int32_t cell;
   int64_t num_points;
-  const double* points;   /* (num_points, 3) */
+  const double* points; /* (num_points, 3) */
   int64_t num_cells;
   const int32_t* corners; /* (num_cells, corners of a cell): points; NULL: points are those of the cells in turn */
   uint64_t topology;      /* changes whenever num_points, num_cells or corners do */
@@ -55,15 +62,16 @@ typedef struct {
   const BrecciaArray* arrays;
 } BrecciaGrid;
 
-/* An instant of the run. Pointers are valid until the call that gets them returns; the adaptor wraps them, copies nothing it
- * need not, and reads none of them afterwards. */
+/* An instant of the run. Pointers are valid until the call that gets them returns; the adaptor wraps them, copies
+ * nothing it need not, and reads none of them afterwards. */
 typedef struct {
   int64_t step;
-  double time; /* s, simulated */
+  double time;                                       /* s, simulated */
   const BrecciaGrid* channels[BRECCIA_NUM_CHANNELS]; /* NULL: not asked for by any pipeline of this call */
 } BrecciaInstant;
 
-/* A pipeline: one of the adaptor's own ("fractures", "stress", ...; "live" connects to ParaView) or a script by absolute path. */
+/* A pipeline: one of the adaptor's own ("fractures", "stress", ...; "live" connects to ParaView) or a script by
+ * absolute path. */
 typedef struct {
   const char* name;
   uint32_t channels; /* mask of what "live" publishes; 0: what the pipeline itself asks for */
@@ -74,23 +82,25 @@ typedef struct {
 
 typedef struct {
   int32_t abi_version;
-  int32_t communicator; /* MPI_Comm_c2f of the ranks, of which the adaptor makes a communicator of its own; -1: one rank, MPI not started */
+  int32_t communicator; /* MPI_Comm_c2f of the ranks, of which the adaptor makes a communicator of its own; -1: one
+                           rank, MPI not started */
   int32_t rank, size;
-  double patience;      /* s that a rank which is done with a pipeline waits for the others */
-  const char* title;    /* of the case */
-  const char* folder;   /* absolute, exists: pipelines write here and nowhere else */
+  double patience;    /* s that a rank which is done with a pipeline waits for the others */
+  const char* title;  /* of the case */
+  const char* folder; /* absolute, exists: pipelines write here and nowhere else */
   const char* live_host;
   int32_t live_port;
   int32_t num_pipelines; /* at most 32 */
   const BrecciaPipeline* pipelines;
 } BrecciaConfig;
 
-/* What a script asks of the solver in return; the first rank's counts. A script finds these as arrays of one value in the
- * user data of its data description: "stop", "pause", "extract" (0 or 1), "frame_interval" (s, 0: leave). */
+/* What a script asks of the solver in return; the first rank's counts. A script finds these as arrays of one value in
+ * the user data of its data description: "stop", "pause", "extract" (0 or 1), "frame_interval" (s, 0: leave). */
 typedef struct {
   int32_t stop, pause, extract;
   double frame_interval;
-  double waited; /* s of this call that a person let the run wait: a live view that was paused. No cost of the pipeline's. */
+  double waited; /* s of this call that a person let the run wait: a live view that was paused. No cost of the
+                    pipeline's. */
 } BrecciaRequests;
 
 /* A message is written into text[0..size), cut to fit, always ended with 0; one line, no newline. */
@@ -98,10 +108,11 @@ typedef struct {
   int32_t abi_version;
   const char* description; /* "ParaView Catalyst 5.11.0" */
 
-  /* Looks whether all pipelines could run: scripts can be read and compile, names are known, parameters are known to the
-   * adaptor's own pipelines, images find a display (one is made when none is there and Xvfb is installed), libraries load, the
-   * folder can be written into. 0: all can. Otherwise the text names every problem, problems separated by newlines. On any
-   * number of ranks called on each of them, not collective, before open; starts neither MPI nor Python. */
+  /* Looks whether all pipelines could run: scripts can be read and compile, names are known, parameters are known to
+   * the adaptor's own pipelines, images find a display (one is made when none is there and Xvfb is installed),
+   * libraries load, the folder can be written into. 0: all can. Otherwise the text names every problem, problems
+   * separated by newlines. On any number of ranks called on each of them, not collective, before open; starts neither
+   * MPI nor Python. */
   int32_t (*preflight)(const BrecciaConfig* config, char* text, size_t size);
 
   /* Starts the back end. NULL: failed, see text. Collective. */
@@ -110,11 +121,11 @@ typedef struct {
   /* Mask of the channels that a pipeline asks for now, 0: none, nothing to execute. Collective. */
   uint32_t (*channels)(void* adaptor, int32_t pipeline, int64_t step, double time);
 
-  /* Executes the pipelines of the mask on an instant that has all their channels. Returns the mask of those that failed on any
-   * rank; the text has a line for each of them: its name, what went wrong, and where. Collective.
-   * -1, on this rank alone: others have not come out of a pipeline in time. Nothing collective can follow, not even close. */
-  int64_t (*execute)(void* adaptor, uint32_t pipelines, const BrecciaInstant* instant, BrecciaRequests* requests, char* text,
-                      size_t size);
+  /* Executes the pipelines of the mask on an instant that has all their channels. Returns the mask of those that failed
+   * on any rank; the text has a line for each of them: its name, what went wrong, and where. Collective. -1, on this
+   * rank alone: others have not come out of a pipeline in time. Nothing collective can follow, not even close. */
+  int64_t (*execute)(void* adaptor, uint32_t pipelines, const BrecciaInstant* instant, BrecciaRequests* requests,
+                     char* text, size_t size);
 
   /* Bytes that a pipeline has written on this rank so far. */
   int64_t (*bytes_written)(void* adaptor, int32_t pipeline);
@@ -122,8 +133,9 @@ typedef struct {
   /* Ends the pipelines, and whatever open has started. Collective, before MPI_Finalize. */
   void (*close)(void* adaptor);
 
-  /* Feeds what pipelines recorded (folder/<channel>/, as "volume", "fractures", "surface" and others write it) through the
-   * pipelines of the config as if a solver ran. folder_of_records is absolute. 0: all instants passed. Collective. */
+  /* Feeds what pipelines recorded (folder/<channel>/, as "volume", "fractures", "surface" and others write it) through
+   * the pipelines of the config as if a solver ran. folder_of_records is absolute. 0: all instants passed. Collective.
+   */
   int32_t (*replay)(const BrecciaConfig* config, const char* folder_of_records, char* text, size_t size);
 } BrecciaInsituApi;
 

@@ -58,7 +58,7 @@ std::uint32_t channels(void* adaptor, std::int32_t pipeline, std::int64_t step, 
 }
 
 std::int64_t execute(void* adaptor, std::uint32_t pipelines, const BrecciaInstant* instant, BrecciaRequests* requests,
-                      char* text, size_t size) {
+                     char* text, size_t size) {
   const SignalGuard signals;
   put({}, text, size);
   *requests = {};

@@ -16,10 +16,11 @@ class vtkSMSourceProxy;
 
 namespace breccia::insitu {
 
-/// The link to a ParaView that listens on host:port (Catalyst > Connect), which may come and go: channels are published as sources of their
-/// names, ParaView takes those it wants, may pause the run, and lets it go on. Without a listener nothing is asked of the solver and an attempt
-/// to connect is made at most every half second, and so that attempts take at most 2 % of the time. Starts no Python.
-/// A pause blocks execute on all ranks until ParaView continues or dies.
+/// The link to a ParaView that listens on host:port (Catalyst > Connect), which may come and go: channels are published
+/// as sources of their names, ParaView takes those it wants, may pause the run, and lets it go on. Without a listener
+/// nothing is asked of the solver and an attempt to connect is made at most every half second, and so that attempts
+/// take at most 2 % of the time. Starts no Python. A pause blocks execute on all ranks until ParaView continues or
+/// dies.
 class LivePipeline final : public Pipeline {
  public:
   /// @pre a CatalystBackend lives as long as this

@@ -20,8 +20,8 @@ constexpr std::uint32_t kAllChannels = bit(BRECCIA_NUM_CHANNELS) - 1;
 /// Index of a channel's name, or -1.
 int channel_of(const std::string& name);
 
-/// An instant as VTK sees it: null where a channel was not asked for. A channel has the same arrays, by name, type and components,
-/// on all ranks; elements and domains are vtkUnstructuredGrid, history is vtkTable, the others vtkPolyData.
+/// An instant as VTK sees it: null where a channel was not asked for. A channel has the same arrays, by name, type and
+/// components, on all ranks; elements and domains are vtkUnstructuredGrid, history is vtkTable, the others vtkPolyData.
 struct Frame {
   std::int64_t step = 0;
   double time = 0.0;  ///< s

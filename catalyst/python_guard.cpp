@@ -27,7 +27,8 @@ PyObject* agree(PyObject* ranks, PyObject* text) {
   }
   try {
     if (!abandoned.empty()) throw Abandoned(abandoned);
-    return PyBool_FromLong(static_cast<const Ranks*>(PyCapsule_GetPointer(ranks, nullptr))->agree(mine).empty() ? 0 : 1);
+    return PyBool_FromLong(static_cast<const Ranks*>(PyCapsule_GetPointer(ranks, nullptr))->agree(mine).empty() ? 0
+                                                                                                                : 1);
   } catch (const Abandoned& error) {
     abandoned = error.what();
     PyErr_SetString(PyExc_RuntimeError, error.what());
@@ -53,7 +54,8 @@ std::string raised() {
   return one_line(line);
 }
 
-/// Calls function(arguments) of the guard; `arguments` is a tuple, which is released. Throws PipelineError with what it raises.
+/// Calls function(arguments) of the guard; `arguments` is a tuple, which is released. Throws PipelineError with what it
+/// raises.
 vtkSmartPyObject call(const char* function, PyObject* arguments) {
   const vtkSmartPyObject tuple(arguments);
   const vtkSmartPyObject module(PyImport_ImportModule(kGuard));
@@ -67,7 +69,8 @@ vtkSmartPyObject call(const char* function, PyObject* arguments) {
 
 void start(const std::filesystem::path& pipelines, const std::filesystem::path& guard, const Ranks& ranks) {
   vtkPythonInterpreter::Initialize();
-  // ParaView's Python takes its level of logging from VTK's when it is imported; it does not understand "off" and would log all.
+  // ParaView's Python takes its level of logging from VTK's when it is imported; it does not understand "off" and would
+  // log all.
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_ERROR);
   const vtkPythonScopeGilEnsurer lock;
   vtkPythonInterpreter::PrependPythonPath(pipelines.c_str());

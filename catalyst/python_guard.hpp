@@ -8,17 +8,18 @@
 
 namespace breccia::insitu::python {
 
-/// Starts Python in this process and puts python/breccia_guard.py between ParaView and the scripts: what a script raises is kept as one line
-/// instead of being printed, on all ranks when on any; SystemExit does not end the process. `pipelines` and `guard` are put on the
-/// search path of modules. Idempotent. Throws PipelineError. @pre ranks outlives all use of Python
+/// Starts Python in this process and puts python/breccia_guard.py between ParaView and the scripts: what a script
+/// raises is kept as one line instead of being printed, on all ranks when on any; SystemExit does not end the process.
+/// `pipelines` and `guard` are put on the search path of modules. Idempotent. Throws PipelineError. @pre ranks outlives
+/// all use of Python
 void start(const std::filesystem::path& pipelines, const std::filesystem::path& guard, const Ranks& ranks);
 
 /// Tells breccia_insitu.py which pipeline runs from now on. Throws PipelineError.
 void enter(const std::string& name, const std::filesystem::path& script, const std::filesystem::path& folder,
            const std::map<std::string, double>& parameters);
 
-/// What the script that runs raised since the last call: "TypeError: what (script.py:12)"; empty: nothing. Throws Abandoned
-/// when other ranks have not come out of it in time.
+/// What the script that runs raised since the last call: "TypeError: what (script.py:12)"; empty: nothing. Throws
+/// Abandoned when other ranks have not come out of it in time.
 [[nodiscard]] std::string take_error();
 
 }  // namespace breccia::insitu::python

@@ -50,7 +50,8 @@ void Ranks::wait(MPI_Request& request, const std::string& error) const {
     sched_yield();
     const double waited = std::chrono::duration<double>(Clock::now() - begin).count();
     if (patience_ <= 0 || waited < patience_) continue;
-    const std::string what = "rank " + std::to_string(rank_) + " has waited " + std::to_string(std::lround(waited)) + " s for others that are still in it";
+    const std::string what = "rank " + std::to_string(rank_) + " has waited " + std::to_string(std::lround(waited)) +
+                             " s for others that are still in it";
     throw Abandoned(error.empty() ? what : what + "; here it failed: " + error);
   }
 }

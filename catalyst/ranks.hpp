@@ -7,7 +7,8 @@
 
 namespace breccia::insitu {
 
-/// The ranks of a run: a duplicate of the solver's communicator, or one rank without MPI. Members are collective unless they say otherwise.
+/// The ranks of a run: a duplicate of the solver's communicator, or one rank without MPI. Members are collective unless
+/// they say otherwise.
 class Ranks {
  public:
   /// @param communicator of Fortran (MPI_Comm_c2f), -1: one rank, MPI is not used
@@ -23,14 +24,15 @@ class Ranks {
   /// MPI_COMM_NULL: without MPI.
   [[nodiscard]] MPI_Comm communicator() const { return communicator_; }
 
-  /// The text of the lowest rank that brings one, on all ranks; empty: none did. Throws Abandoned with this rank's text when
-  /// patience is at an end before all ranks are here.
+  /// The text of the lowest rank that brings one, on all ranks; empty: none did. Throws Abandoned with this rank's text
+  /// when patience is at an end before all ranks are here.
   [[nodiscard]] std::string agree(const std::string& error) const;
   /// Throws PipelineError(agree(error)) on all ranks when any brings a text.
   void throw_agreed(const std::string& error) const;
   /// The first rank's values on all ranks.
   [[nodiscard]] std::int64_t from_root(std::int64_t value) const;
-  /// Text of the lowest rank on the same machine as this one; `text` matters on that rank alone. See is_first_of_machine.
+  /// Text of the lowest rank on the same machine as this one; `text` matters on that rank alone. See
+  /// is_first_of_machine.
   [[nodiscard]] std::string from_first_of_machine(const std::string& text) const;
   /// True on the lowest rank of each machine.
   [[nodiscard]] bool is_first_of_machine() const;

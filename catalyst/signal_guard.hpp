@@ -6,8 +6,8 @@
 
 namespace breccia::insitu {
 
-/// While it lives, libraries may install handlers of signals; its end puts back those that its beginning found. SIGPIPE is ignored
-/// meanwhile: a ParaView that dies must not take the run along.
+/// While it lives, libraries may install handlers of signals; its end puts back those that its beginning found. SIGPIPE
+/// is ignored meanwhile: a ParaView that dies must not take the run along.
 class SignalGuard {
  public:
   SignalGuard();

@@ -1,3 +1,5 @@
+#include <malloc.h>
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -5,10 +7,8 @@
 #include <cstdio>
 #include <exception>
 #include <limits>
-#include <malloc.h>
 #include <map>
 #include <sstream>
-#include <unistd.h>
 
 #include "base/error.hpp"
 #include "case/schema.hpp"
@@ -29,8 +29,8 @@ void stop_handler(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
-/// What is freed is soon asked for again, above all when elements change ranks; getting large blocks anew from the kernel each
-/// time costs more than the work on them.
+/// What is freed is soon asked for again, above all when elements change ranks; getting large blocks anew from the
+/// kernel each time costs more than the work on them.
 void keep_freed_memory() {
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
@@ -144,50 +144,67 @@ const char* kControlFooter =
   extract                     let all in-situ pipelines work on the present state
   frame                       write a frame
   frame_interval TIME         from now on a frame every so much simulated time, such as "2 us"
-The answer comes when it is done. Whatever writes such a line into the file `control` of the run's folder asks the same.)";
+The answer comes when it is done. A line with a command in the file `control` of the run's folder does the same.)";
 
 void define_control(CLI::App& app, Arguments& a) {
-  CLI::App* control = app.add_subcommand("control", "Ask something of a run that goes on: pause, resume, stop, extract, ...");
+  CLI::App* control =
+      app.add_subcommand("control", "Ask something of a run that goes on: pause, resume, stop, extract, ...");
   control->add_option("run", a.control.folder, "folder of the run")->required();
   const auto join = [&a](const std::vector<std::string>& words) {
     for (const std::string& word : words) a.control.command += (a.control.command.empty() ? "" : " ") + word;
   };
   control->add_option_function<std::vector<std::string>>("command", join, "see below")->required();
-  control->add_option("--patience", a.control.patience, "seconds to wait for the answer; default 60")->check(CLI::PositiveNumber);
+  control->add_option("--patience", a.control.patience, "seconds to wait for the answer; default 60")
+      ->check(CLI::PositiveNumber);
   control->footer(kControlFooter);
 }
 
 void define_insitu(CLI::App& app, Arguments& a) {
-  CLI::App* live = app.add_subcommand("live", "Start ParaView so that it sees a run of this case that is started with --live");
+  CLI::App* live =
+      app.add_subcommand("live", "Start ParaView so that it sees a run of this case that is started with --live");
   live->add_option("case", a.live.case_file, kCaseHelp)->required();
   live->add_option("--set", a.live.overrides, kSetHelp)->allow_extra_args(false)->take_all();
 
-  CLI::App* insitu = app.add_subcommand("insitu", "Pipelines that work while a run goes on: try them, or see what they need");
+  CLI::App* insitu =
+      app.add_subcommand("insitu", "Pipelines that work while a run goes on: try them, or see what they need");
   insitu->require_subcommand(1);
   insitu->add_subcommand("info", "what the in-situ adaptor is, or what is missing");
-  CLI::App* replay = insitu->add_subcommand("replay", "Feed what a run has recorded (pipelines volume, surface, fractures, ...) through pipelines");
+  CLI::App* replay = insitu->add_subcommand(
+      "replay", "Feed what a run has recorded (pipelines volume, surface, fractures, ...) through pipelines");
   replay->add_option("run", a.replay.run, "folder of the run")->required();
-  replay->add_option("pipelines", a.replay.pipelines, "scripts exported from ParaView, or names of pipelines")->required();
-  replay->add_option("-o,--output", a.replay.folder, "folder of what they write; default: replay in the folder of the run");
+  replay->add_option("pipelines", a.replay.pipelines, "scripts exported from ParaView, or names of pipelines")
+      ->required();
+  replay->add_option("-o,--output", a.replay.folder,
+                     "folder of what they write; default: replay in the folder of the run");
 }
 
 /// What --live and --insitu add to the case, as overrides.
 void define_run_insitu(CLI::App& run, Arguments& a) {
   const auto live = [&a](const std::vector<std::string>& address) {
-    a.run.overrides.push_back("insitu.live.address=\"" + (address.empty() || address[0].empty() ? "localhost:22222" : address[0]) + "\"");
+    a.run.overrides.push_back("insitu.live.address=\"" +
+                              (address.empty() || address[0].empty() ? "localhost:22222" : address[0]) + "\"");
   };
-  CLI::Option* asked = run.add_option_function<std::vector<std::string>>("--live", live, "offer the run to ParaView (Catalyst > Connect there), which listens at host:port, default localhost:22222; after the case file, or --live=HOST:PORT")
-      ->expected(0, 1)
-      ->type_name("[HOST:PORT]");
-  run.add_flag_callback("--live-remote", [&a] { a.run.overrides.emplace_back("insitu.live.remote=true"); },
-                        "the live view may leave this machine; nothing is encrypted")
+  CLI::Option* asked = run.add_option_function<std::vector<std::string>>(
+                              "--live", live,
+                              "offer the run to ParaView (Catalyst > Connect there), which listens at host:port, "
+                              "default localhost:22222; after the case file, or --live=HOST:PORT")
+                           ->expected(0, 1)
+                           ->type_name("[HOST:PORT]");
+  run.add_flag_callback(
+         "--live-remote", [&a] { a.run.overrides.emplace_back("insitu.live.remote=true"); },
+         "the live view may leave this machine; nothing is encrypted")
       ->needs(asked);
   const auto pipelines = [&a](const std::vector<std::string>& names) {
     std::string list;
-    for (const std::string& name : names) list += (list.empty() ? "\"" : ", \"") + (case_::is_script(name) ? std::filesystem::absolute(name).string() : name) + "\"";
+    for (const std::string& name : names)
+      list += (list.empty() ? "\"" : ", \"") +
+              (case_::is_script(name) ? std::filesystem::absolute(name).string() : name) + "\"";
     a.run.overrides.push_back("insitu.run=[" + list + "]");
   };
-  run.add_option_function<std::vector<std::string>>("--insitu", pipelines, "pipelines that work while the run goes on, separated by commas, such as fractures,stress; a script by its path; `breccia explain insitu`")
+  run.add_option_function<std::vector<std::string>>(
+         "--insitu", pipelines,
+         "pipelines that work while the run goes on, separated by commas, such as fractures,stress; a script by its "
+         "path; `breccia explain insitu`")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->take_all();
@@ -196,7 +213,8 @@ void define_run_insitu(CLI::App& run, Arguments& a) {
 void define(CLI::App& app, Arguments& a) {
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("breccia ") + BRECCIA_VERSION);
-  app.footer("Exit codes: 0 success, 1 usage, 2 case, mesh or output refused, 3 the numbers went wrong, 4 a fault of ours.");
+  app.footer(
+      "Exit codes: 0 success, 1 usage, 2 case, mesh or output refused, 3 the numbers went wrong, 4 a fault of ours.");
 
   CLI::App* run = app.add_subcommand("run", "Run a case through all its stages");
   run->add_option("case", a.run.case_file, kCaseHelp)->required();
@@ -204,8 +222,10 @@ void define(CLI::App& app, Arguments& a) {
   run->add_option("--set", a.run.overrides, kSetHelp)->allow_extra_args(false)->take_all();
   run->add_flag("-f,--overwrite", a.run.overwrite, "replace the results of an earlier run in that folder");
   run->add_option("--progress", a.progress, kProgressHelp)->check(progress_modes());
-  run->footer("Writes frames for ParaView (frames/*.series), history.csv, status.jsonl, summary.json and .txt, the resolved case and provenance.json.\n"
-              "Ctrl-C ends the run after the present step with everything written.");
+  run->footer(
+      "Writes frames for ParaView (frames/*.series), history.csv, status.jsonl, summary.json and .txt, the resolved "
+      "case and provenance.json.\n"
+      "Ctrl-C ends the run after the present step with everything written.");
 
   define_run_insitu(*run, a);
 
@@ -213,33 +233,40 @@ void define(CLI::App& app, Arguments& a) {
   define_insitu(app, a);
   define_race(app, a);
 
-  CLI::App* check = app.add_subcommand("check", "Everything short of the first step: time step, memory, run time, advice");
+  CLI::App* check =
+      app.add_subcommand("check", "Everything short of the first step: time step, memory, run time, advice");
   check->add_option("case", a.check.case_file, kCaseHelp)->required();
   check->add_option("--set", a.check.overrides, kSetHelp)->allow_extra_args(false)->take_all();
 
-  check->add_option("--ranks", a.check.ranks, "tell only how a run on so many ranks (mpiexec -n) would divide the model")
+  check
+      ->add_option("--ranks", a.check.ranks, "tell only how a run on so many ranks (mpiexec -n) would divide the model")
       ->check(CLI::Range(1, 1000000));
 
-  CLI::App* mesh = app.add_subcommand("mesh", "Read or generate the mesh of a case and report its bodies, groups and quality");
+  CLI::App* mesh =
+      app.add_subcommand("mesh", "Read or generate the mesh of a case and report its bodies, groups and quality");
   mesh->add_option("case", a.mesh.case_file, kCaseHelp)->required();
   mesh->add_option("--set", a.mesh.overrides, kSetHelp)->allow_extra_args(false)->take_all();
   mesh->add_option("-o,--output", a.mesh.folder, "write the elements for ParaView into this folder");
 
-  CLI::App* explain = app.add_subcommand("explain", "What a key of the case file means: unit, default, range; all keys without one");
+  CLI::App* explain =
+      app.add_subcommand("explain", "What a key of the case file means: unit, default, range; all keys without one");
   explain->add_option("key", a.key, "such as material.young, or the name of a section");
 }
 
 int dispatch(const CLI::App& app, Arguments& a, const Communicator& world, int argc, char** argv) {
   if (app.got_subcommand("run") || app.got_subcommand("race")) {
-    const std::map<std::string, ProgressMode> modes{{"bar", ProgressMode::bar}, {"log", ProgressMode::log},
-                                                    {"json", ProgressMode::json}, {"none", ProgressMode::none}};
+    const std::map<std::string, ProgressMode> modes{{"bar", ProgressMode::bar},
+                                                    {"log", ProgressMode::log},
+                                                    {"json", ProgressMode::json},
+                                                    {"none", ProgressMode::none}};
     const auto mode = modes.find(a.progress);
     a.run.progress = a.race.progress = mode != modes.end() ? mode->second : default_progress_mode(STDOUT_FILENO);
     if (app.got_subcommand("race")) return race_command(a.race, world);
     a.run.command_line.assign(argv, argv + argc);
     return run_command(a.run, world);
   }
-  if (app.got_subcommand("insitu") && app.get_subcommand("insitu")->got_subcommand("replay")) return replay_command(a.replay, world);
+  if (app.got_subcommand("insitu") && app.get_subcommand("insitu")->got_subcommand("replay"))
+    return replay_command(a.replay, world);
   if (!world.is_root()) return code(ExitCode::success);  // what follows is the work of one
   if (app.got_subcommand("check")) return check_command(a.check, world.size());
   if (app.got_subcommand("mesh")) return mesh_command(a.mesh);
@@ -255,8 +282,8 @@ int report(bool speaks, const std::string& what, ExitCode exit_code) {
   return code(exit_code);
 }
 
-/// Errors of the first three kinds are agreed upon: all ranks have the same one and one of them tells it. Others are of one
-/// rank, and the rest would wait for it for ever.
+/// Errors of the first three kinds are agreed upon: all ranks have the same one and one of them tells it. Others are of
+/// one rank, and the rest would wait for it for ever.
 int guarded(const CLI::App& app, Arguments& arguments, MpiSession& session, int argc, char** argv) {
   const bool root = session.world().is_root();
   int ended = 0;

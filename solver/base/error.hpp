@@ -67,8 +67,8 @@ class InternalError : public std::exception {
 }  // namespace breccia
 
 /// Always on: a condition our own code guarantees. `detail` is a std::string with the values.
-#define DEMAND(condition, detail)                                                     \
-  do {                                                                                \
+#define DEMAND(condition, detail)                                                       \
+  do {                                                                                  \
     if (!(condition)) ::breccia::demand_failed(#condition, __FILE__, __LINE__, detail); \
   } while (false)
 

@@ -54,7 +54,7 @@ double ExactSum::value() const {
   const int lead = std::countl_zero(limb(0)) - 32;
   const std::uint64_t bits = limb(0) << (32 + lead) | limb(1) << lead | (lead > 0 ? limb(2) >> (32 - lead) : 0);
   const int exponent = kLowest + static_cast<int>(top - 1) * 32 - 32 - lead;  // of the lowest of the 64 bits
-  const int kept = std::min(53, 64 + exponent + 1074);                       // fewer for subnormal results
+  const int kept = std::min(53, 64 + exponent + 1074);                        // fewer for subnormal results
   if (kept < 0) return negative ? -0.0 : 0.0;
   const int dropped = 64 - kept;
   const std::uint64_t half = 1ULL << (dropped - 1);

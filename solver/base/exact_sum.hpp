@@ -10,9 +10,9 @@ namespace breccia {
 
 /// Exact sum of doubles, and so the same for any order of the terms and however they are spread over ranks.
 ///
-/// A fixed-point number wide enough for every double: limb k holds multiples of 2^(32 k - 1088). A term's 53 bits go to three
-/// limbs; each addition changes a limb by less than 2^32, so carries have to be passed on once in 2^30 additions only. Source
-/// of the idea: [Kulisch 2011]. `add` takes 2 to 4 ns, `value` 50.
+/// A fixed-point number wide enough for every double: limb k holds multiples of 2^(32 k - 1088). A term's 53 bits go to
+/// three limbs; each addition changes a limb by less than 2^32, so carries have to be passed on once in 2^30 additions
+/// only. Source of the idea: [Kulisch 2011]. `add` takes 2 to 4 ns, `value` 50.
 class ExactSum {
  public:
   static constexpr std::size_t kLimbs = 68;
@@ -60,9 +60,10 @@ class ExactSum {
   static constexpr std::int64_t kMostPending = std::int64_t{1} << 30;
   void carry();
 
-  std::array<std::int64_t, kLimbs> limbs_{};  ///< after `carry` in 0 .. 2^32 - 1, the last used one in -2^31 .. 2^31 - 1
-  std::size_t first_ = kLimbs, last_ = 0;     ///< limbs in use; the others are zero
-  std::int64_t pending_ = 0;                  ///< additions since `carry`
+  std::array<std::int64_t, kLimbs>
+      limbs_{};                            ///< after `carry` in 0 .. 2^32 - 1, the last used one in -2^31 .. 2^31 - 1
+  std::size_t first_ = kLimbs, last_ = 0;  ///< limbs in use; the others are zero
+  std::int64_t pending_ = 0;               ///< additions since `carry`
   bool finite_ = true;
 };
 

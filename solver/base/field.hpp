@@ -1,15 +1,15 @@
 #pragma once
 
+#include <sys/mman.h>
 #include <cstddef>
 #include <new>
-#include <sys/mman.h>
 #include <vector>
 
 namespace breccia {
 
-/// Allocator of 64-byte aligned storage: a block of eight doubles is one cache line. Large arrays are asked for in huge pages, as
-/// the sweep goes through ten of them at once and jumps to neighbours, more than the processor's table of small pages holds;
-/// smaller ones are not, since what a huge page does not use is lost.
+/// Allocator of 64-byte aligned storage: a block of eight doubles is one cache line. Large arrays are asked for in huge
+/// pages, as the sweep goes through ten of them at once and jumps to neighbours, more than the processor's table of
+/// small pages holds; smaller ones are not, since what a huge page does not use is lost.
 template <class T>
 struct CacheLineAllocator {
   using value_type = T;
@@ -34,7 +34,9 @@ struct CacheLineAllocator {
 
  private:
   static constexpr bool is_large(std::size_t bytes) { return bytes >= 8 * huge_page; }
-  static constexpr std::align_val_t alignment_of(std::size_t bytes) { return is_large(bytes) ? std::align_val_t{huge_page} : alignment; }
+  static constexpr std::align_val_t alignment_of(std::size_t bytes) {
+    return is_large(bytes) ? std::align_val_t{huge_page} : alignment;
+  }
 };
 
 /// Contiguous, cache-line aligned array: the storage of everything a kernel reads or writes.

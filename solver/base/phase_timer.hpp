@@ -7,11 +7,25 @@
 namespace breccia {
 
 /// Where the time of a run goes; the names appear in summary.json under "phases".
-enum class Phase { setup, joints, search, contact, sweep, loads, energy, communication, decomposition, output, insitu, count };
+enum class Phase {
+  setup,
+  joints,
+  search,
+  contact,
+  sweep,
+  loads,
+  energy,
+  communication,
+  decomposition,
+  output,
+  insitu,
+  count
+};
 
 [[nodiscard]] constexpr std::string_view name_of(Phase phase) {
   constexpr std::array<std::string_view, static_cast<std::size_t>(Phase::count)> names{
-      "setup", "joints", "search", "contact", "sweep", "loads", "energy", "communication", "decomposition", "output", "in situ"};
+      "setup",  "joints",        "search",        "contact", "sweep",  "loads",
+      "energy", "communication", "decomposition", "output",  "in situ"};
   return names[static_cast<std::size_t>(phase)];
 }
 

@@ -4,8 +4,8 @@
 
 namespace breccia {
 
-/// A scalar function of time: f(t) = constant + linear t + sum_k amplitude_k sin(2 pi frequency_k t + phase_k) + table(t).
-/// The table is piecewise linear, held constant before its first and after its last point. SI units.
+/// A scalar function of time: f(t) = constant + linear t + sum_k amplitude_k sin(2 pi frequency_k t + phase_k) +
+/// table(t). The table is piecewise linear, held constant before its first and after its last point. SI units.
 struct TimeFunction {
   struct Sine {
     double amplitude = 0;
@@ -14,7 +14,7 @@ struct TimeFunction {
     friend bool operator==(const Sine&, const Sine&) = default;
   };
   struct Point {
-    double time = 0;   ///< s, increasing
+    double time = 0;  ///< s, increasing
     double value = 0;
     friend bool operator==(const Point&, const Point&) = default;
   };

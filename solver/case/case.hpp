@@ -210,9 +210,9 @@ struct Domains {
   DomainKind kind = DomainKind::rcb;
   std::array<int, 3> n{0, 0, 0};  ///< grid: domains along x, y, z; 0: automatic
   Exchange exchange = Exchange::non_blocking;
-  bool rebalance = true;          ///< divide anew when ranks wait for each other
-  double margin = 1;              ///< of the proxies, in longest edges
-  double patience = 300;          ///< s, wall, that a rank waits for others before it says so; twice as long: the run ends
+  bool rebalance = true;  ///< divide anew when ranks wait for each other
+  double margin = 1;      ///< of the proxies, in longest edges
+  double patience = 300;  ///< s, wall, that a rank waits for others before it says so; twice as long: the run ends
   Origin origin;
   friend bool operator==(const Domains&, const Domains&) = default;
 };
@@ -230,13 +230,13 @@ struct Output {
 
 /// [[insitu.pipeline]]: done with the state while the run goes on, whenever a trigger says so.
 struct Pipeline {
-  std::string name;                ///< one of the adaptor's own, or a script: an absolute path
-  std::int64_t every_steps = 0;    ///< 0: not by steps, and so on
-  double every_time = 0;           ///< s, simulated; a pipeline without any trigger runs 50 times
-  double every_wall = 0;           ///< s
-  std::int64_t every_broken = 0;   ///< joints
+  std::string name;               ///< one of the adaptor's own, or a script: an absolute path
+  std::int64_t every_steps = 0;   ///< 0: not by steps, and so on
+  double every_time = 0;          ///< s, simulated; a pipeline without any trigger runs 50 times
+  double every_wall = 0;          ///< s
+  std::int64_t every_broken = 0;  ///< joints
   bool first_break = false;
-  bool strict = false;             ///< whatever it costs
+  bool strict = false;  ///< whatever it costs
   std::map<std::string, double> parameters;
   Origin origin;
   [[nodiscard]] bool has_trigger() const {
@@ -250,11 +250,11 @@ struct Pipeline {
 
 /// [insitu.live]
 struct Live {
-  std::string address;                ///< host:port at which ParaView listens
-  bool remote = false;                ///< the host may be another machine
-  double interval = 1;                ///< s, wall
+  std::string address;  ///< host:port at which ParaView listens
+  bool remote = false;  ///< the host may be another machine
+  double interval = 1;  ///< s, wall
   std::vector<std::string> channels;
-  double max_overhead = 0.05;         ///< of the wall time
+  double max_overhead = 0.05;  ///< of the wall time
   Origin origin;
   friend bool operator==(const Live&, const Live&) = default;
 };
@@ -263,9 +263,9 @@ enum class OnError { warn, stop };
 
 /// [insitu]
 struct InSitu {
-  std::vector<Pipeline> pipelines;    ///< those of insitu.run included
+  std::vector<Pipeline> pipelines;  ///< those of insitu.run included
   std::optional<Live> live;
-  double max_overhead = 0.02;         ///< of the wall time
+  double max_overhead = 0.02;  ///< of the wall time
   OnError on_error = OnError::warn;
   Origin origin;
   [[nodiscard]] bool asked_for() const { return !pipelines.empty() || live; }

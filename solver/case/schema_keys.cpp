@@ -262,37 +262,42 @@ constexpr auto table = std::to_array<Key>({
      .help = "Distance by which boxes are enlarged, so that a search lasts several steps. auto: a share of the element "
              "size.", .example = "\"0.5 mm\""},
     {.path = "detection.cell", .type = number, .unit = "m", .fallback = "auto", .range = positive, .word = "auto",
-     .help = "Edge of a cell of ms, ms_slices and sorted_grid; the others have none. auto: from buffer and element size.", .example = "\"5 mm\""},
+     .help = "Edge of a cell of ms, ms_slices and sorted_grid; the others have none. auto: from buffer and element "
+             "size.", .example = "\"5 mm\""},
     {.path = "detection.verify", .type = boolean, .fallback = "false",
      .help = "Compare every step with all against all; slow.", .example = "true"},
 
     {.path = "domains", .type = section,
      .help = "How a run on several ranks (mpiexec -n N) divides the model. It changes the speed, never the results."},
     {.path = "domains.kind", .type = choice, .fallback = "rcb", .choices = "rcb|grid",
-     .help = "rcb: bisected again and again so that all ranks have the same work; grid: equal cuboids. A small fragment goes to "
-             "one domain, whole.",
+     .help = "rcb: bisected again and again so that all ranks have the same work; grid: equal cuboids. A small "
+             "fragment goes to one domain, whole.",
      .example = "\"grid\""},
     {.path = "domains.n", .type = integers_or_one, .fallback = "[0, 0, 0]", .range = at_most_100000,
      .help = "Cuboids of the grid along x, y and z, as many as ranks; 0: chosen so that the least area is cut.",
      .example = "[2, 2, 1]"},
     {.path = "domains.exchange", .type = choice, .fallback = "non_blocking", .choices = "non_blocking|pairwise",
-     .help = "non_blocking: a rank sends to all its neighbours at once; pairwise: couple by couple, by a schedule in which "
-             "nobody waits for a third.", .example = "\"pairwise\""},
+     .help = "non_blocking: a rank sends to all its neighbours at once; pairwise: couple by couple, by a schedule in "
+             "which nobody waits for a third.", .example = "\"pairwise\""},
     {.path = "domains.rebalance", .type = boolean, .fallback = "true",
-     .help = "Divide anew when that pays: when ranks have waited for each other for as long as it takes.", .example = "false"},
+     .help = "Divide anew when that pays: when ranks have waited for each other for as long as it takes.",
+     .example = "false"},
     {.path = "domains.margin", .type = number, .fallback = "1", .range = {.lower = 0.1, .upper = 100},
-     .help = "How far beyond a domain a rank knows its neighbours' elements at least, in longest edges of an element. Larger: "
-             "fewer new divisions while bodies move, but more to search. For fast bodies it is widened up to fivefold by itself.",
+     .help = "How far beyond a domain a rank knows its neighbours' elements at least, in longest edges of an element. "
+             "Larger: fewer new divisions while bodies move, but more to search. For fast bodies it is widened up to "
+             "fivefold by itself.",
      .example = "2"},
     {.path = "domains.patience", .type = number, .unit = "s", .fallback = "300", .range = positive,
-     .help = "Wall time that a rank waits for others before it says for whom, and where; after twice as long the run ends.",
+     .help = "Wall time that a rank waits for others before it says for whom, and where; after twice as long the "
+             "run ends.",
      .example = "\"20 min\""},
 
     {.path = "output", .type = section, .help = "What a run writes, and how often."},
     {.path = "output.frame_interval", .type = number, .unit = "s", .fallback = "0", .range = not_negative,
      .help = "Simulated time between frames for ParaView; 0: the last state only.", .example = "\"1 us\""},
     {.path = "output.history_interval", .type = number, .unit = "s", .fallback = "auto", .range = positive,
-     .word = "auto", .help = "Simulated time between lines of the history. auto: 500 lines a run, but no more than one in 20 steps.",
+     .word = "auto",
+     .help = "Simulated time between lines of the history. auto: 500 lines a run, but no more than one in 20 steps.",
      .example = "\"100 ns\""},
     {.path = "output.elements", .type = boolean, .fallback = "true", .help = "Elements in frames.", .example = "false"},
     {.path = "output.joints", .type = boolean, .fallback = "true", .help = "Joints in frames.", .example = "false"},
@@ -302,23 +307,29 @@ constexpr auto table = std::to_array<Key>({
      .help = "Groups whose forces, displacement and velocity are recorded in the history.", .example = "[\"support\"]"},
 
     {.path = "insitu", .type = section,
-     .help = "Pictures, extracts and live views that are made while the run goes on, by ParaView Catalyst (catalyst/README.md)."},
+     .help = "Pictures, extracts and live views that are made while the run goes on, by ParaView Catalyst "
+             "(catalyst/README.md)."},
     {.path = "insitu.run", .type = text_list, .fallback = "[]",
-     .help = "Pipelines that run 50 times over the simulated time: names as in insitu.pipeline.name, or scripts. Those with "
-             "triggers or parameters of their own are [[insitu.pipeline]].", .example = "[\"fractures\", \"stress\"]"},
-    {.path = "insitu.max_overhead", .type = number, .fallback = "0.02", .range = {.lower = 0, .upper = 1, .lower_open = true},
-     .help = "Share of the wall time that pipelines may take; triggers beyond it are passed over, those of strict pipelines excepted.",
+     .help = "Pipelines that run 50 times over the simulated time: names as in insitu.pipeline.name, or scripts. "
+             "Those with triggers or parameters of their own are [[insitu.pipeline]].",
+     .example = "[\"fractures\", \"stress\"]"},
+    {.path = "insitu.max_overhead", .type = number, .fallback = "0.02", .range = {.lower = 0, .upper = 1,
+     .lower_open = true},
+     .help = "Share of the wall time that pipelines may take; triggers beyond it are passed over, those of strict "
+             "pipelines excepted.",
      .example = "0.1"},
     {.path = "insitu.on_error", .type = choice, .fallback = "warn", .choices = "warn|stop",
      .help = "What a pipeline's failure means: warn and switch it off after three failures, or end the run.",
      .example = "\"stop\""},
 
     {.path = "insitu.live", .type = section,
-     .help = "A running ParaView sees the run: Catalyst > Connect there, before or during the run. `breccia run --live` adds this section."},
+     .help = "A running ParaView sees the run: Catalyst > Connect there, before or during the run. `breccia run "
+             "--live` adds this section."},
     {.path = "insitu.live.address", .type = text, .fallback = "\"localhost:22222\"",
      .help = "Where ParaView listens, host:port.", .example = "\"localhost:22333\""},
     {.path = "insitu.live.remote", .type = boolean, .fallback = "false",
-     .help = "Allows an address on another machine; what is sent there is neither encrypted nor checked.", .example = "true"},
+     .help = "Allows an address on another machine; what is sent there is neither encrypted nor checked.",
+     .example = "true"},
     {.path = "insitu.live.interval", .type = number, .unit = "s", .fallback = "1", .range = not_negative,
      .help = "Wall time between two updates, at least.", .example = "\"0.2 s\""},
     {.path = "insitu.live.channels", .type = text_list,
@@ -327,15 +338,17 @@ constexpr auto table = std::to_array<Key>({
      .help = "What ParaView is offered.", .example = "[\"surface\", \"fractures\"]"},
     {.path = "insitu.live.max_overhead", .type = number, .fallback = "0.05",
      .range = {.lower = 0, .upper = 1, .lower_open = true},
-     .help = "Share of the wall time that updates may take; they come more seldom when they would take more.", .example = "0.5"},
+     .help = "Share of the wall time that updates may take; they come more seldom when they would take more.",
+     .example = "0.5"},
 
     {.path = "insitu.pipeline[]", .type = section_list,
-     .help = "Something to be done with the state while the run goes on. It is done whenever one of its triggers says so; without "
-             "any, 50 times over the simulated time."},
+     .help = "Something to be done with the state while the run goes on. It is done whenever one of its triggers says "
+             "so; without any, 50 times over the simulated time."},
     {.path = "insitu.pipeline[].name", .type = text, .required = true,
      .choices = "volume|joints|fractures|contacts|surface|domains|history|fracture_growth|stress|ranks|contact_forces",
-     .help = "volume, joints, fractures, contacts, surface, domains and history record data; fracture_growth, stress, ranks and "
-             "contact_forces draw pictures; a name that ends with .py is a script exported from ParaView, relative to the case file.",
+     .help = "volume, joints, fractures, contacts, surface, domains and history record data; fracture_growth, stress, "
+             "ranks and contact_forces draw pictures; a name that ends with .py is a script exported from ParaView, "
+             "relative to the case file.",
      .example = "\"fractures\""},
     {.path = "insitu.pipeline[].every_steps", .type = integer, .fallback = "0", .range = steps,
      .help = "Trigger: every so many steps; 0: not by steps.", .example = "100"},
@@ -345,12 +358,14 @@ constexpr auto table = std::to_array<Key>({
      .help = "Trigger: wall time; 0: not by it.", .example = "\"30 s\""},
     {.path = "insitu.pipeline[].every_broken", .type = integer, .fallback = "0", .range = steps,
      .help = "Trigger: so many more joints broken; 0: not by them.", .example = "50"},
-    {.path = "insitu.pipeline[].first_break", .type = boolean, .fallback = "false", .help = "Trigger: the first joint breaks.",
+    {.path = "insitu.pipeline[].first_break", .type = boolean, .fallback = "false",
+     .help = "Trigger: the first joint breaks.",
      .example = "true"},
     {.path = "insitu.pipeline[].strict", .type = boolean, .fallback = "false",
      .help = "Every trigger counts, whatever it costs.", .example = "true"},
     {.path = "insitu.pipeline[].parameters", .type = parameters, .fallback = "{}",
-     .help = "Numbers handed to the pipeline, in SI or with a unit: width, height, azimuth, elevation, zoom, lower, upper for pictures; any for scripts.",
+     .help = "Numbers handed to the pipeline, in SI or with a unit: width, height, azimuth, elevation, zoom, lower, "
+             "upper for pictures; any for scripts.",
      .example = "{ width = 1280, azimuth = 30 }"},
 
     {.path = "<function>", .type = notation,

@@ -1,7 +1,7 @@
 #include "commands/commands.hpp"
 
-#include <array>
 #include <fmt/core.h>
+#include <array>
 
 #include "case/reader.hpp"
 #include "commands/check_report.hpp"

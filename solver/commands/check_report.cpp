@@ -1,24 +1,24 @@
 #include "commands/check_report.hpp"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <fmt/core.h>
 #include <numbers>
 #include <numeric>
 
 #include "mesh/geometry.hpp"
 #include "mesh/quality.hpp"
+#include "model/parameters.hpp"
+#include "model/time_step.hpp"
 #include "output/quantity_text.hpp"
 #include "output/summary.hpp"
 #include "parallel/domain_report.hpp"
 #include "parallel/whole_fragments.hpp"
-#include "model/parameters.hpp"
 #include "simulation/decomposition.hpp"
-#include "simulation/stepper.hpp"
-#include "model/time_step.hpp"
 #include "simulation/search_params.hpp"
+#include "simulation/stepper.hpp"
 
 namespace breccia {
 namespace {
@@ -62,20 +62,25 @@ std::string law_report(const Model& model, Index l, std::string& advice) {
   const double h = model.joint_sizes[index(l)], modulus = young(params_of_law(model, l));
   const double softness = modulus * area_per_volume(model, l) / (3 * law.stiffness);
   const std::string& name = model.joint_law_names[index(l)];
-  std::string text = fmt::format("joints of {}: k = p/h = {:.4g} Pa/m with h = {:.4g} m; they make the body {:.2g} % softer\n", name,
-                                 law.stiffness, h, 100 * softness);
+  std::string text =
+      fmt::format("joints of {}: k = p/h = {:.4g} Pa/m with h = {:.4g} m; they make the body {:.2g} % softer\n", name,
+                  law.stiffness, h, 100 * softness);
   if (softness > kSoftness) {
-    advice += fmt::format("- The joints of {} make it {:.1f} % softer. For 5 % raise joint.penalty by a factor of {:.2g}; the time step falls with its root.\n",
-                          name, 100 * softness, softness / kSoftness);
+    advice += fmt::format(
+        "- The joints of {} make it {:.1f} % softer. For 5 % raise joint.penalty by a factor of {:.2g}; the time step "
+        "falls with its root.\n",
+        name, 100 * softness, softness / kSoftness);
   }
   if (!law.breakable()) return text;
   const double zone = std::min(modulus * law.width_normal / (4 * law.tensile_strength),
                                std::numbers::pi * modulus * law.width_normal / (32 * law.tensile_strength));
   text += fmt::format("  fracture process zone at least {:.4g} m; mean joint edge {:.4g} m\n", zone, h);
   if (h > zone) {
-    advice += fmt::format("- The elements of {} (edge {:.3g} m) are larger than its fracture process zone (h_max = {:.3g} m): the load at fracture "
-                          "and the crack paths depend on the mesh. Refine by {:.2g}, or take the results as qualitative.\n",
-                          name, h, zone, h / zone);
+    advice += fmt::format(
+        "- The elements of {} (edge {:.3g} m) are larger than its fracture process zone (h_max = {:.3g} m): the load "
+        "at fracture "
+        "and the crack paths depend on the mesh. Refine by {:.2g}, or take the results as qualitative.\n",
+        name, h, zone, h / zone);
   }
   return text;
 }
@@ -97,9 +102,11 @@ std::string quality_advice(const QualityReport& quality) {
   const auto slivers = std::count_if(quality.worst.begin(), quality.worst.end(),
                                      [](const QualityReport::Worst& w) { return w.quality.radius_ratio < kSliver; });
   if (slivers == 0) return {};
-  return fmt::format("- {}{} elements are slivers (radius ratio below {}), the worst is element {}: they set the time step. Optimise the mesh "
-                     "(Mesh.Optimize, Mesh.OptimizeThreshold) or merge them.\n",
-                     slivers == 20 ? "At least " : "", slivers, kSliver, quality.worst.front().element);
+  return fmt::format(
+      "- {}{} elements are slivers (radius ratio below {}), the worst is element {}: they set the time step. Optimise "
+      "the mesh "
+      "(Mesh.Optimize, Mesh.OptimizeThreshold) or merge them.\n",
+      slivers == 20 ? "At least " : "", slivers, kSliver, quality.worst.front().element);
 }
 
 struct Division {
@@ -111,7 +118,8 @@ struct Division {
 double mean_size(const Mesh& mesh) {
   double volume = 0;
   for (const auto& c : mesh.elements) {
-    volume += geometry::tetra_volume(mesh.nodes[index(c[0])], mesh.nodes[index(c[1])], mesh.nodes[index(c[2])], mesh.nodes[index(c[3])]);
+    volume += geometry::tetra_volume(mesh.nodes[index(c[0])], mesh.nodes[index(c[1])], mesh.nodes[index(c[2])],
+                                     mesh.nodes[index(c[3])]);
   }
   return std::cbrt(6 * std::sqrt(2.0) * volume / static_cast<double>(mesh.elements.size()));
 }
@@ -149,12 +157,12 @@ constexpr std::size_t kSlowest = 3;
 
 /// Columns of the table of domains.
 constexpr std::array<const char*, 8> kColumns{"elements", "joints",   "shared",   "cut faces",
-                                                "proxies",  "gathered", "messages", "kB a step"};
+                                              "proxies",  "gathered", "messages", "kB a step"};
 
 std::array<double, 8> columns(const DomainLoad& load) {
   const auto number = [](auto n) { return static_cast<double>(n); };
-  return {number(load.elements), number(load.joints), number(load.shared), number(load.cut_faces),
-          number(load.held), number(load.gathered), number(load.neighbours), 1e-3 * number(load.bytes())};
+  return {number(load.elements), number(load.joints),   number(load.shared),     number(load.cut_faces),
+          number(load.held),     number(load.gathered), number(load.neighbours), 1e-3 * number(load.bytes())};
 }
 
 std::string table_line(const std::string& name, const std::array<double, 8>& values) {
@@ -180,7 +188,8 @@ std::string extremes(const std::vector<DomainLoad>& domains) {
 std::string verdict(const Division& division) {
   const DomainReport& report = division.report;
   return fmt::format("{} domains, {}: imbalance {:.3f}, pairwise exchanges in {} steps, predicted efficiency {:.1f} %",
-                     report.domains.size(), division.how, report.imbalance, report.exchange_steps, 100 * report.efficiency);
+                     report.domains.size(), division.how, report.imbalance, report.exchange_steps,
+                     100 * report.efficiency);
 }
 
 }  // namespace
@@ -192,8 +201,8 @@ std::string domain_line(const case_::Case& input, const Model& model, int parts)
 std::string domain_table(const case_::Case& input, const Model& model, int parts) {
   const Division division = divide(input, model, parts);
   const std::vector<DomainLoad>& domains = division.report.domains;
-  std::string text = fmt::format("{}\n{} elements, {}\n  {:<10}", input.title, model.mesh.num_elements(), verdict(division),
-                                 "domain");
+  std::string text =
+      fmt::format("{}\n{} elements, {}\n  {:<10}", input.title, model.mesh.num_elements(), verdict(division), "domain");
   for (const char* column : kColumns) text += fmt::format(" {:>11}", column);
   text += "\n";
   std::vector<std::size_t> shown(domains.size());
@@ -206,21 +215,28 @@ std::string domain_table(const case_::Case& input, const Model& model, int parts
     shown.resize(kSlowest);
   }
   for (const std::size_t d : shown) text += table_line(std::to_string(d), columns(domains[d]));
-  const auto empty = std::count_if(domains.begin(), domains.end(), [](const DomainLoad& load) { return load.elements == 0; });
+  const auto empty =
+      std::count_if(domains.begin(), domains.end(), [](const DomainLoad& load) { return load.elements == 0; });
   if (empty > 0) {
-    text += fmt::format("- {} domains hold no element and their ranks have nothing to do: use domains.kind = \"rcb\".\n", empty);
+    text += fmt::format(
+        "- {} domains hold no element and their ranks have nothing to do: use domains.kind = \"rcb\".\n", empty);
   }
   if (model.has_contact) {
-    text += "- Contact is not counted: a rank also gathers and searches what comes near to its elements, which depends on how bodies move.\n";
+    text +=
+        "- Contact is not counted: a rank also gathers and searches what comes near to its elements, which depends on "
+        "how bodies move.\n";
   }
   return text;
 }
 
 std::string mesh_report(const FinishedMesh& made) {
   const MeshReport& r = made.report;
-  std::string text = fmt::format("{}: {} elements, {} nodes, {} bodies\n", made.mesh.source, r.elements, r.nodes, r.bodies);
-  for (const MeshReport::Group& g : r.volume_groups) text += fmt::format("  volume  {:<20} {:>9} elements\n", g.name, g.count);
-  for (const MeshReport::Group& g : r.surface_groups) text += fmt::format("  surface {:<20} {:>9} triangles\n", g.name, g.count);
+  std::string text =
+      fmt::format("{}: {} elements, {} nodes, {} bodies\n", made.mesh.source, r.elements, r.nodes, r.bodies);
+  for (const MeshReport::Group& g : r.volume_groups)
+    text += fmt::format("  volume  {:<20} {:>9} elements\n", g.name, g.count);
+  for (const MeshReport::Group& g : r.surface_groups)
+    text += fmt::format("  surface {:<20} {:>9} triangles\n", g.name, g.count);
   const auto note = [&](Index count, const char* what) {
     if (count > 0) text += fmt::format("  {} {}\n", count, what);
   };
@@ -230,12 +246,16 @@ std::string mesh_report(const FinishedMesh& made) {
   note(r.duplicate_nodes, "nodes coincide with others: bodies there are not joined");
   note(r.ungrouped_elements, "tetrahedra outside every physical volume left out");
   const QualityReport q = assess_quality(made.mesh);
-  text += fmt::format("  edge          median {:.4g} m, from {:.4g} to {:.4g} m\n", q.mean_edge.median, q.mean_edge.min, q.mean_edge.max);
-  text += fmt::format("  radius ratio  median {:.3f}, 1 % below {:.3f}, worst {:.3f} (1 is regular)\n", q.radius_ratio.median, q.radius_ratio.p01, q.radius_ratio.min);
-  text += fmt::format("  dihedral      {:.1f} to {:.1f} degrees\n", q.min_dihedral.min * 180 / std::numbers::pi, q.max_dihedral.max * 180 / std::numbers::pi);
+  text += fmt::format("  edge          median {:.4g} m, from {:.4g} to {:.4g} m\n", q.mean_edge.median, q.mean_edge.min,
+                      q.mean_edge.max);
+  text += fmt::format("  radius ratio  median {:.3f}, 1 % below {:.3f}, worst {:.3f} (1 is regular)\n",
+                      q.radius_ratio.median, q.radius_ratio.p01, q.radius_ratio.min);
+  text += fmt::format("  dihedral      {:.1f} to {:.1f} degrees\n", q.min_dihedral.min * 180 / std::numbers::pi,
+                      q.max_dihedral.max * 180 / std::numbers::pi);
   text += "  worst elements (id in the source, radius ratio):";
   for (std::size_t i = 0; i < std::min<std::size_t>(5, q.worst.size()); ++i) {
-    text += fmt::format(" {} {:.3f}{}", made.mesh.element_source_id[index(q.worst[i].element)], q.worst[i].quality.radius_ratio, i < 4 ? "," : "");
+    text += fmt::format(" {} {:.3f}{}", made.mesh.element_source_id[index(q.worst[i].element)],
+                        q.worst[i].quality.radius_ratio, i < 4 ? "," : "");
   }
   return text + "\n";
 }
@@ -249,19 +269,26 @@ std::string check_report(const case_::Case& input, const Model& model) {
   const StableStep stable = time_step.at(model.local.reference);
   const double limit = time_step.limit(model.local.reference);
   const double dt = input.time.step > 0 ? input.time.step : input.time.safety * limit;
-  text += fmt::format("stable time step {}, limited by {}; elements alone {}, with joints {}\n", quantity_text(limit, "s"), limit_text(stable),
-                      quantity_text(stable.element_step, "s"), quantity_text(stable.joint_step, "s"));
-  text += fmt::format("  elements' own steps: smallest {}, 1 % {}, median {}\n", quantity_text(stable.quantiles[0], "s"),
-                      quantity_text(stable.quantiles[1], "s"), quantity_text(stable.quantiles[3], "s"));
-  if (dt > limit) advice += fmt::format("- time.step = {:.3g} s is longer than the stable step {:.3g} s: the run will blow up. Leave it to \"auto\".\n", dt, limit);
+  text +=
+      fmt::format("stable time step {}, limited by {}; elements alone {}, with joints {}\n", quantity_text(limit, "s"),
+                  limit_text(stable), quantity_text(stable.element_step, "s"), quantity_text(stable.joint_step, "s"));
+  text +=
+      fmt::format("  elements' own steps: smallest {}, 1 % {}, median {}\n", quantity_text(stable.quantiles[0], "s"),
+                  quantity_text(stable.quantiles[1], "s"), quantity_text(stable.quantiles[3], "s"));
+  if (dt > limit)
+    advice += fmt::format(
+        "- time.step = {:.3g} s is longer than the stable step {:.3g} s: the run will blow up. Leave it to \"auto\".\n",
+        dt, limit);
   if (stable.quantiles[0] < 0.3 * stable.quantiles[1]) {
-    advice += fmt::format("- The worst element allows {:.1f} times less than the worst per cent: one bad element slows the whole run.\n",
-                          stable.quantiles[1] / stable.quantiles[0]);
+    advice += fmt::format(
+        "- The worst element allows {:.1f} times less than the worst per cent: one bad element slows the whole run.\n",
+        stable.quantiles[1] / stable.quantiles[0]);
   }
   const double steps = std::ceil(input.stages.back().end / dt);
   const double seconds = seconds_a_step(input, model, 1e-3 * dt) * steps;
-  text += fmt::format("{:.0f} steps of {} to {}; about {} on this machine while little breaks, memory {:.0f} MB\n", steps, quantity_text(dt, "s"),
-                      quantity_text(input.stages.back().end, "s"), quantity_text(seconds, "s"), static_cast<double>(max_resident_bytes()) / 1e6);
+  text += fmt::format("{:.0f} steps of {} to {}; about {} on this machine while little breaks, memory {:.0f} MB\n",
+                      steps, quantity_text(dt, "s"), quantity_text(input.stages.back().end, "s"),
+                      quantity_text(seconds, "s"), static_cast<double>(max_resident_bytes()) / 1e6);
   advice += quality_advice(assess_quality(model.mesh));
   return text + (advice.empty() ? "nothing to advise\n" : "advice\n" + advice);
 }

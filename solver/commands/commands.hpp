@@ -4,17 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "commands/race.hpp"
 #include "output/status_sink.hpp"
 #include "parallel/communicator.hpp"
-#include "commands/race.hpp"
 
 /// The sub-commands of the program; main.cpp reads their arguments. Each returns the exit code of success or throws.
 namespace breccia {
 
 struct RunCommand {
   std::filesystem::path case_file;
-  std::filesystem::path folder;         ///< empty: runs/<folder of the case>
-  std::vector<std::string> overrides;   ///< key=value
+  std::filesystem::path folder;        ///< empty: runs/<folder of the case>
+  std::vector<std::string> overrides;  ///< key=value
   bool overwrite = false;
   ProgressMode progress = ProgressMode::log;
   std::vector<std::string> command_line;
@@ -23,9 +23,9 @@ struct RunCommand {
 int run_command(const RunCommand& asked, const Communicator& world);
 
 struct ControlCommand {
-  std::filesystem::path folder;         ///< of the run
+  std::filesystem::path folder;  ///< of the run
   std::string command;
-  double patience = 60;                 ///< s
+  double patience = 60;  ///< s
 };
 int control_command(const ControlCommand& asked);
 
@@ -37,9 +37,9 @@ struct LiveCommand {
 int live_command(const LiveCommand& asked);
 
 struct ReplayCommand {
-  std::filesystem::path run;            ///< folder of a run with recorded extracts
-  std::vector<std::string> pipelines;   ///< names, or scripts
-  std::filesystem::path folder;         ///< of what they write; empty: replay in the folder of the run
+  std::filesystem::path run;           ///< folder of a run with recorded extracts
+  std::vector<std::string> pipelines;  ///< names, or scripts
+  std::filesystem::path folder;        ///< of what they write; empty: replay in the folder of the run
 };
 /// Collective over the world.
 int replay_command(const ReplayCommand& asked, const Communicator& world);
@@ -49,7 +49,7 @@ int insitu_info_command();
 
 struct RaceCommand {
   std::filesystem::path case_file;
-  std::filesystem::path folder;         ///< of race.csv; empty: nothing is written
+  std::filesystem::path folder;  ///< of race.csv; empty: nothing is written
   std::vector<std::string> overrides;
   RaceSettings settings;
   ProgressMode progress = ProgressMode::log;
@@ -60,7 +60,7 @@ int race_command(const RaceCommand& asked, const Communicator& world);
 struct CheckCommand {
   std::filesystem::path case_file;
   std::vector<std::string> overrides;
-  int ranks = 0;                        ///< > 0: only how the model is divided among so many
+  int ranks = 0;  ///< > 0: only how the model is divided among so many
 };
 /// @param launched  ranks that the launcher has started
 int check_command(const CheckCommand& asked, int launched);
@@ -68,7 +68,7 @@ int check_command(const CheckCommand& asked, int launched);
 struct MeshCommand {
   std::filesystem::path case_file;
   std::vector<std::string> overrides;
-  std::filesystem::path folder;         ///< empty: report only
+  std::filesystem::path folder;  ///< empty: report only
 };
 int mesh_command(const MeshCommand& asked);
 

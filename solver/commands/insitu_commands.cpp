@@ -1,8 +1,8 @@
 #include <unistd.h>
 
+#include <fmt/core.h>
 #include <array>
 #include <cerrno>
-#include <fmt/core.h>
 #include <optional>
 
 #include "case/live_address.hpp"
@@ -18,7 +18,8 @@ namespace breccia {
 
 int control_command(const ControlCommand& asked) {
   const Command command = parse_command(asked.command);
-  if (command.kind == Command::Kind::refused) throw InputError(Problem{"", 0, asked.command, command.complaint, "", ""});
+  if (command.kind == Command::Kind::refused)
+    throw InputError(Problem{"", 0, asked.command, command.complaint, "", ""});
   fmt::print("{}: done\n", ask_run(asked.folder, command.text, asked.patience));
   return 0;
 }
@@ -35,7 +36,8 @@ int live_command(const LiveCommand& asked) {
 }
 
 int replay_command(const ReplayCommand& asked, const Communicator& world) {
-  const std::filesystem::path folder = std::filesystem::absolute(asked.folder.empty() ? asked.run / "replay" : asked.folder);
+  const std::filesystem::path folder =
+      std::filesystem::absolute(asked.folder.empty() ? asked.run / "replay" : asked.folder);
   case_::InSitu insitu;
   for (const std::string& name : asked.pipelines) {
     insitu.pipelines.emplace_back().name = case_::is_script(name) ? std::filesystem::absolute(name).string() : name;
@@ -58,7 +60,8 @@ int replay_command(const ReplayCommand& asked, const Communicator& world) {
   };
   checked([&](char* words, std::size_t size) { return plugin->api().preflight(&config.get(), words, size); });
   const std::string records = std::filesystem::absolute(RunFolder{asked.run}.extracts()).string();
-  checked([&](char* words, std::size_t size) { return plugin->api().replay(&config.get(), records.c_str(), words, size); });
+  checked(
+      [&](char* words, std::size_t size) { return plugin->api().replay(&config.get(), records.c_str(), words, size); });
   if (world.is_root()) fmt::print("results in {}\n", folder.string());
   return 0;
 }

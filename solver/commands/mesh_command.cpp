@@ -23,7 +23,8 @@ int mesh_command(const MeshCommand& asked) {
   std::filesystem::create_directories(asked.folder);
   const Stepper rest(model, search_params(input, model));
   const FrameParts elements{true, false, false};
-  VtkhdfSink(asked.folder, elements).frame(make_frame(rest, 0, elements, {find_fragments(rest), Balance().weights(rest)}));
+  VtkhdfSink(asked.folder, elements)
+      .frame(make_frame(rest, 0, elements, {find_fragments(rest), Balance().weights(rest)}));
   fmt::print("elements for ParaView in {}\n", asked.folder.string());
   return 0;
 }

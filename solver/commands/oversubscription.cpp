@@ -2,8 +2,8 @@
 
 #include <unistd.h>
 
-#include <cstdint>
 #include <fmt/core.h>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <thread>
@@ -16,10 +16,12 @@ void warn_of_oversubscription(const Communicator& world) {
   gethostname(name, sizeof name - 1);
   const std::string host = name;
   std::int64_t here = 0;
-  for (const std::vector<char>& other : world.all_gather(std::span<const char>(host))) here += std::string(other.begin(), other.end()) == host;
+  for (const std::vector<char>& other : world.all_gather(std::span<const char>(host)))
+    here += std::string(other.begin(), other.end()) == host;
   const auto cores = static_cast<std::int64_t>(std::thread::hardware_concurrency());
   if (!world.is_root() || world.size() == 1 || here <= cores) return;
-  fmt::print(stderr, "breccia: warning: {} ranks share the {} cores of {}; more ranks than cores make a run slower\n", here, cores, host);
+  fmt::print(stderr, "breccia: warning: {} ranks share the {} cores of {}; more ranks than cores make a run slower\n",
+             here, cores, host);
 }
 
 }  // namespace breccia

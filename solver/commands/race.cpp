@@ -1,15 +1,15 @@
 #include "commands/race.hpp"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <chrono>
-#include <fmt/core.h>
 #include <set>
 
 #include "base/error.hpp"
 #include "case/schema.hpp"
-#include "output/quantity_text.hpp"
 #include "commands/stage_driver.hpp"
 #include "commands/timing_segments.hpp"
+#include "output/quantity_text.hpp"
 #include "simulation/observe.hpp"
 #include "simulation/run.hpp"
 
@@ -78,7 +78,8 @@ class Race {
       driver.step(stop_requested);
       if (partition.stepper().signals().stop) return false;
       if (progress_.due())
-        progress_.tell({"on the way to the start", partition.stepper().time() / settings_.from, seconds_since(started)});
+        progress_.tell(
+            {"on the way to the start", partition.stepper().time() / settings_.from, seconds_since(started)});
     }
     if (driver.over()) throw starts_too_late();
     choose_algorithms(communicator_.max(pairs_of(partition)));
@@ -154,7 +155,8 @@ class Race {
       if (settings_.steps > 0) return steps >= settings_.steps;
       if (settings_.time > 0)
         return partition.stepper().time() >= result_.start + settings_.time - 0.5 * partition.stepper().dt();
-      if (steps >= kFewestSteps && partition.stepper().searches() - start_.accumulators.searches > kSearches) return true;
+      if (steps >= kFewestSteps && partition.stepper().searches() - start_.accumulators.searches > kSearches)
+        return true;
       return steps % kStepsBetweenLooks == 0 && communicator_.max(seconds_since(started_)) > most;
     };
     started_ = Clock::now();
@@ -176,7 +178,9 @@ class Race {
     while (result_.rounds < kRounds) {
       for (std::size_t i = 0; i < entries_.size(); ++i) {
         const std::size_t turn = result_.rounds % 2 == 0 ? i : entries_.size() - 1 - i;
-        const auto take = [&](const Partition& partition, const TimingSegments& pieces) { finish_lap(turn, partition, pieces); };
+        const auto take = [&](const Partition& partition, const TimingSegments& pieces) {
+          finish_lap(turn, partition, pieces);
+        };
         if (!run_lap(entries_[turn].racer, enough, take)) return false;
       }
       ++result_.rounds;
@@ -250,7 +254,7 @@ class Race {
   std::vector<case_::DetectionAlgorithm> algorithms_;
   std::vector<RaceEntry> entries_;
   std::vector<TimingSegments> least_;  ///< (entries) of all laps
-  std::int64_t piece_ = 1;        ///< steps
+  std::int64_t piece_ = 1;             ///< steps
   std::size_t laps_ = 0;
   Clock::time_point started_;  ///< the warm-up, then the race
   std::string first_;          ///< who has set the state in which all must end

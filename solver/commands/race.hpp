@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "case/case.hpp"
+#include "model/model.hpp"
 #include "output/race_progress.hpp"
 #include "parallel/communicator.hpp"
-#include "model/model.hpp"
 
 namespace breccia {
 
@@ -33,8 +33,9 @@ struct Racer {
   [[nodiscard]] std::string name() const { return algorithm_text() + ", buffer " + buffer_text(); }
 };
 
-/// A lap of a racer: times of the slowest rank, s. A lap is timed in up to a thousand pieces, each as fast as in the fastest of
-/// its laps; on one rank what is neither search nor contact is the same for all, as fast as in anybody's fastest lap.
+/// A lap of a racer: times of the slowest rank, s. A lap is timed in up to a thousand pieces, each as fast as in the
+/// fastest of its laps; on one rank what is neither search nor contact is the same for all, as fast as in anybody's
+/// fastest lap.
 struct Lap {
   double wall = 0, contact = 0;
   double search = 0;          ///< with what fracture makes touch between searches
@@ -65,19 +66,19 @@ struct RaceResult {
 
 /// Runs the case from the same state to the same step with every algorithm and buffer, and compares what that costs.
 ///
-/// The case is run once to the start, and its state kept. A lap rebuilds the model from that state and steps it, without
-/// output, budgets and detection.verify; ranks share the work as they did at the start. The first lap, the case's own, warms
-/// the machine, tells how large an automatic buffer is, and counts for nothing; then all race in turn, three times, to and
-/// fro, so that nobody is always first.
-/// Unless the settings give its length a lap lasts for ten searches of the case's own setting and at least fifty steps, or for
-/// as long as all laps fit into a minute; where rebuilding takes so long that they do not, there are fewer rounds than three.
-/// No lap goes beyond the end of the case; time.max_steps binds runs only.
+/// The case is run once to the start, and its state kept. A lap rebuilds the model from that state and steps it,
+/// without output, budgets and detection.verify; ranks share the work as they did at the start. The first lap, the
+/// case's own, warms the machine, tells how large an automatic buffer is, and counts for nothing; then all race in
+/// turn, three times, to and fro, so that nobody is always first. Unless the settings give its length a lap lasts for
+/// ten searches of the case's own setting and at least fifty steps, or for as long as all laps fit into a minute; where
+/// rebuilding takes so long that they do not, there are fewer rounds than three. No lap goes beyond the end of the
+/// case; time.max_steps binds runs only.
 ///
 /// Collective. @param whole  the model built from the case, on the root; null elsewhere
 /// @param progress           of this rank
 /// Memory: the model and a second copy of its state. Ends after the present step when `stop_requested` (run.hpp).
-/// Throws InputError if the race would start after the end of the case or nothing can touch; SimulationError as a run; and
-/// InternalError that names both racers if two laps end in different states.
+/// Throws InputError if the race would start after the end of the case or nothing can touch; SimulationError as a run;
+/// and InternalError that names both racers if two laps end in different states.
 [[nodiscard]] RaceResult race_case(const case_::Case& input, const RaceSettings& settings, std::unique_ptr<Model> whole,
                                    RaceProgress& progress, const Communicator& communicator);
 

@@ -2,8 +2,8 @@
 
 #include <unistd.h>
 
-#include <cerrno>
 #include <fmt/core.h>
+#include <cerrno>
 #include <iostream>
 
 #include "case/reader.hpp"
@@ -26,10 +26,12 @@ int race_command(const RaceCommand& asked, const Communicator& world) {
     std::error_code error;
     std::filesystem::create_directories(asked.folder, error);
     if (error) throw output_error(asked.folder, "the folder cannot be made", error.value());
-    if (access(asked.folder.c_str(), W_OK) != 0) throw output_error(asked.folder, "nothing can be written into the folder", errno);
+    if (access(asked.folder.c_str(), W_OK) != 0)
+      throw output_error(asked.folder, "nothing can be written into the folder", errno);
   });
   warn_of_oversubscription(world);
-  RaceProgress progress(world.is_root() ? asked.progress : ProgressMode::none, std::cout, terminal_columns(fileno(stdout)));
+  RaceProgress progress(world.is_root() ? asked.progress : ProgressMode::none, std::cout,
+                        terminal_columns(fileno(stdout)));
   const RaceResult result = race_case(input, asked.settings, std::move(model), progress, world);
   if (world.is_root()) fmt::print("{}", asked.progress == ProgressMode::json ? race_json(result) : race_table(result));
   world.agree([&] {

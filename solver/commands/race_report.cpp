@@ -1,7 +1,7 @@
 #include "commands/race_report.hpp"
 
-#include <algorithm>
 #include <fmt/core.h>
+#include <algorithm>
 
 #include "output/quantity_text.hpp"
 
@@ -89,7 +89,8 @@ std::string race_json(const RaceResult& result) {
   for (const auto& [racer, lap] : result.entries) {
     text +=
         fmt::format(
-            R"({{"algorithm":"{}","buffer":"{}","as_in_case":{},"searches":{},"used_up":{},"search_s":{},"one_search_s":{},"couples":{},"contact_s":{},"step_s":{},)"
+            R"({{"algorithm":"{}","buffer":"{}","as_in_case":{},"searches":{},"used_up":{},"search_s":{},)"
+            R"("one_search_s":{},"couples":{},"contact_s":{},"step_s":{},)"
             R"("element_steps_per_s":{},"steps":{},"state_hash":"{}"}})",
             racer.algorithm_text(), racer.buffer_text(), racer.as_in_case, lap.searches, lap.used, lap.search,
             lap.one_search(), lap.couples, lap.contact, step_s(result, lap), speed(result, lap), result.steps,

@@ -1,7 +1,7 @@
 #include "commands/commands.hpp"
 
-#include <cstdio>
 #include <fmt/core.h>
+#include <cstdio>
 #include <iostream>
 
 #include "case/live_address.hpp"
@@ -20,7 +20,10 @@ namespace {
 /// A live view that leaves the machine.
 void warn_of_remote_viewer(const case_::InSitu& insitu) {
   if (!insitu.live || case_::is_loopback(case_::host_and_port(insitu.live->address)->first)) return;
-  fmt::print(stderr, "breccia: warning: the run is offered to {}, another machine; what is sent there is neither encrypted nor checked\n", insitu.live->address);
+  fmt::print(stderr,
+             "breccia: warning: the run is offered to {}, another machine; what is sent there is neither encrypted nor "
+             "checked\n",
+             insitu.live->address);
 }
 
 }  // namespace

@@ -40,7 +40,8 @@ class TimingSegments {
   /// Keeps the least of what is neither search nor contact, and so the same for all racers.
   void keep_least_rest(const TimingSegments& other) { keep_least(other, kRest, kRest + 1); }
 
-  /// @param alone  wall time is put together from its parts, of which the rest may be that of another lap: on one rank, where
+  /// @param alone  wall time is put together from its parts, of which the rest may be that of another lap: on one rank,
+  /// where
   ///               nobody waits
   void sum_up(Lap& lap, bool alone) const {
     Piece sum{};

@@ -14,8 +14,8 @@ namespace breccia::detection {
 /// vector of nodes with `Index son[2]` and `std::int8_t balance` (height of the right sub-tree minus height of the left
 /// one: -1, 0 or 1). Node 0 is empty, its left son is the root of the tree; `none` is no son.
 ///
-/// The path holds the nodes left on the way down and the sides by which they were left; one to be used again, not per call.
-/// Cost of `attach` and `detach`: O(height), one or, in `detach`, at most height rotations.
+/// The path holds the nodes left on the way down and the sides by which they were left; one to be used again, not per
+/// call. Cost of `attach` and `detach`: O(height), one or, in `detach`, at most height rotations.
 class BalancedPath {
  public:
   enum Side : std::uint8_t { left = 0, right = 1 };
@@ -102,8 +102,9 @@ void BalancedPath::retrace_removed(std::vector<Node>& nodes) {
   }
 }
 
-/// Turns the sub-tree of an unbalanced node towards its shorter side: cases 1 to 4 of table 4.3, the mirrored ones in one,
-/// with `heavy` the side of the higher sub-tree. Returns the new top and whether the sub-tree is lower than before.
+/// Turns the sub-tree of an unbalanced node towards its shorter side: cases 1 to 4 of table 4.3, the mirrored ones in
+/// one, with `heavy` the side of the higher sub-tree. Returns the new top and whether the sub-tree is lower than
+/// before.
 template <class Node>
 std::pair<Index, bool> BalancedPath::rotate(std::vector<Node>& nodes, Index i) {
   Node& top = at(nodes, i);

@@ -11,9 +11,9 @@ namespace breccia {
 
 /// Clusters of element corners still bonded around a mesh vertex.
 ///
-/// Corner c of element e has the id 4 e + c. Two corners at the same node are bonded when their elements share a face at
-/// that node that is not broken; a cluster is a set of corners connected so, and its id the smallest corner id in it. It
-/// depends only on which faces are broken, not on the order in which they broke.
+/// Corner c of element e has the id 4 e + c. Two corners at the same node are bonded when their elements share a face
+/// at that node that is not broken; a cluster is a set of corners connected so, and its id the smallest corner id in
+/// it. It depends only on which faces are broken, not on the order in which they broke.
 ///
 /// Memory: 16 B an element for the clusters, 1 B for the broken faces, 20 B for the corners by node.
 class CornerClusters {

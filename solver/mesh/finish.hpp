@@ -40,10 +40,10 @@ struct FinishOptions {
 /// glued), elements sorted by (volume group, Hilbert rank of the centroid, old index), nodes in the order in which the
 /// elements first touch them. A surface triangle between two bodies that are parted is kept once for each.
 /// The order depends on coordinates only through the centroid's cell in a grid of 2^20 cells an axis.
-/// O(n log n), deterministic. Throws InputError with every problem: no element, coordinates that are not finite, elements
-/// of zero volume (|V| <= 1e-10 of the longest edge cubed) or, where they are not repaired, of negative volume (first 10
-/// source ids and the count), surface triangles that are no face of any element, more elements than an Index can number
-/// the corners of.
+/// O(n log n), deterministic. Throws InputError with every problem: no element, coordinates that are not finite,
+/// elements of zero volume (|V| <= 1e-10 of the longest edge cubed) or, where they are not repaired, of negative volume
+/// (first 10 source ids and the count), surface triangles that are no face of any element, more elements than an Index
+/// can number the corners of.
 /// @pre node, group and body indices are valid.
 [[nodiscard]] FinishedMesh finish_mesh(Mesh raw, const FinishOptions& options);
 

@@ -7,8 +7,8 @@
 
 namespace breccia::geometry {
 
-/// Signed volume of a tetrahedron, m3: (b-a) x (c-a) . (d-a) / 6; positive when a, b, c turn counter-clockwise seen from
-/// outside the face opposite to d, the orientation of `Mesh::elements`.
+/// Signed volume of a tetrahedron, m3: (b-a) x (c-a) . (d-a) / 6; positive when a, b, c turn counter-clockwise seen
+/// from outside the face opposite to d, the orientation of `Mesh::elements`.
 [[nodiscard]] inline double tetra_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return (b - a).cross(c - a).dot(d - a) / 6.0;
 }

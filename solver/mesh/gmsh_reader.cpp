@@ -25,7 +25,8 @@ namespace {
 constexpr std::size_t kProblemsNamed = 10;
 constexpr int kTriangle3 = 2, kTetra4 = 4;  // gmsh's numbers of element types
 
-// --- Running gmsh -----------------------------------------------------------------------------------------------------
+// --- Running gmsh
+// -----------------------------------------------------------------------------------------------------
 
 /// gmsh open for one reading, closed and its traces removed whatever happens.
 class Session {
@@ -157,7 +158,8 @@ void load(const GmshSource& source) {
   run_gmsh(source, [] { gmsh::model::mesh::generate(3); });
 }
 
-// --- From gmsh's model to ours ----------------------------------------------------------------------------------------
+// --- From gmsh's model to ours
+// ----------------------------------------------------------------------------------------
 
 class ModelReader {
  public:

@@ -21,15 +21,17 @@ struct GmshSource {
 
 /// Reads or makes the mesh and finishes it (mesh/finish.hpp).
 ///
-/// Volume groups: the physical volumes by ascending tag, unnamed ones as "volume_<tag>"; tetrahedra outside them are left
-/// out and counted. Without any physical volume every volume becomes a group "volume_<tag>". Surface groups: the physical
-/// surfaces, unnamed ones as "surface_<tag>". Bodies: the volumes, by ascending tag. Element source ids are gmsh's.
-/// A .geo is meshed on one thread, from gmsh's fixed random seed: the same file and parameters give the same mesh.
+/// Volume groups: the physical volumes by ascending tag, unnamed ones as "volume_<tag>"; tetrahedra outside them are
+/// left out and counted. Without any physical volume every volume becomes a group "volume_<tag>". Surface groups: the
+/// physical surfaces, unnamed ones as "surface_<tag>". Bodies: the volumes, by ascending tag. Element source ids are
+/// gmsh's. A .geo is meshed on one thread, from gmsh's fixed random seed: the same file and parameters give the same
+/// mesh.
 ///
 /// Throws InputError with all problems of the step that fails: file missing, unreadable or of another kind; parameters
-/// with a .msh, unknown to the .geo or not finite; errors gmsh reports, with file and line where it names them; elements other
-/// than linear tetrahedra and triangles; a volume in two physical volumes; two groups of one name; no tetrahedra; and
-/// those of finish_mesh. gmsh keeps global state: calls are serialised, and the process must not have gmsh open itself.
+/// with a .msh, unknown to the .geo or not finite; errors gmsh reports, with file and line where it names them;
+/// elements other than linear tetrahedra and triangles; a volume in two physical volumes; two groups of one name; no
+/// tetrahedra; and those of finish_mesh. gmsh keeps global state: calls are serialised, and the process must not have
+/// gmsh open itself.
 [[nodiscard]] FinishedMesh read_gmsh(const GmshSource& source);
 
 }  // namespace breccia

@@ -6,8 +6,8 @@
 
 namespace breccia {
 
-/// What can be told without gmsh: the file is there, of a known kind and format; the scale is a length; every parameter is
-/// finite and one that the script takes. Throws InputError.
+/// What can be told without gmsh: the file is there, of a known kind and format; the scale is a length; every parameter
+/// is finite and one that the script takes. Throws InputError.
 void check_source(const GmshSource& source);
 
 /// True for a script (.geo), false for a mesh file.

@@ -18,8 +18,8 @@ struct JointFace {
   double size;         ///< m, mean length of the three edges
 };
 
-/// Every inner face once, sorted by (a, face_a). Whether it carries a joint is for the caller to choose by the groups or
-/// bodies of a and b. O(num_elements), throws nothing.
+/// Every inner face once, sorted by (a, face_a). Whether it carries a joint is for the caller to choose by the groups
+/// or bodies of a and b. O(num_elements), throws nothing.
 [[nodiscard]] std::vector<JointFace> find_joints(const Mesh& mesh, const Topology& topology);
 
 }  // namespace breccia

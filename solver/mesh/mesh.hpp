@@ -12,18 +12,18 @@ namespace breccia {
 ///
 /// Invariants after `finish_mesh` (mesh/finish.hpp): every element has a positive volume, every node belongs to
 /// an element, bodies that are not glued share no node, elements are sorted by (volume group, space-filling rank of
-/// the centroid). In the whole mesh an element's index is its global id; a piece keeps the ids of its elements and nodes,
-/// both ascending, so that the order of indices is the order of ids there as well.
+/// the centroid). In the whole mesh an element's index is its global id; a piece keeps the ids of its elements and
+/// nodes, both ascending, so that the order of indices is the order of ids there as well.
 struct Mesh {
   std::string source;  ///< file or generator, for messages
 
-  std::vector<Vec3> nodes;                          ///< (num_nodes) reference position
-  std::vector<std::array<Index, 4>> elements;       ///< (num_elements) corners, positively oriented
-  std::vector<Index> element_group;                 ///< (num_elements) index into volume_groups
-  std::vector<Index> element_body;                  ///< (num_elements) 0..num_bodies-1, one a meshed volume
-  std::vector<std::int64_t> element_source_id;      ///< (num_elements) id in the file, for messages
-  std::vector<GlobalId> element_ids;                ///< (num_elements) ascending; empty: the whole mesh
-  std::vector<GlobalId> node_ids;                   ///< (num_nodes) ascending; empty: the whole mesh
+  std::vector<Vec3> nodes;                      ///< (num_nodes) reference position
+  std::vector<std::array<Index, 4>> elements;   ///< (num_elements) corners, positively oriented
+  std::vector<Index> element_group;             ///< (num_elements) index into volume_groups
+  std::vector<Index> element_body;              ///< (num_elements) 0..num_bodies-1, one a meshed volume
+  std::vector<std::int64_t> element_source_id;  ///< (num_elements) id in the file, for messages
+  std::vector<GlobalId> element_ids;            ///< (num_elements) ascending; empty: the whole mesh
+  std::vector<GlobalId> node_ids;               ///< (num_nodes) ascending; empty: the whole mesh
 
   /// Triangle of a physical surface. `nodes` need not be oriented.
   struct SurfaceFace {

@@ -9,14 +9,15 @@ namespace breccia {
 /// Nodes of no element.
 [[nodiscard]] Index count_orphan_nodes(const Mesh& mesh);
 
-/// Nodes of elements that lie within 1e-9 of the mesh's size (largest extent) of a node of smaller index, along each axis.
+/// Nodes of elements that lie within 1e-9 of the mesh's size (largest extent) of a node of smaller index, along each
+/// axis.
 [[nodiscard]] Index count_duplicate_nodes(const Mesh& mesh);
 
 /// Throws InputError, one problem a surface group, when a surface triangle is no face of any element.
 void demand_surfaces_are_faces(const Mesh& mesh);
 
-/// Gives every body nodes of its own. A surface triangle that is a face of several bodies becomes one for each, the body
-/// of lowest index first. Returns how many nodes were added.
+/// Gives every body nodes of its own. A surface triangle that is a face of several bodies becomes one for each, the
+/// body of lowest index first. Returns how many nodes were added.
 Index part_bodies(Mesh& mesh);
 
 }  // namespace breccia

@@ -23,7 +23,8 @@ struct ElementQuality {
 /// @param corners  m, positively oriented, no two coinciding. O(1), throws nothing.
 [[nodiscard]] ElementQuality element_quality(const std::array<Vec3, 4>& corners);
 
-/// Distribution of one figure over the elements; the q-quantile is the smallest value that at least q of them do not exceed.
+/// Distribution of one figure over the elements; the q-quantile is the smallest value that at least q of them do not
+/// exceed.
 struct Distribution {
   double min = 0, p01 = 0, p05 = 0, median = 0, p95 = 0, p99 = 0, max = 0, mean = 0;
 };

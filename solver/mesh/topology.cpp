@@ -94,8 +94,8 @@ class FaceTable {
   std::vector<FaceEntry> entries_;
 };
 
-/// Link from face `from` to face `to` of the same three nodes; code -1 when both list them with the same sense, that is,
-/// when the two elements lie on the same side.
+/// Link from face `from` to face `to` of the same three nodes; code -1 when both list them with the same sense, that
+/// is, when the two elements lie on the same side.
 FaceLink link_between(const Mesh& mesh, const FaceEntry& from, const FaceEntry& to) {
   const auto own = face_nodes(mesh, from.element, from.face);
   const auto other = face_nodes(mesh, to.element, to.face);

@@ -15,7 +15,7 @@ namespace breccia {
 /// corner (rotation - i) mod 3 of the neighbour's face: the neighbour sees the face with the opposite sense.
 struct FaceLink {
   Index neighbour = kFree;  ///< element across the face, or one of the below
-  std::int8_t code = 0;  ///< 0..11
+  std::int8_t code = 0;     ///< 0..11
 
   static constexpr Index kFree = -1;    ///< the free surface
   static constexpr Index kBeyond = -2;  ///< in a piece of a mesh: an element that the piece does not hold

@@ -11,12 +11,12 @@ namespace breccia {
 /// Corners of a triangle, m.
 using Triangle = std::array<Vec3, 3>;
 
-/// Distance from a point to a triangle, its inside and border included, m. Exact but for round-off; a triangle without area
-/// counts as its longest edge. O(1), throws nothing.
+/// Distance from a point to a triangle, its inside and border included, m. Exact but for round-off; a triangle without
+/// area counts as its longest edge. O(1), throws nothing.
 [[nodiscard]] double point_triangle_distance(const Vec3& point, const Triangle& triangle);
 
-/// Nearest triangle to a point: a binary tree of boxes over the triangles, split at the median of their centres along the
-/// longest axis. Memory about 150 B a triangle.
+/// Nearest triangle to a point: a binary tree of boxes over the triangles, split at the median of their centres along
+/// the longest axis. Memory about 150 B a triangle.
 class TriangleTree {
  public:
   /// O(n log n).

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "model/parameters.hpp"
 #include "physics/contact/contact_field.hpp"
 #include "physics/stable_step.hpp"
-#include "model/parameters.hpp"
 
 namespace breccia {
 namespace {
@@ -109,7 +109,8 @@ class LawTable {
     }
     problems.push_back({input_.file.string(), input_.mesh.origin.line, "joint",
                         "the meshes of \"" + first + "\" and \"" + second + "\" are glued, but no joint law says how",
-                        "a [[joint]] with between = [\"" + first + "\", \"" + second + "\"], or mesh.glue = false", ""});
+                        "a [[joint]] with between = [\"" + first + "\", \"" + second + "\"], or mesh.glue = false",
+                        ""});
     return -1;
   }
 
@@ -122,7 +123,8 @@ class LawTable {
 
 bool has_joint(const Model& model, const JointFace& face) {
   const Index a = model.mesh.element_group[index(face.a)], b = model.mesh.element_group[index(face.b)];
-  return model.discretisation[index(a)] == Discretisation::own_nodes || model.discretisation[index(b)] == Discretisation::own_nodes;
+  return model.discretisation[index(a)] == Discretisation::own_nodes ||
+         model.discretisation[index(b)] == Discretisation::own_nodes;
 }
 
 /// Mean edge length of the joints of each law: the h of k = p/h unless the case gives one.
@@ -166,8 +168,9 @@ void take_joints(const case_::Case& input, Model& model) {
 
 void take_contact(const case_::Case& input, Model& model) {
   model.contact = contact_params(input, model.mesh.volume_groups);
-  model.has_contact = model.contact.sphere.has_value() ||
-                      std::any_of(model.contact.laws.begin(), model.contact.laws.end(), [](const ContactLaw& law) { return law.active(); });
+  model.has_contact =
+      model.contact.sphere.has_value() || std::any_of(model.contact.laws.begin(), model.contact.laws.end(),
+                                                      [](const ContactLaw& law) { return law.active(); });
   model.contact_everywhere = input.contact_points.everywhere;
   for (const std::string& name : input.contact_points.surfaces) {
     const auto& faces = model.topology.surface_groups[index(group_named(model.mesh.surface_groups, name))];
@@ -226,7 +229,8 @@ void summarise(Model& model) {
   for (Index s = 0; s < local.num_slots; ++s) {
     if (local.element_of_slot[index(s)] < 0) continue;
     const std::size_t group = index(local.block_group[index(s / kLanes)]);
-    whole.group_length[group] = std::min(whole.group_length[group], whole.body_length[index(local.slot_body[index(s)])]);
+    whole.group_length[group] =
+        std::min(whole.group_length[group], whole.body_length[index(local.slot_body[index(s)])]);
     // Strains below 1e-10 are round-off of positions: energies of that size are no measure for a residual.
     const ElasticParams& p = model.elastic[group];
     whole.energy_floor += 1e-20 * local.volume[index(s)] * (p.lambda + 2 * p.mu);
@@ -273,7 +277,8 @@ Model build_piece(const case_::Case& input, WholeModel whole, Mesh mesh, Topolog
 
 bool starts_intact(const Model& model, const ModelJoint& joint) {
   const LocalMesh& local = model.local;
-  return model.joint_laws[index(joint.law)].screen_limit() > 0 && local.slot_of_element[index(joint.face.a)] < local.num_own_slots &&
+  return model.joint_laws[index(joint.law)].screen_limit() > 0 &&
+         local.slot_of_element[index(joint.face.a)] < local.num_own_slots &&
          local.slot_of_element[index(joint.face.b)] < local.num_own_slots;
 }
 

@@ -20,8 +20,8 @@ namespace breccia {
 
 /// A joint of the model: two faces that coincide in the reference mesh.
 struct ModelJoint {
-  JointFace face;   ///< elements a < b, face of a, code, area, size
-  Index law = 0;    ///< index into Model::joint_laws
+  JointFace face;  ///< elements a < b, face of a, code, area, size
+  Index law = 0;   ///< index into Model::joint_laws
 };
 
 /// Elements whose corners lie on a physical surface, with a face or only an edge or a point of theirs.
@@ -51,32 +51,32 @@ struct WholeModel {
   double step_ratio = 0;             ///< of the true stable step to the bound at rest (time_step.hpp); 0: not found yet
 };
 
-/// Everything that is known before the first step: the case turned into discretised bodies and the small parameter structs
-/// of the kernels. Physics never sees the case; this is where it ends. Of the whole model, or of the piece that a rank
-/// works on.
+/// Everything that is known before the first step: the case turned into discretised bodies and the small parameter
+/// structs of the kernels. Physics never sees the case; this is where it ends. Of the whole model, or of the piece that
+/// a rank works on.
 struct Model {
   Mesh mesh;
-  Topology topology;   ///< faces across which nothing holds (initially broken) are free here
+  Topology topology;  ///< faces across which nothing holds (initially broken) are free here
   LocalMesh local;
 
-  std::vector<ElasticParams> elastic;         ///< (volume groups)
-  std::vector<double> density;                ///< (volume groups) kg/m3
-  std::vector<Discretisation> discretisation; ///< (volume groups)
-  std::vector<bool> breakable;                ///< (volume groups)
+  std::vector<ElasticParams> elastic;          ///< (volume groups)
+  std::vector<double> density;                 ///< (volume groups) kg/m3
+  std::vector<Discretisation> discretisation;  ///< (volume groups)
+  std::vector<bool> breakable;                 ///< (volume groups)
 
   WholeModel whole;
 
   std::vector<JointLawParams> joint_laws;
-  std::vector<std::string> joint_law_names;   ///< "glass", "glass-steel": for reports
-  std::vector<double> joint_sizes;            ///< h of k = p/h by law, m
-  std::vector<ModelJoint> joints;             ///< ascending (a, face) and so by id; without those broken from the start
+  std::vector<std::string> joint_law_names;  ///< "glass", "glass-steel": for reports
+  std::vector<double> joint_sizes;           ///< h of k = p/h by law, m
+  std::vector<ModelJoint> joints;            ///< ascending (a, face) and so by id; without those broken from the start
   ContactParams contact;
   std::vector<Topology::Face> contact_faces;  ///< faces that carry points when restricted to surfaces
   bool contact_everywhere = true;
   bool has_contact = false;
-  std::vector<CornerTag> corner_tags;         ///< by (element, group)
+  std::vector<CornerTag> corner_tags;  ///< by (element, group)
 
-  MeshReport mesh_report;                     ///< of the whole mesh, on the rank that has read it
+  MeshReport mesh_report;  ///< of the whole mesh, on the rank that has read it
 
   /// Id of a joint in the whole model.
   [[nodiscard]] GlobalId joint_id(std::size_t joint) const {
@@ -88,8 +88,8 @@ struct Model {
 /// Throws InputError with every problem found.
 [[nodiscard]] Model build_model(const case_::Case& input);
 
-/// The part of it that tells how the model is divided among ranks, in a fraction of the memory: mesh, topology, materials,
-/// contact and the longest edge.
+/// The part of it that tells how the model is divided among ranks, in a fraction of the memory: mesh, topology,
+/// materials, contact and the longest edge.
 [[nodiscard]] Model build_bare_model(const case_::Case& input);
 
 /// The model of a piece of the mesh.
@@ -104,8 +104,8 @@ struct Model {
 /// Links of the joints that the sweep looks after.
 [[nodiscard]] JointLinks build_links(const Model& model);
 
-/// True if the joint is elastic at first and both its elements own their nodes: the sweep's business until it crosses its
-/// limit; else it is on the active list from the start.
+/// True if the joint is elastic at first and both its elements own their nodes: the sweep's business until it crosses
+/// its limit; else it is on the active list from the start.
 [[nodiscard]] bool starts_intact(const Model& model, const ModelJoint& joint);
 
 }  // namespace breccia

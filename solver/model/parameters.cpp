@@ -17,41 +17,52 @@ Index group_index(const std::vector<std::string>& names, const std::string& name
 
 SofteningShape shape_of(case_::Softening softening) {
   switch (softening) {
-    case case_::Softening::linear: return SofteningShape::linear;
-    case case_::Softening::exponential: return SofteningShape::exponential;
-    case case_::Softening::z_curve: break;
+    case case_::Softening::linear:
+      return SofteningShape::linear;
+    case case_::Softening::exponential:
+      return SofteningShape::exponential;
+    case case_::Softening::z_curve:
+      break;
   }
   return SofteningShape::z_curve;
 }
 
 ElasticLaw elastic_law_of(case_::ElasticLaw law) {
   switch (law) {
-    case case_::ElasticLaw::neo_hookean: break;
-    case case_::ElasticLaw::green_st_venant: return ElasticLaw::green_st_venant;
+    case case_::ElasticLaw::neo_hookean:
+      break;
+    case case_::ElasticLaw::green_st_venant:
+      return ElasticLaw::green_st_venant;
   }
   return ElasticLaw::neo_hookean;
 }
 
 JointLaw joint_law_of(case_::JointLaw law) {
   switch (law) {
-    case case_::JointLaw::mixed_mode: break;
-    case case_::JointLaw::independent_peaks: return JointLaw::independent_peaks;
+    case case_::JointLaw::mixed_mode:
+      break;
+    case case_::JointLaw::independent_peaks:
+      return JointLaw::independent_peaks;
   }
   return JointLaw::mixed_mode;
 }
 
 JointRise rise_of(case_::JointRise rise) {
   switch (rise) {
-    case case_::JointRise::linear: break;
-    case case_::JointRise::parabolic: return JointRise::parabolic;
+    case case_::JointRise::linear:
+      break;
+    case case_::JointRise::parabolic:
+      return JointRise::parabolic;
   }
   return JointRise::linear;
 }
 
 JointPoints points_of(case_::JointPoints points) {
   switch (points) {
-    case case_::JointPoints::nodal: break;
-    case case_::JointPoints::mid_edge: return JointPoints::mid_edge;
+    case case_::JointPoints::nodal:
+      break;
+    case case_::JointPoints::mid_edge:
+      return JointPoints::mid_edge;
   }
   return JointPoints::nodal;
 }
@@ -60,17 +71,22 @@ JointPoints points_of(case_::JointPoints points) {
 PrescribedMotion motion_of(case_::ConstraintKind kind) {
   switch (kind) {
     case case_::ConstraintKind::fixed:
-    case case_::ConstraintKind::velocity: break;
-    case case_::ConstraintKind::displacement: return PrescribedMotion::displacement;
+    case case_::ConstraintKind::velocity:
+      break;
+    case case_::ConstraintKind::displacement:
+      return PrescribedMotion::displacement;
   }
   return PrescribedMotion::velocity;
 }
 
 OverlapField field_of(case_::OverlapField field) {
   switch (field) {
-    case case_::OverlapField::tet_potential: return OverlapField::tet_potential;
-    case case_::OverlapField::tet_distance: return OverlapField::tet_distance;
-    case case_::OverlapField::body: break;
+    case case_::OverlapField::tet_potential:
+      return OverlapField::tet_potential;
+    case case_::OverlapField::tet_distance:
+      return OverlapField::tet_distance;
+    case case_::OverlapField::body:
+      break;
   }
   return OverlapField::body;
 }
@@ -120,7 +136,9 @@ ContactParams contact_params(const case_::Case& input, const std::vector<std::st
   params.ramp_steps = input.contact_points.field_ramp_steps;
   params.num_groups = static_cast<Index>(groups.size());
   params.laws.resize(groups.size() * groups.size());
-  const auto fits = [](const std::string& pattern, const std::string& group) { return pattern == "*" || pattern == group; };
+  const auto fits = [](const std::string& pattern, const std::string& group) {
+    return pattern == "*" || pattern == group;
+  };
   for (const case_::Contact& entry : input.contacts) {
     for (std::size_t a = 0; a < groups.size(); ++a) {
       for (std::size_t b = 0; b < groups.size(); ++b) {
@@ -130,7 +148,8 @@ ContactParams contact_params(const case_::Case& input, const std::vector<std::st
       }
     }
   }
-  if (input.sphere) params.sphere = SphericalBoundary{input.sphere->centre, input.sphere->radius, input.sphere->penalty};
+  if (input.sphere)
+    params.sphere = SphericalBoundary{input.sphere->centre, input.sphere->radius, input.sphere->penalty};
   return params;
 }
 
@@ -144,7 +163,9 @@ std::vector<Index> nodes_of_group(const Model& model, const std::string& group) 
   const auto take = [&](Index slot, int corner) { nodes.push_back(local.corner_node(slot, corner)); };
   if (const Index volume = group_index(model.mesh.volume_groups, group); volume >= 0) {
     for (Index s = 0; s < local.num_slots; ++s) {
-      if (local.element_of_slot[static_cast<std::size_t>(s)] < 0 || local.block_group[static_cast<std::size_t>(s / kLanes)] != volume) continue;
+      if (local.element_of_slot[static_cast<std::size_t>(s)] < 0 ||
+          local.block_group[static_cast<std::size_t>(s / kLanes)] != volume)
+        continue;
       for (int c = 0; c < 4; ++c) take(s, c);
     }
   } else if (const Index surface = group_index(model.mesh.surface_groups, group); surface >= 0) {
@@ -182,7 +203,8 @@ StageLoads stage_loads(const case_::Stage& stage, const Model& model) {
   loads.gravity = stage.gravity;
   loads.mass_damping = stage.mass_damping;
   loads.local_damping = stage.local_damping;
-  for (const case_::Pressure& entry : stage.pressures) loads.pressures.emplace_back(faces_of_surface(model, entry.surface), entry.value);
+  for (const case_::Pressure& entry : stage.pressures)
+    loads.pressures.emplace_back(faces_of_surface(model, entry.surface), entry.value);
   for (const case_::Constraint& entry : stage.constraints) {
     NodalConstraint constraint;
     constraint.nodes = nodes_of_group(model, entry.group);

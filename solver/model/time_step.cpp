@@ -38,7 +38,9 @@ std::vector<ContactStiffness> contact_stiffness(const Model& model) {
       const bool may_be_free = model.topology.links[index(e)][index(f)].free() || model.breakable[group];
       if (!may_be_free || slope[group] <= 0) continue;
       const auto& corner = kFaceCorners[index(f)];
-      const auto x = [&](std::size_t i) { return model.mesh.nodes[index(model.mesh.elements[index(e)][index(corner[i])])]; };
+      const auto x = [&](std::size_t i) {
+        return model.mesh.nodes[index(model.mesh.elements[index(e)][index(corner[i])])];
+      };
       const double area = 0.5 * (x(1) - x(0)).cross(x(2) - x(0)).norm();
       contacts.push_back({model.local.slot_of_element[index(e)], f, shape, slope[group] * area});
     }
@@ -48,7 +50,8 @@ std::vector<ContactStiffness> contact_stiffness(const Model& model) {
 
 }  // namespace
 
-TimeStep::TimeStep(const Model& model) : model_(model), links_(build_links(model)), contacts_(contact_stiffness(model)) {
+TimeStep::TimeStep(const Model& model)
+    : model_(model), links_(build_links(model)), contacts_(contact_stiffness(model)) {
   ratio_ = model.whole.step_ratio > 0 ? model.whole.step_ratio
                                       : std::max(1.0, true_stable_step(step_model()) / at(model.local.reference).step);
 }
@@ -65,8 +68,10 @@ std::string limit_text(const StableStep& step) {
     case StepLimit::joint:
       return step.neighbour >= 0 ? "the joint between elements " + element + " and " + std::to_string(step.neighbour)
                                  : "the joints of element " + element;
-    case StepLimit::contact: return "the contact penalty on element " + element;
-    case StepLimit::element: break;
+    case StepLimit::contact:
+      return "the contact penalty on element " + element;
+    case StepLimit::element:
+      break;
   }
   return "element " + element;
 }

@@ -3,19 +3,19 @@
 #include <string>
 #include <vector>
 
-#include "physics/stable_step.hpp"
 #include "model/model.hpp"
+#include "physics/stable_step.hpp"
 
 namespace breccia {
 
 /// The stable step of a model, as far as the discretisation decides it.
 ///
-/// The bound by element is cheap and follows the deformation; at rest the true limit of the linear system is larger by a
-/// ratio that is found once by iteration and kept: fracture makes nothing stiffer.
+/// The bound by element is cheap and follows the deformation; at rest the true limit of the linear system is larger by
+/// a ratio that is found once by iteration and kept: fracture makes nothing stiffer.
 class TimeStep {
  public:
-  /// @pre model outlives this object; it is whole, or its WholeModel holds the ratio. O(elements) times some dozens to find
-  /// the ratio.
+  /// @pre model outlives this object; it is whole, or its WholeModel holds the ratio. O(elements) times some dozens to
+  /// find the ratio.
   explicit TimeStep(const Model& model);
 
   /// Largest stable step of the originals at these positions, s, with what limits it.

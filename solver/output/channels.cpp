@@ -11,7 +11,9 @@ namespace {
 template <class T>
 BrecciaArray array(const char* name, const std::vector<T>& values, std::int32_t components = 1) {
   static_assert(std::is_same_v<T, double> || std::is_same_v<T, std::int32_t> || std::is_same_v<T, std::int64_t>);
-  const int type = std::is_same_v<T, double> ? BRECCIA_F64 : std::is_same_v<T, std::int32_t> ? BRECCIA_I32 : BRECCIA_I64;
+  const int type = std::is_same_v<T, double>         ? BRECCIA_F64
+                   : std::is_same_v<T, std::int32_t> ? BRECCIA_I32
+                                                     : BRECCIA_I64;
   return {name, type, components, values.data()};
 }
 
@@ -30,9 +32,14 @@ std::vector<BrecciaArray> arrays_of(const Frame::Elements& e) {
 }
 
 std::vector<BrecciaArray> arrays_of(const Frame::Joints& j) {
-  return {array("id", j.id),           array("damage", j.damage), array("mode", j.mode),
-          array("opening", j.opening), array("slip", j.slip),     array("broken", j.broken),
-          array("time_of_failure", j.time_of_failure), array("state", j.state)};
+  return {array("id", j.id),
+          array("damage", j.damage),
+          array("mode", j.mode),
+          array("opening", j.opening),
+          array("slip", j.slip),
+          array("broken", j.broken),
+          array("time_of_failure", j.time_of_failure),
+          array("state", j.state)};
 }
 
 /// Entries [n i, n i + n) of a list, for the places i where `keep` is not 0.
@@ -40,15 +47,19 @@ template <class T>
 std::vector<T> picked(const std::vector<T>& values, const std::vector<std::int32_t>& keep, std::size_t n = 1) {
   std::vector<T> out;
   for (std::size_t i = 0; i < keep.size(); ++i) {
-    if (keep[i] != 0) out.insert(out.end(), values.begin() + static_cast<std::ptrdiff_t>(n * i), values.begin() + static_cast<std::ptrdiff_t>(n * (i + 1)));
+    if (keep[i] != 0)
+      out.insert(out.end(), values.begin() + static_cast<std::ptrdiff_t>(n * i),
+                 values.begin() + static_cast<std::ptrdiff_t>(n * (i + 1)));
   }
   return out;
 }
 
 Frame::Joints broken_ones(const Frame::Joints& j) {
-  return {picked(j.points, j.broken, 9), picked(j.id, j.broken),   picked(j.damage, j.broken), picked(j.mode, j.broken),
-          picked(j.opening, j.broken),   picked(j.slip, j.broken), picked(j.broken, j.broken),
-          picked(j.time_of_failure, j.broken), picked(j.state, j.broken)};
+  return {picked(j.points, j.broken, 9), picked(j.id, j.broken),
+          picked(j.damage, j.broken),    picked(j.mode, j.broken),
+          picked(j.opening, j.broken),   picked(j.slip, j.broken),
+          picked(j.broken, j.broken),    picked(j.time_of_failure, j.broken),
+          picked(j.state, j.broken)};
 }
 
 bool has(std::uint32_t mask, int channel) { return (mask >> channel & 1U) != 0; }
@@ -77,7 +88,9 @@ Channels::Channels(const Frame& frame, std::uint32_t mask, const std::vector<std
                    const std::optional<std::vector<double>>& row) {
   instant_.step = frame.step;
   instant_.time = frame.time;
-  if (has(mask, BRECCIA_ELEMENTS)) add(BRECCIA_ELEMENTS, BRECCIA_TETRAHEDRON, frame.elements.points, frame.elements.id.size(), arrays_of(frame.elements));
+  if (has(mask, BRECCIA_ELEMENTS))
+    add(BRECCIA_ELEMENTS, BRECCIA_TETRAHEDRON, frame.elements.points, frame.elements.id.size(),
+        arrays_of(frame.elements));
   if (has(mask, BRECCIA_JOINTS)) add_joints(BRECCIA_JOINTS, frame.joints);
   if (has(mask, BRECCIA_FRACTURES)) add_joints(BRECCIA_FRACTURES, fractures_ = broken_ones(frame.joints));
   if (has(mask, BRECCIA_CONTACTS)) {
@@ -95,12 +108,14 @@ Channels::Channels(const Frame& frame, std::uint32_t mask, const std::vector<std
   if (has(mask, BRECCIA_DOMAINS)) {
     const Frame::Domain& d = frame.domain;
     add(BRECCIA_DOMAINS, BRECCIA_HEXAHEDRON, d.points, d.rank.size(),
-        {array("rank", d.rank), array("elements", d.elements), array("joints", d.joints), array("couples", d.couples), array("load", d.load)});
+        {array("rank", d.rank), array("elements", d.elements), array("joints", d.joints), array("couples", d.couples),
+         array("load", d.load)});
   }
   if (has(mask, BRECCIA_HISTORY)) add_history(columns, row);
 }
 
-void Channels::add(int channel, int32_t cell, const std::vector<double>& points, std::size_t cells, std::vector<BrecciaArray> arrays) {
+void Channels::add(int channel, int32_t cell, const std::vector<double>& points, std::size_t cells,
+                   std::vector<BrecciaArray> arrays) {
   Channel& c = channels_[static_cast<std::size_t>(channel)];
   c.arrays = std::move(arrays);
   c.grid.cell = cell;

@@ -20,13 +20,14 @@ inline constexpr std::array<std::string_view, BRECCIA_NUM_CHANNELS> kChannelName
 /// The parts of a frame that a set of channels is made of.
 [[nodiscard]] FrameParts parts_of(std::uint32_t channels);
 
-/// A frame as the channels of the in-situ interface: pointers into it, nothing copied but the broken joints, which are some
-/// of the frame's joints, and the row of the history.
+/// A frame as the channels of the in-situ interface: pointers into it, nothing copied but the broken joints, which are
+/// some of the frame's joints, and the row of the history.
 class Channels {
  public:
   /// @param columns  of the history, as history_columns gives them; @param row  nothing: there is none on this rank
   /// @pre frame and columns outlive this object
-  Channels(const Frame& frame, std::uint32_t mask, const std::vector<std::string>& columns, const std::optional<std::vector<double>>& row);
+  Channels(const Frame& frame, std::uint32_t mask, const std::vector<std::string>& columns,
+           const std::optional<std::vector<double>>& row);
   Channels(const Channels&) = delete;
   Channels& operator=(const Channels&) = delete;
 
@@ -37,7 +38,8 @@ class Channels {
     std::vector<BrecciaArray> arrays;
     BrecciaGrid grid{};
   };
-  void add(int channel, int32_t cell, const std::vector<double>& points, std::size_t cells, std::vector<BrecciaArray> arrays);
+  void add(int channel, int32_t cell, const std::vector<double>& points, std::size_t cells,
+           std::vector<BrecciaArray> arrays);
   void add_joints(int channel, const Frame::Joints& joints);
   void add_history(const std::vector<std::string>& columns, const std::optional<std::vector<double>>& row);
 

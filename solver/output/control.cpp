@@ -41,9 +41,11 @@ void set_interval(Command& command, const std::string& time) {
       command.kind = Command::Kind::frame_interval;
       return;
     }
-    command.complaint = "frame_interval is out of range; allowed: a simulated time >= 0, such as \"2 us\"; given: " + time;
+    command.complaint =
+        "frame_interval is out of range; allowed: a simulated time >= 0, such as \"2 us\"; given: " + time;
   } catch (const case_::UnitError& error) {
-    command.complaint = "frame_interval " + std::string(error.what()) + "; allowed: a simulated time with its unit, such as \"2 us\"; given: " + time;
+    command.complaint = "frame_interval " + std::string(error.what()) +
+                        "; allowed: a simulated time with its unit, such as \"2 us\"; given: " + time;
   }
 }
 
@@ -105,11 +107,15 @@ Command parse_command(std::string_view line) {
     set_interval(command, rest);
     return command;
   }
-  for (const auto& [name, kind] : {std::pair{"pause", Kind::pause}, {"resume", Kind::resume}, {"stop", Kind::stop},
-                                   {"extract", Kind::extract}, {"frame", Kind::frame}}) {
+  for (const auto& [name, kind] : {std::pair{"pause", Kind::pause},
+                                   {"resume", Kind::resume},
+                                   {"stop", Kind::stop},
+                                   {"extract", Kind::extract},
+                                   {"frame", Kind::frame}}) {
     if (word == name && rest.empty()) command.kind = kind;
   }
-  if (command.kind == Kind::refused) command.complaint = "no such command; allowed: " + std::string(kCommandWords) + "; given: " + command.text;
+  if (command.kind == Kind::refused)
+    command.complaint = "no such command; allowed: " + std::string(kCommandWords) + "; given: " + command.text;
   return command;
 }
 
@@ -136,8 +142,10 @@ std::string ask_run(const fs::path& run_folder, const std::string& command, doub
   }
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
   const auto in_time = [&] { return std::chrono::steady_clock::now() < end; };
-  while (fs::exists(folder.control(), error) && in_time()) std::this_thread::sleep_for(kGlance);  // somebody else's turn
-  const std::string id = std::to_string(::getpid()) + "." + std::to_string(std::chrono::steady_clock::now().time_since_epoch().count());
+  while (fs::exists(folder.control(), error) && in_time())
+    std::this_thread::sleep_for(kGlance);  // somebody else's turn
+  const std::string id =
+      std::to_string(::getpid()) + "." + std::to_string(std::chrono::steady_clock::now().time_since_epoch().count());
   write_file_atomically(folder.control(), command + " id=" + id + "\n");
   Tail tail(folder.status(), static_cast<std::streamoff>(size));
   while (in_time()) {

@@ -15,21 +15,21 @@ namespace breccia {
 struct Command {
   enum class Kind { refused, pause, resume, stop, extract, frame, frame_interval };
   Kind kind = Kind::refused;
-  double value = 0;        ///< frame_interval: s
-  std::string text;        ///< as it was given, without the id
-  std::string id;          ///< given by who asks, to know the answer by; may be empty
-  std::string complaint;   ///< why it is refused
+  double value = 0;       ///< frame_interval: s
+  std::string text;       ///< as it was given, without the id
+  std::string id;         ///< given by who asks, to know the answer by; may be empty
+  std::string complaint;  ///< why it is refused
 };
 
-/// One line: "pause", "resume", "stop", "extract", "frame", "frame_interval 2 us", each perhaps with " id=WORD" at its end.
-/// Anything else is refused, with what is allowed.
+/// One line: "pause", "resume", "stop", "extract", "frame", "frame_interval 2 us", each perhaps with " id=WORD" at its
+/// end. Anything else is refused, with what is allowed.
 [[nodiscard]] Command parse_command(std::string_view line);
 
 /// Words that parse_command knows, for messages and help.
 inline constexpr std::string_view kCommandWords = "pause, resume, stop, extract, frame, frame_interval TIME";
 
-/// The file `control` in a run's folder: whoever wants something writes lines into it; they are taken out as soon as they are
-/// seen, which is looked for five times a second at most.
+/// The file `control` in a run's folder: whoever wants something writes lines into it; they are taken out as soon as
+/// they are seen, which is looked for five times a second at most.
 class ControlFile {
  public:
   explicit ControlFile(std::filesystem::path file) : path_(std::move(file)) {}

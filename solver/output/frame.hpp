@@ -10,24 +10,24 @@
 
 namespace breccia {
 
-/// One complete picture of the model at an instant: what every sink (files, in-situ adaptor) sees. Plain arrays, SI, entries in
-/// order of global id, vectors and tensors interleaved (x y z; xx yy zz xy yz xz).
+/// One complete picture of the model at an instant: what every sink (files, in-situ adaptor) sees. Plain arrays, SI,
+/// entries in order of global id, vectors and tensors interleaved (x y z; xx yy zz xy yz xz).
 struct Frame {
   std::int64_t step = 0;
   double time = 0;
   std::int64_t number = 0;  ///< 0, 1, 2, ... over the run
 
   struct Elements {
-    std::vector<double> points;           ///< (4 num_elements, 3) corners: every element has its own
-    std::vector<std::int64_t> id;         ///< (num_elements)
+    std::vector<double> points;    ///< (4 num_elements, 3) corners: every element has its own
+    std::vector<std::int64_t> id;  ///< (num_elements)
     std::vector<std::int32_t> body, material, rank;
-    std::vector<std::int64_t> fragment;   ///< smallest element id of the fragment
-    std::vector<double> stress;           ///< (num_elements, 6) Cauchy, Pa
-    std::vector<double> von_mises;        ///< Pa
-    std::vector<double> principal;        ///< (num_elements, 3) descending, Pa
-    std::vector<double> velocity;         ///< (num_elements, 3) of the centroid, m/s
-    std::vector<double> displacement;     ///< (num_elements, 3) of the centroid, m
-    std::vector<double> cost;             ///< relative to an element that has its own nodes and neither active joint nor couple
+    std::vector<std::int64_t> fragment;  ///< smallest element id of the fragment
+    std::vector<double> stress;          ///< (num_elements, 6) Cauchy, Pa
+    std::vector<double> von_mises;       ///< Pa
+    std::vector<double> principal;       ///< (num_elements, 3) descending, Pa
+    std::vector<double> velocity;        ///< (num_elements, 3) of the centroid, m/s
+    std::vector<double> displacement;    ///< (num_elements, 3) of the centroid, m
+    std::vector<double> cost;  ///< relative to an element that has its own nodes and neither active joint nor couple
   } elements;
 
   /// Triangles on the mid-surface of the joints that carry damage or have failed.
@@ -38,7 +38,7 @@ struct Frame {
       failed = 2,     ///< closed somewhere: a frictional interface
       apart = 3       ///< failed, and has been open everywhere: its faces belong to contact
     };
-    std::vector<double> points;           ///< (3 num_joints, 3)
+    std::vector<double> points;  ///< (3 num_joints, 3)
     std::vector<std::int64_t> id;
     std::vector<double> damage;           ///< largest of the points, 0..1
     std::vector<std::int32_t> mode;       ///< 0 undamaged, 1 mostly mode I, 2 mostly mode II, 3 mixed
@@ -50,26 +50,26 @@ struct Frame {
 
   /// Contact points that carry a force.
   struct Contacts {
-    std::vector<std::int64_t> id;         ///< (num_contacts) of the contact point: 24 element + 6 face + number
-    std::vector<double> points;           ///< (num_contacts, 3)
-    std::vector<double> force;            ///< (num_contacts, 3) on the point's body, N
+    std::vector<std::int64_t> id;  ///< (num_contacts) of the contact point: 24 element + 6 face + number
+    std::vector<double> points;    ///< (num_contacts, 3)
+    std::vector<double> force;     ///< (num_contacts, 3) on the point's body, N
     std::vector<double> normal_force, tangential_force;  ///< (num_contacts, 3) its parts, N
     std::vector<std::int32_t> body, other_body;
   } contacts;
 
   /// Free faces: of the bodies' surfaces, and both sides of every failed joint.
   struct Surface {
-    Elements cells;                       ///< of the elements behind the faces; points are (3 num_faces, 3), outward sense
-    std::vector<std::int32_t> face;       ///< (num_faces) 0..3, opposite to that corner
-    std::vector<std::int32_t> crack;      ///< (num_faces) 1: laid bare by a joint that failed, 0: of the body's surface
+    Elements cells;                   ///< of the elements behind the faces; points are (3 num_faces, 3), outward sense
+    std::vector<std::int32_t> face;   ///< (num_faces) 0..3, opposite to that corner
+    std::vector<std::int32_t> crack;  ///< (num_faces) 1: laid bare by a joint that failed, 0: of the body's surface
   } surface;
 
   /// What this rank has to do; a rank without elements has no box.
   struct Domain {
-    std::vector<double> points;           ///< (8, 3) box around its elements, corners in the order of VTK's hexahedron
-    std::vector<std::int32_t> rank;       ///< (1), as the following
+    std::vector<double> points;      ///< (8, 3) box around its elements, corners in the order of VTK's hexahedron
+    std::vector<std::int32_t> rank;  ///< (1), as the following
     std::vector<std::int64_t> elements, joints, couples;  ///< own elements; active joints and couples worked on
-    std::vector<double> load;             ///< working time over that of the mean rank, at the last look
+    std::vector<double> load;                             ///< working time over that of the mean rank, at the last look
   } domain;
 };
 
@@ -84,18 +84,18 @@ struct EnergyBudget {
   double joint_mode_1 = 0, joint_mode_2 = 0, joint_friction = 0;
   double contact_dissipated = 0, contact_friction = 0;
   double viscous = 0, damping = 0;
-  double external_work = 0;   ///< of loads, gravity and constraints, incl. what was there at the start
-  double residual = 0;        ///< initial + external work - everything above: what nobody booked
+  double external_work = 0;  ///< of loads, gravity and constraints, incl. what was there at the start
+  double residual = 0;       ///< initial + external work - everything above: what nobody booked
   double residual_relative = 0;
 };
 
 /// What a gauge reads: sums over the nodes of a group.
 struct GaugeReading {
-  Vec3 reaction{0, 0, 0};       ///< N, of constraints on the group
-  Vec3 contact_force{0, 0, 0};  ///< N
-  Vec3 displacement{0, 0, 0};   ///< m, mean
+  Vec3 reaction{0, 0, 0};          ///< N, of constraints on the group
+  Vec3 contact_force{0, 0, 0};     ///< N
+  Vec3 displacement{0, 0, 0};      ///< m, mean
   Vec3 max_displacement{0, 0, 0};  ///< m, component-wise signed value of largest magnitude
-  Vec3 velocity{0, 0, 0};       ///< m/s, mean
+  Vec3 velocity{0, 0, 0};          ///< m/s, mean
 };
 
 /// One line of the history file.
@@ -104,10 +104,11 @@ struct HistoryRow {
   double time = 0;
   double time_step = 0;
   EnergyBudget energy;
-  std::int64_t damaged_joints = 0, broken_joints = 0, broken_mode_1 = 0, broken_mode_2 = 0, fragments = 0, couples = 0, contacts = 0;
+  std::int64_t damaged_joints = 0, broken_joints = 0, broken_mode_1 = 0, broken_mode_2 = 0, fragments = 0, couples = 0,
+               contacts = 0;
   Vec3 momentum{0, 0, 0}, angular_momentum{0, 0, 0};
   double max_speed = 0;
-  double stress_yy_sum = 0;     ///< sum |sigma_yy| over the elements, Pa
+  double stress_yy_sum = 0;  ///< sum |sigma_yy| over the elements, Pa
   std::vector<GaugeReading> gauges;
   std::optional<double> insitu_share;  ///< of the wall time, that pipelines have taken on the first rank
 };
@@ -125,9 +126,9 @@ struct PipelineReport {
 struct Summary {
   std::string title, version, host, status;  ///< status: "complete", "stopped: ..." or the error
   int ranks = 1;
-  std::int64_t decompositions = 1;                   ///< divisions of the model among the ranks
-  double imbalance = 1;                              ///< largest over mean working time of the ranks, at the last look
-  std::int64_t messages = 0, message_bytes = 0;      ///< that gathered proxies, of all ranks
+  std::int64_t decompositions = 1;               ///< divisions of the model among the ranks
+  double imbalance = 1;                          ///< largest over mean working time of the ranks, at the last look
+  std::int64_t messages = 0, message_bytes = 0;  ///< that gathered proxies, of all ranks
   std::int64_t steps = 0;
   double simulated_time = 0, time_step = 0;
   std::int64_t elements = 0, joints = 0, broken_joints = 0, fragments = 0, searches = 0, inverted_elements = 0;
@@ -136,8 +137,8 @@ struct Summary {
   std::vector<PipelineReport> insitu;
   EnergyBudget energy;
   std::uint64_t max_rss_bytes = 0;
-  std::string simd;          ///< "sse2", "avx2", "avx512"
-  std::string state_hash;    ///< 16 hexadecimal digits
+  std::string simd;        ///< "sse2", "avx2", "avx512"
+  std::string state_hash;  ///< 16 hexadecimal digits
 };
 
 }  // namespace breccia

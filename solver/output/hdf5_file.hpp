@@ -16,8 +16,8 @@ struct Hdf5Failure {
   int error_number = 0;  ///< errno, 0: none
 };
 
-// HDF5 works in memory only, so that every write to the disk is our own: it does not give up a file that it cannot write,
-// and says nothing to stderr here. Both functions throw Hdf5Failure.
+// HDF5 works in memory only, so that every write to the disk is our own: it does not give up a file that it cannot
+// write, and says nothing to stderr here. Both functions throw Hdf5Failure.
 
 /// The bytes of a file with these datasets and their values.
 /// @pre the columns are those of a rank that is alone. Allocates twice the size of the file.

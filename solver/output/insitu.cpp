@@ -22,15 +22,20 @@ std::uint32_t bit(std::size_t i) { return std::uint32_t{1} << i; }
 
 }  // namespace
 
-void preflight(const case_::Case& input, const std::filesystem::path& folder, const InSituPlugin& plugin, const Communicator& communicator) {
+void preflight(const case_::Case& input, const std::filesystem::path& folder, const InSituPlugin& plugin,
+               const Communicator& communicator) {
   const InSituConfig config(input.insitu, input.title, std::filesystem::absolute(folder), communicator);
   std::int32_t result = 0;
-  const std::string text = words_of([&](char* words, std::size_t size) { result = plugin.api().preflight(&config.get(), words, size); });
+  const std::string text =
+      words_of([&](char* words, std::size_t size) { result = plugin.api().preflight(&config.get(), words, size); });
   if (result != 0) throw InputError(insitu_problems(input.file, text));
 }
 
-InSitu::InSitu(const case_::Case& input, const std::filesystem::path& folder, const Communicator& communicator, Tell tell)
-    : communicator_(communicator), tell_(std::move(tell)), stop_on_error_(input.insitu.on_error == case_::OnError::stop) {
+InSitu::InSitu(const case_::Case& input, const std::filesystem::path& folder, const Communicator& communicator,
+               Tell tell)
+    : communicator_(communicator),
+      tell_(std::move(tell)),
+      stop_on_error_(input.insitu.on_error == case_::OnError::stop) {
   make_pipelines(input);
   open(input, folder);
   started_ = Clock::now();
@@ -48,7 +53,8 @@ void InSitu::make_pipelines(const case_::Case& input) {
   if (!input.insitu.live) return;
   case_::Pipeline by_wall;
   by_wall.every_wall = std::max(input.insitu.live->interval, 1e-9);
-  pipelines_.push_back({"live", by_wall.every_wall, false, Trigger(by_wall, end), Overhead(input.insitu.live->max_overhead)});
+  pipelines_.push_back(
+      {"live", by_wall.every_wall, false, Trigger(by_wall, end), Overhead(input.insitu.live->max_overhead)});
 }
 
 void InSitu::open(const case_::Case& input, const std::filesystem::path& folder) {
@@ -60,9 +66,11 @@ void InSitu::open(const case_::Case& input, const std::filesystem::path& folder)
   });
   communicator_.agree([&] { preflight(input, folder, plugin_, communicator_); });
   const InSituConfig config(input.insitu, input.title, std::filesystem::absolute(folder), communicator_);
-  const std::string text = words_of([&](char* words, std::size_t size) { adaptor_ = plugin_.api().open(&config.get(), words, size); });
+  const std::string text =
+      words_of([&](char* words, std::size_t size) { adaptor_ = plugin_.api().open(&config.get(), words, size); });
   communicator_.agree([&] {
-    if (adaptor_ == nullptr) throw InputError(insitu_problems(input.file, "the in-situ adaptor does not start: " + text));
+    if (adaptor_ == nullptr)
+      throw InputError(insitu_problems(input.file, "the in-situ adaptor does not start: " + text));
   });
 }
 
@@ -85,7 +93,8 @@ std::uint64_t InSitu::orders() {
 }
 
 bool InSitu::counts_broken() const {
-  return std::any_of(pipelines_.begin(), pipelines_.end(), [](const Pipeline& p) { return !p.off && p.trigger.counts_broken(); });
+  return std::any_of(pipelines_.begin(), pipelines_.end(),
+                     [](const Pipeline& p) { return !p.off && p.trigger.counts_broken(); });
 }
 
 std::uint32_t InSitu::affordable(std::uint32_t due) const {
@@ -105,7 +114,8 @@ InSitu::Plan InSitu::plan(const Moment& now, std::uint32_t ordered, bool all) {
   }
   if (due == 0) return {};
   planned_ = Clock::now();
-  const auto told = static_cast<std::uint32_t>(communicator_.max(static_cast<std::int64_t>(communicator_.is_root() ? affordable(due) : 0)));
+  const auto told = static_cast<std::uint32_t>(
+      communicator_.max(static_cast<std::int64_t>(communicator_.is_root() ? affordable(due) : 0)));
   const std::uint32_t go = all ? due : told;
   Plan plan;
   for (std::size_t i = 0; i < pipelines_.size(); ++i) {
@@ -180,8 +190,13 @@ std::vector<PipelineReport> InSitu::finish() {
   std::vector<PipelineReport> reports;
   for (std::size_t i = 0; i < pipelines_.size(); ++i) {
     const Pipeline& p = pipelines_[i];
-    PipelineReport report{p.name, p.overhead.times(), p.passed_over, p.failures, communicator_.max(p.overhead.start()),
-                          communicator_.max(p.overhead.spent()), 0};
+    PipelineReport report{p.name,
+                          p.overhead.times(),
+                          p.passed_over,
+                          p.failures,
+                          communicator_.max(p.overhead.start()),
+                          communicator_.max(p.overhead.spent()),
+                          0};
     report.bytes = communicator_.sum(plugin_.api().bytes_written(adaptor_, static_cast<std::int32_t>(i)));
     reports.push_back(std::move(report));
   }

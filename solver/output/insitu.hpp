@@ -17,16 +17,17 @@
 
 namespace breccia {
 
-/// Looks whether all pipelines of a case could run: names, parameters, scripts, a display for pictures, the folder of the extracts, which
-/// is there. Not collective. Throws InputError with every problem.
-void preflight(const case_::Case& input, const std::filesystem::path& folder, const InSituPlugin& plugin, const Communicator& communicator);
+/// Looks whether all pipelines of a case could run: names, parameters, scripts, a display for pictures, the folder of
+/// the extracts, which is there. Not collective. Throws InputError with every problem.
+void preflight(const case_::Case& input, const std::filesystem::path& folder, const InSituPlugin& plugin,
+               const Communicator& communicator);
 
-/// The pipelines of a case that work on the state while the run goes on: when each is due, what it may cost, what its failure
-/// means. The work itself is the adaptor's (catalyst/insitu_abi.h).
+/// The pipelines of a case that work on the state while the run goes on: when each is due, what it may cost, what its
+/// failure means. The work itself is the adaptor's (catalyst/insitu_abi.h).
 ///
-/// Triggers by step, simulated time and broken joints are known to all ranks alike and hit the very step; those by wall time
-/// are the root's, which tells the others by its orders, heard a step later. Which triggers are passed over for the sake of the
-/// overhead is the root's to say as well. With nothing due a step costs a few comparisons.
+/// Triggers by step, simulated time and broken joints are known to all ranks alike and hit the very step; those by wall
+/// time are the root's, which tells the others by its orders, heard a step later. Which triggers are passed over for
+/// the sake of the overhead is the root's to say as well. With nothing due a step costs a few comparisons.
 class InSitu {
  public:
   /// Hears news in words; called on all ranks. The flag is false for a warning.
@@ -55,7 +56,8 @@ class InSitu {
   [[nodiscard]] Plan plan(const Moment& now, std::uint32_t ordered, bool all);
   /// Does it. @param frame  has the parts of the plan's channels
   /// Throws OutputError on all ranks when a pipeline fails and on_error is stop. Collective.
-  void execute(const Plan& plan, const Frame& frame, const std::vector<std::string>& columns, const std::optional<std::vector<double>>& row);
+  void execute(const Plan& plan, const Frame& frame, const std::vector<std::string>& columns,
+               const std::optional<std::vector<double>>& row);
   /// What the scripts of the last execution ask of the run; the root's counts.
   [[nodiscard]] const BrecciaRequests& requests() const { return requests_; }
 
@@ -71,11 +73,11 @@ class InSitu {
  private:
   struct Pipeline {
     std::string name;
-    double every_wall;            ///< s; 0: no
+    double every_wall;  ///< s; 0: no
     bool strict;
     Trigger trigger;
     Overhead overhead;
-    double next_wall = 0;         ///< s, when wall time makes it due again
+    double next_wall = 0;  ///< s, when wall time makes it due again
     std::int64_t passed_over = 0, failures = 0;
     bool off = false;
   };

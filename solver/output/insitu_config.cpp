@@ -37,13 +37,15 @@ void InSituConfig::add(const case_::Pipeline& pipeline) {
     p.names.push_back(name.c_str());
     p.values.push_back(value);
   }
-  pipelines_.push_back({pipeline.name.c_str(), 0, static_cast<std::int32_t>(p.names.size()), p.names.data(), p.values.data()});
+  pipelines_.push_back(
+      {pipeline.name.c_str(), 0, static_cast<std::int32_t>(p.names.size()), p.names.data(), p.values.data()});
 }
 
 std::vector<Problem> insitu_problems(const std::filesystem::path& case_file, const std::string& lines) {
   std::vector<Problem> problems;
   std::istringstream stream(lines);
-  for (std::string line; std::getline(stream, line);) problems.push_back({case_file.string(), 0, "insitu", line, "", ""});
+  for (std::string line; std::getline(stream, line);)
+    problems.push_back({case_file.string(), 0, "insitu", line, "", ""});
   return problems;
 }
 

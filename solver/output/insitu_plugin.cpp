@@ -38,15 +38,18 @@ InSituPlugin::InSituPlugin() {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) {
     throw cannot_open(file, "the in-situ adaptor is not installed",
-                      "`./run build` in Breccia's source folder installs ParaView and builds it; among Debian packages it is breccia-insitu; "
+                      "`./run build` in Breccia's source folder installs ParaView and builds it; among Debian packages "
+                      "it is breccia-insitu; "
                       "the environment variable BRECCIA_CATALYST may name another place");
   }
-  // Global, so that ParaView's library finds the symbols of Python, which it uses but does not name. Lazy, as looking up at once
-  // what hundreds of libraries might call takes a second; the adaptor's own symbols are (catalyst/CMakeLists.txt).
+  // Global, so that ParaView's library finds the symbols of Python, which it uses but does not name. Lazy, as looking
+  // up at once what hundreds of libraries might call takes a second; the adaptor's own symbols are
+  // (catalyst/CMakeLists.txt).
   void* library = ::dlopen(file.c_str(), RTLD_LAZY | RTLD_GLOBAL);
   if (library == nullptr) {
     const char* why = ::dlerror();
-    throw cannot_open(file, "the in-situ adaptor cannot be loaded: " + std::string(why != nullptr ? why : "unknown reason"),
+    throw cannot_open(file,
+                      "the in-situ adaptor cannot be loaded: " + std::string(why != nullptr ? why : "unknown reason"),
                       "the ParaView it was built with: apt-get install paraview python3-paraview");
   }
   using Entry = const BrecciaInsituApi* (*)();

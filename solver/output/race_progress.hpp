@@ -14,7 +14,8 @@ struct RaceStatus {
   double wall_s = 0;  ///< since that began
 };
 
-/// Progress of a race for the person or program that started it, in the modes of a run (ProgressSink) and at their pace.
+/// Progress of a race for the person or program that started it, in the modes of a run (ProgressSink) and at their
+/// pace.
 class RaceProgress {
  public:
   /// @pre stream outlives this object

@@ -36,12 +36,12 @@ struct StatusLine {
 
 /// Something that happened besides the physics.
 struct RunEvent {
-  std::string kind;        ///< "control": the answer to a command; "insitu": news of a pipeline
-  std::string text;        ///< what happened, in words
-  std::string id;          ///< of the command
-  bool accepted = true;    ///< the command was carried out; false also for news that is a warning
+  std::string kind;      ///< "control": the answer to a command; "insitu": news of a pipeline
+  std::string text;      ///< what happened, in words
+  std::string id;        ///< of the command
+  bool accepted = true;  ///< the command was carried out; false also for news that is a warning
   std::int64_t step = 0;
-  double time = 0;         ///< s, simulated
+  double time = 0;  ///< s, simulated
 };
 
 /// Receives what a run produces. Calls come in the order: start, then any of frame, history and status, then finish.

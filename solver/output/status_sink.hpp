@@ -21,7 +21,8 @@ enum class RunState { running, paused, complete, stopped, failed };
 /// Numbers that are not finite and an unknown eta are null.
 [[nodiscard]] std::string status_json(const StatusLine& line, RunState state, const std::string& message);
 
-/// `status.jsonl`: one JSON line at the first step, about one every two seconds, and one at the end with the run's state.
+/// `status.jsonl`: one JSON line at the first step, about one every two seconds, and one at the end with the run's
+/// state.
 class StatusSink final : public Sink {
  public:
   explicit StatusSink(std::filesystem::path file, std::chrono::milliseconds interval = std::chrono::seconds(2));
@@ -41,7 +42,8 @@ class StatusSink final : public Sink {
   StatusLine last_;
 };
 
-/// One JSON object without line breaks: the members of RunEvent by name, "event" being its kind; id only if there is one.
+/// One JSON object without line breaks: the members of RunEvent by name, "event" being its kind; id only if there is
+/// one.
 [[nodiscard]] std::string event_json(const RunEvent& event);
 
 enum class ProgressMode { none, bar, log, json };
@@ -58,8 +60,8 @@ enum class ProgressMode { none, bar, log, json };
 /// The bar: at most `columns` characters, as much of the text as fits.
 [[nodiscard]] std::string bar_text(const StatusLine& line, int columns);
 
-/// Progress for the person or program that started the run: a bar redrawn in place five times a second, a line every five
-/// seconds, or a JSON line (status_json) twice a second. A stream that fails is ignored: losing sight of a run
+/// Progress for the person or program that started the run: a bar redrawn in place five times a second, a line every
+/// five seconds, or a JSON line (status_json) twice a second. A stream that fails is ignored: losing sight of a run
 /// must not end it.
 class ProgressSink final : public Sink {
  public:

@@ -65,8 +65,13 @@ Json insitu_json(const Summary& summary) {
   json["share"] = insitu_share(summary);
   json["pipelines"] = Json::array();
   for (const PipelineReport& p : summary.insitu) {
-    json["pipelines"].push_back({{"name", p.name}, {"executed", p.executed}, {"passed_over", p.passed_over}, {"failed", p.failed},
-                                 {"start_s", p.start_s}, {"seconds", p.seconds}, {"bytes", p.bytes}});
+    json["pipelines"].push_back({{"name", p.name},
+                                 {"executed", p.executed},
+                                 {"passed_over", p.passed_over},
+                                 {"failed", p.failed},
+                                 {"start_s", p.start_s},
+                                 {"seconds", p.seconds},
+                                 {"bytes", p.bytes}});
   }
   return json;
 }
@@ -75,9 +80,11 @@ void add_pipelines(std::string& text, const Summary& summary) {
   if (summary.insitu.empty()) return;
   add_line(text, "in situ", fmt::format("{:.2f} % of the wall time", 100 * insitu_share(summary)));
   for (const PipelineReport& p : summary.insitu) {
-    std::string line = fmt::format("    {}: {} times, first in {}, {} in all, {}", p.name, count_text(p.executed), duration_text(p.start_s),
-                                   duration_text(p.seconds), bytes_text(static_cast<std::uint64_t>(p.bytes)));
-    if (p.passed_over > 0) line += fmt::format("; {} times passed over to keep below max_overhead", count_text(p.passed_over));
+    std::string line = fmt::format("    {}: {} times, first in {}, {} in all, {}", p.name, count_text(p.executed),
+                                   duration_text(p.start_s), duration_text(p.seconds),
+                                   bytes_text(static_cast<std::uint64_t>(p.bytes)));
+    if (p.passed_over > 0)
+      line += fmt::format("; {} times passed over to keep below max_overhead", count_text(p.passed_over));
     if (p.failed > 0) line += fmt::format("; failed {} times", count_text(p.failed));
     text += line + "\n";
   }
@@ -139,8 +146,11 @@ std::string summary_text(const Summary& summary) {
   add_line(text, "host",
            fmt::format("{}, {} rank{}, {}", summary.host, summary.ranks, summary.ranks == 1 ? "" : "s", summary.simd));
   if (summary.ranks > 1) {
-    add_line(text, "divisions of the model", fmt::format("{}, imbalance {:.2f}", count_text(summary.decompositions), summary.imbalance));
-    add_line(text, "messages", fmt::format("{}, {}", count_text(summary.messages), bytes_text(static_cast<std::uint64_t>(summary.message_bytes))));
+    add_line(text, "divisions of the model",
+             fmt::format("{}, imbalance {:.2f}", count_text(summary.decompositions), summary.imbalance));
+    add_line(text, "messages",
+             fmt::format("{}, {}", count_text(summary.messages),
+                         bytes_text(static_cast<std::uint64_t>(summary.message_bytes))));
   }
   add_line(text, "version", summary.version);
   add_line(text, "state hash", summary.state_hash);

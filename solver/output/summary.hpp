@@ -18,10 +18,12 @@ namespace breccia {
 /// Largest resident memory of this process so far, bytes.
 [[nodiscard]] std::uint64_t max_resident_bytes();
 
-/// Writes the summary when the run ends, for programs (summary_json) and for people (summary_text), each file atomically.
+/// Writes the summary when the run ends, for programs (summary_json) and for people (summary_text), each file
+/// atomically.
 class SummarySink final : public Sink {
  public:
-  SummarySink(std::filesystem::path json, std::filesystem::path text) : json_(std::move(json)), text_(std::move(text)) {}
+  SummarySink(std::filesystem::path json, std::filesystem::path text)
+      : json_(std::move(json)), text_(std::move(text)) {}
   /// Throws OutputError.
   void finish(const Summary& summary) override;
 

@@ -10,11 +10,12 @@ namespace breccia {
 /// Where a run is, alike on all ranks.
 struct Moment {
   std::int64_t step = 0;
-  double time = 0, dt = 0;     ///< s, simulated; the step that begins now
-  std::int64_t broken = 0;     ///< joints of the whole model, as last counted
+  double time = 0, dt = 0;  ///< s, simulated; the step that begins now
+  std::int64_t broken = 0;  ///< joints of the whole model, as last counted
 };
 
-/// When a pipeline is due by what all ranks know: steps, simulated time, broken joints. Wall time is the root's to tell.
+/// When a pipeline is due by what all ranks know: steps, simulated time, broken joints. Wall time is the root's to
+/// tell.
 class Trigger {
  public:
   /// Without any trigger of the user's: so many times over the run.
@@ -62,8 +63,8 @@ class Overhead {
     spent_ += seconds;
   }
   [[nodiscard]] std::int64_t times() const { return times_; }
-  [[nodiscard]] double spent() const { return spent_; }   ///< s, without the first time
-  [[nodiscard]] double start() const { return start_; }   ///< s, of the first time
+  [[nodiscard]] double spent() const { return spent_; }  ///< s, without the first time
+  [[nodiscard]] double start() const { return start_; }  ///< s, of the first time
 
  private:
   double share_;

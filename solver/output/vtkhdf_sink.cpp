@@ -66,7 +66,8 @@ VtkhdfSink::VtkhdfSink(std::filesystem::path folder, FrameParts parts, Communica
 
 void VtkhdfSink::frame(const Frame& frame) {
   std::vector<Series> series = series_;
-  for (Series& part : series) part.entries.push_back({fmt::format("{}_{:06}.vtkhdf", part.part, frame.number), frame.time});
+  for (Series& part : series)
+    part.entries.push_back({fmt::format("{}_{:06}.vtkhdf", part.part, frame.number), frame.time});
   if (communicator_.size() == 1) {
     write_alone(frame, series);
   } else {

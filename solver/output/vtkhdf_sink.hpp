@@ -9,11 +9,11 @@
 
 namespace breccia {
 
-/// Frames for ParaView: `<folder>/elements_000012.vtkhdf` (tetrahedra), `joints_...` (triangles), `contacts_...` (vertices
-/// with force vectors), and one index of times for each, `elements.hdf.series`: the file to open (ParaView 5.11 knows the
-/// reader by the ending .hdf alone, and the times only from here). An index lists complete files only, whenever the run
-/// is killed. Cell arrays carry the names of Frame's members; stress has the components XX YY ZZ XY YZ XZ.
-/// Of several ranks each hands in its own originals: its piece of the one file, by rank.
+/// Frames for ParaView: `<folder>/elements_000012.vtkhdf` (tetrahedra), `joints_...` (triangles), `contacts_...`
+/// (vertices with force vectors), and one index of times for each, `elements.hdf.series`: the file to open
+/// (ParaView 5.11 knows the reader by the ending .hdf alone, and the times only from here). An index lists complete
+/// files only, whenever the run is killed. Cell arrays carry the names of Frame's members; stress has the components XX
+/// YY ZZ XY YZ XZ. Of several ranks each hands in its own originals: its piece of the one file, by rank.
 class VtkhdfSink final : public Sink {
  public:
   /// @pre folder exists
@@ -33,7 +33,9 @@ class VtkhdfSink final : public Sink {
     std::vector<Entry> entries;
   };
   [[nodiscard]] static std::string index_text(const Series& series);
-  [[nodiscard]] std::filesystem::path newest(const Series& series) const { return folder_ / series.entries.back().file; }
+  [[nodiscard]] std::filesystem::path newest(const Series& series) const {
+    return folder_ / series.entries.back().file;
+  }
   void write_alone(const Frame& frame, const std::vector<Series>& series) const;
   void write_together(const Frame& frame, const std::vector<Series>& series) const;
   /// Makes the newest frames and the indices appear. @param images  of the frames; empty: the temporaries stand already

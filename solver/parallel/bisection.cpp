@@ -11,17 +11,17 @@ namespace {
 
 constexpr std::size_t kBins = 256;  ///< of a histogram; each pass looks into the bin where the cut must lie
 constexpr int kPasses = 5;          ///< 2^-40 of the box: finer than elements are apart, along the tilted normal too
-/// Cuts are planes tilted by this slope, and by its square along the third axis: regular meshes have many centroids in one
-/// plane, which could only go to one side together.
+/// Cuts are planes tilted by this slope, and by its square along the third axis: regular meshes have many centroids in
+/// one plane, which could only go to one side together.
 constexpr double kTilt = 1e-4;
 constexpr double kRoundOff = 1e-12;  ///< of a box, so that its own elements are never outside
 
 /// Several domains that are still one part.
 struct Part {
-  int first, count;                    ///< domains
+  int first, count;  ///< domains
   int axis = 0;
-  double lower = 0, upper = 0;         ///< m, where the cut lies along its normal
-  std::int64_t below = 0, total = 0;   ///< weight below `lower`, and of the part
+  double lower = 0, upper = 0;        ///< m, where the cut lies along its normal
+  std::int64_t below = 0, total = 0;  ///< weight below `lower`, and of the part
 };
 
 /// Weights as integers, so that sums do not depend on their order.
@@ -79,7 +79,8 @@ class Bisection {
       for (int i = 1; i < 3; ++i) {
         if (m[i] + m[3 + i] > m[part.axis] + m[3 + part.axis]) part.axis = i;
       }
-      const double lower = along_normal(part.axis, -m[3], -m[4], -m[5]), upper = along_normal(part.axis, m[0], m[1], m[2]);
+      const double lower = along_normal(part.axis, -m[3], -m[4], -m[5]),
+                   upper = along_normal(part.axis, m[0], m[1], m[2]);
       const double slack = kRoundOff * (std::abs(lower) + std::abs(upper));
       part.lower = lower - slack;
       part.upper = upper + slack;
@@ -107,7 +108,8 @@ class Bisection {
       if (part.count == 1) continue;
       const auto wanted = static_cast<std::int64_t>(static_cast<double>(part.total) * lower_count(part) / part.count);
       std::size_t bin = 0;
-      while (bin + 1 < kBins && part.below < wanted && part.below + bins[p * kBins + bin] <= wanted) part.below += bins[p * kBins + bin++];
+      while (bin + 1 < kBins && part.below < wanted && part.below + bins[p * kBins + bin] <= wanted)
+        part.below += bins[p * kBins + bin++];
       const double width = (part.upper - part.lower) / static_cast<double>(kBins);
       part.lower += width * static_cast<double>(bin);
       part.upper = bin + 1 == kBins ? part.upper : part.lower + width;
@@ -151,7 +153,8 @@ class Bisection {
 
 }  // namespace
 
-std::vector<int> bisect(const Communicator& communicator, int parts, std::span<const Vec3> centroid, std::span<const double> weight) {
+std::vector<int> bisect(const Communicator& communicator, int parts, std::span<const Vec3> centroid,
+                        std::span<const double> weight) {
   return Bisection(communicator, parts, centroid, weight).run();
 }
 

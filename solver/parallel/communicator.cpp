@@ -104,8 +104,8 @@ bool settled(std::span<MPI_Request> requests) {
   if (std::all_of(requests.begin(), requests.end(), is_null)) return true;  // also when there is no MPI
   const auto end = std::chrono::steady_clock::now() + kPatience;
   int done = 0;
-  while (MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE) == MPI_SUCCESS && done == 0 &&
-         std::chrono::steady_clock::now() < end) {
+  while (MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE) == MPI_SUCCESS &&
+         done == 0 && std::chrono::steady_clock::now() < end) {
     sched_yield();
   }
   return done != 0;
@@ -126,7 +126,8 @@ double Communicator::patience() const { return handle_ ? handle_->patience : 0.0
 
 void Communicator::make_progress() const {
   int found = 0;
-  if (handle_) check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, handle_->comm, &found, MPI_STATUS_IGNORE), "MPI_Iprobe");
+  if (handle_)
+    check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, handle_->comm, &found, MPI_STATUS_IGNORE), "MPI_Iprobe");
 }
 
 int Communicator::fortran_handle() const { return handle_ ? static_cast<int>(MPI_Comm_c2f(handle_->comm)) : -1; }
@@ -165,11 +166,14 @@ std::vector<std::vector<std::byte>> Communicator::all_gather_bytes(std::span<con
   if (!handle_) return {{mine.begin(), mine.end()}};
   const auto ranks = static_cast<std::size_t>(size());
   const int everybody = -1;
-  const auto finished = [&](MPI_Request request) { wait_for(*handle_, std::span(&request, 1), std::span(&everybody, 1)); };
+  const auto finished = [&](MPI_Request request) {
+    wait_for(*handle_, std::span(&request, 1), std::span(&everybody, 1));
+  };
   MPI_Request request;
   std::vector<std::int64_t> lengths(ranks);
   const auto length = static_cast<std::int64_t>(mine.size());
-  check_mpi(MPI_Iallgather(&length, 1, MPI_INT64_T, lengths.data(), 1, MPI_INT64_T, handle_->comm, &request), "MPI_Iallgather");
+  check_mpi(MPI_Iallgather(&length, 1, MPI_INT64_T, lengths.data(), 1, MPI_INT64_T, handle_->comm, &request),
+            "MPI_Iallgather");
   finished(request);
 
   std::vector<std::vector<std::byte>> lists(ranks);
@@ -180,17 +184,20 @@ std::vector<std::vector<std::byte>> Communicator::all_gather_bytes(std::span<con
   std::vector<int> counts(ranks), places(ranks);
   std::vector<std::byte> round;
   for (std::int64_t done = 0; done < longest; done += share) {
-    const auto count_of = [&](std::int64_t whole) { return static_cast<int>(std::clamp<std::int64_t>(whole - done, 0, share)); };
+    const auto count_of = [&](std::int64_t whole) {
+      return static_cast<int>(std::clamp<std::int64_t>(whole - done, 0, share));
+    };
     for (std::size_t r = 0; r < ranks; ++r) {
       counts[r] = count_of(lengths[r]);
       places[r] = r == 0 ? 0 : places[r - 1] + counts[r - 1];
     }
     round.resize(static_cast<std::size_t>(places.back()) + static_cast<std::size_t>(counts.back()));
-    check_mpi(MPI_Iallgatherv(mine.data() + std::min(done, length), count_of(length), MPI_BYTE, round.data(), counts.data(), places.data(),
-                              MPI_BYTE, handle_->comm, &request),
+    check_mpi(MPI_Iallgatherv(mine.data() + std::min(done, length), count_of(length), MPI_BYTE, round.data(),
+                              counts.data(), places.data(), MPI_BYTE, handle_->comm, &request),
               "MPI_Iallgatherv");
     finished(request);
-    for (std::size_t r = 0; r < ranks; ++r) std::copy_n(round.begin() + places[r], counts[r], lists[r].begin() + std::min(done, lengths[r]));
+    for (std::size_t r = 0; r < ranks; ++r)
+      std::copy_n(round.begin() + places[r], counts[r], lists[r].begin() + std::min(done, lengths[r]));
   }
   return lists;
 }
@@ -248,7 +255,8 @@ std::vector<Communicator::Parcel> Communicator::exchange(std::vector<Parcel> par
   return received;
 }
 
-// --- PendingReduction -----------------------------------------------------------------------------------------------------------
+// --- PendingReduction
+// -----------------------------------------------------------------------------------------------------------
 
 class PendingReduction::Request {
  public:

@@ -12,9 +12,9 @@
 
 namespace breccia {
 
-/// A group of ranks that work on one model. Every call is collective and in the same order on all ranks. Without MPI (default
-/// constructed) a rank is alone: every call does what it does for one rank.
-/// Throws InternalError when MPI reports an error.
+/// A group of ranks that work on one model. Every call is collective and in the same order on all ranks. Without MPI
+/// (default constructed) a rank is alone: every call does what it does for one rank. Throws InternalError when MPI
+/// reports an error.
 class Communicator {
  public:
   Communicator() = default;  ///< alone
@@ -34,7 +34,8 @@ class Communicator {
 
   void broadcast(std::vector<std::byte>& bytes) const;  ///< from the root
 
-  /// What each rank gave, by rank, on all ranks. A collective of MPI's for the lengths and one for the lists: not a message a pair.
+  /// What each rank gave, by rank, on all ranks. A collective of MPI's for the lengths and one for the lists: not a
+  /// message a pair.
   template <class T>
   [[nodiscard]] std::vector<std::vector<T>> all_gather(std::span<const T> mine) const {
     return lists_of<T>(all_gather_bytes(std::as_bytes(mine)));
@@ -64,19 +65,21 @@ class Communicator {
       if (!bytes.empty()) parcels.push_back({list.rank, {bytes.begin(), bytes.end()}});
     }
     std::vector<ListOf<T>> received;
-    for (const Parcel& parcel : exchange(std::move(parcels))) received.push_back({parcel.rank, list_of<T>(parcel.bytes)});
+    for (const Parcel& parcel : exchange(std::move(parcels)))
+      received.push_back({parcel.rank, list_of<T>(parcel.bytes)});
     return received;
   }
 
-  /// Runs `work` here and everywhere. If it throws on any rank, all ranks throw what the lowest of these threw: InputError,
-  /// SimulationError, OutputError, or InternalError for everything else. One small reduction when nobody throws. A rank that
-  /// is alone throws what `work` threw.
+  /// Runs `work` here and everywhere. If it throws on any rank, all ranks throw what the lowest of these threw:
+  /// InputError, SimulationError, OutputError, or InternalError for everything else. One small reduction when nobody
+  /// throws. A rank that is alone throws what `work` threw.
   void agree(const std::function<void()>& work) const;
 
   /// Names what the rank is about to do, for the message of a wait that lasts too long.
   void set_phase(const char* phase) const;
-  /// Waits longer than this are told on stderr, waits twice as long end with InternalError; s. Default 300. After that error
-  /// only a pending reduction and a halo may be waited for again; anything else has left MPI with memory that is gone: end the process.
+  /// Waits longer than this are told on stderr, waits twice as long end with InternalError; s. Default 300. After that
+  /// error only a pending reduction and a halo may be waited for again; anything else has left MPI with memory that is
+  /// gone: end the process.
   void set_patience(double seconds) const;
   [[nodiscard]] double patience() const;  ///< s; 0 alone
 

@@ -37,7 +37,8 @@ class NearDomains {
     domains_.resize(at(n_[0]) * at(n_[1]) * at(n_[2]));
     for (std::size_t d = 0; d < boxes.size(); ++d) {
       if (boxes[d].empty()) continue;
-      const auto first = cell(boxes[d].lower - Vec3::Constant(distance)), last = cell(boxes[d].upper + Vec3::Constant(distance));
+      const auto first = cell(boxes[d].lower - Vec3::Constant(distance)),
+                 last = cell(boxes[d].upper + Vec3::Constant(distance));
       for (int z = first[2]; z <= last[2]; ++z) {
         for (int y = first[1]; y <= last[1]; ++y) {
           for (int x = first[0]; x <= last[0]; ++x) domains_[place({x, y, z})].push_back(static_cast<int>(d));
@@ -59,7 +60,9 @@ class NearDomains {
     }
     return c;
   }
-  [[nodiscard]] std::size_t place(const Cell& c) const { return (at(c[2]) * at(n_[1]) + at(c[1])) * at(n_[0]) + at(c[0]); }
+  [[nodiscard]] std::size_t place(const Cell& c) const {
+    return (at(c[2]) * at(n_[1]) + at(c[1])) * at(n_[0]) + at(c[0]);
+  }
 
   std::array<int, 3> n_{};
   Vec3 lower_, inverse_;
@@ -68,7 +71,8 @@ class NearDomains {
 
 class Counter {
  public:
-  Counter(const Mesh& mesh, const Topology& topology, std::span<const std::uint8_t> own_nodes, std::span<const int> owner, int parts)
+  Counter(const Mesh& mesh, const Topology& topology, std::span<const std::uint8_t> own_nodes,
+          std::span<const int> owner, int parts)
       : mesh_(mesh), topology_(topology), own_nodes_(own_nodes), owner_(owner), from_(at(parts)) {
     report_.domains.resize(at(parts));
   }
@@ -162,7 +166,8 @@ class Counter {
     for (std::size_t d = 0; d < report_.domains.size(); ++d) {
       DomainLoad& load = report_.domains[d];
       load.neighbours = static_cast<int>(from_[d].size());
-      for (const int other : from_[d]) pairs.push_back({std::min(other, static_cast<int>(d)), std::max(other, static_cast<int>(d))});
+      for (const int other : from_[d])
+        pairs.push_back({std::min(other, static_cast<int>(d)), std::max(other, static_cast<int>(d))});
       load.step = kSecondsAnElement * static_cast<double>(load.elements) + kSecondsAMessage * load.neighbours +
                   static_cast<double>(load.bytes()) / kBytesASecond;
       most = std::max(most, static_cast<double>(load.elements));
@@ -177,10 +182,10 @@ class Counter {
   const Topology& topology_;
   std::span<const std::uint8_t> own_nodes_;
   std::span<const int> owner_;
-  std::vector<int> first_;                     ///< (nodes) a domain with the node, -1: none
-  std::map<Index, std::vector<int>> others_;   ///< further ones
-  std::vector<std::vector<int>> from_;         ///< (domains) whom it gathers from
-  std::vector<int> takers_;                    ///< of the present element
+  std::vector<int> first_;                    ///< (nodes) a domain with the node, -1: none
+  std::map<Index, std::vector<int>> others_;  ///< further ones
+  std::vector<std::vector<int>> from_;        ///< (domains) whom it gathers from
+  std::vector<int> takers_;                   ///< of the present element
   DomainReport report_;
 };
 

@@ -34,7 +34,8 @@ constexpr double kSameArea = 1e-9;
 
 /// Agrees with what was asked for; 0 agrees with everything.
 bool agrees(const std::array<int, 3>& n, const std::array<int, 3>& asked) {
-  return std::equal(n.begin(), n.end(), asked.begin(), [](int given, int wanted) { return wanted == 0 || given == wanted; });
+  return std::equal(n.begin(), n.end(), asked.begin(),
+                    [](int given, int wanted) { return wanted == 0 || given == wanted; });
 }
 
 bool within(const std::array<int, 3>& n, const std::array<int, 3>& most) {
@@ -90,8 +91,9 @@ std::array<int, 3> grid_of(const DomainSpec& spec, int parts, const DomainBox& b
   });
   if (best) return *best;
   if (!possible) {
-    throw InputError(Problem{spec.file, spec.line, "domains.n", "the grid does not have as many domains as there are ranks, " +
-                             std::to_string(parts), all, text_of(spec.n)});
+    throw InputError(Problem{spec.file, spec.line, "domains.n",
+                             "the grid does not have as many domains as there are ranks, " + std::to_string(parts), all,
+                             text_of(spec.n)});
   }
   const std::string given = spec.n == std::array{0, 0, 0} ? std::to_string(parts) + " domains" : text_of(spec.n);
   throw InputError(Problem{spec.file, spec.line, "domains.n", "domains would be smaller than the largest element",
@@ -107,8 +109,8 @@ DomainSpec settled(const Communicator& communicator, const DomainSpec& spec, int
   return grid;
 }
 
-std::vector<int> assign_domains(const Communicator& communicator, const DomainSpec& spec, int parts, std::span<const Vec3> centroid,
-                                std::span<const double> weight, double longest_edge) {
+std::vector<int> assign_domains(const Communicator& communicator, const DomainSpec& spec, int parts,
+                                std::span<const Vec3> centroid, std::span<const double> weight, double longest_edge) {
   const std::int64_t elements = communicator.sum(static_cast<std::int64_t>(centroid.size()));
   if (elements < parts) {
     throw InputError(Problem{spec.file, spec.line, "domains", "the model has fewer elements than there are ranks",

@@ -15,7 +15,8 @@ class EdgeColours {
  public:
   EdgeColours(std::size_t vertices, std::size_t colours) : colours_(colours), partner_(vertices * colours, kNobody) {}
 
-  /// Gives the edge u v a colour; others may change theirs. @pre it has none; both have fewer coloured edges than colours - 1
+  /// Gives the edge u v a colour; others may change theirs. @pre it has none; both have fewer coloured edges than
+  /// colours - 1
   void add(int u, int v) {
     std::vector<Spoke> fan = fan_of(u, v);
     const std::size_t c = free_at(u), d = free_at(fan.back().vertex);

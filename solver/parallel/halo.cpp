@@ -44,7 +44,8 @@ Halo::Halo(const Communicator& communicator, std::vector<HaloNeighbour> neighbou
 Halo::~Halo() {
   // After an error in a gather MPI may still read and write what it has been given.
   const auto is_done = [](MPI_Request request) { return request == MPI_REQUEST_NULL; };
-  if (!std::all_of(messages_->receives.begin(), messages_->receives.end(), is_done) || !settled(messages_->sends)) (void)messages_.release();
+  if (!std::all_of(messages_->receives.begin(), messages_->receives.end(), is_done) || !settled(messages_->sends))
+    (void)messages_.release();
 }
 
 void Halo::order_by_couples() {

@@ -10,8 +10,8 @@
 
 namespace breccia {
 
-/// What goes to a neighbour and comes from it: places of the first of the three components of a node's vector in a nodal
-/// field; the components lie kHaloStride apart (state/blocks.hpp). Both sides list nodes in the same order.
+/// What goes to a neighbour and comes from it: places of the first of the three components of a node's vector in a
+/// nodal field; the components lie kHaloStride apart (state/blocks.hpp). Both sides list nodes in the same order.
 struct HaloNeighbour {
   int rank = 0;
   std::vector<std::size_t> send, receive;
@@ -26,8 +26,8 @@ enum class ExchangeKind {
   pairwise,  ///< couple after couple (parallel/exchange_schedule.hpp): the first between begin and end, the rest in end
 };
 
-/// Brings the proxies of a rank up to date: gathers nodal values from their originals on other ranks, one message a neighbour
-/// for all fields together. Plan and buffers are made once; a gather allocates nothing.
+/// Brings the proxies of a rank up to date: gathers nodal values from their originals on other ranks, one message a
+/// neighbour for all fields together. Plan and buffers are made once; a gather allocates nothing.
 class Halo {
  public:
   /// Collective. @param neighbours  in any order, each rank at most once
@@ -38,11 +38,12 @@ class Halo {
   Halo& operator=(const Halo&) = delete;
   ~Halo();
 
-  /// Packs; posts receives before sends. Waits until the neighbours have what was sent last time, which they have unless they are a
-  /// whole gather behind. @param fields  (fields of the constructor); a node's values as they are now are sent
+  /// Packs; posts receives before sends. Waits until the neighbours have what was sent last time, which they have
+  /// unless they are a whole gather behind. @param fields  (fields of the constructor); a node's values as they are now
+  /// are sent
   void gather_begin(std::span<double* const> fields);
-  /// Waits for the values and puts them into the fields of gather_begin. Throws InternalError past the communicator's patience;
-  /// may be called again then. What this rank has sent may still be on its way.
+  /// Waits for the values and puts them into the fields of gather_begin. Throws InternalError past the communicator's
+  /// patience; may be called again then. What this rank has sent may still be on its way.
   void gather_end();
 
   [[nodiscard]] std::int64_t messages() const { return sent_; }      ///< sent so far

@@ -4,8 +4,8 @@
 
 namespace breccia {
 
-/// MPI from its beginning to its end; one in main. A process that no launcher has started does not begin it at all: it is
-/// alone, and saves the start of a daemon.
+/// MPI from its beginning to its end; one in main. A process that no launcher has started does not begin it at all: it
+/// is alone, and saves the start of a daemon.
 class MpiSession {
  public:
   MpiSession(int& argc, char**& argv);

@@ -27,7 +27,7 @@ struct ActiveJoint {
   std::array<JointPointHistory, 3> points;
   double mode_1 = 0, mode_2 = 0, friction = 0;  ///< J dissipated so far
   double time_of_failure = -1;                  ///< s, t_n of the step in which the state became failed; -1 before
-  bool elastic = false;                            ///< without damage, and well within the elastic range at the last evaluation
+  bool elastic = false;  ///< without damage, and well within the elastic range at the last evaluation
   // The last evaluation's moment of a closed joint that has slid, N, and normal; for its work.
   bool turned = false;
   Vec3 tilt{0, 0, 0}, normal{0, 0, 0};

@@ -12,9 +12,10 @@
 
 namespace breccia {
 
-/// The active list: joints in ascending order of their ids. They stand in blocks of eight of one law, by rows, for the kernel,
-/// those that come with damage and those that come without apart; a joint is told and taken in as an ActiveJoint. Each stays in its place in memory while others come and go, since in a breaking
-/// body some do in almost every step, until so many have that all are put in order again.
+/// The active list: joints in ascending order of their ids. They stand in blocks of eight of one law, by rows, for the
+/// kernel, those that come with damage and those that come without apart; a joint is told and taken in as an
+/// ActiveJoint. Each stays in its place in memory while others come and go, since in a breaking body some do in almost
+/// every step, until so many have that all are put in order again.
 class ActiveJoints {
  public:
   /// What the kernel need not know of a joint.
@@ -58,7 +59,8 @@ class ActiveJoints {
   [[nodiscard]] Iterator begin() const { return {this, 0}; }
   [[nodiscard]] Iterator end() const { return {this, size()}; }
 
-  /// @param batch  ascending by id, none of them on the list. O(list + batch): 4 B a joint of the list are moved, seldom all of it.
+  /// @param batch  ascending by id, none of them on the list. O(list + batch): 4 B a joint of the list are moved,
+  /// seldom all of it.
   void insert(std::span<const ActiveJoint> batch);
   /// Takes joints off the list. @param ids  ascending, all of them on the list. O(list), none when there are none
   void erase(std::span<const GlobalId> ids);

@@ -20,8 +20,8 @@ Constraints::Constraints(const std::vector<NodalConstraint>& entries, const Loca
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (rules[axis] == 0) continue;
       const std::size_t at = nodal(node, static_cast<int>(axis));
-      entries_[rules[axis] - 1].holds.push_back(
-          {node, static_cast<int>(axis), state.position[at], state.velocity[at], 0.0, mesh.counted[static_cast<std::size_t>(node)] != 0});
+      entries_[rules[axis] - 1].holds.push_back({node, static_cast<int>(axis), state.position[at], state.velocity[at],
+                                                 0.0, mesh.counted[static_cast<std::size_t>(node)] != 0});
     }
   }
 }

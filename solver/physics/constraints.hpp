@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "base/work_sum.hpp"
 #include "base/field.hpp"
 #include "base/time_function.hpp"
 #include "base/types.hpp"
+#include "base/work_sum.hpp"
 #include "state/local_mesh.hpp"
 #include "state/state.hpp"
 

@@ -15,8 +15,10 @@ enum class ElasticLaw {
 /// Whether the law has a stored energy, a function of the deformation alone.
 [[gnu::always_inline]] constexpr bool is_hyperelastic(ElasticLaw law) {
   switch (law) {
-    case ElasticLaw::neo_hookean: return true;
-    case ElasticLaw::green_st_venant: return false;
+    case ElasticLaw::neo_hookean:
+      return true;
+    case ElasticLaw::green_st_venant:
+      return false;
   }
   __builtin_unreachable();
 }
@@ -113,7 +115,8 @@ template <class T>
 /// For J >= j_min this is mu F + [(lambda/2)(J^2 - 1) - mu] F^-T, i.e. the Cauchy stress
 /// T = (mu/J)(B - I) + (lambda/2)(J - 1/J) I.
 template <class T>
-inline void neo_hookean_piola(const Tensor<T>& f, const Tensor<T>& cof, const T& j, const ElasticParams& p, Tensor<T>& piola) {
+inline void neo_hookean_piola(const Tensor<T>& f, const Tensor<T>& cof, const T& j, const ElasticParams& p,
+                              Tensor<T>& piola) {
   const T slope = volumetric_slope(j, p);
   for (std::size_t i = 0; i < 9; ++i) piola[i] = p.mu * f[i] + slope * cof[i];
 }
@@ -160,8 +163,12 @@ template <class T>
   const T j = determinant(f, cof);
   Tensor<T> piola;
   switch (p.law) {
-    case ElasticLaw::neo_hookean: neo_hookean_piola(f, cof, j, p, piola); break;
-    case ElasticLaw::green_st_venant: piola = product(green_st_venant_stress(f, j, p), cof); break;
+    case ElasticLaw::neo_hookean:
+      neo_hookean_piola(f, cof, j, p, piola);
+      break;
+    case ElasticLaw::green_st_venant:
+      piola = product(green_st_venant_stress(f, j, p), cof);
+      break;
   }
   return piola;
 }

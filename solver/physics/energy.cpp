@@ -18,8 +18,8 @@ elasticity::Corners<double> corners_of(const LocalMesh& mesh, const double* fiel
   return x;
 }
 
-/// Calls book(nodes) for all that this rank counts: an element with its own four nodes, whose terms may be added up as they are
-/// on whatever rank it is, or a shared node.
+/// Calls book(nodes) for all that this rank counts: an element with its own four nodes, whose terms may be added up as
+/// they are on whatever rank it is, or a shared node.
 template <class Book>
 void for_each_carrier(const LocalMesh& mesh, Book&& book) {
   for (Index s = 0; s < mesh.num_own_originals; ++s) {
@@ -40,7 +40,8 @@ ExactSum kinetic_energy(const LocalMesh& mesh, const double* velocity_before, co
     double energy = 0;
     for (const Index n : nodes) {
       const std::size_t at = nodal(n, 0);
-      const double product = velocity_before[at] * velocity_after[at] + velocity_before[at + 8] * velocity_after[at + 8] +
+      const double product = velocity_before[at] * velocity_after[at] +
+                             velocity_before[at + 8] * velocity_after[at + 8] +
                              velocity_before[at + 16] * velocity_after[at + 16];
       energy += 0.5 * mesh.node_mass[static_cast<std::size_t>(n)] * product;
     }
@@ -49,7 +50,8 @@ ExactSum kinetic_energy(const LocalMesh& mesh, const double* velocity_before, co
   return sum;
 }
 
-ElasticEnergy elastic_energy(const LocalMesh& mesh, std::span<const ElasticParams> params_of_group, const double* position) {
+ElasticEnergy elastic_energy(const LocalMesh& mesh, std::span<const ElasticParams> params_of_group,
+                             const double* position) {
   ElasticEnergy energy;
   for (Index s = 0; s < mesh.num_slots; ++s) {
     const auto i = static_cast<std::size_t>(s);
@@ -57,7 +59,8 @@ ElasticEnergy elastic_energy(const LocalMesh& mesh, std::span<const ElasticParam
     if (!mesh.is_original(s) || !is_hyperelastic(p.law)) continue;
     elasticity::Tensor<double> inverse;
     for (std::size_t k = 0; k < 9; ++k) inverse[k] = mesh.gradient[i / kLanes * 72 + k * kLanes + i % kLanes];
-    const double density = elasticity::neo_hookean_energy(elasticity::deformation<double>(corners_of(mesh, position, s), inverse), p);
+    const double density =
+        elasticity::neo_hookean_energy(elasticity::deformation<double>(corners_of(mesh, position, s), inverse), p);
     if (density > energy.largest_density) {
       energy.largest_density = density;
       energy.worst_slot = s;

@@ -11,13 +11,14 @@
 
 namespace breccia {
 
-/// Terms of the energy budget that are functions of the state: this rank's part. Sums run over the originals, nodes that this
-/// rank counts, joints whose lower element is an original; computed only when a history line is due. O(elements), no
-/// allocation, throws nothing.
+/// Terms of the energy budget that are functions of the state: this rank's part. Sums run over the originals, nodes
+/// that this rank counts, joints whose lower element is an original; computed only when a history line is due.
+/// O(elements), no allocation, throws nothing.
 
 /// Kinetic energy of central differences at t_n, J: sum of m v_(n-1/2) . v_(n+1/2) / 2, the form that together with the
 /// potential energy at x_n is conserved exactly by a linear system.
-[[nodiscard]] ExactSum kinetic_energy(const LocalMesh& mesh, const double* velocity_before, const double* velocity_after);
+[[nodiscard]] ExactSum kinetic_energy(const LocalMesh& mesh, const double* velocity_before,
+                                      const double* velocity_after);
 
 /// Strain energy of all elements whose law has one (neo-Hookean), J.
 struct ElasticEnergy {
@@ -25,16 +26,19 @@ struct ElasticEnergy {
   double largest_density = 0;  ///< J/m3
   Index worst_slot = -1;       ///< element with that density
 };
-[[nodiscard]] ElasticEnergy elastic_energy(const LocalMesh& mesh, std::span<const ElasticParams> params_of_group, const double* position);
+[[nodiscard]] ElasticEnergy elastic_energy(const LocalMesh& mesh, std::span<const ElasticParams> params_of_group,
+                                           const double* position);
 
-/// Energy of the joints the sweep looks after (intact, elastic), J: k A0/3 |opening|^2 / 2 over the corners, each joint once.
+/// Energy of the joints the sweep looks after (intact, elastic), J: k A0/3 |opening|^2 / 2 over the corners, each joint
+/// once.
 [[nodiscard]] ExactSum intact_joint_energy(const LocalMesh& mesh, const JointLinks& links, const double* position);
 
 /// Linear momentum, kg m/s, and angular momentum about the origin, kg m2/s.
 struct Momentum {
   std::array<ExactSum, 3> linear, angular;
 };
-/// @param position  x_n;  @param velocity  v_(n-1/2): with x_n the pair that internal forces leave unchanged to round-off
+/// @param position  x_n;  @param velocity  v_(n-1/2): with x_n the pair that internal forces leave unchanged to
+/// round-off
 [[nodiscard]] Momentum momentum(const LocalMesh& mesh, const double* position, const double* velocity);
 
 }  // namespace breccia

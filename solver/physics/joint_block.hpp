@@ -22,14 +22,14 @@ struct JointPointRows {
 
 /// What the last evaluation said of a joint, beside forces.
 enum JointNews : std::uint8_t {
-  kElastic = 1,      ///< without damage, and well within the elastic range
+  kElastic = 1,   ///< without damage, and well within the elastic range
   kFailing = 2,   ///< has failed in this step
   kReleased = 4,  ///< failed and open everywhere: no forces
   kTurning = 8    ///< a closed joint that has slid: turning holds its forces
 };
 
-/// Eight active joints of one law side by side, everything that the kernel reads and writes in rows: AoSoA. What an empty
-/// place holds is computed along and forgotten.
+/// Eight active joints of one law side by side, everything that the kernel reads and writes in rows: AoSoA. What an
+/// empty place holds is computed along and forgotten.
 struct alignas(64) JointBlock {
   Index node[6][kLanes];  ///< corners of the face of a, then the matching ones of b
   JointRow area, mode_1, mode_2, friction;

@@ -1,7 +1,7 @@
 #pragma once
 
-// A joint as a whole, for T = double and for T = simd (joint_point.hpp): geometry of its mid-surface, its three points, the forces on
-// its corners.
+// A joint as a whole, for T = double and for T = simd (joint_point.hpp): geometry of its mid-surface, its three points,
+// the forces on its corners.
 
 #include "physics/joint_point.hpp"
 
@@ -80,8 +80,10 @@ template <class T>
 template <class T>
 [[nodiscard]] inline Vector<T> point_opening(const JointLawParams& law, const Triple<T>& corners, std::size_t i) {
   switch (law.points) {
-    case JointPoints::nodal: return corners[i];
-    case JointPoints::mid_edge: return times(T(0.5), plus(corners[i], corners[(i + 1) % 3]));
+    case JointPoints::nodal:
+      return corners[i];
+    case JointPoints::mid_edge:
+      return times(T(0.5), plus(corners[i], corners[(i + 1) % 3]));
   }
   __builtin_unreachable();
 }
@@ -110,7 +112,8 @@ template <class T>
   return p;
 }
 
-/// If enough points give way for the joint to fail, the others give way with them, at once. @param before  of this evaluation
+/// If enough points give way for the joint to fail, the others give way with them, at once. @param before  of this
+/// evaluation
 template <class T>
 inline void drag_along(const JointLawParams& law, const Kinematics<T>& k, const Point<T>* before, Joint<T>& joint,
                        Response<T>* response) {
@@ -167,14 +170,16 @@ template <class T>
 template <class T>
 [[nodiscard]] inline T loose_share(const JointLawParams& law, const Point<T>& p) {
   switch (law.law) {
-    case JointLaw::mixed_mode: return p.damage;
-    case JointLaw::independent_peaks: return select(p.damage >= 1.0, T(1.0), T(0.0));
+    case JointLaw::mixed_mode:
+      return p.damage;
+    case JointLaw::independent_peaks:
+      return select(p.damage >= 1.0, T(1.0), T(0.0));
   }
   __builtin_unreachable();
 }
 
-/// What turning the mid-surface does to a closed joint that has slid: its normal energy k d delta_n^2 / 2 beyond the isotropic
-/// part depends on the normal. T = sum A0/3 k d delta_n delta_s, N: dU = T . dn.
+/// What turning the mid-surface does to a closed joint that has slid: its normal energy k d delta_n^2 / 2 beyond the
+/// isotropic part depends on the normal. T = sum A0/3 k d delta_n delta_s, N: dU = T . dn.
 template <class T>
 [[nodiscard]] inline Vector<T> tilting(const JointLawParams& law, const Kinematics<T>& k, const Joint<T>& joint) {
   const T zero = 0.0;
@@ -190,9 +195,9 @@ template <class T>
   return tilt;
 }
 
-/// Forces on the three pairs of corners that go with tilting, so that forces are the gradient of the energy also after a long
-/// slip, with their work among the friction. Each of a pair gets half of -dU/dm, m the corner of the mid-surface.
-/// Books nothing and returns 0 where not `on`.
+/// Forces on the three pairs of corners that go with tilting, so that forces are the gradient of the energy also after
+/// a long slip, with their work among the friction. Each of a pair gets half of -dU/dm, m the corner of the
+/// mid-surface. Books nothing and returns 0 where not `on`.
 template <class T>
 [[nodiscard]] inline Triple<T> tilting_forces(const JointLawParams& law, const Kinematics<T>& k, const Mask<T>& on,
                                               Joint<T>& joint) {

@@ -28,8 +28,8 @@ struct ElasticJoint {
   std::int8_t face_a = 0, code = 0;
 };
 
-/// What joints that are no longer on the list have consumed over the run, J: those whose side a is an original. Who failed:
-/// likewise. Who was released or is elastic: all.
+/// What joints that are no longer on the list have consumed over the run, J: those whose side a is an original. Who
+/// failed: likewise. Who was released or is elastic: all.
 struct JointWork {
   ExactSum mode_1, mode_2, friction;
   std::vector<GlobalId> failed;         ///< in the last step, ascending
@@ -46,22 +46,23 @@ struct JointEnergy {
 /// Of the joints on the list whose side a is an original, and of those that have left it. O(joints).
 [[nodiscard]] JointEnergy joint_energy(const LocalMesh& mesh, const ActiveJoints& joints, const JointWork& work);
 
-/// Forces of the active joints, in the order of the list, added to both sides; histories are brought up to date. On each
-/// corner i of the face of a: +A0/3 t_i, on the matching corner of b the opposite; with mid-edge points each force goes to
-/// the two corners of its edge in halves. n is the unit normal of the mid-surface.
+/// Forces of the active joints, in the order of the list, added to both sides; histories are brought up to date. On
+/// each corner i of the face of a: +A0/3 t_i, on the matching corner of b the opposite; with mid-edge points each force
+/// goes to the two corners of its edge in halves. n is the unit normal of the mid-surface.
 ///
 /// A joint fails when points_to_fail points are at damage 1; the others lose what they hold in the same step. Failed,
 /// it remains a frictional interface while it is closed (sigma = k delta_n, Coulomb friction). When all its corners are
 /// open at once it is released: it carries no force and holds no energy from then on and is taken off the list.
-/// A joint without damage whose opening is back within half the surely elastic range is marked `elastic`: the sweep may have it
-/// back after this step.
+/// A joint without damage whose opening is back within half the surely elastic range is marked `elastic`: the sweep may
+/// have it back after this step.
 /// @param time  s, t_n: of the positions
 /// @param simd  instruction set; the bits are the same with every one
 /// O(joints), allocates only when joints come, fail or are elastic, throws nothing.
 void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& mesh, const double* position,
                          double time, Simd simd, ActiveJoints& joints, NodalForces& forces, JointWork& work);
 
-/// Square of the largest opening at the three corners, m2, in the very products the sweep uses; the same from both sides.
+/// Square of the largest opening at the three corners, m2, in the very products the sweep uses; the same from both
+/// sides.
 [[nodiscard]] double largest_opening_squared(const LocalMesh& mesh, const double* position, const ActiveJoint& joint);
 
 /// Forces of a joint that leaves its elastic range in this step, as active_joint_forces would give them to one without

@@ -1,7 +1,7 @@
 #pragma once
 
-// The kernel of the active joints, included once by each translation unit joint_kernel_<instruction set>.cpp and compiled for its
-// set, as the sweep is (sweep_kernel.hpp).
+// The kernel of the active joints, included once by each translation unit joint_kernel_<instruction set>.cpp and
+// compiled for its set, as the sweep is (sweep_kernel.hpp).
 
 #include "physics/joint_block.hpp"
 #include "physics/joint_evaluation.hpp"

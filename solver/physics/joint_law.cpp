@@ -13,18 +13,23 @@ namespace {
 /// Energy under the rising branch up to the strength, J/m2: f^2/(2k) linear, 4 f^2/(3k) parabolic.
 double rise_energy(const JointLawParams& law, double strength) {
   switch (law.rise) {
-    case JointRise::linear: return 0.5 * strength * strength / law.stiffness;
-    case JointRise::parabolic: return 4.0 / 3.0 * strength * strength / law.stiffness;
+    case JointRise::linear:
+      return 0.5 * strength * strength / law.stiffness;
+    case JointRise::parabolic:
+      return 4.0 / 3.0 * strength * strength / law.stiffness;
   }
   __builtin_unreachable();
 }
 
-/// Squared opening up to which a joint that can break is linear elastic in every direction, m2; 0: only a point can tell.
+/// Squared opening up to which a joint that can break is linear elastic in every direction, m2; 0: only a point can
+/// tell.
 double screen_of(const JointLawParams& law) {
   if (law.points != JointPoints::nodal) return 0.0;
   switch (law.law) {
-    case JointLaw::mixed_mode: break;
-    case JointLaw::independent_peaks: return 0.0;
+    case JointLaw::mixed_mode:
+      break;
+    case JointLaw::independent_peaks:
+      return 0.0;
   }
   // Pressure only raises the limit. Round-off must not hide an onset.
   const double least = std::min(law.onset_normal, law.onset_shear);
@@ -101,7 +106,8 @@ std::string prepare(JointLawParams& law) {
 JointPointResponse evaluate_point(const JointLawParams& law, const JointFrame& frame, const Vec3& opening,
                                   JointPointHistory& history) {
   namespace jp = joint_point;
-  const jp::Frame<double> axes{jp::vector_of(frame.normal), {jp::vector_of(frame.tangent[0]), jp::vector_of(frame.tangent[1])}};
+  const jp::Frame<double> axes{jp::vector_of(frame.normal),
+                               {jp::vector_of(frame.tangent[0]), jp::vector_of(frame.tangent[1])}};
   jp::Point<double> point = jp::point_of(history);
   const jp::Response<double> r = jp::evaluate(law, axes, jp::vector_of(opening), point);
   history = jp::history_of(point);

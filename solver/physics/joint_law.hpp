@@ -25,7 +25,7 @@ struct JointPointHistory {
   // The last evaluation, for the work of the next step.
   bool fresh = true;   ///< never evaluated
   bool whole = false;  ///< evaluated without the normal: parts along it are missing, stored_normal holds all energy
-  bool gone = false;  ///< nothing was left of the cohesion
+  bool gone = false;   ///< nothing was left of the cohesion
   double friction_weight = 0;
   std::array<double, 2> friction_traction{0, 0};                    ///< Pa, weighted, along the tangents
   Vec3 opening{0, 0, 0};                                            ///< m

@@ -13,13 +13,16 @@ enum class JointLaw {
 enum class JointRise { linear, parabolic };
 enum class JointPoints { nodal, mid_edge };
 
-// What sets laws apart, decided for each of them. Inlined everywhere, since units of wider instruction sets call them too.
+// What sets laws apart, decided for each of them. Inlined everywhere, since units of wider instruction sets call them
+// too.
 
 /// Opening at the peak over strength / k.
 [[gnu::always_inline]] constexpr double peak_factor(JointRise rise) {
   switch (rise) {
-    case JointRise::linear: return 1.0;
-    case JointRise::parabolic: return 2.0;
+    case JointRise::linear:
+      return 1.0;
+    case JointRise::parabolic:
+      return 2.0;
   }
   __builtin_unreachable();
 }
@@ -27,8 +30,10 @@ enum class JointPoints { nodal, mid_edge };
 /// Whether the traction before the peak is k delta.
 [[gnu::always_inline]] constexpr bool rises_linearly(JointRise rise) {
   switch (rise) {
-    case JointRise::linear: return true;
-    case JointRise::parabolic: return false;
+    case JointRise::linear:
+      return true;
+    case JointRise::parabolic:
+      return false;
   }
   __builtin_unreachable();
 }
@@ -36,8 +41,10 @@ enum class JointPoints { nodal, mid_edge };
 /// Whether points remember a secant for each component.
 [[gnu::always_inline]] constexpr bool has_secants(JointLaw law) {
   switch (law) {
-    case JointLaw::mixed_mode: return false;
-    case JointLaw::independent_peaks: return true;
+    case JointLaw::mixed_mode:
+      return false;
+    case JointLaw::independent_peaks:
+      return true;
   }
   __builtin_unreachable();
 }
@@ -60,9 +67,9 @@ enum class JointPoints { nodal, mid_edge };
 /// come on top of a cohesive part that contains it already, with peaks of up to 1.4 (c + mu p).
 ///
 /// independent_peaks, histories D, s_n, s_s: sigma rises to f_t and tau to f_s on their own (linear: at f/k;
-///   parabolic: at 2 f/k), D = max(D, sqrt((<delta_n - d_nt>/D_n)^2 + (<|delta_s| - d_st>/D_s)^2)); z(D) multiplies both.
-///   A component that has passed its peak follows its secant: sigma = z s_n k delta_n, tau = z s_s k delta_s with s_n
-///   the least of f_t/(k delta_n) and s_s the least of c/(k |delta_s| - mu p) so far. The same friction with weight
+///   parabolic: at 2 f/k), D = max(D, sqrt((<delta_n - d_nt>/D_n)^2 + (<|delta_s| - d_st>/D_s)^2)); z(D) multiplies
+///   both. A component that has passed its peak follows its secant: sigma = z s_n k delta_n, tau = z s_s k delta_s with
+///   s_n the least of f_t/(k delta_n) and s_s the least of c/(k |delta_s| - mu p) so far. The same friction with weight
 ///   1 - z s_s; none with the parabolic rise.
 /// Both laws have a stored energy whose derivative is the traction and whose parameters only ever lower it, so no
 /// closed loop creates energy.

@@ -1,9 +1,10 @@
 #pragma once
 
-// The joint law of physics/joint_law.hpp at a point, for T = double and for T = std::experimental::simd<double, ...>, lane by lane:
-// the same operations in the same order for every T, hence the same bits. Branches on the law's parameters, which all lanes share,
-// are branches; those on data are `select`, and a branch is left out only when no lane takes it. No function here is compiled
-// for a plain type in a unit of a wider instruction set (sweep_kernel.hpp says why): all are templates over T.
+// The joint law of physics/joint_law.hpp at a point, for T = double and for T = std::experimental::simd<double, ...>,
+// lane by lane: the same operations in the same order for every T, hence the same bits. Branches on the law's
+// parameters, which all lanes share, are branches; those on data are `select`, and a branch is left out only when no
+// lane takes it. No function here is compiled for a plain type in a unit of a wider instruction set (sweep_kernel.hpp
+// says why): all are templates over T.
 
 #include <experimental/simd>
 
@@ -177,8 +178,8 @@ template <class T>
   }
 }
 
-/// Takes the damage of an opening where it may grow. Returns the share of the opening, along its ray, at which the elastic
-/// range ends; at most 1.
+/// Takes the damage of an opening where it may grow. Returns the share of the opening, along its ray, at which the
+/// elastic range ends; at most 1.
 template <class T>
 [[nodiscard]] inline T grow_mixed_mode(const JointLawParams& law, const Components<T>& c, const Mask<T>& may,
                                        Point<T>& h) {
@@ -246,8 +247,10 @@ template <class T>
 template <class T>
 [[nodiscard]] inline T grow(const JointLawParams& law, const Components<T>& c, const Mask<T>& may, Point<T>& h) {
   switch (law.law) {
-    case JointLaw::mixed_mode: return grow_mixed_mode(law, c, may, h);
-    case JointLaw::independent_peaks: return grow_independent_peaks(law, c, may, h);
+    case JointLaw::mixed_mode:
+      return grow_mixed_mode(law, c, may, h);
+    case JointLaw::independent_peaks:
+      return grow_independent_peaks(law, c, may, h);
   }
   __builtin_unreachable();
 }
@@ -264,8 +267,11 @@ template <class T>
 [[nodiscard]] inline Left<T> left_of(const JointLawParams& law, const Point<T>& h) {
   T left = h.left;
   switch (law.law) {
-    case JointLaw::mixed_mode: left = 1.0 - h.damage; break;
-    case JointLaw::independent_peaks: break;
+    case JointLaw::mixed_mode:
+      left = 1.0 - h.damage;
+      break;
+    case JointLaw::independent_peaks:
+      break;
   }
   return {select(h.damage >= 1.0, T(0.0), left), h.secant_normal, h.secant_shear};
 }
@@ -344,8 +350,9 @@ template <class T>
   return select(on && h.friction_weight > 0.0, dissipated, zero);
 }
 
-/// The last evaluation, for the work of this one, where it was not made or was made without the normal: a fresh history is put
-/// where the ray of the opening left the elastic range, at `share` of it; an elastic one gets its parts along the normal.
+/// The last evaluation, for the work of this one, where it was not made or was made without the normal: a fresh history
+/// is put where the ray of the opening left the elastic range, at `share` of it; an elastic one gets its parts along
+/// the normal.
 template <class T>
 inline void complete_memory(const JointLawParams& law, const Frame<T>& frame, const Vector<T>& opening, const T& share,
                             const Mask<T>& wanted, Point<T>& h) {
@@ -413,7 +420,8 @@ template <class T>
   return response;
 }
 
-/// The same where the caller knows the point to be elastic and without damage, without a frame: what it remembers of it.
+/// The same where the caller knows the point to be elastic and without damage, without a frame: what it remembers of
+/// it.
 template <class T>
 inline void set_elastic(const JointLawParams& law, const Vector<T>& opening, Point<T>& h) {
   h.memory = kWhole;

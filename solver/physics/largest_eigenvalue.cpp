@@ -19,7 +19,9 @@ constexpr double kMargin = 1.01;    // the residual may be that of the eigenvalu
 using Lanes = Eigen::Array<double, kLanes, 1>;
 using Triple = std::array<Lanes, 3>;
 
-Eigen::Map<const Lanes, Eigen::Aligned64> lanes(const double* first) { return Eigen::Map<const Lanes, Eigen::Aligned64>(first); }
+Eigen::Map<const Lanes, Eigen::Aligned64> lanes(const double* first) {
+  return Eigen::Map<const Lanes, Eigen::Aligned64>(first);
+}
 
 /// sum_c u_c g_c^T of eight elements, by row. @param u  of the block's corners
 std::array<Triple, 3> displacement_gradient(const std::array<Triple, 4>& grad, const double* u) {
@@ -34,14 +36,16 @@ std::array<Triple, 3> displacement_gradient(const std::array<Triple, 4>& grad, c
 }
 
 /// Adds what eight elements' own sides of the intact joints on one face pull with. @param force  (corners)
-void add_joints(const JointLinks& links, std::size_t block, std::size_t face, const double* u, std::array<Triple, 4>& force) {
+void add_joints(const JointLinks& links, std::size_t block, std::size_t face, const double* u,
+                std::array<Triple, 4>& force) {
   const auto stiffness = lanes(links.stiffness.data() + block * 32 + face * kLanes);
   const std::int32_t* place = links.place.data() + block * 96 + face * 24;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto corner = static_cast<std::size_t>(kFaceCorners[face][i]);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       Lanes other;
-      for (std::size_t l = 0; l < kLanes; ++l) other[static_cast<Eigen::Index>(l)] = u[static_cast<std::size_t>(place[i * kLanes + l]) + axis * kLanes];
+      for (std::size_t l = 0; l < kLanes; ++l)
+        other[static_cast<Eigen::Index>(l)] = u[static_cast<std::size_t>(place[i * kLanes + l]) + axis * kLanes];
       force[corner][axis] += stiffness * (lanes(u + block * 96 + (3 * corner + axis) * kLanes) - other);
     }
   }
@@ -66,7 +70,8 @@ std::array<Triple, 4> element_forces(const StepModel& model, std::size_t block, 
       if (i == j) stress[j] += pressure;
       stress[j] *= volume;
     }
-    for (std::size_t c = 0; c < 4; ++c) force[c][i] = stress[0] * grad[c][0] + stress[1] * grad[c][1] + stress[2] * grad[c][2];
+    for (std::size_t c = 0; c < 4; ++c)
+      force[c][i] = stress[0] * grad[c][0] + stress[1] * grad[c][1] + stress[2] * grad[c][2];
   }
   return force;
 }
@@ -74,7 +79,8 @@ std::array<Triple, 4> element_forces(const StepModel& model, std::size_t block, 
 void act_on_own(const StepModel& model, std::size_t block, const double* u, double* y) {
   std::array<Triple, 4> force = element_forces(model, block, u + block * 96);
   for (std::size_t face = 0; face < 4; ++face) add_joints(model.links, block, face, u, force);
-  for (std::size_t k = 0; k < 12; ++k) Eigen::Map<Lanes, Eigen::Aligned64>(y + block * 96 + k * kLanes) = force[k / 3][k % 3];
+  for (std::size_t k = 0; k < 12; ++k)
+    Eigen::Map<Lanes, Eigen::Aligned64>(y + block * 96 + k * kLanes) = force[k / 3][k % 3];
 }
 
 void act_on_shared(const StepModel& model, std::size_t block, const double* u, double* y) {
@@ -88,7 +94,9 @@ void act_on_shared(const StepModel& model, std::size_t block, const double* u, d
   };
   each([&](std::size_t place, std::size_t lane, std::size_t k) { gathered[k * kLanes + lane] = u[place]; });
   const std::array<Triple, 4> force = element_forces(model, block, gathered.data());
-  each([&](std::size_t place, std::size_t lane, std::size_t k) { y[place] += force[k / 3][k % 3][static_cast<Eigen::Index>(lane)]; });
+  each([&](std::size_t place, std::size_t lane, std::size_t k) {
+    y[place] += force[k / 3][k % 3][static_cast<Eigen::Index>(lane)];
+  });
 }
 
 /// Entries in -1..1 by global id of the node, zero on padding.

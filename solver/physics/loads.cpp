@@ -77,7 +77,8 @@ ExactSum potential(const LocalMesh& mesh, const Vec3& g, const double* plus, con
   ExactSum sum;
   for (Index s = 0; s < mesh.num_own_originals; ++s) {
     if (!mesh.is_original(s)) continue;
-    sum.add((term(own_corner_node(s, 0)) + term(own_corner_node(s, 1))) + (term(own_corner_node(s, 2)) + term(own_corner_node(s, 3))));
+    sum.add((term(own_corner_node(s, 0)) + term(own_corner_node(s, 1))) +
+            (term(own_corner_node(s, 2)) + term(own_corner_node(s, 3))));
   }
   for (Index n = mesh.num_own_nodes(); n < mesh.num_nodes; ++n) {
     if (mesh.counted[static_cast<std::size_t>(n)] != 0) sum.add(term(n));
@@ -100,7 +101,9 @@ GravityWork::GravityWork(Carried carried, const LocalMesh& mesh, const Field<dou
 
 void GravityWork::advance(const LocalMesh& mesh, const State& state, const Vec3& gravity, double dt_before) {
   const auto here = [&](const Vec3& g) { return potential(mesh, g, state.position.data(), mesh.reference.data()); };
-  const auto last_step = [&](const Vec3& g) { return potential(mesh, Vec3(dt_before * g), state.velocity.data(), nullptr); };
+  const auto last_step = [&](const Vec3& g) {
+    return potential(mesh, Vec3(dt_before * g), state.velocity.data(), nullptr);
+  };
   const bool changes = started_ && gravity != gravity_;
   if (!started_) {
     anchor_ = here(gravity);

@@ -3,10 +3,10 @@
 #include <array>
 #include <vector>
 
-#include "base/work_sum.hpp"
 #include "base/field.hpp"
 #include "base/time_function.hpp"
 #include "base/types.hpp"
+#include "base/work_sum.hpp"
 #include "state/local_mesh.hpp"
 #include "state/nodal_forces.hpp"
 #include "state/state.hpp"
@@ -53,13 +53,13 @@ class PressureLoad {
   WorkSum work_;
 };
 
-/// Work of gravity on this rank's originals, J, to the same trapezoid rule as every other force. The sweep applies gravity as
-/// an acceleration.
+/// Work of gravity on this rank's originals, J, to the same trapezoid rule as every other force. The sweep applies
+/// gravity as an acceleration.
 ///
-/// Gravity is uniform in space, so its work is a functional of the potential m g . (x - X): as long as g does not change it
-/// is the difference to where g took its value, and nothing is computed until someone asks. In the steps where g changes, the
-/// work of the step is taken from the velocities. Cost of `advance`: three comparisons while g is constant; O(elements) for
-/// every step of a ramp. Cost of `work`: O(elements).
+/// Gravity is uniform in space, so its work is a functional of the potential m g . (x - X): as long as g does not
+/// change it is the difference to where g took its value, and nothing is computed until someone asks. In the steps
+/// where g changes, the work of the step is taken from the velocities. Cost of `advance`: three comparisons while g is
+/// constant; O(elements) for every step of a ramp. Cost of `work`: O(elements).
 class GravityWork {
  public:
   /// What goes on when elements change hands.
@@ -84,8 +84,8 @@ class GravityWork {
   [[nodiscard]] Carried close(const LocalMesh& mesh, const Field<double>& position) const;
 
  private:
-  ExactSum past_;          ///< work up to the anchor, or up to the last `advance` while g changes
-  ExactSum anchor_;        ///< potential with gravity_ when it took its value
+  ExactSum past_;    ///< work up to the anchor, or up to the last `advance` while g changes
+  ExactSum anchor_;  ///< potential with gravity_ when it took its value
   Vec3 gravity_{0, 0, 0};
   bool started_ = false;
   bool changing_ = false;  ///< g changed at the last `advance`

@@ -16,19 +16,25 @@ void rate_work_avx512(const SweepArgs& args);
 
 std::string_view name_of(Simd simd) {
   switch (simd) {
-    case Simd::sse2: return "sse2";
-    case Simd::avx2: return "avx2";
-    case Simd::avx512: return "avx512";
+    case Simd::sse2:
+      return "sse2";
+    case Simd::avx2:
+      return "avx2";
+    case Simd::avx512:
+      return "avx512";
   }
   return "";
 }
 
 bool simd_available(Simd simd) {
   switch (simd) {
-    case Simd::sse2: return true;
-    case Simd::avx2: return __builtin_cpu_supports("avx2");
-    case Simd::avx512: return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-                               __builtin_cpu_supports("bmi2");
+    case Simd::sse2:
+      return true;
+    case Simd::avx2:
+      return __builtin_cpu_supports("avx2");
+    case Simd::avx512:
+      return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+             __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("bmi2");
   }
   return false;
 }
@@ -45,9 +51,12 @@ Simd best_simd() {
 SweepFunction sweep_for(Simd simd) {
   DEMAND(simd_available(simd), std::string(name_of(simd)));
   switch (simd) {
-    case Simd::avx512: return sweep_avx512;
-    case Simd::avx2: return sweep_avx2;
-    case Simd::sse2: break;
+    case Simd::avx512:
+      return sweep_avx512;
+    case Simd::avx2:
+      return sweep_avx2;
+    case Simd::sse2:
+      break;
   }
   return sweep_sse2;
 }

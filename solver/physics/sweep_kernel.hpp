@@ -1,14 +1,14 @@
 #pragma once
 
-// The kernel of physics/sweep.hpp, included once by each translation unit sweep_<instruction set>.cpp and compiled for its
-// set: everything here has internal linkage or a type that only this set has, so no unit can borrow another's code.
+// The kernel of physics/sweep.hpp, included once by each translation unit sweep_<instruction set>.cpp and compiled for
+// its set: everything here has internal linkage or a type that only this set has, so no unit can borrow another's code.
 
 #include <experimental/simd>
 
 #include "physics/elasticity.hpp"
 #include "physics/sweep.hpp"
-#include "state/joint_links.hpp"
 #include "state/blocks.hpp"
+#include "state/joint_links.hpp"
 
 namespace breccia {
 namespace {
@@ -28,8 +28,8 @@ inline Real load(const double* p) { return Real(p, stdx::element_aligned); }
 inline void store(const Real& value, double* p) { value.copy_to(p, stdx::element_aligned); }
 inline void add_to(double* p, const Real& value) { store(load(p) + value, p); }
 
-/// A tensor or a vector that stays in memory, component k of W elements at first + 8 k: loaded where it is used, as registers
-/// are scarcer than loads.
+/// A tensor or a vector that stays in memory, component k of W elements at first + 8 k: loaded where it is used, as
+/// registers are scarcer than loads.
 struct Stored {
   const double* first;
   Real operator[](std::size_t k) const { return load(first + k * kLanes); }
@@ -59,17 +59,19 @@ inline Real contract(const Tensor& a, const Tensor& b) {
 
 /// Elastic and viscous stress of W elements, kept until the velocities after the step are known.
 struct Stress {
-  Stored inverse;   // D_m^-1
-  Tensor total;     // first Piola
-  Tensor viscous;   // its viscous part, set when the group is viscous
+  Stored inverse;  // D_m^-1
+  Tensor total;    // first Piola
+  Tensor viscous;  // its viscous part, set when the group is viscous
   Real volume;
 };
 
-/// @tparam is_plain  the group has the neo-Hookean law and no viscosity, so that the stress need not pass through memory
+/// @tparam is_plain  the group has the neo-Hookean law and no viscosity, so that the stress need not pass through
+/// memory
 /// @param x, v  corners
 template <bool is_plain, class X>
-[[gnu::always_inline]] inline void evaluate_stress(const SweepArgs& args, const ElasticParams& p, std::size_t block, std::size_t lane,
-                                                   const X& x, const X& v, Totals& totals, Stress& s) {
+[[gnu::always_inline]] inline void evaluate_stress(const SweepArgs& args, const ElasticParams& p, std::size_t block,
+                                                   std::size_t lane, const X& x, const X& v, Totals& totals,
+                                                   Stress& s) {
   s.inverse = {args.gradient + block * 72 + lane};
   s.volume = load(args.volume + block * kLanes + lane);
   const Tensor f = el::deformation<Real>(x, s.inverse);
@@ -77,8 +79,12 @@ template <bool is_plain, class X>
   const Real j = el::determinant(f, cof);
   totals.status.crushed += stdx::popcount(j < p.j_min);
   switch (is_plain ? ElasticLaw::neo_hookean : p.law) {
-    case ElasticLaw::neo_hookean: el::neo_hookean_piola(f, cof, j, p, s.total); break;
-    case ElasticLaw::green_st_venant: s.total = el::product(el::green_st_venant_stress(f, j, p), cof); break;
+    case ElasticLaw::neo_hookean:
+      el::neo_hookean_piola(f, cof, j, p, s.total);
+      break;
+    case ElasticLaw::green_st_venant:
+      s.total = el::product(el::green_st_venant_stress(f, j, p), cof);
+      break;
   }
   if (!is_plain && p.viscosity > 0) {
     s.viscous = el::viscous_piola(el::deformation<Real>(v, s.inverse), cof, j, p);
@@ -91,7 +97,8 @@ inline bool needs_rate(const SweepArgs& args, const ElasticParams& p) {
 }
 
 /// Keeps the stress for book_after.
-inline void keep_stress(const SweepArgs& args, const ElasticParams& p, const Stress& s, std::size_t block, std::size_t lane) {
+inline void keep_stress(const SweepArgs& args, const ElasticParams& p, const Stress& s, std::size_t block,
+                        std::size_t lane) {
   if (args.kept_stress == nullptr || !needs_rate(args, p)) return;
   double* kept = args.kept_stress + block * 144 + lane;
   for (std::size_t i = 0; i < 9; ++i) {
@@ -215,8 +222,8 @@ inline void add_motion(const Motion& motion, Motion& total) {
 
 /// W elements that own their nodes, from forces to new positions. @param p  of their group
 template <bool is_plain>
-inline void sweep_own(const SweepArgs& args, const ElasticParams& p, const Mover& mover, std::size_t block, std::size_t lane,
-                      Totals& totals) {
+inline void sweep_own(const SweepArgs& args, const ElasticParams& p, const Mover& mover, std::size_t block,
+                      std::size_t lane, Totals& totals) {
   const std::size_t field = block * 96 + lane;
   const StoredCorners x{args.position + field}, v{args.velocity + field};
   Stress stress;
@@ -266,7 +273,8 @@ inline Corners gather(const double* field, const std::int32_t* corners) {
 /// Internal forces of W shared-node elements, scattered in ascending lanes.
 inline void scatter_shared(const SweepArgs& args, std::size_t block, std::size_t lane, Totals& totals) {
   const ElasticParams& p = args.params[args.block_group[block]];
-  const std::int32_t* corners = args.shared_corners + (block - static_cast<std::size_t>(args.num_own_blocks)) * 32 + lane;
+  const std::int32_t* corners =
+      args.shared_corners + (block - static_cast<std::size_t>(args.num_own_blocks)) * 32 + lane;
   const Corners x = gather(args.position, corners);
   const Corners v = needs_rate(args, p) ? gather(args.velocity, corners) : Corners{};
   Stress stress;
@@ -322,7 +330,8 @@ inline void book_after(const SweepArgs& args, std::size_t block, std::size_t lan
   if (block < static_cast<std::size_t>(args.num_own_blocks)) {
     book(StoredCorners{args.velocity + block * 96 + lane});
   } else {
-    book(gather(args.velocity, args.shared_corners + (block - static_cast<std::size_t>(args.num_own_blocks)) * 32 + lane));
+    book(gather(args.velocity,
+                args.shared_corners + (block - static_cast<std::size_t>(args.num_own_blocks)) * 32 + lane));
   }
 }
 
@@ -342,7 +351,8 @@ inline SweepStatus sweep(const SweepArgs& args) {
   const auto end = static_cast<std::size_t>(args.end_own_block);
   for (auto block = static_cast<std::size_t>(args.first_own_block); block < end; ++block) {
     const ElasticParams& p = args.params[args.block_group[block]];
-    const auto sweep_block = p.law == ElasticLaw::neo_hookean && !(p.viscosity > 0) ? sweep_own<true> : sweep_own<false>;
+    const auto sweep_block =
+        p.law == ElasticLaw::neo_hookean && !(p.viscosity > 0) ? sweep_own<true> : sweep_own<false>;
     for (std::size_t lane = 0; lane < kLanes; lane += kWidth) sweep_block(args, p, mover, block, lane, totals);
     if ((block & 63) == 63 || block + 1 == end) {  // NaN is sought every 512 elements: near enough to name the place
       checked_sum = stdx::reduce(totals.motion.speed_squared_sum);

@@ -23,7 +23,8 @@ std::array<double, 3> amounts(const Stepper& stepper) {
   for (Index s = 0; s < local.num_slots; ++s) {
     if (local.is_original(s)) elements += s < local.num_own_slots ? 1.0 : kSharedNodes;
   }
-  const double couples = stepper.contact() != nullptr ? static_cast<double>(stepper.contact()->contact().couples.size()) : 0.0;
+  const double couples =
+      stepper.contact() != nullptr ? static_cast<double>(stepper.contact()->contact().couples.size()) : 0.0;
   return {elements, static_cast<double>(stepper.active_joints().size()), couples};
 }
 
@@ -59,7 +60,8 @@ double Balance::look(const Stepper& stepper) {
     busy.push_back(std::accumulate(share[0].seconds.begin(), share[0].seconds.end(), 0.0));
   }
   for (std::size_t k = 0; k < 3; ++k) {
-    if (all.amount[k] > 0 && all.seconds[0] > 0) unit_[k] = all.seconds[k] / all.amount[k] * all.amount[0] / all.seconds[0];
+    if (all.amount[k] > 0 && all.seconds[0] > 0)
+      unit_[k] = all.seconds[k] / all.amount[k] * all.amount[0] / all.seconds[0];
   }
   double usual = 0;  // s, for this rank's work at the speed of all
   for (std::size_t k = 0; k < 3; ++k) {
@@ -78,7 +80,8 @@ double Balance::look(const Stepper& stepper) {
 std::vector<double> Balance::weights(const Stepper& stepper) const {
   const LocalMesh& local = stepper.model().local;
   std::vector<double> of_slot(at(local.num_slots), 0.0);
-  for (Index s = 0; s < local.num_slots; ++s) of_slot[at(s)] = unit_[0] * (s < local.num_own_slots ? 1.0 : kSharedNodes);
+  for (Index s = 0; s < local.num_slots; ++s)
+    of_slot[at(s)] = unit_[0] * (s < local.num_own_slots ? 1.0 : kSharedNodes);
   // A joint or couple is computed by the ranks of both its elements: half of it to each.
   for (const ActiveJoint& joint : stepper.active_joints()) {
     for (const Index slot : {joint.slot_a, joint.slot_b}) of_slot[at(slot)] += 0.5 * unit_[1];

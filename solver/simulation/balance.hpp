@@ -15,18 +15,18 @@ class Balance {
   /// Steps between two looks.
   static constexpr std::int64_t kInterval = 100;
 
-  /// Seconds that ranks have waited for the slowest since the model was divided: what its work took beyond the mean, all steps
-  /// taken together, so that what slows now one, now another, as others on the machine come and go, does not count. Collective;
-  /// to be called every kInterval steps.
+  /// Seconds that ranks have waited for the slowest since the model was divided: what its work took beyond the mean,
+  /// all steps taken together, so that what slows now one, now another, as others on the machine come and go, does not
+  /// count. Collective; to be called every kInterval steps.
   [[nodiscard]] double look(const Stepper& stepper);
   /// Largest over mean of the ranks' working time at the last look; 1: none yet.
   [[nodiscard]] double imbalance() const { return told_; }
   /// This rank's working time over the mean at the last look; 1: none yet.
   [[nodiscard]] double load() const { return load_; }
 
-  /// Cost of this rank's originals, ascending by id, in that of an element that has its own nodes and nothing else: measured
-  /// per element, joint and couple over all ranks, or our estimate before the first look; more where the rank is slower than
-  /// others at the same work.
+  /// Cost of this rank's originals, ascending by id, in that of an element that has its own nodes and nothing else:
+  /// measured per element, joint and couple over all ranks, or our estimate before the first look; more where the rank
+  /// is slower than others at the same work.
   [[nodiscard]] std::vector<double> weights(const Stepper& stepper) const;
 
   /// The model has been divided anew, and the stepper replaced by one that goes on with its timer.
@@ -43,7 +43,7 @@ class Balance {
   Work seen_{};
   Work unit_{1.0, 2.0, 2.0};  ///< cost of an element that owns its nodes, an active joint, a couple
   std::vector<double> busy_;  ///< (ranks) s, since the model was divided
-  double slowness_ = 1;  ///< of this rank: what its work takes over what it takes on average, over the looks
+  double slowness_ = 1;       ///< of this rank: what its work takes over what it takes on average, over the looks
   double told_ = 1, load_ = 1;
 };
 

@@ -16,8 +16,8 @@ class CellMarks {
 
   /// Marks the cells that come within `distance` of the box, m >= 0.
   void mark(const Extent& box, double distance);
-  /// Whether the box touches a marked cell. Never false if it comes within the distance of a box that has been marked, up to
-  /// round-off. @pre box lies in the region
+  /// Whether the box touches a marked cell. Never false if it comes within the distance of a box that has been marked,
+  /// up to round-off. @pre box lies in the region
   [[nodiscard]] bool any(const Extent& box) const;
 
   static constexpr std::int64_t kMostCells = 128;

@@ -65,12 +65,14 @@ void ContactSearch::restore_histories(const Records& records) {
   const auto point_with = [&](GlobalId id) {
     const auto found = std::lower_bound(contact_.order.begin(), contact_.order.end(), id,
                                         [&](Index point, GlobalId wanted) { return contact_.id(point) < wanted; });
-    DEMAND(found != contact_.order.end() && contact_.id(*found) == id, "contact point " + std::to_string(id) + " is not there");
+    DEMAND(found != contact_.order.end() && contact_.id(*found) == id,
+           "contact point " + std::to_string(id) + " is not there");
     return *found;
   };
   if (!records.offsets.empty()) {
     contact_.boundary_offset.assign(contact_.points.size(), std::numeric_limits<double>::infinity());
-    for (const OffsetRecord& record : records.offsets) contact_.boundary_offset[at(point_with(record.point))] = record.offset;
+    for (const OffsetRecord& record : records.offsets)
+      contact_.boundary_offset[at(point_with(record.point))] = record.offset;
   }
   adopt(records.couples);
 }
@@ -81,8 +83,9 @@ TouchingCouple ContactSearch::restored(const CoupleRecord& record) const {
   const auto found = std::lower_bound(contact_.order.begin(), contact_.order.end(), record.point,
                                       [&](Index point, GlobalId id) { return contact_.id(point) < id; });
   if (found != contact_.order.end() && contact_.id(*found) == record.point) couple.point = *found;
-  const auto contactor = std::lower_bound(contact_.contactors.begin(), contact_.contactors.end(), record.contactor,
-                                          [&](Index slot, GlobalId id) { return local_->element_of_slot[at(slot)] < id; });
+  const auto contactor =
+      std::lower_bound(contact_.contactors.begin(), contact_.contactors.end(), record.contactor,
+                       [&](Index slot, GlobalId id) { return local_->element_of_slot[at(slot)] < id; });
   if (contactor != contact_.contactors.end() && local_->element_of_slot[at(*contactor)] == record.contactor) {
     couple.contactor = static_cast<Index>(contactor - contact_.contactors.begin());
   }
@@ -91,7 +94,8 @@ TouchingCouple ContactSearch::restored(const CoupleRecord& record) const {
 
 void ContactSearch::adopt(std::span<const CoupleRecord> touching) {
   std::vector<TouchingCouple>& known = contact_.touching;
-  std::erase_if(known, [&](const TouchingCouple& c) { return !local_->is_original(contact_.points[at(c.point)].slot); });
+  std::erase_if(known,
+                [&](const TouchingCouple& c) { return !local_->is_original(contact_.points[at(c.point)].slot); });
   const std::ptrdiff_t own = std::ssize(known);
   for (const CoupleRecord& record : touching) {
     const TouchingCouple couple = restored(record);
@@ -120,7 +124,8 @@ std::vector<CoupleRecord> ContactSearch::touching_of(std::span<const Index> slot
 }
 
 CoupleRecord ContactSearch::record_of(const TouchingCouple& couple, GlobalId element) const {
-  return {element, local_->element_of_slot[at(contact_.contactors[at(couple.contactor)])], contact_.id(couple.point), couple};
+  return {element, local_->element_of_slot[at(contact_.contactors[at(couple.contactor)])], contact_.id(couple.point),
+          couple};
 }
 
 void ContactSearch::restrict_to(std::vector<std::uint8_t> relevant) {

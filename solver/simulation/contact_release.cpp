@@ -137,12 +137,14 @@ bool ContactSearch::add_made() {
             [&](const ContactCouple& a, const ContactCouple& b) { return contact_.before(a, b); });
   made_.erase(std::unique(made_.begin(), made_.end()), made_.end());
   const auto is_of_others = [&](const ContactCouple& c) {
-    return !contact_.matters(contact_.points[at(c.point)].slot) || !contact_.matters(contact_.contactors[at(c.contactor)]);
+    return !contact_.matters(contact_.points[at(c.point)].slot) ||
+           !contact_.matters(contact_.contactors[at(c.contactor)]);
   };
   const auto before = [&](const ContactCouple& a, const ContactCouple& b) { return contact_.before(a, b); };
   const auto is_kept = [&](Index point) {
     if (contact_.matters(contact_.points[at(point)].slot)) return true;
-    const auto found = std::lower_bound(contact_.couples.begin(), contact_.couples.end(), ContactCouple{point, 0}, before);
+    const auto found =
+        std::lower_bound(contact_.couples.begin(), contact_.couples.end(), ContactCouple{point, 0}, before);
     return found != contact_.couples.end() && found->point == point;
   };
   // A couple that matters makes its point's others matter.

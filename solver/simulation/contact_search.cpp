@@ -38,7 +38,9 @@ std::vector<bool> nodes_between_groups(const Mesh& mesh) {
 
 }  // namespace
 
-double largest_buffer(double asked, double contactor_size) { return asked > 0 ? asked : kLargestBuffer * contactor_size; }
+double largest_buffer(double asked, double contactor_size) {
+  return asked > 0 ? asked : kLargestBuffer * contactor_size;
+}
 
 ContactSearch::ContactSearch(const ContactSearchParams& search, const ContactParams& params, const Mesh& mesh,
                              const Topology& topology, const LocalMesh& local)
@@ -147,7 +149,8 @@ void ContactSearch::search(const State& state, double step_length, std::span<con
   choose_searched(current);
   positions_.clear();
   const FaceRule& rule = face_rule(params_->points_per_face);
-  for (const Index p : searched_points_) positions_.push_back(at_point(rule, contact_.points[at(p)], reference_.data()));
+  for (const Index p : searched_points_)
+    positions_.push_back(at_point(rule, contact_.points[at(p)], reference_.data()));
 
   detection_->search(positions_, searched_corners_, buffer_, found_);
   contact_.couples.clear();
@@ -206,8 +209,8 @@ void ContactSearch::choose_searched(std::span<const std::uint8_t> current) {
   }
 }
 
-/// Elements that do not matter by themselves: 2 if their points may be in a couple with one that does, no further than the buffer
-/// from it, 1 if they may be in a couple with such a point, no further than twice the buffer.
+/// Elements that do not matter by themselves: 2 if their points may be in a couple with one that does, no further than
+/// the buffer from it, 1 if they may be in a couple with such a point, no further than twice the buffer.
 void ContactSearch::choose_foreign(std::span<const std::uint8_t> current) {
   const std::size_t slots = at(local_->num_slots);
   foreign_.assign(slots, 0);
@@ -219,7 +222,8 @@ void ContactSearch::choose_foreign(std::span<const std::uint8_t> current) {
     ours.add(extents_[at(s)]);
   }
   for (Index s = 0; s < local_->num_slots; ++s) {
-    if (contact_.matters(s) || local_->element_of_slot[at(s)] < 0 || (!current.empty() && current[at(s)] == 0)) continue;
+    if (contact_.matters(s) || local_->element_of_slot[at(s)] < 0 || (!current.empty() && current[at(s)] == 0))
+      continue;
     extents_[at(s)] = extent_of(corners_of(s));
     if (!extents_[at(s)].near(ours, kContactorReach * buffer_)) continue;
     foreign_[at(s)] = 1;

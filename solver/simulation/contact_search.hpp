@@ -47,14 +47,13 @@ struct FreedFace {
 /// around a corner (an element is bonded to itself). This definition is kept at all times: points and couples that a
 /// freed face brings are found by the same test at the same positions, so a full search would find no other set.
 ///
-/// With buffer b the set holds every pair that touches while no node has moved by more than b/2 since the search, beside
-/// what all have moved together. The
-/// sum of max_speed dt bounds the largest displacement from above; only when it passes b/2 the displacement itself is
-/// looked at, less what all nodes have moved together (simulation/displacement.hpp), and either the sum is brought down to it
-/// or a search is done. Without a buffer given b is 10 % of the
-/// contactors' mean size (the edge of the regular tetrahedron of their mean volume): the number of couples grows as
-/// (1 + 5 b/size)^3, and so small a buffer still lasts for hundreds of steps of a stiff material. In a run so fast that
-/// it would last for less than 20 steps it is larger, up to 40 %.
+/// With buffer b the set holds every pair that touches while no node has moved by more than b/2 since the search,
+/// beside what all have moved together. The sum of max_speed dt bounds the largest displacement from above; only when
+/// it passes b/2 the displacement itself is looked at, less what all nodes have moved together
+/// (simulation/displacement.hpp), and either the sum is brought down to it or a search is done. Without a buffer given
+/// b is 10 % of the contactors' mean size (the edge of the regular tetrahedron of their mean volume): the number of
+/// couples grows as (1 + 5 b/size)^3, and so small a buffer still lasts for hundreds of steps of a stiff material. In a
+/// run so fast that it would last for less than 20 steps it is larger, up to 40 %.
 class ContactSearch {
  public:
   /// @pre all arguments outlive this object and do not change. Faces broken from the start are free in `topology`.
@@ -75,11 +74,12 @@ class ContactSearch {
 
   // The same in parts, for several ranks: all search at the same time.
 
-  /// Whether a search is due. Collective. @param step_length  m, the furthest that a node of any rank has gone in a step: the last, or
-  /// the one before that after restrict_to()
+  /// Whether a search is due. Collective. @param step_length  m, the furthest that a node of any rank has gone in a
+  /// step: the last, or the one before that after restrict_to()
   [[nodiscard]] bool due(const State& state, double step_length, const Communicator& communicator);
   /// A full search. @param step_length  as for due()
-  /// @param current  (num_slots) 1: at its position of now; others are further than search_reach() from what matters. Empty: all
+  /// @param current  (num_slots) 1: at its position of now; others are further than search_reach() from what matters.
+  /// Empty: all
   void search(const State& state, double step_length, std::span<const std::uint8_t> current = {});
   /// How far around extent() a search will look, m.
   [[nodiscard]] double search_reach(double step_length) const { return kContactorReach * buffer_for(step_length); }
@@ -89,8 +89,8 @@ class ContactSearch {
   void verify(const State& state) const;
   [[nodiscard]] bool verifies() const { return search_.verify; }
 
-  /// For one of several ranks, which hear of each other's speeds a step late. From now on only those couples are kept whose forces,
-  /// or whose point's other forces, act on elements that matter.
+  /// For one of several ranks, which hear of each other's speeds a step late. From now on only those couples are kept
+  /// whose forces, or whose point's other forces, act on elements that matter.
   /// @param relevant  (num_slots)  @pre before the first search
   void restrict_to(std::vector<std::uint8_t> relevant);
   /// Marks the slots of all points and contactors in couples. @param marks  (num_slots)
@@ -101,8 +101,8 @@ class ContactSearch {
   void adopt(std::span<const CoupleRecord> touching);
 
   /// Faces freed by fracture: their points, the couples they make, the couples of elements no longer bonded, and the
-  /// change of the overlap field. Faces that are free already are passed over. Returns whether couples with elements that do not
-  /// matter by themselves came about: of these, positions and what they touch have to be heard from now on.
+  /// change of the overlap field. Faces that are free already are passed over. Returns whether couples with elements
+  /// that do not matter by themselves came about: of these, positions and what they touch have to be heard from now on.
   bool release_faces(std::span<const FreedFace> faces);
 
   /// contact_forces on the couples at hand. @pre `update` has been called for this state
@@ -112,7 +112,7 @@ class ContactSearch {
 
   [[nodiscard]] const ContactState& contact() const { return contact_; }
   [[nodiscard]] const CornerClusters& clusters() const { return clusters_; }
-  [[nodiscard]] double buffer() const { return buffer_; }                    ///< m, of the last search
+  [[nodiscard]] double buffer() const { return buffer_; }  ///< m, of the last search
   /// Share, 0..1, of what nodes may move after the last search that they have moved. @pre there was one
   /// Collective.
   [[nodiscard]] double used_up(const State& state, const Communicator& communicator) const;
@@ -120,8 +120,8 @@ class ContactSearch {
   [[nodiscard]] std::int64_t num_searches() const { return num_searches_; }  ///< full ones
 
  private:
-  ContactSearch(const ContactSearchParams& search, const ContactParams& params, const Mesh& mesh, const Topology& topology,
-                const LocalMesh& local, std::nullptr_t);
+  ContactSearch(const ContactSearchParams& search, const ContactParams& params, const Mesh& mesh,
+                const Topology& topology, const LocalMesh& local, std::nullptr_t);
   void choose_contactors();
   void add_free_points();
   void restore_contactors(const Records& records);
@@ -145,8 +145,8 @@ class ContactSearch {
   void couple_points_of(Index element, Index other, std::size_t first);
   [[nodiscard]] bool add_made();
 
-  // In buffers: how far points in couples with elements that matter are from these at most, and what is in couples with such
-  // points. A little more for round-off.
+  // In buffers: how far points in couples with elements that matter are from these at most, and what is in couples with
+  // such points. A little more for round-off.
   static constexpr double kPointReach = 1.01, kContactorReach = 2.02;
 
   ContactSearchParams search_;
@@ -161,7 +161,8 @@ class ContactSearch {
   std::vector<std::uint8_t> carries_;              ///< (elements) a bit a face: may carry points
   std::vector<std::array<Index, 4>> first_point_;  ///< (elements) of the points of a face, -1: none
   bool any_law_ = false;
-  // When couples are restricted: with those that do not matter, in order; and what fracture has made since the former were put together.
+  // When couples are restricted: with those that do not matter, in order; and what fracture has made since the former
+  // were put together.
   std::vector<ContactCouple> all_couples_, made_since_;
 
   // The last full search.
@@ -177,8 +178,8 @@ class ContactSearch {
   // Work space.
   std::vector<Index> searched_points_, searched_contactors_;  ///< by ascending ids
   std::vector<detection::Corners> searched_corners_;
-  std::vector<std::uint8_t> foreign_;                         ///< (slots) choose_foreign()
-  std::vector<Extent> extents_;                               ///< (slots) for it
+  std::vector<std::uint8_t> foreign_;  ///< (slots) choose_foreign()
+  std::vector<Extent> extents_;        ///< (slots) for it
   std::vector<Vec3> positions_;
   std::vector<detection::Couple> found_;
   std::vector<ContactCouple> made_;

@@ -22,12 +22,14 @@ Vec3 centroid(const ElementRecord& element) {
 }
 
 /// Where elements count as lying, mine among those of all ranks.
-std::vector<Vec3> places(const Communicator& communicator, const Records& mine, std::span<const Vec3> centroid, double reach) {
+std::vector<Vec3> places(const Communicator& communicator, const Records& mine, std::span<const Vec3> centroid,
+                         double reach) {
   std::vector<GlobalId> ids;  // by themselves: a search through the records misses the cache at every look
   for (const ElementRecord& element : mine.elements) ids.push_back(element.id);
   const auto place_of = [&](std::size_t e, GlobalId id) {
     const auto near = static_cast<std::ptrdiff_t>(e) + (id - ids[e]);  // as long as all elements are on one rank
-    if (near >= 0 && near < std::ssize(ids) && ids[static_cast<std::size_t>(near)] == id) return static_cast<Index>(near);
+    if (near >= 0 && near < std::ssize(ids) && ids[static_cast<std::size_t>(near)] == id)
+      return static_cast<Index>(near);
     const auto found = std::lower_bound(ids.begin(), ids.end(), id);
     return found != ids.end() && *found == id ? static_cast<Index>(found - ids.begin()) : FaceLink::kBeyond;
   };
@@ -92,14 +94,18 @@ Marks needed_elsewhere(const Communicator& communicator, const Records& owned, d
 
 Reach reach_of(const case_::Case& input, double edge, double buffer) {
   // Forces meet at shared nodes that come from what touches any of their elements: one more ring.
-  const bool shared_nodes = std::any_of(input.materials.begin(), input.materials.end(),
-                                        [](const case_::Material& m) { return m.joints == case_::JointPlacement::none; });
+  const bool shared_nodes = std::any_of(input.materials.begin(), input.materials.end(), [](const case_::Material& m) {
+    return m.joints == case_::JointPlacement::none;
+  });
   return {input.domains.margin * edge, (shared_nodes ? 2 : 1) * edge, 2 * buffer};
 }
 
 DomainSpec domain_spec(const case_::Case& input) {
   const case_::Domains& asked = input.domains;
-  return {asked.kind == case_::DomainKind::grid ? DomainKind::grid : DomainKind::rcb, asked.n, input.file.string(), asked.origin.line,
+  return {asked.kind == case_::DomainKind::grid ? DomainKind::grid : DomainKind::rcb,
+          asked.n,
+          input.file.string(),
+          asked.origin.line,
           {}};
 }
 

@@ -12,20 +12,23 @@ namespace breccia {
 
 /// What a rank works on until the next decomposition.
 struct Piece {
-  Records records;                     ///< originals and proxies
-  std::vector<std::uint8_t> original;  ///< (elements) 1: this rank's own
+  Records records;                         ///< originals and proxies
+  std::vector<std::uint8_t> original;      ///< (elements) 1: this rank's own
   std::vector<SharedElements> neighbours;  ///< ascending ranks
 };
 
 /// How far the proxies reach.
 ///
-/// A rank holds every element whose box comes within distance() of the box around its originals. Until nodes have moved by more
-/// than allowed_motion() since, beside what all have moved together, that is enough for the same bits as on one rank:
+/// A rank holds every element whose box comes within distance() of the box around its originals. Until nodes have moved
+/// by more than allowed_motion() since, beside what all have moved together, that is enough for the same bits as on one
+/// rank:
 /// - what touches an original then is within twice that motion, the margin;
-/// - a point that comes to an original brings the history of what it touched on its way, which counts from the last search:
-///   then its rank told what it touched. Since then neither it nor any element has moved by more than half the search's buffer,
-///   so that all it touched is within two buffers more;
-/// - around such elements corner clusters are complete, since what is bonded to them at a vertex is no further away than
+/// - a point that comes to an original brings the history of what it touched on its way, which counts from the last
+/// search:
+///   then its rank told what it touched. Since then neither it nor any element has moved by more than half the search's
+///   buffer, so that all it touched is within two buffers more;
+/// - around such elements corner clusters are complete, since what is bonded to them at a vertex is no further away
+/// than
 ///   the largest element: the ring.
 struct Reach {
   double margin = 0;   ///< m

@@ -6,21 +6,23 @@
 
 namespace breccia {
 
-/// How far the nodes of the whole model have moved relative to each other, m: a bound of max_n |u_n - d| for one translation d,
-/// the same for all nodes, where u = now - then. What may touch does not change when everything moves by d.
+/// How far the nodes of the whole model have moved relative to each other, m: a bound of max_n |u_n - d| for one
+/// translation d, the same for all nodes, where u = now - then. What may touch does not change when everything moves by
+/// d.
 ///
-/// The smaller of max_n |u_n| (d = 0) and half the diagonal of the box around all u_n (d = its centre): a body that flies as a
-/// whole has moved by nothing, two that meet by half the way between them. Exact, so independent of the number of ranks.
+/// The smaller of max_n |u_n| (d = 0) and half the diagonal of the box around all u_n (d = its centre): a body that
+/// flies as a whole has moved by nothing, two that meet by half the way between them. Exact, so independent of the
+/// number of ranks.
 /// @param now, then  nodal fields, m. O(nodes) and one reduction. Collective.
 [[nodiscard]] double relative_displacement(const LocalMesh& local, const Field<double>& now, const Field<double>& then,
                                            const Communicator& communicator);
 
-/// Watches relative_displacement() against an allowance, and rarely has to look: in between it is bounded by the sum of the
-/// largest speeds times the step.
+/// Watches relative_displacement() against an allowance, and rarely has to look: in between it is bounded by the sum of
+/// the largest speeds times the step.
 ///
-/// On several ranks the largest speed becomes known some steps late; each step not known yet counts as twice the last known. Nodes use
-/// up the allowance unseen only where they gain more speed than that within those steps, with next to nothing of it left: a stable time
-/// step is too short for that.
+/// On several ranks the largest speed becomes known some steps late; each step not known yet counts as twice the last
+/// known. Nodes use up the allowance unseen only where they gain more speed than that within those steps, with next to
+/// nothing of it left: a stable time step is too short for that.
 class DisplacementWatch {
  public:
   /// @param late  steps by which lengths are told late
@@ -48,8 +50,8 @@ class DisplacementWatch {
   }
 
   int late_;
-  int before_ = 0;    ///< lengths still to be told of steps that the bound holds already
-  double bound_ = 0;  ///< m
+  int before_ = 0;     ///< lengths still to be told of steps that the bound holds already
+  double bound_ = 0;   ///< m
   double length_ = 0;  ///< m, told last
 };
 

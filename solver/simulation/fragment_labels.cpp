@@ -31,7 +31,8 @@ std::vector<Meeting> meetings(const Stepper& stepper, const Fragments& fragments
   std::vector<Communicator::ListOf<GlobalId>> lists;
   for (const SharedSlots& shared : stepper.shared_slots()) {
     std::vector<GlobalId>& labels = lists.emplace_back(shared.rank).entries;
-    for (const Index slot : shared.receive) labels.push_back(fragments.alone[at(slot)] != 0 ? kNothingToTell : fragments.of_slot[at(slot)]);
+    for (const Index slot : shared.receive)
+      labels.push_back(fragments.alone[at(slot)] != 0 ? kNothingToTell : fragments.of_slot[at(slot)]);
   }
   std::vector<Meeting> met;
   for (const auto& [rank, labels] : stepper.communicator().exchange(lists)) {

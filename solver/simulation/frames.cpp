@@ -44,12 +44,14 @@ void add_elements(const Stepper& stepper, const Fragments& fragments, Frame::Ele
   const LocalMesh& local = stepper.model().local;
   for (const Index slot : local.slot_of_element) {
     if (!local.is_original(slot)) continue;
-    for (int c = 0; c < 4; ++c) append(out.points, load_node(stepper.state().position.data(), local.corner_node(slot, c)));
+    for (int c = 0; c < 4; ++c)
+      append(out.points, load_node(stepper.state().position.data(), local.corner_node(slot, c)));
     add_cell(stepper, fragments, slot, out);
   }
 }
 
-/// Which faces of a rank's originals are free: those of the bodies' surfaces, and those that a failed joint has laid bare.
+/// Which faces of a rank's originals are free: those of the bodies' surfaces, and those that a failed joint has laid
+/// bare.
 class FreeFaces {
  public:
   explicit FreeFaces(const Stepper& stepper) : stepper_(stepper), held_(at(stepper.model().local.num_slots) * 4, 0) {
@@ -62,7 +64,8 @@ class FreeFaces {
   [[nodiscard]] bool operator()(Index slot, int face) const {
     if (stepper_.swept(slot, face)) return false;  // nearly always
     const Model& model = stepper_.model();
-    if (!stepper_.has_joint(slot, face)) return model.topology.links[at(model.local.mesh_element[at(slot)])][at(face)].free();
+    if (!stepper_.has_joint(slot, face))
+      return model.topology.links[at(model.local.mesh_element[at(slot)])][at(face)].free();
     return held_[at(slot) * 4 + at(face)] == 0;
   }
 
@@ -71,7 +74,8 @@ class FreeFaces {
   std::vector<std::uint8_t> held_;  ///< (slots, 4) 1: by an active joint
 };
 
-void add_surface(const Stepper& stepper, const Fragments& fragments, const std::vector<double>& cost, Frame::Surface& out) {
+void add_surface(const Stepper& stepper, const Fragments& fragments, const std::vector<double>& cost,
+                 Frame::Surface& out) {
   const LocalMesh& local = stepper.model().local;
   const FreeFaces free(stepper);
   std::size_t original = 0;
@@ -118,7 +122,8 @@ void add_domain(const Stepper& stepper, double load, Frame::Domain& out) {
   out.rank.push_back(stepper.communicator().rank());
   out.elements.push_back(elements);
   out.joints.push_back(static_cast<std::int64_t>(stepper.active_joints().size()));
-  out.couples.push_back(stepper.contact() != nullptr ? static_cast<std::int64_t>(stepper.contact()->contact().couples.size()) : 0);
+  out.couples.push_back(
+      stepper.contact() != nullptr ? static_cast<std::int64_t>(stepper.contact()->contact().couples.size()) : 0);
   out.load.push_back(load);
 }
 
@@ -145,7 +150,8 @@ void add_active_joint(const Stepper& stepper, const ActiveJoint& joint, Frame::J
 
 void add_joints(const Stepper& stepper, Frame::Joints& out) {
   std::vector<ReleasedJoint> released = stepper.released_joints();
-  std::sort(released.begin(), released.end(), [](const ReleasedJoint& p, const ReleasedJoint& q) { return p.id < q.id; });
+  std::sort(released.begin(), released.end(),
+            [](const ReleasedJoint& p, const ReleasedJoint& q) { return p.id < q.id; });
   const auto add_released = [&](const ReleasedJoint& joint) {
     add_released_joint(stepper, joint, out);
     out.damage.push_back(1.0);

@@ -15,7 +15,9 @@ struct FrameLabels {
   double load = 1;             ///< working time of this rank over that of the mean rank, for the domain
 };
 
-/// A picture of this rank's originals at the stepper's time; looks, changes nothing. @param parts  the others stay empty
-[[nodiscard]] Frame make_frame(const Stepper& stepper, std::int64_t number, const FrameParts& parts, const FrameLabels& labels);
+/// A picture of this rank's originals at the stepper's time; looks, changes nothing. @param parts  the others stay
+/// empty
+[[nodiscard]] Frame make_frame(const Stepper& stepper, std::int64_t number, const FrameParts& parts,
+                               const FrameLabels& labels);
 
 }  // namespace breccia

@@ -9,7 +9,8 @@
 
 namespace breccia {
 
-InSituWatch::InSituWatch(const case_::Case& input, const std::filesystem::path& extracts, Partition& partition, InSitu::Tell tell)
+InSituWatch::InSituWatch(const case_::Case& input, const std::filesystem::path& extracts, Partition& partition,
+                         InSitu::Tell tell)
     : partition_(partition),
       insitu_(input, extracts, partition.communicator(), std::move(tell)),
       columns_(history_columns(input.output.gauges, true)) {}
@@ -43,7 +44,8 @@ std::vector<Command> InSituWatch::look(Observer& observer, bool all) {
 
 std::vector<Command> InSituWatch::asked_by_scripts() const {
   const BrecciaRequests& asked = insitu_.requests();
-  const std::array<double, 4> mine{double(asked.pause), double(asked.stop), double(asked.extract), asked.frame_interval};
+  const std::array<double, 4> mine{double(asked.pause), double(asked.stop), double(asked.extract),
+                                   asked.frame_interval};
   const std::vector<double> roots = partition_.communicator().all_gather(std::span<const double>(mine)).front();
   std::vector<Command> commands;
   const auto add = [&](Command::Kind kind, const char* text, double value) {

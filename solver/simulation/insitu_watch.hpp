@@ -25,7 +25,8 @@ class InSituWatch {
   void take_row(const HistoryRow& row);
   [[nodiscard]] double share_of_time() const { return insitu_.share(); }
 
-  /// Lets the pipelines that are due work on the present state. Collective. @param all  every one of them, whatever it costs
+  /// Lets the pipelines that are due work on the present state. Collective. @param all  every one of them, whatever it
+  /// costs
   /// @return  what their scripts ask of the run, as a person might, the same on all ranks
   [[nodiscard]] std::vector<Command> look(Observer& observer, bool all);
 
@@ -39,8 +40,8 @@ class InSituWatch {
 
   Partition& partition_;
   InSitu insitu_;
-  std::vector<std::string> columns_;             ///< of the history
-  std::optional<std::vector<double>> last_row_;  ///< of the history, on the root
+  std::vector<std::string> columns_;                      ///< of the history
+  std::optional<std::vector<double>> last_row_;           ///< of the history, on the root
   std::int64_t broken_here_ = 0, broken_everywhere_ = 0;  ///< joints, when they were last counted
 };
 

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "mesh/tetrahedron.hpp"
-#include "physics/cauchy_stress.hpp"
 #include "model/parameters.hpp"
+#include "physics/cauchy_stress.hpp"
 #include "simulation/frames.hpp"
 #include "simulation/reduction.hpp"
 
@@ -15,7 +15,8 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// What a gauge reads on this rank, as sums: reaction, contact force, displacement and velocity of the nodes, their number.
+/// What a gauge reads on this rank, as sums: reaction, contact force, displacement and velocity of the nodes, their
+/// number.
 class GaugeSums {
  public:
   static constexpr std::size_t kCount = 13;
@@ -49,7 +50,8 @@ class GaugeSums {
 std::array<double, 6> extremes(const Stepper& stepper, const Gauge& gauge) {
   std::array<double, 6> most{};
   for (const Index node : gauge.nodes) {
-    const Vec3 displacement = load_node(stepper.state().position.data(), node) - load_node(stepper.model().local.reference.data(), node);
+    const Vec3 displacement =
+        load_node(stepper.state().position.data(), node) - load_node(stepper.model().local.reference.data(), node);
     for (std::size_t i = 0; i < 3; ++i) {
       most[2 * i] = std::max(most[2 * i], displacement[static_cast<Eigen::Index>(i)]);
       most[2 * i + 1] = std::max(most[2 * i + 1], -displacement[static_cast<Eigen::Index>(i)]);
@@ -117,7 +119,8 @@ void count_joints(const Stepper& stepper, HistoryRow& row) {
     });
     row.contacts = stepper.contact_work().touching;
   }
-  std::array counts{row.broken_joints, row.broken_mode_1, row.broken_mode_2, row.damaged_joints, row.couples, row.contacts};
+  std::array counts{row.broken_joints,  row.broken_mode_1, row.broken_mode_2,
+                    row.damaged_joints, row.couples,       row.contacts};
   stepper.communicator().sum(counts);
   row.broken_joints = counts[0];
   row.broken_mode_1 = counts[1];
@@ -163,8 +166,9 @@ HistoryRow Observer::row(double time) {
   count_joints(stepper, row);
   row.fragments = num_fragments();
   const Momentum p = momentum(stepper.model().local, stepper.state().position.data(), stepper.state().velocity.data());
-  const std::vector<double> sums = totals(stepper.communicator(), std::array{p.linear[0], p.linear[1], p.linear[2], p.angular[0],
-                                                                             p.angular[1], p.angular[2], sum_of_stress_yy(stepper)});
+  const std::vector<double> sums =
+      totals(stepper.communicator(), std::array{p.linear[0], p.linear[1], p.linear[2], p.angular[0], p.angular[1],
+                                                p.angular[2], sum_of_stress_yy(stepper)});
   row.momentum = {sums[0], sums[1], sums[2]};
   row.angular_momentum = {sums[3], sums[4], sums[5]};
   row.stress_yy_sum = sums[6];
@@ -176,8 +180,9 @@ HistoryRow Observer::row(double time) {
 Frame Observer::picture(std::int64_t number, const FrameParts& parts) {
   static const Fragments none;
   const bool labelled = parts.elements || parts.surface;
-  return make_frame(partition_.stepper(), number, parts,
-                    {labelled ? labels() : none, labelled ? partition_.costs() : std::vector<double>{}, partition_.load()});
+  return make_frame(
+      partition_.stepper(), number, parts,
+      {labelled ? labels() : none, labelled ? partition_.costs() : std::vector<double>{}, partition_.load()});
 }
 
 StateHash hash_of(const Stepper& stepper) {
@@ -206,7 +211,8 @@ StateHash hash_of(const Stepper& stepper) {
   }
   StateHash all;
   const std::uint64_t sum = mine.value();
-  for (const auto& part : stepper.communicator().all_gather(std::span<const std::uint64_t>(&sum, 1))) all.add(StateHash(part[0]));
+  for (const auto& part : stepper.communicator().all_gather(std::span<const std::uint64_t>(&sum, 1)))
+    all.add(StateHash(part[0]));
   return all;
 }
 

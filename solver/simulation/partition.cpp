@@ -31,31 +31,44 @@ Partition::Partition(const case_::Case& input, const Communicator& communicator,
 double Partition::first_motion() const {
   const State& state = stepper_->state();
   double square = 0;
-  for (Index n = 0; n < model_->local.num_nodes; ++n) square = std::max(square, load_node(state.velocity.data(), n).squaredNorm());
+  for (Index n = 0; n < model_->local.num_nodes; ++n)
+    square = std::max(square, load_node(state.velocity.data(), n).squaredNorm());
   const double dt = input_.time.step > 0 ? input_.time.step : input_.time.safety * time_step_->limit(state.position);
   return std::sqrt(square) * dt;
 }
 
 Partition::Partition(const case_::Case& input, const Communicator& communicator, Snapshot from)
-    : input_(input), communicator_(communicator), domains_(std::move(from.domains)), stage_(&input.stages[from.stage]), motion_(from.motion) {
+    : input_(input),
+      communicator_(communicator),
+      domains_(std::move(from.domains)),
+      stage_(&input.stages[from.stage]),
+      motion_(from.motion) {
   decompose_anew(std::move(from.whole), std::move(from.mine), from.weight, std::move(from.accumulators));
 }
 
 Snapshot Partition::snapshot() {
-  Snapshot now{model_->whole, stepper_->records(), costs(), {}, domains_, motion_, static_cast<std::size_t>(stage_ - input_.stages.data())};
+  Snapshot now{model_->whole,
+               stepper_->records(),
+               costs(),
+               {},
+               domains_,
+               motion_,
+               static_cast<std::size_t>(stage_ - input_.stages.data())};
   now.accumulators = stepper_->close();
   return now;
 }
 
 void Partition::start_whole() {
   stepper_ = std::make_unique<Stepper>(*model_, search_params(input_, *model_));
-  for (const case_::InitialVelocity& entry : input_.initial_velocities) stepper_->add_velocity(initial_velocity(entry, *model_));
+  for (const case_::InitialVelocity& entry : input_.initial_velocities)
+    stepper_->add_velocity(initial_velocity(entry, *model_));
   time_step_ = std::make_unique<TimeStep>(*model_);
   model_->whole.step_ratio = time_step_->ratio();
   if (stepper_->contact() != nullptr) model_->whole.contactor_size = stepper_->contact()->contactor_size();
 }
 
-void Partition::decompose_anew(WholeModel whole, Records mine, const std::vector<double>& weight, Accumulators accumulators) {
+void Partition::decompose_anew(WholeModel whole, Records mine, const std::vector<double>& weight,
+                               Accumulators accumulators) {
   communicator_.set_phase("division of the model");
   const Phase phase = stage_ != nullptr ? Phase::decomposition : Phase::setup;  // the first one is before all stages
   PhaseTimer timer;
@@ -72,7 +85,8 @@ void Partition::rebuild(WholeModel whole, Records mine, const std::vector<double
   stepper_.reset();
   time_step_.reset();
   model_.reset();
-  reach_ = reach_of(input_, longest_edge(communicator_, mine), largest_buffer(input_.detection.buffer, whole.contactor_size));
+  reach_ = reach_of(input_, longest_edge(communicator_, mine),
+                    largest_buffer(input_.detection.buffer, whole.contactor_size));
   reach_.margin *= std::clamp(kLasting * motion_ / reach_.allowed_motion(), 1.0, kMostStretched);
   build(decompose(communicator_, domains_, std::move(mine), weight, reach_), std::move(whole), std::move(accumulators));
 }
@@ -81,11 +95,12 @@ void Partition::build(const Piece& piece, WholeModel whole, Accumulators accumul
   const double dt = accumulators.dt;
   Mesh mesh = mesh_of(piece.records, whole);
   Topology topology = topology_of(piece.records, mesh);
-  model_ = std::make_unique<Model>(
-      build_piece(input_, std::move(whole), std::move(mesh), std::move(topology), piece.original, piece.records.corners));
+  model_ = std::make_unique<Model>(build_piece(input_, std::move(whole), std::move(mesh), std::move(topology),
+                                               piece.original, piece.records.corners));
   stepper_ = std::make_unique<Stepper>(*model_, search_params(input_, *model_), piece.records, std::move(accumulators));
   const bool pairwise = input_.domains.exchange == case_::Exchange::pairwise;
-  if (communicator_.size() > 1) stepper_->connect(communicator_, piece.neighbours, pairwise ? ExchangeKind::pairwise : ExchangeKind::non_blocking);
+  if (communicator_.size() > 1)
+    stepper_->connect(communicator_, piece.neighbours, pairwise ? ExchangeKind::pairwise : ExchangeKind::non_blocking);
   time_step_ = std::make_unique<TimeStep>(*model_);
   if (stage_ != nullptr) {
     stepper_->begin_stage(stage_loads(*stage_, *model_), dt);
@@ -111,8 +126,8 @@ void Partition::keep_up() {
   ++decompositions_;
 }
 
-/// Once ranks have waited for as long as a division takes: whatever the steps to come bring, that costs at most twice what the
-/// best moment would have. A grid stays where it is, whatever its cuboids hold.
+/// Once ranks have waited for as long as a division takes: whatever the steps to come bring, that costs at most twice
+/// what the best moment would have. A grid stays where it is, whatever its cuboids hold.
 bool Partition::balancing_pays() {
   if (stepper_->steps() % Balance::kInterval != 0) return false;
   const double lost = balance_.look(*stepper_);

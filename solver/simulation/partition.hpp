@@ -3,11 +3,11 @@
 #include <memory>
 
 #include "case/case.hpp"
+#include "model/time_step.hpp"
 #include "simulation/balance.hpp"
 #include "simulation/decomposition.hpp"
 #include "simulation/displacement.hpp"
 #include "simulation/stepper.hpp"
-#include "model/time_step.hpp"
 
 namespace breccia {
 
@@ -18,19 +18,20 @@ struct Snapshot {
   std::vector<double> weight;  ///< their costs
   Accumulators accumulators;
   DomainSpec domains;
-  double motion = 0;           ///< m, largest of a node in a step
-  std::size_t stage = 0;       ///< of the case, begun
+  double motion = 0;      ///< m, largest of a node in a step
+  std::size_t stage = 0;  ///< of the case, begun
 };
 
-/// A rank's part of the model: its originals and proxies, and everything that is built upon them. When a node has gone so
-/// far that proxies may be missing, or when ranks wait for each other for longer than it takes, elements are given to domains
-/// anew and the partition is rebuilt from what they remember.
+/// A rank's part of the model: its originals and proxies, and everything that is built upon them. When a node has gone
+/// so far that proxies may be missing, or when ranks wait for each other for longer than it takes, elements are given
+/// to domains anew and the partition is rebuilt from what they remember.
 class Partition {
  public:
   /// Collective. @param whole  the model on the root, null elsewhere
   /// @pre input outlives this object
   Partition(const case_::Case& input, const Communicator& communicator, std::unique_ptr<Model> whole);
-  /// Goes on where another partition was. Collective. @pre input differs from that partition's in [detection] and [domains] at most
+  /// Goes on where another partition was. Collective. @pre input differs from that partition's in [detection] and
+  /// [domains] at most
   Partition(const case_::Case& input, const Communicator& communicator, Snapshot from);
 
   [[nodiscard]] Stepper& stepper() { return *stepper_; }
@@ -42,9 +43,13 @@ class Partition {
 
   /// Breaks the stage's surfaces and lets its loads act, with steps of dt, s. Collective.
   void begin_stage(const case_::Stage& stage, double dt);
-  [[nodiscard]] std::vector<double> costs() const { return balance_.weights(*stepper_); }  ///< of the originals, ascending by id
-  [[nodiscard]] double imbalance() const { return balance_.imbalance(); }    ///< largest over mean working time of the ranks
-  [[nodiscard]] double load() const { return balance_.load(); }              ///< this rank's over the mean working time
+  [[nodiscard]] std::vector<double> costs() const {
+    return balance_.weights(*stepper_);
+  }  ///< of the originals, ascending by id
+  [[nodiscard]] double imbalance() const {
+    return balance_.imbalance();
+  }                                                              ///< largest over mean working time of the ranks
+  [[nodiscard]] double load() const { return balance_.load(); }  ///< this rank's over the mean working time
 
   /// After every step: a new decomposition if one is due. Collective.
   void keep_up();
@@ -73,7 +78,7 @@ class Partition {
   Balance balance_;
   double decomposition_s_ = 0;  ///< s, that the last decomposition took on the slowest rank
   Reach reach_;
-  double motion_ = 0;     ///< m, largest of a node in a step, at present
+  double motion_ = 0;  ///< m, largest of a node in a step, at present
   DisplacementWatch moved_{Stepper::kLateAfter};
   Field<double> anchor_;  ///< nodal field, positions at the decomposition, from which moved_ counts
 };

@@ -30,8 +30,8 @@ void for_each_list(R& r, F&& f) {
   f(r.corners);
 }
 
-/// Appends a list behind its length. Records are plain numbers; Eigen's small vectors in them are arrays of doubles that only
-/// lack the name of being trivially copyable.
+/// Appends a list behind its length. Records are plain numbers; Eigen's small vectors in them are arrays of doubles
+/// that only lack the name of being trivially copyable.
 template <class T>
 void put(const std::vector<T>& list, std::vector<std::byte>& bytes) {
   static_assert(std::is_standard_layout_v<T> && std::is_trivially_destructible_v<T>);
@@ -48,7 +48,8 @@ std::size_t take(std::span<const std::byte> bytes, std::size_t at, std::vector<T
   DEMAND(at + sizeof count <= bytes.size(), std::to_string(bytes.size()) + " bytes");
   std::memcpy(&count, bytes.data() + at, sizeof count);
   at += sizeof count;
-  DEMAND(count <= (bytes.size() - at) / sizeof(T), std::to_string(count) + " records in " + std::to_string(bytes.size()) + " bytes");
+  DEMAND(count <= (bytes.size() - at) / sizeof(T),
+         std::to_string(count) + " records in " + std::to_string(bytes.size()) + " bytes");
   const std::size_t before = list.size();
   list.resize(before + count);
   if (count > 0) std::memcpy(static_cast<void*>(list.data() + before), bytes.data() + at, count * sizeof(T));
@@ -67,7 +68,8 @@ namespace {
 
 /// Calls visit(entry) for the entries of a list whose elements are marked.
 template <class List, class Visit>
-void for_each_wanted(const std::vector<ElementRecord>& elements, std::span<const std::uint8_t> wanted, List& list, Visit&& visit) {
+void for_each_wanted(const std::vector<ElementRecord>& elements, std::span<const std::uint8_t> wanted, List& list,
+                     Visit&& visit) {
   std::size_t place = 0;
   for (auto& entry : list) {
     while (place < elements.size() && elements[place].id < key(entry)) ++place;
@@ -77,7 +79,8 @@ void for_each_wanted(const std::vector<ElementRecord>& elements, std::span<const
 }
 
 template <class T>
-void erase_unwanted(const std::vector<ElementRecord>& elements, std::span<const std::uint8_t> wanted, std::vector<T>& list) {
+void erase_unwanted(const std::vector<ElementRecord>& elements, std::span<const std::uint8_t> wanted,
+                    std::vector<T>& list) {
   std::size_t kept = 0;
   for_each_wanted(elements, wanted, list, [&](T& entry) {
     if (&list[kept] != &entry) list[kept] = entry;
@@ -128,7 +131,8 @@ namespace {
 template <class T>
 void merge_list(std::vector<T>& list, std::vector<T>& arrivals) {
   const auto before = [](const T& a, const T& b) { return key(a) < key(b); };
-  if (!std::is_sorted(arrivals.begin(), arrivals.end(), before)) std::stable_sort(arrivals.begin(), arrivals.end(), before);
+  if (!std::is_sorted(arrivals.begin(), arrivals.end(), before))
+    std::stable_sort(arrivals.begin(), arrivals.end(), before);
   if (list.empty()) return list.swap(arrivals);
   if (arrivals.empty()) return;
   std::vector<T> merged;
@@ -154,7 +158,8 @@ void merge(Records& records, Records arrivals) {
 std::vector<std::byte> pack(const WholeModel& whole) {
   std::vector<std::byte> bytes;
   put(std::vector{whole.num_elements, whole.num_joints}, bytes);
-  put(std::vector{whole.contactor_size, whole.lightest_node, whole.longest_edge, whole.energy_floor, whole.step_ratio}, bytes);
+  put(std::vector{whole.contactor_size, whole.lightest_node, whole.longest_edge, whole.energy_floor, whole.step_ratio},
+      bytes);
   put(whole.joint_groups, bytes);
   put(whole.body_length, bytes);
   put(whole.group_length, bytes);
@@ -178,7 +183,8 @@ WholeModel unpack_whole(std::span<const std::byte> bytes) {
   at = take(bytes, at, counts);
   std::vector<double> numbers;
   at = take(bytes, at, numbers);
-  DEMAND(counts.size() == 2 && numbers.size() == 5, std::to_string(counts.size()) + ", " + std::to_string(numbers.size()));
+  DEMAND(counts.size() == 2 && numbers.size() == 5,
+         std::to_string(counts.size()) + ", " + std::to_string(numbers.size()));
   whole.num_elements = counts[0];
   whole.num_joints = counts[1];
   whole.contactor_size = numbers[0];
@@ -206,7 +212,8 @@ class PlaceTable {
   explicit PlaceTable(const std::vector<GlobalId>& ids) : ids_(ids) {
     if (ids.empty() || ids.back() - ids.front() >= kSparse * static_cast<GlobalId>(ids.size())) return;
     table_.assign(static_cast<std::size_t>(ids.back() - ids.front()) + 1, -1);
-    for (std::size_t i = 0; i < ids.size(); ++i) table_[static_cast<std::size_t>(ids[i] - ids.front())] = static_cast<Index>(i);
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      table_[static_cast<std::size_t>(ids[i] - ids.front())] = static_cast<Index>(i);
   }
   /// -1: not there
   [[nodiscard]] Index operator()(GlobalId id) const {

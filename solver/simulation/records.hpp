@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "model/model.hpp"
 #include "physics/contact/contact_state.hpp"
 #include "physics/joint_forces.hpp"
-#include "model/model.hpp"
 
 namespace breccia {
 
@@ -17,15 +17,15 @@ struct ElementRecord {
   GlobalId id = 0;
   std::int64_t source_id = 0;
   Index group = 0, body = 0;
-  std::array<GlobalId, 4> vertex{};     ///< mesh nodes of the corners
-  std::array<GlobalId, 4> neighbour{};  ///< by face, -1: free
-  std::array<std::int8_t, 4> code{};    ///< FaceLink::code
-  std::uint8_t released = 0;            ///< a bit a face: freed by fracture
-  std::uint8_t contactor = 0;           ///< 1: others may touch it
+  std::array<GlobalId, 4> vertex{};                                          ///< mesh nodes of the corners
+  std::array<GlobalId, 4> neighbour{};                                       ///< by face, -1: free
+  std::array<std::int8_t, 4> code{};                                         ///< FaceLink::code
+  std::uint8_t released = 0;                                                 ///< a bit a face: freed by fracture
+  std::uint8_t contactor = 0;                                                ///< 1: others may touch it
   std::array<std::array<double, 3>, 4> reference{}, position{}, velocity{};  ///< of the corners, m, m/s
-  FieldValues field{};                  ///< overlap field, m
-  double viscous = 0, stress_work = 0;  ///< J so far (sweep.hpp)
-  std::array<double, 4> damping{};      ///< J so far, by corner
+  FieldValues field{};                                                       ///< overlap field, m
+  double viscous = 0, stress_work = 0;                                       ///< J so far (sweep.hpp)
+  std::array<double, 4> damping{};                                           ///< J so far, by corner
 };
 
 // What only some elements have, each with the id of the element that takes it along.
@@ -91,7 +91,8 @@ struct Records {
   [[nodiscard]] Index place_of(GlobalId element) const;
 };
 
-/// Another rank that has originals of this one as proxies or the other way round; both sides list the same ids, ascending.
+/// Another rank that has originals of this one as proxies or the other way round; both sides list the same ids,
+/// ascending.
 struct SharedElements {
   int rank = 0;
   std::vector<GlobalId> send;     ///< originals that are proxies there

@@ -23,7 +23,9 @@ namespace breccia {
   }
   communicator.sum(words);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    values.push_back(ExactSum::from_words(std::span<const std::int64_t, ExactSum::kWords>(words.data() + i * ExactSum::kWords, ExactSum::kWords)).value());
+    values.push_back(ExactSum::from_words(std::span<const std::int64_t, ExactSum::kWords>(
+                                              words.data() + i * ExactSum::kWords, ExactSum::kWords))
+                         .value());
   }
   return values;
 }

@@ -11,10 +11,10 @@
 #include "output/summary.hpp"
 #include "simulation/insitu_watch.hpp"
 #include "simulation/observe.hpp"
-#include "simulation/run_control.hpp"
 #include "simulation/partition.hpp"
-#include "simulation/stage_steps.hpp"
+#include "simulation/run_control.hpp"
 #include "simulation/sink_group.hpp"
+#include "simulation/stage_steps.hpp"
 
 namespace breccia {
 
@@ -22,7 +22,8 @@ std::atomic<bool> stop_requested{false};
 
 namespace {
 
-/// Taking stock costs about as much as a step: lines of the history that nobody has ordered come no closer than so many steps.
+/// Taking stock costs about as much as a step: lines of the history that nobody has ordered come no closer than so many
+/// steps.
 constexpr std::int64_t kStepsBetweenLines = 20;
 
 /// Between two looks at the control file while the run is paused.
@@ -44,12 +45,14 @@ class Runner {
         partition_(input, communicator, std::move(whole)),
         observer_(input, partition_),
         end_(input.stages.back().end),
-        histories_(input.output.history_interval > 0 ? Schedule(input.output.history_interval) : Schedule(end_ / 500, kStepsBetweenLines)),
+        histories_(input.output.history_interval > 0 ? Schedule(input.output.history_interval)
+                                                     : Schedule(end_ / 500, kStepsBetweenLines)),
         frames_(input.output.frame_interval),
         control_(folder != nullptr ? std::optional(folder->control()) : std::nullopt, communicator) {
     if (folder == nullptr || !input.insitu.asked_for()) return;
     communicator_.set_phase("start of the in-situ adaptor");
-    insitu_.emplace(input, folder->extracts(), partition_, [this](const std::string& text, bool good) { tell_event("insitu", text, good); });
+    insitu_.emplace(input, folder->extracts(), partition_,
+                    [this](const std::string& text, bool good) { tell_event("insitu", text, good); });
   }
 
   Summary run() {
@@ -79,7 +82,8 @@ class Runner {
   }
 
   void tell_start() {
-    const RunStart start{input_.title, partition_.whole().num_elements, partition_.whole().num_joints, input_.output.gauges, insitu_.has_value()};
+    const RunStart start{input_.title, partition_.whole().num_elements, partition_.whole().num_joints,
+                         input_.output.gauges, insitu_.has_value()};
     sink_group_.tell([&](Sink& sink) { sink.start(start); });
   }
 
@@ -91,7 +95,8 @@ class Runner {
       steps.look();
       advance();
       if (stepper().signals().stop || stop_commanded_) status_ = "stopped: by request";
-      if (input_.time.max_steps > 0 && stepper().steps() >= input_.time.max_steps) status_ = "stopped: time.max_steps reached";
+      if (input_.time.max_steps > 0 && stepper().steps() >= input_.time.max_steps)
+        status_ = "stopped: time.max_steps reached";
       if (status_ != "complete") return;
     }
   }
@@ -186,10 +191,11 @@ class Runner {
   void check_residual(double time) const {
     const EnergyBudget& e = stepper().budget();
     if (!(e.residual_relative > input_.time.residual_limit) && std::isfinite(e.residual)) return;
-    throw SimulationError("step " + std::to_string(stepper().steps() - 1) + ", time " + scientific(time) + " s: the energy residual is " +
-                          scientific(100 * e.residual_relative) + " % of the largest term (limit " +
-                          scientific(100 * input_.time.residual_limit) + " %); the strain energy is densest in element " +
-                          std::to_string(stepper().worst_element()) + "; lower time.safety, or raise time.residual_limit if you trust the run");
+    throw SimulationError("step " + std::to_string(stepper().steps() - 1) + ", time " + scientific(time) +
+                          " s: the energy residual is " + scientific(100 * e.residual_relative) +
+                          " % of the largest term (limit " + scientific(100 * input_.time.residual_limit) +
+                          " %); the strain energy is densest in element " + std::to_string(stepper().worst_element()) +
+                          "; lower time.safety, or raise time.residual_limit if you trust the run");
   }
 
   void write_frame() {
@@ -214,7 +220,8 @@ class Runner {
     line.end = end_;
     line.share = stepper().time() / end_;
     line.wall_s = wall();
-    line.element_steps_per_s = static_cast<double>(partition_.whole().num_elements) * static_cast<double>(line.step) / line.wall_s;
+    line.element_steps_per_s =
+        static_cast<double>(partition_.whole().num_elements) * static_cast<double>(line.step) / line.wall_s;
     line.eta_s = line.share > 0 ? line.wall_s * (1.0 - line.share) / line.share : -1.0;
     line.energy_residual = stepper().budget().residual_relative;
     line.broken_joints = last_broken_;
@@ -250,13 +257,15 @@ class Runner {
     summary.searches = communicator_.max(stepper().searches());
     summary.inverted_elements = communicator_.sum(stepper().crushed());
     summary.wall_s = wall();
-    summary.element_steps_per_s = static_cast<double>(summary.elements) * static_cast<double>(summary.steps) / summary.wall_s;
+    summary.element_steps_per_s =
+        static_cast<double>(summary.elements) * static_cast<double>(summary.steps) / summary.wall_s;
     for (int p = 0; p < static_cast<int>(Phase::count); ++p) {
       const auto phase = static_cast<Phase>(p);
       summary.phases.emplace_back(std::string(name_of(phase)), communicator_.max(stepper().timer().seconds(phase)));
     }
     summary.energy = stepper().budget();
-    summary.max_rss_bytes = static_cast<std::uint64_t>(communicator_.sum(static_cast<std::int64_t>(max_resident_bytes())));
+    summary.max_rss_bytes =
+        static_cast<std::uint64_t>(communicator_.sum(static_cast<std::int64_t>(max_resident_bytes())));
     summary.simd = std::string(name_of(stepper().simd()));
     summary.state_hash = hash_of(stepper()).text();
     sink_group_.tell([&](Sink& sink) {
@@ -286,8 +295,9 @@ class Runner {
 
 }  // namespace
 
-Summary run_case(const case_::Case& input, std::unique_ptr<Model> whole, const std::vector<std::unique_ptr<Sink>>& sinks,
-                 const Communicator& communicator, const RunFolder* folder) {
+Summary run_case(const case_::Case& input, std::unique_ptr<Model> whole,
+                 const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator,
+                 const RunFolder* folder) {
   return Runner(input, std::move(whole), sinks, communicator, folder).run();
 }
 

@@ -17,7 +17,8 @@ inline constexpr std::uint64_t kControlOrder = std::uint64_t{1} << 32;
 class RunControl {
  public:
   /// @param file  nothing: nobody can ask anything
-  RunControl(std::optional<std::filesystem::path> file, const Communicator& communicator) : communicator_(communicator) {
+  RunControl(std::optional<std::filesystem::path> file, const Communicator& communicator)
+      : communicator_(communicator) {
     if (file && communicator.is_root()) file_.emplace(*file);
   }
 

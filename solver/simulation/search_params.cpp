@@ -5,11 +5,16 @@ namespace {
 
 detection::Algorithm algorithm_of(case_::DetectionAlgorithm algorithm) {
   switch (algorithm) {
-    case case_::DetectionAlgorithm::ms: return detection::Algorithm::ms;
-    case case_::DetectionAlgorithm::ms_slices: return detection::Algorithm::ms_slices;
-    case case_::DetectionAlgorithm::brute_force: return detection::Algorithm::brute_force;
-    case case_::DetectionAlgorithm::sorted_grid: return detection::Algorithm::sorted_grid;
-    case case_::DetectionAlgorithm::packed_tree: break;
+    case case_::DetectionAlgorithm::ms:
+      return detection::Algorithm::ms;
+    case case_::DetectionAlgorithm::ms_slices:
+      return detection::Algorithm::ms_slices;
+    case case_::DetectionAlgorithm::brute_force:
+      return detection::Algorithm::brute_force;
+    case case_::DetectionAlgorithm::sorted_grid:
+      return detection::Algorithm::sorted_grid;
+    case case_::DetectionAlgorithm::packed_tree:
+      break;
   }
   return detection::Algorithm::packed_tree;
 }

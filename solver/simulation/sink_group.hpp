@@ -14,7 +14,8 @@ namespace breccia {
 class SinkGroup {
  public:
   /// @pre sinks outlive this object
-  SinkGroup(const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator) : sinks_(sinks), communicator_(communicator) {}
+  SinkGroup(const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator)
+      : sinks_(sinks), communicator_(communicator) {}
 
   /// An error on one rank is an error on all. Collective. @param tell_one  called with each sink
   template <class Tell>
@@ -26,7 +27,8 @@ class SinkGroup {
     });
   }
 
-  /// Not collective, for only the clock of the rank with such a sink knows when: what goes wrong waits until all ranks speak next.
+  /// Not collective, for only the clock of the rank with such a sink knows when: what goes wrong waits until all ranks
+  /// speak next.
   /// @param make_line  of the status, called when a sink would use one
   template <class MakeLine>
   void tell_status(MakeLine&& make_line) {

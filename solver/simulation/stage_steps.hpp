@@ -6,8 +6,9 @@
 
 namespace breccia {
 
-/// The steps of one stage: how long they are, and when the stage is over. A stage is a whole number of equal steps, as long as
-/// is stable; every hundred steps the stable step is looked at again, since it shrinks when elements are crushed.
+/// The steps of one stage: how long they are, and when the stage is over. A stage is a whole number of equal steps, as
+/// long as is stable; every hundred steps the stable step is looked at again, since it shrinks when elements are
+/// crushed.
 class StageSteps {
  public:
   /// Begins the stage. Collective.  @pre input, stage and partition outlive this object
@@ -16,7 +17,9 @@ class StageSteps {
   StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition, std::int64_t until_look)
       : input_(input), stage_(stage), partition_(partition), until_look_(until_look) {}
 
-  [[nodiscard]] bool over() const { return !(partition_.stepper().time() < stage_.end - 0.5 * partition_.stepper().dt()); }
+  [[nodiscard]] bool over() const {
+    return !(partition_.stepper().time() < stage_.end - 0.5 * partition_.stepper().dt());
+  }
   /// Before every step: a new length if it is time to look and the limit has moved. Collective.
   void look();
   [[nodiscard]] std::int64_t until_look() const { return until_look_; }

@@ -24,7 +24,8 @@ std::vector<Index> blocked_corners(const LocalMesh& local) {
 
 Stepper::Stepper(const Model& model, const ContactSearchParams& search) : Stepper(model, nullptr) {
   start_joints();
-  if (model.has_contact) contact_ = std::make_unique<ContactSearch>(search, model.contact, model.mesh, model.topology, model.local);
+  if (model.has_contact)
+    contact_ = std::make_unique<ContactSearch>(search, model.contact, model.mesh, model.topology, model.local);
 }
 
 /// Fields at rest, links, and what the sweep wants.
@@ -56,7 +57,8 @@ void Stepper::index_joints() {
   const LocalMesh& local = model_.local;
   joint_of_face_.assign(at(local.num_slots) * 4, -1);
   const auto note = [&](Index element, int face, std::size_t joint) {
-    joint_of_face_[at(local.slot_of_element[at(element)]) * 4 + static_cast<std::size_t>(face)] = static_cast<Index>(joint);
+    joint_of_face_[at(local.slot_of_element[at(element)]) * 4 + static_cast<std::size_t>(face)] =
+        static_cast<Index>(joint);
   };
   for (std::size_t j = 0; j < model_.joints.size(); ++j) {
     const JointFace& face = model_.joints[j].face;
@@ -154,7 +156,8 @@ void Stepper::external_forces() {
 
 void Stepper::joint_forces() {
   const auto lap = timer_.measure(Phase::joints);
-  active_joint_forces(model_.joint_laws, model_.local, state_.position.data(), time_, simd_, active_, forces_, joint_work_);
+  active_joint_forces(model_.joint_laws, model_.local, state_.position.data(), time_, simd_, active_, forces_,
+                      joint_work_);
   broken_joints_ += static_cast<std::int64_t>(joint_work_.failed.size());
   for (const ReleasedJoint& joint : joint_work_.released) {
     if (!model_.local.is_original(joint.slot_a)) continue;
@@ -169,8 +172,8 @@ void Stepper::contact_forces() {
   contact_->forces(state_, dt_before_, forces_, contact_work_);
 }
 
-/// An element's limit is that of its weakest joint: whether this one has left its elastic range is seen here, alike from both
-/// sides, since only one of them may be swept on this rank.
+/// An element's limit is that of its weakest joint: whether this one has left its elastic range is seen here, alike
+/// from both sides, since only one of them may be swept on this rank.
 void Stepper::crossing(void* context, Index slot, int face, double* force) {
   auto& self = *static_cast<Stepper*>(context);
   const Index id = self.joint_of_face_[at(slot) * 4 + static_cast<std::size_t>(face)];

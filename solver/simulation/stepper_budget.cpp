@@ -40,11 +40,12 @@ void Stepper::take_budget(const Field<double>& velocity_before) {
   ExactSum contact = contact_work_.stored;
   contact.add(contact_work_.friction_stored);
   const std::vector<double> terms = totals(
-      communicator_, std::array{kinetic_energy(local, velocity_before.data(), state_.velocity.data()), elastic.total, joints.stored, contact,
-                                joints.mode_1, joints.mode_2, joints.friction, contact_work_.dissipated,
-                                contact_work_.friction_dissipated, sum_of(viscous_, local.original), sum_of(damping_, local.counted),
-                                external_work()});
-  budget_ = {terms[0], terms[1], terms[2], terms[3], terms[4], terms[5], terms[6], terms[7], terms[8], terms[9], terms[10], terms[11]};
+      communicator_, std::array{kinetic_energy(local, velocity_before.data(), state_.velocity.data()), elastic.total,
+                                joints.stored, contact, joints.mode_1, joints.mode_2, joints.friction,
+                                contact_work_.dissipated, contact_work_.friction_dissipated,
+                                sum_of(viscous_, local.original), sum_of(damping_, local.counted), external_work()});
+  budget_ = {terms[0], terms[1], terms[2], terms[3], terms[4],  terms[5],
+             terms[6], terms[7], terms[8], terms[9], terms[10], terms[11]};
   find_worst(elastic);
 
   double total = 0, largest = std::abs(budget_.external_work);

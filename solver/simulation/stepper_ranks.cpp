@@ -20,7 +20,8 @@ void Stepper::connect(const Communicator& communicator, const std::vector<Shared
     for (const GlobalId id : ids) list.push_back(model_.local.slot_of_element[at(element_with(id))]);
     return list;
   };
-  for (const SharedElements& elements : shared) shared_.push_back({elements.rank, slots(elements.send), slots(elements.receive)});
+  for (const SharedElements& elements : shared)
+    shared_.push_back({elements.rank, slots(elements.send), slots(elements.receive)});
   if (contact_ && contact_->verifies()) all_ = std::make_unique<Halo>(communicator_, halo_plan(shared_), 2, exchange_);
   if (contact_) contact_->restrict_to(relevant_);
   find_joined();
@@ -60,7 +61,8 @@ std::vector<HaloNeighbour> Stepper::halo_plan(const std::vector<SharedSlots>& sh
   };
   std::vector<HaloNeighbour> plan;
   for (const SharedSlots& slots : shared) {
-    plan.push_back({slots.rank, places(slots.send), places(slots.receive), places(slots.send_position), places(slots.receive_position)});
+    plan.push_back({slots.rank, places(slots.send), places(slots.receive), places(slots.send_position),
+                    places(slots.receive_position)});
   }
   return plan;
 }
@@ -94,7 +96,8 @@ const SharedSlots& Stepper::neighbour(int rank) const {
   return *found;
 }
 
-/// Asks the owners of near proxies for them, by their places among what is shared: the place, or ~place if the position suffices.
+/// Asks the owners of near proxies for them, by their places among what is shared: the place, or ~place if the position
+/// suffices.
 void Stepper::plan_near() {
   const std::vector<std::uint8_t> near = near_slots(), moving = moving_slots();
   std::vector<SharedSlots> wanted;
@@ -112,7 +115,8 @@ void Stepper::plan_near() {
   for (const auto& [rank, places] : communicator_.exchange(lists)) {
     const auto k = static_cast<std::size_t>(&neighbour(rank) - shared_.data());
     for (const Index place : places) {
-      (place >= 0 ? wanted[k].send : wanted[k].send_position).push_back(shared_[k].send[at(place >= 0 ? place : ~place)]);
+      (place >= 0 ? wanted[k].send : wanted[k].send_position)
+          .push_back(shared_[k].send[at(place >= 0 ? place : ~place)]);
     }
   }
   if (near_) {
@@ -160,8 +164,9 @@ void Stepper::agree_on_failure() {
 void Stepper::begin_reduction() {
   if (!reduction_) return;
   const auto flag = [](bool value) { return value ? 1.0 : 0.0; };
-  reduction_->begin(std::array{max_speed_, flag(failure_.has_value()), flag(!releasing_.empty()), flag(sent_signals_.stop), flag(sent_signals_.broke),
-                         static_cast<double>(sent_signals_.orders)});
+  reduction_->begin(std::array{max_speed_, flag(failure_.has_value()), flag(!releasing_.empty()),
+                               flag(sent_signals_.stop), flag(sent_signals_.broke),
+                               static_cast<double>(sent_signals_.orders)});
 }
 
 void Stepper::conclude() {
@@ -187,8 +192,8 @@ void Stepper::receive_releases() {
   releasing_.clear();
 }
 
-/// Where ranks have to wait for each other they do so here, at the beginning of a step, one wait after the other: what makes one of
-/// them late in the rest of it is waited for once.
+/// Where ranks have to wait for each other they do so here, at the beginning of a step, one wait after the other: what
+/// makes one of them late in the rest of it is waited for once.
 void Stepper::update_contact() {
   if (!contact_) return;
   bool due = false, meets_others = false;
@@ -262,7 +267,8 @@ void Stepper::exchange_touching() {
   std::vector<Communicator::ListOf<CoupleRecord>> lists;
   for (const SharedSlots& shared : shared_) lists.push_back({shared.rank, contact_->touching_of(shared.send)});
   std::vector<CoupleRecord> heard;
-  for (const auto& [rank, touching] : communicator_.exchange(lists)) heard.insert(heard.end(), touching.begin(), touching.end());
+  for (const auto& [rank, touching] : communicator_.exchange(lists))
+    heard.insert(heard.end(), touching.begin(), touching.end());
   contact_->adopt(heard);
 }
 

@@ -56,7 +56,8 @@ std::vector<FaceTag> face_tags(const Model& model) {
 
 }  // namespace
 
-Stepper::Stepper(const Model& model, const ContactSearchParams& search, const Records& records, Accumulators accumulators)
+Stepper::Stepper(const Model& model, const ContactSearchParams& search, const Records& records,
+                 Accumulators accumulators)
     : Stepper(model, nullptr) {
   time_ = accumulators.time;
   dt_ = accumulators.dt;
@@ -170,7 +171,8 @@ void Stepper::remember_joints(Records& records) const {
     if (!local.is_original(joint.slot_a)) continue;
     records.joints.push_back({local.element_of_slot[at(joint.slot_a)], local.element_of_slot[at(joint.slot_b)], joint});
   }
-  for (const ReleasedJoint& joint : released_) records.released.push_back({local.element_of_slot[at(joint.slot_a)], joint});
+  for (const ReleasedJoint& joint : released_)
+    records.released.push_back({local.element_of_slot[at(joint.slot_a)], joint});
   std::stable_sort(records.released.begin(), records.released.end(),
                    [](const ReleasedRecord& p, const ReleasedRecord& q) { return p.element < q.element; });
 }
@@ -185,7 +187,8 @@ void Stepper::remember_holds(Records& records) const {
     const Index slot = local.slot_of_element[at(element_with(record.id))];
     for (int c = 0; c < 4; ++c) {
       const Index node = local.corner_node(slot, c);
-      auto anchor = std::lower_bound(anchors.begin(), anchors.end(), node, [](const auto& p, Index n) { return p.node < n; });
+      auto anchor =
+          std::lower_bound(anchors.begin(), anchors.end(), node, [](const auto& p, Index n) { return p.node < n; });
       for (; anchor != anchors.end() && anchor->node == node; ++anchor) {
         records.holds.push_back({record.id, static_cast<Index>(anchor->entry), static_cast<std::int8_t>(c),
                                  static_cast<std::int8_t>(anchor->axis), anchor->start, anchor->velocity});
@@ -197,14 +200,16 @@ void Stepper::remember_holds(Records& records) const {
 /// Index in the rank's mesh of an element that is there, or where it would stand.
 Index Stepper::element_with(GlobalId id) const {
   const std::vector<GlobalId>& ids = model_.mesh.element_ids;
-  return ids.empty() ? static_cast<Index>(id) : static_cast<Index>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
+  return ids.empty() ? static_cast<Index>(id)
+                     : static_cast<Index>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
 }
 
 void Stepper::restore_holds(const Records& records) {
   std::vector<Constraints::Anchor> anchors;
   for (const HoldRecord& record : records.holds) {
     const Index slot = model_.local.slot_of_element[at(records.place_of(record.element))];
-    anchors.push_back({at(record.entry), model_.local.corner_node(slot, record.corner), record.axis, record.start, record.velocity});
+    anchors.push_back(
+        {at(record.entry), model_.local.corner_node(slot, record.corner), record.axis, record.start, record.velocity});
   }
   constraints_.restore(anchors);
 }

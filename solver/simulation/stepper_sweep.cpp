@@ -21,7 +21,9 @@ Vec3 damping_force(const SweepArgs& args, const Vec3& before, const Vec3& after,
   Vec3 force;
   for (Eigen::Index i = 0; i < 3; ++i) {
     const double net = mass * ((1.0 + half) * after[i] - (1.0 - half) * before[i]) / args.dt;  // unbalanced and local
-    const double opposed = before[i] == 0.0 ? 0.0 : (net > 0) == (before[i] > 0) ? -args.local_damping : args.local_damping;
+    const double opposed = before[i] == 0.0               ? 0.0
+                           : (net > 0) == (before[i] > 0) ? -args.local_damping
+                                                          : args.local_damping;
     const double unbalanced = net / (1.0 + opposed);
     force[i] = net - unbalanced - 0.5 * args.mass_damping * mass * (before[i] + after[i]);
   }
@@ -29,7 +31,8 @@ Vec3 damping_force(const SweepArgs& args, const Vec3& before, const Vec3& after,
 }
 
 /// Own-node blocks only. @param pause  called now and then
-void sweep_runs(SweepFunction sweep, std::span<const BlockRun> runs, SweepArgs args, SweepStatus& status, const auto& pause) {
+void sweep_runs(SweepFunction sweep, std::span<const BlockRun> runs, SweepArgs args, SweepStatus& status,
+                const auto& pause) {
   args.num_shared_blocks = 0;
   args.num_moved_nodes = 0;
   Index since_pause = 0;
@@ -90,8 +93,8 @@ SweepArgs Stepper::sweep_args(bool sample) {
   return args;
 }
 
-/// From forces to velocities and next positions. On several ranks what others wait for is final, and on its way, before the
-/// rest is begun.
+/// From forces to velocities and next positions. On several ranks what others wait for is final, and on its way, before
+/// the rest is begun.
 void Stepper::move(const SweepArgs& args) {
   max_speed_ = 0;
   if (near_) {
@@ -122,8 +125,9 @@ void Stepper::check_finite(const SweepStatus& status) {
   if (status.first_not_finite >= 0) {
     place = " near element " + std::to_string(model_.local.element_of_slot[at(status.first_not_finite) * kLanes]);
   }
-  failure_ = "step " + std::to_string(steps_) + ", time " + std::to_string(time_) + " s: a velocity is not finite" + place +
-                        "; the time step is too long for what happens there: lower time.safety (or time.step), or the penalties";
+  failure_ = "step " + std::to_string(steps_) + ", time " + std::to_string(time_) + " s: a velocity is not finite" +
+             place +
+             "; the time step is too long for what happens there: lower time.safety (or time.step), or the penalties";
   if (!reduction_) throw SimulationError(*failure_);
 }
 
@@ -181,8 +185,8 @@ void Stepper::finish_motion(const SweepArgs& args) {
   }
 }
 
-/// Which blocks are swept ahead of the others: those that are sent, and those that constraints hold, which are applied in
-/// one go. Shared nodes are all moved with them.
+/// Which blocks are swept ahead of the others: those that are sent, and those that constraints hold, which are applied
+/// in one go. Shared nodes are all moved with them.
 void Stepper::plan_order() {
   std::vector<std::uint8_t> first = sent_;
   for (const NodalConstraint& entry : entries_) {

@@ -11,7 +11,7 @@ namespace breccia {
 
 /// What still hangs together.
 struct Fragments {
-  std::vector<GlobalId> of_slot;  ///< (num_slots) smallest global element id of the fragment, -1 for padding
+  std::vector<GlobalId> of_slot;    ///< (num_slots) smallest global element id of the fragment, -1 for padding
   std::vector<std::uint8_t> alone;  ///< (num_slots) 1: a fragment of one element, or padding
   Index count = 0;
 };

@@ -49,8 +49,8 @@ void place_elements(LocalMesh& local, const Mesh& mesh, const std::vector<Discre
   }
 }
 
-/// Gives the corners of shared-node elements local nodes, numbered by first use, those that originals touch first; padding
-/// gets four spare nodes a block. Returns the mesh node of every shared node, -1 for padding.
+/// Gives the corners of shared-node elements local nodes, numbered by first use, those that originals touch first;
+/// padding gets four spare nodes a block. Returns the mesh node of every shared node, -1 for padding.
 std::vector<Index> number_shared_nodes(LocalMesh& local, const Mesh& mesh) {
   std::vector<Index> local_of(mesh.nodes.size(), -1);
   std::vector<Index> mesh_node_of;
@@ -78,7 +78,8 @@ std::vector<Index> number_shared_nodes(LocalMesh& local, const Mesh& mesh) {
     const Index e = local.mesh_element[static_cast<std::size_t>(s)];
     auto& corners = local.shared_corners[static_cast<std::size_t>(s - local.num_own_slots)];
     for (std::size_t c = 0; c < 4; ++c) {
-      corners[c] = e < 0 ? fresh(-1) : local_of[static_cast<std::size_t>(mesh.elements[static_cast<std::size_t>(e)][c])];
+      corners[c] =
+          e < 0 ? fresh(-1) : local_of[static_cast<std::size_t>(mesh.elements[static_cast<std::size_t>(e)][c])];
     }
   }
   while (mesh_node_of.size() % kLanes != 0) fresh(-1);
@@ -163,7 +164,8 @@ LocalMesh build_local_mesh(const Mesh& mesh, const std::vector<Discretisation>& 
   }
   for (std::size_t n = 0; n < mesh_node_of.size(); ++n) {
     if (mesh_node_of[n] < 0) continue;
-    local.node_id[static_cast<std::size_t>(local.num_own_nodes()) + n] = kFirstSharedNode + mesh.node_id(mesh_node_of[n]);
+    local.node_id[static_cast<std::size_t>(local.num_own_nodes()) + n] =
+        kFirstSharedNode + mesh.node_id(mesh_node_of[n]);
   }
   count_nodes(local);
   return local;

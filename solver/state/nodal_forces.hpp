@@ -10,9 +10,9 @@
 namespace breccia {
 
 /// Forces on nodes that do not come from the element's own deformation or its intact joints: contact, active joints,
-/// pressure. Own-node blocks get storage (96 doubles) only when something acts on them, so the sweep reads nothing for the
-/// others; shared nodes have a full nodal field, into which the sweep scatters its internal forces as well.
-/// The order in which `add` is called is the order of summation: callers go through joints, then couples, by ascending
+/// pressure. Own-node blocks get storage (96 doubles) only when something acts on them, so the sweep reads nothing for
+/// the others; shared nodes have a full nodal field, into which the sweep scatters its internal forces as well. The
+/// order in which `add` is called is the order of summation: callers go through joints, then couples, by ascending
 /// global ids.
 class NodalForces {
  public:
@@ -32,8 +32,8 @@ class NodalForces {
     p[16] += force[2];
   }
 
-  /// Where the forces on three nodes of one element are summed, components kLanes apart: for callers that add as `add` does. Valid
-  /// until the next call that is not const.
+  /// Where the forces on three nodes of one element are summed, components kLanes apart: for callers that add as `add`
+  /// does. Valid until the next call that is not const.
   [[nodiscard]] std::array<double*, 3> places(Index first, Index second, Index third) {
     if (first >= num_own_nodes_) return {at(first), at(second), at(third)};
     constexpr Index kBlock = 4 * kLanes;
@@ -66,7 +66,7 @@ class NodalForces {
 
   Index num_own_nodes_;
   std::vector<Index> slot_;
-  std::vector<Index> used_;   ///< blocks with a slot, by slot
+  std::vector<Index> used_;  ///< blocks with a slot, by slot
   Field<double> own_;
   Field<double> shared_;
 };

@@ -35,8 +35,8 @@ class SequenceHash {
   std::uint64_t hash_ = 0x243f6a8885a308d3ULL;
 };
 
-/// Hash of the whole state, for "are these two runs the same bits?": the sum of the hashes of its entities, each of which
-/// begins with the entity's global id. The same in whatever order and on whatever ranks entities are added.
+/// Hash of the whole state, for "are these two runs the same bits?": the sum of the hashes of its entities, each of
+/// which begins with the entity's global id. The same in whatever order and on whatever ranks entities are added.
 class StateHash {
  public:
   StateHash() = default;
@@ -53,8 +53,8 @@ class StateHash {
   std::uint64_t sum_ = 0;
 };
 
-/// Hash of this rank's originals: positions and velocities of the four corners by corner and axis. The same for every layout
-/// of the same state. O(elements), 10 ns an element-corner.
+/// Hash of this rank's originals: positions and velocities of the four corners by corner and axis. The same for every
+/// layout of the same state. O(elements), 10 ns an element-corner.
 [[nodiscard]] StateHash hash_elements(const LocalMesh& mesh, const State& state);
 
 }  // namespace breccia

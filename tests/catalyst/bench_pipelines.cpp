@@ -1,4 +1,5 @@
-// Time and memory of the pipelines in C++: the least of some executions, over all ranks the slowest; memory of the first rank.
+// Time and memory of the pipelines in C++: the least of some executions, over all ranks the slowest; memory of the
+// first rank.
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,4 +1,5 @@
-// Runs the tests on all ranks: the first one reports, the others tell their failures alone; the exit code is the same on all.
+// Runs the tests on all ranks: the first one reports, the others tell their failures alone; the exit code is the same
+// on all.
 
 #include <gtest/gtest.h>
 #include <mpi.h>

@@ -1,5 +1,5 @@
-// The live link: a ParaView without windows (live_client.py) connects in mid-run, receives, pauses, continues, dies; the run goes on, and another
-// one connects.
+// The live link: a ParaView without windows (live_client.py) connects in mid-run, receives, pauses, continues, dies;
+// the run goes on, and another one connects.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -95,20 +95,23 @@ class WatchedRun {
     Clock::duration longest{};  ///< step
   };
 
-  WatchedRun(const std::filesystem::path& folder, int port) : config_(folder, world().communicator, world().rank, world().size), port_(port) {
+  WatchedRun(const std::filesystem::path& folder, int port)
+      : config_(folder, world().communicator, world().rank, world().size), port_(port) {
     adaptor_.emplace(config_.add("live", kPublished).live(port).get());
   }
   [[nodiscard]] bool is_open() const { return adaptor_->is_open(); }
   [[nodiscard]] std::uint32_t channels() { return adaptor_->channels(0, step_, SyntheticRun::time_of(step_)); }
   [[nodiscard]] std::int64_t total(int channel) const { return run_.total(channel, 1); }
 
-  /// Goes on, with a client from the tenth step on, until some steps after it has died, or until patience is at an end. Collective.
+  /// Goes on, with a client from the tenth step on, until some steps after it has died, or until patience is at an end.
+  /// Collective.
   /// @param folder  where the client leaves its word
   Course go_on(const std::filesystem::path& folder, const char* how) {
     Course course;
     std::optional<Client> client;
     const auto begin = Clock::now();
-    for (int i = 0; course.steps_after_death < kStepsAfterDeath && broadcast(Clock::now() - begin < kLongest ? 1 : 0) != 0; ++i) {
+    for (int i = 0;
+         course.steps_after_death < kStepsAfterDeath && broadcast(Clock::now() - begin < kLongest ? 1 : 0) != 0; ++i) {
       if (i == 10 && world().rank == 0) client.emplace(port_, folder, how);
       const auto before = Clock::now();
       if (step()) ++course.connected_steps;

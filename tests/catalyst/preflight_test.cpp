@@ -174,7 +174,8 @@ void on_signal(int) {}
 TEST(Adaptor, DrawsOnADisplayOfItsOwnWithoutMpiAndLeavesSignalsDisplayAndProcessesAsTheyWere) {
   const Environment no_display("DISPLAY", nullptr);
   constexpr int kSignals[] = {SIGINT, SIGTERM, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGUSR1, SIGHUP, SIGPIPE};
-  plugin();  // loads Open MPI 5 with UCX, which takes signals while it is loaded; the solver has loaded it before it takes its own
+  plugin();  // loads Open MPI 5 with UCX, which takes signals while it is loaded; the solver has loaded it before it
+             // takes its own
   for (const int signal : kSignals) std::signal(signal, &on_signal);
   const auto expect_signals = [&](const char* when) {
     for (const int signal : kSignals) {

@@ -28,8 +28,9 @@ class GuardedMemory {
   std::size_t used_ = 0;
 };
 
-/// A block of side^3 cubes of six tetrahedra each, dealt out to ranks in contiguous shares, with all channels of a run. Every value is a function of
-/// array, component, cell and step (expected_*), so that a reader can tell what it must find.
+/// A block of side^3 cubes of six tetrahedra each, dealt out to ranks in contiguous shares, with all channels of a run.
+/// Every value is a function of array, component, cell and step (expected_*), so that a reader can tell what it must
+/// find.
 class SyntheticRun {
  public:
   /// @param without_cells this rank owns nothing (-1: none such)

@@ -13,7 +13,8 @@ struct World {
 };
 const World& world();
 
-/// A folder of a test's own below the tests' place, empty, the same on all ranks; made by the first of them. Collective.
+/// A folder of a test's own below the tests' place, empty, the same on all ranks; made by the first of them.
+/// Collective.
 std::filesystem::path fresh_folder(const std::string& name);
 
 /// The first rank's value on all. Collective.

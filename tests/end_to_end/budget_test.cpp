@@ -127,10 +127,13 @@ TEST(Budget, holds_the_work_of_constraints_and_pressures_of_earlier_stages) {
 
 TEST(Budget, holds_what_the_springs_of_friction_store) {
   // The right tetrahedron is pressed in by 0.5 mm and, from 2 ms on, moved along the face; friction makes it stick.
-  const std::string motion = "x = { table = [[0, 0], [\"2 ms\", \"-0.6 mm\"]] }, "
-                             "y = { table = [[\"2 ms\", 0], [\"4 ms\", \"0.2 mm\"]] }, z = 0";
-  const FinishedRun run("'" BRECCIA_MESHES "/contact_pair/case.toml' --set 'contact[0].friction=100' "
-                        "--set 'stage[0].constraint[1].displacement={ " + motion + " }'");
+  const std::string motion =
+      "x = { table = [[0, 0], [\"2 ms\", \"-0.6 mm\"]] }, "
+      "y = { table = [[\"2 ms\", 0], [\"4 ms\", \"0.2 mm\"]] }, z = 0";
+  const FinishedRun run("'" BRECCIA_MESHES
+                        "/contact_pair/case.toml' --set 'contact[0].friction=100' "
+                        "--set 'stage[0].constraint[1].displacement={ " +
+                        motion + " }'");
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   EXPECT_LT(run.largest("relative residual"), kResidual);
   const std::vector<double>&time = run.history.at("time [s]"), &stored = run.history.at("contact stored [J]");

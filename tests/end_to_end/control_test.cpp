@@ -16,14 +16,18 @@ namespace {
 
 using nlohmann::json;
 
-/// A run of the small case that would last for hours, on several ranks; ended with the object. Its steps are so short that nothing much
-/// happens in a test.
+/// A run of the small case that would last for hours, on several ranks; ended with the object. Its steps are so short
+/// that nothing much happens in a test.
 class LongRun {
  public:
   explicit LongRun(int ranks) : folder_(scratch_.path("run").string()) {
     const std::string file = scratch_.write("case.toml", kSmallCase);
-    launcher_ = start_ranks(ranks, "run " + file + " --progress none --set 'stage[0].end=1000 s' --set 'time.step=10 ns' --set 'output.frame_interval=0 s' -o '" + folder_ + "'");
-    for (int look = 0; look < 500 && lines().empty(); ++look) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    launcher_ = start_ranks(ranks, "run " + file +
+                                       " --progress none --set 'stage[0].end=1000 s' --set 'time.step=10 ns' --set "
+                                       "'output.frame_interval=0 s' -o '" +
+                                       folder_ + "'");
+    for (int look = 0; look < 500 && lines().empty(); ++look)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   LongRun(const LongRun&) = delete;
   LongRun& operator=(const LongRun&) = delete;
@@ -78,14 +82,15 @@ class Control : public testing::TestWithParam<int> {};
 TEST_P(Control, pauses_and_lets_go_on) {
   LongRun run(GetParam());
   ASSERT_EQ(run.ask("pause").exit_code, 0);
-  const std::vector<json> paused = run.states_until([](const std::vector<json>& seen) { return count_paused(seen) >= 2; });
+  const std::vector<json> paused =
+      run.states_until([](const std::vector<json>& seen) { return count_paused(seen) >= 2; });
   ASSERT_GE(count_paused(paused), 2) << "no word of a pause";
   EXPECT_EQ(paused.back()["step"], paused[paused.size() - 2]["step"]) << "a paused run went on";
   EXPECT_EQ(run.ask("pause").exit_code, 2) << "a second pause";
   ASSERT_EQ(run.ask("resume").exit_code, 0);
   const std::int64_t step = paused.back()["step"];
-  const std::vector<json> after =
-      run.states_until([&](const std::vector<json>& seen) { return seen.back()["state"] == "running" && seen.back()["step"] > step; });
+  const std::vector<json> after = run.states_until(
+      [&](const std::vector<json>& seen) { return seen.back()["state"] == "running" && seen.back()["step"] > step; });
   EXPECT_EQ(after.back()["state"], "running");
   EXPECT_GT(after.back()["step"].get<std::int64_t>(), step);
 }
@@ -96,7 +101,8 @@ TEST_P(Control, stops_in_order_also_while_paused) {
   ASSERT_EQ(run.ask("stop").exit_code, 0);
   EXPECT_EQ(run.wait_for_end(), 0);
   EXPECT_EQ(run.lines().back()["state"], "stopped");
-  EXPECT_EQ(json::parse(read_text(run.folder() + "/summary.json"))["status"].get<std::string>().substr(0, 7), "stopped");
+  EXPECT_EQ(json::parse(read_text(run.folder() + "/summary.json"))["status"].get<std::string>().substr(0, 7),
+            "stopped");
   EXPECT_EQ(run.ask("pause").exit_code, 2) << "of a run that has ended";
 }
 

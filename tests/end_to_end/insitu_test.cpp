@@ -67,7 +67,8 @@ TEST_P(InSitu, records_every_channel_and_tells_of_it) {
   const fs::path extracts = run.folder() / "extracts";
   for (const std::string channel : {"elements", "surface", "fractures", "joints", "contacts", "domains"}) {
     EXPECT_TRUE(fs::exists(extracts / channel / (channel + ".pvd"))) << channel;
-    EXPECT_EQ(count_files(extracts / channel, ".pvtu") + count_files(extracts / channel, ".pvtp"), 51) << channel;  // 50, and the end
+    EXPECT_EQ(count_files(extracts / channel, ".pvtu") + count_files(extracts / channel, ".pvtp"), 51)
+        << channel;  // 50, and the end
   }
   EXPECT_TRUE(fs::exists(extracts / "history" / "history.csv"));
   EXPECT_EQ(run.pipeline("surface")["executed"], 51);
@@ -77,7 +78,8 @@ TEST_P(InSitu, records_every_channel_and_tells_of_it) {
 
 TEST_P(InSitu, triggers_by_the_first_break_and_by_broken_joints_hit_the_same_steps_on_any_number_of_ranks) {
   const std::string triggers =
-      "--set 'insitu.pipeline=[{name=\"fractures\", first_break=true, strict=true}, {name=\"surface\", every_broken=10, strict=true}]'";
+      "--set 'insitu.pipeline=[{name=\"fractures\", first_break=true, strict=true}, {name=\"surface\", "
+      "every_broken=10, strict=true}]'";
   const WatchedRun alone(1, triggers), run(GetParam(), triggers + " --set domains.margin=0.1");
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   EXPECT_EQ(run.summary()["decompositions"].get<int>() > 2, GetParam() > 1);
@@ -98,10 +100,11 @@ TEST_P(InSitu, a_dear_pipeline_is_passed_over) {
 
 TEST_P(InSitu, a_script_that_fails_three_times_is_switched_off_and_the_run_goes_on) {
   const Scratch scratch;
-  (void)scratch.write("always.py", "from paraview.simple import TrivialProducer\n"
-                                   "surface = TrivialProducer(registrationName='surface')\n"
-                                   "def catalyst_execute(info):\n"
-                                   "    raise ValueError('on purpose')\n");
+  (void)scratch.write("always.py",
+                      "from paraview.simple import TrivialProducer\n"
+                      "surface = TrivialProducer(registrationName='surface')\n"
+                      "def catalyst_execute(info):\n"
+                      "    raise ValueError('on purpose')\n");
   const WatchedRun run(GetParam(), strict({scratch.path("always.py").string(), "fractures"}));
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   EXPECT_NE(run.outcome.err.find("ValueError: on purpose (always.py:4)"), std::string::npos) << run.outcome.err;
@@ -111,7 +114,8 @@ TEST_P(InSitu, a_script_that_fails_three_times_is_switched_off_and_the_run_goes_
 }
 
 TEST_P(InSitu, a_script_that_fails_ends_the_run_where_the_user_wants_that) {
-  const WatchedRun run(GetParam(), "--set insitu.on_error=stop" + strict({BRECCIA_SCRIPTS "/raises_at_seventh_call.py"}));
+  const WatchedRun run(GetParam(),
+                       "--set insitu.on_error=stop" + strict({BRECCIA_SCRIPTS "/raises_at_seventh_call.py"}));
   EXPECT_EQ(run.outcome.exit_code, 2);
   EXPECT_NE(run.outcome.err.find("raises_at_seventh_call"), std::string::npos) << run.outcome.err;
   EXPECT_NE(run.summary()["status"], "complete");
@@ -121,7 +125,8 @@ TEST_P(InSitu, a_script_that_fails_when_it_is_read_is_switched_off_at_once) {
   const WatchedRun run(GetParam(), strict({BRECCIA_SCRIPTS "/raises_at_import.py", "fractures"}));
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   EXPECT_NE(run.outcome.err.find("raises_at_import.py:"), std::string::npos) << run.outcome.err;
-  EXPECT_NE(run.outcome.err.find("switched off, it asks for nothing since it failed"), std::string::npos) << run.outcome.err;
+  EXPECT_NE(run.outcome.err.find("switched off, it asks for nothing since it failed"), std::string::npos)
+      << run.outcome.err;
   EXPECT_EQ(std::count(run.outcome.err.begin(), run.outcome.err.end(), '\n'), 2) << run.outcome.err;
   EXPECT_EQ(run.pipeline("fractures")["executed"], 51);
 }
@@ -134,7 +139,9 @@ TEST_P(InSitu, a_script_that_does_not_compile_is_refused_before_the_first_step) 
 }
 
 TEST_P(InSitu, pictures_need_no_display) {
-  const WatchedRun run(GetParam(), "--set insitu.pipeline='[{name=\"stress\", every_time=\"2 ms\", strict=true, parameters={width=320, height=200}}]'");
+  const WatchedRun run(GetParam(),
+                       "--set insitu.pipeline='[{name=\"stress\", every_time=\"2 ms\", strict=true, "
+                       "parameters={width=320, height=200}}]'");
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   EXPECT_EQ(run.outcome.err, "");
   EXPECT_EQ(count_files(run.folder() / "extracts/stress", ".png"), 3);  // 0, 2 and 4 ms
@@ -143,7 +150,8 @@ TEST_P(InSitu, pictures_need_no_display) {
   std::getline(table, line);
   EXPECT_EQ(line, "time,FILE");
   int rows = 0;
-  for (; std::getline(table, line); ++rows) EXPECT_TRUE(fs::exists(run.folder() / "extracts/stress" / line.substr(line.find(',') + 1))) << line;
+  for (; std::getline(table, line); ++rows)
+    EXPECT_TRUE(fs::exists(run.folder() / "extracts/stress" / line.substr(line.find(',') + 1))) << line;
   EXPECT_EQ(rows, 3);
 }
 
@@ -175,8 +183,11 @@ TEST(InSituAlone, a_script_in_which_ranks_wait_for_each_other_in_vain_ends_the_r
   const WatchedRun run(2, "--set 'domains.patience=\"6 s\"'" + strict({BRECCIA_SCRIPTS "/leaves_the_others.py"}));
   EXPECT_EQ(run.outcome.exit_code, 4);
   EXPECT_NE(run.outcome.err.find("leaves_the_others.py: rank 1 has waited "), std::string::npos) << run.outcome.err;
-  EXPECT_NE(run.outcome.err.find(" s for others that are still in it; here it failed: RuntimeError: on my own (leaves_the_others.py:12)"),
-            std::string::npos) << run.outcome.err;
+  EXPECT_NE(
+      run.outcome.err.find(
+          " s for others that are still in it; here it failed: RuntimeError: on my own (leaves_the_others.py:12)"),
+      std::string::npos)
+      << run.outcome.err;
 }
 
 TEST(InSituAlone, without_an_adaptor_the_run_says_what_to_install) {
@@ -198,8 +209,11 @@ TEST(InSituAlone, an_interrupt_still_ends_the_run_in_order) {
   const std::string file = scratch.write("case.toml", kSmallCase);
   const fs::path folder = scratch.path("run");
   unsetenv("DISPLAY");
-  const std::string arguments = "run " + file + " --progress none --insitu ranks,fractures --set 'stage[0].end=1000 s' -o '" + folder.string() + "'";
-  EXPECT_EQ(call_interrupted(arguments, SIGTERM, [&] { return fs::exists(folder / "extracts/fractures/fractures.pvd"); }), 0);
+  const std::string arguments = "run " + file +
+                                " --progress none --insitu ranks,fractures --set 'stage[0].end=1000 s' -o '" +
+                                folder.string() + "'";
+  EXPECT_EQ(
+      call_interrupted(arguments, SIGTERM, [&] { return fs::exists(folder / "extracts/fractures/fractures.pvd"); }), 0);
   EXPECT_EQ(json::parse(read_text(folder / "summary.json"))["status"].get<std::string>().substr(0, 7), "stopped");
 }
 

@@ -71,8 +71,8 @@ namespace {
 
 /// As root, too, as in a container.
 std::string launch(int ranks, const std::string& arguments) {
-  return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 exec '" BRECCIA_MPIEXEC "' --oversubscribe -n " + std::to_string(ranks) +
-         " '" BRECCIA_PROGRAM "' " + arguments;
+  return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 exec '" BRECCIA_MPIEXEC "' --oversubscribe -n " +
+         std::to_string(ranks) + " '" BRECCIA_PROGRAM "' " + arguments;
 }
 
 Outcome outcome_of(const std::string& command) {

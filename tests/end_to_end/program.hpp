@@ -1,8 +1,8 @@
 #pragma once
 
+#include <sys/types.h>
 #include <filesystem>
 #include <functional>
-#include <sys/types.h>
 #include <string>
 #include <vector>
 
@@ -22,8 +22,8 @@ Outcome call_ranks(int ranks, const std::string& arguments);
 /// Starts the program on several ranks and does not wait for it. Returns the launcher, whose children the ranks are.
 pid_t start_ranks(int ranks, const std::string& arguments);
 
-/// Runs the built program and sends it a signal as soon as `ready` holds, after 50 s in any event. Returns its exit code, -1 when the
-/// signal has killed it. @param arguments  may redirect its output
+/// Runs the built program and sends it a signal as soon as `ready` holds, after 50 s in any event. Returns its exit
+/// code, -1 when the signal has killed it. @param arguments  may redirect its output
 int call_interrupted(const std::string& arguments, int signal, const std::function<bool()>& ready);
 
 /// A folder of its own for one test, removed with the object.

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <signal.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <sstream>
@@ -43,8 +43,9 @@ TEST(Program, explains_every_section_and_a_key) {
 TEST(Program, a_run_leaves_everything_it_promises) {
   const Scratch scratch;
   const json summary = summary_of(scratch, "");
-  for (const char* name : {"ranks", "steps", "simulated_time", "elements", "joints", "broken_joints", "fragments", "wall_s",
-                           "element_steps_per_s", "phases", "energy", "energy_residual_relative", "max_rss_bytes", "state_hash"}) {
+  for (const char* name :
+       {"ranks", "steps", "simulated_time", "elements", "joints", "broken_joints", "fragments", "wall_s",
+        "element_steps_per_s", "phases", "energy", "energy_residual_relative", "max_rss_bytes", "state_hash"}) {
     EXPECT_TRUE(summary.contains(name)) << name;
   }
   EXPECT_EQ(summary["status"], "complete");
@@ -52,13 +53,15 @@ TEST(Program, a_run_leaves_everything_it_promises) {
   EXPECT_GT(summary["broken_joints"].get<int>(), 0) << "the case is meant to break something";
   constexpr double kResidual = 1e-3;  // the limit for every case of the repository
   EXPECT_LT(summary["energy_residual_relative"].get<double>(), kResidual);
-  for (const char* file : {"case.toml", "provenance.json", "history.csv", "status.jsonl", "summary.txt", "frames/elements.hdf.series"}) {
+  for (const char* file :
+       {"case.toml", "provenance.json", "history.csv", "status.jsonl", "summary.txt", "frames/elements.hdf.series"}) {
     EXPECT_TRUE(std::filesystem::exists(scratch.path("run") / file)) << file;
   }
 }
 
 TEST(Program, boxes_that_burst_into_debris_create_no_energy) {
-  // At half the speed of sound everything is crushed, slides far on closed cracks and ends as single tetrahedra that overlap.
+  // At half the speed of sound everything is crushed, slides far on closed cracks and ends as single tetrahedra that
+  // overlap.
   const Scratch scratch;
   const json summary = summary_of(scratch,
                                   "--set time.safety=0.2 --set 'stage[0].end=2 ms' "
@@ -73,7 +76,8 @@ TEST(Program, the_resolved_case_gives_the_same_bits_again) {
   const Scratch scratch;
   const json first = summary_of(scratch, "");
   const std::string again = scratch.path("again").string();
-  const Outcome outcome = call("run '" + scratch.path("run/case.toml").string() + "' --progress none -o '" + again + "'");
+  const Outcome outcome =
+      call("run '" + scratch.path("run/case.toml").string() + "' --progress none -o '" + again + "'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(json::parse(read_text(again + "/summary.json"))["state_hash"], first["state_hash"]);
 }
@@ -105,7 +109,8 @@ TEST(Program, every_simd_width_gives_the_same_bits) {
   EXPECT_EQ(narrow["simd"], "sse2");
   for (const char* width : {"avx2", "avx512"}) {
     // A machine without the set falls back to one it has: still the same bits.
-    EXPECT_EQ(summary_of(scratch, "", std::string("BRECCIA_SIMD=") + width)["state_hash"], narrow["state_hash"]) << width;
+    EXPECT_EQ(summary_of(scratch, "", std::string("BRECCIA_SIMD=") + width)["state_hash"], narrow["state_hash"])
+        << width;
   }
 }
 
@@ -122,7 +127,8 @@ TEST(Program, an_exploding_run_stops_with_code_3_and_leaves_its_last_frame) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   const std::string folder = scratch.path("run").string();
-  const Outcome outcome = call("run " + file + " --progress none --set 'time.step=1 ms' --set 'stage[0].end=1 s' -o '" + folder + "'");
+  const Outcome outcome =
+      call("run " + file + " --progress none --set 'time.step=1 ms' --set 'stage[0].end=1 s' -o '" + folder + "'");
   EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
   EXPECT_NE(outcome.err.find("step"), std::string::npos) << outcome.err;
   EXPECT_TRUE(std::filesystem::exists(folder + "/summary.json"));
@@ -144,8 +150,8 @@ TEST(Program, a_full_disk_stops_the_run_with_code_2) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   // No file may grow past 8 blocks of 1 kB: the frames do not fit.
-  const Outcome outcome = call("run " + file + " --progress none -o '" + scratch.path("run").string() + "'",
-                               "ulimit -f 8;");
+  const Outcome outcome =
+      call("run " + file + " --progress none -o '" + scratch.path("run").string() + "'", "ulimit -f 8;");
   EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
   EXPECT_NE(outcome.err.find("frames"), std::string::npos) << outcome.err;
 }
@@ -154,8 +160,11 @@ TEST(Program, an_interrupt_ends_the_run_in_order) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   const std::filesystem::path folder = scratch.path("run");
-  const std::string arguments = "run " + file + " --progress none --set 'stage[0].end=100 s' -o '" + folder.string() + "'";
-  EXPECT_EQ(call_interrupted(arguments, SIGINT, [&] { return std::filesystem::exists(folder / "frames/elements.hdf.series"); }), 0);
+  const std::string arguments =
+      "run " + file + " --progress none --set 'stage[0].end=100 s' -o '" + folder.string() + "'";
+  EXPECT_EQ(call_interrupted(arguments, SIGINT,
+                             [&] { return std::filesystem::exists(folder / "frames/elements.hdf.series"); }),
+            0);
   EXPECT_EQ(json::parse(read_text(folder / "summary.json"))["status"].get<std::string>().substr(0, 7), "stopped");
 }
 
@@ -164,7 +173,8 @@ TEST(Program, check_advises_in_sentences) {
   const std::string file = scratch.write("case.toml", kSmallCase);
   const Outcome outcome = call("check " + file);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  for (const char* fragment : {"stable time step", "limited by", "softer", "memory", "fracture process zone", "steps of"}) {
+  for (const char* fragment :
+       {"stable time step", "limited by", "softer", "memory", "fracture process zone", "steps of"}) {
     EXPECT_NE(outcome.out.find(fragment), std::string::npos) << fragment << " in\n" << outcome.out;
   }
 }
@@ -192,9 +202,11 @@ TEST(Program, check_tells_how_much_softer_joints_make_the_body) {
 
 TEST(Program, check_tells_how_ranks_would_share_the_model) {
   const Scratch scratch;
-  const Outcome outcome = call("check " + scratch.write("case.toml", kSmallCase) + " --ranks 3 --set mesh.raster.boxes=[12,1,1]");
+  const Outcome outcome =
+      call("check " + scratch.write("case.toml", kSmallCase) + " --ranks 3 --set mesh.raster.boxes=[12,1,1]");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  for (const char* fragment : {"1152 elements, 3 domains, rcb", "predicted efficiency", "cut faces", "Contact is not counted"}) {
+  for (const char* fragment :
+       {"1152 elements, 3 domains, rcb", "predicted efficiency", "cut faces", "Contact is not counted"}) {
     EXPECT_NE(outcome.out.find(fragment), std::string::npos) << fragment << " in\n" << outcome.out;
   }
 }

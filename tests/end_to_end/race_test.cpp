@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <signal.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -18,7 +18,8 @@ using nlohmann::json;
 
 const std::string kCubes = "'" BRECCIA_MESHES "/bouncing_cubes/case_smoke.toml'";
 /// Long enough for the boxes to meet, short enough for a test.
-const std::string kShort = " --from '40 us' --steps 60 --buffers 0.5,3 --algorithms packed_tree,ms,brute_force --progress json";
+const std::string kShort =
+    " --from '40 us' --steps 60 --buffers 0.5,3 --algorithms packed_tree,ms,brute_force --progress json";
 
 /// The racers of a race with --progress json, the fastest first; the last line is checked and left out.
 std::vector<json> racers(const Outcome& outcome, const std::string& state = "complete") {
@@ -53,7 +54,8 @@ TEST(Race, every_algorithm_races_with_every_buffer_and_with_the_case_s_own) {
     EXPECT_GT(racer["couples"].get<int>(), 0);
     EXPECT_GT(racer["search_s"].get<double>(), 0);
     EXPECT_GT(racer["contact_s"].get<double>(), 0);
-    const double searches = racer["searches"], used = racer["used_up"], one = racer["one_search_s"], search = racer["search_s"];
+    const double searches = racer["searches"], used = racer["used_up"], one = racer["one_search_s"],
+                 search = racer["search_s"];
     EXPECT_GE(used, searches - 1);
     EXPECT_LE(used, searches);
     EXPECT_GT(one, 0);
@@ -73,7 +75,8 @@ TEST(Race, every_algorithm_races_with_every_buffer_and_with_the_case_s_own) {
 
 TEST(Race, a_larger_buffer_means_more_couples_and_fewer_searches_whoever_looks) {
   std::set<std::pair<int, int>> found;  // searches and couples: one pair for each of 0.5, 1 and 3 mm
-  for (const json& racer : racers(call("race " + kCubes + " --set 'detection.buffer=1 mm'" + kShort))) found.emplace(racer["searches"], racer["couples"]);
+  for (const json& racer : racers(call("race " + kCubes + " --set 'detection.buffer=1 mm'" + kShort)))
+    found.emplace(racer["searches"], racer["couples"]);
   ASSERT_EQ(found.size(), 3u);
   int couples = std::numeric_limits<int>::max();
   for (const auto& pair : found) {
@@ -94,7 +97,8 @@ TEST(Race, all_end_where_a_run_ends) {
   const std::string file = scratch.write("case.toml", kSmallCase);  // joints break in it, and a stage constrains
   const std::string hash = final_hash(file, scratch, "");
   for (const char* from : {"0", "'2 ms'", "'3.5 ms'"}) {
-    const auto found = racers(call("race " + file + " --from " + from + " --time '1 s' --buffers 2 --algorithms ms --progress json"));
+    const auto found =
+        racers(call("race " + file + " --from " + from + " --time '1 s' --buffers 2 --algorithms ms --progress json"));
     ASSERT_FALSE(found.empty()) << from;
     EXPECT_EQ(found.front()["state_hash"], hash) << from;
   }
@@ -102,11 +106,13 @@ TEST(Race, all_end_where_a_run_ends) {
 
 TEST(Race, a_race_may_go_through_several_stages) {
   const Scratch scratch;
-  const std::string second = "end = \"2 ms\"\n[[stage]]\nname = \"fall\"\nend = \"4 ms\"\ngravity = [0, 0, \"-9.81 m/s2\"]\n";
+  const std::string second =
+      "end = \"2 ms\"\n[[stage]]\nname = \"fall\"\nend = \"4 ms\"\ngravity = [0, 0, \"-9.81 m/s2\"]\n";
   const std::string file = scratch.write("case.toml", changed("end = \"4 ms\"\n", second));
   const std::string hash = final_hash(file, scratch, "");
   for (const char* from : {"'1 ms'", "'3 ms'"}) {
-    const auto found = racers(call("race " + file + " --from " + from + " --time '1 s' --buffers 2 --algorithms ms --progress json"));
+    const auto found =
+        racers(call("race " + file + " --from " + from + " --time '1 s' --buffers 2 --algorithms ms --progress json"));
     ASSERT_FALSE(found.empty()) << from;
     EXPECT_EQ(found.front()["state_hash"], hash) << from;
   }
@@ -117,7 +123,8 @@ TEST(Race, the_table_ends_with_lines_that_the_case_takes) {
   const std::string file = scratch.write("case.toml", kSmallCase);
   const Outcome outcome = call("race " + file + " --steps 50 --progress none");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  for (const char* word : {"* ", "ms_slices", "sorted_grid", "packed_tree", "brute_force", "as in the case", "element-steps/s", "best: "}) {
+  for (const char* word : {"* ", "ms_slices", "sorted_grid", "packed_tree", "brute_force", "as in the case",
+                           "element-steps/s", "best: "}) {
     EXPECT_NE(outcome.out.find(word), std::string::npos) << word << " in\n" << outcome.out;
   }
   const std::size_t from = outcome.out.find("[detection]");
@@ -132,7 +139,10 @@ TEST(Race, writes_a_line_for_each_racer_only_when_asked) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   const std::string folder = scratch.path("out").string();
-  ASSERT_EQ(call("race " + file + " --steps 20 --buffers 2 --algorithms ms,sorted_grid --progress none -o '" + folder + "'").exit_code, 0);
+  ASSERT_EQ(
+      call("race " + file + " --steps 20 --buffers 2 --algorithms ms,sorted_grid --progress none -o '" + folder + "'")
+          .exit_code,
+      0);
   const std::string csv = read_text(folder + "/race.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 4) << csv;
   EXPECT_EQ(csv.rfind("algorithm,buffer,", 0), 0u) << csv;
@@ -154,7 +164,8 @@ TEST(Race, brute_force_stays_away_from_a_large_model_unless_named) {
 TEST(Race, an_interrupt_ends_it_in_order) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase), out = scratch.path("out").string();
-  const std::string arguments = "race " + file + " --progress json --set 'stage[0].end=100 s' --from '90 s' > '" + out + "'";
+  const std::string arguments =
+      "race " + file + " --progress json --set 'stage[0].end=100 s' --from '90 s' > '" + out + "'";
   EXPECT_EQ(call_interrupted(arguments, SIGINT, [&] { return !read_text(out).empty(); }), 0);
   EXPECT_NE(read_text(out).find("{\"state\":\"stopped\""), std::string::npos) << read_text(out);
 }

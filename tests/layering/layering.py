@@ -51,6 +51,8 @@ SYSTEM = re.compile(
 
 SOURCE_SUFFIXES = {".cpp", ".hpp", ".h", ".cxx", ".py"}
 MAX_LINES = 450
+MAX_COLUMNS = 120  # of .clang-format, which leaves long comments and texts as they are
+FORMATTED_SUFFIXES = {".cpp", ".hpp", ".h"}
 LEFT_OPEN = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X|HA" r"CK)\b")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
@@ -120,6 +122,8 @@ def text_problems(repository):
             for number, line in enumerate(lines, 1):
                 if match := LEFT_OPEN.search(line):
                     yield path, number, f"{match.group()} left in the source"
+                if path.suffix in FORMATTED_SUFFIXES and len(line) > MAX_COLUMNS:
+                    yield path, number, f"{len(line)} columns; at most {MAX_COLUMNS}"
 
 
 def problems(repository):

@@ -4,7 +4,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from layering import LEFT_OPEN, MAX_LINES, problems
+from layering import LEFT_OPEN, MAX_COLUMNS, MAX_LINES, problems
 
 CLEAN = {
     "solver/main.cpp": '#include <CLI/CLI.hpp>\n#include "commands/commands.hpp"\n',
@@ -63,6 +63,7 @@ VIOLATIONS = [
     ("solver/mesh/a.cpp", "\n" * (MAX_LINES + 1), "split it"),
     ("tests/unit/a_test.cpp", "\n" * (MAX_LINES + 1), "split it"),
     ("solver/mesh/a.cpp", "// TO" "DO later\n", "left in the source"),
+    ("solver/mesh/a.hpp", "/" * (MAX_COLUMNS + 1) + "\n", "columns"),
     ("meshes/a.py", "# FIX" "ME\n", "left in the source"),
 ]
 
@@ -92,7 +93,7 @@ class Layering(unittest.TestCase):
 
     def test_a_file_of_exactly_the_limit_passes(self):
         with tempfile.TemporaryDirectory() as folder:
-            plant(folder, {**CLEAN, "solver/mesh/a.cpp": "\n" * MAX_LINES})
+            plant(folder, {**CLEAN, "solver/mesh/a.cpp": ("/" * MAX_COLUMNS + "\n") * MAX_LINES})
             self.assertEqual(problems(folder), [])
 
     def test_words_that_merely_contain_a_mark_are_not_left_open(self):

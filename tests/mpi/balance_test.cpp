@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "model/model.hpp"
 #include "mpi/world.hpp"
 #include "simulation/search_params.hpp"
-#include "model/model.hpp"
 #include "unit/case/case_files.hpp"
 
 namespace breccia {

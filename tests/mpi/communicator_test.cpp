@@ -105,7 +105,8 @@ TEST(Communicator, GathersListsThatAreLongerThanAMessage) {
     const auto all = world().all_gather(std::span<const std::byte>(bytes_of(length, world().rank())));
     ASSERT_EQ(all.size(), static_cast<std::size_t>(world().size()));
     for (int r = 0; r < world().size(); ++r) {
-      EXPECT_EQ(all[static_cast<std::size_t>(r)], bytes_of(step * static_cast<std::size_t>(last() - r), r)) << step << ", rank " << r;
+      EXPECT_EQ(all[static_cast<std::size_t>(r)], bytes_of(step * static_cast<std::size_t>(last() - r), r))
+          << step << ", rank " << r;
     }
   }
 }
@@ -113,12 +114,14 @@ TEST(Communicator, GathersListsThatAreLongerThanAMessage) {
 TEST(Communicator, ExchangesListsAndSendsNoEmptyOnes) {
   const int rank = world().rank();
   std::vector<Communicator::ListOf<double>> lists;
-  for (int to = 0; to < world().size(); ++to) lists.push_back({to, std::vector<double>(static_cast<std::size_t>(to), rank + 0.5)});
+  for (int to = 0; to < world().size(); ++to)
+    lists.push_back({to, std::vector<double>(static_cast<std::size_t>(to), rank + 0.5)});
   const auto received = world().exchange(lists);
   ASSERT_EQ(received.size(), static_cast<std::size_t>(rank == 0 ? 0 : world().size()));
   for (std::size_t from = 0; from < received.size(); ++from) {
     EXPECT_EQ(received[from].rank, static_cast<int>(from));
-    EXPECT_EQ(received[from].entries, std::vector<double>(static_cast<std::size_t>(rank), static_cast<double>(from) + 0.5));
+    EXPECT_EQ(received[from].entries,
+              std::vector<double>(static_cast<std::size_t>(rank), static_cast<double>(from) + 0.5));
   }
 }
 
@@ -164,7 +167,8 @@ TEST(Communicator, RefusesTwoParcelsForOneRank) {
   EXPECT_THROW((void)world().exchange(std::move(twice)), InternalError);
 }
 
-// --- agree --------------------------------------------------------------------------------------------------------------
+// --- agree
+// --------------------------------------------------------------------------------------------------------------
 
 Problem problem_of(int rank, int number) {
   return {
@@ -259,7 +263,8 @@ TEST(Agree, MayBeUsedWithinItself) {
                SimulationError);
 }
 
-// --- pending reductions and long waits -----------------------------------------------------------------------------------------------
+// --- pending reductions and long waits
+// -----------------------------------------------------------------------------------------------
 
 TEST(PendingReduction, GivesTheLargestOfEachValueOfThePostBefore) {
   const int rank = world().rank();

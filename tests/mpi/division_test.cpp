@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <map>
 
-#include "mpi/world.hpp"
-#include "simulation/search_params.hpp"
-#include "simulation/decomposition.hpp"
 #include "model/model.hpp"
+#include "mpi/world.hpp"
+#include "simulation/decomposition.hpp"
+#include "simulation/search_params.hpp"
 #include "simulation/stepper.hpp"
 #include "unit/case/case_files.hpp"
 
@@ -48,7 +48,8 @@ class FlyingBoxes : public testing::Test {
 TEST_F(FlyingBoxes, StayWholeWhenTheModelIsDivided) {
   for (int division = 0; division < 3; ++division) {
     divide();
-    for (const auto& [box, elements] : here()) EXPECT_EQ(elements, kElementsABox) << "box " << box << ", division " << division;
+    for (const auto& [box, elements] : here())
+      EXPECT_EQ(elements, kElementsABox) << "box " << box << ", division " << division;
     EXPECT_EQ(world().sum(static_cast<std::int64_t>(mine_.elements.size())), 125 * 24);
     // Four domains are two cuts, each of which may be off by a box.
     EXPECT_LE(world().max(static_cast<std::int64_t>(mine_.elements.size())), 125 * 24 / world().size() + 2 * 24);

@@ -17,8 +17,8 @@ namespace {
 using test::Hdf5Reader;
 using test::names_in;
 using test::world;
-using testing::ElementsAre;
 using testing::Each;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 constexpr const char* kNoError = "no error";
@@ -52,7 +52,9 @@ class SharedFolder {
 Frame plate(std::int64_t number, double time = kLate) { return test::SyntheticPlate{.cubes = 6}.frame(number, time); }
 
 /// This rank's piece of the plate.
-Frame my_piece(std::int64_t number, double time = kLate) { return test::piece_of(plate(number, time), world().rank(), world().size()); }
+Frame my_piece(std::int64_t number, double time = kLate) {
+  return test::piece_of(plate(number, time), world().rank(), world().size());
+}
 
 template <class T>
 std::vector<double> doubles(const std::vector<T>& values) {
@@ -95,7 +97,8 @@ TEST(Frames, HoldThePiecesOfTheRanksInTheirOrder) {
   const Frame whole = plate(3);
   const Hdf5Reader grid(folder / "elements_000003.vtkhdf");
   std::vector<double> cells;
-  for (int r = 0; r < world().size(); ++r) cells.push_back(static_cast<double>(test::piece_of(whole, r, world().size()).elements.id.size()));
+  for (int r = 0; r < world().size(); ++r)
+    cells.push_back(static_cast<double>(test::piece_of(whole, r, world().size()).elements.id.size()));
   EXPECT_EQ(grid.values("NumberOfCells"), cells);
   for (double& count : cells) count *= 4;
   EXPECT_EQ(grid.values("NumberOfPoints"), cells);
@@ -159,7 +162,8 @@ TEST(Frames, AreListedOnceWithTheirTimesAndLeaveNothingElse) {
   sink.frame(my_piece(0, 0.0));
   sink.frame(my_piece(1));
   if (!world().is_root()) return;
-  EXPECT_THAT(names_in(folder.path()), ElementsAre("elements.hdf.series", "elements_000000.vtkhdf", "elements_000001.vtkhdf"));
+  EXPECT_THAT(names_in(folder.path()),
+              ElementsAre("elements.hdf.series", "elements_000000.vtkhdf", "elements_000001.vtkhdf"));
   const std::string index = test::content_of(folder / "elements.hdf.series");
   EXPECT_THAT(index, HasSubstr("elements_000000.vtkhdf"));
   EXPECT_THAT(index, HasSubstr("9e-05"));
@@ -168,7 +172,8 @@ TEST(Frames, AreListedOnceWithTheirTimesAndLeaveNothingElse) {
 TEST(Frames, ThatCannotBeWrittenFailOnAllRanksAndNameTheFile) {
   VtkhdfSink sink("/nonexistent/frames", {}, world());
   const Frame mine = my_piece(0);
-  EXPECT_THAT(message_of<OutputError>([&] { sink.frame(mine); }), HasSubstr("/nonexistent/frames/elements_000000.vtkhdf"));
+  EXPECT_THAT(message_of<OutputError>([&] { sink.frame(mine); }),
+              HasSubstr("/nonexistent/frames/elements_000000.vtkhdf"));
 }
 
 TEST(Frames, LeaveTheEarlierOnesAsTheyWereWhenTheDiskIsFull) {
@@ -178,9 +183,11 @@ TEST(Frames, LeaveTheEarlierOnesAsTheyWereWhenTheDiskIsFull) {
   sink.frame(my_piece(0));
   world().barrier();
   const std::vector<std::string> names = names_in(folder.path());
-  const std::string index = test::content_of(folder / "elements.hdf.series"), first = test::content_of(folder / "elements_000000.vtkhdf");
+  const std::string index = test::content_of(folder / "elements.hdf.series"),
+                    first = test::content_of(folder / "elements_000000.vtkhdf");
   ASSERT_GT(first.size(), 2 * kRoom);
-  for (const int limited : {-1, 0, world().size() - 1}) {  // all ranks, the one that takes the space, one that writes its piece
+  for (const int limited :
+       {-1, 0, world().size() - 1}) {  // all ranks, the one that takes the space, one that writes its piece
     std::string message;
     {
       std::optional<test::FileSizeLimit> limit;
@@ -216,7 +223,8 @@ TEST(Frames, WithAnArrayThatDoesNotFitTheCellsOfOneRankAreRefusedByAll) {
   const SharedFolder folder;
   Frame mine = my_piece(0);
   if (world().rank() == world().size() - 1) mine.elements.stress.pop_back();
-  EXPECT_THAT(message_of<InternalError>([&] { VtkhdfSink(folder.path(), {}, world()).frame(mine); }), HasSubstr("stress"));
+  EXPECT_THAT(message_of<InternalError>([&] { VtkhdfSink(folder.path(), {}, world()).frame(mine); }),
+              HasSubstr("stress"));
   world().barrier();
   EXPECT_THAT(names_in(folder.path()), ElementsAre());
 }

@@ -133,11 +133,18 @@ TEST_P(HaloOf, TheFirstFieldAloneLeavesTheOthersAsTheyWere) {
   std::vector<HaloNeighbour> neighbours;
   for (std::size_t other = 0; other < ranks; ++other) {
     if (other == mine) continue;
-    neighbours.push_back({static_cast<int>(other), {place_of(2 * mine)}, {place_of(2 * other)}, {place_of(2 * mine + 1)}, {place_of(2 * other + 1)}});
+    neighbours.push_back({static_cast<int>(other),
+                          {place_of(2 * mine)},
+                          {place_of(2 * other)},
+                          {place_of(2 * mine + 1)},
+                          {place_of(2 * other + 1)}});
   }
   Halo halo(world(), neighbours, 2, GetParam());
-  const auto value = [](std::size_t field, std::size_t node, std::size_t i) { return static_cast<double>(100 * field + 10 * node + i); };
-  std::vector<std::vector<double>> fields(2, std::vector<double>(place_of(2 * ranks + kHaloStride) + 3 * kHaloStride, kUntouched));
+  const auto value = [](std::size_t field, std::size_t node, std::size_t i) {
+    return static_cast<double>(100 * field + 10 * node + i);
+  };
+  std::vector<std::vector<double>> fields(
+      2, std::vector<double>(place_of(2 * ranks + kHaloStride) + 3 * kHaloStride, kUntouched));
   const auto fill = [&](std::vector<double>& values, std::size_t field, std::size_t node) {
     for (std::size_t i = 0; i < 3; ++i) values[place_of(node) + i * kHaloStride] = value(field, node, i);
   };

@@ -1,4 +1,5 @@
-// Runs the tests on all ranks: the first one reports, the others tell their failures alone; the exit code is the same on all.
+// Runs the tests on all ranks: the first one reports, the others tell their failures alone; the exit code is the same
+// on all.
 
 #include <gtest/gtest.h>
 
@@ -15,8 +16,8 @@ breccia::Communicator all_ranks;
 class FailureListener final : public testing::EmptyTestEventListener {
   void OnTestPartResult(const testing::TestPartResult& result) override {
     if (!result.failed()) return;
-    std::fprintf(stderr, "rank %d: %s:%d: %s\n", all_ranks.rank(), result.file_name() == nullptr ? "?" : result.file_name(),
-                 result.line_number(), result.message());
+    std::fprintf(stderr, "rank %d: %s:%d: %s\n", all_ranks.rank(),
+                 result.file_name() == nullptr ? "?" : result.file_name(), result.line_number(), result.message());
   }
 };
 

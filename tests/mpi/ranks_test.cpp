@@ -1,4 +1,7 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -8,10 +11,7 @@
 #include <set>
 #include <sstream>
 #include <string>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <thread>
-#include <unistd.h>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -84,7 +84,8 @@ class SameBits {
   /// Returns the summary. @param settings  of the case
   nlohmann::json on(int ranks, const std::string& settings = "") {
     const std::string name = "run" + std::to_string(++number_);
-    const Outcome outcome = test::call_ranks(ranks, "run --progress none -o " + folder(name) + " " + case_file_ + " " + settings);
+    const Outcome outcome =
+        test::call_ranks(ranks, "run --progress none -o " + folder(name) + " " + case_file_ + " " + settings);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     if (outcome.exit_code != 0) return {};
     const Result result = result_of(scratch_.path(name));
@@ -238,8 +239,8 @@ TEST(Ranks, NameTheSameElementWhenTheResidualPassesItsLimit) {
   std::set<std::string> messages;
   for (const int ranks : {1, 2, 3}) {
     const std::string folder = scratch.path("out" + std::to_string(ranks)).string();
-    const Outcome outcome = test::call_ranks(
-        ranks, "run --progress none -o '" + folder + "' " + file + " --set time.residual_limit=1e-9");
+    const Outcome outcome =
+        test::call_ranks(ranks, "run --progress none -o '" + folder + "' " + file + " --set time.residual_limit=1e-9");
     EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
     const std::size_t first = outcome.err.find("breccia: error: step ");
     ASSERT_NE(first, std::string::npos) << outcome.err;
@@ -266,7 +267,8 @@ TEST(Ranks, TellAWrongCaseOnce) {
 TEST(Ranks, RefuseADivisionThatCannotBe) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", test::kSmallCase);
-  const std::string run = "run -o '" + scratch.path("out").string() + "' " + file + " --set domains.kind=grid --set domains.n=";
+  const std::string run =
+      "run -o '" + scratch.path("out").string() + "' " + file + " --set domains.kind=grid --set domains.n=";
   const Outcome product = test::call_ranks(4, run + "[3,1,1]");
   EXPECT_EQ(product.exit_code, 2);
   EXPECT_NE(product.err.find("[2, 2, 1]"), std::string::npos) << product.err;
@@ -278,8 +280,8 @@ TEST(Ranks, RefuseADivisionThatCannotBe) {
 TEST(Ranks, EndTogetherWhenTheNumbersGoWrongOnOne) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", test::kSmallCase);
-  const Outcome outcome =
-      test::call_ranks(2, "run --progress none -o '" + scratch.path("out").string() + "' " + file + " --set time.step=1e-4");
+  const Outcome outcome = test::call_ranks(
+      2, "run --progress none -o '" + scratch.path("out").string() + "' " + file + " --set time.step=1e-4");
   EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
   const std::size_t first = outcome.err.find("breccia: error: step ");
   ASSERT_NE(first, std::string::npos) << outcome.err;
@@ -320,7 +322,8 @@ TEST(Ranks, DieTogetherWhenOneIsKilledAndLeaveCompleteFrames) {
   const std::string file = scratch.write("case.toml", test::changed("end = \"4 ms\"", "end = \"4 s\""));
   const pid_t launcher = test::start_ranks(2, "run --progress none -o '" + scratch.path("out").string() + "' " + file);
   const auto series = scratch.path("out") / "frames" / "elements.hdf.series";
-  ASSERT_TRUE(within(std::chrono::seconds(60), [&] { return std::filesystem::exists(series) && children_of(launcher).size() >= 2; }));
+  ASSERT_TRUE(within(std::chrono::seconds(60),
+                     [&] { return std::filesystem::exists(series) && children_of(launcher).size() >= 2; }));
   ASSERT_EQ(kill(children_of(launcher).back(), SIGKILL), 0);
   int status = 0;
   const bool ended = within(std::chrono::seconds(20), [&] { return waitpid(launcher, &status, WNOHANG) == launcher; });
@@ -339,7 +342,8 @@ TEST(Ranks, EndTogetherWhenOneCannotWriteItsPieceOfAFrame) {
   const std::string file = scratch.write("case.toml", test::changed("end = \"4 ms\"", "end = \"4 s\""));
   const pid_t launcher = test::start_ranks(3, "run --progress none -o '" + scratch.path("out").string() + "' " + file);
   const auto series = scratch.path("out") / "frames" / "elements.hdf.series";
-  ASSERT_TRUE(within(std::chrono::seconds(60), [&] { return std::filesystem::exists(series) && children_of(launcher).size() >= 3; }));
+  ASSERT_TRUE(within(std::chrono::seconds(60),
+                     [&] { return std::filesystem::exists(series) && children_of(launcher).size() >= 3; }));
   const rlimit nothing{0, 0};
   ASSERT_EQ(prlimit(children_of(launcher)[1], RLIMIT_FSIZE, &nothing, nullptr), 0);
   int status = 0;

@@ -30,16 +30,17 @@ TEST(Elastic, a_pulse_runs_along_a_bar_that_cannot_widen_at_the_speed_of_p_waves
 
 TEST(Elastic, a_cantilever_of_linear_tetrahedra_bends_by_their_static_deflection) {
   const Recording run = run_case_file("cantilever/case_smoke.toml");
-  constexpr double kStatic = -5.014e-3;    // m, linear static solution on the same mesh
-  constexpr double kTolerance = 0.1e-3;    // m, choice of diagonals and what damping leaves of the ringing
+  constexpr double kStatic = -5.014e-3;  // m, linear static solution on the same mesh
+  constexpr double kTolerance = 0.1e-3;  // m, choice of diagonals and what damping leaves of the ringing
   EXPECT_NEAR(run.rows.back().gauges[0].max_displacement[2], kStatic, kTolerance);
   EXPECT_LT(run.worst_residual(), kResidual);
 }
 
 TEST(Elastic, joints_make_the_cantilever_softer_by_their_compliance) {
-  const Recording run = run_case_file("cantilever/case_joints_10.toml",
-                                      {"stage.bend.end=0.5 s", "stage[0].mass_damping=60",
-                                       "stage[0].gravity=[0, 0, {ramp = {from = 0, to = -9.81, start = 0, end = 0.2}}]"});
+  const Recording run =
+      run_case_file("cantilever/case_joints_10.toml",
+                    {"stage.bend.end=0.5 s", "stage[0].mass_damping=60",
+                     "stage[0].gravity=[0, 0, {ramp = {from = 0, to = -9.81, start = 0, end = 0.2}}]"});
   constexpr double kStatic = -6.25e-3, kTolerance = 0.1e-3;  // m, static solution with joints of penalty 10 E
   EXPECT_NEAR(run.rows.back().gauges[0].max_displacement[2], kStatic, kTolerance);
   EXPECT_LT(run.worst_residual(), kResidual);

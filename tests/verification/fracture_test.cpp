@@ -8,10 +8,10 @@
 namespace breccia::test {
 namespace {
 
-constexpr double kArea = 173.2050808e-6;   // m2
-constexpr double kStrength = 5e6;          // Pa
-constexpr double kEnergy = 30.0291;        // J/m2
-constexpr double kSpeed = 30e-6 / 1e-3;    // m/s of the right tetrahedron
+constexpr double kArea = 173.2050808e-6;                     // m2
+constexpr double kStrength = 5e6;                            // Pa
+constexpr double kEnergy = 30.0291;                          // J/m2
+constexpr double kSpeed = 30e-6 / 1e-3;                      // m/s of the right tetrahedron
 constexpr double kPeak = 5e-4, kWidth = 5e-4, kWork = 1e-3;  // asked of the law
 
 /// Largest force on the fixed side along an axis, N.

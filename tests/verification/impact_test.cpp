@@ -10,12 +10,14 @@ namespace {
 
 /// Two elastic cubes of 24 tetrahedra, turned at random, fly at each other and part again.
 std::string colliding_cubes(int seed) {
-  return "title = \"two cubes\"\n[mesh.raster]\ncells = 1\ncell_size = 0.1\nboxes = [2, 1, 1]\ngap = [0.08, 0, 0]\ngroup = \"cube\"\n"
-         "random_orientation = true\nseed = " + std::to_string(seed) +
+  return "title = \"two cubes\"\n[mesh.raster]\ncells = 1\ncell_size = 0.1\nboxes = [2, 1, 1]\ngap = [0.08, 0, "
+         "0]\ngroup = \"cube\"\n"
+         "random_orientation = true\nseed = " +
+         std::to_string(seed) +
          "\n[[material]]\ngroup = \"cube\"\nyoung = \"4 MPa\"\npoisson = 0.3\ndensity = 2340\njoints = \"none\"\n"
          "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"40 MPa\"\n[contact_points]\nper_face = 6\n"
-         "[[initial_velocity]]\ngroup = \"cube\"\nrandom = [0.3, 0.5]\nseed = " + std::to_string(seed) +
-         "\n[[stage]]\nname = \"fly\"\nend = 0.6\n[time]\nsafety = 0.1\n";
+         "[[initial_velocity]]\ngroup = \"cube\"\nrandom = [0.3, 0.5]\nseed = " +
+         std::to_string(seed) + "\n[[stage]]\nname = \"fly\"\nend = 0.6\n[time]\nsafety = 0.1\n";
 }
 
 TEST(CollidingCubes, keep_linear_and_angular_momentum_to_round_off_and_their_energy) {
@@ -44,7 +46,8 @@ TEST(SlidingBlock, stops_where_friction_has_taken_its_energy) {
 
 TEST(ContactPair, returns_two_over_b_plus_one_of_what_it_took) {
   // Work goes in until the turn and comes out on the way back; sampled at the history interval.
-  for (const auto& [file, returned] : {std::pair{"contact_pair/case.toml", 1.0}, {"contact_pair/case_b.toml", 2.0 / 3.0}}) {
+  for (const auto& [file, returned] :
+       {std::pair{"contact_pair/case.toml", 1.0}, {"contact_pair/case_b.toml", 2.0 / 3.0}}) {
     const Recording run = run_case_file(file);
     double largest = 0;
     for (const HistoryRow& row : run.rows) largest = std::max(largest, row.energy.external_work);

@@ -49,7 +49,8 @@ Recording run_case_file(const std::string& file, const std::vector<std::string>&
 }
 
 Recording run_case_text(const std::string& text) {
-  const auto file = std::filesystem::temp_directory_path() / ("breccia_verification_" + std::to_string(getpid()) + ".toml");
+  const auto file =
+      std::filesystem::temp_directory_path() / ("breccia_verification_" + std::to_string(getpid()) + ".toml");
   std::ofstream(file) << text;
   const case_::Case input = case_::read_case(file);
   std::filesystem::remove(file);

@@ -10,12 +10,13 @@
 
 namespace breccia::detection {
 
-/// Balanced Binary Tree Schiava: the tree is built anew from all bodies, then every cell looks up the earlier cells that
-/// touch it, one descent from the root for each. Source: [Schiava, ch. 4: BBTS-load, BBTS-search, mask of eq. (4.37)]
+/// Balanced Binary Tree Schiava: the tree is built anew from all bodies, then every cell looks up the earlier cells
+/// that touch it, one descent from the root for each. Source: [Schiava, ch. 4: BBTS-load, BBTS-search, mask of eq.
+/// (4.37)]
 ///
-/// In 3D the mask is the own cell and 13 others, in 2D 1 + 4, in 1D 1 + 1. Where the source descends once for every body and
-/// cell of its mask, the bodies of one cell share the descents here and need none for their own cell; cells are taken in
-/// ascending order, so that one descent finds the nodes of the one before in the cache.
+/// In 3D the mask is the own cell and 13 others, in 2D 1 + 4, in 1D 1 + 1. Where the source descends once for every
+/// body and cell of its mask, the bodies of one cell share the descents here and need none for their own cell; cells
+/// are taken in ascending order, so that one descent finds the nodes of the one before in the cache.
 ///
 /// O(n log n) and the pairs. 24 bytes a body for 16-bit coordinates in 3D (40 in eq. (4.16)), 32 for 32-bit ones.
 template <int D, class Coordinate>

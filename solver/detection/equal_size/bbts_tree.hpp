@@ -22,14 +22,15 @@ constexpr std::strong_ordering spatial_order(const Cell<D, Coordinate>& a, const
 
 /// Balanced binary tree of cells, each with the objects in it. Source: [Schiava, 4.2 and 4.3]
 ///
-/// Every object is a node. Of the objects of one cell a single node stands in the tree, the others are chained to it (P of
-/// the source), so a cell is found in one descent. A node's left son is greater, its right son smaller; the balance of a
-/// node, height of the right sub-tree minus height of the left one, is -1, 0 or 1 after every call. Nodes live in one array
-/// and refer to each other by index: 24 bytes an object for 16-bit coordinates, against 40 with pointers in eq. (4.16).
+/// Every object is a node. Of the objects of one cell a single node stands in the tree, the others are chained to it (P
+/// of the source), so a cell is found in one descent. A node's left son is greater, its right son smaller; the balance
+/// of a node, height of the right sub-tree minus height of the left one, is -1, 0 or 1 after every call. Nodes live in
+/// one array and refer to each other by index: 24 bytes an object for 16-bit coordinates, against 40 with pointers in
+/// eq. (4.16).
 ///
-/// The balancing is shared with MsTree, the rest is not: that one lets equal keys coexist in the tree and keeps its list
-/// for them, which costs the second pointer update and the two-sided descent that the chains avoid here. Removal, which the
-/// source does not have, serves who keeps a tree from call to call.
+/// The balancing is shared with MsTree, the rest is not: that one lets equal keys coexist in the tree and keeps its
+/// list for them, which costs the second pointer update and the two-sided descent that the chains avoid here. Removal,
+/// which the source does not have, serves who keeps a tree from call to call.
 template <int D, class Coordinate>
 class BbtsTree {
  public:

@@ -11,21 +11,22 @@
 
 namespace breccia::detection {
 
-/// Breccia's own search of bodies of similar size: radix sort of the bodies by cell, then one sweep over the sorted array.
+/// Breccia's own search of bodies of similar size: radix sort of the bodies by cell, then one sweep over the sorted
+/// array.
 ///
-/// Bodies are sorted by z, then y, then x. A body pairs with those that follow it in its own cell and in the next one, and
-/// with those in three consecutive cells of each touching earlier row (four rows in 3D, one in 2D): in the sorted array each
-/// of these is one contiguous range, whose beginning only ever moves forward. So five positions run through one array, all
-/// reading is sequential, and nothing depends on how large or how empty the space is.
+/// Bodies are sorted by z, then y, then x. A body pairs with those that follow it in its own cell and in the next one,
+/// and with those in three consecutive cells of each touching earlier row (four rows in 3D, one in 2D): in the sorted
+/// array each of these is one contiguous range, whose beginning only ever moves forward. So five positions run through
+/// one array, all reading is sequential, and nothing depends on how large or how empty the space is.
 ///
-/// Why this form won over the others tried: cell and body in one number make a comparison and a move one instruction each;
-/// counting the steps of a position instead of branching on them takes away nearly half of the sweep in sparse random sets,
-/// where every other branch is mispredicted. Gathering the bodies of equal cells into runs, or the pairs in a buffer before
-/// they are visited, is slower in sparse sets and no clear gain in dense ones. Repairing the last order is no rival where
-/// most bodies move: one cell along z takes a body past a whole layer of others.
+/// Why this form won over the others tried: cell and body in one number make a comparison and a move one instruction
+/// each; counting the steps of a position instead of branching on them takes away nearly half of the sweep in sparse
+/// random sets, where every other branch is mispredicted. Gathering the bodies of equal cells into runs, or the pairs
+/// in a buffer before they are visited, is slower in sparse sets and no clear gain in dense ones. Repairing the last
+/// order is no rival where most bodies move: one cell along z takes a body past a whole layer of others.
 ///
-/// O(n and the pairs). 16 bytes a body; where the cells of the box and the bodies together need more than 64 bits, other
-/// records of 4 (D + 1) bytes, two a body, are sorted and compared coordinate by coordinate, more slowly.
+/// O(n and the pairs). 16 bytes a body; where the cells of the box and the bodies together need more than 64 bits,
+/// other records of 4 (D + 1) bytes, two a body, are sorted and compared coordinate by coordinate, more slowly.
 template <int D, class Coordinate>
 class CellSweep {
  public:

@@ -14,10 +14,10 @@ namespace breccia::detection {
 
 /// MR-S (Munjiza-Rougier-Schiava): the MR list in arrays id, ix, iy, iz and p. Source: thesis, section 5.4.
 /// The first call, and one after the number of bodies changed, sorts id and the coordinates: O(N log N). Later calls
-/// change p alone. Differs from the source: a singly linked list cannot step back, so MR-Sort takes both objects of each
-/// pair out of order off the list, merge-sorts the k objects taken and merges them in again: O(N + k log k), which is
-/// also the guard, as the worst is the cost of a full sort.
-/// 14 bytes a body in 3D with 16-bit coordinates, 20 with 32-bit. Throws std::bad_alloc.
+/// change p alone. Differs from the source: a singly linked list cannot step back, so MR-Sort takes both objects of
+/// each pair out of order off the list, merge-sorts the k objects taken and merges them in again: O(N + k log k), which
+/// is also the guard, as the worst is the cost of a full sort. 14 bytes a body in 3D with 16-bit coordinates, 20 with
+/// 32-bit. Throws std::bad_alloc.
 template <int D, std::signed_integral Coordinate>
 class MrS {
  public:

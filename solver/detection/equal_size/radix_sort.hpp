@@ -13,12 +13,13 @@ namespace breccia::detection {
 /// Sorts records that are made on the fly by the digits of their keys, the least significant digit first.
 ///
 /// One reading of the input counts every digit of every record, so a digit that is the same for all costs no pass; the
-/// first pass writes the records where their lowest digit puts them. O(passes (n + 2^digit_bits)); two arrays of records and
-/// the counters are kept from call to call.
+/// first pass writes the records where their lowest digit puts them. O(passes (n + 2^digit_bits)); two arrays of
+/// records and the counters are kept from call to call.
 template <class Record>
 class RadixSort {
  public:
-  /// Digits wide enough for few passes, yet with buckets that stay in the first cache, and not more than there are records.
+  /// Digits wide enough for few passes, yet with buckets that stay in the first cache, and not more than there are
+  /// records.
   static int widest_digit(std::size_t num_records) {
     return std::clamp(static_cast<int>(std::bit_width(num_records)), 4, 11);
   }

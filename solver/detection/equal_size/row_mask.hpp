@@ -28,9 +28,9 @@ inline constexpr std::array<std::array<int, 2>, 4> kEarlierRows{{{-1, 0}, {-1, -
 template <int D>
 inline constexpr std::size_t kNumEarlierRows = D == 3 ? 4 : D - 1;
 
-/// MR-Search: walks a list sorted by before() once, with one running pointer for each row of the mask. Every pointer only
-/// moves on, and stops at or before the target, so no pointer is ever tested for the end of the list.
-/// O(N + pairs), no memory.
+/// MR-Search: walks a list sorted by before() once, with one running pointer for each row of the mask. Every pointer
+/// only moves on, and stops at or before the target, so no pointer is ever tested for the end of the list. O(N +
+/// pairs), no memory.
 /// @param list  first(), next(i), end(), cell(i), id(i)
 template <int D, class Coordinate, class List, class Visit>
 void search_sorted_list(const List& list, Visit&& visit) {

@@ -57,8 +57,8 @@ class CellBox {
 
 /// Cell and body in one 64-bit number: the number of the cell in its box above the number of the body.
 ///
-/// An empty layer of cells around the box keeps the ends of a row from touching the next row. Serves every box with fewer
-/// than about 2^64 / n cells.
+/// An empty layer of cells around the box keeps the ends of a row from touching the next row. Serves every box with
+/// fewer than about 2^64 / n cells.
 template <int D>
 class PackedKeys {
  public:
@@ -124,8 +124,8 @@ class PackedKeys {
     return {middle - one_cell(), middle + 2 * one_cell()};
   }
 
-  /// First place from `place` on that is not before the bound. Four records are counted without a branch, because how far
-  /// to go is random, a few cells, and a mispredicted branch would cost more than the comparisons.
+  /// First place from `place` on that is not before the bound. Four records are counted without a branch, because how
+  /// far to go is random, a few cells, and a mispredicted branch would cost more than the comparisons.
   static std::size_t advance(const Record* sorted, std::size_t place, Bound bound) {
     const Record* const next = sorted + place;
     place += std::size_t{next[0] < bound} + std::size_t{next[1] < bound} + std::size_t{next[2] < bound} +

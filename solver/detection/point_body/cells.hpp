@@ -12,8 +12,8 @@ namespace breccia::detection {
 /// Integer coordinates of space cells: floor(x / size), negative coordinates included, Source: [Schiava, eq. (6.3)]
 /// with floor in the place of truncation, which would make the cell around 0 twice as wide.
 ///
-/// Beyond +-2^30 cells the coordinate stays at that bound. `of` never decreases with x, so the cells of a point in a box
-/// always lie between the cells of the box's corners, whatever the round-off.
+/// Beyond +-2^30 cells the coordinate stays at that bound. `of` never decreases with x, so the cells of a point in a
+/// box always lie between the cells of the box's corners, whatever the round-off.
 class Cells {
  public:
   static constexpr std::int32_t bound = 1 << 30;
@@ -51,9 +51,9 @@ struct CellBox {
   return box;
 }
 
-/// Cell size, m: `share` of the geometric mean of the contactors' enlarged box widths (the mean over the three axes), from
-/// an even sample of at most 4,096 contactors. The geometric mean, because a few large contactors among many small ones
-/// must not make the cells large. 1 if no contactor is finite and has a width. O(1).
+/// Cell size, m: `share` of the geometric mean of the contactors' enlarged box widths (the mean over the three axes),
+/// from an even sample of at most 4,096 contactors. The geometric mean, because a few large contactors among many small
+/// ones must not make the cells large. 1 if no contactor is finite and has a width. O(1).
 [[nodiscard]] double choose_cell(std::span<const Corners> contactors, double buffer, double share);
 
 }  // namespace breccia::detection

@@ -7,8 +7,8 @@
 
 namespace breccia::detection {
 
-/// Brings couples found contactor by contactor into the order (point, contactor): by counting over the points, then, where
-/// contactors did not come in ascending order, among the few couples of a point. Keeps its storage between calls.
+/// Brings couples found contactor by contactor into the order (point, contactor): by counting over the points, then,
+/// where contactors did not come in ascending order, among the few couples of a point. Keeps its storage between calls.
 class CoupleSorter {
  public:
   /// @param found       couples, each once

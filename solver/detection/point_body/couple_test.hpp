@@ -13,10 +13,10 @@ namespace breccia::detection {
 ///   (1) min_a x_a - b <= p <= max_a x_a + b, componentwise, border included
 ///   (2) n_a . (p - x_0) <= n_a . (x_f - x_0) + b |n_a| + r,   a = 0..3
 ///
-/// with buffer b, n_a the outward normal of the face opposite corner a (twice its area long), x_f a corner of it, and r a
-/// bound of the round-off of this very comparison, 32 eps h^2 d (h, d: diagonals of the box and of the enlarged box). So a
-/// sliver whose normal is nothing but round-off rejects no point that the exact comparison accepts. A larger buffer never
-/// loses a couple. With a volume that is not positive (2) is left out.
+/// with buffer b, n_a the outward normal of the face opposite corner a (twice its area long), x_f a corner of it, and r
+/// a bound of the round-off of this very comparison, 32 eps h^2 d (h, d: diagonals of the box and of the enlarged box).
+/// So a sliver whose normal is nothing but round-off rejects no point that the exact comparison accepts. A larger
+/// buffer never loses a couple. With a volume that is not positive (2) is left out.
 class CoupleTest {
  public:
   /// @param corners  m

@@ -76,10 +76,12 @@ CurveFrame frame_of(std::span<const Vec3> points) {
 }
 
 bool is_short_path(std::span<Vec3> positions) {
-  constexpr double most = 1.4;  // of 1e6 points: this curve in any frame to 1.13, Z-order to 1.39; by rows, at random to 4.7
+  constexpr double most =
+      1.4;  // of 1e6 points: this curve in any frame to 1.13, Z-order to 1.39; by rows, at random to 4.7
   constexpr int pairs = 3;
   constexpr double edge = 1 << 2 * pairs;
-  const auto finite_end = std::remove_if(positions.begin(), positions.end(), [](const Vec3& x) { return !x.allFinite(); });
+  const auto finite_end =
+      std::remove_if(positions.begin(), positions.end(), [](const Vec3& x) { return !x.allFinite(); });
   const std::span<Vec3> path(positions.begin(), finite_end);
   if (path.empty()) return true;
   const Box box = box_of(path);

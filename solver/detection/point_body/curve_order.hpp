@@ -30,19 +30,20 @@ struct CurveFrame {
   }
 };
 
-/// A frame in which positions spread as evenly as they are: it holds all of them, save those that lie very far from most
-/// (beyond 8 times the extent of the middle half of a sample); they go to cells at its border.
-/// O(points): one pass for their box, and medians of 512 of them. Positions that are not finite are passed over.
+/// A frame in which positions spread as evenly as they are: it holds all of them, save those that lie very far from
+/// most (beyond 8 times the extent of the middle half of a sample); they go to cells at its border. O(points): one pass
+/// for their box, and medians of 512 of them. Positions that are not finite are passed over.
 [[nodiscard]] CurveFrame frame_of(std::span<const Vec3> points);
 
-/// Whether the path through positions, in the order given, is hardly longer than in their order along a curve, in which they
-/// are left. Those that are not finite are passed over.
+/// Whether the path through positions, in the order given, is hardly longer than in their order along a curve, in which
+/// they are left. Those that are not finite are passed over.
 [[nodiscard]] bool is_short_path(std::span<Vec3> positions);
 
-/// Numbers in the order of their positions along the Hilbert curve of a frame. A cell that holds more than `crowd` of them is
-/// ordered within itself in the same way, so that the order is good wherever they are dense.
+/// Numbers in the order of their positions along the Hilbert curve of a frame. A cell that holds more than `crowd` of
+/// them is ordered within itself in the same way, so that the order is good wherever they are dense.
 ///
-/// O(numbers) where they are spread evenly; memory 20 bytes a number that is sorted, 8 a number that stays, kept from call to call.
+/// O(numbers) where they are spread evenly; memory 20 bytes a number that is sorted, 8 a number that stays, kept from
+/// call to call.
 class CurveOrder {
  public:
   struct Record {
@@ -51,8 +52,8 @@ class CurveOrder {
   };
   static constexpr std::size_t crowd = 16;
 
-  /// As sort, but numbers that follow one another closely already stay as they are: then a sample of them is all that is
-  /// looked at, O(log count), besides one pass for what is not finite.
+  /// As sort, but numbers that follow one another closely already stay as they are: then a sample of them is all that
+  /// is looked at, O(log count), besides one pass for what is not finite.
   template <class Position>
   std::span<const Record> arrange(std::size_t count, const CurveFrame& frame, Position position) {
     if (!follows_curve(count, position)) return sort(count, frame, position);
@@ -117,7 +118,8 @@ class CurveOrder {
     }
   }
 
-  /// Orders a run of equal places along a curve through its own box, 16 cells an edge, and again where they still crowd.
+  /// Orders a run of equal places along a curve through its own box, 16 cells an edge, and again where they still
+  /// crowd.
   template <class Position>
   static void refine(std::span<Record> run, Position position) {
     Vec3 low = position(run[0].number), high = low;

@@ -5,9 +5,10 @@
 
 namespace breccia::detection {
 
-/// Place of a cell on the Hilbert curve through a cube of 4^pairs cells an edge. Cells that follow one another on the curve
-/// share a face, so objects in its order are near in memory when they are near in space. Source: [Hamilton 2006], the curve
-/// of three axes with equal numbers of bits; its 12 orientations stand in a table of two binary digits of x, y and z a step.
+/// Place of a cell on the Hilbert curve through a cube of 4^pairs cells an edge. Cells that follow one another on the
+/// curve share a face, so objects in its order are near in memory when they are near in space. Source: [Hamilton 2006],
+/// the curve of three axes with equal numbers of bits; its 12 orientations stand in a table of two binary digits of x,
+/// y and z a step.
 class HilbertCurve {
  public:
   static constexpr int most_pairs = 5;  ///< 10 bits an axis

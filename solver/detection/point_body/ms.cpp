@@ -6,8 +6,8 @@ namespace breccia::detection {
 
 namespace {
 
-/// Cell size over the contactors' mean box width. Measured flat between 0.5 and 1 (tests/benchmark/detection): smaller cells
-/// mean more tree searches, larger ones more points tested.
+/// Cell size over the contactors' mean box width. Measured flat between 0.5 and 1 (tests/benchmark/detection): smaller
+/// cells mean more tree searches, larger ones more points tested.
 constexpr double cell_share = 0.7;
 
 /// The whole cell box, in the form of Slices.

@@ -8,14 +8,14 @@
 
 namespace breccia::detection {
 
-/// CD-MS: all points are loaded into an MS-tree by their cell; every contactor walks the list of points in its cell box, row
-/// by row. Only "smallest greater than" searches are made, so empty cells, rows and layers cost nothing.
+/// CD-MS: all points are loaded into an MS-tree by their cell; every contactor walks the list of points in its cell
+/// box, row by row. Only "smallest greater than" searches are made, so empty cells, rows and layers cost nothing.
 /// Source: [Schiava, 6.4], algorithm 6.5; three details of its printed form are put right: the last layer and the last
-/// row of the box are searched too, the end of the list ends every loop, and cells go by floor. A search is left out where
-/// the node at hand is its answer, and the end of a row's range is met by its key instead of searched beforehand.
+/// row of the box are searched too, the end of the list ends every loop, and cells go by floor. A search is left out
+/// where the node at hand is its answer, and the end of a row's range is met by its key instead of searched beforehand.
 ///
-/// O(n log n) to load n points; a contactor costs O(log n) for every row in its cell box that holds points, anywhere in x,
-/// and O(1) for every point in the box.
+/// O(n log n) to load n points; a contactor costs O(log n) for every row in its cell box that holds points, anywhere in
+/// x, and O(1) for every point in the box.
 class Ms final : public PointBodySearch {
  public:
   /// @param cell        m, 0: chosen at every search

@@ -17,11 +17,11 @@ struct CellKey {
 
 /// MS-tree: a balanced binary tree that is a sorted list at the same time. Source: [Schiava, ch. 4 and 6.3]
 ///
-/// A node's left son is greater or equal, its right son smaller or equal; nodes of equal key coexist, in the order in which
-/// they were added. The balance of a node, height of its right sub-tree minus height of its left one, is -1, 0 or 1, so n
-/// nodes stand at most 1.45 log2(n + 2) high. Every node names the next one in ascending order (C_n of the source), kept up
-/// to date by `add` and `remove`. Nodes live in one array and refer to each other by index; a removed node's place is used
-/// again. Node numbers stay valid until their node is removed or the tree cleared.
+/// A node's left son is greater or equal, its right son smaller or equal; nodes of equal key coexist, in the order in
+/// which they were added. The balance of a node, height of its right sub-tree minus height of its left one, is -1, 0 or
+/// 1, so n nodes stand at most 1.45 log2(n + 2) high. Every node names the next one in ascending order (C_n of the
+/// source), kept up to date by `add` and `remove`. Nodes live in one array and refer to each other by index; a removed
+/// node's place is used again. Node numbers stay valid until their node is removed or the tree cleared.
 class MsTree {
  public:
   static constexpr Index none = BalancedPath::none;

@@ -10,18 +10,19 @@
 
 namespace breccia::detection {
 
-/// A tree of boxes over the points, rebuilt at every search: points in the order of a Hilbert curve, or in their own where
-/// that is about as good, eight to a leaf, eight leaves to a group, eight groups to a group and so on, without pointers. A
-/// contactor walks it level by level, eight boxes at a time (packed_tree_walk.hpp); contactors come in such an order too, so
-/// one finds in the caches what the one before has used. No length is chosen: contactors and spacings of points may be as
-/// different as they like, and in any order in memory.
-/// After [Kamel and Faloutsos 1993]: the packed Hilbert R-tree, with eight entries a node for the width of the registers.
+/// A tree of boxes over the points, rebuilt at every search: points in the order of a Hilbert curve, or in their own
+/// where that is about as good, eight to a leaf, eight leaves to a group, eight groups to a group and so on, without
+/// pointers. A contactor walks it level by level, eight boxes at a time (packed_tree_walk.hpp); contactors come in such
+/// an order too, so one finds in the caches what the one before has used. No length is chosen: contactors and spacings
+/// of points may be as different as they like, and in any order in memory. After [Kamel and Faloutsos 1993]: the packed
+/// Hilbert R-tree, with eight entries a node for the width of the registers.
 ///
-/// Boxes are floats about the middle of the points. Rounding is monotone, so no point is lost; couples are decided in double
-/// precision by CoupleTest's numbers. Points more than 1e7 contactor sizes away from most others cost more than they should.
+/// Boxes are floats about the middle of the points. Rounding is monotone, so no point is lost; couples are decided in
+/// double precision by CoupleTest's numbers. Points more than 1e7 contactor sizes away from most others cost more than
+/// they should.
 ///
-/// O(points + contactors (log points + candidates)). Memory a point: 28 bytes, 4.5 for boxes and walk, 8 to order the couples;
-/// 20 bytes a point or contactor, whichever are more, for the order along the curve; and twice the couples.
+/// O(points + contactors (log points + candidates)). Memory a point: 28 bytes, 4.5 for boxes and walk, 8 to order the
+/// couples; 20 bytes a point or contactor, whichever are more, for the order along the curve; and twice the couples.
 class PackedTree final : public PointBodySearch {
  public:
   /// For the processor at hand.

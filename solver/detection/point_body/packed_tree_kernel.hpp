@@ -5,10 +5,11 @@
 
 namespace breccia::detection {
 
-/// The part of PackedTree that is compiled once for each instruction set. Nothing but plain arrays here: a function of a
-/// library compiled with other flags must not replace that of the rest of the program.
+/// The part of PackedTree that is compiled once for each instruction set. Nothing but plain arrays here: a function of
+/// a library compiled with other flags must not replace that of the rest of the program.
 
-/// Packed tree, see PackedTree. `boxes` holds groups of 8 boxes: low x of the eight, low y, low z, high x, high y, high z.
+/// Packed tree, see PackedTree. `boxes` holds groups of 8 boxes: low x of the eight, low y, low z, high x, high y, high
+/// z.
 struct PackedTreeView {
   const float* boxes;          ///< (groups, 6, 8), the lowest level first
   const std::size_t* level;    ///< (num_levels) first group of each level

@@ -5,13 +5,14 @@
 namespace breccia::detection {
 namespace {
 
-/// The walk of a packed tree, level by level. Nothing branches on a box: the children that are met are written behind those
-/// found so far by their bit mask.
+/// The walk of a packed tree, level by level. Nothing branches on a box: the children that are met are written behind
+/// those found so far by their bit mask.
 ///
 /// Lanes: what an instruction set does with eight boxes or points,
 ///   Box(query):           unsigned meets(const float* group)              bit k: box k of the group meets the query's
 ///   Body(query):          unsigned holds(const double* leaf)              bit k: point k of the leaf is a couple
-///   number(first, mask, to):   to = first + each bit that is set;  choose(from, mask, to):  to = from[each bit that is set];
+///   number(first, mask, to):   to = first + each bit that is set;  choose(from, mask, to):  to = from[each bit that is
+///   set];
 ///                         eight are written, those behind the last are of no meaning
 template <class Lanes>
 std::size_t walk_to_leaves(const PackedTreeView& tree, const PackedQuery& query, PackedFrontier& frontier) {

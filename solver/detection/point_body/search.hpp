@@ -22,10 +22,10 @@ using Corners = std::array<Vec3, 4>;
 
 /// Contact detection of points (targets) against tetrahedra (contactors).
 ///
-/// A couple is a point that lies (1) in the contactor's bounding box enlarged by `buffer` on every side and (2) no farther
-/// than `buffer` outside the plane of each of its faces. Every algorithm returns exactly this set, so the choice changes
-/// the speed only, never a result. While no point and no corner has moved by more than buffer / 2, every point that is
-/// inside a tetrahedron belongs to a couple.
+/// A couple is a point that lies (1) in the contactor's bounding box enlarged by `buffer` on every side and (2) no
+/// farther than `buffer` outside the plane of each of its faces. Every algorithm returns exactly this set, so the
+/// choice changes the speed only, never a result. While no point and no corner has moved by more than buffer / 2, every
+/// point that is inside a tetrahedron belongs to a couple.
 ///
 /// An element that is crushed flat or inverted (computed volume not positive) has no outside: for it (1) alone decides.
 /// Points and contactors with a coordinate that is not finite have no couples.
@@ -53,7 +53,8 @@ enum class Algorithm {
   brute_force   ///< every pair: the oracle
 };
 
-/// @param cell  m, size of the space cells of ms, ms_slices and sorted_grid; 0: chosen at every search from the contactors'
+/// @param cell  m, size of the space cells of ms, ms_slices and sorted_grid; 0: chosen at every search from the
+/// contactors'
 ///              mean size and the buffer. It changes the speed only. Throws InternalError if negative or not finite.
 [[nodiscard]] std::unique_ptr<PointBodySearch> make_search(Algorithm algorithm, double cell);
 

@@ -13,12 +13,12 @@ struct CellRange {
   std::int32_t low, high;
 };
 
-/// Cuts the cell box of a contactor into slices that hug the region of its couples, the convex body of box and buffered face
-/// planes. Source: [Schiava, figure 6.15b], proposed there and not worked out.
+/// Cuts the cell box of a contactor into slices that hug the region of its couples, the convex body of box and buffered
+/// face planes. Source: [Schiava, figure 6.15b], proposed there and not worked out.
 ///
-/// The range of y in a layer of cells and the range of x in a row of cells are bounds from linear inequalities: of the body's
-/// shadow on the yz plane (every pair of planes that bounds x from both sides, x eliminated) and of the planes themselves. They
-/// are widened by more than their round-off: a point that is a couple is never outside.
+/// The range of y in a layer of cells and the range of x in a row of cells are bounds from linear inequalities: of the
+/// body's shadow on the yz plane (every pair of planes that bounds x from both sides, x eliminated) and of the planes
+/// themselves. They are widened by more than their round-off: a point that is a couple is never outside.
 class Slices {
  public:
   /// @pre !test.skipped(); `cells` and `test` outlive this object

@@ -48,8 +48,8 @@ void SortedGrid::lay_out_rows() {
   starts_.assign(static_cast<std::size_t>(num_starts), 0);
 }
 
-/// Counting sort within the rows that have a table, in the order of the points within a cell. In the other rows `begin` is
-/// moved to the row's end and back, and the points are sorted by coordinate.
+/// Counting sort within the rows that have a table, in the order of the points within a cell. In the other rows `begin`
+/// is moved to the row's end and back, and the points are sorted by coordinate.
 void SortedGrid::scatter(std::span<const Vec3> points) {
   for (const Place& place : places_) {
     if (place.row == RowTable::none) continue;

@@ -9,12 +9,13 @@
 
 namespace breccia::detection {
 
-/// Points counted into rows of cells along x: a row (z, y) that holds points is found by hash, its points lie contiguously
-/// in the order of x and start at a table of the row's cells. A contactor visits the rows of its cell box and walks each
-/// one's range in x.
+/// Points counted into rows of cells along x: a row (z, y) that holds points is found by hash, its points lie
+/// contiguously in the order of x and start at a table of the row's cells. A contactor visits the rows of its cell box
+/// and walks each one's range in x.
 ///
-/// Memory O(points), however far apart they lie: a row whose points are too scattered for a table of its cells is sorted and
-/// searched by halving. O(points + contactors rows + candidates), where a contactor never visits more rows than hold points.
+/// Memory O(points), however far apart they lie: a row whose points are too scattered for a table of its cells is
+/// sorted and searched by halving. O(points + contactors rows + candidates), where a contactor never visits more rows
+/// than hold points.
 class SortedGrid final : public PointBodySearch {
  public:
   /// @param cell  m, 0: chosen at every search

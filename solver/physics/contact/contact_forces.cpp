@@ -14,7 +14,6 @@ namespace {
 /// Slope that the overlap field does not exceed: 1 for distances, less than 2 for the bubble of all but slivers.
 constexpr double kSteepest = 2.0;
 
-
 Index group_of(const LocalMesh& local, Index slot) {
   return local.block_group[static_cast<std::size_t>(slot / kLanes)];
 }
@@ -89,7 +88,8 @@ class Pass {
     const Index slot = slot_of(contactor);
     return overlap_shape(params_.field, local_, slot, values, length_of(slot));
   }
-  /// Where the work at a point is booked: couples are computed wherever one side is at home, and booked with their points.
+  /// Where the work at a point is booked: couples are computed wherever one side is at home, and booked with their
+  /// points.
   [[nodiscard]] ExactSum& book(const ContactPoint& point, ExactSum& sum) {
     return local_.is_original(point.slot) ? sum : ignored_;
   }
@@ -107,7 +107,7 @@ class Pass {
   std::vector<Candidate> candidates_;  ///< of the point at hand, ascending
   std::vector<bool> taken_;            ///< old histories of the point at hand that live on
   std::size_t old_ = 0;                ///< first old history not yet looked at
-  ExactSum ignored_;  ///< what other ranks book
+  ExactSum ignored_;                   ///< what other ranks book
 };
 
 void Pass::run() {
@@ -274,7 +274,8 @@ double Pass::first_offset(Index point, const Candidate& candidate) const {
                                                              });
   const Index slot = slot_of(candidate.contactor);
   if (is_fresh || share_vertex(local_, point_at(point).slot, slot)) return std::max(candidate.g_before, 0.0);
-  // A point that comes through a gap between elements, an opened joint say, is deep inside at once: deeper than it moved.
+  // A point that comes through a gap between elements, an opened joint say, is deep inside at once: deeper than it
+  // moved.
   const double moved = relative_motion(point_at(point), slot, candidate.lambda).norm();
   return moved > 0 ? std::max(candidate.g_before - kSteepest * moved, 0.0) : 0.0;
 }

@@ -9,8 +9,8 @@
 
 namespace breccia {
 
-/// What contact holds and has consumed, J, by the points of this rank's originals. `stored` and `friction_stored` belong to
-/// the last call, the dissipated ones add up over the run.
+/// What contact holds and has consumed, J, by the points of this rank's originals. `stored` and `friction_stored`
+/// belong to the last call, the dissipated ones add up over the run.
 struct ContactWork {
   ExactSum stored;               ///< normal overlap and spherical boundary
   ExactSum friction_stored;      ///< tangential springs
@@ -43,7 +43,9 @@ void contact_forces(const ContactParams& params, const LocalMesh& local, const S
                     ContactState& contact, NodalForces& forces, ContactWork& work);
 
 /// Sum of the contact forces of the last step on the elements of a volume group by axis, N: forces on its points (the
-/// spherical boundary's included), reactions on its contactors; of the points of this rank's originals. O(touching couples).
-[[nodiscard]] std::array<ExactSum, 3> contact_force_on_group(const ContactState& contact, const LocalMesh& local, Index group);
+/// spherical boundary's included), reactions on its contactors; of the points of this rank's originals. O(touching
+/// couples).
+[[nodiscard]] std::array<ExactSum, 3> contact_force_on_group(const ContactState& contact, const LocalMesh& local,
+                                                             Index group);
 
 }  // namespace breccia

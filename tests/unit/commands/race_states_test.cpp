@@ -8,9 +8,9 @@
 
 #include "base/error.hpp"
 #include "case/reader.hpp"
+#include "commands/race.hpp"
 #include "detection/point_body/brute_force.hpp"
 #include "model/parameters.hpp"
-#include "commands/race.hpp"
 
 namespace breccia {
 

@@ -90,7 +90,8 @@ TEST(contact_search, couples_are_sorted_and_unique_after_every_release) {
 }
 
 TEST(contact_search, faces_released_one_by_one_give_the_couples_of_a_full_search) {
-  for (const detection::Algorithm algorithm : {detection::Algorithm::packed_tree, detection::Algorithm::sorted_grid, detection::Algorithm::ms}) {
+  for (const detection::Algorithm algorithm :
+       {detection::Algorithm::packed_tree, detection::Algorithm::sorted_grid, detection::Algorithm::ms}) {
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
       std::mt19937_64 random(seed);
       Model model(test::joined(test::box({2, 2, 1}, 1.0), test::box({1, 2, 1}, 1.0, {2.02, 0.1, 0.2})));
@@ -180,7 +181,8 @@ TEST(contact_search, searches_only_when_the_buffer_is_used_up) {
     model.shift(1, {-0.01, 0, 0});
     search.update(model.state, 0.01, 1);
   }
-  EXPECT_GE(search.num_searches(), 1 + 2) << "one for every step beyond a buffer, as each moves by half of it against the other";
+  EXPECT_GE(search.num_searches(), 1 + 2)
+      << "one for every step beyond a buffer, as each moves by half of it against the other";
   EXPECT_LE(search.num_searches(), 1 + 4) << "or three quarters of it";
   EXPECT_GT(search.contact().couples.size(), 0u);
 }

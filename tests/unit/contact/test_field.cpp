@@ -121,7 +121,8 @@ TEST(overlap_field, that_rises_under_a_resting_point_pushes_nobody) {
   Pressed pressed({kPenalty, kInfinite, 2, 0, 1});
   test::Scene& scene = pressed.scene;
   scene.evaluate(1e-3);
-  const double force = scene.force_on(1)[2], stored = scene.work.stored.value(), dissipated = scene.work.dissipated.value();
+  const double force = scene.force_on(1)[2], stored = scene.work.stored.value(),
+               dissipated = scene.work.dissipated.value();
   scale_field(scene, 2, 10);
   for (int step = 0; step < 12; ++step) scene.evaluate(1e-3);
   EXPECT_NEAR(scene.work.stored.value(), stored, kRoundOff * stored);

@@ -73,7 +73,8 @@ TEST(friction_block, stops_after_v_squared_over_two_mu_g) {
   EXPECT_NEAR(block.path()[2], 0, 1e-6);
   // What is not dissipated swings on in the springs, which nothing damps.
   const double kinetic = 0.5 * block.mass() * speed * speed, left = 0.5 * block.mass() * block.velocity().squaredNorm();
-  EXPECT_NEAR((block.work().friction_dissipated.value() + block.work().friction_stored.value() + left) / kinetic, 1, 0.01);
+  EXPECT_NEAR((block.work().friction_dissipated.value() + block.work().friction_stored.value() + left) / kinetic, 1,
+              0.01);
 }
 
 TEST(friction_block, sticks_below_the_angle_of_friction) {

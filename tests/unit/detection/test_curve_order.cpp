@@ -109,7 +109,9 @@ TEST_F(CurveOrderOf, points_keeps_an_order_that_is_as_good_and_no_other) {
   Random random(7);
   std::vector<Vec3> points;
   for (int k = 0; k < 20000; ++k) points.push_back(scenes::uniform_vector(random, 0, 1));
-  const auto arrange = [&] { return order_.arrange(points.size(), frame_of(points), [&](std::size_t i) { return points[i]; }); };
+  const auto arrange = [&] {
+    return order_.arrange(points.size(), frame_of(points), [&](std::size_t i) { return points[i]; });
+  };
   const auto is_kept = [](std::span<const CurveOrder::Record> order) {
     for (std::size_t i = 1; i < order.size(); ++i) {
       if (order[i].number < order[i - 1].number) return false;

@@ -238,8 +238,8 @@ TEST(LabScenes, of_mixed_sizes_span_their_ratio_evenly_in_the_logarithm_and_fill
     EXPECT_NEAR(most / least, ratio, 0.01 * ratio) << scene.name;  // 20,000 draws come within 0.1 % of either end
     const double deviation = std::log(ratio) / std::sqrt(12.0 * 20000);
     EXPECT_NEAR(sum_log / 20000, -0.5 * std::log(ratio), kDeviations * deviation + 1e-12) << scene.name;
-    // Mean width of a turned regular tetrahedron: 3 acos(-1/3) / (2 pi) = 0.912 edges, so its box holds less than 0.76 edge^3
-    // in the mean, as wide along one axis is narrow along others; the generator gives each 0.6 edge^3 of space.
+    // Mean width of a turned regular tetrahedron: 3 acos(-1/3) / (2 pi) = 0.912 edges, so its box holds less than 0.76
+    // edge^3 in the mean, as wide along one axis is narrow along others; the generator gives each 0.6 edge^3 of space.
     const double filled = boxes / (high - low).prod();
     EXPECT_GT(filled, 1) << scene.name;
     EXPECT_LT(filled, 0.76 / 0.6) << scene.name;

@@ -13,8 +13,8 @@
 namespace breccia::detection {
 namespace {
 
-/// The tree's rules, checked from the root: sons on their sides, balances equal to the difference of heights and in -1..1,
-/// the list equal to the walk in ascending order. Returns the height.
+/// The tree's rules, checked from the root: sons on their sides, balances equal to the difference of heights and in
+/// -1..1, the list equal to the walk in ascending order. Returns the height.
 class Inspection {
  public:
   explicit Inspection(const MsTree& tree) : tree_(tree) {

@@ -18,8 +18,9 @@ Vec3 random_direction(Random& random) {
 class SearchGuarantee : public testing::TestWithParam<Algorithm> {};
 
 TEST_P(SearchGuarantee, holds_for_points_inside_elements_after_any_motion_of_half_the_buffer) {
-  // Points are placed inside the moved elements, at their corners, edges and faces too, and moved back: every one of these
-  // pairs must have been found before the motion. The last 1e-9 of the half buffer is left to the round-off of positions.
+  // Points are placed inside the moved elements, at their corners, edges and faces too, and moved back: every one of
+  // these pairs must have been found before the motion. The last 1e-9 of the half buffer is left to the round-off of
+  // positions.
   constexpr double share = 0.5 * (1 - 1e-9);
   Random random(21);
   std::uniform_real_distribution<double> weight(0, 1);
@@ -63,8 +64,8 @@ TEST_P(SearchGuarantee, is_not_met_by_listing_everything) {
 std::string name_of(const testing::TestParamInfo<Algorithm>& info) { return scenes::name_of(info.param); }
 
 INSTANTIATE_TEST_SUITE_P(All, SearchGuarantee,
-                         testing::Values(Algorithm::ms, Algorithm::ms_slices, Algorithm::sorted_grid, Algorithm::packed_tree,
-                                         Algorithm::brute_force),
+                         testing::Values(Algorithm::ms, Algorithm::ms_slices, Algorithm::sorted_grid,
+                                         Algorithm::packed_tree, Algorithm::brute_force),
                          name_of);
 
 }  // namespace

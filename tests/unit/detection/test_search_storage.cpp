@@ -46,8 +46,8 @@ TEST_P(SearchStorage, is_allocated_by_the_first_search_and_by_no_later_one) {
 std::string name_of(const testing::TestParamInfo<Algorithm>& info) { return scenes::name_of(info.param); }
 
 INSTANTIATE_TEST_SUITE_P(All, SearchStorage,
-                         testing::Values(Algorithm::ms, Algorithm::ms_slices, Algorithm::sorted_grid, Algorithm::packed_tree,
-                                         Algorithm::brute_force),
+                         testing::Values(Algorithm::ms, Algorithm::ms_slices, Algorithm::sorted_grid,
+                                         Algorithm::packed_tree, Algorithm::brute_force),
                          name_of);
 
 }  // namespace

@@ -17,7 +17,8 @@ using Broken = std::set<std::pair<Index, int>>;  // (element, face), both sides
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Cluster ids by definition: from every corner, in ascending order, walk through the unbroken faces that touch its node.
+/// Cluster ids by definition: from every corner, in ascending order, walk through the unbroken faces that touch its
+/// node.
 std::vector<Index> flood_fill(const Mesh& mesh, const Topology& topology, const Broken& broken) {
   std::vector<Index> cluster(4 * mesh.elements.size(), -1);
   for (Index start = 0; start < static_cast<Index>(cluster.size()); ++start) {

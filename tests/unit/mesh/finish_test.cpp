@@ -222,8 +222,8 @@ TEST(Finish, NumbersNodesInTheOrderTheElementsTouchThem) {
 }
 
 TEST(Finish, KeepsNeighboursNearInTheOrder) {
-  // Consecutive elements of a raster of n^3 cubes lie in the same cube or in one nearby: the mean distance of consecutive
-  // centroids must be a fraction of a cube, where a random order would give about half of the box.
+  // Consecutive elements of a raster of n^3 cubes lie in the same cube or in one nearby: the mean distance of
+  // consecutive centroids must be a fraction of a cube, where a random order would give about half of the box.
   const Mesh mesh = finish_mesh(shuffled(test::raster_box({8, 8, 8}).mesh, 3), {}).mesh;
   const auto centroid = [&](Index e) {
     const auto x = geometry::corners_of(mesh, e);

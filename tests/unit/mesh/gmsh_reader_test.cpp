@@ -51,7 +51,8 @@ double volume_of(const Mesh& mesh) {
   return sum;
 }
 
-// --- Scripts and their parameters -------------------------------------------------------------------------------------
+// --- Scripts and their parameters
+// -------------------------------------------------------------------------------------
 
 constexpr const char* kParametric = R"(SetFactory("OpenCASCADE");
 DefineConstant[ length = 1, size = {0.5, Name "Parameters/size"} ];
@@ -134,7 +135,8 @@ TEST(GmshReader, LeavesTheProcessesNumberFormatAlone) {
   EXPECT_EQ(std::setlocale(LC_NUMERIC, nullptr), before);
 }
 
-// --- Mesh files in every format ---------------------------------------------------------------------------------------
+// --- Mesh files in every format
+// ---------------------------------------------------------------------------------------
 
 struct Format {
   double version;
@@ -188,7 +190,8 @@ INSTANTIATE_TEST_SUITE_P(Msh, GmshReaderFormats,
                                          Format{4.1, true, "binary_41"}),
                          [](const auto& run) { return run.param.name; });
 
-/// A .msh 2.2 of one or more elements on six nodes: unit tetrahedron 1 2 3 4, node 5 its mirror image of 4, node 6 spare.
+/// A .msh 2.2 of one or more elements on six nodes: unit tetrahedron 1 2 3 4, node 5 its mirror image of 4, node 6
+/// spare.
 std::string msh22(const std::string& elements, int count, const std::string& node5 = "0 0 -1",
                   const std::string& version = "2.2") {
   return "$MeshFormat\n" + version + " 0 8\n$EndMeshFormat\n$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 " + node5 +
@@ -214,7 +217,8 @@ TEST(GmshReader, RepairsInvertedElementsOfAFileAndDropsOrphans) {
   EXPECT_THAT(refusal_of(source), AllOf(HasSubstr("inverted elements"), HasSubstr("72 (1 element)")));
 }
 
-// --- Refusals ---------------------------------------------------------------------------------------------------------
+// --- Refusals
+// ---------------------------------------------------------------------------------------------------------
 
 TEST(GmshReader, ReadsAfterEveryRefusal) {
   const GmshSource good = script("after", kParametric);

@@ -89,7 +89,8 @@ TEST(TriangleTree, FindsTheSmallestDistanceOfAllTriangles) {
   EXPECT_EQ(TriangleTree({}).distance(Vec3(0, 0, 0), 2.5), 2.5);
 }
 
-/// Exact distance of every node to the free faces of its body by looking at all of them; also_free counts for its own body.
+/// Exact distance of every node to the free faces of its body by looking at all of them; also_free counts for its own
+/// body.
 std::vector<double> by_brute_force(const Mesh& mesh, const Topology& topology,
                                    const std::vector<Topology::Face>& also_free, bool glued) {
   struct Free {

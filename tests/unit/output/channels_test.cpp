@@ -66,7 +66,9 @@ TEST(Channels, OfFracturesHoldTheBrokenJoints) {
 TEST(Channels, ThatNobodyAsksForAreAbsent) {
   const Frame frame = example();
   const Channels channels(frame, channel_mask({"joints"}), kColumns, {});
-  for (int c = 0; c < BRECCIA_NUM_CHANNELS; ++c) EXPECT_EQ(channels.instant().channels[c] != nullptr, c == BRECCIA_JOINTS) << kChannelNames[static_cast<std::size_t>(c)];
+  for (int c = 0; c < BRECCIA_NUM_CHANNELS; ++c)
+    EXPECT_EQ(channels.instant().channels[c] != nullptr, c == BRECCIA_JOINTS)
+        << kChannelNames[static_cast<std::size_t>(c)];
 }
 
 TEST(Channels, WithoutCellsHaveAllTheirArrays) {

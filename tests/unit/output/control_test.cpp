@@ -107,8 +107,8 @@ void answer(const std::filesystem::path& folder, bool accepted) {
   ControlFile control(folder / "control");
   for (int look = 0; look < 100; ++look) {
     for (const std::string& line : control.take()) {
-      write(folder / "status.jsonl", "{\"event\":\"control\",\"accepted\":" + std::string(accepted ? "true" : "false") + ",\"text\":\"heard\",\"id\":\"" +
-                                         parse_command(line).id + "\"}\n");
+      write(folder / "status.jsonl", "{\"event\":\"control\",\"accepted\":" + std::string(accepted ? "true" : "false") +
+                                         ",\"text\":\"heard\",\"id\":\"" + parse_command(line).id + "\"}\n");
       return;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));

@@ -1,5 +1,5 @@
-// Writes a run folder full of synthetic frames, for the tests of what reads one: make_synthetic_run FOLDER [CUBES] [FRAMES].
-// Started by mpiexec, every rank writes its piece.
+// Writes a run folder full of synthetic frames, for the tests of what reads one: make_synthetic_run FOLDER [CUBES]
+// [FRAMES]. Started by mpiexec, every rank writes its piece.
 
 #include <chrono>
 #include <exception>
@@ -26,8 +26,8 @@ int main(int argc, char** argv) try {
   const RunFolder folder{argv[1]};
   world.agree([&] {
     if (!world.is_root()) return;
-    (void)prepare_run_folder(folder.root, "title = \"synthetic plate\"\n", collect_provenance("test", {argv, argv + argc}),
-                             OldResults::overwrite);
+    (void)prepare_run_folder(folder.root, "title = \"synthetic plate\"\n",
+                             collect_provenance("test", {argv, argv + argc}), OldResults::overwrite);
   });
   VtkhdfSink sink(folder.frames(), {}, world);
   double slowest = 0;

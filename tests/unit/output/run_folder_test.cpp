@@ -65,8 +65,8 @@ TEST(RunFolderTest, RefusesResultsOfAnEarlierRunUnlessTheyMayGo) {
   const TemporaryFolder place;
   const RunFolder folder = prepare_run_folder(place.path(), "old", kProvenance, OldResults::refuse);
   EXPECT_EQ(error_of(place.path(), OldResults::refuse), "") << "a prepared folder without results is free";
-  for (const fs::path& result :
-       {folder.history(), folder.status(), folder.summary(), folder.summary_text(), folder.frames() / "joints_000007.vtkhdf"}) {
+  for (const fs::path& result : {folder.history(), folder.status(), folder.summary(), folder.summary_text(),
+                                 folder.frames() / "joints_000007.vtkhdf"}) {
     touch(result);
     EXPECT_THAT(error_of(place.path(), OldResults::refuse), HasSubstr("results of an earlier run")) << result;
     fs::remove(result);

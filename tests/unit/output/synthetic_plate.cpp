@@ -237,8 +237,11 @@ namespace {
 template <class T>
 void cut(std::vector<T>& values, std::size_t rows, int number, int count) {
   if (values.empty()) return;
-  const std::size_t width = values.size() / rows, n = static_cast<std::size_t>(number), all = static_cast<std::size_t>(count);
-  const auto at = [&](std::size_t piece) { return values.begin() + static_cast<std::ptrdiff_t>(rows * piece / all * width); };
+  const std::size_t width = values.size() / rows, n = static_cast<std::size_t>(number),
+                    all = static_cast<std::size_t>(count);
+  const auto at = [&](std::size_t piece) {
+    return values.begin() + static_cast<std::ptrdiff_t>(rows * piece / all * width);
+  };
   values = std::vector<T>(at(n), at(n + 1));
 }
 
@@ -247,8 +250,10 @@ void cut(std::vector<T>& values, std::size_t rows, int number, int count) {
 Frame piece_of(const Frame& whole, int number, int count) {
   Frame piece = whole;
   const auto cut_all = [&](std::size_t rows, auto&... arrays) { (cut(arrays, rows, number, count), ...); };
-  auto& [points, id, body, material, rank, fragment, stress, von_mises, principal, velocity, displacement, cost] = piece.elements;
-  cut_all(id.size(), points, body, material, rank, fragment, stress, von_mises, principal, velocity, displacement, cost, id);
+  auto& [points, id, body, material, rank, fragment, stress, von_mises, principal, velocity, displacement, cost] =
+      piece.elements;
+  cut_all(id.size(), points, body, material, rank, fragment, stress, von_mises, principal, velocity, displacement, cost,
+          id);
   auto& j = piece.joints;
   cut_all(j.id.size(), j.points, j.damage, j.mode, j.opening, j.slip, j.broken, j.time_of_failure, j.state, j.id);
   auto& c = piece.contacts;

@@ -14,7 +14,8 @@ using testing::IsEmpty;
 constexpr double kEnd = 1e-3;  // s, of a run of 1000 steps
 
 /// Steps of the run at which a trigger is due. @param broken  joints in each step; none when empty
-std::vector<std::int64_t> due_steps(const case_::Pipeline& pipeline, const std::vector<std::int64_t>& broken = {}, std::int64_t steps = 1000) {
+std::vector<std::int64_t> due_steps(const case_::Pipeline& pipeline, const std::vector<std::int64_t>& broken = {},
+                                    std::int64_t steps = 1000) {
   Trigger trigger(pipeline, kEnd);
   std::vector<std::int64_t> due;
   for (std::int64_t step = 0; step < steps; ++step) {

@@ -29,7 +29,8 @@ int common_nodes(const Mesh& mesh, std::size_t a, std::size_t b) {
 }
 
 /// Domain and all else by all against all.
-std::vector<DomainLoad> brute_force(const Mesh& mesh, bool joints, const std::vector<int>& owner, int parts, double reach) {
+std::vector<DomainLoad> brute_force(const Mesh& mesh, bool joints, const std::vector<int>& owner, int parts,
+                                    double reach) {
   std::vector<DomainLoad> loads(static_cast<std::size_t>(parts));
   std::vector<std::array<Vec3, 2>> boxes(mesh.elements.size());
   for (std::size_t e = 0; e < boxes.size(); ++e) {
@@ -80,7 +81,8 @@ TEST_P(ReportOfScatteredDomains, CountsWhatAllAgainstAllCounts) {
   // Mostly by place, so that domains are parts of the block, but not all are neighbours.
   for (const auto& corners : mesh.elements) {
     const double x = mesh.nodes[at(corners[0])][0];
-    owner.push_back(random() % 8 == 0 ? static_cast<int>(random() % 3) : std::min(kParts - 1, static_cast<int>(x * 1.8)));
+    owner.push_back(random() % 8 == 0 ? static_cast<int>(random() % 3)
+                                      : std::min(kParts - 1, static_cast<int>(x * 1.8)));
   }
   const double reach = 0.3;
   const auto expected = brute_force(mesh, GetParam() == kJoints, owner, kParts, reach);
@@ -101,7 +103,8 @@ TEST_P(ReportOfScatteredDomains, CountsWhatAllAgainstAllCounts) {
 INSTANTIATE_TEST_SUITE_P(Bodies, ReportOfScatteredDomains, testing::Values(kJoints, kNone),
                          [](const auto& kind) { return kind.param == kJoints ? "joints" : "shared_nodes"; });
 
-/// Two cubes of 24 elements side by side, a domain each; a cube has (4 x 24 - 24) / 2 = 36 inner faces, they share four.
+/// Two cubes of 24 elements side by side, a domain each; a cube has (4 x 24 - 24) / 2 = 36 inner faces, they share
+/// four.
 TEST(DomainReport, OfTwoCubesIsThatOfAHandCalculation) {
   const Mesh mesh = block({2, 1, 1});
   std::vector<int> owner;
@@ -110,7 +113,8 @@ TEST(DomainReport, OfTwoCubesIsThatOfAHandCalculation) {
     for (const Index node : corners) x += mesh.nodes[at(node)][0];
     owner.push_back(x / 4 > 1 ? 1 : 0);
   }
-  const DomainReport report = report_domains(mesh, build_topology(mesh), std::vector<std::uint8_t>{kJoints}, owner, 2, 0.0);
+  const DomainReport report =
+      report_domains(mesh, build_topology(mesh), std::vector<std::uint8_t>{kJoints}, owner, 2, 0.0);
   EXPECT_EQ(report.domains[0].joints + report.domains[1].joints, 36 + 36 + 4);
   for (const DomainLoad& load : report.domains) {
     EXPECT_EQ(load.elements, 24);
@@ -129,7 +133,8 @@ TEST(DomainReport, OfUnequalDomainsNamesTheLargestOverTheMean) {
   const Mesh mesh = block({2, 1, 1});
   std::vector<int> owner(mesh.elements.size(), 0);
   for (std::size_t e = 0; e < 12; ++e) owner[e] = 2;  // 36, 0 and 12 of 48 elements
-  const DomainReport report = report_domains(mesh, build_topology(mesh), std::vector<std::uint8_t>{kJoints}, owner, 3, 1.0);
+  const DomainReport report =
+      report_domains(mesh, build_topology(mesh), std::vector<std::uint8_t>{kJoints}, owner, 3, 1.0);
   EXPECT_DOUBLE_EQ(report.imbalance, 36.0 / 16.0);
   EXPECT_EQ(report.domains[1].elements + report.domains[1].held + report.domains[1].neighbours, 0);
 }

@@ -84,13 +84,14 @@ TEST(Grid, IsTheOneAskedFor) {
 
 TEST(Grid, OfAnotherNumberOfDomainsIsRefusedWithAllThatAreAllowed) {
   EXPECT_THAT(message_of(grid({2, 2, 1}), 3, 0.01),
-              AllOf(HasSubstr("case.toml:3: domains.n: "), HasSubstr("ranks, 3; allowed: [1, 1, 3], [1, 3, 1], [3, 1, 1]"),
-                    HasSubstr("given: [2, 2, 1]")));
+              AllOf(HasSubstr("case.toml:3: domains.n: "),
+                    HasSubstr("ranks, 3; allowed: [1, 1, 3], [1, 3, 1], [3, 1, 1]"), HasSubstr("given: [2, 2, 1]")));
 }
 
 TEST(Grid, OfDomainsSmallerThanAnElementIsRefusedWithTheLargestThatFits) {
   // Centroids fill 3 x 2 x 1 and elements half an edge more on every side: 3.5 x 2.5 x 1.5.
-  EXPECT_THAT(message_of(grid({8, 1, 1}), 8, 0.5), AllOf(HasSubstr("at most [7, 5, 3]"), HasSubstr("given: [8, 1, 1]")));
+  EXPECT_THAT(message_of(grid({8, 1, 1}), 8, 0.5),
+              AllOf(HasSubstr("at most [7, 5, 3]"), HasSubstr("given: [8, 1, 1]")));
   EXPECT_THAT(message_of(grid(), 11, 0.5), AllOf(HasSubstr("at most [7, 5, 3]"), HasSubstr("given: 11 domains")));
   EXPECT_EQ(message_of(grid({7, 1, 1}), 7, 0.5), "not refused");
 }
@@ -113,7 +114,8 @@ TEST(Grid, OnceSettledStaysWhileElementsGatherInACorner) {
   std::vector<Vec3> points = lattice(4, 4, 4);
   const std::vector<double> weight(points.size(), 1.0);
   const DomainSpec spec = settled(alone, grid({2, 2, 2}), 8, points, 1.0);
-  EXPECT_EQ(assign_domains(alone, spec, 8, points, weight, 1.0), assign_domains(alone, grid({2, 2, 2}), 8, points, weight, 1.0));
+  EXPECT_EQ(assign_domains(alone, spec, 8, points, weight, 1.0),
+            assign_domains(alone, grid({2, 2, 2}), 8, points, weight, 1.0));
   for (Vec3& x : points) x *= 0.1;
   EXPECT_EQ(assign_domains(alone, spec, 8, points, weight, 1.0), std::vector<int>(points.size(), 0));
   for (Vec3& x : points) x += Vec3(100, -100, 1e30);
@@ -148,7 +150,8 @@ TEST(Bisection, GivesAllDomainsTheSameWeight) {
   std::exponential_distribution<double> cost(1.0);
   std::vector<double> weight;
   for (std::size_t e = 0; e < points.size(); ++e) weight.push_back(cost(random));
-  const double total = std::accumulate(weight.begin(), weight.end(), 0.0), heaviest = *std::max_element(weight.begin(), weight.end());
+  const double total = std::accumulate(weight.begin(), weight.end(), 0.0),
+               heaviest = *std::max_element(weight.begin(), weight.end());
   for (const int parts : {1, 2, 5, 64, 512}) {
     for (const double sum : weights_of_domains(bisected(parts, points, weight), weight, parts)) {
       // A cut is off by at most one element, half of which each further cut passes on.

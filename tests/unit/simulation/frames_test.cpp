@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <set>
 
-#include "simulation/balance.hpp"
-#include "model/parameters.hpp"
-#include "simulation/fragment_labels.hpp"
 #include "model/model.hpp"
+#include "model/parameters.hpp"
+#include "simulation/balance.hpp"
+#include "simulation/fragment_labels.hpp"
 #include "unit/case/case_files.hpp"
 
 namespace breccia {
@@ -65,7 +65,9 @@ double area(const Frame::Surface& surface) {
   return sum;
 }
 
-std::ptrdiff_t cracks(const Frame::Surface& surface) { return std::count(surface.crack.begin(), surface.crack.end(), 1); }
+std::ptrdiff_t cracks(const Frame::Surface& surface) {
+  return std::count(surface.crack.begin(), surface.crack.end(), 1);
+}
 
 TEST_F(TwoCubes, have_the_surface_of_their_box) {
   const Frame frame = picture();

@@ -45,9 +45,11 @@ Records records_of(const Mesh& mesh, const Topology& topology) {
     records.joints.back().joint.mode_1 = 0.125 * e;
   }
   for (std::size_t g = 0; g < topology.surface_groups.size(); ++g) {
-    for (const Topology::Face& face : topology.surface_groups[g]) records.faces.push_back({face.element, static_cast<Index>(g), face.face});
+    for (const Topology::Face& face : topology.surface_groups[g])
+      records.faces.push_back({face.element, static_cast<Index>(g), face.face});
   }
-  std::stable_sort(records.faces.begin(), records.faces.end(), [](const FaceTag& p, const FaceTag& q) { return p.element < q.element; });
+  std::stable_sort(records.faces.begin(), records.faces.end(),
+                   [](const FaceTag& p, const FaceTag& q) { return p.element < q.element; });
   return records;
 }
 
@@ -128,7 +130,8 @@ void expect_equal(const Records& a, const Records& b) {
     return std::tuple(e.id, e.source_id, e.group, e.body, e.vertex, e.neighbour, e.code, e.reference, e.position);
   });
   each(a.joints, b.joints, [](const JointRecord& j) { return std::tuple(j.element, j.other, j.joint.mode_1); });
-  each(a.holds, b.holds, [](const HoldRecord& h) { return std::tuple(h.element, h.entry, h.corner, h.axis, h.start, h.velocity); });
+  each(a.holds, b.holds,
+       [](const HoldRecord& h) { return std::tuple(h.element, h.entry, h.corner, h.axis, h.start, h.velocity); });
   each(a.faces, b.faces, [](const FaceTag& f) { return std::tuple(f.element, f.group, f.face); });
   each(a.corners, b.corners, [](const CornerTag& c) { return c.element; });
 }

@@ -52,7 +52,8 @@ class Forecast {
 
 using Forecasts = std::map<std::string, Forecast>;
 
-/// One run: all contenders see the same cells in every cycle and must see the same pairs. Returns the pairs of all cycles.
+/// One run: all contenders see the same cells in every cycle and must see the same pairs. Returns the pairs of all
+/// cycles.
 Tally run_once(const Case& one, Contenders& contenders, std::map<std::string, Times>& times) {
   Placement placement(one.experiment, one.n, one.spacing);
   std::map<std::string, double> sum;

@@ -7,10 +7,10 @@
 namespace breccia::lab {
 
 /// Random numbers between 0 and 1, both excluded: two multiplicative congruential generators whose difference is taken
-/// (L'Ecuyer 1988: moduli 2147483563 and 2147483399, multipliers 40014 and 40692), the first through a table of 32 values
-/// that the output itself picks from (Bays and Durham). Period about 2e18.
-/// The thesis's experiments give it a seed by reference: a negative one starts it anew, and it holds the first
-/// generator's state from then on; seeds used in turn share the table and the second generator, as in the experiments.
+/// (L'Ecuyer 1988: moduli 2147483563 and 2147483399, multipliers 40014 and 40692), the first through a table of 32
+/// values that the output itself picks from (Bays and Durham). Period about 2e18. The thesis's experiments give it a
+/// seed by reference: a negative one starts it anew, and it holds the first generator's state from then on; seeds used
+/// in turn share the table and the second generator, as in the experiments.
 class Generator {
  public:
   double operator()(std::int64_t& seed) {

@@ -1,9 +1,11 @@
 // The contact detection laboratory: chapter 7 of the thesis on the machine at hand, with libraries beside it.
 //
-//   bench_detection_lab [--largest N] [--repeat R] [--budget SECONDS] [--experiments I,II,...,points] [--algorithms ...]
+//   bench_detection_lab [--largest N] [--repeat R] [--budget SECONDS] [--experiments I,II,...,points] [--algorithms
+//   ...]
 //                       [--scene TEXT] [--no-peers] [--folder FOLDER]
 //   bench_detection_lab --names
-//   bench_detection_lab --count ALGORITHM --experiments III|points [--scene TEXT] --largest N   one detection, for callgrind
+//   bench_detection_lab --count ALGORITHM --experiments III|points [--scene TEXT] --largest N   one detection, for
+//   callgrind
 //
 // Ends with 1 where two searches see different pairs.
 
@@ -49,7 +51,8 @@ int main(int argc, char** argv) {
   app.add_flag("--no-peers", no_peers, "Breccia's own searches only");
   app.add_option("--folder", options.folder, "where the tables are written");
   app.add_flag("--names", names, "list the algorithms and end");
-  app.add_option("--count", counted, "one detection of this algorithm on the first experiment, to be counted by callgrind");
+  app.add_option("--count", counted,
+                 "one detection of this algorithm on the first experiment, to be counted by callgrind");
   app.add_option("--scene", options.scene, "points: only scenes whose name holds this");
   CLI11_PARSE(app, argc, argv);
   options.peers = !no_peers;

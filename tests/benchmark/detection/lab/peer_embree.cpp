@@ -32,7 +32,8 @@ class BoxScene {
   BoxScene(const BoxScene&) = delete;
   BoxScene& operator=(const BoxScene&) = delete;
 
-  /// take(i, j) for every pair whose boxes may meet, at least once; a scene against itself tells both (i, j) and (j, i).
+  /// take(i, j) for every pair whose boxes may meet, at least once; a scene against itself tells both (i, j) and (j,
+  /// i).
   template <class Take>
   static void collide(const BoxScene& a, const BoxScene& b, Take take) {
     rtcCollide(

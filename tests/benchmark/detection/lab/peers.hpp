@@ -7,10 +7,10 @@
 
 namespace breccia::lab {
 
-/// Libraries that do the same work, one core each, built and searched anew in every call. Each returns exactly Breccia's
-/// set: on equal cells by itself (their boxes are closed unit cubes of whole coordinates, exact below 2^24), on
-/// tetrahedra after CoupleTest of each candidate, which lies in the contactor's enlarged box.
-/// A library that CMake did not find is skipped with one printed line.
+/// Libraries that do the same work, one core each, built and searched anew in every call. Each returns exactly
+/// Breccia's set: on equal cells by itself (their boxes are closed unit cubes of whole coordinates, exact below 2^24),
+/// on tetrahedra after CoupleTest of each candidate, which lies in the contactor's enlarged box. A library that CMake
+/// did not find is skipped with one printed line.
 void add_peers(Contenders& searches, PointContenders& point_searches);
 
 void add_cgal(Contenders& searches, PointContenders& point_searches);       ///< box_intersection_d, closed boxes

@@ -26,8 +26,9 @@ class Placement {
 
   const Cells& cells() const { return cells_; }
 
-  /// Every moving coordinate stays or grows by one, [Schiava, eq. (7.8)]. The printed seeds -i - 1 - 10 t hold the body's
-  /// own coordinate; taken for each body, all bodies of a layer would move as one, so they are those of the first body.
+  /// Every moving coordinate stays or grows by one, [Schiava, eq. (7.8)]. The printed seeds -i - 1 - 10 t hold the
+  /// body's own coordinate; taken for each body, all bodies of a layer would move as one, so they are those of the
+  /// first body.
   void move();
 
  private:

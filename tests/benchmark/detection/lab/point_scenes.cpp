@@ -24,7 +24,8 @@ void add_with_face_centres(Scene& scene, const detection::Corners& c) {
   for (std::size_t a = 0; a < 4; ++a) scene.points.push_back((c[(a + 1) % 4] + c[(a + 2) % 4] + c[(a + 3) % 4]) / 3);
 }
 
-/// n^3 tetrahedra on a raster, each turned and moved at random by up to `shake` of the spacing, with their face centres.
+/// n^3 tetrahedra on a raster, each turned and moved at random by up to `shake` of the spacing, with their face
+/// centres.
 Scene raster(const std::string& name, int n, double spacing, double shake, double buffer) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> coordinate(-1, 1);
@@ -73,7 +74,8 @@ Scene block(const std::string& name, int n, bool broken, double buffer) {
 }
 
 /// `n` regular tetrahedra, turned at random, of edges between 1 and 1 / ratio (evenly in the logarithm), in a cube in
-/// which their bounding boxes, end to end, would fill the volume 1.2 times; contact points at the centres of their faces.
+/// which their bounding boxes, end to end, would fill the volume 1.2 times; contact points at the centres of their
+/// faces.
 Scene mixture(int n, double ratio) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> coordinate(-1, 1);

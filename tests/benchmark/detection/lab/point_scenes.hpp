@@ -20,8 +20,8 @@ struct Scene {
 /// Made only when it is its turn.
 using PointScene = std::function<Scene()>;
 
-/// Four scenes of contact in a run, then up to `largest` (at most a million) tetrahedra of three mixtures of sizes, numbered at
-/// random, and the same numbered along a curve through space.
+/// Four scenes of contact in a run, then up to `largest` (at most a million) tetrahedra of three mixtures of sizes,
+/// numbered at random, and the same numbered along a curve through space.
 std::vector<PointScene> point_scenes(std::size_t largest);
 
 }  // namespace breccia::lab

@@ -35,7 +35,8 @@ Pairs brute_force(const Cells<D, Coordinate>& cells) {
     for (std::size_t b = a + 1; b < cells.size(); ++b) {
       bool touch = true;
       for (std::size_t axis = 0; axis < D; ++axis) {
-        touch = touch && std::llabs(static_cast<long long>(cells[a][axis]) - static_cast<long long>(cells[b][axis])) <= 1;
+        touch =
+            touch && std::llabs(static_cast<long long>(cells[a][axis]) - static_cast<long long>(cells[b][axis])) <= 1;
       }
       if (touch) pairs.emplace_back(static_cast<Index>(a), static_cast<Index>(b));
     }
@@ -56,12 +57,14 @@ class EqualSizeSearchTest : public ::testing::Test {
   static constexpr int kD = T::kD;
   using Coordinate = typename T::Coordinate;
   using Bodies = Cells<kD, Coordinate>;
-  static constexpr Coordinate kLowest = std::numeric_limits<Coordinate>::min(), kHighest = std::numeric_limits<Coordinate>::max();
+  static constexpr Coordinate kLowest = std::numeric_limits<Coordinate>::min(),
+                              kHighest = std::numeric_limits<Coordinate>::max();
   static_assert(EqualSizeSearch<typename T::Algorithm, kD, Coordinate>);
 
   void expect_brute_force(const Bodies& cells, const std::string& what) {
     Pairs visited;
-    search_.detect(std::span<const Cell<kD, Coordinate>>(cells), [&](Index a, Index b) { visited.emplace_back(std::min(a, b), std::max(a, b)); });
+    search_.detect(std::span<const Cell<kD, Coordinate>>(cells),
+                   [&](Index a, Index b) { visited.emplace_back(std::min(a, b), std::max(a, b)); });
     std::sort(visited.begin(), visited.end());
     EXPECT_EQ(visited, (brute_force<kD, Coordinate>(cells))) << what;
   }
@@ -106,16 +109,18 @@ class EqualSizeSearchTest : public ::testing::Test {
   typename T::Algorithm search_;
 };
 
-#define ALL_OF(search) \
-  Case<search, 1, std::int16_t>, Case<search, 2, std::int16_t>, Case<search, 3, std::int16_t>, Case<search, 1, std::int32_t>, \
-      Case<search, 2, std::int32_t>, Case<search, 3, std::int32_t>
-using Cases = ::testing::Types<ALL_OF(DirectSearch), ALL_OF(Nbs), ALL_OF(Mr), ALL_OF(MrS), ALL_OF(Bbts), ALL_OF(CellSweep)>;
+#define ALL_OF(search)                                                                         \
+  Case<search, 1, std::int16_t>, Case<search, 2, std::int16_t>, Case<search, 3, std::int16_t>, \
+      Case<search, 1, std::int32_t>, Case<search, 2, std::int32_t>, Case<search, 3, std::int32_t>
+using Cases =
+    ::testing::Types<ALL_OF(DirectSearch), ALL_OF(Nbs), ALL_OF(Mr), ALL_OF(MrS), ALL_OF(Bbts), ALL_OF(CellSweep)>;
 #undef ALL_OF
 
 struct Name {
   template <class T>
   static std::string GetName(int) {
-    return std::string(T::Algorithm::name) + "_" + std::to_string(T::kD) + "D_int" + std::to_string(8 * sizeof(typename T::Coordinate));
+    return std::string(T::Algorithm::name) + "_" + std::to_string(T::kD) + "D_int" +
+           std::to_string(8 * sizeof(typename T::Coordinate));
   }
 };
 TYPED_TEST_SUITE(EqualSizeSearchTest, Cases, Name);
@@ -127,7 +132,8 @@ TYPED_TEST(EqualSizeSearchTest, finds_nothing_among_no_bodies_or_one) {
 }
 
 TYPED_TEST(EqualSizeSearchTest, visits_each_pair_of_random_bodies_once) {
-  for (const std::size_t count : {2U, 3U, 10U, 100U, 500U}) this->expect_brute_force(this->box(count, 0, this->side(count)), std::to_string(count));
+  for (const std::size_t count : {2U, 3U, 10U, 100U, 500U})
+    this->expect_brute_force(this->box(count, 0, this->side(count)), std::to_string(count));
 }
 
 TYPED_TEST(EqualSizeSearchTest, takes_negative_coordinates) {
@@ -164,12 +170,14 @@ TYPED_TEST(EqualSizeSearchTest, takes_all_bodies_in_one_cell_and_all_on_a_line) 
 }
 
 TYPED_TEST(EqualSizeSearchTest, knows_no_neighbours_beyond_the_limits_of_the_type) {
-  auto cells = this->box(80, this->kLowest, this->kLowest + 2LL), others = this->box(80, this->kHighest - 2LL, this->kHighest);
+  auto cells = this->box(80, this->kLowest, this->kLowest + 2LL),
+       others = this->box(80, this->kHighest - 2LL, this->kHighest);
   cells.insert(cells.end(), others.begin(), others.end());
   // Corners of the whole range: each axis at either limit.
   for (unsigned corner = 0; corner < 1U << TypeParam::kD; ++corner) {
     cells.emplace_back();
-    for (std::size_t axis = 0; axis < TypeParam::kD; ++axis) cells.back()[axis] = (corner >> axis & 1U) != 0 ? this->kHighest : this->kLowest;
+    for (std::size_t axis = 0; axis < TypeParam::kD; ++axis)
+      cells.back()[axis] = (corner >> axis & 1U) != 0 ? this->kHighest : this->kLowest;
   }
   this->expect_brute_force(cells, "limits");
   this->expect_brute_force(this->box(150, this->kLowest, this->kHighest), "the whole range");
@@ -196,14 +204,15 @@ TYPED_TEST(EqualSizeSearchTest, follows_bodies_that_come_go_and_are_thrown_elsew
   }
 }
 
-/// Bytes a body in 3D with 16-bit coordinates and integer ids as printed; NBS by its arrays; for the rest no figure is printed.
+/// Bytes a body in 3D with 16-bit coordinates and integer ids as printed; NBS by its arrays; for the rest no figure is
+/// printed.
 double published_bytes(const std::string& name, std::size_t count, long long side) {
   if (name == "direct_search") return 0;
   if (name == "bbts") return 40;
   if (name == "mr") return 26;
   if (name == "mr_s") return 14;
-  // A link for each axis; heads of the layers, of the rows of two layers and of the columns of five rows, with a slot to spare
-  // at either end.
+  // A link for each axis; heads of the layers, of the rows of two layers and of the columns of five rows, with a slot
+  // to spare at either end.
   if (name == "nbs") return 4 * 3 + 4 * 8 * static_cast<double>(side + 3) / static_cast<double>(count);
   return std::numeric_limits<double>::infinity();
 }
@@ -213,7 +222,8 @@ TYPED_TEST(EqualSizeSearchTest, needs_no_more_memory_than_published) {
   const long long side = this->side(kCount);
   const auto cells = this->box(kCount, 0, side);
   std::size_t pairs = 0;
-  this->search_.detect(std::span<const Cell<TypeParam::kD, typename TypeParam::Coordinate>>(cells), [&](Index, Index) { ++pairs; });
+  this->search_.detect(std::span<const Cell<TypeParam::kD, typename TypeParam::Coordinate>>(cells),
+                       [&](Index, Index) { ++pairs; });
   EXPECT_GT(pairs, kCount / 2);
   if (TypeParam::kD < 3 || sizeof(typename TypeParam::Coordinate) > 2) return;  // nothing is printed for these
   constexpr double kListHead = 64;  // bytes that do not grow with the bodies

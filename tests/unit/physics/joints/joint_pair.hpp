@@ -46,8 +46,8 @@ struct JointPair {
   std::vector<JointLawParams> laws;
   LocalMesh local;
   Field<double> position;
-  ActiveJoint virgin;               ///< the joint without history
-  ActiveJoints joints;              ///< the active list
+  ActiveJoint virgin;   ///< the joint without history
+  ActiveJoints joints;  ///< the active list
   NodalForces forces;
   JointWork work;
   double time = 0;  ///< s, of the next evaluation

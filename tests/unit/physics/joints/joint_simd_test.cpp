@@ -13,7 +13,8 @@ using test::prepared;
 
 constexpr GlobalId kJoints = 21;  // some blocks, the last one not full
 
-/// Copies of one joint, some of which start with damage, slip and failure, so that lanes side by side do different things.
+/// Copies of one joint, some of which start with damage, slip and failure, so that lanes side by side do different
+/// things.
 std::vector<ActiveJoint> varied(const ActiveJoint& virgin) {
   std::vector<ActiveJoint> joints;
   for (GlobalId id = 0; id < kJoints; ++id) {

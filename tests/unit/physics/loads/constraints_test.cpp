@@ -60,10 +60,12 @@ TEST(Constraints, ReactionIsTheForceThatChangedTheVelocity) {
   Model model = lone_tetrahedron();
   const double node_mass = 1000.0 / (6.0 * std::sqrt(2.0)) / 4.0;
   const std::vector<Index> nodes = model.real_nodes();
-  Constraints constraints({{{nodes[0], nodes[3]}, {true, true, true}, PrescribedMotion::velocity, {}}}, model.local, model.state);
+  Constraints constraints({{{nodes[0], nodes[3]}, {true, true, true}, PrescribedMotion::velocity, {}}}, model.local,
+                          model.state);
   for (const Index n : nodes) store_node(model.state.velocity.data(), n, Vec3(1, 0, -2));
   constraints.apply(model.local, model.state, 0.0, 0.0, 0.1);
-  EXPECT_LT((test::value_of(constraints.reaction(0)) - 2 * node_mass / 0.1 * Vec3(-1, 0, 2)).norm(), kRounding * 2 * node_mass / 0.1);
+  EXPECT_LT((test::value_of(constraints.reaction(0)) - 2 * node_mass / 0.1 * Vec3(-1, 0, 2)).norm(),
+            kRounding * 2 * node_mass / 0.1);
 }
 
 TEST(Constraints, GiveAnAxisToTheLaterOfTwoEntriesAndCountANodeOnce) {

@@ -25,7 +25,8 @@ TEST(GravityWork, OfAFallingBodyIsWeightTimesHeight) {
   for (int step = 0; step < 5; ++step) {
     model.map_positions([&](const Vec3& x) { return Vec3(x + Vec3(3, 0, -0.5 * (step + 1))); });
     gravity.advance(model.local, model.state, g, 0.1);
-    EXPECT_NEAR(gravity.work(model.local, model.state.position).value(), 1000 * 10 * 0.5 * (step + 1), 25000 * kRounding);
+    EXPECT_NEAR(gravity.work(model.local, model.state.position).value(), 1000 * 10 * 0.5 * (step + 1),
+                25000 * kRounding);
   }
 }
 
@@ -59,7 +60,8 @@ TEST(GravityWork, FollowsEveryChangeOfGravityByTheTrapezoidRule) {
     last_moment = moment;
     handed_on = GravityWork(handed_on.close(model.local, model.state.position), model.local, model.state.position);
     for (GravityWork* work : {&gravity, &handed_on}) work->advance(model.local, model.state, g_of(step), dt);
-    ASSERT_EQ(handed_on.work(model.local, model.state.position), gravity.work(model.local, model.state.position)) << "step " << step;
+    ASSERT_EQ(handed_on.work(model.local, model.state.position), gravity.work(model.local, model.state.position))
+        << "step " << step;
     ASSERT_NEAR(gravity.work(model.local, model.state.position).value(), expected, 1e3 * kRounding * (scale + 1))
         << "step " << step;
     dt = 0.01 * (1 + step % 3);

@@ -26,7 +26,9 @@ struct Problem {
       : model(std::move(mesh), kind, kDensity),
         params{make_elastic_params(ElasticLaw::neo_hookean, kYoung, 0.25, viscosity)} {}
 
-  [[nodiscard]] StepModel step_model() const { return {model.local, model.links, params, density, contacts, lightest_node(model.local)}; }
+  [[nodiscard]] StepModel step_model() const {
+    return {model.local, model.links, params, density, contacts, lightest_node(model.local)};
+  }
 
   /// Derivative of the elements' forces by finite differences of the law itself, joints as springs: M^-1/2 K M^-1/2.
   [[nodiscard]] Eigen::MatrixXd scaled_stiffness(bool of_velocity = false) const {

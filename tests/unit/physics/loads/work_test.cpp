@@ -43,12 +43,13 @@ class DrivenBody {
     constraints_.apply(model_.local, state, time, before, kStep);
 
     const double kinetic = kinetic_energy(model_.local, v_before.data(), state.velocity.data()).value();
-    const double works =
-        internal_.sum().value() + pressure_.work().value() + gravity_.work(model_.local, state.position).value() + constraints_.work().value();
+    const double works = internal_.sum().value() + pressure_.work().value() +
+                         gravity_.work(model_.local, state.position).value() + constraints_.work().value();
     if (number_ == 0) start_ = kinetic - works;
     largest_ = std::max({largest_, std::abs(constraints_.work().value()), std::abs(internal_.sum().value())});
-    smallest_work_ = std::min({std::abs(pressure_.work().value()), std::abs(gravity_.work(model_.local, state.position).value()),
-                               std::abs(constraints_.work().value())});
+    smallest_work_ =
+        std::min({std::abs(pressure_.work().value()), std::abs(gravity_.work(model_.local, state.position).value()),
+                  std::abs(constraints_.work().value())});
 
     internal_.add_after(power(force, state.velocity), kStep);
     pressure_.book_after(model_.local, state, kStep);

@@ -1,0 +1,85 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "case_files.hpp"
+
+namespace breccia::case_ {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+TEST(WrongCases, ABreakableGroupNeedsAJointLaw) {
+  EXPECT_THAT(message_of(replaced(minimal, "joints = \"none\"\n", "")),
+              AllOf(HasSubstr("case.toml:3: material[0].joints: the group is breakable but has no joint law"),
+                    HasSubstr("[[joint]] with group = \"raster\"")));
+}
+
+TEST(WrongCases, ACaseNeedsMeshMaterialAndStage) {
+  EXPECT_THAT(message_of(""),
+              AllOf(HasSubstr("mesh: is missing"), HasSubstr("material: is missing"), HasSubstr("stage: is missing")));
+}
+
+TEST(WrongCases, AnEmptyListOfMaterialsIsMissing) {
+  EXPECT_THAT(message_of("material = []\n[mesh.raster]\ncell_size = 1\n[[stage]]\nend = 1\n"),
+              HasSubstr("material: is missing"));
+}
+
+TEST(WrongCases, ARasterHasItsOwnChecks) {
+  const auto raster = [](const std::string& keys) {
+    return message_of(replaced(minimal, "cell_size = \"10 mm\"", keys));
+  };
+  EXPECT_THAT(raster("cells = 1"), HasSubstr("mesh.raster.cell_size: is missing"));
+  EXPECT_THAT(raster("cell_size = 0"), HasSubstr("mesh.raster.cell_size: is out of range"));
+  EXPECT_THAT(raster("cell_size = 1\ncells = [1, 0, 1]"), HasSubstr("mesh.raster.cells[1]: is out of range"));
+  EXPECT_THAT(raster("cell_size = 1\ncells = [1, 2.5, 1]"), HasSubstr("mesh.raster.cells[1]: is a number"));
+  EXPECT_THAT(raster("cell_size = 1\nkind = \"tetrahedra\"\ncells = 2"), HasSubstr("single tetrahedra have no cells"));
+  EXPECT_THAT(raster("cell_size = 1\nslit = {lower = [0, 0, 0], upper = [1, 1, 1]}"),
+              HasSubstr("mesh.raster.slit: is not plane"));
+  EXPECT_THAT(raster("cell_size = 1\nslit = {lower = [0, 0, 0], upper = [1, 0, 0]}"),
+              HasSubstr("mesh.raster.slit: is not plane"));
+  EXPECT_THAT(raster("cell_size = 1\nslit = {lower = [0, 0, 0]}"), HasSubstr("mesh.raster.slit.upper: is missing"));
+  EXPECT_THAT(raster("cell_size = 1\nslit = 3"), HasSubstr("mesh.raster.slit: is an integer; allowed: a table"));
+}
+
+TEST(WrongCases, AllProblemsComeAtOnceEachWithItsLine) {
+  std::string text = replaced(minimal, "young = \"75 GPa\"", "young = \"75 m\"");
+  text = replaced(text, "poisson = 0.2", "poison = 0.2");
+  text = replaced(text, "density = 2456", "density = -1");
+  const std::string message = message_of(text);
+  EXPECT_THAT(message, AllOf(HasSubstr("case.toml:5: material[0].young: is of dimension length"),
+                             HasSubstr("case.toml:6: material[0].poison: unknown key; did you mean \"poisson\"?"),
+                             HasSubstr("case.toml:7: material[0].density: is out of range"),
+                             HasSubstr("case.toml:3: material[0].poisson: is missing")));
+}
+
+TEST(WrongCases, AnAbsentFileIsNamed) {
+  const std::filesystem::path absent = "/nowhere/case.toml";
+  try {
+    (void)read_case(absent);
+    FAIL() << "an absent file was read";
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(), "/nowhere/case.toml: the case file does not exist");
+  }
+}
+
+TEST(WrongCases, ANestedSectionIsNamedAsItIsWritten) {
+  EXPECT_THAT(message_of(minimal + "pressure = 3\n"),
+              HasSubstr("stage[0].pressure: is an integer; allowed: one or more tables, [[stage.pressure]]"));
+}
+
+TEST(WrongCases, AFolderIsNoCase) {
+  const CaseFolder folder;
+  EXPECT_THROW((void)read_case(folder.path()), InputError);
+}
+
+TEST(WrongCases, BinaryRubbishIsRefused) {
+  EXPECT_THAT(message_of(std::string("\x00\xff\xfe garbage", 11)), HasSubstr("not TOML"));
+}
+
+TEST(WrongCases, DeepNestingIsRefused) {
+  EXPECT_THAT(message_of("title = " + std::string(100000, '[')), HasSubstr("not TOML"));
+}
+
+}  // namespace
+}  // namespace breccia::case_
