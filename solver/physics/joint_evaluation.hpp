@@ -166,7 +166,7 @@ template <class T>
   return force;
 }
 
-/// Share of a point that has let go of its cohesion, so that its pressure no longer turns with the opening.
+/// Share of a point's stiffness that is lost: there the normal traction under pressure depends on the normal alone.
 template <class T>
 [[nodiscard]] inline T loose_share(const JointLawParams& law, const Point<T>& p) {
   switch (law.law) {

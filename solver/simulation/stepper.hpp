@@ -28,7 +28,7 @@ namespace breccia {
 
 /// What ranks send each other besides the physics; all of them receive it in the next step.
 struct StepSignals {
-  bool stop = false;         ///< somebody asks for the end of the run
+  bool stop = false;         ///< some rank asks for the end of the run
   bool broke = false;        ///< joints have broken on some rank since it was last counted
   std::uint64_t orders = 0;  ///< of the root, fewer than 53 bits
 };

@@ -51,7 +51,7 @@ SYSTEM = re.compile(
 
 SOURCE_SUFFIXES = {".cpp", ".hpp", ".h", ".cxx", ".py"}
 MAX_LINES = 450
-MAX_COLUMNS = 120  # of .clang-format, which leaves long comments and texts as they are
+MAX_COLUMNS = 120  # as in .clang-format, which does not break comments and string literals
 FORMATTED_SUFFIXES = {".cpp", ".hpp", ".h"}
 LEFT_OPEN = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X|HA" r"CK)\b")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
