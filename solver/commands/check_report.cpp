@@ -8,6 +8,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "contact/search_params.hpp"
+#include "domains/decomposition.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/quality.hpp"
 #include "model/parameters.hpp"
@@ -16,9 +18,7 @@
 #include "output/summary.hpp"
 #include "parallel/domain_report.hpp"
 #include "parallel/whole_fragments.hpp"
-#include "simulation/decomposition.hpp"
-#include "simulation/search_params.hpp"
-#include "simulation/stepper.hpp"
+#include "simulation/step.hpp"
 
 namespace breccia {
 namespace {
@@ -87,12 +87,12 @@ std::string law_report(const Model& model, Index l, std::string& advice) {
 
 /// Seconds a step takes here: the best of a few steps at rest on a scratch copy.
 double seconds_a_step(const case_::Case& input, const Model& model, double dt) {
-  Stepper scratch(model, search_params(input, model));
-  scratch.begin_stage(stage_loads(input.stages.front(), model), dt);
+  Domain scratch(model, search_params(input, model));
+  begin_stage(scratch, stage_loads(input.stages.front(), model), dt);
   double best = 1e300;
   for (int i = 0; i < 4; ++i) {
     const auto start = std::chrono::steady_clock::now();
-    scratch.step(false);
+    step(scratch);
     best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   return best;

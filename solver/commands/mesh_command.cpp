@@ -4,11 +4,11 @@
 
 #include "case/reader.hpp"
 #include "commands/check_report.hpp"
+#include "contact/search_params.hpp"
+#include "domains/balance.hpp"
+#include "observe/fragment_labels.hpp"
+#include "observe/frames.hpp"
 #include "output/vtkhdf_sink.hpp"
-#include "simulation/balance.hpp"
-#include "simulation/fragment_labels.hpp"
-#include "simulation/frames.hpp"
-#include "simulation/search_params.hpp"
 
 namespace breccia {
 
@@ -21,7 +21,7 @@ int mesh_command(const MeshCommand& asked) {
   const Model model = build_model(input);
   fmt::print("{}", mesh_report({model.mesh, model.mesh_report}));
   std::filesystem::create_directories(asked.folder);
-  const Stepper rest(model, search_params(input, model));
+  const Domain rest(model, search_params(input, model));
   const FrameParts elements{true, false, false};
   VtkhdfSink(asked.folder, elements)
       .frame(make_frame(rest, 0, elements, {find_fragments(rest), Balance().weights(rest)}));

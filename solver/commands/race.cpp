@@ -9,8 +9,9 @@
 #include "case/schema.hpp"
 #include "commands/stage_driver.hpp"
 #include "commands/timing_segments.hpp"
+#include "domains/state_records.hpp"
+#include "observe/observe.hpp"
 #include "output/quantity_text.hpp"
-#include "simulation/observe.hpp"
 #include "simulation/run.hpp"
 
 namespace breccia {
@@ -35,12 +36,12 @@ double rounded(double length) { return std::stod(fmt::format("{:.3g}", length));
 
 /// Points and contactors of this rank, proxies with them.
 double pairs_of(const Partition& partition) {
-  const ContactState& contact = partition.stepper().contact()->contact();
+  const ContactState& contact = partition.state().contact;
   return static_cast<double>(contact.points.size()) * static_cast<double>(contact.contactors.size());
 }
 
 std::int64_t couples_of(const Partition& partition) {
-  const ContactState& contact = partition.stepper().contact()->contact();
+  const ContactState& contact = partition.state().contact;
   const auto mine = [&](const ContactCouple& couple) {
     return partition.model().local.is_original(contact.points[static_cast<std::size_t>(couple.point)].slot);
   };
@@ -71,19 +72,19 @@ class Race {
     if (!(settings_.from < input_.stages.back().end)) throw starts_too_late();
     const auto started = Clock::now();
     Partition partition(input_, communicator_, std::move(whole));
-    if (partition.stepper().contact() == nullptr) throw nothing_touches();
+    if (!partition.domain().contact) throw nothing_touches();
     result_.elements = partition.whole().num_elements;
     StageDriver driver(input_, partition);
-    while (!driver.over() && partition.stepper().time() < settings_.from - 0.5 * partition.stepper().dt()) {
+    while (!driver.over() && partition.state().clock.time < settings_.from - 0.5 * partition.state().clock.dt) {
       driver.step(stop_requested);
-      if (partition.stepper().signals().stop) return false;
+      if (partition.state().signals.received.stop) return false;
       if (progress_.due())
         progress_.tell(
-            {"on the way to the start", partition.stepper().time() / settings_.from, seconds_since(started)});
+            {"on the way to the start", partition.state().clock.time / settings_.from, seconds_since(started)});
     }
     if (driver.over()) throw starts_too_late();
     choose_algorithms(communicator_.max(pairs_of(partition)));
-    result_.start = partition.stepper().time();
+    result_.start = partition.state().clock.time;
     until_look_ = driver.until_look();
     start_ = partition.snapshot();
     return true;
@@ -154,17 +155,18 @@ class Race {
     const auto enough = [&](const Partition& partition, std::int64_t steps) {
       if (settings_.steps > 0) return steps >= settings_.steps;
       if (settings_.time > 0)
-        return partition.stepper().time() >= result_.start + settings_.time - 0.5 * partition.stepper().dt();
-      if (steps >= kFewestSteps && partition.stepper().searches() - start_.accumulators.searches > kSearches)
+        return partition.state().clock.time >= result_.start + settings_.time - 0.5 * partition.state().clock.dt;
+      if (steps >= kFewestSteps &&
+          partition.state().counters.searches - start_.state.state.counters.searches > kSearches)
         return true;
       return steps % kStepsBetweenLooks == 0 && communicator_.max(seconds_since(started_)) > most;
     };
     started_ = Clock::now();
     const Racer own{input_.detection.algorithm, input_.detection.buffer, true};
     const bool finished = run_lap(own, enough, [&](const Partition& partition, const TimingSegments&) {
-      buffer = communicator_.max(partition.stepper().contact()->buffer());
-      result_.steps = partition.stepper().steps() - start_.accumulators.steps;
-      if (partition.stepper().searches() == start_.accumulators.searches) throw nothing_touches();
+      buffer = communicator_.max(partition.domain().contact->buffer());
+      result_.steps = partition.state().clock.steps - start_.state.state.clock.steps;
+      if (partition.state().counters.searches == start_.state.state.counters.searches) throw nothing_touches();
     });
     if (!finished) return false;
     choose_racers(input_.detection.buffer > 0 ? input_.detection.buffer : buffer);
@@ -204,11 +206,11 @@ class Race {
       driver.step(stop_requested);
       ++steps;
       pieces.step(partition);
-      if (partition.stepper().signals().stop) return false;
+      if (partition.state().signals.received.stop) return false;
       if (progress_.due()) tell_lap(racer, steps);
     }
-    partition.stepper().conclude();
-    if (partition.stepper().signals().stop) return false;
+    conclude(partition.domain());
+    if (partition.state().signals.received.stop) return false;
     pieces.agree(communicator_);
     finish(partition, pieces);
     return true;
@@ -216,13 +218,13 @@ class Race {
 
   void finish_lap(std::size_t turn, const Partition& partition, const TimingSegments& pieces) {
     ++laps_;
-    result_.end = partition.stepper().time();
-    check_state(entries_[turn].racer, hash_of(partition.stepper()).text());
+    result_.end = partition.state().clock.time;
+    check_state(entries_[turn].racer, hash_of(partition.domain()).text());
     if (result_.rounds > 0) return least_[turn].keep_least(pieces);
     Lap& least = entries_[turn].least;
-    least.searches = partition.stepper().searches() - start_.accumulators.searches;
+    least.searches = partition.state().counters.searches - start_.state.state.counters.searches;
     least.used = static_cast<double>(least.searches - 1) +
-                 partition.stepper().contact()->used_up(partition.stepper().state(), communicator_);
+                 partition.domain().contact->used_up(partition.state().nodes, communicator_);
     least.couples = couples_of(partition);
     least_.push_back(pieces);
   }

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "simulation/stage_steps.hpp"
+#include "simulation/step.hpp"
 
 namespace breccia {
 
@@ -26,7 +27,7 @@ class StageDriver {
   /// One step; a stage that ends with it is followed by the next one. Collective. @pre not over
   void step(bool stop) {
     steps_->look();
-    partition_.stepper().step(false, {.stop = stop});
+    breccia::step(partition_.domain(), {.signals = {.stop = stop}});
     partition_.keep_up();
     while (steps_->over() && !over()) steps_.emplace(input_, input_.stages[++stage_], partition_);
   }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "commands/race.hpp"
-#include "simulation/partition.hpp"
+#include "domains/partition.hpp"
 
 namespace breccia {
 
@@ -62,9 +62,9 @@ class TimingSegments {
     std::int64_t searches;
   };
   static Looked look(const Partition& partition) {
-    const PhaseTimer& timer = partition.stepper().timer();
+    const PhaseTimer& timer = partition.domain().timer;
     return {std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(),
-            timer.seconds(Phase::search), timer.seconds(Phase::contact), partition.stepper().searches()};
+            timer.seconds(Phase::search), timer.seconds(Phase::contact), partition.state().counters.searches};
   }
   void keep_least(const TimingSegments& other, std::size_t from, std::size_t to = kKinds) {
     for (std::size_t i = 0; i < pieces_.size(); ++i) {

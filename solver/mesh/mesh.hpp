@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -40,6 +41,12 @@ struct Mesh {
   [[nodiscard]] Index num_nodes() const { return static_cast<Index>(nodes.size()); }
   [[nodiscard]] GlobalId element_id(Index element) const {
     return element_ids.empty() ? element : element_ids[static_cast<std::size_t>(element)];
+  }
+  /// Index of the element with this id, -1: not here. O(log elements).
+  [[nodiscard]] Index element_with(GlobalId id) const {
+    if (element_ids.empty()) return id < num_elements() ? static_cast<Index>(id) : -1;
+    const auto found = std::lower_bound(element_ids.begin(), element_ids.end(), id);
+    return found != element_ids.end() && *found == id ? static_cast<Index>(found - element_ids.begin()) : -1;
   }
   [[nodiscard]] GlobalId node_id(Index node) const {
     return node_ids.empty() ? node : node_ids[static_cast<std::size_t>(node)];

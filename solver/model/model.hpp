@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "case/case.hpp"
+#include "discretisation/joint_links.hpp"
+#include "discretisation/local_mesh.hpp"
 #include "mesh/finish.hpp"
 #include "mesh/joints.hpp"
 #include "mesh/mesh.hpp"
@@ -13,8 +15,6 @@
 #include "physics/contact/contact_params.hpp"
 #include "physics/elasticity.hpp"
 #include "physics/joint_law.hpp"
-#include "state/joint_links.hpp"
-#include "state/local_mesh.hpp"
 
 namespace breccia {
 

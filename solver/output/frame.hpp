@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "state/energy_budget.hpp"
 
 namespace breccia {
 
@@ -76,17 +77,6 @@ struct Frame {
 /// Which parts of a frame are asked for; the others stay empty.
 struct FrameParts {
   bool elements = true, joints = true, contacts = true, surface = false, domain = false;
-};
-
-/// The budget at one instant, J.
-struct EnergyBudget {
-  double kinetic = 0, elastic = 0, joint_elastic = 0, contact_stored = 0;
-  double joint_mode_1 = 0, joint_mode_2 = 0, joint_friction = 0;
-  double contact_dissipated = 0, contact_friction = 0;
-  double viscous = 0, damping = 0;
-  double external_work = 0;  ///< of loads, gravity and constraints, incl. what was there at the start
-  double residual = 0;       ///< initial + external work - everything above: what nobody booked
-  double residual_relative = 0;
 };
 
 /// What a gauge reads: sums over the nodes of a group.

@@ -11,7 +11,8 @@
 namespace breccia {
 
 /// What goes to a neighbour and comes from it: places of the first of the three components of a node's vector in a
-/// nodal field; the components lie kHaloStride apart (state/blocks.hpp). Both sides list nodes in the same order.
+/// nodal field; the components lie kHaloStride apart (discretisation/blocks.hpp). Both sides list nodes in the same
+/// order.
 struct HaloNeighbour {
   int rank = 0;
   std::vector<std::size_t> send, receive;

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 
-#include "physics/joint_law.hpp"
+#include "base/types.hpp"
+#include "physics/joint_history.hpp"
 
 namespace breccia {
 
@@ -21,17 +21,12 @@ struct ActiveJoint {
   GlobalId id = 0;
   Index slot_a = 0, slot_b = 0;
   std::int8_t face_a = 0, code = 0;  ///< as in JointFace
-  JointState state = JointState::holding;
   Index law = 0;
-  double area = 0;  ///< m2, reference
-  std::array<JointPointHistory, 3> points;
-  double mode_1 = 0, mode_2 = 0, friction = 0;  ///< J dissipated so far
-  double time_of_failure = -1;                  ///< s, t_n of the step in which the state became failed; -1 before
-  bool elastic = false;  ///< without damage, and well within the elastic range at the last evaluation
-  // The last evaluation's moment of a closed joint that has slid, N, and normal; for its work.
-  bool turned = false;
-  Vec3 tilt{0, 0, 0}, normal{0, 0, 0};
+  JointHistory<double> history;
+  double time_of_failure = -1;  ///< s, t_n of the step in which the state became failed; -1 before
+  bool elastic = false;         ///< without damage, and well within the elastic range at the last evaluation
 
+  [[nodiscard]] JointState state() const { return history.failed > 0 ? JointState::failed : JointState::holding; }
   [[nodiscard]] double damage() const;   ///< largest of the points
   [[nodiscard]] double stored() const;   ///< J
   [[nodiscard]] double opening() const;  ///< m, mean normal opening

@@ -2,12 +2,8 @@
 
 #include <algorithm>
 
-#include "physics/joint_history.hpp"
-
 namespace breccia {
 namespace {
-
-namespace jp = joint_point;
 
 /// All are put in order again when as many have come or gone as a quarter of them, or so many of a short list.
 constexpr std::size_t kUntidy = 4, kFew = 64;
@@ -16,33 +12,21 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 std::size_t block_of(Index place) { return at(place / kLanes); }
 std::size_t lane_of(Index place) { return at(place % kLanes); }
 
-/// Calls f(number, row) for all numbers of a joint.
-template <class Numbers, class Block, class F>
-void for_each_row(Numbers& numbers, Block& block, F&& f) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    jp::for_each_number(numbers.points[i], block.points[i], f);
-    f(numbers.tilt[i], block.tilt[i]);
-    f(numbers.normal[i], block.normal[i]);
-  }
-  f(numbers.area, block.area);
-  f(numbers.mode_1, block.mode_1);
-  f(numbers.mode_2, block.mode_2);
-  f(numbers.friction, block.friction);
-  f(numbers.turned, block.turned);
-  f(numbers.failed, block.failed);
+/// Calls f(number of the joint, its row) for all that the joint remembers.
+template <class Joint, class Rows, class F>
+void for_each_row(Joint& joint, Rows& rows, F&& f) {
+  const auto pair = [&](const JointNumber&, auto& number, auto& row) { f(number, row); };
+  for (std::size_t i = 0; i < 3; ++i) for_each_number(pair, joint.points[i], rows.points[i]);
+  for_each_common_number(pair, joint, rows);
 }
 
 void set_joint(const ActiveJoint& joint, std::size_t lane, JointBlock& block) {
-  const jp::Joint<double> numbers = jp::joint_of(joint);
-  for_each_row(numbers, block, [&](double x, JointRow& row) { row[lane] = x; });
+  for_each_row(joint.history, block.history, [&](double x, JointRow& row) { row[lane] = x; });
   block.news[lane] = static_cast<std::uint8_t>(joint.elastic ? kElastic : 0);
 }
 
 void get_joint(const JointBlock& block, std::size_t lane, ActiveJoint& joint) {
-  jp::Joint<double> numbers;
-  for_each_row(numbers, block, [&](double& x, const JointRow& row) { x = row[lane]; });
-  jp::set_numbers(numbers, joint);
-  joint.state = numbers.failed > 0 ? JointState::failed : JointState::holding;
+  for_each_row(joint.history, block.history, [&](double& x, const JointRow& row) { x = row[lane]; });
   joint.elastic = (block.news[lane] & kElastic) != 0;
 }
 
@@ -87,8 +71,8 @@ void ActiveJoints::break_points(std::span<const GlobalId> ids) {
   for (const Index place : order_) {
     JointBlock& block = blocks_[block_of(place)];
     const std::size_t lane = lane_of(place);
-    if (block.failed[lane] > 0 || !std::binary_search(ids.begin(), ids.end(), identity(place).id)) continue;
-    for (JointPointRows& rows : block.points) rows.damage[lane] = 1.0;
+    if (block.history.failed[lane] > 0 || !std::binary_search(ids.begin(), ids.end(), identity(place).id)) continue;
+    for (JointPointHistory<JointRow>& point : block.history.points) point.damage[lane] = 1.0;
   }
 }
 

@@ -3,8 +3,8 @@
 #include <array>
 
 #include "base/types.hpp"
+#include "discretisation/local_mesh.hpp"
 #include "physics/elasticity.hpp"
-#include "state/local_mesh.hpp"
 
 namespace breccia {
 

@@ -6,7 +6,7 @@
 
 namespace breccia {
 
-Constraints::Constraints(const std::vector<NodalConstraint>& entries, const LocalMesh& mesh, const State& state) {
+Constraints::Constraints(const std::vector<NodalConstraint>& entries, const LocalMesh& mesh, const NodalState& state) {
   std::map<Index, std::array<std::size_t, 3>> ruler;  // 1 + entry that rules an axis of a node
   for (std::size_t e = 0; e < entries.size(); ++e) {
     entries_.push_back({entries[e].kind, entries[e].value, {}});
@@ -26,7 +26,7 @@ Constraints::Constraints(const std::vector<NodalConstraint>& entries, const Loca
   }
 }
 
-void Constraints::apply(const LocalMesh& mesh, State& state, double time, double dt_before, double dt) {
+void Constraints::apply(const LocalMesh& mesh, NodalState& state, double time, double dt_before, double dt) {
   for (Entry& entry : entries_) {
     const bool displacement = entry.kind == PrescribedMotion::displacement;
     const double when = displacement ? time + dt : time + 0.5 * dt;

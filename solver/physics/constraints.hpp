@@ -9,8 +9,8 @@
 #include "base/time_function.hpp"
 #include "base/types.hpp"
 #include "base/work_sum.hpp"
-#include "state/local_mesh.hpp"
-#include "state/state.hpp"
+#include "discretisation/local_mesh.hpp"
+#include "discretisation/nodal_state.hpp"
 
 namespace breccia {
 
@@ -36,14 +36,14 @@ class Constraints {
  public:
   Constraints() = default;
   /// @param state  position at the stage's start, where displacements count from; velocity of the step before it
-  Constraints(const std::vector<NodalConstraint>& entries, const LocalMesh& mesh, const State& state);
+  Constraints(const std::vector<NodalConstraint>& entries, const LocalMesh& mesh, const NodalState& state);
 
   /// Overwrites v(n+1/2): by the velocity asked for at t_(n+1/2), or by (u(t_(n+1)) - (x_n - x_start)) / dt, with which
   /// positions hold to round-off; and next_position by x_n + dt v. Keeps the reactions m (v - v_free) / dt and books
   /// their work over the step that ended at t_n.
   /// @param state      position at t_n, velocity and next_position as the sweep left them
   /// @param time       t_n;  @param dt_before  t_n - t_(n-1), 0 at the start;  @param dt  t_(n+1) - t_n, s
-  void apply(const LocalMesh& mesh, State& state, double time, double dt_before, double dt);
+  void apply(const LocalMesh& mesh, NodalState& state, double time, double dt_before, double dt);
 
   /// Books the work of the same reactions over the step that begins at t_n.
   void book_after(double dt);

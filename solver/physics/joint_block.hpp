@@ -1,23 +1,22 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "base/index.hpp"
-#include "state/blocks.hpp"
+#include "discretisation/blocks.hpp"
+#include "physics/joint_history.hpp"
 
 namespace breccia {
 
 /// A number of each of eight joints: one cache line.
-using JointRow = double[kLanes];
+struct JointRow {
+  double lane[kLanes];
 
-/// JointPointHistory of one point of each of eight joints.
-struct JointPointRows {
-  JointRow damage, level, left;
-  JointRow memory;  ///< joint_point::kFresh .. kGone
-  JointRow opening[3], traction[3];
-  JointRow normal_opening, normal_traction, stored_normal, stored_shear;
-  JointRow slip[2], friction_weight, friction_traction[2], stored_friction;  ///< with friction only
-  JointRow secant_normal, secant_shear;                                      ///< independent_peaks only
+  JointRow(double all = 0.0) { std::fill(lane, lane + kLanes, all); }
+  [[nodiscard]] double& operator[](std::size_t l) { return lane[l]; }
+  [[nodiscard]] const double& operator[](std::size_t l) const { return lane[l]; }
 };
 
 /// What the last evaluation said of a joint, beside forces.
@@ -32,10 +31,7 @@ enum JointNews : std::uint8_t {
 /// empty place holds is computed along and forgotten.
 struct alignas(64) JointBlock {
   Index node[6][kLanes];  ///< corners of the face of a, then the matching ones of b
-  JointRow area, mode_1, mode_2, friction;
-  JointRow tilt[3], normal[3], turned;
-  JointRow failed;  ///< 0 or 1
-  JointPointRows points[3];
+  JointHistory<JointRow> history;
   // Of the last evaluation.
   JointRow force[3][3], turning[3][3];  ///< N: force + turning on the corners of a, turning - force on those of b
   std::uint8_t news[kLanes];            ///< JointNews

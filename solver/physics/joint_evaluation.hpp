@@ -24,15 +24,8 @@ struct Kinematics {
   T doubled_area;
 };
 
-/// ActiveJoint, but for its identity.
 template <class T>
-struct Joint {
-  Point<T> points[3];
-  T area, mode_1, mode_2, friction;
-  Vector<T> tilt, normal;
-  T turned;  // 0 or 1
-  T failed;  // 0 or 1
-};
+using Joint = JointHistory<T>;
 
 /// Forces of a joint on its corners, N: force + turning on those of a, turning - force on those of b.
 template <class T>
@@ -98,7 +91,7 @@ template <class T>
 
 /// Enough points have given way for the joint to fail.
 template <class T>
-[[nodiscard]] inline Mask<T> gone(const JointLawParams& law, const Joint<T>& joint) {
+[[nodiscard]] inline Mask<T> enough_points_broken(const JointLawParams& law, const Joint<T>& joint) {
   T full = 0.0;
   for (const Point<T>& p : joint.points) full += select(p.damage >= 1.0, T(1.0), T(0.0));
   return full >= static_cast<double>(law.points_to_fail);
@@ -107,28 +100,28 @@ template <class T>
 template <class T>
 [[nodiscard]] inline Point<T> select_point(const Mask<T>& mask, const Point<T>& a, const Point<T>& b) {
   Point<T> p = b;
-  const auto take = [&](T& x, const T& y) { x = select(mask, y, x); };
-  for_each_number(p, a, take);
+  const auto take = [&](const JointNumber&, T& x, const T& y) { x = select(mask, y, x); };
+  for_each_number(take, p, a);
   return p;
 }
 
 /// If enough points give way for the joint to fail, the others give way with them, at once. @param before  of this
 /// evaluation
 template <class T>
-inline void drag_along(const JointLawParams& law, const Kinematics<T>& k, const Point<T>* before, Joint<T>& joint,
-                       Response<T>* response) {
-  const Mask<T> failing = gone(law, joint) && joint.failed == 0.0;
+inline void break_others(const JointLawParams& law, const Kinematics<T>& k, const Point<T>* before, Joint<T>& joint,
+                         Response<T>* response) {
+  const Mask<T> failing = enough_points_broken(law, joint) && joint.failed == 0.0;
   if (!any(failing)) return;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Mask<T> dragged = failing && joint.points[i].damage < 1.0;
-    if (!any(dragged)) continue;
+    const Mask<T> breaks = failing && joint.points[i].damage < 1.0;
+    if (!any(breaks)) continue;
     Point<T> anew = before[i];
     anew.damage = 1.0;
     const Response<T> r = evaluate(law, k.frame, point_opening(law, k.opening, i), anew);
-    joint.points[i] = select_point(dragged, anew, joint.points[i]);
-    response[i] = {select3<T>(dragged, r.traction, response[i].traction), select(dragged, r.mode_1, response[i].mode_1),
-                   select(dragged, r.mode_2, response[i].mode_2), select(dragged, r.friction, response[i].friction),
-                   response[i].elastic && !dragged};
+    joint.points[i] = select_point(breaks, anew, joint.points[i]);
+    response[i] = {select3<T>(breaks, r.traction, response[i].traction), select(breaks, r.mode_1, response[i].mode_1),
+                   select(breaks, r.mode_2, response[i].mode_2), select(breaks, r.friction, response[i].friction),
+                   response[i].elastic && !breaks};
   }
 }
 
@@ -140,7 +133,7 @@ template <class T>
     const Point<T> before[3] = {joint.points[0], joint.points[1], joint.points[2]};
     for (std::size_t i = 0; i < 3; ++i)
       response[i] = evaluate(law, k.frame, point_opening(law, k.opening, i), joint.points[i]);
-    drag_along(law, k, before, joint, response);
+    break_others(law, k, before, joint, response);
   } else {
     for (std::size_t i = 0; i < 3; ++i)
       response[i] = evaluate(law, k.frame, point_opening(law, k.opening, i), joint.points[i]);
@@ -168,7 +161,7 @@ template <class T>
 
 /// Share of a point's stiffness that is lost: there the normal traction under pressure depends on the normal alone.
 template <class T>
-[[nodiscard]] inline T loose_share(const JointLawParams& law, const Point<T>& p) {
+[[nodiscard]] inline T lost_share(const JointLawParams& law, const Point<T>& p) {
   switch (law.law) {
     case JointLaw::mixed_mode:
       return p.damage;
@@ -185,7 +178,7 @@ template <class T>
   const T zero = 0.0;
   Vector<T> tilt{zero, zero, zero};
   for (const Point<T>& p : joint.points) {
-    const T share = loose_share(law, p);
+    const T share = lost_share(law, p);
     const Mask<T> tilts = share > zero && p.normal_opening < zero;
     if (!any(tilts)) continue;
     const Vector<T> shear = minus(p.opening, times(p.normal_opening, k.frame.normal));

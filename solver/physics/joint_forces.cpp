@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 #include "mesh/tetrahedron.hpp"
-#include "physics/joint_history.hpp"
+#include "physics/joint_evaluation.hpp"
 
 namespace breccia {
 
@@ -45,10 +45,14 @@ Index corner_b(const LocalMesh& mesh, const Who& who, std::size_t i) {
 }
 
 jp::Sides<double> sides_of(const LocalMesh& mesh, const double* position, const ActiveJoint& joint) {
+  const auto place = [&](Index node) {
+    const Vec3 x = load_node(position, node);
+    return jp::Vector<double>{x[0], x[1], x[2]};
+  };
   jp::Sides<double> sides;
   for (std::size_t i = 0; i < 3; ++i) {
-    sides.a[i] = jp::vector_of(load_node(position, corner_a(mesh, joint, i)));
-    sides.b[i] = jp::vector_of(load_node(position, corner_b(mesh, joint, i)));
+    sides.a[i] = place(corner_a(mesh, joint, i));
+    sides.b[i] = place(corner_b(mesh, joint, i));
   }
   return sides;
 }
@@ -56,46 +60,50 @@ jp::Sides<double> sides_of(const LocalMesh& mesh, const double* position, const 
 /// Evaluates the joint beyond its elastic range, whatever its opening.
 jp::Forces<double> evaluate(const JointLawParams& law, const LocalMesh& mesh, const double* position,
                             ActiveJoint& joint) {
-  jp::Joint<double> numbers = jp::joint_of(joint);
   const jp::Kinematics<double> k = jp::kinematics(law, sides_of(mesh, position, joint));
   jp::Forces<double> forces;
-  forces.force = jp::evaluate_points(law, k, numbers);
-  forces.turning = jp::tilting_forces(law, k, true, numbers);
-  jp::set_numbers(numbers, joint);
+  forces.force = jp::evaluate_points(law, k, joint.history);
+  forces.turning = jp::tilting_forces(law, k, true, joint.history);
   return forces;
 }
 
 }  // namespace
 
-double ActiveJoint::damage() const { return std::max({points[0].damage, points[1].damage, points[2].damage}); }
+double ActiveJoint::damage() const {
+  const auto& p = history.points;
+  return std::max({p[0].damage, p[1].damage, p[2].damage});
+}
 
 double ActiveJoint::opening() const {
-  return (points[0].normal_opening + points[1].normal_opening + points[2].normal_opening) / 3.0;
+  const auto& p = history.points;
+  return (p[0].normal_opening + p[1].normal_opening + p[2].normal_opening) / 3.0;
 }
 
 double ActiveJoint::slip() const {
-  return (points[0].shear_opening() + points[1].shear_opening() + points[2].shear_opening()) / 3.0;
+  const auto& p = history.points;
+  return (shear_opening(p[0]) + shear_opening(p[1]) + shear_opening(p[2])) / 3.0;
 }
 
 FailureMode ActiveJoint::mode() const {
-  const double whole = mode_1 + mode_2;
+  const double whole = history.mode_1 + history.mode_2;
   if (damage() <= 0 || whole <= 0) return FailureMode::none;
-  if (mode_1 > 0.75 * whole) return FailureMode::mode_1;
-  if (mode_2 > 0.75 * whole) return FailureMode::mode_2;
+  if (history.mode_1 > 0.75 * whole) return FailureMode::mode_1;
+  if (history.mode_2 > 0.75 * whole) return FailureMode::mode_2;
   return FailureMode::mixed;
 }
 
 double ActiveJoint::stored() const {
-  return area / 3.0 * (points[0].stored() + points[1].stored() + points[2].stored());
+  const auto& p = history.points;
+  return history.area / 3.0 * (p[0].stored() + p[1].stored() + p[2].stored());
 }
 
 JointEnergy joint_energy(const LocalMesh& mesh, const ActiveJoints& joints, const JointWork& work) {
   JointEnergy energy{work.mode_1, work.mode_2, work.friction, {}};
   for (const ActiveJoint& joint : joints) {
     if (!mesh.is_original(joint.slot_a)) continue;
-    energy.mode_1.add(joint.mode_1);
-    energy.mode_2.add(joint.mode_2);
-    energy.friction.add(joint.friction);
+    energy.mode_1.add(joint.history.mode_1);
+    energy.mode_2.add(joint.history.mode_2);
+    energy.friction.add(joint.history.friction);
     energy.stored.add(joint.stored());
   }
   return energy;
@@ -171,9 +179,9 @@ void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& 
     const ActiveJoint joint = joints[i];
     work.released.push_back({joint.id, joint.slot_a, joint.face_a, joint.mode(), joint.time_of_failure});
     if (!mesh.is_original(joint.slot_a)) continue;
-    work.mode_1.add(joint.mode_1);
-    work.mode_2.add(joint.mode_2);
-    work.friction.add(joint.friction);
+    work.mode_1.add(joint.history.mode_1);
+    work.mode_2.add(joint.history.mode_2);
+    work.friction.add(joint.history.friction);
   }
   joints.erase(released);
 }

@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "base/exact_sum.hpp"
+#include "discretisation/local_mesh.hpp"
+#include "discretisation/nodal_forces.hpp"
 #include "physics/active_joints.hpp"
 #include "physics/joint_law.hpp"
 #include "physics/sweep.hpp"
-#include "state/local_mesh.hpp"
-#include "state/nodal_forces.hpp"
 
 namespace breccia {
 

@@ -18,7 +18,7 @@ constexpr std::size_t kWidth = Real::size();
 static_assert(kLanes % kWidth == 0);
 
 /// Of the square of the elastic range: half the opening.
-constexpr double kCalmShare = 0.25;
+constexpr double kElasticShare = 0.25;
 
 inline Real load(const double* p) { return Real(p, stdx::element_aligned); }
 inline void store(const Real& value, double* p) { value.copy_to(p, stdx::element_aligned); }
@@ -34,49 +34,45 @@ inline jp::Sides<Real> gather(const double* position, const JointBlock& block, s
   return sides;
 }
 
+inline bool wanted(const JointLawParams& law, const JointNumber& number) {
+  switch (number.use) {
+    case JointNumberUse::all:
+      return true;
+    case JointNumberUse::friction:
+      return law.friction > 0;
+    case JointNumberUse::peaks:
+      return has_secants(law.law);
+  }
+  __builtin_unreachable();
+}
+
 inline void load_points(const JointLawParams& law, const JointBlock& block, std::size_t lane, jp::Joint<Real>& joint) {
-  const bool slides = law.friction > 0, peaks = has_secants(law.law);
   for (std::size_t i = 0; i < 3; ++i) {
-    jp::Point<Real>& p = joint.points[i];
-    p.slip[0] = p.slip[1] = p.friction_weight = p.friction_traction[0] = p.friction_traction[1] = p.stored_friction =
-        0.0;
-    p.secant_normal = p.secant_shear = 1.0;
-    jp::for_each_number(
-        p, block.points[i], [&](Real& x, const JointRow& row) { x = load(row + lane); }, slides, peaks);
+    joint.points[i] = {};
+    const auto load_number = [&](const JointNumber& number, Real& x, const JointRow& row) {
+      if (wanted(law, number)) x = load(&row[lane]);
+    };
+    for_each_number(load_number, joint.points[i], block.history.points[i]);
   }
 }
 
 inline void store_points(const JointLawParams& law, const jp::Joint<Real>& joint, std::size_t lane, JointBlock& block) {
-  const bool slides = law.friction > 0, peaks = has_secants(law.law);
   for (std::size_t i = 0; i < 3; ++i) {
-    jp::for_each_number(
-        joint.points[i], block.points[i], [&](const Real& x, JointRow& row) { store(x, row + lane); }, slides, peaks);
+    const auto store_number = [&](const JointNumber& number, const Real& x, JointRow& row) {
+      if (wanted(law, number)) store(x, &row[lane]);
+    };
+    for_each_number(store_number, joint.points[i], block.history.points[i]);
   }
 }
 
-inline void load_sums(const JointBlock& block, std::size_t lane, jp::Joint<Real>& joint) {
-  joint.area = load(block.area + lane);
-  joint.mode_1 = load(block.mode_1 + lane);
-  joint.mode_2 = load(block.mode_2 + lane);
-  joint.friction = load(block.friction + lane);
-  for (std::size_t i = 0; i < 3; ++i) {
-    joint.tilt[i] = load(block.tilt[i] + lane);
-    joint.normal[i] = load(block.normal[i] + lane);
-  }
-  joint.turned = load(block.turned + lane);
-  joint.failed = load(block.failed + lane);
+inline void load_common(const JointBlock& block, std::size_t lane, jp::Joint<Real>& joint) {
+  for_each_common_number([&](const JointNumber&, Real& x, const JointRow& row) { x = load(&row[lane]); }, joint,
+                         block.history);
 }
 
-inline void store_sums(const jp::Joint<Real>& joint, std::size_t lane, JointBlock& block) {
-  store(joint.mode_1, block.mode_1 + lane);
-  store(joint.mode_2, block.mode_2 + lane);
-  store(joint.friction, block.friction + lane);
-  for (std::size_t i = 0; i < 3; ++i) {
-    store(joint.tilt[i], block.tilt[i] + lane);
-    store(joint.normal[i], block.normal[i] + lane);
-  }
-  store(joint.turned, block.turned + lane);
-  store(joint.failed, block.failed + lane);
+inline void store_common(const jp::Joint<Real>& joint, std::size_t lane, JointBlock& block) {
+  for_each_common_number([&](const JointNumber&, const Real& x, JointRow& row) { store(x, &row[lane]); }, joint,
+                         block.history);
 }
 
 inline void note(const Lanes& lanes, JointNews news, std::size_t lane, JointBlock& block) {
@@ -91,27 +87,27 @@ inline Lanes elastic_lanes(const JointLawParams& law, const jp::Sides<Real>& sid
                            JointBlock& block) {
   if (!(law.screen > 0)) return Lanes(false);
   Lanes elastic(true);
-  for (const JointPointRows& p : block.points) elastic = elastic && load(p.damage + lane) <= 0.0;
+  for (const JointPointHistory<JointRow>& p : block.history.points) elastic = elastic && load(&p.damage[lane]) <= 0.0;
   if (stdx::none_of(elastic)) return elastic;
   const Real largest = jp::largest_opening_squared(sides);
   elastic = elastic && largest <= law.screen;
-  note(elastic && largest <= kCalmShare * law.screen, kElastic, lane, block);
+  note(elastic && largest <= kElasticShare * law.screen, kElastic, lane, block);
   return elastic;
 }
 
 inline void store_forces(const jp::Triple<Real>& force, JointRow (&rows)[3][3], std::size_t lane) {
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) store(force[i][axis], rows[i][axis] + lane);
+    for (std::size_t axis = 0; axis < 3; ++axis) store(force[i][axis], &rows[i][axis][lane]);
   }
 }
 
 /// W joints beyond their elastic range, but for those lanes that are `elastic`.
 inline void act_beyond(const JointLawParams& law, const jp::Sides<Real>& sides, const Lanes& elastic, std::size_t lane,
                        jp::Joint<Real>& joint, JointBlock& block) {
-  load_sums(block, lane, joint);
+  load_common(block, lane, joint);
   const jp::Kinematics<Real> k = jp::kinematics(law, sides);
   store_forces(jp::evaluate_points(law, k, joint), block.force, lane);
-  const Lanes failing = jp::gone(law, joint) && joint.failed == 0.0;
+  const Lanes failing = jp::enough_points_broken(law, joint) && joint.failed == 0.0;
   joint.failed = jp::select(failing, Real(1.0), joint.failed);
   note(failing, kFailing, lane, block);
   // Open and broken everywhere: no force, and nothing stored, friction springs included.
@@ -119,7 +115,7 @@ inline void act_beyond(const JointLawParams& law, const jp::Sides<Real>& sides, 
   note(released, kReleased, lane, block);
   const Lanes stays = !elastic && !released;
   const jp::Triple<Real> turning = jp::tilting_forces(law, k, stays, joint);
-  store_sums(joint, lane, block);
+  store_common(joint, lane, block);
   const Lanes turns = stays && (joint.tilt[0] != 0.0 || joint.tilt[1] != 0.0 || joint.tilt[2] != 0.0);
   if (stdx::none_of(turns)) return;
   note(turns, kTurning, lane, block);
@@ -128,14 +124,16 @@ inline void act_beyond(const JointLawParams& law, const jp::Sides<Real>& sides, 
 
 /// W joints that are all elastic: no more is touched than such joints remember.
 inline void act_elastic(const JointLawParams& law, const jp::Sides<Real>& sides, std::size_t lane, JointBlock& block) {
-  const Real stiffness = law.stiffness * load(block.area + lane) / 3.0;
+  const Real stiffness = law.stiffness * load(&block.history.area[lane]) / 3.0;
   jp::Triple<Real> force;
   for (std::size_t i = 0; i < 3; ++i) {
     const jp::Vector<Real> opening = jp::minus(sides.b[i], sides.a[i]);
     jp::Point<Real> p;
     jp::set_elastic(law, opening, p);
-    JointPointRows& rows = block.points[i];
-    jp::for_each_elastic_number(p, rows, [&](const Real& x, JointRow& row) { store(x, row + lane); });
+    const auto store_elastic = [&](const JointNumber& number, const Real& x, JointRow& row) {
+      if (number.of_elastic) store(x, &row[lane]);
+    };
+    for_each_number(store_elastic, p, block.history.points[i]);
     force[i] = jp::times(stiffness, opening);
   }
   store_forces(force, block.force, lane);

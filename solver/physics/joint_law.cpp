@@ -5,7 +5,7 @@
 #include <limits>
 #include <sstream>
 
-#include "physics/joint_history.hpp"
+#include "physics/joint_point.hpp"
 
 namespace breccia {
 namespace {
@@ -71,8 +71,9 @@ void check_energy(const JointLawParams& law, const char* mode, double energy, do
 
 bool JointLawParams::breakable() const { return std::isfinite(tensile_strength) || std::isfinite(cohesion); }
 
-double JointPointHistory::shear_opening() const {
-  return std::sqrt(std::max(opening.squaredNorm() - normal_opening * normal_opening, 0.0));
+double shear_opening(const JointPointHistory<double>& point) {
+  const double square = joint_point::dot(point.opening, point.opening);
+  return std::sqrt(std::max(square - point.normal_opening * point.normal_opening, 0.0));
 }
 
 std::string prepare(JointLawParams& law) {
@@ -104,14 +105,12 @@ std::string prepare(JointLawParams& law) {
 }
 
 JointPointResponse evaluate_point(const JointLawParams& law, const JointFrame& frame, const Vec3& opening,
-                                  JointPointHistory& history) {
+                                  JointPointHistory<double>& history) {
   namespace jp = joint_point;
-  const jp::Frame<double> axes{jp::vector_of(frame.normal),
-                               {jp::vector_of(frame.tangent[0]), jp::vector_of(frame.tangent[1])}};
-  jp::Point<double> point = jp::point_of(history);
-  const jp::Response<double> r = jp::evaluate(law, axes, jp::vector_of(opening), point);
-  history = jp::history_of(point);
-  return {jp::vector_of(r.traction), r.mode_1, r.mode_2, r.friction, r.elastic};
+  const auto vector_of = [](const Vec3& v) { return jp::Vector<double>{v[0], v[1], v[2]}; };
+  const jp::Frame<double> axes{vector_of(frame.normal), {vector_of(frame.tangent[0]), vector_of(frame.tangent[1])}};
+  const jp::Response<double> r = jp::evaluate(law, axes, vector_of(opening), history);
+  return {Vec3(r.traction[0], r.traction[1], r.traction[2]), r.mode_1, r.mode_2, r.friction, r.elastic};
 }
 
 }  // namespace breccia

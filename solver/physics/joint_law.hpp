@@ -3,6 +3,7 @@
 #include <array>
 
 #include "base/types.hpp"
+#include "physics/joint_history.hpp"
 #include "physics/joint_law_params.hpp"
 
 namespace breccia {
@@ -14,29 +15,8 @@ struct JointFrame {
   std::array<Vec3, 2> tangent{Vec3::Zero(), Vec3::Zero()};  ///< read only where law.friction > 0
 };
 
-/// What a point of a joint remembers.
-struct JointPointHistory {
-  double damage = 0;         ///< mixed_mode: d; independent_peaks: D. Set to 1 from outside it breaks the point by hand
-  double level = 0;          ///< D at which the damage grew last
-  double left = 1;           ///< z there
-  double secant_normal = 1;  ///< s_n, s_s (independent_peaks)
-  double secant_shear = 1;
-  Vec3 slip{0, 0, 0};  ///< m, s along the two tangents; the third component is unused
-  // The last evaluation, for the work of the next step.
-  bool fresh = true;   ///< never evaluated
-  bool whole = false;  ///< evaluated without the normal: parts along it are missing, stored_normal holds all energy
-  bool gone = false;   ///< nothing was left of the cohesion
-  double friction_weight = 0;
-  std::array<double, 2> friction_traction{0, 0};                    ///< Pa, weighted, along the tangents
-  Vec3 opening{0, 0, 0};                                            ///< m
-  Vec3 traction{0, 0, 0};                                           ///< Pa
-  double normal_opening = 0, normal_traction = 0;                   ///< m, Pa
-  double stored_normal = 0, stored_shear = 0, stored_friction = 0;  ///< J/m2
-
-  [[nodiscard]] double stored() const { return stored_normal + stored_shear + stored_friction; }
-  /// Length of the shear opening, m.
-  [[nodiscard]] double shear_opening() const;
-};
+/// Length of the shear opening at the last evaluation, m.
+[[nodiscard]] double shear_opening(const JointPointHistory<double>& point);
 
 /// One evaluation of a point.
 struct JointPointResponse {
@@ -60,6 +40,6 @@ struct JointPointResponse {
 ///
 /// @param frame  unit vectors.  No allocation, throws nothing. exp only where damage may grow.
 [[nodiscard]] JointPointResponse evaluate_point(const JointLawParams& law, const JointFrame& frame, const Vec3& opening,
-                                                JointPointHistory& history);
+                                                JointPointHistory<double>& history);
 
 }  // namespace breccia

@@ -14,6 +14,7 @@
 #include <type_traits>
 
 #include "physics/elasticity.hpp"
+#include "physics/joint_history.hpp"
 #include "physics/joint_law_params.hpp"
 
 namespace breccia::joint_point {
@@ -91,48 +92,8 @@ struct Frame {
   Vector<T> tangent[2];
 };
 
-/// What a point remembers of its last evaluation, as a number, in ascending order of its life: nothing; an elastic
-/// opening without its parts along the normal; all; all, and that nothing was left of the cohesion.
-inline constexpr double kFresh = 0, kWhole = 1, kSplit = 2, kGone = 3;
-
-/// JointPointHistory.
 template <class T>
-struct Point {
-  T damage, level, left, secant_normal, secant_shear;
-  T memory;
-  T slip[2];
-  T friction_weight;
-  T friction_traction[2];
-  Vector<T> opening, traction;
-  T normal_opening, normal_traction;
-  T stored_normal, stored_shear, stored_friction;
-};
-
-/// Calls f(number of p, its counterpart in q) for all that a point remembers. q: a point too, or its rows in a block.
-/// @param slides, peaks  false: leaves out what only friction, only independent peaks need
-template <class P, class Q, class F>
-inline void for_each_number(P& p, Q& q, F&& f, bool slides = true, bool peaks = true) {
-  f(p.damage, q.damage);
-  f(p.level, q.level);
-  f(p.left, q.left);
-  f(p.memory, q.memory);
-  for (std::size_t i = 0; i < 3; ++i) f(p.opening[i], q.opening[i]);
-  for (std::size_t i = 0; i < 3; ++i) f(p.traction[i], q.traction[i]);
-  f(p.normal_opening, q.normal_opening);
-  f(p.normal_traction, q.normal_traction);
-  f(p.stored_normal, q.stored_normal);
-  f(p.stored_shear, q.stored_shear);
-  if (slides) {
-    for (std::size_t i = 0; i < 2; ++i) f(p.slip[i], q.slip[i]);
-    f(p.friction_weight, q.friction_weight);
-    for (std::size_t i = 0; i < 2; ++i) f(p.friction_traction[i], q.friction_traction[i]);
-    f(p.stored_friction, q.stored_friction);
-  }
-  if (peaks) {
-    f(p.secant_normal, q.secant_normal);
-    f(p.secant_shear, q.secant_shear);
-  }
-}
+using Point = JointPointHistory<T>;
 
 /// JointPointResponse.
 template <class T>
@@ -199,18 +160,18 @@ template <class T>
   const T level =
       (r - 1.0) / r2 * (normal2 * law.onset_normal / law.width_normal + shear2 * onset_shear / law.width_shear);
   const Mask<T> full = growing && level >= one;
-  // z falls with the level, so below the last one 1 - left/reach bounds the trial from above: no exp on unloading.
-  const Mask<T> trying = growing && !full && !(level <= h.level && 1.0 - h.left / reach <= h.damage);
+  // z falls with the level, so below the last one 1 - z/reach bounds the trial from above: no exp on unloading.
+  const Mask<T> trying = growing && !full && !(level <= h.level && 1.0 - h.strength_share / reach <= h.damage);
   if (any(trying)) {
     const T z = softened(law.curve, level, trying), trial = 1.0 - z / reach;
     const Mask<T> grown = trying && trial > h.damage;
     h.damage = select(grown, trial, h.damage);
     h.level = select(grown, level, h.level);
-    h.left = select(grown, z, h.left);
+    h.strength_share = select(grown, z, h.strength_share);
   }
   h.damage = select(full, one, h.damage);
   h.level = select(full, one, h.level);
-  h.left = select(full, T(0.0), h.left);
+  h.strength_share = select(full, T(0.0), h.strength_share);
   return end_of_elastic;
 }
 
@@ -236,7 +197,7 @@ template <class T>
   const Mask<T> grown = may && level > h.damage;
   if (any(grown)) {
     const T capped = lesser(level, one);
-    h.left = select(grown, softened(law.curve, capped, grown && capped < one), h.left);
+    h.strength_share = select(grown, softened(law.curve, capped, grown && capped < one), h.strength_share);
     h.damage = select(grown, capped, h.damage);
     h.level = select(grown, capped, h.level);
   }
@@ -255,38 +216,38 @@ template <class T>
   __builtin_unreachable();
 }
 
-/// What is left of the stiffness k of each component.
+/// Share of the stiffness k that remains to each component.
 template <class T>
-struct Left {
+struct Remaining {
   T z;  // factor of both
   T secant_normal, secant_shear;
   [[nodiscard]] T shear() const { return z * secant_shear; }
 };
 
 template <class T>
-[[nodiscard]] inline Left<T> left_of(const JointLawParams& law, const Point<T>& h) {
-  T left = h.left;
+[[nodiscard]] inline Remaining<T> remaining_of(const JointLawParams& law, const Point<T>& h) {
+  T z = h.strength_share;
   switch (law.law) {
     case JointLaw::mixed_mode:
-      left = 1.0 - h.damage;
+      z = 1.0 - h.damage;
       break;
     case JointLaw::independent_peaks:
       break;
   }
-  return {select(h.damage >= 1.0, T(0.0), left), h.secant_normal, h.secant_shear};
+  return {select(h.damage >= 1.0, T(0.0), z), h.secant_normal, h.secant_shear};
 }
 
 /// One component: traction over opening, Pa/m, and energy held, J/m2.
 template <class T>
-struct Held {
+struct ComponentState {
   T stiffness, stored;
 };
 
 template <class T>
-[[nodiscard]] inline Held<T> held_by(const JointLawParams& law, double onset, const T& z, const T& secant,
-                                     const T& opening2) {
+[[nodiscard]] inline ComponentState<T> component_state(const JointLawParams& law, double onset, const T& z,
+                                                       const T& secant, const T& opening2) {
   const T stiffness = z * secant * law.stiffness;
-  const Held<T> linear{stiffness, 0.5 * stiffness * opening2};
+  const ComponentState<T> linear{stiffness, 0.5 * stiffness * opening2};
   if (rises_linearly(law.rise)) return linear;
   // f (2x - x^2), x = opening/onset, onset = 2f/k: before the peak of this component.
   const Mask<T> rising = secant == 1.0;
@@ -297,7 +258,7 @@ template <class T>
 
 /// State of a point after its damage is known.
 template <class T>
-struct Answer {
+struct PointState {
   T normal;           // sigma
   T shear_stiffness;  // tau = shear_stiffness delta_s + friction
   T friction[2];      // along the tangents
@@ -305,10 +266,12 @@ struct Answer {
 };
 
 template <class T>
-[[nodiscard]] inline Answer<T> answer_of(const JointLawParams& law, const Components<T>& c, const Left<T>& left) {
+[[nodiscard]] inline PointState<T> state_of(const JointLawParams& law, const Components<T>& c,
+                                            const Remaining<T>& remaining) {
   const T zero = 0.0;
-  const Held<T> open = held_by(law, law.onset_normal, left.z, left.secant_normal, T(c.normal * c.normal));
-  const Held<T> s = held_by(law, law.onset_shear, left.z, left.secant_shear, c.shear2);
+  const ComponentState<T> open =
+      component_state(law, law.onset_normal, remaining.z, remaining.secant_normal, T(c.normal * c.normal));
+  const ComponentState<T> s = component_state(law, law.onset_shear, remaining.z, remaining.secant_shear, c.shear2);
   const Mask<T> is_open = c.normal > zero;
   const T normal = select(is_open, open.stiffness, T(law.stiffness)) * c.normal;
   const T stored = select(is_open, open.stored, T(0.5 * law.stiffness * c.normal * c.normal));
@@ -318,15 +281,15 @@ template <class T>
 /// sigma n + tau without friction.
 template <class T>
 [[nodiscard]] inline Vector<T> cohesive_traction(const Frame<T>& frame, const Components<T>& c,
-                                                 const Answer<T>& answer) {
-  return plus(times(answer.normal, frame.normal), times(answer.shear_stiffness, c.shear_vector));
+                                                 const PointState<T>& now) {
+  return plus(times(now.normal, frame.normal), times(now.shear_stiffness, c.shear_vector));
 }
 
 /// Friction of the damaged share: moves the slip so that the spring stays within Coulomb's limit. Returns what friction
 /// of the last state and this one, in the mean, dissipates on this slip.
 template <class T>
 [[nodiscard]] inline T slide(const JointLawParams& law, const Frame<T>& frame, const Components<T>& c, const T& weight,
-                             const Mask<T>& on, Point<T>& h, Answer<T>& answer) {
+                             const Mask<T>& on, Point<T>& h, PointState<T>& now) {
   const T zero = 0.0;
   const T limit = law.friction * c.pressure / law.stiffness;
   T spring[2], moved[2];
@@ -341,10 +304,10 @@ template <class T>
   }
   T dissipated = zero;
   for (std::size_t i = 0; i < 2; ++i) {
-    answer.friction[i] = select(on, T(weight * law.stiffness * spring[i]), zero);
-    dissipated += 0.5 * (h.friction_traction[i] + answer.friction[i]) * moved[i];
+    now.friction[i] = select(on, T(weight * law.stiffness * spring[i]), zero);
+    dissipated += 0.5 * (h.friction_traction[i] + now.friction[i]) * moved[i];
   }
-  answer.stored_friction =
+  now.stored_friction =
       select(on, T(0.5 * weight * law.stiffness * (spring[0] * spring[0] + spring[1] * spring[1])), zero);
   // The slip that the first damage finds was not slid: nothing weighed on it.
   return select(on && h.friction_weight > 0.0, dissipated, zero);
@@ -357,17 +320,17 @@ template <class T>
 inline void complete_memory(const JointLawParams& law, const Frame<T>& frame, const Vector<T>& opening, const T& share,
                             const Mask<T>& wanted, Point<T>& h) {
   const T zero = 0.0, one = 1.0;
-  const Mask<T> fresh = wanted && h.memory == kFresh, missing = wanted && h.memory < kSplit;
+  const Mask<T> fresh = wanted && h.memory == kFresh, missing = wanted && h.memory < kDivided;
   if (!any(missing)) return;
   h.opening = select3<T>(fresh, times(share, opening), h.opening);
   const Components<T> c = split(law, frame, h.opening);
-  const Answer<T> answer = answer_of(law, c, Left<T>{one, one, one});
-  h.traction = select3<T>(fresh, cohesive_traction(frame, c, answer), h.traction);
+  const PointState<T> now = state_of(law, c, Remaining<T>{one, one, one});
+  h.traction = select3<T>(fresh, cohesive_traction(frame, c, now), h.traction);
   h.normal_opening = select(missing, c.normal, h.normal_opening);
-  h.normal_traction = select(missing, answer.normal, h.normal_traction);
+  h.normal_traction = select(missing, now.normal, h.normal_traction);
   for (T& traction : h.friction_traction) traction = select(missing, zero, traction);
-  h.stored_normal = select(missing, answer.stored_normal, h.stored_normal);
-  h.stored_shear = select(missing, answer.stored_shear, h.stored_shear);
+  h.stored_normal = select(missing, now.stored_normal, h.stored_normal);
+  h.stored_shear = select(missing, now.stored_shear, h.stored_shear);
   h.stored_friction = select(missing, zero, h.stored_friction);
 }
 
@@ -379,44 +342,44 @@ template <class T>
   const Components<T> c = split(law, frame, opening);
   T end_of_elastic = 1.0;
   if (law.breakable()) end_of_elastic = grow(law, c, Mask<T>(h.damage < 1.0 || h.memory == kFresh), h);
-  const Left<T> left = left_of(law, h);
-  Answer<T> answer = answer_of(law, c, left);
+  const Remaining<T> remaining = remaining_of(law, h);
+  PointState<T> now = state_of(law, c, remaining);
   const Vector<T> elastic_traction = times(T(law.stiffness), opening);
   Response<T> response{elastic_traction, zero, zero, zero, Mask<T>(rises_linearly(law.rise)) && h.damage == 0.0};
   const Mask<T> damaged = !response.elastic;
   if (any(damaged)) {
     complete_memory(law, frame, opening, end_of_elastic, damaged, h);
-    Vector<T> traction = cohesive_traction(frame, c, answer);
+    Vector<T> traction = cohesive_traction(frame, c, now);
     T friction = zero;
     if (law.friction > 0) {
-      const T weight = 1.0 - left.shear();
+      const T weight = 1.0 - remaining.shear();
       const Mask<T> rubs = damaged && weight > 0.0;
-      friction = slide(law, frame, c, weight, rubs, h, answer);
-      const Vector<T> rubbed = plus(
-          traction, plus(times(answer.friction[0], frame.tangent[0]), times(answer.friction[1], frame.tangent[1])));
+      friction = slide(law, frame, c, weight, rubs, h, now);
+      const Vector<T> rubbed =
+          plus(traction, plus(times(now.friction[0], frame.tangent[0]), times(now.friction[1], frame.tangent[1])));
       traction = select3<T>(rubs, rubbed, traction);
       h.friction_weight = select(damaged, weight, h.friction_weight);
     }
     response.traction = select3<T>(damaged, traction, elastic_traction);
     const T work = 0.5 * dot(plus(h.traction, response.traction), minus(opening, h.opening));
-    const T normal_work = 0.5 * (h.normal_traction + answer.normal) * (c.normal - h.normal_opening);
-    const T mode_1 = normal_work - (answer.stored_normal - h.stored_normal);
-    const T mode_2 = (work - normal_work) - (answer.stored_shear - h.stored_shear) -
-                     (answer.stored_friction - h.stored_friction) - friction;
-    const Mask<T> gone = h.memory == kGone;
-    response.friction = select(damaged, select(gone, T(friction + (mode_1 + mode_2)), friction), zero);
-    response.mode_1 = select(damaged && !gone, mode_1, zero);
-    response.mode_2 = select(damaged && !gone, mode_2, zero);
+    const T normal_work = 0.5 * (h.normal_traction + now.normal) * (c.normal - h.normal_opening);
+    const T mode_1 = normal_work - (now.stored_normal - h.stored_normal);
+    const T mode_2 = (work - normal_work) - (now.stored_shear - h.stored_shear) -
+                     (now.stored_friction - h.stored_friction) - friction;
+    const Mask<T> without_hold = h.memory == kWithoutHold;
+    response.friction = select(damaged, select(without_hold, T(friction + (mode_1 + mode_2)), friction), zero);
+    response.mode_1 = select(damaged && !without_hold, mode_1, zero);
+    response.mode_2 = select(damaged && !without_hold, mode_2, zero);
   }
-  h.memory = select(damaged && h.damage >= 1.0, T(kGone), T(kSplit));
+  h.memory = select(damaged && h.damage >= 1.0, T(kWithoutHold), T(kDivided));
   h.opening = opening;
   h.traction = response.traction;
   h.normal_opening = c.normal;
-  h.normal_traction = answer.normal;
-  for (std::size_t i = 0; i < 2; ++i) h.friction_traction[i] = answer.friction[i];
-  h.stored_normal = answer.stored_normal;
-  h.stored_shear = answer.stored_shear;
-  h.stored_friction = answer.stored_friction;
+  h.normal_traction = now.normal;
+  for (std::size_t i = 0; i < 2; ++i) h.friction_traction[i] = now.friction[i];
+  h.stored_normal = now.stored_normal;
+  h.stored_shear = now.stored_shear;
+  h.stored_friction = now.stored_friction;
   return response;
 }
 
@@ -424,21 +387,11 @@ template <class T>
 /// it.
 template <class T>
 inline void set_elastic(const JointLawParams& law, const Vector<T>& opening, Point<T>& h) {
-  h.memory = kWhole;
+  h.memory = kUndivided;
   h.opening = opening;
   h.traction = times(T(law.stiffness), opening);
   h.stored_normal = 0.5 * law.stiffness * dot(opening, opening);
   h.stored_shear = 0.0;
-}
-
-/// As for_each_number, for what set_elastic sets.
-template <class P, class Q, class F>
-inline void for_each_elastic_number(P& p, Q& q, F&& f) {
-  f(p.memory, q.memory);
-  for (std::size_t i = 0; i < 3; ++i) f(p.opening[i], q.opening[i]);
-  for (std::size_t i = 0; i < 3; ++i) f(p.traction[i], q.traction[i]);
-  f(p.stored_normal, q.stored_normal);
-  f(p.stored_shear, q.stored_shear);
 }
 
 }  // namespace breccia::joint_point

@@ -42,7 +42,7 @@ void PressureLoad::for_each_power(const LocalMesh& mesh, const Field<double>& ve
   }
 }
 
-void PressureLoad::apply(const LocalMesh& mesh, const State& state, double time, double dt_before,
+void PressureLoad::apply(const LocalMesh& mesh, const NodalState& state, double time, double dt_before,
                          NodalForces& forces) {
   const double factor = -pressure_(time) / 6.0;  // area vector = half the cross product, a third to each corner
   for (std::size_t k = 0; k < faces_.size(); ++k) {
@@ -56,7 +56,7 @@ void PressureLoad::apply(const LocalMesh& mesh, const State& state, double time,
   for_each_power(mesh, state.velocity, [&](double power) { work_.add_before(power, dt_before); });
 }
 
-void PressureLoad::book_after(const LocalMesh& mesh, const State& state, double dt_after) {
+void PressureLoad::book_after(const LocalMesh& mesh, const NodalState& state, double dt_after) {
   for_each_power(mesh, state.velocity, [&](double power) { work_.add_after(power, dt_after); });
 }
 
@@ -94,43 +94,38 @@ ExactSum negative(const ExactSum& sum) {
 
 }  // namespace
 
-GravityWork::GravityWork(Carried carried, const LocalMesh& mesh, const Field<double>& position)
-    : past_(carried.past), gravity_(carried.gravity), started_(carried.started), changing_(carried.changing) {
-  if (started_ && !changing_) anchor_ = potential(mesh, gravity_, position.data(), mesh.reference.data());
+void GravityWork::set_anchor(const LocalMesh& mesh, const Field<double>& position) {
+  if (started && !changing) anchor = potential(mesh, gravity, position.data(), mesh.reference.data());
 }
 
-void GravityWork::advance(const LocalMesh& mesh, const State& state, const Vec3& gravity, double dt_before) {
+void GravityWork::advance(const LocalMesh& mesh, const NodalState& state, const Vec3& now, double dt_before) {
   const auto here = [&](const Vec3& g) { return potential(mesh, g, state.position.data(), mesh.reference.data()); };
   const auto last_step = [&](const Vec3& g) {
     return potential(mesh, Vec3(dt_before * g), state.velocity.data(), nullptr);
   };
-  const bool changes = started_ && gravity != gravity_;
-  if (!started_) {
-    anchor_ = here(gravity);
-  } else if (changes && !changing_) {
+  const bool changes = started && now != gravity;
+  if (!started) {
+    anchor = here(now);
+  } else if (changes && !changing) {
     // The old value from the anchor up to t_(n-1), its mean with the new one over the last step.
-    past_.add(here(gravity_));
-    past_.add(negative(anchor_));
-    past_.add(last_step(0.5 * (gravity - gravity_)));
-  } else if (changing_) {
-    past_.add(last_step(0.5 * (gravity_ + gravity)));
-    if (!changes) anchor_ = here(gravity);
+    past.add(here(gravity));
+    past.add(negative(anchor));
+    past.add(last_step(0.5 * (now - gravity)));
+  } else if (changing) {
+    past.add(last_step(0.5 * (gravity + now)));
+    if (!changes) anchor = here(now);
   }
-  started_ = true;
-  changing_ = changes;
-  gravity_ = gravity;
+  started = true;
+  changing = changes;
+  gravity = now;
 }
 
 ExactSum GravityWork::work(const LocalMesh& mesh, const Field<double>& position) const {
-  ExactSum sum = past_;
-  if (!started_ || changing_) return sum;
-  sum.add(potential(mesh, gravity_, position.data(), mesh.reference.data()));
-  sum.add(negative(anchor_));
+  ExactSum sum = past;
+  if (!started || changing) return sum;
+  sum.add(potential(mesh, gravity, position.data(), mesh.reference.data()));
+  sum.add(negative(anchor));
   return sum;
-}
-
-GravityWork::Carried GravityWork::close(const LocalMesh& mesh, const Field<double>& position) const {
-  return {work(mesh, position), gravity_, started_, changing_};
 }
 
 }  // namespace breccia

@@ -7,9 +7,9 @@
 #include "base/time_function.hpp"
 #include "base/types.hpp"
 #include "base/work_sum.hpp"
-#include "state/local_mesh.hpp"
-#include "state/nodal_forces.hpp"
-#include "state/state.hpp"
+#include "discretisation/local_mesh.hpp"
+#include "discretisation/nodal_forces.hpp"
+#include "discretisation/nodal_state.hpp"
 
 namespace breccia {
 
@@ -32,10 +32,10 @@ class PressureLoad {
   /// Adds the forces at t_n and books their work over the step that ended there.
   /// @param state      position at t_n, velocity at t_(n-1/2)
   /// @param time       t_n, s;  @param dt_before  t_n - t_(n-1), s
-  void apply(const LocalMesh& mesh, const State& state, double time, double dt_before, NodalForces& forces);
+  void apply(const LocalMesh& mesh, const NodalState& state, double time, double dt_before, NodalForces& forces);
 
   /// Books the work of the same forces over the step that begins at t_n. @param state velocity at t_(n+1/2)
-  void book_after(const LocalMesh& mesh, const State& state, double dt_after);
+  void book_after(const LocalMesh& mesh, const NodalState& state, double dt_after);
 
   /// Work on the faces of this rank's originals, J; up to t_n between `apply` and `book_after`.
   [[nodiscard]] const ExactSum& work() const { return work_.sum(); }
@@ -60,35 +60,25 @@ class PressureLoad {
 /// change it is the difference to where g took its value, and nothing is computed until someone asks. In the steps
 /// where g changes, the work of the step is taken from the velocities. Cost of `advance`: three comparisons while g is
 /// constant; O(elements) for every step of a ramp. Cost of `work`: O(elements).
-class GravityWork {
- public:
-  /// What goes on when elements change hands.
-  struct Carried {
-    ExactSum past;
-    Vec3 gravity{0, 0, 0};
-    bool started = false, changing = false;
-  };
-
-  GravityWork() = default;
-  /// @param position  nodal field at the time when the other was closed
-  GravityWork(Carried carried, const LocalMesh& mesh, const Field<double>& position);
+struct GravityWork {
+  ExactSum past;    ///< J, work up to the anchor, or up to the last `advance` while g changes
+  ExactSum anchor;  ///< J, potential with `gravity` when it took its value
+  Vec3 gravity{0, 0, 0};
+  bool started = false;
+  bool changing = false;  ///< g changed at the last `advance`
 
   /// To be called once a step, before the sweep.
-  /// @param gravity    g(t_n), m/s2
-  /// @param state      position at t_n, velocity at t_(n-1/2);  @param dt_before  t_n - t_(n-1), s
-  void advance(const LocalMesh& mesh, const State& state, const Vec3& gravity, double dt_before);
+  /// @param now    g(t_n), m/s2
+  /// @param state  position at t_n, velocity at t_(n-1/2);  @param dt_before  t_n - t_(n-1), s
+  void advance(const LocalMesh& mesh, const NodalState& state, const Vec3& now, double dt_before);
 
   /// Work up to t_n, J. @param position  nodal field at t_n, the one of the last `advance`
   [[nodiscard]] ExactSum work(const LocalMesh& mesh, const Field<double>& position) const;
-  /// @param position  nodal field at t_n, before the `advance` of that time
-  [[nodiscard]] Carried close(const LocalMesh& mesh, const Field<double>& position) const;
 
- private:
-  ExactSum past_;    ///< work up to the anchor, or up to the last `advance` while g changes
-  ExactSum anchor_;  ///< potential with gravity_ when it took its value
-  Vec3 gravity_{0, 0, 0};
-  bool started_ = false;
-  bool changing_ = false;  ///< g changed at the last `advance`
+  // When elements change hands, between the `advance` of t_(n-1) and that of t_n, at the positions of t_n:
+  /// All work goes to `past`; `anchor` means nothing until `set_anchor`.
+  void close(const LocalMesh& mesh, const Field<double>& position) { past = work(mesh, position); }
+  void set_anchor(const LocalMesh& mesh, const Field<double>& position);
 };
 
 }  // namespace breccia

@@ -5,9 +5,9 @@
 
 #include "base/field.hpp"
 #include "base/types.hpp"
+#include "discretisation/joint_links.hpp"
+#include "discretisation/local_mesh.hpp"
 #include "physics/elasticity.hpp"
-#include "state/joint_links.hpp"
-#include "state/local_mesh.hpp"
 
 namespace breccia {
 

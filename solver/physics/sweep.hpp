@@ -13,7 +13,7 @@ namespace breccia {
 struct SweepStatus {
   double max_speed_squared = 0;  ///< m2/s2, over all nodes, after the step
   double speed_squared_sum = 0;  ///< m2/s2; NaN or infinite when any node's velocity is
-  std::int64_t crushed = 0;      ///< elements with J < j_min in this step
+  std::int64_t crushed = 0;      ///< originals with J < j_min in this step
   Index first_not_finite = -1;   ///< block
 
   /// Likewise for more elements, which stand behind these.
@@ -31,7 +31,7 @@ struct SweepStatus {
 using CrossingFunction = void (*)(void* context, Index slot, int face, double* force);
 
 /// Everything the sweep reads and writes; raw pointers, so that one kernel source serves every instruction set.
-/// Layouts: state/layout.hpp, state/local_mesh.hpp, state/joint_links.hpp, state/nodal_forces.hpp.
+/// Layouts: discretisation/layout.hpp, local_mesh.hpp, joint_links.hpp, nodal_forces.hpp.
 struct SweepArgs {
   Index first_own_block = 0;             ///< own-node blocks to sweep: from this one
   Index end_own_block = 0;               ///< to before this one
@@ -59,8 +59,9 @@ struct SweepArgs {
   const double* own_force = nullptr;  ///< [slot][4][3][8] N
   double* shared_force = nullptr;     ///< nodal field of the shared nodes, N; internal forces are added to it
 
-  const Index* block_group = nullptr;     ///< (num_blocks)
-  const ElasticParams* params = nullptr;  ///< (groups)
+  const Index* block_group = nullptr;      ///< (num_blocks)
+  const std::uint8_t* original = nullptr;  ///< (num_slots) 1: of this rank; others do not count in SweepStatus::crushed
+  const ElasticParams* params = nullptr;   ///< (groups)
 
   double dt = 0;                           ///< s
   std::array<double, 3> gravity{0, 0, 0};  ///< m/s2

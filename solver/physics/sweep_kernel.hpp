@@ -5,10 +5,10 @@
 
 #include <experimental/simd>
 
+#include "discretisation/blocks.hpp"
+#include "discretisation/joint_links.hpp"
 #include "physics/elasticity.hpp"
 #include "physics/sweep.hpp"
-#include "state/blocks.hpp"
-#include "state/joint_links.hpp"
 
 namespace breccia {
 namespace {
@@ -65,6 +65,14 @@ struct Stress {
   Real volume;
 };
 
+/// How many of the lanes marked are this rank's own: the others are counted elsewhere, or have not been moved for long.
+template <class Mask>
+[[gnu::noinline]] inline std::int64_t count_originals(const SweepArgs& args, const Mask& mask, std::size_t slot) {
+  std::int64_t count = 0;
+  for (std::size_t l = 0; l < kWidth; ++l) count += mask[l] && args.original[slot + l] != 0 ? 1 : 0;
+  return count;
+}
+
 /// @tparam is_plain  the group has the neo-Hookean law and no viscosity, so that the stress need not pass through
 /// memory
 /// @param x, v  corners
@@ -77,7 +85,8 @@ template <bool is_plain, class X>
   const Tensor f = el::deformation<Real>(x, s.inverse);
   const Tensor cof = el::cofactor(f);
   const Real j = el::determinant(f, cof);
-  totals.status.crushed += stdx::popcount(j < p.j_min);
+  const auto crushed = j < p.j_min;
+  if (stdx::any_of(crushed)) totals.status.crushed += count_originals(args, crushed, block * kLanes + lane);
   switch (is_plain ? ElasticLaw::neo_hookean : p.law) {
     case ElasticLaw::neo_hookean:
       el::neo_hookean_piola(f, cof, j, p, s.total);

@@ -17,7 +17,7 @@ InSituWatch::InSituWatch(const case_::Case& input, const std::filesystem::path& 
 
 void InSituWatch::add_signals(StepSignals& signals) {
   signals.orders |= insitu_.orders();
-  signals.broke = insitu_.counts_broken() && partition_.stepper().broken_joints() != broken_here_;
+  signals.broke = insitu_.counts_broken() && partition_.state().joints.broken != broken_here_;
 }
 
 void InSituWatch::take_row(const HistoryRow& row) {
@@ -25,17 +25,18 @@ void InSituWatch::take_row(const HistoryRow& row) {
 }
 
 void InSituWatch::count_broken() {
-  broken_here_ = partition_.stepper().broken_joints();
+  broken_here_ = partition_.state().joints.broken;
   broken_everywhere_ = partition_.communicator().sum(broken_here_);
 }
 
 std::vector<Command> InSituWatch::look(Observer& observer, bool all) {
-  Stepper& stepper = partition_.stepper();
-  if (stepper.signals().broke) count_broken();
-  const Moment now{stepper.steps(), stepper.time(), stepper.dt(), broken_everywhere_};
-  const auto lap = stepper.timer().measure(Phase::insitu);
+  Domain& domain = partition_.domain();
+  if (domain.state.signals.received.broke) count_broken();
+  const Moment now{domain.state.clock.steps, domain.state.clock.time, domain.state.clock.dt, broken_everywhere_};
+  const auto lap = domain.timer.measure(Phase::insitu);
   partition_.communicator().set_phase("in-situ pipelines");
-  const auto ordered = static_cast<std::uint32_t>(stepper.signals().orders);  // the lower half is for pipelines
+  const auto ordered =
+      static_cast<std::uint32_t>(domain.state.signals.received.orders);  // the lower half is for pipelines
   const InSitu::Plan plan = insitu_.plan(now, ordered, all);
   if (!plan) return {};
   insitu_.execute(plan, observer.picture(0, parts_of(plan.channels)), columns_, last_row_);

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "domains/partition.hpp"
+#include "observe/observe.hpp"
 #include "output/control.hpp"
 #include "output/insitu.hpp"
-#include "simulation/observe.hpp"
-#include "simulation/partition.hpp"
 
 namespace breccia {
 

@@ -7,14 +7,16 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "domains/partition.hpp"
+#include "domains/state_records.hpp"
+#include "observe/observe.hpp"
 #include "output/schedule.hpp"
 #include "output/summary.hpp"
 #include "simulation/insitu_watch.hpp"
-#include "simulation/observe.hpp"
-#include "simulation/partition.hpp"
 #include "simulation/run_control.hpp"
 #include "simulation/sink_group.hpp"
 #include "simulation/stage_steps.hpp"
+#include "simulation/step.hpp"
 
 namespace breccia {
 
@@ -59,7 +61,7 @@ class Runner {
     tell_start();
     try {
       for (std::size_t s = 0; s < input_.stages.size() && status_ == "complete"; ++s) run_stage(input_.stages[s]);
-      stepper().conclude();
+      conclude(partition_.domain());
       write_frame();
       look_in_situ(true);
     } catch (const SimulationError& error) {
@@ -77,7 +79,7 @@ class Runner {
 
  private:
   void tell_event(const std::string& kind, const std::string& text, bool accepted, const std::string& id = {}) {
-    const RunEvent event{kind, text, id, accepted, stepper().steps(), stepper().time()};
+    const RunEvent event{kind, text, id, accepted, clock().steps, clock().time};
     sink_group_.tell([&](Sink& sink) { sink.event(event); });
   }
 
@@ -94,21 +96,21 @@ class Runner {
     while (!steps.over()) {
       steps.look();
       advance();
-      if (stepper().signals().stop || stop_commanded_) status_ = "stopped: by request";
-      if (input_.time.max_steps > 0 && stepper().steps() >= input_.time.max_steps)
+      if (partition_.state().signals.received.stop || stop_commanded_) status_ = "stopped: by request";
+      if (input_.time.max_steps > 0 && clock().steps >= input_.time.max_steps)
         status_ = "stopped: time.max_steps reached";
       if (status_ != "complete") return;
     }
   }
 
   void advance() {
-    if ((stepper().signals().orders & kControlOrder) != 0) obey(control_.hear());
+    if ((partition_.state().signals.received.orders & kControlOrder) != 0) obey(control_.hear());
     if (paused_) stay_paused();
-    const double time = stepper().time();
-    if (frames_.due(time, stepper().dt(), stepper().steps())) write_frame();
+    const double time = clock().time;
+    if (frames_.due(time, clock().dt, clock().steps)) write_frame();
     look_in_situ(false);
-    const bool sample = histories_.due(time, stepper().dt(), stepper().steps());
-    stepper().step(sample, signals());
+    const bool sample = histories_.due(time, clock().dt, clock().steps);
+    step(partition_.domain(), {sample, signals()});
     if (sample) take_line(time);
     tell_status();
     partition_.keep_up();
@@ -123,7 +125,7 @@ class Runner {
   }
 
   void take_line(double time) {
-    const auto lap = stepper().timer().measure(Phase::output);
+    const auto lap = partition_.domain().timer.measure(Phase::output);
     HistoryRow row = observer_.row(time);
     if (insitu_) row.insitu_share = insitu_->share_of_time();
     last_fragments_ = row.fragments;
@@ -169,7 +171,7 @@ class Runner {
         write_frame();
         return {};
       case Command::Kind::frame_interval:
-        frames_.change(command.value, stepper().time(), stepper().dt());
+        frames_.change(command.value, clock().time, clock().dt);
         return {};
     }
     return {};
@@ -189,17 +191,18 @@ class Runner {
   }
 
   void check_residual(double time) const {
-    const EnergyBudget& e = stepper().budget();
+    const EnergyBudget& e = partition_.domain().sample.budget;
     if (!(e.residual_relative > input_.time.residual_limit) && std::isfinite(e.residual)) return;
-    throw SimulationError("step " + std::to_string(stepper().steps() - 1) + ", time " + scientific(time) +
+    throw SimulationError("step " + std::to_string(clock().steps - 1) + ", time " + scientific(time) +
                           " s: the energy residual is " + scientific(100 * e.residual_relative) +
                           " % of the largest term (limit " + scientific(100 * input_.time.residual_limit) +
-                          " %); the strain energy is densest in element " + std::to_string(stepper().worst_element()) +
+                          " %); the strain energy is densest in element " +
+                          std::to_string(partition_.domain().sample.worst_element) +
                           "; lower time.safety, or raise time.residual_limit if you trust the run");
   }
 
   void write_frame() {
-    const auto lap = stepper().timer().measure(Phase::output);
+    const auto lap = partition_.domain().timer.measure(Phase::output);
     const FrameParts parts{input_.output.elements, input_.output.joints, input_.output.contacts};
     const Frame frame = observer_.picture(frame_number_++, parts);
     sink_group_.tell([&](Sink& sink) { sink.frame(frame); });
@@ -213,17 +216,17 @@ class Runner {
 
   StatusLine status_line() {
     StatusLine line;
-    const double left = end_ - stepper().time();
-    line.step = stepper().steps();
-    line.steps_total = line.step + static_cast<std::int64_t>(std::llround(left / stepper().dt()));
-    line.time = stepper().time();
+    const double left = end_ - clock().time;
+    line.step = clock().steps;
+    line.steps_total = line.step + static_cast<std::int64_t>(std::llround(left / clock().dt));
+    line.time = clock().time;
     line.end = end_;
-    line.share = stepper().time() / end_;
+    line.share = clock().time / end_;
     line.wall_s = wall();
     line.element_steps_per_s =
         static_cast<double>(partition_.whole().num_elements) * static_cast<double>(line.step) / line.wall_s;
     line.eta_s = line.share > 0 ? line.wall_s * (1.0 - line.share) / line.share : -1.0;
-    line.energy_residual = stepper().budget().residual_relative;
+    line.energy_residual = partition_.domain().sample.budget.residual_relative;
     line.broken_joints = last_broken_;
     line.fragments = last_fragments_;
     line.imbalance = partition_.imbalance();
@@ -242,32 +245,33 @@ class Runner {
     summary.version = provenance.version;
     summary.host = provenance.host;
     summary.status = status;
-    summary.steps = stepper().steps();
-    summary.simulated_time = stepper().time();
-    summary.time_step = stepper().dt();
+    summary.steps = clock().steps;
+    summary.simulated_time = clock().time;
+    summary.time_step = clock().dt;
     summary.ranks = communicator_.size();
     summary.decompositions = partition_.decompositions();
     summary.imbalance = partition_.imbalance();
-    summary.messages = communicator_.sum(stepper().messages());
-    summary.message_bytes = communicator_.sum(stepper().bytes());
+    summary.messages = communicator_.sum(partition_.domain().messages());
+    summary.message_bytes = communicator_.sum(partition_.domain().bytes());
     summary.elements = partition_.whole().num_elements;
     summary.joints = partition_.whole().num_joints;
-    summary.broken_joints = last_broken_ = communicator_.sum(stepper().broken_joints());
+    summary.broken_joints = last_broken_ = communicator_.sum(partition_.state().joints.broken);
     summary.fragments = observer_.num_fragments();
-    summary.searches = communicator_.max(stepper().searches());
-    summary.inverted_elements = communicator_.sum(stepper().crushed());
+    summary.searches = communicator_.max(partition_.state().counters.searches);
+    summary.inverted_elements = communicator_.sum(partition_.state().counters.crushed);
     summary.wall_s = wall();
     summary.element_steps_per_s =
         static_cast<double>(summary.elements) * static_cast<double>(summary.steps) / summary.wall_s;
     for (int p = 0; p < static_cast<int>(Phase::count); ++p) {
       const auto phase = static_cast<Phase>(p);
-      summary.phases.emplace_back(std::string(name_of(phase)), communicator_.max(stepper().timer().seconds(phase)));
+      summary.phases.emplace_back(std::string(name_of(phase)),
+                                  communicator_.max(partition_.domain().timer.seconds(phase)));
     }
-    summary.energy = stepper().budget();
+    summary.energy = partition_.domain().sample.budget;
     summary.max_rss_bytes =
         static_cast<std::uint64_t>(communicator_.sum(static_cast<std::int64_t>(max_resident_bytes())));
-    summary.simd = std::string(name_of(stepper().simd()));
-    summary.state_hash = hash_of(stepper()).text();
+    summary.simd = std::string(name_of(partition_.domain().simd));
+    summary.state_hash = hash_of(partition_.domain()).text();
     sink_group_.tell([&](Sink& sink) {
       sink.status(status_line());
       sink.finish(summary);
@@ -275,8 +279,7 @@ class Runner {
     return summary;
   }
 
-  [[nodiscard]] Stepper& stepper() { return partition_.stepper(); }
-  [[nodiscard]] const Stepper& stepper() const { return partition_.stepper(); }
+  [[nodiscard]] const Clock& clock() const { return partition_.state().clock; }
 
   const case_::Case& input_;
   SinkGroup sink_group_;

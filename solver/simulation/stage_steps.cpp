@@ -17,16 +17,16 @@ StageSteps::StageSteps(const case_::Case& input, const case_::Stage& stage, Part
 
 double StageSteps::length() const {
   const double allowed = input_.time.step > 0 ? input_.time.step : input_.time.safety * partition_.stable_step();
-  const double left = stage_.end - partition_.stepper().time();
+  const double left = stage_.end - partition_.state().clock.time;
   return left / std::max(1.0, std::ceil(left / allowed * (1.0 - 1e-9)));
 }
 
 void StageSteps::look() {
   if (--until_look_ != 0 || input_.time.step > 0) return;
   until_look_ = kStepsBetweenLooks;
-  const double dt = length(), now = partition_.stepper().dt();
+  const double dt = length(), now = partition_.state().clock.dt;
   // Follow a shrinking limit at once, a growing one only when it is worth it.
-  if (dt < 0.99 * now || dt > 1.2 * now) partition_.stepper().set_dt(dt);
+  if (dt < 0.99 * now || dt > 1.2 * now) partition_.domain().state.clock.dt = dt;
 }
 
 }  // namespace breccia

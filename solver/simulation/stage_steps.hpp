@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "simulation/partition.hpp"
+#include "domains/partition.hpp"
 
 namespace breccia {
 
@@ -18,7 +18,7 @@ class StageSteps {
       : input_(input), stage_(stage), partition_(partition), until_look_(until_look) {}
 
   [[nodiscard]] bool over() const {
-    return !(partition_.stepper().time() < stage_.end - 0.5 * partition_.stepper().dt());
+    return !(partition_.state().clock.time < stage_.end - 0.5 * partition_.state().clock.dt);
   }
   /// Before every step: a new length if it is time to look and the limit has moved. Collective.
   void look();

@@ -1,17 +1,193 @@
 #pragma once
 
-#include "base/field.hpp"
-#include "base/types.hpp"
-#include "state/layout.hpp"
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <tuple>
+#include <vector>
+
+#include "discretisation/nodal_state.hpp"
+#include "model/stage_loads.hpp"
+#include "physics/contact/contact_forces.hpp"
+#include "physics/contact/contact_state.hpp"
+#include "physics/joint_forces.hpp"
+#include "state/element_fields.hpp"
+#include "state/field_table.hpp"
 
 namespace breccia {
 
-/// Nodal fields that every step changes. Velocities belong to the middle of the last step (central differences):
-/// v(n-1/2) before the step's sweep, v(n+1/2) after it.
-struct State {
-  Field<double> position;       ///< nodal field, m, at t_n
-  Field<double> next_position;  ///< nodal field, m, at t_(n+1); swapped with `position` at the end of a step
-  Field<double> velocity;       ///< nodal field, m/s
+/// Where the run is: t_n, and the lengths of the steps to come and done.
+struct Clock {
+  double time = 0;                               ///< s, t_n: of the positions
+  double dt = 0, dt_before = 0, dt_earlier = 0;  ///< s: of the next step, of the last, of the one before that
+  std::int64_t steps = 0;                        ///< done
 };
+
+/// What ranks send each other besides the physics; all of them receive it in the next step.
+struct StepSignals {
+  bool stop = false;         ///< some rank asks for the end of the run
+  bool broke = false;        ///< joints have broken on some rank since it was last counted
+  std::uint64_t orders = 0;  ///< of the root, fewer than 53 bits
+};
+
+/// What a rank sends to all others at the end of a step, and what it has received.
+struct Signals {
+  StepSignals received;                 ///< sent by the ranks a step ago, alike on all of them
+  StepSignals sent;                     ///< by this rank in the last step
+  double max_speed = 0;                 ///< m/s, of this rank's originals after the last step
+  double motion = 0;                    ///< m, furthest that a node of any rank went in a step, received late
+  bool released = false;                ///< joints of some rank were released in the last step
+  std::vector<GlobalId> released_here;  ///< joints of this rank that were released in the last step
+};
+
+/// On several ranks, after a step, so many of the last are not in Signals::motion yet.
+inline constexpr int kMotionLate = 2;
+
+/// The joints that the sweep does not look after.
+struct JointSet {
+  ActiveJoints active;
+  std::vector<ReleasedJoint>
+      released;             ///< of side a here: their faces belong to contact; in the order of their release
+  std::int64_t broken = 0;  ///< of side a here: no longer hold, released or not
+};
+
+/// Work done up to now, J: this rank's part of exact sums, so that totals do not depend on who holds what.
+struct AccountedWork {
+  ExactSum past_loads;  ///< by pressures and constraints of earlier stages
+  GravityWork gravity;
+  JointWork joints;
+  ContactWork contact;
+  double first_excess = std::numeric_limits<double>::quiet_NaN();  ///< energy beyond external work, first sample
+};
+
+/// Sums over the run, this rank's part; searches are the same on all ranks.
+struct Counters {
+  std::int64_t crushed = 0;              ///< element-steps with J below its floor
+  std::int64_t searches = 0;             ///< for contact
+  std::int64_t messages = 0, bytes = 0;  ///< sent to gather proxies
+};
+
+/// Everything on a rank that changes between two steps. What can be derived from it (links, plans, orders) is in
+/// domains/derived.hpp.
+struct State {
+  Clock clock;
+  NodalState nodes;
+  Field<double> damping_work;  ///< (num_nodes) J dissipated by damping; empty until damping is asked for
+  ElementFields elements;
+  JointSet joints;
+  ContactState contact;
+  StageLoads loads;  ///< of the present stage, with their work and the anchors of displacements
+  Constraints constraints;
+  AccountedWork work;
+  Counters counters;
+  Signals signals;
+};
+
+/// The rows of the table that belong to the model, not to an element. Sums are this rank's part; what is marked as
+/// hashed is alike on all ranks, or its total is.
+template <>
+struct FieldTable<State> {
+  static constexpr auto rows = std::tuple{FieldRow{"time", "s", kState, [](auto& s) -> auto& {return s.clock.time;
+}
+}  // namespace breccia
+, FieldRow{"step_length", "s", kState, [](auto& s) -> auto& {return s.clock.dt;
+}
+}
+, FieldRow{"last_step_length", "s", kState, [](auto& s) -> auto& {return s.clock.dt_before;
+}
+}
+, FieldRow{"steps", "1", kState, [](auto& s) -> auto& {return s.clock.steps;
+}
+}
+, FieldRow{"broken_joints", "1", kSummed, [](auto& s) -> auto& {return s.joints.broken;
+}
+}
+, FieldRow{"work_of_past_loads", "J", kNotHashed, [](auto& s) -> auto& {return s.work.past_loads;
+}
+}
+, FieldRow{"work_of_past_gravity", "J", kNotHashed, [](auto& s) -> auto& {return s.work.gravity.past;
+}
+}
+, FieldRow{"gravity", "m/s2", kNotHashed, [](auto& s) -> auto& {return s.work.gravity.gravity;
+}
+}
+, FieldRow{"gravity_started", "1", kNotHashed, [](auto& s) -> auto& {return s.work.gravity.started;
+}
+}
+, FieldRow{"gravity_changing", "1", kNotHashed, [](auto& s) -> auto& {return s.work.gravity.changing;
+}
+}
+, FieldRow{"joint_mode_1", "J", kSummed, [](auto& s) -> auto& {return s.work.joints.mode_1;
+}
+}
+, FieldRow{"joint_mode_2", "J", kSummed, [](auto& s) -> auto& {return s.work.joints.mode_2;
+}
+}
+, FieldRow{"joint_friction", "J", kSummed, [](auto& s) -> auto& {return s.work.joints.friction;
+}
+}
+, FieldRow{"contact_dissipated", "J", kSummed, [](auto& s) -> auto& {return s.work.contact.dissipated;
+}
+}
+, FieldRow{"contact_friction", "J", kSummed, [](auto& s) -> auto& {return s.work.contact.friction_dissipated;
+}
+}
+, FieldRow{"contact_stored", "J", kSummed, [](auto& s) -> auto& {return s.work.contact.stored;
+}
+}
+, FieldRow{"friction_stored", "J", kSummed, [](auto& s) -> auto& {return s.work.contact.friction_stored;
+}
+}
+, FieldRow{"touching", "1", kNotHashed, [](auto& s) -> auto& {return s.work.contact.touching;
+}
+}
+, FieldRow{"first_excess", "J", kNotHashed, [](auto& s) -> auto& {return s.work.first_excess;
+}
+}
+, FieldRow{"crushed", "1", kSummed, [](auto& s) -> auto& {return s.counters.crushed;
+}
+}
+, FieldRow{"searches", "1", kNotHashed, [](auto& s) -> auto& {return s.counters.searches;
+}
+}
+, FieldRow{"messages", "1", kNotHashed, [](auto& s) -> auto& {return s.counters.messages;
+}
+}
+, FieldRow{"message_bytes", "1", kNotHashed, [](auto& s) -> auto& {return s.counters.bytes;
+}
+}
+, FieldRow{"max_speed", "m/s", kNotHashed, [](auto& s) -> auto& {return s.signals.max_speed;
+}
+}
+, FieldRow{"stop_received", "1", kNotHashed, [](auto& s) -> auto& {return s.signals.received.stop;
+}
+}
+, FieldRow{"broke_received", "1", kNotHashed, [](auto& s) -> auto& {return s.signals.received.broke;
+}
+}
+, FieldRow{"orders_received", "1", kNotHashed, [](auto& s) -> auto& {return s.signals.received.orders;
+}
+}
+, FieldRow{"stop_sent", "1", kNotHashed, [](auto& s) -> auto& {return s.signals.sent.stop;
+}
+}
+, FieldRow{"broke_sent", "1", kNotHashed, [](auto& s) -> auto& {return s.signals.sent.broke;
+}
+}
+, FieldRow{"orders_sent", "1", kNotHashed, [](auto& s) -> auto& {return s.signals.sent.orders;
+}
+}
+, FieldRow {
+  "released_here", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.released_here; }
+}
+}
+;
+}
+;
+
+/// Gives `to` the model's rows of `from`: for a rank whose elements change.
+inline void copy_model_fields(const State& from, State& to) {
+  for_each_field(from, [&](const auto& row, const auto& value) { row.access(to) = value; });
+}
 
 }  // namespace breccia

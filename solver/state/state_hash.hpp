@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <type_traits>
 
-#include "state/local_mesh.hpp"
-#include "state/state.hpp"
+#include "state/field_table.hpp"
 
 namespace breccia {
 
@@ -53,8 +53,21 @@ class StateHash {
   std::uint64_t sum_ = 0;
 };
 
-/// Hash of this rank's originals: positions and velocities of the four corners by corner and axis. The same for every
-/// layout of the same state. O(elements), 10 ns an element-corner.
-[[nodiscard]] StateHash hash_elements(const LocalMesh& mesh, const State& state);
+/// Hash of a record: every number of its hashed fields, in the order of the table.
+template <class Record>
+[[nodiscard]] SequenceHash hash_of_record(const Record& record) {
+  SequenceHash hash;
+  for_each_field(record, [&](const auto& row, const auto& field) {
+    if (!row.use.hashed) return;
+    for_each_scalar(field, [&](const auto& scalar) {
+      if constexpr (std::is_floating_point_v<std::decay_t<decltype(scalar)>>) {
+        hash.add(scalar);
+      } else {
+        hash.add(static_cast<std::uint64_t>(scalar));
+      }
+    });
+  });
+  return hash;
+}
 
 }  // namespace breccia

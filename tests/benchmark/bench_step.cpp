@@ -16,11 +16,12 @@
 #include <vector>
 
 #include "case/reader.hpp"
+#include "contact/search_params.hpp"
+#include "domains/state_records.hpp"
 #include "model/parameters.hpp"
 #include "model/time_step.hpp"
-#include "simulation/observe.hpp"
-#include "simulation/search_params.hpp"
-#include "simulation/stepper.hpp"
+#include "observe/observe.hpp"
+#include "simulation/step.hpp"
 
 namespace {
 
@@ -76,32 +77,32 @@ struct Race {
 
 void measure(const char* name, const case_::Case& input, const Race& race, double bandwidth) {
   const Model model = build_model(input);
-  Stepper stepper(model, search_params(input, model));
+  Domain domain(model, search_params(input, model));
   for (const case_::InitialVelocity& entry : input.initial_velocities)
-    stepper.add_velocity(initial_velocity(entry, model));
-  stepper.begin_stage(stage_loads(input.stages[0], model), 0.8 * TimeStep(model).at(model.local.reference).step);
-  for (int i = 0; i < race.lead; ++i) stepper.step(false);
-  const PhaseTimer before = stepper.timer();
+    add_velocity(domain, initial_velocity(entry, model));
+  begin_stage(domain, stage_loads(input.stages[0], model), 0.8 * TimeStep(model).at(model.local.reference).step);
+  for (int i = 0; i < race.lead; ++i) step(domain);
+  const PhaseTimer before = domain.timer;
   const double elements = model.mesh.num_elements();
   double best = 1e300;
   for (int round = 0; round < race.rounds; ++round) {
     const auto start = Clock::now();
-    for (int i = 0; i < race.steps; ++i) stepper.step(false);
+    for (int i = 0; i < race.steps; ++i) step(domain);
     best = std::min(best, since(start) / race.steps);
   }
   const double rate = elements / best;
   std::printf("%-28s %8.0f elements  %7.2f M element-steps/s", name, elements, rate / 1e6);
   for (const Phase phase : {Phase::joints, Phase::search, Phase::contact, Phase::sweep, Phase::loads}) {
-    const double seconds = stepper.timer().seconds(phase) - before.seconds(phase);
+    const double seconds = domain.timer.seconds(phase) - before.seconds(phase);
     std::printf("  %s %.1f ns", std::string(name_of(phase)).c_str(),
                 seconds * 1e9 / (elements * race.rounds * race.steps));
   }
   if (race.bytes > 0) std::printf("  %.0f B, %.0f %% of triad", race.bytes, 100 * race.bytes * rate / 1e9 / bandwidth);
-  if (stepper.active_joints().size() > 0) {
-    std::printf("  %zu active joints, %lld broken", stepper.active_joints().size(),
-                static_cast<long long>(stepper.broken_joints()));
+  if (domain.state.joints.active.size() > 0) {
+    std::printf("  %zu active joints, %lld broken", domain.state.joints.active.size(),
+                static_cast<long long>(domain.state.joints.broken));
   }
-  std::printf("  %s  hash %s\n", std::string(name_of(stepper.simd())).c_str(), hash_of(stepper).text().c_str());
+  std::printf("  %s  hash %s\n", std::string(name_of(domain.simd)).c_str(), hash_of(domain).text().c_str());
 }
 
 }  // namespace

@@ -15,14 +15,18 @@ MAY_INCLUDE = {
     "case": {"base"},
     "mesh": {"base"},
     "parallel": {"base", "mesh"},
-    "state": {"base", "mesh"},
-    "physics": {"base", "mesh", "state"},
-    "detection": {"base", "mesh", "state"},
+    "discretisation": {"base", "mesh"},
+    "physics": {"base", "mesh", "discretisation"},
+    "detection": {"base", "mesh", "discretisation"},
+    "model": {"base", "case", "mesh", "discretisation", "physics"},
+    "state": {"base", "mesh", "discretisation", "physics", "model"},
     "output": {"base", "case", "mesh", "state", "parallel"},
-    "model": {"base", "case", "mesh", "state", "physics"},
-    "simulation": {"base", "case", "mesh", "model", "parallel", "state", "physics", "detection", "output"},
-    "commands": {"base", "case", "mesh", "model", "parallel", "state", "physics", "detection", "output", "simulation"},
+    "contact": {"base", "case", "mesh", "discretisation", "physics", "detection", "model", "state", "parallel"},
+    "domains": {"base", "case", "mesh", "discretisation", "physics", "model", "state", "contact", "parallel"},
+    "observe": {"base", "case", "mesh", "discretisation", "physics", "model", "state", "contact", "domains", "parallel", "output"},
 }
+MAY_INCLUDE["simulation"] = set(MAY_INCLUDE)
+MAY_INCLUDE["commands"] = set(MAY_INCLUDE)
 PROGRAM = set(MAY_INCLUDE)  # what main.cpp may include: everything
 
 # The C interface of the in-situ adaptor is the one header from outside solver/, for output alone.

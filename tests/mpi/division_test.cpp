@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <map>
 
+#include "contact/search_params.hpp"
+#include "domains/decomposition.hpp"
+#include "domains/state_records.hpp"
 #include "model/model.hpp"
 #include "mpi/world.hpp"
-#include "simulation/decomposition.hpp"
-#include "simulation/search_params.hpp"
-#include "simulation/stepper.hpp"
+#include "simulation/step.hpp"
 #include "unit/case/case_files.hpp"
 
 namespace breccia {
@@ -23,7 +24,7 @@ class FlyingBoxes : public testing::Test {
   FlyingBoxes() {
     if (!world().is_root()) return;
     const Model model = build_model(input_);
-    mine_ = Stepper(model, search_params(input_, model)).records();
+    mine_ = records_of(Domain(model, search_params(input_, model)));
   }
 
   void divide() {
@@ -68,27 +69,27 @@ TEST_F(FlyingBoxes, MayBeCutWhereTheyBroke) {
 }
 
 /// Every rank has the same model.
-TEST(Words, AreHeardAStepAfterTheyAreSaidWhetherTheModelIsDividedMeanwhileOrNot) {
+TEST(Signals, AreReceivedAStepAfterTheyAreSentWhetherTheModelIsDividedMeanwhileOrNot) {
   const case_::Case input = case_::read_text(case_::minimal);
   const Model model = build_model(input);
-  Stepper before(model, search_params(input, model));
+  Domain before(model, search_params(input, model));
   before.connect(world(), {}, ExchangeKind::non_blocking);
-  before.begin_stage({}, 1e-9);
-  before.step(false, {.broke = world().is_root(), .orders = 1});
-  before.step(false, {.orders = 2});
-  EXPECT_EQ(before.signals().orders, 1);
-  EXPECT_TRUE(before.signals().broke);
+  begin_stage(before, {}, 1e-9);
+  step(before, {.signals = {.broke = world().is_root(), .orders = 1}});
+  step(before, {.signals = {.orders = 2}});
+  EXPECT_EQ(before.state.signals.received.orders, 1);
+  EXPECT_TRUE(before.state.signals.received.broke);
 
-  const Records records = before.records();
-  Stepper after(model, search_params(input, model), records, before.close());
+  const Records records = records_of(before);
+  Domain after(model, search_params(input, model), records, close(before));
   after.connect(world(), {}, ExchangeKind::non_blocking);
-  after.begin_stage({}, 1e-9);
-  EXPECT_EQ(after.signals().orders, 1);
-  EXPECT_TRUE(after.signals().broke);
-  after.step(false);
-  EXPECT_EQ(after.signals().orders, 2);
-  EXPECT_FALSE(after.signals().broke);
-  after.conclude();
+  begin_stage(after, {}, 1e-9);
+  EXPECT_EQ(after.state.signals.received.orders, 1);
+  EXPECT_TRUE(after.state.signals.received.broke);
+  step(after);
+  EXPECT_EQ(after.state.signals.received.orders, 2);
+  EXPECT_FALSE(after.state.signals.received.broke);
+  conclude(after);
 }
 
 }  // namespace

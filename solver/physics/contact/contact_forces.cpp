@@ -36,7 +36,7 @@ struct Candidate {
 /// One call of contact_forces.
 class Pass {
  public:
-  Pass(const ContactParams& params, const LocalMesh& local, const State& state, double dt, ContactState& contact,
+  Pass(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt, ContactState& contact,
        NodalForces& forces, ContactWork& work)
       : params_(params),
         local_(local),
@@ -98,7 +98,7 @@ class Pass {
 
   const ContactParams& params_;
   const LocalMesh& local_;
-  const State& state_;
+  const NodalState& state_;
   double dt_;
   ContactState& contact_;
   NodalForces& forces_;
@@ -370,7 +370,7 @@ void Pass::distribute(const ContactPoint& point, const Candidate& candidate, con
 
 }  // namespace
 
-void contact_forces(const ContactParams& params, const LocalMesh& local, const State& state, double dt,
+void contact_forces(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt,
                     ContactState& contact, NodalForces& forces, ContactWork& work) {
   Pass(params, local, state, dt, contact, forces, work).run();
 }

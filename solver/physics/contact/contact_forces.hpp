@@ -1,11 +1,11 @@
 #pragma once
 
 #include "base/exact_sum.hpp"
+#include "discretisation/local_mesh.hpp"
+#include "discretisation/nodal_forces.hpp"
+#include "discretisation/nodal_state.hpp"
 #include "physics/contact/contact_params.hpp"
 #include "physics/contact/contact_state.hpp"
-#include "state/local_mesh.hpp"
-#include "state/nodal_forces.hpp"
-#include "state/state.hpp"
 
 namespace breccia {
 
@@ -39,7 +39,7 @@ struct ContactWork {
 /// @param contact  couples sorted; histories, field and scratch are written, `fresh` is emptied
 /// @param forces   added to, in the order (point id, contactor)
 /// @pre dt >= 0; couples hold every pair that touches. O(couples) + O(points) with a sphere. Throws nothing.
-void contact_forces(const ContactParams& params, const LocalMesh& local, const State& state, double dt,
+void contact_forces(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt,
                     ContactState& contact, NodalForces& forces, ContactWork& work);
 
 /// Sum of the contact forces of the last step on the elements of a volume group by axis, N: forces on its points (the

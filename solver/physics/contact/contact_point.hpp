@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/types.hpp"
-#include "state/local_mesh.hpp"
+#include "discretisation/local_mesh.hpp"
 
 namespace breccia {
 

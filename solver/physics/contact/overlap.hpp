@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "base/types.hpp"
+#include "discretisation/local_mesh.hpp"
 #include "physics/contact/contact_params.hpp"
-#include "state/local_mesh.hpp"
 
 namespace breccia {
 

@@ -23,18 +23,18 @@ TEST(ActiveJoints, keep_their_order_and_contents_while_others_come_and_go) {
     std::transform(batch.begin(), batch.end(), joints.begin(), [](const auto& entry) {
       ActiveJoint joint;
       joint.id = entry.first;
-      joint.area = entry.second;
+      joint.history.area = entry.second;
       joint.law = static_cast<Index>(joint.id % 3);
       return joint;
     });
     list.insert(joints);
     expected.insert(batch.begin(), batch.end());
     const auto leaves = [&](GlobalId id) { return (id + round) % 31 == 0; };
-    std::vector<GlobalId> gone;
+    std::vector<GlobalId> leaving;
     for (const ActiveJoint& joint : list) {
-      if (leaves(joint.id)) gone.push_back(joint.id);
+      if (leaves(joint.id)) leaving.push_back(joint.id);
     }
-    list.erase(gone);
+    list.erase(leaving);
     std::erase_if(expected, [&](const auto& entry) { return leaves(entry.first); });
 
     ASSERT_EQ(list.size(), expected.size());
@@ -42,7 +42,7 @@ TEST(ActiveJoints, keep_their_order_and_contents_while_others_come_and_go) {
     std::size_t i = 0;
     for (const ActiveJoint& joint : list) {
       ASSERT_EQ(joint.id, next->first);
-      ASSERT_EQ(joint.area, next->second);
+      ASSERT_EQ(joint.history.area, next->second);
       ASSERT_EQ(joint.law, joint.id % 3);
       ASSERT_EQ(list[i++].id, joint.id);
       ++next;

@@ -78,7 +78,7 @@ TEST(JointFailure, under_pressure_leaves_a_frictional_interface_until_it_opens) 
   mover.go(Vec3(closed, 0, 0), 100);
   mover.go(Vec3(closed, 40e-6, 0), 4000);
   ASSERT_EQ(pair.joints.size(), 1U);
-  EXPECT_EQ(pair.joints[0].state, JointState::failed);
+  EXPECT_EQ(pair.joints[0].state(), JointState::failed);
   EXPECT_EQ(pair.joints[0].mode(), FailureMode::mode_2);
   EXPECT_NEAR(pair.force_on_b()[0] / (pressure * kArea), 1.0, 1e-8);
   EXPECT_NEAR(pair.force_on_b()[1] / (-kFriction * pressure * kArea), 1.0, 1e-6);
@@ -98,7 +98,7 @@ TEST(JointFailure, is_not_followed_by_release_while_one_corner_is_closed) {
   const double closed = -1e6 / pair.laws[0].stiffness;
   mover.go(Vec3(closed, 0, 0), 10);
   mover.go(Vec3(closed, 40e-6, 0), 2000);
-  ASSERT_EQ(pair.joints[0].state, JointState::failed);
+  ASSERT_EQ(pair.joints[0].state(), JointState::failed);
   const auto lift = [&](int corner, double height) {
     const Index node = pair.corner(false, corner);
     Vec3 x = load_node(pair.position.data(), node);
@@ -125,8 +125,8 @@ TEST(JointFailure, of_a_mid_edge_joint_waits_for_the_corners_to_open) {
   law.points = JointPoints::mid_edge;
   JointPair pair(prepared(law));
   ActiveJoint failed = pair.virgin;
-  failed.state = JointState::failed;
-  for (JointPointHistory& p : failed.points) p.damage = 1.0;
+  failed.history.failed = 1;
+  for (JointPointHistory<double>& p : failed.history.points) p.damage = 1.0;
   pair.put_on_list(failed);
   pair.open(Vec3(1e-6, 0, 0));
   const Index node = pair.corner(false, 0);
@@ -259,7 +259,7 @@ TEST(JointFailure, takes_only_the_released_joints_off_the_list_and_keeps_the_ord
     list.push_back(pair.virgin);
     list.back().id = 10 * id;
     if (id % 2 == 0) {
-      for (JointPointHistory& p : list.back().points) p.damage = 1.0;
+      for (JointPointHistory<double>& p : list.back().history.points) p.damage = 1.0;
     }
   }
   pair.joints = ActiveJoints(list);
@@ -284,7 +284,7 @@ TEST(JointFailure, a_closed_joint_that_has_slid_far_pushes_with_the_gradient_of_
   pair.open({-1e-6, 4e-3, 1e-3});  // a fifth of the edge: far beyond failure in shear, closed
   pair.evaluate();
   ASSERT_EQ(pair.joints.size(), 1U);
-  ASSERT_EQ(pair.joints[0].state, JointState::failed);
+  ASSERT_EQ(pair.joints[0].state(), JointState::failed);
   std::mt19937 random(5);
   pair.shake(random, 2e-7);
   const auto energy = [&](Index node, const Vec3& by) {

@@ -34,7 +34,7 @@ Pulled pull(JointPair& pair, const Vec3& direction, double step) {
     p.work = work.add();
     p.peak_x = std::max(p.peak_x, -pair.force_on_b()[0]);
     p.peak_y = std::max(p.peak_y, -pair.force_on_b()[1]);
-    if (pair.joints.size() == 1 && pair.joints[0].state == JointState::failed) break;
+    if (pair.joints.size() == 1 && pair.joints[0].state() == JointState::failed) break;
   }
   p.dissipated = pair.dissipated();
   return p;
@@ -70,7 +70,7 @@ TEST(JointForces, in_the_elastic_range_are_stiffness_times_opening_to_the_last_b
     std::mt19937 random(static_cast<unsigned>(turn));
     pair.shake(random, 0.1 * law.onset_normal);
     pair.evaluate();
-    const double stiffness = law.stiffness * pair.virgin.area / 3.0;
+    const double stiffness = law.stiffness * pair.virgin.history.area / 3.0;
     for (int i = 0; i < 3; ++i) {
       for (int axis = 0; axis < 3; ++axis) {
         const double expected = stiffness * (pair.place(false, i)[axis] - pair.place(true, i)[axis]);
@@ -234,7 +234,7 @@ TEST(JointForces, come_through_a_flattened_joint_as_numbers) {
 double crossing_error(const JointLawParams& law, double before, double after) {
   JointPair pair(law);
   NodalWork work(pair);
-  const double stiffness = law.stiffness * pair.virgin.area;
+  const double stiffness = law.stiffness * pair.virgin.history.area;
   // The sweep's part: elastic up to `before`.
   pair.open(Vec3(before, 0, 0));
   pair.joints = {};

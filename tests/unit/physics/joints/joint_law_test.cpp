@@ -93,7 +93,7 @@ TEST(JointLaw, below_the_screen_limit_is_elastic_in_every_direction_to_the_last_
     Vec3 opening(part(random), part(random), part(random));
     if (i == 0) opening = Vec3(0, 0, 1);  // the weakest of all
     opening *= std::sqrt(law.screen_limit()) * (1 - 1e-15) / opening.norm();
-    JointPointHistory history;
+    JointPointHistory<double> history;
     const JointPointResponse r = evaluate_point(law, axes(), opening, history);
     ASSERT_TRUE(r.elastic);
     for (int axis = 0; axis < 3; ++axis) ASSERT_EQ(r.traction[axis], law.stiffness * opening[axis]);
@@ -102,7 +102,7 @@ TEST(JointLaw, below_the_screen_limit_is_elastic_in_every_direction_to_the_last_
 
 TEST(JointLaw, screen_limit_is_no_smaller_than_the_weakest_direction_needs) {
   const JointLawParams law = prepared(example_law());
-  JointPointHistory history;
+  JointPointHistory<double> history;
   (void)evaluate_point(law, axes(), Vec3(0, 0, std::sqrt(law.screen_limit()) * (1 + 1e-6)), history);
   EXPECT_GT(history.damage, 0);
 }

@@ -69,7 +69,7 @@ struct JointPair {
     virgin.slot_b = local.slot_of_element[static_cast<std::size_t>(faces[0].b)];
     virgin.face_a = faces[0].face_a;
     virgin.code = faces[0].code;
-    virgin.area = faces[0].area;
+    virgin.history.area = faces[0].area;
     put_on_list(virgin);
   }
 

@@ -20,16 +20,16 @@ std::vector<ActiveJoint> varied(const ActiveJoint& virgin) {
   for (GlobalId id = 0; id < kJoints; ++id) {
     ActiveJoint joint = virgin;
     joint.id = id;
-    joint.area *= 1.0 + 0.01 * static_cast<double>(id);
+    joint.history.area *= 1.0 + 0.01 * static_cast<double>(id);
     for (std::size_t i = 0; i < 3; ++i) {
-      JointPointHistory& p = joint.points[i];
-      p.fresh = id % 5 == 0;
+      JointPointHistory<double>& p = joint.history.points[i];
+      p.memory = id % 5 == 0 ? kFresh : kDivided;
       if (id % 3 == 0) continue;
       p.damage = p.level = id % 3 == 1 ? 0.1 * static_cast<double>(i) : 1.0;
-      p.left = 1.0 - p.damage;
-      p.slip = Vec3(1e-7 * static_cast<double>(i), -2e-7, 0);
+      p.strength_share = 1.0 - p.damage;
+      p.slip = {1e-7 * static_cast<double>(i), -2e-7};
     }
-    if (id % 6 == 5) joint.state = JointState::failed;
+    if (id % 6 == 5) joint.history.failed = 1;
     joints.push_back(joint);
   }
   return joints;
@@ -56,8 +56,8 @@ std::vector<double> walk(const JointLawParams& law, Simd simd) {
     numbers.push_back(pair.stored());
     numbers.push_back(static_cast<double>(pair.joints.size()));
     for (const ActiveJoint& joint : pair.joints) {
-      for (const JointPointHistory& p : joint.points)
-        numbers.insert(numbers.end(), {p.damage, p.level, p.left, p.slip[0], p.slip[1]});
+      for (const JointPointHistory<double>& p : joint.history.points)
+        numbers.insert(numbers.end(), {p.damage, p.level, p.strength_share, p.slip[0], p.slip[1]});
     }
   }
   return numbers;
@@ -109,13 +109,13 @@ TEST(JointSimd, a_joint_of_the_list_gets_the_bits_of_one_evaluated_alone) {
       listed.evaluate();
       if (listed.joints.empty()) break;
       const ActiveJoint joint = listed.joints[0];
-      if (joint.points[0].whole) continue;  // alone, there is no short cut
+      if (joint.history.points[0].memory == kUndivided) continue;  // alone, there is no short cut
       start_history(alone.laws, alone.local, alone.position.data(), std::span(&alone.virgin, 1));
-      if (joint.state == JointState::failed) alone.virgin.state = JointState::failed;
+      if (joint.state() == JointState::failed) alone.virgin.history.failed = 1;
       for (std::size_t i = 0; i < 3; ++i) {
-        const JointPointHistory &p = joint.points[i], &q = alone.virgin.points[i];
+        const JointPointHistory<double>&p = joint.history.points[i], &q = alone.virgin.history.points[i];
         ASSERT_EQ(p.damage, q.damage) << step;
-        ASSERT_EQ(p.left, q.left) << step;
+        ASSERT_EQ(p.strength_share, q.strength_share) << step;
         ASSERT_EQ(p.slip, q.slip) << step;
         ASSERT_EQ(p.traction, q.traction) << step;
         ASSERT_EQ(p.stored(), q.stored()) << step;

@@ -49,7 +49,7 @@ inline Vec3 opening_of(const JointFrame& frame, double normal, double shear) {
 struct PointDriver {
   const JointLawParams& law;
   JointFrame frame = axes();
-  JointPointHistory history{};
+  JointPointHistory<double> history{};
   Vec3 opening{0, 0, 0}, traction{0, 0, 0};
   double work = 0, mode_1 = 0, mode_2 = 0, friction = 0;
   double peak_normal = 0, peak_shear = 0;

@@ -58,7 +58,9 @@ TEST(GravityWork, FollowsEveryChangeOfGravityByTheTrapezoidRule) {
     if (step > 0) expected += 0.5 * (g_of(step) + g_of(step - 1)).dot(moment - last_moment);
     scale = std::max(scale, std::abs(expected));
     last_moment = moment;
-    handed_on = GravityWork(handed_on.close(model.local, model.state.position), model.local, model.state.position);
+    handed_on.close(model.local, model.state.position);
+    handed_on.anchor = {};
+    handed_on.set_anchor(model.local, model.state.position);
     for (GravityWork* work : {&gravity, &handed_on}) work->advance(model.local, model.state, g_of(step), dt);
     ASSERT_EQ(handed_on.work(model.local, model.state.position), gravity.work(model.local, model.state.position))
         << "step " << step;

@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "base/time_function.hpp"
+#include "discretisation/joint_links.hpp"
+#include "discretisation/local_mesh.hpp"
+#include "discretisation/nodal_state.hpp"
 #include "mesh/joints.hpp"
 #include "mesh/raster.hpp"
 #include "mesh/topology.hpp"
 #include "physics/elasticity.hpp"
 #include "physics/loads.hpp"
-#include "state/joint_links.hpp"
-#include "state/local_mesh.hpp"
-#include "state/state.hpp"
 
 namespace breccia::test {
 
@@ -24,7 +24,7 @@ struct Model {
   Topology topology;
   LocalMesh local;
   JointLinks links;  // all free until `join`
-  State state;
+  NodalState state;
 
   Model(Mesh m, Discretisation kind, double density) : mesh(std::move(m)), topology(build_topology(mesh)) {
     const std::size_t groups = mesh.volume_groups.size();

@@ -24,7 +24,7 @@ class DrivenBody {
 
   /// One step; returns what kinetic energy and booked works disagree by, J.
   double step() {
-    State& state = model_.state;
+    NodalState& state = model_.state;
     const double time = number_ * kStep, before = number_ == 0 ? 0.0 : kStep;
     const Vec3 g(0, 3 * std::sin(9 * time), number_ < 300 ? -9.81 : -2.0);
     Field<double> force = test::internal_forces(model_, params_, state.position, state.velocity);

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/field.hpp"
+#include "base/types.hpp"
+#include "discretisation/layout.hpp"
+
+namespace breccia {
+
+/// Forces on nodes that do not come from the element's own deformation or its intact joints: contact, active joints,
+/// pressure. Own-node blocks get storage (96 doubles) only when something acts on them, so the sweep reads nothing for
+/// the others; shared nodes have a full nodal field, into which the sweep scatters its internal forces as well. The
+/// order in which `add` is called is the order of summation: callers go through joints, then couples, by ascending
+/// global ids.
+class NodalForces {
+ public:
+  NodalForces(Index num_own_blocks, Index num_nodes)
+      : num_own_nodes_(num_own_blocks * 4 * kLanes),
+        slot_(static_cast<std::size_t>(num_own_blocks), -1),
+        shared_(static_cast<std::size_t>(num_nodes - num_own_blocks * 4 * kLanes) * 3, 0.0) {}
+
+  /// Forget all forces; storage is kept. O(blocks in use + shared nodes).
+  void clear();
+
+  /// Adds a force, N, to a node.
+  void add(Index node, const Vec3& force) {
+    double* p = at(node);
+    p[0] += force[0];
+    p[8] += force[1];
+    p[16] += force[2];
+  }
+
+  /// Where the forces on three nodes of one element are summed, components kLanes apart: for callers that add as `add`
+  /// does. Valid until the next call that is not const.
+  [[nodiscard]] std::array<double*, 3> places(Index first, Index second, Index third) {
+    if (first >= num_own_nodes_) return {at(first), at(second), at(third)};
+    constexpr Index kBlock = 4 * kLanes;
+    double* block = at(first / kBlock * kBlock);
+    return {block + nodal(first % kBlock, 0), block + nodal(second % kBlock, 0), block + nodal(third % kBlock, 0)};
+  }
+
+  [[nodiscard]] Vec3 get(Index node) const;
+
+  /// 96 doubles [corner][axis][lane] of an own-node block, or nullptr when nothing acts on it.
+  [[nodiscard]] const double* block(Index own_block) const {
+    const Index s = slot_[static_cast<std::size_t>(own_block)];
+    return s < 0 ? nullptr : own_.data() + static_cast<std::size_t>(s) * 96;
+  }
+  /// Slot of each own-node block, -1: none; and the storage they index, 96 doubles each. For the sweep.
+  [[nodiscard]] const Index* slots() const { return slot_.data(); }
+  [[nodiscard]] const double* own() const { return own_.data(); }
+  /// Nodal field of the shared nodes, from node num_own_nodes on.
+  [[nodiscard]] double* shared() { return shared_.data(); }
+
+ private:
+  double* at(Index node) {
+    if (node >= num_own_nodes_) return shared_.data() + nodal(node - num_own_nodes_, 0);
+    const Index block = node / (4 * kLanes);
+    Index& slot = slot_[static_cast<std::size_t>(block)];
+    if (slot < 0) slot = take_slot(block);
+    return own_.data() + static_cast<std::size_t>(slot) * 96 + nodal(node % (4 * kLanes), 0);
+  }
+  Index take_slot(Index block);
+
+  Index num_own_nodes_;
+  std::vector<Index> slot_;
+  std::vector<Index> used_;  ///< blocks with a slot, by slot
+  Field<double> own_;
+  Field<double> shared_;
+};
+
+}  // namespace breccia

@@ -1,0 +1,169 @@
+#include "domains/decomposition.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/extent.hpp"
+#include "parallel/whole_fragments.hpp"
+
+namespace breccia {
+namespace {
+
+Extent extent_of(const ElementRecord& element) {
+  Extent extent;
+  for (const auto& x : element.position) extent.add(Vec3(x[0], x[1], x[2]));
+  return extent;
+}
+
+Vec3 centroid(const ElementRecord& element) {
+  Vec3 sum = Vec3::Zero();
+  for (const auto& x : element.position) sum += Vec3(x[0], x[1], x[2]);
+  return 0.25 * sum;
+}
+
+/// Where elements count as lying, mine among those of all ranks.
+std::vector<Vec3> places(const Communicator& communicator, const Records& mine, std::span<const Vec3> centroid,
+                         double reach) {
+  std::vector<GlobalId> ids;  // by themselves: a search through the records misses the cache at every look
+  for (const ElementRecord& element : mine.elements) ids.push_back(element.id);
+  const auto place_of = [&](std::size_t e, GlobalId id) {
+    const auto near = static_cast<std::ptrdiff_t>(e) + (id - ids[e]);  // as long as all elements are on one rank
+    if (near >= 0 && near < std::ssize(ids) && ids[static_cast<std::size_t>(near)] == id)
+      return static_cast<Index>(near);
+    const auto found = std::lower_bound(ids.begin(), ids.end(), id);
+    return found != ids.end() && *found == id ? static_cast<Index>(found - ids.begin()) : FaceLink::kBeyond;
+  };
+  std::vector<std::array<Index, 4>> neighbours(ids.size());
+  for (std::size_t e = 0; e < ids.size(); ++e) {
+    const ElementRecord& element = mine.elements[e];
+    for (std::size_t f = 0; f < 4; ++f) {
+      const bool free = element.neighbour[f] < 0 || (element.released >> f & 1) != 0;
+      neighbours[e][f] = free ? FaceLink::kFree : place_of(e, element.neighbour[f]);
+    }
+  }
+  const auto all = static_cast<double>(communicator.sum(static_cast<std::int64_t>(ids.size())));
+  return places_of_fragments(centroid, neighbours, all / communicator.size(), reach);
+}
+
+/// Sends marked elements to the ranks that want them. @param wanted  [rank](elements)
+std::vector<Communicator::Parcel> exchange(const Communicator& communicator, const Records& records,
+                                           const std::vector<std::vector<std::uint8_t>>& wanted) {
+  std::vector<Communicator::Parcel> parcels;
+  for (std::size_t r = 0; r < wanted.size(); ++r) {
+    const bool any = std::find(wanted[r].begin(), wanted[r].end(), std::uint8_t{1}) != wanted[r].end();
+    if (any) parcels.push_back({static_cast<int>(r), pack(records, wanted[r])});
+  }
+  return communicator.exchange(std::move(parcels));
+}
+
+using Marks = std::vector<std::vector<std::uint8_t>>;
+
+Records migrate(const Communicator& communicator, Records mine, const std::vector<int>& owner) {
+  Marks wanted(static_cast<std::size_t>(communicator.size()), std::vector<std::uint8_t>(mine.elements.size(), 0));
+  for (std::size_t e = 0; e < owner.size(); ++e) wanted[static_cast<std::size_t>(owner[e])][e] = 1;
+  std::vector<std::uint8_t> stay(mine.elements.size(), 0);
+  stay.swap(wanted[static_cast<std::size_t>(communicator.rank())]);
+  Records arrivals;
+  for (const Communicator::Parcel& parcel : exchange(communicator, mine, wanted)) unpack(parcel.bytes, arrivals);
+  keep(mine, stay);
+  merge(mine, std::move(arrivals));
+  return mine;
+}
+
+/// Originals that other ranks need.
+Marks needed_elsewhere(const Communicator& communicator, const Records& owned, double reach) {
+  std::vector<Extent> elements;
+  Extent all;
+  for (const ElementRecord& element : owned.elements) {
+    elements.push_back(extent_of(element));
+    all.add(elements.back());
+  }
+  const std::vector<std::vector<Extent>> extents = communicator.all_gather(std::span<const Extent>(&all, 1));
+  Marks wanted(extents.size());
+  for (std::size_t r = 0; r < extents.size(); ++r) {
+    wanted[r].assign(owned.elements.size(), 0);
+    if (static_cast<int>(r) == communicator.rank() || !all.near(extents[r][0], reach)) continue;
+    for (std::size_t e = 0; e < owned.elements.size(); ++e) {
+      if (elements[e].near(extents[r][0], reach)) wanted[r][e] = 1;
+    }
+  }
+  return wanted;
+}
+
+}  // namespace
+
+Reach reach_of(const case_::Case& input, double edge, double buffer) {
+  // Forces meet at shared nodes that come from what touches any of their elements: one more ring.
+  const bool shared_nodes = std::any_of(input.materials.begin(), input.materials.end(), [](const case_::Material& m) {
+    return m.joints == case_::JointPlacement::none;
+  });
+  return {input.domains.margin * edge, (shared_nodes ? 2 : 1) * edge, 2 * buffer};
+}
+
+DomainSpec domain_spec(const case_::Case& input) {
+  const case_::Domains& asked = input.domains;
+  return {asked.kind == case_::DomainKind::grid ? DomainKind::grid : DomainKind::rcb,
+          asked.n,
+          input.file.string(),
+          asked.origin.line,
+          {}};
+}
+
+Piece decompose(const Communicator& communicator, DomainSpec& domains, Records mine, const std::vector<double>& weight,
+                const Reach& reach) {
+  std::vector<Vec3> centroids;
+  for (const ElementRecord& element : mine.elements) centroids.push_back(centroid(element));
+  const double edge = longest_edge(communicator, mine);
+  domains = settled(communicator, domains, communicator.size(), centroids, edge);
+  const std::vector<Vec3> place = places(communicator, mine, centroids, reach.distance());
+  const std::vector<int> owner = assign_domains(communicator, domains, communicator.size(), place, weight, edge);
+  Records owned = migrate(communicator, std::move(mine), owner);
+
+  Piece piece;
+  const Marks wanted = needed_elsewhere(communicator, owned, reach.distance());
+  std::vector<SharedElements> by_rank(wanted.size());
+  for (std::size_t r = 0; r < wanted.size(); ++r) {
+    by_rank[r].rank = static_cast<int>(r);
+    for (std::size_t e = 0; e < owned.elements.size(); ++e) {
+      if (wanted[r][e] != 0) by_rank[r].send.push_back(owned.elements[e].id);
+    }
+  }
+  const std::vector<Communicator::Parcel> parcels = exchange(communicator, owned, wanted);
+  std::vector<GlobalId> own_ids;
+  for (const ElementRecord& element : owned.elements) own_ids.push_back(element.id);
+  piece.records = std::move(owned);
+  Records proxies;
+  for (const Communicator::Parcel& parcel : parcels) {
+    const std::size_t before = proxies.elements.size();
+    unpack(parcel.bytes, proxies);
+    auto& receive = by_rank[static_cast<std::size_t>(parcel.rank)].receive;
+    for (std::size_t e = before; e < proxies.elements.size(); ++e) receive.push_back(proxies.elements[e].id);
+  }
+  merge(piece.records, std::move(proxies));
+  for (const ElementRecord& element : piece.records.elements) {
+    piece.original.push_back(std::binary_search(own_ids.begin(), own_ids.end(), element.id) ? 1 : 0);
+  }
+  for (SharedElements& neighbour : by_rank) {
+    if (!neighbour.send.empty() || !neighbour.receive.empty()) piece.neighbours.push_back(std::move(neighbour));
+  }
+  return piece;
+}
+
+double longest_edge(const Communicator& communicator, const Records& mine) {
+  double square = 0;
+  for (const ElementRecord& element : mine.elements) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = i + 1; j < 4; ++j) {
+        double sum = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const double d = element.position[i][k] - element.position[j][k];
+          sum += d * d;
+        }
+        square = std::max(square, sum);
+      }
+    }
+  }
+  return communicator.max(std::sqrt(square));
+}
+
+}  // namespace breccia

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "case/case.hpp"
+#include "parallel/communicator.hpp"
+#include "parallel/domain_topology.hpp"
+#include "state/records.hpp"
+
+namespace breccia {
+
+/// Another rank that has originals of this one as proxies or the other way round; both sides list the same ids,
+/// ascending.
+struct SharedElements {
+  int rank = 0;
+  std::vector<GlobalId> send;     ///< originals that are proxies there
+  std::vector<GlobalId> receive;  ///< proxies whose originals are there
+};
+
+/// What a rank works on until the next decomposition.
+struct Piece {
+  Records records;                         ///< originals and proxies
+  std::vector<std::uint8_t> original;      ///< (elements) 1: this rank's own
+  std::vector<SharedElements> neighbours;  ///< ascending ranks
+};
+
+/// How far the proxies reach.
+///
+/// A rank holds every element whose box comes within distance() of the box around its originals. Until nodes have moved
+/// by more than allowed_motion() since, beside what all have moved together, that is enough for the same bits as on one
+/// rank:
+/// - what touches an original then is within twice that motion, the margin;
+/// - a point that comes to an original brings the history of what it touched on its way, which counts from the last
+/// search:
+///   then its rank told what it touched. Since then neither it nor any element has moved by more than half the search's
+///   buffer, so that all it touched is within two buffers more;
+/// - around such elements corner clusters are complete, since what is bonded to them at a vertex is no further away
+/// than
+///   the largest element: the ring.
+struct Reach {
+  double margin = 0;   ///< m
+  double ring = 0;     ///< m
+  double buffers = 0;  ///< m, two of the largest
+
+  [[nodiscard]] double allowed_motion() const { return margin / 2; }
+  [[nodiscard]] double distance() const { return margin + ring + buffers; }
+};
+
+/// @param edge    m, longest of an element
+/// @param buffer  m, largest that a search may choose
+[[nodiscard]] Reach reach_of(const case_::Case& input, double edge, double buffer);
+
+/// What the case asks for.
+[[nodiscard]] DomainSpec domain_spec(const case_::Case& input);
+
+/// Gives every element to the domain it lies in and every rank the proxies it needs. Collective.
+/// @param domains a grid is settled by the first call
+/// @param mine    this rank's originals, in their present state; on the first call all elements on one rank
+/// @param weight  (elements of mine) relative cost
+/// O(elements log elements) and two exchanges of elements, those that change hands and proxies.
+/// Throws on all ranks what assign_domains throws.
+[[nodiscard]] Piece decompose(const Communicator& communicator, DomainSpec& domains, Records mine,
+                              const std::vector<double>& weight, const Reach& reach);
+
+/// Longest edge in the present state, m; collective.
+[[nodiscard]] double longest_edge(const Communicator& communicator, const Records& mine);
+
+}  // namespace breccia

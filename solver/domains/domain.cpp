@@ -1,0 +1,159 @@
+#include "domains/domain.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "domains/state_records.hpp"
+
+namespace breccia {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// Nodes at rest in their places, and the fields that the materials need.
+void start_state(const Model& model, State& state) {
+  const LocalMesh& local = model.local;
+  state.nodes.position = local.reference;
+  state.nodes.next_position = local.reference;
+  state.nodes.velocity.assign(local.reference.size(), 0.0);
+  bool viscous = false, stress_work = false;
+  for (const ElasticParams& p : model.elastic) {
+    viscous = viscous || p.viscosity > 0;
+    stress_work = stress_work || !is_hyperelastic(p.law);
+  }
+  if (viscous) state.elements.allocate(kViscousWork, local.num_slots);
+  if (stress_work) state.elements.allocate(kStressWork, local.num_slots);
+}
+
+}  // namespace
+
+Domain::Domain(const Model& of, const ContactSearchParams& search) : model(of), derived(derive(of)), scratch(of.local) {
+  start_state(model, state);
+  std::vector<ActiveJoint> from_start;
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    if (!starts_intact(model, model.joints[j])) from_start.push_back(new_active_joint(model, j));
+  }
+  state.joints.active.insert(from_start);
+  if (model.has_contact)
+    contact =
+        std::make_unique<ContactSearch>(search, model.contact, model.mesh, model.topology, model.local, state.contact);
+}
+
+Domain::Domain(const Model& of, const ContactSearchParams& search, const Records& records, Continuation from)
+    : model(of), derived(derive(of)), timer(from.timer), sample(from.sample), scratch(of.local) {
+  start_state(model, state);
+  copy_model_fields(from.state, state);
+  restore(records, model, state, derived);
+  state.work.gravity.set_anchor(model.local, state.nodes.position);
+  if (model.has_contact) contact = std::make_unique<ContactSearch>(search, model, records, state.contact);
+}
+
+void Domain::connect(const Communicator& communicator, std::vector<SharedSlots> shared, ExchangeKind kind) {
+  exchange.connect(communicator, model, std::move(shared), kind, contact && contact->verifies());
+  if (contact) contact->restrict_to(derived.relevant);
+  plan_exchange();
+  exchange.begin_reduction(state.signals);
+}
+
+/// Near are elements on whose positions the forces computed here depend: those relevant, those that had a joint with
+/// them at first, and those in couples. Moving are those on whose velocities they depend as well: those that contact
+/// may touch, and of shared nodes (viscosity).
+void Domain::plan_exchange() {
+  std::vector<std::uint8_t> near = derived.relevant, moving(derived.relevant.size(), 0);
+  for (const ModelJoint& joint : model.joints) {
+    const Index a = model.local.slot_of_element[at(joint.face.a)], b = model.local.slot_of_element[at(joint.face.b)];
+    if (derived.is_relevant(a) || derived.is_relevant(b)) near[at(a)] = near[at(b)] = 1;
+  }
+  std::fill(moving.begin() + model.local.num_own_slots, moving.end(), std::uint8_t{1});
+  if (contact) {
+    contact->mark_coupled(near);
+    contact->mark_coupled(moving);
+  }
+  exchange.plan_near(model.local, near, moving);
+  plan_sweep_order(model, state.loads.constraints, exchange.sent_blocks(), derived);
+}
+
+void add_velocity(Domain& domain, const InitialVelocity& initial) {
+  add_initial_velocity(domain.model.local, initial, domain.state.nodes.position, domain.state.nodes.velocity);
+}
+
+void begin_stage(Domain& domain, StageLoads loads, double dt) {
+  State& state = domain.state;
+  for (const PressureLoad& p : state.loads.pressures) state.work.past_loads.add(p.work());
+  state.work.past_loads.add(state.constraints.work());
+  state.loads = std::move(loads);
+  state.constraints = Constraints(state.loads.constraints, domain.model.local, state.nodes);
+  if (state.loads.mass_damping > 0 || state.loads.local_damping > 0)
+    state.damping_work.resize(at(domain.model.local.num_nodes));
+  state.clock.dt = dt;
+  if (!domain.exchange.alone())
+    plan_sweep_order(domain.model, state.loads.constraints, domain.exchange.sent_blocks(), domain.derived);
+}
+
+void break_joints(Domain& domain, std::span<const LoadedFace> faces) {
+  const Model& model = domain.model;
+  std::vector<GlobalId> by_hand;
+  std::vector<std::size_t> crossed;
+  const auto has_relevant_side = [&](Index joint) {
+    const JointFace& face = model.joints[at(joint)].face;
+    return domain.derived.is_relevant(model.local.slot_of_element[at(face.a)]) ||
+           domain.derived.is_relevant(model.local.slot_of_element[at(face.b)]);
+  };
+  for (const LoadedFace& face : faces) {
+    const Index joint = domain.derived.joint_at(face.slot, face.face);
+    if (joint < 0) continue;
+    if (is_swept(model, domain.derived, face.slot, face.face) && has_relevant_side(joint)) crossed.push_back(at(joint));
+    by_hand.push_back(model.joint_id(at(joint)));
+  }
+  std::sort(by_hand.begin(), by_hand.end());
+  activate_joints(model, crossed, domain.state, domain.derived);
+  domain.state.joints.active.break_points(by_hand);
+}
+
+void activate_joints(const Model& model, std::vector<std::size_t>& crossed, State& state, Derived& derived) {
+  if (crossed.empty()) return;
+  std::sort(crossed.begin(), crossed.end());
+  crossed.erase(std::unique(crossed.begin(), crossed.end()), crossed.end());
+  std::vector<ActiveJoint> batch;
+  for (const std::size_t index : crossed) {
+    const ActiveJoint& joint = batch.emplace_back(new_active_joint(model, index));
+    derived.links.detach(joint.slot_a, joint.face_a);
+    derived.links.detach(joint.slot_b, joint.code / 3);
+  }
+  crossed.clear();
+  start_history(model.joint_laws, model.local, state.nodes.position.data(), batch);
+  state.joints.active.insert(batch);
+}
+
+ExactSum external_work(const Domain& domain) {
+  const State& state = domain.state;
+  ExactSum sum = state.work.past_loads;
+  sum.add(state.constraints.work());
+  sum.add(state.work.gravity.work(domain.model.local, state.nodes.position));
+  for (const PressureLoad& p : state.loads.pressures) sum.add(p.work());
+  return sum;
+}
+
+void conclude(Domain& domain) {
+  const auto lap = domain.timer.measure(Phase::communication);
+  domain.exchange.conclude(domain.state.clock, domain.state.signals);
+}
+
+Continuation close(Domain& domain) {
+  State& state = domain.state;
+  const StepSignals received = state.signals.received;
+  conclude(domain);
+  state.signals.sent = state.signals.received;
+  state.signals.received = received;
+  begin_stage(domain, {}, state.clock.dt);
+  state.work.gravity.close(domain.model.local, state.nodes.position);
+  state.counters.messages = domain.messages();
+  state.counters.bytes = domain.bytes();
+  Continuation carried;
+  copy_model_fields(state, carried.state);
+  carried.timer = domain.timer;
+  carried.sample = domain.sample;
+  return carried;
+}
+
+}  // namespace breccia

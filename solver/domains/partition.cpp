@@ -1,0 +1,147 @@
+#include "domains/partition.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "contact/search_params.hpp"
+#include "domains/piece_mesh.hpp"
+#include "domains/state_records.hpp"
+#include "model/parameters.hpp"
+
+namespace breccia {
+namespace {
+
+/// The margin is stretched, but no further than this, so that at the present speed nodes use it up in so many steps.
+constexpr double kLasting = 400, kMostStretched = 5;
+
+}  // namespace
+
+Partition::Partition(const case_::Case& input, const Communicator& communicator, std::unique_ptr<Model> whole)
+    : input_(input), communicator_(communicator), model_(std::move(whole)), domains_(domain_spec(input)) {
+  if (model_) start_whole();
+  if (communicator_.size() == 1) return;
+  std::vector<std::byte> whole_model;
+  if (communicator_.is_root()) whole_model = pack(model_->whole);
+  communicator_.broadcast(whole_model);
+  const std::vector<double> weight = domain_ ? balance_.weights(*domain_) : std::vector<double>{};
+  motion_ = communicator_.max(domain_ ? first_motion() : 0.0);
+  decompose_anew(unpack_whole(whole_model), domain_ ? records_of(*domain_) : Records{}, weight, {});
+}
+
+/// How far a node moves in a step at the start, m.
+double Partition::first_motion() const {
+  const NodalState& state = domain_->state.nodes;
+  double square = 0;
+  for (Index n = 0; n < model_->local.num_nodes; ++n)
+    square = std::max(square, load_node(state.velocity.data(), n).squaredNorm());
+  const double dt = input_.time.step > 0 ? input_.time.step : input_.time.safety * time_step_->limit(state.position);
+  return std::sqrt(square) * dt;
+}
+
+Partition::Partition(const case_::Case& input, const Communicator& communicator, Snapshot from)
+    : input_(input),
+      communicator_(communicator),
+      domains_(std::move(from.domains)),
+      stage_(&input.stages[from.stage]),
+      motion_(from.motion) {
+  decompose_anew(std::move(from.whole), std::move(from.mine), from.weight, std::move(from.state));
+}
+
+Snapshot Partition::snapshot() {
+  Snapshot now{model_->whole,
+               records_of(*domain_),
+               costs(),
+               {},
+               domains_,
+               motion_,
+               static_cast<std::size_t>(stage_ - input_.stages.data())};
+  now.state = close(*domain_);
+  return now;
+}
+
+void Partition::start_whole() {
+  domain_ = std::make_unique<Domain>(*model_, search_params(input_, *model_));
+  for (const case_::InitialVelocity& entry : input_.initial_velocities)
+    add_velocity(*domain_, initial_velocity(entry, *model_));
+  time_step_ = std::make_unique<TimeStep>(*model_);
+  model_->whole.step_ratio = time_step_->ratio();
+  if (domain_->contact) model_->whole.contactor_size = domain_->contact->contactor_size();
+}
+
+void Partition::decompose_anew(WholeModel whole, Records mine, const std::vector<double>& weight, Continuation from) {
+  communicator_.set_phase("division of the model");
+  const Phase phase = stage_ != nullptr ? Phase::decomposition : Phase::setup;  // the first one is before all stages
+  PhaseTimer timer;
+  {
+    const auto lap = timer.measure(phase);
+    rebuild(std::move(whole), std::move(mine), weight, std::move(from));
+  }
+  decomposition_s_ = communicator_.max(timer.seconds(phase));
+  domain_->timer.add(timer);
+  balance_.restart(*domain_);
+}
+
+void Partition::rebuild(WholeModel whole, Records mine, const std::vector<double>& weight, Continuation from) {
+  domain_.reset();
+  time_step_.reset();
+  model_.reset();
+  reach_ = reach_of(input_, longest_edge(communicator_, mine),
+                    largest_buffer(input_.detection.buffer, whole.contactor_size));
+  reach_.margin *= std::clamp(kLasting * motion_ / reach_.allowed_motion(), 1.0, kMostStretched);
+  build(decompose(communicator_, domains_, std::move(mine), weight, reach_), std::move(whole), std::move(from));
+}
+
+void Partition::build(const Piece& piece, WholeModel whole, Continuation from) {
+  const double dt = from.state.clock.dt;
+  Mesh mesh = mesh_of(piece.records, whole);
+  Topology topology = topology_of(piece.records, mesh);
+  model_ = std::make_unique<Model>(build_piece(input_, std::move(whole), std::move(mesh), std::move(topology),
+                                               piece.original, piece.records.corners));
+  domain_ = std::make_unique<Domain>(*model_, search_params(input_, *model_), piece.records, std::move(from));
+  const bool pairwise = input_.domains.exchange == case_::Exchange::pairwise;
+  if (communicator_.size() > 1)
+    domain_->connect(communicator_, shared_slots(piece.neighbours, model_->mesh, model_->local),
+                     pairwise ? ExchangeKind::pairwise : ExchangeKind::non_blocking);
+  time_step_ = std::make_unique<TimeStep>(*model_);
+  if (stage_ != nullptr) {
+    breccia::begin_stage(*domain_, stage_loads(*stage_, *model_), dt);
+    restore_holds(*domain_, piece.records);
+  }
+  anchor_ = domain_->state.nodes.position;
+  moved_.restart();
+}
+
+void Partition::begin_stage(const case_::Stage& stage, double dt) {
+  stage_ = &stage;
+  for (const std::string& surface : stage.broken_surfaces) break_joints(*domain_, faces_of_surface(*model_, surface));
+  breccia::begin_stage(*domain_, stage_loads(stage, *model_), dt);
+}
+
+void Partition::keep_up() {
+  if (communicator_.size() == 1) return;
+  const bool due = left_reach(), pays = balancing_pays();
+  if (!due && !pays) return;
+  const std::vector<double> weight = balance_.weights(*domain_);
+  Records mine = records_of(*domain_);
+  decompose_anew(model_->whole, std::move(mine), weight, close(*domain_));
+  ++decompositions_;
+}
+
+/// Once ranks have waited for as long as a division takes: whatever the steps to come bring, that costs at most twice
+/// what the best moment would have. A grid stays where it is, whatever its cuboids hold.
+bool Partition::balancing_pays() {
+  if (domain_->state.clock.steps % Balance::kInterval != 0) return false;
+  const double lost = balance_.look(*domain_);
+  return input_.domains.rebalance && domains_.kind == DomainKind::rcb && lost > decomposition_s_;
+}
+
+/// The next step is counted beforehand, at twice the speed.
+bool Partition::left_reach() {
+  motion_ = domain_->state.signals.motion;
+  moved_.step(motion_);
+  return moved_.used_up(reach_.allowed_motion(), 2 * motion_, model_->local, domain_->state.nodes.position, anchor_,
+                        communicator_);
+}
+
+}  // namespace breccia

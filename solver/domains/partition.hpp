@@ -1,0 +1,89 @@
+#pragma once
+
+#include <memory>
+
+#include "case/case.hpp"
+#include "contact/displacement.hpp"
+#include "domains/balance.hpp"
+#include "domains/decomposition.hpp"
+#include "domains/domain.hpp"
+#include "model/time_step.hpp"
+
+namespace breccia {
+
+/// The present state of a rank's partition: other partitions can go on from it, with another search or on their own.
+struct Snapshot {
+  WholeModel whole;
+  Records mine;                ///< the rank's originals
+  std::vector<double> weight;  ///< their costs
+  Continuation state;          ///< the rank's fields of the model
+  DomainSpec domains;
+  double motion = 0;      ///< m, largest of a node in a step
+  std::size_t stage = 0;  ///< of the case, begun
+};
+
+/// A rank's part of the model: its originals and proxies, and everything that is built upon them. When a node has gone
+/// so far that proxies may be missing, or when ranks wait for each other for longer than it takes, elements are given
+/// to domains anew and the partition is rebuilt from what they remember.
+class Partition {
+ public:
+  /// Collective. @param whole  the model on the root, null elsewhere
+  /// @pre input outlives this object
+  Partition(const case_::Case& input, const Communicator& communicator, std::unique_ptr<Model> whole);
+  /// Goes on where another partition was. Collective. @pre input differs from that partition's in [detection] and
+  /// [domains] at most
+  Partition(const case_::Case& input, const Communicator& communicator, Snapshot from);
+
+  [[nodiscard]] Domain& domain() { return *domain_; }
+  [[nodiscard]] const Domain& domain() const { return *domain_; }
+  [[nodiscard]] const State& state() const { return domain_->state; }
+  [[nodiscard]] const Model& model() const { return *model_; }
+  [[nodiscard]] const WholeModel& whole() const { return model_->whole; }
+  [[nodiscard]] const Communicator& communicator() const { return communicator_; }
+  [[nodiscard]] std::int64_t decompositions() const { return decompositions_; }  ///< so far, the first included
+
+  /// Breaks the stage's surfaces and lets its loads act, with steps of dt, s. Collective.
+  void begin_stage(const case_::Stage& stage, double dt);
+  [[nodiscard]] std::vector<double> costs() const {
+    return balance_.weights(*domain_);
+  }  ///< of the originals, ascending by id
+  [[nodiscard]] double imbalance() const {
+    return balance_.imbalance();
+  }                                                              ///< largest over mean working time of the ranks
+  [[nodiscard]] double load() const { return balance_.load(); }  ///< this rank's over the mean working time
+
+  /// After every step: a new decomposition if one is due. Collective.
+  void keep_up();
+  /// The partition as it is, which ends with it: no more steps. Collective. @pre a stage has begun
+  [[nodiscard]] Snapshot snapshot();
+  /// Stable step of the whole model at present, s. Collective.
+  [[nodiscard]] double stable_step() const {
+    return communicator_.min(time_step_->limit(domain_->state.nodes.position));
+  }
+
+ private:
+  void start_whole();
+  [[nodiscard]] double first_motion() const;
+  void decompose_anew(WholeModel whole, Records mine, const std::vector<double>& weight, Continuation from);
+  void rebuild(WholeModel whole, Records mine, const std::vector<double>& weight, Continuation from);
+  void build(const Piece& piece, WholeModel whole, Continuation from);
+  [[nodiscard]] bool left_reach();
+  [[nodiscard]] bool balancing_pays();
+
+  const case_::Case& input_;
+  Communicator communicator_;
+  std::unique_ptr<Model> model_;
+  DomainSpec domains_;
+  std::unique_ptr<Domain> domain_;
+  std::unique_ptr<TimeStep> time_step_;
+  const case_::Stage* stage_ = nullptr;
+  std::int64_t decompositions_ = 1;
+  Balance balance_;
+  double decomposition_s_ = 0;  ///< s, that the last decomposition took on the slowest rank
+  Reach reach_;
+  double motion_ = 0;  ///< m, largest of a node in a step, at present
+  DisplacementWatch moved_{kMotionLate};
+  Field<double> anchor_;  ///< nodal field, positions at the decomposition, from which moved_ counts
+};
+
+}  // namespace breccia

@@ -1,0 +1,92 @@
+#include "observe/energy_sample.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "parallel/totals.hpp"
+#include "physics/energy.hpp"
+
+namespace breccia {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// Sum over what this rank counts. @param counted  as long as the values
+ExactSum sum_of(const Field<double>& values, const std::vector<std::uint8_t>& counted) {
+  ExactSum sum;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (counted[i] != 0) sum.add(values[i]);
+  }
+  return sum;
+}
+
+/// The element of largest strain energy density on any rank; of equal ones the lowest. -1: none
+GlobalId densest_element(const ElasticEnergy& elastic, const Domain& domain) {
+  const Communicator& communicator = domain.exchange.communicator();
+  const double largest = communicator.max(elastic.largest_density);
+  const bool mine = elastic.worst_slot >= 0 && elastic.largest_density == largest;
+  constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();
+  const std::int64_t lowest =
+      communicator.max(mine ? -domain.model.local.element_of_slot[at(elastic.worst_slot)] : kNone);
+  return lowest == kNone ? -1 : -lowest;
+}
+
+constexpr std::array kEnergies{&EnergyBudget::kinetic,          &EnergyBudget::elastic,
+                               &EnergyBudget::joint_elastic,    &EnergyBudget::contact_stored,
+                               &EnergyBudget::joint_mode_1,     &EnergyBudget::joint_mode_2,
+                               &EnergyBudget::joint_friction,   &EnergyBudget::contact_dissipated,
+                               &EnergyBudget::contact_friction, &EnergyBudget::viscous,
+                               &EnergyBudget::damping};
+
+}  // namespace
+
+EnergySample energy_sample(const Field<double>& velocity_before, const Domain& domain) {
+  const LocalMesh& local = domain.model.local;
+  const State& state = domain.state;
+  const double* x = state.nodes.position.data();
+  ElasticEnergy elastic = elastic_energy(local, domain.model.elastic, x);
+  elastic.total.add(sum_of(state.elements[kStressWork], local.original));
+  JointEnergy joints = joint_energy(local, state.joints.active, state.work.joints);
+  joints.stored.add(intact_joint_energy(local, domain.derived.links, x));
+  ExactSum contact = state.work.contact.stored;
+  contact.add(state.work.contact.friction_stored);
+  const std::array parts{kinetic_energy(local, velocity_before.data(), state.nodes.velocity.data()),
+                         elastic.total,
+                         joints.stored,
+                         contact,
+                         joints.mode_1,
+                         joints.mode_2,
+                         joints.friction,
+                         state.work.contact.dissipated,
+                         state.work.contact.friction_dissipated,
+                         sum_of(state.elements[kViscousWork], local.original),
+                         sum_of(state.damping_work, local.counted),
+                         external_work(domain)};
+  static_assert(parts.size() == kEnergies.size() + 1);
+  const std::vector<double> terms = totals(domain.exchange.communicator(), parts);
+  EnergySample sample;
+  for (std::size_t t = 0; t < kEnergies.size(); ++t) sample.budget.*kEnergies[t] = terms[t];
+  sample.budget.external_work = terms.back();
+  sample.worst_element = densest_element(elastic, domain);
+  return sample;
+}
+
+double excess_energy(const EnergyBudget& budget) {
+  double total = 0;
+  for (const auto term : kEnergies) total += budget.*term;
+  return total - budget.external_work;
+}
+
+void set_residual(double first_excess, double floor, EnergyBudget& budget) {
+  double total = 0, largest = std::abs(budget.external_work);
+  for (const auto term : kEnergies) {
+    total += budget.*term;
+    largest = std::max(largest, std::abs(budget.*term));
+  }
+  budget.residual = first_excess + budget.external_work - total;
+  budget.residual_relative = std::abs(budget.residual) / std::max(largest, floor);
+}
+
+}  // namespace breccia

@@ -1,0 +1,218 @@
+#include "observe/frames.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "mesh/tetrahedron.hpp"
+#include "physics/cauchy_stress.hpp"
+
+namespace breccia {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+void append(std::vector<double>& values, const Vec3& v) { values.insert(values.end(), {v[0], v[1], v[2]}); }
+
+Vec3 centroid(const LocalMesh& local, const double* field, Index slot) {
+  Vec3 sum = Vec3::Zero();
+  for (int c = 0; c < 4; ++c) sum += load_node(field, local.corner_node(slot, c));
+  return 0.25 * sum;
+}
+
+/// What is known of an element, its points excepted.
+void add_cell(const Domain& domain, const Fragments& fragments, Index slot, Frame::Elements& out) {
+  const LocalMesh& local = domain.model.local;
+  const double* x = domain.state.nodes.position.data();
+  const double* v = domain.state.nodes.velocity.data();
+  const Index group = local.block_group[at(slot / kLanes)];
+  out.id.push_back(local.element_of_slot[at(slot)]);
+  out.body.push_back(local.slot_body[at(slot)]);
+  out.material.push_back(group);
+  out.rank.push_back(domain.exchange.communicator().rank());
+  out.fragment.push_back(fragments.of_slot[at(slot)]);
+  const Mat3 stress = cauchy_stress(local, domain.model.elastic[at(group)], slot, x, v);
+  const auto six = components(stress);
+  out.stress.insert(out.stress.end(), six.begin(), six.end());
+  out.von_mises.push_back(von_mises(stress));
+  append(out.principal, principal_stresses(stress));
+  append(out.velocity, centroid(local, v, slot));
+  append(out.displacement, centroid(local, x, slot) - centroid(local, local.reference.data(), slot));
+}
+
+void add_elements(const Domain& domain, const Fragments& fragments, Frame::Elements& out) {
+  const LocalMesh& local = domain.model.local;
+  for (const Index slot : local.slot_of_element) {
+    if (!local.is_original(slot)) continue;
+    for (int c = 0; c < 4; ++c)
+      append(out.points, load_node(domain.state.nodes.position.data(), local.corner_node(slot, c)));
+    add_cell(domain, fragments, slot, out);
+  }
+}
+
+/// Which faces of a rank's originals are free: those of the bodies' surfaces, and those that a failed joint has laid
+/// bare.
+class FreeFaces {
+ public:
+  explicit FreeFaces(const Domain& domain) : domain_(domain), held_(at(domain.model.local.num_slots) * 4, 0) {
+    for (const ActiveJoint& joint : domain.state.joints.active) {
+      if (joint.state() == JointState::failed) continue;
+      held_[at(joint.slot_a) * 4 + at(joint.face_a)] = 1;
+      held_[at(joint.slot_b) * 4 + at(joint.code / 3)] = 1;
+    }
+  }
+  [[nodiscard]] bool operator()(Index slot, int face) const {
+    if (is_swept(domain_.model, domain_.derived, slot, face)) return false;  // nearly always
+    const Model& model = domain_.model;
+    if (domain_.derived.joint_at(slot, face) < 0)
+      return model.topology.links[at(model.local.mesh_element[at(slot)])][at(face)].free();
+    return held_[at(slot) * 4 + at(face)] == 0;
+  }
+
+ private:
+  const Domain& domain_;
+  std::vector<std::uint8_t> held_;  ///< (slots, 4) 1: by an active joint
+};
+
+void add_surface(const Domain& domain, const Fragments& fragments, const std::vector<double>& cost,
+                 Frame::Surface& out) {
+  const LocalMesh& local = domain.model.local;
+  const FreeFaces free(domain);
+  std::size_t original = 0;
+  for (const Index slot : local.slot_of_element) {
+    if (!local.is_original(slot)) continue;
+    for (int face = 0; face < 4; ++face) {
+      if (!free(slot, face)) continue;
+      for (const int corner : kFaceCorners[at(face)]) {
+        append(out.cells.points, load_node(domain.state.nodes.position.data(), local.corner_node(slot, corner)));
+      }
+      add_cell(domain, fragments, slot, out.cells);
+      out.cells.cost.push_back(cost[original]);
+      out.face.push_back(face);
+      out.crack.push_back(domain.derived.joint_at(slot, face) >= 0 ? 1 : 0);
+    }
+    ++original;
+  }
+}
+
+/// Corners of a box in the order of VTK's hexahedron: around the bottom, then around the top.
+void append_box(std::vector<double>& points, const Vec3& lower, const Vec3& upper) {
+  for (int top = 0; top < 2; ++top) {
+    for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+      append(points, {x == 0 ? lower[0] : upper[0], y == 0 ? lower[1] : upper[1], top == 0 ? lower[2] : upper[2]});
+    }
+  }
+}
+
+void add_domain(const Domain& domain, double load, Frame::Domain& out) {
+  const LocalMesh& local = domain.model.local;
+  Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+  std::int64_t elements = 0;
+  for (const Index slot : local.slot_of_element) {
+    if (!local.is_original(slot)) continue;
+    ++elements;
+    for (int c = 0; c < 4; ++c) {
+      const Vec3 x = load_node(domain.state.nodes.position.data(), local.corner_node(slot, c));
+      lower = lower.cwiseMin(x);
+      upper = upper.cwiseMax(x);
+    }
+  }
+  if (elements == 0) return;
+  append_box(out.points, lower, upper);
+  out.rank.push_back(domain.exchange.communicator().rank());
+  out.elements.push_back(elements);
+  out.joints.push_back(static_cast<std::int64_t>(domain.state.joints.active.size()));
+  out.couples.push_back(domain.contact ? static_cast<std::int64_t>(domain.state.contact.couples.size()) : 0);
+  out.load.push_back(load);
+}
+
+/// Triangle on the face of a.
+void add_released_joint(const Domain& domain, const ReleasedJoint& joint, Frame::Joints& out) {
+  const LocalMesh& local = domain.model.local;
+  for (const int corner : kFaceCorners[at(joint.face_a)]) {
+    append(out.points, load_node(domain.state.nodes.position.data(), local.corner_node(joint.slot_a, corner)));
+  }
+  out.id.push_back(joint.id);
+}
+
+/// Triangle halfway between the two faces of a joint that is still held.
+void add_active_joint(const Domain& domain, const ActiveJoint& joint, Frame::Joints& out) {
+  const LocalMesh& local = domain.model.local;
+  const double* x = domain.state.nodes.position.data();
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 on_a = load_node(x, local.corner_node(joint.slot_a, kFaceCorners[at(joint.face_a)][at(i)]));
+    const Vec3 on_b = load_node(x, local.corner_node(joint.slot_b, matching_corner(joint.code, i)));
+    append(out.points, Vec3(0.5 * (on_a + on_b)));
+  }
+  out.id.push_back(joint.id);
+}
+
+void add_joints(const Domain& domain, Frame::Joints& out) {
+  std::vector<ReleasedJoint> released = domain.state.joints.released;
+  std::sort(released.begin(), released.end(),
+            [](const ReleasedJoint& p, const ReleasedJoint& q) { return p.id < q.id; });
+  const auto add_released = [&](const ReleasedJoint& joint) {
+    add_released_joint(domain, joint, out);
+    out.damage.push_back(1.0);
+    out.mode.push_back(static_cast<std::int32_t>(joint.mode));
+    out.opening.push_back(0.0);  // its faces have parted: there is no opening left to speak of
+    out.slip.push_back(0.0);
+    out.broken.push_back(1);
+    out.time_of_failure.push_back(joint.time_of_failure);
+    out.state.push_back(Frame::Joints::apart);
+  };
+  auto next = released.begin();
+  for (const ActiveJoint& joint : domain.state.joints.active) {
+    for (; next != released.end() && next->id < joint.id; ++next) add_released(*next);
+    if (joint.damage() <= 0 || !domain.model.local.is_original(joint.slot_a)) continue;
+    add_active_joint(domain, joint, out);
+    out.damage.push_back(joint.damage());
+    out.mode.push_back(static_cast<std::int32_t>(joint.mode()));
+    out.opening.push_back(joint.opening());
+    out.slip.push_back(joint.slip());
+    const bool broken = joint.state() == JointState::failed;
+    out.broken.push_back(broken ? 1 : 0);
+    out.time_of_failure.push_back(joint.time_of_failure);
+    out.state.push_back(broken ? Frame::Joints::failed : Frame::Joints::softening);
+  }
+  for (; next != released.end(); ++next) add_released(*next);
+}
+
+void add_contacts(const Domain& domain, Frame::Contacts& out) {
+  if (!domain.contact) return;
+  const LocalMesh& local = domain.model.local;
+  const ContactState& contact = domain.state.contact;
+  const FaceRule& rule = face_rule(domain.model.contact.points_per_face);
+  const double* x = domain.state.nodes.position.data();
+  for (const TouchingCouple& couple : contact.touching) {
+    const ContactPoint& point = contact.points[at(couple.point)];
+    if (couple.force.squaredNorm() == 0.0 || !local.is_original(point.slot)) continue;
+    out.id.push_back(point.id);
+    append(out.points, at_point(rule, point, x));
+    append(out.force, couple.force);
+    append(out.normal_force, couple.force - couple.friction);
+    append(out.tangential_force, couple.friction);
+    out.body.push_back(local.slot_body[at(point.slot)]);
+    out.other_body.push_back(local.slot_body[at(contact.contactors[at(couple.contactor)])]);
+  }
+}
+
+}  // namespace
+
+Frame make_frame(const Domain& domain, std::int64_t number, const FrameParts& parts, const FrameLabels& labels) {
+  Frame frame;
+  frame.step = domain.state.clock.steps;
+  frame.time = domain.state.clock.time;
+  frame.number = number;
+  if (parts.elements) {
+    add_elements(domain, labels.fragments, frame.elements);
+    frame.elements.cost = labels.cost;
+  }
+  if (parts.surface) add_surface(domain, labels.fragments, labels.cost, frame.surface);
+  if (parts.joints) add_joints(domain, frame.joints);
+  if (parts.contacts) add_contacts(domain, frame.contacts);
+  if (parts.domain) add_domain(domain, labels.load, frame.domain);
+  return frame;
+}
+
+}  // namespace breccia

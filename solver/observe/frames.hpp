@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "discretisation/fragments.hpp"
+#include "domains/domain.hpp"
+#include "output/frame.hpp"
+
+namespace breccia {
+
+/// What a picture shows besides the domain's state.
+struct FrameLabels {
+  const Fragments& fragments;  ///< of the elements, for elements and surface
+  std::vector<double> cost;    ///< (originals) relative, ascending by id, for elements and surface
+  double load = 1;             ///< working time of this rank over that of the mean rank, for the domain
+};
+
+/// A picture of this rank's originals at the domain's time; looks, changes nothing. @param parts  the others stay
+/// empty
+[[nodiscard]] Frame make_frame(const Domain& domain, std::int64_t number, const FrameParts& parts,
+                               const FrameLabels& labels);
+
+}  // namespace breccia

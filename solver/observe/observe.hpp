@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+#include "domains/partition.hpp"
+#include "observe/fragment_labels.hpp"
+#include "output/frame.hpp"
+
+namespace breccia {
+
+/// A group whose forces and motion are recorded.
+struct Gauge {
+  std::string group;
+  std::vector<Index> nodes;              ///< that this rank counts, ascending
+  Index volume_group = -1;               ///< -1: a surface; contact forces are those of volume groups only
+  std::vector<std::size_t> constraints;  ///< entries of the present stage that name this group
+};
+
+/// Looks at a running partition for the history and for pictures; changes nothing. Collective, all of it.
+class Observer {
+ public:
+  /// @pre input and partition outlive this object
+  Observer(const case_::Case& input, const Partition& partition) : input_(input), partition_(partition) {}
+
+  /// From now on gauges read the constraints of this stage. @pre stage outlives its use
+  void begin_stage(const case_::Stage& stage);
+
+  /// One line of the history of the whole model: budget and gauges of the last sampled step. @param time  s, of that
+  /// step
+  [[nodiscard]] HistoryRow row(double time);
+  /// A picture of this rank's originals as they are. @param parts  the others stay empty
+  [[nodiscard]] Frame picture(std::int64_t number, const FrameParts& parts);
+  /// How many fragments the whole model is in.
+  [[nodiscard]] std::int64_t num_fragments() { return labels().count; }
+
+ private:
+  void make_gauges();
+  [[nodiscard]] const Fragments& labels() { return fragments_.look(partition_.domain(), partition_.decompositions()); }
+
+  const case_::Case& input_;
+  const Partition& partition_;
+  const case_::Stage* stage_ = nullptr;
+  std::vector<Gauge> gauges_;
+  std::int64_t gauged_ = 0;  ///< decomposition for which the gauges were made
+  FragmentWatch fragments_;
+};
+
+}  // namespace breccia

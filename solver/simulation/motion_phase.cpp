@@ -1,0 +1,257 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <span>
+#include <string>
+
+#include "simulation/phases.hpp"
+
+/// The phase of a step that takes nodes from forces to their next positions.
+namespace breccia {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// An element's limit is that of its weakest joint: whether this one has left its elastic range is seen here, alike
+/// from both sides, since only one of them may be swept on this rank.
+void note_crossing(void* context, Index slot, int face, double* force) {
+  auto& domain = *static_cast<Domain*>(context);
+  const Model& model = domain.model;
+  const Index index = domain.derived.joint_at(slot, face);
+  const ActiveJoint virgin = new_active_joint(model, at(index));
+  const JointLawParams& law = model.joint_laws[at(virgin.law)];
+  const double* x = domain.state.nodes.position.data();
+  if (!(largest_opening_squared(model.local, x, virgin) > law.screen_limit())) return;
+  virgin_forces(law, model.local, x, virgin, virgin.slot_a == slot, force);
+  domain.scratch.crossed.push_back(at(index));
+}
+
+/// Where the sweep accounts the work of one kind: the half before t_n, and the half after it, which must wait when the
+/// energies at t_n are sampled.
+void split_work(bool sample, Field<double>& work, Field<double>& late, double*& before, double*& after) {
+  if (work.empty()) return;
+  if (sample) late.assign(work.size(), 0.0);
+  before = work.data();
+  after = sample ? late.data() : work.data();
+}
+
+void set_model_args(const Domain& domain, SweepArgs& args) {
+  const LocalMesh& local = domain.model.local;
+  const Derived& derived = domain.derived;
+  args.end_own_block = local.num_own_originals / kLanes;
+  args.num_own_blocks = local.num_own_blocks();
+  args.shared_blocks = derived.shared_blocks.data();
+  args.num_shared_blocks = static_cast<Index>(derived.shared_blocks.size());
+  args.num_moved_nodes = local.num_moved_nodes;
+  args.gradient = local.gradient.data();
+  args.volume = local.volume.data();
+  args.node_mass = local.node_mass.data();
+  args.shared_corners = derived.shared_corners.data();
+  args.link = derived.links.link.data();
+  args.place = derived.links.place.data();
+  args.stiffness = derived.links.stiffness.data();
+  args.limit = derived.links.limit.data();
+  args.block_group = local.block_group.data();
+  args.original = local.original.data();
+  args.params = domain.model.elastic.data();
+}
+
+SweepArgs sweep_args(bool sample, Domain& domain) {
+  State& state = domain.state;
+  StepScratch& scratch = domain.scratch;
+  SweepArgs args;
+  set_model_args(domain, args);
+  args.position = state.nodes.position.data();
+  args.next_position = state.nodes.next_position.data();
+  args.velocity = state.nodes.velocity.data();
+  args.crossing = &note_crossing;
+  args.crossing_context = &domain;
+  args.force_slot = scratch.forces.slots();
+  args.own_force = scratch.forces.own();
+  args.shared_force = scratch.forces.shared();
+  args.dt = state.clock.dt;
+  args.gravity = scratch.gravity;
+  args.mass_damping = state.loads.mass_damping;
+  args.local_damping = state.loads.local_damping;
+  Field<double>&viscous = state.elements[kViscousWork], &stress = state.elements[kStressWork];
+  if (!viscous.empty() || !stress.empty()) {
+    scratch.kept_stress.resize(at(domain.model.local.num_slots) * 18);
+    args.kept_stress = scratch.kept_stress.data();
+  }
+  split_work(sample, viscous, scratch.viscous_late, args.viscous_before, args.viscous_after);
+  split_work(sample, stress, scratch.stress_late, args.stress_before, args.stress_after);
+  split_work(sample, state.damping_work, scratch.damping_late, args.damping_before, args.damping_after);
+  return args;
+}
+
+void check_finite(const SweepStatus& status, Domain& domain) {
+  if (status.speed_squared_sum < 1e300 || domain.exchange.failed()) return;
+  std::string place;
+  if (status.first_not_finite >= 0) {
+    place = " near element " + std::to_string(domain.model.local.element_of_slot[at(status.first_not_finite) * kLanes]);
+  }
+  const Clock& clock = domain.state.clock;
+  domain.exchange.fail("step " + std::to_string(clock.steps) + ", time " + std::to_string(clock.time) +
+                       " s: a velocity is not finite" + place +
+                       "; the time step is too long for what happens there: lower time.safety (or time.step), or the "
+                       "penalties");
+}
+
+void note_status(const SweepStatus& status, Domain& domain) {
+  domain.state.counters.crushed += status.crushed;
+  check_finite(status, domain);
+  double& max_speed = domain.state.signals.max_speed;
+  max_speed = std::max(max_speed, std::sqrt(status.max_speed_squared));
+}
+
+/// Own-node blocks only. @param pause  called now and then
+void sweep_runs(SweepFunction sweep, std::span<const BlockRun> runs, SweepArgs args, SweepStatus& status,
+                const auto& pause) {
+  args.num_shared_blocks = 0;
+  args.num_moved_nodes = 0;
+  Index since_pause = 0;
+  for (const BlockRun& run : runs) {
+    args.first_own_block = run.first;
+    args.end_own_block = run.end;
+    status.add(sweep(args));
+    since_pause += run.end - run.first;
+    if (since_pause < kLongestRun) continue;
+    since_pause = 0;
+    pause();
+  }
+}
+
+void sweep_all(const SweepArgs& args, Domain& domain) {
+  const auto lap = domain.timer.measure(Phase::sweep);
+  note_status(sweep_for(domain.simd)(args), domain);
+}
+
+/// Shared nodes, and the blocks that others wait for.
+void sweep_ahead(const SweepArgs& args, Domain& domain) {
+  const auto lap = domain.timer.measure(Phase::sweep);
+  SweepArgs only_shared = args;
+  only_shared.end_own_block = 0;
+  SweepStatus status = sweep_for(domain.simd)(only_shared);
+  sweep_runs(sweep_for(domain.simd), domain.derived.ahead, args, status, [] {});
+  note_status(status, domain);
+}
+
+/// Messages move on meanwhile.
+void sweep_rest(const SweepArgs& args, Domain& domain) {
+  const auto lap = domain.timer.measure(Phase::sweep);
+  SweepStatus status;
+  sweep_runs(sweep_for(domain.simd), domain.derived.rest, args, status,
+             [&] { domain.exchange.communicator().make_progress(); });
+  note_status(status, domain);
+}
+
+/// A rank that has failed: what others receive of it from now on is finite.
+void stand_still_if_failed(Domain& domain) {
+  if (!domain.exchange.failed()) return;
+  NodalState& nodes = domain.state.nodes;
+  nodes.next_position = nodes.position;
+  std::fill(nodes.velocity.begin(), nodes.velocity.end(), 0.0);
+}
+
+void send_proxies(Domain& domain) {
+  const auto lap = domain.timer.measure(Phase::communication);
+  domain.exchange.communicator().set_phase("gather of proxies");
+  domain.exchange.begin_gather(domain.state.nodes.next_position, domain.state.nodes.velocity);
+}
+
+/// Damping force that the sweep put on a node, N, regained from what it did to its velocity (sweep_kernel.hpp, Mover).
+Vec3 damping_force(const SweepArgs& args, const Vec3& before, const Vec3& after, double mass) {
+  const double half = 0.5 * args.mass_damping * args.dt;
+  Vec3 force;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const double net = mass * ((1.0 + half) * after[i] - (1.0 - half) * before[i]) / args.dt;  // unbalanced and local
+    const double opposed = before[i] == 0.0               ? 0.0
+                           : (net > 0) == (before[i] > 0) ? -args.local_damping
+                                                          : args.local_damping;
+    const double unbalanced = net / (1.0 + opposed);
+    force[i] = net - unbalanced - 0.5 * args.mass_damping * mass * (before[i] + after[i]);
+  }
+  return force;
+}
+
+/// Calls visit(node) for the nodes of all constraints in turn.
+template <class Visit>
+void for_each_held_node(const Domain& domain, Visit&& visit) {
+  for (const NodalConstraint& entry : domain.state.loads.constraints) {
+    for (const Index node : entry.nodes) visit(node);
+  }
+}
+
+std::vector<Vec3> held_velocities(const Domain& domain) {
+  std::vector<Vec3> velocities;
+  for_each_held_node(domain,
+                     [&](Index node) { velocities.push_back(load_node(domain.state.nodes.velocity.data(), node)); });
+  return velocities;
+}
+
+bool accounts_damping(const SweepArgs& args) {
+  return args.damping_after != nullptr && (args.mass_damping > 0 || args.local_damping > 0);
+}
+
+/// The sweep accounted the damping of held nodes with the velocities they would have had; @param free  those
+void account_held_damping(const SweepArgs& args, const std::vector<Vec3>& free, Domain& domain) {
+  std::set<Index> done;
+  std::size_t i = 0;
+  for_each_held_node(domain, [&](Index node) {
+    const Vec3 held = load_node(domain.state.nodes.velocity.data(), node);
+    const Vec3 force =
+        damping_force(args, domain.scratch.held_before[i], free[i], domain.model.local.node_mass[at(node)]);
+    // A node that two entries hold is met twice: what is final after the first visit changes nothing at the second.
+    if (done.insert(node).second) args.damping_after[at(node)] += 0.5 * args.dt * force.dot(free[i] - held);
+    ++i;
+  });
+}
+
+void constrain(const SweepArgs& args, Domain& domain) {
+  State& state = domain.state;
+  if (state.constraints.empty()) return;
+  const auto lap = domain.timer.measure(Phase::loads);
+  const bool damped = accounts_damping(args);
+  const std::vector<Vec3> free = damped ? held_velocities(domain) : std::vector<Vec3>{};
+  state.constraints.apply(domain.model.local, state.nodes, state.clock.time, state.clock.dt_before, state.clock.dt);
+  if (damped) account_held_damping(args, free, domain);
+  double& max_speed = state.signals.max_speed;
+  for_each_held_node(domain, [&](Index node) {
+    if (domain.model.local.counted[at(node)] == 0) return;
+    max_speed = std::max(max_speed, load_node(state.nodes.velocity.data(), node).norm());
+  });
+}
+
+/// Padding stays where it is; work of the halves after t_n with the velocities as constraints left them.
+void finish_motion(const SweepArgs& args, Domain& domain) {
+  const auto lap = domain.timer.measure(Phase::loads);
+  if (args.kept_stress != nullptr) rate_work_for(domain.simd)(args);
+  NodalState& nodes = domain.state.nodes;
+  for (const Index node : domain.derived.padding_nodes) {
+    store_node(nodes.velocity.data(), node, Vec3::Zero());
+    store_node(nodes.next_position.data(), node, load_node(nodes.position.data(), node));
+    if (args.damping_after != nullptr) args.damping_before[at(node)] = args.damping_after[at(node)] = 0.0;
+  }
+}
+
+}  // namespace
+
+void move_nodes(bool sample, Domain& domain) {
+  const SweepArgs args = sweep_args(sample, domain);
+  if (accounts_damping(args)) domain.scratch.held_before = held_velocities(domain);
+  domain.state.signals.max_speed = 0;
+  if (domain.exchange.alone()) {
+    sweep_all(args, domain);
+    constrain(args, domain);
+  } else {
+    sweep_ahead(args, domain);
+    constrain(args, domain);
+    stand_still_if_failed(domain);
+    send_proxies(domain);
+    sweep_rest(args, domain);
+    stand_still_if_failed(domain);
+  }
+  finish_motion(args, domain);
+}
+
+}  // namespace breccia

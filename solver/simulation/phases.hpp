@@ -1,0 +1,53 @@
+#pragma once
+
+#include "domains/domain.hpp"
+
+namespace breccia {
+
+// The phases of a step in their order (simulation/step.cpp). Each says what it reads and writes.
+
+/// What all ranks sent in the last step: state.signals. Throws what a rank has failed with.
+void receive_signals(Domain& domain);
+
+/// Reads positions and state.signals; writes state.contact: couples searched anew when that is due, faces of the joints
+/// that any rank released a step ago. Positions of proxies, and what is exchanged in every step, go with them.
+void update_couples(Domain& domain);
+
+/// Writes forces: pressures at t_n; keeps gravity at t_n for the sweep. Accounts the work of both up to t_n.
+void apply_loads(Domain& domain);
+
+/// Adds the forces of the active joints and brings their histories up to date; released ones leave state.joints.active.
+void joint_forces(Domain& domain);
+
+/// Adds the forces of all couples and brings their histories up to date.
+void contact_forces(Domain& domain);
+
+/// Sends what this rank has to tell all others, received in the next step.
+void send_signals(const StepSignals& signals, Domain& domain);
+
+/// From forces to v_(n+1/2) and x_(n+1): internal forces, the sweep's joints, damping, gravity, constraints. On several
+/// ranks what others wait for is final, and on its way, before the rest is begun. Joints that leave their elastic range
+/// are noted in scratch.crossed.
+/// @param sample  work after t_n is kept apart until account_late_work()
+void move_nodes(bool sample, Domain& domain);
+
+/// Joints noted by the sweep join the active list.
+void activate_crossed_joints(Domain& domain);
+
+/// The energies at t_n: Domain::sample. @param velocity_before  nodal field, v_(n-1/2). Throws what any rank failed
+/// with.
+void sample_energies(const Field<double>& velocity_before, Domain& domain);
+
+/// Joints that are as if nothing had happened return to the sweep, which evaluates them at lower cost.
+void return_elastic_joints(Domain& domain);
+
+/// Work of pressures and constraints, and of what the sweep accounts, after t_n.
+void account_late_work(bool sample, Domain& domain);
+
+/// Waits for the proxies' next positions and velocities.
+void receive_proxies(Domain& domain);
+
+/// x_n becomes x_(n+1), t_n becomes t_(n+1).
+void advance_clock(State& state);
+
+}  // namespace breccia

@@ -1,0 +1,35 @@
+#include "simulation/step.hpp"
+
+#include <utility>
+
+#include "simulation/phases.hpp"
+
+namespace breccia {
+
+void step(Domain& domain, const StepOptions& options) {
+  receive_signals(domain);
+  update_couples(domain);  // a new search if one is due; contact takes the faces that came apart a step ago
+  apply_loads(domain);
+  joint_forces(domain);    // active joints, by ascending ids
+  contact_forces(domain);  // couples, by ascending ids
+  send_signals(options.signals, domain);
+  const Field<double> velocity_before = options.sample ? domain.state.nodes.velocity : Field<double>{};
+  move_nodes(options.sample, domain);  // internal forces, intact joints, motion, constraints; proxies leave
+  activate_crossed_joints(domain);
+  if (options.sample) sample_energies(velocity_before, domain);
+  return_elastic_joints(domain);
+  account_late_work(options.sample, domain);
+  receive_proxies(domain);
+  advance_clock(domain.state);
+}
+
+void advance_clock(State& state) {
+  std::swap(state.nodes.position, state.nodes.next_position);
+  Clock& clock = state.clock;
+  clock.time += clock.dt;
+  clock.dt_earlier = clock.dt_before;
+  clock.dt_before = clock.dt;
+  ++clock.steps;
+}
+
+}  // namespace breccia

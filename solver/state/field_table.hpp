@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <type_traits>
+
+#include "base/types.hpp"
+#include "physics/joint_history.hpp"
+
+namespace breccia {
+
+/// What a field takes part in beside travelling with its element, which all fields do.
+struct FieldUse {
+  bool hashed = true;   ///< in the state hash. Not: what belongs to the mesh, and what depends on the number of ranks
+  bool summed = false;  ///< of the model: this rank's part of a sum; else alike on all ranks
+};
+inline constexpr FieldUse kState{}, kSummed{.summed = true}, kNotHashed{.hashed = false};
+
+/// One row of the table of fields: a number, vector or array of a record.
+/// @tparam Access  function object that returns a reference to the field of a record, const if the record is
+template <class Access>
+struct FieldRow {
+  const char* name;  ///< unique within its record
+  const char* unit;  ///< SI, "1" without one
+  FieldUse use;
+  Access access;
+};
+template <class Access>
+FieldRow(const char*, const char*, FieldUse, Access) -> FieldRow<Access>;
+
+/// The rows of a record: specialised beside every record, `static constexpr auto rows = std::tuple{FieldRow{...},
+/// ...}`.
+template <class Record>
+struct FieldTable;
+
+/// Calls visit(row, field) for every field of a record, in the order of the table.
+template <class Record, class Visit>
+inline void for_each_field(Record& record, Visit&& visit) {
+  std::apply([&](const auto&... row) { (visit(row, row.access(record)), ...); },
+             FieldTable<std::remove_const_t<Record>>::rows);
+}
+
+/// Calls f(scalar) for every number of a field: components, elements of arrays, members of a joint point in the order
+/// of their list. Scalars are doubles, integers, bools and enumerations.
+template <class T, class F>
+inline void for_each_scalar(T& field, F&& f) {
+  using Plain = std::remove_const_t<T>;
+  if constexpr (std::is_arithmetic_v<Plain> || std::is_enum_v<Plain>) {
+    f(field);
+  } else if constexpr (std::is_same_v<Plain, Vec3>) {
+    for (Eigen::Index i = 0; i < 3; ++i) f(field[i]);
+  } else if constexpr (std::is_same_v<Plain, JointHistory<double>>) {
+    const auto number = [&](const JointNumber&, auto& value) { f(value); };
+    for (auto& point : field.points) for_each_number(number, point);
+    for_each_common_number(number, field);
+  } else {
+    for (auto& entry : field) for_each_scalar(entry, f);
+  }
+}
+
+/// Bytes of a scalar outside memory: enumerations and bools as their underlying integers.
+template <class Scalar>
+[[nodiscard]] constexpr std::size_t scalar_bytes() {
+  return std::is_same_v<Scalar, bool> ? 1 : sizeof(Scalar);
+}
+
+/// Bytes of all the fields of a record outside memory.
+template <class Record>
+[[nodiscard]] std::size_t packed_bytes() {
+  std::size_t bytes = 0;
+  const Record record{};
+  for_each_field(record, [&](const auto&, const auto& field) {
+    for_each_scalar(field, [&](const auto& scalar) { bytes += scalar_bytes<std::remove_cvref_t<decltype(scalar)>>(); });
+  });
+  return bytes;
+}
+
+}  // namespace breccia

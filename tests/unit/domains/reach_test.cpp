@@ -1,0 +1,31 @@
+#include <gtest/gtest.h>
+
+#include "domains/decomposition.hpp"
+#include "unit/case/case_files.hpp"
+
+namespace breccia {
+namespace {
+
+constexpr double kEdge = 0.25, kBuffer = 0.0625;  // m; sums of these are exact
+
+/// The shortest case, whose elements share nodes, or one whose elements have their own and joints that hold them.
+case_::Case with_joints(bool joined) {
+  if (!joined) return case_::read_text(case_::minimal);
+  std::string text = case_::minimal;
+  const std::string none = "joints = \"none\"\n";
+  const std::string held = "joints = \"unbreakable\"\n[[joint]]\ngroup = \"raster\"\npenalty_factor = 10\n";
+  text.replace(text.find(none), none.size(), held);
+  return case_::read_text(text);
+}
+
+TEST(Reach, is_one_ring_of_elements_for_joints_and_two_for_shared_nodes) {
+  EXPECT_EQ(reach_of(with_joints(true), kEdge, kBuffer).distance(), kEdge + kEdge + 2 * kBuffer);
+  EXPECT_EQ(reach_of(with_joints(false), kEdge, kBuffer).distance(), kEdge + 2 * kEdge + 2 * kBuffer);
+}
+
+TEST(Reach, lets_both_sides_move_by_half_its_margin) {
+  EXPECT_EQ(reach_of(with_joints(true), kEdge, kBuffer).allowed_motion(), kEdge / 2);
+}
+
+}  // namespace
+}  // namespace breccia
