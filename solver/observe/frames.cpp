@@ -20,6 +20,27 @@ Vec3 centroid(const LocalMesh& local, const double* field, Index slot) {
   return 0.25 * sum;
 }
 
+/// Rows of the table that are shown and that a material of the case has, alike on all ranks.
+std::vector<ElementFieldId> shown_fields(const ElementFields& elements) {
+  std::vector<ElementFieldId> shown;
+  for (std::size_t row = 0; row < kNumElementFields; ++row) {
+    const auto id = static_cast<ElementFieldId>(row);
+    if (kElementFields[id].shown && elements.keeps(id)) shown.push_back(id);
+  }
+  return shown;
+}
+
+void begin_state_fields(const Domain& domain, Frame::Elements& out) {
+  for (const ElementFieldId id : shown_fields(domain.state.elements))
+    out.state.push_back({kElementFields[id].name, static_cast<int>(kElementFields[id].components), {}});
+}
+
+void add_state_fields(const Domain& domain, Index slot, Frame::Elements& out) {
+  std::size_t next = 0;
+  for (const ElementFieldId id : shown_fields(domain.state.elements))
+    domain.state.elements.append(id, slot, out.state[next++].values);
+}
+
 /// What is known of an element, its points excepted.
 void add_cell(const Domain& domain, const Fragments& fragments, Index slot, Frame::Elements& out) {
   const LocalMesh& local = domain.model.local;
@@ -38,9 +59,11 @@ void add_cell(const Domain& domain, const Fragments& fragments, Index slot, Fram
   append(out.principal, principal_stresses(stress));
   append(out.velocity, centroid(local, v, slot));
   append(out.displacement, centroid(local, x, slot) - centroid(local, local.reference.data(), slot));
+  add_state_fields(domain, slot, out);
 }
 
 void add_elements(const Domain& domain, const Fragments& fragments, Frame::Elements& out) {
+  begin_state_fields(domain, out);
   const LocalMesh& local = domain.model.local;
   for (const Index slot : local.slot_of_element) {
     if (!local.is_original(slot)) continue;
@@ -76,6 +99,7 @@ class FreeFaces {
 
 void add_surface(const Domain& domain, const Fragments& fragments, const std::vector<double>& cost,
                  Frame::Surface& out) {
+  begin_state_fields(domain, out.cells);
   const LocalMesh& local = domain.model.local;
   const FreeFaces free(domain);
   std::size_t original = 0;

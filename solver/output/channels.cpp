@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "base/error.hpp"
+#include "output/frame_fields.hpp"
 
 namespace breccia {
 namespace {
@@ -17,29 +18,13 @@ BrecciaArray array(const char* name, const std::vector<T>& values, std::int32_t 
   return {name, type, components, values.data()};
 }
 
-std::vector<BrecciaArray> arrays_of(const Frame::Elements& e) {
-  return {array("id", e.id),
-          array("body", e.body),
-          array("material", e.material),
-          array("rank", e.rank),
-          array("fragment", e.fragment),
-          array("stress", e.stress, 6),
-          array("von_mises", e.von_mises),
-          array("principal", e.principal, 3),
-          array("velocity", e.velocity, 3),
-          array("displacement", e.displacement, 3),
-          array("cost", e.cost)};
-}
-
-std::vector<BrecciaArray> arrays_of(const Frame::Joints& j) {
-  return {array("id", j.id),
-          array("damage", j.damage),
-          array("mode", j.mode),
-          array("opening", j.opening),
-          array("slip", j.slip),
-          array("broken", j.broken),
-          array("time_of_failure", j.time_of_failure),
-          array("state", j.state)};
+template <class Part>
+std::vector<BrecciaArray> arrays_of(const Part& part) {
+  std::vector<BrecciaArray> arrays;
+  for_each_array(part, [&](const char* name, const auto& values, int components) {
+    arrays.push_back(array(name, values, components));
+  });
+  return arrays;
 }
 
 /// Entries [n i, n i + n) of a list, for the places i where `keep` is not 0.
@@ -95,21 +80,15 @@ Channels::Channels(const Frame& frame, std::uint32_t mask, const std::vector<std
   if (has(mask, BRECCIA_FRACTURES)) add_joints(BRECCIA_FRACTURES, fractures_ = broken_ones(frame.joints));
   if (has(mask, BRECCIA_CONTACTS)) {
     const Frame::Contacts& c = frame.contacts;
-    add(BRECCIA_CONTACTS, BRECCIA_VERTEX, c.points, c.id.size(),
-        {array("id", c.id), array("normal_force", c.normal_force, 3), array("tangential_force", c.tangential_force, 3),
-         array("force", c.force, 3), array("body", c.body), array("other_body", c.other_body)});
+    add(BRECCIA_CONTACTS, BRECCIA_VERTEX, c.points, c.id.size(), arrays_of(c));
   }
   if (has(mask, BRECCIA_SURFACE)) {
-    std::vector<BrecciaArray> arrays = arrays_of(frame.surface.cells);
-    arrays.push_back(array("face", frame.surface.face));
-    arrays.push_back(array("crack", frame.surface.crack));
-    add(BRECCIA_SURFACE, BRECCIA_TRIANGLE, frame.surface.cells.points, frame.surface.face.size(), std::move(arrays));
+    add(BRECCIA_SURFACE, BRECCIA_TRIANGLE, frame.surface.cells.points, frame.surface.face.size(),
+        arrays_of(frame.surface));
   }
   if (has(mask, BRECCIA_DOMAINS)) {
     const Frame::Domain& d = frame.domain;
-    add(BRECCIA_DOMAINS, BRECCIA_HEXAHEDRON, d.points, d.rank.size(),
-        {array("rank", d.rank), array("elements", d.elements), array("joints", d.joints), array("couples", d.couples),
-         array("load", d.load)});
+    add(BRECCIA_DOMAINS, BRECCIA_HEXAHEDRON, d.points, d.rank.size(), arrays_of(d));
   }
   if (has(mask, BRECCIA_HISTORY)) add_history(columns, row);
 }

@@ -18,6 +18,13 @@ struct Frame {
   double time = 0;
   std::int64_t number = 0;  ///< 0, 1, 2, ... over the run
 
+  /// A field of the elements' state that is shown as it is (state/element_fields.hpp).
+  struct StateField {
+    const char* name;
+    int components;
+    std::vector<double> values;  ///< (num_elements, components)
+  };
+
   struct Elements {
     std::vector<double> points;    ///< (4 num_elements, 3) corners: every element has its own
     std::vector<std::int64_t> id;  ///< (num_elements)
@@ -29,6 +36,7 @@ struct Frame {
     std::vector<double> velocity;        ///< (num_elements, 3) of the centroid, m/s
     std::vector<double> displacement;    ///< (num_elements, 3) of the centroid, m
     std::vector<double> cost;  ///< relative to an element that has its own nodes and neither active joint nor couple
+    std::vector<StateField> state;
   } elements;
 
   /// Triangles on the mid-surface of the joints that carry damage or have failed.

@@ -6,50 +6,25 @@
 #include <system_error>
 
 #include "output/atomic_file.hpp"
+#include "output/frame_fields.hpp"
 #include "output/vtkhdf_image.hpp"
 
 namespace breccia {
 namespace {
 
-GridView view_of(const Frame::Elements& elements) {
-  return {.kind = CellKind::tetrahedra,
-          .points = elements.points,
-          .arrays = {{"id", elements.id},
-                     {"body", elements.body},
-                     {"material", elements.material},
-                     {"rank", elements.rank},
-                     {"fragment", elements.fragment},
-                     {"stress", elements.stress, 6},
-                     {"von_mises", elements.von_mises},
-                     {"principal", elements.principal, 3},
-                     {"cost", elements.cost},
-                     {"velocity", elements.velocity, 3},
-                     {"displacement", elements.displacement, 3}}};
-}
-
-GridView view_of(const Frame::Joints& joints) {
-  return {.kind = CellKind::triangles,
-          .points = joints.points,
-          .arrays = {{"id", joints.id},
-                     {"damage", joints.damage},
-                     {"mode", joints.mode},
-                     {"opening", joints.opening},
-                     {"slip", joints.slip},
-                     {"broken", joints.broken},
-                     {"time_of_failure", joints.time_of_failure},
-                     {"state", joints.state}}};
-}
-
-GridView view_of(const Frame::Contacts& contacts) {
-  return {.kind = CellKind::vertices,
-          .points = contacts.points,
-          .arrays = {{"force", contacts.force, 3}, {"body", contacts.body}, {"other_body", contacts.other_body}}};
+template <class Part>
+GridView view_of(CellKind kind, const std::vector<double>& points, const Part& part) {
+  GridView grid{.kind = kind, .points = points, .arrays = {}};
+  for_each_array(part, [&](const char* name, const auto& values, int components) {
+    grid.arrays.push_back({name, values, components});
+  });
+  return grid;
 }
 
 GridView view_of(const Frame& frame, const std::string& part) {
-  GridView grid = part == "elements" ? view_of(frame.elements)
-                  : part == "joints" ? view_of(frame.joints)
-                                     : view_of(frame.contacts);
+  GridView grid = part == "elements" ? view_of(CellKind::tetrahedra, frame.elements.points, frame.elements)
+                  : part == "joints" ? view_of(CellKind::triangles, frame.joints.points, frame.joints)
+                                     : view_of(CellKind::vertices, frame.contacts.points, frame.contacts);
   grid.time = frame.time;
   grid.step = frame.step;
   return grid;

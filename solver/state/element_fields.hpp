@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "base/field.hpp"
 #include "discretisation/blocks.hpp"
@@ -43,7 +44,14 @@ class ElementFields {
 
   /// From now on the field is kept. @param slots  a multiple of 8
   void allocate(ElementFieldId id, Index slots) {
+    kept_[id] = true;
     fields_[id].assign(static_cast<std::size_t>(slots) * kElementFields[id].components, 0.0);
+  }
+  /// Whether a material of the case needs it, alike on all ranks.
+  [[nodiscard]] bool keeps(ElementFieldId id) const { return kept_[id]; }
+  /// Appends the components of one field. @pre the field is kept
+  void append(ElementFieldId id, Index slot, std::vector<double>& values) const {
+    for (std::size_t c = 0; c < kElementFields[id].components; ++c) values.push_back(fields_[id][place(id, slot, c)]);
   }
   /// 0 for fields that are not kept.
   [[nodiscard]] ElementNumbers of(Index slot) const {
@@ -73,6 +81,7 @@ class ElementFields {
   }
 
   std::array<Field<double>, kNumElementFields> fields_;
+  std::array<bool, kNumElementFields> kept_{};
 };
 
 }  // namespace breccia

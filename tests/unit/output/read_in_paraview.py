@@ -18,7 +18,7 @@ ARRAYS = {
     "elements": {"id": 1, "body": 1, "material": 1, "rank": 1, "fragment": 1, "stress": 6, "von_mises": 1, "cost": 1,
                  "principal": 3, "velocity": 3, "displacement": 3},
     "joints": {"id": 1, "damage": 1, "mode": 1, "opening": 1, "slip": 1, "broken": 1, "time_of_failure": 1, "state": 1},
-    "contacts": {"force": 3, "body": 1, "other_body": 1},
+    "contacts": {"id": 1, "force": 3, "normal_force": 3, "tangential_force": 3, "body": 1, "other_body": 1},
 }
 failures = []
 

@@ -224,7 +224,10 @@ Frame SyntheticPlate::frame(std::int64_t number, double time) const {
     for (int k = 0; k < 3; ++k) {
       frame.contacts.points.push_back(x[k]);
       frame.contacts.force.push_back(k == 1 ? -10.0 * share : 0.0);
+      frame.contacts.normal_force.push_back(frame.contacts.force.back());
+      frame.contacts.tangential_force.push_back(0.0);
     }
+    frame.contacts.id.push_back(static_cast<std::int64_t>(frame.contacts.body.size()));
     frame.contacts.body.push_back(0);
     frame.contacts.other_body.push_back(1);
   }
@@ -250,14 +253,13 @@ void cut(std::vector<T>& values, std::size_t rows, int number, int count) {
 Frame piece_of(const Frame& whole, int number, int count) {
   Frame piece = whole;
   const auto cut_all = [&](std::size_t rows, auto&... arrays) { (cut(arrays, rows, number, count), ...); };
-  auto& [points, id, body, material, rank, fragment, stress, von_mises, principal, velocity, displacement, cost] =
-      piece.elements;
-  cut_all(id.size(), points, body, material, rank, fragment, stress, von_mises, principal, velocity, displacement, cost,
-          id);
+  auto& e = piece.elements;
+  cut_all(e.id.size(), e.points, e.body, e.material, e.rank, e.fragment, e.stress, e.von_mises, e.principal, e.velocity,
+          e.displacement, e.cost, e.id);
   auto& j = piece.joints;
   cut_all(j.id.size(), j.points, j.damage, j.mode, j.opening, j.slip, j.broken, j.time_of_failure, j.state, j.id);
   auto& c = piece.contacts;
-  cut_all(c.body.size(), c.id, c.points, c.force, c.other_body, c.body);
+  cut_all(c.body.size(), c.id, c.points, c.force, c.normal_force, c.tangential_force, c.other_body, c.body);
   return piece;
 }
 

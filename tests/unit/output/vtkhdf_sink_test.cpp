@@ -104,6 +104,9 @@ TEST(VtkhdfSinkTest, StoresJointsAsTrianglesAndContactsAsVerticesWithForces) {
   EXPECT_THAT(contacts.values("Types"), ElementsAre(1));
   EXPECT_THAT(contacts.values("Points"), ElementsAre(9, 8, 7));
   EXPECT_THAT(contacts.values("CellData/force"), ElementsAre(1, 2, 3));
+  EXPECT_THAT(contacts.values("CellData/id"), ElementsAre(24));
+  EXPECT_THAT(contacts.values("CellData/normal_force"), ElementsAre(1, 2, 3));
+  EXPECT_THAT(contacts.values("CellData/tangential_force"), ElementsAre(0, 0, 0));
   EXPECT_THAT(contacts.values("CellData/body"), ElementsAre(0));
   EXPECT_THAT(contacts.values("CellData/other_body"), ElementsAre(1));
 }

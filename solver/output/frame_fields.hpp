@@ -1,0 +1,66 @@
+#pragma once
+
+#include "output/frame.hpp"
+
+namespace breccia {
+
+// The arrays of a frame: what files and in-situ channels show of it, listed once. A new field is a member of Frame, a
+// line here, and what fills it in observe/frames.cpp; fields of the state are shown by their row in
+// state/element_fields.hpp.
+
+/// Calls visit(name, values, components) for every array of the elements, in the order of files and channels.
+template <class Visit>
+void for_each_array(const Frame::Elements& e, Visit&& visit) {
+  visit("id", e.id, 1);
+  visit("body", e.body, 1);
+  visit("material", e.material, 1);
+  visit("rank", e.rank, 1);
+  visit("fragment", e.fragment, 1);
+  visit("stress", e.stress, 6);
+  visit("von_mises", e.von_mises, 1);
+  visit("principal", e.principal, 3);
+  visit("velocity", e.velocity, 3);
+  visit("displacement", e.displacement, 3);
+  visit("cost", e.cost, 1);
+  for (const Frame::StateField& field : e.state) visit(field.name, field.values, field.components);
+}
+
+template <class Visit>
+void for_each_array(const Frame::Joints& j, Visit&& visit) {
+  visit("id", j.id, 1);
+  visit("damage", j.damage, 1);
+  visit("mode", j.mode, 1);
+  visit("opening", j.opening, 1);
+  visit("slip", j.slip, 1);
+  visit("broken", j.broken, 1);
+  visit("time_of_failure", j.time_of_failure, 1);
+  visit("state", j.state, 1);
+}
+
+template <class Visit>
+void for_each_array(const Frame::Contacts& c, Visit&& visit) {
+  visit("id", c.id, 1);
+  visit("normal_force", c.normal_force, 3);
+  visit("tangential_force", c.tangential_force, 3);
+  visit("force", c.force, 3);
+  visit("body", c.body, 1);
+  visit("other_body", c.other_body, 1);
+}
+
+template <class Visit>
+void for_each_array(const Frame::Surface& s, Visit&& visit) {
+  for_each_array(s.cells, visit);
+  visit("face", s.face, 1);
+  visit("crack", s.crack, 1);
+}
+
+template <class Visit>
+void for_each_array(const Frame::Domain& d, Visit&& visit) {
+  visit("rank", d.rank, 1);
+  visit("elements", d.elements, 1);
+  visit("joints", d.joints, 1);
+  visit("couples", d.couples, 1);
+  visit("load", d.load, 1);
+}
+
+}  // namespace breccia
