@@ -2,23 +2,29 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <type_traits>
+
+#include "physics/material/drucker_prager_params.hpp"
 
 namespace breccia {
 
-/// Constitutive law of a constant-strain tetrahedron. Both have Hooke's law as their small-strain limit.
+/// Constitutive law of a constant-strain tetrahedron. All have Hooke's law as their small-strain limit.
 enum class ElasticLaw {
-  neo_hookean,     ///< hyperelastic: closed strain loops are exact
-  green_st_venant  ///< thesis eq. 3.10 as printed; not hyperelastic, its work must be integrated
+  neo_hookean,      ///< hyperelastic: closed strain loops are exact
+  green_st_venant,  ///< thesis eq. 3.10 as printed; not hyperelastic, its work must be integrated
+  drucker_prager    ///< with memory: physics/material/drucker_prager.hpp
 };
 
-/// Whether the law has a stored energy, a function of the deformation alone.
+/// Whether the law has a stored energy, a function of the deformation and of the element's memory.
 [[gnu::always_inline]] constexpr bool is_hyperelastic(ElasticLaw law) {
   switch (law) {
     case ElasticLaw::neo_hookean:
       return true;
     case ElasticLaw::green_st_venant:
       return false;
+    case ElasticLaw::drucker_prager:
+      return true;
   }
   __builtin_unreachable();
 }
@@ -26,16 +32,18 @@ enum class ElasticLaw {
 /// Parameters of the element's kernels. Made by `make_elastic_params`.
 struct ElasticParams {
   ElasticLaw law = ElasticLaw::neo_hookean;
-  double mu = 0;         ///< Pa, shear modulus
-  double lambda = 0;     ///< Pa, Lame's first modulus
-  double viscosity = 0;  ///< Pa s, mubar of the viscous Cauchy stress (2 mubar / J) D
-  double j_min = 0.1;    ///< volume ratio J below which the law is continued linearly; > 0
+  double mu = 0;                         ///< Pa, shear modulus
+  double lambda = 0;                     ///< Pa, Lame's first modulus
+  double viscosity = 0;                  ///< Pa s, mubar of the viscous Cauchy stress (2 mubar / J) D
+  double j_min = 0.1;                    ///< volume ratio J below which the law is continued linearly; > 0
+  DruckerPragerParams drucker_prager{};  ///< of that law alone
 };
 
-/// @pre young > 0, -1 < poisson < 0.5, viscosity >= 0, 0 < j_min < 1
+/// Plasticity is added by hand. @pre young > 0, -1 < poisson < 0.5, viscosity >= 0, 0 < j_min < 1
 [[nodiscard]] constexpr ElasticParams make_elastic_params(ElasticLaw law, double young, double poisson,
                                                           double viscosity, double j_min = 0.1) {
-  return {law, young / (2 * (1 + poisson)), young * poisson / ((1 + poisson) * (1 - 2 * poisson)), viscosity, j_min};
+  return {law, young / (2 * (1 + poisson)), young * poisson / ((1 + poisson) * (1 - 2 * poisson)), viscosity, j_min,
+          {}};
 }
 
 /// Kernels of the constant-strain tetrahedron, for T = double and for T = std::experimental::simd<double, ...>: plain
@@ -156,7 +164,8 @@ template <class T>
   return c;
 }
 
-/// First Piola stress of the law named by `p.law`, without the viscous part, Pa.
+/// First Piola stress of the law named by `p.law`, without the viscous part, Pa. A law with memory has none that
+/// follows from F alone: no numbers, where its own function ought to have been called (physics/material/bulk_law.hpp).
 template <class T>
 [[nodiscard]] inline Tensor<T> elastic_piola(const Tensor<T>& f, const ElasticParams& p) {
   const Tensor<T> cof = cofactor(f);
@@ -168,6 +177,9 @@ template <class T>
       break;
     case ElasticLaw::green_st_venant:
       piola = product(green_st_venant_stress(f, j, p), cof);
+      break;
+    case ElasticLaw::drucker_prager:
+      piola.fill(T(std::numeric_limits<double>::quiet_NaN()));
       break;
   }
   return piola;

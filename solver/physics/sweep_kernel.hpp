@@ -94,6 +94,8 @@ template <bool is_plain, class X>
     case ElasticLaw::green_st_venant:
       s.total = el::product(el::green_st_venant_stress(f, j, p), cof);
       break;
+    case ElasticLaw::drucker_prager:
+      break;
   }
   if (!is_plain && p.viscosity > 0) {
     s.viscous = el::viscous_piola(el::deformation<Real>(v, s.inverse), cof, j, p);

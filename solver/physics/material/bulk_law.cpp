@@ -1,0 +1,77 @@
+#include "physics/material/bulk_law.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "physics/material/drucker_prager.hpp"
+
+namespace breccia {
+namespace {
+
+constexpr std::size_t kLargestMemory = material::kDruckerPragerMemory;
+constexpr std::array<double, kLargestMemory> kVirgin{};
+
+}  // namespace
+
+std::span<const MemoryField> memory_fields(ElasticLaw law) {
+  switch (law) {
+    case ElasticLaw::neo_hookean:
+    case ElasticLaw::green_st_venant:
+      return {};
+    case ElasticLaw::drucker_prager:
+      return material::kDruckerPragerFields;
+  }
+  return {};
+}
+
+std::size_t memory_size(ElasticLaw law) {
+  std::size_t size = 0;
+  for (const MemoryField& field : memory_fields(law)) size += static_cast<std::size_t>(field.components);
+  return size;
+}
+
+int plastic_work_place(ElasticLaw law) {
+  switch (law) {
+    case ElasticLaw::neo_hookean:
+    case ElasticLaw::green_st_venant:
+      return -1;
+    case ElasticLaw::drucker_prager:
+      return material::kDruckerPragerMemory - 1;
+  }
+  return -1;
+}
+
+const double* MaterialMemory::of(Index slot) const {
+  return first == nullptr ? kVirgin.data() : first + static_cast<std::size_t>(slot) * stride;
+}
+
+elasticity::Tensor<double> bulk_piola(const ElasticParams& p, const elasticity::Tensor<double>& f,
+                                      const double* memory) {
+  switch (p.law) {
+    case ElasticLaw::neo_hookean:
+    case ElasticLaw::green_st_venant:
+      break;
+    case ElasticLaw::drucker_prager: {
+      std::array<double, material::kDruckerPragerMemory> passing{};
+      std::copy_n(memory, passing.size(), passing.begin());
+      elasticity::Tensor<double> piola{};
+      material::drucker_prager_piola(p, f.data(), passing.data(), piola.data());
+      return piola;
+    }
+  }
+  return elasticity::elastic_piola(f, p);
+}
+
+double stored_energy(const ElasticParams& p, const elasticity::Tensor<double>& f, const double* memory) {
+  switch (p.law) {
+    case ElasticLaw::neo_hookean:
+      return elasticity::neo_hookean_energy(f, p);
+    case ElasticLaw::green_st_venant:
+      return 0.0;
+    case ElasticLaw::drucker_prager:
+      return material::drucker_prager_energy(p, f.data(), memory);
+  }
+  return 0.0;
+}
+
+}  // namespace breccia

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "base/index.hpp"
+#include "physics/elasticity.hpp"
+
+namespace breccia {
+
+/// One quantity that the elements of a law with memory remember.
+struct MemoryField {
+  const char* name;
+  const char* unit;  ///< SI
+  int components;    ///< doubles, one behind the other
+};
+
+/// What an element of the law remembers, in the order of its numbers; empty for laws without memory. Zeros are the
+/// virgin state of every law.
+[[nodiscard]] std::span<const MemoryField> memory_fields(ElasticLaw law);
+
+/// Doubles an element of the law remembers.
+[[nodiscard]] std::size_t memory_size(ElasticLaw law);
+
+/// Of these, the one that tells the plastic work so far, J/m3 of reference volume; -1: the law has no plastic flow.
+[[nodiscard]] int plastic_work_place(ElasticLaw law);
+
+/// The memory of all elements: that of a slot from first + slot stride on. Empty: all are virgin.
+struct MaterialMemory {
+  const double* first = nullptr;
+  std::size_t stride = 0;  ///< doubles a slot, >= memory_size of every law in the model
+
+  [[nodiscard]] const double* of(Index slot) const;
+};
+
+// Laws element by element, for all but the sweep. @param f  deformation gradient;  @param memory  is left as it is
+
+/// First Piola stress of a law without its viscous part, Pa: that of the next step at f.
+[[nodiscard]] elasticity::Tensor<double> bulk_piola(const ElasticParams& p, const elasticity::Tensor<double>& f,
+                                                    const double* memory);
+
+/// Stored energy, J/m3 of reference volume, once the memory is that of the step at f.
+/// @pre is_hyperelastic(p.law)
+[[nodiscard]] double stored_energy(const ElasticParams& p, const elasticity::Tensor<double>& f, const double* memory);
+
+}  // namespace breccia

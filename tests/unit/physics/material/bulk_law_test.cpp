@@ -1,0 +1,54 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "physics/material/bulk_law.hpp"
+#include "physics/material/drucker_prager.hpp"
+#include "unit/physics/material/material_point.hpp"
+
+namespace breccia {
+namespace {
+
+using test::same_plastic_state;
+
+TEST(BulkLaw, remembers_the_fields_of_its_table_and_no_more) {
+  EXPECT_EQ(memory_size(ElasticLaw::neo_hookean), 0U);
+  EXPECT_EQ(memory_size(ElasticLaw::green_st_venant), 0U);
+  EXPECT_EQ(memory_size(ElasticLaw::drucker_prager), material::kDruckerPragerMemory);
+  material::DruckerPragerMemory memory;
+  const auto place = static_cast<std::size_t>(plastic_work_place(ElasticLaw::drucker_prager));
+  EXPECT_EQ(&memory.inverse_plastic[0] + place, &memory.plastic_work);
+  ASSERT_LT(place, material::kDruckerPragerMemory);
+  EXPECT_STREQ(memory_fields(ElasticLaw::drucker_prager).back().name, "plastic_work");
+  EXPECT_EQ(plastic_work_place(ElasticLaw::neo_hookean), -1);
+}
+
+TEST(BulkLaw, evaluated_by_itself_leaves_the_memory_as_it_is) {
+  test::MaterialPoint point(make_drucker_prager(0.5, 0.2, 1e6));
+  point.go_to(Vec3(0.999, 1, 1).asDiagonal());
+  const test::MaterialPoint before = point;
+  const Mat3 further = Vec3(0.998, 1, 1).asDiagonal();
+  const Mat3 asked = test::matrix(bulk_piola(point.params, test::tensor(further), point.numbers()));
+  EXPECT_TRUE(same_plastic_state(point.memory, before.memory));
+  point.go_to(further);
+  EXPECT_EQ(asked, point.piola);
+  EXPECT_EQ(stored_energy(point.params, test::tensor(further), point.numbers()), point.stored());
+  EXPECT_FALSE(same_plastic_state(point.memory, before.memory));
+}
+
+TEST(BulkLaw, without_memory_is_that_of_the_sweep) {
+  const ElasticParams p = make_elastic_params(ElasticLaw::neo_hookean, 1e9, 0.3, 0);
+  const Mat3 f = Vec3(0.9, 1.1, 1).asDiagonal();
+  EXPECT_EQ(bulk_piola(p, test::tensor(f), nullptr), elasticity::elastic_piola(test::tensor(f), p));
+  EXPECT_EQ(stored_energy(p, test::tensor(f), nullptr), elasticity::neo_hookean_energy(test::tensor(f), p));
+}
+
+TEST(MaterialMemory, of_a_model_without_any_is_virgin) {
+  const MaterialMemory none;
+  for (std::size_t i = 0; i < material::kDruckerPragerMemory; ++i) EXPECT_EQ(none.of(17)[i], 0.0);
+  const std::array<double, 6> numbers{0, 1, 2, 3, 4, 5};
+  EXPECT_EQ(*MaterialMemory({numbers.data(), 2}).of(2), 4.0);
+}
+
+}  // namespace
+}  // namespace breccia
