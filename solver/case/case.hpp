@@ -59,8 +59,20 @@ struct MeshSource {
   friend bool operator==(const MeshSource&, const MeshSource&) = default;
 };
 
-enum class ElasticLaw { neo_hookean, green_st_venant };
+enum class ElasticLaw { neo_hookean, green_st_venant, drucker_prager };
 enum class JointPlacement { breakable, unbreakable, none };
+
+/// Strength and flow of a material whose law is drucker_prager.
+struct DruckerPrager {
+  double friction_angle = 0;  ///< rad
+  double dilation_angle = 0;  ///< rad
+  double cohesion = 0;        ///< Pa
+  double hardening = 0;       ///< Pa, cohesion gained a unit of plastic shear
+  double tension_cutoff = 0;  ///< Pa, largest mean stress; 0: the apex of the cone
+  double cap_pressure = 0;    ///< Pa; 0: no cap
+  double cap_hardening = 0;   ///< Pa, cap pressure gained a unit of compaction
+  friend bool operator==(const DruckerPrager&, const DruckerPrager&) = default;
+};
 
 /// [[material]]: one physical volume group.
 struct Material {
@@ -70,6 +82,7 @@ struct Material {
   double poisson = 0;    ///< -
   double density = 0;    ///< kg/m3
   double viscosity = 0;  ///< Pa s, mubar of the viscous term
+  DruckerPrager plasticity;
   JointPlacement joints = JointPlacement::breakable;
   Origin origin;
   friend bool operator==(const Material&, const Material&) = default;

@@ -12,6 +12,7 @@ constexpr Range positive{.lower = 0, .lower_open = true};
 constexpr Range not_negative{.lower = 0};
 constexpr Range at_least_one{.lower = 1};
 constexpr Range share{.lower = 0, .upper = 1};
+constexpr Range angle{.lower = 0, .upper = std::numbers::pi / 2, .upper_open = true};
 constexpr Range count{.lower = 1, .upper = 100000};
 constexpr Range at_most_100000{.lower = 0, .upper = 100000};
 constexpr Range seed{.lower = 0, .upper = 9.2e18};
@@ -72,12 +73,14 @@ constexpr auto table = std::to_array<Key>({
      .help = "Highest corner of the box that holds the faces of the slit.", .example = "[\"10 mm\", 0, \"10 mm\"]"},
 
     {.path = "material[]", .type = section_list, .required = true,
-     .help = "Elastic law and density of one volume group."},
+     .help = "Law and density of one volume group."},
     {.path = "material[].group", .type = text, .required = true, .help = "Physical volume group of the mesh.",
      .example = "\"glass\""},
-    {.path = "material[].law", .type = choice, .fallback = "neo_hookean", .choices = "neo_hookean|green_st_venant",
-     .help = "Elastic law. neo_hookean gives back all energy of a closed strain loop; green_st_venant is the published "
-             "law.", .example = "\"green_st_venant\""},
+    {.path = "material[].law", .type = choice, .fallback = "neo_hookean", 
+     .choices = "neo_hookean|green_st_venant|drucker_prager",
+     .help = "Law of the bulk. neo_hookean, elastic, gives back all energy of a closed strain loop; green_st_venant is "
+             "the published elastic law; drucker_prager yields and flows: the keys from friction_angle on are its.",
+     .example = "\"drucker_prager\""},
     {.path = "material[].young", .type = number, .unit = "Pa", .required = true, .range = positive,
      .help = "Young's modulus.", .example = "\"75 GPa\""},
     {.path = "material[].poisson", .type = number, .required = true,
@@ -88,6 +91,24 @@ constexpr auto table = std::to_array<Key>({
     {.path = "material[].viscosity", .type = number, .unit = "Pa s", .fallback = "0", .range = not_negative,
      .help = "Viscosity mu of the stress 2 mu D added to the elastic one, D the rate of deformation.",
      .example = "\"10 Pa s\""},
+    {.path = "material[].friction_angle", .type = number, .unit = "rad", .fallback = "0", .range = angle,
+     .help = "Friction angle phi of the cone. A sample under lateral pressure s yields in compression at "
+             "s (1 + sin phi)/(1 - sin phi) + 2 cohesion cos(phi)/(1 - sin phi).", .example = "\"35 deg\""},
+    {.path = "material[].dilation_angle", .type = number, .unit = "rad", .fallback = "0", .range = angle,
+     .help = "Dilation angle of the flow, at most the friction angle: how much volume shearing adds.",
+     .example = "\"10 deg\""},
+    {.path = "material[].cohesion", .type = number, .unit = "Pa", .fallback = "0", .range = not_negative,
+     .help = "Cohesion of the cone.", .example = "\"8 MPa\""},
+    {.path = "material[].hardening", .type = number, .unit = "Pa", .fallback = "0", .range = not_negative,
+     .help = "Cohesion gained a unit of plastic shear strain (engineering).", .example = "\"200 MPa\""},
+    {.path = "material[].tension_cutoff", .type = number, .unit = "Pa", .fallback = "apex", .range = positive,
+     .word = "apex", .help = "Largest mean stress. apex: that of the cone's tip, cohesion / tan(friction_angle).",
+     .example = "\"2 MPa\""},
+    {.path = "material[].cap_pressure", .type = number, .unit = "Pa", .fallback = "none", .range = positive,
+     .word = "none", .help = "Pressure at which the volume begins to be crushed. none: there is no cap.",
+     .example = "\"150 MPa\""},
+    {.path = "material[].cap_hardening", .type = number, .unit = "Pa", .fallback = "0", .range = not_negative,
+     .help = "Cap pressure gained a unit of crushed volume (logarithmic strain).", .example = "\"2 GPa\""},
     {.path = "material[].joints", .type = choice, .fallback = "breakable", .choices = "breakable|unbreakable|none",
      .help = "Joints between the elements of the group: ones that can fail, ones that cannot, or none: then the "
              "elements share nodes.", .example = "\"none\""},
@@ -123,7 +144,7 @@ constexpr auto table = std::to_array<Key>({
      .help = "Coefficient of friction: slope of the Mohr-Coulomb strength, and friction of closed damaged joints.",
      .example = "0.6"},
     {.path = "joint[].friction_angle", .type = number, .unit = "rad",
-     .range = {.lower = 0, .upper = std::numbers::pi / 2, .upper_open = true},
+     .range = angle,
      .help = "Friction as an angle, whose tangent is the coefficient. Give this or friction.", .example = "\"30 deg\""},
     {.path = "joint[].energy_mode_1", .type = number, .unit = "J/m2", .range = positive,
      .help = "Fracture energy of opening. Needed where joints can fail.", .example = "\"10 J/m2\""},

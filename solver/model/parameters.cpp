@@ -33,8 +33,19 @@ ElasticLaw elastic_law_of(case_::ElasticLaw law) {
       break;
     case case_::ElasticLaw::green_st_venant:
       return ElasticLaw::green_st_venant;
+    case case_::ElasticLaw::drucker_prager:
+      return ElasticLaw::drucker_prager;
   }
   return ElasticLaw::neo_hookean;
+}
+
+DruckerPragerParams drucker_prager_of(const case_::DruckerPrager& entry) {
+  DruckerPragerParams p = make_drucker_prager(entry.friction_angle, entry.dilation_angle, entry.cohesion);
+  p.hardening = entry.hardening;
+  if (entry.tension_cutoff > 0) p.tension_cutoff = entry.tension_cutoff;
+  if (entry.cap_pressure > 0) p.cap_pressure = entry.cap_pressure;
+  p.cap_hardening = entry.cap_hardening;
+  return p;
 }
 
 JointLaw joint_law_of(case_::JointLaw law) {
@@ -109,7 +120,10 @@ void sort_unique(std::vector<Index>& nodes) {
 }  // namespace
 
 ElasticParams elastic_params(const case_::Material& material) {
-  return make_elastic_params(elastic_law_of(material.law), material.young, material.poisson, material.viscosity);
+  ElasticParams params =
+      make_elastic_params(elastic_law_of(material.law), material.young, material.poisson, material.viscosity);
+  params.drucker_prager = drucker_prager_of(material.plasticity);
+  return params;
 }
 
 JointLawParams joint_law_params(const case_::Joint& joint, double size, bool unbreakable) {

@@ -95,6 +95,14 @@ young = 2e11
 poisson = 0.3
 density = "7.8 t/m3"
 joints = "unbreakable"
+law = "drucker_prager"
+friction_angle = "36 deg"
+dilation_angle = "9 deg"
+cohesion = "8 MPa"
+hardening = "200 MPa"
+tension_cutoff = "2 MPa"
+cap_pressure = "150 MPa"
+cap_hardening = "2 GPa"
 [[joint]]
 group = "glass"
 law = "independent_peaks"

@@ -87,6 +87,16 @@ TEST(Reader, MeshAndMaterialsAreRead) {
   EXPECT_EQ(c.materials[1].law, ElasticLaw::neo_hookean);
   EXPECT_EQ(c.materials[2].joints, JointPlacement::unbreakable);
   EXPECT_EQ(c.materials[2].density, 7800);
+  EXPECT_EQ(c.materials[1].plasticity, DruckerPrager{});
+  EXPECT_EQ(c.materials[2].law, ElasticLaw::drucker_prager);
+  const DruckerPrager& p = c.materials[2].plasticity;
+  EXPECT_DOUBLE_EQ(p.friction_angle, std::numbers::pi / 5);
+  EXPECT_DOUBLE_EQ(p.dilation_angle, std::numbers::pi / 20);
+  EXPECT_EQ(p.cohesion, 8e6);
+  EXPECT_EQ(p.hardening, 200e6);
+  EXPECT_EQ(p.tension_cutoff, 2e6);
+  EXPECT_EQ(p.cap_pressure, 150e6);
+  EXPECT_EQ(p.cap_hardening, 2e9);
 }
 
 TEST(Reader, JointLawsAreRead) {

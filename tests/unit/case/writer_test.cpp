@@ -49,6 +49,14 @@ TEST(Writer, EveryDefaultIsWrittenOut) {
   EXPECT_THAT(text, HasSubstr("\nhistory_interval = \"auto\"  # s\n"));
 }
 
+TEST(Writer, KeysOfALawAreWrittenForMaterialsThatHaveIt) {
+  EXPECT_THAT(write_case(read_text(minimal)), testing::Not(HasSubstr("cohesion")));
+  const std::string text =
+      write_case(read_text(replaced(minimal, "joints =", "law = \"drucker_prager\"\ncohesion = 1e6\njoints =")));
+  EXPECT_THAT(text, HasSubstr("\ncohesion = 1e+06  # Pa\n"));
+  EXPECT_THAT(text, HasSubstr("\ntension_cutoff = \"apex\"  # Pa\ncap_pressure = \"none\"  # Pa\n"));
+}
+
 TEST(Writer, QuantitiesAreInSi) { EXPECT_THAT(write_case(read_text(minimal)), HasSubstr("\nyoung = 7.5e+10  # Pa\n")); }
 
 TEST(Writer, ADifferenceInAnyPartMakesCasesUnequal) {

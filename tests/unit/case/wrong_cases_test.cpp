@@ -357,7 +357,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"material_twice",
               "[[joint]]\n",
               "[[material]]\ngroup = \"glass\"\nyoung = 1\npoisson = 0\ndensity = 1\n[[joint]]\n",
-              {"case.toml:28: material[3].group: the group has a material already"}},
+              {"case.toml:36: material[3].group: the group has a material already"}},
         Wrong{"joint_without_material",
               "[[contact]]",
               "[[joint]]\ngroup = \"glas\"\n[[contact]]",
