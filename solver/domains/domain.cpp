@@ -16,13 +16,15 @@ void start_state(const Model& model, State& state) {
   state.nodes.position = local.reference;
   state.nodes.next_position = local.reference;
   state.nodes.velocity.assign(local.reference.size(), 0.0);
-  bool viscous = false, stress_work = false;
+  bool viscous = false, stress_work = false, memory = false;
   for (const ElasticParams& p : model.elastic) {
     viscous = viscous || p.viscosity > 0;
     stress_work = stress_work || !is_hyperelastic(p.law);
+    memory = memory || memory_size(p.law) > 0;
   }
   if (viscous) state.elements.allocate(kViscousWork, local.num_slots);
   if (stress_work) state.elements.allocate(kStressWork, local.num_slots);
+  if (memory) state.elements.allocate(kMaterialMemory, local.num_slots);
 }
 
 }  // namespace

@@ -58,7 +58,8 @@ class Partition {
   [[nodiscard]] Snapshot snapshot();
   /// Stable step of the whole model at present, s. Collective.
   [[nodiscard]] double stable_step() const {
-    return communicator_.min(time_step_->limit(domain_->state.nodes.position));
+    return communicator_.min(
+        time_step_->limit(domain_->state.nodes.position, material_memory(domain_->state.elements)));
   }
 
  private:

@@ -52,15 +52,18 @@ std::vector<ContactStiffness> contact_stiffness(const Model& model) {
 
 TimeStep::TimeStep(const Model& model)
     : model_(model), links_(build_links(model)), contacts_(contact_stiffness(model)) {
-  ratio_ = model.whole.step_ratio > 0 ? model.whole.step_ratio
-                                      : std::max(1.0, true_stable_step(step_model()) / at(model.local.reference).step);
+  ratio_ = model.whole.step_ratio > 0
+               ? model.whole.step_ratio
+               : std::max(1.0, true_stable_step(step_model({})) / at(model.local.reference).step);
 }
 
-StepModel TimeStep::step_model() const {
-  return {model_.local, links_, model_.elastic, model_.density, contacts_, model_.whole.lightest_node};
+StepModel TimeStep::step_model(const MaterialMemory& memory) const {
+  return {model_.local, links_, model_.elastic, model_.density, contacts_, model_.whole.lightest_node, memory};
 }
 
-StableStep TimeStep::at(const Field<double>& position) const { return stable_step(step_model(), position); }
+StableStep TimeStep::at(const Field<double>& position, const MaterialMemory& memory) const {
+  return stable_step(step_model(memory), position);
+}
 
 std::string limit_text(const StableStep& step) {
   const std::string element = std::to_string(step.element);

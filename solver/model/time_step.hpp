@@ -19,13 +19,15 @@ class TimeStep {
   explicit TimeStep(const Model& model);
 
   /// Largest stable step of the originals at these positions, s, with what limits it.
-  [[nodiscard]] StableStep at(const Field<double>& position) const;
+  [[nodiscard]] StableStep at(const Field<double>& position, const MaterialMemory& memory = {}) const;
   /// As `at`, times the ratio of the true limit to the bound at rest.
-  [[nodiscard]] double limit(const Field<double>& position) const { return ratio_ * at(position).step; }
+  [[nodiscard]] double limit(const Field<double>& position, const MaterialMemory& memory = {}) const {
+    return ratio_ * at(position, memory).step;
+  }
   [[nodiscard]] double ratio() const { return ratio_; }
 
  private:
-  [[nodiscard]] StepModel step_model() const;
+  [[nodiscard]] StepModel step_model(const MaterialMemory& memory) const;
 
   const Model& model_;
   JointLinks links_;

@@ -37,8 +37,8 @@ constexpr std::array kEnergies{&EnergyBudget::kinetic,          &EnergyBudget::e
                                &EnergyBudget::joint_elastic,    &EnergyBudget::contact_stored,
                                &EnergyBudget::joint_mode_1,     &EnergyBudget::joint_mode_2,
                                &EnergyBudget::joint_friction,   &EnergyBudget::contact_dissipated,
-                               &EnergyBudget::contact_friction, &EnergyBudget::viscous,
-                               &EnergyBudget::damping};
+                               &EnergyBudget::contact_friction, &EnergyBudget::plastic,
+                               &EnergyBudget::viscous,          &EnergyBudget::damping};
 
 }  // namespace
 
@@ -46,7 +46,8 @@ EnergySample energy_sample(const Field<double>& velocity_before, const Domain& d
   const LocalMesh& local = domain.model.local;
   const State& state = domain.state;
   const double* x = state.nodes.position.data();
-  ElasticEnergy elastic = elastic_energy(local, domain.model.elastic, x);
+  const MaterialMemory memory = material_memory(state.elements);
+  ElasticEnergy elastic = elastic_energy(local, domain.model.elastic, x, memory);
   elastic.total.add(sum_of(state.elements[kStressWork], local.original));
   JointEnergy joints = joint_energy(local, state.joints.active, state.work.joints);
   joints.stored.add(intact_joint_energy(local, domain.derived.links, x));
@@ -61,6 +62,7 @@ EnergySample energy_sample(const Field<double>& velocity_before, const Domain& d
                          joints.friction,
                          state.work.contact.dissipated,
                          state.work.contact.friction_dissipated,
+                         plastic_work(local, domain.model.elastic, memory),
                          sum_of(state.elements[kViscousWork], local.original),
                          sum_of(state.damping_work, local.counted),
                          external_work(domain)};

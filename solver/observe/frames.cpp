@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "mesh/tetrahedron.hpp"
@@ -20,25 +21,38 @@ Vec3 centroid(const LocalMesh& local, const double* field, Index slot) {
   return 0.25 * sum;
 }
 
-/// Rows of the table that are shown and that a material of the case has, alike on all ranks.
-std::vector<ElementFieldId> shown_fields(const ElementFields& elements) {
-  std::vector<ElementFieldId> shown;
-  for (std::size_t row = 0; row < kNumElementFields; ++row) {
-    const auto id = static_cast<ElementFieldId>(row);
-    if (kElementFields[id].shown && elements.keeps(id)) shown.push_back(id);
+/// A scalar that elements of some law remember.
+struct ShownNumber {
+  const char* name;
+  ElasticLaw law;
+  std::size_t place;  ///< in the memory of the law
+};
+
+/// Of all laws in the model, alike on all ranks.
+std::vector<ShownNumber> shown_numbers(const Model& model) {
+  std::vector<ShownNumber> shown;
+  std::set<ElasticLaw> seen;
+  for (const ElasticParams& params : model.elastic) {
+    if (!seen.insert(params.law).second) continue;
+    std::size_t place = 0;
+    for (const MemoryField& field : memory_fields(params.law)) {
+      if (field.components == 1) shown.push_back({field.name, params.law, place});
+      place += static_cast<std::size_t>(field.components);
+    }
   }
   return shown;
 }
 
-void begin_state_fields(const Domain& domain, Frame::Elements& out) {
-  for (const ElementFieldId id : shown_fields(domain.state.elements))
-    out.state.push_back({kElementFields[id].name, static_cast<int>(kElementFields[id].components), {}});
-}
-
-void add_state_fields(const Domain& domain, Index slot, Frame::Elements& out) {
-  std::size_t next = 0;
-  for (const ElementFieldId id : shown_fields(domain.state.elements))
-    domain.state.elements.append(id, slot, out.state[next++].values);
+/// Adds what elements remember to a part of the frame whose elements are there, in the order of `slots`.
+void add_memory(const Domain& domain, const std::vector<Index>& slots, Frame::Elements& out) {
+  const MaterialMemory memory = material_memory(domain.state.elements);
+  for (const ShownNumber& number : shown_numbers(domain.model)) {
+    std::vector<double>& values = out.state.emplace_back(Frame::StateField{number.name, 1, {}}).values;
+    for (const Index slot : slots) {
+      const ElasticLaw law = domain.model.elastic[at(domain.model.local.block_group[at(slot / kLanes)])].law;
+      values.push_back(law == number.law ? memory.of(slot)[number.place] : 0.0);
+    }
+  }
 }
 
 /// What is known of an element, its points excepted.
@@ -52,25 +66,27 @@ void add_cell(const Domain& domain, const Fragments& fragments, Index slot, Fram
   out.material.push_back(group);
   out.rank.push_back(domain.exchange.communicator().rank());
   out.fragment.push_back(fragments.of_slot[at(slot)]);
-  const Mat3 stress = cauchy_stress(local, domain.model.elastic[at(group)], slot, x, v);
+  const Mat3 stress =
+      cauchy_stress(local, domain.model.elastic[at(group)], slot, x, v, material_memory(domain.state.elements));
   const auto six = components(stress);
   out.stress.insert(out.stress.end(), six.begin(), six.end());
   out.von_mises.push_back(von_mises(stress));
   append(out.principal, principal_stresses(stress));
   append(out.velocity, centroid(local, v, slot));
   append(out.displacement, centroid(local, x, slot) - centroid(local, local.reference.data(), slot));
-  add_state_fields(domain, slot, out);
 }
 
 void add_elements(const Domain& domain, const Fragments& fragments, Frame::Elements& out) {
-  begin_state_fields(domain, out);
   const LocalMesh& local = domain.model.local;
+  std::vector<Index> slots;
   for (const Index slot : local.slot_of_element) {
     if (!local.is_original(slot)) continue;
     for (int c = 0; c < 4; ++c)
       append(out.points, load_node(domain.state.nodes.position.data(), local.corner_node(slot, c)));
     add_cell(domain, fragments, slot, out);
+    slots.push_back(slot);
   }
+  add_memory(domain, slots, out);
 }
 
 /// Which faces of a rank's originals are free: those of the bodies' surfaces, and those that a failed joint has laid
@@ -99,9 +115,9 @@ class FreeFaces {
 
 void add_surface(const Domain& domain, const Fragments& fragments, const std::vector<double>& cost,
                  Frame::Surface& out) {
-  begin_state_fields(domain, out.cells);
   const LocalMesh& local = domain.model.local;
   const FreeFaces free(domain);
+  std::vector<Index> slots;
   std::size_t original = 0;
   for (const Index slot : local.slot_of_element) {
     if (!local.is_original(slot)) continue;
@@ -111,12 +127,14 @@ void add_surface(const Domain& domain, const Fragments& fragments, const std::ve
         append(out.cells.points, load_node(domain.state.nodes.position.data(), local.corner_node(slot, corner)));
       }
       add_cell(domain, fragments, slot, out.cells);
+      slots.push_back(slot);
       out.cells.cost.push_back(cost[original]);
       out.face.push_back(face);
       out.crack.push_back(domain.derived.joint_at(slot, face) >= 0 ? 1 : 0);
     }
     ++original;
   }
+  add_memory(domain, slots, out.cells);
 }
 
 /// Corners of a box in the order of VTK's hexahedron: around the bottom, then around the top.

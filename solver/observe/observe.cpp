@@ -94,7 +94,8 @@ ExactSum sum_of_stress_yy(const Domain& domain) {
   for (Index s = 0; s < local.num_slots; ++s) {
     if (!local.is_original(s)) continue;
     const ElasticParams& params = domain.model.elastic[at(local.block_group[at(s / kLanes)])];
-    sum.add(std::abs(cauchy_stress(local, params, s, domain.state.nodes.position.data(), nullptr)(1, 1)));
+    const double* x = domain.state.nodes.position.data();
+    sum.add(std::abs(cauchy_stress(local, params, s, x, nullptr, material_memory(domain.state.elements))(1, 1)));
   }
   return sum;
 }

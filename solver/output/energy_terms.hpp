@@ -14,7 +14,7 @@ struct EnergyTerm {
 };
 
 /// Every term in J, in the order in which files and the terminal list them (residual_relative is not a term).
-inline constexpr std::array<EnergyTerm, 13> kEnergyTerms{{
+inline constexpr std::array<EnergyTerm, 14> kEnergyTerms{{
     {"kinetic", "kinetic", &EnergyBudget::kinetic},
     {"elastic", "elastic", &EnergyBudget::elastic},
     {"joint_elastic", "stored in joints", &EnergyBudget::joint_elastic},
@@ -24,6 +24,7 @@ inline constexpr std::array<EnergyTerm, 13> kEnergyTerms{{
     {"joint_friction", "friction in joints", &EnergyBudget::joint_friction},
     {"contact_dissipated", "contact, inelastic", &EnergyBudget::contact_dissipated},
     {"contact_friction", "contact, friction", &EnergyBudget::contact_friction},
+    {"plastic", "plastic work", &EnergyBudget::plastic},
     {"viscous", "viscous", &EnergyBudget::viscous},
     {"damping", "damping", &EnergyBudget::damping},
     {"external_work", "initial + external work", &EnergyBudget::external_work},

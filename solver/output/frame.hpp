@@ -18,11 +18,11 @@ struct Frame {
   double time = 0;
   std::int64_t number = 0;  ///< 0, 1, 2, ... over the run
 
-  /// A field of the elements' state that is shown as it is (state/element_fields.hpp).
+  /// What elements remember that is shown as it is (MemoryField in physics/material/bulk_law.hpp).
   struct StateField {
-    const char* name;
-    int components;
-    std::vector<double> values;  ///< (num_elements, components)
+    const char* name = "";
+    int components = 1;
+    std::vector<double> values{};  ///< (num_elements, components)
   };
 
   struct Elements {

@@ -5,8 +5,8 @@
 namespace breccia {
 
 // The arrays of a frame: what files and in-situ channels show of it, listed once. A new field is a member of Frame, a
-// line here, and what fills it in observe/frames.cpp; fields of the state are shown by their row in
-// state/element_fields.hpp.
+// line here, and what fills it in observe/frames.cpp; what elements of a bulk law remember is
+// shown by the law's own list.
 
 /// Calls visit(name, values, components) for every array of the elements, in the order of files and channels.
 template <class Visit>

@@ -21,7 +21,7 @@ elasticity::Corners<double> corners_of(const LocalMesh& mesh, Index slot, const 
 }  // namespace
 
 Mat3 cauchy_stress(const LocalMesh& mesh, const ElasticParams& params, Index slot, const double* position,
-                   const double* velocity) {
+                   const double* velocity, const MaterialMemory& memory) {
   namespace el = elasticity;
   el::Tensor<double> inverse;
   const auto s = static_cast<std::size_t>(slot);
@@ -29,7 +29,7 @@ Mat3 cauchy_stress(const LocalMesh& mesh, const ElasticParams& params, Index slo
   const el::Tensor<double> f = el::deformation<double>(corners_of(mesh, slot, position), inverse);
   const el::Tensor<double> cof = el::cofactor(f);
   const double j = el::determinant(f, cof);
-  el::Tensor<double> piola = el::elastic_piola(f, params);
+  el::Tensor<double> piola = bulk_piola(params, f, memory.of(slot));
   if (params.viscosity > 0 && velocity != nullptr) {
     const el::Tensor<double> rate = el::deformation<double>(corners_of(mesh, slot, velocity), inverse);
     const el::Tensor<double> viscous = el::viscous_piola(rate, cof, j, params);

@@ -5,14 +5,16 @@
 #include "base/types.hpp"
 #include "discretisation/local_mesh.hpp"
 #include "physics/elasticity.hpp"
+#include "physics/material/bulk_law.hpp"
 
 namespace breccia {
 
 /// Cauchy stress of an element, Pa, tension positive, with its elastic and viscous part: T = P F^T / J, with max(J,
 /// j_min) for an element crushed further than the law goes.
+/// @param memory    of all elements, which stays as it is
 /// @param position  nodal field, m;  @param velocity  nodal field, m/s, or nullptr: elastic part alone
 [[nodiscard]] Mat3 cauchy_stress(const LocalMesh& mesh, const ElasticParams& params, Index slot, const double* position,
-                                 const double* velocity);
+                                 const double* velocity, const MaterialMemory& memory = {});
 
 /// sqrt(3 J2), Pa.
 [[nodiscard]] double von_mises(const Mat3& stress);

@@ -51,7 +51,7 @@ ExactSum kinetic_energy(const LocalMesh& mesh, const double* velocity_before, co
 }
 
 ElasticEnergy elastic_energy(const LocalMesh& mesh, std::span<const ElasticParams> params_of_group,
-                             const double* position) {
+                             const double* position, const MaterialMemory& memory) {
   ElasticEnergy energy;
   for (Index s = 0; s < mesh.num_slots; ++s) {
     const auto i = static_cast<std::size_t>(s);
@@ -60,7 +60,7 @@ ElasticEnergy elastic_energy(const LocalMesh& mesh, std::span<const ElasticParam
     elasticity::Tensor<double> inverse;
     for (std::size_t k = 0; k < 9; ++k) inverse[k] = mesh.gradient[i / kLanes * 72 + k * kLanes + i % kLanes];
     const double density =
-        elasticity::neo_hookean_energy(elasticity::deformation<double>(corners_of(mesh, position, s), inverse), p);
+        stored_energy(p, elasticity::deformation<double>(corners_of(mesh, position, s), inverse), memory.of(s));
     if (density > energy.largest_density) {
       energy.largest_density = density;
       energy.worst_slot = s;
@@ -68,6 +68,17 @@ ElasticEnergy elastic_energy(const LocalMesh& mesh, std::span<const ElasticParam
     energy.total.add(mesh.volume[i] * density);
   }
   return energy;
+}
+
+ExactSum plastic_work(const LocalMesh& mesh, std::span<const ElasticParams> params_of_group,
+                      const MaterialMemory& memory) {
+  ExactSum sum;
+  for (Index s = 0; s < mesh.num_slots; ++s) {
+    const auto i = static_cast<std::size_t>(s);
+    const int place = plastic_work_place(params_of_group[static_cast<std::size_t>(mesh.block_group[i / kLanes])].law);
+    if (place >= 0 && mesh.is_original(s)) sum.add(mesh.volume[i] * memory.of(s)[place]);
+  }
+  return sum;
 }
 
 ExactSum intact_joint_energy(const LocalMesh& mesh, const JointLinks& links, const double* position) {

@@ -8,6 +8,7 @@
 #include "discretisation/joint_links.hpp"
 #include "discretisation/local_mesh.hpp"
 #include "physics/elasticity.hpp"
+#include "physics/material/bulk_law.hpp"
 
 namespace breccia {
 
@@ -20,14 +21,18 @@ namespace breccia {
 [[nodiscard]] ExactSum kinetic_energy(const LocalMesh& mesh, const double* velocity_before,
                                       const double* velocity_after);
 
-/// Strain energy of all elements whose law has one (neo-Hookean), J.
+/// Strain energy of all elements whose law has one, J.
 struct ElasticEnergy {
   ExactSum total;
   double largest_density = 0;  ///< J/m3
   Index worst_slot = -1;       ///< element with that density
 };
 [[nodiscard]] ElasticEnergy elastic_energy(const LocalMesh& mesh, std::span<const ElasticParams> params_of_group,
-                                           const double* position);
+                                           const double* position, const MaterialMemory& memory = {});
+
+/// Plastic work of all elements so far, J.
+[[nodiscard]] ExactSum plastic_work(const LocalMesh& mesh, std::span<const ElasticParams> params_of_group,
+                                    const MaterialMemory& memory);
 
 /// Energy of the joints the sweep looks after (intact, elastic), J: k A0/3 |opening|^2 / 2 over the corners, each joint
 /// once.

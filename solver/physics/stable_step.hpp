@@ -8,6 +8,7 @@
 #include "discretisation/joint_links.hpp"
 #include "discretisation/local_mesh.hpp"
 #include "physics/elasticity.hpp"
+#include "physics/material/bulk_law.hpp"
 
 namespace breccia {
 
@@ -28,6 +29,7 @@ struct StepModel {
   std::span<const double> density;             ///< (volume groups) kg/m3
   std::span<const ContactStiffness> contacts;  ///< points of a face in a row; empty: no contact
   double lightest_node = 0;                    ///< kg, of the whole model
+  MaterialMemory memory{};
 };
 
 /// Smallest mass of a node, kg; infinite without one. O(nodes).
@@ -58,6 +60,7 @@ struct StableStep {
 ///   J = 1.5 to -0.5, neo-Hookean law, 1 to 180 % above the element's own omega^2).
 ///   c = omega_e^2 2 mubar/(lambda + 2 mu).
 ///   Elements that share nodes: the mean of their omega_e^2 around each node, weighted with their masses.
+///   Drucker-Prager: omega_e^2 = (4/rho) drucker_prager_stiffness (1.35 to 14 times as much, likewise).
 /// - joints, own nodes: omega_j^2 = 2 max_i (sum over the three faces of node i of k A0/3) / m_i
 /// - contact: omega_c^2 = max over faces of sum over its points of k_c (sum_i N_i^2 / m_i + 1/m_c), the contactor's
 ///   node as light as the lightest of the model. An element pressed on several faces at once is left to the safety

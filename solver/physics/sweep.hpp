@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -62,6 +63,9 @@ struct SweepArgs {
   const Index* block_group = nullptr;      ///< (num_blocks)
   const std::uint8_t* original = nullptr;  ///< (num_slots) 1: of this rank; others do not count in SweepStatus::crushed
   const ElasticParams* params = nullptr;   ///< (groups)
+
+  double* memory = nullptr;       ///< [slot][memory_stride] what elements remember whose law has a memory
+  std::size_t memory_stride = 0;  ///< (physics/material/bulk_law.hpp)
 
   double dt = 0;                           ///< s
   std::array<double, 3> gravity{0, 0, 0};  ///< m/s2

@@ -8,6 +8,7 @@
 #include "discretisation/blocks.hpp"
 #include "discretisation/joint_links.hpp"
 #include "physics/elasticity.hpp"
+#include "physics/material/bulk_law.hpp"
 #include "physics/sweep.hpp"
 
 namespace breccia {
@@ -73,6 +74,20 @@ template <class Mask>
   return count;
 }
 
+/// Stress of W elements whose law has a memory, one after the other.
+[[gnu::noinline]] inline void step_with_memory(const SweepArgs& args, const ElasticParams& p, std::size_t first_slot,
+                                               const Tensor& f, Tensor& piola) {
+  double lanes[9][kWidth];
+  for (std::size_t k = 0; k < 9; ++k) store(f[k], lanes[k]);
+  for (std::size_t l = 0; l < kWidth; ++l) {
+    double one[9], stress[9];
+    for (std::size_t k = 0; k < 9; ++k) one[k] = lanes[k][l];
+    step_bulk_law(p, one, args.memory + (first_slot + l) * args.memory_stride, stress);
+    for (std::size_t k = 0; k < 9; ++k) lanes[k][l] = stress[k];
+  }
+  for (std::size_t k = 0; k < 9; ++k) piola[k] = load(lanes[k]);
+}
+
 /// @tparam is_plain  the group has the neo-Hookean law and no viscosity, so that the stress need not pass through
 /// memory
 /// @param x, v  corners
@@ -95,6 +110,7 @@ template <bool is_plain, class X>
       s.total = el::product(el::green_st_venant_stress(f, j, p), cof);
       break;
     case ElasticLaw::drucker_prager:
+      step_with_memory(args, p, block * kLanes + lane, f, s.total);
       break;
   }
   if (!is_plain && p.viscosity > 0) {

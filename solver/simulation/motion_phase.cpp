@@ -69,6 +69,8 @@ SweepArgs sweep_args(bool sample, Domain& domain) {
   args.force_slot = scratch.forces.slots();
   args.own_force = scratch.forces.own();
   args.shared_force = scratch.forces.shared();
+  args.memory = state.elements[kMaterialMemory].data();
+  args.memory_stride = kElementFields[kMaterialMemory].components;
   args.dt = state.clock.dt;
   args.gravity = scratch.gravity;
   args.mass_damping = state.loads.mass_damping;

@@ -2,10 +2,9 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
 
 #include "base/field.hpp"
-#include "discretisation/blocks.hpp"
+#include "physics/material/bulk_law.hpp"
 
 namespace breccia {
 
@@ -14,16 +13,17 @@ struct ElementField {
   const char* name;
   const char* unit;  ///< SI
   std::size_t components;
-  bool shown;  ///< in frames and in-situ channels, under its name
 };
 
 /// Which field: the row of the table.
-enum ElementFieldId : std::size_t { kViscousWork, kStressWork, kNumElementFields };
+enum ElementFieldId : std::size_t { kViscousWork, kStressWork, kMaterialMemory, kNumElementFields };
 
-/// The table. A bulk law with memory adds its rows here; they then travel, are hashed and are checkpointed.
+/// The table. All that stands here travels, is hashed and is checkpointed. What a bulk law remembers stands in the list
+/// of that law (physics/material/bulk_law.hpp).
 inline constexpr std::array<ElementField, kNumElementFields> kElementFields{{
-    {"viscous_work", "J", 1, false},  ///< done against viscosity so far (sweep.hpp)
-    {"stress_work", "J", 1, false},   ///< done by the elastic stress of laws without an energy so far
+    {"viscous_work", "J", 1},  ///< done against viscosity so far (sweep.hpp)
+    {"stress_work", "J", 1},   ///< done by the elastic stress of laws without an energy so far
+    {"material_memory", "as memory_fields of the law", kLargestMemory},
 }};
 
 inline constexpr std::size_t kNumElementNumbers = [] {
@@ -35,7 +35,7 @@ inline constexpr std::size_t kNumElementNumbers = [] {
 /// All of them for one element, in the order of the table.
 using ElementNumbers = std::array<double, kNumElementNumbers>;
 
-/// The fields of a rank's elements in the layout of the sweep: [block][components][8]. Those that no material of the
+/// The fields of a rank's elements in the layout of the sweep: [slot][components]. Those that no material of the
 /// case needs are empty.
 class ElementFields {
  public:
@@ -44,14 +44,7 @@ class ElementFields {
 
   /// From now on the field is kept. @param slots  a multiple of 8
   void allocate(ElementFieldId id, Index slots) {
-    kept_[id] = true;
     fields_[id].assign(static_cast<std::size_t>(slots) * kElementFields[id].components, 0.0);
-  }
-  /// Whether a material of the case needs it, alike on all ranks.
-  [[nodiscard]] bool keeps(ElementFieldId id) const { return kept_[id]; }
-  /// Appends the components of one field. @pre the field is kept
-  void append(ElementFieldId id, Index slot, std::vector<double>& values) const {
-    for (std::size_t c = 0; c < kElementFields[id].components; ++c) values.push_back(fields_[id][place(id, slot, c)]);
   }
   /// 0 for fields that are not kept.
   [[nodiscard]] ElementNumbers of(Index slot) const {
@@ -76,12 +69,16 @@ class ElementFields {
 
  private:
   [[nodiscard]] static std::size_t place(std::size_t id, Index slot, std::size_t component) {
-    const auto s = static_cast<std::size_t>(slot), lanes = static_cast<std::size_t>(kLanes);
-    return (s / lanes * kElementFields[id].components + component) * lanes + s % lanes;
+    return static_cast<std::size_t>(slot) * kElementFields[id].components + component;
   }
 
   std::array<Field<double>, kNumElementFields> fields_;
-  std::array<bool, kNumElementFields> kept_{};
 };
+
+/// What the elements of laws with memory remember, for those laws.
+[[nodiscard]] inline MaterialMemory material_memory(const ElementFields& elements) {
+  const Field<double>& memory = elements[kMaterialMemory];
+  return {memory.empty() ? nullptr : memory.data(), kElementFields[kMaterialMemory].components};
+}
 
 }  // namespace breccia

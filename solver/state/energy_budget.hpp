@@ -7,7 +7,7 @@ struct EnergyBudget {
   double kinetic = 0, elastic = 0, joint_elastic = 0, contact_stored = 0;
   double joint_mode_1 = 0, joint_mode_2 = 0, joint_friction = 0;
   double contact_dissipated = 0, contact_friction = 0;
-  double viscous = 0, damping = 0;
+  double plastic = 0, viscous = 0, damping = 0;
   double external_work = 0;  ///< of loads, gravity and constraints, incl. what was there at the start
   double residual = 0;       ///< initial + external work - everything above: unaccounted
   double residual_relative = 0;

@@ -8,7 +8,7 @@
 namespace breccia {
 namespace {
 
-constexpr std::size_t kLargestMemory = material::kDruckerPragerMemory;
+static_assert(material::kDruckerPragerMemory <= kLargestMemory);
 constexpr std::array<double, kLargestMemory> kVirgin{};
 
 }  // namespace
@@ -45,21 +45,26 @@ const double* MaterialMemory::of(Index slot) const {
   return first == nullptr ? kVirgin.data() : first + static_cast<std::size_t>(slot) * stride;
 }
 
-elasticity::Tensor<double> bulk_piola(const ElasticParams& p, const elasticity::Tensor<double>& f,
-                                      const double* memory) {
+void step_bulk_law(const ElasticParams& p, const double* f, double* memory, double* piola) {
   switch (p.law) {
     case ElasticLaw::neo_hookean:
     case ElasticLaw::green_st_venant:
       break;
-    case ElasticLaw::drucker_prager: {
-      std::array<double, material::kDruckerPragerMemory> passing{};
-      std::copy_n(memory, passing.size(), passing.begin());
-      elasticity::Tensor<double> piola{};
-      material::drucker_prager_piola(p, f.data(), passing.data(), piola.data());
-      return piola;
-    }
+    case ElasticLaw::drucker_prager:
+      material::drucker_prager_piola(p, f, memory, piola);
+      break;
   }
-  return elasticity::elastic_piola(f, p);
+}
+
+elasticity::Tensor<double> bulk_piola(const ElasticParams& p, const elasticity::Tensor<double>& f,
+                                      const double* memory) {
+  const std::size_t size = memory_size(p.law);
+  if (size == 0) return elasticity::elastic_piola(f, p);
+  std::array<double, kLargestMemory> passing{};
+  std::copy_n(memory, size, passing.begin());
+  elasticity::Tensor<double> piola{};
+  step_bulk_law(p, f.data(), passing.data(), piola.data());
+  return piola;
 }
 
 double stored_energy(const ElasticParams& p, const elasticity::Tensor<double>& f, const double* memory) {
@@ -70,6 +75,18 @@ double stored_energy(const ElasticParams& p, const elasticity::Tensor<double>& f
       return 0.0;
     case ElasticLaw::drucker_prager:
       return material::drucker_prager_energy(p, f.data(), memory);
+  }
+  return 0.0;
+}
+
+double bulk_stiffness(const ElasticParams& p, const elasticity::Tensor<double>& f, const double* memory,
+                      const elasticity::Tensor<double>& gradient) {
+  switch (p.law) {
+    case ElasticLaw::neo_hookean:
+    case ElasticLaw::green_st_venant:
+      return 0.0;
+    case ElasticLaw::drucker_prager:
+      return material::drucker_prager_stiffness(p, f.data(), memory, gradient.data());
   }
   return 0.0;
 }

@@ -19,6 +19,9 @@ struct MemoryField {
 /// virgin state of every law.
 [[nodiscard]] std::span<const MemoryField> memory_fields(ElasticLaw law);
 
+/// Doubles an element remembers, of any law, at most.
+inline constexpr std::size_t kLargestMemory = 15;
+
 /// Doubles an element of the law remembers.
 [[nodiscard]] std::size_t memory_size(ElasticLaw law);
 
@@ -33,7 +36,14 @@ struct MaterialMemory {
   [[nodiscard]] const double* of(Index slot) const;
 };
 
-// Laws element by element, for all but the sweep. @param f  deformation gradient;  @param memory  is left as it is
+// Laws element by element. @param f  deformation gradient, row-major
+
+/// One step of a law with memory: the first Piola stress at f without its viscous part, Pa, and what the element
+/// remembers from there on. Code of the baseline instruction set, whatever that of its caller.
+/// @param memory  read and written;  @param piola  out: [9].  @pre memory_size(p.law) > 0
+void step_bulk_law(const ElasticParams& p, const double* f, double* memory, double* piola);
+
+// What follows leaves the memory as it is.
 
 /// First Piola stress of a law without its viscous part, Pa: that of the next step at f.
 [[nodiscard]] elasticity::Tensor<double> bulk_piola(const ElasticParams& p, const elasticity::Tensor<double>& f,
@@ -42,5 +52,11 @@ struct MaterialMemory {
 /// Stored energy, J/m3 of reference volume, once the memory is that of the step at f.
 /// @pre is_hyperelastic(p.law)
 [[nodiscard]] double stored_energy(const ElasticParams& p, const elasticity::Tensor<double>& f, const double* memory);
+
+/// Bound of the tangent of a law with memory, for the stable step, Pa/m2: the largest eigenvalue of an element's
+/// stiffness is at most its volume times this. @param gradient  D_m^-1, row-major, 1/m
+/// @pre memory_size(p.law) > 0
+[[nodiscard]] double bulk_stiffness(const ElasticParams& p, const elasticity::Tensor<double>& f, const double* memory,
+                                    const elasticity::Tensor<double>& gradient);
 
 }  // namespace breccia
