@@ -29,7 +29,8 @@ Mat3 cauchy_stress(const LocalMesh& mesh, const ElasticParams& params, Index slo
   const el::Tensor<double> f = el::deformation<double>(corners_of(mesh, slot, position), inverse);
   const el::Tensor<double> cof = el::cofactor(f);
   const double j = el::determinant(f, cof);
-  el::Tensor<double> piola = bulk_piola(params, f, memory.of(slot));
+  el::Tensor<double> piola =
+      has_memory(params.law) ? bulk_piola(params, f, memory.of(slot)) : el::elastic_piola(f, params);
   if (params.viscosity > 0 && velocity != nullptr) {
     const el::Tensor<double> rate = el::deformation<double>(corners_of(mesh, slot, velocity), inverse);
     const el::Tensor<double> viscous = el::viscous_piola(rate, cof, j, params);

@@ -29,6 +29,18 @@ enum class ElasticLaw {
   __builtin_unreachable();
 }
 
+/// Whether elements of the law remember what has happened to them (physics/material/bulk_law.hpp).
+[[gnu::always_inline]] constexpr bool has_memory(ElasticLaw law) {
+  switch (law) {
+    case ElasticLaw::neo_hookean:
+    case ElasticLaw::green_st_venant:
+      return false;
+    case ElasticLaw::drucker_prager:
+      return true;
+  }
+  __builtin_unreachable();
+}
+
 /// Parameters of the element's kernels. Made by `make_elastic_params`.
 struct ElasticParams {
   ElasticLaw law = ElasticLaw::neo_hookean;

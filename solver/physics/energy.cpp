@@ -59,8 +59,8 @@ ElasticEnergy elastic_energy(const LocalMesh& mesh, std::span<const ElasticParam
     if (!mesh.is_original(s) || !is_hyperelastic(p.law)) continue;
     elasticity::Tensor<double> inverse;
     for (std::size_t k = 0; k < 9; ++k) inverse[k] = mesh.gradient[i / kLanes * 72 + k * kLanes + i % kLanes];
-    const double density =
-        stored_energy(p, elasticity::deformation<double>(corners_of(mesh, position, s), inverse), memory.of(s));
+    const elasticity::Tensor<double> f = elasticity::deformation<double>(corners_of(mesh, position, s), inverse);
+    const double density = has_memory(p.law) ? stored_energy(p, f, memory.of(s)) : elasticity::neo_hookean_energy(f, p);
     if (density > energy.largest_density) {
       energy.largest_density = density;
       energy.worst_slot = s;

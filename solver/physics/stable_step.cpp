@@ -44,7 +44,7 @@ double element_share(const StepModel& model, Index slot, const Field<double>& po
   for (std::size_t i = 0; i < 9; ++i) g[i] = mesh.gradient[s / kLanes * 72 + i * kLanes + s % kLanes];
   const el::Tensor<double> f = el::deformation<double>(x, g);
   const double density = model.density[static_cast<std::size_t>(mesh.block_group[s / kLanes])];
-  if (memory_size(p.law) > 0) return 4.0 / density * bulk_stiffness(p, f, model.memory.of(slot), g);
+  if (has_memory(p.law)) return 4.0 / density * bulk_stiffness(p, f, model.memory.of(slot), g);
   const el::Tensor<double> cof = el::cofactor(f);
   const double j = el::determinant(f, cof);
 

@@ -88,8 +88,10 @@ template <class Mask>
   for (std::size_t k = 0; k < 9; ++k) piola[k] = load(lanes[k]);
 }
 
-/// @tparam is_plain  the group has the neo-Hookean law and no viscosity, so that the stress need not pass through
-/// memory
+/// The group has the neo-Hookean law and no viscosity.
+inline bool plain(const ElasticParams& p) { return p.law == ElasticLaw::neo_hookean && !(p.viscosity > 0); }
+
+/// @tparam is_plain  the group is plain, so that the stress need not pass through memory
 /// @param x, v  corners
 template <bool is_plain, class X>
 [[gnu::always_inline]] inline void evaluate_stress(const SweepArgs& args, const ElasticParams& p, std::size_t block,
@@ -297,17 +299,20 @@ inline Corners gather(const double* field, const std::int32_t* corners) {
   return value;
 }
 
-/// Internal forces of W shared-node elements, scattered in ascending lanes.
-inline void scatter_shared(const SweepArgs& args, std::size_t block, std::size_t lane, Totals& totals) {
-  const ElasticParams& p = args.params[args.block_group[block]];
+/// Internal forces of W shared-node elements, scattered in ascending lanes. @param p  of their group
+template <bool is_plain>
+inline void scatter_shared(const SweepArgs& args, const ElasticParams& p, std::size_t block, std::size_t lane,
+                           Totals& totals) {
   const std::int32_t* corners =
       args.shared_corners + (block - static_cast<std::size_t>(args.num_own_blocks)) * 32 + lane;
   const Corners x = gather(args.position, corners);
-  const Corners v = needs_rate(args, p) ? gather(args.velocity, corners) : Corners{};
+  const Corners v = !is_plain && needs_rate(args, p) ? gather(args.velocity, corners) : Corners{};
   Stress stress;
-  evaluate_stress<false>(args, p, block, lane, x, v, totals, stress);
-  book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_before, args.stress_before);
-  keep_stress(args, p, stress, block, lane);
+  evaluate_stress<is_plain>(args, p, block, lane, x, v, totals, stress);
+  if (!is_plain) {
+    book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_before, args.stress_before);
+    keep_stress(args, p, stress, block, lane);
+  }
   const Corners force = el::corner_forces(stress.total, stress.inverse, stress.volume);
   double lanes[12][kWidth];
   for (std::size_t k = 0; k < 12; ++k) store(force[k / 3][k % 3], lanes[k]);
@@ -378,8 +383,7 @@ inline SweepStatus sweep(const SweepArgs& args) {
   const auto end = static_cast<std::size_t>(args.end_own_block);
   for (auto block = static_cast<std::size_t>(args.first_own_block); block < end; ++block) {
     const ElasticParams& p = args.params[args.block_group[block]];
-    const auto sweep_block =
-        p.law == ElasticLaw::neo_hookean && !(p.viscosity > 0) ? sweep_own<true> : sweep_own<false>;
+    const auto sweep_block = plain(p) ? sweep_own<true> : sweep_own<false>;
     for (std::size_t lane = 0; lane < kLanes; lane += kWidth) sweep_block(args, p, mover, block, lane, totals);
     if ((block & 63) == 63 || block + 1 == end) {  // NaN is sought every 512 elements: near enough to name the place
       checked_sum = stdx::reduce(totals.motion.speed_squared_sum);
@@ -390,7 +394,9 @@ inline SweepStatus sweep(const SweepArgs& args) {
   }
   for (Index b = 0; b < args.num_shared_blocks; ++b) {
     const auto block = static_cast<std::size_t>(args.shared_blocks[b]);
-    for (std::size_t lane = 0; lane < kLanes; lane += kWidth) scatter_shared(args, block, lane, totals);
+    const ElasticParams& p = args.params[args.block_group[block]];
+    const auto scatter_block = plain(p) ? scatter_shared<true> : scatter_shared<false>;
+    for (std::size_t lane = 0; lane < kLanes; lane += kWidth) scatter_block(args, p, block, lane, totals);
   }
   for (auto node = own * 4 * kLanes; node < static_cast<std::size_t>(args.num_moved_nodes); node += kWidth) {
     move_shared(args, mover, node, totals);

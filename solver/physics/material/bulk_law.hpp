@@ -19,7 +19,7 @@ struct MemoryField {
 /// virgin state of every law.
 [[nodiscard]] std::span<const MemoryField> memory_fields(ElasticLaw law);
 
-/// Doubles an element remembers, of any law, at most.
+/// Doubles an element remembers, at most, whatever its law.
 inline constexpr std::size_t kLargestMemory = 15;
 
 /// Doubles an element of the law remembers.
@@ -40,22 +40,20 @@ struct MaterialMemory {
 
 /// One step of a law with memory: the first Piola stress at f without its viscous part, Pa, and what the element
 /// remembers from there on. Code of the baseline instruction set, whatever that of its caller.
-/// @param memory  read and written;  @param piola  out: [9].  @pre memory_size(p.law) > 0
+/// @param memory  read and written;  @param piola  out: [9].  @pre has_memory(p.law)
 void step_bulk_law(const ElasticParams& p, const double* f, double* memory, double* piola);
 
-// What follows leaves the memory as it is.
+// What follows is for laws with memory alone, and leaves it as it is.
 
-/// First Piola stress of a law without its viscous part, Pa: that of the next step at f.
+/// First Piola stress without its viscous part, Pa: that of the next step at f.
 [[nodiscard]] elasticity::Tensor<double> bulk_piola(const ElasticParams& p, const elasticity::Tensor<double>& f,
                                                     const double* memory);
 
 /// Stored energy, J/m3 of reference volume, once the memory is that of the step at f.
-/// @pre is_hyperelastic(p.law)
 [[nodiscard]] double stored_energy(const ElasticParams& p, const elasticity::Tensor<double>& f, const double* memory);
 
 /// Bound of the tangent of a law with memory, for the stable step, Pa/m2: the largest eigenvalue of an element's
 /// stiffness is at most its volume times this. @param gradient  D_m^-1, row-major, 1/m
-/// @pre memory_size(p.law) > 0
 [[nodiscard]] double bulk_stiffness(const ElasticParams& p, const elasticity::Tensor<double>& f, const double* memory,
                                     const elasticity::Tensor<double>& gradient);
 
