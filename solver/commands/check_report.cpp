@@ -10,6 +10,7 @@
 
 #include "contact/search_params.hpp"
 #include "domains/decomposition.hpp"
+#include "domains/global_step.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/quality.hpp"
 #include "model/parameters.hpp"
@@ -266,8 +267,13 @@ std::string check_report(const case_::Case& input, const Model& model) {
   for (std::size_t l = 0; l < model.joint_laws.size(); ++l) text += law_report(model, static_cast<Index>(l), advice);
 
   const TimeStep time_step(model);
-  const StableStep stable = time_step.at(model.local.reference);
-  const double limit = time_step.limit(model.local.reference);
+  const StageLoads loads = stage_loads(input.stages.front(), model);
+  Stepper scratch(model, search_params(input, model));
+  for (const case_::InitialVelocity& entry : input.initial_velocities)
+    scratch.add_velocity(initial_velocity(entry, model));
+  const StableStep stable = global_stable_step(
+      Communicator(), time_step, {scratch.state().position, scratch.state().velocity, nullptr, &loads.constraints}, 80);
+  const double limit = stable.step;
   const double dt = input.time.step > 0 ? input.time.step : input.time.safety * limit;
   text +=
       fmt::format("stable time step {}, limited by {}; elements alone {}, with joints {}\n", quantity_text(limit, "s"),

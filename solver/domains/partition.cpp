@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "contact/search_params.hpp"
+#include "domains/global_step.hpp"
 #include "domains/piece_mesh.hpp"
 #include "domains/state_records.hpp"
 #include "model/parameters.hpp"
@@ -108,6 +109,7 @@ void Partition::build(const Piece& piece, WholeModel whole, Continuation from) {
     breccia::begin_stage(*domain_, stage_loads(*stage_, *model_), dt);
     restore_holds(*domain_, piece.records);
   }
+  constrained_ = nullptr;
   anchor_ = domain_->state.nodes.position;
   moved_.restart();
 }
@@ -116,6 +118,18 @@ void Partition::begin_stage(const case_::Stage& stage, double dt) {
   stage_ = &stage;
   for (const std::string& surface : stage.broken_surfaces) break_joints(*domain_, faces_of_surface(*model_, surface));
   breccia::begin_stage(*domain_, stage_loads(stage, *model_), dt);
+}
+
+double Partition::stable_step(const case_::Stage& stage, double steps) {
+  if (std::exchange(constrained_, &stage) != &stage) constraints_ = stage_loads(stage, *model_).constraints;
+  const State& state = domain_->state;
+  const StepState now{state.nodes.position,
+                      state.nodes.velocity,
+                      domain_->contacts(),
+                      domain_->contact ? &domain_->contact->clusters() : nullptr,
+                      &constraints_,
+                      material_memory(state.elements)};
+  return global_stable_step(communicator_, *time_step_, now, steps).step;
 }
 
 void Partition::keep_up() {

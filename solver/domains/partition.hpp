@@ -56,11 +56,9 @@ class Partition {
   void keep_up();
   /// The partition as it is, which ends with it: no more steps. Collective. @pre a stage has begun
   [[nodiscard]] Snapshot snapshot();
-  /// Stable step of the whole model at present, s. Collective.
-  [[nodiscard]] double stable_step() const {
-    return communicator_.min(
-        time_step_->limit(domain_->state.nodes.position, material_memory(domain_->state.elements)));
-  }
+  /// Stable step of the whole model at present under a stage's constraints, s. Collective.
+  /// @param steps  of it until the next call
+  [[nodiscard]] double stable_step(const case_::Stage& stage, double steps);
 
  private:
   void start_whole();
@@ -78,6 +76,8 @@ class Partition {
   std::unique_ptr<Domain> domain_;
   std::unique_ptr<TimeStep> time_step_;
   const case_::Stage* stage_ = nullptr;
+  const case_::Stage* constrained_ = nullptr;  ///< whose constraints these are, on the present piece
+  std::vector<NodalConstraint> constraints_;
   std::int64_t decompositions_ = 1;
   Balance balance_;
   double decomposition_s_ = 0;  ///< s, that the last decomposition took on the slowest rank

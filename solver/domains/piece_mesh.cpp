@@ -11,7 +11,7 @@ std::vector<std::byte> pack(const WholeModel& whole) {
   PackedBytes bytes;
   for (const std::int64_t count : {whole.num_elements, whole.num_joints}) bytes.put(count);
   for (const double number :
-       {whole.contactor_size, whole.lightest_node, whole.longest_edge, whole.energy_floor, whole.step_ratio})
+       {whole.contactor_size, whole.longest_edge, whole.energy_floor, whole.step_ratio})
     bytes.put(number);
   bytes.put(static_cast<std::uint64_t>(whole.joint_groups.size()));
   for (const WholeModel::JointGroups& groups : whole.joint_groups) {
@@ -20,7 +20,6 @@ std::vector<std::byte> pack(const WholeModel& whole) {
     bytes.put(groups.size);
   }
   bytes.put_list(whole.body_length);
-  bytes.put_list(whole.group_length);
   bytes.put_text(whole.source);
   for (const auto* names : {&whole.volume_groups, &whole.surface_groups}) {
     bytes.put(static_cast<std::uint64_t>(names->size()));
@@ -34,7 +33,7 @@ WholeModel unpack_whole(std::span<const std::byte> packed) {
   WholeModel whole;
   for (std::int64_t* count : {&whole.num_elements, &whole.num_joints}) *count = bytes.take<std::int64_t>();
   for (double* number :
-       {&whole.contactor_size, &whole.lightest_node, &whole.longest_edge, &whole.energy_floor, &whole.step_ratio})
+       {&whole.contactor_size, &whole.longest_edge, &whole.energy_floor, &whole.step_ratio})
     *number = bytes.take<double>();
   for (auto left = bytes.take<std::uint64_t>(); left > 0; --left) {
     WholeModel::JointGroups& groups = whole.joint_groups.emplace_back();
@@ -43,7 +42,6 @@ WholeModel unpack_whole(std::span<const std::byte> packed) {
     groups.size = bytes.take<double>();
   }
   whole.body_length = bytes.take_list<double>();
-  whole.group_length = bytes.take_list<double>();
   whole.source = bytes.take_text();
   for (auto* names : {&whole.volume_groups, &whole.surface_groups}) {
     for (auto left = bytes.take<std::uint64_t>(); left > 0; --left) names->push_back(bytes.take_text());

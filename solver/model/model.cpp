@@ -9,7 +9,6 @@
 #include "base/error.hpp"
 #include "model/parameters.hpp"
 #include "physics/contact/contact_field.hpp"
-#include "physics/stable_step.hpp"
 
 namespace breccia {
 namespace {
@@ -224,13 +223,9 @@ void summarise(Model& model) {
   whole.num_elements = model.mesh.num_elements();
   whole.num_joints = static_cast<std::int64_t>(model.joints.size());
   whole.body_length = mean_inradii(local);
-  whole.group_length.assign(model.mesh.volume_groups.size(), std::numeric_limits<double>::infinity());
-  whole.lightest_node = lightest_node(local);
   for (Index s = 0; s < local.num_slots; ++s) {
     if (local.element_of_slot[index(s)] < 0) continue;
     const std::size_t group = index(local.block_group[index(s / kLanes)]);
-    whole.group_length[group] =
-        std::min(whole.group_length[group], whole.body_length[index(local.slot_body[index(s)])]);
     // Strains below 1e-10 are round-off of positions: energies of that size are no measure for a residual.
     const ElasticParams& p = model.elastic[group];
     whole.energy_floor += 1e-20 * local.volume[index(s)] * (p.lambda + 2 * p.mu);

@@ -43,9 +43,7 @@ struct WholeModel {
   std::int64_t num_elements = 0, num_joints = 0;
   std::vector<JointGroups> joint_groups;
   std::vector<double> body_length;   ///< (bodies) H of contact, m: mean inradius of the elements
-  std::vector<double> group_length;  ///< (volume groups) m, the smallest H among the group's bodies
   double contactor_size = 0;         ///< m, mean size of the contactors
-  double lightest_node = 0;          ///< kg
   double longest_edge = 0;           ///< m, of all elements, reference
   double energy_floor = 0;           ///< J, energies below are round-off
   double step_ratio = 0;             ///< of the true stable step to the bound at rest (time_step.hpp); 0: not found yet

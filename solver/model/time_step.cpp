@@ -1,68 +1,157 @@
 #include "model/time_step.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/Geometry>
 
-#include "physics/contact/contact_point.hpp"
+#include "physics/contact/patch_tree.hpp"
+#include "physics/largest_eigenvalue.hpp"
 
 namespace breccia {
 namespace {
 
 std::size_t index(Index i) { return static_cast<std::size_t>(i); }
 
-/// Stiffest contact a point of each group can meet, Pa/m: kappa b.
-std::vector<double> contact_slopes(const Model& model) {
-  const std::vector<double>& length = model.whole.group_length;
-  const std::size_t groups = model.mesh.volume_groups.size();
-  std::vector<double> slope(groups, 0.0);
-  for (std::size_t a = 0; a < groups; ++a) {
-    for (std::size_t b = 0; b < groups; ++b) {
-      const ContactLaw& law = model.contact.laws[a * groups + b];
-      if (law.active()) slope[a] = std::max(slope[a], law.penalty / length[b] * law.exponent);
-    }
-    if (model.contact.sphere) slope[a] = std::max(slope[a], model.contact.sphere->penalty / length[a]);
+/// Faces of a body look at each other when the line between their middles is so close to both normals (its cosine).
+constexpr double kFacing = 0.8;
+
+/// Joints that the sweep does not look after, at their stiffest.
+std::vector<JointStiffness> other_joints(const Model& model) {
+  std::vector<JointStiffness> joints;
+  for (const ModelJoint& joint : model.joints) {
+    if (starts_intact(model, joint)) continue;
+    const JointLawParams& law = model.joint_laws[index(joint.law)];
+    joints.push_back({model.local.slot_of_element[index(joint.face.a)],
+                      model.local.slot_of_element[index(joint.face.b)], static_cast<std::int8_t>(joint.face.face_a),
+                      static_cast<std::int8_t>(joint.face.code), law.points == JointPoints::mid_edge,
+                      corner_stiffness(law, joint.face.area)});
   }
-  return slope;
+  return joints;
 }
 
-/// A face's points act together; all together are as stiff as one point that carries the face's whole area.
-std::vector<ContactStiffness> contact_stiffness(const Model& model) {
-  std::vector<ContactStiffness> contacts;
-  if (!model.has_contact) return contacts;
-  const std::vector<double> slope = contact_slopes(model);
-  const std::array<double, 3> shape = face_rule(model.contact.points_per_face).shape[0];
+/// (volume groups) whether anything can touch it.
+std::vector<bool> groups_with_contact(const Model& model) {
+  const std::size_t groups = model.mesh.volume_groups.size();
+  std::vector<bool> touched(groups, model.contact.sphere.has_value());
+  for (std::size_t a = 0; a < groups; ++a) {
+    for (std::size_t b = 0; b < groups; ++b) touched[a] = touched[a] || model.contact.laws[a * groups + b].active();
+  }
+  return touched;
+}
+
+/// A free face of the mesh at rest.
+struct FreeFace {
+  Index element;
+  int face;
+  Index body;
+  Vec3 middle, normal;
+};
+
+std::vector<FreeFace> free_faces(const Model& model, std::vector<PatchTree::Box>& boxes) {
+  std::vector<FreeFace> faces;
+  const std::vector<bool> touched = groups_with_contact(model);
   for (Index e = 0; e < model.mesh.num_elements(); ++e) {
-    const std::size_t group = index(model.mesh.element_group[index(e)]);
+    if (!touched[index(model.mesh.element_group[index(e)])]) continue;
     for (int f = 0; f < 4; ++f) {
-      const bool may_be_free = model.topology.links[index(e)][index(f)].free() || model.breakable[group];
-      if (!may_be_free || slope[group] <= 0) continue;
-      const auto& corner = kFaceCorners[index(f)];
-      const auto x = [&](std::size_t i) {
-        return model.mesh.nodes[index(model.mesh.elements[index(e)][index(corner[i])])];
-      };
-      const double area = 0.5 * (x(1) - x(0)).cross(x(2) - x(0)).norm();
-      contacts.push_back({model.local.slot_of_element[index(e)], f, shape, slope[group] * area});
+      if (!model.topology.links[index(e)][index(f)].free()) continue;
+      std::array<Vec3, 3> x;
+      for (std::size_t i = 0; i < 3; ++i)
+        x[i] = model.mesh.nodes[index(model.mesh.elements[index(e)][index(kFaceCorners[index(f)][i])])];
+      faces.push_back({e, f, model.local.slot_body[index(model.local.slot_of_element[index(e)])],
+                       (x[0] + x[1] + x[2]) / 3.0, (x[1] - x[0]).cross(x[2] - x[0]).normalized()});
+      const double half = 0.5 * std::max({(x[1] - x[0]).norm(), (x[2] - x[1]).norm(), (x[0] - x[2]).norm()});
+      PatchTree::Box& box = boxes.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto axis = static_cast<Eigen::Index>(k);
+        box.low[k] = std::min({x[0][axis], x[1][axis], x[2][axis]}) - half;
+        box.high[k] = std::max({x[0][axis], x[1][axis], x[2][axis]}) + half;
+      }
     }
   }
-  return contacts;
+  return faces;
+}
+
+bool look_at_each_other(const FreeFace& a, const FreeFace& b) {
+  const Vec3 line = b.middle - a.middle;
+  const double length = line.norm();
+  return a.normal.dot(b.normal) < -0.5 && line.dot(a.normal) >= kFacing * length &&
+         -line.dot(b.normal) >= kFacing * length;
 }
 
 }  // namespace
 
-TimeStep::TimeStep(const Model& model)
-    : model_(model), links_(build_links(model)), contacts_(contact_stiffness(model)) {
-  ratio_ = model.whole.step_ratio > 0
-               ? model.whole.step_ratio
-               : std::max(1.0, true_stable_step(step_model({})) / at(model.local.reference).step);
+TimeStep::TimeStep(const Model& model) : model_(model), links_(build_links(model)), joints_(other_joints(model)) {
+  if (model.has_contact) mark_faces();
+  ratio_ = model.whole.step_ratio;
+  if (ratio_ > 0) return;
+  const double bound = stiffest(step_model(), step_shares(step_model(), model.local.reference));
+  ratio_ = std::max(1.0, std::sqrt(bound / largest_eigenvalue(step_model())));
 }
 
 StepModel TimeStep::step_model(const MaterialMemory& memory) const {
-  return {model_.local, links_, model_.elastic, model_.density, contacts_, model_.whole.lightest_node, memory};
+  return {model_.local, links_, joints_, model_.elastic, model_.density, memory};
 }
 
 StableStep TimeStep::at(const Field<double>& position, const MaterialMemory& memory) const {
   return stable_step(step_model(memory), position);
+}
+
+void TimeStep::mark_faces() {
+  const LocalMesh& local = model_.local;
+  for (auto* bits : {&at_rest_.open, &at_rest_.torn, &at_rest_.pointed}) bits->assign(index(local.num_slots), 0);
+  const auto mark = [&](std::vector<std::uint8_t>& bits, Index element, int face) {
+    bits[index(local.slot_of_element[index(element)])] |= static_cast<std::uint8_t>(1U << face);
+  };
+  std::vector<PatchTree::Box> boxes;
+  const std::vector<FreeFace> faces = free_faces(model_, boxes);
+  const PatchTree tree(boxes);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const FreeFace& face = faces[i];
+    mark(at_rest_.open, face.element, face.face);
+    bool torn = false;
+    tree.query(boxes[i], [&](std::int32_t other) {
+      const FreeFace& there = faces[static_cast<std::size_t>(other)];
+      torn = torn || (there.body == face.body && look_at_each_other(face, there));
+    });
+    if (torn) mark(at_rest_.torn, face.element, face.face);
+  }
+  if (model_.contact_everywhere) {
+    std::fill(at_rest_.pointed.begin(), at_rest_.pointed.end(), std::uint8_t{15});
+    return;
+  }
+  for (const Topology::Face& face : model_.contact_faces) {
+    mark(at_rest_.pointed, face.element, face.face);
+    const FaceLink& link = model_.topology.links[index(face.element)][index(face.face)];
+    if (link.inner()) mark(at_rest_.pointed, link.neighbour, link.face());
+  }
+}
+
+ContactFaces TimeStep::open_faces(const CornerClusters* clusters) const {
+  ContactFaces faces = at_rest_;
+  if (clusters == nullptr) return faces;
+  const std::vector<bool> touched = groups_with_contact(model_);
+  for (Index e = 0; e < model_.mesh.num_elements(); ++e) {
+    if (!touched[index(model_.mesh.element_group[index(e)])]) continue;
+    const std::size_t slot = index(model_.local.slot_of_element[index(e)]);
+    for (int f = 0; f < 4; ++f) {
+      if (!clusters->broken(e, f)) continue;
+      faces.open[slot] |= static_cast<std::uint8_t>(1U << f);
+      faces.torn[slot] |= static_cast<std::uint8_t>(1U << f);
+    }
+  }
+  return faces;
+}
+
+std::vector<std::uint8_t> TimeStep::held_nodes(const std::vector<NodalConstraint>& constraints) const {
+  std::vector<std::uint8_t> axes(index(model_.local.num_nodes), 0);
+  for (const NodalConstraint& entry : constraints) {
+    unsigned bits = 0;
+    for (std::size_t i = 0; i < 3; ++i) bits |= entry.axes[i] ? 1U << i : 0U;
+    for (const Index node : entry.nodes) axes[index(node)] |= static_cast<std::uint8_t>(bits);
+  }
+  for (std::uint8_t& bits : axes) bits = bits == 7 ? 1 : 0;
+  return axes;
 }
 
 std::string limit_text(const StableStep& step) {

@@ -3,39 +3,51 @@
 #include <string>
 #include <vector>
 
+#include "mesh/corner_clusters.hpp"
 #include "model/model.hpp"
+#include "model/stage_loads.hpp"
+#include "physics/contact/contact_step.hpp"
 #include "physics/stable_step.hpp"
 
 namespace breccia {
 
 /// The stable step of a model, as far as the discretisation decides it.
 ///
-/// The bound by element is cheap and follows the deformation; at rest the true limit of the linear system is larger by
-/// a ratio that is found once by iteration and kept: fracture makes nothing stiffer.
+/// The bound by element is cheap and follows the deformation; at rest the true limit of the linear system without
+/// contact is larger by a ratio that is found once by iteration and kept: fracture makes nothing stiffer. Contact is
+/// added to each element as physics/contact/contact_step.hpp says.
 class TimeStep {
  public:
   /// @pre model outlives this object; it is whole, or its WholeModel holds the ratio. O(elements) times some dozens to
   /// find the ratio.
   explicit TimeStep(const Model& model);
 
-  /// Largest stable step of the originals at these positions, s, with what limits it.
+  /// Bound of the originals at these positions without contact, with what limits it.
   [[nodiscard]] StableStep at(const Field<double>& position, const MaterialMemory& memory = {}) const;
-  /// As `at`, times the ratio of the true limit to the bound at rest.
+  /// As `at`, but the true limit, s.
   [[nodiscard]] double limit(const Field<double>& position, const MaterialMemory& memory = {}) const {
     return ratio_ * at(position, memory).step;
   }
   [[nodiscard]] double ratio() const { return ratio_; }
 
+  [[nodiscard]] StepModel step_model(const MaterialMemory& memory = {}) const;
+  /// Faces that have nothing across them now. @param clusters  of contact: faces that have broken; may be null
+  [[nodiscard]] ContactFaces open_faces(const CornerClusters* clusters) const;
+  /// (num_nodes) 1: a stage's constraints prescribe its motion in all directions.
+  [[nodiscard]] std::vector<std::uint8_t> held_nodes(const std::vector<NodalConstraint>& constraints) const;
+  [[nodiscard]] const Model& model() const { return model_; }
+
  private:
-  [[nodiscard]] StepModel step_model(const MaterialMemory& memory) const;
+  void mark_faces();
 
   const Model& model_;
   JointLinks links_;
-  std::vector<ContactStiffness> contacts_;
+  std::vector<JointStiffness> joints_;
+  ContactFaces at_rest_;  ///< open: from the start; pointed: if it comes to be open
   double ratio_ = 1.0;
 };
 
-/// "0.12 us, limited by the joint between elements 17 and 43".
+/// "the joint between elements 17 and 43".
 [[nodiscard]] std::string limit_text(const StableStep& step);
 
 }  // namespace breccia

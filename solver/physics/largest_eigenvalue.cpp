@@ -99,6 +99,26 @@ void act_on_shared(const StepModel& model, std::size_t block, const double* u, d
   });
 }
 
+/// Adds the forces of joints that the sweep does not look after.
+void act_on_joints(const StepModel& model, const double* u, double* y) {
+  const LocalMesh& mesh = model.mesh;
+  for (const JointStiffness& joint : model.joints) {
+    std::array<Index, 3> a, b;
+    std::array<Vec3, 3> opening;
+    for (std::size_t i = 0; i < 3; ++i) {
+      a[i] = mesh.corner_node(joint.slot_a, kFaceCorners[static_cast<std::size_t>(joint.face_a)][i]);
+      b[i] = mesh.corner_node(joint.slot_b, matching_corner(joint.code, static_cast<int>(i)));
+      opening[i] = joint.stiffness * (load_node(u, a[i]) - load_node(u, b[i]));
+    }
+    const Vec3 mean = 0.25 * (opening[0] + opening[1] + opening[2]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 force = joint.mid_edge ? Vec3(0.25 * opening[i] + mean) : opening[i];
+      store_node(y, a[i], load_node(y, a[i]) + force);
+      store_node(y, b[i], load_node(y, b[i]) - force);
+    }
+  }
+}
+
 /// Entries in -1..1 by global id of the node, zero on padding.
 Eigen::VectorXd start_vector(const LocalMesh& mesh) {
   Eigen::VectorXd start = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(mesh.num_nodes));
@@ -144,6 +164,7 @@ void stiffness_action(const StepModel& model, const double* u, double* y) {
   for (std::size_t block = 0; block < own; ++block) act_on_own(model, block, u, y);
   std::fill(y + own * 96, y + 3 * static_cast<std::size_t>(mesh.num_nodes), 0.0);
   for (std::size_t block = own; block < all; ++block) act_on_shared(model, block, u, y);
+  act_on_joints(model, u, y);
 }
 
 double largest_eigenvalue(const StepModel& model) {

@@ -20,12 +20,6 @@ double step_of(double omega_squared, double damping) {
 /// Ratio of viscous to elastic stiffness of pressure waves, s.
 double viscous_ratio(const ElasticParams& p) { return 2.0 * p.viscosity / (p.lambda + 2.0 * p.mu); }
 
-struct Shares {
-  double element = 0, joint = 0, contact = 0;  ///< of omega^2, 1/s2
-  double damping = 0;                          ///< 1/s
-  int joint_face = -1, contact_face = -1;
-};
-
 const ElasticParams& params_of(const StepModel& model, Index slot) {
   return model.params[static_cast<std::size_t>(model.mesh.block_group[static_cast<std::size_t>(slot / kLanes)])];
 }
@@ -66,20 +60,51 @@ double element_share(const StepModel& model, Index slot, const Field<double>& po
   return 4.0 / density * ((p.mu + excess) * plain + el::volumetric_curvature(el::clamped(j, p), p) * turned);
 }
 
-/// Largest sum of joint stiffness on a corner; the face is the stiffest one there.
-void add_joint_share(const StepModel& model, Index slot, Shares& shares) {
-  std::array<double, 4> k{};
-  for (int face = 0; face < 4; ++face)
-    k[static_cast<std::size_t>(face)] = model.links.stiffness[JointLinks::at(slot, face)];
-  const double all = k[0] + k[1] + k[2] + k[3];
-  const double node_sum = all - *std::min_element(k.begin(), k.end());  // the corner opposite to the softest face
-  const double mass = model.mesh.node_mass[static_cast<std::size_t>(own_corner_node(slot, 0))];
-  shares.joint = 2.0 * node_sum / mass;
-  shares.joint_face = static_cast<int>(std::max_element(k.begin(), k.end()) - k.begin());
+/// k A0/3 of every joint on the faces of own-node elements, [slot][face], and on shared nodes.
+struct JointSums {
+  std::vector<std::array<double, 4>> own;
+  std::vector<double> shared;
+};
+
+JointSums joint_sums(const StepModel& model) {
+  const LocalMesh& mesh = model.mesh;
+  JointSums sums{std::vector<std::array<double, 4>>(static_cast<std::size_t>(mesh.num_own_slots)),
+                 std::vector<double>(static_cast<std::size_t>(mesh.num_nodes - mesh.num_own_nodes()), 0.0)};
+  for (Index s = 0; s < mesh.num_own_slots; ++s) {
+    for (int f = 0; f < 4; ++f)
+      sums.own[static_cast<std::size_t>(s)][static_cast<std::size_t>(f)] = model.links.stiffness[JointLinks::at(s, f)];
+  }
+  const auto add = [&](Index slot, int face, double stiffness) {
+    if (slot < mesh.num_own_slots) {
+      sums.own[static_cast<std::size_t>(slot)][static_cast<std::size_t>(face)] += stiffness;
+      return;
+    }
+    for (const int corner : kFaceCorners[static_cast<std::size_t>(face)])
+      sums.shared[static_cast<std::size_t>(mesh.corner_node(slot, corner) - mesh.num_own_nodes())] += stiffness;
+  };
+  for (const JointStiffness& joint : model.joints) {
+    add(joint.slot_a, joint.face_a, joint.stiffness);
+    add(joint.slot_b, joint.code / 3, joint.stiffness);
+  }
+  return sums;
 }
 
-/// Replaces omega_e^2 of shared-node elements by the largest mean around one of their nodes.
-void average_over_shared_nodes(const StepModel& model, std::vector<Shares>& shares) {
+void add_joint_share(const StepModel& model, Index slot, const JointSums& sums, StepShare& share) {
+  share.by_face = slot < model.mesh.num_own_slots;
+  if (share.by_face) {
+    const double mass = model.mesh.node_mass[static_cast<std::size_t>(own_corner_node(slot, 0))];
+    for (std::size_t f = 0; f < 4; ++f) share.joint[f] = 2.0 * sums.own[static_cast<std::size_t>(slot)][f] / mass;
+    return;
+  }
+  for (int c = 0; c < 4; ++c) {
+    const Index node = model.mesh.corner_node(slot, c);
+    const double k = sums.shared[static_cast<std::size_t>(node - model.mesh.num_own_nodes())];
+    share.joint[static_cast<std::size_t>(c)] = 2.0 * k / model.mesh.node_mass[static_cast<std::size_t>(node)];
+  }
+}
+
+/// Replaces omega_e^2 of shared-node elements by the mean around each of their nodes, damping by the largest.
+void average_over_shared_nodes(const StepModel& model, std::vector<StepShare>& shares) {
   const LocalMesh& mesh = model.mesh;
   if (mesh.num_own_slots == mesh.num_slots) return;
   const auto first = static_cast<std::size_t>(mesh.num_own_nodes());
@@ -95,108 +120,150 @@ void average_over_shared_nodes(const StepModel& model, std::vector<Shares>& shar
     for (int c = 0; c < 4; ++c) {
       Sum& sum = sums[static_cast<std::size_t>(mesh.corner_node(s, c)) - first];
       sum.mass += mass;
-      sum.stiff += mass * shares[i].element;
+      sum.stiff += mass * shares[i].element[0];
       sum.damping += mass * shares[i].damping;
     }
   }
   for (Index s = mesh.num_own_slots; s < mesh.num_slots; ++s) {
     if (!real(s)) continue;
-    Shares& mine = shares[static_cast<std::size_t>(s)];
-    mine.element = 0;
+    StepShare& mine = shares[static_cast<std::size_t>(s)];
+    mine.damping = 0;
     for (int c = 0; c < 4; ++c) {
       const Sum& sum = sums[static_cast<std::size_t>(mesh.corner_node(s, c)) - first];
-      if (sum.stiff / sum.mass > mine.element) {
-        mine.element = sum.stiff / sum.mass;
-        mine.damping = sum.damping / sum.mass;
-      }
+      mine.element[static_cast<std::size_t>(c)] = sum.stiff / sum.mass;
+      mine.damping = std::max(mine.damping, sum.damping / sum.mass);
     }
   }
 }
 
-/// omega_c^2 of every face that has points, kept as the largest by slot.
-void add_contact_shares(const StepModel& model, std::vector<Shares>& shares) {
-  const LocalMesh& mesh = model.mesh;
-  double face_sum = 0;
-  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
-    const ContactStiffness& point = model.contacts[k];
-    const bool same_face =
-        k > 0 && model.contacts[k - 1].slot == point.slot && model.contacts[k - 1].face == point.face;
-    double inverse_mass = 1.0 / model.lightest_node;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index node = mesh.corner_node(point.slot, kFaceCorners[static_cast<std::size_t>(point.face)][i]);
-      inverse_mass += point.shape[i] * point.shape[i] / mesh.node_mass[static_cast<std::size_t>(node)];
-    }
-    face_sum = (same_face ? face_sum : 0.0) + point.stiffness * inverse_mass;
-    Shares& mine = shares[static_cast<std::size_t>(point.slot)];
-    if (face_sum > mine.contact) {
-      mine.contact = face_sum;
-      mine.contact_face = point.face;
-    }
+GlobalId neighbour_across(const StepModel& model, Index slot, int face) {
+  const auto element = [&](Index s) { return model.mesh.element_of_slot[static_cast<std::size_t>(s)]; };
+  if (slot < model.mesh.num_own_slots && face >= 0) {
+    const std::int32_t link = model.links.link[JointLinks::at(slot, face)];
+    if (JointLinks::code_of(link) < 12) return element(JointLinks::slot_of(link));
   }
+  for (const JointStiffness& joint : model.joints) {
+    if (joint.slot_a == slot && joint.face_a == face) return element(joint.slot_b);
+    if (joint.slot_b == slot && joint.code / 3 == face) return element(joint.slot_a);
+  }
+  return -1;
 }
 
-void name_limit(const StepModel& model, Index slot, const Shares& worst, StableStep& result) {
+/// The stiffest corner of an element.
+struct Corner {
+  double omega_squared = 0, element = 0, joint = 0, contact = 0;
+};
+
+Corner stiffest_corner(const StepShare& share, double most, const ContactShare& contact, unsigned open) {
+  Corner worst;
+  for (int c = 0; c < 4; ++c) {
+    const auto i = static_cast<std::size_t>(c);
+    const double element = share.element[i], joint = share.joint_at(c, open), touch = contact.omega_squared[i];
+    const double sum = std::min(element + joint, most) + touch;
+    if (sum > worst.omega_squared) worst = {sum, element, joint, touch};
+  }
+  return worst;
+}
+
+void name_limit(const StepModel& model, Index slot, const StepShare& share, const Corner& worst, int contact_face,
+                StableStep& result) {
   result.element = model.mesh.element_of_slot[static_cast<std::size_t>(slot)];
   if (worst.contact >= worst.joint && worst.contact > worst.element) {
     result.limit = StepLimit::contact;
-    result.face = worst.contact_face;
+    result.face = contact_face;
   } else if (worst.joint > worst.element) {
     result.limit = StepLimit::joint;
-    result.face = worst.joint_face;
-    const std::int32_t link = model.links.link[JointLinks::at(slot, worst.joint_face)];
-    if (JointLinks::code_of(link) < 12) {
-      result.neighbour = model.mesh.element_of_slot[static_cast<std::size_t>(JointLinks::slot_of(link))];
-    }
+    if (!share.by_face) return;
+    result.face = static_cast<int>(std::max_element(share.joint.begin(), share.joint.end()) - share.joint.begin());
+    result.neighbour = neighbour_across(model, slot, result.face);
   }
 }
 
-/// Shares of all slots; padding keeps zeros.
-std::vector<Shares> all_shares(const StepModel& model, const Field<double>& position) {
-  const LocalMesh& mesh = model.mesh;
-  std::vector<Shares> shares(static_cast<std::size_t>(mesh.num_slots));
-  for (Index s = 0; s < mesh.num_slots; ++s) {
-    if (mesh.element_of_slot[static_cast<std::size_t>(s)] < 0) continue;
-    Shares& mine = shares[static_cast<std::size_t>(s)];
-    mine.element = element_share(model, s, position);
-    mine.damping = mine.element * viscous_ratio(params_of(model, s));
-    if (s < mesh.num_own_slots) add_joint_share(model, s, mine);
-  }
-  average_over_shared_nodes(model, shares);
-  add_contact_shares(model, shares);
-  return shares;
+double stiffest_ratio(std::span<const ElasticParams> params) {
+  double largest = 0;
+  for (const ElasticParams& p : params) largest = std::max(largest, viscous_ratio(p));
+  return largest;
 }
 
 }  // namespace
 
-double lightest_node(const LocalMesh& mesh) {
-  double lightest = std::numeric_limits<double>::infinity();
-  for (std::size_t n = 0; n < mesh.node_mass.size(); ++n) {
-    if (mesh.node_id[n] >= 0) lightest = std::min(lightest, mesh.node_mass[n]);
+double StepShare::joint_at(int corner, unsigned open) const {
+  if (!by_face) return joint[static_cast<std::size_t>(corner)];
+  double sum = 0;
+  for (int f = 0; f < 4; ++f) {
+    if (f != corner && (open >> f & 1) == 0) sum += joint[static_cast<std::size_t>(f)];
   }
-  return lightest;
+  return sum;
 }
 
-StableStep stable_step(const StepModel& model, const Field<double>& position) {
-  const std::vector<Shares> shares = all_shares(model, position);
+double StepShare::largest_joint() const {
+  return std::max(std::max(joint_at(0), joint_at(1)), std::max(joint_at(2), joint_at(3)));
+}
+
+double StepShare::largest() const {
+  double most = 0;
+  for (int c = 0; c < 4; ++c) most = std::max(most, element[static_cast<std::size_t>(c)] + joint_at(c));
+  return most;
+}
+
+std::vector<StepShare> step_shares(const StepModel& model, const Field<double>& position) {
+  const LocalMesh& mesh = model.mesh;
+  const JointSums sums = joint_sums(model);
+  std::vector<StepShare> shares(static_cast<std::size_t>(mesh.num_slots));
+  for (Index s = 0; s < mesh.num_slots; ++s) {
+    if (mesh.element_of_slot[static_cast<std::size_t>(s)] < 0) continue;
+    StepShare& mine = shares[static_cast<std::size_t>(s)];
+    mine.element.fill(element_share(model, s, position));
+    mine.damping = mine.element[0] * viscous_ratio(params_of(model, s));
+    add_joint_share(model, s, sums, mine);
+  }
+  average_over_shared_nodes(model, shares);
+  return shares;
+}
+
+double stiffest(const StepModel& model, std::span<const StepShare> shares) {
+  double largest = 0;
+  for (Index s = 0; s < model.mesh.num_slots; ++s) {
+    const StepShare& mine = shares[static_cast<std::size_t>(s)];
+    if (model.mesh.is_original(s)) largest = std::max(largest, mine.largest());
+  }
+  return largest;
+}
+
+StableStep stable_step(const StepModel& model, std::span<const StepShare> shares, double most,
+                       std::span<const ContactShare> contacts, std::span<const std::uint8_t> open) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   StableStep result{.step = kNever, .element_step = kNever, .joint_step = kNever};
+  // Viscosity damps at most in proportion to the stiffness, and so does the true limit.
+  const double ratio = stiffest_ratio(model.params), most_damping = ratio > 0 ? ratio * most : 0.0;
   std::vector<double> steps;
   steps.reserve(shares.size());
   Index worst = -1;
+  double bound_of_worst = 0;
+  const ContactShare none;
+  const auto contact_of = [&](Index s) -> const ContactShare& {
+    return contacts.empty() ? none : contacts[static_cast<std::size_t>(s)];
+  };
+  const auto open_of = [&](Index s) { return open.empty() ? 0U : unsigned{open[static_cast<std::size_t>(s)]}; };
   for (Index s = 0; s < model.mesh.num_slots; ++s) {
-    const Shares& mine = shares[static_cast<std::size_t>(s)];
+    const StepShare& mine = shares[static_cast<std::size_t>(s)];
     if (!model.mesh.is_original(s)) continue;
-    const double step = step_of(mine.element + mine.joint + mine.contact, mine.damping);
+    const double damping = std::min(mine.damping, most_damping), bound = mine.largest();
+    const double step = step_of(stiffest_corner(mine, most, contact_of(s), open_of(s)).omega_squared, damping);
     steps.push_back(step);
-    result.element_step = std::min(result.element_step, step_of(mine.element, mine.damping));
-    result.joint_step = std::min(result.joint_step, step_of(mine.element + mine.joint, mine.damping));
-    if (step < result.step) {
+    result.element_step = std::min(result.element_step, step_of(std::min(mine.largest_element(), most), damping));
+    result.joint_step = std::min(result.joint_step, step_of(std::min(bound, most), damping));
+    // Where the true limit makes many alike, the worst is the one with the highest bound.
+    if (step < result.step || (step == result.step && bound > bound_of_worst)) {
       result.step = step;
       worst = s;
+      bound_of_worst = bound;
     }
   }
   if (worst < 0) return result;
-  name_limit(model, worst, shares[static_cast<std::size_t>(worst)], result);
+  const StepShare& share = shares[static_cast<std::size_t>(worst)];
+  name_limit(model, worst, share, stiffest_corner(share, most, contact_of(worst), open_of(worst)),
+             contact_of(worst).face, result);
   std::sort(steps.begin(), steps.end());
   constexpr std::array<double, 5> kProbability{0.0, 0.01, 0.1, 0.5, 1.0};
   for (std::size_t q = 0; q < kProbability.size(); ++q) {
@@ -205,13 +272,15 @@ StableStep stable_step(const StepModel& model, const Field<double>& position) {
   return result;
 }
 
+StableStep stable_step(const StepModel& model, const Field<double>& position) {
+  return stable_step(model, step_shares(model, position));
+}
+
 double true_stable_step(const StepModel& model) {
-  double contact = 0, damping = 0;
-  for (const Shares& mine : all_shares(model, model.mesh.reference)) {
-    contact = std::max(contact, mine.contact);
-    damping = std::max(damping, mine.damping);
-  }
-  return step_of(largest_eigenvalue(model) + contact, damping);
+  double damping = 0;
+  for (const StepShare& mine : step_shares(model, model.mesh.reference)) damping = std::max(damping, mine.damping);
+  const double most = largest_eigenvalue(model), ratio = stiffest_ratio(model.params);
+  return step_of(most, ratio > 0 ? std::min(damping, ratio * most) : 0.0);
 }
 
 }  // namespace breccia

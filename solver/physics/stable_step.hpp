@@ -1,7 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <span>
+#include <vector>
 
 #include "base/field.hpp"
 #include "base/types.hpp"
@@ -12,30 +16,37 @@
 
 namespace breccia {
 
-/// How stiff contact can be at a point of a face: k_c = w kappa b |grad g|^2, N/m (w area share, kappa = sigma_p / H, b
-/// the exponent of the unloading branch, whose slope is b times that of loading).
-struct ContactStiffness {
-  Index slot;
-  int face;                     ///< 0..3
-  std::array<double, 3> shape;  ///< of the face's corners
-  double stiffness;             ///< N/m
+/// A joint that the sweep does not look after, at its stiffest: intact, or closed. No law is stiffer than k anywhere:
+/// the parabolic rise begins with it, softening and unloading are softer, and the friction of the damaged share fills
+/// up to it.
+struct JointStiffness {
+  Index slot_a = 0, slot_b = 0;
+  std::int8_t face_a = 0, code = 0;  ///< as in JointFace
+  bool mid_edge = false;             ///< sum_p N N^T = (1/2 on the diagonal, 1/4 off it) instead of 1
+  double stiffness = 0;              ///< k A0 / 3, N/m
 };
 
-/// What the step depends on.
+/// What the step depends on, contact apart.
 struct StepModel {
   const LocalMesh& mesh;
-  const JointLinks& links;                     ///< stiffness is 0 where there never was a joint
-  std::span<const ElasticParams> params;       ///< (volume groups)
-  std::span<const double> density;             ///< (volume groups) kg/m3
-  std::span<const ContactStiffness> contacts;  ///< points of a face in a row; empty: no contact
-  double lightest_node = 0;                    ///< kg, of the whole model
+  const JointLinks& links;                 ///< stiffness is 0 where the sweep has no joint
+  std::span<const JointStiffness> joints;  ///< the others
+  std::span<const ElasticParams> params;   ///< (volume groups)
+  std::span<const double> density;         ///< (volume groups) kg/m3
   MaterialMemory memory{};
 };
 
-/// Smallest mass of a node, kg; infinite without one. O(nodes).
-[[nodiscard]] double lightest_node(const LocalMesh& mesh);
-
 enum class StepLimit { element, joint, contact };
+
+/// What contact adds to the corners of an element (contact/contact_step.hpp).
+struct ContactShare {
+  std::array<double, 4> omega_squared{};  ///< 1/s2
+  int face = -1;                          ///< that brings the largest
+  Index against = -1;                     ///< volume group that it meets
+  [[nodiscard]] double largest() const {
+    return std::max(std::max(omega_squared[0], omega_squared[1]), std::max(omega_squared[2], omega_squared[3]));
+  }
+};
 
 /// Largest step of central differences, and what limits it.
 struct StableStep {
@@ -43,10 +54,25 @@ struct StableStep {
   StepLimit limit = StepLimit::element;  ///< what adds most to the worst element's frequency
   GlobalId element = -1;                 ///< the worst element
   int face = -1;                         ///< its face, for a joint or a contact
-  GlobalId neighbour = -1;               ///< element across that face while the joint is intact
+  GlobalId neighbour = -1;               ///< element across that face, for a joint
   double element_step = 0;               ///< s, without joints and contact
   double joint_step = 0;                 ///< s, without contact
   std::array<double, 5> quantiles{};     ///< s: smallest, 1 %, 10 %, 50 % and largest of the elements' own steps
+};
+
+/// Frequencies squared, 1/s2, of one element by corner.
+struct StepShare {
+  std::array<double, 4> element{};  ///< alike for all corners of an own-node element
+  std::array<double, 4> joint{};    ///< own nodes: by face, for each of its corners; shared nodes: by corner
+  double damping = 0;               ///< 1/s
+  bool by_face = false;             ///< own nodes
+
+  /// omega_j^2 of a corner. @param open  bits of faces whose joints are gone
+  [[nodiscard]] double joint_at(int corner, unsigned open = 0) const;
+  /// Largest omega_e^2, omega_j^2 and omega_e^2 + omega_j^2.
+  [[nodiscard]] double largest_element() const { return *std::max_element(element.begin(), element.end()); }
+  [[nodiscard]] double largest_joint() const;
+  [[nodiscard]] double largest() const;
 };
 
 /// Bound by element, never above the true limit of the linear system at rest. With undamped frequency omega and damping
@@ -61,20 +87,31 @@ struct StableStep {
 ///   c = omega_e^2 2 mubar/(lambda + 2 mu).
 ///   Elements that share nodes: the mean of their omega_e^2 around each node, weighted with their masses.
 ///   Drucker-Prager: omega_e^2 = (4/rho) drucker_prager_stiffness (1.35 to 14 times as much, likewise).
-/// - joints, own nodes: omega_j^2 = 2 max_i (sum over the three faces of node i of k A0/3) / m_i
-/// - contact: omega_c^2 = max over faces of sum over its points of k_c (sum_i N_i^2 / m_i + 1/m_c), the contactor's
-///   node as light as the lightest of the model. An element pressed on several faces at once is left to the safety
-///   factor.
+/// - joints: omega_j^2 = 2 max_i (sum over the joints at node i of k A0/3) / m_i, whatever their points; where nodes are
+///   shared all elements around a node count
+/// - contact: contact/contact_step.hpp
 ///
-/// @param position  nodal field, m. The result is that of the originals. O(elements).
+/// @param position  nodal field, m.  (num_slots), zeros on padding. O(elements).
+[[nodiscard]] std::vector<StepShare> step_shares(const StepModel& model, const Field<double>& position);
+
+/// Largest omega_e^2 + omega_j^2 of the originals; 0 without one.
+[[nodiscard]] double stiffest(const StepModel& model, std::span<const StepShare> shares);
+
+/// The step of the originals from their shares.
+/// @param most      1/s2, that omega_e^2 + omega_j^2 is known not to exceed anywhere: the true limit
+/// @param contacts  (num_slots), or empty: none
+/// @param open      (num_slots) bits of faces whose joints are gone, or empty: none
+[[nodiscard]] StableStep stable_step(const StepModel& model, std::span<const StepShare> shares,
+                                     double most = std::numeric_limits<double>::infinity(),
+                                     std::span<const ContactShare> contacts = {},
+                                     std::span<const std::uint8_t> open = {});
+
+/// The same without contact at these positions. O(elements).
 [[nodiscard]] StableStep stable_step(const StepModel& model, const Field<double>& position);
 
-/// The limit itself at rest, for elements (Hooke) and intact joints (links with a neighbour): 2/omega of the largest
-/// eigenvalue of M^-1 K by Lanczos iteration from a fixed start, a few dozen products with K, none of it assembled.
-/// Stops when the eigenvalue's residual is below 1 % and adds the residual and another 1 % on the safe side. Contact
-/// and viscosity as in `stable_step`. Worth 2 to 3 times the bound for shared nodes on unstructured meshes; valid as
-/// long as no insertion, no crushed element changes the model.
-/// O(elements) by iteration, 300 bytes an own-node element of temporary memory.
+/// The limit itself at rest, without contact: 2/omega of the largest eigenvalue of M^-1 K (physics/largest_eigenvalue),
+/// shorter by viscosity. Worth 2 to 3 times the bound for shared nodes on unstructured meshes; valid as long as no
+/// insertion, no crushed element changes the model.
 [[nodiscard]] double true_stable_step(const StepModel& model);
 
 }  // namespace breccia

@@ -16,7 +16,9 @@ StageSteps::StageSteps(const case_::Case& input, const case_::Stage& stage, Part
 }
 
 double StageSteps::length() const {
-  const double allowed = input_.time.step > 0 ? input_.time.step : input_.time.safety * partition_.stable_step();
+  const double safety = input_.time.safety;
+  const double allowed =
+      input_.time.step > 0 ? input_.time.step : safety * partition_.stable_step(stage_, safety * kStepsBetweenLooks);
   const double left = stage_.end - partition_.state().clock.time;
   return left / std::max(1.0, std::ceil(left / allowed * (1.0 - 1e-9)));
 }

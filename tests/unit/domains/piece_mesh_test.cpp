@@ -77,7 +77,6 @@ TEST(WholeModel, ArrivesAsItWasSent) {
   WholeModel whole = whole_of(cubes());
   whole.num_elements = 144;
   whole.joint_groups = {{0, 0, 0.5}, {0, 2, 0.25}};
-  whole.lightest_node = 1e-3;
   whole.step_ratio = 1.75;
   const WholeModel there = unpack_whole(pack(whole));
   EXPECT_EQ(there.volume_groups, whole.volume_groups);
@@ -86,7 +85,6 @@ TEST(WholeModel, ArrivesAsItWasSent) {
   ASSERT_EQ(there.joint_groups.size(), 2U);
   EXPECT_EQ(there.joint_groups[1].b, 2);
   EXPECT_EQ(there.joint_groups[1].size, 0.25);
-  EXPECT_EQ(there.lightest_node, 1e-3);
   EXPECT_EQ(there.step_ratio, 1.75);
   EXPECT_EQ(there.body_length, whole.body_length);
 }

@@ -20,15 +20,13 @@ struct Problem {
   Model model;
   std::vector<ElasticParams> params;
   std::vector<double> density{kDensity};
-  std::vector<ContactStiffness> contacts;
+  std::vector<JointStiffness> joints;
 
   Problem(Mesh mesh, Discretisation kind, double viscosity = 0)
       : model(std::move(mesh), kind, kDensity),
         params{make_elastic_params(ElasticLaw::neo_hookean, kYoung, 0.25, viscosity)} {}
 
-  [[nodiscard]] StepModel step_model() const {
-    return {model.local, model.links, params, density, contacts, lightest_node(model.local)};
-  }
+  [[nodiscard]] StepModel step_model() const { return {model.local, model.links, joints, params, density}; }
 
   /// Derivative of the elements' forces by finite differences of the law itself, joints as springs: M^-1/2 K M^-1/2.
   [[nodiscard]] Eigen::MatrixXd scaled_stiffness(bool of_velocity = false) const {
@@ -56,6 +54,7 @@ struct Problem {
     for (std::size_t i = 0; i < nodes.size(); ++i)
       place[static_cast<std::size_t>(nodes[i])] = static_cast<Eigen::Index>(3 * i);
     if (!of_velocity) add_springs(k, place);
+    if (!of_velocity) add_other_joints(k, place);
     Eigen::VectorXd root(n);
     for (Eigen::Index i = 0; i < n; ++i)
       root[i] = std::sqrt(mesh.node_mass[test::at(nodes[static_cast<std::size_t>(i / 3)])]);
@@ -82,6 +81,43 @@ struct Problem {
             k(j, j) += stiffness;
             k(i, j) -= stiffness;
             k(j, i) -= stiffness;
+          }
+        }
+      }
+    }
+  }
+
+  /// The same joints, none of them in the links.
+  void take_joints_from_links(double k, bool mid_edge) {
+    for (const JointFace& joint : find_joints(model.mesh, model.topology)) {
+      joints.push_back({model.local.slot_of_element[test::at(joint.a)], model.local.slot_of_element[test::at(joint.b)],
+                        static_cast<std::int8_t>(joint.face_a), static_cast<std::int8_t>(joint.code), mid_edge,
+                        k * joint.area / 3.0});
+    }
+  }
+
+  /// Stiffness of `joints` by finding, corner by corner, which mesh nodes the two sides share.
+  void add_other_joints(Eigen::MatrixXd& k, const std::vector<Eigen::Index>& place) const {
+    for (const JointStiffness& joint : joints) {
+      const Index a = joint.slot_a, b = joint.slot_b;
+      std::vector<std::array<Eigen::Index, 2>> pairs;  // places of the nodes of a and b at a mesh node
+      for (int ca = 0; ca < 4; ++ca) {
+        for (int cb = 0; cb < 4; ++cb) {
+          if (ca == joint.face_a ||
+              model.local.vertex[test::at(a)][test::at(ca)] != model.local.vertex[test::at(b)][test::at(cb)])
+            continue;
+          pairs.push_back({place[test::at(own_corner_node(a, ca))], place[test::at(own_corner_node(b, cb))]});
+        }
+      }
+      ASSERT_EQ(pairs.size(), 3U);
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+          const double weight = joint.mid_edge ? (i == j ? 0.5 : 0.25) : (i == j ? 1.0 : 0.0);
+          for (Eigen::Index axis = 0; axis < 3; ++axis) {
+            for (const std::size_t side : {0U, 1U}) {
+              k(pairs[i][side] + axis, pairs[j][side] + axis) += weight * joint.stiffness;
+              k(pairs[i][side] + axis, pairs[j][1 - side] + axis) -= weight * joint.stiffness;
+            }
           }
         }
       }
@@ -271,27 +307,50 @@ TEST(StableStep, NamesTheFlattestElement) {
   }
 }
 
-TEST(StableStep, ContactAddsTheFrequencyOfPointAndNode) {
-  // Rank-one stiffness k r r^T with r = (N_i on the face, -1 on a corner of the other body): eigenvalue k |r / sqrt
-  // m|^2.
-  for (const double factor : {1.0, 100.0}) {
-    Problem problem(test::box({1, 1, 1}, 1.0, {2, 1, 1}), Discretisation::own_nodes);
-    const Index slot = problem.model.local.slot_of_element[5];
-    const double without = bound(problem), mass = kDensity / 24 / 4, k = factor * kYoung;
-    problem.contacts = {{slot, 2, {1. / 3, 1. / 3, 1. / 3}, k / 2}, {slot, 2, {1. / 3, 1. / 3, 1. / 3}, k / 2}};
-    const StableStep with = stable_step(problem.step_model(), problem.model.state.position);
-    const double omega = std::sqrt(4 / (without * without) + k * (1. / 3 + 1) / mass);
-    EXPECT_NEAR(with.step, 2 / omega, 1e-12 * with.step);
-    EXPECT_EQ(with.element, 5);
-    EXPECT_EQ(with.joint_step, without);
-    if (factor > 10) {
-      EXPECT_EQ(with.limit, StepLimit::contact);
-      EXPECT_EQ(with.face, 2);
+TEST(StableStep, CountsJointsThatTheSweepDoesNotKnowWithTheirPoints) {
+  // As many joints outside the links as in them, mid-edge or nodal: dense eigenvalues with sum_p N N^T as oracle.
+  for (const Mesh& mesh : {cubes(), distorted()}) {
+    for (const bool mid_edge : {false, true}) {
+      for (const double factor : {1.0, 50.0}) {
+        Problem problem(mesh, Discretisation::own_nodes);
+        problem.take_joints_from_links(factor * kYoung, mid_edge);
+        const double limit = problem.true_step();
+        EXPECT_LE(true_stable_step(problem.step_model()), limit * (1 + kSlack)) << mid_edge << factor;
+        EXPECT_GE(true_stable_step(problem.step_model()), 0.99 * limit) << mid_edge << factor;
+        EXPECT_LE(bound(problem), limit * (1 + kSlack)) << mid_edge << factor;
+        EXPECT_GE(bound(problem), 0.6 * limit) << mid_edge << factor;
+        if (factor > 10) {
+          EXPECT_EQ(stable_step(problem.step_model(), problem.model.state.position).limit, StepLimit::joint);
+        }
+      }
     }
-    const double alone = problem.true_step();  // elements only
-    const double both = std::sqrt(4 / (alone * alone) + k * (1. / 3 + 1) / mass);
-    EXPECT_NEAR(true_stable_step(problem.step_model()), 2 / both, 0.01 * 2 / both);
   }
+}
+
+TEST(StableStep, IsThatOfTheTrueLimitWhereTheBoundByElementIsHigher) {
+  const Problem problem(distorted(), Discretisation::shared_nodes);
+  const StepModel model = problem.step_model();
+  const std::vector<StepShare> shares = step_shares(model, problem.model.state.position);
+  const double most = largest_eigenvalue(model);
+  ASSERT_LT(most, stiffest(model, shares));
+  EXPECT_DOUBLE_EQ(stable_step(model, shares, most).step, 2.0 / std::sqrt(most));
+}
+
+TEST(StableStep, AddsContactWhereItActs) {
+  const Problem problem(distorted(), Discretisation::shared_nodes);
+  const StepModel model = problem.step_model();
+  const std::vector<StepShare> shares = step_shares(model, problem.model.state.position);
+  const double most = largest_eigenvalue(model);
+  const Index slot = model.mesh.slot_of_element[7];
+  std::vector<ContactShare> contacts(shares.size());
+  contacts[test::at(slot)] = {{0, 100 * most, 0, 0}, 2, 0};
+  const StableStep step = stable_step(model, shares, most, contacts);
+  const double own = std::min(most, shares[test::at(slot)].element[1]);
+  EXPECT_DOUBLE_EQ(step.step, 2.0 / std::sqrt(own + 100 * most));
+  EXPECT_EQ(step.limit, StepLimit::contact);
+  EXPECT_EQ(step.element, 7);
+  EXPECT_EQ(step.face, 2);
+  EXPECT_DOUBLE_EQ(step.joint_step, 2.0 / std::sqrt(most));
 }
 
 TEST(StableStep, SkipsPadding) {

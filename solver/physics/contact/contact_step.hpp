@@ -1,0 +1,105 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/field.hpp"
+#include "physics/contact/contact_params.hpp"
+#include "physics/contact/contact_state.hpp"
+#include "physics/stable_step.hpp"
+#include "discretisation/local_mesh.hpp"
+
+namespace breccia {
+
+/// What contact adds to the frequency of an element, and so takes from the stable step.
+///
+/// A couple of a point (weight w, shape N on the target's nodes) and a contactor (barycentric lambda) is a stiffness
+/// w kappa g g^T of rank one, kappa = s / H with s = stiffest_slope(law), g the gradient of the overlap. By rows it is
+/// at most diag(w kappa N_i (1 + q)) on the target and diag(w kappa lambda_a (1 + 1/q)) on the contactor for any q > 0;
+/// with the best q all couples of a target part P and a contactor part Q together give
+///
+///   omega_c^2 <= kappa G^2 (max_P A_i/m_i + max_Q (A_a + w)/m_a)
+///
+/// A_i: of the free faces at a node, sum over its faces of (x_i + sum_j x_j) / (12 x_i) of their areas for some
+/// positive x, as for every matrix of numbers that are not negative: a third for x = 1. With A_i/m_i of the node and of
+/// its neighbours for x (two steps of a power iteration) light nodes between heavy ones count for less. Of the sum of
+/// several faces the largest component in any direction: along the normal of each, across it as far as friction is
+/// elastic. w: weight of a point, which may lie on one node of a smaller contactor; G: slope of the overlap field. Both
+/// directions, P on Q and Q on P, act at once. Nodes that are held in all directions weigh infinitely much.
+///
+/// Who can meet is decided part by part: free faces are put in cells of about `kCellSizes` face sizes at their present
+/// places, those of a body in a cell make a patch, and patches count against each other when their boxes come within
+/// `kSpeedMargin` of their relative speeds times the time until the next look, and a share of their faces' size. A
+/// patch is merged from what ranks hold of it by exact maxima, so the result is the same on any number of ranks; it
+/// knows nothing of couples and searches.
+
+/// Faces of one rank's elements, a bit a face.
+struct ContactFaces {
+  std::vector<std::uint8_t> open;  ///< (num_slots) has nothing across it
+  std::vector<std::uint8_t> torn;  ///< (num_slots) of these: can meet its own body where it is: freed by fracture, or
+                                   ///< opposite to another face of the body close by
+  std::vector<std::uint8_t> pointed;  ///< (num_slots) carries contact points if it is open
+};
+
+struct ContactStepModel {
+  const ContactParams& params;
+  const LocalMesh& mesh;
+  std::span<const double> body_length;  ///< (bodies) H, m
+  const ContactFaces& faces;
+  std::span<const std::uint8_t> held;   ///< (num_nodes) 1: its motion is prescribed in all directions
+  const ContactState* state = nullptr;  ///< the overlap field; null: as of elements on their own
+};
+
+/// Overlap over H in which a law with a plateau may chatter.
+inline constexpr double kChatter = 5e-3;
+
+/// Stiffest slope of the normal law that counts, Pa: min(b sigma_p, 2 sigma_T / kChatter).
+///
+/// Unloading begins with the slope b sigma_p. Beyond the plateau there is no more force, so that a mass m that passes
+/// it within a step gets at most the kick w sigma_T dt / m, and comes to rest in a chatter of the amplitude
+/// w sigma_T dt^2 / (2m), however many steps follow: d = kChatter for dt = 2 sqrt(m H / (w s)) with the second slope.
+/// Its energy is at most w H sigma_T kChatter a point.
+[[nodiscard]] double stiffest_slope(const ContactLaw& law);
+
+/// Free faces of one body's group in one cell. What is merged is the largest of each number, on any rank.
+struct ContactPatch {
+  enum Number : std::size_t {
+    box = 0,              ///< -low, high by axis, m
+    reference_box = 6,    ///< the same at rest
+    velocity = 12,        ///< -least, most by axis, m/s
+    area_over_mass = 18,  ///< A_i/m_i, m2/kg
+    per_mass = 19,        ///< 1/m_i, 1/kg
+    steepness = 20,       ///< G^2
+    weight = 21,          ///< of a point, m2; 0: no face carries any
+    per_length = 22,      ///< 1/H, 1/m
+    torn = 23,            ///< 1: some faces are
+    count = 24
+  };
+  std::int64_t level = 0;  ///< 2^level <= longest edge of the faces < 2^(level+1), m
+  std::int64_t group = 0, body = 0;
+  std::array<std::int64_t, 3> cell{};
+  std::array<double, count> largest{};
+};
+
+/// Edges of a cell in largest face sizes of its level.
+inline constexpr double kCellSizes = 1.0;
+/// Relative speeds may grow by this factor until the next look.
+inline constexpr double kSpeedMargin = 2.0;
+
+/// Patches of the originals' open faces at present, merged, ascending. @param coarsening  >= 1: cells larger by it
+/// O(faces log faces).
+[[nodiscard]] std::vector<ContactPatch> contact_patches(const ContactStepModel& model, const Field<double>& position,
+                                                        const Field<double>& velocity, double coarsening);
+
+/// Sorts patches of several ranks and merges those of one cell, group and body.
+void merge(std::vector<ContactPatch>& patches);
+
+/// omega_c^2 of the originals, by slot; 0 where nothing can be met within `time`, s.
+/// @param patches  of the whole model, merged, at the same positions and coarsening.  O((faces + patches) log patches)
+[[nodiscard]] std::vector<ContactShare> contact_shares(const ContactStepModel& model, const Field<double>& position,
+                                                       double coarsening, std::span<const ContactPatch> patches,
+                                                       double time);
+
+}  // namespace breccia

@@ -1,0 +1,248 @@
+#include <gtest/gtest.h>
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "physics/contact/contact_field.hpp"
+#include "physics/contact/contact_point.hpp"
+#include "physics/contact/contact_step.hpp"
+#include "physics/contact/overlap.hpp"
+#include "unit/physics/loads/models.hpp"
+
+namespace breccia {
+namespace {
+
+using test::Model;
+
+constexpr double kDensity = 2500, kPenalty = 3e9;
+/// Statements that hold exactly in real numbers.
+constexpr double kSlack = 1e-9;
+
+/// Several boxes of one group, free to meet.
+struct Scene {
+  Model model;
+  ContactParams params;
+  std::vector<double> length;
+  ContactFaces faces;
+  std::vector<std::uint8_t> held;
+
+  explicit Scene(Mesh mesh, Discretisation kind = Discretisation::shared_nodes)
+      : model(std::move(mesh), kind, kDensity) {
+    params.num_groups = 1;
+    params.laws.resize(1);
+    params.laws[0].penalty = kPenalty;
+    length = mean_inradii(model.local);
+    for (auto* bits : {&faces.open, &faces.torn, &faces.pointed}) bits->assign(test::at(model.local.num_slots), 0);
+    for (const LoadedFace& face : model.free_faces())
+      faces.open[test::at(face.slot)] |= static_cast<std::uint8_t>(1U << face.face);
+    std::fill(faces.pointed.begin(), faces.pointed.end(), std::uint8_t{15});
+    held.assign(test::at(model.local.num_nodes), 0);
+  }
+
+  [[nodiscard]] ContactStepModel step_model() const { return {params, model.local, length, faces, held}; }
+  [[nodiscard]] Index body_of(Index slot) const { return model.local.slot_body[test::at(slot)]; }
+
+  template <class F>
+  void for_each_node_of(Index body, F&& f) {
+    for (Index s = 0; s < model.local.num_slots; ++s) {
+      if (body_of(s) != body) continue;
+      for (int c = 0; c < 4; ++c) f(model.local.corner_node(s, c));
+    }
+  }
+  void move(Index body, const Vec3& by) {
+    for_each_node_of(body, [&](Index n) {
+      store_node(model.state.position.data(), n, load_node(model.local.reference.data(), n) + by);
+    });
+  }
+  void fly(Index body, const Vec3& velocity) {
+    for_each_node_of(body, [&](Index n) { store_node(model.state.velocity.data(), n, velocity); });
+  }
+  void hold(Index body) {
+    for_each_node_of(body, [&](Index n) { held[test::at(n)] = 1; });
+  }
+
+  [[nodiscard]] std::vector<ContactShare> shares(double time = 0) const {
+    const auto patches = contact_patches(step_model(), model.state.position, model.state.velocity, 1.0);
+    return contact_shares(step_model(), model.state.position, 1.0, patches, time);
+  }
+  [[nodiscard]] double largest(double time = 0) const {
+    double most = 0;
+    for (const ContactShare& share : shares(time)) most = std::max(most, share.largest());
+    return most;
+  }
+  /// Largest eigenvalue of M^-1 K of all couples that touch, normals along z: sum w sigma_p/H (N, -lambda)(N, -lambda)^T.
+  [[nodiscard]] double true_largest() const {
+    const LocalMesh& mesh = model.local;
+    const FaceRule& rule = face_rule(params.points_per_face);
+    Eigen::MatrixXd k = Eigen::MatrixXd::Zero(mesh.num_nodes, mesh.num_nodes);
+    for (const LoadedFace& face : model.free_faces()) {
+      std::vector<ContactPoint> points;
+      append_points(rule, mesh, face.slot, face.face, points);
+      for (const ContactPoint& point : points) {
+        const Vec3 x = at_point(rule, point, model.state.position.data());
+        for (Index s = 0; s < mesh.num_slots; ++s) {
+          if (body_of(s) < 0 || body_of(s) == body_of(face.slot)) continue;
+          const PreparedTetra tetra =
+              prepare(load_corners(mesh, model.state.position.data(), s), mesh.volume[test::at(s)]);
+          const std::array<double, 4> lambda = barycentric(tetra, x);
+          if (!inside(lambda)) continue;
+          Eigen::VectorXd r = Eigen::VectorXd::Zero(mesh.num_nodes);
+          for (std::size_t i = 0; i < 3; ++i) r[point.nodes[i]] += rule.shape[static_cast<std::size_t>(point.k)][i];
+          for (int a = 0; a < 4; ++a) r[mesh.corner_node(s, a)] -= lambda[static_cast<std::size_t>(a)];
+          k += point.weight * kPenalty / length[test::at(body_of(s))] * r * r.transpose();
+          break;
+        }
+      }
+    }
+    Eigen::VectorXd root(mesh.num_nodes);
+    for (Index n = 0; n < mesh.num_nodes; ++n)
+      root[n] = held[test::at(n)] != 0 ? 0.0 : 1.0 / std::sqrt(mesh.node_mass[test::at(n)]);
+    k = root.asDiagonal() * k * root.asDiagonal();
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  }
+};
+
+Mesh two_boxes(double gap) { return test::box({2, 2, 1}, 1.0, {1, 1, 2}, gap); }
+
+TEST(ContactStep, OfBoxesThatLieOnEachOtherIsNeverAboveTheTrueLimitAndNotFarBelow) {
+  constexpr double kMostCautious = 3.0;  // of omega^2: node by node instead of together, points as bad as they can lie
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> shift(-0.7, 0.7);
+  for (const Discretisation kind : {Discretisation::shared_nodes, Discretisation::own_nodes}) {
+    for (const int points : {1, 3, 6}) {
+      Scene scene(two_boxes(0.01), kind);
+      scene.params.points_per_face = points;
+      double worst = 0;
+      for (int i = 0; i < 6; ++i) {
+        scene.move(1, i == 0 ? Vec3(0, 0, -0.02) : Vec3(shift(random), shift(random), -0.02));
+        const double limit = scene.true_largest(), found = scene.largest();
+        EXPECT_GE(found, limit * (1 - kSlack)) << points << " points, place " << i;
+        worst = std::max(worst, limit / found);
+      }
+      EXPECT_GE(worst, 1 / kMostCautious) << points;
+    }
+  }
+}
+
+TEST(ContactStep, OfABoxOnAHeldOneCountsItsOwnNodesAlone) {
+  Scene scene(two_boxes(0.01));
+  scene.move(1, {0.1, 0.2, -0.02});
+  const double both = scene.largest();
+  scene.hold(0);
+  const double one = scene.largest();
+  EXPECT_LT(one, 0.6 * both);
+  EXPECT_GE(one, scene.true_largest() * (1 - kSlack));
+}
+
+TEST(ContactStep, NothingCountsThatCannotBeReached) {
+  Scene scene(two_boxes(5.0));
+  EXPECT_EQ(scene.largest(), 0.0);
+  scene.fly(1, {0, 0, -2.0});
+  // 5 m at 2 m/s with the margin of kSpeedMargin, less a share of the faces' size.
+  EXPECT_EQ(scene.largest(0.8), 0.0);
+  EXPECT_GT(scene.largest(5.0 / (2.0 * kSpeedMargin)), 0.0);
+  scene.fly(0, {0, 0, -2.0});  // together: no nearer
+  EXPECT_EQ(scene.largest(100.0), 0.0);
+}
+
+TEST(ContactStep, IsThatOfThePairAndNotOfALightBodyFarAway) {
+  const Mesh mesh = test::box({1, 1, 1}, 1.0, {1, 1, 3}, 0.001);
+  Scene scene(mesh);
+  scene.move(2, {0, 0, 30});
+  const double far = scene.largest();
+  ASSERT_GT(far, 0.0);
+  Scene light(mesh);
+  for (Index s = 0; s < light.model.local.num_slots; ++s) {
+    if (light.body_of(s) != 2) continue;
+    for (int c = 0; c < 4; ++c) light.model.local.node_mass[test::at(light.model.local.corner_node(s, c))] *= 1e-6;
+  }
+  light.move(2, {0, 0, 30});
+  EXPECT_EQ(light.largest(), far);
+  light.move(2, {0, 0, 0});
+  EXPECT_GT(light.largest(), 1e4 * far);
+}
+
+TEST(ContactStep, ABodyMeetsItselfOnlyWhereItIsTornOrFolded) {
+  Scene scene(test::box({4, 1, 1}), Discretisation::own_nodes);
+  EXPECT_EQ(scene.largest(1.0), 0.0);
+  const Index slot = scene.model.local.slot_of_element[0];
+  for (int f = 0; f < 4; ++f) {
+    if ((scene.faces.open[test::at(slot)] >> f & 1) == 0) {
+      scene.faces.open[test::at(slot)] |= static_cast<std::uint8_t>(1U << f);
+      scene.faces.torn[test::at(slot)] |= static_cast<std::uint8_t>(1U << f);
+    }
+  }
+  EXPECT_GT(scene.largest(), 0.0);
+
+  Scene folded(test::box({40, 1, 1}, 1.0));
+  const double pi = std::acos(-1.0), radius = 40 / (2 * pi);
+  folded.model.map_positions([&](const Vec3& x) {  // a ring whose ends meet
+    const double angle = 2 * pi * x[0] / 40.2, r = radius + x[2];
+    return Vec3(r * std::cos(angle), x[1], r * std::sin(angle));
+  });
+  EXPECT_GT(folded.largest(), 0.0);
+}
+
+TEST(ContactStep, IsTheSameBitsFromAnyPartsOfTheModel) {
+  Scene whole(test::box({2, 2, 2}, 1.0, {2, 2, 2}, 0.05));
+  for (Index b = 0; b < 8; ++b) whole.fly(b, {0.1 * b, -0.2 * b, 0.05 * b * b});
+  const auto expected = whole.shares(0.3);
+  std::vector<ContactPatch> patches;
+  std::vector<Scene> parts;
+  for (const GlobalId part : {0, 1, 2}) {
+    Scene& mine = parts.emplace_back(whole);
+    for (Index s = 0; s < mine.model.local.num_slots; ++s) {
+      if (mine.model.local.element_of_slot[test::at(s)] % 3 != part) mine.model.local.original[test::at(s)] = 0;
+    }
+    const auto some = contact_patches(mine.step_model(), mine.model.state.position, mine.model.state.velocity, 1.0);
+    patches.insert(patches.begin(), some.begin(), some.end());
+  }
+  merge(patches);
+  for (const Scene& mine : parts) {
+    const auto shares = contact_shares(mine.step_model(), mine.model.state.position, 1.0, patches, 0.3);
+    for (Index s = 0; s < mine.model.local.num_slots; ++s) {
+      if (!mine.model.local.is_original(s)) continue;
+      EXPECT_EQ(shares[test::at(s)].omega_squared, expected[test::at(s)].omega_squared);
+      EXPECT_EQ(shares[test::at(s)].face, expected[test::at(s)].face);
+    }
+  }
+}
+
+TEST(ContactStep, GrowsWithTheSlopeOfUnloadingAndIsCappedByThePlateau) {
+  ContactLaw law;
+  EXPECT_EQ(stiffest_slope(law), 0.0);
+  law.penalty = kPenalty;
+  EXPECT_EQ(stiffest_slope(law), kPenalty);
+  law.exponent = 4;
+  EXPECT_EQ(stiffest_slope(law), 4 * kPenalty);
+  law.plateau = 1e-4 * kPenalty;
+  EXPECT_DOUBLE_EQ(stiffest_slope(law), 2e-4 * kPenalty / kChatter);
+}
+
+/// Largest energy that a mass gains over what it came with, in plateau times overlap at the plateau.
+double gain(double exponent, double ratio, double force, double speed) {
+  ContactLaw law{.penalty = 1, .plateau = 1, .exponent = exponent};
+  const double dt = 2 * ratio;  // of the limit of a mass 1 on the penalty
+  double x = 0, v = speed, d_max = 0, most = 0;
+  for (int i = 0; i < 20000; ++i) {
+    d_max = normal_law::largest(x, d_max);
+    v += dt * (force - normal_law::stress(law, x, d_max));
+    x += dt * v;
+    most = std::max(most, 0.5 * v * v - force * x - 0.5 * speed * speed);
+  }
+  return most;
+}
+
+TEST(ContactStep, AMassThatPassesThePlateauWithinAStepChattersAsTheSlopeSays) {
+  // Energy 2 r^2 in these units, r the step over the limit of the penalty, however many steps.
+  for (const double exponent : {1.0, 4.0, 6.0}) {
+    for (const double ratio : {3.0, 10.0, 30.0}) {
+      for (const double force : {0.05, 0.5}) {
+        for (const double speed : {0.001, 1.0, 100.0})
+          EXPECT_LE(gain(exponent, ratio, force, speed), 2.05 * ratio * ratio) << exponent << " " << ratio;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace breccia
