@@ -7,6 +7,7 @@
 #include "case/live_address.hpp"
 #include "case/reader.hpp"
 #include "commands/oversubscription.hpp"
+#include "commands/step_report.hpp"
 #include "output/history_sink.hpp"
 #include "output/insitu.hpp"
 #include "output/run_folder.hpp"
@@ -44,7 +45,11 @@ int run_command(const RunCommand& asked, const Communicator& world) {
                              asked.overwrite ? OldResults::overwrite : OldResults::refuse);
   });
   warn_of_oversubscription(world);
-  if (world.is_root()) warn_of_remote_viewer(input.insitu);
+  if (world.is_root()) {
+    warn_of_remote_viewer(input.insitu);
+    if (const std::string warning = given_step_warning(input, *model); !warning.empty())
+      fmt::print(stderr, "breccia: warning: {}", warning.substr(2));
+  }
   const RunFolder folder{root};
   world.agree([&] {
     // Frames are written by all ranks together, everything else by the root.

@@ -1,0 +1,201 @@
+#include "commands/step_report.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+
+#include "contact/search_params.hpp"
+#include "domains/domain.hpp"
+#include "domains/global_step.hpp"
+#include "mesh/quality.hpp"
+#include "model/parameters.hpp"
+#include "model/time_step.hpp"
+#include "output/quantity_text.hpp"
+
+namespace breccia {
+namespace {
+
+std::size_t index(Index i) { return static_cast<std::size_t>(i); }
+
+/// Steps between two looks at the limit, as StageSteps takes them.
+constexpr double kLook = 100;
+/// Contact that makes the step shorter by this is worth a word; a penalty that makes it so much shorter does not count.
+constexpr double kWorthTelling = 1.5, kHardly = 1.1;
+/// Below this radius ratio an element is a sliver.
+constexpr double kSliver = 0.1;
+/// What slivers must cost to be blamed for it.
+constexpr double kSliverCost = 1.2;
+
+/// The model at the start, with what its step is made of.
+class Start {
+ public:
+  Start(const case_::Case& input, const Model& model)
+      : input_(input), model_(model), time_step_(model), domain_(model, search_params(input, model)) {
+    for (const case_::InitialVelocity& entry : input.initial_velocities)
+      add_velocity(domain_, initial_velocity(entry, model));
+    if (!input.stages.empty()) constraints_ = stage_loads(input.stages.front(), model).constraints;
+    parts_ = step_parts(Communicator(), time_step_, state(), kLook * input.time.safety);
+    now_ = step_with(parts_.contacts);
+  }
+
+  [[nodiscard]] const StableStep& now() const { return now_; }
+  [[nodiscard]] const StepParts& parts() const { return parts_; }
+  [[nodiscard]] const TimeStep& time_step() const { return time_step_; }
+
+  /// With what bodies can come to meet until the end at the speeds they have.
+  [[nodiscard]] StepParts until_the_end() const {
+    const double free_step = 2.0 / std::sqrt(parts_.most);
+    return step_parts(Communicator(), time_step_, state(), input_.stages.back().end / free_step);
+  }
+
+  [[nodiscard]] StableStep step_with(const std::vector<ContactShare>& contacts) const {
+    return stable_step(time_step_.step_model(), parts_.shares, parts_.most, contacts, parts_.open);
+  }
+
+  /// With every joint of breakable groups gone and its faces meeting.
+  [[nodiscard]] StableStep broken() const {
+    CornerClusters clusters(model_.mesh, model_.topology);
+    std::vector<Topology::Face> faces;
+    for (const ModelJoint& joint : model_.joints) {
+      if (!model_.joint_laws[index(joint.law)].breakable()) continue;
+      faces.push_back({joint.face.a, joint.face.face_a});
+      faces.push_back({joint.face.b, joint.face.code / 3});
+    }
+    std::vector<Index> changed;
+    clusters.break_faces(faces, changed);
+    StepState state = this->state();
+    state.clusters = &clusters;
+    const StepParts parts = step_parts(Communicator(), time_step_, state, kLook * input_.time.safety);
+    return stable_step(time_step_.step_model(), parts.shares, parts.most, parts.contacts, parts.open);
+  }
+
+ private:
+  [[nodiscard]] StepState state() const {
+    const NodalState& nodes = domain_.state.nodes;
+    return {nodes.position, nodes.velocity, domain_.contacts(),
+            domain_.contact ? &domain_.contact->clusters() : nullptr, &constraints_};
+  }
+
+  const case_::Case& input_;
+  const Model& model_;
+  TimeStep time_step_;
+  Domain domain_;
+  std::vector<NodalConstraint> constraints_;
+  StepParts parts_;
+  StableStep now_;
+};
+
+/// Factor of the penalties at which contact hardly shortens the step.
+double harmless_factor(const Start& start, const std::vector<ContactShare>& contacts, double wanted) {
+  double low = -8, high = 0;  // powers of ten
+  for (int i = 0; i < 12; ++i) {
+    const double middle = 0.5 * (low + high), factor = std::pow(10.0, middle);
+    std::vector<ContactShare> scaled = contacts;
+    for (ContactShare& share : scaled) {
+      for (double& corner : share.omega_squared) corner *= factor;
+    }
+    (start.step_with(scaled).step >= wanted ? low : high) = middle;
+  }
+  return std::pow(10.0, low);
+}
+
+/// What contact costs, if it does. @param when  "Contact", "Once ..., contact"
+std::string contact_advice(const Model& model, const Start& start, const std::vector<ContactShare>& contacts,
+                           const std::string& when) {
+  const StableStep step = start.step_with(contacts);
+  if (step.limit != StepLimit::contact || step.joint_step < kWorthTelling * step.step) return {};
+  const double factor = harmless_factor(start, contacts, step.joint_step / kHardly);
+  const auto& slot_of = model.local.slot_of_element;
+  const Index slot = slot_of[index(static_cast<Index>(step.element))];
+  const Index group = model.local.block_group[index(slot / kLanes)], against = contacts[index(slot)].against;
+  std::string text = fmt::format("- {} makes the step {:.2g} times shorter", when, step.joint_step / step.step);
+  if (against < 0) {
+    const double penalty = model.contact.sphere->penalty;
+    return text + fmt::format(" at the sphere; a penalty of {:.2g} Pa instead of {:.3g} Pa would not.\n",
+                              factor * penalty, penalty);
+  }
+  const ContactLaw& law = model.contact.law(group, against);
+  const auto& names = model.mesh.volume_groups;
+  return text + fmt::format(" (\"{}\" on \"{}\", element {}); a penalty of {:.2g} Pa instead of {:.3g} Pa would not.\n",
+                            names[index(group)], names[index(against)], step.element,
+                            factor * stiffest_slope(law) / law.exponent, law.penalty);
+}
+
+/// Slivers are blamed for the step only where all other elements are known to allow a longer one.
+std::string sliver_advice(const Model& model, const Start& start) {
+  if (start.now().limit == StepLimit::contact) return {};
+  const QualityReport quality = assess_quality(model.mesh);
+  std::vector<Index> slivers;
+  for (const QualityReport::Worst& w : quality.worst) {
+    if (w.quality.radius_ratio < kSliver) slivers.push_back(model.local.slot_of_element[index(w.element)]);
+  }
+  if (slivers.empty()) return {};
+  std::vector<StepShare> others = start.parts().shares;
+  for (const Index slot : slivers) others[index(slot)] = {};
+  const double without = 2.0 / std::sqrt(stiffest(start.time_step().step_model(), others));
+  if (!(without > kSliverCost * start.now().step)) return {};
+  return fmt::format(
+      "- {} slivers (radius ratio below {}), the worst element {}, set the time step: without them it would be at "
+      "least "
+      "{:.2g} times longer. Optimise the mesh (Mesh.Optimize, Mesh.OptimizeThreshold) or merge them.\n",
+      slivers.size(), kSliver, quality.worst.front().element, without / start.now().step);
+}
+
+std::string given_step_advice(const case_::Case& input, const StableStep& step) {
+  const double dt = input.time.step;
+  if (!(dt > step.step)) return {};
+  if (dt > step.joint_step) {
+    return fmt::format(
+        "- time.step = {:.3g} s is {:.2g} times longer than the stable step of elements and joints, {:.3g} s (by "
+        "iteration): the run will blow up. Leave it to \"auto\".\n",
+        dt, dt / step.joint_step, step.joint_step);
+  }
+  return fmt::format(
+      "- time.step = {:.3g} s is {:.2g} times longer than what {} allows, {:.3g} s: what is pressed together there may "
+      "gain energy. Leave it to \"auto\", or lower the penalty.\n",
+      dt, dt / step.step, limit_text(step), step.step);
+}
+
+}  // namespace
+
+StepReport step_report(const case_::Case& input, const Model& model) {
+  const Start start(input, model);
+  const StableStep& now = start.now();
+  StepReport report;
+  report.limit = now.step;
+  report.dt = input.time.step > 0 ? input.time.step : input.time.safety * now.step;
+  report.text = fmt::format("stable time step {}, limited by {}; elements alone {}, with joints {}\n",
+                            quantity_text(now.step, "s"), limit_text(now), quantity_text(now.element_step, "s"),
+                            quantity_text(now.joint_step, "s"));
+  report.text +=
+      fmt::format("  elements' own steps: smallest {}, 1 % {}, median {}\n", quantity_text(now.quantiles[0], "s"),
+                  quantity_text(now.quantiles[1], "s"), quantity_text(now.quantiles[3], "s"));
+  report.broken = now.step;
+  if (model.has_contact) {
+    const std::vector<ContactShare> later = start.until_the_end().contacts;
+    const StableStep met = start.step_with(later);
+    report.broken = std::min(met.step, start.broken().step);
+    if (met.step < 0.99 * now.step)
+      report.text +=
+          fmt::format("  {} once bodies meet that are on their way to each other\n", quantity_text(met.step, "s"));
+    if (report.broken < 0.99 * met.step)
+      report.text += fmt::format("  {} where fracture makes fragments that meet\n", quantity_text(report.broken, "s"));
+    report.advice += contact_advice(model, start, start.parts().contacts, "Contact");
+    if (report.advice.empty()) report.advice += contact_advice(model, start, later, "Once bodies meet, contact");
+  }
+  report.advice += given_step_advice(input, now);
+  if (now.limit != StepLimit::contact && now.quantiles[0] < 0.3 * now.quantiles[1]) {
+    report.advice += fmt::format(
+        "- The worst element allows {:.1f} times less than the worst per cent: one bad element slows the whole run.\n",
+        now.quantiles[1] / now.quantiles[0]);
+  }
+  report.advice += sliver_advice(model, start);
+  return report;
+}
+
+std::string given_step_warning(const case_::Case& input, const Model& model) {
+  if (!(input.time.step > 0)) return {};
+  return given_step_advice(input, Start(input, model).now());
+}
+
+}  // namespace breccia

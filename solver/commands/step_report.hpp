@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "case/case.hpp"
+#include "model/model.hpp"
+
+namespace breccia {
+
+/// What can be told of the time step before the first one.
+struct StepReport {
+  double limit = 0;    ///< s, stable step at the start
+  double dt = 0;       ///< s, that the run begins with
+  double broken = 0;   ///< s, stable step if all joints that can break had, all faces near each other meeting
+  std::string text;    ///< lines
+  std::string advice;  ///< sentences with their remedy, a line each
+};
+
+[[nodiscard]] StepReport step_report(const case_::Case& input, const Model& model);
+
+/// What is wrong with the step that the case gives: lines; empty: nothing, or the step is chosen. The limit without
+/// contact is the true one, by iteration; where contact makes it shorter it is a bound.
+[[nodiscard]] std::string given_step_warning(const case_::Case& input, const Model& model);
+
+}  // namespace breccia
