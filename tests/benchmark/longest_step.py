@@ -128,17 +128,17 @@ def glued(lower, upper, more):
 
 
 def cases():
-    own = raster() + material("block", ROCK, "breakable")
+    own = raster() + material("block", ROCK, "unbreakable")
     out = {
         "shared": raster() + material("block", ROCK, "none") + PULL,
         "own nodes": raster() + material("block", ROCK, "unbreakable") + joint("block") + PULL,
         "mid_edge": own + joint("block", 'points = "mid_edge"') + PULL,
-        "independent_peaks": own + joint("block", 'law = "independent_peaks"\nrise = "parabolic"', 10) + PULL,
+        "independent_peaks": raster() + material("block", ROCK, "breakable") + joint("block", 'law = "independent_peaks"\nrise = "parabolic"', 10) + PULL,
         "graded": '[mesh]\nfile = "graded.geo"\n' + material("block", ROCK, "none") + WEIGHT,
         "slivers": '[mesh]\nfile = "slivers.geo"\n' + material("block", ROCK, "none") + WEIGHT,
         "two stiffnesses": glued("none", "none", ""),
         "own on shared": glued("none", "breakable", joint("upper") + joint(["lower", "upper"])),
-        "platens": '[mesh]\nfile = "platens.geo"\n' + material("rock", ROCK, "breakable")
+        "platens": '[mesh]\nfile = "platens.geo"\n' + material("rock", ROCK, "unbreakable")
         + material("top", 'young = "200 GPa"\npoisson = 0.3\ndensity = 7800\n', "none")
         + material("bottom", 'young = "200 GPa"\npoisson = 0.3\ndensity = 7800\n', "none") + joint("rock")
         + '[[contact]]\nbetween = ["*", "*"]\npenalty = "300 GPa"\n'
