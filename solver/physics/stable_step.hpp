@@ -87,7 +87,8 @@ struct StepShare {
 ///   c = omega_e^2 2 mubar/(lambda + 2 mu).
 ///   Elements that share nodes: the mean of their omega_e^2 around each node, weighted with their masses.
 ///   Drucker-Prager: omega_e^2 = (4/rho) drucker_prager_stiffness (1.35 to 14 times as much, likewise).
-/// - joints: omega_j^2 = 2 max_i (sum over the joints at node i of k A0/3) / m_i, whatever their points; where nodes are
+/// - joints: omega_j^2 = 2 max_i (sum over the joints at node i of k A0/3) / m_i, whatever their points; where nodes
+/// are
 ///   shared all elements around a node count
 /// - contact: contact/contact_step.hpp
 ///

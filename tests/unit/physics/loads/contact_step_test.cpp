@@ -69,7 +69,8 @@ struct Scene {
     for (const ContactShare& share : shares(time)) most = std::max(most, share.largest());
     return most;
   }
-  /// Largest eigenvalue of M^-1 K of all couples that touch, normals along z: sum w sigma_p/H (N, -lambda)(N, -lambda)^T.
+  /// Largest eigenvalue of M^-1 K of all couples that touch, normals along z: sum w sigma_p/H (N, -lambda)(N,
+  /// -lambda)^T.
   [[nodiscard]] double true_largest() const {
     const LocalMesh& mesh = model.local;
     const FaceRule& rule = face_rule(params.points_per_face);
