@@ -51,6 +51,7 @@ EnergySample energy_sample(const Field<double>& velocity_before, const Domain& d
   elastic.total.add(sum_of(state.elements[kStressWork], local.original));
   JointEnergy joints = joint_energy(local, state.joints.active, state.work.joints);
   joints.stored.add(intact_joint_energy(local, domain.derived.links, x));
+  joints.viscous.add(sum_of(state.elements[kViscousWork], local.original));
   ExactSum contact = state.work.contact.stored;
   contact.add(state.work.contact.friction_stored);
   const std::array parts{kinetic_energy(local, velocity_before.data(), state.nodes.velocity.data()),
@@ -63,7 +64,7 @@ EnergySample energy_sample(const Field<double>& velocity_before, const Domain& d
                          state.work.contact.dissipated,
                          state.work.contact.friction_dissipated,
                          plastic_work(local, domain.model.elastic, memory),
-                         sum_of(state.elements[kViscousWork], local.original),
+                         joints.viscous,
                          sum_of(state.damping_work, local.counted),
                          external_work(domain)};
   static_assert(parts.size() == kEnergies.size() + 1);

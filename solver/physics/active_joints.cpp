@@ -71,8 +71,9 @@ void ActiveJoints::break_points(std::span<const GlobalId> ids) {
   for (const Index place : order_) {
     JointBlock& block = blocks_[block_of(place)];
     const std::size_t lane = lane_of(place);
-    if (block.history.failed[lane] > 0 || !std::binary_search(ids.begin(), ids.end(), identity(place).id)) continue;
-    for (JointPointHistory<JointRow>& point : block.history.points) point.damage[lane] = 1.0;
+    double& failed = block.history.failed[lane];
+    if (failed > 0 || !std::binary_search(ids.begin(), ids.end(), identity(place).id)) continue;
+    failed = kFailsNext;
   }
 }
 

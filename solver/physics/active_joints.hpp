@@ -64,7 +64,7 @@ class ActiveJoints {
   void insert(std::span<const ActiveJoint> batch);
   /// Takes joints off the list. @param ids  ascending, all of them on the list. O(list), none when there are none
   void erase(std::span<const GlobalId> ids);
-  /// Breaks all points of joints that have not failed: they fail at their next evaluation, which books what they held.
+  /// Joints that have not failed fail at their next evaluation and let go of what they hold (active_joint_forces).
   /// @param ids  ascending; those that are not on the list do not matter. O(list)
   void break_points(std::span<const GlobalId> ids);
 

@@ -105,54 +105,71 @@ template <class T>
   return p;
 }
 
-/// If enough points give way for the joint to fail, the others give way with them, at once. @param before  of this
-/// evaluation
+/// A joint is a crack, whatever its other points do, once it has damage and a corner is farther open than this many
+/// times the critical opening of its mode, d_nt + D_n, while it holds d_st + D_s ...
+inline constexpr double kCrackOpening = 10;
+/// ... or a corner's opening is longer than this share of the size of the mid-surface, the root of its area: then that
+/// surface says nothing about the two faces.
+inline constexpr double kLostShape = 0.5;
+/// Share of the reference area below which a mid-surface has no normal to turn.
+inline constexpr double kFlat = 0.01;
+/// Evaluations in which a crack hands over what it still carries, pressure of closed points mostly: no force jumps.
+inline constexpr double kHandoverSteps = 64;
+
+/// Joints that are cracks by their opening.
 template <class T>
-inline void break_others(const JointLawParams& law, const Kinematics<T>& k, const Point<T>* before, Joint<T>& joint,
-                         Response<T>* response) {
-  const Mask<T> failing = enough_points_broken(law, joint) && joint.failed == 0.0;
-  if (!any(failing)) return;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Mask<T> breaks = failing && joint.points[i].damage < 1.0;
-    if (!any(breaks)) continue;
-    Point<T> anew = before[i];
-    anew.damage = 1.0;
-    const Response<T> r = evaluate(law, k.frame, point_opening(law, k.opening, i), anew);
-    joint.points[i] = select_point(breaks, anew, joint.points[i]);
-    response[i] = {select3<T>(breaks, r.traction, response[i].traction), select(breaks, r.mode_1, response[i].mode_1),
-                   select(breaks, r.mode_2, response[i].mode_2), select(breaks, r.friction, response[i].friction),
-                   response[i].elastic && !breaks};
+[[nodiscard]] inline Mask<T> is_crack(const JointLawParams& law, const Kinematics<T>& k, const Joint<T>& joint) {
+  T damage = 0.0;
+  for (const Point<T>& p : joint.points) damage = greater(damage, p.damage);
+  const Mask<T> damaged = damage > 0.0;
+  Mask<T> crack(false);
+  if (!law.breakable() || !any(damaged)) return crack;
+  const double normal = kCrackOpening * (law.onset_normal + law.width_normal);
+  const double shear = kCrackOpening * (law.onset_shear + law.width_shear);
+  const Mask<T> holding = joint.failed <= 0.0 && !enough_points_broken(law, joint);
+  const T shape2 = (0.5 * kLostShape * kLostShape) * k.doubled_area;
+  for (const Vector<T>& opening : k.opening) {
+    const T along = dot(opening, k.frame.normal), length2 = dot(opening, opening);
+    crack = crack || along > normal || (holding && length2 - along * along > shear * shear) || length2 > shape2;
   }
+  return damaged && crack;
 }
 
-/// Evaluates the points; returns the force on each corner of a.
+/// Evaluates the points and takes what they dissipate; returns the force on each corner of a.
 template <class T>
 [[nodiscard]] inline Triple<T> evaluate_points(const JointLawParams& law, const Kinematics<T>& k, Joint<T>& joint) {
   Response<T> response[3];
-  if (law.points_to_fail < 3) {
-    const Point<T> before[3] = {joint.points[0], joint.points[1], joint.points[2]};
-    for (std::size_t i = 0; i < 3; ++i)
-      response[i] = evaluate(law, k.frame, point_opening(law, k.opening, i), joint.points[i]);
-    break_others(law, k, before, joint, response);
-  } else {
-    for (std::size_t i = 0; i < 3; ++i)
-      response[i] = evaluate(law, k.frame, point_opening(law, k.opening, i), joint.points[i]);
-  }
-  const T share = joint.area / 3.0, elastic = law.stiffness * joint.area / 3.0;
+  const Mask<T> failed = joint.failed > 0.0;
+  for (std::size_t i = 0; i < 3; ++i)
+    response[i] = evaluate(law, k.frame, point_opening(law, k.opening, i), failed, joint.points[i]);
+  const T hold_before = joint.hold;
+  const Mask<T> letting_go = is_crack(law, k, joint) || joint.hold < 1.0;
+  joint.hold = select(letting_go, greater(T(joint.hold - 1.0 / kHandoverSteps), T(0.0)), joint.hold);
+  const T share = joint.area / 3.0, held = share * joint.hold, lost = share * (hold_before - joint.hold);
   for (const Response<T>& r : response) {
-    joint.mode_1 += share * r.mode_1;
-    joint.mode_2 += share * r.mode_2;
-    joint.friction += share * r.friction;
+    joint.mode_1 += held * r.mode_1;
+    joint.mode_2 += held * r.mode_2;
+    joint.friction += held * r.friction;
+    joint.viscous += held * r.viscous;
   }
+  if (any(letting_go)) {
+    for (const Response<T>& r : response) {
+      joint.mode_1 += lost * r.stored.open;
+      joint.mode_2 += lost * r.stored.shear;
+      joint.friction += lost * r.stored.spring;
+      joint.viscous += lost * r.stored.pressed;
+    }
+  }
+  const T elastic = law.stiffness * joint.area / 3.0 * joint.hold;
   Triple<T> force;
   for (std::size_t i = 0; i < 3; ++i) {
     switch (law.points) {
       case JointPoints::nodal:
         // Elastic ones in the very product the sweep uses: the same bits on either path.
-        force[i] = select3<T>(response[i].elastic, times(elastic, k.opening[i]), times(share, response[i].traction));
+        force[i] = select3<T>(response[i].elastic, times(elastic, k.opening[i]), times(held, response[i].traction));
         break;
       case JointPoints::mid_edge:
-        force[i] = times(T(joint.area / 6.0), plus(response[i].traction, response[(i + 2) % 3].traction));
+        force[i] = times(T(0.5 * held), plus(response[i].traction, response[(i + 2) % 3].traction));
         break;
     }
   }
@@ -171,37 +188,41 @@ template <class T>
   __builtin_unreachable();
 }
 
+template <class T>
+[[nodiscard]] inline Mask<T> may_tilt(const JointLawParams& law, const Joint<T>& joint) {
+  Mask<T> tilts(false);
+  for (const Point<T>& p : joint.points) tilts = tilts || (lost_share(law, p) > 0.0 && p.normal_opening < 0.0);
+  return tilts;
+}
+
 /// What turning the mid-surface does to a closed joint that has slid: its normal energy k d delta_n^2 / 2 beyond the
 /// isotropic part depends on the normal. T = sum A0/3 k d delta_n delta_s, N: dU = T . dn.
 template <class T>
 [[nodiscard]] inline Vector<T> tilting(const JointLawParams& law, const Kinematics<T>& k, const Joint<T>& joint) {
   const T zero = 0.0;
   Vector<T> tilt{zero, zero, zero};
-  for (const Point<T>& p : joint.points) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point<T>& p = joint.points[i];
     const T share = lost_share(law, p);
     const Mask<T> tilts = share > zero && p.normal_opening < zero;
     if (!any(tilts)) continue;
-    const Vector<T> shear = minus(p.opening, times(p.normal_opening, k.frame.normal));
-    const T weight = joint.area / 3.0 * law.stiffness * share * p.normal_opening;
+    const Vector<T> opening = point_opening(law, k.opening, i);
+    const Vector<T> shear = minus(opening, times(p.normal_opening, k.frame.normal));
+    const T weight = joint.hold * joint.area / 3.0 * law.stiffness * share * p.normal_opening;
     tilt = select3<T>(tilts, plus(tilt, times(weight, shear)), tilt);
   }
   return tilt;
 }
 
 /// Forces on the three pairs of corners that go with tilting, so that forces are the gradient of the energy also after
-/// a long slip, with their work among the friction. Each of a pair gets half of -dU/dm, m the corner of the
-/// mid-surface. Books nothing and returns 0 where not `on`.
+/// a long slip. Each of a pair gets half of -dU/dm, m the corner of the mid-surface. 0 where not `on`, and where the
+/// mid-surface is lost.
 template <class T>
 [[nodiscard]] inline Triple<T> tilting_forces(const JointLawParams& law, const Kinematics<T>& k, const Mask<T>& on,
-                                              Joint<T>& joint) {
+                                              const Joint<T>& joint) {
   const T zero = 0.0;
   const Vector<T> tilt = tilting(law, k, joint);
-  const T work = 0.5 * dot(plus(joint.tilt, tilt), minus(k.frame.normal, joint.normal));
-  joint.friction = select(on && joint.turned > zero, T(joint.friction + work), joint.friction);
-  joint.turned = select(on, T(1.0), joint.turned);
-  joint.tilt = select3<T>(on, tilt, joint.tilt);
-  joint.normal = select3<T>(on, k.frame.normal, joint.normal);
-  const Mask<T> turns = on && k.doubled_area > zero;
+  const Mask<T> turns = on && k.doubled_area > kFlat * joint.area;
   const T half = select(turns, T(-0.5 / k.doubled_area), zero);
   const Vector<T> second = times(half, cross(k.edge[1], tilt)), third = times(half, cross(tilt, k.edge[0]));
   Vector<T> first;

@@ -63,7 +63,7 @@ jp::Forces<double> evaluate(const JointLawParams& law, const LocalMesh& mesh, co
   const jp::Kinematics<double> k = jp::kinematics(law, sides_of(mesh, position, joint));
   jp::Forces<double> forces;
   forces.force = jp::evaluate_points(law, k, joint.history);
-  forces.turning = jp::tilting_forces(law, k, true, joint.history);
+  forces.turning = jp::tilting_forces(law, k, jp::may_tilt(law, joint.history), joint.history);
   return forces;
 }
 
@@ -81,7 +81,7 @@ double ActiveJoint::opening() const {
 
 double ActiveJoint::slip() const {
   const auto& p = history.points;
-  return (shear_opening(p[0]) + shear_opening(p[1]) + shear_opening(p[2])) / 3.0;
+  return (p[0].shear_opening + p[1].shear_opening + p[2].shear_opening) / 3.0;
 }
 
 FailureMode ActiveJoint::mode() const {
@@ -94,16 +94,17 @@ FailureMode ActiveJoint::mode() const {
 
 double ActiveJoint::stored() const {
   const auto& p = history.points;
-  return history.area / 3.0 * (p[0].stored() + p[1].stored() + p[2].stored());
+  return history.hold * history.area / 3.0 * (p[0].stored + p[1].stored + p[2].stored);
 }
 
 JointEnergy joint_energy(const LocalMesh& mesh, const ActiveJoints& joints, const JointWork& work) {
-  JointEnergy energy{work.mode_1, work.mode_2, work.friction, {}};
+  JointEnergy energy{work.mode_1, work.mode_2, work.friction, work.viscous, {}};
   for (const ActiveJoint& joint : joints) {
     if (!mesh.is_original(joint.slot_a)) continue;
     energy.mode_1.add(joint.history.mode_1);
     energy.mode_2.add(joint.history.mode_2);
     energy.friction.add(joint.history.friction);
+    energy.viscous.add(joint.history.viscous);
     energy.stored.add(joint.stored());
   }
   return energy;
@@ -182,6 +183,7 @@ void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& 
     work.mode_1.add(joint.history.mode_1);
     work.mode_2.add(joint.history.mode_2);
     work.friction.add(joint.history.friction);
+    work.viscous.add(joint.history.viscous);
   }
   joints.erase(released);
 }

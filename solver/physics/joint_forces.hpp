@@ -31,7 +31,7 @@ struct ElasticJoint {
 /// What joints that are no longer on the list have consumed over the run, J: those whose side a is an original. Who
 /// failed: likewise. Who was released or is elastic: all.
 struct JointWork {
-  ExactSum mode_1, mode_2, friction;
+  ExactSum mode_1, mode_2, friction, viscous;
   std::vector<GlobalId> failed;         ///< in the last step, ascending
   std::vector<ReleasedJoint> released;  ///< in the last step, ascending
   std::vector<ElasticJoint> elastic;    ///< on the list after the last step, ascending
@@ -39,8 +39,8 @@ struct JointWork {
 
 /// What joints hold and have consumed, J.
 struct JointEnergy {
-  ExactSum mode_1, mode_2, friction;  ///< over the run
-  ExactSum stored;                    ///< at the last evaluation
+  ExactSum mode_1, mode_2, friction, viscous;  ///< over the run
+  ExactSum stored;                             ///< at the last evaluation
 };
 
 /// Of the joints on the list whose side a is an original, and of those that have left it. O(joints).
@@ -50,9 +50,12 @@ struct JointEnergy {
 /// each corner i of the face of a: +A0/3 t_i, on the matching corner of b the opposite; with mid-edge points each force
 /// goes to the two corners of its edge in halves. n is the unit normal of the mid-surface.
 ///
-/// A joint fails when points_to_fail points are at damage 1; the others lose what they hold in the same step. Failed,
-/// it remains a frictional interface while it is closed (sigma = k delta_n, Coulomb friction). When all its corners are
-/// open at once it is released: it carries no force and holds no energy from then on and is taken off the list.
+/// A joint fails when points_to_fail points are at damage 1, or as a crack (joint_evaluation.hpp: a corner open ten
+/// times the critical opening, or a mid-surface that has lost its shape). The points that still hold let go in
+/// kFailureSteps evaluations. Failed, it remains a frictional interface while it is closed (sigma = k delta_n, Coulomb
+/// friction). When all its corners are open at once it is released: it carries no force and holds no energy from then
+/// on and is taken off the list. A crack is released when all that it carries has decayed in kHandoverSteps
+/// evaluations; what it held is dissipated: cohesion in its mode, friction springs as friction, pressure as viscous.
 /// A joint without damage whose opening is back within half the surely elastic range is marked `elastic`: the sweep may
 /// have it back after this step.
 /// @param time  s, t_n: of the positions

@@ -19,31 +19,19 @@ struct JointNumber {
   bool of_elastic = false;  ///< an elastic point is left with this one up to date, not with the others
 };
 
-/// What a point remembers of its last evaluation, as a number, in ascending order of its life.
-inline constexpr double kFresh = 0;        ///< nothing
-inline constexpr double kUndivided = 1;    ///< an elastic opening without its parts along the normal
-inline constexpr double kDivided = 2;      ///< all
-inline constexpr double kWithoutHold = 3;  ///< all, and that no cohesion remained
-
 /// What a point of a joint remembers, over the number type: double, a SIMD vector, or a row of numbers side by side.
 template <class T>
 struct JointPointHistory {
-  T damage = 0.0;          ///< mixed_mode: d; independent_peaks: D. Set to 1 from outside it breaks the point by hand
-  T level = 0.0;           ///< D at which the damage grew last
-  T strength_share = 1.0;  ///< z there
-  T memory = 0.0;          ///< kFresh .. kWithoutHold
-  std::array<T, 3> opening{0.0, 0.0, 0.0};    ///< m, of the last evaluation, as all that follows
-  std::array<T, 3> traction{0.0, 0.0, 0.0};   ///< Pa
-  T normal_opening = 0.0;                     ///< m
-  T normal_traction = 0.0;                    ///< Pa
-  T stored_normal = 0.0, stored_shear = 0.0;  ///< J/m2; an elastic point holds all in stored_normal
-  std::array<T, 2> slip{0.0, 0.0};            ///< m, s along the two tangents
+  T damage = 0.0;                   ///< mixed_mode: d; independent_peaks: D
+  T level = 0.0;                    ///< D at which the damage grew last
+  T strength_share = 1.0;           ///< z there
+  T normal_opening = 0.0;           ///< m, at the last evaluation, as the next three
+  T shear_opening = 0.0;            ///< m, length
+  T viscous_traction = 0.0;         ///< Pa
+  T stored = 0.0;                   ///< J/m2
+  std::array<T, 2> slip{0.0, 0.0};  ///< m, s along the two tangents
   T friction_weight = 0.0;
-  std::array<T, 2> friction_traction{0.0, 0.0};  ///< Pa, weighted, along the tangents
-  T stored_friction = 0.0;                       ///< J/m2
-  T secant_normal = 1.0, secant_shear = 1.0;     ///< s_n, s_s
-
-  [[nodiscard]] T stored() const { return stored_normal + stored_shear + stored_friction; }
+  T secant_normal = 1.0, secant_shear = 1.0;  ///< s_n, s_s
 };
 
 /// The one list of a point's numbers: calls f(JointNumber, the number in each of the points) for all of them.
@@ -54,23 +42,13 @@ template <class F, class... Points>
   f(JointNumber{"damage", ""}, points.damage...);
   f(JointNumber{"level", ""}, points.level...);
   f(JointNumber{"strength_share", ""}, points.strength_share...);
-  f(JointNumber{"memory", "", all, true}, points.memory...);
-  f(JointNumber{"opening_x", "m", all, true}, points.opening[0]...);
-  f(JointNumber{"opening_y", "m", all, true}, points.opening[1]...);
-  f(JointNumber{"opening_z", "m", all, true}, points.opening[2]...);
-  f(JointNumber{"traction_x", "Pa", all, true}, points.traction[0]...);
-  f(JointNumber{"traction_y", "Pa", all, true}, points.traction[1]...);
-  f(JointNumber{"traction_z", "Pa", all, true}, points.traction[2]...);
   f(JointNumber{"normal_opening", "m"}, points.normal_opening...);
-  f(JointNumber{"normal_traction", "Pa"}, points.normal_traction...);
-  f(JointNumber{"stored_normal", "J/m2", all, true}, points.stored_normal...);
-  f(JointNumber{"stored_shear", "J/m2", all, true}, points.stored_shear...);
+  f(JointNumber{"shear_opening", "m"}, points.shear_opening...);
+  f(JointNumber{"viscous_traction", "Pa"}, points.viscous_traction...);
+  f(JointNumber{"stored", "J/m2", all, true}, points.stored...);
   f(JointNumber{"slip_1", "m", friction}, points.slip[0]...);
   f(JointNumber{"slip_2", "m", friction}, points.slip[1]...);
   f(JointNumber{"friction_weight", "", friction}, points.friction_weight...);
-  f(JointNumber{"friction_traction_1", "Pa", friction}, points.friction_traction[0]...);
-  f(JointNumber{"friction_traction_2", "Pa", friction}, points.friction_traction[1]...);
-  f(JointNumber{"stored_friction", "J/m2", friction}, points.stored_friction...);
   f(JointNumber{"secant_normal", "", peaks}, points.secant_normal...);
   f(JointNumber{"secant_shear", "", peaks}, points.secant_shear...);
 }
@@ -79,13 +57,14 @@ template <class F, class... Points>
 template <class T>
 struct JointHistory {
   std::array<JointPointHistory<T>, 3> points;
-  T area = 0.0;                                  ///< m2, reference
-  T mode_1 = 0.0, mode_2 = 0.0, friction = 0.0;  ///< J dissipated so far
-  T failed = 0.0;                                ///< 0 or 1
-  // The last evaluation's moment of a closed joint that has slid, N, and normal; for its work.
-  T turned = 0.0;  ///< 0 or 1
-  std::array<T, 3> tilt{0.0, 0.0, 0.0}, normal{0.0, 0.0, 0.0};
+  T area = 0.0;                                                 ///< m2, reference
+  T mode_1 = 0.0, mode_2 = 0.0, friction = 0.0, viscous = 0.0;  ///< J dissipated so far
+  T failed = 0.0;                                               ///< kHolding, kFailed or kFailsNext
+  T hold = 1.0;  ///< share of its forces and energy that still acts: falls from 1 to 0 once the joint is a crack
 };
+
+inline constexpr double kHolding = 0, kFailed = 1;
+inline constexpr double kFailsNext = -1;  ///< at the next evaluation, by hand
 
 /// As for_each_number, for what the points of a joint have in common.
 template <class F, class... Joints>
@@ -94,14 +73,9 @@ template <class F, class... Joints>
   f(JointNumber{"mode_1", "J"}, joints.mode_1...);
   f(JointNumber{"mode_2", "J"}, joints.mode_2...);
   f(JointNumber{"friction", "J"}, joints.friction...);
+  f(JointNumber{"viscous", "J"}, joints.viscous...);
   f(JointNumber{"failed", ""}, joints.failed...);
-  f(JointNumber{"turned", ""}, joints.turned...);
-  f(JointNumber{"tilt_x", "N"}, joints.tilt[0]...);
-  f(JointNumber{"tilt_y", "N"}, joints.tilt[1]...);
-  f(JointNumber{"tilt_z", "N"}, joints.tilt[2]...);
-  f(JointNumber{"normal_x", ""}, joints.normal[0]...);
-  f(JointNumber{"normal_y", ""}, joints.normal[1]...);
-  f(JointNumber{"normal_z", ""}, joints.normal[2]...);
+  f(JointNumber{"hold", ""}, joints.hold...);
 }
 
 }  // namespace breccia

@@ -86,7 +86,7 @@ inline void note(const Lanes& lanes, JointNews news, std::size_t lane, JointBloc
 inline Lanes elastic_lanes(const JointLawParams& law, const jp::Sides<Real>& sides, std::size_t lane,
                            JointBlock& block) {
   if (!(law.screen > 0)) return Lanes(false);
-  Lanes elastic(true);
+  Lanes elastic = load(&block.history.failed[lane]) == kHolding;
   for (const JointPointHistory<JointRow>& p : block.history.points) elastic = elastic && load(&p.damage[lane]) <= 0.0;
   if (stdx::none_of(elastic)) return elastic;
   const Real largest = jp::largest_opening_squared(sides);
@@ -101,25 +101,31 @@ inline void store_forces(const jp::Triple<Real>& force, JointRow (&rows)[3][3], 
   }
 }
 
+/// Nothing holds any more, or nothing that could act as the joint is open.
+inline Lanes is_released(const jp::Kinematics<Real>& k, const jp::Joint<Real>& joint) {
+  Lanes broken = joint.failed > 0.0;
+  for (const jp::Point<Real>& p : joint.points) broken = broken && p.damage >= 1.0;
+  return (broken && jp::open_everywhere(k)) || joint.hold <= 0.0;
+}
+
 /// W joints beyond their elastic range, but for those lanes that are `elastic`.
 inline void act_beyond(const JointLawParams& law, const jp::Sides<Real>& sides, const Lanes& elastic, std::size_t lane,
                        jp::Joint<Real>& joint, JointBlock& block) {
   load_common(block, lane, joint);
   const jp::Kinematics<Real> k = jp::kinematics(law, sides);
   store_forces(jp::evaluate_points(law, k, joint), block.force, lane);
-  const Lanes failing = jp::enough_points_broken(law, joint) && joint.failed == 0.0;
-  joint.failed = jp::select(failing, Real(1.0), joint.failed);
+  const Lanes failing =
+      joint.failed <= 0.0 && (jp::enough_points_broken(law, joint) || joint.hold < 1.0 || joint.failed < 0.0);
+  joint.failed = jp::select(failing, Real(kFailed), joint.failed);
   note(failing, kFailing, lane, block);
-  // Open and broken everywhere: no force, and nothing stored, friction springs included.
-  const Lanes released = joint.failed > 0.0 && jp::open_everywhere(k);
+  const Lanes released = is_released(k, joint);
   note(released, kReleased, lane, block);
-  const Lanes stays = !elastic && !released;
-  const jp::Triple<Real> turning = jp::tilting_forces(law, k, stays, joint);
   store_common(joint, lane, block);
-  const Lanes turns = stays && (joint.tilt[0] != 0.0 || joint.tilt[1] != 0.0 || joint.tilt[2] != 0.0);
+  const Lanes stays = !elastic && !released;
+  const Lanes turns = stays && jp::may_tilt(law, joint);
   if (stdx::none_of(turns)) return;
   note(turns, kTurning, lane, block);
-  store_forces(turning, block.turning, lane);
+  store_forces(jp::tilting_forces(law, k, turns, joint), block.turning, lane);
 }
 
 /// W joints that are all elastic: no more is touched than such joints remember.

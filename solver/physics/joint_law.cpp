@@ -71,11 +71,6 @@ void check_energy(const JointLawParams& law, const char* mode, double energy, do
 
 bool JointLawParams::breakable() const { return std::isfinite(tensile_strength) || std::isfinite(cohesion); }
 
-double shear_opening(const JointPointHistory<double>& point) {
-  const double square = joint_point::dot(point.opening, point.opening);
-  return std::sqrt(std::max(square - point.normal_opening * point.normal_opening, 0.0));
-}
-
 std::string prepare(JointLawParams& law) {
   if (!(law.stiffness > 0 && std::isfinite(law.stiffness))) return "the stiffness k = p/h must be positive";
   law.screen = 0.0;
@@ -109,8 +104,8 @@ JointPointResponse evaluate_point(const JointLawParams& law, const JointFrame& f
   namespace jp = joint_point;
   const auto vector_of = [](const Vec3& v) { return jp::Vector<double>{v[0], v[1], v[2]}; };
   const jp::Frame<double> axes{vector_of(frame.normal), {vector_of(frame.tangent[0]), vector_of(frame.tangent[1])}};
-  const jp::Response<double> r = jp::evaluate(law, axes, vector_of(opening), history);
-  return {Vec3(r.traction[0], r.traction[1], r.traction[2]), r.mode_1, r.mode_2, r.friction, r.elastic};
+  const jp::Response<double> r = jp::evaluate(law, axes, vector_of(opening), false, history);
+  return {Vec3(r.traction[0], r.traction[1], r.traction[2]), r.mode_1, r.mode_2, r.friction, r.viscous, r.elastic};
 }
 
 }  // namespace breccia

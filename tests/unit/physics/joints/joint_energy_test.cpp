@@ -21,6 +21,7 @@ using test::prepared;
 constexpr double kArea = 173.205081e-6;    // m2, face of a regular tetrahedron of edge 20 mm
 constexpr double kEnergyTolerance = 1e-3;  // asked of the law
 constexpr double kClosure = 1e-12;         // round-off of some 10^4 terms
+constexpr double kLastStep = 1e-6;         // of the energy: the last step ends beyond the critical opening
 constexpr std::array<double, 5> kAngles{0, 30, 45, 60, 90};
 
 Vec3 at_angle(double degrees, double length) {
@@ -45,7 +46,7 @@ TEST(JointEnergy, whole_curve_of_the_default_law_takes_the_fracture_energy_at_ev
     for (const double angle : kAngles) {
       const PointDriver point = opened(law, angle, 40000);
       EXPECT_NEAR(point.work / kEnergy, 1.0, kEnergyTolerance) << factor << ", " << angle;
-      EXPECT_NEAR(point.dissipated() / point.work, 1.0, kClosure);
+      EXPECT_NEAR(point.dissipated() / point.work, 1.0, kLastStep);
     }
   }
 }
@@ -125,30 +126,96 @@ TEST(JointEnergy, dissipation_is_never_negative_along_a_path_that_damages) {
       double before = 0;
       for (int i = 1; i <= 2000; ++i) {
         point.step(at_angle(angle, i * 1e-8));
-        // A parabola's trapezoid falls short by f/6 (step/onset)^3 a step.
-        ASSERT_GE(point.dissipated() - before, -1e-7 * kEnergy) << angle << ", step " << i;
+        ASSERT_GE(point.dissipated() - before, 0.0) << angle << ", step " << i;
         before = point.dissipated();
       }
     }
   }
 }
 
-TEST(JointEnergy, budget_closes_to_round_off_for_steps_of_any_length) {
-  std::mt19937 random(5);
-  std::normal_distribution<double> part;
+/// A smooth wild path through opening, sliding and closing; t from 0 to 1.
+Vec3 wild(const JointLawParams& law, double t) {
+  const double size = 0.8 * (law.onset_normal + law.width_normal);
+  return size * std::sqrt(t) * Vec3(std::sin(29 * t), std::cos(23 * t) * std::sin(11 * t), 0.3 + std::cos(17 * t));
+}
+
+TEST(JointEnergy, what_the_law_dissipates_tends_to_the_work_less_what_is_stored_as_steps_shrink) {
   JointLawParams mohr = example_law();
   mohr.friction = 0.7;
   JointLawParams mohr_peaks = mohr;
   mohr_peaks.law = JointLaw::independent_peaks;
   for (const JointLawParams& law : {prepared(mohr), prepared(mohr_peaks), test::reference_law(JointRise::parabolic)}) {
-    PointDriver point{law};
-    point.step(Vec3::Zero());
-    for (int i = 0; i < 3000; ++i) {
-      point.step(point.opening * 0.95 + 0.3 * law.onset_normal * Vec3(part(random), part(random), part(random)));
-      ASSERT_NEAR(point.work, point.dissipated() + point.history.stored(), kClosure * (kEnergy + point.work)) << i;
-    }
-    EXPECT_GT(point.history.damage, 0.5);
+    const auto unaccounted = [&](int steps) {
+      PointDriver point{law};
+      for (int i = 1; i <= steps; ++i) point.step(wild(law, static_cast<double>(i) / steps));
+      EXPECT_GT(point.history.damage, 0.5);
+      return std::abs(point.work - point.dissipated() - point.history.stored) / kEnergy;
+    };
+    const double coarse = unaccounted(2000), fine = unaccounted(32000);
+    EXPECT_LT(fine, 0.2 * coarse + 1e-6);
+    EXPECT_LT(fine, 2e-3);
   }
+}
+
+/// One step of a random history: small ones, jumps, closing, back to rest.
+Vec3 random_step(const JointLawParams& law, const Vec3& from, std::mt19937& random) {
+  std::normal_distribution<double> part;
+  const Vec3 by(part(random), part(random), part(random));
+  switch (random() % 16) {
+    case 0:
+      return 0.3 * (law.onset_normal + law.width_normal) * by;
+    case 1:
+      return Vec3::Zero();
+    case 2:
+      return Vec3(from[0], from[1], -from[2]);
+    case 3:
+      return 0.5 * from;
+    default:
+      return from + 0.2 * law.onset_normal * by;
+  }
+}
+
+TEST(JointEnergy, no_dissipated_term_ever_decreases_whatever_the_history) {
+  std::mt19937 random(23);
+  for (int i = 0; i < 240; ++i) {
+    JointLawParams law = example_law();
+    law.viscosity = i % 2 == 0 ? 0.0 : kJointViscosity;
+    law.stiffness *= std::array<double, 3>{1, 10, 50}[static_cast<std::size_t>(i % 3)];
+    law.cohesion = (1 + i % 2) * law.tensile_strength;
+    law.energy_mode_2 = 5 * law.energy_mode_1;
+    law.law = i % 4 < 2 ? JointLaw::mixed_mode : JointLaw::independent_peaks;
+    law.softening.shape = std::array{SofteningShape::z_curve, SofteningShape::linear,
+                                     SofteningShape::exponential}[static_cast<std::size_t>(i / 4 % 3)];
+    if (i % 8 == 2)
+      law.rise = JointRise::parabolic;
+    else
+      law.friction = i % 5 == 0 ? 0.0 : 0.7;
+    law = prepared(law);
+    PointDriver point{law};
+    for (int step = 0; step < 3000; ++step) {
+      const std::array before{point.mode_1, point.mode_2, point.friction, point.viscous};
+      point.step(random_step(law, point.opening, random));
+      const std::array after{point.mode_1, point.mode_2, point.friction, point.viscous};
+      for (std::size_t term = 0; term < 4; ++term) ASSERT_GE(after[term], before[term]) << i << ", " << step;
+      ASSERT_GE(point.history.stored, 0.0);
+    }
+    EXPECT_GT(point.mode_1, 0.0);
+    EXPECT_GT(point.mode_2, 0.0);
+  }
+}
+
+TEST(JointEnergy, viscosity_takes_nothing_that_matters_of_a_slow_opening_and_acts_on_damaged_points_alone) {
+  JointLawParams law = example_law();
+  law.viscosity = kJointViscosity;
+  law = prepared(law);
+  PointDriver point{law};
+  point.move_to(at_angle(0, 0.99 * law.onset_normal), 3);
+  point.move_to(at_angle(0, -law.onset_normal), 7);
+  EXPECT_EQ(point.viscous, 0.0);
+  point.move_to(at_angle(0, 2 * (law.onset_normal + law.width_normal)), 4000);
+  EXPECT_NEAR(point.mode_1 / kEnergy, 1.0, kEnergyTolerance);
+  EXPECT_GT(point.viscous, 0.0);
+  EXPECT_LT(point.viscous, 1e-3 * kEnergy);
 }
 
 /// Closed polygon from the origin through random corners.
@@ -193,8 +260,7 @@ TEST(JointEnergy, no_closed_loop_creates_energy) {
     rubbed += point.friction > 1e-6 * kEnergy ? 1 : 0;
     // A parabola's trapezoids are off by the square of the step, 1/400 of a side; straight lines by round-off.
     ASSERT_GE(point.work, (law.rise == JointRise::parabolic ? -1e-5 : -1e-10) * kEnergy) << "loop " << i;
-    // The trapezoid's error at the kinks of a loop: onset of damage, stick to slip.
-    ASSERT_GE(std::min({point.mode_1, point.mode_2, point.friction}), -1e-4 * kEnergy) << "loop " << i;
+    ASSERT_GE(std::min({point.mode_1, point.mode_2, point.friction}), 0.0) << "loop " << i;
     // Once more: without friction nothing is left to take.
     if (law.friction > 0 || law.rise == JointRise::parabolic) continue;
     const double once = point.work;

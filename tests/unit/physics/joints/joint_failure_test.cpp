@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "physics/joint_forces.hpp"
 #include "unit/physics/joints/joint_pair.hpp"
@@ -16,6 +17,7 @@ using test::prepared;
 
 constexpr double kArea = 173.2050808e-6;  // m2
 constexpr double kRoundOff = 1e-11;       // budget of some 10^4 steps
+constexpr double kLastStep = 1e-6;        // of the budget: the last step ends beyond the critical opening
 constexpr double kFriction = 0.6;
 
 JointLawParams rough(int points_to_fail = 3) {
@@ -68,7 +70,7 @@ TEST(JointFailure, in_tension_releases_the_joint_at_once_without_force_or_energy
   EXPECT_EQ(released, 1);
   EXPECT_TRUE(pair.joints.empty());
   EXPECT_EQ(pair.stored(), 0.0);
-  EXPECT_NEAR(mover.unbooked(), 0.0, kRoundOff * kEnergy * kArea);
+  EXPECT_NEAR(mover.unbooked(), 0.0, kLastStep * kEnergy * kArea);
 }
 
 TEST(JointFailure, under_pressure_leaves_a_frictional_interface_until_it_opens) {
@@ -87,7 +89,7 @@ TEST(JointFailure, under_pressure_leaves_a_frictional_interface_until_it_opens) 
   ASSERT_EQ(pair.joints.size(), 1U);
   mover.go(Vec3(-closed, 20e-6, 0), 2000, [&] { EXPECT_EQ(pair.joints.empty(), mover.at[0] > 0) << mover.at[0]; });
   EXPECT_EQ(pair.stored(), 0.0);
-  EXPECT_NEAR(mover.unbooked(), 0.0, kRoundOff * kEnergy * kArea);
+  EXPECT_NEAR(mover.unbooked(), 0.0, kLastStep * kEnergy * kArea);
   // Nowhere did the force change by more than the stiffest branch allows: no jump at failure nor at release.
   EXPECT_LT(mover.largest_jump, 2 * (1 + kFriction) * pair.laws[0].stiffness * kArea);
 }
@@ -154,18 +156,70 @@ TEST(JointFailure, waits_for_as_many_points_as_asked_and_books_what_the_others_h
       const double others = open * (std::min(step / 10.0, 1.0) + step / 8000.0);
       pair.open(Vec3(others, 0, 0));
       hinge(pair, others + step * 1e-8);
-      const double held = pair.stored();
+      const double held = pair.stored(), before = pair.dissipated();
       pair.evaluate();
       work.add();
+      EXPECT_GE(pair.dissipated(), before);
       failed = failed || !pair.work.failed.empty();
       if (!pair.work.failed.empty()) {
         EXPECT_GT(held, 0.0);
-        EXPECT_EQ(pair.stored(), 0.0);
+        EXPECT_GT(pair.stored(), 0.9 * held);  // let go of in kFailureSteps evaluations
       }
     }
     EXPECT_EQ(failed, points_to_fail == 1) << points_to_fail;
-    EXPECT_NEAR(work.done - pair.dissipated() - pair.stored(), 0.0, kRoundOff * kEnergy * kArea) << points_to_fail;
+    EXPECT_NEAR(work.done - pair.dissipated() - pair.stored(), 0.0, kLastStep * kEnergy * kArea) << points_to_fail;
     EXPECT_EQ(pair.joints.empty(), points_to_fail == 1);
+  }
+}
+
+/// A joint that hinges about the edge opposite to corner 0, which stays pressed together.
+TEST(JointFailure, of_a_joint_that_hinges_hands_it_over_bit_by_bit_whatever_its_closed_points_carry) {
+  for (const JointPoints points : {JointPoints::nodal, JointPoints::mid_edge}) {
+    JointLawParams law = rough();
+    law.points = points;
+    JointPair pair(prepared(law));
+    const double closed = -0.2 * pair.laws[0].onset_normal;
+    NodalWork work(pair);
+    pair.open(Vec3(closed, 0, 0));
+    pair.evaluate();
+    work.add();
+    double largest = 0, dissipated = 0;
+    bool failed = false;
+    for (int step = 1; step <= 8000 && !pair.joints.empty(); ++step) {
+      pair.open(Vec3(closed, 0, 0));
+      hinge(pair, step * 5e-8);
+      const Vec3 before = pair.force_on_b();
+      pair.evaluate();
+      work.add();
+      if (step > 1) largest = std::max(largest, (pair.force_on_b() - before).norm());
+      EXPECT_GE(pair.dissipated(), dissipated);
+      dissipated = pair.dissipated();
+      failed = failed || !pair.work.failed.empty();
+    }
+    EXPECT_TRUE(failed);
+    EXPECT_TRUE(pair.joints.empty());
+    // The closed points press with some 60 N: a sixty-fourth of that a step, and the softening of the open ones.
+    EXPECT_LT(largest, 5.0);
+    EXPECT_NEAR(work.done - pair.dissipated(), 0.0, 2e-3 * kEnergy * kArea);
+  }
+}
+
+TEST(JointFailure, never_comes_to_an_unbreakable_joint_and_its_forces_do_not_know_its_mid_surface) {
+  JointLawParams law = example_law();
+  law.tensile_strength = law.cohesion = std::numeric_limits<double>::infinity();
+  for (const JointPoints points : {JointPoints::nodal, JointPoints::mid_edge}) {
+    law.points = points;
+    JointPair pair(prepared(law));
+    hinge(pair, 0.5 * test::kEdge);
+    // Corner 0 of the mid-surface comes to lie on the opposite edge: no area is left.
+    const Vec3 middle = 0.5 * (pair.place(true, 1) + pair.place(true, 2));
+    store_node(pair.position.data(), pair.corner(false, 0), 2 * middle - pair.place(true, 0));
+    pair.evaluate();
+    ASSERT_EQ(pair.joints.size(), 1U);
+    EXPECT_EQ(pair.joints[0].state(), JointState::holding);
+    const Vec3 expected = law.stiffness * kArea / 3 * (pair.place(false, 0) - pair.place(true, 0));
+    const Vec3 got = pair.force(true, 0) + pair.force(true, 1) + pair.force(true, 2);
+    EXPECT_NEAR((got - expected).norm(), 0.0, 1e-9 * expected.norm());
   }
 }
 
@@ -208,8 +262,9 @@ TEST(JointFailure, by_hand_books_what_the_joint_held) {
   ASSERT_GT(held, 0.0);
   ASSERT_EQ(pair.dissipated(), 0.0);
   pair.joints.break_points(std::vector{pair.virgin.id});
-  mover.go(mover.at * 1.001, 1);
+  mover.go(mover.at * 1.00001, 1);
   EXPECT_EQ(pair.work.failed.size(), 1U);
+  mover.go(mover.at * 1.001, 64);
   EXPECT_TRUE(pair.joints.empty());
   EXPECT_NEAR(mover.unbooked(), 0.0, kRoundOff * held);
   EXPECT_NEAR(pair.dissipated(), held, 2e-3 * held);  // and half a step's work of the force that goes

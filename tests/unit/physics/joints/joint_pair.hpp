@@ -111,7 +111,7 @@ struct JointPair {
   [[nodiscard]] Vec3 force_on_b() const { return force(false, 0) + force(false, 1) + force(false, 2); }
   [[nodiscard]] double dissipated() const {
     const JointEnergy energy = joint_energy(local, joints, work);
-    return energy.mode_1.value() + energy.mode_2.value() + energy.friction.value();
+    return energy.mode_1.value() + energy.mode_2.value() + energy.friction.value() + energy.viscous.value();
   }
   [[nodiscard]] double stored() const { return joint_energy(local, joints, work).stored.value(); }
 };

@@ -13,8 +13,10 @@ namespace breccia::test {
 /// The joint of thesis table 3.1: p = E = 26.6 GPa, h = edge = 20 mm.
 inline constexpr double kPenalty = 26.6e9, kEdge = 0.02, kStrength = 5e6, kEnergy = 30.0291;
 
+/// Without viscosity, so that its tractions are the law's own.
 inline JointLawParams example_law() {
   JointLawParams law;
+  law.viscosity = 0;
   law.stiffness = kPenalty / kEdge;
   law.tensile_strength = law.cohesion = kStrength;
   law.energy_mode_1 = law.energy_mode_2 = kEnergy;
@@ -51,7 +53,7 @@ struct PointDriver {
   JointFrame frame = axes();
   JointPointHistory<double> history{};
   Vec3 opening{0, 0, 0}, traction{0, 0, 0};
-  double work = 0, mode_1 = 0, mode_2 = 0, friction = 0;
+  double work = 0, mode_1 = 0, mode_2 = 0, friction = 0, viscous = 0;
   double peak_normal = 0, peak_shear = 0;
 
   void step(const Vec3& next) {
@@ -60,6 +62,7 @@ struct PointDriver {
     mode_1 += r.mode_1;
     mode_2 += r.mode_2;
     friction += r.friction;
+    viscous += r.viscous;
     opening = next;
     traction = r.traction;
     const double normal = traction.dot(frame.normal);
@@ -81,7 +84,7 @@ struct PointDriver {
     }
     move_to(target, steps);
   }
-  [[nodiscard]] double dissipated() const { return mode_1 + mode_2 + friction; }
+  [[nodiscard]] double dissipated() const { return mode_1 + mode_2 + friction + viscous; }
 };
 
 }  // namespace breccia::test

@@ -1,0 +1,89 @@
+#pragma once
+
+// Arithmetic of the joint kernel, for T = double and for T = std::experimental::simd<double, ...>, lane by lane: the
+// same operations in the same order for every T, hence the same bits. No function here is compiled for a plain type in
+// a unit of a wider instruction set (sweep_kernel.hpp says why): all are templates over T.
+
+#include <experimental/simd>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+
+#include "physics/elasticity.hpp"
+
+namespace breccia::joint_point {
+
+using elasticity::select;
+using elasticity::Vector;
+
+template <class T>
+struct MaskOf {
+  using type = typename T::mask_type;
+};
+template <>
+struct MaskOf<double> {
+  using type = bool;
+};
+template <class T>
+using Mask = typename MaskOf<T>::type;
+
+template <class M>
+[[nodiscard]] inline bool any(const M& mask) {
+  if constexpr (std::is_same_v<M, bool>) {
+    return mask;
+  } else {
+    return std::experimental::any_of(mask);
+  }
+}
+template <class M>
+[[nodiscard]] inline bool all(const M& mask) {
+  if constexpr (std::is_same_v<M, bool>) {
+    return mask;
+  } else {
+    return std::experimental::all_of(mask);
+  }
+}
+
+template <class T>
+[[nodiscard]] inline T root(const T& x) {
+  using std::sqrt;
+  return sqrt(x);
+}
+/// The lesser; a when they are equal or one is not a number.
+template <class T>
+[[nodiscard]] inline T lesser(const T& a, const T& b) {
+  return select(b < a, b, a);
+}
+/// The greater; a when they are equal or one is not a number.
+template <class T>
+[[nodiscard]] inline T greater(const T& a, const T& b) {
+  return select(b > a, b, a);
+}
+template <class T>
+[[nodiscard]] inline T dot(const Vector<T>& a, const Vector<T>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+template <class T>
+[[nodiscard]] inline Vector<T> cross(const Vector<T>& a, const Vector<T>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+template <class T>
+[[nodiscard]] inline Vector<T> plus(const Vector<T>& a, const Vector<T>& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+template <class T>
+[[nodiscard]] inline Vector<T> minus(const Vector<T>& a, const Vector<T>& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+template <class T>
+[[nodiscard]] inline Vector<T> times(const T& factor, const Vector<T>& a) {
+  return {factor * a[0], factor * a[1], factor * a[2]};
+}
+template <class T>
+[[nodiscard]] inline Vector<T> select3(const Mask<T>& mask, const Vector<T>& a, const Vector<T>& b) {
+  return {select(mask, a[0], b[0]), select(mask, a[1], b[1]), select(mask, a[2], b[2])};
+}
+
+}  // namespace breccia::joint_point
