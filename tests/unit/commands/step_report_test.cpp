@@ -1,0 +1,96 @@
+#include "commands/step_report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+
+#include "case/reader.hpp"
+
+namespace breccia {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// Two stacks of cubes 1 um apart that may touch; the upper one falls.
+std::string boxes(const std::string& penalty, const std::string& more = "") {
+  return R"(title = "boxes"
+[mesh.raster]
+cells = 2
+cell_size = "10 mm"
+boxes = [1, 1, 2]
+gap = "1 um"
+group = "box"
+[[material]]
+group = "box"
+young = "30 GPa"
+poisson = 0.2
+density = 2500
+joints = "none"
+[[contact]]
+between = ["box", "box"]
+penalty = )" +
+         penalty +
+         R"(
+[[stage]]
+name = "rest"
+end = "1 ms"
+)" + more;
+}
+
+struct Checked {
+  case_::Case input;
+  Model model;
+  StepReport report;
+};
+
+Checked check(const std::string& text) {
+  const auto file = std::filesystem::temp_directory_path() / ("step_report_" + std::to_string(getpid()) + ".toml");
+  std::ofstream(file) << text;
+  case_::Case input = case_::read_case(file, {});
+  std::filesystem::remove(file);
+  Model model = build_model(input);
+  StepReport report = step_report(input, model);
+  return {std::move(input), std::move(model), std::move(report)};
+}
+
+TEST(StepReport, NamesAPenaltyThatWouldNotCostAnything) {
+  const Checked stiff = check(boxes("\"300 GPa\""));
+  EXPECT_THAT(stiff.report.advice, HasSubstr("Contact makes the step"));
+  std::smatch found;
+  ASSERT_TRUE(
+      std::regex_search(stiff.report.advice, found, std::regex("a penalty of ([0-9.e+]+) Pa instead of 3e\\+11")));
+  const Checked soft = check(boxes(found[1].str()));
+  EXPECT_THAT(soft.report.advice, Not(HasSubstr("Contact")));
+  EXPECT_GT(soft.report.limit, 3 * stiff.report.limit);
+}
+
+TEST(StepReport, JudgesAGivenStepByTheTrueLimit) {
+  const double free = check(boxes("1")).report.limit;
+  const auto with_step = [&](double step) {
+    return check(boxes("1", "[time]\nstep = " + std::to_string(step * 1e9) + "e-9\n"));
+  };
+  const Checked short_one = with_step(0.98 * free), long_one = with_step(1.1 * free);
+  EXPECT_THAT(short_one.report.advice, Not(HasSubstr("time.step")));
+  EXPECT_EQ(given_step_warning(short_one.input, short_one.model), "");
+  EXPECT_THAT(long_one.report.advice, HasSubstr("the run will blow up"));
+  EXPECT_THAT(given_step_warning(long_one.input, long_one.model), HasSubstr("the run will blow up"));
+}
+
+TEST(StepReport, TellsAGivenStepThatOnlyContactForbidsApart) {
+  const double stiff = check(boxes("\"300 GPa\"")).report.limit;
+  const Checked given = check(boxes("\"300 GPa\"", "[time]\nstep = " + std::to_string(2e9 * stiff) + "e-9\n"));
+  EXPECT_THAT(given.report.advice, HasSubstr("may gain energy"));
+  EXPECT_THAT(given.report.advice, Not(HasSubstr("will blow up")));
+}
+
+TEST(StepReport, BlamesNoSliversWhereThereAreNone) {
+  EXPECT_THAT(check(boxes("1")).report.advice, Not(HasSubstr("sliver")));
+}
+
+}  // namespace
+}  // namespace breccia
