@@ -54,14 +54,11 @@ double ExactSum::value() const {
   const int lead = std::countl_zero(limb(0)) - 32;
   const std::uint64_t bits = limb(0) << (32 + lead) | limb(1) << lead | (lead > 0 ? limb(2) >> (32 - lead) : 0);
   const int exponent = kLowest + static_cast<int>(top - 1) * 32 - 32 - lead;  // of the lowest of the 64 bits
-  const int kept = std::min(53, 64 + exponent + 1074);                        // fewer for subnormal results
-  if (kept < 0) return negative ? -0.0 : 0.0;
-  const int dropped = 64 - kept;
-  const std::uint64_t half = 1ULL << (dropped - 1);
-  const std::uint64_t tail = kept == 0 ? bits : bits & ((1ULL << dropped) - 1);
-  std::uint64_t mantissa = kept == 0 ? 0 : bits >> dropped;
-  if (tail >= half) ++mantissa;
-  const double value = std::ldexp(static_cast<double>(mantissa), exponent + dropped);
+  constexpr int kDropped = 64 - 53;
+  const std::uint64_t half = bits >> (kDropped - 1) & 1;
+  const std::uint64_t mantissa = (bits >> kDropped) + half;
+  // A sum of doubles is a multiple of the smallest one: subnormal results are exact, ldexp has nothing to round.
+  const double value = std::ldexp(static_cast<double>(mantissa), exponent + kDropped);
   return negative ? -value : value;
 }
 

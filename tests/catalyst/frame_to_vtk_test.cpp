@@ -65,6 +65,26 @@ TEST(FrameToVtk, KeepsConnectivityUntilTheTopologyChanges) {
   EXPECT_NE(to_vtk.channel(BRECCIA_JOINTS).cells(), joints) << "joints have become more";
 }
 
+TEST(FrameToVtk, TakesConnectivityAnewWhenTheTopologyChangesThoughAllCountsStay) {
+  const double points[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+  const std::int32_t first[] = {0, 1, 2}, second[] = {1, 3, 2};
+  BrecciaGrid grid{};
+  grid.cell = BRECCIA_TRIANGLE;
+  grid.num_points = 4;
+  grid.points = points;
+  grid.num_cells = 1;
+  grid.corners = first;
+  ChannelToVtk to_vtk;
+  static_cast<void>(to_vtk.wrap(grid, 0, 0.0));
+  grid.corners = second;
+  ++grid.topology;
+  static_cast<void>(to_vtk.wrap(grid, 1, 0.0));
+  vtkIdType count = 0;
+  const vtkIdType* ids = nullptr;
+  to_vtk.cells()->GetCellAtId(0, count, ids);
+  EXPECT_THAT(std::vector<vtkIdType>(ids, ids + count), testing::ElementsAre(1, 3, 2));
+}
+
 TEST(FrameToVtk, TakesCornersWhereCellsShareThem) {
   const double points[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
   const std::int32_t corners[] = {0, 1, 2, 1, 3, 2};

@@ -97,6 +97,14 @@ TEST(Preflight, NamesEveryProblemOnALineOfItsOwn) {
           "volume: writes into the same folder as the pipeline volume"));
 }
 
+TEST(Preflight, KnowsTheParametersOfItsOwnScriptsButNotThoseOfAUsers) {
+  Config config(folder_of("parameters"), kWithoutMpi, 0, 1);
+  config.add("stress", {"widht"}, {640.0}).add(script("exported.py"), {"anything"}, {1.0});
+  EXPECT_THAT(preflight(config),
+              testing::AllOf(testing::StartsWith("stress: knows no parameter 'widht'; allowed: "),
+                             testing::HasSubstr("width"), testing::Not(testing::HasSubstr("exported"))));
+}
+
 TEST(Preflight, RefusesPicturesWhereThereIsNeitherDisplayNorXvfb) {
   const auto tools = folder_of("tools");
   const Environment no_display("DISPLAY", nullptr);

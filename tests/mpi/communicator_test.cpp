@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
 #include <numeric>
 #include <stdexcept>
@@ -287,7 +288,7 @@ TEST(PendingReduction, MayBeLeftUntaken) {
 
 TEST(Waiting, PastThePatienceNamesRankAndPhaseThenFailsAndCanBeTakenUpAgain) {
   if (world().size() == 1) GTEST_SKIP() << "needs another rank";
-  constexpr double kPatience = 0.1;  // s
+  constexpr double kPatience = 0.2;  // s
   const Communicator aside(std::make_shared<Communicator::Handle>(world().handle()->comm));
   const double usual = world().handle()->patience;
   PendingReduction reduction(world(), 1);
@@ -300,11 +301,15 @@ TEST(Waiting, PastThePatienceNamesRankAndPhaseThenFailsAndCanBeTakenUpAgain) {
     world().set_phase("testing");
     reduction.begin(std::vector<double>{1.0});
     testing::internal::CaptureStderr();
+    const auto start = std::chrono::steady_clock::now();
     try {
       (void)reduction.finish();
     } catch (const InternalError& thrown) {
       error = thrown.what();
     }
+    const double waited = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    EXPECT_GE(waited, 2 * kPatience);
+    EXPECT_LT(waited, 10 * kPatience) << "twice the patience, and some leave for a busy machine";
     told = testing::internal::GetCapturedStderr();
     world().set_patience(usual);
     world().set_phase("");

@@ -116,6 +116,8 @@ TEST(ExactSum, OfATermThatIsNotFiniteIsNotANumber) {
     other.add(sum);
     EXPECT_TRUE(std::isnan(other.value()));
     EXPECT_TRUE(std::isnan(ExactSum::from_words(sum.words()).value()));
+    sum.add(ExactSum(3.0));
+    EXPECT_TRUE(std::isnan(sum.value())) << "forgotten when a sum that is finite was added";
   }
 }
 

@@ -79,6 +79,13 @@ TEST(Overrides, ANameThatFitsNoEntryListsTheNames) {
               HasSubstr("several entries of the list have this name"));
 }
 
+TEST(Overrides, OfTwoNamesThatFitTheLongerIsMeant) {
+  const std::string text = replaced(complete, "name = \"rest\"", "name = \"impact.rest\"");
+  const Case c = read_text(text, {"stage.impact.rest.end=3 ms", "stage.impact.end=50 us"});
+  EXPECT_EQ(c.stages[0].end, 50e-6);
+  EXPECT_EQ(c.stages[1].end, 3e-3);
+}
+
 TEST(Overrides, AnIndexPastTheEndSaysHowManyThereAre) {
   EXPECT_THAT(message_of(minimal, {"material[3].young=3"}),
               AllOf(HasSubstr("index 3 is past the end"), HasSubstr("0 to 0")));

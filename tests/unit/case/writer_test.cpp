@@ -72,7 +72,7 @@ TEST(Writer, TheResolvedCaseOfOverridesHoldsTheirValues) {
 }
 
 TEST(Writer, TextsOfAnyCharacterAreEscaped) {
-  for (const std::string text : {"plain", "\"", "\\", "a\nb\tc", "\x7f", "\u00e9"})
+  for (const std::string text : {"plain", "\"", "\\", "a\nb\tc", "\x1f", "\x7f", "\u00e9"})
     EXPECT_EQ(parse_toml_value(toml_text(text), "test").text, text);
 }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
+#include <map>
 
 #include "discretisation/local_mesh.hpp"
 #include "mesh/raster.hpp"
@@ -60,6 +61,25 @@ TEST_P(LocalMeshOf, AModelKeepsCornersVerticesAndIds) {
                 GetParam() == Discretisation::own_nodes ? 4 * e + c : kFirstSharedNode + vertex);
     }
   }
+}
+
+TEST_P(LocalMeshOf, TwoRanksCountsEachNodeOnOneOfThem) {
+  const Mesh model = cubes();
+  std::map<GlobalId, int> counted;
+  for (const std::size_t rank : {0u, 1u}) {
+    std::vector<std::uint8_t> original(model.elements.size());
+    for (std::size_t e = 0; e < original.size(); ++e) original[e] = (e / 5 % 2 == rank) ? 1 : 0;
+    const LocalMesh mesh = build_local_mesh(model, {GetParam()}, {700.0}, original);
+    for (Index n = 0; n < mesh.num_nodes; ++n) {
+      if (mesh.node_id[at(n)] >= 0) {
+        counted[mesh.node_id[at(n)]] += mesh.counted[at(n)];
+      } else {
+        EXPECT_EQ(mesh.counted[at(n)], 0) << "padding";
+      }
+    }
+  }
+  EXPECT_EQ(counted.size(), GetParam() == Discretisation::own_nodes ? 4 * model.elements.size() : model.nodes.size());
+  for (const auto& [node, times] : counted) EXPECT_EQ(times, 1) << node;
 }
 
 TEST(LocalMesh, PutsOwnNodeGroupsFirstInWholeBlocksOfOneGroup) {

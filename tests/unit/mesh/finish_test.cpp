@@ -78,6 +78,14 @@ TEST(Finish, KeepsTheSharedNodesOfGluedBodies) {
   EXPECT_EQ(topology.surface_groups[0].size(), 2u);
 }
 
+TEST(Finish, CountsASurfaceTriangleOnceThatStandsTwiceInTheFile) {
+  Mesh mesh = two_tetrahedra();
+  mesh.surface_faces.push_back({{1, 0, 2}, 1});  // the last one again, the other way round
+  const auto [finished, report] = finish_mesh(std::move(mesh), {.glue = true});
+  EXPECT_EQ(finished.surface_faces.size(), 2u);
+  EXPECT_EQ(report.surface_groups[1].count, 1);
+}
+
 TEST(Finish, SortsByGroupAndKeepsWhatBelongsToAnElement) {
   const auto [mesh, report] = finish_mesh(two_tetrahedra(), {.glue = true});
   EXPECT_EQ(mesh.element_group, (std::vector<Index>{0, 1}));
@@ -118,6 +126,9 @@ TEST(Finish, RefusesFlatElementsWithTheFirstTenIdsAndTheCount) {
                 "104, 105, 106, 107, 108, 109, ... (13 elements)"));
   mesh.nodes[3].z() = 1e-11;  // a height of 1e-11 edges is flat, whatever the unit of length
   EXPECT_THAT(refusal_of(mesh), HasSubstr("zero volume"));
+  mesh.nodes[3].z() = 1e-6;
+  EXPECT_EQ(refusal_of(mesh), "accepted") << "thin, but with a volume";
+  mesh.nodes[3].z() = 1e-11;
   for (Vec3& node : mesh.nodes) node *= 1e6;
   EXPECT_THAT(refusal_of(mesh), HasSubstr("zero volume"));
 }

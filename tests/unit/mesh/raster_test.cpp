@@ -124,6 +124,16 @@ TEST(Raster, NamesTheSixSidesOfEveryBox) {
   EXPECT_EQ(total, free);
 }
 
+TEST(Raster, FindsASlitGivenInDecimalThoughNodesAreSumsOfBinaryNumbers) {
+  RasterSource source;
+  source.cells = {4, 6, 2};
+  source.cell_size = Vec3::Constant(0.1);
+  source.slit = RasterSource::Slit{Vec3(0, 0.3, 0), Vec3(0.3, 0.3, 0.2)};  // 3 x 0.1 is above 0.3
+  const Mesh mesh = make_raster(source).mesh;
+  const Topology topology = build_topology(mesh);
+  EXPECT_EQ(topology.surface_groups.back().size(), 3u * 2 * 4 * 2) << "three squares by two, of four triangles, twice";
+}
+
 TEST(Raster, MakesRegularTetrahedraCentredInTheirCells) {
   RasterSource source;
   source.boxes = {2, 2, 3};
@@ -172,6 +182,9 @@ TEST(Raster, TurnsEveryBoxAboutItsCentreAndRepeatsForTheSameSeed) {
     const Vec3 centre(1 + 2 * (body % 3), 0.5 + body / 3, 0.5);
     EXPECT_LT((centroid[at(body)] - centre).norm(), 1e-12);
     EXPECT_GT((lower[at(body)] - (centre - Vec3(1, 0.5, 0.5))).norm(), 1e-3) << "not turned";
+    if (body == 0) continue;
+    const Vec3 below = lower[at(body)] - centroid[at(body)], before = lower[at(body - 1)] - centroid[at(body - 1)];
+    EXPECT_GT((below - before).norm(), 1e-3) << "turned as the box before it";
   }
 }
 

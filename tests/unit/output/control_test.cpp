@@ -123,6 +123,22 @@ TEST(AskingARun, GetsItsOwnAnswer) {
   run.join();
 }
 
+TEST(AskingARun, WaitsForTheRestOfAnAnswerThatIsHalfWritten) {
+  const TemporaryFolder folder;
+  write(folder / "status.jsonl", "{\"state\":\"running\"}\n");
+  std::thread run([&] {
+    ControlFile control(folder / "control");
+    std::vector<std::string> lines;
+    while (lines.empty()) lines = control.take();
+    const std::string id = parse_command(lines.front()).id;
+    write(folder / "status.jsonl", "{\"event\":\"control\",\"accepted\":true,\"te");
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));  // some looks of who waits
+    write(folder / "status.jsonl", "xt\":\"heard\",\"id\":\"" + id + "\"}\n");
+  });
+  EXPECT_EQ(ask_run(folder.path(), "pause", 5), "heard");
+  run.join();
+}
+
 TEST(AskingARun, ThatRefusesIsAnError) {
   const TemporaryFolder folder;
   write(folder / "status.jsonl", "{\"state\":\"running\"}\n");

@@ -101,6 +101,27 @@ TEST_F(HistoryTest, NumbersStandUnderTheirNamesAndReadBackAsTheSameDoubles) {
   EXPECT_EQ(number("plate velocity z [m/s]"), 9);
 }
 
+TEST_F(HistoryTest, EveryTermOfTheBudgetStandsUnderItsName) {
+  HistoryRow row;
+  EnergyBudget& e = row.energy;
+  e.kinetic = 1, e.elastic = 2, e.joint_elastic = 3, e.contact_stored = 4, e.joint_mode_1 = 5, e.joint_mode_2 = 6;
+  e.joint_friction = 7, e.contact_dissipated = 8, e.contact_friction = 9, e.viscous = 10, e.damping = 11;
+  e.external_work = 12, e.residual = 13;
+  const std::vector<std::string> columns = history_columns({}, false);
+  const std::vector<double> values = history_values(row);
+  ASSERT_EQ(values.size(), columns.size());
+  std::vector<std::string> terms;
+  for (double number = 1; number <= 13; ++number) {
+    const auto found = std::find(values.begin(), values.end(), number);
+    ASSERT_NE(found, values.end()) << number;
+    terms.push_back(columns[static_cast<std::size_t>(found - values.begin())]);
+  }
+  EXPECT_THAT(terms, testing::ElementsAre("kinetic [J]", "elastic [J]", "joint elastic [J]", "contact stored [J]",
+                                          "joint mode 1 [J]", "joint mode 2 [J]", "joint friction [J]",
+                                          "contact dissipated [J]", "contact friction [J]", "viscous [J]",
+                                          "damping [J]", "external work [J]", "residual [J]"));
+}
+
 TEST_F(HistoryTest, EveryLineHasOneFieldForEachColumn) {
   HistorySink sink(folder_ / "history.csv");
   sink.start(with_gauges({"supports", "a,\"b\""}));

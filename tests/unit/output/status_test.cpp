@@ -68,6 +68,7 @@ TEST(StatusFile, BeginsWithTheFirstStepAndEndsWithTheState) {
   EXPECT_EQ(last.at("state"), "complete");
   EXPECT_EQ(last.at("step"), 10000);
   EXPECT_EQ(last.at("share"), 1.0);
+  EXPECT_EQ(last.at("eta_s"), 0.0);
   EXPECT_EQ(last.at("stage"), "impact");
   EXPECT_FALSE(last.contains("message"));
 }
@@ -126,6 +127,13 @@ TEST(StatusJson, IsValidForNumbersAndNamesThatJsonCannotHold) {
   const json parsed = json::parse(text);
   EXPECT_TRUE(parsed.at("eta_s").is_null());
   EXPECT_TRUE(parsed.at("energy_residual").is_null());
+}
+
+TEST(ProgressMode, SaysHowOftenAPersonAndAProgramHear) {
+  using namespace std::chrono_literals;
+  EXPECT_EQ(interval_of(ProgressMode::bar), 200ms);
+  EXPECT_EQ(interval_of(ProgressMode::json), 500ms);
+  EXPECT_EQ(interval_of(ProgressMode::log), 5s);
 }
 
 TEST(ProgressText, ShowsShareStepTimeSpeedTimeToGoAndStage) {

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "output/atomic_file.hpp"
+#include "output/history_sink.hpp"
+#include "output/status_sink.hpp"
 #include "unit/output/temporary_folder.hpp"
 
 namespace breccia {
@@ -74,6 +76,15 @@ TEST_F(SyncedFile, of_lines_is_on_the_disk_when_asked_for) {
   EXPECT_TRUE(synced.empty());
   file.sync();
   EXPECT_THAT(paths(), ElementsAre(root_ / "lines"));
+}
+
+TEST_F(SyncedFile, of_history_and_status_is_on_the_disk_when_a_run_ends) {
+  HistorySink history(folder_ / "history.csv");
+  StatusSink status(folder_ / "status.jsonl");
+  for (Sink* sink : {static_cast<Sink*>(&history), static_cast<Sink*>(&status)}) sink->start({});
+  EXPECT_TRUE(synced.empty());
+  for (Sink* sink : {static_cast<Sink*>(&history), static_cast<Sink*>(&status)}) sink->finish({});
+  EXPECT_THAT(paths(), ElementsAre(root_ / "history.csv", root_ / "status.jsonl"));
 }
 
 }  // namespace

@@ -113,6 +113,20 @@ TEST(contact_pair, groups_see_equal_and_opposite_forces) {
   EXPECT_NEAR(contact_force_on_group(pair.scene.contact, pair.scene.local, 0)[0].value(), -force, kRoundOff * force);
 }
 
+TEST(contact_pair, leaves_the_work_at_points_of_another_rank_to_that_rank) {
+  Pair pair(kCases[1]), shared(kCases[1]);
+  for (Index s = 0; s < shared.scene.local.num_slots; ++s) {
+    if (shared.scene.body(s) == 1) shared.scene.local.original[test::at(s)] = 0;
+  }
+  const double force = pair.force_at(kDeepest);
+  EXPECT_EQ(shared.force_at(kDeepest), force) << "the forces are computed on both";
+  EXPECT_EQ(shared.scene.work.touching, 1);
+  for (const auto sum : {&ContactWork::stored, &ContactWork::dissipated}) {
+    const double whole = (pair.scene.work.*sum).value();
+    EXPECT_NEAR((shared.scene.work.*sum).value(), 0.5 * whole, kRoundOff * whole);
+  }
+}
+
 TEST(contact_pair, a_crushed_contactor_books_what_it_no_longer_returns) {
   Pair pair(kCases[0]);
   pair.force_at(kDeepest);
@@ -148,6 +162,26 @@ TEST(contact_pair, a_sphere_pushes_points_back_with_the_force_of_its_energy) {
     EXPECT_NEAR(scene.work.stored.value(), 0.5 * kArea * 5e6 * beyond * beyond / inradius, kRoundOff * kArea * 5e6);
     EXPECT_EQ(scene.contact.boundary.size(), beyond > 0 ? 1u : 0u);
   }
+}
+
+TEST(contact_pair, a_sphere_takes_a_point_that_is_outside_when_first_seen_as_far_as_it_came_in) {
+  Pair pair(kCases[0]);
+  test::Scene& scene = pair.scene;
+  scene.contact.couples.clear();
+  couples_replaced(scene.contact);
+  scene.params.sphere = SphericalBoundary{{-0.03, 0, 0}, 0.028, 5e6};
+  scene.shift(1, {-0.03 - 0.004, 0, 0});  // well inside
+  const auto force_beyond = [&](double beyond) {
+    scene.shift(0, {beyond - 0.002 - pair.depth, 0, 0});  // the base's centroid starts 2 mm beyond
+    pair.depth = beyond - 0.002;
+    scene.evaluate(1e-6);
+    return scene.force_on(0)[0];
+  };
+  EXPECT_EQ(force_beyond(0.002), 0);
+  EXPECT_EQ(force_beyond(0.001), 0);
+  const double expected = -kArea * 5e6 * 0.0005 / (kHeight / 4);
+  EXPECT_NEAR(force_beyond(0.0015), expected, kRoundOff * kArea * 5e6);
+  EXPECT_EQ(force_beyond(0.001), 0);
 }
 
 }  // namespace

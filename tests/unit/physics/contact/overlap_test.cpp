@@ -49,6 +49,17 @@ TEST(overlap, by_distance_is_the_distance_to_the_nearest_face) {
   EXPECT_NEAR(overlap_at(scene, {-2.0 / std::sqrt(24.0), 0, 0}), 2.0 / std::sqrt(24.0), kRoundOff);  // incentre
 }
 
+TEST(overlap, is_nothing_in_an_element_of_less_than_a_hundredth_of_its_volume) {
+  for (const double share : {0.012, 0.008}) {
+    std::array<Vec3, 4> x = test::regular_tetra(2.0);
+    const double volume = (x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) / 6;
+    for (Vec3& corner : x) corner[0] *= share;
+    const PreparedTetra tetra = prepare(x, volume);
+    EXPECT_EQ(inert(tetra), share < 0.01);
+    EXPECT_EQ(inside(barycentric(tetra, 0.25 * (x[0] + x[1] + x[2] + x[3]))), share > 0.01);
+  }
+}
+
 TEST(overlap, of_a_body_is_the_depth_under_a_flat_face) {
   const test::Scene scene(test::box({4, 4, 4}, 1.0), kLaw);
   std::mt19937_64 random(3);

@@ -77,6 +77,37 @@ TEST(sliding, hands_the_history_from_element_to_element) {
   EXPECT_GE(hand_overs, 5);
 }
 
+/// Dragged from elements with the body's field into others whose field is higher by `change`, as where fracture has
+/// parted them. Returns the largest change of the force within a step.
+double largest_change_of_force(Drag& drag, double change, double step) {
+  ContactState& contact = drag.scene.contact;
+  for (std::size_t c = 0; c < contact.contactors.size(); ++c) {
+    const auto x = load_corners(drag.scene.local, drag.scene.state.position.data(), contact.contactors[c]);
+    if (0.25 * (x[0] + x[1] + x[2] + x[3])[0] < 2.5) continue;
+    for (std::size_t a = 0; a < 4; ++a) contact.field[c][a] += change;
+  }
+  double before = drag.move({0, 0, 0})[2], largest = 0;
+  for (int i = 0; i < 400; ++i) {
+    const double force = drag.move({step, 0, 0})[2];
+    largest = std::max(largest, std::abs(force - before));
+    before = force;
+  }
+  return largest;
+}
+
+TEST(sliding, into_an_element_of_another_field_is_a_change_of_field_and_not_of_depth) {
+  constexpr double depth = 0.1, jump = 0.05, step = 0.005, reach = 2 * step, few_percent = 0.05;
+  const ContactLaw law{kPenalty, kInfinite, 1, 0, 1};
+  Drag rising(law, depth), sinking(law, depth);
+  const double a_metre = area() * kPenalty / rising.scene.contact.body_length[0];
+  EXPECT_LT(largest_change_of_force(rising, jump, step), (1 + few_percent) * reach * a_metre) << "pushes nobody";
+  EXPECT_NEAR(rising.scene.work.dissipated.value(), 0, 1e-9 * a_metre);
+  (void)largest_change_of_force(sinking, -jump, step);
+  // As far as the point has moved the overlap may have shrunk by itself; the rest is let go of.
+  const double left = depth - reach, lost = 0.5 * a_metre * (left * left - (depth - jump) * (depth - jump));
+  EXPECT_NEAR(sinking.scene.work.dissipated.value() / lost, 1, few_percent);
+}
+
 TEST(sliding, along_the_borders_of_elements_counts_each_point_once) {
   // The base's centroid runs exactly along y = 1, a plane of element faces and edges.
   Drag drag({kPenalty, kInfinite, 1, 0, 1}, 0.1);
@@ -117,6 +148,20 @@ TEST(sliding, with_friction_drags_with_mu_times_the_normal_force_and_books_the_s
   const double spring = mu * normal / stiffness;
   EXPECT_NEAR(drag.scene.work.friction_stored.value(), 0.5 * stiffness * spring * spring, 1e-9 * normal);
   EXPECT_NEAR(drag.scene.work.friction_dissipated.value(), mu * normal * (path - spring), 1e-9 * normal * path);
+}
+
+TEST(sliding, that_ends_while_it_sticks_books_what_the_spring_held_and_what_it_did_on_the_last_way) {
+  constexpr double mu = 0.3, depth = 0.1, spring = 0.02, last = 0.004;
+  Drag drag({kPenalty, kInfinite, 1, mu, 1}, depth);
+  const double stiffness = area() * kPenalty / drag.scene.contact.body_length[0];
+  drag.move({0, 0, 0});
+  for (int i = 0; i < 4; ++i) drag.move({spring / 4, 0, 0});
+  EXPECT_NEAR(drag.scene.work.friction_dissipated.value(), 0, 1e-12 * stiffness) << "it sticks";
+  drag.move({last, 0, 0.11});
+  EXPECT_TRUE(drag.scene.contact.touching.empty());
+  // Half of the force over the last way, as the force that follows is zero; it opposes the motion.
+  const double expected = 0.5 * stiffness * spring * spring + 0.5 * stiffness * spring * last;
+  EXPECT_NEAR(drag.scene.work.friction_dissipated.value(), expected, 1e-9 * expected);
 }
 
 }  // namespace

@@ -83,6 +83,40 @@ TEST(Constraints, GiveAnAxisToTheLaterOfTwoEntriesAndCountANodeOnce) {
   EXPECT_LT((test::value_of(constraints.reaction(1)) - mass * Vec3(0, 5, 6)).norm(), kRounding * mass);
 }
 
+TEST(Constraints, LeaveReactionAndWorkOfANodeToTheRankThatCountsIt) {
+  Model model = lone_tetrahedron();
+  const Index own = model.real_nodes()[0], proxy = model.real_nodes()[1];
+  const double mass = model.local.node_mass[test::at(own)];
+  model.local.counted[test::at(proxy)] = 0;
+  Constraints constraints({{{own, proxy}, {true, false, false}, PrescribedMotion::velocity, {in_time(3), {}, {}}}},
+                          model.local, model.state);
+  constraints.apply(model.local, model.state, 0.0, 0.0, 0.5);
+  EXPECT_EQ(load_node(model.state.velocity.data(), proxy), Vec3(3, 0, 0)) << "held all the same";
+  EXPECT_NEAR(constraints.reaction(0)[0].value(), mass * 3 / 0.5, kRounding * mass);
+  constraints.book_after(0.5);
+  EXPECT_NEAR(constraints.work().value(), 0.5 * (mass * 3 / 0.5) * 3 * 0.5, kRounding * mass);
+}
+
+TEST(Constraints, GoOnFromWhatTheyRememberedBeforeADivision) {
+  Model model = lone_tetrahedron();
+  const Index node = model.real_nodes()[3], other = model.real_nodes()[1];
+  const std::vector<NodalConstraint> entries{
+      {{node}, {true, false, true}, PrescribedMotion::displacement, {in_time(0, 2.0), {}, in_time(0.5)}}};
+  Constraints before(entries, model.local, model.state);
+  before.apply(model.local, model.state, 0.0, 0.0, 0.25);
+  std::swap(model.state.position, model.state.next_position);
+  NodalState elsewhere = model.state;
+  Constraints after(entries, model.local, elsewhere);
+  std::vector<Constraints::Anchor> anchors = before.anchors();
+  anchors.push_back({0, other, 0, 77.0, 0.0});  // of a node that is not held here
+  after.restore(anchors);
+  before.apply(model.local, model.state, 0.25, 0.25, 0.25);
+  after.apply(model.local, elsewhere, 0.25, 0.25, 0.25);
+  EXPECT_EQ(load_node(elsewhere.velocity.data(), node), load_node(model.state.velocity.data(), node));
+  EXPECT_EQ(load_node(elsewhere.next_position.data(), node), load_node(model.state.next_position.data(), node));
+  EXPECT_EQ(elsewhere.velocity[nodal(node, 0)], 2.0);
+}
+
 TEST(Constraints, OnNothingDoNothing) {
   Model model = lone_tetrahedron();
   const Field<double> before = model.state.velocity;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "unit/physics/loads/models.hpp"
 
@@ -91,6 +92,18 @@ TEST(PressureWork, OnABodyThatBreathesIsMinusPressureTimesChangeOfVolume) {
   EXPECT_NEAR(load.work().value(), half, std::abs(half) * kRounding);
   load.book_after(model.local, model.state, 2.0 * kStep);
   EXPECT_NEAR(load.work().value(), 3.0 * half, std::abs(half) * kRounding);
+}
+
+TEST(PressureWork, OnElementsOfAnotherRankIsLeftToThatRank) {
+  Model model(test::box({1, 1, 1}), Discretisation::own_nodes, 1000);
+  for (const Index n : model.real_nodes())
+    store_node(model.state.velocity.data(), n, load_node(model.state.position.data(), n));
+  std::fill(model.local.original.begin(), model.local.original.end(), std::uint8_t{0});
+  PressureLoad load(model.free_faces(), test::in_time(2.0));
+  NodalForces forces(model.local.num_own_blocks(), model.local.num_nodes);
+  load.apply(model.local, model.state, 0.0, 0.1, forces);
+  load.book_after(model.local, model.state, 0.1);
+  EXPECT_EQ(load.work().value(), 0.0);
 }
 
 }  // namespace

@@ -1,0 +1,119 @@
+#include "commands/check_report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+
+#include "commands/commands.hpp"
+#include "mesh/quality.hpp"
+#include "mesh/raster.hpp"
+#include "model/model.hpp"
+#include "model/time_step.hpp"
+#include "unit/case/case_files.hpp"
+
+namespace breccia {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string kCubes = R"(title = "cubes"
+[mesh.raster]
+cells = [2, 2, 2]
+cell_size = "10 mm"
+group = "cubes"
+[[material]]
+group = "cubes"
+young = "40 GPa"
+poisson = 0.2
+density = 2400
+[[joint]]
+group = "cubes"
+penalty_factor = 10
+tensile_strength = "5 MPa"
+shear_strength = "15 MPa"
+energy_mode_1 = "100 J/m2"
+[[stage]]
+end = "1 us"
+)";
+
+std::string report_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  const case_::Case input = case_::read_text(text, overrides);
+  return check_report(input, build_model(input));
+}
+
+/// The number that stands after some words.
+double number_after(const std::string& text, const std::string& words) {
+  const std::size_t at = text.find(words);
+  if (at == std::string::npos) throw std::runtime_error("no \"" + words + "\" in\n" + text);
+  return std::stod(text.substr(at + words.size()));
+}
+
+TEST(CheckReport, names_the_process_zone_of_the_more_cautious_estimate) {
+  const Model model = build_model(case_::read_text(kCubes));
+  const JointLawParams& law = model.joint_laws.front();
+  const double zone = std::numbers::pi * 40e9 * law.width_normal / (32 * law.tensile_strength);
+  constexpr double kFourDigits = 1e-3;  // as many as are told
+  EXPECT_NEAR(number_after(report_of(kCubes), "process zone at least ") / zone, 1.0, kFourDigits);
+}
+
+TEST(CheckReport, warns_of_a_time_step_beyond_the_stable_one_and_of_no_other) {
+  const Model model = build_model(case_::read_text(kCubes));
+  const double limit = TimeStep(model).limit(model.local.reference);
+  EXPECT_THAT(report_of(kCubes, {"time.step=" + std::to_string(1e9 * limit * 1.1) + " ns"}), HasSubstr("blow up"));
+  EXPECT_THAT(report_of(kCubes, {"time.step=" + std::to_string(1e9 * limit * 0.9) + " ns"}), Not(HasSubstr("blow up")));
+}
+
+TEST(CheckReport, calls_flat_elements_slivers_and_regular_ones_not) {
+  EXPECT_THAT(report_of(kCubes), Not(HasSubstr("slivers")));
+  EXPECT_THAT(report_of(kCubes, {"mesh.raster.cell_size=[0.01, 0.01, 0.0001]"}), HasSubstr("elements are slivers"));
+}
+
+TEST(MeshReport, gives_angles_in_degrees) {
+  RasterSource source;
+  source.cell_size = Vec3(1, 2, 3);
+  const FinishedMesh made = make_raster(source);
+  const QualityReport quality = assess_quality(made.mesh);
+  const std::string text = mesh_report(made);
+  constexpr double kDegree = std::numbers::pi / 180, kOneDecimal = 0.051;
+  EXPECT_NEAR(number_after(text, "dihedral      "), quality.min_dihedral.min / kDegree, kOneDecimal);
+  EXPECT_NEAR(number_after(text.substr(text.find("dihedral")), " to "), quality.max_dihedral.max / kDegree,
+              kOneDecimal);
+}
+
+/// The columns of a line of the table of domains.
+std::array<double, 8> columns_of(const std::string& table, const std::string& name) {
+  std::istringstream line(table.substr(table.find("\n  " + name + " ") + 3 + name.size()));
+  std::array<double, 8> values{};
+  for (double& value : values) line >> value;
+  EXPECT_TRUE(line) << table;
+  return values;
+}
+
+TEST(DomainTable, of_many_domains_tells_the_least_the_mean_and_the_most_of_each_column) {
+  const case_::Case input = case_::read_text(kCubes, {"mesh.raster.cells=[20, 1, 1]"});
+  const std::string table = domain_table(input, build_bare_model(input), 20);
+  const auto least = columns_of(table, "least"), mean = columns_of(table, "mean"), most = columns_of(table, "most");
+  for (std::size_t c = 0; c < least.size(); ++c) {
+    EXPECT_LE(least[c], mean[c]) << c << table;
+    EXPECT_LE(mean[c], most[c]) << c << table;
+  }
+  constexpr std::size_t kMessages = 6;
+  EXPECT_EQ(least[kMessages], 1) << "to the one neighbour of a domain at the end\n" << table;
+  EXPECT_EQ(most[kMessages], 2) << table;
+}
+
+TEST(CheckCommand, counts_the_domains_of_a_grid_along_all_axes) {
+  const case_::CaseFolder folder;
+  const auto file = folder.write("case.toml", kCubes + "[domains]\nkind = \"grid\"\nn = [1, 1, 2]\n");
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(check_command({.case_file = file, .overrides = {}, .ranks = 0}, 1), 0);
+  EXPECT_THAT(testing::internal::GetCapturedStdout(), HasSubstr("2 domains, grid of 1 x 1 x 2"));
+}
+
+}  // namespace
+}  // namespace breccia

@@ -1,0 +1,108 @@
+#include "model/model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "mesh/geometry.hpp"
+#include "unit/model/two_boxes.hpp"
+
+namespace breccia {
+namespace {
+
+using test::two_boxes_case;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+const std::string kRaster = R"([mesh.raster]
+cells = [4, 4, 2]
+cell_size = "10 mm"
+slit = { lower = [0, "20 mm", 0], upper = ["20 mm", "20 mm", "20 mm"] }
+[[material]]
+group = "raster"
+young = "40 GPa"
+poisson = 0.2
+density = 2400
+[[joint]]
+group = "raster"
+penalty_factor = 10
+tensile_strength = "5 MPa"
+shear_strength = "15 MPa"
+energy_mode_1 = "100 J/m2"
+[joints]
+broken = ["raster.slit"]
+[[stage]]
+end = "1 ms"
+)";
+
+TEST(Model, has_no_joint_and_no_link_from_either_side_where_it_is_broken_from_the_start) {
+  const case_::Case input = case_::read_text(kRaster);
+  const Model model = build_model(input);
+  const std::vector<Topology::Face>& slit = model.topology.surface_groups.back();
+  EXPECT_EQ(slit.size(), 2u * 2 * 2 * 4) << "two by two squares of four triangles, from both sides";
+  for (const Topology::Face& face : slit) EXPECT_TRUE(model.topology.links[at(face.element)][at(face.face)].free());
+  case_::Case whole = input;
+  whole.broken_surfaces.clear();
+  EXPECT_EQ(model.joints.size() + slit.size() / 2, build_model(whole).joints.size());
+}
+
+TEST(Model, has_for_each_law_the_mean_edge_of_its_joints) {
+  const Model model = build_model(two_boxes_case());
+  ASSERT_EQ(model.joint_laws.size(), 3u);
+  for (std::size_t l = 0; l < 3; ++l) {
+    double sum = 0, count = 0;
+    for (const ModelJoint& joint : model.joints) {
+      if (at(joint.law) != l) continue;
+      sum += joint.face.size;
+      count += 1;
+    }
+    EXPECT_DOUBLE_EQ(model.joint_sizes[l], sum / count);
+  }
+}
+
+TEST(Model, knows_its_longest_edge) {
+  const Model model = build_model(two_boxes_case());
+  double longest = 0;
+  for (Index e = 0; e < model.mesh.num_elements(); ++e) {
+    const auto x = geometry::corners_of(model.mesh, e);
+    for (const auto& [i, j] : geometry::kEdges) longest = std::max(longest, (x[at(i)] - x[at(j)]).norm());
+  }
+  EXPECT_DOUBLE_EQ(model.whole.longest_edge, longest);
+}
+
+TEST(Model, restricts_contact_points_to_the_surfaces_of_the_case) {
+  EXPECT_TRUE(build_model(two_boxes_case()).contact_everywhere);
+  const Model model = build_model(two_boxes_case({"contact_points.surfaces=[\"bottom\"]"}));
+  EXPECT_FALSE(model.contact_everywhere);
+  EXPECT_EQ(model.contact_faces.size(), model.topology.surface_groups.back().size());
+}
+
+TEST(Links, of_an_element_are_screened_by_its_weakest_joint) {
+  const Model model = build_model(two_boxes_case());
+  const JointLinks links = build_links(model);
+  std::vector<double> limit(links.limit.size(), std::numeric_limits<double>::infinity());
+  for (const ModelJoint& joint : model.joints) {
+    for (const Index element : {joint.face.a, joint.face.b}) {
+      double& least = limit[at(model.local.slot_of_element[at(element)])];
+      least = std::min(least, model.joint_laws[at(joint.law)].screen_limit());
+    }
+  }
+  EXPECT_TRUE(std::equal(limit.begin(), limit.end(), links.limit.begin()));
+}
+
+TEST(MeshOfACase, has_the_scale_and_the_seed_of_the_case) {
+  const Mesh metres = build_mesh(two_boxes_case()).mesh,
+             millimetres = build_mesh(two_boxes_case({"mesh.scale=0.001"})).mesh;
+  ASSERT_EQ(metres.num_nodes(), millimetres.num_nodes());
+  for (Index n = 0; n < metres.num_nodes(); ++n)
+    EXPECT_LT((1e-3 * metres.nodes[at(n)] - millimetres.nodes[at(n)]).norm(), 1e-15);
+  const auto nodes = [](const char* seed) {
+    return build_mesh(case_::read_text(case_::minimal, {"mesh.raster.random_orientation=true", seed})).mesh.nodes;
+  };
+  EXPECT_NE(nodes("mesh.raster.seed=1"), nodes("mesh.raster.seed=2"));
+}
+
+}  // namespace
+}  // namespace breccia

@@ -1,0 +1,91 @@
+#include "model/parameters.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "model/stage_loads.hpp"
+#include "unit/model/two_boxes.hpp"
+
+namespace breccia {
+namespace {
+
+using test::two_boxes_case;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+TEST(ContactParams, of_a_pair_hold_for_points_of_either_group) {
+  const ContactParams params = contact_params(two_boxes_case(), {"left", "right"});
+  EXPECT_EQ(params.law(0, 0).penalty, 400e9);
+  EXPECT_EQ(params.law(0, 1).penalty, 400e9);
+  EXPECT_EQ(params.law(1, 0).penalty, 400e9);
+  EXPECT_EQ(params.law(1, 1).penalty, 300e9);
+}
+
+TEST(ContactParams, have_the_plateau_of_the_case_or_none) {
+  const ContactParams params = contact_params(two_boxes_case(), {"left", "right"});
+  EXPECT_EQ(params.law(0, 1).plateau, 60e6);
+  EXPECT_TRUE(std::isinf(params.law(1, 1).plateau));
+}
+
+TEST(JointLawParams, of_an_unbreakable_group_have_no_strength_to_reach) {
+  const case_::Joint joint = two_boxes_case().joints.front();
+  constexpr double kSize = 0.25;  // m
+  const JointLawParams breakable = joint_law_params(joint, kSize, false), held = joint_law_params(joint, kSize, true);
+  EXPECT_EQ(breakable.tensile_strength, 5e6);
+  EXPECT_EQ(breakable.cohesion, 15e6);
+  EXPECT_TRUE(std::isinf(held.tensile_strength));
+  EXPECT_TRUE(std::isinf(held.cohesion));
+  EXPECT_EQ(held.stiffness, joint.penalty / kSize);
+  EXPECT_EQ(breakable.stiffness, joint.penalty / kSize);
+}
+
+TEST(JointLawParams, know_what_the_energies_count) {
+  case_::Joint joint = two_boxes_case().joints.front();
+  EXPECT_TRUE(joint_law_params(joint, 1.0, false).energy_of_whole_curve);
+  joint.energy_of_whole_curve = false;
+  EXPECT_FALSE(joint_law_params(joint, 1.0, false).energy_of_whole_curve);
+}
+
+TEST(StageLoads, take_the_damping_of_the_stage) {
+  const case_::Case input = two_boxes_case();
+  const StageLoads loads = stage_loads(input.stages.front(), build_model(input));
+  EXPECT_EQ(loads.local_damping, 0.25);
+  EXPECT_EQ(loads.mass_damping, 3.0);
+}
+
+/// Corners of elements that lie in the plane z = 0.
+std::set<Index> nodes_at_the_bottom(const Model& model) {
+  const LocalMesh& local = model.local;
+  std::set<Index> nodes;
+  for (Index e = 0; e < model.mesh.num_elements(); ++e) {
+    for (int c = 0; c < 4; ++c) {
+      const Index node = local.corner_node(local.slot_of_element[at(e)], c);
+      if (load_node(local.reference.data(), node).z() < 1e-9) nodes.insert(node);
+    }
+  }
+  return nodes;
+}
+
+TEST(NodesOfGroup, of_a_surface_are_the_corners_that_lie_on_it) {
+  const Model own = build_model(two_boxes_case());
+  EXPECT_THAT(nodes_of_group(own, "bottom"), testing::ElementsAreArray(nodes_at_the_bottom(own)));
+  const Model shared = build_model(case_::read_text(case_::minimal));
+  EXPECT_THAT(nodes_of_group(shared, "raster.z0"), testing::ElementsAreArray(nodes_at_the_bottom(shared)));
+}
+
+TEST(CountedNodesOfGroup, leave_out_those_that_another_rank_counts) {
+  Model model = build_model(two_boxes_case());
+  const std::vector<Index> all = counted_nodes_of_group(model, "left");
+  ASSERT_GT(all.size(), 2u);
+  model.local.counted[at(all[1])] = 0;
+  const std::vector<Index> fewer = counted_nodes_of_group(model, "left");
+  EXPECT_EQ(fewer.size() + 1, all.size());
+  EXPECT_EQ(std::count(fewer.begin(), fewer.end(), all[1]), 0);
+}
+
+}  // namespace
+}  // namespace breccia
