@@ -206,13 +206,13 @@ void add_joints(const Domain& domain, Frame::Joints& out) {
   auto next = released.begin();
   for (const ActiveJoint& joint : domain.state.joints.active) {
     for (; next != released.end() && next->id < joint.id; ++next) add_released(*next);
-    if (joint.damage() <= 0 || !domain.model.local.is_original(joint.slot_a)) continue;
+    const bool broken = joint.state() == JointState::failed;
+    if ((joint.damage() <= 0 && !broken) || !domain.model.local.is_original(joint.slot_a)) continue;
     add_active_joint(domain, joint, out);
-    out.damage.push_back(joint.damage());
+    out.damage.push_back(broken ? 1.0 : joint.damage());
     out.mode.push_back(static_cast<std::int32_t>(joint.mode()));
     out.opening.push_back(joint.opening());
     out.slip.push_back(joint.slip());
-    const bool broken = joint.state() == JointState::failed;
     out.broken.push_back(broken ? 1 : 0);
     out.time_of_failure.push_back(joint.time_of_failure);
     out.state.push_back(broken ? Frame::Joints::failed : Frame::Joints::softening);

@@ -109,7 +109,7 @@ void count_joints(const Domain& domain, HistoryRow& row) {
   row.broken_joints = domain.state.joints.broken;
   for (const ActiveJoint& joint : domain.state.joints.active) {
     if (!domain.model.local.is_original(joint.slot_a)) continue;
-    if (joint.damage() > 0) ++row.damaged_joints;
+    if (joint.damage() > 0 || joint.state() == JointState::failed) ++row.damaged_joints;
     if (joint.state() == JointState::failed) count_mode(joint.mode());
   }
   for (const ReleasedJoint& joint : domain.state.joints.released) count_mode(joint.mode);

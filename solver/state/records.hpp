@@ -36,53 +36,25 @@ struct ElementRecord {
 };
 template <>
 struct FieldTable<ElementRecord> {
-  static constexpr auto rows = std::tuple{FieldRow{"id", "1", kState, [](auto& r) -> auto& {return r.id;
-}
-}  // namespace breccia
-, FieldRow{"source_id", "1", kNotHashed, [](auto& r) -> auto& {return r.source_id;
-}
-}
-, FieldRow{"group", "1", kNotHashed, [](auto& r) -> auto& {return r.group;
-}
-}
-, FieldRow{"body", "1", kNotHashed, [](auto& r) -> auto& {return r.body;
-}
-}
-, FieldRow{"vertex", "1", kNotHashed, [](auto& r) -> auto& {return r.vertex;
-}
-}
-, FieldRow{"neighbour", "1", kNotHashed, [](auto& r) -> auto& {return r.neighbour;
-}
-}
-, FieldRow{"code", "1", kNotHashed, [](auto& r) -> auto& {return r.code;
-}
-}
-, FieldRow{"reference", "m", kNotHashed, [](auto& r) -> auto& {return r.reference;
-}
-}
-, FieldRow{"position", "m", kState, [](auto& r) -> auto& {return r.position;
-}
-}
-, FieldRow{"velocity", "m/s", kState, [](auto& r) -> auto& {return r.velocity;
-}
-}
-, FieldRow{"damping_work", "J", kState, [](auto& r) -> auto& {return r.damping;
-}
-}
-, FieldRow{"numbers", "as in element_fields.hpp", kState, [](auto& r) -> auto& {return r.numbers;
-}
-}
-, FieldRow{"released_faces", "1", kState, [](auto& r) -> auto& {return r.released;
-}
-}
-, FieldRow{"contactor", "1", kState, [](auto& r) -> auto& {return r.contactor;
-}
-}
-, FieldRow {
-  "overlap_field", "m", kState, [](auto& r) -> auto& { return r.field; }
-}
-}
-;
+  // clang-format off
+  static constexpr auto rows = std::tuple{
+      FieldRow{"id", "1", kState, [](auto& r) -> auto& { return r.id; }},
+      FieldRow{"source_id", "1", kNotHashed, [](auto& r) -> auto& { return r.source_id; }},
+      FieldRow{"group", "1", kNotHashed, [](auto& r) -> auto& { return r.group; }},
+      FieldRow{"body", "1", kNotHashed, [](auto& r) -> auto& { return r.body; }},
+      FieldRow{"vertex", "1", kNotHashed, [](auto& r) -> auto& { return r.vertex; }},
+      FieldRow{"neighbour", "1", kNotHashed, [](auto& r) -> auto& { return r.neighbour; }},
+      FieldRow{"code", "1", kNotHashed, [](auto& r) -> auto& { return r.code; }},
+      FieldRow{"reference", "m", kNotHashed, [](auto& r) -> auto& { return r.reference; }},
+      FieldRow{"position", "m", kState, [](auto& r) -> auto& { return r.position; }},
+      FieldRow{"velocity", "m/s", kState, [](auto& r) -> auto& { return r.velocity; }},
+      FieldRow{"damping_work", "J", kState, [](auto& r) -> auto& { return r.damping; }},
+      FieldRow{"numbers", "as in element_fields.hpp", kState, [](auto& r) -> auto& { return r.numbers; }},
+      FieldRow{"released_faces", "1", kState, [](auto& r) -> auto& { return r.released; }},
+      FieldRow{"contactor", "1", kState, [](auto& r) -> auto& { return r.contactor; }},
+      FieldRow{"overlap_field", "m", kState, [](auto& r) -> auto& { return r.field; }},
+  };
+// clang-format on
 }
 ;
 
@@ -93,35 +65,19 @@ struct JointRecord {
 };
 template <>
 struct FieldTable<JointRecord> {
-  static constexpr auto rows = std::tuple{FieldRow{"element", "1", kState, [](auto& r) -> auto& {return r.element;
-}
-}
-, FieldRow{"other", "1", kState, [](auto& r) -> auto& {return r.other;
-}
-}
-, FieldRow{"id", "1", kState, [](auto& r) -> auto& {return r.joint.id;
-}
-}
-, FieldRow{"face", "1", kState, [](auto& r) -> auto& {return r.joint.face_a;
-}
-}
-, FieldRow{"code", "1", kState, [](auto& r) -> auto& {return r.joint.code;
-}
-}
-, FieldRow{"law", "1", kState, [](auto& r) -> auto& {return r.joint.law;
-}
-}
-, FieldRow{"history", "as in physics/joint_history.hpp", kState, [](auto& r) -> auto& {return r.joint.history;
-}
-}
-, FieldRow{"time_of_failure", "s", kState, [](auto& r) -> auto& {return r.joint.time_of_failure;
-}
-}
-, FieldRow {
-  "elastic", "1", kState, [](auto& r) -> auto& { return r.joint.elastic; }
-}
-}
-;
+  // clang-format off
+  static constexpr auto rows = std::tuple{
+      FieldRow{"element", "1", kState, [](auto& r) -> auto& { return r.element; }},
+      FieldRow{"other", "1", kState, [](auto& r) -> auto& { return r.other; }},
+      FieldRow{"id", "1", kState, [](auto& r) -> auto& { return r.joint.id; }},
+      FieldRow{"face", "1", kState, [](auto& r) -> auto& { return r.joint.face_a; }},
+      FieldRow{"code", "1", kState, [](auto& r) -> auto& { return r.joint.code; }},
+      FieldRow{"law", "1", kState, [](auto& r) -> auto& { return r.joint.law; }},
+      FieldRow{"history", "as in physics/joint_history.hpp", kState, [](auto& r) -> auto& { return r.joint.history; }},
+      FieldRow{"time_of_failure", "s", kState, [](auto& r) -> auto& { return r.joint.time_of_failure; }},
+      FieldRow{"elastic", "1", kState, [](auto& r) -> auto& { return r.joint.elastic; }},
+  };
+// clang-format on
 }
 ;
 
@@ -132,23 +88,15 @@ struct ReleasedRecord {
 };
 template <>
 struct FieldTable<ReleasedRecord> {
-  static constexpr auto rows = std::tuple{FieldRow{"element", "1", kState, [](auto& r) -> auto& {return r.element;
-}
-}
-, FieldRow{"id", "1", kState, [](auto& r) -> auto& {return r.joint.id;
-}
-}
-, FieldRow{"face", "1", kState, [](auto& r) -> auto& {return r.joint.face_a;
-}
-}
-, FieldRow{"mode", "1", kState, [](auto& r) -> auto& {return r.joint.mode;
-}
-}
-, FieldRow {
-  "time_of_failure", "s", kState, [](auto& r) -> auto& { return r.joint.time_of_failure; }
-}
-}
-;
+  // clang-format off
+  static constexpr auto rows = std::tuple{
+      FieldRow{"element", "1", kState, [](auto& r) -> auto& { return r.element; }},
+      FieldRow{"id", "1", kState, [](auto& r) -> auto& { return r.joint.id; }},
+      FieldRow{"face", "1", kState, [](auto& r) -> auto& { return r.joint.face_a; }},
+      FieldRow{"mode", "1", kState, [](auto& r) -> auto& { return r.joint.mode; }},
+      FieldRow{"time_of_failure", "s", kState, [](auto& r) -> auto& { return r.joint.time_of_failure; }},
+  };
+// clang-format on
 }
 ;
 
@@ -159,35 +107,19 @@ struct CoupleRecord {
 };
 template <>
 struct FieldTable<CoupleRecord> {
-  static constexpr auto rows = std::tuple{FieldRow{"element", "1", kState, [](auto& r) -> auto& {return r.element;
-}
-}
-, FieldRow{"contactor", "1", kState, [](auto& r) -> auto& {return r.contactor;
-}
-}
-, FieldRow{"point", "1", kState, [](auto& r) -> auto& {return r.point;
-}
-}
-, FieldRow{"overlap", "1", kState, [](auto& r) -> auto& {return r.couple.d;
-}
-}
-, FieldRow{"largest_overlap", "1", kState, [](auto& r) -> auto& {return r.couple.d_max;
-}
-}
-, FieldRow{"offset", "m", kState, [](auto& r) -> auto& {return r.couple.offset;
-}
-}
-, FieldRow{"spring", "m", kState, [](auto& r) -> auto& {return r.couple.spring;
-}
-}
-, FieldRow{"friction", "N", kState, [](auto& r) -> auto& {return r.couple.friction;
-}
-}
-, FieldRow {
-  "force", "N", kState, [](auto& r) -> auto& { return r.couple.force; }
-}
-}
-;
+  // clang-format off
+  static constexpr auto rows = std::tuple{
+      FieldRow{"element", "1", kState, [](auto& r) -> auto& { return r.element; }},
+      FieldRow{"contactor", "1", kState, [](auto& r) -> auto& { return r.contactor; }},
+      FieldRow{"point", "1", kState, [](auto& r) -> auto& { return r.point; }},
+      FieldRow{"overlap", "1", kState, [](auto& r) -> auto& { return r.couple.d; }},
+      FieldRow{"largest_overlap", "1", kState, [](auto& r) -> auto& { return r.couple.d_max; }},
+      FieldRow{"offset", "m", kState, [](auto& r) -> auto& { return r.couple.offset; }},
+      FieldRow{"spring", "m", kState, [](auto& r) -> auto& { return r.couple.spring; }},
+      FieldRow{"friction", "N", kState, [](auto& r) -> auto& { return r.couple.friction; }},
+      FieldRow{"force", "N", kState, [](auto& r) -> auto& { return r.couple.force; }},
+  };
+// clang-format on
 }
 ;
 
@@ -198,20 +130,14 @@ struct RampRecord {
 };
 template <>
 struct FieldTable<RampRecord> {
-  static constexpr auto rows = std::tuple{FieldRow{"element", "1", kState, [](auto& r) -> auto& {return r.element;
-}
-}
-, FieldRow{"remaining", "1", kState, [](auto& r) -> auto& {return r.ramp.remaining;
-}
-}
-, FieldRow{"before", "m", kState, [](auto& r) -> auto& {return r.ramp.before;
-}
-}
-, FieldRow {
-  "target", "m", kState, [](auto& r) -> auto& { return r.ramp.target; }
-}
-}
-;
+  // clang-format off
+  static constexpr auto rows = std::tuple{
+      FieldRow{"element", "1", kState, [](auto& r) -> auto& { return r.element; }},
+      FieldRow{"remaining", "1", kState, [](auto& r) -> auto& { return r.ramp.remaining; }},
+      FieldRow{"before", "m", kState, [](auto& r) -> auto& { return r.ramp.before; }},
+      FieldRow{"target", "m", kState, [](auto& r) -> auto& { return r.ramp.target; }},
+  };
+// clang-format on
 }
 ;
 
@@ -222,17 +148,13 @@ struct OffsetRecord {
 };
 template <>
 struct FieldTable<OffsetRecord> {
-  static constexpr auto rows = std::tuple{FieldRow{"element", "1", kState, [](auto& r) -> auto& {return r.element;
-}
-}
-, FieldRow{"point", "1", kState, [](auto& r) -> auto& {return r.point;
-}
-}
-, FieldRow {
-  "offset", "m", kState, [](auto& r) -> auto& { return r.offset; }
-}
-}
-;
+  // clang-format off
+  static constexpr auto rows = std::tuple{
+      FieldRow{"element", "1", kState, [](auto& r) -> auto& { return r.element; }},
+      FieldRow{"point", "1", kState, [](auto& r) -> auto& { return r.point; }},
+      FieldRow{"offset", "m", kState, [](auto& r) -> auto& { return r.offset; }},
+  };
+// clang-format on
 }
 ;
 
@@ -245,26 +167,16 @@ struct HoldRecord {
 };
 template <>
 struct FieldTable<HoldRecord> {
-  static constexpr auto rows = std::tuple{FieldRow{"element", "1", kState, [](auto& r) -> auto& {return r.element;
-}
-}
-, FieldRow{"entry", "1", kState, [](auto& r) -> auto& {return r.entry;
-}
-}
-, FieldRow{"corner", "1", kState, [](auto& r) -> auto& {return r.corner;
-}
-}
-, FieldRow{"axis", "1", kState, [](auto& r) -> auto& {return r.axis;
-}
-}
-, FieldRow{"start", "m", kState, [](auto& r) -> auto& {return r.start;
-}
-}
-, FieldRow {
-  "velocity", "m/s", kState, [](auto& r) -> auto& { return r.velocity; }
-}
-}
-;
+  // clang-format off
+  static constexpr auto rows = std::tuple{
+      FieldRow{"element", "1", kState, [](auto& r) -> auto& { return r.element; }},
+      FieldRow{"entry", "1", kState, [](auto& r) -> auto& { return r.entry; }},
+      FieldRow{"corner", "1", kState, [](auto& r) -> auto& { return r.corner; }},
+      FieldRow{"axis", "1", kState, [](auto& r) -> auto& { return r.axis; }},
+      FieldRow{"start", "m", kState, [](auto& r) -> auto& { return r.start; }},
+      FieldRow{"velocity", "m/s", kState, [](auto& r) -> auto& { return r.velocity; }},
+  };
+// clang-format on
 }
 ;
 
@@ -276,33 +188,25 @@ struct FaceTag {
 };
 template <>
 struct FieldTable<FaceTag> {
-  static constexpr auto rows = std::tuple{FieldRow{"element", "1", kNotHashed, [](auto& r) -> auto& {return r.element;
-}
-}
-, FieldRow{"group", "1", kNotHashed, [](auto& r) -> auto& {return r.group;
-}
-}
-, FieldRow {
-  "face", "1", kNotHashed, [](auto& r) -> auto& { return r.face; }
-}
-}
-;
+  // clang-format off
+  static constexpr auto rows = std::tuple{
+      FieldRow{"element", "1", kNotHashed, [](auto& r) -> auto& { return r.element; }},
+      FieldRow{"group", "1", kNotHashed, [](auto& r) -> auto& { return r.group; }},
+      FieldRow{"face", "1", kNotHashed, [](auto& r) -> auto& { return r.face; }},
+  };
+// clang-format on
 }
 ;
 
 template <>
 struct FieldTable<CornerTag> {
-  static constexpr auto rows = std::tuple{FieldRow{"element", "1", kNotHashed, [](auto& r) -> auto& {return r.element;
-}
-}
-, FieldRow{"group", "1", kNotHashed, [](auto& r) -> auto& {return r.group;
-}
-}
-, FieldRow {
-  "corners", "1", kNotHashed, [](auto& r) -> auto& { return r.corners; }
-}
-}
-;
+  // clang-format off
+  static constexpr auto rows = std::tuple{
+      FieldRow{"element", "1", kNotHashed, [](auto& r) -> auto& { return r.element; }},
+      FieldRow{"group", "1", kNotHashed, [](auto& r) -> auto& { return r.group; }},
+      FieldRow{"corners", "1", kNotHashed, [](auto& r) -> auto& { return r.corners; }},
+  };
+// clang-format on
 }
 ;
 

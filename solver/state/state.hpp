@@ -87,101 +87,42 @@ struct State {
 /// hashed is alike on all ranks, or its total is.
 template <>
 struct FieldTable<State> {
-  static constexpr auto rows = std::tuple{FieldRow{"time", "s", kState, [](auto& s) -> auto& {return s.clock.time;
-}
-}  // namespace breccia
-, FieldRow{"step_length", "s", kState, [](auto& s) -> auto& {return s.clock.dt;
-}
-}
-, FieldRow{"last_step_length", "s", kState, [](auto& s) -> auto& {return s.clock.dt_before;
-}
-}
-, FieldRow{"steps", "1", kState, [](auto& s) -> auto& {return s.clock.steps;
-}
-}
-, FieldRow{"broken_joints", "1", kSummed, [](auto& s) -> auto& {return s.joints.broken;
-}
-}
-, FieldRow{"work_of_past_loads", "J", kNotHashed, [](auto& s) -> auto& {return s.work.past_loads;
-}
-}
-, FieldRow{"work_of_past_gravity", "J", kNotHashed, [](auto& s) -> auto& {return s.work.gravity.past;
-}
-}
-, FieldRow{"gravity", "m/s2", kNotHashed, [](auto& s) -> auto& {return s.work.gravity.gravity;
-}
-}
-, FieldRow{"gravity_started", "1", kNotHashed, [](auto& s) -> auto& {return s.work.gravity.started;
-}
-}
-, FieldRow{"gravity_changing", "1", kNotHashed, [](auto& s) -> auto& {return s.work.gravity.changing;
-}
-}
-, FieldRow{"joint_mode_1", "J", kSummed, [](auto& s) -> auto& {return s.work.joints.mode_1;
-}
-}
-, FieldRow{"joint_mode_2", "J", kSummed, [](auto& s) -> auto& {return s.work.joints.mode_2;
-}
-}
-, FieldRow{"joint_friction", "J", kSummed, [](auto& s) -> auto& {return s.work.joints.friction;
-}
-}
-, FieldRow{"contact_dissipated", "J", kSummed, [](auto& s) -> auto& {return s.work.contact.dissipated;
-}
-}
-, FieldRow{"contact_friction", "J", kSummed, [](auto& s) -> auto& {return s.work.contact.friction_dissipated;
-}
-}
-, FieldRow{"contact_stored", "J", kSummed, [](auto& s) -> auto& {return s.work.contact.stored;
-}
-}
-, FieldRow{"friction_stored", "J", kSummed, [](auto& s) -> auto& {return s.work.contact.friction_stored;
-}
-}
-, FieldRow{"touching", "1", kNotHashed, [](auto& s) -> auto& {return s.work.contact.touching;
-}
-}
-, FieldRow{"first_excess", "J", kNotHashed, [](auto& s) -> auto& {return s.work.first_excess;
-}
-}
-, FieldRow{"crushed", "1", kSummed, [](auto& s) -> auto& {return s.counters.crushed;
-}
-}
-, FieldRow{"searches", "1", kNotHashed, [](auto& s) -> auto& {return s.counters.searches;
-}
-}
-, FieldRow{"messages", "1", kNotHashed, [](auto& s) -> auto& {return s.counters.messages;
-}
-}
-, FieldRow{"message_bytes", "1", kNotHashed, [](auto& s) -> auto& {return s.counters.bytes;
-}
-}
-, FieldRow{"max_speed", "m/s", kNotHashed, [](auto& s) -> auto& {return s.signals.max_speed;
-}
-}
-, FieldRow{"stop_received", "1", kNotHashed, [](auto& s) -> auto& {return s.signals.received.stop;
-}
-}
-, FieldRow{"broke_received", "1", kNotHashed, [](auto& s) -> auto& {return s.signals.received.broke;
-}
-}
-, FieldRow{"orders_received", "1", kNotHashed, [](auto& s) -> auto& {return s.signals.received.orders;
-}
-}
-, FieldRow{"stop_sent", "1", kNotHashed, [](auto& s) -> auto& {return s.signals.sent.stop;
-}
-}
-, FieldRow{"broke_sent", "1", kNotHashed, [](auto& s) -> auto& {return s.signals.sent.broke;
-}
-}
-, FieldRow{"orders_sent", "1", kNotHashed, [](auto& s) -> auto& {return s.signals.sent.orders;
-}
-}
-, FieldRow {
-  "released_here", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.released_here; }
-}
-}
-;
+  // clang-format off
+  static constexpr auto rows = std::tuple{
+      FieldRow{"time", "s", kState, [](auto& s) -> auto& { return s.clock.time; }},
+      FieldRow{"step_length", "s", kState, [](auto& s) -> auto& { return s.clock.dt; }},
+      FieldRow{"last_step_length", "s", kState, [](auto& s) -> auto& { return s.clock.dt_before; }},
+      FieldRow{"steps", "1", kState, [](auto& s) -> auto& { return s.clock.steps; }},
+      FieldRow{"broken_joints", "1", kSummed, [](auto& s) -> auto& { return s.joints.broken; }},
+      FieldRow{"work_of_past_loads", "J", kNotHashed, [](auto& s) -> auto& { return s.work.past_loads; }},
+      FieldRow{"work_of_past_gravity", "J", kNotHashed, [](auto& s) -> auto& { return s.work.gravity.past; }},
+      FieldRow{"gravity", "m/s2", kNotHashed, [](auto& s) -> auto& { return s.work.gravity.gravity; }},
+      FieldRow{"gravity_started", "1", kNotHashed, [](auto& s) -> auto& { return s.work.gravity.started; }},
+      FieldRow{"gravity_changing", "1", kNotHashed, [](auto& s) -> auto& { return s.work.gravity.changing; }},
+      FieldRow{"joint_mode_1", "J", kSummed, [](auto& s) -> auto& { return s.work.joints.mode_1; }},
+      FieldRow{"joint_mode_2", "J", kSummed, [](auto& s) -> auto& { return s.work.joints.mode_2; }},
+      FieldRow{"joint_friction", "J", kSummed, [](auto& s) -> auto& { return s.work.joints.friction; }},
+      FieldRow{"joint_viscous", "J", kSummed, [](auto& s) -> auto& { return s.work.joints.viscous; }},
+      FieldRow{"contact_dissipated", "J", kSummed, [](auto& s) -> auto& { return s.work.contact.dissipated; }},
+      FieldRow{"contact_friction", "J", kSummed, [](auto& s) -> auto& { return s.work.contact.friction_dissipated; }},
+      FieldRow{"contact_stored", "J", kSummed, [](auto& s) -> auto& { return s.work.contact.stored; }},
+      FieldRow{"friction_stored", "J", kSummed, [](auto& s) -> auto& { return s.work.contact.friction_stored; }},
+      FieldRow{"touching", "1", kNotHashed, [](auto& s) -> auto& { return s.work.contact.touching; }},
+      FieldRow{"first_excess", "J", kNotHashed, [](auto& s) -> auto& { return s.work.first_excess; }},
+      FieldRow{"crushed", "1", kSummed, [](auto& s) -> auto& { return s.counters.crushed; }},
+      FieldRow{"searches", "1", kNotHashed, [](auto& s) -> auto& { return s.counters.searches; }},
+      FieldRow{"messages", "1", kNotHashed, [](auto& s) -> auto& { return s.counters.messages; }},
+      FieldRow{"message_bytes", "1", kNotHashed, [](auto& s) -> auto& { return s.counters.bytes; }},
+      FieldRow{"max_speed", "m/s", kNotHashed, [](auto& s) -> auto& { return s.signals.max_speed; }},
+      FieldRow{"stop_received", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.received.stop; }},
+      FieldRow{"broke_received", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.received.broke; }},
+      FieldRow{"orders_received", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.received.orders; }},
+      FieldRow{"stop_sent", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.sent.stop; }},
+      FieldRow{"broke_sent", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.sent.broke; }},
+      FieldRow{"orders_sent", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.sent.orders; }},
+      FieldRow{"released_here", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.released_here; }},
+  };
+// clang-format on
 }
 ;
 

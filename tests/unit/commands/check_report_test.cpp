@@ -68,11 +68,6 @@ TEST(CheckReport, warns_of_a_time_step_beyond_the_stable_one_and_of_no_other) {
   EXPECT_THAT(report_of(kCubes, {"time.step=" + std::to_string(1e9 * limit * 0.9) + " ns"}), Not(HasSubstr("blow up")));
 }
 
-TEST(CheckReport, calls_flat_elements_slivers_and_regular_ones_not) {
-  EXPECT_THAT(report_of(kCubes), Not(HasSubstr("slivers")));
-  EXPECT_THAT(report_of(kCubes, {"mesh.raster.cell_size=[0.01, 0.01, 0.0001]"}), HasSubstr("elements are slivers"));
-}
-
 TEST(MeshReport, gives_angles_in_degrees) {
   RasterSource source;
   source.cell_size = Vec3(1, 2, 3);
