@@ -173,6 +173,18 @@ TEST(NodalSurfaceDistance, OfABoxIsTheDistanceToItsNearestSide) {
   EXPECT_GT(deep, 0);
 }
 
+TEST(NodalSurfaceDistance, IsABoundUnderThinLayersToo) {
+  RasterSource source;
+  source.cells = {5, 5, 6};
+  Mesh mesh = make_raster(source).mesh;
+  for (Vec3& x : mesh.nodes) x.z() = x.z() < 2 ? 0.05 * x.z() : x.z() - 1.9;  // two thin layers above thick ones
+  const Topology topology = build_topology(mesh);
+  const auto exact = by_brute_force(mesh, topology, {}, false);
+  const auto [inner, deep] = compare(mesh, nodal_surface_distance(mesh, topology), exact, kRoundOff);
+  EXPECT_GT(inner, 0);
+  EXPECT_GT(deep, 0);
+}
+
 TEST(NodalSurfaceDistance, CountsFacesBrokenFromTheStartAsFree) {
   RasterSource source;
   source.cells = {6, 6, 4};
