@@ -271,7 +271,7 @@ def main():
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--again", action="store_true")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    asked = parser.parse_args()
+    asked = parser.parse_intermixed_args()  # options may stand between names
     rows = read_table()
     if found := problems(rows):
         sys.exit("\n".join(found))

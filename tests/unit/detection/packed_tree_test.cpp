@@ -48,6 +48,17 @@ TEST_P(PackedKernels, find_the_couples_of_elements_without_an_outside) {
   expect_all_pairs(scene, 0.02);
 }
 
+TEST_P(PackedKernels, find_the_couples_of_an_element_wider_than_a_float_can_tell) {
+  scenes::Scene scene = scenes::cloud(6, 20, 1, 1);
+  scene.points.resize(3);  // a leaf, and seven places without one
+  for (const double sign : {1.0, -1.0}) {
+    const double far = 1e100;
+    scene.contactors.push_back({Vec3(-far, -far, -far), Vec3(3 * far, -far, -far), Vec3(-far, 3 * far, -far),
+                                Vec3(-far, -far, sign * 3 * far)});
+  }
+  expect_all_pairs(scene, 0.02);
+}
+
 std::string name_of(const testing::TestParamInfo<const PackedKernel*>& info) {
   return info.param == &packed_kernel_avx2 ? "avx2" : "sse2";
 }

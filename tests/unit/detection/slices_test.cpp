@@ -51,6 +51,25 @@ TEST(Slices, contain_the_cell_of_every_couple) {
   EXPECT_GT(couples, 50000);
 }
 
+TEST(Slices, contain_the_corners_of_elements_whose_corners_lie_on_borders_of_cells) {
+  // A bound that round-off puts a hair below a border would leave out the cell in which the corner lies.
+  Random random(7);
+  const Cells cells(0.1);
+  const auto border = [&] { return 0.1 * std::floor(scenes::uniform_vector(random, -20, 20)[0]); };
+  for (int k = 0; k < 3000; ++k) {
+    Corners corners;
+    for (Vec3& corner : corners) corner = Vec3(border(), border(), border());
+    const CoupleTest test(corners, 0);
+    const Slices slices(cells, test);
+    for (const Vec3& p : corners) {
+      ASSERT_TRUE(test.holds(p));
+      const std::int32_t z = cells.of(p[2]), y = cells.of(p[1]), x = cells.of(p[0]);
+      ASSERT_TRUE(contains(slices.y_range(z), y)) << "element " << k;
+      ASSERT_TRUE(contains(slices.x_range(z, y), x)) << "element " << k;
+    }
+  }
+}
+
 TEST(Slices, approach_the_sixth_of_the_box_that_a_corner_tetrahedron_fills) {
   // 60 cells a side: the body has a sixth of the box; cells cut by the oblique face add about 60^2 / 2 / 60^3 each way.
   const Corners corners{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};

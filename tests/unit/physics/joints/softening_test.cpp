@@ -54,8 +54,9 @@ TEST(Softening, areas_are_those_of_the_curves_for_whole_and_broken_exponents) {
   for (const Softening& s :
        {Softening{SofteningShape::z_curve, 0.63, 1.8, 6.0, 0}, Softening{SofteningShape::z_curve, 0.63, 1.8, 5.5, 0},
         Softening{SofteningShape::z_curve, 0.63, 1.8, 30.0, 0}, Softening{SofteningShape::z_curve, 1.2, 10.0, 7.3, 0},
-        Softening{SofteningShape::z_curve, 0.5, 0.501, 2.0, 0}, Softening{SofteningShape::linear, 0, 0, 0, 0},
-        Softening{SofteningShape::exponential, 0, 0, 0, 5.0}, Softening{SofteningShape::exponential, 0, 0, 0, 1e-3}}) {
+        Softening{SofteningShape::z_curve, 0.5, 0.501, 2.0, 0}, Softening{SofteningShape::z_curve, 20.0, 1.0, 10.0, 0},
+        Softening{SofteningShape::linear, 0, 0, 0, 0}, Softening{SofteningShape::exponential, 0, 0, 0, 5.0},
+        Softening{SofteningShape::exponential, 0, 0, 0, 1e-3}}) {
     const SofteningCurve z(s);
     EXPECT_NEAR(z.area(), area_by_strips(z), kMidpointError * std::fmax(1.0, s.c))
         << "a, b, c, s = " << s.a << ' ' << s.b << ' ' << s.c << ' ' << s.exponent;
@@ -78,8 +79,9 @@ TEST(Softening, accepts_curves_that_fall_from_1_to_0) {
 
 TEST(Softening, refuses_what_is_no_softening_curve) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(softening_problem(Softening{SofteningShape::z_curve, 0.63, 1.8, 0.0, 0}), "");  // does not end at 0
-  EXPECT_NE(softening_problem(Softening{SofteningShape::z_curve, 3.0, -1.5, 6.0, 0}), "");  // rises
+  EXPECT_NE(softening_problem(Softening{SofteningShape::z_curve, 0.63, 1.8, 0.0, 0}), "");   // does not end at 0
+  EXPECT_NE(softening_problem(Softening{SofteningShape::z_curve, 3.0, -1.5, 6.0, 0}), "");   // falls below 0
+  EXPECT_NE(softening_problem(Softening{SofteningShape::z_curve, 20.0, 1.0, 10.0, 0}), "");  // rises before it falls
   EXPECT_NE(softening_problem(Softening{SofteningShape::z_curve, nan, 1.8, 6.0, 0}), "");
   EXPECT_NE(softening_problem(Softening{SofteningShape::exponential, 0, 0, 0, 0.0}), "");  // 0/0
   EXPECT_NE(softening_problem(Softening{SofteningShape::z_curve, 0.0, 0.0, 6.0, 0}), "");

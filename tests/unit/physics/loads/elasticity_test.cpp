@@ -296,6 +296,17 @@ TEST(GreenStVenant, StressIsThePublishedFormula) {
   }
 }
 
+TEST(GreenStVenant, PressureHasNoKinkWhereTheContinuationBegins) {
+  // Without shape, F = 0, only the isotropic part is left.
+  const ElasticParams p = params_of(ElasticLaw::green_st_venant);
+  const auto isotropic = [&](double j) { return el::green_st_venant_stress(el::Tensor<double>{}, j, p)[0]; };
+  constexpr double kStep = 1e-6, kCurvature = 1e-4;  // of J; what the slope itself changes by over a step
+  const double here = isotropic(p.j_min);
+  const double above = (isotropic(p.j_min + kStep) - here) / kStep, below = (here - isotropic(p.j_min - kStep)) / kStep;
+  EXPECT_NEAR(below / above, 1.0, kCurvature);
+  EXPECT_LT(isotropic(-1.0), here) << "the pressure goes on growing";
+}
+
 TEST(Viscosity, IsThePublishedStressAndFeelsNoSpin) {
   std::mt19937 random(16);
   const ElasticParams p = params_of(ElasticLaw::neo_hookean, 0.7);

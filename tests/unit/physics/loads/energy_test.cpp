@@ -89,5 +89,25 @@ TEST_P(MomentumOf, a_turning_body_is_right_handed_and_moves_with_its_centre) {
   EXPECT_GT(inertia * omega[2], 0.01 * mass) << "the spin alone shows";
 }
 
+TEST(IntactJointEnergyOf, joints_that_one_element_has_opened_is_half_their_stiffness_times_opening_squared) {
+  Model model(test::box({1, 1, 1}), Discretisation::own_nodes, 1000);
+  constexpr double kStiffness = 3e8;  // Pa/m
+  model.join(kStiffness);
+  EXPECT_EQ(intact_joint_energy(model.local, model.links, model.state.position.data()).value(), 0.0);
+  const Vec3 opening(1e-3, -2e-3, 5e-4);
+  const Index element = 7, slot = model.local.slot_of_element[test::at(element)];
+  for (int c = 0; c < 4; ++c) {
+    const Index node = own_corner_node(slot, c);
+    store_node(model.state.position.data(), node, load_node(model.state.position.data(), node) + opening);
+  }
+  double expected = 0;
+  for (const JointFace& joint : find_joints(model.mesh, model.topology)) {
+    if (joint.a == element || joint.b == element) expected += 0.5 * kStiffness * joint.area * opening.squaredNorm();
+  }
+  EXPECT_GT(expected, 0.0);
+  EXPECT_NEAR(intact_joint_energy(model.local, model.links, model.state.position.data()).value(), expected,
+              1e-9 * expected);
+}
+
 }  // namespace
 }  // namespace breccia
