@@ -63,7 +63,7 @@ void bind(A& a, Material& material) {
   a.value("poisson", material.poisson);
   a.value("density", material.density);
   a.value("viscosity", material.viscosity);
-  if (A::reads || material.law == ElasticLaw::drucker_prager) bind(a, material.plasticity);
+  if (A::reads || material.law == BulkLaw::drucker_prager) bind(a, material.plasticity);
   a.choice("joints", material.joints);
 }
 

@@ -59,7 +59,7 @@ struct MeshSource {
   friend bool operator==(const MeshSource&, const MeshSource&) = default;
 };
 
-enum class ElasticLaw { neo_hookean, green_st_venant, drucker_prager };
+enum class BulkLaw { neo_hookean, green_st_venant, drucker_prager };
 enum class JointPlacement { breakable, unbreakable, none };
 
 /// Strength and flow of a material whose law is drucker_prager.
@@ -77,7 +77,7 @@ struct DruckerPrager {
 /// [[material]]: one physical volume group.
 struct Material {
   std::string group;
-  ElasticLaw law = ElasticLaw::neo_hookean;
+  BulkLaw law = BulkLaw::neo_hookean;
   double young = 0;      ///< Pa
   double poisson = 0;    ///< -
   double density = 0;    ///< kg/m3

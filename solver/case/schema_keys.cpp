@@ -270,7 +270,7 @@ constexpr auto table = std::to_array<Key>({
     {.path = "time.max_steps", .type = integer, .fallback = "0", .range = steps,
      .help = "Steps after which the run stops; 0: no limit.", .example = "2000"},
     {.path = "time.residual_limit", .type = number, .fallback = "0.05", .range = positive,
-     .help = "Energy that nobody accounts for, as a share of the largest term, which stops the run.",
+     .help = "Unaccounted energy, as a share of the largest term, which stops the run.",
      .example = "\"1 %\""},
 
     {.path = "detection", .type = section,

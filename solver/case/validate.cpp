@@ -115,7 +115,7 @@ class Validator {
 
   void plasticity(const Material& m) {
     const DruckerPrager& p = m.plasticity;
-    if (m.law != ElasticLaw::drucker_prager) {
+    if (m.law != BulkLaw::drucker_prager) {
       for (const auto& [name, value] : {std::pair{"friction_angle", p.friction_angle},
                                         {"dilation_angle", p.dilation_angle},
                                         {"cohesion", p.cohesion},

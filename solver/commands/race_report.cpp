@@ -87,15 +87,13 @@ std::string race_csv(const RaceResult& result) {
 std::string race_json(const RaceResult& result) {
   std::string text;
   for (const auto& [racer, lap] : result.entries) {
-    text +=
-        fmt::format(
-            R"({{"algorithm":"{}","buffer":"{}","as_in_case":{},"searches":{},"used_up":{},"search_s":{},)"
-            R"("one_search_s":{},"couples":{},"contact_s":{},"step_s":{},)"
-            R"("element_steps_per_s":{},"steps":{},"state_hash":"{}"}})",
-            racer.algorithm_text(), racer.buffer_text(), racer.as_in_case, lap.searches, lap.used, lap.search,
-            lap.one_search(), lap.couples, lap.contact, step_s(result, lap), speed(result, lap), result.steps,
-            result.state_hash) +
-        "\n";
+    text += fmt::format(R"({{"algorithm":"{}","buffer":"{}","as_in_case":{},"searches":{},"used_up":{},"search_s":{},)"
+                        R"("one_search_s":{},"couples":{},"contact_s":{},"step_s":{},)"
+                        R"("element_steps_per_s":{},"steps":{},"state_hash":"{}"}})",
+                        racer.algorithm_text(), racer.buffer_text(), racer.as_in_case, lap.searches, lap.used,
+                        lap.search, lap.one_search(), lap.couples, lap.contact, step_s(result, lap), speed(result, lap),
+                        result.steps, result.state_hash) +
+            "\n";
   }
   return text + fmt::format(R"({{"state":"{}","rounds":{}}})", result.stopped ? "stopped" : "complete", result.rounds) +
          "\n";

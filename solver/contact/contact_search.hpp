@@ -90,7 +90,7 @@ class ContactSearch {
   void verify(const NodalState& state) const;
   [[nodiscard]] bool verifies() const { return search_.verify; }
 
-  /// For one of several ranks, which hear of each other's speeds a step late. From now on only those couples are kept
+  /// For one of several ranks, which receive each other's speeds a step late. From now on only those couples are kept
   /// whose forces, or whose point's other forces, act on elements that matter.
   /// @param relevant  (num_slots)  @pre before the first search
   void restrict_to(std::vector<std::uint8_t> relevant);
@@ -103,7 +103,8 @@ class ContactSearch {
 
   /// Faces freed by fracture: their points, the couples they make, the couples of elements no longer bonded, and the
   /// change of the overlap field. Faces that are free already are passed over. Returns whether couples with elements
-  /// that do not matter by themselves came about: of these, positions and what they touch have to be heard from now on.
+  /// that do not matter by themselves came about: of these, positions and what they touch have to be received from now
+  /// on.
   bool release_faces(std::span<const FreedFace> faces);
 
   /// contact_forces on the couples at hand. @pre `update` has been called for this state

@@ -31,7 +31,7 @@ struct SharedSlots {
                                                     const LocalMesh& local);
 
 /// All that a step exchanges with other ranks: one reduction, finished a step later, and one message to each neighbour
-/// with the proxies that its forces depend on. A rank that is alone has nobody to exchange with: `alone()`.
+/// with the proxies that its forces depend on. On one rank there is nothing to exchange: `alone()`.
 ///
 /// Of its proxies only the near ones are gathered in every step: those that share a joint or a couple with an original,
 /// the former without velocities. Before a search those are that have come near to the originals of the rank; after it,

@@ -109,26 +109,21 @@ void Partition::build(const Piece& piece, WholeModel whole, Continuation from) {
     breccia::begin_stage(*domain_, stage_loads(*stage_, *model_), dt);
     restore_holds(*domain_, piece.records);
   }
-  constrained_ = nullptr;
   anchor_ = domain_->state.nodes.position;
   moved_.restart();
 }
 
-void Partition::begin_stage(const case_::Stage& stage, double dt) {
+void Partition::begin_stage(const case_::Stage& stage) {
   stage_ = &stage;
   for (const std::string& surface : stage.broken_surfaces) break_joints(*domain_, faces_of_surface(*model_, surface));
-  breccia::begin_stage(*domain_, stage_loads(stage, *model_), dt);
+  breccia::begin_stage(*domain_, stage_loads(stage, *model_), domain_->state.clock.dt);
 }
 
-double Partition::stable_step(const case_::Stage& stage, double steps) {
-  if (std::exchange(constrained_, &stage) != &stage) constraints_ = stage_loads(stage, *model_).constraints;
+double Partition::stable_step(double steps) {
   const State& state = domain_->state;
-  const StepState now{state.nodes.position,
-                      state.nodes.velocity,
-                      domain_->contacts(),
-                      domain_->contact ? &domain_->contact->clusters() : nullptr,
-                      &constraints_,
-                      material_memory(state.elements)};
+  const StepState now{state.nodes.position,     state.nodes.velocity,
+                      domain_->contacts(),      domain_->contact ? &domain_->contact->clusters() : nullptr,
+                      &state.loads.constraints, material_memory(state.elements)};
   return global_stable_step(communicator_, *time_step_, now, steps).step;
 }
 

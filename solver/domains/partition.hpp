@@ -42,8 +42,8 @@ class Partition {
   [[nodiscard]] const Communicator& communicator() const { return communicator_; }
   [[nodiscard]] std::int64_t decompositions() const { return decompositions_; }  ///< so far, the first included
 
-  /// Breaks the stage's surfaces and lets its loads act, with steps of dt, s. Collective.
-  void begin_stage(const case_::Stage& stage, double dt);
+  /// Breaks the stage's surfaces and lets its loads act; the step's length stays. Collective.
+  void begin_stage(const case_::Stage& stage);
   [[nodiscard]] std::vector<double> costs() const {
     return balance_.weights(*domain_);
   }  ///< of the originals, ascending by id
@@ -56,9 +56,9 @@ class Partition {
   void keep_up();
   /// The partition as it is, which ends with it: no more steps. Collective. @pre a stage has begun
   [[nodiscard]] Snapshot snapshot();
-  /// Stable step of the whole model at present under a stage's constraints, s. Collective.
+  /// Stable step of the whole model at present under the constraints of the stage, s. Collective.
   /// @param steps  of it until the next call
-  [[nodiscard]] double stable_step(const case_::Stage& stage, double steps);
+  [[nodiscard]] double stable_step(double steps);
 
  private:
   void start_whole();
@@ -76,8 +76,6 @@ class Partition {
   std::unique_ptr<Domain> domain_;
   std::unique_ptr<TimeStep> time_step_;
   const case_::Stage* stage_ = nullptr;
-  const case_::Stage* constrained_ = nullptr;  ///< whose constraints these are, on the present piece
-  std::vector<NodalConstraint> constraints_;
   std::int64_t decompositions_ = 1;
   Balance balance_;
   double decomposition_s_ = 0;  ///< s, that the last decomposition took on the slowest rank

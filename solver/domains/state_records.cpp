@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "parallel/totals.hpp"
 
 namespace breccia {
@@ -219,6 +221,8 @@ SequenceHash hash_of_model(const Domain& domain) {
       hash.add(static_cast<std::uint64_t>(row.use.summed ? communicator.sum(field) : field));
     } else if constexpr (std::is_same_v<Value, double>) {
       hash.add(field);
+    } else {
+      DEMAND(false, std::string(row.name) + " cannot be hashed");
     }
   });
   for (const double total : totals(communicator, sums)) hash.add(total);

@@ -42,11 +42,11 @@ struct WholeModel {
   std::vector<std::string> volume_groups, surface_groups;
   std::int64_t num_elements = 0, num_joints = 0;
   std::vector<JointGroups> joint_groups;
-  std::vector<double> body_length;   ///< (bodies) H of contact, m: mean inradius of the elements
-  double contactor_size = 0;         ///< m, mean size of the contactors
-  double longest_edge = 0;           ///< m, of all elements, reference
-  double energy_floor = 0;           ///< J, energies below are round-off
-  double step_ratio = 0;             ///< of the true stable step to the bound at rest (time_step.hpp); 0: not found yet
+  std::vector<double> body_length;  ///< (bodies) H of contact, m: mean inradius of the elements
+  double contactor_size = 0;        ///< m, mean size of the contactors
+  double longest_edge = 0;          ///< m, of all elements, reference
+  double energy_floor = 0;          ///< J, energies below are round-off
+  double step_ratio = 0;            ///< of the true stable step to the bound at rest (time_step.hpp); 0: not found yet
 };
 
 /// Everything that is known before the first step: the case turned into discretised bodies and the small parameter
@@ -102,8 +102,8 @@ struct Model {
 /// Links of the joints that the sweep looks after.
 [[nodiscard]] JointLinks build_links(const Model& model);
 
-/// True if the joint is elastic at first and both its elements own their nodes: the sweep's business until it crosses
-/// its limit; else it is on the active list from the start.
+/// True if the joint is elastic at first and both its elements own their nodes: looked after by the sweep until it
+/// crosses its limit; else it is on the active list from the start.
 [[nodiscard]] bool starts_intact(const Model& model, const ModelJoint& joint);
 
 }  // namespace breccia

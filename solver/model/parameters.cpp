@@ -27,16 +27,16 @@ SofteningShape shape_of(case_::Softening softening) {
   return SofteningShape::z_curve;
 }
 
-ElasticLaw elastic_law_of(case_::ElasticLaw law) {
+BulkLaw bulk_law_of(case_::BulkLaw law) {
   switch (law) {
-    case case_::ElasticLaw::neo_hookean:
+    case case_::BulkLaw::neo_hookean:
       break;
-    case case_::ElasticLaw::green_st_venant:
-      return ElasticLaw::green_st_venant;
-    case case_::ElasticLaw::drucker_prager:
-      return ElasticLaw::drucker_prager;
+    case case_::BulkLaw::green_st_venant:
+      return BulkLaw::green_st_venant;
+    case case_::BulkLaw::drucker_prager:
+      return BulkLaw::drucker_prager;
   }
-  return ElasticLaw::neo_hookean;
+  return BulkLaw::neo_hookean;
 }
 
 DruckerPragerParams drucker_prager_of(const case_::DruckerPrager& entry) {
@@ -121,7 +121,7 @@ void sort_unique(std::vector<Index>& nodes) {
 
 ElasticParams elastic_params(const case_::Material& material) {
   ElasticParams params =
-      make_elastic_params(elastic_law_of(material.law), material.young, material.poisson, material.viscosity);
+      make_elastic_params(bulk_law_of(material.law), material.young, material.poisson, material.viscosity);
   params.drucker_prager = drucker_prager_of(material.plasticity);
   return params;
 }

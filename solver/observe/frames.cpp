@@ -24,14 +24,14 @@ Vec3 centroid(const LocalMesh& local, const double* field, Index slot) {
 /// A scalar that elements of some law remember.
 struct ShownNumber {
   const char* name;
-  ElasticLaw law;
+  BulkLaw law;
   std::size_t place;  ///< in the memory of the law
 };
 
 /// Of all laws in the model, alike on all ranks.
 std::vector<ShownNumber> shown_numbers(const Model& model) {
   std::vector<ShownNumber> shown;
-  std::set<ElasticLaw> seen;
+  std::set<BulkLaw> seen;
   for (const ElasticParams& params : model.elastic) {
     if (!seen.insert(params.law).second) continue;
     std::size_t place = 0;
@@ -49,7 +49,7 @@ void add_memory(const Domain& domain, const std::vector<Index>& slots, Frame::El
   for (const ShownNumber& number : shown_numbers(domain.model)) {
     std::vector<double>& values = out.state.emplace_back(Frame::StateField{number.name, 1, {}}).values;
     for (const Index slot : slots) {
-      const ElasticLaw law = domain.model.elastic[at(domain.model.local.block_group[at(slot / kLanes)])].law;
+      const BulkLaw law = domain.model.elastic[at(domain.model.local.block_group[at(slot / kLanes)])].law;
       values.push_back(law == number.law ? memory.of(slot)[number.place] : 0.0);
     }
   }

@@ -26,8 +26,8 @@ void preflight(const case_::Case& input, const std::filesystem::path& folder, co
 /// failure means. The work itself is the adaptor's (catalyst/insitu_abi.h).
 ///
 /// Triggers by step, simulated time and broken joints are known to all ranks alike and hit the very step; those by wall
-/// time are the root's, which tells the others by its orders, heard a step later. Which triggers are passed over for
-/// the sake of the overhead is the root's to say as well. With nothing due a step costs a few comparisons.
+/// time are the root's, which sends them to the others as orders, received a step later. Which triggers are passed over
+/// for the sake of the overhead is the root's to say as well. With nothing due a step costs a few comparisons.
 class InSitu {
  public:
   /// Hears news in words; called on all ranks. The flag is false for a warning.
@@ -41,7 +41,7 @@ class InSitu {
   InSitu& operator=(const InSitu&) = delete;
   ~InSitu();
 
-  /// Pipelines that are due by wall time, each once, to be heard by all ranks; empty on all but the root.
+  /// Pipelines that are due by wall time, each once, to be sent to all ranks; empty on all but the root.
   [[nodiscard]] std::uint64_t orders();
   /// Whether some trigger needs the number of broken joints.
   [[nodiscard]] bool counts_broken() const;

@@ -56,7 +56,7 @@ class Sink {
   virtual void start(const RunStart&) {}
   virtual void frame(const Frame&) {}
   virtual void history(const HistoryRow&) {}
-  /// True when the sink would use a status line now: asked every step, so that nobody makes a line in vain.
+  /// True when the sink would use a status line now: asked every step, so that no line is made in vain.
   [[nodiscard]] virtual bool status_due() const { return false; }
   virtual void status(const StatusLine&) {}
   virtual void event(const RunEvent&) {}

@@ -10,32 +10,32 @@
 namespace breccia {
 
 /// Constitutive law of a constant-strain tetrahedron. All have Hooke's law as their small-strain limit.
-enum class ElasticLaw {
+enum class BulkLaw {
   neo_hookean,      ///< hyperelastic: closed strain loops are exact
   green_st_venant,  ///< thesis eq. 3.10 as printed; not hyperelastic, its work must be integrated
   drucker_prager    ///< with memory: physics/material/drucker_prager.hpp
 };
 
 /// Whether the law has a stored energy, a function of the deformation and of the element's memory.
-[[gnu::always_inline]] constexpr bool is_hyperelastic(ElasticLaw law) {
+[[gnu::always_inline]] constexpr bool is_hyperelastic(BulkLaw law) {
   switch (law) {
-    case ElasticLaw::neo_hookean:
+    case BulkLaw::neo_hookean:
       return true;
-    case ElasticLaw::green_st_venant:
+    case BulkLaw::green_st_venant:
       return false;
-    case ElasticLaw::drucker_prager:
+    case BulkLaw::drucker_prager:
       return true;
   }
   __builtin_unreachable();
 }
 
 /// Whether elements of the law remember what has happened to them (physics/material/bulk_law.hpp).
-[[gnu::always_inline]] constexpr bool has_memory(ElasticLaw law) {
+[[gnu::always_inline]] constexpr bool has_memory(BulkLaw law) {
   switch (law) {
-    case ElasticLaw::neo_hookean:
-    case ElasticLaw::green_st_venant:
+    case BulkLaw::neo_hookean:
+    case BulkLaw::green_st_venant:
       return false;
-    case ElasticLaw::drucker_prager:
+    case BulkLaw::drucker_prager:
       return true;
   }
   __builtin_unreachable();
@@ -43,7 +43,7 @@ enum class ElasticLaw {
 
 /// Parameters of the element's kernels. Made by `make_elastic_params`.
 struct ElasticParams {
-  ElasticLaw law = ElasticLaw::neo_hookean;
+  BulkLaw law = BulkLaw::neo_hookean;
   double mu = 0;                         ///< Pa, shear modulus
   double lambda = 0;                     ///< Pa, Lame's first modulus
   double viscosity = 0;                  ///< Pa s, mubar of the viscous Cauchy stress (2 mubar / J) D
@@ -52,8 +52,8 @@ struct ElasticParams {
 };
 
 /// Plasticity is added by hand. @pre young > 0, -1 < poisson < 0.5, viscosity >= 0, 0 < j_min < 1
-[[nodiscard]] constexpr ElasticParams make_elastic_params(ElasticLaw law, double young, double poisson,
-                                                          double viscosity, double j_min = 0.1) {
+[[nodiscard]] constexpr ElasticParams make_elastic_params(BulkLaw law, double young, double poisson, double viscosity,
+                                                          double j_min = 0.1) {
   return {law, young / (2 * (1 + poisson)), young * poisson / ((1 + poisson) * (1 - 2 * poisson)), viscosity, j_min,
           {}};
 }
@@ -184,13 +184,13 @@ template <class T>
   const T j = determinant(f, cof);
   Tensor<T> piola;
   switch (p.law) {
-    case ElasticLaw::neo_hookean:
+    case BulkLaw::neo_hookean:
       neo_hookean_piola(f, cof, j, p, piola);
       break;
-    case ElasticLaw::green_st_venant:
+    case BulkLaw::green_st_venant:
       piola = product(green_st_venant_stress(f, j, p), cof);
       break;
-    case ElasticLaw::drucker_prager:
+    case BulkLaw::drucker_prager:
       piola.fill(T(std::numeric_limits<double>::quiet_NaN()));
       break;
   }

@@ -89,7 +89,7 @@ template <class Mask>
 }
 
 /// The group has the neo-Hookean law and no viscosity.
-inline bool plain(const ElasticParams& p) { return p.law == ElasticLaw::neo_hookean && !(p.viscosity > 0); }
+inline bool plain(const ElasticParams& p) { return p.law == BulkLaw::neo_hookean && !(p.viscosity > 0); }
 
 /// @tparam is_plain  the group is plain, so that the stress need not pass through memory
 /// @param x, v  corners
@@ -104,14 +104,14 @@ template <bool is_plain, class X>
   const Real j = el::determinant(f, cof);
   const auto crushed = j < p.j_min;
   if (stdx::any_of(crushed)) totals.status.crushed += count_originals(args, crushed, block * kLanes + lane);
-  switch (is_plain ? ElasticLaw::neo_hookean : p.law) {
-    case ElasticLaw::neo_hookean:
+  switch (is_plain ? BulkLaw::neo_hookean : p.law) {
+    case BulkLaw::neo_hookean:
       el::neo_hookean_piola(f, cof, j, p, s.total);
       break;
-    case ElasticLaw::green_st_venant:
+    case BulkLaw::green_st_venant:
       s.total = el::product(el::green_st_venant_stress(f, j, p), cof);
       break;
-    case ElasticLaw::drucker_prager:
+    case BulkLaw::drucker_prager:
       step_with_memory(args, p, block * kLanes + lane, f, s.total);
       break;
   }

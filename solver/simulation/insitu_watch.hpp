@@ -13,7 +13,8 @@
 
 namespace breccia {
 
-/// The pipelines of a run, between its steps: tells them what they want to know, hears what they want done.
+/// The pipelines of a run, between its steps: gives them the frames they are due and takes the commands of their
+/// scripts.
 class InSituWatch {
  public:
   /// Starts the adaptor. Collective. @pre input and partition outlive this object. Throws as InSitu does.

@@ -24,8 +24,8 @@ std::atomic<bool> stop_requested{false};
 
 namespace {
 
-/// Taking stock costs about as much as a step: lines of the history that nobody has ordered come no closer than so many
-/// steps.
+/// A sample of the energies costs about as much as a step: lines of the history at no given interval come no closer
+/// than so many steps.
 constexpr std::int64_t kStepsBetweenLines = 20;
 
 /// Between two looks at the control file while the run is paused.
@@ -104,7 +104,7 @@ class Runner {
   }
 
   void advance() {
-    if ((partition_.state().signals.received.orders & kControlOrder) != 0) obey(control_.hear());
+    if ((partition_.state().signals.received.orders & kControlOrder) != 0) obey(control_.receive());
     if (paused_) stay_paused();
     const double time = clock().time;
     if (frames_.due(time, clock().dt, clock().steps)) write_frame();
@@ -183,7 +183,7 @@ class Runner {
     while (paused_) {
       std::this_thread::sleep_for(kPausedLook);
       (void)control_.asks();
-      obey(control_.hear());
+      obey(control_.receive());
       if (extract_commanded_) look_in_situ(true);
       if (communicator_.max(static_cast<std::int64_t>(stop_requested)) != 0) paused_ = false;
       tell_status();

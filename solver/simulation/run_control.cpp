@@ -10,7 +10,7 @@ bool RunControl::asks() {
   return !lines_.empty();
 }
 
-std::vector<Command> RunControl::hear() {
+std::vector<Command> RunControl::receive() {
   std::vector<std::byte> bytes;
   for (const std::string& line : lines_) {
     for (const char c : line + "\n") bytes.push_back(static_cast<std::byte>(c));

@@ -16,16 +16,16 @@ inline constexpr std::uint64_t kControlOrder = std::uint64_t{1} << 32;
 /// Commands from a run's control file, which the root alone reads, for all ranks.
 class RunControl {
  public:
-  /// @param file  nothing: nobody can ask anything
+  /// @param file  nothing: the run takes no commands
   RunControl(std::optional<std::filesystem::path> file, const Communicator& communicator)
       : communicator_(communicator) {
     if (file && communicator.is_root()) file_.emplace(*file);
   }
 
-  /// Looks into the file; true on the root while there are lines that nobody has heard.
+  /// Looks into the file; true on the root while there are lines not received yet.
   [[nodiscard]] bool asks();
   /// What has been asked, the same on all ranks. Collective.
-  [[nodiscard]] std::vector<Command> hear();
+  [[nodiscard]] std::vector<Command> receive();
 
  private:
   Communicator communicator_;

@@ -12,13 +12,14 @@ constexpr std::int64_t kStepsBetweenLooks = 100;
 
 StageSteps::StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition)
     : StageSteps(input, stage, partition, kStepsBetweenLooks) {
-  partition_.begin_stage(stage, length());
+  partition_.begin_stage(stage);
+  partition_.domain().state.clock.dt = length();
 }
 
 double StageSteps::length() const {
   const double safety = input_.time.safety;
   const double allowed =
-      input_.time.step > 0 ? input_.time.step : safety * partition_.stable_step(stage_, safety * kStepsBetweenLooks);
+      input_.time.step > 0 ? input_.time.step : safety * partition_.stable_step(safety * kStepsBetweenLooks);
   const double left = stage_.end - partition_.state().clock.time;
   return left / std::max(1.0, std::ceil(left / allowed * (1.0 - 1e-9)));
 }

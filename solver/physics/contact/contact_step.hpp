@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "base/field.hpp"
+#include "discretisation/local_mesh.hpp"
 #include "physics/contact/contact_params.hpp"
 #include "physics/contact/contact_state.hpp"
 #include "physics/stable_step.hpp"
-#include "discretisation/local_mesh.hpp"
 
 namespace breccia {
 

@@ -13,29 +13,29 @@ constexpr std::array<double, kLargestMemory> kVirgin{};
 
 }  // namespace
 
-std::span<const MemoryField> memory_fields(ElasticLaw law) {
+std::span<const MemoryField> memory_fields(BulkLaw law) {
   switch (law) {
-    case ElasticLaw::neo_hookean:
-    case ElasticLaw::green_st_venant:
+    case BulkLaw::neo_hookean:
+    case BulkLaw::green_st_venant:
       return {};
-    case ElasticLaw::drucker_prager:
+    case BulkLaw::drucker_prager:
       return material::kDruckerPragerFields;
   }
   return {};
 }
 
-std::size_t memory_size(ElasticLaw law) {
+std::size_t memory_size(BulkLaw law) {
   std::size_t size = 0;
   for (const MemoryField& field : memory_fields(law)) size += static_cast<std::size_t>(field.components);
   return size;
 }
 
-int plastic_work_place(ElasticLaw law) {
+int plastic_work_place(BulkLaw law) {
   switch (law) {
-    case ElasticLaw::neo_hookean:
-    case ElasticLaw::green_st_venant:
+    case BulkLaw::neo_hookean:
+    case BulkLaw::green_st_venant:
       return -1;
-    case ElasticLaw::drucker_prager:
+    case BulkLaw::drucker_prager:
       return material::kDruckerPragerMemory - 1;
   }
   return -1;
@@ -47,10 +47,10 @@ const double* MaterialMemory::of(Index slot) const {
 
 void step_bulk_law(const ElasticParams& p, const double* f, double* memory, double* piola) {
   switch (p.law) {
-    case ElasticLaw::neo_hookean:
-    case ElasticLaw::green_st_venant:
+    case BulkLaw::neo_hookean:
+    case BulkLaw::green_st_venant:
       break;
-    case ElasticLaw::drucker_prager:
+    case BulkLaw::drucker_prager:
       material::drucker_prager_piola(p, f, memory, piola);
       break;
   }
@@ -67,10 +67,10 @@ elasticity::Tensor<double> bulk_piola(const ElasticParams& p, const elasticity::
 
 double stored_energy(const ElasticParams& p, const elasticity::Tensor<double>& f, const double* memory) {
   switch (p.law) {
-    case ElasticLaw::neo_hookean:
-    case ElasticLaw::green_st_venant:
+    case BulkLaw::neo_hookean:
+    case BulkLaw::green_st_venant:
       return 0.0;
-    case ElasticLaw::drucker_prager:
+    case BulkLaw::drucker_prager:
       return material::drucker_prager_energy(p, f.data(), memory);
   }
   return 0.0;
@@ -79,10 +79,10 @@ double stored_energy(const ElasticParams& p, const elasticity::Tensor<double>& f
 double bulk_stiffness(const ElasticParams& p, const elasticity::Tensor<double>& f, const double* memory,
                       const elasticity::Tensor<double>& gradient) {
   switch (p.law) {
-    case ElasticLaw::neo_hookean:
-    case ElasticLaw::green_st_venant:
+    case BulkLaw::neo_hookean:
+    case BulkLaw::green_st_venant:
       return 0.0;
-    case ElasticLaw::drucker_prager:
+    case BulkLaw::drucker_prager:
       return material::drucker_prager_stiffness(p, f.data(), memory, gradient.data());
   }
   return 0.0;

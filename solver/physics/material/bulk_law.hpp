@@ -17,16 +17,16 @@ struct MemoryField {
 
 /// What an element of the law remembers, in the order of its numbers; empty for laws without memory. Zeros are the
 /// virgin state of every law.
-[[nodiscard]] std::span<const MemoryField> memory_fields(ElasticLaw law);
+[[nodiscard]] std::span<const MemoryField> memory_fields(BulkLaw law);
 
 /// Doubles an element remembers, at most, whatever its law.
 inline constexpr std::size_t kLargestMemory = 15;
 
 /// Doubles an element of the law remembers.
-[[nodiscard]] std::size_t memory_size(ElasticLaw law);
+[[nodiscard]] std::size_t memory_size(BulkLaw law);
 
 /// Of these, the one that tells the plastic work so far, J/m3 of reference volume; -1: the law has no plastic flow.
-[[nodiscard]] int plastic_work_place(ElasticLaw law);
+[[nodiscard]] int plastic_work_place(BulkLaw law);
 
 /// The memory of all elements: that of a slot from first + slot stride on. Empty: all are virgin.
 struct MaterialMemory {

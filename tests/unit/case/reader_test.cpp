@@ -77,18 +77,18 @@ TEST(Reader, MeshAndMaterialsAreRead) {
 
   ASSERT_EQ(c.materials.size(), 3U);
   EXPECT_EQ(c.materials[0].group, "glass");
-  EXPECT_EQ(c.materials[0].law, ElasticLaw::green_st_venant);
+  EXPECT_EQ(c.materials[0].law, BulkLaw::green_st_venant);
   EXPECT_EQ(c.materials[0].young, 75e9);
   EXPECT_EQ(c.materials[0].poisson, 0.2);
   EXPECT_EQ(c.materials[0].density, 2456);
   EXPECT_EQ(c.materials[0].viscosity, 3);
   EXPECT_EQ(c.materials[0].joints, JointPlacement::breakable);
   EXPECT_EQ(c.materials[1].joints, JointPlacement::none);
-  EXPECT_EQ(c.materials[1].law, ElasticLaw::neo_hookean);
+  EXPECT_EQ(c.materials[1].law, BulkLaw::neo_hookean);
   EXPECT_EQ(c.materials[2].joints, JointPlacement::unbreakable);
   EXPECT_EQ(c.materials[2].density, 7800);
   EXPECT_EQ(c.materials[1].plasticity, DruckerPrager{});
-  EXPECT_EQ(c.materials[2].law, ElasticLaw::drucker_prager);
+  EXPECT_EQ(c.materials[2].law, BulkLaw::drucker_prager);
   const DruckerPrager& p = c.materials[2].plasticity;
   EXPECT_DOUBLE_EQ(p.friction_angle, std::numbers::pi / 5);
   EXPECT_DOUBLE_EQ(p.dilation_angle, std::numbers::pi / 20);

@@ -115,7 +115,7 @@ class Collision {
 
   test::Scene scene_;
   Field<double> before_;
-  ElasticParams params_ = make_elastic_params(ElasticLaw::neo_hookean, kYoung, kPoisson, 0);
+  ElasticParams params_ = make_elastic_params(BulkLaw::neo_hookean, kYoung, kPoisson, 0);
   bool touched_ = false;
 };
 

@@ -71,7 +71,7 @@ TEST(VonMises, OfUniaxialTensionIsThatTension) { EXPECT_NEAR(von_mises(Vec3(-7, 
 
 TEST(CauchyStress, OfAUniaxiallyStrainedElementIsTheClosedForm) {
   Model model(test::jittered(test::box({1, 1, 1}), 0.05, 4), Discretisation::own_nodes, 1000);
-  const ElasticParams p = make_elastic_params(ElasticLaw::neo_hookean, 2e9, 0.2, 300.0);
+  const ElasticParams p = make_elastic_params(BulkLaw::neo_hookean, 2e9, 0.2, 300.0);
   constexpr double kStretch = 1.1, kRate = 50.0;  // 1/s, of the reference length
   model.map_positions([](const Vec3& x) { return Vec3(x[0], kStretch * x[1], x[2]); });
   for (const Index n : model.real_nodes()) {

@@ -17,7 +17,7 @@ using test::tensor;
 constexpr double kRounding = 1e-12;  // of Young's modulus
 constexpr double kYoung = 3.0, kPoisson = 0.3;
 
-ElasticParams params_of(ElasticLaw law, double viscosity = 0) {
+ElasticParams params_of(BulkLaw law, double viscosity = 0) {
   return make_elastic_params(law, kYoung, kPoisson, viscosity);
 }
 
@@ -35,8 +35,8 @@ Mat3 gradient_of_volume(std::mt19937& random, double j) {
   return f;
 }
 
-class EveryLaw : public testing::TestWithParam<ElasticLaw> {};
-INSTANTIATE_TEST_SUITE_P(Laws, EveryLaw, testing::Values(ElasticLaw::neo_hookean, ElasticLaw::green_st_venant));
+class EveryLaw : public testing::TestWithParam<BulkLaw> {};
+INSTANTIATE_TEST_SUITE_P(Laws, EveryLaw, testing::Values(BulkLaw::neo_hookean, BulkLaw::green_st_venant));
 
 TEST_P(EveryLaw, HasNoStressUnderARigidRotation) {
   std::mt19937 random(1);
@@ -168,7 +168,7 @@ TEST_P(EveryLaw, GivesTheSameBitsInEightLanesAsInOne) {
 TEST(NeoHookean, IsTheDerivativeOfItsEnergyAlsoCrushedAndInsideOut) {
   constexpr double kDifference = 1e-5, kTolerance = 1e-7;  // central differences: h^2 times third derivatives, relative
   std::mt19937 random(10);
-  const ElasticParams p = params_of(ElasticLaw::neo_hookean);
+  const ElasticParams p = params_of(BulkLaw::neo_hookean);
   for (const double j : {1.5, 1.0, 0.5, 0.11, 0.1, 0.09, 0.03, 0.0, -0.1, -0.3, -0.5}) {
     const auto f = tensor(gradient_of_volume(random, j));
     const auto piola = el::elastic_piola(f, p);
@@ -186,7 +186,7 @@ TEST(NeoHookean, IsTheDerivativeOfItsEnergyAlsoCrushedAndInsideOut) {
 
 TEST(NeoHookean, ForcesAreMinusTheGradientOfTheElementsEnergy) {
   std::mt19937 random(11);
-  const ElasticParams p = params_of(ElasticLaw::neo_hookean);
+  const ElasticParams p = params_of(BulkLaw::neo_hookean);
   const Mat3 edges = Mat3::Identity() + test::random_matrix(random, 0.2);  // columns x_c - x_0
   const auto inverse = tensor(edges.inverse());
   const double volume = edges.determinant() / 6.0;
@@ -215,7 +215,7 @@ TEST(NeoHookean, ForcesAreMinusTheGradientOfTheElementsEnergy) {
 
 TEST(NeoHookean, StressIsTheClosedFormOfItsCauchyStress) {
   std::mt19937 random(12);
-  const ElasticParams p = params_of(ElasticLaw::neo_hookean);
+  const ElasticParams p = params_of(BulkLaw::neo_hookean);
   for (const double target : {0.2, 0.7, 1.0, 1.9}) {
     const Mat3 f = gradient_of_volume(random, target);
     const double j = f.determinant();
@@ -227,7 +227,7 @@ TEST(NeoHookean, StressIsTheClosedFormOfItsCauchyStress) {
 }
 
 TEST(NeoHookean, KeepsTheDigitsOfSmallStrainEnergies) {
-  const ElasticParams p = params_of(ElasticLaw::neo_hookean);
+  const ElasticParams p = params_of(BulkLaw::neo_hookean);
   for (const double e : {1e-4, 1e-6, 1e-8}) {
     const double hooke = 0.5 * (p.lambda + 2 * p.mu) * e * e;
     // F itself carries 1e-16 / e of the strain; the next term of the energy is of the order e
@@ -253,7 +253,7 @@ double path_work(const Mat3& from, const Mat3& to, const ElasticParams& p, int p
 TEST(NeoHookean, CreatesNoEnergyInTwoHundredRandomClosedStrainLoops) {
   constexpr double kQuadrature = 1e-9;  // of the peak energy: what 64 pieces of three points leave at strains of 0.3
   std::mt19937 random(13);
-  const ElasticParams p = params_of(ElasticLaw::neo_hookean);
+  const ElasticParams p = params_of(BulkLaw::neo_hookean);
   for (int loop = 0; loop < 200; ++loop) {
     std::array<Mat3, 4> corner;
     double peak = 0;
@@ -270,7 +270,7 @@ TEST(NeoHookean, CreatesNoEnergyInTwoHundredRandomClosedStrainLoops) {
 TEST(NeoHookean, CreatesNoEnergyInLoopsThatTurnTheElementInsideOut) {
   constexpr double kQuadrature = 1e-7;  // the second derivative of P jumps at j_min, somewhere inside one of 512 pieces
   std::mt19937 random(14);
-  const ElasticParams p = params_of(ElasticLaw::neo_hookean);
+  const ElasticParams p = params_of(BulkLaw::neo_hookean);
   for (int loop = 0; loop < 50; ++loop) {
     std::array<Mat3, 3> corner{Mat3::Identity() + test::random_matrix(random, 0.2), gradient_of_volume(random, 0.05),
                                gradient_of_volume(random, -0.3)};
@@ -285,7 +285,7 @@ TEST(NeoHookean, CreatesNoEnergyInLoopsThatTurnTheElementInsideOut) {
 
 TEST(GreenStVenant, StressIsThePublishedFormula) {
   std::mt19937 random(15);
-  const ElasticParams p = params_of(ElasticLaw::green_st_venant);
+  const ElasticParams p = params_of(BulkLaw::green_st_venant);
   for (const double target : {0.15, 0.6, 1.0, 1.7}) {
     const Mat3 f = gradient_of_volume(random, target);
     const double j = f.determinant(), root = std::pow(j, 2.0 / 3.0);
@@ -298,7 +298,7 @@ TEST(GreenStVenant, StressIsThePublishedFormula) {
 
 TEST(GreenStVenant, PressureHasNoKinkWhereTheContinuationBegins) {
   // Without shape, F = 0, only the isotropic part is left.
-  const ElasticParams p = params_of(ElasticLaw::green_st_venant);
+  const ElasticParams p = params_of(BulkLaw::green_st_venant);
   const auto isotropic = [&](double j) { return el::green_st_venant_stress(el::Tensor<double>{}, j, p)[0]; };
   constexpr double kStep = 1e-6, kCurvature = 1e-4;  // of J; what the slope itself changes by over a step
   const double here = isotropic(p.j_min);
@@ -309,7 +309,7 @@ TEST(GreenStVenant, PressureHasNoKinkWhereTheContinuationBegins) {
 
 TEST(Viscosity, IsThePublishedStressAndFeelsNoSpin) {
   std::mt19937 random(16);
-  const ElasticParams p = params_of(ElasticLaw::neo_hookean, 0.7);
+  const ElasticParams p = params_of(BulkLaw::neo_hookean, 0.7);
   const Mat3 f = gradient_of_volume(random, 0.8), rate = test::random_matrix(random, 2.0);
   const auto cof = el::cofactor(tensor(f));
   const double j = f.determinant();
@@ -322,7 +322,7 @@ TEST(Viscosity, IsThePublishedStressAndFeelsNoSpin) {
 
 TEST(Viscosity, NeverGivesEnergyNotEvenToAnElementInsideOut) {
   std::mt19937 random(17);
-  const ElasticParams p = params_of(ElasticLaw::neo_hookean, 0.7);
+  const ElasticParams p = params_of(BulkLaw::neo_hookean, 0.7);
   for (const double j : {1.5, 0.5, 0.05, 0.0, -0.2, -1.0}) {
     for (int i = 0; i < 50; ++i) {
       const Mat3 f = gradient_of_volume(random, j), rate = test::random_matrix(random, 2.0);

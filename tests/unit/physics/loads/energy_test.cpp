@@ -21,7 +21,7 @@ double energy_of_stretch(const ElasticParams& p, double s) {
 /// Lone tetrahedra, each stretched along x by a factor of its own.
 struct Stretched {
   Model model;
-  ElasticParams params = make_elastic_params(ElasticLaw::neo_hookean, 2e9, 0.25, 0);
+  ElasticParams params = make_elastic_params(BulkLaw::neo_hookean, 2e9, 0.25, 0);
 
   Stretched(Discretisation kind, const std::vector<double>& stretch)
       : model(test::tetrahedron(1.0, {static_cast<int>(stretch.size()), 1, 1}), kind, 1000) {

@@ -24,7 +24,7 @@ struct Problem {
 
   Problem(Mesh mesh, Discretisation kind, double viscosity = 0)
       : model(std::move(mesh), kind, kDensity),
-        params{make_elastic_params(ElasticLaw::neo_hookean, kYoung, 0.25, viscosity)} {}
+        params{make_elastic_params(BulkLaw::neo_hookean, kYoung, 0.25, viscosity)} {}
 
   [[nodiscard]] StepModel step_model() const { return {model.local, model.links, joints, params, density}; }
 

@@ -87,9 +87,7 @@ std::vector<Simd> available() {
   return sets;
 }
 
-ElasticParams law(ElasticLaw which, double viscosity) {
-  return make_elastic_params(which, kYoung, kPoisson, viscosity);
-}
+ElasticParams law(BulkLaw which, double viscosity) { return make_elastic_params(which, kYoung, kPoisson, viscosity); }
 
 /// Deformed and moving at random, elastic joints between elements that own their nodes.
 Swept deformed(Discretisation kind, const ElasticParams& params) {
@@ -130,18 +128,18 @@ Field<double> forces_of(Swept& swept) {
 
 struct Kind {
   Discretisation discretisation;
-  ElasticLaw law;
+  BulkLaw law;
   double viscosity, mass_damping, local_damping;
 };
 
 class Sweep : public testing::TestWithParam<Kind> {};
 INSTANTIATE_TEST_SUITE_P(Kinds, Sweep,
-                         testing::Values(Kind{Discretisation::own_nodes, ElasticLaw::neo_hookean, 0, 0, 0},
-                                         Kind{Discretisation::own_nodes, ElasticLaw::neo_hookean, 40, 200, 0},
-                                         Kind{Discretisation::own_nodes, ElasticLaw::green_st_venant, 40, 0, 0.3},
-                                         Kind{Discretisation::shared_nodes, ElasticLaw::neo_hookean, 0, 0, 0},
-                                         Kind{Discretisation::shared_nodes, ElasticLaw::neo_hookean, 40, 200, 0.3},
-                                         Kind{Discretisation::shared_nodes, ElasticLaw::green_st_venant, 0, 0, 0}));
+                         testing::Values(Kind{Discretisation::own_nodes, BulkLaw::neo_hookean, 0, 0, 0},
+                                         Kind{Discretisation::own_nodes, BulkLaw::neo_hookean, 40, 200, 0},
+                                         Kind{Discretisation::own_nodes, BulkLaw::green_st_venant, 40, 0, 0.3},
+                                         Kind{Discretisation::shared_nodes, BulkLaw::neo_hookean, 0, 0, 0},
+                                         Kind{Discretisation::shared_nodes, BulkLaw::neo_hookean, 40, 200, 0.3},
+                                         Kind{Discretisation::shared_nodes, BulkLaw::green_st_venant, 0, 0, 0}));
 
 /// v(n+1/2) of a component by the formulas of the header, and the damping force, N.
 struct Moved {
@@ -211,7 +209,7 @@ TEST_P(Sweep, AccountsTheWorkOfViscousStressAndOfElasticStressWithoutAnEnergy) {
       return sum.value();
     };
     if (GetParam().viscosity > 0) all_viscous += 0.5 * kStep * power(viscous);
-    if (GetParam().law == ElasticLaw::green_st_venant) all_stress += 0.5 * kStep * power(elastic);
+    if (GetParam().law == BulkLaw::green_st_venant) all_stress += 0.5 * kStep * power(elastic);
   }
   double sum_viscous = 0, sum_stress = 0;
   for (const double w : swept.viscous) sum_viscous += w;
@@ -243,7 +241,7 @@ TEST(SweepOfJoints, CallsForTheForcesOfThoseThatHaveOpenedBeyondTheirLimitAlongA
   };
   for (int axis = 0; axis < 3; ++axis) {
     for (const double opening : {0.9e-3, 1.1e-3}) {
-      Swept swept(test::box({1, 1, 1}), Discretisation::own_nodes, law(ElasticLaw::neo_hookean, 0));
+      Swept swept(test::box({1, 1, 1}), Discretisation::own_nodes, law(BulkLaw::neo_hookean, 0));
       swept.model.join(2e6);
       std::fill(swept.model.links.limit.begin(), swept.model.links.limit.end(), 1e-6);  // m2
       for (int c = 0; c < 4; ++c) {  // one element moves away from its three neighbours, which move too
@@ -265,7 +263,7 @@ TEST(SweepOfJoints, CallsForTheForcesOfThoseThatHaveOpenedBeyondTheirLimitAlongA
 
 TEST(SweepStatus, NamesTheBlocksOfANumberThatIsNotFiniteAlsoTheLastOnes) {
   for (const Index element : {0, 700, 767}) {
-    Swept swept(test::box({4, 4, 2}), Discretisation::own_nodes, law(ElasticLaw::neo_hookean, 0));
+    Swept swept(test::box({4, 4, 2}), Discretisation::own_nodes, law(BulkLaw::neo_hookean, 0));
     ASSERT_EQ(swept.model.local.num_own_slots, 768) << "a block of 512 elements and a rest";
     swept.model.state.velocity[nodal(own_corner_node(element, 2), 1)] = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(sweep_for(best_simd())(swept.args()).first_not_finite, element < 512 ? 0 : 64) << element;
@@ -274,7 +272,7 @@ TEST(SweepStatus, NamesTheBlocksOfANumberThatIsNotFiniteAlsoTheLastOnes) {
 
 TEST(SweepStatus, CountsElementsBelowTheSmallestVolumeRatio) {
   for (const double share : {0.11, 0.09}) {
-    Swept swept(test::tetrahedron(), Discretisation::own_nodes, law(ElasticLaw::neo_hookean, 0));
+    Swept swept(test::tetrahedron(), Discretisation::own_nodes, law(BulkLaw::neo_hookean, 0));
     swept.model.map_positions([&](const Vec3& x) { return Vec3(x[0], x[1], share * x[2]); });
     EXPECT_EQ(sweep_for(best_simd())(swept.args()).crushed, share < 0.1 ? 1 : 0);
   }

@@ -82,7 +82,7 @@ class DrivenBody {
   }
 
   Model model_;
-  ElasticParams params_ = make_elastic_params(ElasticLaw::neo_hookean, 1e6, 0.25, 50.0);
+  ElasticParams params_ = make_elastic_params(BulkLaw::neo_hookean, 1e6, 0.25, 50.0);
   PressureLoad pressure_;
   GravityWork gravity_;
   Constraints constraints_;

@@ -12,15 +12,15 @@ namespace {
 using test::same_plastic_state;
 
 TEST(BulkLaw, remembers_the_fields_of_its_table_and_no_more) {
-  EXPECT_EQ(memory_size(ElasticLaw::neo_hookean), 0U);
-  EXPECT_EQ(memory_size(ElasticLaw::green_st_venant), 0U);
-  EXPECT_EQ(memory_size(ElasticLaw::drucker_prager), material::kDruckerPragerMemory);
+  EXPECT_EQ(memory_size(BulkLaw::neo_hookean), 0U);
+  EXPECT_EQ(memory_size(BulkLaw::green_st_venant), 0U);
+  EXPECT_EQ(memory_size(BulkLaw::drucker_prager), material::kDruckerPragerMemory);
   material::DruckerPragerMemory memory;
-  const auto place = static_cast<std::size_t>(plastic_work_place(ElasticLaw::drucker_prager));
+  const auto place = static_cast<std::size_t>(plastic_work_place(BulkLaw::drucker_prager));
   EXPECT_EQ(&memory.inverse_plastic[0] + place, &memory.plastic_work);
   ASSERT_LT(place, material::kDruckerPragerMemory);
-  EXPECT_STREQ(memory_fields(ElasticLaw::drucker_prager).back().name, "plastic_work");
-  EXPECT_EQ(plastic_work_place(ElasticLaw::neo_hookean), -1);
+  EXPECT_STREQ(memory_fields(BulkLaw::drucker_prager).back().name, "plastic_work");
+  EXPECT_EQ(plastic_work_place(BulkLaw::neo_hookean), -1);
 }
 
 TEST(BulkLaw, evaluated_by_itself_leaves_the_memory_as_it_is) {
@@ -37,7 +37,7 @@ TEST(BulkLaw, evaluated_by_itself_leaves_the_memory_as_it_is) {
 }
 
 TEST(BulkLaw, has_a_memory_when_it_has_fields) {
-  for (const ElasticLaw law : {ElasticLaw::neo_hookean, ElasticLaw::green_st_venant, ElasticLaw::drucker_prager}) {
+  for (const BulkLaw law : {BulkLaw::neo_hookean, BulkLaw::green_st_venant, BulkLaw::drucker_prager}) {
     EXPECT_EQ(has_memory(law), memory_size(law) > 0);
     EXPECT_LE(memory_size(law), kLargestMemory);
   }

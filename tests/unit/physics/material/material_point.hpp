@@ -17,7 +17,7 @@ inline constexpr double kDegree = std::numbers::pi / 180;
 
 /// A material point that is led along a history of deformation gradients.
 struct MaterialPoint {
-  ElasticParams params = make_elastic_params(ElasticLaw::drucker_prager, 30e9, 0.2, 0);
+  ElasticParams params = make_elastic_params(BulkLaw::drucker_prager, 30e9, 0.2, 0);
   material::DruckerPragerMemory memory{};
   Mat3 gradient = Mat3::Identity();
   Mat3 piola = Mat3::Zero();
