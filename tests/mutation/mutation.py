@@ -24,6 +24,7 @@ import fcntl
 import hashlib
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -47,9 +48,22 @@ def read_table():
     return [row for file in files for row in tomllib.loads(file.read_text(encoding="utf-8"))["mutation"]]
 
 
+def test_programs(repository):
+    """Names of the programs that the lists of tests/ build."""
+    calls = {"breccia_test": "test_", "breccia_mpi_test": "mpi_", "breccia_catalyst_test": "catalyst_",
+             "breccia_catalyst_unit_test": "test_catalyst_"}
+    programs = set()
+    for file in (repository / "tests").rglob("CMakeLists.txt"):
+        for call, name in re.findall(r"^\s*(\w+)\((?:NAME )?(\w+)", file.read_text(encoding="utf-8"), re.MULTILINE):
+            if call in calls:
+                programs.add(calls[call] + name)
+    return programs
+
+
 def problems(rows, repository=REPOSITORY):
     """What keeps rows from being applied, a line each."""
     found = []
+    programs = test_programs(repository)
     for row in rows:
         name = row.get("id", "a row without an id")
         if set(row) != FIELDS:
@@ -66,6 +80,9 @@ def problems(rows, repository=REPOSITORY):
             found.append(f"{name}: changes nothing")
         if not row["tests"]:
             found.append(f"{name}: names no tests")
+        unknown = [test for test in row["tests"] if test.split(":")[0] not in programs]
+        if unknown:
+            found.append(f"{name}: there is no test program {', '.join(unknown)}")
     ids = Counter(row.get("id") for row in rows)
     found += [f"{name}: stands {number} times in the table" for name, number in ids.items() if number > 1]
     return found

@@ -18,6 +18,7 @@ MISFITS = [
     ({"file": "solver/base/gone.cpp"}, "there is no solver/base/gone.cpp"),
     ({"replace": "0.5 * x"}, "changes nothing"),
     ({"tests": []}, "names no tests"),
+    ({"tests": ["test_base", "Budget"]}, "there is no test program Budget"),
     ({"comment": "x"}, "needs breaks, file, find, id, replace, tests"),
 ]
 
@@ -30,6 +31,8 @@ class Table(unittest.TestCase):
         for row in (ROW, OTHER):
             (self.repository / row["file"]).parent.mkdir(parents=True)
             (self.repository / row["file"]).write_text(SOURCE, encoding="utf-8")
+        (self.repository / "tests").mkdir()
+        (self.repository / "tests/CMakeLists.txt").write_text("breccia_test(NAME base LABEL unit)\n", encoding="utf-8")
 
     def test_rows_that_fit_have_no_problems(self):
         self.assertEqual(problems([ROW, OTHER], self.repository), [])
