@@ -164,7 +164,7 @@ class Race {
     started_ = Clock::now();
     const Racer own{input_.detection.algorithm, input_.detection.buffer, true};
     const bool finished = run_lap(own, enough, [&](const Partition& partition, const TimingSegments&) {
-      buffer = communicator_.max(partition.domain().contact->buffer());
+      buffer = communicator_.max(partition.domain().contact->searches().buffer());
       result_.steps = partition.state().clock.steps - start_.state.state.clock.steps;
       if (partition.state().counters.searches == start_.state.state.counters.searches) throw nothing_touches();
     });
@@ -224,7 +224,7 @@ class Race {
     Lap& least = entries_[turn].least;
     least.searches = partition.state().counters.searches - start_.state.state.counters.searches;
     least.used = static_cast<double>(least.searches - 1) +
-                 partition.domain().contact->used_up(partition.state().nodes, communicator_);
+                 partition.domain().contact->searches().used_up(partition.state().nodes, communicator_);
     least.couples = couples_of(partition);
     least_.push_back(pieces);
   }

@@ -6,7 +6,7 @@
 #include "contact/contact_search.hpp"
 #include "physics/contact/contact_couples.hpp"
 
-/// The part of ContactSearch that hands histories over from one decomposition to the next.
+/// The part of ContactSearch that stores its state in records and restores it from them.
 namespace breccia {
 
 namespace {
@@ -24,83 +24,99 @@ std::span<const T> entries_of(const std::vector<T>& list, GlobalId first, Global
   return {from, std::lower_bound(from, list.end(), end, before)};
 }
 
+/// The couple of a record, with -1 for a point or contactor that is not on this rank
+TouchingCouple restored(const CoupleRecord& record, const ContactState& contact, const LocalMesh& local) {
+  TouchingCouple couple = record.couple;
+  couple.point = couple.contactor = -1;
+  const auto point = std::lower_bound(contact.order.begin(), contact.order.end(), record.point,
+                                      [&](Index p, GlobalId id) { return contact.id(p) < id; });
+  if (point != contact.order.end() && contact.id(*point) == record.point) couple.point = *point;
+  const auto contactor =
+      std::lower_bound(contact.contactors.begin(), contact.contactors.end(), record.contactor,
+                       [&](Index slot, GlobalId id) { return local.element_of_slot[at(slot)] < id; });
+  if (contactor != contact.contactors.end() && local.element_of_slot[at(*contactor)] == record.contactor) {
+    couple.contactor = static_cast<Index>(contactor - contact.contactors.begin());
+  }
+  return couple;
+}
+
+CoupleRecord record_of(const TouchingCouple& couple, GlobalId element, const ContactState& contact,
+                       const LocalMesh& local) {
+  return {element, local.element_of_slot[at(contact.contactors[at(couple.contactor)])], contact.id(couple.point),
+          couple};
+}
+
 }  // namespace
 
 ContactSearch::ContactSearch(const ContactSearchParams& search, const Model& model, const Records& records,
                              ContactState& contact)
-    : ContactSearch(search, model.contact, model.mesh, model.topology, model.local, contact, nullptr) {
-  size_ = model.whole.contactor_size;
+    : verify_(search.verify),
+      contact_(contact),
+      surface_(search, {model.contact, model.mesh, model.topology, model.local}, contact),
+      search_(search, surface_, contact, model.whole.contactor_size),
+      kept_(contact),
+      release_(surface_, search_, contact) {
   restore_contactors(records);
   contact_.body_length = model.whole.body_length;
-  add_free_points();
-  std::vector<Topology::Face> released;
-  for (Index e = 0; e < mesh_->num_elements(); ++e) {
-    for (int f = 0; f < 4; ++f) {
-      if ((records.elements[at(e)].released >> f & 1) == 0 || topology_->links[at(e)][at(f)].free()) continue;
-      released.push_back({e, f});
-      add_points_of(e, f);
-    }
-  }
-  clusters_.break_faces(released, changed_);
+  surface_.add_free_points();
+  restore_faces(records);
   sort_points(contact_);
-  restore_histories(records);
+  restore_offsets(records);
+  adopt(records.couples);
 }
 
 void ContactSearch::restore_contactors(const Records& records) {
+  const ContactModel& model = surface_.model();
   std::vector<Index> slots;
-  for (Index e = 0; e < mesh_->num_elements(); ++e) {
+  for (Index e = 0; e < model.mesh.num_elements(); ++e) {
     if (records.elements[at(e)].contactor == 0) continue;
-    slots.push_back(local_->slot_of_element[at(e)]);
+    slots.push_back(model.slot_of(e));
     contact_.field.push_back(records.elements[at(e)].field);
   }
-  set_contactors(*local_, std::move(slots), contact_);
+  set_contactors(model.local, std::move(slots), contact_);
   for (const RampRecord& record : records.ramps) {
     FieldRamp ramp = record.ramp;
-    ramp.contactor = contact_.contactor_of_slot[at(local_->slot_of_element[at(records.place_of(record.element))])];
+    ramp.contactor = contact_.contactor_of_slot[at(model.slot_of(records.place_of(record.element)))];
     contact_.ramp_of_contactor[at(ramp.contactor)] = static_cast<Index>(contact_.ramps.size());
     contact_.ramps.push_back(ramp);
   }
 }
 
-void ContactSearch::restore_histories(const Records& records) {
-  const auto point_with = [&](GlobalId id) {
-    const auto found = std::lower_bound(contact_.order.begin(), contact_.order.end(), id,
-                                        [&](Index point, GlobalId wanted) { return contact_.id(point) < wanted; });
-    DEMAND(found != contact_.order.end() && contact_.id(*found) == id,
-           "contact point " + std::to_string(id) + " is not there");
-    return *found;
-  };
-  if (!records.offsets.empty()) {
-    contact_.boundary_offset.assign(contact_.points.size(), std::numeric_limits<double>::infinity());
-    for (const OffsetRecord& record : records.offsets)
-      contact_.boundary_offset[at(point_with(record.point))] = record.offset;
+/// Faces that fracture has freed.
+void ContactSearch::restore_faces(const Records& records) {
+  const ContactModel& model = surface_.model();
+  std::vector<Topology::Face> released;
+  for (Index e = 0; e < model.mesh.num_elements(); ++e) {
+    for (int f = 0; f < 4; ++f) {
+      if ((records.elements[at(e)].released >> f & 1) == 0 || model.topology.links[at(e)][at(f)].free()) continue;
+      released.push_back({e, f});
+      surface_.add_points(e, f);
+    }
   }
-  adopt(records.couples);
+  std::vector<Index> changed;
+  surface_.break_faces(released, changed);
 }
 
-TouchingCouple ContactSearch::restored(const CoupleRecord& record) const {
-  TouchingCouple couple = record.couple;
-  couple.point = couple.contactor = -1;
-  const auto found = std::lower_bound(contact_.order.begin(), contact_.order.end(), record.point,
-                                      [&](Index point, GlobalId id) { return contact_.id(point) < id; });
-  if (found != contact_.order.end() && contact_.id(*found) == record.point) couple.point = *found;
-  const auto contactor =
-      std::lower_bound(contact_.contactors.begin(), contact_.contactors.end(), record.contactor,
-                       [&](Index slot, GlobalId id) { return local_->element_of_slot[at(slot)] < id; });
-  if (contactor != contact_.contactors.end() && local_->element_of_slot[at(*contactor)] == record.contactor) {
-    couple.contactor = static_cast<Index>(contactor - contact_.contactors.begin());
+void ContactSearch::restore_offsets(const Records& records) {
+  if (records.offsets.empty()) return;
+  contact_.boundary_offset.assign(contact_.points.size(), std::numeric_limits<double>::infinity());
+  for (const OffsetRecord& record : records.offsets) {
+    const auto found = std::lower_bound(contact_.order.begin(), contact_.order.end(), record.point,
+                                        [&](Index point, GlobalId id) { return contact_.id(point) < id; });
+    DEMAND(found != contact_.order.end() && contact_.id(*found) == record.point,
+           "contact point " + std::to_string(record.point) + " is not there");
+    contact_.boundary_offset[at(*found)] = record.offset;
   }
-  return couple;
 }
 
 void ContactSearch::adopt(std::span<const CoupleRecord> touching) {
+  const LocalMesh& local = surface_.model().local;
   std::vector<TouchingCouple>& known = contact_.touching;
-  std::erase_if(known,
-                [&](const TouchingCouple& c) { return !local_->is_original(contact_.points[at(c.point)].slot); });
+  std::erase_if(known, [&](const TouchingCouple& c) { return !local.is_original(contact_.points[at(c.point)].slot); });
   const std::ptrdiff_t own = std::ssize(known);
   for (const CoupleRecord& record : touching) {
-    const TouchingCouple couple = restored(record);
-    // What a point touches beyond this rank's elements is nobody's concern here.
+    const TouchingCouple couple = restored(record, contact_, local);
+    // What a point touches beyond this rank's elements exerts no force here.
     if (couple.point >= 0 && couple.contactor >= 0) known.push_back(couple);
   }
   const auto before = [&](const TouchingCouple& a, const TouchingCouple& b) {
@@ -111,57 +127,26 @@ void ContactSearch::adopt(std::span<const CoupleRecord> touching) {
 }
 
 std::vector<CoupleRecord> ContactSearch::touching_of(std::span<const Index> slots) const {
+  const LocalMesh& local = surface_.model().local;
   std::vector<CoupleRecord> touching;
-  const auto before = [&](Index slot, GlobalId element) { return local_->element_of_slot[at(slot)] < element; };
+  const auto before = [&](Index slot, GlobalId element) { return local.element_of_slot[at(slot)] < element; };
   auto next = slots.begin();
   for (const TouchingCouple& couple : contact_.touching) {
     const Index slot = contact_.points[at(couple.point)].slot;
-    const GlobalId element = local_->element_of_slot[at(slot)];
+    const GlobalId element = local.element_of_slot[at(slot)];
     next = std::lower_bound(next, slots.end(), element, before);
     if (next == slots.end()) break;
-    if (*next == slot) touching.push_back(record_of(couple, element));
+    if (*next == slot) touching.push_back(record_of(couple, element, contact_, local));
   }
   return touching;
 }
 
-CoupleRecord ContactSearch::record_of(const TouchingCouple& couple, GlobalId element) const {
-  return {element, local_->element_of_slot[at(contact_.contactors[at(couple.contactor)])], contact_.id(couple.point),
-          couple};
-}
-
-void ContactSearch::restrict_to(std::vector<std::uint8_t> relevant) {
-  DEMAND(!searched_, "couples are there already");
-  contact_.relevant = std::move(relevant);
-  constexpr int kLate = 1;
-  moved_ = DisplacementWatch(kLate);
-}
-
-/// A point's couples stand in a row; they stay together, since what it touches decides what it may touch next.
-void ContactSearch::keep_relevant() {
-  std::vector<ContactCouple>& couples = contact_.couples;
-  std::size_t kept = 0;
-  for (std::size_t first = 0, end = 0; first < couples.size(); first = end) {
-    bool matters = contact_.matters(contact_.points[at(couples[first].point)].slot);
-    for (end = first; end < couples.size() && couples[end].point == couples[first].point; ++end) {
-      matters = matters || contact_.matters(contact_.contactors[at(couples[end].contactor)]);
-    }
-    for (std::size_t i = first; i < end && matters; ++i) couples[kept++] = couples[i];
-  }
-  couples.resize(kept);
-}
-
-void ContactSearch::mark_coupled(std::vector<std::uint8_t>& marks) const {
-  for (const ContactCouple& couple : contact_.couples) {
-    marks[at(contact_.points[at(couple.point)].slot)] = 1;
-    marks[at(contact_.contactors[at(couple.contactor)])] = 1;
-  }
-}
-
-void ContactSearch::remember(Index element, ElementRecord& record, Records& records) const {
+void ContactSearch::store(Index element, ElementRecord& record, Records& records) const {
+  const ContactModel& model = surface_.model();
   for (int f = 0; f < 4; ++f) {
-    if (clusters_.broken(element, f)) record.released |= static_cast<std::uint8_t>(1U << f);
+    if (clusters().broken(element, f)) record.released |= static_cast<std::uint8_t>(1U << f);
   }
-  const Index contactor = contact_.contactor_of_slot[at(local_->slot_of_element[at(element)])];
+  const Index contactor = contact_.contactor_of_slot[at(model.slot_of(element))];
   if (contactor >= 0) {
     record.contactor = 1;
     record.field = contact_.field[at(contactor)];
@@ -176,7 +161,7 @@ void ContactSearch::remember(Index element, ElementRecord& record, Records& reco
   }
   for (const TouchingCouple& couple :
        entries_of(contact_.touching, first, end, [&](const TouchingCouple& c) { return contact_.id(c.point); })) {
-    records.couples.push_back(record_of(couple, record.id));
+    records.couples.push_back(record_of(couple, record.id, contact_, model.local));
   }
 }
 

@@ -36,9 +36,9 @@ Domain::Domain(const Model& of, const ContactSearchParams& search) : model(of), 
     if (!starts_intact(model, model.joints[j])) from_start.push_back(new_active_joint(model, j));
   }
   state.joints.active.insert(from_start);
-  if (model.has_contact)
-    contact =
-        std::make_unique<ContactSearch>(search, model.contact, model.mesh, model.topology, model.local, state.contact);
+  if (!model.has_contact) return;
+  const ContactModel parts{model.contact, model.mesh, model.topology, model.local};
+  contact = std::make_unique<ContactSearch>(search, parts, state.contact);
 }
 
 Domain::Domain(const Model& of, const ContactSearchParams& search, const Records& records, Continuation from)

@@ -67,7 +67,7 @@ void Partition::start_whole() {
     add_velocity(*domain_, initial_velocity(entry, *model_));
   time_step_ = std::make_unique<TimeStep>(*model_);
   model_->whole.step_ratio = time_step_->ratio();
-  if (domain_->contact) model_->whole.contactor_size = domain_->contact->contactor_size();
+  if (domain_->contact) model_->whole.contactor_size = domain_->contact->searches().contactor_size();
 }
 
 void Partition::decompose_anew(WholeModel whole, Records mine, const std::vector<double>& weight, Continuation from) {

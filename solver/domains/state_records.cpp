@@ -58,7 +58,7 @@ class ElementCollector {
       if (!state.damping_work.empty()) record.damping[at(c)] = state.damping_work[at(node)];
       add_holds(record.id, node, c, lists.holds);
     }
-    if (domain_.contact) domain_.contact->remember(element, record, lists);
+    if (domain_.contact) domain_.contact->store(element, record, lists);
     return record;
   }
 
