@@ -29,6 +29,7 @@ struct FinishedRun {
     const Scratch scratch;
     outcome = call("run " + arguments + " --progress none -o '" + scratch.path("run").string() + "'");
     summary = json::parse(read_text(scratch.path("run/summary.json")));
+    EXPECT_EQ(energy_fault(scratch.path("run/history.csv")), "") << arguments;
     std::istringstream lines(read_text(scratch.path("run/history.csv")));
     std::vector<std::string> names;
     for (std::string line; std::getline(lines, line);) {

@@ -50,4 +50,8 @@ std::string changed(const std::string& from, const std::string& to);
 
 std::string read_text(const std::filesystem::path& file);
 
+/// What is wrong with the energies in a history.csv, empty if nothing: no dissipated term ever falls, and what is
+/// kinetic and stored never exceeds what was there at first and was put in since.
+std::string energy_fault(const std::filesystem::path& history);
+
 }  // namespace breccia::test

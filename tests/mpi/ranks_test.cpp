@@ -68,6 +68,7 @@ struct Result {
 
 Result result_of(const std::filesystem::path& folder) {
   const auto summary = nlohmann::json::parse(test::read_text(folder / "summary.json"));
+  EXPECT_EQ(test::energy_fault(folder / "history.csv"), "");
   return {summary.at("state_hash"), history_without_couples(folder / "history.csv"), summary,
           failures_in(folder / "frames")};
 }

@@ -253,12 +253,11 @@ void Pass::forget(const TouchingCouple& old) {
   const bool crushed = tetra != nullptr && inert(*tetra);
   if (old.friction != Vec3::Zero()) {
     const double k = law.tangential_ratio * point.weight * law.penalty / length;
-    double lost = 0.5 * k * old.spring.squaredNorm();
+    Vec3 motion = Vec3::Zero();
     if (tetra != nullptr && !crushed) {
-      const Vec3 x = at_point(rule_, point, state_.position.data());
-      lost -= 0.5 * old.friction.dot(relative_motion(point, slot, barycentric(*tetra, x)));
+      motion = relative_motion(point, slot, barycentric(*tetra, at_point(rule_, point, state_.position.data())));
     }
-    book(point, work_.friction_dissipated).add(lost);
+    book(point, work_.friction_dissipated).add(released_by_friction(motion, k, old.spring));
   }
   // A contactor that was crushed while it was touched gives nothing back.
   if (crushed) book(point, work_.dissipated).add(point.weight * length * normal_law::stored(law, old.d, old.d_max));
@@ -300,7 +299,7 @@ void Pass::follow(const ContactLaw& law, double scale, double length, const Cand
   const double stored = normal_law::stored(law, h.d, h.d_max);
   h.offset = std::max(0.0, h.offset + (candidate.g - candidate.g_before));
   go_to(candidate.g);
-  dissipated.add(scale * (stored - normal_law::stored(law, h.d, h.d_max)));
+  dissipated.add(scale * std::max(0.0, stored - normal_law::stored(law, h.d, h.d_max)));
 }
 
 /// A point that moves on into another element finds the field it leaves only while the two are bonded. What the overlap
@@ -345,13 +344,12 @@ void Pass::press(const ContactLaw& law, const ContactPoint& point, Index slot, d
   if (law.friction > 0 && law.tangential_ratio > 0 && slope > 0) {
     const double k = law.tangential_ratio * point.weight * law.penalty / length;
     const Vec3 motion = relative_motion(point, slot, candidate.lambda);
-    const double held = 0.5 * k * h.spring.squaredNorm();
-    const Vec3 friction = friction_force(-here.gradient / slope, motion, k, law.friction * pressure * slope, h.spring);
-    const double holds = 0.5 * k * h.spring.squaredNorm();
-    book(point, work_.friction_dissipated).add(-0.5 * (h.friction + friction).dot(motion) - (holds - held));
-    book(point, work_.friction_stored).add(holds);
-    h.friction = friction;
-    h.force += friction;
+    const FrictionStep friction =
+        friction_step(-here.gradient / slope, motion, k, law.friction * pressure * slope, h.spring);
+    book(point, work_.friction_dissipated).add(friction.dissipated);
+    book(point, work_.friction_stored).add(0.5 * k * h.spring.squaredNorm());
+    h.friction = friction.force;
+    h.force += friction.force;
   }
   book(point, work_.stored).add(point.weight * length * normal_law::stored(law, h.d, h.d_max));
   if (h.d > 0 && local_.is_original(point.slot)) ++work_.touching;

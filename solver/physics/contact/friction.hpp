@@ -1,29 +1,52 @@
 #pragma once
 
+#include <algorithm>
+
 #include "base/types.hpp"
 
 namespace breccia {
 
+/// What friction does to a contact point in a step.
+struct FrictionStep {
+  Vec3 force;         ///< N, tangential, on the point
+  double dissipated;  ///< J, >= 0
+};
+
 /// Coulomb friction of one contact point by a tangential spring. Source: [Cundall and Strack 1979], rotated with the
 /// normal.
 ///
-///   xi <- (I - n n^T) xi, brought back to its old length;  xi <- xi + (I - n n^T) motion
-///   f_t = -k xi;  if |f_t| > limit: f_t is shortened to it and xi = -f_t / k
+///   xi <- (I - n n^T) xi, brought back to its old length: xi_0;  xi <- xi_0 + (I - n n^T) motion
+///   f_t = -k xi;  if |f_t| > limit: f_t is shortened to it and xi = -f_t / k, the rest of xi is the slip s
+///   dissipated: <k/2 (xi_0 + xi) . s>, the mean force of the step over the slip
+///
+/// While the spring only turns or stretches nothing is dissipated: what a turning spring does to the work of the step
+/// is left to the residual of the energy budget.
 ///
 /// @param normal  unit vector
 /// @param motion  m, of the point relative to the contactor during the step
 /// @param k       N/m, > 0;  @param limit  N, mu f_n >= 0
 /// @param xi      m, elongation of the spring, read and written
-/// @return tangential force on the point, N
-[[nodiscard]] inline Vec3 friction_force(const Vec3& normal, const Vec3& motion, double k, double limit, Vec3& xi) {
+[[nodiscard]] inline FrictionStep friction_step(const Vec3& normal, const Vec3& motion, double k, double limit,
+                                                Vec3& xi) {
   const double length = xi.norm();
   xi -= normal.dot(xi) * normal;
   const double turned = xi.norm();
   if (turned > 0) xi *= length / turned;
+  const Vec3 before = xi;
   xi += motion - normal.dot(motion) * normal;
   const double trial = k * xi.norm();
-  if (trial > limit) xi *= limit / trial;
-  return -k * xi;
+  double dissipated = 0;
+  if (trial > limit) {
+    const Vec3 stretched = xi;
+    xi *= limit / trial;
+    dissipated = std::max(0.0, 0.5 * k * (before + xi).dot(stretched - xi));
+  }
+  return {-k * xi, dissipated};
+}
+
+/// Of a spring that lets go in a step, J, >= 0: the same with the limit 0. @param motion  as above, along the surface
+[[nodiscard]] inline double released_by_friction(const Vec3& motion, double k, const Vec3& xi) {
+  return std::max(0.0, 0.5 * k * xi.dot(xi + motion));
 }
 
 }  // namespace breccia

@@ -16,7 +16,7 @@ TEST(friction, sticks_with_a_linear_spring_below_the_limit) {
   const Vec3 n(0, 0, 1);
   Vec3 force;
   for (int i = 1; i <= 5; ++i) {
-    force = friction_force(n, {1e-3, 2e-3, 0.7}, 50, 100, xi);
+    force = friction_step(n, {1e-3, 2e-3, 0.7}, 50, 100, xi).force;
     EXPECT_NEAR((force - Vec3(-0.05 * i, -0.1 * i, 0)).norm(), 0, kRoundOff);
   }
 }
@@ -24,14 +24,14 @@ TEST(friction, sticks_with_a_linear_spring_below_the_limit) {
 TEST(friction, slides_at_the_limit_against_the_motion) {
   Vec3 xi = Vec3::Zero();
   Vec3 force;
-  for (int i = 0; i < 10; ++i) force = friction_force({0, 0, 1}, {0.3, 0.4, 0}, 1000, 7, xi);
+  for (int i = 0; i < 10; ++i) force = friction_step({0, 0, 1}, {0.3, 0.4, 0}, 1000, 7, xi).force;
   EXPECT_NEAR((force - Vec3(-4.2, -5.6, 0)).norm(), 0, 7 * kRoundOff);
   EXPECT_NEAR(xi.norm(), 7e-3, kRoundOff);
 }
 
 TEST(friction, vanishes_without_normal_force) {
   Vec3 xi(0.1, 0, 0);
-  EXPECT_EQ(friction_force({0, 0, 1}, {1, 0, 0}, 1000, 0, xi), Vec3(0, 0, 0));
+  EXPECT_EQ(friction_step({0, 0, 1}, {1, 0, 0}, 1000, 0, xi).force, Vec3(0, 0, 0));
   EXPECT_EQ(xi, Vec3(0, 0, 0));
 }
 
@@ -39,9 +39,49 @@ TEST(friction, the_spring_keeps_its_length_when_the_normal_turns) {
   Vec3 xi(0.1, 0, 0);
   const double angle = 0.3;
   const Vec3 normal(std::sin(angle), 0, std::cos(angle));
-  const Vec3 force = friction_force(normal, Vec3::Zero(), 1, 10, xi);
+  const Vec3 force = friction_step(normal, Vec3::Zero(), 1, 10, xi).force;
   EXPECT_NEAR(force.dot(normal), 0, kRoundOff);
   EXPECT_NEAR((xi - 0.1 * Vec3(std::cos(angle), 0, -std::sin(angle))).norm(), 0, kRoundOff);
+}
+
+TEST(friction, dissipates_the_slip_and_nothing_while_it_sticks) {
+  constexpr double kStiffness = 1000, kLimit = 7;
+  Vec3 xi = Vec3::Zero();
+  EXPECT_EQ(friction_step({0, 0, 1}, {0.006, 0, 0}, kStiffness, kLimit, xi).dissipated, 0);
+  // To the limit at 7 mm, then on by 5 mm: the mean force of the step over the slip of 5 mm.
+  const double expected = 0.5 * (6 + 7) * 0.005;
+  EXPECT_NEAR(friction_step({0, 0, 1}, {0.006, 0, 0}, kStiffness, kLimit, xi).dissipated, expected, kRoundOff);
+  // Sliding on at the limit: mu p times the way.
+  EXPECT_NEAR(friction_step({0, 0, 1}, {0.02, 0, 0}, kStiffness, kLimit, xi).dissipated, kLimit * 0.02, kRoundOff);
+}
+
+TEST(friction, takes_nothing_back_when_normals_turn_motions_reverse_or_the_contact_ends) {
+  constexpr double kStiffness = 50;
+  Vec3 xi = Vec3::Zero();
+  for (int i = 0; i < 1000; ++i) {
+    const double a = 0.7 * i, b = 1.3 * i;
+    const Vec3 normal(std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a));
+    const Vec3 motion = 0.1 * Vec3(std::cos(3.1 * i), std::sin(2.3 * i), std::cos(1.7 * i));
+    const double limit = 2.0 + 2.0 * std::sin(0.9 * i), held = 0.5 * kStiffness * xi.squaredNorm();
+    const double dissipated = friction_step(normal, motion, kStiffness, limit, xi).dissipated;
+    EXPECT_GE(dissipated, 0);
+    // No more than the motion can have put in beside what was held.
+    EXPECT_LE(dissipated, held + 0.5 * kStiffness * (std::sqrt(2 * held / kStiffness) + 0.2) * 0.2);
+    EXPECT_GE(released_by_friction(motion, kStiffness, xi), 0);
+  }
+}
+
+TEST(friction, that_turns_without_sliding_dissipates_nothing) {
+  Vec3 xi(0.1, 0, 0);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 normal(std::sin(0.05 * i), 0, std::cos(0.05 * i));
+    EXPECT_EQ(friction_step(normal, {0.001, 0.002, 0.003}, 1, 1e9, xi).dissipated, 0);
+  }
+}
+
+TEST(friction, lets_go_of_what_the_spring_holds) {
+  const Vec3 xi(0.1, 0, 0);
+  EXPECT_NEAR(released_by_friction(Vec3::Zero(), 50, xi), 0.25, kRoundOff);
 }
 
 }  // namespace
