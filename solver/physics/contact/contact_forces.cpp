@@ -243,20 +243,21 @@ Vec3 Pass::relative_motion(const ContactPoint& point, Index slot, const std::arr
   return dt_ * relative;
 }
 
-/// The overlap is gone. What the normal law had stored was given back as work; the spring lets go.
+/// The overlap is gone. What the normal law had stored was given back as work; the spring lets go. The contactor may
+/// have left all couples with a search in this step, so it is prepared here: what is accounted depends on no search.
 void Pass::forget(const TouchingCouple& old) {
   const ContactLaw& law = law_of(old.point, old.contactor);
   const ContactPoint& point = point_at(old.point);
-  const Index slot = slot_of(old.contactor), place = contact_.place[static_cast<std::size_t>(old.contactor)];
+  const Index slot = slot_of(old.contactor);
   const double length = length_of(slot);
-  const PreparedTetra* tetra = place < 0 ? nullptr : &contact_.prepared[static_cast<std::size_t>(place)];
-  const bool crushed = tetra != nullptr && inert(*tetra);
+  const PreparedTetra tetra =
+      prepare(load_corners(local_, state_.position.data(), slot), local_.volume[static_cast<std::size_t>(slot)]);
+  const bool crushed = inert(tetra);
   if (old.friction != Vec3::Zero()) {
     const double k = law.tangential_ratio * point.weight * law.penalty / length;
     Vec3 motion = Vec3::Zero();
-    if (tetra != nullptr && !crushed) {
-      motion = relative_motion(point, slot, barycentric(*tetra, at_point(rule_, point, state_.position.data())));
-    }
+    if (!crushed)
+      motion = relative_motion(point, slot, barycentric(tetra, at_point(rule_, point, state_.position.data())));
     book(point, work_.friction_dissipated).add(released_by_friction(motion, k, old.spring));
   }
   // A contactor that was crushed while it was touched gives nothing back.
