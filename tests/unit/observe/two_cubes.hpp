@@ -1,0 +1,53 @@
+#pragma once
+
+#include "case/case.hpp"
+#include "contact/search_params.hpp"
+#include "domains/domain.hpp"
+#include "model/model.hpp"
+#include "model/parameters.hpp"
+#include "unit/case/case_files.hpp"
+
+namespace breccia::test {
+
+constexpr double kCubeEdge = 0.01;     // m
+constexpr double kCubeDensity = 2000;  // kg/m3
+constexpr double kCubeStep = 1e-8;     // s
+
+/// A box of two cubes along x, each of 24 elements, with a slit of four faces between them that holds until it is
+/// broken. @param more  lines of the case, before the stage
+inline case_::Case two_cubes(const std::string& more = "") {
+  return case_::read_text(R"([mesh.raster]
+cells = [2, 1, 1]
+cell_size = "10 mm"
+group = "box"
+slit = { lower = ["10 mm", 0, 0], upper = ["10 mm", "10 mm", "10 mm"] }
+[[material]]
+group = "box"
+young = "1 GPa"
+poisson = 0.2
+density = 2000
+joints = "breakable"
+[[joint]]
+group = "box"
+penalty_factor = 10
+tensile_strength = "1 MPa"
+energy_mode_1 = "10 J/m2"
+)" + more + R"([[stage]]
+name = "rest"
+end = "1 ms"
+)");
+}
+
+/// The cubes in their stage, with a step far below the stable one.
+struct CubesDomain {
+  explicit CubesDomain(const std::string& more = "")
+      : input(two_cubes(more)), model(build_model(input)), domain(model, search_params(input, model)) {
+    begin_stage(domain, stage_loads(input.stages[0], model), kCubeStep);
+  }
+
+  const case_::Case input;
+  const Model model;
+  Domain domain;
+};
+
+}  // namespace breccia::test

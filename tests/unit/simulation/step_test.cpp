@@ -1,0 +1,99 @@
+#include "simulation/step.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "unit/observe/two_cubes.hpp"
+
+namespace breccia {
+namespace {
+
+using test::kCubeStep;
+
+/// Largest deviation of a nodal field's nodes from what is expected of each.
+template <class Expected>
+double deviation(const LocalMesh& local, const Field<double>& field, Expected&& expected) {
+  double largest = 0;
+  for (Index n = 0; n < local.num_nodes; ++n) {
+    if (local.node_id[static_cast<std::size_t>(n)] < 0) continue;
+    largest = std::max(largest, (load_node(field.data(), n) - expected(n)).norm());
+  }
+  return largest;
+}
+
+class StepOfCubes : public testing::Test, protected test::CubesDomain {
+ protected:
+  void set_velocity(const Vec3& velocity) {
+    for (Index n = 0; n < model.local.num_nodes; ++n) store_node(domain.state.nodes.velocity.data(), n, velocity);
+  }
+  [[nodiscard]] Vec3 start(Index node) const { return load_node(model.local.reference.data(), node); }
+};
+
+TEST_F(StepOfCubes, TakesTheClockAlong) {
+  step(domain);
+  domain.state.clock.dt = 2 * kCubeStep;
+  step(domain);
+  const Clock& clock = domain.state.clock;
+  EXPECT_EQ(clock.steps, 2);
+  EXPECT_DOUBLE_EQ(clock.time, 3 * kCubeStep);
+  EXPECT_EQ(clock.dt_before, 2 * kCubeStep);
+  EXPECT_EQ(clock.dt_earlier, kCubeStep);
+}
+
+TEST_F(StepOfCubes, MovesAFreeBodyByItsVelocityAlone) {
+  const Vec3 velocity(2, -1, 0.5);
+  set_velocity(velocity);
+  constexpr int kSteps = 50;
+  for (int i = 0; i < kSteps; ++i) step(domain);
+  constexpr double kRounding = 1e-16;  // m, of positions of 20 mm
+  EXPECT_LE(deviation(model.local, domain.state.nodes.position,
+                      [&](Index n) { return Vec3(start(n) + kSteps * kCubeStep * velocity); }),
+            kSteps * kRounding);
+}
+
+TEST_F(StepOfCubes, SumsUpGravityAsCentralDifferencesDo) {
+  domain.state.loads.gravity[2].constant = -9.81;
+  constexpr int kSteps = 40;
+  for (int i = 0; i < kSteps; ++i) step(domain);
+  const double fall = 0.5 * 9.81 * kCubeStep * kCubeStep * kSteps * (kSteps + 1);  // from v_(-1/2) = 0
+  constexpr double kRounding = 1e-17;                                              // m
+  EXPECT_LE(
+      deviation(model.local, domain.state.nodes.position, [&](Index n) { return Vec3(start(n) - Vec3(0, 0, fall)); }),
+      kSteps * kRounding);
+}
+
+TEST_F(StepOfCubes, SamplesTheEnergiesWhenAskedTo) {
+  set_velocity(Vec3(1, 0, 0));
+  step(domain);
+  EXPECT_EQ(domain.sample.budget.kinetic, 0);
+  step(domain, {.sample = true});
+  EXPECT_GT(domain.sample.budget.kinetic, 0);
+}
+
+TEST_F(StepOfCubes, SaysWhenAVelocityIsNotFinite) {
+  domain.state.nodes.velocity[0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(step(domain), SimulationError);
+}
+
+TEST(Step, GivesTheFacesOfReleasedJointsToContactAStepLater) {
+  test::CubesDomain cubes("[[contact]]\nbetween = [\"box\", \"box\"]\npenalty = \"10 GPa\"\n");
+  step(cubes.domain);
+  const std::size_t points = cubes.domain.state.contact.points.size();
+  break_joints(cubes.domain, faces_of_surface(cubes.model, "box.slit"));
+  for (Index n = 0; n < cubes.model.local.num_nodes; ++n) {  // it opens
+    double& speed = cubes.domain.state.nodes.velocity[nodal(n, 0)];
+    speed = 1e3 * (load_node(cubes.model.local.reference.data(), n)[0] - test::kCubeEdge);
+  }
+  int steps = 0;
+  while (cubes.domain.state.joints.released.empty() && steps < 1000) {
+    step(cubes.domain);
+    ++steps;
+  }
+  ASSERT_EQ(cubes.domain.state.joints.released.size(), 4u) << "after " << steps << " steps";
+  EXPECT_EQ(cubes.domain.state.contact.points.size(), points);
+  step(cubes.domain);
+  EXPECT_EQ(cubes.domain.state.contact.points.size(), points + 2 * 4 * 3) << "three points a face, both sides";
+}
+
+}  // namespace
+}  // namespace breccia
