@@ -1,0 +1,130 @@
+#include "domains/partition.hpp"
+
+#include <gtest/gtest.h>
+
+#include "domains/state_records.hpp"
+#include "mpi/world.hpp"
+#include "simulation/step.hpp"
+#include "unit/case/case_files.hpp"
+
+namespace breccia {
+namespace {
+
+using test::world;
+
+/// Cubes of 24 elements that fly at each other and break.
+case_::Case flying_cubes() {
+  return case_::read_text(R"([mesh.raster]
+boxes = 2
+gap = "0.1 mm"
+cell_size = "10 mm"
+group = "cubes"
+[[material]]
+group = "cubes"
+young = "1 GPa"
+poisson = 0.2
+density = 2000
+joints = "breakable"
+[[joint]]
+group = "cubes"
+penalty_factor = 10
+tensile_strength = "10 kPa"
+energy_mode_1 = "0.01 J/m2"
+[[contact]]
+between = ["cubes", "cubes"]
+penalty = "10 GPa"
+friction = 0.3
+[[initial_velocity]]
+group = "cubes"
+random = ["20 m/s", "40 m/s"]
+seed = 3
+[[stage]]
+name = "flight"
+end = "1 ms"
+)");
+}
+
+class PartitionOfCubes : public testing::Test {
+ protected:
+  [[nodiscard]] std::unique_ptr<Model> whole() const {
+    return world().is_root() ? std::make_unique<Model>(build_model(input_)) : nullptr;
+  }
+  [[nodiscard]] Partition begun() const {
+    Partition partition(input_, world(), whole());
+    partition.begin_stage(input_.stages[0]);
+    partition.domain().state.clock.dt = kStep;
+    return partition;
+  }
+  static void take_steps(Partition& partition, int steps) {
+    for (int i = 0; i < steps; ++i) {
+      step(partition.domain());
+      partition.keep_up();
+    }
+  }
+  /// Of the whole model, at the end of its steps. Collective.
+  static std::string hash(Partition& partition) {
+    conclude(partition.domain());
+    return hash_of(partition.domain()).text();
+  }
+  /// The hash of a run on one rank, on all ranks.
+  [[nodiscard]] std::string hash_alone(int steps) const {
+    std::string text;
+    if (world().is_root()) {
+      Partition alone(input_, Communicator(), whole());
+      alone.begin_stage(input_.stages[0]);
+      alone.domain().state.clock.dt = kStep;
+      take_steps(alone, steps);
+      text = hash(alone);
+    }
+    std::vector<std::byte> bytes;
+    for (const char c : text) bytes.push_back(static_cast<std::byte>(c));
+    world().broadcast(bytes);
+    text.clear();
+    for (const std::byte b : bytes) text.push_back(std::to_integer<char>(b));
+    return text;
+  }
+
+  static constexpr double kStep = 1e-7;  // s
+  const case_::Case input_ = flying_cubes();
+};
+
+TEST_F(PartitionOfCubes, HoldsEveryElementOnce) {
+  const Partition partition = begun();
+  std::int64_t originals = 0;
+  for (const std::uint8_t original : partition.model().local.original) originals += original;
+  EXPECT_EQ(world().sum(originals), 8 * 24);
+}
+
+TEST_F(PartitionOfCubes, HasTheStableStepOfTheWholeModel) {
+  Partition partition = begun();
+  const double step = partition.stable_step(100);
+  double alone = 0;
+  if (world().is_root()) {
+    Partition whole_model(input_, Communicator(), whole());
+    whole_model.begin_stage(input_.stages[0]);
+    alone = whole_model.stable_step(100);
+  }
+  EXPECT_EQ(step, world().max(alone)) << "the same bits";
+}
+
+TEST_F(PartitionOfCubes, TakesTheStepsOfARankThatIsAlone) {
+  constexpr int kSteps = 400;
+  Partition partition = begun();
+  take_steps(partition, kSteps);
+  EXPECT_GT(world().sum(partition.state().joints.broken), 0);
+  EXPECT_EQ(hash(partition), hash_alone(kSteps));
+}
+
+TEST_F(PartitionOfCubes, GoesOnFromASnapshotWithAnotherSearch) {
+  constexpr int kBefore = 250, kAfter = 150;
+  Partition first = begun();
+  take_steps(first, kBefore);
+  case_::Case other = input_;
+  other.detection.algorithm = case_::DetectionAlgorithm::ms;
+  Partition second(other, world(), first.snapshot());
+  take_steps(second, kAfter);
+  EXPECT_EQ(hash(second), hash_alone(kBefore + kAfter));
+}
+
+}  // namespace
+}  // namespace breccia
