@@ -31,8 +31,7 @@ class Start {
  public:
   Start(const case_::Case& input, const Model& model)
       : input_(input), model_(model), time_step_(model), domain_(model, search_params(input, model)) {
-    for (const case_::InitialVelocity& entry : input.initial_velocities)
-      add_velocity(domain_, initial_velocity(entry, model));
+    for (const InitialVelocity& initial : initial_velocities(input, model)) add_velocity(domain_, initial);
     if (!input.stages.empty()) constraints_ = stage_loads(input.stages.front(), model).constraints;
     parts_ = step_parts(Communicator(), time_step_, state(), kLook * input.time.safety);
     now_ = step_with(parts_.contacts);

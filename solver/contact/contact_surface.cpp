@@ -1,12 +1,12 @@
 #include "contact/contact_surface.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
 #include "base/error.hpp"
-#include "mesh/point_distance.hpp"
+#include "contact/contactors.hpp"
+#include "mesh/quality.hpp"
 #include "physics/contact/contact_couples.hpp"
 #include "physics/contact/contact_field.hpp"
 
@@ -15,19 +15,6 @@ namespace breccia {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-/// Nodes at which elements of several groups meet.
-std::vector<bool> nodes_between_groups(const Mesh& mesh) {
-  std::vector<Index> group(at(mesh.num_nodes()), -1);
-  std::vector<bool> between(group.size(), false);
-  for (Index e = 0; e < mesh.num_elements(); ++e) {
-    for (const Index node : mesh.elements[at(e)]) {
-      if (group[at(node)] < 0) group[at(node)] = mesh.element_group[at(e)];
-      if (group[at(node)] != mesh.element_group[at(e)]) between[at(node)] = true;
-    }
-  }
-  return between;
-}
 
 /// A bit a face: it may carry points.
 std::vector<std::uint8_t> carrying_faces(const ContactSearchParams& search, const ContactModel& model) {
@@ -57,24 +44,15 @@ ContactSurface::ContactSurface(const ContactSearchParams& search, const ContactM
 }
 
 double ContactSurface::choose_contactors(const ContactSearchParams& search) {
-  const auto& [params, mesh, topology, local] = model_;
-  const std::vector<double> distance = nodal_surface_distance(mesh, topology);
-  const std::vector<bool> between = nodes_between_groups(mesh);
+  const Contactors contactors = breccia::choose_contactors(search.breakable, model_.mesh, model_.topology);
   std::vector<Index> slots;
-  double volume = 0;
-  for (Index e = 0; e < mesh.num_elements(); ++e) {
-    const auto& nodes = mesh.elements[at(e)];
-    const bool exposed =
-        search.breakable[at(mesh.element_group[at(e)])] ||
-        std::any_of(nodes.begin(), nodes.end(), [&](Index n) { return distance[at(n)] == 0 || between[at(n)]; });
-    if (!exposed) continue;
-    slots.push_back(model_.slot_of(e));
-    volume += local.volume[at(slots.back())];
+  for (Index e = 0; e < model_.mesh.num_elements(); ++e) {
+    if (contactors.chosen[at(e)] != 0) slots.push_back(model_.slot_of(e));
   }
-  const auto number = static_cast<double>(slots.size());
-  set_contactors(local, std::move(slots), contact_);
-  build_field(params, local, distance, contact_);
-  return number > 0 ? std::cbrt(6 * std::sqrt(2.0) * volume / number) : 0;
+  set_contactors(model_.local, std::move(slots), contact_);
+  contact_.body_length = mean_inradii(model_.mesh);
+  build_field(model_.params, model_.local, contactors.surface_distance, contact_);
+  return contactors.size;
 }
 
 void ContactSurface::add_free_points() {

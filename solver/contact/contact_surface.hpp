@@ -25,17 +25,16 @@ struct ContactModel {
 
 /// Who may touch whom: the contact points of the free faces, the contactors, and which elements are still bonded.
 ///
-/// Targets are the points of free faces, contactors all elements of breakable groups and those elements of the others
-/// that have a node on the free surface or on the border to another group. A point and a contactor may touch when their
-/// groups have a law and their elements are not bonded around a corner (an element is bonded to itself).
+/// Targets are the points of free faces, contactors the elements that contact/contactors.hpp chooses. A point and a
+/// contactor may touch when their groups have a law and their elements are not bonded around a corner (an element is
+/// bonded to itself).
 class ContactSurface {
  public:
   /// No points and no contactors yet. @pre all arguments outlive this object; only `contact` changes, through this
   /// object and others. Throws InternalError if an argument does not fit the others. O(elements).
   ContactSurface(const ContactSearchParams& search, const ContactModel& model, ContactState& contact);
 
-  /// Chooses the contactors and builds their overlap field. @return  m, their mean size: the edge of the regular
-  /// tetrahedron of their mean volume. O(elements).
+  /// Chooses the contactors of a whole model and builds their overlap field. @return  m, their mean size. O(elements).
   [[nodiscard]] double choose_contactors(const ContactSearchParams& search);
   /// Points of all faces that are free in the topology; call sort_points() after the last.
   void add_free_points();

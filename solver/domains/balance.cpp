@@ -99,4 +99,12 @@ std::vector<double> Balance::weights(const Domain& domain) const {
   return weights;
 }
 
+std::vector<double> Balance::weights_at_rest(const Records& records,
+                                             const std::vector<Discretisation>& discretisation) {
+  std::vector<double> weights;
+  for (const ElementRecord& element : records.elements)
+    weights.push_back(discretisation[at(element.group)] == Discretisation::own_nodes ? 1.0 : kSharedNodes);
+  return weights;
+}
+
 }  // namespace breccia

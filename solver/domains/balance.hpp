@@ -29,6 +29,10 @@ class Balance {
   /// is slower than others at the same work.
   [[nodiscard]] std::vector<double> weights(const Domain& domain) const;
 
+  /// The same of elements at rest. @param discretisation  (volume groups)
+  [[nodiscard]] static std::vector<double> weights_at_rest(const Records& records,
+                                                           const std::vector<Discretisation>& discretisation);
+
   /// The model has been divided anew, and the domain replaced by one that goes on with its timer.
   void restart(const Domain& domain) {
     seen_ = work(domain);

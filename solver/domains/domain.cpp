@@ -31,11 +31,7 @@ void start_state(const Model& model, State& state) {
 
 Domain::Domain(const Model& of, const ContactSearchParams& search) : model(of), derived(derive(of)), scratch(of.local) {
   start_state(model, state);
-  std::vector<ActiveJoint> from_start;
-  for (std::size_t j = 0; j < model.joints.size(); ++j) {
-    if (!starts_intact(model, model.joints[j])) from_start.push_back(new_active_joint(model, j));
-  }
-  state.joints.active.insert(from_start);
+  start_joints(*this);
   if (!model.has_contact) return;
   const ContactModel parts{model.contact, model.mesh, model.topology, model.local};
   contact = std::make_unique<ContactSearch>(search, parts, state.contact);
@@ -73,6 +69,18 @@ void Domain::plan_exchange() {
   }
   exchange.plan_near(model.local, near, moving);
   plan_sweep_order(model, state.loads.constraints, exchange.sent_blocks(), derived);
+}
+
+void start_joints(Domain& domain) {
+  const Model& model = domain.model;
+  std::vector<ActiveJoint> from_start;
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    if (starts_intact(model, model.joints[j])) continue;
+    const ActiveJoint joint = new_active_joint(model, j);
+    if (domain.derived.is_relevant(joint.slot_a) || domain.derived.is_relevant(joint.slot_b))
+      from_start.push_back(joint);
+  }
+  domain.state.joints.active.insert(from_start);
 }
 
 void add_velocity(Domain& domain, const InitialVelocity& initial) {

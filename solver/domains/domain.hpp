@@ -76,6 +76,10 @@ struct Domain {
   StepScratch scratch;
 };
 
+/// Joints that the sweep does not look after join the active list as they are before their first evaluation; before the
+/// first step of a model that has just been divided.
+void start_joints(Domain& domain);
+
 /// Adds a velocity to the bodies of a group; before the first step.
 void add_velocity(Domain& domain, const InitialVelocity& initial);
 

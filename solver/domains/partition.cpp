@@ -5,10 +5,12 @@
 #include <utility>
 
 #include "contact/search_params.hpp"
+#include "domains/first_division.hpp"
 #include "domains/global_step.hpp"
 #include "domains/piece_mesh.hpp"
 #include "domains/state_records.hpp"
 #include "model/parameters.hpp"
+#include "parallel/totals.hpp"
 
 namespace breccia {
 namespace {
@@ -18,26 +20,75 @@ constexpr double kLasting = 400, kMostStretched = 5;
 
 }  // namespace
 
-Partition::Partition(const case_::Case& input, const Communicator& communicator, std::unique_ptr<Model> whole)
-    : input_(input), communicator_(communicator), model_(std::move(whole)), domains_(domain_spec(input)) {
-  if (model_) start_whole();
-  if (communicator_.size() == 1) return;
-  std::vector<std::byte> whole_model;
-  if (communicator_.is_root()) whole_model = pack(model_->whole);
-  communicator_.broadcast(whole_model);
-  const std::vector<double> weight = domain_ ? balance_.weights(*domain_) : std::vector<double>{};
-  motion_ = communicator_.max(domain_ ? first_motion() : 0.0);
-  decompose_anew(unpack_whole(whole_model), domain_ ? records_of(*domain_) : Records{}, weight, {});
+Partition::Partition(const case_::Case& input, const Communicator& communicator, std::unique_ptr<Model> model)
+    : input_(input), communicator_(communicator), model_(std::move(model)), domains_(domain_spec(input)) {
+  if (communicator_.size() == 1) {
+    start_alone();
+  } else {
+    start_divided();
+  }
 }
 
-/// How far a node moves in a step at the start, m.
+void Partition::start_alone() {
+  domain_ = std::make_unique<Domain>(*model_, search_params(input_, *model_));
+  for (const InitialVelocity& initial : initial_velocities(input_, *model_)) add_velocity(*domain_, initial);
+  time_step_ = std::make_unique<TimeStep>(*model_);
+  model_->whole.step_ratio = time_step_->ratio();
+  if (domain_->contact) model_->whole.contactor_size = domain_->contact->searches().contactor_size();
+}
+
+/// The root holds the bare model until its elements have left for the ranks; each of them builds its own piece.
+void Partition::start_divided() {
+  communicator_.set_phase("first division of the model");
+  std::vector<std::byte> packed;
+  Contactors contactors;
+  if (model_) {
+    if (model_->has_contact) contactors = choose_contactors(model_->breakable, model_->mesh, model_->topology);
+    model_->whole.contactor_size = contactors.size;
+    packed = pack(model_->whole);
+  }
+  communicator_.broadcast(packed);
+  WholeModel whole = unpack_whole(packed);
+  Records mine = spread(communicator_, model_.get(), contactors);
+  model_.reset();
+  contactors = {};
+  const std::vector<Discretisation> kinds = discretisations(input_, whole.volume_groups);
+  const std::vector<double> weight = Balance::weights_at_rest(mine, kinds);
+  decompose_anew(std::move(whole), std::move(mine), weight, {});
+  start_piece();
+}
+
+void Partition::start_piece() {
+  start_joints(*domain_);
+  for (const InitialVelocity& initial : initial_velocities(input_, *model_)) add_velocity(*domain_, initial);
+  NodalState& nodes = domain_->state.nodes;
+  domain_->exchange.begin_gather(nodes.position, nodes.velocity);
+  domain_->exchange.finish_gather();
+  model_->whole.step_ratio = time_step_->ratio();
+  motion_ = first_motion();
+  if (stretch() > 1) divide_again();
+}
+
+/// How far a node of the model moves in a step at the start, m.
 double Partition::first_motion() const {
-  const NodalState& state = domain_->state.nodes;
+  const NodalState& nodes = domain_->state.nodes;
   double square = 0;
-  for (Index n = 0; n < model_->local.num_nodes; ++n)
-    square = std::max(square, load_node(state.velocity.data(), n).squaredNorm());
-  const double dt = input_.time.step > 0 ? input_.time.step : input_.time.safety * time_step_->limit(state.position);
-  return std::sqrt(square) * dt;
+  for (Index n = 0; n < model_->local.num_moved_nodes; ++n)
+    square = std::max(square, load_node(nodes.velocity.data(), n).squaredNorm());
+  const double limit = communicator_.min(time_step_->limit(nodes.position));
+  return std::sqrt(communicator_.max(square)) * (input_.time.step > 0 ? input_.time.step : input_.time.safety * limit);
+}
+
+/// What the other ranks contribute to iterations over the nodes of the model.
+RankOperations Partition::rank_operations() const {
+  if (communicator_.size() == 1) return {};
+  return {[this](Field<double>& field) {
+            Field<double> none(field.size(), 0.0);
+            domain_->exchange.begin_gather(field, none);
+            domain_->exchange.finish_gather();
+          },
+          [this](const ExactSum& sum) { return totals(communicator_, std::span(&sum, 1)).front(); },
+          [this](double value) { return communicator_.max(value); }};
 }
 
 Partition::Partition(const case_::Case& input, const Communicator& communicator, Snapshot from)
@@ -61,15 +112,6 @@ Snapshot Partition::snapshot() {
   return now;
 }
 
-void Partition::start_whole() {
-  domain_ = std::make_unique<Domain>(*model_, search_params(input_, *model_));
-  for (const case_::InitialVelocity& entry : input_.initial_velocities)
-    add_velocity(*domain_, initial_velocity(entry, *model_));
-  time_step_ = std::make_unique<TimeStep>(*model_);
-  model_->whole.step_ratio = time_step_->ratio();
-  if (domain_->contact) model_->whole.contactor_size = domain_->contact->searches().contactor_size();
-}
-
 void Partition::decompose_anew(WholeModel whole, Records mine, const std::vector<double>& weight, Continuation from) {
   communicator_.set_phase("division of the model");
   const Phase phase = stage_ != nullptr ? Phase::decomposition : Phase::setup;  // the first one is before all stages
@@ -89,8 +131,13 @@ void Partition::rebuild(WholeModel whole, Records mine, const std::vector<double
   model_.reset();
   reach_ = reach_of(input_, longest_edge(communicator_, mine),
                     largest_buffer(input_.detection.buffer, whole.contactor_size));
-  reach_.margin *= std::clamp(kLasting * motion_ / reach_.allowed_motion(), 1.0, kMostStretched);
+  reach_.margin *= stretch();
   build(decompose(communicator_, domains_, std::move(mine), weight, reach_), std::move(whole), std::move(from));
+}
+
+/// Of the margin as the case has it, at the present speed.
+double Partition::stretch() const {
+  return std::clamp(kLasting * motion_ / reach_.allowed_motion(), 1.0, kMostStretched);
 }
 
 void Partition::build(const Piece& piece, WholeModel whole, Continuation from) {
@@ -104,7 +151,7 @@ void Partition::build(const Piece& piece, WholeModel whole, Continuation from) {
   if (communicator_.size() > 1)
     domain_->connect(communicator_, shared_slots(piece.neighbours, model_->mesh, model_->local),
                      pairwise ? ExchangeKind::pairwise : ExchangeKind::non_blocking);
-  time_step_ = std::make_unique<TimeStep>(*model_);
+  time_step_ = std::make_unique<TimeStep>(*model_, rank_operations());
   if (stage_ != nullptr) {
     breccia::begin_stage(*domain_, stage_loads(*stage_, *model_), dt);
     restore_holds(*domain_, piece.records);
@@ -131,10 +178,14 @@ void Partition::keep_up() {
   if (communicator_.size() == 1) return;
   const bool due = left_reach(), pays = balancing_pays();
   if (!due && !pays) return;
+  divide_again();
+  ++decompositions_;
+}
+
+void Partition::divide_again() {
   const std::vector<double> weight = balance_.weights(*domain_);
   Records mine = records_of(*domain_);
   decompose_anew(model_->whole, std::move(mine), weight, close(*domain_));
-  ++decompositions_;
 }
 
 /// Once ranks have waited for as long as a division takes: whatever the steps to come bring, that costs at most twice

@@ -27,9 +27,9 @@ struct Snapshot {
 /// to domains anew and the partition is rebuilt from what they remember.
 class Partition {
  public:
-  /// Collective. @param whole  the model on the root, null elsewhere
+  /// Collective. @param model  on the root, null elsewhere: on several ranks a bare one is enough (build_bare_model)
   /// @pre input outlives this object
-  Partition(const case_::Case& input, const Communicator& communicator, std::unique_ptr<Model> whole);
+  Partition(const case_::Case& input, const Communicator& communicator, std::unique_ptr<Model> model);
   /// Goes on where another partition was. Collective. @pre input differs from that partition's in [detection] and
   /// [domains] at most
   Partition(const case_::Case& input, const Communicator& communicator, Snapshot from);
@@ -61,8 +61,13 @@ class Partition {
   [[nodiscard]] double stable_step(double steps);
 
  private:
-  void start_whole();
+  void start_alone();
+  void start_divided();
+  void start_piece();
+  void divide_again();
   [[nodiscard]] double first_motion() const;
+  [[nodiscard]] double stretch() const;
+  [[nodiscard]] RankOperations rank_operations() const;
   void decompose_anew(WholeModel whole, Records mine, const std::vector<double>& weight, Continuation from);
   void rebuild(WholeModel whole, Records mine, const std::vector<double>& weight, Continuation from);
   void build(const Piece& piece, WholeModel whole, Continuation from);

@@ -19,6 +19,13 @@ std::vector<std::byte> pack(const WholeModel& whole) {
     bytes.put(groups.size);
   }
   bytes.put_list(whole.body_length);
+  bytes.put(static_cast<std::uint64_t>(whole.spin_centres.size()));
+  for (const std::vector<Vec3>& centres : whole.spin_centres) {
+    bytes.put(static_cast<std::uint64_t>(centres.size()));
+    for (const Vec3& centre : centres) {
+      for (const double x : centre) bytes.put(x);
+    }
+  }
   bytes.put_text(whole.source);
   for (const auto* names : {&whole.volume_groups, &whole.surface_groups}) {
     bytes.put(static_cast<std::uint64_t>(names->size()));
@@ -40,6 +47,13 @@ WholeModel unpack_whole(std::span<const std::byte> packed) {
     groups.size = bytes.take<double>();
   }
   whole.body_length = bytes.take_list<double>();
+  whole.spin_centres.resize(bytes.take<std::uint64_t>());
+  for (std::vector<Vec3>& centres : whole.spin_centres) {
+    for (auto left = bytes.take<std::uint64_t>(); left > 0; --left) {
+      Vec3& centre = centres.emplace_back();
+      for (double& x : centre) x = bytes.take<double>();
+    }
+  }
   whole.source = bytes.take_text();
   for (auto* names : {&whole.volume_groups, &whole.surface_groups}) {
     for (auto left = bytes.take<std::uint64_t>(); left > 0; --left) names->push_back(bytes.take_text());

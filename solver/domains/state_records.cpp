@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "domains/mesh_records.hpp"
 #include "parallel/totals.hpp"
 
 namespace breccia {
@@ -15,28 +16,6 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Vec3 vector_of(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 std::array<double, 3> array_of(const Vec3& v) { return {v[0], v[1], v[2]}; }
-
-/// What the element is in the mesh.
-ElementRecord mesh_record(const Model& model, Index element) {
-  const Mesh& mesh = model.mesh;
-  ElementRecord record;
-  record.id = mesh.element_id(element);
-  record.source_id = mesh.element_source_id[at(element)];
-  record.group = mesh.element_group[at(element)];
-  record.body = mesh.element_body[at(element)];
-  for (std::size_t c = 0; c < 4; ++c) {
-    const Index node = mesh.elements[at(element)][c];
-    record.vertex[c] = mesh.node_id(node);
-    record.reference[c] = array_of(mesh.nodes[at(node)]);
-  }
-  for (std::size_t f = 0; f < 4; ++f) {
-    // An element beyond the piece can be one that has broken off and left: for what remains, the face is simply free.
-    const FaceLink& link = model.topology.links[at(element)][f];
-    record.neighbour[f] = link.inner() ? mesh.element_id(link.neighbour) : -1;
-    record.code[f] = link.inner() ? link.code : std::int8_t{0};
-  }
-  return record;
-}
 
 /// The element with its state; what belongs to it in the lists of contact and constraints is appended to `lists`.
 class ElementCollector {
@@ -49,7 +28,7 @@ class ElementCollector {
     const LocalMesh& local = domain_.model.local;
     const State& state = domain_.state;
     const Index slot = local.slot_of_element[at(element)];
-    ElementRecord record = mesh_record(domain_.model, element);
+    ElementRecord record = mesh_record(domain_.model.mesh, domain_.model.topology, element);
     record.numbers = state.elements.of(slot);
     for (int c = 0; c < 4; ++c) {
       const Index node = local.corner_node(slot, c);
@@ -77,24 +56,6 @@ class ElementCollector {
   std::vector<Constraints::Anchor> anchors_;  ///< ascending nodes
 };
 
-/// Tags of an original element in a list that ascends by element.
-template <class Tag>
-void append_tags(const std::vector<Tag>& tags, GlobalId element, std::size_t& next, std::vector<Tag>& chosen) {
-  while (next < tags.size() && tags[next].element < element) ++next;
-  for (; next < tags.size() && tags[next].element == element; ++next) chosen.push_back(tags[next]);
-}
-
-std::vector<FaceTag> face_tags(const Model& model) {
-  std::vector<FaceTag> tags;
-  for (std::size_t g = 0; g < model.topology.surface_groups.size(); ++g) {
-    for (const Topology::Face& face : model.topology.surface_groups[g]) {
-      tags.push_back({model.mesh.element_id(face.element), static_cast<Index>(g), face.face});
-    }
-  }
-  std::stable_sort(tags.begin(), tags.end(), [](const FaceTag& p, const FaceTag& q) { return p.element < q.element; });
-  return tags;
-}
-
 /// Calls visit(record) for the joints of this rank's originals that the sweep does not look after.
 template <class Visit>
 void for_each_joint_record(const Domain& domain, Visit&& visit) {
@@ -113,7 +74,7 @@ Records records_of(const Domain& domain) {
   const Model& model = domain.model;
   Records records;
   const ElementCollector collector(domain);
-  const std::vector<FaceTag> faces = face_tags(model);
+  const std::vector<FaceTag> faces = face_tags(model.mesh, model.topology);
   std::size_t next_face = 0, next_corner = 0;
   records.elements.reserve(at(model.mesh.num_elements()));
   for (Index e = 0; e < model.mesh.num_elements(); ++e) {

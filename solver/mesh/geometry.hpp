@@ -4,6 +4,7 @@
 #include <array>
 
 #include "mesh/mesh.hpp"
+#include "mesh/tetrahedron.hpp"
 
 namespace breccia::geometry {
 
@@ -16,6 +17,16 @@ namespace breccia::geometry {
 /// Area of a triangle, m2.
 [[nodiscard]] inline double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return 0.5 * (b - a).cross(c - a).norm();
+}
+
+/// Radius of the sphere that touches all four faces, m: 3 V / sum of the areas.
+[[nodiscard]] inline double inradius(const std::array<Vec3, 4>& x) {
+  double area = 0;
+  for (const auto& f : kFaceCorners) {
+    const auto corner = [&](std::size_t i) { return x[static_cast<std::size_t>(f[i])]; };
+    area += triangle_area(corner(0), corner(1), corner(2));
+  }
+  return 3 * tetra_volume(x[0], x[1], x[2], x[3]) / area;
 }
 
 /// Corners of an element, m.

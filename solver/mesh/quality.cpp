@@ -126,4 +126,15 @@ QualityReport assess_quality(const Mesh& mesh) {
   return report;
 }
 
+std::vector<double> mean_inradii(const Mesh& mesh) {
+  std::vector<double> sum(static_cast<std::size_t>(mesh.num_bodies), 0.0), count(sum.size(), 0.0);
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    const auto body = static_cast<std::size_t>(mesh.element_body[static_cast<std::size_t>(e)]);
+    sum[body] += geometry::inradius(geometry::corners_of(mesh, e));
+    count[body] += 1;
+  }
+  for (std::size_t b = 0; b < sum.size(); ++b) sum[b] /= std::max(count[b], 1.0);
+  return sum;
+}
+
 }  // namespace breccia

@@ -52,4 +52,7 @@ struct QualityReport {
 /// O(n log n) in the elements, throws nothing. @pre mesh is finished.
 [[nodiscard]] QualityReport assess_quality(const Mesh& mesh);
 
+/// Mean inradius of the elements of every body, m; the elements in their order.
+[[nodiscard]] std::vector<double> mean_inradii(const Mesh& mesh);
+
 }  // namespace breccia

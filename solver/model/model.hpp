@@ -12,6 +12,7 @@
 #include "mesh/joints.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/topology.hpp"
+#include "model/whole_model.hpp"
 #include "physics/contact/contact_params.hpp"
 #include "physics/elasticity.hpp"
 #include "physics/joint_law.hpp"
@@ -29,24 +30,6 @@ struct CornerTag {
   GlobalId element;
   Index group;           ///< index into Mesh::surface_groups
   std::uint8_t corners;  ///< a bit a corner
-};
-
-/// What depends on the model as a whole, the same on every rank.
-struct WholeModel {
-  /// A pair of groups that joints hold together. Index = index of the law.
-  struct JointGroups {
-    Index a, b;   ///< a <= b
-    double size;  ///< m, mean edge of their joints
-  };
-  std::string source;  ///< of the mesh, for messages
-  std::vector<std::string> volume_groups, surface_groups;
-  std::int64_t num_elements = 0, num_joints = 0;
-  std::vector<JointGroups> joint_groups;
-  std::vector<double> body_length;  ///< (bodies) H of contact, m: mean inradius of the elements
-  double contactor_size = 0;        ///< m, mean size of the contactors
-  double longest_edge = 0;          ///< m, of all elements, reference
-  double energy_floor = 0;          ///< J, energies below are round-off
-  double step_ratio = 0;            ///< of the true stable step to the bound at rest (time_step.hpp); 0: not found yet
 };
 
 /// Everything that is known before the first step: the case turned into discretised bodies and the small parameter
@@ -86,8 +69,8 @@ struct Model {
 /// Throws InputError with every problem found.
 [[nodiscard]] Model build_model(const case_::Case& input);
 
-/// The part of it that tells how the model is divided among ranks, in a fraction of the memory: mesh, topology,
-/// materials, contact and the longest edge.
+/// The part of it from which a model is divided among ranks, in a fraction of the memory: mesh, topology, surfaces,
+/// materials, laws, contact and what is known of the model as a whole; no joints, nothing discretised. Errors as above.
 [[nodiscard]] Model build_bare_model(const case_::Case& input);
 
 /// The model of a piece of the mesh.

@@ -167,8 +167,23 @@ ContactParams contact_params(const case_::Case& input, const std::vector<std::st
   return params;
 }
 
-InitialVelocity initial_velocity(const case_::InitialVelocity& entry, const Model& model) {
-  return {group_index(model.mesh.volume_groups, entry.group), entry.velocity, entry.random, entry.seed, entry.angular};
+std::vector<Discretisation> discretisations(const case_::Case& input, const std::vector<std::string>& groups) {
+  std::vector<Discretisation> kinds(groups.size(), Discretisation::own_nodes);
+  for (const case_::Material& material : input.materials) {
+    if (material.joints == case_::JointPlacement::none)
+      kinds[static_cast<std::size_t>(group_index(groups, material.group))] = Discretisation::shared_nodes;
+  }
+  return kinds;
+}
+
+std::vector<InitialVelocity> initial_velocities(const case_::Case& input, const Model& model) {
+  std::vector<InitialVelocity> velocities;
+  for (std::size_t i = 0; i < input.initial_velocities.size(); ++i) {
+    const case_::InitialVelocity& entry = input.initial_velocities[i];
+    velocities.push_back({group_index(model.mesh.volume_groups, entry.group), entry.velocity, entry.random, entry.seed,
+                          entry.angular, model.whole.spin_centres[i]});
+  }
+  return velocities;
 }
 
 std::vector<Index> nodes_of_group(const Model& model, const std::string& group) {

@@ -24,7 +24,12 @@ namespace breccia {
 [[nodiscard]] ContactParams contact_params(const case_::Case& input, const std::vector<std::string>& groups);
 
 struct Model;
-[[nodiscard]] InitialVelocity initial_velocity(const case_::InitialVelocity& entry, const Model& model);
+/// @param groups  names of the volume groups, each with a [[material]]
+[[nodiscard]] std::vector<Discretisation> discretisations(const case_::Case& input,
+                                                          const std::vector<std::string>& groups);
+
+/// In the order of the case; they add up.
+[[nodiscard]] std::vector<InitialVelocity> initial_velocities(const case_::Case& input, const Model& model);
 [[nodiscard]] StageLoads stage_loads(const case_::Stage& stage, const Model& model);
 
 /// Nodes of a volume or surface group, ascending. A surface means every element corner at one of its mesh vertices, in

@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 
 #include "physics/contact/patch_tree.hpp"
-#include "physics/largest_eigenvalue.hpp"
 
 namespace breccia {
 namespace {
@@ -81,12 +80,13 @@ bool look_at_each_other(const FreeFace& a, const FreeFace& b) {
 
 }  // namespace
 
-TimeStep::TimeStep(const Model& model) : model_(model), links_(build_links(model)), joints_(other_joints(model)) {
+TimeStep::TimeStep(const Model& model, const RankOperations& ranks)
+    : model_(model), links_(build_links(model)), joints_(other_joints(model)) {
   if (model.has_contact) mark_faces();
   ratio_ = model.whole.step_ratio;
   if (ratio_ > 0) return;
-  const double bound = stiffest(step_model(), step_shares(step_model(), model.local.reference));
-  ratio_ = std::max(1.0, std::sqrt(bound / largest_eigenvalue(step_model())));
+  const double bound = ranks.max(stiffest(step_model(), step_shares(step_model(), model.local.reference)));
+  ratio_ = std::max(1.0, std::sqrt(bound / largest_eigenvalue(step_model(), ranks)));
 }
 
 StepModel TimeStep::step_model(const MaterialMemory& memory) const {

@@ -7,6 +7,7 @@
 #include "model/model.hpp"
 #include "model/stage_loads.hpp"
 #include "physics/contact/contact_step.hpp"
+#include "physics/largest_eigenvalue.hpp"
 #include "physics/stable_step.hpp"
 
 namespace breccia {
@@ -18,9 +19,9 @@ namespace breccia {
 /// added to each element as physics/contact/contact_step.hpp says.
 class TimeStep {
  public:
-  /// @pre model outlives this object; it is whole, or its WholeModel holds the ratio. O(elements) times some dozens to
-  /// find the ratio.
-  explicit TimeStep(const Model& model);
+  /// @param ranks  the other ranks, where the ratio is not known yet (WholeModel::step_ratio) and the model is a piece:
+  /// then collective, and O(elements) times some dozens. @pre model outlives this object
+  explicit TimeStep(const Model& model, const RankOperations& ranks = {});
 
   /// Bound of the originals at these positions without contact, with what limits it.
   [[nodiscard]] StableStep at(const Field<double>& position, const MaterialMemory& memory = {}) const;

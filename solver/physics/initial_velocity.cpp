@@ -1,6 +1,5 @@
 #include "physics/initial_velocity.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -48,32 +47,15 @@ Vec3 random_velocity(std::uint64_t seed, std::uint64_t body, const std::array<do
 void add_initial_velocity(const LocalMesh& mesh, const InitialVelocity& initial, const Field<double>& position,
                           Field<double>& velocity) {
   const std::vector<Index> body = bodies_of_nodes(mesh, initial.group);
-  const Index num_bodies = 1 + *std::max_element(body.begin(), body.end());
-  struct Motion {
-    double mass = 0;
-    Vec3 centre{0, 0, 0};  ///< first kg m, then m
-    Vec3 velocity{0, 0, 0};
-  };
-  std::vector<Motion> motions(static_cast<std::size_t>(std::max<Index>(num_bodies, 0)));
-  for (Index n = 0; n < mesh.num_nodes; ++n) {
-    const Index b = body[static_cast<std::size_t>(n)];
-    if (b < 0) continue;
-    Motion& motion = motions[static_cast<std::size_t>(b)];
-    motion.mass += mesh.node_mass[static_cast<std::size_t>(n)];
-    motion.centre += mesh.node_mass[static_cast<std::size_t>(n)] * load_node(position.data(), n);
-  }
   const bool random = initial.speed[0] != 0 || initial.speed[1] != 0;
-  for (std::size_t b = 0; b < motions.size(); ++b) {
-    if (motions[b].mass > 0) motions[b].centre /= motions[b].mass;
-    motions[b].velocity = initial.uniform;
-    if (random) motions[b].velocity += random_velocity(initial.seed, b, initial.speed);
-  }
   for (Index n = 0; n < mesh.num_nodes; ++n) {
     const Index b = body[static_cast<std::size_t>(n)];
     if (b < 0) continue;
-    const Motion& motion = motions[static_cast<std::size_t>(b)];
-    const Vec3 arm = load_node(position.data(), n) - motion.centre;
-    store_node(velocity.data(), n, load_node(velocity.data(), n) + motion.velocity + initial.angular.cross(arm));
+    Vec3 added = initial.uniform;
+    if (random) added += random_velocity(initial.seed, static_cast<std::uint64_t>(b), initial.speed);
+    if (!initial.centre.empty())
+      added += initial.angular.cross(load_node(position.data(), n) - initial.centre[static_cast<std::size_t>(b)]);
+    store_node(velocity.data(), n, load_node(velocity.data(), n) + added);
   }
 }
 

@@ -130,7 +130,31 @@ Eigen::VectorXd start_vector(const LocalMesh& mesh) {
       start[static_cast<Eigen::Index>(nodal(n, axis))] = static_cast<double>(bits >> 11) * 0x1p-52 - 1.0;
     }
   }
-  return start.normalized();
+  return start;
+}
+
+/// u . v over the nodes that this rank counts. Exact sum of the products of each element with nodes of its own and of
+/// each shared node, so that it does not depend on who holds what.
+ExactSum product_of(const LocalMesh& mesh, const Eigen::Ref<const Eigen::VectorXd>& u,
+                    const Eigen::Ref<const Eigen::VectorXd>& v) {
+  ExactSum sum;
+  const auto add = [&](Index node, double before) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<Eigen::Index>(nodal(node, axis));
+      before += u[i] * v[i];
+    }
+    return before;
+  };
+  for (Index s = 0; s < mesh.num_own_slots; ++s) {
+    if (!mesh.is_original(s)) continue;
+    double of_element = 0;
+    for (int c = 0; c < 4; ++c) of_element = add(own_corner_node(s, c), of_element);
+    sum.add(of_element);
+  }
+  for (Index n = mesh.num_own_nodes(); n < mesh.num_nodes; ++n) {
+    if (mesh.counted[static_cast<std::size_t>(n)] != 0) sum.add(add(n, 0));
+  }
+  return sum;
 }
 
 /// 1/sqrt(m) by entry of a nodal field.
@@ -167,19 +191,23 @@ void stiffness_action(const StepModel& model, const double* u, double* y) {
   act_on_joints(model, u, y);
 }
 
-double largest_eigenvalue(const StepModel& model) {
-  const Eigen::VectorXd scale = inverse_root_mass(model.mesh);
-  Eigen::VectorXd q = start_vector(model.mesh), previous = Eigen::VectorXd::Zero(q.size());
+double largest_eigenvalue(const StepModel& model, const RankOperations& ranks) {
+  const LocalMesh& mesh = model.mesh;
+  const auto dot = [&](const auto& u, const auto& v) { return ranks.total(product_of(mesh, u, v)); };
+  const Eigen::VectorXd scale = inverse_root_mass(mesh);
+  Eigen::VectorXd q = start_vector(mesh), previous = Eigen::VectorXd::Zero(q.size());
+  q /= std::sqrt(dot(q, q));
   Field<double> displacement(static_cast<std::size_t>(q.size())), force(displacement.size());
   Eigen::Map<Eigen::VectorXd> scaled(displacement.data(), q.size()), product(force.data(), q.size());
   std::vector<double> alpha, beta;
   for (int k = 1;; ++k) {
     scaled = q.cwiseProduct(scale);
+    ranks.gather(displacement);
     stiffness_action(model, displacement.data(), force.data());
     product = product.cwiseProduct(scale) - (beta.empty() ? 0.0 : beta.back()) * previous;
-    alpha.push_back(q.dot(product));
+    alpha.push_back(dot(q, product));
     product -= alpha.back() * q;
-    beta.push_back(product.norm());
+    beta.push_back(std::sqrt(dot(product, product)));
     // An invariant subspace is found whole: Ritz values are eigenvalues.
     const bool last = beta.back() <= 1e-10 * alpha.front() || k == kMostIterations;
     if (last || (k >= kFirstCheck && k % kCheckEvery == 0)) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/geometry.hpp"
+
 namespace breccia {
 
 namespace {
@@ -23,13 +25,9 @@ std::array<double, 4> inverse_heights(const LocalMesh& local, Index slot) {
   return inverse;
 }
 
-/// A point at the incentre has lambda_a = r / h_a, and these add up to 1.
 double inradius(const LocalMesh& local, Index slot) {
-  const std::array<double, 4> inverse = inverse_heights(local, slot);
-  return 1 / (inverse[0] + inverse[1] + inverse[2] + inverse[3]);
+  return geometry::inradius(load_corners(local, local.reference.data(), slot));
 }
-
-bool exists(const LocalMesh& local, Index slot) { return local.element_of_slot[static_cast<std::size_t>(slot)] >= 0; }
 
 bool all_on_surface(const FieldValues& values) {
   return values[0] == 0 && values[1] == 0 && values[2] == 0 && values[3] == 0;
@@ -61,36 +59,26 @@ void drop_finished_ramps(ContactState& contact) {
 
 }  // namespace
 
-std::vector<double> mean_inradii(const LocalMesh& local) {
-  const Index bodies =
-      local.slot_body.empty() ? 0 : 1 + *std::max_element(local.slot_body.begin(), local.slot_body.end());
-  std::vector<double> sum(static_cast<std::size_t>(bodies), 0.0), count(static_cast<std::size_t>(bodies), 0.0);
-  for (Index s = 0; s < local.num_slots; ++s) {
-    if (!exists(local, s)) continue;
-    const auto body = static_cast<std::size_t>(local.slot_body[static_cast<std::size_t>(s)]);
-    sum[body] += inradius(local, s);
-    count[body] += 1;
-  }
-  for (std::size_t b = 0; b < sum.size(); ++b) sum[b] /= std::max(count[b], 1.0);
-  return sum;
-}
-
 void build_field(const ContactParams& params, const LocalMesh& local, std::span<const double> surface_distance,
                  ContactState& contact) {
-  contact.body_length = mean_inradii(local);
   contact.field.assign(contact.contactors.size(), FieldValues{});
   contact.ramps.clear();
   contact.ramp_of_contactor.assign(contact.contactors.size(), -1);
-  if (params.field != OverlapField::body) return;
   for (std::size_t c = 0; c < contact.contactors.size(); ++c) {
     const Index slot = contact.contactors[c];
-    FieldValues& values = contact.field[c];
-    for (std::size_t a = 0; a < 4; ++a) {
-      const auto vertex = static_cast<std::size_t>(local.vertex[static_cast<std::size_t>(slot)][a]);
-      values[a] = surface_distance[vertex];
-    }
-    values[kBubble] = all_on_surface(values) ? inradius(local, slot) : 0.0;
+    std::array<double, 4> distance{};
+    for (std::size_t a = 0; a < 4; ++a)
+      distance[a] = surface_distance[static_cast<std::size_t>(local.vertex[static_cast<std::size_t>(slot)][a])];
+    contact.field[c] = field_at_rest(params.field, distance, load_corners(local, local.reference.data(), slot));
   }
+}
+
+FieldValues field_at_rest(OverlapField field, const std::array<double, 4>& surface_distance,
+                          const std::array<Vec3, 4>& corners) {
+  if (field != OverlapField::body) return {};
+  FieldValues values{surface_distance[0], surface_distance[1], surface_distance[2], surface_distance[3], 0.0};
+  if (all_on_surface(values)) values[kBubble] = geometry::inradius(corners);
+  return values;
 }
 
 void free_corner(const ContactParams& params, const LocalMesh& local, Index contactor, int corner,

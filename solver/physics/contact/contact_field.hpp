@@ -18,14 +18,15 @@ namespace breccia {
 ///
 /// H, the length that makes the overlap dimensionless, is the mean inradius of a body's elements.
 
-/// H of every body, m: the mean inradius of its elements. @param local  of the whole model. O(num_slots).
-[[nodiscard]] std::vector<double> mean_inradii(const LocalMesh& local);
-
-/// Fills `body_length` and `field` for the contactors in `contact.contactors`.
+/// Fills `field` for the contactors in `contact.contactors`.
 /// @param surface_distance  (mesh vertices) m, 0 on the free surface
 /// O(num_slots).
 void build_field(const ContactParams& params, const LocalMesh& local, std::span<const double> surface_distance,
                  ContactState& contact);
+
+/// The same for one element. @param surface_distance  of its corners, m;  @param corners  m, reference
+[[nodiscard]] FieldValues field_at_rest(OverlapField field, const std::array<double, 4>& surface_distance,
+                                        const std::array<Vec3, 4>& corners);
 
 /// The corner has come to lie on the free surface: its Phi goes to 0 within `ramp_steps` steps, and if it was the last
 /// inner corner the bubble rises to the inradius. Nothing happens for fields other than `body`, or when it lies there

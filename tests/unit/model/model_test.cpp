@@ -104,5 +104,29 @@ TEST(MeshOfACase, has_the_scale_and_the_seed_of_the_case) {
   EXPECT_NE(nodes("mesh.raster.seed=1"), nodes("mesh.raster.seed=2"));
 }
 
+TEST(WholeModel, HasTheCentresOfMassOfWhatSpins) {
+  const Model model = build_model(test::two_boxes_case(
+      {"mesh.glue=false"}, test::kTwoBoxesCase.substr(0, test::kTwoBoxesCase.find("[[joint]]\nbetween")) +
+                               "[[initial_velocity]]\ngroup = \"right\"\nangular = [0, 0, \"3 rad/s\"]\n"
+                               "[[initial_velocity]]\ngroup = \"left\"\nvelocity = [1, 0, 0]\n[[stage]]\nend = 1\n"));
+  ASSERT_EQ(model.whole.spin_centres.size(), 2u);
+  EXPECT_TRUE(model.whole.spin_centres[1].empty()) << "it does not spin";
+  Vec3 centre = Vec3::Zero();
+  double volume = 0;
+  Index body = -1;
+  for (Index e = 0; e < model.mesh.num_elements(); ++e) {
+    const auto i = static_cast<std::size_t>(e);
+    if (model.mesh.volume_groups[static_cast<std::size_t>(model.mesh.element_group[i])] != "right") continue;
+    body = model.mesh.element_body[i];
+    const auto x = geometry::corners_of(model.mesh, e);
+    const double v = geometry::tetra_volume(x[0], x[1], x[2], x[3]);
+    volume += v;
+    centre += v * 0.25 * (x[0] + x[1] + x[2] + x[3]);
+  }
+  ASSERT_GE(body, 0);
+  constexpr double kRounding = 1e-12;  // m
+  EXPECT_LT((model.whole.spin_centres[0][static_cast<std::size_t>(body)] - centre / volume).norm(), kRounding);
+}
+
 }  // namespace
 }  // namespace breccia

@@ -11,6 +11,7 @@
 #include "discretisation/local_mesh.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/point_distance.hpp"
+#include "mesh/quality.hpp"
 #include "mesh/raster.hpp"
 #include "mesh/topology.hpp"
 #include "physics/contact/contact_couples.hpp"
@@ -100,6 +101,7 @@ struct Scene {
     state.position = local.reference;
     state.velocity.assign(local.reference.size(), 0.0);
     set_contactors(local, local.slot_of_element, contact);
+    contact.body_length = mean_inradii(mesh);
     build_field(params, local, nodal_surface_distance(mesh, topology), contact);
     for (Index e = 0; e < mesh.num_elements(); ++e) {
       for (int f = 0; f < 4; ++f) {

@@ -30,7 +30,7 @@ struct Scene {
     params.num_groups = 1;
     params.laws.resize(1);
     params.laws[0].penalty = kPenalty;
-    length = mean_inradii(model.local);
+    length = mean_inradii(model.mesh);
     for (auto* bits : {&faces.open, &faces.torn, &faces.pointed}) bits->assign(test::at(model.local.num_slots), 0);
     for (const LoadedFace& face : model.free_faces())
       faces.open[test::at(face.slot)] |= static_cast<std::uint8_t>(1U << face.face);

@@ -68,7 +68,17 @@ TEST(InitialVelocity, IsTheSameForAllNodesOfABodyAndDiffersBetweenBodies) {
 TEST(InitialVelocity, TurnsEveryBodyAboutItsCentreOfMass) {
   Model model(test::jittered(test::box({1, 2, 1}, 1.0, {2, 1, 1}), 0.08, 4), Discretisation::own_nodes, 1000);
   const Vec3 omega(1, -2, 3);
-  add_initial_velocity(model.local, {.angular = omega}, model.state.position, model.state.velocity);
+  std::vector<double> mass(2, 0.0);
+  std::vector<Vec3> centre(2, Vec3::Zero());
+  for (Index n = 0; n < model.local.num_own_nodes(); ++n) {
+    const GlobalId id = model.local.node_id[test::at(n)];
+    if (id < 0) continue;
+    const std::size_t body = test::at(model.mesh.element_body[test::at(static_cast<Index>(id / 4))]);
+    mass[body] += model.local.node_mass[test::at(n)];
+    centre[body] += model.local.node_mass[test::at(n)] * load_node(model.state.position.data(), n);
+  }
+  for (std::size_t b = 0; b < 2; ++b) centre[b] /= mass[b];
+  add_initial_velocity(model.local, {.angular = omega, .centre = centre}, model.state.position, model.state.velocity);
   const Momentum p = momentum(model.local, model.state.position.data(), model.state.velocity.data());
   EXPECT_LT(test::value_of(p.linear).norm(), 4000 * 4 * kRounding);
   // Two nodes of one body: relative velocity is omega x arm.

@@ -1,0 +1,43 @@
+#include "domains/mesh_records.hpp"
+
+#include <algorithm>
+
+namespace breccia {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+ElementRecord mesh_record(const Mesh& mesh, const Topology& topology, Index element) {
+  ElementRecord record;
+  record.id = mesh.element_id(element);
+  record.source_id = mesh.element_source_id[at(element)];
+  record.group = mesh.element_group[at(element)];
+  record.body = mesh.element_body[at(element)];
+  for (std::size_t c = 0; c < 4; ++c) {
+    const Index node = mesh.elements[at(element)][c];
+    const Vec3& x = mesh.nodes[at(node)];
+    record.vertex[c] = mesh.node_id(node);
+    record.reference[c] = {x[0], x[1], x[2]};
+  }
+  for (std::size_t f = 0; f < 4; ++f) {
+    // An element beyond the piece can be one that has broken off and left: for what remains, the face is simply free.
+    const FaceLink& link = topology.links[at(element)][f];
+    record.neighbour[f] = link.inner() ? mesh.element_id(link.neighbour) : -1;
+    record.code[f] = link.inner() ? link.code : std::int8_t{0};
+  }
+  return record;
+}
+
+std::vector<FaceTag> face_tags(const Mesh& mesh, const Topology& topology) {
+  std::vector<FaceTag> tags;
+  for (std::size_t g = 0; g < topology.surface_groups.size(); ++g) {
+    for (const Topology::Face& face : topology.surface_groups[g])
+      tags.push_back({mesh.element_id(face.element), static_cast<Index>(g), face.face});
+  }
+  std::stable_sort(tags.begin(), tags.end(), [](const FaceTag& p, const FaceTag& q) { return p.element < q.element; });
+  return tags;
+}
+
+}  // namespace breccia

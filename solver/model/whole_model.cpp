@@ -1,0 +1,71 @@
+#include "model/whole_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/geometry.hpp"
+#include "mesh/quality.hpp"
+
+namespace breccia {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// Strains below this are round-off of positions: energies of that size are no measure for a residual.
+constexpr double kRoundOffStrain = 1e-10;
+
+double volume_of(const std::array<Vec3, 4>& x) { return geometry::tetra_volume(x[0], x[1], x[2], x[3]); }
+
+double longest_edge(const Mesh& mesh) {
+  double square = 0;
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    const auto x = geometry::corners_of(mesh, e);
+    for (const auto& edge : geometry::kEdges)
+      square = std::max(square, (x[at(edge[0])] - x[at(edge[1])]).squaredNorm());
+  }
+  return std::sqrt(square);
+}
+
+/// Centre of mass of what each body has in a group, m; zero for bodies that have nothing there.
+std::vector<Vec3> centres_of(const Mesh& mesh, Index group, double density) {
+  std::vector<Vec3> centre(at(mesh.num_bodies), Vec3::Zero());
+  std::vector<double> mass(centre.size(), 0.0);
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    if (mesh.element_group[at(e)] != group) continue;
+    const auto x = geometry::corners_of(mesh, e);
+    const double m = density * volume_of(x);
+    centre[at(mesh.element_body[at(e)])] += m * 0.25 * (x[0] + x[1] + x[2] + x[3]);
+    mass[at(mesh.element_body[at(e)])] += m;
+  }
+  for (std::size_t b = 0; b < centre.size(); ++b) {
+    if (mass[b] > 0) centre[b] /= mass[b];
+  }
+  return centre;
+}
+
+}  // namespace
+
+WholeModel whole_of(const case_::Case& input, const Mesh& mesh, const std::vector<double>& lambda_2mu,
+                    const std::vector<double>& density) {
+  WholeModel whole;
+  whole.source = mesh.source;
+  whole.volume_groups = mesh.volume_groups;
+  whole.surface_groups = mesh.surface_groups;
+  whole.num_elements = mesh.num_elements();
+  whole.body_length = mean_inradii(mesh);
+  whole.longest_edge = longest_edge(mesh);
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    whole.energy_floor += kRoundOffStrain * kRoundOffStrain * volume_of(geometry::corners_of(mesh, e)) *
+                          lambda_2mu[at(mesh.element_group[at(e)])];
+  }
+  for (const case_::InitialVelocity& entry : input.initial_velocities) {
+    std::vector<Vec3>& centres = whole.spin_centres.emplace_back();
+    const auto& groups = mesh.volume_groups;
+    const auto group = std::find(groups.begin(), groups.end(), entry.group) - groups.begin();
+    if (entry.angular != Vec3::Zero())
+      centres = centres_of(mesh, static_cast<Index>(group), density[static_cast<std::size_t>(group)]);
+  }
+  return whole;
+}
+
+}  // namespace breccia

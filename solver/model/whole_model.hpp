@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/types.hpp"
+#include "case/case.hpp"
+#include "mesh/mesh.hpp"
+
+namespace breccia {
+
+/// What depends on the model as a whole, the same on every rank.
+struct WholeModel {
+  /// A pair of groups that joints hold together. Index = index of the law.
+  struct JointGroups {
+    Index a, b;   ///< a <= b
+    double size;  ///< m, mean edge of their joints
+  };
+  std::string source;  ///< of the mesh, for messages
+  std::vector<std::string> volume_groups, surface_groups;
+  std::int64_t num_elements = 0, num_joints = 0;
+  std::vector<JointGroups> joint_groups;
+  std::vector<double> body_length;  ///< (bodies) H of contact, m: mean inradius of the elements
+  double contactor_size = 0;        ///< m, mean size of the contactors
+  double longest_edge = 0;          ///< m, of all elements, reference
+  double energy_floor = 0;          ///< J, energies below are round-off
+  double step_ratio = 0;            ///< of the true stable step to the bound at rest (time_step.hpp); 0: not found yet
+  /// (entries of initial_velocities) centres of mass, m, of what each body has in the entry's group; empty: no spin
+  std::vector<std::vector<Vec3>> spin_centres;
+};
+
+/// What the mesh alone tells of it: sizes, bodies and centres; nothing of joints, contact and the step.
+/// @param lambda_2mu  (volume groups) Pa;  @param density  (volume groups) kg/m3. O(elements).
+[[nodiscard]] WholeModel whole_of(const case_::Case& input, const Mesh& mesh, const std::vector<double>& lambda_2mu,
+                                  const std::vector<double>& density);
+
+}  // namespace breccia
