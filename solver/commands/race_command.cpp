@@ -21,7 +21,8 @@ int race_command(const RaceCommand& asked, const Communicator& world) {
   world.agree([&] {
     input = case_::read_case(asked.case_file, asked.overrides);
     world.set_patience(input.domains.patience);
-    if (world.is_root()) model = std::make_unique<Model>(build_model(input));
+    if (world.is_root())
+      model = std::make_unique<Model>(world.size() > 1 ? build_bare_model(input) : build_model(input));
     if (!writes) return;
     std::error_code error;
     std::filesystem::create_directories(asked.folder, error);

@@ -7,7 +7,6 @@
 #include "case/live_address.hpp"
 #include "case/reader.hpp"
 #include "commands/oversubscription.hpp"
-#include "commands/step_report.hpp"
 #include "output/history_sink.hpp"
 #include "output/insitu.hpp"
 #include "output/run_folder.hpp"
@@ -40,16 +39,12 @@ int run_command(const RunCommand& asked, const Communicator& world) {
     root = asked.folder.empty() ? default_run_folder(input.file) : asked.folder;
     if (input.insitu.asked_for()) InSituPlugin();  // before anything is made: stays loaded
     if (!world.is_root()) return;
-    model = std::make_unique<Model>(build_model(input));
+    model = std::make_unique<Model>(world.size() > 1 ? build_bare_model(input) : build_model(input));
     (void)prepare_run_folder(root, input.resolved, collect_provenance(BRECCIA_VERSION, asked.command_line),
                              asked.overwrite ? OldResults::overwrite : OldResults::refuse);
   });
   warn_of_oversubscription(world);
-  if (world.is_root()) {
-    warn_of_remote_viewer(input.insitu);
-    if (const std::string warning = given_step_warning(input, *model); !warning.empty())
-      fmt::print(stderr, "breccia: warning: {}", warning.substr(2));
-  }
+  if (world.is_root()) warn_of_remote_viewer(input.insitu);
   const RunFolder folder{root};
   world.agree([&] {
     // Frames are written by all ranks together, everything else by the root.

@@ -140,21 +140,6 @@ std::string sliver_advice(const Model& model, const Start& start) {
       slivers.size(), kSliver, quality.worst.front().element, without / start.now().step);
 }
 
-std::string given_step_advice(const case_::Case& input, const StableStep& step) {
-  const double dt = input.time.step;
-  if (!(dt > step.step)) return {};
-  if (dt > step.joint_step) {
-    return fmt::format(
-        "- time.step = {:.3g} s is {:.2g} times longer than the stable step of elements and joints, {:.3g} s (by "
-        "iteration): the run will blow up. Leave it to \"auto\".\n",
-        dt, dt / step.joint_step, step.joint_step);
-  }
-  return fmt::format(
-      "- time.step = {:.3g} s is {:.2g} times longer than what {} allows, {:.3g} s: what is pressed together there may "
-      "gain energy. Leave it to \"auto\", or lower the penalty.\n",
-      dt, dt / step.step, limit_text(step), step.step);
-}
-
 }  // namespace
 
 StepReport step_report(const case_::Case& input, const Model& model) {
@@ -182,7 +167,8 @@ StepReport step_report(const case_::Case& input, const Model& model) {
     report.advice += contact_advice(model, start, start.parts().contacts, "Contact");
     if (report.advice.empty()) report.advice += contact_advice(model, start, later, "Once bodies meet, contact");
   }
-  report.advice += given_step_advice(input, now);
+  if (const std::string text = given_step_text(input.time.step, now); !text.empty())
+    report.advice += "- " + text + "\n";
   if (now.limit != StepLimit::contact && now.quantiles[0] < 0.3 * now.quantiles[1]) {
     report.advice += fmt::format(
         "- The worst element allows {:.1f} times less than the worst per cent: one bad element slows the whole run.\n",
@@ -190,11 +176,6 @@ StepReport step_report(const case_::Case& input, const Model& model) {
   }
   report.advice += sliver_advice(model, start);
   return report;
-}
-
-std::string given_step_warning(const case_::Case& input, const Model& model) {
-  if (!(input.time.step > 0)) return {};
-  return given_step_advice(input, Start(input, model).now());
 }
 
 }  // namespace breccia

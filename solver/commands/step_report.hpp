@@ -18,8 +18,4 @@ struct StepReport {
 
 [[nodiscard]] StepReport step_report(const case_::Case& input, const Model& model);
 
-/// What is wrong with the step that the case gives: lines; empty: nothing, or the step is chosen. The limit without
-/// contact is the true one, by iteration; where contact makes it shorter it is a bound.
-[[nodiscard]] std::string given_step_warning(const case_::Case& input, const Model& model);
-
 }  // namespace breccia

@@ -49,9 +49,24 @@ StableStep global_stable_step(const Communicator& communicator, const TimeStep& 
                               double steps) {
   const StepParts parts = step_parts(communicator, time_step, state, steps);
   StableStep result = stable_step(time_step.step_model(), parts.shares, parts.most, parts.contacts, parts.open);
-  result.step = communicator.min(result.step);
   result.element_step = communicator.min(result.element_step);
   result.joint_step = communicator.min(result.joint_step);
+  struct Limiter {
+    double step;
+    GlobalId element, neighbour;
+    StepLimit limit;
+    int face;
+  };
+  Limiter limiter{result.step, result.element, result.neighbour, result.limit, result.face};
+  for (const auto& of_rank : communicator.all_gather(std::span<const Limiter>(&limiter, 1))) {
+    const Limiter& other = of_rank.front();
+    if (other.step < limiter.step || (other.step == limiter.step && other.element < limiter.element)) limiter = other;
+  }
+  result.step = limiter.step;
+  result.element = limiter.element;
+  result.neighbour = limiter.neighbour;
+  result.limit = limiter.limit;
+  result.face = limiter.face;
   return result;
 }
 

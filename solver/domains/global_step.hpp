@@ -28,8 +28,8 @@ struct StepParts {
 [[nodiscard]] StepParts step_parts(const Communicator& communicator, const TimeStep& time_step, const StepState& state,
                                    double steps);
 
-/// Stable step of the whole model, s, with what limits it on this rank; its step and the quantities it is made of are
-/// alike on all ranks. A function of the present state alone: exact maxima over ranks, nothing of searches and couples.
+/// Stable step of the whole model, s, with what limits it, alike on all ranks (its quantiles are of this rank). A
+/// function of the present state alone: exact maxima over ranks, nothing of searches and couples.
 /// @param steps  as for step_parts.  Collective. O(elements + patches).
 [[nodiscard]] StableStep global_stable_step(const Communicator& communicator, const TimeStep& time_step,
                                             const StepState& state, double steps);

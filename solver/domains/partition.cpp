@@ -166,12 +166,12 @@ void Partition::begin_stage(const case_::Stage& stage) {
   breccia::begin_stage(*domain_, stage_loads(stage, *model_), domain_->state.clock.dt);
 }
 
-double Partition::stable_step(double steps) {
+StableStep Partition::stable_step(double steps) {
   const State& state = domain_->state;
   const StepState now{state.nodes.position,     state.nodes.velocity,
                       domain_->contacts(),      domain_->contact ? &domain_->contact->clusters() : nullptr,
                       &state.loads.constraints, material_memory(state.elements)};
-  return global_stable_step(communicator_, *time_step_, now, steps).step;
+  return global_stable_step(communicator_, *time_step_, now, steps);
 }
 
 void Partition::keep_up() {

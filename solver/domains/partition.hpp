@@ -56,9 +56,9 @@ class Partition {
   void keep_up();
   /// The partition as it is, which ends with it: no more steps. Collective. @pre a stage has begun
   [[nodiscard]] Snapshot snapshot();
-  /// Stable step of the whole model at present under the constraints of the stage, s. Collective.
+  /// Stable step of the whole model at present under the constraints of the stage. Collective.
   /// @param steps  of it until the next call
-  [[nodiscard]] double stable_step(double steps);
+  [[nodiscard]] StableStep stable_step(double steps);
 
  private:
   void start_alone();

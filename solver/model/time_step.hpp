@@ -51,4 +51,8 @@ class TimeStep {
 /// "the joint between elements 17 and 43".
 [[nodiscard]] std::string limit_text(const StableStep& step);
 
+/// What is wrong with a step that the case gives, in a sentence; empty: it is stable. @param dt  s; 0: none given
+/// @param step  of the model at present
+[[nodiscard]] std::string given_step_text(double dt, const StableStep& step);
+
 }  // namespace breccia

@@ -93,6 +93,10 @@ class Runner {
     stage_name_ = stage.name;
     StageSteps steps(input_, stage, partition_);
     observer_.begin_stage(stage);
+    if (input_.time.step > 0) {
+      const std::string text = given_step_text(input_.time.step, steps.limit());
+      if (!text.empty()) tell_event("step", text, false);
+    }
     while (!steps.over()) {
       steps.look();
       advance();

@@ -18,10 +18,13 @@ StageSteps::StageSteps(const case_::Case& input, const case_::Stage& stage, Part
 
 double StageSteps::length() const {
   const double safety = input_.time.safety;
-  const double allowed =
-      input_.time.step > 0 ? input_.time.step : safety * partition_.stable_step(safety * kStepsBetweenLooks);
+  const double allowed = input_.time.step > 0 ? input_.time.step : safety * limit().step;
   const double left = stage_.end - partition_.state().clock.time;
   return left / std::max(1.0, std::ceil(left / allowed * (1.0 - 1e-9)));
+}
+
+StableStep StageSteps::limit() const {
+  return partition_.stable_step((input_.time.step > 0 ? 1.0 : input_.time.safety) * kStepsBetweenLooks);
 }
 
 void StageSteps::look() {

@@ -20,6 +20,8 @@ class StageSteps {
   [[nodiscard]] bool over() const {
     return !(partition_.state().clock.time < stage_.end - 0.5 * partition_.state().clock.dt);
   }
+  /// The stable step at present, of elements, joints and contacts that can be made until the next look. Collective.
+  [[nodiscard]] StableStep limit() const;
   /// Before every step: a new length if it is time to look and the limit has moved. Collective.
   void look();
   [[nodiscard]] std::int64_t until_look() const { return until_look_; }

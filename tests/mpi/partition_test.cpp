@@ -97,14 +97,17 @@ TEST_F(PartitionOfCubes, HoldsEveryElementOnce) {
 
 TEST_F(PartitionOfCubes, HasTheStableStepOfTheWholeModel) {
   Partition partition = begun();
-  const double step = partition.stable_step(100);
-  double alone = 0;
+  const StableStep step = partition.stable_step(100);
+  double alone = 0, element = 0;
   if (world().is_root()) {
     Partition whole_model(input_, Communicator(), whole());
     whole_model.begin_stage(input_.stages[0]);
-    alone = whole_model.stable_step(100);
+    const StableStep of_all = whole_model.stable_step(100);
+    alone = of_all.step;
+    element = static_cast<double>(of_all.element);
   }
-  EXPECT_EQ(step, world().max(alone)) << "the same bits";
+  EXPECT_EQ(step.step, world().max(alone)) << "the same bits";
+  EXPECT_EQ(static_cast<double>(step.element), world().max(element)) << "and what limits it";
 }
 
 TEST_F(PartitionOfCubes, TakesTheStepsOfARankThatIsAlone) {

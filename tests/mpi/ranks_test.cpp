@@ -282,6 +282,21 @@ TEST(Ranks, NameTheSameElementWhenTheResidualPassesItsLimit) {
   EXPECT_EQ(messages.size(), 1u) << *messages.begin() << "\n" << *messages.rbegin();
 }
 
+TEST(Ranks, WarnOnceOfAStepThatIsTooLong) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", test::kSmallCase);
+  const std::string run = "run --progress none -o '" + scratch.path("out").string() + "' -f " + file +
+                          " --set time.max_steps=1 --set time.step=";
+  for (const int ranks : {1, 2, 3}) {
+    const Outcome outcome = test::call_ranks(ranks, run + "1e-3");
+    EXPECT_EQ(outcome.exit_code, 0);
+    const std::size_t first = outcome.err.find("the run will blow up");
+    ASSERT_NE(first, std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find("the run will blow up", first + 1), std::string::npos) << outcome.err;
+    EXPECT_EQ(test::call_ranks(ranks, run + "1e-9").err.find("time.step"), std::string::npos);
+  }
+}
+
 TEST(Ranks, TellAWrongCaseOnce) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", test::changed("2340 kg/m3", "-1 kg/m3"));

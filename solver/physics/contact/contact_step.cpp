@@ -109,7 +109,6 @@ class Surface {
 
   /// G^2 of the field of an element that is touched through a face: next to that face, at rest.
   [[nodiscard]] double steepness(Index slot, int face) const {
-    const LocalMesh& mesh = model_.mesh;
     const ContactState* state = model_.state;
     const Index contactor = state != nullptr ? state->contactor_of_slot[at(slot)] : -1;
     const unsigned open = model_.faces.open[at(slot)];

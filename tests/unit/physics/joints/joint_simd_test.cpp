@@ -116,7 +116,9 @@ TEST(JointSimd, a_joint_of_the_list_gets_the_bits_of_one_evaluated_alone) {
         ASSERT_EQ(p.damage, q.damage) << step;
         ASSERT_EQ(p.strength_share, q.strength_share) << step;
         ASSERT_EQ(p.slip, q.slip) << step;
-        if (joint.damage() > 0) ASSERT_EQ(p.stored, q.stored) << step;  // elastic ones are summed in another order
+        if (joint.damage() > 0) {  // elastic ones are summed in another order
+          ASSERT_EQ(p.stored, q.stored) << step;
+        }
       }
     }
   }

@@ -2,6 +2,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "mesh/quality.hpp"
 #include "physics/contact/contact_field.hpp"
 #include "physics/contact/contact_point.hpp"
 #include "physics/contact/contact_step.hpp"
