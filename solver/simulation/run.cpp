@@ -1,20 +1,15 @@
 #include "simulation/run.hpp"
 
 #include <chrono>
-#include <cmath>
 #include <optional>
 #include <thread>
 #include <utility>
 
 #include "base/error.hpp"
 #include "domains/partition.hpp"
-#include "domains/state_records.hpp"
-#include "observe/observe.hpp"
-#include "output/schedule.hpp"
-#include "output/summary.hpp"
 #include "simulation/insitu_watch.hpp"
 #include "simulation/run_control.hpp"
-#include "simulation/sink_group.hpp"
+#include "simulation/run_output.hpp"
 #include "simulation/stage_steps.hpp"
 #include "simulation/step.hpp"
 
@@ -24,45 +19,30 @@ std::atomic<bool> stop_requested{false};
 
 namespace {
 
-/// A sample of the energies costs about as much as a step: lines of the history at no given interval come no closer
-/// than so many steps.
-constexpr std::int64_t kStepsBetweenLines = 20;
-
 /// Between two looks at the control file while the run is paused.
 constexpr auto kPausedLook = std::chrono::milliseconds(100);
-
-std::string scientific(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
 
 class Runner {
  public:
   Runner(const case_::Case& input, std::unique_ptr<Model> whole, const std::vector<std::unique_ptr<Sink>>& sinks,
          const Communicator& communicator, const RunFolder* folder)
       : input_(input),
-        sink_group_(sinks, communicator),
         communicator_(communicator),
         partition_(input, communicator, std::move(whole)),
-        observer_(input, partition_),
-        end_(input.stages.back().end),
-        histories_(input.output.history_interval > 0 ? Schedule(input.output.history_interval)
-                                                     : Schedule(end_ / 500, kStepsBetweenLines)),
-        frames_(input.output.frame_interval),
+        output_(input, sinks, partition_),
         control_(folder != nullptr ? std::optional(folder->control()) : std::nullopt, communicator) {
     if (folder == nullptr || !input.insitu.asked_for()) return;
     communicator_.set_phase("start of the in-situ adaptor");
     insitu_.emplace(input, folder->extracts(), partition_,
-                    [this](const std::string& text, bool good) { tell_event("insitu", text, good); });
+                    [this](const std::string& text, bool good) { output_.tell_event("insitu", text, good); });
   }
 
   Summary run() {
-    tell_start();
+    output_.tell_start(insitu_.has_value());
     try {
       for (std::size_t s = 0; s < input_.stages.size() && status_ == "complete"; ++s) run_stage(input_.stages[s]);
       conclude(partition_.domain());
-      write_frame();
+      output_.write_frame();
       look_in_situ(true);
     } catch (const SimulationError& error) {
       finish(error.what());
@@ -78,24 +58,12 @@ class Runner {
   }
 
  private:
-  void tell_event(const std::string& kind, const std::string& text, bool accepted, const std::string& id = {}) {
-    const RunEvent event{kind, text, id, accepted, clock().steps, clock().time};
-    sink_group_.tell([&](Sink& sink) { sink.event(event); });
-  }
-
-  void tell_start() {
-    const RunStart start{input_.title, partition_.whole().num_elements, partition_.whole().num_joints,
-                         input_.output.gauges, insitu_.has_value()};
-    sink_group_.tell([&](Sink& sink) { sink.start(start); });
-  }
-
   void run_stage(const case_::Stage& stage) {
-    stage_name_ = stage.name;
     StageSteps steps(input_, stage, partition_);
-    observer_.begin_stage(stage);
+    output_.begin_stage(stage);
     if (input_.time.step > 0) {
       const std::string text = given_step_text(input_.time.step, steps.limit());
-      if (!text.empty()) tell_event("step", text, false);
+      if (!text.empty()) output_.tell_event("step", text, false);
     }
     while (!steps.over()) {
       steps.look();
@@ -111,12 +79,12 @@ class Runner {
     if ((partition_.state().signals.received.orders & kControlOrder) != 0) obey(control_.receive());
     if (paused_) stay_paused();
     const double time = clock().time;
-    if (frames_.due(time, clock().dt, clock().steps)) write_frame();
+    if (output_.frame_due()) output_.write_frame();
     look_in_situ(false);
-    const bool sample = histories_.due(time, clock().dt, clock().steps);
+    const bool sample = output_.line_due();
     step(partition_.domain(), {sample, signals()});
-    if (sample) take_line(time);
-    tell_status();
+    if (sample) output_.take_line(time, insitu_ ? &*insitu_ : nullptr);
+    output_.tell_status(paused_);
     partition_.keep_up();
   }
 
@@ -128,27 +96,16 @@ class Runner {
     return signals;
   }
 
-  void take_line(double time) {
-    const auto lap = partition_.domain().timer.measure(Phase::output);
-    HistoryRow row = observer_.row(time);
-    if (insitu_) row.insitu_share = insitu_->share_of_time();
-    last_fragments_ = row.fragments;
-    last_broken_ = row.broken_joints;
-    if (insitu_) insitu_->take_row(row);
-    sink_group_.tell([&](Sink& sink) { sink.history(row); });
-    check_residual(time);
-  }
-
   void look_in_situ(bool all) {
     if (!insitu_) return;
     all = std::exchange(extract_commanded_, false) || all;
-    obey(insitu_->look(observer_, all));
+    obey(insitu_->look(output_.observer(), all));
   }
 
   void obey(const std::vector<Command>& commands) {
     for (const Command& command : commands) {
       const std::string complaint = obey(command);
-      tell_event("control", complaint.empty() ? command.text : complaint, complaint.empty(), command.id);
+      output_.tell_event("control", complaint.empty() ? command.text : complaint, complaint.empty(), command.id);
     }
   }
 
@@ -172,10 +129,10 @@ class Runner {
         extract_commanded_ = true;
         return {};
       case Command::Kind::frame:
-        write_frame();
+        output_.write_frame();
         return {};
       case Command::Kind::frame_interval:
-        frames_.change(command.value, clock().time, clock().dt);
+        output_.change_frame_interval(command.value);
         return {};
     }
     return {};
@@ -190,114 +147,27 @@ class Runner {
       obey(control_.receive());
       if (extract_commanded_) look_in_situ(true);
       if (communicator_.max(static_cast<std::int64_t>(stop_requested)) != 0) paused_ = false;
-      tell_status();
+      output_.tell_status(paused_);
     }
-  }
-
-  void check_residual(double time) const {
-    const EnergyBudget& e = partition_.domain().sample.budget;
-    if (!(e.residual_relative > input_.time.residual_limit) && std::isfinite(e.residual)) return;
-    throw SimulationError("step " + std::to_string(clock().steps - 1) + ", time " + scientific(time) +
-                          " s: the energy residual is " + scientific(100 * e.residual_relative) +
-                          " % of the largest term (limit " + scientific(100 * input_.time.residual_limit) +
-                          " %); the strain energy is densest in element " +
-                          std::to_string(partition_.domain().sample.worst_element) +
-                          "; lower time.safety, or raise time.residual_limit if you trust the run");
-  }
-
-  void write_frame() {
-    const auto lap = partition_.domain().timer.measure(Phase::output);
-    const FrameParts parts{input_.output.elements, input_.output.joints, input_.output.contacts};
-    const Frame frame = observer_.picture(frame_number_++, parts);
-    sink_group_.tell([&](Sink& sink) { sink.frame(frame); });
-  }
-
-  void tell_status() {
-    sink_group_.tell_status([this] { return status_line(); });
-  }
-
-  double wall() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count(); }
-
-  StatusLine status_line() {
-    StatusLine line;
-    const double left = end_ - clock().time;
-    line.step = clock().steps;
-    line.steps_total = line.step + static_cast<std::int64_t>(std::llround(left / clock().dt));
-    line.time = clock().time;
-    line.end = end_;
-    line.share = clock().time / end_;
-    line.wall_s = wall();
-    line.element_steps_per_s =
-        static_cast<double>(partition_.whole().num_elements) * static_cast<double>(line.step) / line.wall_s;
-    line.eta_s = line.share > 0 ? line.wall_s * (1.0 - line.share) / line.share : -1.0;
-    line.energy_residual = partition_.domain().sample.budget.residual_relative;
-    line.broken_joints = last_broken_;
-    line.fragments = last_fragments_;
-    line.imbalance = partition_.imbalance();
-    line.decompositions = partition_.decompositions();
-    line.stage = stage_name_;
-    line.paused = paused_;
-    return line;
   }
 
   Summary finish(const std::string& status) {
-    if (status != status_) write_frame();  // after an error: the last picture
-    Summary summary;
-    if (insitu_) summary.insitu = insitu_->finish();
-    const Provenance provenance = collect_provenance(BRECCIA_VERSION, {});
-    summary.title = input_.title;
-    summary.version = provenance.version;
-    summary.host = provenance.host;
-    summary.status = status;
-    summary.steps = clock().steps;
-    summary.simulated_time = clock().time;
-    summary.time_step = clock().dt;
-    summary.ranks = communicator_.size();
-    summary.decompositions = partition_.decompositions();
-    summary.imbalance = partition_.imbalance();
-    summary.messages = communicator_.sum(partition_.domain().messages());
-    summary.message_bytes = communicator_.sum(partition_.domain().bytes());
-    summary.elements = partition_.whole().num_elements;
-    summary.joints = partition_.whole().num_joints;
-    summary.broken_joints = last_broken_ = communicator_.sum(partition_.state().joints.broken);
-    summary.fragments = observer_.num_fragments();
-    summary.searches = communicator_.max(partition_.state().counters.searches);
-    summary.inverted_elements = communicator_.sum(partition_.state().counters.crushed);
-    summary.wall_s = wall();
-    summary.element_steps_per_s =
-        static_cast<double>(summary.elements) * static_cast<double>(summary.steps) / summary.wall_s;
-    for (int p = 0; p < static_cast<int>(Phase::count); ++p) {
-      const auto phase = static_cast<Phase>(p);
-      summary.phases.emplace_back(std::string(name_of(phase)),
-                                  communicator_.max(partition_.domain().timer.seconds(phase)));
-    }
-    summary.energy = partition_.domain().sample.budget;
-    summary.max_rss_bytes =
-        static_cast<std::uint64_t>(communicator_.sum(static_cast<std::int64_t>(max_resident_bytes())));
-    summary.simd = std::string(name_of(partition_.domain().simd));
-    summary.state_hash = hash_of(partition_.domain()).text();
-    sink_group_.tell([&](Sink& sink) {
-      sink.status(status_line());
-      sink.finish(summary);
-    });
-    return summary;
+    if (status != status_) output_.write_frame();  // after an error: the last picture
+    std::vector<PipelineReport> insitu;
+    if (insitu_) insitu = insitu_->finish();
+    return output_.finish(status, std::move(insitu), paused_);
   }
 
   [[nodiscard]] const Clock& clock() const { return partition_.state().clock; }
 
   const case_::Case& input_;
-  SinkGroup sink_group_;
   Communicator communicator_;
   Partition partition_;
-  Observer observer_;
-  double end_;
-  Schedule histories_, frames_;
-  std::string stage_name_, status_ = "complete";
-  std::int64_t frame_number_ = 0, last_fragments_ = 0, last_broken_ = 0;
+  RunOutput output_;
+  std::string status_ = "complete";
   RunControl control_;
   bool paused_ = false, stop_commanded_ = false, extract_commanded_ = false;
   std::optional<InSituWatch> insitu_;
-  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace

@@ -1,0 +1,155 @@
+#include "simulation/run_output.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "base/error.hpp"
+#include "domains/state_records.hpp"
+#include "output/run_folder.hpp"
+#include "output/summary.hpp"
+
+namespace breccia {
+namespace {
+
+/// A sample of the energies costs about as much as a step: lines of the history at no given interval come no closer
+/// than so many steps.
+constexpr std::int64_t kStepsBetweenLines = 20;
+
+std::string scientific(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+}  // namespace
+
+RunOutput::RunOutput(const case_::Case& input, const std::vector<std::unique_ptr<Sink>>& sinks, Partition& partition)
+    : input_(input),
+      sink_group_(sinks, partition.communicator()),
+      partition_(partition),
+      observer_(input, partition),
+      end_(input.stages.back().end),
+      histories_(input.output.history_interval > 0 ? Schedule(input.output.history_interval)
+                                                   : Schedule(end_ / 500, kStepsBetweenLines)),
+      frames_(input.output.frame_interval) {}
+
+void RunOutput::tell_event(const std::string& kind, const std::string& text, bool accepted, const std::string& id) {
+  const RunEvent event{kind, text, id, accepted, clock().steps, clock().time};
+  sink_group_.tell([&](Sink& sink) { sink.event(event); });
+}
+
+void RunOutput::tell_start(bool insitu) {
+  const RunStart start{input_.title, partition_.whole().num_elements, partition_.whole().num_joints,
+                       input_.output.gauges, insitu};
+  sink_group_.tell([&](Sink& sink) { sink.start(start); });
+}
+
+void RunOutput::begin_stage(const case_::Stage& stage) {
+  stage_name_ = stage.name;
+  observer_.begin_stage(stage);
+}
+
+void RunOutput::take_line(double time, InSituWatch* insitu) {
+  const auto lap = partition_.domain().timer.measure(Phase::output);
+  HistoryRow row = observer_.row(time);
+  if (insitu != nullptr) row.insitu_share = insitu->share_of_time();
+  last_fragments_ = row.fragments;
+  last_broken_ = row.broken_joints;
+  if (insitu != nullptr) insitu->take_row(row);
+  sink_group_.tell([&](Sink& sink) { sink.history(row); });
+  check_residual(time);
+}
+
+void RunOutput::check_residual(double time) const {
+  const EnergyBudget& e = partition_.domain().sample.budget;
+  if (!(e.residual_relative > input_.time.residual_limit) && std::isfinite(e.residual)) return;
+  throw SimulationError("step " + std::to_string(clock().steps - 1) + ", time " + scientific(time) +
+                        " s: the energy residual is " + scientific(100 * e.residual_relative) +
+                        " % of the largest term (limit " + scientific(100 * input_.time.residual_limit) +
+                        " %); the strain energy is densest in element " +
+                        std::to_string(partition_.domain().sample.worst_element) +
+                        "; lower time.safety, or raise time.residual_limit if you trust the run");
+}
+
+void RunOutput::write_frame() {
+  const auto lap = partition_.domain().timer.measure(Phase::output);
+  const FrameParts parts{input_.output.elements, input_.output.joints, input_.output.contacts};
+  const Frame frame = observer_.picture(frame_number_++, parts);
+  sink_group_.tell([&](Sink& sink) { sink.frame(frame); });
+}
+
+double RunOutput::wall() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+}
+
+StatusLine RunOutput::status_line(bool paused) const {
+  StatusLine line;
+  const double left = end_ - clock().time;
+  line.step = clock().steps;
+  line.steps_total = line.step + static_cast<std::int64_t>(std::llround(left / clock().dt));
+  line.time = clock().time;
+  line.end = end_;
+  line.share = clock().time / end_;
+  line.wall_s = wall();
+  line.element_steps_per_s =
+      static_cast<double>(partition_.whole().num_elements) * static_cast<double>(line.step) / line.wall_s;
+  line.eta_s = line.share > 0 ? line.wall_s * (1.0 - line.share) / line.share : -1.0;
+  line.energy_residual = partition_.domain().sample.budget.residual_relative;
+  line.broken_joints = last_broken_;
+  line.fragments = last_fragments_;
+  line.imbalance = partition_.imbalance();
+  line.decompositions = partition_.decompositions();
+  line.stage = stage_name_;
+  line.paused = paused;
+  return line;
+}
+
+Summary RunOutput::summary_of(const std::string& status) {
+  Summary summary;
+  const Provenance provenance = collect_provenance(BRECCIA_VERSION, {});
+  summary.title = input_.title;
+  summary.version = provenance.version;
+  summary.host = provenance.host;
+  summary.status = status;
+  summary.steps = clock().steps;
+  summary.simulated_time = clock().time;
+  summary.time_step = clock().dt;
+  summary.ranks = partition_.communicator().size();
+  summary.decompositions = partition_.decompositions();
+  summary.imbalance = partition_.imbalance();
+  summary.messages = partition_.communicator().sum(partition_.domain().messages());
+  summary.message_bytes = partition_.communicator().sum(partition_.domain().bytes());
+  summary.elements = partition_.whole().num_elements;
+  summary.joints = partition_.whole().num_joints;
+  summary.broken_joints = last_broken_ = partition_.communicator().sum(partition_.state().joints.broken);
+  summary.fragments = observer_.num_fragments();
+  summary.searches = partition_.communicator().max(partition_.state().counters.searches);
+  summary.inverted_elements = partition_.communicator().sum(partition_.state().counters.crushed);
+  summary.wall_s = wall();
+  summary.element_steps_per_s =
+      static_cast<double>(summary.elements) * static_cast<double>(summary.steps) / summary.wall_s;
+  for (int p = 0; p < static_cast<int>(Phase::count); ++p) {
+    const auto phase = static_cast<Phase>(p);
+    summary.phases.emplace_back(std::string(name_of(phase)),
+                                partition_.communicator().max(partition_.domain().timer.seconds(phase)));
+  }
+  summary.energy = partition_.domain().sample.budget;
+  summary.max_rss_bytes =
+      static_cast<std::uint64_t>(partition_.communicator().sum(static_cast<std::int64_t>(max_resident_bytes())));
+  summary.simd = std::string(name_of(partition_.domain().simd));
+  summary.state_hash = hash_of(partition_.domain()).text();
+  return summary;
+}
+
+Summary RunOutput::finish(const std::string& status, std::vector<PipelineReport> insitu, bool paused) {
+  Summary summary = summary_of(status);
+  summary.insitu = std::move(insitu);
+  sink_group_.tell([&](Sink& sink) {
+    sink.status(status_line(paused));
+    sink.finish(summary);
+  });
+  return summary;
+}
+
+}  // namespace breccia

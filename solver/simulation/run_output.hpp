@@ -1,0 +1,66 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+#include "domains/partition.hpp"
+#include "observe/observe.hpp"
+#include "output/schedule.hpp"
+#include "output/sink.hpp"
+#include "simulation/insitu_watch.hpp"
+#include "simulation/sink_group.hpp"
+
+namespace breccia {
+
+/// What a run writes: lines of the history, frames, the status, events and the summary, and when they are due. All but
+/// the status is collective.
+class RunOutput {
+ public:
+  /// @pre all arguments outlive this object
+  RunOutput(const case_::Case& input, const std::vector<std::unique_ptr<Sink>>& sinks, Partition& partition);
+
+  void tell_start(bool insitu);
+  void tell_event(const std::string& kind, const std::string& text, bool accepted, const std::string& id = {});
+  void begin_stage(const case_::Stage& stage);
+
+  /// To be asked once a step; moves on.
+  [[nodiscard]] bool frame_due() { return frames_.due(clock().time, clock().dt, clock().steps); }
+  /// Likewise whether the step that comes is sampled.
+  [[nodiscard]] bool line_due() { return histories_.due(clock().time, clock().dt, clock().steps); }
+  void change_frame_interval(double interval) { frames_.change(interval, clock().time, clock().dt); }
+
+  void write_frame();
+  /// A line of the history. @param time  s, of the step that was sampled;  @param insitu  null: none
+  /// Throws SimulationError if the energy residual is beyond its limit.
+  void take_line(double time, InSituWatch* insitu);
+  void tell_status(bool paused) {
+    sink_group_.tell_status([this, paused] { return status_line(paused); });
+  }
+  Summary finish(const std::string& status, std::vector<PipelineReport> insitu, bool paused);
+
+  [[nodiscard]] Observer& observer() { return observer_; }
+
+ private:
+  void check_residual(double time) const;
+  [[nodiscard]] double wall() const;
+  [[nodiscard]] StatusLine status_line(bool paused) const;
+  [[nodiscard]] Summary summary_of(const std::string& status);
+  [[nodiscard]] const Clock& clock() const { return partition_.state().clock; }
+
+  const case_::Case& input_;
+  SinkGroup sink_group_;
+  Partition& partition_;
+  Observer observer_;
+  double end_;  ///< s, of the run
+  Schedule histories_, frames_;
+  std::string stage_name_;
+  std::int64_t frame_number_ = 0, last_fragments_ = 0, last_broken_ = 0;
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace breccia
