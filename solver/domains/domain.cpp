@@ -149,20 +149,27 @@ void conclude(Domain& domain) {
   domain.exchange.conclude(domain.state.clock, domain.state.signals);
 }
 
+State closed_fields(const Domain& domain) {
+  const State& state = domain.state;
+  State closed;
+  copy_model_fields(state, closed);
+  for (const PressureLoad& p : state.loads.pressures) closed.work.past_loads.add(p.work());
+  closed.work.past_loads.add(state.constraints.work());
+  closed.work.gravity = state.work.gravity;  // with its anchor, which is no row of the table
+  closed.work.gravity.close(domain.model.local, state.nodes.position);
+  closed.counters.messages = domain.messages();
+  closed.counters.bytes = domain.bytes();
+  return closed;
+}
+
 Continuation close(Domain& domain) {
   State& state = domain.state;
   const StepSignals received = state.signals.received;
   conclude(domain);
   state.signals.sent = state.signals.received;
   state.signals.received = received;
+  Continuation carried{closed_fields(domain), domain.timer, domain.sample};
   begin_stage(domain, {}, state.clock.dt);
-  state.work.gravity.close(domain.model.local, state.nodes.position);
-  state.counters.messages = domain.messages();
-  state.counters.bytes = domain.bytes();
-  Continuation carried;
-  copy_model_fields(state, carried.state);
-  carried.timer = domain.timer;
-  carried.sample = domain.sample;
   return carried;
 }
 

@@ -100,6 +100,10 @@ void activate_joints(const Model& model, std::vector<std::size_t>& crossed, Stat
 /// Receives what was sent at the end of the last step; after this no more steps. Collective.
 void conclude(Domain& domain);
 
+/// The model's rows of the state as they go on elsewhere: the work of the stage's loads and of gravity so far is past.
+/// Between two steps; the domain stays as it is. @pre a stage has begun. O(elements)
+[[nodiscard]] State closed_fields(const Domain& domain);
+
 /// Ends the domain: the stage's loads end, and what goes on elsewhere is returned. Collective.
 [[nodiscard]] Continuation close(Domain& domain);
 

@@ -70,14 +70,14 @@ void Exchange::connect(const Communicator& communicator, const Model& model, std
   kind_ = kind;
   shared_ = std::move(shared);
   if (verify) all_ = std::make_unique<Halo>(communicator_, halo_plan(model.local, shared_), 2, kind_);
-  reduction_.emplace(communicator, 6);
+  reduction_.emplace(communicator, 8);
 }
 
 void Exchange::begin_reduction(const Signals& signals) {
   if (alone()) return;
   reduction_->begin(std::array{signals.max_speed, flag(failed()), flag(!signals.released_here.empty()),
-                               flag(signals.sent.stop), flag(signals.sent.broke),
-                               static_cast<double>(signals.sent.orders)});
+                               flag(signals.sent.stop), flag(signals.sent.broke), flag(signals.sent.checkpoint),
+                               flag(signals.sent.writing), static_cast<double>(signals.sent.orders)});
 }
 
 void Exchange::finish_reduction(const Clock& clock, Signals& signals) {
@@ -89,7 +89,8 @@ void Exchange::finish_reduction(const Clock& clock, Signals& signals) {
   const std::span<const double> largest = reduction_->finish();
   signals.motion = largest[0] * std::max(clock.dt_before, clock.dt_earlier);
   signals.released = largest[2] > 0;
-  signals.received = {largest[3] > 0, largest[4] > 0, static_cast<std::uint64_t>(largest[5])};
+  signals.received = {largest[3] > 0, largest[4] > 0, largest[5] > 0, largest[6] > 0,
+                      static_cast<std::uint64_t>(largest[7])};
   if (largest[1] > 0) agree_on_failure();
 }
 

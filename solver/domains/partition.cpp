@@ -100,15 +100,26 @@ Partition::Partition(const case_::Case& input, const Communicator& communicator,
   decompose_anew(std::move(from.whole), std::move(from.mine), from.weight, std::move(from.state));
 }
 
+Snapshot Partition::opened() const {
+  return {model_->whole,
+          records_of(*domain_),
+          costs(),
+          {},
+          domains_,
+          motion_,
+          static_cast<std::size_t>(stage_ - input_.stages.data())};
+}
+
 Snapshot Partition::snapshot() {
-  Snapshot now{model_->whole,
-               records_of(*domain_),
-               costs(),
-               {},
-               domains_,
-               motion_,
-               static_cast<std::size_t>(stage_ - input_.stages.data())};
+  Snapshot now = opened();
   now.state = close(*domain_);
+  return now;
+}
+
+Snapshot Partition::copy() const {
+  domain_->exchange.agree_on_failure();
+  Snapshot now = opened();
+  now.state = {closed_fields(*domain_), domain_->timer, domain_->sample};
   return now;
 }
 

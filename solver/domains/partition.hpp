@@ -56,6 +56,9 @@ class Partition {
   void keep_up();
   /// The partition as it is, which ends with it: no more steps. Collective. @pre a stage has begun
   [[nodiscard]] Snapshot snapshot();
+  /// The same in the middle of a run, which goes on. What ranks ask of each other is not in it. Collective, so that a
+  /// rank that has failed is heard of: then throws SimulationError on all. @pre a stage has begun
+  [[nodiscard]] Snapshot copy() const;
   /// Stable step of the whole model at present under the constraints of the stage. Collective.
   /// @param steps  of it until the next call
   [[nodiscard]] StableStep stable_step(double steps);
@@ -65,6 +68,7 @@ class Partition {
   void start_divided();
   void start_piece();
   void divide_again();
+  [[nodiscard]] Snapshot opened() const;  ///< but for its state
   [[nodiscard]] double first_motion() const;
   [[nodiscard]] double stretch() const;
   [[nodiscard]] RankOperations rank_operations() const;

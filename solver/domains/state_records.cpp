@@ -179,7 +179,7 @@ SequenceHash hash_of_model(const Domain& domain) {
     if constexpr (std::is_same_v<Value, ExactSum>) {
       sums.push_back(field);
     } else if constexpr (std::is_same_v<Value, std::int64_t>) {
-      hash.add(static_cast<std::uint64_t>(row.use.summed ? communicator.sum(field) : field));
+      hash.add(static_cast<std::uint64_t>(row.use.across == AcrossRanks::sum ? communicator.sum(field) : field));
     } else if constexpr (std::is_same_v<Value, double>) {
       hash.add(field);
     } else {

@@ -11,12 +11,23 @@
 
 namespace breccia {
 
+/// How a field of the model becomes whole from what the ranks hold of it.
+enum class AcrossRanks {
+  alike,    ///< the same on all of them
+  sum,      ///< each holds a part of a sum
+  largest,  ///< the largest counts
+  list      ///< each holds a part of a list
+};
+
 /// What a field takes part in beside travelling with its element, which all fields do.
 struct FieldUse {
-  bool hashed = true;   ///< in the state hash. Not: what belongs to the mesh, and what depends on the number of ranks
-  bool summed = false;  ///< of the model: this rank's part of a sum; else alike on all ranks
+  bool hashed = true;  ///< in the state hash. Not: what belongs to the mesh, and what depends on the number of ranks
+  AcrossRanks across = AcrossRanks::alike;  ///< of the model
+  bool kept = true;                         ///< in checkpoints. Not: what ranks ask of each other for a step or two
 };
-inline constexpr FieldUse kState{}, kSummed{.summed = true}, kNotHashed{.hashed = false};
+inline constexpr FieldUse kState{}, kNotHashed{.hashed = false}, kPassing{.hashed = false, .kept = false};
+inline constexpr FieldUse kSummed{.across = AcrossRanks::sum}, kSumNotHashed{false, AcrossRanks::sum};
+inline constexpr FieldUse kLargest{false, AcrossRanks::largest}, kList{false, AcrossRanks::list};
 
 /// One row of the table of fields: a number, vector or array of a record.
 /// @tparam Access  function object that returns a reference to the field of a record, const if the record is

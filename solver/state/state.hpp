@@ -27,6 +27,8 @@ struct Clock {
 struct StepSignals {
   bool stop = false;         ///< some rank asks for the end of the run
   bool broke = false;        ///< joints have broken on some rank since it was last counted
+  bool checkpoint = false;   ///< some rank asks for a checkpoint
+  bool writing = false;      ///< some rank still writes one
   std::uint64_t orders = 0;  ///< of the root, fewer than 53 bits
 };
 
@@ -92,10 +94,11 @@ struct FieldTable<State> {
       FieldRow{"time", "s", kState, [](auto& s) -> auto& { return s.clock.time; }},
       FieldRow{"step_length", "s", kState, [](auto& s) -> auto& { return s.clock.dt; }},
       FieldRow{"last_step_length", "s", kState, [](auto& s) -> auto& { return s.clock.dt_before; }},
+      FieldRow{"step_length_before_last", "s", kNotHashed, [](auto& s) -> auto& { return s.clock.dt_earlier; }},
       FieldRow{"steps", "1", kState, [](auto& s) -> auto& { return s.clock.steps; }},
       FieldRow{"broken_joints", "1", kSummed, [](auto& s) -> auto& { return s.joints.broken; }},
-      FieldRow{"work_of_past_loads", "J", kNotHashed, [](auto& s) -> auto& { return s.work.past_loads; }},
-      FieldRow{"work_of_past_gravity", "J", kNotHashed, [](auto& s) -> auto& { return s.work.gravity.past; }},
+      FieldRow{"work_of_past_loads", "J", kSumNotHashed, [](auto& s) -> auto& { return s.work.past_loads; }},
+      FieldRow{"work_of_past_gravity", "J", kSumNotHashed, [](auto& s) -> auto& { return s.work.gravity.past; }},
       FieldRow{"gravity", "m/s2", kNotHashed, [](auto& s) -> auto& { return s.work.gravity.gravity; }},
       FieldRow{"gravity_started", "1", kNotHashed, [](auto& s) -> auto& { return s.work.gravity.started; }},
       FieldRow{"gravity_changing", "1", kNotHashed, [](auto& s) -> auto& { return s.work.gravity.changing; }},
@@ -107,20 +110,24 @@ struct FieldTable<State> {
       FieldRow{"contact_friction", "J", kSummed, [](auto& s) -> auto& { return s.work.contact.friction_dissipated; }},
       FieldRow{"contact_stored", "J", kSummed, [](auto& s) -> auto& { return s.work.contact.stored; }},
       FieldRow{"friction_stored", "J", kSummed, [](auto& s) -> auto& { return s.work.contact.friction_stored; }},
-      FieldRow{"touching", "1", kNotHashed, [](auto& s) -> auto& { return s.work.contact.touching; }},
+      FieldRow{"touching", "1", kSumNotHashed, [](auto& s) -> auto& { return s.work.contact.touching; }},
       FieldRow{"first_excess", "J", kNotHashed, [](auto& s) -> auto& { return s.work.first_excess; }},
       FieldRow{"crushed", "1", kSummed, [](auto& s) -> auto& { return s.counters.crushed; }},
       FieldRow{"searches", "1", kNotHashed, [](auto& s) -> auto& { return s.counters.searches; }},
-      FieldRow{"messages", "1", kNotHashed, [](auto& s) -> auto& { return s.counters.messages; }},
-      FieldRow{"message_bytes", "1", kNotHashed, [](auto& s) -> auto& { return s.counters.bytes; }},
-      FieldRow{"max_speed", "m/s", kNotHashed, [](auto& s) -> auto& { return s.signals.max_speed; }},
-      FieldRow{"stop_received", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.received.stop; }},
-      FieldRow{"broke_received", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.received.broke; }},
-      FieldRow{"orders_received", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.received.orders; }},
-      FieldRow{"stop_sent", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.sent.stop; }},
-      FieldRow{"broke_sent", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.sent.broke; }},
-      FieldRow{"orders_sent", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.sent.orders; }},
-      FieldRow{"released_here", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.released_here; }},
+      FieldRow{"messages", "1", kSumNotHashed, [](auto& s) -> auto& { return s.counters.messages; }},
+      FieldRow{"message_bytes", "1", kSumNotHashed, [](auto& s) -> auto& { return s.counters.bytes; }},
+      FieldRow{"max_speed", "m/s", kLargest, [](auto& s) -> auto& { return s.signals.max_speed; }},
+      FieldRow{"stop_received", "1", kPassing, [](auto& s) -> auto& { return s.signals.received.stop; }},
+      FieldRow{"broke_received", "1", kPassing, [](auto& s) -> auto& { return s.signals.received.broke; }},
+      FieldRow{"checkpoint_received", "1", kPassing, [](auto& s) -> auto& { return s.signals.received.checkpoint; }},
+      FieldRow{"writing_received", "1", kPassing, [](auto& s) -> auto& { return s.signals.received.writing; }},
+      FieldRow{"orders_received", "1", kPassing, [](auto& s) -> auto& { return s.signals.received.orders; }},
+      FieldRow{"stop_sent", "1", kPassing, [](auto& s) -> auto& { return s.signals.sent.stop; }},
+      FieldRow{"broke_sent", "1", kPassing, [](auto& s) -> auto& { return s.signals.sent.broke; }},
+      FieldRow{"checkpoint_sent", "1", kPassing, [](auto& s) -> auto& { return s.signals.sent.checkpoint; }},
+      FieldRow{"writing_sent", "1", kPassing, [](auto& s) -> auto& { return s.signals.sent.writing; }},
+      FieldRow{"orders_sent", "1", kPassing, [](auto& s) -> auto& { return s.signals.sent.orders; }},
+      FieldRow{"released_here", "1", kList, [](auto& s) -> auto& { return s.signals.released_here; }},
   };
 // clang-format on
 }
