@@ -19,13 +19,14 @@ enum class Phase {
   decomposition,
   output,
   insitu,
+  checkpoint,
   count
 };
 
 [[nodiscard]] constexpr std::string_view name_of(Phase phase) {
   constexpr std::array<std::string_view, static_cast<std::size_t>(Phase::count)> names{
-      "setup",  "joints",        "search",        "contact", "sweep",  "loads",
-      "energy", "communication", "decomposition", "output",  "in situ"};
+      "setup",  "joints",        "search",        "contact", "sweep",   "loads",
+      "energy", "communication", "decomposition", "output",  "in situ", "checkpoint"};
   return names[static_cast<std::size_t>(phase)];
 }
 

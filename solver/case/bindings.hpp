@@ -240,6 +240,14 @@ void bind(A& a, Domains& domains) {
 }
 
 template <class A>
+void bind(A& a, Checkpointing& checkpoint) {
+  a.value("steps", checkpoint.steps);
+  a.value("interval", checkpoint.interval);
+  a.value("wall_interval", checkpoint.wall_interval);
+  a.value("keep", checkpoint.keep);
+}
+
+template <class A>
 void bind(A& a, Output& output) {
   a.origin(output.origin);
   a.value("frame_interval", output.frame_interval);
@@ -307,6 +315,7 @@ void bind(A& a, Case& c) {
   a.section("time", [&](auto& s) { bind(s, c.time); });
   a.section("detection", [&](auto& s) { bind(s, c.detection); });
   a.section("domains", [&](auto& s) { bind(s, c.domains); });
+  a.section("checkpoint", [&](auto& s) { bind(s, c.checkpoint); });
   a.section("output", [&](auto& s) { bind(s, c.output); });
   a.section("insitu", [&](auto& s) { bind(s, c.insitu); });
 }

@@ -230,6 +230,16 @@ struct Domains {
   friend bool operator==(const Domains&, const Domains&) = default;
 };
 
+/// [checkpoint]: when the whole state is written so that the run can go on from there. Beside these times it is at the
+/// end of every stage and of the run, and when somebody asks.
+struct Checkpointing {
+  std::int64_t steps = 0;      ///< between two; 0: not by steps
+  double interval = 0;         ///< s, simulated; 0: not by simulated time
+  double wall_interval = 300;  ///< s, wall; 0: not by wall time
+  std::int64_t keep = 2;       ///< so many of the last; 0: none are written
+  friend bool operator==(const Checkpointing&, const Checkpointing&) = default;
+};
+
 /// [output]
 struct Output {
   double frame_interval = 0;    ///< s; 0: no frames but the last
@@ -301,6 +311,7 @@ struct Case {
   TimeControl time;
   Detection detection;
   Domains domains;
+  Checkpointing checkpoint;
   Output output;
   InSitu insitu;
   std::string resolved;  ///< the case as TOML, SI, every default written out; copied to the run folder

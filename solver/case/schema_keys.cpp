@@ -313,6 +313,18 @@ constexpr auto table = std::to_array<Key>({
              "run ends.",
      .example = "\"20 min\""},
 
+    {.path = "checkpoint", .type = section,
+     .help = "When the whole state is written into RUN/checkpoints, so that `breccia resume` goes on from there. Beside "
+             "these times it is at the end of every stage and of the run, and when the run is asked to end."},
+    {.path = "checkpoint.steps", .type = integer, .fallback = "0", .range = steps,
+     .help = "Steps between checkpoints; 0: not by steps.", .example = "10000"},
+    {.path = "checkpoint.interval", .type = number, .unit = "s", .fallback = "0", .range = not_negative,
+     .help = "Simulated time between checkpoints; 0: not by simulated time.", .example = "\"1 ms\""},
+    {.path = "checkpoint.wall_interval", .type = number, .unit = "s", .fallback = "300", .range = not_negative,
+     .help = "Wall time between checkpoints; 0: not by wall time.", .example = "\"10 min\""},
+    {.path = "checkpoint.keep", .type = integer, .fallback = "2", .range = at_most_100000,
+     .help = "So many of the last checkpoints are kept; 0: none are written.", .example = "5"},
+
     {.path = "output", .type = section, .help = "What a run writes, and how often."},
     {.path = "output.frame_interval", .type = number, .unit = "s", .fallback = "0", .range = not_negative,
      .help = "Simulated time between frames for ParaView; 0: the last state only.", .example = "\"1 us\""},

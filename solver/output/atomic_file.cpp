@@ -101,9 +101,21 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
   write_file_atomically(path, bytes_of(content));
 }
 
-LineFile::LineFile(std::filesystem::path path) : path_(std::move(path)) {
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, kFileMode);
+LineFile::LineFile(std::filesystem::path path, std::size_t keep) : path_(std::move(path)), size_(keep) {
+  const int fresh = keep == 0 ? O_TRUNC : 0;
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | fresh, kFileMode);
   if (descriptor_ < 0) throw output_error(path_, "cannot create this file", errno);
+  if (keep == 0) return;
+  struct stat status {};
+  int error = ::fstat(descriptor_, &status) == 0 ? 0 : errno;
+  const bool too_short = error == 0 && static_cast<std::size_t>(status.st_size) < keep;
+  if (error == 0 && !too_short && ::ftruncate(descriptor_, static_cast<off_t>(keep)) != 0) error = errno;
+  if (error == 0 && !too_short) return;
+  ::close(descriptor_);
+  throw output_error(
+      path_,
+      too_short ? "this file has lost lines that were written before the checkpoint" : "cannot go on with this file",
+      error);
 }
 
 LineFile::~LineFile() { ::close(descriptor_); }

@@ -40,8 +40,9 @@ void write_files_atomically(std::span<const FileContent> files);
 /// loses no line that was appended.
 class LineFile {
  public:
-  /// Creates the file or empties it. Throws OutputError.
-  explicit LineFile(std::filesystem::path path);
+  /// Creates the file or empties it; or goes on behind its first bytes and drops the others. Throws OutputError, also
+  /// when the file is shorter than that.
+  explicit LineFile(std::filesystem::path path, std::size_t keep = 0);
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;
   ~LineFile();
@@ -50,6 +51,7 @@ class LineFile {
   void append_line(std::string_view line);
   /// Waits until the lines are on the disk. Throws OutputError.
   void sync();
+  [[nodiscard]] std::size_t size() const { return size_; }  ///< bytes of whole lines
 
  private:
   std::filesystem::path path_;

@@ -111,7 +111,8 @@ Command parse_command(std::string_view line) {
                                    {"resume", Kind::resume},
                                    {"stop", Kind::stop},
                                    {"extract", Kind::extract},
-                                   {"frame", Kind::frame}}) {
+                                   {"frame", Kind::frame},
+                                   {"checkpoint", Kind::checkpoint}}) {
     if (word == name && rest.empty()) command.kind = kind;
   }
   if (command.kind == Kind::refused)

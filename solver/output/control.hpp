@@ -13,7 +13,7 @@ namespace breccia {
 
 /// What a person or program asks of a running solver.
 struct Command {
-  enum class Kind { refused, pause, resume, stop, extract, frame, frame_interval };
+  enum class Kind { refused, pause, resume, stop, extract, frame, frame_interval, checkpoint };
   Kind kind = Kind::refused;
   double value = 0;       ///< frame_interval: s
   std::string text;       ///< as it was given, without the id
@@ -21,12 +21,13 @@ struct Command {
   std::string complaint;  ///< why it is refused
 };
 
-/// One line: "pause", "resume", "stop", "extract", "frame", "frame_interval 2 us", each perhaps with " id=WORD" at its
+/// One line: "pause", "resume", "stop", "extract", "frame", "frame_interval 2 us", "checkpoint", each perhaps with " id=WORD" at its
 /// end. Anything else is refused, with what is allowed.
 [[nodiscard]] Command parse_command(std::string_view line);
 
 /// Words that parse_command knows, for messages and help.
-inline constexpr std::string_view kCommandWords = "pause, resume, stop, extract, frame, frame_interval TIME";
+inline constexpr std::string_view kCommandWords =
+    "pause, resume, stop, extract, frame, frame_interval TIME, checkpoint";
 
 /// The file `control` in a run's folder: whoever wants something writes lines into it; they are taken out as soon as
 /// they are seen, which is looked for five times a second at most.

@@ -121,6 +121,13 @@ struct PipelineReport {
 };
 
 /// Written to summary.json at the end of a run.
+/// What the checkpoints of a run have cost it.
+struct CheckpointReport {
+  std::int64_t written = 0, failed = 0;
+  double pause_s = 0, longest_pause_s = 0;  ///< s, that steps waited for them: in all, at most
+  std::uint64_t bytes = 0;                  ///< of the last one
+};
+
 struct Summary {
   std::string title, version, host, status;  ///< status: "complete", "stopped: ..." or the error
   int ranks = 1;
@@ -133,6 +140,7 @@ struct Summary {
   double wall_s = 0, element_steps_per_s = 0;
   std::vector<std::pair<std::string, double>> phases;
   std::vector<PipelineReport> insitu;
+  CheckpointReport checkpoints;
   EnergyBudget energy;
   std::uint64_t max_rss_bytes = 0;
   std::string simd;        ///< "sse2", "avx2", "avx512"

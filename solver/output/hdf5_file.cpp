@@ -19,7 +19,8 @@ namespace {
 constexpr hsize_t kChunkRows = 16384;
 constexpr unsigned kDeflateLevel = 1;
 constexpr std::size_t kImageGrowth = std::size_t{4} << 20;  // bytes by which the file in memory grows
-constexpr hsize_t kMetadata = hsize_t{1} << 16;             // bytes, more than the structure of a frame takes
+// Bytes, more than the structure of a file takes, and that of a dataset.
+constexpr hsize_t kMetadata = hsize_t{1} << 16, kMetadataOfDataset = 2048;
 
 /// HDF5 reports a failure by a negative number.
 template <class T>
@@ -35,6 +36,7 @@ class Handle {
   Handle(hid_t id, Close close, const std::string& what) : id_(checked(id, what)), close_(close) {}
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   ~Handle() {
     if (id_ >= 0) close_(id_);
   }
@@ -72,6 +74,8 @@ hid_t native(NumberType type) {
       return H5T_NATIVE_INT64;
     case NumberType::int32:
       return H5T_NATIVE_INT32;
+    case NumberType::int8:
+      return H5T_NATIVE_INT8;
     case NumberType::uint8:
       break;
   }
@@ -82,22 +86,24 @@ Handle make_group(hid_t parent, const char* name) {
   return Handle(H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name);
 }
 
+void write_text_attribute(hid_t object, const char* name, const std::string& value) {
+  const Handle text(H5Tcopy(H5T_C_S1), H5Tclose, name);
+  checked(H5Tset_size(text, value.size()), name);
+  checked(H5Tset_strpad(text, H5T_STR_NULLPAD), name);
+  const Handle scalar(H5Screate(H5S_SCALAR), H5Sclose, name);
+  const Handle attribute(H5Acreate2(object, name, text, scalar, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
+  checked(H5Awrite(attribute, text, value.data()), name);
+}
+
 /// Attributes Version = (1, 0) and Type, by which a reader knows the format.
-void write_format_attributes(hid_t root) {
+void write_format_attributes(hid_t root, const std::string& type) {
   const std::array<std::int64_t, 2> version{1, 0};
   const hsize_t length = version.size();
   const Handle version_space(H5Screate_simple(1, &length, nullptr), H5Sclose, "Version");
   const Handle version_attribute(H5Acreate2(root, "Version", H5T_NATIVE_INT64, version_space, H5P_DEFAULT, H5P_DEFAULT),
                                  H5Aclose, "Version");
   checked(H5Awrite(version_attribute, H5T_NATIVE_INT64, version.data()), "Version");
-
-  const std::string type = "UnstructuredGrid";
-  const Handle text(H5Tcopy(H5T_C_S1), H5Tclose, "Type");
-  checked(H5Tset_size(text, type.size()), "Type");
-  checked(H5Tset_strpad(text, H5T_STR_NULLPAD), "Type");
-  const Handle scalar(H5Screate(H5S_SCALAR), H5Sclose, "Type");
-  const Handle type_attribute(H5Acreate2(root, "Type", text, scalar, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "Type");
-  checked(H5Awrite(type_attribute, text, type.data()), "Type");
+  write_text_attribute(root, "Type", type);
 }
 
 void deflate(hid_t creation, const Column& column, int dimensions) {
@@ -118,18 +124,23 @@ Handle make_dataset(hid_t parent, const Column& column, Storage storage) {
   checked(H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER), column.name);
   if (storage == Storage::reserved) checked(H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY), column.name);
   if (storage == Storage::deflated && column.deflates && column.rows.total > 0) deflate(creation, column, dimensions);
-  return Handle(H5Dcreate2(parent, column.name.c_str(), native(column.type), space, H5P_DEFAULT, creation, H5P_DEFAULT),
-                H5Dclose, column.name);
+  Handle data(H5Dcreate2(parent, column.name.c_str(), native(column.type), space, H5P_DEFAULT, creation, H5P_DEFAULT),
+              H5Dclose, column.name);
+  if (!column.unit.empty()) write_text_attribute(data, "unit", column.unit);
+  return data;
 }
 
 /// Makes groups and datasets. @param use  is called with each dataset and its column
 template <class Use>
-void make_tree(hid_t file, std::span<const Column> columns, Storage storage, Use&& use) {
-  const Handle root = make_group(file, "VTKHDF");
-  write_format_attributes(root);
-  const Handle cells = make_group(root, "CellData"), fields = make_group(root, "FieldData");
-  const std::map<std::string, hid_t> groups{{"", root}, {"CellData", cells}, {"FieldData", fields}};
-  for (const Column& column : columns) use(make_dataset(groups.at(column.group), column, storage), column);
+void make_tree(hid_t file, std::span<const Column> columns, const Hdf5Format& format, Storage storage, Use&& use) {
+  const Handle root = make_group(file, format.root.c_str());
+  write_format_attributes(root, format.type);
+  std::map<std::string, Handle> groups;
+  for (const std::string& name : format.groups) groups.emplace(name, make_group(root, name.c_str()));
+  for (const Column& column : columns) {
+    const hid_t parent = column.group.empty() ? root : groups.at(column.group);
+    use(make_dataset(parent, column, storage), column);
+  }
 }
 
 /// A file without a name that takes memory only where something has been written.
@@ -184,13 +195,15 @@ std::vector<Hdf5Skeleton::Part> structure_of(const SparseMemory& memory, std::sp
 
 }  // namespace
 
+Hdf5Format vtkhdf_format() { return {"VTKHDF", "UnstructuredGrid", {"CellData", "FieldData"}, 0}; }
+
 std::vector<std::byte> hdf5_image(std::span<const Column> columns) {
   const QuietHdf5 quiet;
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
   checked(H5Pset_fapl_core(access, kImageGrowth, 0), "file access");
   const Handle file(H5Fcreate("frame", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "file");
   std::vector<std::byte> space;
-  make_tree(file, columns, Storage::deflated, [&](const Handle& data, const Column& column) {
+  make_tree(file, columns, vtkhdf_format(), Storage::deflated, [&](const Handle& data, const Column& column) {
     if (column.rows.total == 0) return;
     checked(H5Dwrite(data, native(column.type), H5S_ALL, H5S_ALL, H5P_DEFAULT, column.bytes(space).data()),
             column.name);
@@ -202,17 +215,19 @@ std::vector<std::byte> hdf5_image(std::span<const Column> columns) {
   return image;
 }
 
-Hdf5Skeleton hdf5_skeleton(std::span<const Column> columns) {
+Hdf5Skeleton hdf5_skeleton(std::span<const Column> columns, const Hdf5Format& format) {
   const QuietHdf5 quiet;
-  hsize_t bound = kMetadata;
-  for (const Column& column : columns) bound += size_of_values(column);
+  hsize_t bound = format.user_block + kMetadata;
+  for (const Column& column : columns) bound += size_of_values(column) + kMetadataOfDataset;
   const SparseMemory memory(bound);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
   checked(H5Pset_fapl_stdio(access),
           "file access");  // the one driver that does not ask for the real path, where nothing is
-  Handle file(H5Fcreate(memory.path().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "file");
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "file creation");
+  checked(H5Pset_userblock(creation, format.user_block), "user block");
+  Handle file(H5Fcreate(memory.path().c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose, "file");
   Hdf5Skeleton skeleton;
-  make_tree(file, columns, Storage::reserved, [&](const Handle& data, const Column& column) {
+  make_tree(file, columns, format, Storage::reserved, [&](const Handle& data, const Column& column) {
     const haddr_t offset = column.rows.total == 0 ? 0 : H5Dget_offset(data);
     if (offset == HADDR_UNDEF) throw Hdf5Failure{"place of " + column.name};
     skeleton.offsets.push_back(offset);

@@ -16,6 +16,15 @@ struct Hdf5Failure {
   int error_number = 0;  ///< errno, 0: none
 };
 
+/// How a file presents itself to its readers.
+struct Hdf5Format {
+  std::string root;                 ///< the group that holds everything
+  std::string type;                 ///< its attribute Type; its Version is (1, 0)
+  std::vector<std::string> groups;  ///< below it: those that columns may name
+  std::uint64_t user_block = 0;     ///< bytes before those of HDF5, for us: 0, or a power of 2 from 512 on
+};
+[[nodiscard]] Hdf5Format vtkhdf_format();
+
 // HDF5 works in memory only, so that every write to the disk is our own: it does not give up a file that it cannot
 // write, and says nothing to stderr here. Both functions throw Hdf5Failure.
 
@@ -34,6 +43,6 @@ struct Hdf5Skeleton {
   std::vector<Part> structure;         ///< everything that is no value
 };
 /// Takes memory for the structure alone, whatever the number of rows, but needs the right to make a file that large.
-[[nodiscard]] Hdf5Skeleton hdf5_skeleton(std::span<const Column> columns);
+[[nodiscard]] Hdf5Skeleton hdf5_skeleton(std::span<const Column> columns, const Hdf5Format& format = vtkhdf_format());
 
 }  // namespace breccia

@@ -113,6 +113,10 @@ std::vector<std::string> history_columns(const std::vector<std::string>& gauges,
 
 void HistorySink::start(const RunStart& run) {
   gauges_ = run.gauges.size();
+  if (run.marks) {
+    file_.emplace(path_, static_cast<std::size_t>(run.marks->history_bytes));
+    return;
+  }
   std::string header;
   for (const std::string& column : history_columns(run.gauges, run.insitu)) {
     if (!header.empty()) header += ',';
@@ -133,6 +137,10 @@ void HistorySink::history(const HistoryRow& row) {
   std::string text;
   each_number(row, NumberText{text});
   file_->append_line(text);
+}
+
+void HistorySink::mark(OutputMarks& marks) const {
+  if (file_) marks.history_bytes = static_cast<std::int64_t>(file_->size());
 }
 
 void HistorySink::finish(const Summary&) {

@@ -29,6 +29,7 @@ class HistorySink final : public Sink {
   void start(const RunStart& run) override;
   /// @pre row.gauges has the length of RunStart::gauges
   void history(const HistoryRow& row) override;
+  void mark(OutputMarks& marks) const override;
   void finish(const Summary&) override;
 
  private:

@@ -33,9 +33,9 @@ bool is_frame_file(const std::string& name) {
 std::vector<fs::path> results_in(const RunFolder& folder) {
   std::vector<fs::path> results;
   std::error_code error;
-  for (const fs::path& path :
-       {folder.history(), folder.status(), folder.summary(), temporary_of(folder.summary()), folder.summary_text(),
-        temporary_of(folder.summary_text()), folder.extracts(), folder.control(), temporary_of(folder.control())}) {
+  for (const fs::path& path : {folder.history(), folder.status(), folder.summary(), temporary_of(folder.summary()),
+                               folder.summary_text(), temporary_of(folder.summary_text()), folder.extracts(),
+                               folder.checkpoints(), folder.control(), temporary_of(folder.control())}) {
     if (fs::exists(path, error)) results.push_back(path);
   }
   fs::directory_iterator entries(folder.frames(), error);
@@ -101,7 +101,7 @@ RunFolder prepare_run_folder(const fs::path& root, const std::string& resolved_c
   }
   for (const fs::path& path : results) {
     std::error_code error;
-    fs::remove_all(path, error);  // extracts are a folder, all of it ours
+    fs::remove_all(path, error);  // extracts and checkpoints are folders, all of them ours
     if (error) throw output_error(path, "cannot remove this old result", error.value());
   }
   // Provenance first: it marks the folder as ours, should the rest fail.

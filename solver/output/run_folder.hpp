@@ -34,6 +34,7 @@ struct RunFolder {
   [[nodiscard]] std::filesystem::path summary() const { return root / "summary.json"; }
   [[nodiscard]] std::filesystem::path summary_text() const { return root / "summary.txt"; }
   [[nodiscard]] std::filesystem::path control() const { return root / "control"; }
+  [[nodiscard]] std::filesystem::path checkpoints() const { return root / "checkpoints"; }
   [[nodiscard]] std::filesystem::path extracts() const { return root / "extracts"; }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -21,6 +22,17 @@ class Schedule {
   void change(double interval, double time, double dt) {
     interval_ = interval;
     if (interval_ > 0) next_ = following(time, dt);
+  }
+
+  /// Where it is, as numbers for a checkpoint, and back.
+  [[nodiscard]] std::array<double, 4> numbers() const {
+    return {interval_, static_cast<double>(least_steps_), static_cast<double>(free_step_), static_cast<double>(next_)};
+  }
+  [[nodiscard]] static Schedule from_numbers(const std::array<double, 4>& numbers) {
+    Schedule schedule(numbers[0], static_cast<std::int64_t>(numbers[1]));
+    schedule.free_step_ = static_cast<std::int64_t>(numbers[2]);
+    schedule.next_ = static_cast<std::int64_t>(numbers[3]);
+    return schedule;
   }
 
  private:

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "output/frame.hpp"
+#include "output/run_position.hpp"
 
 namespace breccia {
 
@@ -14,6 +16,8 @@ struct RunStart {
   std::int64_t elements = 0, joints = 0;
   std::vector<std::string> gauges;  ///< groups, in the order of HistoryRow::gauges
   bool insitu = false;              ///< pipelines work while it goes on: HistoryRow::insitu_share
+  std::optional<OutputMarks>
+      marks{};  ///< the run goes on from a checkpoint: what is beyond these in its files is dropped
 };
 
 /// How far a run has come. SI.
@@ -36,7 +40,7 @@ struct StatusLine {
 
 /// Something that happened besides the physics.
 struct RunEvent {
-  std::string kind;      ///< "control": the answer to a command; "insitu": news of a pipeline
+  std::string kind;      ///< "control": the answer to a command; "insitu": news of a pipeline; "checkpoint"
   std::string text;      ///< what happened, in words
   std::string id;        ///< of the command
   bool accepted = true;  ///< the command was carried out; false also for news that is a warning
@@ -60,6 +64,8 @@ class Sink {
   [[nodiscard]] virtual bool status_due() const { return false; }
   virtual void status(const StatusLine&) {}
   virtual void event(const RunEvent&) {}
+  /// How far the files are, for a checkpoint.
+  virtual void mark(OutputMarks&) const {}
   /// Also after an error: Summary::status tells ("complete", "stopped: ..." or the error's text).
   virtual void finish(const Summary&) {}
 };

@@ -105,7 +105,13 @@ std::string event_json(const RunEvent& event) {
 StatusSink::StatusSink(std::filesystem::path file, std::chrono::milliseconds interval)
     : path_(std::move(file)), pace_(interval) {}
 
-void StatusSink::start(const RunStart&) { file_.emplace(path_); }
+void StatusSink::start(const RunStart& run) {
+  file_.emplace(path_, run.marks ? static_cast<std::size_t>(run.marks->status_bytes) : 0);
+}
+
+void StatusSink::mark(OutputMarks& marks) const {
+  if (file_) marks.status_bytes = static_cast<std::int64_t>(file_->size());
+}
 
 void StatusSink::status(const StatusLine& line) {
   last_ = line;
@@ -176,7 +182,7 @@ void ProgressSink::event(const RunEvent& event) {
     stream_ << event_json(event) << '\n' << std::flush;
   } else if (!event.accepted) {
     std::cerr << (mode_ == ProgressMode::bar ? "\n" : "") << "breccia: warning: " << event.text << '\n';
-  } else if (mode_ != ProgressMode::none) {
+  } else if (mode_ != ProgressMode::none && event.kind != "checkpoint") {
     stream_ << (mode_ == ProgressMode::bar ? "\r\033[K" : "") << event.text << '\n' << std::flush;
   }
 }

@@ -27,7 +27,8 @@ class StatusSink final : public Sink {
  public:
   explicit StatusSink(std::filesystem::path file, std::chrono::milliseconds interval = std::chrono::seconds(2));
 
-  void start(const RunStart&) override;
+  void start(const RunStart& run) override;
+  void mark(OutputMarks& marks) const override;
   [[nodiscard]] bool status_due() const override { return pace_.due(); }
   /// Writes the line if it is due; keeps it for the end.
   void status(const StatusLine& line) override;
@@ -70,7 +71,7 @@ class ProgressSink final : public Sink {
 
   [[nodiscard]] bool status_due() const override { return mode_ != ProgressMode::none && pace_.due(); }
   void status(const StatusLine& line) override;
-  /// A line of its own; warnings go to stderr in any mode but json.
+  /// A line of its own, but for checkpoints that went well; warnings go to stderr in any mode but json.
   void event(const RunEvent& event) override;
   void finish(const Summary& summary) override;
 

@@ -90,6 +90,15 @@ void add_pipelines(std::string& text, const Summary& summary) {
   }
 }
 
+void add_checkpoints(std::string& text, const CheckpointReport& report) {
+  if (report.written + report.failed == 0) return;
+  std::string line =
+      fmt::format("{}, {} each; steps waited {} in all, {} at most", count_text(report.written),
+                  bytes_text(report.bytes), duration_text(report.pause_s), duration_text(report.longest_pause_s));
+  if (report.failed > 0) line += fmt::format("; {} failed", count_text(report.failed));
+  add_line(text, "checkpoints", line);
+}
+
 }  // namespace
 
 std::string summary_json(const Summary& summary) {
@@ -118,6 +127,11 @@ std::string summary_json(const Summary& summary) {
   json["phases"] = Json::object();
   for (const auto& [name, seconds] : summary.phases) json["phases"][name] = seconds;
   if (!summary.insitu.empty()) json["insitu"] = insitu_json(summary);
+  json["checkpoints"] = {{"written", summary.checkpoints.written},
+                         {"failed", summary.checkpoints.failed},
+                         {"pause_s", summary.checkpoints.pause_s},
+                         {"longest_pause_s", summary.checkpoints.longest_pause_s},
+                         {"bytes", summary.checkpoints.bytes}};
   json["energy"] = Json::object();
   for (const EnergyTerm& term : kEnergyTerms) json["energy"][term.name] = summary.energy.*term.value;
   json["energy_residual_relative"] = summary.energy.residual_relative;
@@ -140,6 +154,7 @@ std::string summary_text(const Summary& summary) {
   add_line(text, "speed", quantity_text(summary.element_steps_per_s, "element-steps/s"));
   add_phases(text, summary);
   add_pipelines(text, summary);
+  add_checkpoints(text, summary.checkpoints);
   add_energies(text, summary.energy);
   add_line(text, "relative energy residual", fmt::format("{:.2e}", summary.energy.residual_relative));
   add_line(text, "memory", bytes_text(summary.max_rss_bytes));

@@ -107,6 +107,7 @@ std::size_t size_of(NumberType type) {
     case NumberType::float32:
     case NumberType::int32:
       return 4;
+    case NumberType::int8:
     case NumberType::uint8:
       break;
   }

@@ -12,7 +12,7 @@
 
 namespace breccia {
 
-enum class NumberType { float64, float32, int64, int32, uint8 };
+enum class NumberType { float64, float32, int64, int32, int8, uint8 };
 [[nodiscard]] std::size_t size_of(NumberType type);  ///< bytes
 
 /// Rows of a dataset: this rank's follow those of the ranks before it.
@@ -36,9 +36,9 @@ class Pieces {
   std::vector<std::uint64_t> cells_;
 };
 
-/// A dataset of a frame's file, and this rank's part of it.
+/// A dataset of a file, and this rank's part of it.
 struct Column {
-  std::string group;  ///< below /VTKHDF; "": /VTKHDF itself
+  std::string group;  ///< below the root; "": the root itself
   std::string name;
   NumberType type;
   int components;  ///< 1: a one-dimensional dataset, else (rows, components)
@@ -47,6 +47,7 @@ struct Column {
   /// This rank's rows as they are stored, made when asked for. @param space  may be used for them; must outlive the
   /// result
   std::function<std::span<const std::byte>(std::vector<std::byte>& space)> bytes;
+  std::string unit{};  ///< "": none is told
 
   [[nodiscard]] std::size_t row_size() const {
     return static_cast<std::size_t>(components) * size_of(type);

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <system_error>
 
 #include "output/atomic_file.hpp"
@@ -37,6 +39,51 @@ VtkhdfSink::VtkhdfSink(std::filesystem::path folder, FrameParts parts, Communica
   if (parts.elements) series_.push_back({"elements", {}});
   if (parts.joints) series_.push_back({"joints", {}});
   if (parts.contacts) series_.push_back({"contacts", {}});
+}
+
+void VtkhdfSink::start(const RunStart& run) {
+  if (!run.marks) return;
+  for (Series& part : series_) part.entries = entries_of(part.part, static_cast<std::size_t>(run.marks->frames));
+  if (communicator_.is_root()) drop_later_frames();
+}
+
+void VtkhdfSink::mark(OutputMarks& marks) const {
+  if (!series_.empty()) marks.frames = std::ssize(series_.front().entries);
+}
+
+/// The first frames of an index.
+std::vector<VtkhdfSink::Entry> VtkhdfSink::entries_of(const std::string& part, std::size_t count) const {
+  std::vector<Entry> entries;
+  if (count == 0) return entries;
+  const std::filesystem::path index = folder_ / (part + ".hdf.series");
+  std::ifstream file(index);
+  const auto json = nlohmann::json::parse(file, nullptr, /*allow_exceptions=*/false);
+  const auto listed = json.is_object() ? json.value("files", nlohmann::json::array()) : nlohmann::json::array();
+  if (!listed.is_array() || listed.size() < count)
+    throw output_error(index, "this index of frames has lost some that were written before the checkpoint");
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!listed[i].is_object() || !listed[i].contains("name") || !listed[i]["name"].is_string() ||
+        !listed[i].contains("time") || !listed[i]["time"].is_number())
+      throw output_error(index, "this is no index of frames");
+    entries.push_back({listed[i]["name"].get<std::string>(), listed[i]["time"].get<double>()});
+  }
+  return entries;
+}
+
+/// First from the indices, then the files.
+void VtkhdfSink::drop_later_frames() const {
+  std::set<std::string> kept;
+  for (const Series& part : series_) {
+    write_file_atomically(folder_ / (part.part + ".hdf.series"), index_text(part));
+    for (const Entry& entry : part.entries) kept.insert(entry.file);
+  }
+  std::error_code error;
+  std::vector<std::filesystem::path> later;
+  for (const auto& file : std::filesystem::directory_iterator(folder_, error)) {
+    const std::string name = file.path().filename().string();
+    if (name.ends_with(".vtkhdf") && !kept.contains(name)) later.push_back(file.path());
+  }
+  for (const std::filesystem::path& file : later) std::filesystem::remove(file, error);
 }
 
 void VtkhdfSink::frame(const Frame& frame) {

@@ -19,6 +19,9 @@ class VtkhdfSink final : public Sink {
   /// @pre folder exists
   explicit VtkhdfSink(std::filesystem::path folder, FrameParts parts = {}, Communicator communicator = {});
 
+  /// A run that goes on: takes the frames up to its mark from the indices and removes the others. Throws OutputError.
+  void start(const RunStart& run) override;
+  void mark(OutputMarks& marks) const override;
   /// Writes the parts and their indices, all at once. Throws OutputError naming the file, on all ranks; what was there
   /// before stays. Collective. @pre step, time and number alike on all ranks
   void frame(const Frame& frame) override;
@@ -32,6 +35,8 @@ class VtkhdfSink final : public Sink {
     std::string part;
     std::vector<Entry> entries;
   };
+  [[nodiscard]] std::vector<Entry> entries_of(const std::string& part, std::size_t count) const;
+  void drop_later_frames() const;
   [[nodiscard]] static std::string index_text(const Series& series);
   [[nodiscard]] std::filesystem::path newest(const Series& series) const {
     return folder_ / series.entries.back().file;

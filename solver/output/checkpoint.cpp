@@ -1,0 +1,165 @@
+#include "output/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <regex>
+#include <system_error>
+
+#include "base/error.hpp"
+#include "output/atomic_file.hpp"
+#include "output/checkpoint_columns.hpp"
+#include "output/checkpoint_index.hpp"
+#include "output/checkpoint_writer.hpp"
+
+namespace breccia {
+namespace {
+
+namespace fs = std::filesystem;
+
+const IndexedColumn& indexed(const std::map<std::string, const IndexedColumn*>& by_path, const CheckpointColumn& column,
+                             const fs::path& file) {
+  const auto found = by_path.find(column.path());
+  if (found == by_path.end())
+    refuse_checkpoint(file, "this checkpoint is of another version of breccia: it lacks " + column.path());
+  if (found->second->type != column.type || found->second->components != column.components)
+    refuse_checkpoint(file, "this checkpoint is of another version of breccia: " + column.path() + " has another form");
+  return *found->second;
+}
+
+/// One rank's part of a checkpoint: the columns of a piece, verified.
+class PieceReader {
+ public:
+  PieceReader(const fs::path& file, const CheckpointIndex& index) : file_(file) {
+    for (const IndexedColumn& column : index.columns) by_path_[column.path] = &column;
+  }
+
+  /// The records that a rank wrote.
+  Records records(std::size_t piece) const {
+    Checkpoint part;
+    std::vector<std::size_t> lengths;
+    const std::vector<CheckpointColumn> of_lists = checkpoint_columns(part);
+    for (const NamedLength& list : lengths_of_lists(part.mine)) {
+      std::size_t length = 0;
+      bool first = true;
+      for (const CheckpointColumn& column : of_lists) {
+        if (!column.of_list || column.group != list.name) continue;
+        const std::vector<std::uint64_t>& rows = indexed(by_path_, column, file_).rows;
+        const std::size_t here = piece < rows.size() ? rows[piece] : 0;
+        if (!first && here != length)
+          refuse_checkpoint(file_, "this checkpoint is damaged: " + list.name + " has columns of two lengths");
+        length = here;
+        first = false;
+      }
+      lengths.push_back(length);
+    }
+    lengthen_lists(part.mine, lengths);
+    for (const CheckpointColumn& column : checkpoint_columns(part)) {
+      if (column.of_list) read(column, piece);
+    }
+    return std::move(part.mine);
+  }
+
+  /// What all ranks have of the model and the run.
+  void read_whole(Checkpoint& checkpoint) const {
+    for (const CheckpointColumn& column : checkpoint_columns(checkpoint)) {
+      if (!column.of_list) read(column, 0);
+    }
+  }
+
+ private:
+  void read(const CheckpointColumn& column, std::size_t piece) const {
+    const IndexedColumn& stored = indexed(by_path_, column, file_);
+    if (stored.zero || piece >= stored.rows.size()) return;
+    std::uint64_t before = 0;
+    for (std::size_t p = 0; p < piece; ++p) before += stored.rows[p];
+    const std::uint64_t row = column.row_size();
+    const IndexedBytes place{stored.offset + before * row, stored.rows[piece] * row, stored.checksums[piece]};
+    const std::vector<std::byte> bytes = read_verified(file_, place, column.path());
+    if (!column.of_list && column.components > 1 && bytes.size() != row)
+      refuse_checkpoint(file_, "this checkpoint is damaged: " + column.path());
+    if (!bytes.empty()) column.unpack(bytes, 0);
+  }
+
+  fs::path file_;
+  std::map<std::string, const IndexedColumn*> by_path_;
+};
+
+std::size_t num_pieces(const CheckpointIndex& index) {
+  std::size_t pieces = 0;
+  for (const IndexedColumn& column : index.columns) pieces = std::max(pieces, column.rows.size());
+  return pieces;
+}
+
+/// Whether every list ascends by element and speaks of elements that are there.
+bool belong_together(const Records& records) {
+  const auto before = [](const ElementRecord& a, const ElementRecord& b) { return a.id < b.id; };
+  if (!std::is_sorted(records.elements.begin(), records.elements.end(), before)) return false;
+  bool good = true;
+  for_each_list(records, [&](const char*, const auto& list) {
+    if constexpr (!std::is_same_v<std::decay_t<decltype(list)>, std::vector<ElementRecord>>) {
+      std::size_t place = 0;
+      for (const auto& record : list) {
+        while (place < records.elements.size() && records.elements[place].id < record.element) ++place;
+        good = good && place < records.elements.size() && records.elements[place].id == record.element;
+      }
+    }
+  });
+  return good;
+}
+
+}  // namespace
+
+fs::path checkpoint_file(const fs::path& folder, std::int64_t step) {
+  return folder / fmt::format("step_{:012}.h5", step);
+}
+
+std::vector<CheckpointEntry> checkpoints_in(const fs::path& folder) {
+  static const std::regex pattern(R"(step_(\d{12,18})\.h5)");
+  std::vector<CheckpointEntry> found;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    std::smatch match;
+    const std::string name = entry->path().filename().string();
+    if (std::regex_match(name, match, pattern)) found.push_back({std::stoll(match[1].str()), entry->path()});
+  }
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.step > b.step; });
+  return found;
+}
+
+void remove_old_checkpoints(const fs::path& folder, std::int64_t keep) {
+  const std::vector<CheckpointEntry> all = checkpoints_in(folder);
+  std::error_code ignored;  // one that cannot be removed is no harm
+  for (std::size_t i = static_cast<std::size_t>(keep); i < all.size(); ++i) fs::remove(all[i].file, ignored);
+}
+
+void remove_checkpoints_after(const fs::path& folder, std::int64_t step) {
+  for (const CheckpointEntry& entry : checkpoints_in(folder)) {
+    std::error_code error;
+    if (entry.step > step) fs::remove(entry.file, error);
+    if (error)
+      throw output_error(entry.file, "cannot remove this checkpoint, which is ahead of the run", error.value());
+  }
+}
+
+Checkpoint read_checkpoint(const fs::path& file, const Communicator& communicator) {
+  Checkpoint checkpoint;
+  communicator.set_phase("reading a checkpoint");
+  communicator.agree([&] {
+    const CheckpointIndex index = read_index(file);
+    const PieceReader reader(file, index);
+    reader.read_whole(checkpoint);
+    const std::size_t pieces = num_pieces(index);
+    for (auto p = static_cast<std::size_t>(communicator.rank()); p < pieces;
+         p += static_cast<std::size_t>(communicator.size())) {
+      Records piece = reader.records(p);
+      if (!belong_together(piece))
+        refuse_checkpoint(file, "this checkpoint is damaged: its records contradict each other");
+      merge(checkpoint.mine, std::move(piece));
+    }
+  });
+  return checkpoint;
+}
+
+}  // namespace breccia

@@ -1,0 +1,77 @@
+#include "output/resumed_folder.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "output/atomic_file.hpp"
+#include "output/checkpoint_writer.hpp"
+
+namespace breccia {
+namespace {
+
+namespace fs = std::filesystem;
+
+void remove_stale(const fs::path& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (error) throw output_error(path, "cannot remove this file of the run so far", error.value());
+}
+
+/// Files are linked where that can be done, since those of frames and extracts are written once.
+void copy_folder(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  if (!fs::exists(from, error)) return;
+  fs::create_directories(to, error);
+  for (const auto& entry : fs::recursive_directory_iterator(from, error)) {
+    const fs::path target = to / fs::relative(entry.path(), from, error);
+    if (entry.is_directory(error)) {
+      fs::create_directories(target, error);
+      continue;
+    }
+    const bool written_once = entry.path().extension() == ".vtkhdf";
+    if (written_once) fs::create_hard_link(entry.path(), target, error);
+    if (!written_once || error) fs::copy_file(entry.path(), target, fs::copy_options::overwrite_existing, error);
+    if (error) throw output_error(target, "cannot copy this file of the run so far", error.value());
+  }
+  if (error) throw output_error(to, "cannot copy this folder of the run so far", error.value());
+}
+
+void copy_lines(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
+  if (error) throw output_error(to, "cannot copy this file of the run so far", error.value());
+}
+
+}  // namespace
+
+bool is_complete(const RunFolder& folder, std::int64_t steps) {
+  std::ifstream file(folder.summary());
+  const auto json = nlohmann::json::parse(file, nullptr, /*allow_exceptions=*/false);
+  return json.is_object() && json.value("status", nlohmann::json()) == "complete" &&
+         json.value("steps", nlohmann::json()) == steps;
+}
+
+RunFolder prepare_resumed_folder(const RunFolder& run, const fs::path& root, const Checkpoint& from,
+                                 const std::string& resolved_case, const Provenance& provenance) {
+  std::error_code error;
+  const RunFolder folder{root};
+  if (!fs::equivalent(run.root, root, error)) {
+    (void)prepare_run_folder(root, resolved_case, provenance, OldResults::refuse);
+    copy_lines(run.history(), folder.history());
+    copy_lines(run.status(), folder.status());
+    copy_folder(run.frames(), folder.frames());
+    copy_folder(run.extracts(), folder.extracts());
+    return folder;
+  }
+  // Later checkpoints first: as long as one is there, the files must not be cut back to an earlier one.
+  remove_checkpoints_after(folder.checkpoints(), from.model.clock.steps);
+  for (const fs::path& path :
+       {folder.summary(), folder.summary_text(), folder.control(), temporary_of(folder.control())})
+    remove_stale(path);
+  write_file_atomically(folder.case_file(), resolved_case);
+  fs::create_directories(folder.frames(), error);
+  return folder;
+}
+
+}  // namespace breccia
