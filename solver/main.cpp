@@ -16,6 +16,7 @@
 #include "commands/commands.hpp"
 #include "parallel/mpi_session.hpp"
 #include "simulation/run.hpp"
+#include "simulation/run_checkpoints.hpp"
 
 namespace {
 
@@ -29,6 +30,9 @@ void stop_handler(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
+/// A checkpoint is written while the run goes on.
+void checkpoint_handler(int) { checkpoint_requested = true; }
+
 /// What is freed is soon asked for again, above all when elements change ranks; getting large blocks anew from the
 /// kernel each time costs more than the work on them.
 void keep_freed_memory() {
@@ -39,6 +43,7 @@ void keep_freed_memory() {
 /// What one invocation asked for.
 struct Arguments {
   RunCommand run;
+  ResumeCommand resume;
   RaceCommand race;
   CheckCommand check;
   MeshCommand mesh;
@@ -144,6 +149,7 @@ const char* kControlFooter =
   extract                     let all in-situ pipelines work on the present state
   frame                       write a frame
   frame_interval TIME         from now on a frame every so much simulated time, such as "2 us"
+  checkpoint                  write the whole state, from which `breccia resume` goes on
 The answer comes when it is done. A line with a command in the file `control` of the run's folder does the same.)";
 
 void define_control(CLI::App& app, Arguments& a) {
@@ -176,6 +182,33 @@ void define_insitu(CLI::App& app, Arguments& a) {
       ->required();
   replay->add_option("-o,--output", a.replay.folder,
                      "folder of what they write; default: replay in the folder of the run");
+}
+
+const char* kResumeFooter =
+    R"(The run goes on as if nothing had happened: the same bits, whatever the number of ranks (mpiexec -n N), the division
+among them, the contact search and the instruction set. Lines of history.csv and status.jsonl and frames beyond the
+checkpoint are dropped and made anew. With -o the run's folder stays as it is, and the other one gets all results.
+
+A checkpoint that is cut off or damaged is named, and the one before it is used; checkpoint.keep says how many there are.)";
+
+void define_resume(CLI::App& app, Arguments& a) {
+  CLI::App* resume = app.add_subcommand("resume", "Go on with a run from its last checkpoint, on any number of ranks");
+  resume->add_option("run", a.resume.run, "folder of the run, or one of its checkpoints")->required();
+  resume->add_option("-o,--output", a.resume.folder, "folder of the results; default: the run's own");
+  const auto set_until = [&a](const std::string& text) { a.resume.until = seconds_of(text); };
+  resume
+      ->add_option_function<std::string>(
+          "--until", set_until,
+          "simulated time, such as \"2 ms\": before the end of the case the run stops there, beyond it the last stage "
+          "goes on to it; default: the end")
+      ->check(simulated_time(false));
+  resume
+      ->add_option("--set", a.resume.overrides,
+                   "override keys of [domains], [detection], [checkpoint]; others would change the results")
+      ->allow_extra_args(false)
+      ->take_all();
+  resume->add_option("--progress", a.progress, kProgressHelp)->check(progress_modes());
+  resume->footer(kResumeFooter);
 }
 
 /// What --live and --insitu add to the case, as overrides.
@@ -225,9 +258,12 @@ void define(CLI::App& app, Arguments& a) {
   run->footer(
       "Writes frames for ParaView (frames/*.series), history.csv, status.jsonl, summary.json and .txt, the resolved "
       "case and provenance.json.\n"
-      "Ctrl-C ends the run after the present step with everything written.");
+      "Ctrl-C ends the run after the present step with everything written; `breccia resume` goes on with it, also "
+      "after "
+      "a power cut, from the last of its checkpoints (`breccia explain checkpoint`). SIGUSR1 asks for one.");
 
   define_run_insitu(*run, a);
+  define_resume(app, a);
 
   define_control(app, a);
   define_insitu(app, a);
@@ -254,15 +290,18 @@ void define(CLI::App& app, Arguments& a) {
 }
 
 int dispatch(const CLI::App& app, Arguments& a, const Communicator& world, int argc, char** argv) {
-  if (app.got_subcommand("run") || app.got_subcommand("race")) {
+  if (app.got_subcommand("run") || app.got_subcommand("resume") || app.got_subcommand("race")) {
     const std::map<std::string, ProgressMode> modes{{"bar", ProgressMode::bar},
                                                     {"log", ProgressMode::log},
                                                     {"json", ProgressMode::json},
                                                     {"none", ProgressMode::none}};
     const auto mode = modes.find(a.progress);
-    a.run.progress = a.race.progress = mode != modes.end() ? mode->second : default_progress_mode(STDOUT_FILENO);
+    a.run.progress = a.resume.progress = a.race.progress =
+        mode != modes.end() ? mode->second : default_progress_mode(STDOUT_FILENO);
     if (app.got_subcommand("race")) return race_command(a.race, world);
     a.run.command_line.assign(argv, argv + argc);
+    a.resume.command_line = a.run.command_line;
+    if (app.got_subcommand("resume")) return resume_command(a.resume, world);
     return run_command(a.run, world);
   }
   if (app.got_subcommand("insitu") && app.get_subcommand("insitu")->got_subcommand("replay"))
@@ -320,6 +359,7 @@ int main(int argc, char** argv) {
   }
   std::signal(SIGINT, stop_handler);
   std::signal(SIGTERM, stop_handler);
+  std::signal(SIGUSR1, checkpoint_handler);
   std::signal(SIGXFSZ, SIG_IGN);  // a file over its limit is an error of the write, told with the file's name
   return guarded(app, arguments, session, argc, argv);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,17 @@ struct RunCommand {
 };
 /// Collective over the world; the others are the work of one rank.
 int run_command(const RunCommand& asked, const Communicator& world);
+
+struct ResumeCommand {
+  std::filesystem::path run;                               ///< its folder, or a checkpoint in it
+  std::filesystem::path folder;                            ///< of the results; empty: the run's own
+  std::vector<std::string> overrides;                      ///< key=value
+  double until = std::numeric_limits<double>::infinity();  ///< s, simulated
+  ProgressMode progress = ProgressMode::log;
+  std::vector<std::string> command_line;
+};
+/// Collective over the world.
+int resume_command(const ResumeCommand& asked, const Communicator& world);
 
 struct ControlCommand {
   std::filesystem::path folder;  ///< of the run

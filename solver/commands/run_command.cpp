@@ -2,16 +2,13 @@
 
 #include <fmt/core.h>
 #include <cstdio>
-#include <iostream>
 
 #include "case/live_address.hpp"
 #include "case/reader.hpp"
 #include "commands/oversubscription.hpp"
-#include "output/history_sink.hpp"
+#include "commands/run_sinks.hpp"
 #include "output/insitu.hpp"
 #include "output/run_folder.hpp"
-#include "output/summary.hpp"
-#include "output/vtkhdf_sink.hpp"
 #include "simulation/run.hpp"
 
 namespace breccia {
@@ -31,7 +28,6 @@ void warn_of_remote_viewer(const case_::InSitu& insitu) {
 int run_command(const RunCommand& asked, const Communicator& world) {
   case_::Case input;
   std::unique_ptr<Model> model;
-  std::vector<std::unique_ptr<Sink>> sinks;
   std::filesystem::path root;
   world.agree([&] {
     input = case_::read_case(asked.case_file, asked.overrides);
@@ -46,20 +42,9 @@ int run_command(const RunCommand& asked, const Communicator& world) {
   warn_of_oversubscription(world);
   if (world.is_root()) warn_of_remote_viewer(input.insitu);
   const RunFolder folder{root};
-  world.agree([&] {
-    // Frames are written by all ranks together, everything else by the root.
-    const FrameParts parts{input.output.elements, input.output.joints, input.output.contacts};
-    sinks.push_back(std::make_unique<VtkhdfSink>(folder.frames(), parts, world));
-    if (!world.is_root()) return;
-    sinks.push_back(std::make_unique<HistorySink>(folder.history()));
-    sinks.push_back(std::make_unique<StatusSink>(folder.status()));
-    sinks.push_back(std::make_unique<ProgressSink>(asked.progress, std::cout, terminal_columns(fileno(stdout))));
-    sinks.push_back(std::make_unique<SummarySink>(folder.summary(), folder.summary_text()));
-  });
+  const auto sinks = run_sinks(input, folder, asked.progress, world);
   const Summary summary = run_case(input, std::move(model), sinks, world, &folder);
-  if (world.is_root() && asked.progress != ProgressMode::json && asked.progress != ProgressMode::none) {
-    fmt::print("{}results in {}\n", summary_text(summary), root.string());
-  }
+  print_results(summary, folder, asked.progress, world);
   return 0;
 }
 

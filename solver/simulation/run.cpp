@@ -6,8 +6,11 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "domains/model_fields.hpp"
 #include "domains/partition.hpp"
+#include "domains/piece_mesh.hpp"
 #include "simulation/insitu_watch.hpp"
+#include "simulation/run_checkpoints.hpp"
 #include "simulation/run_control.hpp"
 #include "simulation/run_output.hpp"
 #include "simulation/stage_steps.hpp"
@@ -26,25 +29,27 @@ class Runner {
  public:
   Runner(const case_::Case& input, std::unique_ptr<Model> whole, const std::vector<std::unique_ptr<Sink>>& sinks,
          const Communicator& communicator, const RunFolder* folder)
-      : input_(input),
-        communicator_(communicator),
-        partition_(input, communicator, std::move(whole)),
-        output_(input, sinks, partition_),
-        control_(folder != nullptr ? std::optional(folder->control()) : std::nullopt, communicator) {
-    if (folder == nullptr || !input.insitu.asked_for()) return;
-    communicator_.set_phase("start of the in-situ adaptor");
-    insitu_.emplace(input, folder->extracts(), partition_,
-                    [this](const std::string& text, bool good) { output_.tell_event("insitu", text, good); });
+      : Runner(input, sinks, communicator, folder, [&] { return Partition(input, communicator, std::move(whole)); }) {}
+
+  Runner(const case_::Case& input, Checkpoint from, const ResumeOptions& options,
+         const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator, const RunFolder& folder)
+      : Runner(input, sinks, communicator, &folder,
+               [&] { return Partition(input, communicator, snapshot_of(input, communicator, from)); }) {
+    from_ = from.position;
+    options_ = options;
+    if (checkpoints_) checkpoints_->restore(*from_);
   }
 
   Summary run() {
-    output_.tell_start(insitu_.has_value());
+    output_.tell_start(insitu_.has_value(), from_ ? &*from_ : nullptr);
     try {
-      for (std::size_t s = 0; s < input_.stages.size() && status_ == "complete"; ++s) run_stage(input_.stages[s]);
+      for (auto s = first_stage(); s < input_.stages.size() && status_ == "complete"; ++s) run_stage(s);
+      if (checkpoints_) end_with_checkpoint();
       conclude(partition_.domain());
       output_.write_frame();
       look_in_situ(true);
     } catch (const SimulationError& error) {
+      if (checkpoints_) checkpoints_->finish();  // the last sound state
       finish(error.what());
       throw;
     } catch (const OutputError& error) {
@@ -58,26 +63,79 @@ class Runner {
   }
 
  private:
-  void run_stage(const case_::Stage& stage) {
-    StageSteps steps(input_, stage, partition_);
-    output_.begin_stage(stage);
-    if (input_.time.step > 0) {
+  template <class MakePartition>
+  Runner(const case_::Case& input, const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator,
+         const RunFolder* folder, MakePartition&& make_partition)
+      : input_(input),
+        communicator_(communicator),
+        partition_(make_partition()),
+        output_(input, sinks, partition_),
+        control_(folder != nullptr ? std::optional(folder->control()) : std::nullopt, communicator) {
+    if (folder == nullptr) return;
+    checkpoints_.emplace(input, partition_, *folder,
+                         [this](const std::string& text, bool good) { tell_of_checkpoint(text, good); });
+    if (!input.insitu.asked_for()) return;
+    communicator_.set_phase("start of the in-situ adaptor");
+    insitu_.emplace(input, folder->extracts(), partition_,
+                    [this](const std::string& text, bool good) { output_.tell_event("insitu", text, good); });
+  }
+
+  static Snapshot snapshot_of(const case_::Case& input, const Communicator& communicator, Checkpoint& from) {
+    Snapshot snapshot;
+    snapshot.whole = unpack_whole(from.whole_model);
+    snapshot.weight.assign(from.mine.elements.size(), 1.0);
+    snapshot.mine = std::move(from.mine);
+    snapshot.state.state = part_of_whole(from.model, communicator.is_root());
+    snapshot.state.sample = {energy_of(from.position), from.position.worst_element};
+    snapshot.domains = domain_spec(input);
+    snapshot.motion = from.position.motion;
+    snapshot.stage = static_cast<std::size_t>(from.position.stage);
+    return snapshot;
+  }
+
+  [[nodiscard]] std::size_t first_stage() const { return from_ ? static_cast<std::size_t>(from_->stage) : 0; }
+
+  /// As written in the checkpoint, or at its start.
+  StageSteps begin_stage(std::size_t s) {
+    const case_::Stage& stage = input_.stages[s];
+    if (!from_ || s != first_stage()) return {input_, stage, partition_};
+    StageSteps steps(input_, stage, partition_, from_->until_look);
+    if (options_.extended) steps.fit_end();
+    return steps;
+  }
+
+  void run_stage(std::size_t s) {
+    StageSteps steps = begin_stage(s);
+    output_.begin_stage(input_.stages[s]);
+    if (input_.time.step > 0 && !(from_ && s == first_stage())) {
       const std::string text = given_step_text(input_.time.step, steps.limit());
       if (!text.empty()) output_.tell_event("step", text, false);
     }
-    while (!steps.over()) {
+    steps_ = &steps;
+    while (!steps.over() && status_ == "complete") {
+      take_commands();
       steps.look();
       advance();
-      if (partition_.state().signals.received.stop || stop_commanded_) status_ = "stopped: by request";
-      if (input_.time.max_steps > 0 && clock().steps >= input_.time.max_steps)
-        status_ = "stopped: time.max_steps reached";
-      if (status_ != "complete") return;
+      look_at_checkpoints();
+      status_ = status_now();
     }
+    if (checkpoints_ && !checkpoints_->is_of_now()) checkpoints_->begin(position());
+    steps_ = nullptr;
+  }
+
+  [[nodiscard]] std::string status_now() const {
+    if (partition_.state().signals.received.stop || stop_commanded_) return "stopped: by request";
+    if (input_.time.max_steps > 0 && clock().steps >= input_.time.max_steps) return "stopped: time.max_steps reached";
+    if (clock().time > options_.until - 0.5 * clock().dt) return "stopped: --until reached";
+    return "complete";
+  }
+
+  void take_commands() {
+    if ((partition_.state().signals.received.orders & kControlOrder) != 0) obey(control_.receive());
+    if (paused_) stay_paused();
   }
 
   void advance() {
-    if ((partition_.state().signals.received.orders & kControlOrder) != 0) obey(control_.receive());
-    if (paused_) stay_paused();
     const double time = clock().time;
     if (output_.frame_due()) output_.write_frame();
     look_in_situ(false);
@@ -88,11 +146,36 @@ class Runner {
     partition_.keep_up();
   }
 
+  /// Between two steps, where a run that goes on from the checkpoint begins.
+  void look_at_checkpoints() {
+    if (!checkpoints_) return;
+    checkpoints_->look();
+    if (checkpoints_->due()) checkpoints_->begin(position());
+  }
+
+  void end_with_checkpoint() {
+    const auto lap = partition_.domain().timer.measure(Phase::checkpoint);
+    checkpoints_->finish();
+  }
+
+  [[nodiscard]] RunPosition position() const {
+    RunPosition position = output_.position();
+    position.until_look = steps_->until_look();
+    return position;
+  }
+
+  void tell_of_checkpoint(const std::string& text, bool good) {
+    output_.tell_event("checkpoint", text, good);
+    for (const Command& command : std::exchange(wait_for_checkpoint_, {}))
+      output_.tell_event("control", text, good, command.id);
+  }
+
   /// What this rank has to tell the others.
   StepSignals signals() {
     StepSignals signals{.stop = stop_requested};
     if (control_.asks()) signals.orders |= kControlOrder;
     if (insitu_) insitu_->add_signals(signals);
+    if (checkpoints_) checkpoints_->add_signals(signals);
     return signals;
   }
 
@@ -104,9 +187,23 @@ class Runner {
 
   void obey(const std::vector<Command>& commands) {
     for (const Command& command : commands) {
+      if (command.kind == Command::Kind::checkpoint && writes_checkpoints()) {
+        write_checkpoint_for(command);
+        continue;
+      }
       const std::string complaint = obey(command);
       output_.tell_event("control", complaint.empty() ? command.text : complaint, complaint.empty(), command.id);
     }
+  }
+
+  [[nodiscard]] bool writes_checkpoints() const { return checkpoints_ && input_.checkpoint.keep > 0; }
+
+  /// The answer comes when it is there.
+  void write_checkpoint_for(const Command& command) {
+    checkpoints_->finish();  // another one
+    wait_for_checkpoint_.push_back(command);
+    checkpoints_->begin(position());
+    if (paused_) checkpoints_->finish();
   }
 
   /// @return  why it is refused; empty: done
@@ -131,6 +228,8 @@ class Runner {
       case Command::Kind::frame:
         output_.write_frame();
         return {};
+      case Command::Kind::checkpoint:
+        return "the run writes no checkpoints: checkpoint.keep is 0";
       case Command::Kind::frame_interval:
         output_.change_frame_interval(command.value);
         return {};
@@ -155,7 +254,8 @@ class Runner {
     if (status != status_) output_.write_frame();  // after an error: the last picture
     std::vector<PipelineReport> insitu;
     if (insitu_) insitu = insitu_->finish();
-    return output_.finish(status, std::move(insitu), paused_);
+    return output_.finish(status, std::move(insitu), checkpoints_ ? checkpoints_->report() : CheckpointReport{},
+                          paused_);
   }
 
   [[nodiscard]] const Clock& clock() const { return partition_.state().clock; }
@@ -168,6 +268,11 @@ class Runner {
   RunControl control_;
   bool paused_ = false, stop_commanded_ = false, extract_commanded_ = false;
   std::optional<InSituWatch> insitu_;
+  std::optional<RunCheckpoints> checkpoints_;
+  std::vector<Command> wait_for_checkpoint_;  ///< their answers do
+  std::optional<RunPosition> from_;           ///< the run goes on from here
+  ResumeOptions options_;
+  StageSteps* steps_ = nullptr;  ///< of the present stage
 };
 
 }  // namespace
@@ -176,6 +281,12 @@ Summary run_case(const case_::Case& input, std::unique_ptr<Model> whole,
                  const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator,
                  const RunFolder* folder) {
   return Runner(input, std::move(whole), sinks, communicator, folder).run();
+}
+
+Summary resume_case(const case_::Case& input, Checkpoint from, const ResumeOptions& options,
+                    const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator,
+                    const RunFolder& folder) {
+  return Runner(input, std::move(from), options, sinks, communicator, folder).run();
 }
 
 }  // namespace breccia

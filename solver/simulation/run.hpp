@@ -1,11 +1,13 @@
 #pragma once
 
 #include <atomic>
+#include <limits>
 #include <memory>
 #include <vector>
 
 #include "case/case.hpp"
 #include "model/model.hpp"
+#include "output/checkpoint.hpp"
 #include "output/run_folder.hpp"
 #include "output/sink.hpp"
 #include "parallel/communicator.hpp"
@@ -24,5 +26,17 @@ extern std::atomic<bool> stop_requested;
 Summary run_case(const case_::Case& input, std::unique_ptr<Model> whole,
                  const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator = {},
                  const RunFolder* folder = nullptr);
+
+struct ResumeOptions {
+  double until = std::numeric_limits<double>::infinity();  ///< s: the run stops there
+  bool extended = false;                                   ///< the last stage ends later than when it was begun
+};
+
+/// Goes on from a checkpoint of the case, on any number of ranks, as if nothing had happened; files beyond it are cut
+/// back to it. Collective. @param from  as read_checkpoint gave it
+/// Returns and throws as run_case.
+Summary resume_case(const case_::Case& input, Checkpoint from, const ResumeOptions& options,
+                    const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator,
+                    const RunFolder& folder);
 
 }  // namespace breccia

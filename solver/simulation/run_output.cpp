@@ -39,9 +39,21 @@ void RunOutput::tell_event(const std::string& kind, const std::string& text, boo
   sink_group_.tell([&](Sink& sink) { sink.event(event); });
 }
 
-void RunOutput::tell_start(bool insitu) {
-  const RunStart start{input_.title, partition_.whole().num_elements, partition_.whole().num_joints,
-                       input_.output.gauges, insitu};
+void RunOutput::tell_start(bool insitu, const RunPosition* from) {
+  const RunStart start{input_.title,
+                       partition_.whole().num_elements,
+                       partition_.whole().num_joints,
+                       input_.output.gauges,
+                       insitu,
+                       from != nullptr ? std::optional(from->marks) : std::nullopt};
+  if (from != nullptr) {
+    histories_ = Schedule::from_numbers(from->histories);
+    frames_ = Schedule::from_numbers(from->frames);
+    frame_number_ = from->frame_number;
+    last_fragments_ = from->fragments;
+    last_broken_ = from->broken_joints;
+    wall_before_ = from->wall;
+  }
   sink_group_.tell([&](Sink& sink) { sink.start(start); });
 }
 
@@ -80,7 +92,7 @@ void RunOutput::write_frame() {
 }
 
 double RunOutput::wall() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  return wall_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
 }
 
 StatusLine RunOutput::status_line(bool paused) const {
@@ -142,8 +154,22 @@ Summary RunOutput::summary_of(const std::string& status) {
   return summary;
 }
 
-Summary RunOutput::finish(const std::string& status, std::vector<PipelineReport> insitu, bool paused) {
+RunPosition RunOutput::position() const {
+  RunPosition position;
+  position.histories = histories_.numbers();
+  position.frames = frames_.numbers();
+  position.frame_number = frame_number_;
+  position.fragments = last_fragments_;
+  position.broken_joints = last_broken_;
+  position.wall = wall();
+  position.marks = sink_group_.marks();
+  return position;
+}
+
+Summary RunOutput::finish(const std::string& status, std::vector<PipelineReport> insitu,
+                          const CheckpointReport& checkpoints, bool paused) {
   Summary summary = summary_of(status);
+  summary.checkpoints = checkpoints;
   summary.insitu = std::move(insitu);
   sink_group_.tell([&](Sink& sink) {
     sink.status(status_line(paused));

@@ -24,7 +24,8 @@ class RunOutput {
   /// @pre all arguments outlive this object
   RunOutput(const case_::Case& input, const std::vector<std::unique_ptr<Sink>>& sinks, Partition& partition);
 
-  void tell_start(bool insitu);
+  /// @param from  where the run goes on; null: at its start
+  void tell_start(bool insitu, const RunPosition* from);
   void tell_event(const std::string& kind, const std::string& text, bool accepted, const std::string& id = {});
   void begin_stage(const case_::Stage& stage);
 
@@ -41,7 +42,10 @@ class RunOutput {
   void tell_status(bool paused) {
     sink_group_.tell_status([this, paused] { return status_line(paused); });
   }
-  Summary finish(const std::string& status, std::vector<PipelineReport> insitu, bool paused);
+  Summary finish(const std::string& status, std::vector<PipelineReport> insitu, const CheckpointReport& checkpoints,
+                 bool paused);
+  /// Where the output is.
+  [[nodiscard]] RunPosition position() const;
 
   [[nodiscard]] Observer& observer() { return observer_; }
 
@@ -56,7 +60,8 @@ class RunOutput {
   SinkGroup sink_group_;
   Partition& partition_;
   Observer observer_;
-  double end_;  ///< s, of the run
+  double end_;              ///< s, of the run
+  double wall_before_ = 0;  ///< s, that the run took before it went on here
   Schedule histories_, frames_;
   std::string stage_name_;
   std::int64_t frame_number_ = 0, last_fragments_ = 0, last_broken_ = 0;

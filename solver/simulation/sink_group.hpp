@@ -41,6 +41,13 @@ class SinkGroup {
     }
   }
 
+  /// How far the files of this rank's sinks are.
+  [[nodiscard]] OutputMarks marks() const {
+    OutputMarks marks;
+    for (const auto& sink : sinks_) sink->mark(marks);
+    return marks;
+  }
+
  private:
   const std::vector<std::unique_ptr<Sink>>& sinks_;
   Communicator communicator_;

@@ -25,6 +25,8 @@ class StageSteps {
   /// Before every step: a new length if it is time to look and the limit has moved. Collective.
   void look();
   [[nodiscard]] std::int64_t until_look() const { return until_look_; }
+  /// Where the end of the stage has moved: steps that fit it. Collective.
+  void fit_end() { partition_.domain().state.clock.dt = length(); }
 
  private:
   /// What is allowed, shortened so that a whole number of steps ends with the stage, s.

@@ -1,0 +1,129 @@
+#include <fmt/core.h>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <string_view>
+#include <system_error>
+
+#include "base/error.hpp"
+#include "case/reader.hpp"
+#include "commands/commands.hpp"
+#include "commands/oversubscription.hpp"
+#include "commands/run_sinks.hpp"
+#include "output/checkpoint_writer.hpp"
+#include "output/insitu.hpp"
+#include "output/quantity_text.hpp"
+#include "output/resumed_folder.hpp"
+#include "simulation/run.hpp"
+
+namespace breccia {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What may differ in a run that goes on: nothing that changes a result.
+constexpr std::array<std::string_view, 4> kFreeKeys{"domains.", "detection.", "checkpoint.", "time.max_steps"};
+
+InputError refused(const std::string& where, const std::string& what, const std::string& allowed,
+                   const std::string& given = {}) {
+  return InputError(Problem{where, 0, "resume", what, allowed, given});
+}
+
+void check_overrides(const std::vector<std::string>& overrides) {
+  for (const std::string& text : overrides) {
+    const auto is_free = [&](std::string_view key) { return text.starts_with(key); };
+    if (std::none_of(kFreeKeys.begin(), kFreeKeys.end(), is_free))
+      throw refused("--set", "this would change the results of a run that goes on",
+                    "keys of [domains], [detection] and [checkpoint], and time.max_steps", text);
+  }
+}
+
+std::vector<fs::path> candidates(const fs::path& run) {
+  std::error_code error;
+  if (!fs::exists(run, error)) throw refused(run.string(), "there is no such run", "the folder of a run");
+  if (fs::is_regular_file(run, error)) return {run};
+  std::vector<fs::path> files;
+  for (const CheckpointEntry& entry : checkpoints_in(RunFolder{run}.checkpoints())) files.push_back(entry.file);
+  if (files.empty())
+    throw refused(run.string(), "there are no checkpoints of a run here",
+                  "the folder of a run with checkpoints/step_*.h5, or one of these files");
+  return files;
+}
+
+/// The latest that is sound. Collective.
+std::pair<Checkpoint, fs::path> latest_sound(const std::vector<fs::path>& files, const Communicator& world) {
+  std::vector<Problem> problems;
+  for (const fs::path& file : files) {
+    try {
+      return {read_checkpoint(file, world), file};
+    } catch (const InputError& error) {  // the same on all ranks
+      if (world.is_root() && files.size() > 1) fmt::print(stderr, "breccia: warning: {}\n", error.what());
+      for (const Problem& problem : error.problems()) problems.push_back(problem);
+    }
+  }
+  throw InputError(std::move(problems));
+}
+
+/// The case of the checkpoint, with a later end if that is asked for.
+case_::Case case_of(const Checkpoint& from, const fs::path& file, std::vector<std::string> overrides, double until,
+                    ResumeOptions& options) {
+  case_::Case input = case_::read_case_text(from.case_text, file, overrides);
+  options.until = until;
+  if (until <= input.stages.back().end || !std::isfinite(until)) return input;
+  overrides.push_back(fmt::format("stage[{}].end={:.17g}", input.stages.size() - 1, until));
+  options.extended = true;
+  return case_::read_case_text(from.case_text, file, overrides);
+}
+
+/// Throws InputError where there is nothing to do.
+void check_there_is_more(const case_::Case& input, const Checkpoint& from, const fs::path& run, double until) {
+  const Clock& clock = from.model.clock;
+  if (until <= clock.time + 0.5 * clock.dt)
+    throw refused(run.string(), "the run has come as far already",
+                  "--until later than " + quantity_text(clock.time, "s"), quantity_text(until, "s"));
+  if (input.time.max_steps > 0 && clock.steps >= input.time.max_steps)
+    throw refused(run.string(), fmt::format("the run has done its time.max_steps, {}", input.time.max_steps),
+                  "--set time.max_steps=0, or a larger number");
+}
+
+}  // namespace
+
+int resume_command(const ResumeCommand& asked, const Communicator& world) {
+  std::vector<fs::path> files;
+  world.agree([&] {
+    check_overrides(asked.overrides);
+    files = candidates(asked.run);
+  });
+  auto [from, file] = latest_sound(files, world);
+  const fs::path run = file.parent_path().parent_path();
+  case_::Case input;
+  ResumeOptions options;
+  bool complete = false;
+  RunFolder folder{asked.folder.empty() ? run : asked.folder};
+  world.agree([&] {
+    input = case_of(from, RunFolder{run}.case_file(), asked.overrides, asked.until, options);
+    world.set_patience(input.domains.patience);
+    complete = is_complete(RunFolder{run}, from.model.clock.steps) && !options.extended;
+    if (complete) return;
+    check_there_is_more(input, from, run, asked.until);
+    if (input.insitu.asked_for()) InSituPlugin();
+  });
+  if (complete) {
+    if (world.is_root())
+      fmt::print("{} is complete at {}; --until TIME goes on to a later end\n", run.string(),
+                 quantity_text(from.model.clock.time, "s"));
+    return 0;
+  }
+  world.agree([&] {
+    if (world.is_root())
+      folder = prepare_resumed_folder({run}, folder.root, from, input.resolved,
+                                      collect_provenance(BRECCIA_VERSION, asked.command_line));
+  });
+  warn_of_oversubscription(world);
+  const auto sinks = run_sinks(input, folder, asked.progress, world);
+  const Summary summary = resume_case(input, std::move(from), options, sinks, world, folder);
+  print_results(summary, folder, asked.progress, world);
+  return 0;
+}
+
+}  // namespace breccia

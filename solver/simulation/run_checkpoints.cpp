@@ -1,0 +1,141 @@
+#include "simulation/run_checkpoints.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "base/error.hpp"
+#include "domains/model_fields.hpp"
+#include "domains/piece_mesh.hpp"
+#include "output/atomic_file.hpp"
+
+namespace breccia {
+
+std::atomic<bool> checkpoint_requested{false};
+
+namespace {
+
+using Wall = std::chrono::steady_clock;
+
+double seconds_since(Wall::time_point start) { return std::chrono::duration<double>(Wall::now() - start).count(); }
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+std::string report_text(const CheckpointWriter& writer, double pause) {
+  char text[96];
+  std::snprintf(text, sizeof text, ": %.1f MB, the steps waited %.3f s for it", 1e-6 * double(writer.bytes()), pause);
+  return "checkpoint " + writer.file().filename().string() + text;
+}
+
+}  // namespace
+
+RunCheckpoints::RunCheckpoints(const case_::Case& input, const Partition& partition, const RunFolder& folder, Tell tell)
+    : input_(input), partition_(partition), folder_(folder), tell_(std::move(tell)), times_(input.checkpoint.interval) {
+  (void)times_.due(0, 0, 0);  // none at the start
+}
+
+void RunCheckpoints::add_signals(StepSignals& signals) {
+  const double interval = input_.checkpoint.wall_interval;
+  const bool by_wall = partition_.communicator().is_root() && interval > 0 && seconds_since(last_) >= interval;
+  signals.checkpoint = checkpoint_requested.exchange(false) || (by_wall && !writer_);
+  signals.writing = writer_ && writer_->writing();
+  if (by_wall) last_ = Wall::now();
+}
+
+bool RunCheckpoints::due() {
+  if (input_.checkpoint.keep == 0) return false;
+  const State& state = partition_.state();
+  const Clock& clock = state.clock;
+  const bool by_steps = input_.checkpoint.steps > 0 && clock.steps % input_.checkpoint.steps == 0;
+  const bool by_time = times_.due(clock.time, clock.dt, clock.steps);
+  return by_steps || by_time || state.signals.received.checkpoint;
+}
+
+/// Both the run and its files go on whatever becomes of a checkpoint.
+template <class Work>
+void RunCheckpoints::attempt(Work&& work) {
+  const auto started = Wall::now();
+  try {
+    work();
+    pause_ += seconds_since(started);
+  } catch (const OutputError& error) {
+    writer_.reset();
+    ++report_.failed;
+    tell_(std::string("no checkpoint: ") + error.what(), false);
+  }
+}
+
+void RunCheckpoints::begin(RunPosition position) {
+  if (input_.checkpoint.keep == 0) return;
+  finish();
+  last_ = Wall::now();
+  begun_at_ = partition_.state().clock.steps;
+  pause_ = 0;
+  attempt([&] {
+    const Communicator& communicator = partition_.communicator();
+    communicator.agree([&] {
+      std::error_code error;
+      if (communicator.is_root()) std::filesystem::create_directories(folder_.checkpoints(), error);
+      if (error) throw output_error(folder_.checkpoints(), "cannot create this folder", error.value());
+    });
+    position.checkpoints = times_.numbers();
+    Checkpoint now = content(std::move(position));
+    std::vector<std::filesystem::path> companions;
+    if (communicator.is_root()) companions = {folder_.history(), folder_.status()};
+    writer_ = std::make_unique<CheckpointWriter>(checkpoint_file(folder_.checkpoints(), begun_at_), std::move(now),
+                                                 communicator, std::move(companions));
+  });
+}
+
+Checkpoint RunCheckpoints::content(RunPosition position) const {
+  Snapshot now = partition_.copy();
+  Checkpoint checkpoint;
+  checkpoint.model = whole_fields(partition_.communicator(), now.state.state);
+  checkpoint.mine = std::move(now.mine);
+  checkpoint.position = position;
+  checkpoint.position.motion = now.motion;
+  checkpoint.position.stage = static_cast<std::int64_t>(now.stage);
+  checkpoint.position.worst_element = now.state.sample.worst_element;
+  set_energy(now.state.sample.budget, checkpoint.position);
+  if (!partition_.communicator().is_root()) return checkpoint;
+  checkpoint.whole_model = pack(now.whole);
+  checkpoint.case_text = input_.resolved;
+  checkpoint.provenance = text_of(folder_.provenance());
+  return checkpoint;
+}
+
+/// A rank that has written tells so at the end of a step, and all hear of it in the next.
+void RunCheckpoints::look() {
+  const State& state = partition_.state();
+  if (writer_ && state.clock.steps >= begun_at_ + 2 && !state.signals.received.writing) finish();
+}
+
+void RunCheckpoints::finish() {
+  if (!writer_) return;
+  attempt([&] {
+    writer_->finish();
+    if (partition_.communicator().is_root()) remove_old_checkpoints(folder_.checkpoints(), input_.checkpoint.keep);
+  });
+  if (!writer_) return;
+  ++report_.written;
+  report_.pause_s += pause_;
+  report_.longest_pause_s = std::max(report_.longest_pause_s, pause_);
+  report_.bytes = writer_->bytes();
+  tell_(report_text(*writer_, pause_), true);
+  writer_.reset();
+}
+
+void RunCheckpoints::restore(const RunPosition& position) {
+  if (input_.checkpoint.interval > 0 && position.checkpoints[0] == input_.checkpoint.interval)
+    times_ = Schedule::from_numbers(position.checkpoints);
+}
+
+}  // namespace breccia

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "case/case.hpp"
+#include "domains/partition.hpp"
+#include "output/checkpoint.hpp"
+#include "output/checkpoint_writer.hpp"
+#include "output/frame.hpp"
+#include "output/run_folder.hpp"
+#include "output/schedule.hpp"
+
+namespace breccia {
+
+/// Set from outside (a signal handler) to have a checkpoint written while the run goes on.
+extern std::atomic<bool> checkpoint_requested;
+
+/// When the checkpoints of a run are written, and what becomes of them. The steps wait while the state is copied; it is
+/// written while they go on. A checkpoint that fails is told as a warning, and the run goes on.
+class RunCheckpoints {
+ public:
+  /// Hears in words what became of a checkpoint; called on all ranks. The flag is false for a failure.
+  using Tell = std::function<void(const std::string& text, bool good)>;
+
+  /// @pre input and partition outlive this object
+  RunCheckpoints(const case_::Case& input, const Partition& partition, const RunFolder& folder, Tell tell);
+
+  /// What this rank has to tell the others at the end of a step.
+  void add_signals(StepSignals& signals);
+  /// To be asked after every step; moves on. The same on all ranks.
+  [[nodiscard]] bool due();
+  /// Begins one of the present state, between two steps. Collective. @param position  but for what is known here
+  void begin(RunPosition position);
+  /// After every step: lets one appear that all ranks have written. Collective when there is one.
+  void look();
+  /// Waits for the one that is being written. Collective.
+  void finish();
+  /// True where begin() was called for the present step already.
+  [[nodiscard]] bool is_of_now() const { return begun_at_ == partition_.state().clock.steps; }
+
+  /// Goes on as written in a checkpoint.
+  void restore(const RunPosition& position);
+  [[nodiscard]] const CheckpointReport& report() const { return report_; }
+
+ private:
+  [[nodiscard]] Checkpoint content(RunPosition position) const;
+  template <class Work>
+  void attempt(Work&& work);
+
+  const case_::Case& input_;
+  const Partition& partition_;
+  RunFolder folder_;
+  Tell tell_;
+  Schedule times_;
+  std::unique_ptr<CheckpointWriter> writer_;
+  std::int64_t begun_at_ = -1;  ///< step of the last one
+  double pause_ = 0;            ///< s, of the one that is being written
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  CheckpointReport report_;
+};
+
+}  // namespace breccia
