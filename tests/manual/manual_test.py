@@ -255,7 +255,7 @@ class Completion(unittest.TestCase):
     def test_control_is_given_a_run_and_a_command(self):
         self.assertEqual(self.offered("breccia", "control", ""), ["runs/plate"])
         self.assertEqual(self.offered("breccia", "control", "runs/p"), ["runs/plate"])
-        self.assertEqual(set(self.offered("breccia", "control", "runs/plate", "")), {"pause", "resume", "stop", "extract", "frame", "frame_interval"})
+        self.assertEqual(set(self.offered("breccia", "control", "runs/plate", "")), {"pause", "resume", "stop", "extract", "frame", "frame_interval", "checkpoint"})
         self.assertEqual(self.offered("breccia", "control", "--patience", "5", "runs/plate", "st"), ["stop"])
 
     def test_the_program_may_be_given_by_its_path(self):

@@ -29,7 +29,7 @@ PLACEHOLDER = re.compile(r"(?<![\w.-])(?<!\d )[A-Z][A-Z_]*(?!\w)|\.\.\.|…|<[^>
 NO_RULE = "no rule of tests/readme/plans.py says how to try"
 STEPS = "--set time.max_steps=10"
 NEEDS_CASE = {"run", "check", "mesh", "live", "race"}
-SUBCOMMANDS = NEEDS_CASE | {"control", "insitu", "explain"}
+SUBCOMMANDS = NEEDS_CASE | {"control", "insitu", "explain", "resume"}
 # tests/bare runs these on a bare system; bench and detection take minutes. Here their names and options are looked up in `./run help`.
 LOOKED_UP = {"demo", "test", "build", "install", "package", "bench", "detection"}
 
@@ -133,6 +133,8 @@ def plan_program(text, words, own):
         if arguments != ["info"]:
             raise Problem(f"{NO_RULE} a replay: on which recordings?")
         return Plan(text, "typed", ("adaptor",))
+    if sub == "resume":
+        return look_up_program(words)  # tests/end_to_end goes on with runs
     return Plan(text, sub if sub in ("control", "live") else "typed")
 
 
