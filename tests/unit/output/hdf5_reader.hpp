@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace breccia::test {
@@ -13,7 +14,8 @@ namespace breccia::test {
 class Hdf5Reader {
  public:
   /// Throws std::runtime_error when the file is not readable.
-  explicit Hdf5Reader(const std::filesystem::path& path) : file_(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)) {
+  explicit Hdf5Reader(const std::filesystem::path& path, std::string root = "VTKHDF")
+      : file_(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)), root_(std::move(root)) {
     if (file_ < 0) throw std::runtime_error("not a readable HDF5 file: " + path.string());
   }
   Hdf5Reader(const Hdf5Reader&) = delete;
@@ -26,9 +28,9 @@ class Hdf5Reader {
     std::size_t bytes = 0;  ///< of one stored number
   };
 
-  /// The dataset /VTKHDF/<name>, whatever its type, as doubles. Throws std::runtime_error when it cannot be read.
+  /// The dataset /<root>/<name>, whatever its type, as doubles. Throws std::runtime_error when it cannot be read.
   [[nodiscard]] Data data(const std::string& name) const {
-    const hid_t set = H5Dopen2(file_, ("/VTKHDF/" + name).c_str(), H5P_DEFAULT);
+    const hid_t set = H5Dopen2(file_, ("/" + root_ + "/" + name).c_str(), H5P_DEFAULT);
     if (set < 0) throw std::runtime_error("no dataset " + name);
     const hid_t space = H5Dget_space(set), type = H5Dget_type(set);
     Data data;
@@ -60,6 +62,7 @@ class Hdf5Reader {
 
  private:
   hid_t file_;
+  std::string root_;
 };
 
 }  // namespace breccia::test

@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <fstream>
+#include <numeric>
+#include <sstream>
+#include <string>
+
+#include "base/error.hpp"
+#include "output/checkpoint.hpp"
+#include "output/checkpoint_columns.hpp"
+#include "output/checkpoint_writer.hpp"
+#include "unit/output/hdf5_reader.hpp"
+#include "unit/output/temporary_folder.hpp"
+#include "unit/state/sample_records.hpp"
+
+namespace breccia {
+namespace {
+
+/// Every number of the model and the position another one.
+Checkpoint sample() {
+  Checkpoint checkpoint;
+  const Mesh mesh = test::cubes();
+  checkpoint.mine = test::records_of(mesh, build_topology(mesh));
+  double next = 0.5;
+  const auto fill = [&](const auto&, auto& field) {
+    using Value = std::decay_t<decltype(field)>;
+    if constexpr (std::is_same_v<Value, ExactSum>) {
+      field.add(++next);
+    } else if constexpr (std::is_same_v<Value, std::vector<GlobalId>>) {
+      field = {3, 1, 2};
+    } else {
+      for_each_scalar(field, [&](auto& x) { x = static_cast<std::remove_reference_t<decltype(x)>>(++next); });
+    }
+  };
+  for_each_field(checkpoint.model, fill);
+  for_each_field(checkpoint.position, fill);
+  checkpoint.whole_model = {std::byte{1}, std::byte{0}, std::byte{255}};
+  checkpoint.case_text = "title = \"a case\"\n";
+  checkpoint.provenance = "{}";
+  return checkpoint;
+}
+
+std::vector<std::byte> all_bytes(Checkpoint& checkpoint) {
+  std::vector<std::byte> all, bytes;
+  for (const CheckpointColumn& column : checkpoint_columns(checkpoint)) {
+    column.pack(bytes);
+    all.insert(all.end(), bytes.begin(), bytes.end());
+  }
+  return all;
+}
+
+class CheckpointFile : public testing::Test {
+ protected:
+  CheckpointFile() : file_(checkpoint_file(folder_.path(), 12)) {
+    CheckpointWriter writer(file_, sample(), {}, {});
+    writer.finish();
+  }
+  test::TemporaryFolder folder_;
+  std::filesystem::path file_;
+};
+
+TEST_F(CheckpointFile, GivesBackEveryBitOfWhatWasWritten) {
+  Checkpoint before = sample(), after = read_checkpoint(file_, {});
+  EXPECT_EQ(all_bytes(after), all_bytes(before));
+  EXPECT_EQ(after.mine.joints.size(), before.mine.joints.size());
+  EXPECT_EQ(after.case_text, before.case_text);
+}
+
+TEST_F(CheckpointFile, IsReadByHdf5UnderTheNamesOfTheTables) {
+  const Checkpoint before = sample();
+  const test::Hdf5Reader reader(file_, "checkpoint");
+  EXPECT_EQ(reader.values("model/steps").at(0), static_cast<double>(before.model.clock.steps));
+  const std::vector<double> position = reader.values("element/position");
+  ASSERT_EQ(position.size(), 12 * before.mine.elements.size());
+  EXPECT_EQ(position[3], before.mine.elements[0].position[1][0]);
+  EXPECT_EQ(reader.values("joint/mode_1").at(1), before.mine.joints[1].joint.history.mode_1);
+}
+
+TEST_F(CheckpointFile, IsRefusedWithAnyByteChanged) {
+  std::string text;
+  {
+    std::ifstream stream(file_, std::ios::binary);
+    std::ostringstream all;
+    all << stream.rdbuf();
+    text = all.str();
+  }
+  constexpr std::size_t kPlaces = 400;
+  for (std::size_t i = 0; i < kPlaces; ++i) {
+    std::string changed = text;
+    const std::size_t at = text.size() * i / kPlaces;
+    changed[at] = static_cast<char>(changed[at] ^ (1 << i % 8));
+    std::ofstream(file_, std::ios::binary) << changed;
+    EXPECT_THROW((void)read_checkpoint(file_, {}), InputError) << at;
+  }
+}
+
+TEST_F(CheckpointFile, IsRefusedWhenItIsCutOff) {
+  for (const double share : {0.0, 0.001, 0.3, 0.999}) {
+    std::filesystem::resize_file(
+        file_, static_cast<std::uintmax_t>(share * static_cast<double>(std::filesystem::file_size(file_))));
+    EXPECT_THROW((void)read_checkpoint(file_, {}), InputError) << share;
+  }
+  EXPECT_THROW((void)read_checkpoint(folder_.path() / "nothing.h5", {}), InputError);
+  EXPECT_THROW((void)read_checkpoint(folder_.path(), {}), InputError);
+}
+
+TEST_F(CheckpointFile, AppearsOnlyWhenItIsFinished) {
+  const auto later = checkpoint_file(folder_.path(), 13);
+  { const CheckpointWriter abandoned(later, sample(), {}, {}); }
+  EXPECT_EQ(checkpoints_in(folder_.path()).size(), 1U);
+  EXPECT_THROW(CheckpointWriter(folder_.path() / "none/step.h5", sample(), {}, {}), OutputError);
+}
+
+TEST_F(CheckpointFile, IsRemovedWhenEnoughLaterOnesAreThere) {
+  for (const int step : {14, 13}) CheckpointWriter(checkpoint_file(folder_.path(), step), sample(), {}, {}).finish();
+  std::ofstream(folder_.path() / ".step_000000000011.h5.tmp") << "left by a kill";
+  remove_old_checkpoints(folder_.path(), 2);
+  const auto kept = checkpoints_in(folder_.path());
+  ASSERT_EQ(kept.size(), 2U);
+  EXPECT_EQ(kept[0].step, 14);
+  EXPECT_EQ(kept[1].step, 13);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / ".step_000000000011.h5.tmp"));
+  remove_checkpoints_after(folder_.path(), 13);
+  EXPECT_EQ(checkpoints_in(folder_.path()).size(), 1U);
+}
+
+}  // namespace
+}  // namespace breccia
