@@ -185,11 +185,13 @@ void define_insitu(CLI::App& app, Arguments& a) {
 }
 
 const char* kResumeFooter =
-    R"(The run goes on as if nothing had happened: the same bits, whatever the number of ranks (mpiexec -n N), the division
-among them, the contact search and the instruction set. Lines of history.csv and status.jsonl and frames beyond the
-checkpoint are dropped and made anew. With -o the run's folder stays as it is, and the other one gets all results.
+    R"(The run goes on as if nothing had happened: the same bits, whatever the number of ranks (mpiexec -n N), the
+division among them, the contact search and the instruction set. Lines of history.csv and status.jsonl and frames
+beyond the checkpoint are dropped and made anew. With -o the run's folder stays as it is, and the other one gets
+all results.
 
-A checkpoint that is cut off or damaged is named, and the one before it is used; checkpoint.keep says how many there are.)";
+A checkpoint that is cut off or damaged is named, and the one before it is used; checkpoint.keep says how many
+there are.)";
 
 void define_resume(CLI::App& app, Arguments& a) {
   CLI::App* resume = app.add_subcommand("resume", "Go on with a run from its last checkpoint, on any number of ranks");

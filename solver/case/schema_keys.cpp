@@ -314,8 +314,8 @@ constexpr auto table = std::to_array<Key>({
      .example = "\"20 min\""},
 
     {.path = "checkpoint", .type = section,
-     .help = "When the whole state is written into RUN/checkpoints, so that `breccia resume` goes on from there. Beside "
-             "these times it is at the end of every stage and of the run, and when the run is asked to end."},
+     .help = "When the whole state is written into RUN/checkpoints, so that `breccia resume` goes on from there. "
+             "Beside these times it is at the end of every stage and of the run, and when the run is asked to end."},
     {.path = "checkpoint.steps", .type = integer, .fallback = "0", .range = steps,
      .help = "Steps between checkpoints; 0: not by steps.", .example = "10000"},
     {.path = "checkpoint.interval", .type = number, .unit = "s", .fallback = "0", .range = not_negative,

@@ -95,7 +95,8 @@ int resume_command(const ResumeCommand& asked, const Communicator& world) {
     files = candidates(asked.run);
   });
   auto [from, file] = latest_sound(files, world);
-  const fs::path run = file.parent_path().parent_path();
+  std::error_code error;
+  const fs::path run = fs::is_directory(asked.run, error) ? asked.run : fs::absolute(file).parent_path().parent_path();
   case_::Case input;
   ResumeOptions options;
   bool complete = false;

@@ -132,6 +132,12 @@ void remove_old_checkpoints(const fs::path& folder, std::int64_t keep) {
   const std::vector<CheckpointEntry> all = checkpoints_in(folder);
   std::error_code ignored;  // one that cannot be removed is no harm
   for (std::size_t i = static_cast<std::size_t>(keep); i < all.size(); ++i) fs::remove(all[i].file, ignored);
+  static const std::regex unfinished(R"(\.step_\d+\.h5\.tmp)");
+  std::vector<fs::path> left_over;
+  for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end; entry.increment(ignored)) {
+    if (std::regex_match(entry->path().filename().string(), unfinished)) left_over.push_back(entry->path());
+  }
+  for (const fs::path& file : left_over) fs::remove(file, ignored);
 }
 
 void remove_checkpoints_after(const fs::path& folder, std::int64_t step) {

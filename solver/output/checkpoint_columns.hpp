@@ -11,8 +11,8 @@
 
 namespace breccia {
 
-/// A dataset of a checkpoint, derived from a row of a table of fields: a field of all records of a list, of the model or
-/// of the run's position. Rows of the table with numbers of several kinds (element fields, joint histories) become a
+/// A dataset of a checkpoint, derived from a row of a table of fields: a field of all records of a list, of the model
+/// or of the run's position. Rows of the table with numbers of several kinds (element fields, joint histories) become a
 /// dataset each.
 struct CheckpointColumn {
   std::string group, name, unit;

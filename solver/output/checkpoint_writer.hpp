@@ -62,6 +62,7 @@ class CheckpointWriter {
 };
 
 /// Removes the oldest checkpoints of a folder but for the last `keep`, and what killed runs left of others.
+/// @pre none is being written
 void remove_old_checkpoints(const std::filesystem::path& folder, std::int64_t keep);
 /// Removes those after a step. Throws OutputError.
 void remove_checkpoints_after(const std::filesystem::path& folder, std::int64_t step);

@@ -21,8 +21,8 @@ struct Command {
   std::string complaint;  ///< why it is refused
 };
 
-/// One line: "pause", "resume", "stop", "extract", "frame", "frame_interval 2 us", "checkpoint", each perhaps with " id=WORD" at its
-/// end. Anything else is refused, with what is allowed.
+/// One line: "pause", "resume", "stop", "extract", "frame", "frame_interval 2 us",
+/// "checkpoint", each perhaps with " id=WORD" at its end. Anything else is refused, with what is allowed.
 [[nodiscard]] Command parse_command(std::string_view line);
 
 /// Words that parse_command knows, for messages and help.

@@ -40,7 +40,7 @@ struct StatusLine {
 
 /// Something that happened besides the physics.
 struct RunEvent {
-  std::string kind;      ///< "control": the answer to a command; "insitu": news of a pipeline; "checkpoint"
+  std::string kind;      ///< "control": the answer to a command; "insitu": news of a pipeline; "checkpoint", "resume"
   std::string text;      ///< what happened, in words
   std::string id;        ///< of the command
   bool accepted = true;  ///< the command was carried out; false also for news that is a warning

@@ -42,6 +42,11 @@ class Runner {
 
   Summary run() {
     output_.tell_start(insitu_.has_value(), from_ ? &*from_ : nullptr);
+    if (from_)
+      output_.tell_event("resume",
+                         "the run goes on from step " + std::to_string(clock().steps) + " on " +
+                             std::to_string(communicator_.size()) + " rank" + (communicator_.size() == 1 ? "" : "s"),
+                         true);
     try {
       for (auto s = first_stage(); s < input_.stages.size() && status_ == "complete"; ++s) run_stage(s);
       if (checkpoints_) end_with_checkpoint();
