@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "domains/partition.hpp"
 #include "domains/state_records.hpp"
+#include "observe/energy_sample.hpp"
 #include "observe/observe.hpp"
 #include "output/schedule.hpp"
 #include "output/summary.hpp"
@@ -99,23 +100,27 @@ class Runner {
     }
     while (!steps.over()) {
       steps.look();
-      advance();
+      const bool last = &stage == &input_.stages.back() && steps.at_last();
+      advance(last || clock().steps + 1 == input_.time.max_steps);
       if (partition_.state().signals.received.stop || stop_commanded_) status_ = "stopped: by request";
       if (input_.time.max_steps > 0 && clock().steps >= input_.time.max_steps)
         status_ = "stopped: time.max_steps reached";
+      if (status_ == "stopped: by request" && !steps.over()) advance(true);
       if (status_ != "complete") return;
     }
   }
 
-  void advance() {
+  /// @param last  the energies are sampled, for the summary
+  void advance(bool last) {
     if ((partition_.state().signals.received.orders & kControlOrder) != 0) obey(control_.receive());
     if (paused_) stay_paused();
     const double time = clock().time;
     if (frames_.due(time, clock().dt, clock().steps)) write_frame();
     look_in_situ(false);
-    const bool sample = histories_.due(time, clock().dt, clock().steps);
-    step(partition_.domain(), {sample, signals()});
-    if (sample) take_line(time);
+    const bool line = histories_.due(time, clock().dt, clock().steps);
+    step(partition_.domain(), {line || last, signals()});
+    if (line) take_line(time);
+    if (line || last) check_energies(time);
     tell_status();
     partition_.keep_up();
   }
@@ -136,7 +141,6 @@ class Runner {
     last_broken_ = row.broken_joints;
     if (insitu_) insitu_->take_row(row);
     sink_group_.tell([&](Sink& sink) { sink.history(row); });
-    check_residual(time);
   }
 
   void look_in_situ(bool all) {
@@ -194,15 +198,14 @@ class Runner {
     }
   }
 
-  void check_residual(double time) const {
-    const EnergyBudget& e = partition_.domain().sample.budget;
-    if (!(e.residual_relative > input_.time.residual_limit) && std::isfinite(e.residual)) return;
+  void check_energies(double time) const {
+    const EnergySample& sample = partition_.domain().sample;
+    const EnergyFault fault = energy_fault(sample.budget, input_.time.residual_limit, input_.time.energy_gain_limit);
+    if (fault.what.empty()) return;
     throw SimulationError("step " + std::to_string(clock().steps - 1) + ", time " + scientific(time) +
-                          " s: the energy residual is " + scientific(100 * e.residual_relative) +
-                          " % of the largest term (limit " + scientific(100 * input_.time.residual_limit) +
-                          " %); the strain energy is densest in element " +
-                          std::to_string(partition_.domain().sample.worst_element) +
-                          "; lower time.safety, or raise time.residual_limit if you trust the run");
+                          " s: " + fault.what + "; the strain energy is densest in element " +
+                          std::to_string(sample.worst_element) + "; lower time.safety, or raise " + fault.key +
+                          " if you trust the run");
   }
 
   void write_frame() {

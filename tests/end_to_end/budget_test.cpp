@@ -113,6 +113,17 @@ TEST(Budget, whose_residual_passes_the_limit_stops_the_run_with_code_3) {
   EXPECT_LE(*std::max_element(residual.begin(), residual.end() - 1), kTiny);
 }
 
+TEST(Budget, is_sampled_at_the_end_of_a_run_too) {
+  // Fifteen steps of 1.6 times the stable length, far fewer than lie between two lines of the history.
+  const Scratch scratch;
+  const FinishedRun run(scratch.write("case.toml", kSmallCase) +
+                        " --set time.step=3e-5 --set time.max_steps=15 --set output.history_interval=1");
+  EXPECT_EQ(run.outcome.exit_code, 3) << run.outcome.err;
+  EXPECT_EQ(run.summary.at("steps"), 15);
+  EXPECT_EQ(run.history.at("step").size(), 1U);
+  EXPECT_NE(run.outcome.err.find("; lower time.safety, or raise time."), std::string::npos) << run.outcome.err;
+}
+
 TEST(Budget, holds_the_work_of_constraints_and_pressures_of_earlier_stages) {
   const Scratch scratch;
   const FinishedRun run(scratch.write("case.toml", kPulledThenHeld));
