@@ -156,6 +156,16 @@ TEST(Budget, holds_what_the_springs_of_friction_store) {
   EXPECT_NEAR(stored.back() / pressed, 1 + kShare, kSampling);
 }
 
+TEST(NotFinite, names_the_element_where_it_began_and_leaves_numbers_that_can_be_shown) {
+  const Scratch scratch;
+  const FinishedRun run(scratch.write("case.toml", kSmallCase) +
+                        " --set time.step=1e-4 --set output.history_interval=1 --set output.frame_interval=0");
+  EXPECT_EQ(run.outcome.exit_code, 3);
+  EXPECT_NE(run.outcome.err.find("a velocity is not finite in element "), std::string::npos) << run.outcome.err;
+  EXPECT_NE(run.outcome.err.find("lower time.safety (or time.step)"), std::string::npos) << run.outcome.err;
+  EXPECT_GT(run.summary.at("steps"), 1);
+}
+
 TEST(MaxSteps, is_the_number_of_steps_after_which_a_run_stops) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
