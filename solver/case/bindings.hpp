@@ -218,6 +218,7 @@ void bind(A& a, TimeControl& time) {
   a.value("safety", time.safety);
   a.value("max_steps", time.max_steps);
   a.value("residual_limit", time.residual_limit);
+  a.value("energy_gain_limit", time.energy_gain_limit);
 }
 
 template <class A>

@@ -197,10 +197,11 @@ struct Stage {
 
 /// [time]
 struct TimeControl {
-  double step = 0;               ///< s; 0: safety x stable step
-  double safety = 0.8;           ///< share of the stable step
-  std::int64_t max_steps = 0;    ///< 0: no limit
-  double residual_limit = 0.05;  ///< energy residual over the largest term that stops the run
+  double step = 0;                  ///< s; 0: safety x stable step
+  double safety = 0.8;              ///< share of the stable step
+  std::int64_t max_steps = 0;       ///< 0: no limit
+  double residual_limit = 0.05;     ///< energy residual over the largest term that stops the run
+  double energy_gain_limit = 0.01;  ///< energy held beyond what was put in over the largest term that stops the run
   friend bool operator==(const TimeControl&, const TimeControl&) = default;
 };
 

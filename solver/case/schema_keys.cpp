@@ -272,6 +272,10 @@ constexpr auto table = std::to_array<Key>({
     {.path = "time.residual_limit", .type = number, .fallback = "0.05", .range = positive,
      .help = "Unaccounted energy, as a share of the largest term, which stops the run.",
      .example = "\"1 %\""},
+    {.path = "time.energy_gain_limit", .type = number, .fallback = "0.01", .range = positive,
+     .help = "Kinetic and stored energy beyond the initial energy and the external work, as a share of the largest "
+             "term of the budget, which stops the run: energy from nowhere. Terms that are round-off stop nothing.",
+     .example = "\"0.1 %\""},
 
     {.path = "detection", .type = section,
      .help = "Search for points and elements that may touch. It changes the speed, never the results."},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mesh/geometry.hpp"
 #include "mesh/quality.hpp"
@@ -11,8 +12,9 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Strains below this are round-off of positions: energies of that size are no measure for a residual.
-constexpr double kRoundOffStrain = 1e-10;
+/// Strains below this, or below so many round-offs of positions far from the origin over the size of the element, are
+/// round-off: energies of that size are no measure for a residual.
+constexpr double kRoundOffStrain = 1e-10, kRoundOffs = 100 * std::numeric_limits<double>::epsilon();
 
 double volume_of(const std::array<Vec3, 4>& x) { return geometry::tetra_volume(x[0], x[1], x[2], x[3]); }
 
@@ -55,8 +57,10 @@ WholeModel whole_of(const case_::Case& input, const Mesh& mesh, const std::vecto
   whole.body_length = mean_inradii(mesh);
   whole.longest_edge = longest_edge(mesh);
   for (Index e = 0; e < mesh.num_elements(); ++e) {
-    whole.energy_floor += kRoundOffStrain * kRoundOffStrain * volume_of(geometry::corners_of(mesh, e)) *
-                          lambda_2mu[at(mesh.element_group[at(e)])];
+    const auto x = geometry::corners_of(mesh, e);
+    const double volume = volume_of(x), strain = kRoundOffs * x[0].lpNorm<Eigen::Infinity>() / std::cbrt(volume);
+    whole.energy_floor +=
+        std::pow(std::max(kRoundOffStrain, strain), 2) * volume * lambda_2mu[at(mesh.element_group[at(e)])];
   }
   for (const case_::InitialVelocity& entry : input.initial_velocities) {
     std::vector<Vec3>& centres = whole.spin_centres.emplace_back();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "parallel/totals.hpp"
@@ -39,6 +40,10 @@ constexpr std::array kEnergies{&EnergyBudget::kinetic,          &EnergyBudget::e
                                &EnergyBudget::joint_friction,   &EnergyBudget::contact_dissipated,
                                &EnergyBudget::contact_friction, &EnergyBudget::plastic,
                                &EnergyBudget::viscous,          &EnergyBudget::damping};
+
+/// What is there, not dissipated.
+constexpr std::array kHeld{&EnergyBudget::kinetic, &EnergyBudget::elastic, &EnergyBudget::joint_elastic,
+                           &EnergyBudget::contact_stored};
 
 }  // namespace
 
@@ -90,6 +95,26 @@ void set_residual(double first_excess, double floor, EnergyBudget& budget) {
   }
   budget.residual = first_excess + budget.external_work - total;
   budget.residual_relative = std::abs(budget.residual) / std::max(largest, floor);
+  double held = 0;
+  for (const auto term : kHeld) held += budget.*term;
+  budget.gain_relative = (held - first_excess - budget.external_work) / std::max(largest, floor);
+  budget.is_round_off = largest < floor;
+}
+
+EnergyFault energy_fault(const EnergyBudget& budget, double residual_limit, double gain_limit) {
+  const auto share = [](const char* words, double value, double limit) {
+    char text[160];
+    std::snprintf(text, sizeof text, "%s %.6g %% of the largest term (limit %.6g %%)", words, 100 * value, 100 * limit);
+    return std::string(text);
+  };
+  if (!std::isfinite(budget.residual)) return {"the energies are not finite", "time.residual_limit"};
+  if (budget.is_round_off) return {};
+  if (budget.gain_relative > gain_limit)
+    return {share("the energy held exceeds what was put in by", budget.gain_relative, gain_limit),
+            "time.energy_gain_limit"};
+  if (budget.residual_relative > residual_limit)
+    return {share("the energy residual is", budget.residual_relative, residual_limit), "time.residual_limit"};
+  return {};
 }
 
 }  // namespace breccia

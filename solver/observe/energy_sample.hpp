@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "domains/domain.hpp"
 
 namespace breccia {
@@ -11,8 +13,18 @@ namespace breccia {
 /// Energy and dissipated energy beyond the external work, J: what the first sample leaves to the later ones.
 [[nodiscard]] double excess_energy(const EnergyBudget& budget);
 
+/// The residual and the energy gained, both also as shares of the largest term.
 /// @param first_excess  J, of the first sample
-/// @param floor         J, terms below are round-off: the relative residual is never against less
+/// @param floor         J, terms below are round-off: shares are never of less
 void set_residual(double first_excess, double floor, EnergyBudget& budget);
+
+/// Why a run must not go on, and the key of the limit that it passed; both empty: it may.
+struct EnergyFault {
+  std::string what, key;
+};
+
+/// Judges a budget by its gain and its residual. While no term is above round-off nothing is wrong as long as the
+/// numbers are finite: there is nothing that a residual could be a share of.
+[[nodiscard]] EnergyFault energy_fault(const EnergyBudget& budget, double residual_limit, double gain_limit);
 
 }  // namespace breccia

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <set>
 #include <span>
 #include <string>
@@ -86,17 +87,46 @@ SweepArgs sweep_args(bool sample, Domain& domain) {
   return args;
 }
 
+bool is_finite(const Vec3& v) { return v.squaredNorm() < 1e300; }
+
+/// The lowest of the elements here that have a node whose velocity is not finite; -1: none
+GlobalId first_not_finite(const Domain& domain) {
+  const LocalMesh& local = domain.model.local;
+  GlobalId lowest = -1;
+  for (Index slot = 0; slot < local.num_slots; ++slot) {
+    const GlobalId id = local.element_of_slot[at(slot)];
+    if (id < 0 || !local.is_original(slot) || (lowest >= 0 && id > lowest)) continue;
+    for (int corner = 0; corner < 4; ++corner) {
+      if (!is_finite(load_node(domain.state.nodes.velocity.data(), local.corner_node(slot, corner)))) lowest = id;
+    }
+  }
+  return lowest;
+}
+
+/// What may be wrong where a velocity is not finite, by what the state shows.
+std::string remedy_of(const Domain& domain) {
+  if (domain.state.counters.crushed > 0)
+    return "elements have been crushed or turned inside out: lower speeds and loads, use larger elements there, or "
+           "lower time.safety (or time.step)";
+  if (!domain.state.loads.pressures.empty())
+    return "a pressure drives what it has torn off on and on: end it or lower it, or lower time.safety (or time.step)";
+  return "the time step is too long for what happens there: lower time.safety (or time.step), or the penalties";
+}
+
+/// Ends the run, with a state whose numbers can be shown: positions are those before this step.
 void check_finite(const SweepStatus& status, Domain& domain) {
   if (status.speed_squared_sum < 1e300 || domain.exchange.failed()) return;
-  std::string place;
-  if (status.first_not_finite >= 0) {
-    place = " near element " + std::to_string(domain.model.local.element_of_slot[at(status.first_not_finite) * kLanes]);
+  const GlobalId element = first_not_finite(domain);
+  const std::string place = element >= 0 ? " in element " + std::to_string(element) : "";
+  NodalState& nodes = domain.state.nodes;
+  for (Index node = 0; node < domain.model.local.num_nodes; ++node) {
+    if (!is_finite(load_node(nodes.velocity.data(), node))) store_node(nodes.velocity.data(), node, Vec3::Zero());
   }
   const Clock& clock = domain.state.clock;
-  domain.exchange.fail("step " + std::to_string(clock.steps) + ", time " + std::to_string(clock.time) +
-                       " s: a velocity is not finite" + place +
-                       "; the time step is too long for what happens there: lower time.safety (or time.step), or the "
-                       "penalties");
+  char time[32];
+  std::snprintf(time, sizeof time, "%.6g", clock.time);
+  domain.exchange.fail("step " + std::to_string(clock.steps) + ", time " + time + " s: a velocity is not finite" +
+                       place + "; " + remedy_of(domain));
 }
 
 void note_status(const SweepStatus& status, Domain& domain) {

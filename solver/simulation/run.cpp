@@ -120,9 +120,13 @@ class Runner {
     while (!steps.over() && status_ == "complete") {
       take_commands();
       steps.look();
-      advance();
+      const bool last = (s + 1 == input_.stages.size() && steps.at_last()) ||
+                        clock().steps + 1 == input_.time.max_steps ||
+                        clock().time + clock().dt > options_.until - 0.5 * clock().dt;
+      advance(last);
       look_at_checkpoints();
       status_ = status_now();
+      if (status_ == "stopped: by request" && !steps.over()) advance(true);
     }
     if (checkpoints_ && !checkpoints_->is_of_now()) checkpoints_->begin(position());
     steps_ = nullptr;
@@ -140,13 +144,15 @@ class Runner {
     if (paused_) stay_paused();
   }
 
-  void advance() {
+  /// @param last  the energies are sampled, for the summary
+  void advance(bool last) {
     const double time = clock().time;
     if (output_.frame_due()) output_.write_frame();
     look_in_situ(false);
-    const bool sample = output_.line_due();
-    step(partition_.domain(), {sample, signals()});
-    if (sample) output_.take_line(time, insitu_ ? &*insitu_ : nullptr);
+    const bool line = output_.line_due();
+    step(partition_.domain(), {line || last, signals()});
+    if (line) output_.take_line(time, insitu_ ? &*insitu_ : nullptr);
+    if (line || last) output_.check_energies(time);
     output_.tell_status(paused_);
     partition_.keep_up();
   }

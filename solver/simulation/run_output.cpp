@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "domains/state_records.hpp"
+#include "observe/energy_sample.hpp"
 #include "output/run_folder.hpp"
 #include "output/summary.hpp"
 
@@ -70,18 +71,16 @@ void RunOutput::take_line(double time, InSituWatch* insitu) {
   last_broken_ = row.broken_joints;
   if (insitu != nullptr) insitu->take_row(row);
   sink_group_.tell([&](Sink& sink) { sink.history(row); });
-  check_residual(time);
 }
 
-void RunOutput::check_residual(double time) const {
-  const EnergyBudget& e = partition_.domain().sample.budget;
-  if (!(e.residual_relative > input_.time.residual_limit) && std::isfinite(e.residual)) return;
+void RunOutput::check_energies(double time) const {
+  const EnergySample& sample = partition_.domain().sample;
+  const EnergyFault fault = energy_fault(sample.budget, input_.time.residual_limit, input_.time.energy_gain_limit);
+  if (fault.what.empty()) return;
   throw SimulationError("step " + std::to_string(clock().steps - 1) + ", time " + scientific(time) +
-                        " s: the energy residual is " + scientific(100 * e.residual_relative) +
-                        " % of the largest term (limit " + scientific(100 * input_.time.residual_limit) +
-                        " %); the strain energy is densest in element " +
-                        std::to_string(partition_.domain().sample.worst_element) +
-                        "; lower time.safety, or raise time.residual_limit if you trust the run");
+                        " s: " + fault.what + "; the strain energy is densest in element " +
+                        std::to_string(sample.worst_element) + "; lower time.safety, or raise " + fault.key +
+                        " if you trust the run");
 }
 
 void RunOutput::write_frame() {

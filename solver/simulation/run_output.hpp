@@ -37,8 +37,10 @@ class RunOutput {
 
   void write_frame();
   /// A line of the history. @param time  s, of the step that was sampled;  @param insitu  null: none
-  /// Throws SimulationError if the energy residual is beyond its limit.
   void take_line(double time, InSituWatch* insitu);
+  /// Throws SimulationError if the residual of the step that was sampled, or the energy that it holds beyond what was
+  /// put in, is above its limit. @param time  s, of that step
+  void check_energies(double time) const;
   void tell_status(bool paused) {
     sink_group_.tell_status([this, paused] { return status_line(paused); });
   }
@@ -50,7 +52,6 @@ class RunOutput {
   [[nodiscard]] Observer& observer() { return observer_; }
 
  private:
-  void check_residual(double time) const;
   [[nodiscard]] double wall() const;
   [[nodiscard]] StatusLine status_line(bool paused) const;
   [[nodiscard]] Summary summary_of(const std::string& status);

@@ -22,6 +22,11 @@ class StageSteps {
   }
   /// The stable step at present, of elements, joints and contacts that can be made until the next look. Collective.
   [[nodiscard]] StableStep limit() const;
+  /// Whether the stage is over after one more step of the present length.
+  [[nodiscard]] bool at_last() const {
+    const Clock& clock = partition_.state().clock;
+    return !(clock.time + clock.dt < stage_.end - 0.5 * clock.dt);
+  }
   /// Before every step: a new length if it is time to look and the limit has moved. Collective.
   void look();
   [[nodiscard]] std::int64_t until_look() const { return until_look_; }

@@ -11,6 +11,8 @@ struct EnergyBudget {
   double external_work = 0;  ///< of loads, gravity and constraints, incl. what was there at the start
   double residual = 0;       ///< initial + external work - everything above: unaccounted
   double residual_relative = 0;
+  double gain_relative = 0;  ///< what is kinetic and stored beyond what was put in; < 0: dissipated or lost
+  bool is_round_off = true;  ///< no term is large enough to measure the others by
 };
 
 }  // namespace breccia

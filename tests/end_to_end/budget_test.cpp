@@ -113,6 +113,17 @@ TEST(Budget, whose_residual_passes_the_limit_stops_the_run_with_code_3) {
   EXPECT_LE(*std::max_element(residual.begin(), residual.end() - 1), kTiny);
 }
 
+TEST(Budget, is_sampled_at_the_end_of_a_run_too) {
+  // Fifteen steps of 1.6 times the stable length, far fewer than lie between two lines of the history.
+  const Scratch scratch;
+  const FinishedRun run(scratch.write("case.toml", kSmallCase) +
+                        " --set time.step=3e-5 --set time.max_steps=15 --set output.history_interval=1");
+  EXPECT_EQ(run.outcome.exit_code, 3) << run.outcome.err;
+  EXPECT_EQ(run.summary.at("steps"), 15);
+  EXPECT_EQ(run.history.at("step").size(), 1U);
+  EXPECT_NE(run.outcome.err.find("; lower time.safety, or raise time."), std::string::npos) << run.outcome.err;
+}
+
 TEST(Budget, holds_the_work_of_constraints_and_pressures_of_earlier_stages) {
   const Scratch scratch;
   const FinishedRun run(scratch.write("case.toml", kPulledThenHeld));
@@ -143,6 +154,16 @@ TEST(Budget, holds_what_the_springs_of_friction_store) {
   // As stiff along the face as across: (0.2 mm / 0.5 mm)^2 of what pressing has stored.
   constexpr double kShare = 0.16, kSampling = 0.01;
   EXPECT_NEAR(stored.back() / pressed, 1 + kShare, kSampling);
+}
+
+TEST(NotFinite, names_the_element_where_it_began_and_leaves_numbers_that_can_be_shown) {
+  const Scratch scratch;
+  const FinishedRun run(scratch.write("case.toml", kSmallCase) +
+                        " --set time.step=1e-4 --set output.history_interval=1 --set output.frame_interval=0");
+  EXPECT_EQ(run.outcome.exit_code, 3);
+  EXPECT_NE(run.outcome.err.find("a velocity is not finite in element "), std::string::npos) << run.outcome.err;
+  EXPECT_NE(run.outcome.err.find("lower time.safety (or time.step)"), std::string::npos) << run.outcome.err;
+  EXPECT_GT(run.summary.at("steps"), 1);
 }
 
 TEST(MaxSteps, is_the_number_of_steps_after_which_a_run_stops) {

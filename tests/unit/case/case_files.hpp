@@ -176,6 +176,7 @@ step = "20 ns"
 safety = 0.5
 max_steps = 2000
 residual_limit = "1 %"
+energy_gain_limit = "0.2 %"
 [detection]
 algorithm = "ms_slices"
 buffer = "0.5 mm"

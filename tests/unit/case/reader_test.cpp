@@ -193,6 +193,7 @@ TEST(Reader, TimeDetectionAndOutputAreRead) {
   EXPECT_EQ(c.time.safety, 0.5);
   EXPECT_EQ(c.time.max_steps, 2000);
   EXPECT_EQ(c.time.residual_limit, 0.01);
+  EXPECT_EQ(c.time.energy_gain_limit, 0.002);
   EXPECT_EQ(c.detection.algorithm, DetectionAlgorithm::ms_slices);
   EXPECT_EQ(c.detection.buffer, 0.5e-3);
   EXPECT_EQ(c.detection.cell, 5e-3);
