@@ -273,8 +273,8 @@ bool may_meet(const ContactParams& params, const Patch& p, const Patch& q, doubl
   return gap_squared(p, q, Patch::box) <= reach * reach && apart(p, q);
 }
 
-/// omega_c^2 of a node of patch p against patch q. With damping the node's rate of decay gamma is made of the same terms
-/// as omega_c^2; a step that begins with the speed before it is stable up to 2/omega' with
+/// omega_c^2 of a node of patch p against patch q. With damping the node's rate of decay gamma is made of the same
+/// terms as omega_c^2; a step that begins with the speed before it is stable up to 2/omega' with
 /// omega'/2 = gamma/4 + sqrt(gamma^2/16 + omega^2/4). Twice the gamma covers that the elements' own omega^2 adds up.
 double share_against(const ContactParams& params, double area_over_mass, double per_mass, const Patch& p,
                      const Patch& q) {
