@@ -32,8 +32,8 @@ inline constexpr double kOverlapTolerance = 1e-6;
 /// Takes overlaps of pairs of groups with InitialOverlap::relax out: every point that is inside a contactor gets a
 /// couple whose offset is the overlap, so that it makes no force until it becomes deeper. As bodies part the offset
 /// shrinks with the overlap (contact_forces.hpp): no energy comes of it.
-/// @param contact  points and contactors of the model or a rank's piece, nothing touches yet; @param position  nodal field, m
-/// O(n log n)
+/// @param contact   points and contactors of the model or of a rank's piece, nothing touches yet
+/// @param position  nodal field, m. O(n log n)
 void relax_initial_overlaps(const ContactParams& params, const LocalMesh& local, const Field<double>& position,
                             ContactState& contact);
 
