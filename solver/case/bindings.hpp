@@ -138,6 +138,9 @@ void bind(A& a, Contact& contact) {
   a.value("unloading_exponent", contact.unloading_exponent);
   a.value("friction", contact.friction);
   a.value("tangential_ratio", contact.tangential_ratio);
+  a.value("damping_ratio", contact.damping_ratio);
+  a.choice("points_on", contact.points_on);
+  a.choice("initial_overlap", contact.initial_overlap);
 }
 
 template <class A>

@@ -116,15 +116,20 @@ struct Joint {
 };
 
 enum class OverlapField { body, tet_potential, tet_distance };
+enum class InitialOverlap { refuse, relax, accept };
+enum class PointsOn { both, first };
 
 /// [[contact]]: normal and friction law of a pair of groups ("*" stands for every group).
 struct Contact {
   std::array<std::string, 2> groups;
-  double penalty = 0;             ///< Pa, sigma_p: stress at overlap d = 1
-  double plateau = 0;             ///< Pa, sigma_T; 0: none
-  double unloading_exponent = 1;  ///< b >= 1
-  double friction = 0;            ///< Coulomb mu
-  double tangential_ratio = 1;    ///< tangential over normal stiffness, 0..1
+  double penalty = 0;                                       ///< Pa, sigma_p: stress at overlap d = 1
+  double plateau = 0;                                       ///< Pa, sigma_T; 0: none
+  double unloading_exponent = 1;                            ///< b >= 1
+  double friction = 0;                                      ///< Coulomb mu
+  double tangential_ratio = 1;                              ///< tangential over normal stiffness, 0..1
+  double damping_ratio = 0;                                 ///< of critical damping of a surface layer, 0..1
+  PointsOn points_on = PointsOn::both;                      ///< groups whose points are felt by the other
+  InitialOverlap initial_overlap = InitialOverlap::refuse;  ///< bodies of the pair that overlap before the first step
   Origin origin;
   friend bool operator==(const Contact&, const Contact&) = default;
 };

@@ -176,7 +176,11 @@ constexpr auto table = std::to_array<Key>({
     {.path = "contact[].between", .type = text_pair, .required = true,
      .help = "Two groups; \"*\" stands for every group.", .example = "[\"*\", \"*\"]"},
     {.path = "contact[].penalty", .type = number, .unit = "Pa", .required = true, .range = positive,
-     .help = "Contact stress at overlap 1.", .example = "\"7500 GPa\""},
+     .help = "Contact stress at overlap 1. The overlap is g/H, g in m, H the mean inradius of the elements of the body "
+             "that is entered (a fifth of an edge), so the stiffness is penalty/H, Pa/m; `breccia check` prints both "
+             "for every pair. Recommended: Young's modulus of the softer body; a tenth of it for bodies that slide, "
+             "which chatter less; up to ten times it where overlaps must be small, for a time step up to three times "
+             "shorter.", .example = "\"7500 GPa\""},
     {.path = "contact[].plateau", .type = number, .unit = "Pa", .fallback = "0", .range = not_negative,
      .help = "Stress that loading does not pass; 0: none.", .example = "\"60 MPa\""},
     {.path = "contact[].unloading_exponent", .type = number, .fallback = "1", .range = at_least_one,
@@ -185,10 +189,22 @@ constexpr auto table = std::to_array<Key>({
      .help = "Coefficient of Coulomb friction.", .example = "0.3"},
     {.path = "contact[].tangential_ratio", .type = number, .fallback = "1", .range = share,
      .help = "Tangential over normal contact stiffness.", .example = "0.8"},
+    {.path = "contact[].damping_ratio", .type = number, .fallback = "0", .range = share,
+     .help = "Damping of approach and retreat while bodies press on each other, as a share of the critical damping of "
+             "a surface layer as thick as H. Accounted as dissipated by contact; shortens the time step by about that "
+             "share. It damps bodies that bounce, hardly vibrations inside of them.", .example = "0.2"},
+    {.path = "contact[].points_on", .type = choice, .fallback = "both", .choices = "both|first",
+     .help = "Whose contact points are felt by the other group: those of both, or of the group named first alone. A "
+             "floor is best named second: its points would catch the edges of what slides on it.",
+     .example = "\"first\""},
+    {.path = "contact[].initial_overlap", .type = choice, .fallback = "refuse", .choices = "refuse|relax|accept",
+     .help = "What to do with bodies that overlap before the first step: end with an error, take the overlap out as an "
+             "offset without force, or let contact push them apart at once.", .example = "\"relax\""},
 
     {.path = "contact_points", .type = section, .help = "Points on free faces at which contact is felt."},
-    {.path = "contact_points.per_face", .type = integer, .fallback = "3", .choices = "1|3|6",
-     .help = "Points a free face.", .example = "1"},
+    {.path = "contact_points.per_face", .type = integer, .fallback = "3", .choices = "1|3|4|6",
+     .help = "Points a free face: 1, 3 and 6 lie inside of it; of 4 points three are its corners, so that edges and "
+             "corners of bodies are felt as soon as they touch.", .example = "4"},
     {.path = "contact_points.field", .type = choice, .fallback = "body", .choices = "body|tet_potential|tet_distance",
      .help = "How overlap is measured: by a field continuous over a body, or by the published potential or distance of "
              "each tetrahedron.", .example = "\"tet_potential\""},

@@ -184,6 +184,9 @@ class Validator {
       if (contact.groups[0].empty()) continue;
       for (const std::string& group : contact.groups)
         if (group != every_group) needs_material(contact.origin, "between", group);
+      if (contact.points_on == PointsOn::first && contact.groups[0] == contact.groups[1])
+        problem(contact.origin, "points_on", "\"first\" needs to know which group comes first",
+                "two different groups in `between`", words(contact.groups));
       if (!laws.insert(sorted(contact.groups)).second)
         problem(contact.origin, "between", "the pair has a contact law already", "one [[contact]] a pair",
                 words(contact.groups));

@@ -1,4 +1,5 @@
 #include "commands/check_report.hpp"
+#include "commands/overlap_report.hpp"
 #include "commands/step_report.hpp"
 
 #include <fmt/core.h>
@@ -283,6 +284,9 @@ std::string check_report(const case_::Case& input, const Model& model) {
   text += fmt::format("joints: {}\n", model.joints.size());
   for (std::size_t l = 0; l < model.joint_laws.size(); ++l) text += law_report(model, static_cast<Index>(l), advice);
 
+  const OverlapReport overlaps = overlap_report(input, model);
+  text += stiffness_report(model) + overlaps.text;
+  advice += overlaps.advice;
   const StepReport step = step_report(input, model);
   text += step.text + run_time(input, model, step);
   advice += step.advice;

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "case/reader.hpp"
+#include "commands/overlap_report.hpp"
 #include "commands/oversubscription.hpp"
 #include "commands/race_report.hpp"
 #include "output/atomic_file.hpp"
@@ -21,8 +22,10 @@ int race_command(const RaceCommand& asked, const Communicator& world) {
   world.agree([&] {
     input = case_::read_case(asked.case_file, asked.overrides);
     world.set_patience(input.domains.patience);
-    if (world.is_root())
+    if (world.is_root()) {
       model = std::make_unique<Model>(world.size() > 1 ? build_bare_model(input) : build_model(input));
+      refuse_initial_overlaps(input, *model);
+    }
     if (!writes) return;
     std::error_code error;
     std::filesystem::create_directories(asked.folder, error);

@@ -5,6 +5,7 @@
 
 #include "case/live_address.hpp"
 #include "case/reader.hpp"
+#include "commands/overlap_report.hpp"
 #include "commands/oversubscription.hpp"
 #include "commands/run_sinks.hpp"
 #include "output/insitu.hpp"
@@ -36,6 +37,7 @@ int run_command(const RunCommand& asked, const Communicator& world) {
     if (input.insitu.asked_for()) InSituPlugin();  // before anything is made: stays loaded
     if (!world.is_root()) return;
     model = std::make_unique<Model>(world.size() > 1 ? build_bare_model(input) : build_model(input));
+    refuse_initial_overlaps(input, *model);
     (void)prepare_run_folder(root, input.resolved, collect_provenance(BRECCIA_VERSION, asked.command_line),
                              asked.overwrite ? OldResults::overwrite : OldResults::refuse);
   });

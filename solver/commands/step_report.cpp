@@ -113,7 +113,8 @@ std::string contact_advice(const Model& model, const Start& start, const std::ve
     return text + fmt::format(" at the sphere; a penalty of {:.2g} Pa instead of {:.3g} Pa would not.\n",
                               factor * penalty, penalty);
   }
-  const ContactLaw& law = model.contact.law(group, against);
+  const ContactLaw& forth = model.contact.law(group, against);
+  const ContactLaw& law = forth.active() ? forth : model.contact.law(against, group);
   const auto& names = model.mesh.volume_groups;
   return text + fmt::format(" (\"{}\" on \"{}\", element {}); a penalty of {:.2g} Pa instead of {:.3g} Pa would not.\n",
                             names[index(group)], names[index(against)], step.element,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "contact/initial_overlap.hpp"
 #include "contact/search_params.hpp"
 #include "domains/first_division.hpp"
 #include "domains/global_step.hpp"
@@ -35,6 +36,12 @@ void Partition::start_alone() {
   time_step_ = std::make_unique<TimeStep>(*model_);
   model_->whole.step_ratio = time_step_->ratio();
   if (domain_->contact) model_->whole.contactor_size = domain_->contact->searches().contactor_size();
+  relax_overlaps();
+}
+
+void Partition::relax_overlaps() {
+  if (domain_->contact)
+    relax_initial_overlaps(model_->contact, model_->local, domain_->state.nodes.position, domain_->state.contact);
 }
 
 /// The root holds the bare model until its elements have left for the ranks; each of them builds its own piece.
@@ -64,6 +71,7 @@ void Partition::start_piece() {
   NodalState& nodes = domain_->state.nodes;
   domain_->exchange.begin_gather(nodes.position, nodes.velocity);
   domain_->exchange.finish_gather();
+  relax_overlaps();
   model_->whole.step_ratio = time_step_->ratio();
   motion_ = first_motion();
   if (stretch() > 1) divide_again();

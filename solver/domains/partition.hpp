@@ -66,6 +66,7 @@ class Partition {
  private:
   void start_alone();
   void start_divided();
+  void relax_overlaps();
   void start_piece();
   void divide_again();
   [[nodiscard]] Snapshot opened() const;  ///< but for its state

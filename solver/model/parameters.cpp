@@ -1,6 +1,7 @@
 #include "model/parameters.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "model/model.hpp"
@@ -102,13 +103,44 @@ OverlapField field_of(case_::OverlapField field) {
   return OverlapField::body;
 }
 
-ContactLaw contact_law(const case_::Contact& entry) {
+InitialOverlap initial_overlap_of(case_::InitialOverlap overlap) {
+  switch (overlap) {
+    case case_::InitialOverlap::relax:
+      return InitialOverlap::relax;
+    case case_::InitialOverlap::accept:
+      return InitialOverlap::accept;
+    case case_::InitialOverlap::refuse:
+      break;
+  }
+  return InitialOverlap::refuse;
+}
+
+/// Of the two groups together, kg/m3; 0: not known.
+double reduced_density(const case_::Case& input, const std::string& group, const std::string& other) {
+  double a = 0, b = 0;
+  for (const case_::Material& material : input.materials) {
+    if (material.group == group) a = material.density;
+    if (material.group == other) b = material.density;
+  }
+  return a > 0 && b > 0 ? a * b / (a + b) : 0.0;
+}
+
+/// Whether points of a group are felt by the other.
+bool carries_points(const case_::Contact& entry, const std::string& group, const std::string& other) {
+  const auto fits = [](const std::string& pattern, const std::string& name) {
+    return pattern == "*" || pattern == name;
+  };
+  return entry.points_on == case_::PointsOn::both || (fits(entry.groups[0], group) && fits(entry.groups[1], other));
+}
+
+ContactLaw contact_law(const case_::Contact& entry, double density) {
   ContactLaw law;
   law.penalty = entry.penalty;
   law.plateau = entry.plateau > 0 ? entry.plateau : kInfinity;
   law.exponent = entry.unloading_exponent;
   law.friction = entry.friction;
   law.tangential_ratio = entry.tangential_ratio;
+  law.damping = 2 * entry.damping_ratio * std::sqrt(entry.penalty * density);
   return law;
 }
 
@@ -143,6 +175,20 @@ JointLawParams joint_law_params(const case_::Joint& joint, double size, bool unb
   return law;
 }
 
+const case_::Contact* contact_entry(const case_::Case& input, const std::string& group, const std::string& other) {
+  const auto fits = [](const std::string& pattern, const std::string& name) {
+    return pattern == "*" || pattern == name;
+  };
+  const auto names = [](const case_::Contact& entry) { return (entry.groups[0] != "*") + (entry.groups[1] != "*"); };
+  const case_::Contact* found = nullptr;
+  for (const case_::Contact& entry : input.contacts) {
+    const bool named = (fits(entry.groups[0], group) && fits(entry.groups[1], other)) ||
+                       (fits(entry.groups[1], group) && fits(entry.groups[0], other));
+    if (named && (found == nullptr || names(entry) >= names(*found))) found = &entry;
+  }
+  return found;
+}
+
 ContactParams contact_params(const case_::Case& input, const std::vector<std::string>& groups) {
   ContactParams params;
   params.points_per_face = input.contact_points.per_face;
@@ -150,16 +196,14 @@ ContactParams contact_params(const case_::Case& input, const std::vector<std::st
   params.ramp_steps = input.contact_points.field_ramp_steps;
   params.num_groups = static_cast<Index>(groups.size());
   params.laws.resize(groups.size() * groups.size());
-  const auto fits = [](const std::string& pattern, const std::string& group) {
-    return pattern == "*" || pattern == group;
-  };
-  for (const case_::Contact& entry : input.contacts) {
-    for (std::size_t a = 0; a < groups.size(); ++a) {
-      for (std::size_t b = 0; b < groups.size(); ++b) {
-        const bool named = (fits(entry.groups[0], groups[a]) && fits(entry.groups[1], groups[b])) ||
-                           (fits(entry.groups[1], groups[a]) && fits(entry.groups[0], groups[b]));
-        if (named) params.laws[a * groups.size() + b] = contact_law(entry);
-      }
+  params.initial_overlaps.resize(params.laws.size(), InitialOverlap::accept);
+  for (std::size_t a = 0; a < groups.size(); ++a) {
+    for (std::size_t b = 0; b < groups.size(); ++b) {
+      const case_::Contact* entry = contact_entry(input, groups[a], groups[b]);
+      if (entry == nullptr) continue;
+      if (carries_points(*entry, groups[a], groups[b]))
+        params.laws[a * groups.size() + b] = contact_law(*entry, reduced_density(input, groups[a], groups[b]));
+      params.initial_overlaps[a * groups.size() + b] = initial_overlap_of(entry->initial_overlap);
     }
   }
   if (input.sphere)

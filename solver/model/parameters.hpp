@@ -20,7 +20,11 @@ namespace breccia {
 /// @param unbreakable  strengths become infinite
 [[nodiscard]] JointLawParams joint_law_params(const case_::Joint& joint, double size, bool unbreakable);
 
-/// Later entries of the case win where several name a pair; "*" fits every group.
+/// The entry of the case that holds for a pair, null: none. "*" fits every group; of several that fit the one that
+/// names more of the groups wins, of these the later one.
+[[nodiscard]] const case_::Contact* contact_entry(const case_::Case& input, const std::string& group,
+                                                  const std::string& other);
+
 [[nodiscard]] ContactParams contact_params(const case_::Case& input, const std::vector<std::string>& groups);
 
 struct Model;

@@ -36,7 +36,10 @@ std::vector<bool> groups_with_contact(const Model& model) {
   const std::size_t groups = model.mesh.volume_groups.size();
   std::vector<bool> touched(groups, model.contact.sphere.has_value());
   for (std::size_t a = 0; a < groups; ++a) {
-    for (std::size_t b = 0; b < groups; ++b) touched[a] = touched[a] || model.contact.laws[a * groups + b].active();
+    for (std::size_t b = 0; b < groups; ++b) {
+      touched[a] =
+          touched[a] || model.contact.laws[a * groups + b].active() || model.contact.laws[b * groups + a].active();
+    }
   }
   return touched;
 }

@@ -64,6 +64,8 @@ class Pass {
   void act(Index point, Candidate& candidate);
   void press(const ContactLaw& law, const ContactPoint& point, Index slot, double length, const Candidate& candidate,
              TouchingCouple& h);
+  [[nodiscard]] double damp(const ContactLaw& law, const ContactPoint& point, Index slot, const Candidate& candidate,
+                            const Vec3& gradient, double elastic);
   void distribute(const ContactPoint& point, const Candidate& candidate, const Vec3& force);
 
   [[nodiscard]] const ContactPoint& point_at(Index point) const {
@@ -339,7 +341,9 @@ void Pass::press(const ContactLaw& law, const ContactPoint& point, Index slot, d
                  const Candidate& candidate, TouchingCouple& h) {
   const FieldValues& values = contact_.field[static_cast<std::size_t>(candidate.contactor)];
   const Overlap here = overlap(shape_of(candidate.contactor, values), prepared(candidate.contactor), candidate.lambda);
-  const double pressure = point.weight * normal_law::stress(law, h.d, h.d_max);
+  double pressure = point.weight * normal_law::stress(law, h.d, h.d_max);
+  if (law.damping > 0 && h.d > 0 && dt_ > 0 && here.gradient != Vec3::Zero())
+    pressure = damp(law, point, slot, candidate, here.gradient, pressure);
   h.force = -pressure * here.gradient;
   const double slope = here.gradient.norm();
   if (law.friction > 0 && law.tangential_ratio > 0 && slope > 0) {
@@ -355,6 +359,22 @@ void Pass::press(const ContactLaw& law, const ContactPoint& point, Index slot, d
   book(point, work_.stored).add(point.weight * length * normal_law::stored(law, h.d, h.d_max));
   if (h.d > 0 && local_.is_original(point.slot)) ++work_.touching;
   distribute(point, candidate, h.force);
+}
+
+/// Normal force with damping, N over the slope of the overlap. Its work is that of the mean of this and the last force
+/// over the motion between them; where the motion turns round within a step there is none.
+double Pass::damp(const ContactLaw& law, const ContactPoint& point, Index slot, const Candidate& candidate,
+                  const Vec3& gradient, double elastic) {
+  const double deeper = gradient.dot(relative_motion(point, slot, candidate.lambda));  // m, during the last step
+  const double pressure = point.weight * normal_law::damped(law, elastic / point.weight, deeper / dt_);
+  double before = 0;
+  if (candidate.old >= 0) {
+    const TouchingCouple& old = contact_.touching_before[static_cast<std::size_t>(candidate.old)];
+    before =
+        (old.force - old.friction).norm() / gradient.norm() - point.weight * normal_law::stress(law, old.d, old.d_max);
+  }
+  book(point, work_.dissipated).add(std::max(0.0, 0.5 * (before + pressure - elastic) * deeper));
+  return pressure;
 }
 
 void Pass::distribute(const ContactPoint& point, const Candidate& candidate, const Vec3& force) {

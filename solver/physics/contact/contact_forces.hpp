@@ -22,6 +22,7 @@ struct ContactWork {
 /// Forces of all couples and of the spherical boundary at t_n.
 ///
 ///   normal    f_p = -w sigma(d) grad g,  d = max(0, g - offset) / H,  the negative gradient of w H integral sigma dd
+///             with damping normal_law::damped in place of sigma
 ///   friction  friction.hpp with k = tangential_ratio w sigma_p / H, limit mu w sigma |grad g|
 ///   target    + N_i f_p on the corners of its face;  contactor: - lambda_a f_p on its corners
 ///

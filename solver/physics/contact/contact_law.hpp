@@ -13,6 +13,7 @@ struct ContactLaw {
   double exponent = 1;                                       ///< b >= 1 of the unloading curve
   double friction = 0;                                       ///< Coulomb mu >= 0
   double tangential_ratio = 1;                               ///< tangential over normal stiffness, 0..1
+  double damping = 0;                                        ///< Pa s/m, stress per speed of approach
 
   [[nodiscard]] bool active() const { return penalty > 0; }
 };
@@ -55,6 +56,13 @@ namespace normal_law {
   const double yield = law.plateau / law.penalty;
   if (d_max <= yield) return law.penalty * d_max * d_max * (0.5 - returned);
   return law.plateau * (d_max * (1 - returned) - 0.5 * yield);
+}
+
+/// Stress with damping, Pa: sigma + c dg/dt, never a pull. What it adds to sigma times dg/dt is dissipated, and never
+/// negative. With c = 2 zeta sqrt(sigma_p rho) a layer of thickness H and density rho on the stiffness sigma_p / H is
+/// damped by the share zeta of the critical. @param rate  m/s, dg/dt of the overlap g in m
+[[nodiscard]] inline double damped(const ContactLaw& law, double stress, double rate) {
+  return std::max(0.0, stress + law.damping * rate);
 }
 
 }  // namespace normal_law

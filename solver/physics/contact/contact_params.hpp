@@ -22,18 +22,31 @@ struct SphericalBoundary {
   double penalty = 0;  ///< Pa, sigma_p
 };
 
+/// What is done with bodies that overlap before the first step.
+enum class InitialOverlap {
+  refuse,  ///< the run ends with an error
+  relax,   ///< the overlap becomes an offset without force
+  accept   ///< contact pushes them apart at once
+};
+
 /// What the contact kernels need to know; the same all through a run.
 struct ContactParams {
-  int points_per_face = 3;  ///< 1, 3 or 6
+  int points_per_face = 3;  ///< 1, 3, 4 or 6
   OverlapField field = OverlapField::body;
   int ramp_steps = 50;           ///< >= 1: steps in which the overlap field follows a new free surface
   Index num_groups = 0;          ///< volume groups
-  std::vector<ContactLaw> laws;  ///< (num_groups, num_groups), symmetric
+  std::vector<ContactLaw> laws;  ///< (num_groups, num_groups): of points of a group against contactors of another
+  std::vector<InitialOverlap> initial_overlaps;  ///< likewise
   std::optional<SphericalBoundary> sphere;
 
+  /// Of the points of a group against the elements of another.
   [[nodiscard]] const ContactLaw& law(Index group, Index other) const {
     return laws[static_cast<std::size_t>(group) * static_cast<std::size_t>(num_groups) +
                 static_cast<std::size_t>(other)];
+  }
+  [[nodiscard]] InitialOverlap initial_overlap(Index group, Index other) const {
+    return initial_overlaps[static_cast<std::size_t>(group) * static_cast<std::size_t>(num_groups) +
+                            static_cast<std::size_t>(other)];
   }
 };
 

@@ -36,6 +36,15 @@ FaceRule three_points() {
   return rule;
 }
 
+FaceRule corners_and_centroid() {
+  FaceRule rule;
+  add_orbit(rule, 0.0, 1.0 / 12);
+  rule.num_points = 4;
+  rule.shape[3] = {1.0 / 3, 1.0 / 3, 1.0 / 3};
+  rule.share[3] = 0.75;
+  return rule;
+}
+
 FaceRule six_points() {
   const double root = std::sqrt(10.0);
   const double inner = std::sqrt(38 - 44 * std::sqrt(0.4));
@@ -49,9 +58,18 @@ FaceRule six_points() {
 }  // namespace
 
 const FaceRule& face_rule(int points_per_face) {
-  static const FaceRule one = one_point(), three = three_points(), six = six_points();
-  DEMAND(points_per_face == 1 || points_per_face == 3 || points_per_face == 6, std::to_string(points_per_face));
-  return points_per_face == 1 ? one : points_per_face == 3 ? three : six;
+  static const FaceRule one = one_point(), three = three_points(), four = corners_and_centroid(), six = six_points();
+  switch (points_per_face) {
+    case 1:
+      return one;
+    case 3:
+      return three;
+    case 4:
+      return four;
+    default:
+      DEMAND(points_per_face == 6, std::to_string(points_per_face));
+      return six;
+  }
 }
 
 void append_points(const FaceRule& rule, const LocalMesh& local, Index slot, int face,

@@ -27,6 +27,7 @@ struct FaceRule {
 };
 
 /// @param points_per_face  1: centroid; 3: (2/3, 1/6, 1/6) and its permutations, exact for quadratic integrands;
+///                         4: the corners with 1/12 each and the centroid with 3/4, exact for quadratic integrands;
 ///                         6: the symmetric rule of degree 4. Source: [Strang and Fix 1973]
 /// Throws InternalError for any other number.
 [[nodiscard]] const FaceRule& face_rule(int points_per_face);

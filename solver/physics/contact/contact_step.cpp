@@ -264,27 +264,34 @@ bool apart(const Patch& p, const Patch& q) {
 }
 
 bool may_meet(const ContactParams& params, const Patch& p, const Patch& q, double time) {
-  if (!params.law(static_cast<Index>(p.group), static_cast<Index>(q.group)).active()) return false;
-  if (!(p.largest[Patch::weight] > 0) && !(q.largest[Patch::weight] > 0)) return false;
+  const auto felt = [&](const Patch& points, const Patch& other) {
+    return points.largest[Patch::weight] > 0 &&
+           params.law(static_cast<Index>(points.group), static_cast<Index>(other.group)).active();
+  };
+  if (!felt(p, q) && !felt(q, p)) return false;
   const double reach = kSpeedMargin * relative_speed(p, q) * time + kSizeMargin * size_of(std::min(p.level, q.level));
   return gap_squared(p, q, Patch::box) <= reach * reach && apart(p, q);
 }
 
-/// omega_c^2 of a node of patch p against patch q.
+/// omega_c^2 of a node of patch p against patch q. With damping the node's rate of decay gamma is made of the same
+/// terms as omega_c^2; a step that begins with the speed before it is stable up to 2/omega' with
+/// omega'/2 = gamma/4 + sqrt(gamma^2/16 + omega^2/4). Twice the gamma covers that the elements' own omega^2 adds up.
 double share_against(const ContactParams& params, double area_over_mass, double per_mass, const Patch& p,
                      const Patch& q) {
-  const double slope = stiffest_slope(params.law(static_cast<Index>(p.group), static_cast<Index>(q.group)));
   const double areas = area_over_mass + q.largest[Patch::area_over_mass];
-  double sum = 0;
-  if (p.largest[Patch::weight] > 0) {
-    sum += slope * q.largest[Patch::per_length] * q.largest[Patch::steepness] *
-           (areas + p.largest[Patch::weight] * q.largest[Patch::per_mass]);
-  }
-  if (q.largest[Patch::weight] > 0) {
-    sum += slope * p.largest[Patch::per_length] * p.largest[Patch::steepness] *
-           (areas + q.largest[Patch::weight] * per_mass);
-  }
-  return sum;
+  double sum = 0, decay = 0;
+  const auto add = [&](const Patch& points, const Patch& entered, double per_mass_of_entered) {
+    if (!(points.largest[Patch::weight] > 0)) return;
+    const ContactLaw& law = params.law(static_cast<Index>(points.group), static_cast<Index>(entered.group));
+    const double area = areas + points.largest[Patch::weight] * per_mass_of_entered;
+    sum += stiffest_slope(law) * entered.largest[Patch::per_length] * entered.largest[Patch::steepness] * area;
+    decay += law.damping * entered.largest[Patch::steepness] * area;
+  };
+  add(p, q, q.largest[Patch::per_mass]);
+  add(q, p, per_mass);
+  if (!(decay > 0)) return sum;
+  const double root = decay + std::sqrt(decay * decay + sum);
+  return root * root;
 }
 
 /// Whether any of a patch can be outside the sphere within `time`.

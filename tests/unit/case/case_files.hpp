@@ -132,6 +132,9 @@ plateau = "60 MPa"
 unloading_exponent = 2
 friction = 0.3
 tangential_ratio = 0.8
+damping_ratio = 0.2
+points_on = "both"
+initial_overlap = "relax"
 [contact_points]
 per_face = 6
 field = "tet_distance"

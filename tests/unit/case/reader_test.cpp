@@ -146,6 +146,9 @@ TEST(Reader, ContactsAndTheSphereAreRead) {
   EXPECT_EQ(c.contacts[0].unloading_exponent, 2);
   EXPECT_EQ(c.contacts[0].friction, 0.3);
   EXPECT_EQ(c.contacts[0].tangential_ratio, 0.8);
+  EXPECT_EQ(c.contacts[0].damping_ratio, 0.2);
+  EXPECT_EQ(c.contacts[0].points_on, PointsOn::both);
+  EXPECT_EQ(c.contacts[0].initial_overlap, InitialOverlap::relax);
   EXPECT_EQ(c.contact_points.per_face, 6);
   EXPECT_EQ(c.contact_points.field, OverlapField::tet_distance);
   EXPECT_FALSE(c.contact_points.everywhere);

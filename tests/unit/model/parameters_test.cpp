@@ -25,6 +25,32 @@ TEST(ContactParams, of_a_pair_hold_for_points_of_either_group) {
   EXPECT_EQ(params.law(1, 1).penalty, 300e9);
 }
 
+TEST(ContactParams, of_points_on_the_first_group_hold_for_its_points_alone) {
+  const ContactParams params =
+      contact_params(two_boxes_case({"contact[0].points_on=\"first\""}), {"left", "right"});  // left on "*"
+  EXPECT_TRUE(params.law(0, 1).active());
+  EXPECT_TRUE(params.law(0, 0).active());
+  EXPECT_FALSE(params.law(1, 0).active());
+  EXPECT_TRUE(params.law(1, 1).active());
+}
+
+TEST(ContactParams, of_a_pair_by_name_go_before_one_with_a_star_that_comes_later) {
+  const std::vector<std::string> swapped{"contact[0].between=[\"left\", \"right\"]",
+                                         "contact[1].between=[\"*\", \"*\"]"};
+  const ContactParams params = contact_params(two_boxes_case(swapped), {"left", "right"});
+  EXPECT_EQ(params.law(0, 1).penalty, 400e9);
+  EXPECT_EQ(params.law(0, 0).penalty, 300e9);
+}
+
+TEST(ContactParams, have_the_damping_of_a_layer_of_both_densities) {
+  const case_::Case input = two_boxes_case({"contact[0].damping_ratio=0.2"});
+  const double left = input.materials[0].density, right = input.materials[1].density;
+  const ContactParams params = contact_params(input, {input.materials[0].group, input.materials[1].group});
+  const double expected = 2 * 0.2 * std::sqrt(400e9 * left * right / (left + right));
+  EXPECT_NEAR(params.law(0, 1).damping / expected, 1.0, 1e-12);
+  EXPECT_EQ(params.law(1, 1).damping, 0.0);
+}
+
 TEST(ContactParams, have_the_plateau_of_the_case_or_none) {
   const ContactParams params = contact_params(two_boxes_case(), {"left", "right"});
   EXPECT_EQ(params.law(0, 1).plateau, 60e6);

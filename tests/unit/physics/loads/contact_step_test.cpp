@@ -110,7 +110,7 @@ TEST(ContactStep, OfBoxesThatLieOnEachOtherIsNeverAboveTheTrueLimitAndNotFarBelo
   std::mt19937 random(4);
   std::uniform_real_distribution<double> shift(-0.7, 0.7);
   for (const Discretisation kind : {Discretisation::shared_nodes, Discretisation::own_nodes}) {
-    for (const int points : {1, 3, 6}) {
+    for (const int points : {1, 3, 4, 6}) {
       Scene scene(two_boxes(0.01), kind);
       scene.params.points_per_face = points;
       double worst = 0;
@@ -123,6 +123,28 @@ TEST(ContactStep, OfBoxesThatLieOnEachOtherIsNeverAboveTheTrueLimitAndNotFarBelo
       EXPECT_GE(worst, 1 / kMostCautious) << points;
     }
   }
+}
+
+TEST(ContactStep, WithDampingIsStableWithTheSpeedOfHalfAStepBefore) {
+  Scene scene(two_boxes(0.01));
+  scene.move(1, Vec3(0.13, 0.27, -0.02));
+  const double elastic = scene.largest();
+  for (const double ratio : {0.1, 0.5, 1.0}) {
+    scene.params.laws[0].damping = 2 * ratio * std::sqrt(kPenalty * kDensity / 2);
+    const double step = 2 / std::sqrt(scene.largest());
+    const double omega_squared = scene.true_largest();
+    const double decay = omega_squared * scene.params.laws[0].damping * scene.length[0] / kPenalty;
+    EXPECT_LT(step, 2 / std::sqrt(elastic));
+    EXPECT_LE(0.25 * omega_squared * step * step + 0.5 * decay * step, 1 + kSlack) << ratio;
+  }
+}
+
+TEST(ContactStep, CountsWhoeverCarriesThePoints) {
+  Scene both(two_boxes(0.01));
+  both.move(1, Vec3(0, 0, -0.02));
+  EXPECT_GT(both.largest(), 0.0);
+  std::fill(both.faces.pointed.begin(), both.faces.pointed.end(), std::uint8_t{0});
+  EXPECT_EQ(both.largest(), 0.0);
 }
 
 TEST(ContactStep, OfABoxOnAHeldOneCountsItsOwnNodesAlone) {

@@ -1,0 +1,135 @@
+#include "commands/overlap_report.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <vector>
+
+#include "base/error.hpp"
+#include "contact/initial_overlap.hpp"
+#include "model/parameters.hpp"
+#include "output/quantity_text.hpp"
+
+namespace breccia {
+namespace {
+
+/// The deepest overlap of two groups.
+struct GroupOverlap {
+  BodyOverlap deepest;
+  std::int64_t pairs = 1, points = 0, corners = 0;
+};
+
+std::vector<GroupOverlap> overlaps_by_groups(const Model& model) {
+  std::vector<GroupOverlap> groups;
+  for (const BodyOverlap& overlap : initial_overlaps(model)) {
+    const auto same = [&](const GroupOverlap& g) {
+      return std::minmax(g.deepest.group, g.deepest.other_group) == std::minmax(overlap.group, overlap.other_group);
+    };
+    auto known = std::find_if(groups.begin(), groups.end(), same);
+    if (known == groups.end()) {
+      groups.push_back({overlap, 0});
+      known = groups.end() - 1;
+    }
+    ++known->pairs;
+    known->points += overlap.points;
+    known->corners += overlap.corners;
+  }
+  return groups;
+}
+
+/// The group's name, with the body's number where the group has several.
+std::string name_of_body(const Model& model, Index group, Index body) {
+  const Mesh& mesh = model.mesh;
+  bool several = false;
+  for (Index e = 0; e < mesh.num_elements() && !several; ++e) {
+    const auto i = static_cast<std::size_t>(e);
+    several = mesh.element_group[i] == group && mesh.element_body[i] != body;
+  }
+  const std::string& name = mesh.volume_groups[static_cast<std::size_t>(group)];
+  return several ? fmt::format("\"{}\" (body {})", name, body) : fmt::format("\"{}\"", name);
+}
+
+std::string description(const Model& model, const GroupOverlap& groups) {
+  const BodyOverlap& o = groups.deepest;
+  const double penalty =
+      std::max(model.contact.law(o.group, o.other_group).penalty, model.contact.law(o.other_group, o.group).penalty);
+  const double stress = penalty * o.depth / o.length;
+  std::string text = fmt::format(
+      "{} and {} overlap by up to {} before the first step, at ({:.4g}, {:.4g}, {:.4g}) m: {} contact points and {} "
+      "corners are inside the other body",
+      name_of_body(model, o.group, o.body), name_of_body(model, o.other_group, o.other), quantity_text(o.depth, "m"),
+      o.place[0], o.place[1], o.place[2], groups.points, groups.corners);
+  if (groups.pairs > 1) text += fmt::format(" in {} pairs of bodies", groups.pairs);
+  return text + fmt::format("; contact would push with {}", quantity_text(stress, "Pa"));
+}
+
+const case_::Contact& entry_of(const case_::Case& input, const Model& model, const BodyOverlap& overlap) {
+  const auto& names = model.mesh.volume_groups;
+  return *contact_entry(input, names[static_cast<std::size_t>(overlap.group)],
+                        names[static_cast<std::size_t>(overlap.other_group)]);
+}
+
+std::string remedy(const BodyOverlap& overlap) {
+  return fmt::format(
+      "bodies at least {} further apart, initial_overlap = \"relax\" (the overlap makes no force), or \"accept\"",
+      quantity_text(overlap.depth, "m"));
+}
+
+}  // namespace
+
+OverlapReport overlap_report(const case_::Case& input, const Model& model) {
+  OverlapReport report;
+  if (!model.has_contact) return report;
+  const std::vector<GroupOverlap> overlaps = overlaps_by_groups(model);
+  if (overlaps.empty()) report.text = "no bodies overlap before the first step\n";
+  for (const GroupOverlap& groups : overlaps) {
+    report.text += description(model, groups) + "\n";
+    if (entry_of(input, model, groups.deepest).initial_overlap == case_::InitialOverlap::refuse) {
+      report.advice +=
+          fmt::format("- A run ends with an error, since bodies overlap. What helps: {}.\n", remedy(groups.deepest));
+    }
+  }
+  return report;
+}
+
+std::string stiffness_report(const Model& model) {
+  const auto& names = model.mesh.volume_groups;
+  const auto modulus = [&](std::size_t group) {
+    const ElasticParams& p = model.elastic[group];
+    return p.mu * (3 * p.lambda + 2 * p.mu) / (p.lambda + p.mu);
+  };
+  std::vector<double> length(names.size(), 0.0);  // H of the groups' finest bodies
+  for (Index e = 0; e < model.mesh.num_elements(); ++e) {
+    const auto i = static_cast<std::size_t>(e);
+    const double h = model.whole.body_length[static_cast<std::size_t>(model.mesh.element_body[i])];
+    double& least = length[static_cast<std::size_t>(model.mesh.element_group[i])];
+    least = least > 0 ? std::min(least, h) : h;
+  }
+  std::string text;
+  for (std::size_t a = 0; a < names.size(); ++a) {
+    for (std::size_t b = a; b < names.size(); ++b) {
+      const auto i = static_cast<Index>(a), k = static_cast<Index>(b);
+      const double penalty = std::max(model.contact.law(i, k).penalty, model.contact.law(k, i).penalty);
+      if (!(penalty > 0) || !(length[a] > 0) || !(length[b] > 0)) continue;
+      text += fmt::format(
+          "contact of {} and {}: stiffness penalty/H = {:.3g} and {:.3g} Pa/m with H = {:.3g} and {:.3g} "
+          "m; recommended penalty {}, E of the softer\n",
+          names[a], names[b], penalty / length[a], penalty / length[b], length[a], length[b],
+          quantity_text(std::min(modulus(a), modulus(b)), "Pa"));
+    }
+  }
+  return text;
+}
+
+void refuse_initial_overlaps(const case_::Case& input, const Model& model) {
+  std::vector<Problem> problems;
+  if (!model.has_contact) return;
+  for (const GroupOverlap& groups : overlaps_by_groups(model)) {
+    const case_::Contact& entry = entry_of(input, model, groups.deepest);
+    if (entry.initial_overlap != case_::InitialOverlap::refuse) continue;
+    problems.push_back({input.file.string(), entry.origin.line, entry.origin.key + ".initial_overlap",
+                        description(model, groups), remedy(groups.deepest), "refuse"});
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+}  // namespace breccia

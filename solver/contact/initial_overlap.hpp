@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/model.hpp"
+#include "physics/contact/contact_state.hpp"
+
+namespace breccia {
+
+/// Two bodies of the mesh that overlap.
+struct BodyOverlap {
+  Index body = 0, other = 0;  ///< body < other
+  Index group = 0, other_group = 0;
+  double depth = 0;          ///< m, largest distance of a place inside a body to that body's free surface
+  double length = 0;         ///< m, H of the body that is entered there
+  Vec3 place{0, 0, 0};       ///< m, of that depth
+  std::int64_t points = 0;   ///< contact points inside the other body
+  std::int64_t corners = 0;  ///< and corners of faces with contact points
+};
+
+/// Overlaps of this share of H and less are round-off of the mesh: contact answers them with this share of its penalty.
+inline constexpr double kOverlapTolerance = 1e-6;
+
+/// Bodies of different numbers with a contact law that overlap by more than kOverlapTolerance H in the mesh, deepest
+/// first, then by bodies. Contact points, the corners of their faces and the middles of the elements behind them are
+/// looked up in all elements, those deep inside as well. A body does not overlap itself: faces of a crack that is open
+/// from the start coincide.
+/// @param model  of the whole mesh; a bare one will do. O(n log n)
+[[nodiscard]] std::vector<BodyOverlap> initial_overlaps(const Model& model);
+
+/// Takes overlaps of pairs of groups with InitialOverlap::relax out: every point that is inside a contactor gets a
+/// couple whose offset is the overlap, so that it makes no force until it becomes deeper. As bodies part the offset
+/// shrinks with the overlap (contact_forces.hpp): no energy comes of it.
+/// @param contact   points and contactors of the model or of a rank's piece, nothing touches yet
+/// @param position  nodal field, m. O(n log n)
+void relax_initial_overlaps(const ContactParams& params, const LocalMesh& local, const Field<double>& position,
+                            ContactState& contact);
+
+}  // namespace breccia

@@ -1,0 +1,218 @@
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "end_to_end/program.hpp"
+
+/// Bodies in contact as a user meets them: overlaps at the start, ridges, slopes.
+namespace breccia::test {
+namespace {
+
+using nlohmann::json;
+
+std::string material(const std::string& group, const std::string& young) {
+  return "[[material]]\ngroup = \"" + group + "\"\nyoung = \"" + young +
+         "\"\npoisson = 0.2\ndensity = 2000\njoints = \"none\"\n";
+}
+
+/// The column of a history.
+std::vector<double> column(const std::filesystem::path& file, const std::string& name) {
+  std::istringstream lines(read_text(file));
+  std::vector<double> values;
+  std::size_t wanted = 0;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream cells(line);
+    std::size_t at = 0;
+    const bool header = line.starts_with("step");
+    for (std::string cell; std::getline(cells, cell, ','); ++at) {
+      if (header && cell == name) wanted = at;
+      if (!header && at == wanted) values.push_back(std::stod(cell));
+    }
+  }
+  return values;
+}
+
+const std::string kCubesGeometry = R"(SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 0.01, 0.01, 0.01};
+Box(2) = {0.002, 0.001, 0.009, 0.01, 0.01, 0.01};
+Physical Volume("lower") = {1};
+Physical Volume("upper") = {2};
+MeshSize{ PointsOf{ Volume{:}; } } = 0.005;
+)";
+
+/// Two cubes 1 mm in each other. Returns the quoted path of the case.
+std::string cubes(const Scratch& scratch) {
+  scratch.write("cubes.geo", kCubesGeometry);
+  return scratch.write("cubes.toml", "title = \"cubes\"\n[mesh]\nfile = \"cubes.geo\"\n" + material("lower", "40 GPa") +
+                                         material("upper", "40 GPa") + R"([[contact]]
+between = ["lower", "upper"]
+penalty = "40 GPa"
+[[initial_velocity]]
+group = "upper"
+velocity = [0, 0, "-0.1 m/s"]
+[[stage]]
+end = "30 us"
+[output]
+frame_interval = 0
+)");
+}
+
+TEST(InitialOverlap, ends_a_run_with_the_bodies_the_depth_and_what_helps) {
+  const Scratch scratch;
+  const std::string file = cubes(scratch), folder = scratch.path("run").string();
+  for (const Outcome& outcome : {call("run " + file + " --progress none -o '" + folder + "'"),
+                                 call_ranks(2, "run " + file + " --progress none -o '" + folder + "'")}) {
+    EXPECT_EQ(outcome.exit_code, 2);
+    for (const char* text : {"cubes.toml:16: contact[0].initial_overlap", "\"lower\" and \"upper\"", "1 mm", "points",
+                             "\"relax\"", "\"accept\""})
+      EXPECT_NE(outcome.err.find(text), std::string::npos) << text << " in\n" << outcome.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder)) << "nothing was run";
+  const Outcome check = call("check " + file);
+  EXPECT_EQ(check.exit_code, 0);
+  EXPECT_NE(check.out.find("overlap by up to 1 mm"), std::string::npos) << check.out;
+  EXPECT_NE(check.out.find("A run ends with an error"), std::string::npos) << check.out;
+}
+
+TEST(InitialOverlap, that_is_relaxed_gives_no_energy_and_the_same_bits_on_any_number_of_ranks) {
+  const Scratch scratch;
+  const std::string arguments =
+      "run " + cubes(scratch) +
+      " --progress none --set contact[0].initial_overlap=relax --set contact[0].points_on=first"
+      " --set contact[0].damping_ratio=0.2 --set contact_points.per_face=4 -o '";
+  std::string hash;
+  for (const int ranks : {1, 2, 3}) {
+    const std::string folder = scratch.path("run" + std::to_string(ranks)).string();
+    const Outcome outcome = ranks == 1 ? call(arguments + folder + "'") : call_ranks(ranks, arguments + folder + "'");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const json summary = json::parse(read_text(folder + "/summary.json"));
+    if (hash.empty()) hash = summary["state_hash"];
+    EXPECT_EQ(summary["state_hash"], hash) << ranks << " ranks";
+    constexpr double kUpper = 0.5 * 2000 * 1e-6 * 0.01;  // J, of the cube that flies
+    EXPECT_LE(summary["energy"]["kinetic"].get<double>(), kUpper * 1.0001);
+    EXPECT_GT(summary["energy"]["contact_dissipated"].get<double>(), 0.0);
+    EXPECT_LT(std::abs(summary["energy"]["residual"].get<double>()), 2e-3 * kUpper);
+  }
+}
+
+/// A block on a slope, at rest first, friction 0.5. Returns its acceleration once it slides, m/s2.
+double acceleration(double degrees, const std::string& floor_size) {
+  const Scratch scratch;
+  scratch.write("block.geo", R"(SetFactory("OpenCASCADE");
+Box(1) = {0, -0.01, 1e-8, 0.04, 0.04, 0.02};
+Box(2) = {-0.04, -0.03, -0.02, 0.12, 0.08, 0.02};
+Physical Volume("block") = {1};
+Physical Volume("floor") = {2};
+MeshSize{ PointsOf{ Volume{1}; } } = 0.01;
+MeshSize{ PointsOf{ Volume{2}; } } = )" +
+                                 floor_size + ";\nMesh.Algorithm3D = 1;\n");
+  const double angle = degrees * std::acos(-1.0) / 180;
+  const auto ramp = [](double to, double start, double end) {
+    return "{ ramp = { from = 0, to = " + std::to_string(to) + ", start = " + std::to_string(start) +
+           ", end = " + std::to_string(end) + " } }";
+  };
+  const std::string file =
+      scratch.write("block.toml", "title = \"slope\"\n[mesh]\nfile = \"block.geo\"\n" + material("block", "20 MPa") +
+                                      material("floor", "20 MPa") + R"([[contact]]
+between = ["block", "floor"]
+penalty = "2 MPa"
+friction = 0.5
+points_on = "first"
+[[stage]]
+end = 0.14
+gravity = [)" + ramp(9.81 * std::sin(angle), 0.03, 0.05) +
+                                      ", 0, " + ramp(-9.81 * std::cos(angle), 0, 0.03) + R"(]
+[[stage.constraint]]
+group = "floor"
+fixed = "xyz"
+[output]
+frame_interval = 0
+history_interval = "1 ms"
+gauges = ["block"]
+)");
+  const std::string folder = scratch.path("run").string();
+  const Outcome outcome = call("run " + file + " --progress none -o '" + folder + "'");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::vector<double> t = column(folder + "/history.csv", "time [s]");
+  const std::vector<double> x = column(folder + "/history.csv", "block displacement x [m]");
+  // Three places after the ramp: their second difference is free of small vibrations.
+  const auto at = [&](double time) {
+    return static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), time) - t.begin());
+  };
+  const std::size_t a = at(0.06), b = at(0.0995), c = t.size() - 1;
+  return 2 * ((x[c] - x[b]) / (t[c] - t[b]) - (x[b] - x[a]) / (t[b] - t[a])) / (t[c] - t[a]);
+}
+
+TEST(Slope, steeper_than_friction_accelerates_a_block_as_it_should_on_coarse_and_fine_floors) {
+  constexpr double two_percent = 0.02;
+  for (const double degrees : {27.0, 30.0}) {
+    const double angle = degrees * std::acos(-1.0) / 180;
+    const double expected = 9.81 * (std::sin(angle) - 0.5 * std::cos(angle));
+    for (const char* size : {"0.04", "0.01"})
+      EXPECT_NEAR(acceleration(degrees, size) / expected, 1.0, two_percent) << degrees << " degrees, floor " << size;
+  }
+}
+
+TEST(Slope, less_steep_than_friction_holds_a_block) {
+  constexpr double still = 1e-3;  // of what friction would stop it with
+  for (const char* size : {"0.04", "0.01"})
+    EXPECT_NEAR(acceleration(26, size) / 0.1082, 0.0, still) << "floor " << size;
+}
+
+TEST(Cylinder, pressed_between_platens_is_felt_within_a_micrometre_where_faces_have_points_at_their_corners) {
+  const Scratch scratch;
+  scratch.write("cylinder.geo", R"(SetFactory("OpenCASCADE");
+R = 0.01; gap = 5e-7;
+Point(1) = {0, 0, gap}; Point(2) = {R, 0, R + gap}; Point(3) = {0, 0, 2*R + gap}; Point(4) = {-R, 0, R + gap};
+Point(5) = {0, 0, R + gap};
+Circle(1) = {1, 5, 2}; Circle(2) = {2, 5, 3}; Circle(3) = {3, 5, 4}; Circle(4) = {4, 5, 1};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+out() = Extrude {0, 0.012, 0} { Surface{1}; };
+Box(2) = {-0.013, -0.003, -0.006, 0.026, 0.018, 0.006};
+Box(3) = {-0.013, -0.003, 2*R + 2*gap, 0.026, 0.018, 0.006};
+Physical Volume("cylinder") = {1};
+Physical Volume("bottom") = {2};
+Physical Volume("top") = {3};
+MeshSize{ PointsOf{ Volume{:}; } } = 0.003;
+)");
+  const std::string file = scratch.write(
+      "cylinder.toml", "title = \"cylinder\"\n[mesh]\nfile = \"cylinder.geo\"\n" + material("cylinder", "26 GPa") +
+                           material("bottom", "200 GPa") + material("top", "200 GPa") + R"([[contact]]
+between = ["*", "*"]
+penalty = "26 GPa"
+[contact_points]
+per_face = 4
+[[stage]]
+end = "60 us"
+[[stage.constraint]]
+group = "bottom"
+fixed = "xyz"
+[[stage.constraint]]
+group = "top"
+velocity = { x = 0, y = 0, z = "-0.05 m/s" }
+[output]
+frame_interval = 0
+history_interval = "2 us"
+gauges = ["top"]
+)");
+  const std::string folder = scratch.path("run").string();
+  const Outcome outcome = call("run " + file + " --progress none -o '" + folder + "'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::vector<double> t = column(folder + "/history.csv", "time [s]");
+  const std::vector<double> force = column(folder + "/history.csv", "top contact force z [N]");
+  constexpr double speed = 0.05, gap = 0.5e-6, micrometre = 1e-6;
+  const auto felt = std::find_if(force.begin(), force.end(), [](double f) { return f > 0; });
+  ASSERT_NE(felt, force.end());
+  const double travel = speed * t[static_cast<std::size_t>(felt - force.begin())];
+  EXPECT_GT(travel, gap);
+  EXPECT_LT(travel, gap + micrometre);
+}
+
+}  // namespace
+}  // namespace breccia::test
