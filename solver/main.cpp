@@ -5,12 +5,16 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <sstream>
 
 #include "base/error.hpp"
+#include "base/interruption.hpp"
+#include "case/nearest.hpp"
 #include "case/schema.hpp"
 #include "case/units.hpp"
 #include "commands/commands.hpp"
@@ -24,10 +28,17 @@ using namespace breccia;
 
 int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 
-/// Ctrl-C and a polite kill end the run after the present step, with everything written; a second one kills.
+volatile std::sig_atomic_t speaks_of_signals = 0;  // one rank tells
+
+/// Ctrl-C, a polite kill and a closed terminal end the run after the present step, with everything written; a second
+/// one kills.
 void stop_handler(int signal) {
+  interruption = signal;
   stop_requested = true;
   std::signal(signal, SIG_DFL);
+  if (!speaks_of_signals) return;
+  const char words[] = "\nbreccia: ending after the present step; a second signal ends at once\n";
+  (void)!::write(STDERR_FILENO, words, sizeof words - 1);
 }
 
 /// A checkpoint is written while the run goes on.
@@ -50,6 +61,7 @@ struct Arguments {
   ControlCommand control;
   LiveCommand live;
   ReplayCommand replay;
+  DiffCommand diff;
   std::string key;
   std::string progress = "auto";
 };
@@ -60,6 +72,9 @@ const char* kSetHelp =
 
 const char* kProgressHelp =
     "bar, log (a line every few seconds), json (JSON lines on stdout), none; default auto: a bar on a terminal";
+
+const char* kTrustHelp =
+    "the geometry may do what gmsh lets it: run programs, write files; without, it is read by a process that cannot";
 
 const CLI::IsMember& progress_modes() {
   static const CLI::IsMember modes({"auto", "bar", "log", "json", "none"});
@@ -136,6 +151,7 @@ void define_race(CLI::App& app, Arguments& a) {
       ->allow_extra_args(false)
       ->check(CLI::Range(0.01, 100.0));
   race->add_option("--set", a.race.overrides, kSetHelp)->allow_extra_args(false)->take_all();
+  race->add_flag("--trust-geometry", a.race.trust_geometry, kTrustHelp);
   race->add_option("-o,--output", a.race.folder,
                    "write the table as race.csv into this folder; default: nothing is written");
   race->add_option("--progress", a.progress, kProgressHelp)->check(progress_modes());
@@ -249,19 +265,21 @@ void define(CLI::App& app, Arguments& a) {
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("breccia ") + BRECCIA_VERSION);
   app.footer(
-      "Exit codes: 0 success, 1 usage, 2 case, mesh or output refused, 3 the numbers went wrong, 4 a fault of ours.");
+      "Exit codes: 0 success, 1 usage, 2 case, mesh or output refused, 3 the numbers went wrong, 4 a fault of ours, "
+      "128 + N ended by signal N: 130 Ctrl-C, 143 a polite kill.");
 
   CLI::App* run = app.add_subcommand("run", "Run a case through all its stages");
   run->add_option("case", a.run.case_file, kCaseHelp)->required();
   run->add_option("-o,--output", a.run.folder, "folder of the results; default runs/<folder of the case>");
   run->add_option("--set", a.run.overrides, kSetHelp)->allow_extra_args(false)->take_all();
+  run->add_flag("--trust-geometry", a.run.trust_geometry, kTrustHelp);
   run->add_flag("-f,--overwrite", a.run.overwrite, "replace the results of an earlier run in that folder");
   run->add_option("--progress", a.progress, kProgressHelp)->check(progress_modes());
   run->footer(
       "Writes frames for ParaView (frames/*.series), history.csv, status.jsonl, summary.json and .txt, the resolved "
       "case and provenance.json.\n"
-      "Ctrl-C ends the run after the present step with everything written; `breccia resume` goes on with it, also "
-      "after "
+      "Ctrl-C ends the run after the present step with everything written, with exit code 130 (under mpiexec, which "
+      "kills a second after it, `breccia control FOLDER stop` is the way); `breccia resume` goes on with it, also after "
       "a power cut, from the last of its checkpoints (`breccia explain checkpoint`). SIGUSR1 asks for one.");
 
   define_run_insitu(*run, a);
@@ -275,6 +293,7 @@ void define(CLI::App& app, Arguments& a) {
       app.add_subcommand("check", "Everything short of the first step: time step, memory, run time, advice");
   check->add_option("case", a.check.case_file, kCaseHelp)->required();
   check->add_option("--set", a.check.overrides, kSetHelp)->allow_extra_args(false)->take_all();
+  check->add_flag("--trust-geometry", a.check.trust_geometry, kTrustHelp);
 
   check
       ->add_option("--ranks", a.check.ranks, "tell only how a run on so many ranks (mpiexec -n) would divide the model")
@@ -284,11 +303,27 @@ void define(CLI::App& app, Arguments& a) {
       app.add_subcommand("mesh", "Read or generate the mesh of a case and report its bodies, groups and quality");
   mesh->add_option("case", a.mesh.case_file, kCaseHelp)->required();
   mesh->add_option("--set", a.mesh.overrides, kSetHelp)->allow_extra_args(false)->take_all();
+  mesh->add_flag("--trust-geometry", a.mesh.trust_geometry, kTrustHelp);
   mesh->add_option("-o,--output", a.mesh.folder, "write the elements for ParaView into this folder");
+
+  CLI::App* diff =
+      app.add_subcommand("diff", "In which keys, inputs, versions and results two runs differ, and where they part");
+  diff->add_option("first", a.diff.first, "folder of a run")->required();
+  diff->add_option("second", a.diff.second, "folder of another")->required();
 
   CLI::App* explain =
       app.add_subcommand("explain", "What a key of the case file means: unit, default, range; all keys without one");
   explain->add_option("key", a.key, "such as material.young, or the name of a section");
+}
+
+/// Variables of the environment that are ours and say nothing that we know.
+void check_environment() {
+  const char* simd = std::getenv("BRECCIA_SIMD");
+  if (simd == nullptr || *simd == '\0') return;
+  for (const char* known : {"sse2", "avx2", "avx512"}) {
+    if (std::string(simd) == known) return;
+  }
+  throw InputError(Problem{"", 0, "BRECCIA_SIMD", "is no instruction set", "sse2, avx2, avx512, or not set", simd});
 }
 
 int dispatch(const CLI::App& app, Arguments& a, const Communicator& world, int argc, char** argv) {
@@ -311,6 +346,7 @@ int dispatch(const CLI::App& app, Arguments& a, const Communicator& world, int a
   if (!world.is_root()) return code(ExitCode::success);  // what follows is the work of one
   if (app.got_subcommand("check")) return check_command(a.check, world.size());
   if (app.got_subcommand("mesh")) return mesh_command(a.mesh);
+  if (app.got_subcommand("diff")) return diff_command(a.diff);
   if (app.got_subcommand("control")) return control_command(a.control);
   if (app.got_subcommand("live")) return live_command(a.live);
   if (app.got_subcommand("insitu")) return insitu_info_command();
@@ -329,18 +365,36 @@ int guarded(const CLI::App& app, Arguments& arguments, MpiSession& session, int 
   const bool root = session.world().is_root();
   int ended = 0;
   try {
-    return dispatch(app, arguments, session.world(), argc, argv);
+    check_environment();
+    const int done = dispatch(app, arguments, session.world(), argc, argv);
+    return interruption != 0 && done == 0 ? exit_code_of(interruption) : done;
   } catch (const InputError& error) {
-    return report(root, error.what(), ExitCode::input);
+    const int refused = report(root, error.what(), ExitCode::input);
+    return interruption != 0 ? exit_code_of(interruption) : refused;
   } catch (const SimulationError& error) {
     return report(root, error.what(), ExitCode::simulation);
   } catch (const std::bad_alloc&) {
     ended = report(true, "out of memory; `breccia check` tells how much a case needs", ExitCode::input);
+  } catch (const std::filesystem::filesystem_error& error) {  // a file or folder that cannot be used
+    ended = report(true, error.what(), ExitCode::input);
   } catch (const std::exception& error) {
     ended = report(true, error.what(), ExitCode::internal);
   }
   session.abort(ended);
   return ended;
+}
+
+/// A first word that is no command, told before anything else of the line is read. @return  empty: all is well
+std::string unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return {};
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == argv[1]) return {};
+    commands.push_back(command->get_name());
+  }
+  const std::string meant = case_::likely_meant(argv[1], commands);
+  return "unknown command \"" + std::string(argv[1]) + "\"" + (meant.empty() ? "" : "; did you mean " + meant + "?") +
+         "; allowed: " + case_::joined(commands) + "; `breccia --help` tells what they do";
 }
 
 }  // namespace
@@ -351,6 +405,8 @@ int main(int argc, char** argv) {
   CLI::App app{"Breccia: combined finite-discrete element simulation of solids that break"};
   Arguments arguments;
   define(app, arguments);
+  if (const std::string complaint = unknown_command(app, argc, argv); !complaint.empty())
+    return report(session.world().is_root(), complaint, ExitCode::usage);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -359,9 +415,15 @@ int main(int argc, char** argv) {
     const int answer = root ? app.exit(error) : app.exit(error, nowhere, nowhere);
     return answer == 0 ? code(ExitCode::success) : code(ExitCode::usage);
   }
-  std::signal(SIGINT, stop_handler);
-  std::signal(SIGTERM, stop_handler);
-  std::signal(SIGUSR1, checkpoint_handler);
+  const auto asked_for = [&](const char* command) { return app.got_subcommand(command); };
+  const bool at_once = asked_for("check") || asked_for("mesh") || asked_for("control") || asked_for("diff") ||
+                       asked_for("explain") || asked_for("live");  // nothing is lost
+  if (!at_once) {
+    speaks_of_signals = session.world().is_root() ? 1 : 0;
+    for (const int s : {SIGINT, SIGTERM, SIGHUP}) std::signal(s, stop_handler);
+    std::signal(SIGUSR1, checkpoint_handler);
+  }
+  std::signal(SIGPIPE, SIG_IGN);  // who reads the progress may go; the run goes on
   std::signal(SIGXFSZ, SIG_IGN);  // a file over its limit is an error of the write, told with the file's name
   return guarded(app, arguments, session, argc, argv);
 }

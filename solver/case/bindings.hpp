@@ -39,6 +39,8 @@ void bind(A& a, MeshSource& mesh) {
   a.value("scale", mesh.scale);
   a.value("glue", mesh.glue);
   a.choice("inverted", mesh.repair_inverted);
+  a.value("time_limit", mesh.time_limit);
+  a.value("memory_limit", mesh.memory_limit);
   a.optional_section("raster", mesh.raster);
 }
 

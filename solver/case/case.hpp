@@ -55,6 +55,9 @@ struct MeshSource {
   double scale = 1.0;           ///< file units to m
   bool glue = false;            ///< conforming interfaces between volumes are glued
   bool repair_inverted = true;  ///< swap two corners of negative elements; false refuses them
+  double time_limit = 3600;     ///< s, wall, for reading a file
+  double memory_limit = 0.8;    ///< share of this machine's memory, for reading a file
+  bool trust = false;           ///< asked for on the command line alone: a script may run programs and write files
   Origin origin;
   friend bool operator==(const MeshSource&, const MeshSource&) = default;
 };

@@ -108,6 +108,14 @@ std::string explain(std::string_view key) {
   }
   if (!by_name.empty()) return by_name;
 
+  // material.glass.joints, as --set takes it: the name of an entry of a list, which the schema does not know.
+  const std::size_t first = wanted.find('.'), second = wanted.find('.', first == std::string::npos ? first : first + 1);
+  if (second != std::string::npos) {
+    const std::string section = wanted.substr(0, first), rest = wanted.substr(second);
+    for (const Key& row : schema())
+      if (row.path.starts_with(section + "[]") && plain_path(row.path) == section + rest) return text_of(row);
+  }
+
   std::vector<std::string> paths;
   for (const std::string& path : similar_keys(pattern_of(key), 3)) paths.push_back(plain_path(path));
   std::vector<std::string> sections;

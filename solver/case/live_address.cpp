@@ -1,5 +1,7 @@
 #include "case/live_address.hpp"
 
+#include <arpa/inet.h>
+
 #include <charconv>
 
 namespace breccia::case_ {
@@ -16,6 +18,10 @@ std::optional<std::pair<std::string, int>> host_and_port(std::string_view addres
   return std::pair(std::string(host), port);
 }
 
-bool is_loopback(std::string_view host) { return host == "localhost" || host == "::1" || host.starts_with("127."); }
+bool is_loopback(std::string_view host) {
+  in_addr address{};
+  if (::inet_pton(AF_INET, std::string(host).c_str(), &address) == 1) return (ntohl(address.s_addr) >> 24) == 127;
+  return host == "localhost" || host == "::1";
+}
 
 }  // namespace breccia::case_

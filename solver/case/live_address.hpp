@@ -10,7 +10,7 @@ namespace breccia::case_ {
 /// "host:port" or "port", an IPv6 host in brackets; nothing if it is neither.
 [[nodiscard]] std::optional<std::pair<std::string, int>> host_and_port(std::string_view address);
 
-/// True for names of the machine itself: localhost, 127.x.x.x, ::1.
+/// True for names of the machine itself: localhost, an address 127.x.x.x, ::1. A name that only begins so is none.
 [[nodiscard]] bool is_loopback(std::string_view host);
 
 }  // namespace breccia::case_

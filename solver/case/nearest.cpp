@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 
 namespace breccia::case_ {
 namespace {
@@ -12,16 +13,20 @@ bool same_letter(char a, char b) {
 
 }  // namespace
 
-std::size_t edit_distance(std::string_view a, std::string_view b) {
+namespace {
+
+/// @param same  whether two letters are equal
+template <class Same>
+std::size_t alignment_distance(std::string_view a, std::string_view b, Same same) {
   // Three rows of the table are enough: a swap of neighbours looks two rows back.
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substitution = last[j - 1] + (same_letter(a[i - 1], b[j - 1]) ? 0 : 1);
+      const std::size_t substitution = last[j - 1] + (same(a[i - 1], b[j - 1]) ? 0 : 1);
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, substitution});
-      const bool swapped = i > 1 && j > 1 && same_letter(a[i - 1], b[j - 2]) && same_letter(a[i - 2], b[j - 1]);
+      const bool swapped = i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1]);
       if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
     }
     std::swap(before, last);
@@ -30,10 +35,18 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+}  // namespace
+
+std::size_t edit_distance(std::string_view a, std::string_view b) { return alignment_distance(a, b, same_letter); }
+
 std::vector<std::string> nearest_first(std::string_view word, std::span<const std::string> candidates) {
-  std::vector<std::pair<std::size_t, std::string>> ranked;
+  std::vector<std::pair<std::pair<std::size_t, std::size_t>, std::string>> ranked;
   ranked.reserve(candidates.size());
-  for (const std::string& c : candidates) ranked.emplace_back(edit_distance(word, c), c);
+  for (const std::string& c : candidates) {
+    // Of two that are as near, the one whose letters are of the same size: GPpa is GPa, not pPa.
+    const std::size_t exact = alignment_distance(word, c, std::equal_to<char>());
+    ranked.push_back({{edit_distance(word, c), exact}, c});
+  }
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> out;
   out.reserve(ranked.size());

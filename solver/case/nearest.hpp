@@ -12,7 +12,8 @@ namespace breccia::case_ {
 /// alignment distance). Letters that differ in case only count as equal. O(|a| |b|).
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The candidates in order of increasing distance to the word; equal distances keep the order of the candidates.
+/// The candidates in order of increasing distance to the word; of equal
+/// distances the one that is nearer when the case of letters counts; then the order of the candidates.
 [[nodiscard]] std::vector<std::string> nearest_first(std::string_view word, std::span<const std::string> candidates);
 
 /// The nearest candidate if it is near enough to be what was meant (at most a third of the word's letters differ, and

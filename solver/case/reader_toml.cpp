@@ -49,6 +49,46 @@ Node converted(const toml::node& node, const std::string& file) {
   return out;
 }
 
+constexpr int deepest_key = 64;
+
+// Passes over a text in quotes, simple or threefold, and counts its lines. @return  the place behind it
+std::size_t behind_text(std::string_view toml, std::size_t at, int& line) {
+  const std::string_view quote =
+      toml.substr(at, 3) == std::string(3, toml[at]) ? toml.substr(at, 3) : toml.substr(at, 1);
+  for (at += quote.size(); at < toml.size(); ++at) {
+    if (toml[at] == '\n') {
+      ++line;
+      if (quote.size() == 1) return at + 1;  // the parser will complain
+    } else if (toml[at] == '\\' && quote[0] == '"') {
+      ++at;
+    } else if (toml.substr(at, quote.size()) == quote) {
+      return at + quote.size();
+    }
+  }
+  return at;
+}
+
+// The parser and the tree it makes are as deep on the stack as a dotted key is: a.a.a... of 50,000 would end us.
+void refuse_deep_keys(std::string_view toml, const std::string& file) {
+  int line = 1, dots = 0;
+  for (std::size_t at = 0; at < toml.size();) {
+    const char c = toml[at];
+    if (c == '"' || c == '\'') {
+      at = behind_text(toml, at, line);
+      continue;
+    }
+    if (c == '#') {
+      at = std::min(toml.find('\n', at), toml.size());
+      continue;
+    }
+    if (c == '\n') ++line;
+    if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) dots = 0;
+    if (c == '.' && ++dots > deepest_key)
+      throw InputError({file, line, "", "a key is too deep", "at most " + std::to_string(deepest_key) + " dots", ""});
+    ++at;
+  }
+}
+
 }  // namespace
 
 const Node* Node::find(std::string_view name) const {
@@ -130,6 +170,7 @@ Node parse_toml_file(const std::filesystem::path& path) {
 
 Node parse_toml_text(const std::string& text, const std::filesystem::path& path) {
   const std::string name = path.string();
+  refuse_deep_keys(text, name);
   try {
     Node root = converted(toml::parse(text, name), name);
     root.line = 0;
@@ -146,6 +187,7 @@ Node parse_toml_value(std::string_view text, const std::string& source) {
   const std::string trimmed(
       first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1));
   Node out;
+  refuse_deep_keys(trimmed, source);
   try {
     const toml::table table = toml::parse("value = " + trimmed);
     // A line break would smuggle in a second key.

@@ -9,9 +9,13 @@ namespace {
 using enum ValueType;
 
 constexpr Range positive{.lower = 0, .lower_open = true};
+// Far beyond what any solid has, so that the time step neither vanishes nor loses its digits.
+constexpr Range densities{.lower = 1e-6, .upper = 1e12};
+constexpr Range durations{.lower = 0, .upper = 1e10, .lower_open = true};
 constexpr Range not_negative{.lower = 0};
 constexpr Range at_least_one{.lower = 1};
 constexpr Range share{.lower = 0, .upper = 1};
+constexpr Range positive_share{.lower = 0, .upper = 1, .lower_open = true};
 constexpr Range angle{.lower = 0, .upper = std::numbers::pi / 2, .upper_open = true};
 constexpr Range count{.lower = 1, .upper = 100000};
 constexpr Range at_most_100000{.lower = 0, .upper = 100000};
@@ -40,6 +44,10 @@ constexpr auto table = std::to_array<Key>({
     {.path = "mesh.inverted", .type = choice, .fallback = "repair", .choices = "refuse|repair",
      .help = "What happens to elements of negative volume: two corners are swapped, or the mesh is refused with their "
              "ids.", .example = "\"refuse\""},
+    {.path = "mesh.time_limit", .type = number, .unit = "s", .fallback = "3600", .range = positive,
+     .help = "Wall time after which reading or meshing a file is given up.", .example = "\"2 h\""},
+    {.path = "mesh.memory_limit", .type = number, .fallback = "0.8", .range = positive_share,
+     .help = "Share of the machine's memory that reading or meshing a file may take.", .example = "0.5"},
 
     {.path = "mesh.raster", .type = section,
      .help = "Generator of boxes in a raster, each box a raster of cubes of 24 tetrahedra. Surfaces are <group>.x0, "
@@ -86,7 +94,7 @@ constexpr auto table = std::to_array<Key>({
     {.path = "material[].poisson", .type = number, .required = true,
      .range = {.lower = -1, .upper = 0.5, .lower_open = true, .upper_open = true}, .help = "Poisson's ratio.",
      .example = "0.2"},
-    {.path = "material[].density", .type = number, .unit = "kg/m3", .required = true, .range = positive,
+    {.path = "material[].density", .type = number, .unit = "kg/m3", .required = true, .range = densities,
      .help = "Mass density at rest.", .example = "\"2456 kg/m3\""},
     {.path = "material[].viscosity", .type = number, .unit = "Pa s", .fallback = "0", .range = not_negative,
      .help = "Viscosity mu of the stress 2 mu D added to the elastic one, D the rate of deformation.",
@@ -245,7 +253,7 @@ constexpr auto table = std::to_array<Key>({
              "ended."},
     {.path = "stage[].name", .type = text, .fallback = "\"\"", .help = "Name of the stage, for messages and --set.",
      .example = "\"impact\""},
-    {.path = "stage[].end", .type = number, .unit = "s", .required = true, .range = positive,
+    {.path = "stage[].end", .type = number, .unit = "s", .required = true, .range = durations,
      .help = "Time at which the stage ends, counted from the start of the run.", .example = "\"100 us\""},
     {.path = "stage[].gravity", .type = function_vector, .unit = "m/s2", .fallback = "[0, 0, 0]",
      .help = "Acceleration of gravity along x, y and z, as functions of time.", .example = "[0, 0, \"-9.81 m/s2\"]"},

@@ -44,7 +44,7 @@ struct Prefix {
   int exponent;
 };
 
-constexpr std::array<Prefix, 11> prefixes{{{"p", -12},
+constexpr std::array<Prefix, 12> prefixes{{{"p", -12},
                                            {"n", -9},
                                            {"u", -6},
                                            {"\u00b5", -6},
@@ -54,7 +54,8 @@ constexpr std::array<Prefix, 11> prefixes{{{"p", -12},
                                            {"d", -1},
                                            {"k", 3},
                                            {"M", 6},
-                                           {"G", 9}}};
+                                           {"G", 9},
+                                           {"T", 12}}};
 
 struct Named {
   std::string_view name;
@@ -316,7 +317,7 @@ double to_si(std::string_view text, std::string_view unit) {
 std::string units_help() {
   std::string out = "units";
   for (const Unit& u : units) out += " " + std::string(u.name);
-  out += ", those up to l with a prefix p n u m c d k M G";
+  out += ", those up to l with a prefix p n u m c d k M G T";
   return out;
 }
 

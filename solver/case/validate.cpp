@@ -72,7 +72,11 @@ class Validator {
     if (!mesh.file.empty()) {
       std::error_code error;
       const std::string extension = mesh.file.extension().string();
-      if (!std::filesystem::is_regular_file(mesh.file, error))
+      if (std::filesystem::is_directory(mesh.file, error))
+        problem(mesh.origin, "file", "is a folder", "a .geo or .msh file", mesh.file.string());
+      else if (std::filesystem::exists(mesh.file, error) && !std::filesystem::is_regular_file(mesh.file, error))
+        problem(mesh.origin, "file", "is no ordinary file", "a .geo or .msh file", mesh.file.string());
+      else if (!std::filesystem::is_regular_file(mesh.file, error))
         problem(mesh.origin, "file", "the file does not exist", "a .geo or .msh file", mesh.file.string());
       else if (extension != ".geo" && extension != ".msh")
         problem(mesh.origin, "file", "is no file of gmsh", "a .geo or .msh file", mesh.file.string());

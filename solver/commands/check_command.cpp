@@ -10,7 +10,8 @@
 namespace breccia {
 
 int check_command(const CheckCommand& asked, int launched) {
-  const case_::Case input = case_::read_case(asked.case_file, asked.overrides);
+  case_::Case input = case_::read_case(asked.case_file, asked.overrides);
+  input.mesh.trust = asked.trust_geometry;
   if (input.insitu.asked_for()) preflight(input, std::filesystem::temp_directory_path(), InSituPlugin(), {});
   if (asked.ranks > 0) {
     fmt::print("{}", domain_table(input, build_bare_model(input), asked.ranks));

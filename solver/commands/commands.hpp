@@ -16,6 +16,7 @@ struct RunCommand {
   std::filesystem::path case_file;
   std::filesystem::path folder;        ///< empty: runs/<folder of the case>
   std::vector<std::string> overrides;  ///< key=value
+  bool trust_geometry = false;         ///< the mesh may run programs and write files
   bool overwrite = false;
   ProgressMode progress = ProgressMode::log;
   std::vector<std::string> command_line;
@@ -63,6 +64,7 @@ struct RaceCommand {
   std::filesystem::path case_file;
   std::filesystem::path folder;  ///< of race.csv; empty: nothing is written
   std::vector<std::string> overrides;
+  bool trust_geometry = false;  ///< the mesh may run programs and write files
   RaceSettings settings;
   ProgressMode progress = ProgressMode::log;
 };
@@ -72,7 +74,8 @@ int race_command(const RaceCommand& asked, const Communicator& world);
 struct CheckCommand {
   std::filesystem::path case_file;
   std::vector<std::string> overrides;
-  int ranks = 0;  ///< > 0: only how the model is divided among so many
+  bool trust_geometry = false;  ///< the mesh may run programs and write files
+  int ranks = 0;                ///< > 0: only how the model is divided among so many
 };
 /// @param launched  ranks that the launcher has started
 int check_command(const CheckCommand& asked, int launched);
@@ -80,9 +83,15 @@ int check_command(const CheckCommand& asked, int launched);
 struct MeshCommand {
   std::filesystem::path case_file;
   std::vector<std::string> overrides;
+  bool trust_geometry = false;   ///< the mesh may run programs and write files
   std::filesystem::path folder;  ///< empty: report only
 };
 int mesh_command(const MeshCommand& asked);
+
+struct DiffCommand {
+  std::filesystem::path first, second;  ///< folders of runs
+};
+int diff_command(const DiffCommand& asked);
 
 int explain_command(const std::string& key);
 

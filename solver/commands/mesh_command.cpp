@@ -13,7 +13,8 @@
 namespace breccia {
 
 int mesh_command(const MeshCommand& asked) {
-  const case_::Case input = case_::read_case(asked.case_file, asked.overrides);
+  case_::Case input = case_::read_case(asked.case_file, asked.overrides);
+  input.mesh.trust = asked.trust_geometry;
   if (asked.folder.empty()) {
     fmt::print("{}", mesh_report(build_mesh(input)));
     return 0;

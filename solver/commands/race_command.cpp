@@ -21,6 +21,7 @@ int race_command(const RaceCommand& asked, const Communicator& world) {
   const bool writes = world.is_root() && !asked.folder.empty();
   world.agree([&] {
     input = case_::read_case(asked.case_file, asked.overrides);
+    input.mesh.trust = asked.trust_geometry;
     world.set_patience(input.domains.patience);
     if (world.is_root()) {
       model = std::make_unique<Model>(world.size() > 1 ? build_bare_model(input) : build_model(input));

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <optional>
 #include <string_view>
 #include <system_error>
 
@@ -14,6 +15,7 @@
 #include "output/insitu.hpp"
 #include "output/quantity_text.hpp"
 #include "output/resumed_folder.hpp"
+#include "output/run_lock.hpp"
 #include "simulation/run.hpp"
 
 namespace breccia {
@@ -90,6 +92,8 @@ void check_there_is_more(const case_::Case& input, const Checkpoint& from, const
 
 int resume_command(const ResumeCommand& asked, const Communicator& world) {
   std::vector<fs::path> files;
+  std::optional<RunWatch> watch;
+  if (world.is_root()) watch.emplace();  // before memory is taken
   world.agree([&] {
     check_overrides(asked.overrides);
     files = candidates(asked.run);
@@ -121,6 +125,7 @@ int resume_command(const ResumeCommand& asked, const Communicator& world) {
                                       collect_provenance(BRECCIA_VERSION, asked.command_line));
   });
   warn_of_oversubscription(world);
+  if (watch) watch->guard(folder.root);
   const auto sinks = run_sinks(input, folder, asked.progress, world);
   const Summary summary = resume_case(input, std::move(from), options, sinks, world, folder);
   print_results(summary, folder, asked.progress, world);

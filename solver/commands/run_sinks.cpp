@@ -26,7 +26,7 @@ std::vector<std::unique_ptr<Sink>> run_sinks(const case_::Case& input, const Run
 }
 
 void print_results(const Summary& summary, const RunFolder& folder, ProgressMode progress, const Communicator& world) {
-  if (world.is_root() && progress != ProgressMode::json && progress != ProgressMode::none)
+  if (world.is_root() && progress != ProgressMode::json)
     fmt::print("{}results in {}\n", summary_text(summary), folder.root.string());
 }
 

@@ -210,7 +210,7 @@ _breccia_candidates() {
   [[ $help =~ \[OPTIONS\]\ ([^$'\n']*) ]] && read -ra positionals <<<"${BASH_REMATCH[1]}"
   case ${positionals[position]-} in
     case) _breccia_offer_files .toml ;;
-    run) _breccia_offer_runs ;;
+    run | first | second) _breccia_offer_runs ;;
     command...) _breccia_offer < <(_breccia_listed commands:) ;;
   esac
 }

@@ -68,8 +68,11 @@ class Scanner {
  public:
   void read(const std::filesystem::path& file) {
     if (!visited_.insert(file.lexically_normal().string()).second) return;
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored)) return;  // a folder cannot be read, a pipe has no end
     std::ifstream in(file, std::ios::binary);
     if (!in) return;
+    result.files.insert(file.lexically_normal());
     const std::vector<Token> tokens = tokens_of({std::istreambuf_iterator<char>(in), {}});
     for (std::size_t i = 0; i < tokens.size(); ++i) {
       if (tokens[i].kind != Token::Kind::word) continue;

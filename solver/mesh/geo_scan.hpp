@@ -13,8 +13,9 @@ namespace breccia {
 struct GeoScan {
   std::set<std::string>
       constants;  ///< names in DefineConstant[...] and in Exists(...): set before, they keep their value
-  std::set<std::string> onelab_names;  ///< texts after `Name`: parameters of the form "Group/label"
-  std::vector<Problem> problems;       ///< statements that are refused, with file and line
+  std::set<std::string> onelab_names;     ///< texts after `Name`: parameters of the form "Group/label"
+  std::set<std::filesystem::path> files;  ///< the script itself and what it includes by name
+  std::vector<Problem> problems;          ///< statements that are refused, with file and line
 };
 
 /// Reads a script. Comments and texts are skipped; `Include "file"` and `Merge "file.geo"` are followed relative to the

@@ -5,19 +5,24 @@
 
 #include <algorithm>
 #include <charconv>
-#include <clocale>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <iomanip>
 #include <limits>
-#include <mutex>
+#include <new>
+#include <optional>
 #include <set>
+#include <sstream>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 
+#include "base/child_process.hpp"
 #include "base/error.hpp"
 #include "mesh/gmsh_source_check.hpp"
+#include "mesh/mesh_bytes.hpp"
 
 namespace breccia {
 namespace {
@@ -28,41 +33,21 @@ constexpr int kTriangle3 = 2, kTetra4 = 4;  // gmsh's numbers of element types
 // --- Running gmsh
 // -----------------------------------------------------------------------------------------------------
 
-/// gmsh open for one reading, closed and its traces removed whatever happens.
-class Session {
- public:
-  Session() : lock_(mutex_), locale_(std::setlocale(LC_NUMERIC, nullptr)) {
-    gmsh::initialize(0, nullptr, false);
-    gmsh::option::setNumber("General.Terminal", 0);
-    gmsh::option::setNumber("General.NumThreads", 1);
-    gmsh::option::setNumber("Mesh.MaxNumThreads1D", 1);
-    gmsh::option::setNumber("Mesh.MaxNumThreads2D", 1);
-    gmsh::option::setNumber("Mesh.MaxNumThreads3D", 1);
-    // Errors are logged, not thrown: a throw out of gmsh's parser leaves it unable to read any file after.
-    gmsh::option::setNumber("General.AbortOnError", 0);
-    gmsh::logger::start();
-  }
-  ~Session() {
-    try {
-      gmsh::logger::stop();
-      gmsh::onelab::clear();
-      gmsh::clear();
-      gmsh::finalize();
-    } catch (...) {  // closing must not hide what went wrong before
-    }
-    std::setlocale(LC_NUMERIC, locale_.c_str());
-  }
-  Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
-
- private:
-  static inline std::mutex mutex_;
-  std::lock_guard<std::mutex> lock_;
-  std::string locale_;  // gmsh sets the process's number format
-};
+/// gmsh open, in a child process that ends with the reading.
+void open_gmsh() {
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::option::setNumber("General.NumThreads", 1);
+  gmsh::option::setNumber("Mesh.MaxNumThreads1D", 1);
+  gmsh::option::setNumber("Mesh.MaxNumThreads2D", 1);
+  gmsh::option::setNumber("Mesh.MaxNumThreads3D", 1);
+  // Errors are logged, not thrown: a throw out of gmsh's parser leaves it unable to read any file after.
+  gmsh::option::setNumber("General.AbortOnError", 0);
+  gmsh::logger::start();
+}
 
 /// A script that assigns the parameters, removed at the end of its life. Reading it first is the way to give gmsh's
-/// script language a constant that leaves nothing behind in the process.
+/// script language a constant. Written before the child loses its right to write.
 class ParameterScript {
  public:
   explicit ParameterScript(const GmshSource& source) {
@@ -104,6 +89,13 @@ Problem problem_of(const GmshSource& source, const std::string& message) {
       return {message.substr(1, mark_at - 1), line, "", "gmsh: " + message.substr(digits_end + 2), "", ""};
     }
   }
+  if (message.starts_with("Error loading"))
+    return {source.file.string(),
+            0,
+            "mesh.file",
+            "is damaged or cut off: gmsh cannot read it to its end",
+            "a whole mesh file of format 2.2 to 4.1",
+            ""};
   return {source.file.string(), 0, "", "gmsh: " + message, "", ""};
 }
 
@@ -132,6 +124,8 @@ void run_gmsh(const GmshSource& source, Step step) {
     thrown = text;
   } catch (const InputError&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     thrown = error.what();
   }
@@ -142,14 +136,14 @@ void run_gmsh(const GmshSource& source, Step step) {
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
-void load(const GmshSource& source) {
-  if (!is_script(source)) {
+/// @param script  that assigns the parameters; null for a mesh file
+void load(const GmshSource& source, const ParameterScript* script) {
+  if (script == nullptr) {
     run_gmsh(source, [&] { gmsh::open(source.file.string()); });
     return;
   }
-  const ParameterScript script(source);
   run_gmsh(source, [&] {
-    gmsh::open(script.path().string());
+    gmsh::open(script->path().string());
     for (const auto& [key, value] : source.parameters) {
       if (!is_identifier(key)) gmsh::onelab::setNumber(key, {value});
     }
@@ -325,19 +319,85 @@ class ModelReader {
   std::unordered_map<std::size_t, Index> node_of_tag_;
 };
 
+/// What the child does: everything that gmsh has a hand in.
+MeshOrProblems read_here(const GmshSource& source, const ParameterScript* script) {
+  try {
+    load(source, script);
+    RawMesh raw;
+    run_gmsh(source, [&] { raw.mesh = ModelReader(source).read(raw.ungrouped_elements); });
+    return raw;
+  } catch (const InputError& error) {
+    return error.problems();
+  }
+}
+
+std::string seconds_text(double seconds) {
+  std::ostringstream text;
+  text << seconds << " s";
+  return text.str();
+}
+
+/// Why a child brought no mesh.
+Problem failure_of(const GmshSource& source, const ChildEnd& end) {
+  const std::string file = source.file.string();
+  const std::string said = end.text.empty() ? "" : ": " + end.text;
+  switch (end.kind) {
+    case ChildEnd::Kind::forbidden:
+      return {file, 0, "mesh.file", "tries to do what a mesh may not" + said, kTrustAdvice, ""};
+    case ChildEnd::Kind::out_of_time:
+      return {file,
+              0,
+              "mesh.time_limit",
+              "the mesh was not read in time",
+              "a coarser mesh, or a larger mesh.time_limit",
+              seconds_text(source.time_limit)};
+    case ChildEnd::Kind::out_of_memory:
+      return {file,
+              0,
+              "mesh.memory_limit",
+              "reading the mesh takes more memory than it may" + said,
+              "a coarser mesh, or a larger mesh.memory_limit (share of the machine's memory)",
+              std::to_string(source.memory_limit)};
+    case ChildEnd::Kind::interrupted:
+      return {"", 0, "", "interrupted while the mesh was read; nothing has been written", "", ""};
+    case ChildEnd::Kind::not_confined:
+      return {file,
+              0,
+              "mesh.file",
+              "this system cannot confine the process that reads the mesh (seccomp is missing)",
+              "--trust-geometry, if you know who made the mesh",
+              ""};
+    case ChildEnd::Kind::crashed:
+    case ChildEnd::Kind::finished:
+      break;
+  }
+  if (end.signal == 0) return {file, 0, "mesh.file", "gmsh ended before the mesh was read" + said, "", ""};
+  return {file,
+          0,
+          "mesh.file",
+          std::string("gmsh crashed while it read this file (") + ::strsignal(end.signal) + ")" + said,
+          "a mesh file that is whole, a script that gmsh itself can mesh",
+          ""};
+}
+
 }  // namespace
 
 FinishedMesh read_gmsh(const GmshSource& source) {
   check_source(source);
-  Index ungrouped_elements = 0;
-  Mesh raw;
-  {
-    const Session session;
-    load(source);
-    run_gmsh(source, [&] { raw = ModelReader(source).read(ungrouped_elements); });
-  }
-  FinishedMesh result = finish_mesh(std::move(raw), {source.glue, source.repair_inverted});
-  result.report.ungrouped_elements = ungrouped_elements;
+  std::optional<ParameterScript> script;
+  if (is_script(source)) script.emplace(source);
+  ChildLimits limits;
+  limits.seconds = source.time_limit;
+  limits.bytes = static_cast<std::uint64_t>(source.memory_limit * static_cast<double>(memory_of_machine()));
+  limits.confined = !source.trust;
+  const ChildEnd end =
+      run_in_child(limits, open_gmsh, [&] { return bytes_of(read_here(source, script ? &*script : nullptr)); });
+  if (end.kind != ChildEnd::Kind::finished) throw InputError(failure_of(source, end));
+  MeshOrProblems read = mesh_of(end.result);
+  if (auto* problems = std::get_if<std::vector<Problem>>(&read)) throw InputError(std::move(*problems));
+  auto& raw = std::get<RawMesh>(read);
+  FinishedMesh result = finish_mesh(std::move(raw.mesh), {source.glue, source.repair_inverted});
+  result.report.ungrouped_elements = raw.ungrouped_elements;
   return result;
 }
 

@@ -17,6 +17,9 @@ struct GmshSource {
   double scale = 1.0;           ///< file units to m
   bool glue = false;            ///< conforming interfaces between volumes are glued
   bool repair_inverted = true;  ///< swap two corners of negative elements; false refuses them
+  bool trust = false;           ///< the script may run programs and write files, as in gmsh itself
+  double time_limit = 3600;     ///< s, wall, after which reading is given up
+  double memory_limit = 0.8;    ///< share of this machine's memory that reading may take
 };
 
 /// Reads or makes the mesh and finishes it (mesh/finish.hpp).
@@ -27,11 +30,15 @@ struct GmshSource {
 /// gmsh's. A .geo is meshed on one thread, from gmsh's fixed random seed: the same file and parameters give the same
 /// mesh.
 ///
+/// gmsh works in a child process without the right to run, write or connect to anything (base/confinement.hpp), unless
+/// the source is trusted, and within the limits of time and memory: whatever a file does to it ends in an InputError.
+/// A file FILE.opt beside a mesh, which gmsh takes commands from, is refused unless the source is trusted.
+///
 /// Throws InputError with all problems of the step that fails: file missing, unreadable or of another kind; parameters
 /// with a .msh, unknown to the .geo or not finite; errors gmsh reports, with file and line where it names them;
 /// elements other than linear tetrahedra and triangles; a volume in two physical volumes; two groups of one name; no
-/// tetrahedra; and those of finish_mesh. gmsh keeps global state: calls are serialised, and the process must not have
-/// gmsh open itself.
+/// tetrahedra; those of finish_mesh; gmsh crashed, ended, passed a limit or tried what it may not.
+/// @pre this process does not have gmsh open itself
 [[nodiscard]] FinishedMesh read_gmsh(const GmshSource& source);
 
 }  // namespace breccia

@@ -4,7 +4,6 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -26,10 +25,15 @@ void demand_readable(const GmshSource& source) {
     refuse("is no kind of mesh file that can be read", ".geo, or .msh of format 2.2 to 4.1", extension.string());
   }
   if (!std::filesystem::exists(source.file, ignored)) refuse("the file does not exist", "", "");
-  if (!std::filesystem::is_regular_file(source.file, ignored)) refuse("is not a file", "", "");
+  if (std::filesystem::is_directory(source.file, ignored)) refuse("is a folder", "a .geo or .msh file", "");
+  if (!std::filesystem::is_regular_file(source.file, ignored)) refuse("is not a file", "a .geo or .msh file", "");
   std::ifstream in(source.file, std::ios::binary);
   if (!in) refuse("the file cannot be read", "a file with read permission", "");
   if (in.peek() == std::ifstream::traits_type::eof()) refuse("the file is empty", "", "");
+  const std::string options = file + ".opt";
+  if (!source.trust && std::filesystem::exists(options, ignored))
+    refuse("gmsh takes commands from a file beside it, unseen by the case: " + options,
+           "no such file; or --trust-geometry, if you know what is in it", "");
   if (extension == ".geo") return;
 
   std::string heading;
@@ -65,7 +69,11 @@ void demand_parameters(const GmshSource& source) {
         problems.push_back({file, 0, "mesh.parameters." + name, "is not finite", "a finite number", ""});
       }
     }
-    std::move(scan.problems.begin(), scan.problems.end(), std::back_inserter(problems));
+    for (Problem& p : scan.problems) {
+      if (source.trust && p.key != "Exit" && p.key != "Abort") continue;
+      p.allowed = kTrustAdvice;
+      problems.push_back(std::move(p));
+    }
   }
   if (!problems.empty()) throw InputError(std::move(problems));
 }

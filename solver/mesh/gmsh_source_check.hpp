@@ -10,6 +10,10 @@ namespace breccia {
 /// is finite and one that the script takes. Throws InputError.
 void check_source(const GmshSource& source);
 
+/// What may be done about a mesh that wants more than to be read.
+inline constexpr const char* kTrustAdvice =
+    "statements of geometry and mesh alone; or --trust-geometry, if you know who made it and what it does";
+
 /// True for a script (.geo), false for a mesh file.
 [[nodiscard]] bool is_script(const GmshSource& source);
 

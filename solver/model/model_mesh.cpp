@@ -31,6 +31,9 @@ GmshSource gmsh_source(const case_::MeshSource& asked) {
   source.scale = asked.scale;
   source.glue = asked.glue;
   source.repair_inverted = asked.repair_inverted;
+  source.trust = asked.trust;
+  source.time_limit = asked.time_limit;
+  source.memory_limit = asked.memory_limit;
   return source;
 }
 

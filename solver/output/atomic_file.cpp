@@ -101,6 +101,10 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
   write_file_atomically(path, bytes_of(content));
 }
 
+namespace {
+constexpr std::size_t kReserve = 8192;  // bytes
+}
+
 LineFile::LineFile(std::filesystem::path path, std::size_t keep) : path_(std::move(path)), size_(keep) {
   const int fresh = keep == 0 ? O_TRUNC : 0;
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | fresh, kFileMode);
@@ -130,6 +134,10 @@ void LineFile::append_line(std::string_view line) {
     throw output_error(path_, "cannot append a line to this file", error);
   }
   size_ += whole.size();
+  // Room for the next lines, so that a run that ends because the disk is full can still say so. Not every system can.
+  if (size_ + kReserve / 2 > reserved_ &&
+      ::fallocate(descriptor_, FALLOC_FL_KEEP_SIZE, static_cast<off_t>(size_), kReserve) == 0)
+    reserved_ = size_ + kReserve;
 }
 
 void LineFile::sync() {

@@ -56,7 +56,8 @@ class LineFile {
  private:
   std::filesystem::path path_;
   int descriptor_ = -1;
-  std::size_t size_ = 0;  ///< bytes of whole lines
+  std::size_t size_ = 0;      ///< bytes of whole lines
+  std::size_t reserved_ = 0;  ///< bytes up to which the disk has given room
 };
 
 }  // namespace breccia

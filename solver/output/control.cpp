@@ -1,9 +1,12 @@
 #include "output/control.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <system_error>
@@ -12,12 +15,14 @@
 #include "case/units.hpp"
 #include "output/atomic_file.hpp"
 #include "output/run_folder.hpp"
+#include "output/run_lock.hpp"
 
 namespace breccia {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kLongestRequest = 1 << 16;         // bytes; what is longer is cut
 constexpr auto kGlance = std::chrono::milliseconds(20);  // between two looks for an answer
 
 std::string trimmed(std::string_view text) {
@@ -57,6 +62,40 @@ std::vector<std::string> lines_of(std::istream& stream) {
   return lines;
 }
 
+/// Of an ordinary file; nothing of a pipe, a folder or a link, which might never end or be somebody else's.
+std::string content_of(const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC);
+  if (descriptor < 0) return {};
+  std::string text(kLongestRequest, '\0');
+  struct stat about {};
+  const bool ordinary = ::fstat(descriptor, &about) == 0 && S_ISREG(about.st_mode);
+  const ssize_t got = ordinary ? ::read(descriptor, text.data(), text.size()) : 0;
+  ::close(descriptor);
+  text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+  return text;
+}
+
+/// Puts a request where the run looks for it, once what others have put there has been taken: a link never replaces.
+/// @return  false when the time is over
+bool put_request(const fs::path& control, const std::string& line, const std::string& id,
+                 const std::function<bool()>& in_time) {
+  const fs::path own = control.parent_path() / (".control." + id);
+  write_file_atomically(own, line);
+  std::error_code error, ignored;
+  bool put = false;
+  while (!put && in_time()) {
+    fs::create_hard_link(own, control, error);
+    put = !error;
+    if (error == std::errc::operation_not_permitted || error == std::errc::operation_not_supported) {
+      fs::rename(own, control, error);  // a file system without links
+      put = !error;
+    }
+    if (!put) std::this_thread::sleep_for(kGlance);
+  }
+  fs::remove(own, ignored);
+  return put;
+}
+
 OutputError no_answer(const fs::path& folder, const std::string& what, const std::string& allowed) {
   Problem problem;
   problem.file = folder.string();
@@ -88,7 +127,7 @@ class Tail {
 
 bool is_over(const nlohmann::json& line) {
   const std::string state = line.value("state", "");
-  return state == "complete" || state == "stopped" || state == "failed";
+  return state == "complete" || state == "stopped" || state == "failed" || state == "interrupted";
 }
 
 }  // namespace
@@ -127,10 +166,9 @@ std::vector<std::string> ControlFile::take() {
   std::error_code error;
   fs::rename(path_, taken, error);  // what is written from now on is another file
   if (error) return {};
-  std::ifstream file(taken);
-  std::vector<std::string> lines = lines_of(file);
+  std::istringstream text(content_of(taken));
   fs::remove(taken, error);
-  return lines;
+  return lines_of(text);
 }
 
 std::string ask_run(const fs::path& run_folder, const std::string& command, double patience) {
@@ -141,13 +179,14 @@ std::string ask_run(const fs::path& run_folder, const std::string& command, doub
   for (const nlohmann::json& line : Tail(folder.status(), 0).news()) {
     if (is_over(line)) throw no_answer(run_folder, "this run has ended", "the folder of a run that goes on");
   }
+  if (fs::exists(lock_file(run_folder), error) && holder_of(run_folder).empty())
+    throw no_answer(run_folder, "this run was interrupted: its process is gone", "the folder of a run that goes on");
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
   const auto in_time = [&] { return std::chrono::steady_clock::now() < end; };
-  while (fs::exists(folder.control(), error) && in_time())
-    std::this_thread::sleep_for(kGlance);  // somebody else's turn
-  const std::string id =
-      std::to_string(::getpid()) + "." + std::to_string(std::chrono::steady_clock::now().time_since_epoch().count());
-  write_file_atomically(folder.control(), command + " id=" + id + "\n");
+  const std::string id = std::to_string(::getpid()) + "." + std::to_string(::gettid()) + "." +
+                         std::to_string(std::chrono::steady_clock::now().time_since_epoch().count());
+  const std::string line = command + " id=" + id + "\n";
+  const bool put = put_request(folder.control(), line, id, in_time);
   Tail tail(folder.status(), static_cast<std::streamoff>(size));
   while (in_time()) {
     for (const nlohmann::json& line : tail.news()) {
@@ -159,7 +198,7 @@ std::string ask_run(const fs::path& run_folder, const std::string& command, doub
     }
     std::this_thread::sleep_for(kGlance);
   }
-  fs::remove(folder.control(), error);
+  if (put && content_of(folder.control()) == line) fs::remove(folder.control(), error);
   throw no_answer(run_folder, "the run does not answer; is it still there?", "the folder of a run that goes on");
 }
 

@@ -4,9 +4,12 @@
 #include <chrono>
 #include <ctime>
 #include <fstream>
+#include <span>
+#include <sstream>
 #include <string>
 #include <thread>
 
+#include "base/sha256.hpp"
 #include "output/run_folder.hpp"
 
 namespace breccia {
@@ -39,12 +42,22 @@ std::string utc_now() {
 
 }  // namespace
 
+Provenance::Input input_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream content;
+  if (!stream || !(content << stream.rdbuf())) return {file.string(), ""};
+  const std::string text = content.str();
+  return {file.string(), sha256(std::as_bytes(std::span(text)))};
+}
+
 Provenance collect_provenance(std::string version, std::vector<std::string> command_line) {
   Provenance provenance;
   provenance.version = std::move(version);
   provenance.host = host_name();
   provenance.processor = processor_model();
   provenance.cores = static_cast<int>(std::thread::hardware_concurrency());
+  provenance.commit = BRECCIA_COMMIT;
+  provenance.libraries = BRECCIA_LIBRARIES;
   provenance.compiler = BRECCIA_COMPILER;
   provenance.flags = BRECCIA_FLAGS;
   provenance.started = utc_now();

@@ -6,6 +6,7 @@
 
 #include "output/atomic_file.hpp"
 #include "output/checkpoint_writer.hpp"
+#include "output/run_lock.hpp"
 
 namespace breccia {
 namespace {
@@ -55,15 +56,15 @@ bool is_complete(const RunFolder& folder, std::int64_t steps) {
 RunFolder prepare_resumed_folder(const RunFolder& run, const fs::path& root, const Checkpoint& from,
                                  const std::string& resolved_case, const Provenance& provenance) {
   std::error_code error;
-  const RunFolder folder{root};
   if (!fs::equivalent(run.root, root, error)) {
-    (void)prepare_run_folder(root, resolved_case, provenance, OldResults::refuse);
+    RunFolder folder = prepare_run_folder(root, resolved_case, provenance, OldResults::refuse);
     copy_lines(run.history(), folder.history());
     copy_lines(run.status(), folder.status());
     copy_folder(run.frames(), folder.frames());
     copy_folder(run.extracts(), folder.extracts());
     return folder;
   }
+  const RunFolder folder{root, std::make_shared<const RunLock>(root)};
   // Later checkpoints first: as long as one is there, the files must not be cut back to an earlier one.
   remove_checkpoints_after(folder.checkpoints(), from.model.clock.steps);
   for (const fs::path& path :

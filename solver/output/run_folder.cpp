@@ -1,5 +1,6 @@
 #include "output/run_folder.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <system_error>
 
 #include "output/atomic_file.hpp"
+#include "output/run_lock.hpp"
 
 namespace breccia {
 namespace {
@@ -52,11 +54,13 @@ void create_folder(const fs::path& path) {
   if (error) throw output_error(path, "cannot create this folder", error.value());
 }
 
+/// Nothing but the lock of a run that never began.
 bool holds_nothing(const fs::path& folder) {
   std::error_code error;
-  const bool empty = fs::is_empty(folder, error);
+  fs::directory_iterator entries(folder, error);
   if (error) throw output_error(folder, "cannot read this folder", error.value());
-  return empty;
+  return std::all_of(begin(entries), end(entries),
+                     [&](const fs::directory_entry& entry) { return entry.path() == lock_file(folder); });
 }
 
 void refuse(const fs::path& path, const std::string& what, const std::string& allowed) {
@@ -79,6 +83,12 @@ std::string provenance_json(const Provenance& provenance) {
   json["version"] = provenance.version;
   json["started"] = provenance.started;
   json["command_line"] = provenance.command_line;
+  json["commit"] = provenance.commit;
+  json["libraries"] = provenance.libraries;
+  json["ranks"] = provenance.ranks;
+  json["inputs"] = nlohmann::json::array();
+  for (const Provenance::Input& input : provenance.inputs)
+    json["inputs"].push_back({{"file", input.file}, {"sha256", input.sha256}});
   json["host"] = provenance.host;
   json["processor"] = provenance.processor;
   json["cores"] = provenance.cores;
@@ -89,15 +99,17 @@ std::string provenance_json(const Provenance& provenance) {
 
 RunFolder prepare_run_folder(const fs::path& root, const std::string& resolved_case, const Provenance& provenance,
                              OldResults old_results) {
-  const RunFolder folder{root};
+  RunFolder folder{root};
   create_folder(root);
   if (!holds_nothing(root) && !is_run(folder)) {
     refuse(root, "this folder holds other things than a run of breccia",
            "an empty or new folder, or one of an earlier run");
   }
+  folder.lock = std::make_shared<const RunLock>(root);
   const std::vector<fs::path> results = results_in(folder);
   if (!results.empty() && old_results == OldResults::refuse) {
-    refuse(root, "this folder holds the results of an earlier run", "another folder, or permission to overwrite");
+    refuse(root, "this folder holds the results of an earlier run",
+           "another folder (-o), or -f (--overwrite) to replace them");
   }
   for (const fs::path& path : results) {
     std::error_code error;

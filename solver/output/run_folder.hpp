@@ -1,14 +1,24 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace breccia {
 
+class RunLock;
+
 /// Where a result came from: `provenance.json`.
 struct Provenance {
+  /// A file that the run was made from.
+  struct Input {
+    std::string file;    ///< as it was named
+    std::string sha256;  ///< of its bytes; empty: it cannot be read
+  };
   std::string version;    ///< of the program
+  std::string commit;     ///< of the sources when the build was configured; "-dirty": changed since
+  std::string libraries;  ///< with their versions
   std::string host;       ///< name of the machine
   std::string processor;  ///< model
   int cores = 0;          ///< hardware threads
@@ -16,7 +26,11 @@ struct Provenance {
   std::string flags;      ///< build type and options
   std::string started;    ///< UTC, ISO 8601
   std::vector<std::string> command_line;
+  int ranks = 1;
+  std::vector<Input> inputs;  ///< case, geometry or mesh, and what a geometry includes by name
 };
+
+[[nodiscard]] Provenance::Input input_file(const std::filesystem::path& file);
 
 /// Asks the machine and the build; unknown parts are empty. Throws nothing but std::bad_alloc.
 [[nodiscard]] Provenance collect_provenance(std::string version, std::vector<std::string> command_line);
@@ -25,6 +39,7 @@ struct Provenance {
 /// Names inside one run's folder.
 struct RunFolder {
   std::filesystem::path root;
+  std::shared_ptr<const RunLock> lock = nullptr;  ///< of the process that prepared it, held as long as this lives
 
   [[nodiscard]] std::filesystem::path frames() const { return root / "frames"; }
   [[nodiscard]] std::filesystem::path case_file() const { return root / "case.toml"; }
@@ -46,7 +61,8 @@ enum class OldResults { refuse, overwrite };
 /// Makes `root` ready for a run: creates it and frames/, writes case.toml and provenance.json.
 /// A folder with other things in it is refused, and so is a run with results unless old_results is overwrite: then the
 /// files a run writes are removed, and only those.
-/// @throws OutputError naming the path: refused, not a folder, no permission, disk full.
+/// The folder is locked first (output/run_lock.hpp), so that nobody takes the results of a run that goes on.
+/// @throws OutputError naming the path: refused, held by another run, not a folder, no permission, disk full.
 [[nodiscard]] RunFolder prepare_run_folder(const std::filesystem::path& root, const std::string& resolved_case,
                                            const Provenance& provenance, OldResults old_results);
 

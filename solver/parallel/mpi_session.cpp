@@ -1,6 +1,7 @@
 #include "parallel/mpi_session.hpp"
 
 #include <cstdlib>
+#include <string_view>
 
 #include "parallel/mpi_handle.hpp"
 
@@ -19,6 +20,9 @@ bool launched() {
 
 MpiSession::MpiSession(int& argc, char**& argv) {
   if (!launched()) return;
+  // Ranks of one machine speak through its memory; Open MPI need not listen to networks then.
+  const char *all = std::getenv("OMPI_COMM_WORLD_SIZE"), *here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
+  if (all != nullptr && here != nullptr && std::string_view(all) == here) ::setenv("OMPI_MCA_btl", "^tcp", 0);
   int provided = 0;
   check_mpi(MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
   active_ = true;

@@ -213,7 +213,8 @@ TEST(InSituAlone, an_interrupt_still_ends_the_run_in_order) {
                                 " --progress none --insitu ranks,fractures --set 'stage[0].end=1000 s' -o '" +
                                 folder.string() + "'";
   EXPECT_EQ(
-      call_interrupted(arguments, SIGTERM, [&] { return fs::exists(folder / "extracts/fractures/fractures.pvd"); }), 0);
+      call_interrupted(arguments, SIGTERM, [&] { return fs::exists(folder / "extracts/fractures/fractures.pvd"); }),
+      143);
   EXPECT_EQ(json::parse(read_text(folder / "summary.json"))["status"].get<std::string>().substr(0, 7), "stopped");
 }
 

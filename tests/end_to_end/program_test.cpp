@@ -2,9 +2,11 @@
 #include <signal.h>
 #include <nlohmann/json.hpp>
 
+#include <chrono>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 #include "end_to_end/program.hpp"
 
@@ -164,8 +166,55 @@ TEST(Program, an_interrupt_ends_the_run_in_order) {
       "run " + file + " --progress none --set 'stage[0].end=100 s' -o '" + folder.string() + "'";
   EXPECT_EQ(call_interrupted(arguments, SIGINT,
                              [&] { return std::filesystem::exists(folder / "frames/elements.hdf.series"); }),
-            0);
+            130);
   EXPECT_EQ(json::parse(read_text(folder / "summary.json"))["status"].get<std::string>().substr(0, 7), "stopped");
+}
+
+TEST(Program, gives_up_a_mesh_that_takes_too_long_when_it_is_interrupted) {
+  const Scratch scratch;
+  std::string text = changed("[mesh.raster]", "[mesh]\nfile = \"endless.geo\"\n[ignored]");
+  const std::size_t ignored = text.find("[ignored]");
+  const std::string file = scratch.write("case.toml", text.erase(ignored, text.find("[[material]]") - ignored));
+  scratch.write("endless.geo", "For i In {1:1000000000}\n  For j In {1:1000000000}\n    x = i;\n  EndFor\nEndFor\n");
+  const std::string err = scratch.path("err").string();
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(
+      call_interrupted("run " + file + " --progress log -o '" + scratch.path("run").string() + "' 2> '" + err + "'",
+                       SIGINT, [&] { return read_text(err).find("reading the mesh") != std::string::npos; }),
+      130);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+  EXPECT_NE(read_text(err).find("interrupted while the mesh was read"), std::string::npos) << read_text(err);
+  EXPECT_FALSE(std::filesystem::exists(scratch.path("run")));
+}
+
+TEST(Program, that_is_killed_is_told_interrupted_and_leaves_its_folder_free) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", kSmallCase), run = scratch.path("run").string();
+  const std::string arguments = "run " + file + " --progress none --set 'stage[0].end=100 s' -o '" + run + "'";
+  const auto status = [&] { return read_text(run + "/status.jsonl"); };
+  bool refused = false;
+  EXPECT_EQ(call_interrupted(arguments, SIGKILL,
+                             [&] {
+                               if (status().empty()) return false;
+                               const Outcome second = call(arguments + " -f");
+                               refused = second.exit_code == 2 && second.err.find("another run") != std::string::npos;
+                               return true;
+                             }),
+            -1);
+  EXPECT_TRUE(refused) << "two runs in one folder";
+  for (int look = 0; look < 100 && status().find("interrupted") == std::string::npos; ++look)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_NE(status().find("{\"state\":\"interrupted\""), std::string::npos) << status();
+  EXPECT_EQ(call("run " + file + " -f --progress none --set time.max_steps=3 -o '" + run + "'").exit_code, 0);
+}
+
+TEST(Program, whose_terminal_is_closed_ends_as_if_asked_to) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", kSmallCase), run = scratch.path("run").string();
+  EXPECT_EQ(call_interrupted("run " + file + " --progress none --set 'stage[0].end=100 s' -o '" + run + "'", SIGHUP,
+                             [&] { return !read_text(run + "/status.jsonl").empty(); }),
+            129);
+  EXPECT_NE(read_text(run + "/status.jsonl").find("{\"state\":\"stopped\""), std::string::npos);
 }
 
 TEST(Program, check_advises_in_sentences) {
@@ -173,8 +222,8 @@ TEST(Program, check_advises_in_sentences) {
   const std::string file = scratch.write("case.toml", kSmallCase);
   const Outcome outcome = call("check " + file);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  for (const char* fragment :
-       {"stable time step", "limited by", "softer", "memory", "fracture process zone", "steps of"}) {
+  for (const char* fragment : {"stable time step", "limited by", "softer", "memory", "fracture process zone",
+                               "steps of", "5 frames", "on disk"}) {
     EXPECT_NE(outcome.out.find(fragment), std::string::npos) << fragment << " in\n" << outcome.out;
   }
 }

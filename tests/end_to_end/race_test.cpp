@@ -166,7 +166,7 @@ TEST(Race, an_interrupt_ends_it_in_order) {
   const std::string file = scratch.write("case.toml", kSmallCase), out = scratch.path("out").string();
   const std::string arguments =
       "race " + file + " --progress json --set 'stage[0].end=100 s' --from '90 s' > '" + out + "'";
-  EXPECT_EQ(call_interrupted(arguments, SIGINT, [&] { return !read_text(out).empty(); }), 0);
+  EXPECT_EQ(call_interrupted(arguments, SIGINT, [&] { return !read_text(out).empty(); }), 130);
   EXPECT_NE(read_text(out).find("{\"state\":\"stopped\""), std::string::npos) << read_text(out);
 }
 

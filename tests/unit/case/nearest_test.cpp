@@ -25,6 +25,10 @@ TEST(Nearest, CandidatesComeInOrderOfDistance) {
   EXPECT_EQ(nearest_first("plums", candidates), (std::vector<std::string>{"plum", "plumber", "pear"}));
 }
 
+TEST(Nearest, OfEquallyNearOnesTheOneWithTheSameCapitalsIsFirst) {
+  EXPECT_EQ(likely_meant("GPpa", std::vector<std::string>{"pPa", "GPa"}), "GPa");
+}
+
 TEST(Nearest, AWordFarFromAllCandidatesIsNotGuessed) {
   EXPECT_EQ(likely_meant("aple", fruit), "apple");
   EXPECT_EQ(likely_meant("zucchini", fruit), "");

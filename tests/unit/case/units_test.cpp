@@ -30,7 +30,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Good{"10 us", "s", 1e-5}, Good{"10 \u00b5s", "s", 1e-5}, Good{"9.81 m/s^2", "m/s2", 9.81},
                     Good{"-9.81 m/s2", "m/s2", -9.81}, Good{"+1 m", "m", 1}, Good{"1e-3 mm", "m", 1e-6},
                     Good{"1E+3 mm", "m", 1}, Good{".5 m", "m", 0.5}, Good{"5. m", "m", 5},
-                    Good{"20 GPa/s", "Pa/s", 20e9}, Good{"2340 kg/m3", "kg/m3", 2340},
+                    Good{"20 GPa/s", "Pa/s", 20e9}, Good{"1.8 TPa", "Pa", 1.8e12}, Good{"2340 kg/m3", "kg/m3", 2340},
                     Good{"2.34 g/cm3", "kg/m3", 2340}, Good{"2.34 t/m^3", "kg/m3", 2340}, Good{"30 N/m", "J/m2", 30},
                     Good{"30 J/m2", "J/m2", 30}, Good{"0.03 N/mm", "J/m2", 30}, Good{"7 J m^-2", "J/m2", 7},
                     Good{"7 J/(m*m)", "J/m2", 7}, Good{"7 J/m/m", "J/m2", 7}, Good{"7 kg m2/(s2 m2)", "J/m2", 7},

@@ -217,7 +217,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"negative_density",
               "\"2456 kg/m3\"",
               "-2456",
-              {"material[0].density: is out of range", "> 0", "given: -2456"}},
+              {"material[0].density: is out of range", ">= 1e-06", "given: -2456"}},
         Wrong{"poisson_one_half",
               "poisson = 0.2\n",
               "poisson = 0.5\n",

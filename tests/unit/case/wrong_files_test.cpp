@@ -15,6 +15,19 @@ TEST(WrongCases, ABreakableGroupNeedsAJointLaw) {
                     HasSubstr("[[joint]] with group = \"raster\"")));
 }
 
+TEST(WrongCases, AKeyThatIsTooDeepIsRefusedWithItsLine) {
+  std::string deep = "a";
+  for (int i = 0; i < 50000; ++i) deep += ".a";
+  EXPECT_THAT(message_of("title = \"x\"\n" + deep + " = 1\n"),
+              HasSubstr("case.toml:2: a key is too deep; allowed: at most 64"));
+  EXPECT_THAT(message_of("[" + deep + "]\n"), HasSubstr("a key is too deep"));
+  EXPECT_THAT(message_of("x = {" + deep + " = 1}\n"), HasSubstr("a key is too deep"));
+  const std::string dots(200, '.');
+  for (const std::string& text : {"title = \"" + dots + "\"\n", "title = \"\"\"\n" + dots + "\n\"\"\"\n",
+                                  "# " + dots + "\n", "title = '" + dots + "'\n", "title = \"\\\"" + dots + "\"\n"})
+    EXPECT_THAT(message_of(text + minimal), testing::Not(HasSubstr("too deep"))) << text;
+}
+
 TEST(WrongCases, ACaseNeedsMeshMaterialAndStage) {
   EXPECT_THAT(message_of(""),
               AllOf(HasSubstr("mesh: is missing"), HasSubstr("material: is missing"), HasSubstr("stage: is missing")));

@@ -45,6 +45,10 @@ TEST(GeoScan, FollowsIncludedFilesOnce) {
   EXPECT_EQ(scan_geo(main).constants, (Names{"a", "b"}));
 }
 
+TEST(GeoScan, PassesOverIncludedFoldersAndPipes) {
+  EXPECT_TRUE(scan_text("Include \"\"; Merge \"/\"; Include \"..\";").problems.empty());
+}
+
 TEST(GeoScan, RefusesStatementsThatRunProgramsOrEndTheProcess) {
   const GeoScan scan = scan_text("Point(1) = {0, 0, 0};\n/* two\nlines */ SystemCall \"ls\";\n\nExit;\n");
   ASSERT_EQ(scan.problems.size(), 2u);

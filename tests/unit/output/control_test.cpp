@@ -3,10 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
+#include <atomic>
 #include <fstream>
 #include <thread>
 
 #include "base/error.hpp"
+#include "output/run_folder.hpp"
+#include "output/run_lock.hpp"
 #include "unit/output/temporary_folder.hpp"
 
 namespace breccia {
@@ -50,6 +55,54 @@ TEST(Command, WithAWrongIntervalSaysWhy) {
     const Command command = parse_command(std::string("frame_interval ") + time);
     EXPECT_EQ(command.kind, Kind::refused) << time;
     EXPECT_THAT(command.complaint, HasSubstr(time));
+  }
+}
+
+TEST(ControlFile, IsNotHeldUpByAPipeAFolderOrALink) {
+  const TemporaryFolder folder;
+  ControlFile control(folder / "control");
+  ASSERT_EQ(::mkfifo((folder / "control").c_str(), 0600), 0);
+  EXPECT_THAT(control.take(), IsEmpty());
+  EXPECT_FALSE(std::filesystem::exists(folder / "control"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(250));
+  write(folder / "elsewhere", "stop\n");
+  std::filesystem::create_symlink(folder / "elsewhere", folder / "control");
+  EXPECT_THAT(control.take(), IsEmpty());
+  EXPECT_TRUE(std::filesystem::exists(folder / "elsewhere"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(250));
+  std::filesystem::create_directory(folder / "control");
+  EXPECT_THAT(control.take(), IsEmpty());
+}
+
+TEST(ControlFile, LosesNoneOfManyThatAskAtOnce) {
+  constexpr int kAskers = 6;
+  const TemporaryFolder folder;
+  const RunFolder run{folder.path()};
+  write(run.status(), "{\"state\":\"running\"}\n");
+  std::vector<std::thread> askers;
+  std::atomic<int> answered{0};
+  for (int i = 0; i < kAskers; ++i)
+    askers.emplace_back([&] { answered += ask_run(folder.path(), "frame", 30) == "done" ? 1 : 0; });
+  ControlFile control(run.control());
+  for (int look = 0; look < 600 && answered < kAskers; ++look) {
+    for (const std::string& line : control.take())
+      write(run.status(),
+            "{\"event\":\"control\",\"accepted\":true,\"text\":\"done\",\"id\":\"" + parse_command(line).id + "\"}\n");
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  for (std::thread& asker : askers) asker.join();
+  EXPECT_EQ(answered, kAskers);
+}
+
+TEST(ControlFile, OfAKilledRunIsNotWaitedFor) {
+  const TemporaryFolder folder;
+  write(RunFolder{folder.path()}.status(), "{\"state\":\"running\"}\n");
+  { const RunLock lock(folder.path()); }
+  try {
+    (void)ask_run(folder.path(), "frame", 30);
+    FAIL() << "nobody can have answered";
+  } catch (const OutputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("interrupted"));
   }
 }
 

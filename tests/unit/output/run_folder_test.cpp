@@ -3,10 +3,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "base/error.hpp"
+#include "output/run_diff.hpp"
+#include "output/run_lock.hpp"
 #include "unit/output/temporary_folder.hpp"
 
 namespace breccia {
@@ -63,7 +72,7 @@ TEST(RunFolderTest, RefusesAFolderThatHoldsOtherThingsAndTouchesNothingInIt) {
 
 TEST(RunFolderTest, RefusesResultsOfAnEarlierRunUnlessTheyMayGo) {
   const TemporaryFolder place;
-  const RunFolder folder = prepare_run_folder(place.path(), "old", kProvenance, OldResults::refuse);
+  const RunFolder folder{prepare_run_folder(place.path(), "old", kProvenance, OldResults::refuse).root};
   EXPECT_EQ(error_of(place.path(), OldResults::refuse), "") << "a prepared folder without results is free";
   for (const fs::path& result : {folder.history(), folder.status(), folder.summary(), folder.summary_text(),
                                  folder.frames() / "joints_000007.vtkhdf"}) {
@@ -75,7 +84,7 @@ TEST(RunFolderTest, RefusesResultsOfAnEarlierRunUnlessTheyMayGo) {
 
 TEST(RunFolderTest, OverwritingRemovesResultsAndNothingElse) {
   const TemporaryFolder place;
-  const RunFolder folder = prepare_run_folder(place.path(), "old", kProvenance, OldResults::refuse);
+  const RunFolder folder{prepare_run_folder(place.path(), "old", kProvenance, OldResults::refuse).root};
   const std::vector<fs::path> results{folder.history(),
                                       folder.status(),
                                       folder.summary(),
@@ -91,6 +100,104 @@ TEST(RunFolderTest, OverwritingRemovesResultsAndNothingElse) {
   for (const fs::path& path : results) EXPECT_FALSE(fs::exists(path)) << path;
   for (const fs::path& path : others) EXPECT_TRUE(fs::exists(path)) << path;
   EXPECT_EQ(content_of(folder.case_file()), "title = \"x\"\n");
+}
+
+TEST(RunFolderTest, IsRefusedWhileAnotherRunWritesThere) {
+  const TemporaryFolder place;
+  {
+    const RunFolder first = prepare_run_folder(place.path(), "old", kProvenance, OldResults::refuse);
+    EXPECT_THAT(holder_of(place.path()), HasSubstr("process " + std::to_string(::getpid())));
+    touch(first.history());
+    for (const OldResults old : {OldResults::refuse, OldResults::overwrite})
+      EXPECT_THAT(error_of(place.path(), old), HasSubstr("another run writes here: process"));
+    EXPECT_TRUE(fs::exists(first.history()));
+  }
+  EXPECT_EQ(holder_of(place.path()), "") << "a lock that is left over holds nothing";
+  EXPECT_EQ(error_of(place.path(), OldResults::overwrite), "");
+}
+
+TEST(RunFolderTest, SaysHowOldResultsAreReplaced) {
+  const TemporaryFolder place;
+  touch(prepare_run_folder(place.path(), "old", kProvenance, OldResults::refuse).history());
+  EXPECT_THAT(error_of(place.path(), OldResults::refuse), HasSubstr("-f (--overwrite)"));
+}
+
+TEST(RunFolderTest, KnowsTheHashOfAnInput) {
+  const TemporaryFolder place;
+  std::ofstream(place.path() / "abc") << "abc";
+  EXPECT_EQ(input_file(place.path() / "abc").sha256,
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");  // FIPS 180-2, appendix B.1
+  EXPECT_EQ(input_file(place.path() / "gone").sha256, "");
+  std::ofstream(place.path() / "long") << std::string(1'000'000, 'a');
+  EXPECT_EQ(input_file(place.path() / "long").sha256,
+            "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");  // appendix B.3
+}
+
+/// What stands in status.jsonl after a process with a watch has ended by `end`, with this last line before.
+std::string status_after(const std::string& line, const std::function<void()>& end) {
+  const TemporaryFolder place;
+  std::ofstream(RunFolder{place.path()}.status()) << line;
+  const pid_t process = ::fork();
+  if (process == 0) {
+    try {
+      RunWatch watch;
+      const RunLock lock(place.path());
+      watch.guard(place.path());
+      end();
+    } catch (...) {
+    }
+    ::_exit(0);
+  }
+  ::waitpid(process, nullptr, 0);
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::milliseconds(line.empty() ? 300 : 3000);
+  while (content_of(RunFolder{place.path()}.status()) == line && std::chrono::steady_clock::now() < patience)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  return content_of(RunFolder{place.path()}.status()).substr(line.size());
+}
+
+TEST(RunWatchTest, TellsThatARunWasKilled) {
+  EXPECT_THAT(status_after("{\"state\":\"running\",\"step\":7}\n", [] { ::raise(SIGKILL); }),
+              testing::StartsWith("{\"state\":\"interrupted\""));
+  EXPECT_THAT(status_after("{\"state\":\"paused\",\"step\":7}\n", [] { ::raise(SIGKILL); }),
+              testing::StartsWith("{\"state\":\"interrupted\""));
+  EXPECT_THAT(status_after("{\"state\":\"running\"}\n{\"state\":\"runn", [] { ::raise(SIGKILL); }),
+              testing::StartsWith("\n{\"state\":\"interrupted\""))
+      << "after a line that was cut off";
+}
+
+TEST(RunWatchTest, TellsThatAnErrorEndedARun) {
+  EXPECT_THAT(status_after("{\"state\":\"running\",\"step\":7}\n", [] { throw std::runtime_error("disk full"); }),
+              testing::StartsWith("{\"state\":\"failed\""));
+}
+
+TEST(RunWatchTest, AddsNothingToARunThatHasEnded) {
+  EXPECT_EQ(status_after("{\"state\":\"complete\",\"step\":7}\n", [] { ::raise(SIGKILL); }), "");
+}
+
+// --- Two runs compared
+
+TEST(RunDiffTest, NamesKeysInputsResultsAndTheFirstLineThatDiffers) {
+  const TemporaryFolder place;
+  const auto run = [&](const std::string& name, const std::string& young, const std::string& hash, double last) {
+    Provenance provenance = kProvenance;
+    provenance.inputs = {{"case.toml", hash}};
+    const RunFolder folder = prepare_run_folder(
+        place.path() / name, "title = \"x\"\n[[material]]\nyoung = " + young + "\n", provenance, OldResults::refuse);
+    std::ofstream(folder.summary()) << "{\"state_hash\": \"" << hash << "\", \"wall_s\": " << last << "}";
+    std::ofstream(folder.history()) << "step,time [s],couples,kinetic [J]\n1,0,5,2\n2,1," << last << ",3\n3,2,5,"
+                                    << last << "\n";
+    return folder.root;
+  };
+  const fs::path a = run("a", "4.0", "aa", 8), b = run("b", "5.0", "bb", 9), c = run("c", "4.0", "aa", 8);
+  const std::string text = diff_runs(a, b);
+  EXPECT_THAT(text, HasSubstr("  material[0].young: 4 | 5\n"));
+  EXPECT_THAT(text, HasSubstr("  input case.toml: aa | bb\n"));
+  EXPECT_THAT(text, HasSubstr("  state_hash: aa | bb\n"));
+  EXPECT_THAT(text, HasSubstr("they part in line 4, step 3\n    kinetic [J]: 8 | 9\n")) << "couples are no result";
+  EXPECT_THAT(text, testing::Not(HasSubstr("wall_s")));
+  EXPECT_EQ(diff_runs(a, c),
+            "case: the same\ninputs, versions, machine: the same\nresults: the same\nhistory: the same\n");
+  EXPECT_THROW((void)diff_runs(a, place.path()), OutputError);
 }
 
 TEST(RunFolderTest, NamesAPlaceWhereNothingCanBeWritten) {

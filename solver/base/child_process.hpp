@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace breccia {
+
+/// How far a child may go.
+struct ChildLimits {
+  double seconds = 3600;    ///< wall time
+  std::uint64_t bytes = 0;  ///< memory beyond what it starts with; 0: no limit
+  bool confined = true;     ///< no right to run, write or connect (base/confinement.hpp)
+};
+
+/// How a child ended.
+struct ChildEnd {
+  enum class Kind {
+    finished,       ///< `result` is what the work returned
+    forbidden,      ///< it tried what a confined process may not; `text` says what
+    out_of_time,    ///< ended after limits.seconds
+    out_of_memory,  ///< ended by its limit, or by the system's
+    crashed,        ///< by `signal`, or by leaving without a result; `text` is the last line it wrote to stderr
+    interrupted,    ///< the parent was asked to end (base/interruption.hpp)
+    not_confined,   ///< this system cannot confine a process: nothing was done
+  };
+  Kind kind = Kind::crashed;
+  int signal = 0;
+  std::string text;
+  std::vector<std::byte> result;
+};
+
+/// Runs `work` in a forked copy of this process and returns its result. A crash, endless loop or memory bomb there ends
+/// the child alone. It has its own stdin (empty), stdout and stderr (kept for `text`), no other descriptor of the
+/// parent's, no core dump, and dies with the parent. Signals have their default meaning in it.
+/// @param prepare  runs first, with refusals as errors: libraries that open files of their own when they start go on
+/// @param work  runs in the child; what it changes there is lost. They must not throw; std::bad_alloc alone is taken as
+///              the end of memory
+/// Throws OutputError when the system refuses a process.
+[[nodiscard]] ChildEnd run_in_child(const ChildLimits& limits, const std::function<void()>& prepare,
+                                    const std::function<std::vector<std::byte>()>& work);
+
+/// Memory of this machine, or of the control group that this process is in where that is less; bytes.
+[[nodiscard]] std::uint64_t memory_of_machine();
+
+}  // namespace breccia

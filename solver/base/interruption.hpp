@@ -1,0 +1,22 @@
+#pragma once
+
+#include <atomic>
+#include <string>
+
+#include "base/error.hpp"
+
+namespace breccia {
+
+/// Number of the signal by which somebody asked this process to end (Ctrl-C, a polite kill, a closed terminal); 0:
+/// nobody has. Set by a handler in main; long work that can be given up looks at it.
+inline std::atomic<int> interruption{0};
+
+/// Thrown where work that has written nothing is given up because of it; main turns it into 128 + the signal.
+inline void give_up_if_interrupted() {
+  if (interruption != 0) throw InputError(Problem{"", 0, "", "interrupted; nothing has been written", "", ""});
+}
+
+/// What a program that ends by such a request returns, as shells do: 130 for Ctrl-C, 143 for a polite kill.
+[[nodiscard]] inline int exit_code_of(int signal) { return 128 + signal; }
+
+}  // namespace breccia

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "base/error.hpp"
+#include "mesh/mesh.hpp"
+
+namespace breccia {
+
+/// A mesh as read, before finish_mesh, on its way from the process that reads it.
+struct RawMesh {
+  Mesh mesh;
+  Index ungrouped_elements = 0;  ///< tetrahedra outside every physical volume, left out
+};
+
+/// A mesh, or why there is none.
+using MeshOrProblems = std::variant<RawMesh, std::vector<Problem>>;
+
+[[nodiscard]] std::vector<std::byte> bytes_of(const MeshOrProblems& read);
+
+/// The reverse of bytes_of. Who sent them is not trusted: every length is compared with what is there before memory is
+/// asked for, and every index with the list it points into.
+/// Throws InputError when the bytes are anything but a whole mesh or a whole list of problems. O(bytes).
+[[nodiscard]] MeshOrProblems mesh_of(std::span<const std::byte> bytes);
+
+}  // namespace breccia

@@ -1,0 +1,131 @@
+#include "fuzz/targets.hpp"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "base/error.hpp"
+#include "case/reader.hpp"
+#include "case/units.hpp"
+#include "mesh/geo_scan.hpp"
+#include "mesh/mesh_bytes.hpp"
+#include "output/control.hpp"
+
+namespace breccia::fuzz {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+Bytes bytes_of_text(const std::string& text) {
+  const auto raw = std::as_bytes(std::span(text));
+  return {raw.begin(), raw.end()};
+}
+
+std::string text_of(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+/// One file of this process in memory-backed storage where there is some.
+const std::filesystem::path& scratch_file() {
+  static const std::filesystem::path file =
+      (std::filesystem::exists("/dev/shm") ? std::filesystem::path("/dev/shm")
+                                           : std::filesystem::temp_directory_path()) /
+      ("breccia_fuzz_" + std::to_string(::getpid()));
+  static const struct Remover {
+    ~Remover() { std::filesystem::remove(file); }
+  } remover;
+  return file;
+}
+
+const std::filesystem::path& written(std::span<const std::byte> bytes) {
+  std::ofstream(scratch_file(), std::ios::binary) << text_of(bytes);
+  return scratch_file();
+}
+
+std::vector<Bytes> files_of_meshes(const std::string& extension) {
+  std::vector<Bytes> seeds;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(BRECCIA_MESHES)) {
+    if (entry.path().extension() != extension) continue;
+    std::ifstream file(entry.path(), std::ios::binary);
+    seeds.push_back(bytes_of_text({std::istreambuf_iterator<char>(file), {}}));
+  }
+  return seeds;
+}
+
+void read_case_file(std::span<const std::byte> bytes) { (void)case_::read_case(written(bytes)); }
+
+void read_override(std::span<const std::byte> bytes) {
+  const std::vector<std::string> overrides{text_of(bytes)};
+  (void)case_::read_case(std::filesystem::path(BRECCIA_MESHES) / "block_wall" / "case.toml", overrides);
+}
+
+void read_quantity(std::span<const std::byte> bytes) {
+  try {
+    (void)case_::parse_quantity(text_of(bytes));
+  } catch (const case_::UnitError&) {
+  }
+}
+
+void scan_script(std::span<const std::byte> bytes) { (void)scan_geo(written(bytes)); }
+
+void read_mesh_bytes(std::span<const std::byte> bytes) {
+  MeshOrProblems read = mesh_of(bytes);
+  // What is accepted is written and read again without a change.
+  if (bytes_of(read) != Bytes(bytes.begin(), bytes.end())) throw std::logic_error("a mesh changed on its way");
+}
+
+void read_control(std::span<const std::byte> bytes) { (void)parse_command(text_of(bytes)); }
+
+std::vector<Bytes> override_seeds() {
+  std::vector<Bytes> seeds;
+  for (const char* text : {"material.block.young=\"70 GPa\"", "material[1].density=2456", "time.safety=0.5",
+                           "output.gauges=[\"block\"]", "stage.impact.constraint[0].velocity.y=\"-2 mm/s\""})
+    seeds.push_back(bytes_of_text(text));
+  return seeds;
+}
+
+std::vector<Bytes> quantity_seeds() {
+  std::vector<Bytes> seeds;
+  for (const char* text : {"26.6 GPa", "1 J/(m2 s)", "-1e-3 mm^-2", "9.81 m/s^2", "5 %", "1.8 TPa", "30 deg/s"})
+    seeds.push_back(bytes_of_text(text));
+  return seeds;
+}
+
+std::vector<Bytes> control_seeds() {
+  std::vector<Bytes> seeds;
+  for (const char* text : {"pause id=7.8", "frame_interval 2 us id=3", "stop", "extract id=", "resume\r"})
+    seeds.push_back(bytes_of_text(text));
+  return seeds;
+}
+
+std::vector<Bytes> mesh_seeds() {
+  RawMesh raw;
+  raw.mesh.source = "a.msh";
+  raw.mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0.1}};
+  raw.mesh.elements = {{0, 1, 2, 3}};
+  raw.mesh.element_group = raw.mesh.element_body = {0};
+  raw.mesh.element_source_id = {17};
+  raw.mesh.surface_faces = {{{0, 1, 2}, 0}};
+  raw.mesh.volume_groups = {"box"};
+  raw.mesh.surface_groups = {"floor"};
+  raw.mesh.num_bodies = 1;
+  return {bytes_of(raw), bytes_of(std::vector<Problem>{{"a.geo", 3, "key", "what", "", "given"}})};
+}
+
+}  // namespace
+
+const std::vector<Target>& targets() {
+  static const std::vector<Target> all{
+      {"case", read_case_file, [] { return files_of_meshes(".toml"); }},
+      {"override", read_override, override_seeds},
+      {"quantity", read_quantity, quantity_seeds},
+      {"geometry", scan_script, [] { return files_of_meshes(".geo"); }},
+      {"mesh", read_mesh_bytes, mesh_seeds},
+      {"control", read_control, control_seeds},
+  };
+  return all;
+}
+
+}  // namespace breccia::fuzz
