@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "vtkDataSet.h"
 #include "vtkMultiProcessController.h"
 
 class vtkDataArray;
 class vtkDataObject;
-class vtkDataSet;
 class vtkTable;
 
 /// What the filters share: finding the parts of a run in their input, and sums and lists over the ranks. Lengths in m, all quantities SI.

@@ -254,9 +254,16 @@ double Fragment::Diameter() const { return std::cbrt(6 * volume / vtkMath::Pi())
 double Fragment::SieveSize() const { return 2 * semi_axes[1]; }
 double Fragment::Sphericity() const { return area > 0 ? vtkMath::Pi() * Diameter() * Diameter() / area : 0; }
 
-std::vector<Fragment> Tabulate(const Elements& elements, const Connectivity& connectivity,
-                               const std::vector<double>& mass, const std::vector<double>& velocity,
-                               const Ranks& ranks) {
+std::vector<Fragment> Tabulate(const Elements& elements, const Connectivity& connectivity, const Ranks& ranks) {
+  std::vector<double> mass, velocity;
+  std::string problem;
+  try {
+    mass = Numbers(elements.grid, "mass");
+    velocity = Numbers(elements.grid, "velocity", 3);
+  } catch (const BadInput& bad) {
+    problem = std::string("elements: ") + bad.what();
+  }
+  ranks.Agree(problem);
   return Tabulator(elements, connectivity, mass, velocity, ranks).Run();
 }
 

@@ -10,7 +10,6 @@
 #include "vtkDoubleArray.h"
 #include "vtkExtractCells.h"
 #include "vtkIdList.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -136,12 +135,22 @@ vtkSmartPointer<vtkUnstructuredGrid> Extracted(vtkUnstructuredGrid* grid, const 
   return extract->GetOutput();
 }
 
+/// The fragments that hold the elements, ascending.
+std::vector<vtkTypeInt64> Followed(const std::vector<vtkIdType>& followed, const breccia::Elements& elements,
+                                   const breccia::Connectivity& parts, const breccia::Ranks& ranks) {
+  std::vector<vtkTypeInt64> mine;
+  const breccia::IdIndex here(elements.id);
+  for (const vtkIdType element : followed) {
+    if (const vtkIdType e = here.Find(element); e >= 0) mine.push_back(parts.fragment[static_cast<std::size_t>(e)]);
+  }
+  std::vector<vtkTypeInt64> wanted = ranks.Gather(mine);
+  std::sort(wanted.begin(), wanted.end());
+  return wanted;
+}
+
 }  // namespace
 
-vtkBrecciaFragments::vtkBrecciaFragments() {
-  this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(3);
-}
+vtkBrecciaFragments::vtkBrecciaFragments() : vtkBrecciaFilter(2, {"vtkUnstructuredGrid", "vtkTable", "vtkTable"}) {}
 
 void vtkBrecciaFragments::AddFollowedElement(vtkIdType id) {
   if (id < 0) return;
@@ -155,83 +164,32 @@ void vtkBrecciaFragments::ClearFollowedElements() {
   this->Modified();
 }
 
-int vtkBrecciaFragments::FillInputPortInformation(int port, vtkInformation* info) {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
-  if (port == 1) info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  return 1;
-}
-
-int vtkBrecciaFragments::FillOutputPortInformation(int port, vtkInformation* info) {
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkUnstructuredGrid" : "vtkTable");
-  return 1;
-}
-
-int vtkBrecciaFragments::RequestDataObject(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) {
-  if (!vtkUnstructuredGrid::GetData(outputs, 0)) {
-    vtkNew<vtkUnstructuredGrid> grid;
-    outputs->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), grid);
+void vtkBrecciaFragments::Make(vtkDataObject* input, vtkDataObject* joints, vtkInformationVector* outputs) {
+  const breccia::Ranks ranks;
+  const breccia::Elements elements = breccia::FindElements(input, ranks);
+  const breccia::Cracks cracks = breccia::FindCracks(input, joints, ranks);
+  const breccia::Connectivity parts = breccia::Connect(elements, cracks.id, ranks);
+  std::vector<Fragment> fragments = breccia::Tabulate(elements, parts, ranks);
+  std::vector<vtkTypeInt64> ids;
+  for (const Fragment& f : fragments) ids.push_back(f.id);
+  auto grid = Painted(elements, parts, fragments, breccia::IdIndex(ids));
+  if (!this->FollowedElements.empty()) {
+    const std::vector<vtkTypeInt64> wanted = Followed(this->FollowedElements, elements, parts, ranks);
+    grid = Extracted(grid, parts, wanted);
+    const auto unwanted = [&](const Fragment& f) { return !std::binary_search(wanted.begin(), wanted.end(), f.id); };
+    fragments.erase(std::remove_if(fragments.begin(), fragments.end(), unwanted), fragments.end());
   }
-  for (const int port : {1, 2}) {
-    if (vtkTable::GetData(outputs, port)) continue;
-    vtkNew<vtkTable> table;
-    outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), table);
+  vtkUnstructuredGrid::GetData(outputs, 0)->ShallowCopy(grid);
+  if (!ranks.First()) fragments.clear();
+  std::vector<std::pair<double, double>> sizes;
+  for (const Fragment& f : fragments) {
+    if (this->OnlyBroken && f.cracked == 0) continue;
+    sizes.emplace_back(this->SieveMeasure == SPHERE ? f.Diameter() : f.SieveSize(), f.mass);
   }
-  return 1;
-}
-
-int vtkBrecciaFragments::RequestData(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) {
-  try {
-    const breccia::Ranks ranks;
-    vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
-    const breccia::Elements elements = breccia::FindElements(input, ranks);
-    const breccia::Cracks cracks = breccia::FindCracks(input, vtkDataObject::GetData(inputs[1], 0), ranks);
-    std::vector<double> mass, velocity;
-    std::string problem;
-    try {
-      mass = breccia::Numbers(elements.grid, "mass");
-      velocity = breccia::Numbers(elements.grid, "velocity", 3);
-    } catch (const breccia::BadInput& bad) {
-      problem = std::string("elements: ") + bad.what();
-    }
-    ranks.Agree(problem);
-    const breccia::Connectivity parts = breccia::Connect(elements, cracks.id, ranks);
-    std::vector<Fragment> fragments = breccia::Tabulate(elements, parts, mass, velocity, ranks);
-
-    std::vector<vtkTypeInt64> ids;
-    for (const Fragment& f : fragments) ids.push_back(f.id);
-    auto grid = Painted(elements, parts, fragments, breccia::IdIndex(ids));
-    if (!this->FollowedElements.empty()) {
-      std::vector<vtkTypeInt64> wanted;
-      const breccia::IdIndex here(elements.id);
-      for (const vtkIdType element : this->FollowedElements) {
-        if (const vtkIdType e = here.Find(element); e >= 0)
-          wanted.push_back(parts.fragment[static_cast<std::size_t>(e)]);
-      }
-      wanted = ranks.Gather(wanted);
-      std::sort(wanted.begin(), wanted.end());
-      grid = Extracted(grid, parts, wanted);
-      fragments.erase(
-          std::remove_if(fragments.begin(), fragments.end(),
-                         [&](const Fragment& f) { return !std::binary_search(wanted.begin(), wanted.end(), f.id); }),
-          fragments.end());
-    }
-    vtkUnstructuredGrid::GetData(outputs, 0)->ShallowCopy(grid);
-    std::vector<std::pair<double, double>> sizes;
-    for (const Fragment& f : fragments) {
-      if (this->OnlyBroken && f.cracked == 0) continue;
-      sizes.emplace_back(this->SieveMeasure == SPHERE ? f.Diameter() : f.SieveSize(), f.mass);
-    }
-    if (!ranks.First()) {
-      fragments.clear();
-      sizes.clear();
-    }
-    FillTable(fragments, vtkTable::GetData(outputs, 1));
-    FillSieve(breccia::SieveOf(sizes), vtkTable::GetData(outputs, 2));
-    return 1;
-  } catch (const breccia::BadInput& bad) {
-    vtkErrorMacro(<< "Fragments: " << bad.what());
-    return 0;
-  }
+  vtkTable::GetData(outputs, 1)->Initialize();
+  vtkTable::GetData(outputs, 2)->Initialize();
+  FillTable(fragments, vtkTable::GetData(outputs, 1));
+  FillSieve(breccia::SieveOf(sizes), vtkTable::GetData(outputs, 2));
 }
 
 void vtkBrecciaFragments::PrintSelf(ostream& os, vtkIndent indent) {

@@ -17,12 +17,12 @@
 #include <vector>  // for FollowedElements
 
 #include "BrecciaFiltersModule.h"  // for export macro
-#include "vtkDataObjectAlgorithm.h"
+#include "vtkBrecciaFilter.h"
 
-class BRECCIAFILTERS_EXPORT vtkBrecciaFragments : public vtkDataObjectAlgorithm {
+class BRECCIAFILTERS_EXPORT vtkBrecciaFragments : public vtkBrecciaFilter {
  public:
   static vtkBrecciaFragments* New();
-  vtkTypeMacro(vtkBrecciaFragments, vtkDataObjectAlgorithm);
+  vtkTypeMacro(vtkBrecciaFragments, vtkBrecciaFilter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   enum SieveMeasures { MIDDLE_AXIS = 0, SPHERE = 1 };
@@ -44,17 +44,11 @@ class BRECCIAFILTERS_EXPORT vtkBrecciaFragments : public vtkDataObjectAlgorithm 
   void ClearFollowedElements();
   ///@}
 
-  /// The channel "joints", if it is not in the first input.
-  void SetJointsConnection(vtkAlgorithmOutput* joints) { this->SetInputConnection(1, joints); }
-
  protected:
   vtkBrecciaFragments();
   ~vtkBrecciaFragments() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestDataObject(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  void Make(vtkDataObject* input, vtkDataObject* joints, vtkInformationVector* outputs) override;
 
   int SieveMeasure = MIDDLE_AXIS;
   bool OnlyBroken = true;
