@@ -1,6 +1,6 @@
 """Draws what the filters make of a run; for pvpython, and for the ParaView GUI: paraview --script=pictures.py. BRECCIA_PICTURE_RUNS names a run and one
 on several ranks, separated by a colon, BRECCIA_PICTURES the folder to draw into, BRECCIA_PARAVIEW_PLUGIN the plugin; with BRECCIA_PICTURE_WINDOW the GUI
-stays open once that file, which says so, is there."""
+draws no charts and stays open once that file, which says so, is there."""
 import os
 
 from paraview.simple import *  # noqa: F403: ParaView's way
@@ -21,7 +21,7 @@ def opened(path):
 def room(time):
     """A view in three dimensions at a time; y is up."""
     view = CreateView("RenderView")
-    AssignViewToLayout(view=view, layout=CreateLayout())
+    AssignViewToLayout(view=view, layout=CreateLayout(f"view {len(GetLayouts()) + 1}"))
     view.ViewSize = SIZE
     view.OrientationAxesVisibility = 1
     view.UseColorPaletteForBackground = 0
@@ -53,8 +53,10 @@ def saved(view, name, look=(0.5, 0.9, 1.2), zoom=1.15):
 
 
 def chart(source, port, x, columns, name, titles, logarithmic=(0, 0)):
+    if "BRECCIA_PICTURE_WINDOW" in os.environ:
+        return
     view = CreateView("XYChartView")
-    AssignViewToLayout(view=view, layout=CreateLayout())
+    AssignViewToLayout(view=view, layout=CreateLayout(f"view {len(GetLayouts()) + 1}"))
     view.ViewSize = SIZE
     shown = Show(OutputPort(source, port), view, "XYChartRepresentation")
     shown.UseIndexForXAxis = 0

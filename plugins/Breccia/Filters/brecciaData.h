@@ -16,7 +16,8 @@ class vtkDataArray;
 class vtkDataObject;
 class vtkTable;
 
-/// What the filters share: finding the parts of a run in their input, and sums and lists over the ranks. Lengths in m, all quantities SI.
+/// What the filters share: finding the parts of a run in their input, and sums and lists over the ranks. Lengths in m,
+/// all quantities SI.
 namespace breccia {
 
 /// The input lacks something; what() tells what, and what there is instead.
@@ -58,8 +59,8 @@ vtkSmartPointer<vtkDataSet> FindPart(vtkDataObject* input, const char* mark);
 /// Names of the blocks and cell arrays in an input, for messages.
 std::string Describe(vtkDataObject* input);
 
-/// Cell array of a part that may be null or empty, which gives no values. Throws BadInput when cells lack the array, or when it
-/// has another number of components.
+/// Cell array of a part that may be null or empty, which gives no values. Throws BadInput when cells lack the array,
+/// or when it has another number of components.
 std::vector<vtkTypeInt64> Integers(vtkDataSet* part, const char* name, int components = 1);
 std::vector<double> Numbers(vtkDataSet* part, const char* name, int components = 1);
 /// Corners of all cells, which must have `count` of them each.

@@ -15,8 +15,8 @@ struct CrackEvent {
   double ScalarMoment() const;
   double Magnitude() const;        ///< of the moment; -infinity without one
   double EnergyMagnitude() const;  ///< of the energy
-  /// Shares of the moment tensor that are isotropic (negative: implosion), a double couple and a compensated linear vector
-  /// dipole; the absolute values add up to 1 [Jost and Herrmann 1989].
+  /// Shares of the moment tensor that are isotropic (negative: implosion), a double couple and a compensated linear
+  /// vector dipole; the absolute values add up to 1 [Jost and Herrmann 1989].
   Vector Parts() const;
 };
 

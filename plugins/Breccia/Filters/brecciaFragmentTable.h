@@ -20,8 +20,8 @@ struct Fragment {
   std::array<double, 3> centroid{}, velocity{};  ///< of the mass; of elements' centroids, mass-weighted
   std::array<double, 3>
       spin{};  ///< 1/s: I^-1 L of the elements' centroids; along axes about which these have no inertia, 0
-  /// Ellipsoid of the same second moments of volume (semi-axes sqrt(5 eigenvalue / volume), longest first), and what its
-  /// semi-axes must be multiplied with to hold all corners.
+  /// Ellipsoid of the same second moments of volume (semi-axes sqrt(5 eigenvalue / volume), longest first), and what
+  /// its semi-axes must be multiplied with to hold all corners.
   std::array<double, 3> semi_axes{};
   std::array<std::array<double, 3>, 3> axes{};
   double bounding_factor = 1;
@@ -33,10 +33,10 @@ struct Fragment {
   double Flatness() const { return semi_axes[1] > 0 ? semi_axes[2] / semi_axes[1] : 0; }
 };
 
-/// All fragments of the model, ascending by id: alike on all ranks, and to the last bit whatever their number. Sums are made in integers
-/// of 2^-90 of the largest term of each kind, 128 bits wide, so that their order does not matter.
-/// The elements need the arrays mass, kg, and velocity (3) of their centroids, m/s: throws BadInput on all ranks where they lack.
-/// Collective. O(elements + fragments of all ranks).
+/// All fragments of the model, ascending by id: alike on all ranks, and to the last bit whatever their number. Sums
+/// are made in integers of 2^-90 of the largest term of each kind, 128 bits wide, so that their order does not matter.
+/// The elements need the arrays mass, kg, and velocity (3) of their centroids, m/s: throws BadInput on all ranks where
+/// they lack. Collective. O(elements + fragments of all ranks).
 std::vector<Fragment> Tabulate(const Elements& elements, const Connectivity& connectivity, const Ranks& ranks);
 
 }  // namespace breccia

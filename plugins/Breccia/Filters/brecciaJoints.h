@@ -22,12 +22,12 @@ struct FailedJoint {
   Vector jump{};       ///< m, how far the other side has moved against this one
 };
 
-/// The failed joints of all ranks, ascending by id: alike on all of them. Needs the array energy where `with_energy`. The jump is the opening along the
-/// normal; see SetJumps. Collective.
+/// The failed joints of all ranks, ascending by id: alike on all of them. Needs the array energy where `with_energy`.
+/// The jump is the opening along the normal; see SetJumps. Collective.
 std::vector<FailedJoint> AllFailed(const Cracks& cracks, bool with_energy, const Ranks& ranks);
 
-/// Sets the jumps to the distance between the centroids of the two faces, in the elements. Those of joints whose elements are not
-/// there stay. Collective.
+/// Sets the jumps to the distance between the centroids of the two faces, in the elements. Those of joints whose
+/// elements are not there stay. Collective.
 void SetJumps(const Elements& elements, const Ranks& ranks, std::vector<FailedJoint>& joints);
 
 inline double Dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }

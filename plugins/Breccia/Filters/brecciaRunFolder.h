@@ -28,14 +28,14 @@ struct RunFolder {
   std::vector<double> Times() const;      ///< of all channels, each once
 };
 
-/// The folder of a run, by its own path or by that of any file in it or in its frames. Throws BadInput (brecciaData.h) when it is none,
-/// or has no frame yet.
+/// The folder of a run, by its own path or by that of any file in it or in its frames. Throws BadInput (brecciaData.h)
+/// when it is none, or has no frame yet.
 RunFolder OpenRun(const std::string& path);
 /// True for what OpenRun takes for a run's folder, with or without frames.
 bool IsRun(const std::string& path);
 
-/// Columns of a run's history.csv. A last line that is still being written is left out. Throws BadInput when there is no such file, or when it
-/// is no table of numbers.
+/// Columns of a run's history.csv. A last line that is still being written is left out. Throws BadInput when there is
+/// no such file, or when it is no table of numbers.
 struct HistoryColumns {
   std::vector<std::string> names;
   std::vector<std::vector<double>> values;  ///< (names, lines)

@@ -9,8 +9,9 @@ namespace breccia {
 /// Share of the mass that passes a mesh of a given size, and two distributions fitted to it.
 ///
 /// Rosin-Rammler: P(x) = 1 - exp(-(x / x_c)^n); least squares of ln(-ln(1 - P)) over ln x.
-/// Swebrec: P(x) = 1 / (1 + (ln(x_max / x) / ln(x_max / x_50))^b), x_max the largest fragment; least squares of ln(1/P - 1) over
-/// ln ln(x_max / x). Both over the points with 0 < P < 1, of which there must be two with different sizes; else the numbers are NaN.
+/// Swebrec: P(x) = 1 / (1 + (ln(x_max / x) / ln(x_max / x_50))^b), x_max the largest fragment; least squares of ln(1/P
+/// - 1) over ln ln(x_max / x). Both over the points with 0 < P < 1, of which there must be two with different sizes;
+/// else the numbers are NaN.
 struct Sieve {
   std::vector<double> size, passing;  ///< m, ascending, each size once; mass of what is not larger over all mass
   double d50, d80;  ///< m, by linear interpolation between points; the smallest size if it holds more than that

@@ -2,9 +2,10 @@
  * @class vtkBrecciaContactNetwork
  * @brief which fragments press on which, and how much
  *
- * Contact forces are summed between each two fragments; a body that has not broken is one. Outputs, on the first rank: force chains, tubes from
- * centroid to centroid, as thick as the force; a row for each fragment that touches: coordination number (fragments it touches), the sum of the forces
- * on it and their largest; a row for each two bodies, with the force on the first: forces on walls.
+ * Contact forces are summed between each two fragments; a body that has not broken is one. Outputs, on the first rank:
+ * force chains, tubes from centroid to centroid, as thick as the force; a row for each fragment that touches:
+ * coordination number (fragments it touches), the sum of the forces on it and their largest; a row for each two
+ * bodies, with the force on the first: forces on walls.
  */
 #ifndef vtkBrecciaContactNetwork_h
 #define vtkBrecciaContactNetwork_h

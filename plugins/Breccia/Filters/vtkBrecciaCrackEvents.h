@@ -2,14 +2,15 @@
  * @class vtkBrecciaCrackEvents
  * @brief failed joints gathered into events, as acoustic emission sees them
  *
- * Joints of which one is near the other in space and in time belong to one event (single linkage). Outputs, on the first rank: a point for each event,
- * with its arrays; the same as a table; the distribution of magnitudes, with the b-value in its field data.
+ * Joints of which one is near the other in space and in time belong to one event (single linkage). Outputs, on the
+ * first rank: a point for each event, with its arrays; the same as a table; the distribution of magnitudes, with the
+ * b-value in its field data.
  *
- * Moment tensor of an event: sum of A (lambda (u . n) I + mu (u n + n u)) over its joints of area A, normal n and displacement
- * jump u [Aki and Richards, Quantitative Seismology, 3.2]. The jump is that of the time shown: between the two faces where elements
- * are given, else the opening. Scalar moment M0 = sqrt(M:M / 2); magnitude 2/3 (lg M0 - 9.1) [Hanks and Kanamori 1979, in N m];
- * energy magnitude 2/3 lg E - 2.9, E in J [Choy and Boatwright 1995]. b-value: lg e / (mean - M_c) over M >= M_c [Aki 1965], M_c where
- * most events are [Wiemer and Wyss 2000] unless given.
+ * Moment tensor of an event: sum of A (lambda (u . n) I + mu (u n + n u)) over its joints of area A, normal n and
+ * displacement jump u [Aki and Richards, Quantitative Seismology, 3.2]. The jump is that of the time shown: between
+ * the two faces where elements are given, else the opening. Scalar moment M0 = sqrt(M:M / 2); magnitude 2/3 (lg M0 -
+ * 9.1) [Hanks and Kanamori 1979, in N m]; energy magnitude 2/3 lg E - 2.9, E in J [Choy and Boatwright 1995]. b-value:
+ * lg e / (mean - M_c) over M >= M_c [Aki 1965], M_c where most events are [Wiemer and Wyss 2000] unless given.
  */
 #ifndef vtkBrecciaCrackEvents_h
 #define vtkBrecciaCrackEvents_h

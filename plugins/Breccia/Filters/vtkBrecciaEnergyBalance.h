@@ -2,8 +2,9 @@
  * @class vtkBrecciaEnergyBalance
  * @brief where the energy of a run is, over time
  *
- * From the history of a run (the reader's second output): a table with the time, every term of the budget that is not always 0, the same terms
- * stacked ("up to ...", each the sum of those before it: fill between them for a stacked plot), and the residual's share.
+ * From the history of a run (the reader's second output): a table with the time, every term of the budget that is not
+ * always 0, the same terms stacked ("up to ...", each the sum of those before it: fill between them for a stacked
+ * plot), and the residual's share.
  */
 #ifndef vtkBrecciaEnergyBalance_h
 #define vtkBrecciaEnergyBalance_h

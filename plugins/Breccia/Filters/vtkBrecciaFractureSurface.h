@@ -2,10 +2,11 @@
  * @class vtkBrecciaFractureSurface
  * @brief faces of failed joints as surfaces, where they point, and how their tip runs
  *
- * Outputs: the surfaces, one triangle a failed joint, corners that lie together merged, with area, strike, dip and dip_direction beside the joints'
- * own arrays; the rose of strikes, area by mode in bins of ten degrees; the stereonet, poles in the lower half-space in equal-area projection;
- * the crack tip, the furthest joint from the one that failed first, at every time at which it went further. All but the first are
- * on the first rank. Field data of the surfaces: area, roughness.
+ * Outputs: the surfaces, one triangle a failed joint, corners that lie together merged, with area, strike, dip and
+ * dip_direction beside the joints' own arrays; the rose of strikes, area by mode in bins of ten degrees; the
+ * stereonet, poles in the lower half-space in equal-area projection; the crack tip, the furthest joint from the one
+ * that failed first, at every time at which it went further. All but the first are on the first rank. Field data of
+ * the surfaces: area, roughness.
  */
 #ifndef vtkBrecciaFractureSurface_h
 #define vtkBrecciaFractureSurface_h

@@ -2,8 +2,8 @@
  * @class vtkBrecciaRankView
  * @brief who works on what
  *
- * From the elements of a run: a box around the elements of each of the run's ranks, with their number and cost; the same as a table. On the first
- * rank of ParaView. Field data: imbalance, largest over mean cost less 1.
+ * From the elements of a run: a box around the elements of each of the run's ranks, with their number and cost; the
+ * same as a table. On the first rank of ParaView. Field data: imbalance, largest over mean cost less 1.
  */
 #ifndef vtkBrecciaRankView_h
 #define vtkBrecciaRankView_h

@@ -3,8 +3,8 @@
  * @brief opens the folder of a Breccia run, one that is still running as well
  *
  * Outputs: a block for each recorded channel (elements, joints, contacts); the history as a table, on the first
- * rank. Times are those of all channels; each shows its last frame not after the time asked for. Frames that are not whole yet
- * are left out. A file with a piece for each rank of the run is read by as many ranks as there are.
+ * rank. Times are those of all channels; each shows its last frame not after the time asked for. Frames that are not
+ * whole yet are left out. A file with a piece for each rank of the run is read by as many ranks as there are.
  */
 #ifndef vtkBrecciaReader_h
 #define vtkBrecciaReader_h

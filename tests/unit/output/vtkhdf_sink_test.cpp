@@ -22,7 +22,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Two tetrahedra, one joint, one contact; every value different, each field but the mass representable in single precision.
+/// Two tetrahedra, one joint, one contact; every value different, all but the mass exact in single precision.
 Frame two_elements(std::int64_t number, double time) {
   Frame frame;
   frame.number = number;
