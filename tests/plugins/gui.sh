@@ -5,7 +5,7 @@ here=$(dirname "$0") scratch=$(mktemp -d)
 export BRECCIA_PICTURES="$1" BRECCIA_PICTURE_WINDOW="$scratch/done" HOME="$scratch" DISPLAY=:${BRECCIA_DISPLAY:-87}
 mkdir -p "$scratch/.config/ParaView"
 printf '[General]\nGeneralSettings.ShowWelcomeDialog=false\n' >"$scratch/.config/ParaView/ParaView5.11.0.ini"
-Xvfb "$DISPLAY" -screen 0 1280x800x24 -noreset -fbdir "$scratch" >/dev/null 2>&1 &
+Xvfb "$DISPLAY" -screen 0 1120x700x24 -noreset -fbdir "$scratch" >/dev/null 2>&1 &
 screen=$!
 sleep 2
 paraview --script="$here/pictures.py" >"$scratch/log" 2>&1 &

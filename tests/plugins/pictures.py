@@ -107,9 +107,9 @@ saved(view, "crack_events")
 chart(events, 2, "magnitude", [("events_of_it_or_more", "events of it or more"), ("gutenberg_richter", "Gutenberg-Richter")],
       "magnitudes", ["magnitude", "events"], logarithmic=(0, 1))
 
-scene.AnimationTime = run.TimestepValues[2]
-network = ContactNetwork(registrationName="Contact Network", Input=run)
-view = room(run.TimestepValues[2])  # while the projectile presses on the plate
+scene.AnimationTime = run.TimestepValues[5]
+network = ContactNetwork(registrationName="Contact Network", Input=run, LargestRadius=0.002)
+view = room(run.TimestepValues[5])  # while the projectile presses on the plate
 coloured(Show(network, view), view, "force", "contact force [N]", "POINTS", "Plasma (matplotlib)")
 ghost = Show(stressed, view)
 ghost.ColorArrayName = ["CELLS", ""]
