@@ -108,7 +108,7 @@ chart(events, 2, "magnitude", [("events_of_it_or_more", "events of it or more"),
       "magnitudes", ["magnitude", "events"], logarithmic=(0, 1))
 
 scene.AnimationTime = run.TimestepValues[5]
-network = ContactNetwork(registrationName="Contact Network", Input=run, LargestRadius=0.002)
+network = ContactNetwork(registrationName="Contact Network", Input=run)
 view = room(run.TimestepValues[5])  # while the projectile presses on the plate
 coloured(Show(network, view), view, "force", "contact force [N]", "POINTS", "Plasma (matplotlib)")
 ghost = Show(stressed, view)
