@@ -76,6 +76,12 @@ void add_cell(const Domain& domain, const Fragments& fragments, Index slot, Fram
   append(out.displacement, centroid(local, x, slot) - centroid(local, local.reference.data(), slot));
 }
 
+/// Ids of the elements that are or were held across the four faces.
+void add_neighbours(const Model& model, Index slot, std::vector<std::int64_t>& out) {
+  for (const FaceLink& link : model.topology.links[at(model.local.mesh_element[at(slot)])])
+    out.push_back(link.inner() ? model.mesh.element_id(link.neighbour) : -1);
+}
+
 void add_elements(const Domain& domain, const Fragments& fragments, Frame::Elements& out) {
   const LocalMesh& local = domain.model.local;
   std::vector<Index> slots;
@@ -84,6 +90,8 @@ void add_elements(const Domain& domain, const Fragments& fragments, Frame::Eleme
     for (int c = 0; c < 4; ++c)
       append(out.points, load_node(domain.state.nodes.position.data(), local.corner_node(slot, c)));
     add_cell(domain, fragments, slot, out);
+    out.mass.push_back(domain.model.density[at(local.block_group[at(slot / kLanes)])] * local.volume[at(slot)]);
+    add_neighbours(domain.model, slot, out.neighbour);
     slots.push_back(slot);
   }
   add_memory(domain, slots, out);
@@ -202,6 +210,7 @@ void add_joints(const Domain& domain, Frame::Joints& out) {
     out.broken.push_back(1);
     out.time_of_failure.push_back(joint.time_of_failure);
     out.state.push_back(Frame::Joints::apart);
+    out.energy.push_back(joint.dissipated);
   };
   auto next = released.begin();
   for (const ActiveJoint& joint : domain.state.joints.active) {
@@ -216,6 +225,7 @@ void add_joints(const Domain& domain, Frame::Joints& out) {
     out.broken.push_back(broken ? 1 : 0);
     out.time_of_failure.push_back(joint.time_of_failure);
     out.state.push_back(broken ? Frame::Joints::failed : Frame::Joints::softening);
+    out.energy.push_back(joint.history.mode_1 + joint.history.mode_2);
   }
   for (; next != released.end(); ++next) add_released(*next);
 }
@@ -235,7 +245,9 @@ void add_contacts(const Domain& domain, Frame::Contacts& out) {
     append(out.normal_force, couple.force - couple.friction);
     append(out.tangential_force, couple.friction);
     out.body.push_back(local.slot_body[at(point.slot)]);
-    out.other_body.push_back(local.slot_body[at(contact.contactors[at(couple.contactor)])]);
+    const Index other = contact.contactors[at(couple.contactor)];
+    out.other_body.push_back(local.slot_body[at(other)]);
+    out.other_element.push_back(local.element_of_slot[at(other)]);
   }
 }
 

@@ -44,7 +44,7 @@ Frame::Joints broken_ones(const Frame::Joints& j) {
           picked(j.damage, j.broken),    picked(j.mode, j.broken),
           picked(j.opening, j.broken),   picked(j.slip, j.broken),
           picked(j.broken, j.broken),    picked(j.time_of_failure, j.broken),
-          picked(j.state, j.broken)};
+          picked(j.state, j.broken),     picked(j.energy, j.broken)};
 }
 
 bool has(std::uint32_t mask, int channel) { return (mask >> channel & 1U) != 0; }

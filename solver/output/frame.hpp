@@ -36,6 +36,9 @@ struct Frame {
     std::vector<double> velocity;        ///< (num_elements, 3) of the centroid, m/s
     std::vector<double> displacement;    ///< (num_elements, 3) of the centroid, m
     std::vector<double> cost;  ///< relative to an element that has its own nodes and neither active joint nor couple
+    std::vector<double> mass;  ///< kg; not of surfaces, as the next
+    std::vector<std::int64_t> neighbour;  ///< (num_elements, 4) element that is or was held across the face opposite to
+                                          ///< each corner, through a joint or shared nodes; -1: none
     std::vector<StateField> state;
   } elements;
 
@@ -47,14 +50,15 @@ struct Frame {
       failed = 2,     ///< closed somewhere: a frictional interface
       apart = 3       ///< failed, and has been open everywhere: its faces belong to contact
     };
-    std::vector<double> points;  ///< (3 num_joints, 3)
-    std::vector<std::int64_t> id;
+    std::vector<double> points;           ///< (3 num_joints, 3)
+    std::vector<std::int64_t> id;         ///< 4 a + face: across that face of element a lies the other, of higher id
     std::vector<double> damage;           ///< largest of the points, 0..1
     std::vector<std::int32_t> mode;       ///< 0 undamaged, 1 mostly mode I, 2 mostly mode II, 3 mixed
     std::vector<double> opening, slip;    ///< mean over the points, m
     std::vector<std::int32_t> broken;     ///< 0 or 1: its state is failed or apart
     std::vector<double> time_of_failure;  ///< s, start of the step in which it failed; -1: it holds
     std::vector<std::int32_t> state;      ///< State
+    std::vector<double> energy;           ///< J dissipated in modes I and II so far, without friction
   } joints;
 
   /// Contact points that carry a force.
@@ -64,6 +68,7 @@ struct Frame {
     std::vector<double> force;     ///< (num_contacts, 3) on the point's body, N
     std::vector<double> normal_force, tangential_force;  ///< (num_contacts, 3) its parts, N
     std::vector<std::int32_t> body, other_body;
+    std::vector<std::int64_t> other_element;  ///< (num_contacts) the one that the point is in
   } contacts;
 
   /// Free faces: of the bodies' surfaces, and both sides of every failed joint.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "output/frame.hpp"
 
 namespace breccia {
@@ -8,9 +10,12 @@ namespace breccia {
 // line here, and what fills it in observe/frames.cpp; what elements of a bulk law remember is
 // shown by the law's own list.
 
-/// Calls visit(name, values, components) for every array of the elements, in the order of files and channels.
+/// Arrays that are computed with, not only looked at: files keep them in 64 bits.
+inline bool kept_in_64_bits(std::string_view name) { return name == "mass"; }
+
+/// What elements and free faces have in common.
 template <class Visit>
-void for_each_array(const Frame::Elements& e, Visit&& visit) {
+void for_each_cell_array(const Frame::Elements& e, Visit&& visit) {
   visit("id", e.id, 1);
   visit("body", e.body, 1);
   visit("material", e.material, 1);
@@ -25,6 +30,14 @@ void for_each_array(const Frame::Elements& e, Visit&& visit) {
   for (const Frame::StateField& field : e.state) visit(field.name, field.values, field.components);
 }
 
+/// Calls visit(name, values, components) for every array of the elements, in the order of files and channels.
+template <class Visit>
+void for_each_array(const Frame::Elements& e, Visit&& visit) {
+  for_each_cell_array(e, visit);
+  visit("mass", e.mass, 1);
+  visit("neighbour", e.neighbour, 4);
+}
+
 template <class Visit>
 void for_each_array(const Frame::Joints& j, Visit&& visit) {
   visit("id", j.id, 1);
@@ -35,6 +48,7 @@ void for_each_array(const Frame::Joints& j, Visit&& visit) {
   visit("broken", j.broken, 1);
   visit("time_of_failure", j.time_of_failure, 1);
   visit("state", j.state, 1);
+  visit("energy", j.energy, 1);
 }
 
 template <class Visit>
@@ -45,11 +59,12 @@ void for_each_array(const Frame::Contacts& c, Visit&& visit) {
   visit("force", c.force, 3);
   visit("body", c.body, 1);
   visit("other_body", c.other_body, 1);
+  visit("other_element", c.other_element, 1);
 }
 
 template <class Visit>
 void for_each_array(const Frame::Surface& s, Visit&& visit) {
-  for_each_array(s.cells, visit);
+  for_each_cell_array(s.cells, visit);
   visit("face", s.face, 1);
   visit("crack", s.crack, 1);
 }

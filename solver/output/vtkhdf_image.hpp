@@ -16,13 +16,14 @@ namespace breccia {
 enum class CellKind { tetrahedra, triangles, vertices };
 
 /// Values of a cell array, (num_cells, components) interleaved. Integers stay what they are; doubles are stored as
-/// 32-bit floats: they are looked at, not computed with.
+/// 32-bit floats, unless the array asks for more: they are looked at, not computed with.
 using CellValues = std::variant<std::span<const double>, std::span<const std::int32_t>, std::span<const std::int64_t>>;
 
 struct CellArray {
   std::string name;
   CellValues values;
   int components = 1;
+  bool in_64_bits = false;  ///< doubles that are computed with
 };
 
 /// An unstructured grid to be stored. Views: must outlive the call.

@@ -87,6 +87,10 @@ void add_cell_arrays(const GridView& grid, const Pieces& pieces, Columns& column
     std::visit(
         [&](auto values) {
           if constexpr (std::is_same_v<decltype(values), std::span<const double>>) {
+            if (array.in_64_bits) {
+              columns.add("CellData", array.name, values, array.components, a_cell, false);
+              return;
+            }
             const auto single = [values](std::size_t i) { return static_cast<float>(values[i]); };
             columns.add_made<float>("CellData", array.name, values.size(), single, array.components, a_cell, false);
           } else {

@@ -18,7 +18,7 @@ template <class Part>
 GridView view_of(CellKind kind, const std::vector<double>& points, const Part& part) {
   GridView grid{.kind = kind, .points = points, .arrays = {}};
   for_each_array(part, [&](const char* name, const auto& values, int components) {
-    grid.arrays.push_back({name, values, components});
+    grid.arrays.push_back({name, values, components, kept_in_64_bits(name)});
   });
   return grid;
 }

@@ -19,6 +19,7 @@ struct ReleasedJoint {
   std::int8_t face_a = 0;
   FailureMode mode = FailureMode::none;
   double time_of_failure = -1;  ///< s, as in ActiveJoint
+  double dissipated = 0;        ///< J, in modes I and II
 };
 
 /// A joint without damage that is back in its elastic range.

@@ -95,6 +95,7 @@ struct FieldTable<ReleasedRecord> {
       FieldRow{"face", "1", kState, [](auto& r) -> auto& { return r.joint.face_a; }},
       FieldRow{"mode", "1", kState, [](auto& r) -> auto& { return r.joint.mode; }},
       FieldRow{"time_of_failure", "s", kState, [](auto& r) -> auto& { return r.joint.time_of_failure; }},
+      FieldRow{"dissipated", "J", kNotHashed, [](auto& r) -> auto& { return r.joint.dissipated; }},
   };
 // clang-format on
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "domains/balance.hpp"
@@ -54,6 +55,39 @@ TEST_F(TwoCubes, show_both_sides_of_a_joint_that_fails) {
   EXPECT_EQ(cracks(frame.surface), 2 * 4);
   EXPECT_EQ(frame.surface.face.size(), 10u * 4 + 2 * 4);
   EXPECT_EQ(frame.joints.id.size(), 4u);
+}
+
+TEST_F(TwoCubes, name_the_elements_across_their_faces_alike_from_both_sides) {
+  const Frame frame = picture();
+  const Frame::Elements& all = frame.elements;
+  std::ptrdiff_t pairs = 0;
+  for (std::size_t e = 0; e < all.id.size(); ++e) {
+    for (std::size_t face = 0; face < 4; ++face) {
+      const std::int64_t other = all.neighbour[4 * e + face];
+      if (other < 0) continue;
+      ++pairs;
+      const auto o = static_cast<std::size_t>(std::find(all.id.begin(), all.id.end(), other) - all.id.begin());
+      ASSERT_LT(o, all.id.size());
+      const auto back = all.neighbour.begin() + static_cast<std::ptrdiff_t>(4 * o);
+      EXPECT_EQ(std::count(back, back + 4, all.id[e]), 1);
+    }
+  }
+  EXPECT_EQ(pairs, 48 * 4 - 10 * 4);
+}
+
+TEST_F(TwoCubes, have_the_mass_of_their_volume) {
+  const Frame frame = picture();
+  constexpr double kMass = test::kCubeDensity * 2 * kCubeEdge * kCubeEdge * kCubeEdge, kRounding = 1e-15;
+  EXPECT_NEAR(std::accumulate(frame.elements.mass.begin(), frame.elements.mass.end(), 0.0), kMass, kRounding);
+}
+
+TEST_F(TwoCubes, show_the_energy_of_their_joints) {
+  break_joints(domain, faces_of_surface(model, "box.slit"));
+  for (int i = 0; i < 4; ++i) step(domain);
+  const Frame frame = picture();
+  const double shown = std::accumulate(frame.joints.energy.begin(), frame.joints.energy.end(), 0.0);
+  const JointEnergy energy = joint_energy(domain.model.local, domain.state.joints.active, domain.state.work.joints);
+  EXPECT_DOUBLE_EQ(shown, energy.mode_1.value() + energy.mode_2.value());
 }
 
 TEST_F(TwoCubes, have_the_fields_of_the_elements_on_their_surface) {

@@ -24,6 +24,7 @@ Frame example() {
   frame.joints.broken = {0, 1};
   frame.joints.time_of_failure = {-1, 0.25};
   frame.joints.state = {1, 3};
+  frame.joints.energy = {0.5, 2};
   frame.elements.points.assign(12, 1.0);
   frame.elements.id = {3};
   return frame;

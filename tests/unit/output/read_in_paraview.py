@@ -16,9 +16,11 @@ VOLUME_TOLERANCE = 1e-12                    # relative: points are kept in doubl
 FIELD_TOLERANCE = 1e-6                      # relative: fields are kept in single precision
 ARRAYS = {
     "elements": {"id": 1, "body": 1, "material": 1, "rank": 1, "fragment": 1, "stress": 6, "von_mises": 1, "cost": 1,
-                 "principal": 3, "velocity": 3, "displacement": 3},
-    "joints": {"id": 1, "damage": 1, "mode": 1, "opening": 1, "slip": 1, "broken": 1, "time_of_failure": 1, "state": 1},
-    "contacts": {"id": 1, "force": 3, "normal_force": 3, "tangential_force": 3, "body": 1, "other_body": 1},
+                 "principal": 3, "velocity": 3, "displacement": 3, "mass": 1, "neighbour": 4},
+    "joints": {"id": 1, "damage": 1, "mode": 1, "opening": 1, "slip": 1, "broken": 1, "time_of_failure": 1, "state": 1,
+               "energy": 1},
+    "contacts": {"id": 1, "force": 3, "normal_force": 3, "tangential_force": 3, "body": 1, "other_body": 1,
+                 "other_element": 1},
 }
 failures = []
 

@@ -13,6 +13,7 @@ namespace breccia::test {
 namespace {
 
 constexpr double kWidth = 0.1, kThickness = 0.005, kBlockWidth = 0.012;
+constexpr double kDensity = 2500;    // kg/m3
 constexpr double kCrackEnd = 0.075;  // m, where the cracks are at the end
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
@@ -60,12 +61,15 @@ struct Element {
   int body;
 };
 
+/// Six times the volume.
+double edge_product(const std::array<Vec3, 4>& x) { return (x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]); }
+
 /// 24 tetrahedra a cube: cube centre, face centre and one edge of the face each.
 void add_cubes(const Raster& raster, int body, std::vector<Element>& elements) {
   const auto add = [&](const std::array<Lattice, 4>& at) {
     Element e{at, {}, {0, 0, 0}, body};
     for (std::size_t i = 0; i < 4; ++i) e.x[i] = raster.node(at[i]);
-    if ((e.x[1] - e.x[0]).cross(e.x[2] - e.x[0]).dot(e.x[3] - e.x[0]) < 0) {
+    if (edge_product(e.x) < 0) {
       std::swap(e.x[2], e.x[3]);
       std::swap(e.at[2], e.at[3]);
     }
@@ -167,6 +171,8 @@ Frame SyntheticPlate::frame(std::int64_t number, double time) const {
     out.body.push_back(element.body);
     out.material.push_back(element.body);
     out.rank.push_back(0);
+    out.mass.push_back(kDensity / 6 * edge_product(element.x));
+    out.neighbour.insert(out.neighbour.end(), 4, -1);  // nothing that reads the plate looks across faces
     out.cost.push_back(1.0 + 0.5 * noise(static_cast<int>(e), 3));
     out.fragment.push_back(first[piece[e]]);
     const double radius = std::hypot(element.centre.x(), element.centre.z());
@@ -208,6 +214,7 @@ Frame SyntheticPlate::frame(std::int64_t number, double time) const {
         }
       }
       frame.joints.id.push_back(inner_face);
+      frame.joints.energy.push_back(broken ? 1.0 : 0.5);
       frame.joints.damage.push_back(broken ? 1.0 : 0.9 - 60 * ahead);
       frame.joints.mode.push_back(broken ? 1 : 3);
       frame.joints.opening.push_back(gap.norm());
@@ -230,6 +237,7 @@ Frame SyntheticPlate::frame(std::int64_t number, double time) const {
     frame.contacts.id.push_back(static_cast<std::int64_t>(frame.contacts.body.size()));
     frame.contacts.body.push_back(0);
     frame.contacts.other_body.push_back(1);
+    frame.contacts.other_element.push_back(n - 1);
   }
   return frame;
 }
@@ -255,11 +263,13 @@ Frame piece_of(const Frame& whole, int number, int count) {
   const auto cut_all = [&](std::size_t rows, auto&... arrays) { (cut(arrays, rows, number, count), ...); };
   auto& e = piece.elements;
   cut_all(e.id.size(), e.points, e.body, e.material, e.rank, e.fragment, e.stress, e.von_mises, e.principal, e.velocity,
-          e.displacement, e.cost, e.id);
+          e.displacement, e.cost, e.mass, e.neighbour, e.id);
   auto& j = piece.joints;
-  cut_all(j.id.size(), j.points, j.damage, j.mode, j.opening, j.slip, j.broken, j.time_of_failure, j.state, j.id);
+  cut_all(j.id.size(), j.points, j.damage, j.mode, j.opening, j.slip, j.broken, j.time_of_failure, j.state, j.energy,
+          j.id);
   auto& c = piece.contacts;
-  cut_all(c.body.size(), c.id, c.points, c.force, c.normal_force, c.tangential_force, c.other_body, c.body);
+  cut_all(c.body.size(), c.id, c.points, c.force, c.normal_force, c.tangential_force, c.other_body, c.other_element,
+          c.body);
   return piece;
 }
 

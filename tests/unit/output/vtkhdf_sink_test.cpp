@@ -22,7 +22,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Two tetrahedra, one joint, one contact; every value different, each field representable in single precision.
+/// Two tetrahedra, one joint, one contact; every value different, all but the mass exact in single precision.
 Frame two_elements(std::int64_t number, double time) {
   Frame frame;
   frame.number = number;
@@ -41,8 +41,10 @@ Frame two_elements(std::int64_t number, double time) {
   e.velocity = {.5, .25, .125, 1, 2, 4};
   e.displacement = {-1, -2, -4, -8, -16, -32};
   e.cost = {1, 1.5};
-  frame.joints = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {42}, {0.75}, {3}, {1e-6}, {2e-6}, {1}, {0.375}, {2}};
-  frame.contacts = {{24}, {9, 8, 7}, {1, 2, 3}, {1, 2, 3}, {0, 0, 0}, {0}, {1}};
+  e.mass = {1.0 / 3, 2.0 / 3};
+  e.neighbour = {-1, 123456789012, -1, -1, 7, -1, -1, -1};
+  frame.joints = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {42}, {0.75}, {3}, {1e-6}, {2e-6}, {1}, {0.375}, {2}, {0.5}};
+  frame.contacts = {{24}, {9, 8, 7}, {1, 2, 3}, {1, 2, 3}, {0, 0, 0}, {0}, {1}, {123456789012}};
   return frame;
 }
 
@@ -83,6 +85,8 @@ TEST(VtkhdfSinkTest, StoresEveryElementArrayWithItsShapeAndValues) {
   EXPECT_EQ(grid.values("CellData/velocity"), frame.elements.velocity);
   EXPECT_EQ(grid.values("CellData/displacement"), frame.elements.displacement);
   EXPECT_EQ(grid.values("CellData/cost"), frame.elements.cost);
+  EXPECT_EQ(grid.values("CellData/mass"), frame.elements.mass);  // thirds: in 64 bits
+  EXPECT_THAT(grid.values("CellData/neighbour"), ElementsAre(-1, 123456789012, -1, -1, 7, -1, -1, -1));
   EXPECT_THAT(grid.values("FieldData/time"), ElementsAre(0.5));
   EXPECT_THAT(grid.values("FieldData/step"), ElementsAre(12000));
 }
@@ -100,6 +104,7 @@ TEST(VtkhdfSinkTest, StoresJointsAsTrianglesAndContactsAsVerticesWithForces) {
   EXPECT_THAT(joints.values("CellData/broken"), ElementsAre(1));
   EXPECT_THAT(joints.values("CellData/time_of_failure"), ElementsAre(0.375));
   EXPECT_THAT(joints.values("CellData/state"), ElementsAre(2));
+  EXPECT_THAT(joints.values("CellData/energy"), ElementsAre(0.5));
   const Hdf5Reader contacts(folder / "contacts_000000.vtkhdf");
   EXPECT_THAT(contacts.values("Types"), ElementsAre(1));
   EXPECT_THAT(contacts.values("Points"), ElementsAre(9, 8, 7));
@@ -109,6 +114,7 @@ TEST(VtkhdfSinkTest, StoresJointsAsTrianglesAndContactsAsVerticesWithForces) {
   EXPECT_THAT(contacts.values("CellData/tangential_force"), ElementsAre(0, 0, 0));
   EXPECT_THAT(contacts.values("CellData/body"), ElementsAre(0));
   EXPECT_THAT(contacts.values("CellData/other_body"), ElementsAre(1));
+  EXPECT_THAT(contacts.values("CellData/other_element"), ElementsAre(123456789012));
 }
 
 TEST(VtkhdfSinkTest, StoresAFrameOfManyChunksUnchanged) {

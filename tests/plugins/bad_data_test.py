@@ -1,0 +1,113 @@
+"""pvpython bad_data_test.py RUN SCRATCH: what is missing or broken is told by name, and nothing crashes."""
+import os
+import shutil
+import sys
+
+import broken_box as b
+from vtkmodules.vtkCommonCore import vtkFileOutputWindow, vtkOutputWindow
+
+simple = b.load()
+run, scratch = sys.argv[1:3]
+shutil.rmtree(scratch, ignore_errors=True)
+os.makedirs(scratch)
+log = f"{scratch}/log"
+window = vtkFileOutputWindow()
+window.SetFileName(log)
+window.FlushOn()
+vtkOutputWindow.SetInstance(window)
+
+
+def told(action):
+    """What is said while an action runs."""
+    open(log, "a").close()
+    before = os.path.getsize(log)
+    try:
+        action()
+    except RuntimeError:
+        pass
+    return open(log).read()[before:]
+
+
+def copy(name):
+    folder = f"{scratch}/{name}"
+    shutil.copytree(run, folder)
+    return folder
+
+
+def opened(folder):
+    def action():
+        reader = simple.BrecciaReader(FileName=folder)
+        reader.UpdatePipelineInformation()
+        reader.UpdatePipeline(reader.TimestepValues[-1] if len(reader.TimestepValues) else 0.0)
+    return action
+
+
+def expect_told(what, action, *words):
+    text = told(action)
+    for word in words:
+        b.expect(word in text, f"{what}: '{word}' is not in: {text or '(nothing)'}")
+
+
+os.makedirs(f"{scratch}/empty")
+expect_told("an empty folder", opened(f"{scratch}/empty"), "is no Breccia run", "history.csv")
+expect_told("a folder that is not there", opened(f"{scratch}/nowhere/status.jsonl"), "is no Breccia run")
+
+folder = copy("cut")
+last = sorted(n for n in os.listdir(f"{folder}/frames") if n.startswith("elements_"))[-1]
+os.truncate(f"{folder}/frames/{last}", os.path.getsize(f"{folder}/frames/{last}") // 2)
+expect_told("a frame that is cut off", opened(folder), last, "left out")
+reader = simple.BrecciaReader(FileName=folder)
+reader.UpdatePipeline(reader.TimestepValues[-1])
+b.expect(b.output(reader).GetBlock(0).GetNumberOfCells() > 0, "the frame before one that is cut off is shown")
+
+folder = copy("foreign")
+for name in os.listdir(f"{folder}/frames"):
+    if name.endswith(".vtkhdf"):
+        open(f"{folder}/frames/{name}", "w").write("no frame" * 100)
+expect_told("files that are no frames", opened(folder), "no frame of", "is whole", "_000000.vtkhdf")
+
+folder = copy("damaged")  # as long as it should be, with nothing behind the first bytes
+path = f"{folder}/frames/elements_000000.vtkhdf"
+whole = open(path, "rb").read()
+open(path, "wb").write(whole[:96] + b"\0" * (len(whole) - 96))
+def first():
+    reader = simple.BrecciaReader(FileName=folder)
+    reader.UpdatePipeline(0.0)
+expect_told("a frame whose inside is damaged", first, "elements_000000.vtkhdf", "can be read")
+
+folder = copy("killed")  # in the middle of a line of the history; the last frame is named by the index, and not there
+with open(f"{folder}/history.csv", "r+") as history:
+    text = history.read()
+    history.seek(0)
+    history.truncate()
+    history.write(text[:-40])
+os.remove(f"{folder}/frames/{last}")
+os.remove(f"{folder}/summary.json")
+expect_told("a run that was killed", opened(folder), last, "left out")
+reader = simple.BrecciaReader(FileName=folder)
+reader.UpdatePipeline(0.0)
+b.expect(b.output(reader, 1).GetNumberOfRows() == text.count("\n") - 2, "the line that is not complete is left out")
+
+os.remove(f"{folder}/frames/joints.hdf.series")
+def without_joints():
+    found = simple.Fragments(Input=simple.BrecciaReader(FileName=folder))
+    found.UpdatePipeline(0.0)
+expect_told("no joints", without_joints, "no joints", "time_of_failure")
+
+box = b.Box((2, 1, 1))
+for missing, from_part in (("neighbour", "elements"), ("mass", "elements"), ("id", "elements"), ("broken", "joints"),
+                           ("time_of_failure", "joints")):
+    elements, joints = box.elements(), box.joints(box.joint[:3])
+    {"elements": elements, "joints": joints}[from_part].GetCellData().RemoveArray(missing)
+    def action(data=b.blocks(elements=elements, joints=joints)):
+        simple.Fragments(Input=b.producer(data)).UpdatePipeline()
+    expect_told(f"no array {missing}", action, f"'{missing}'")
+
+def without_cells():
+    simple.Fragments(Input=b.producer(b.blocks(elements=box.elements(slice(0)), joints=box.joints([])))).UpdatePipeline()
+expect_told("no elements", without_cells, "no elements")
+
+def sphere():
+    simple.Fragments(Input=simple.Sphere()).UpdatePipeline()
+expect_told("a sphere", sphere, "no elements", "no cell array")
+b.finish()

@@ -1,0 +1,71 @@
+"""pvbatch --symmetric reader_test.py RUN: a run as the reader shows it, against what the run's own files say."""
+import csv
+import json
+import sys
+
+import numpy as np
+
+import broken_box as b
+
+simple = b.load()
+RANK, RANKS = b.rank()
+run = sys.argv[1]
+
+
+def gathered(values):
+    """Sum over the ranks."""
+    from vtkmodules.vtkCommonCore import vtkDoubleArray
+    if RANKS == 1:
+        return values
+    mine, total = vtkDoubleArray(), vtkDoubleArray()
+    for v in values:
+        mine.InsertNextValue(v)
+    total.SetNumberOfValues(len(values))
+    b.vtkMultiProcessController.GetGlobalController().AllReduce(mine, total, 2)
+    return [total.GetValue(i) for i in range(len(values))]
+
+
+summary = json.load(open(f"{run}/summary.json"))
+index = json.load(open(f"{run}/frames/elements.hdf.series"))["files"]
+for name in ("status.jsonl", "summary.json", "history.csv", "frames/joints.hdf.series", ""):
+    reader = simple.BrecciaReader(FileName=f"{run}/{name}")
+    reader.UpdatePipelineInformation()
+    b.expect(list(reader.TimestepValues) == [f["time"] for f in index], f"times by {name}")
+b.expect(simple.OpenDataFile(f"{run}/status.jsonl").GetXMLName() == "BrecciaReader", "status.jsonl is opened as a run")
+
+reader.UpdatePipeline(index[-1]["time"])
+data = b.output(reader)
+names = [data.GetMetaData(i).Get(data.NAME()) for i in range(data.GetNumberOfBlocks())]
+b.expect(names == ["elements", "contacts", "joints"], f"blocks {names}")
+elements, joints = data.GetBlock(0), data.GetBlock(2)
+broken = b.vtk_to_numpy(joints.GetCellData().GetArray("broken")).sum() if joints.GetNumberOfCells() else 0
+counts = gathered([float(elements.GetNumberOfCells()), float(broken)])
+b.expect(counts == [summary["elements"], summary["broken_joints"]], f"elements and broken joints {counts}")
+
+history = b.output(reader, 1)
+if RANK == 0:
+    rows = list(csv.reader(open(f"{run}/history.csv")))
+    b.expect([history.GetColumnName(i) for i in range(history.GetNumberOfColumns())] == rows[0], "columns of the history")
+    for i, name in enumerate(rows[0]):
+        b.expect(np.array_equal(b.column(history, name), [float(row[i]) for row in rows[1:]]), f"column {name}")
+else:
+    b.expect(history.GetNumberOfRows() == 0, "the history is on the first rank")
+
+reader.Channels = ["joints"]
+reader.UpdatePipeline(index[-1]["time"])
+b.expect(b.output(reader).GetNumberOfBlocks() == 1, "one channel is asked for")
+reader.Channels = names
+
+# The solver's own labels are the oracle of the filter's.
+fragments = simple.Fragments(Input=reader)
+for entry in index:
+    fragments.UpdatePipeline(entry["time"])
+    found = b.output(fragments)
+    own = b.output(reader).GetBlock(0)
+    if found.GetNumberOfCells():
+        label = b.vtk_to_numpy(found.GetCellData().GetArray("fragment"))
+        b.expect(np.array_equal(label, b.vtk_to_numpy(own.GetCellData().GetArray("fragment"))), f"labels at {entry['time']}")
+if RANK == 0:
+    count = b.output(fragments, 1).GetNumberOfRows()
+    b.expect(count == summary["fragments"], f"{count} fragments of {summary['fragments']}")
+b.finish()
