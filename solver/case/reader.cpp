@@ -172,8 +172,9 @@ bool told_already(std::span<const Problem> problems, const std::string& key) {
 
 }  // namespace
 
-Case read_case(const std::filesystem::path& file, std::span<const std::string> overrides) {
-  Node root = parse_toml_file(file);
+namespace {
+
+Case case_of(Node root, const std::filesystem::path& file, std::span<const std::string> overrides) {
   std::vector<Problem> problems;
   apply_overrides(root, overrides, problems);
 
@@ -196,6 +197,16 @@ Case read_case(const std::filesystem::path& file, std::span<const std::string> o
   if (!problems.empty()) throw InputError(std::move(problems));
   c.resolved = write_case(c);
   return c;
+}
+
+}  // namespace
+
+Case read_case(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  return case_of(parse_toml_file(file), file, overrides);
+}
+
+Case read_case_text(std::string_view text, const std::filesystem::path& file, std::span<const std::string> overrides) {
+  return case_of(parse_toml_text(text, file.string()), file, overrides);
 }
 
 }  // namespace breccia::case_

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "case/case.hpp"
 
@@ -14,5 +15,9 @@ namespace breccia::case_ {
 /// Throws InputError with every problem of the file: TOML, unknown and missing keys, types, units, ranges, and what
 /// validate() finds. Group names are compared with the mesh later, by check_groups().
 [[nodiscard]] Case read_case(const std::filesystem::path& file, std::span<const std::string> overrides = {});
+
+/// The same of a text that stands, or will stand, in `file`, whose folder relative names start from.
+[[nodiscard]] Case read_case_text(std::string_view text, const std::filesystem::path& file,
+                                  std::span<const std::string> overrides = {});
 
 }  // namespace breccia::case_

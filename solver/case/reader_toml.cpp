@@ -125,8 +125,12 @@ Node parse_toml_file(const std::filesystem::path& path) {
   std::ostringstream content;
   if (stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
   if (!stream) throw InputError({name, 0, "", "the case file cannot be read", "", ""});
+  return parse_toml_text(content.str(), name);
+}
+
+Node parse_toml_text(std::string_view text, const std::string& name) {
   try {
-    Node root = converted(toml::parse(content.str(), name), name);
+    Node root = converted(toml::parse(text, name), name);
     root.line = 0;
     return root;
   } catch (const toml::parse_error& e) {

@@ -61,6 +61,7 @@ struct CheckCommand {
   std::filesystem::path case_file;
   std::vector<std::string> overrides;
   int ranks = 0;  ///< > 0: only how the model is divided among so many
+  bool json = false;
 };
 /// @param launched  ranks that the launcher has started
 int check_command(const CheckCommand& asked, int launched);
@@ -69,9 +70,13 @@ struct MeshCommand {
   std::filesystem::path case_file;
   std::vector<std::string> overrides;
   std::filesystem::path folder;  ///< empty: report only
+  bool json = false;
 };
 int mesh_command(const MeshCommand& asked);
 
 int explain_command(const std::string& key);
+
+/// The table of all keys: a line a key, or JSON.
+int schema_command(bool json);
 
 }  // namespace breccia

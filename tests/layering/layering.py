@@ -44,7 +44,7 @@ THIRD_PARTY = [
     (r"gmsh(c|\.h_cwrap)?\.h", ["mesh/gmsh_reader.cpp"]),
     (r"mpi\.h", ["parallel/*"]),
     (r"(hdf5(_hl)?|H5\w*)\.h", ["output/hdf5*.cpp"]),
-    (r"nlohmann/.*", ["output/*.cpp"]),
+    (r"nlohmann/.*", ["output/*.cpp", "commands/json_report.cpp"]),
     (r"CLI/.*", ["main.cpp"]),
 ]
 
