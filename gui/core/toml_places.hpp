@@ -53,8 +53,8 @@ class TomlPlaces {
   [[nodiscard]] std::string path_at_line(int line) const;
   [[nodiscard]] const std::vector<Place>& all() const { return places_; }
 
-  /// Puts `value`, TOML text, at a path: in place of the old value, or as a new line at the end of the section, which is
-  /// made when it does not stand there. @pre lists on the way have the entry.
+  /// Puts `value`, TOML text, at a path: in place of the old value, or as a new line at the end of the section, which
+  /// is made when it does not stand there. @pre lists on the way have the entry.
   [[nodiscard]] TextChange set(std::string_view path, std::string_view value) const;
   /// Takes a value and its line away, or a section with all below it. Empty change: nothing stands there.
   [[nodiscard]] TextChange remove(std::string_view path) const;

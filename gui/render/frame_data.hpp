@@ -17,9 +17,9 @@ namespace breccia::gui {
 /// Reads a VTKHDF file of the solver. nullptr: it cannot be read.
 [[nodiscard]] vtkSmartPointer<vtkUnstructuredGrid> read_vtkhdf(const std::string& file);
 
-/// Faces of the elements that are not glued to another, found once from the state at rest: two faces of one body whose
-/// corners rest at the same places are an inner face. Elements are named by their ids, since frames of several ranks
-/// have them in other orders.
+/// Faces of the elements that are seen. Which are inner ones is found once, from the state at rest: two faces of one
+/// body whose corners rest at the same places. They are drawn as well where they have come apart. Elements are named by
+/// their ids, since frames of several ranks have them in other orders.
 class Skin {
  public:
   /// @param rest  elements of any frame: it is moved back by the displacement. O(elements log elements)
@@ -27,14 +27,17 @@ class Skin {
 
   /// The faces as triangles with the arrays of their elements. @param elements  any frame of the same model
   [[nodiscard]] vtkSmartPointer<vtkPolyData> draw(vtkUnstructuredGrid& elements) const;
-  [[nodiscard]] std::size_t num_faces() const { return faces_.size(); }
+  [[nodiscard]] std::size_t num_outer() const { return outer_.size(); }
+  [[nodiscard]] std::size_t num_inner() const { return inner_.size(); }
 
  private:
   struct Face {
-    std::int64_t element;  ///< id
-    int side;              ///< opposite corner
+    std::int64_t element;              ///< id
+    int side;                          ///< opposite corner
+    std::array<std::int8_t, 3> order;  ///< corners of the element in the order of their places
   };
-  std::vector<Face> faces_;
+  std::vector<Face> outer_;
+  std::vector<std::array<Face, 2>> inner_;  ///< two that rest on each other
 };
 
 /// One instant, ready to be drawn.

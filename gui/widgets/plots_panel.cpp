@@ -53,9 +53,11 @@ void PlotsPanel::show_history(const History& history) {
                               "plastic", "external work", "residual"},
                              "J"),
                    "energy [J]");
-    breaking_.show(history.values(time),
-                   curves_of(history, {"damaged joints", "broken joints", "broken in mode I", "broken in mode II", "fragments"}, ""),
-                   "count");
+    breaking_.show(
+        history.values(time),
+        curves_of(history, {"damaged joints", "broken joints", "broken in mode I", "broken in mode II", "fragments"},
+                  ""),
+        "count");
   }
   energies_window_->Render();
   breaking_window_->Render();

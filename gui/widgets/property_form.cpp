@@ -128,7 +128,7 @@ QWidget* PropertyForm::editor_of(const Key& key, const QString& path) {
   }
   auto* line = new QLineEdit;
   const QString fallback = shown_default(key);
-  line->setPlaceholderText(!fallback.isEmpty() ? fallback
+  line->setPlaceholderText(!fallback.isEmpty()   ? fallback
                            : key.example.empty() ? QString()
                                                  : tr("e.g. %1").arg(shown_value(key, text_of(key.example))));
   line->setClearButtonEnabled(false);
