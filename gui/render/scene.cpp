@@ -112,8 +112,8 @@ Scene::Scene() {
   legend_->SetLookupTable(colours_);
   mode_legend_->SetLookupTable(mode_colours_);
   mode_legend_->SetTitle("damaged joints");
-  place_legend(*legend_, 0.86, 0.45, 0.13, 0.45);
-  place_legend(*mode_legend_, 0.86, 0.1, 0.13, 0.28);
+  place_legend(*legend_, 0.82, 0.45, 0.17, 0.5);
+  place_legend(*mode_legend_, 0.82, 0.05, 0.17, 0.35);
   caption_->SetPosition(10, 10);
   caption_->GetTextProperty()->SetFontSize(14);
   for (vtkProp* prop : {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(legend_),

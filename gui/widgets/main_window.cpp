@@ -117,7 +117,7 @@ void MainWindow::make_docks() {
   for (const char* name : {"dock_plots", "dock_text", "dock_runs"})
     tabifyDockWidget(first, findChild<QDockWidget*>(name));
   first->raise();
-  resizeDocks({findChild<QDockWidget*>("dock_stages"), findChild<QDockWidget*>("dock_properties")}, {240, 380},
+  resizeDocks({findChild<QDockWidget*>("dock_stages"), findChild<QDockWidget*>("dock_properties")}, {240, 400},
               Qt::Horizontal);
   resizeDocks({first}, {230}, Qt::Vertical);
 }
@@ -185,7 +185,7 @@ void MainWindow::make_actions() {
       run, tr("&Mesh"), Qt::Key_F6, [this] { queries_.mesh(); }, true);
   add(
       run, tr("&Check"), Qt::Key_F7, [this] { queries_.check(); }, true);
-  add(
+  run_action_ = add(
       run, tr("&Run"), Qt::Key_F5, [this] { start_run(); }, true);
   add(
       run, tr("&Stop"), QKeySequence("Shift+F5"),
@@ -223,6 +223,7 @@ void MainWindow::set_dark(bool dark) {
 }
 
 void MainWindow::join_panels() {
+  domains_->set_ranks(run_panel_->ranks());
   validation_.setSingleShot(true);
   validation_.setInterval(kValidationDelay);
   preview_.setSingleShot(true);

@@ -119,7 +119,7 @@ class MainWindow final : public QMainWindow {
   ResultsPanel* results_ = nullptr;
   QStackedWidget *centre_ = nullptr, *side_ = nullptr;
   QWidget* domains_page_ = nullptr;
-  QAction* dark_ = nullptr;
+  QAction *dark_ = nullptr, *run_action_ = nullptr;
   QLabel *busy_ = nullptr, *mesh_words_ = nullptr, *run_words_ = nullptr;
   QProgressBar* run_bar_ = nullptr;
 };

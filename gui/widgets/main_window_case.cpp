@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QMessageBox>
 
+#include "core/value_text.hpp"
 #include "widgets/case_text.hpp"
 #include "widgets/case_tree.hpp"
 #include "widgets/domains_panel.hpp"
@@ -143,6 +144,8 @@ void MainWindow::validate() {
   text_->set_problems(problems_);
   messages_->set_problems(problems_);
   run_panel_->set_problems(static_cast<int>(problems_.size()));
+  run_action_->setEnabled(problems_.empty());
+  run_action_->setText(run_words(static_cast<int>(problems_.size())));
   // The preview follows what the mesh is made of, and the groups, which materials name.
   QString source;
   for (const Place& place : document_.places().all())
@@ -162,6 +165,11 @@ void MainWindow::stage_selected(int stage, const QString& path) {
   if (chosen.kind == Kind::sections) {
     form_->show_section(path);
     form_->set_problems(problems_);
+    // The group that the section is about lights up.
+    const QString name = shown_value(case_::key_of("material[].group"), document_.value(path + ".group"));
+    view_->scene().highlight(name.toStdString());
+    if (!name.isEmpty() && !showing_results_) view_->set_colouring(Colouring::group);
+    view_->render();
     const bool domains = path == "domains";
     domains_->setVisible(domains);
     if (domains && owner_.empty() && problems_.empty()) queries_.domains(run_panel_->ranks());
@@ -207,7 +215,7 @@ void MainWindow::show_check(const QJsonObject& json) {
                .arg(quantity_words(json["disk"].toDouble(), "B"));
   QStringList advice;
   for (const QJsonValue& line : json["advice"].toArray()) advice << line.toString();
-  if (!advice.isEmpty()) words += tr("<br>⚠ %n piece(s) of advice below", nullptr, static_cast<int>(advice.size()));
+  if (!advice.isEmpty()) words += tr("<br>⚠ advice in the messages below: %1").arg(advice.size());
   run_panel_->set_estimate(words);
   messages_->set_advice(advice);
 }

@@ -178,7 +178,7 @@ void MainWindow::open_paraview() {
 void MainWindow::save_picture() {
   const QString name = QFileDialog::getSaveFileName(this, tr("Save the picture as"),
                                                     document_.folder() + "/picture.png", tr("Pictures (*.png)"));
-  if (!name.isEmpty() && !view_->grab().save(name))
+  if (!name.isEmpty() && !view_->picture().save(name))
     QMessageBox::warning(this, tr("Breccia"), tr("%1 cannot be written.").arg(name));
 }
 

@@ -87,6 +87,7 @@ void PropertyForm::add_field(const Key& key, QFormLayout& layout) {
   field.mark = new QLabel;
   const QString symbol = symbol_of(key);
   field.label = label_of(key) + (symbol.isEmpty() ? "" : " " + symbol);
+  if (key.unit != "1") field.label += " [" + text_of(key.unit) + "]";
   field.editor->setObjectName("field:" + path);
   field.editor->setToolTip(tooltip_of(key));
   field.editor->setAccessibleName(label_of(key) + (key.unit == "1" ? QString() : " [" + text_of(key.unit) + "]"));

@@ -20,6 +20,11 @@ QPushButton* button(const QString& text, const QString& name, const QString& tip
 
 }  // namespace
 
+QString run_words(int problems) {
+  if (problems == 0) return RunPanel::tr("&Run");
+  return problems == 1 ? RunPanel::tr("&Run (1 problem)") : RunPanel::tr("&Run (%1 problems)").arg(problems);
+}
+
 QString duration_words(double seconds) {
   if (!(seconds >= 0)) return RunPanel::tr("unknown");
   const auto s = static_cast<qint64>(std::llround(seconds));
@@ -123,7 +128,7 @@ void RunPanel::set_command(const QStringList& command) {
 
 void RunPanel::set_problems(int count) {
   problems_ = count;
-  run_->setText(count == 0 ? tr("&Run") : tr("&Run (%n problem(s))", nullptr, count));
+  run_->setText(run_words(count));
   run_->setAccessibleName(count == 0 ? tr("Run") : tr("Run, %1 problems").arg(count));
   run_->setEnabled(count == 0 && !running_);
   run_->setToolTip(count == 0 ? tr("Save the case and start the run (F5)")

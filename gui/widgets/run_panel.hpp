@@ -46,6 +46,8 @@ class RunPanel final : public QWidget {
   bool running_ = false;
 };
 
+/// "Run" or, with problems, how many: "Run (2 problems)".
+[[nodiscard]] QString run_words(int problems);
 /// "3 min 20 s".
 [[nodiscard]] QString duration_words(double seconds);
 /// "12.3 us" with a prefix of the unit.

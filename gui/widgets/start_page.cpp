@@ -111,7 +111,7 @@ void StartPage::refresh(const std::vector<RunRecord>& runs) {
   for (const RunRecord& run : runs) {
     const bool alive = !members_of(run.session).isEmpty();
     auto* item = new QListWidgetItem(
-        tr("%1%2, %3 rank(s)").arg(alive ? tr("running: ") : QString(), run.folder).arg(run.ranks), runs_);
+        tr("%1%2, ranks: %3").arg(alive ? tr("running: ") : QString(), run.folder).arg(run.ranks), runs_);
     item->setData(Qt::UserRole, run.folder);
   }
 }

@@ -4,7 +4,6 @@
 #include <vtkRenderWindowInteractor.h>
 
 #include <QHBoxLayout>
-#include <QImage>
 #include <QLabel>
 #include <QPushButton>
 #include <QSet>
@@ -113,9 +112,13 @@ void View3D::set_dark(bool dark) {
   render();
 }
 
-double View3D::drawn_share() {
+QImage View3D::picture() {
   render();
-  const QImage image = canvas_->grabFramebuffer();
+  return canvas_->grabFramebuffer();
+}
+
+double View3D::drawn_share() {
+  const QImage image = picture();
   qint64 drawn = 0;
   // The background has one colour a line: what differs from its left edge has been drawn.
   for (int y = 0; y < image.height(); ++y)

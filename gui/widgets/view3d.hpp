@@ -5,6 +5,7 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QImage>
 #include <QSlider>
 
 #include "render/scene.hpp"
@@ -23,6 +24,8 @@ class View3D final : public QWidget {
   void set_colouring(Colouring colouring);
   void set_dark(bool dark);
   void render();
+  /// What is drawn now.
+  [[nodiscard]] QImage picture();
   /// Share of the pixels that differ from the background; for tests.
   [[nodiscard]] double drawn_share();
 

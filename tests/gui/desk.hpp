@@ -74,6 +74,7 @@ struct Desk {
     auto* widget = find<QWidget>(field);
     widget->setFocus();
     QTest::keyClick(widget, Qt::Key_A, Qt::ControlModifier);
+    QTest::keyClick(widget, Qt::Key_Delete);
     QTest::keyClicks(widget, text);
     QTest::keyClick(widget, Qt::Key_Tab);
   }

@@ -56,9 +56,10 @@ TEST(Forms, EveryKeyOfTheSchemaHasItsFieldWithTheValueOfTheCase) {
       if (!field->objectName().startsWith("field:")) continue;
       const QString path = field->objectName().mid(6);
       seen << QString::fromStdString(case_::pattern_of(path.toStdString()));
-      if (auto* line = qobject_cast<QLineEdit*>(field))
+      if (auto* line = qobject_cast<QLineEdit*>(field)) {
         EXPECT_EQ(line->text(), shown_value(case_::key_of(case_::pattern_of(path.toStdString())), document.value(path)))
             << path.toStdString();
+      }
     }
   }
   for (const case_::Key& key : case_::schema()) {
@@ -148,7 +149,9 @@ TEST(Accessibility, EveryWidgetThatTakesTheFocusHasANameAndATooltipAndIsReachedB
       EXPECT_FALSE(widget->accessibleName().isEmpty()) << who;
       EXPECT_FALSE(widget->toolTip().isEmpty()) << who;
       EXPECT_TRUE(reached.contains(widget)) << who;
-      if (widget->objectName().startsWith("field:")) EXPECT_TRUE(widget->toolTip().contains("Unit:")) << who;
+      if (widget->objectName().startsWith("field:")) {
+        EXPECT_TRUE(widget->toolTip().contains("Unit:")) << who;
+      }
       ++seen;
     }
   }
