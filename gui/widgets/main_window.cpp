@@ -1,5 +1,6 @@
 #include "widgets/main_window.hpp"
 
+#include <QAction>
 #include <QApplication>
 #include <QCloseEvent>
 #include <QDockWidget>

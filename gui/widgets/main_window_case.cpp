@@ -1,3 +1,4 @@
+#include <QAction>
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
