@@ -193,8 +193,9 @@ void Scene::reset_camera() {
   camera->SetFocalPoint(0, 0, 0);
   camera->SetPosition(0.9, 0.9, 1.4);
   camera->SetViewUp(0, 1, 0);
+  camera->SetWindowCenter(0.18, 0);  // room for the legends
   renderer_->ResetCamera();
-  camera->Zoom(1.25);
+  camera->Zoom(1.15);
 }
 
 vtkSmartPointer<vtkPolyData> Scene::exploded() const {
