@@ -63,6 +63,7 @@ struct Arguments {
   ReplayCommand replay;
   DiffCommand diff;
   std::string key;
+  bool schema_json = false;
   std::string progress = "auto";
 };
 
@@ -299,12 +300,15 @@ void define(CLI::App& app, Arguments& a) {
       ->add_option("--ranks", a.check.ranks, "tell only how a run on so many ranks (mpiexec -n) would divide the model")
       ->check(CLI::Range(1, 1000000));
 
+  check->add_flag("--json", a.check.json, "as JSON, problems of the case too");
+
   CLI::App* mesh =
       app.add_subcommand("mesh", "Read or generate the mesh of a case and report its bodies, groups and quality");
   mesh->add_option("case", a.mesh.case_file, kCaseHelp)->required();
   mesh->add_option("--set", a.mesh.overrides, kSetHelp)->allow_extra_args(false)->take_all();
   mesh->add_flag("--trust-geometry", a.mesh.trust_geometry, kTrustHelp);
   mesh->add_option("-o,--output", a.mesh.folder, "write the elements for ParaView into this folder");
+  mesh->add_flag("--json", a.mesh.json, "as JSON, problems of the case too");
 
   CLI::App* diff =
       app.add_subcommand("diff", "In which keys, inputs, versions and results two runs differ, and where they part");
@@ -314,6 +318,9 @@ void define(CLI::App& app, Arguments& a) {
   CLI::App* explain =
       app.add_subcommand("explain", "What a key of the case file means: unit, default, range; all keys without one");
   explain->add_option("key", a.key, "such as material.young, or the name of a section");
+
+  CLI::App* schema = app.add_subcommand("schema", "The table of all keys of a case file, a line a key");
+  schema->add_flag("--json", a.schema_json, "as JSON, with units, defaults, ranges, choices and help");
 }
 
 /// Variables of the environment that are ours and say nothing that we know.
@@ -350,6 +357,7 @@ int dispatch(const CLI::App& app, Arguments& a, const Communicator& world, int a
   if (app.got_subcommand("control")) return control_command(a.control);
   if (app.got_subcommand("live")) return live_command(a.live);
   if (app.got_subcommand("insitu")) return insitu_info_command();
+  if (app.got_subcommand("schema")) return schema_command(a.schema_json);
   return explain_command(a.key);
 }
 

@@ -205,9 +205,8 @@ Case read_case(const std::filesystem::path& file, std::span<const std::string> o
   return case_of(parse_toml_file(file), file, overrides);
 }
 
-Case read_case_text(const std::string& text, const std::filesystem::path& file,
-                    std::span<const std::string> overrides) {
-  return case_of(parse_toml_text(text, file), file, overrides);
+Case read_case_text(std::string_view text, const std::filesystem::path& file, std::span<const std::string> overrides) {
+  return case_of(parse_toml_text(text, file.string()), file, overrides);
 }
 
 }  // namespace breccia::case_

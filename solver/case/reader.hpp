@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "case/case.hpp"
 
@@ -15,8 +16,8 @@ namespace breccia::case_ {
 /// validate() finds. Group names are compared with the mesh later, by check_groups().
 [[nodiscard]] Case read_case(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
-/// The same from a text. @param file  that it is said to stand in
-[[nodiscard]] Case read_case_text(const std::string& text, const std::filesystem::path& file,
+/// The same of a text that stands, or will stand, in `file`, whose folder relative names start from.
+[[nodiscard]] Case read_case_text(std::string_view text, const std::filesystem::path& file,
                                   std::span<const std::string> overrides = {});
 
 }  // namespace breccia::case_

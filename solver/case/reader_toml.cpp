@@ -165,11 +165,10 @@ Node parse_toml_file(const std::filesystem::path& path) {
   std::ostringstream content;
   if (stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
   if (!stream) throw InputError({name, 0, "", "the case file cannot be read", "", ""});
-  return parse_toml_text(content.str(), path);
+  return parse_toml_text(content.str(), name);
 }
 
-Node parse_toml_text(const std::string& text, const std::filesystem::path& path) {
-  const std::string name = path.string();
+Node parse_toml_text(std::string_view text, const std::string& name) {
   refuse_deep_keys(text, name);
   try {
     Node root = converted(toml::parse(text, name), name);

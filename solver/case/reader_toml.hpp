@@ -35,8 +35,8 @@ struct Node {
 /// Parses a TOML file. Throws InputError: file absent, not readable, or not TOML (with the line).
 [[nodiscard]] Node parse_toml_file(const std::filesystem::path& path);
 
-/// The same from a text. @param path  that it is said to stand in
-[[nodiscard]] Node parse_toml_text(const std::string& text, const std::filesystem::path& path);
+/// Parses the text of a TOML file. @param name  of the file, for messages. Throws InputError: not TOML (with the line).
+[[nodiscard]] Node parse_toml_text(std::string_view text, const std::string& name);
 
 /// Parses one value as in `key = value`; a text that is no TOML value and does not begin as a list, table or quoted
 /// text is taken as the text itself ("ms_slices", "70 GPa"). `source` names the place in messages. Throws InputError.

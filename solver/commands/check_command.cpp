@@ -5,24 +5,37 @@
 
 #include "case/reader.hpp"
 #include "commands/check_report.hpp"
+#include "commands/json_report.hpp"
 #include "output/insitu.hpp"
 
 namespace breccia {
+namespace {
 
-int check_command(const CheckCommand& asked, int launched) {
+int check(const CheckCommand& asked, int launched) {
   case_::Case input = case_::read_case(asked.case_file, asked.overrides);
   input.mesh.trust = asked.trust_geometry;
   if (input.insitu.asked_for()) preflight(input, std::filesystem::temp_directory_path(), InSituPlugin(), {});
   if (asked.ranks > 0) {
-    fmt::print("{}", domain_table(input, build_bare_model(input), asked.ranks));
+    const Model bare = build_bare_model(input);
+    fmt::print("{}", asked.json ? domains_json(input, bare, asked.ranks) : domain_table(input, bare, asked.ranks));
     return 0;
   }
   const Model model = build_model(input);
+  if (asked.json) {
+    fmt::print("{}", check_json(input, model));
+    return 0;
+  }
   fmt::print("{}", check_report(input, model));
   const std::array<int, 3>& n = input.domains.n;
   const int ranks = launched > 1 ? launched : n[0] * n[1] * n[2];  // the product is bounded by the case's validation
   if (ranks > 1) fmt::print("{}", domain_line(input, model, ranks));
   return 0;
+}
+
+}  // namespace
+
+int check_command(const CheckCommand& asked, int launched) {
+  return asked.json ? or_problems([&] { return check(asked, launched); }) : check(asked, launched);
 }
 
 }  // namespace breccia

@@ -124,26 +124,15 @@ std::string frames_line(const case_::Case& input, const Model& model, std::strin
   return fmt::format("{:.0f} frames, about {} on disk, more where joints break\n", frames, quantity_text(bytes, "B"));
 }
 
-/// Steps, memory, and the run's time here: while all is whole, and with all joints broken and the step of that.
-std::string run_time(const case_::Case& input, const Model& model, const StepReport& step) {
-  const double end = input.stages.back().end, steps = std::ceil(end / step.dt);
-  const double whole = steps * seconds_a_step(input, model, 1e-3 * step.dt, false);
-  std::string text = fmt::format("{:.0f} steps of {} to {}; about {} on this machine while little breaks", steps,
-                                 quantity_text(step.dt, "s"), quantity_text(end, "s"), quantity_text(whole, "s"));
-  const bool breaks = std::any_of(model.joint_laws.begin(), model.joint_laws.end(),
-                                  [](const JointLawParams& law) { return law.breakable(); });
-  if (breaks) {
-    const double dt = input.time.step > 0 ? step.dt : std::min(step.dt, input.time.safety * step.broken);
-    const double most = std::ceil(end / dt) * seconds_a_step(input, model, 1e-3 * dt, true);
-    text += fmt::format(", up to {} where everything does", quantity_text(std::max(most, whole), "s"));
-  }
-  return text + fmt::format(", memory {:.0f} MB\n", static_cast<double>(max_resident_bytes()) / 1e6);
+/// The estimate as a line.
+std::string run_time(const StepReport& step, const RunEstimate& estimate, double end) {
+  std::string text =
+      fmt::format("{:.0f} steps of {} to {}; about {} on this machine while little breaks", estimate.steps,
+                  quantity_text(step.dt, "s"), quantity_text(end, "s"), quantity_text(estimate.seconds, "s"));
+  if (estimate.breaks)
+    text += fmt::format(", up to {} where everything does", quantity_text(estimate.most_seconds, "s"));
+  return text + fmt::format(", memory {:.0f} MB\n", static_cast<double>(estimate.memory) / 1e6);
 }
-
-struct Division {
-  std::string how;  ///< "rcb", "grid of [2, 2, 1]"
-  DomainReport report;
-};
 
 /// Mean size of all elements, m: about that of the contactors.
 double mean_size(const Mesh& mesh) {
@@ -153,34 +142,6 @@ double mean_size(const Mesh& mesh) {
                                      mesh.nodes[index(c[3])]);
   }
   return std::cbrt(6 * std::sqrt(2.0) * volume / static_cast<double>(mesh.elements.size()));
-}
-
-Division divide(const case_::Case& input, const Model& model, int parts) {
-  const Mesh& mesh = model.mesh;
-  std::vector<Vec3> centroids;
-  centroids.reserve(mesh.elements.size());
-  for (const auto& c : mesh.elements) {
-    Vec3 sum = Vec3::Zero();
-    for (const Index node : c) sum += mesh.nodes[index(node)];
-    centroids.emplace_back(0.25 * sum);
-  }
-  std::vector<std::array<Index, 4>> neighbours;
-  for (const auto& links : model.topology.links) {
-    neighbours.push_back({links[0].neighbour, links[1].neighbour, links[2].neighbour, links[3].neighbour});
-  }
-  const Communicator alone;
-  const double edge = model.whole.longest_edge;
-  const double buffer = model.has_contact ? largest_buffer(input.detection.buffer, mean_size(mesh)) : 0.0;
-  const Reach reach = reach_of(input, edge, buffer);
-  const DomainSpec spec = settled(alone, domain_spec(input), parts, centroids, edge);
-  const std::vector<double> weight(centroids.size(), 1.0);
-  const double share = static_cast<double>(centroids.size()) / parts;
-  const std::vector<Vec3> places = places_of_fragments(centroids, neighbours, share, reach.distance());
-  const std::vector<int> owner = assign_domains(alone, spec, parts, places, weight, edge);
-  std::vector<std::uint8_t> own_nodes;
-  for (const Discretisation d : model.discretisation) own_nodes.push_back(d == Discretisation::own_nodes ? 1 : 0);
-  return {spec.kind == DomainKind::rcb ? "rcb" : fmt::format("grid of {} x {} x {}", spec.n[0], spec.n[1], spec.n[2]),
-          report_domains(mesh, model.topology, own_nodes, owner, parts, reach.distance())};
 }
 
 constexpr std::size_t kMostLines = 16;
@@ -225,12 +186,57 @@ std::string verdict(const Division& division) {
 
 }  // namespace
 
+RunEstimate estimate_run(const case_::Case& input, const Model& model, const StepReport& step) {
+  const double end = input.stages.back().end;
+  RunEstimate estimate;
+  estimate.steps = std::ceil(end / step.dt);
+  estimate.seconds = estimate.steps * seconds_a_step(input, model, 1e-3 * step.dt, false);
+  estimate.most_seconds = estimate.seconds;
+  estimate.breaks = std::any_of(model.joint_laws.begin(), model.joint_laws.end(),
+                                [](const JointLawParams& law) { return law.breakable(); });
+  if (estimate.breaks) {
+    const double dt = input.time.step > 0 ? step.dt : std::min(step.dt, input.time.safety * step.broken);
+    const double most = std::ceil(end / dt) * seconds_a_step(input, model, 1e-3 * dt, true);
+    estimate.most_seconds = std::max(most, estimate.seconds);
+  }
+  estimate.memory = max_resident_bytes();
+  return estimate;
+}
+
+Division divide_model(const case_::Case& input, const Model& model, int parts) {
+  const Mesh& mesh = model.mesh;
+  std::vector<Vec3> centroids;
+  centroids.reserve(mesh.elements.size());
+  for (const auto& c : mesh.elements) {
+    Vec3 sum = Vec3::Zero();
+    for (const Index node : c) sum += mesh.nodes[index(node)];
+    centroids.emplace_back(0.25 * sum);
+  }
+  std::vector<std::array<Index, 4>> neighbours;
+  for (const auto& links : model.topology.links) {
+    neighbours.push_back({links[0].neighbour, links[1].neighbour, links[2].neighbour, links[3].neighbour});
+  }
+  const Communicator alone;
+  const double edge = model.whole.longest_edge;
+  const double buffer = model.has_contact ? largest_buffer(input.detection.buffer, mean_size(mesh)) : 0.0;
+  const Reach reach = reach_of(input, edge, buffer);
+  const DomainSpec spec = settled(alone, domain_spec(input), parts, centroids, edge);
+  const std::vector<double> weight(centroids.size(), 1.0);
+  const double share = static_cast<double>(centroids.size()) / parts;
+  const std::vector<Vec3> places = places_of_fragments(centroids, neighbours, share, reach.distance());
+  const std::vector<int> owner = assign_domains(alone, spec, parts, places, weight, edge);
+  std::vector<std::uint8_t> own_nodes;
+  for (const Discretisation d : model.discretisation) own_nodes.push_back(d == Discretisation::own_nodes ? 1 : 0);
+  return {spec.kind == DomainKind::rcb ? "rcb" : fmt::format("grid of {} x {} x {}", spec.n[0], spec.n[1], spec.n[2]),
+          report_domains(mesh, model.topology, own_nodes, owner, parts, reach.distance()), owner};
+}
+
 std::string domain_line(const case_::Case& input, const Model& model, int parts) {
-  return verdict(divide(input, model, parts)) + "\n";
+  return verdict(divide_model(input, model, parts)) + "\n";
 }
 
 std::string domain_table(const case_::Case& input, const Model& model, int parts) {
-  const Division division = divide(input, model, parts);
+  const Division division = divide_model(input, model, parts);
   const std::vector<DomainLoad>& domains = division.report.domains;
   std::string text =
       fmt::format("{}\n{} elements, {}\n  {:<10}", input.title, model.mesh.num_elements(), verdict(division), "domain");
@@ -291,18 +297,26 @@ std::string mesh_report(const FinishedMesh& made) {
   return text + "\n";
 }
 
-std::string check_report(const case_::Case& input, const Model& model) {
-  std::string text = fmt::format("{}\n", input.title) + mesh_report({model.mesh, model.mesh_report}), advice;
-  text += fmt::format("joints: {}\n", model.joints.size());
-  for (std::size_t l = 0; l < model.joint_laws.size(); ++l) text += law_report(model, static_cast<Index>(l), advice);
-
+CheckReport full_report(const case_::Case& input, const Model& model) {
+  CheckReport report;
+  report.text = fmt::format("{}\n", input.title) + mesh_report({model.mesh, model.mesh_report});
+  report.text += fmt::format("joints: {}\n", model.joints.size());
+  for (std::size_t l = 0; l < model.joint_laws.size(); ++l)
+    report.text += law_report(model, static_cast<Index>(l), report.advice);
   const OverlapReport overlaps = overlap_report(input, model);
-  text += stiffness_report(model) + overlaps.text;
-  advice += overlaps.advice;
-  const StepReport step = step_report(input, model);
-  text += step.text + run_time(input, model, step) + frames_line(input, model, advice);
-  advice += step.advice;
-  return text + (advice.empty() ? "nothing to advise\n" : "advice\n" + advice);
+  report.text += stiffness_report(model) + overlaps.text;
+  report.advice += overlaps.advice;
+  report.step = step_report(input, model);
+  report.estimate = estimate_run(input, model, report.step);
+  report.text += report.step.text + run_time(report.step, report.estimate, input.stages.back().end) +
+                 frames_line(input, model, report.advice);
+  report.advice += report.step.advice;
+  return report;
+}
+
+std::string check_report(const case_::Case& input, const Model& model) {
+  const CheckReport report = full_report(input, model);
+  return report.text + (report.advice.empty() ? "nothing to advise\n" : "advice\n" + report.advice);
 }
 
 }  // namespace breccia

@@ -76,6 +76,7 @@ struct CheckCommand {
   std::vector<std::string> overrides;
   bool trust_geometry = false;  ///< the mesh may run programs and write files
   int ranks = 0;                ///< > 0: only how the model is divided among so many
+  bool json = false;
 };
 /// @param launched  ranks that the launcher has started
 int check_command(const CheckCommand& asked, int launched);
@@ -85,6 +86,7 @@ struct MeshCommand {
   std::vector<std::string> overrides;
   bool trust_geometry = false;   ///< the mesh may run programs and write files
   std::filesystem::path folder;  ///< empty: report only
+  bool json = false;
 };
 int mesh_command(const MeshCommand& asked);
 
@@ -94,5 +96,8 @@ struct DiffCommand {
 int diff_command(const DiffCommand& asked);
 
 int explain_command(const std::string& key);
+
+/// The table of all keys: a line a key, or JSON.
+int schema_command(bool json);
 
 }  // namespace breccia

@@ -4,6 +4,7 @@
 
 #include "case/reader.hpp"
 #include "commands/check_report.hpp"
+#include "commands/json_report.hpp"
 #include "contact/search_params.hpp"
 #include "domains/balance.hpp"
 #include "observe/fragment_labels.hpp"
@@ -11,23 +12,33 @@
 #include "output/vtkhdf_sink.hpp"
 
 namespace breccia {
+namespace {
 
-int mesh_command(const MeshCommand& asked) {
+int mesh(const MeshCommand& asked) {
+  const auto told = [&](const FinishedMesh& made) {
+    fmt::print("{}", asked.json ? mesh_json(made) : mesh_report(made));
+  };
   case_::Case input = case_::read_case(asked.case_file, asked.overrides);
   input.mesh.trust = asked.trust_geometry;
   if (asked.folder.empty()) {
-    fmt::print("{}", mesh_report(build_mesh(input)));
+    told(build_mesh(input));
     return 0;
   }
   const Model model = build_model(input);
-  fmt::print("{}", mesh_report({model.mesh, model.mesh_report}));
   std::filesystem::create_directories(asked.folder);
   const Domain rest(model, search_params(input, model));
   const FrameParts elements{true, false, false};
   VtkhdfSink(asked.folder, elements)
       .frame(make_frame(rest, 0, elements, {find_fragments(rest), Balance().weights(rest)}));
-  fmt::print("elements for ParaView in {}\n", asked.folder.string());
+  told({model.mesh, model.mesh_report});
+  if (!asked.json) fmt::print("elements for ParaView in {}\n", asked.folder.string());
   return 0;
+}
+
+}  // namespace
+
+int mesh_command(const MeshCommand& asked) {
+  return asked.json ? or_problems([&] { return mesh(asked); }) : mesh(asked);
 }
 
 }  // namespace breccia

@@ -35,6 +35,15 @@ IN_SITU_HEADER = "catalyst/insitu_abi.h"
 # What catalyst/, the adaptor behind that interface, may include: itself, VTK and ParaView, MPI, Python (in VTK's wrapping) and X11.
 ADAPTOR = re.compile(r"(catalyst/\w+\.h(pp)?|vtk\w+\.h|mpi\.h|Python\.h|X11/\w+\.h)")
 
+# What a folder of gui/ may include: its own headers and those it builds on, Qt (Q...), VTK (vtk...), and the solver's case and base.
+QT, VTK_HEADER, WIDGETS = r"Q(?!VTK)\w+", r"vtk\w+\.h", r"Q(Application|\w*(Widget|Dialog|Window|Box|Button|Label|View|Menu|Painter|Icon|Pixmap))"
+GUI = {
+    "core": (("core", "case", "base"), QT),
+    "render": (("render",), VTK_HEADER),
+    "models": (("models", "core", "case", "base"), QT),
+    "widgets": (("widgets", "models", "core", "render", "case", "base"), rf"{QT}|QVTK\w+\.h|{VTK_HEADER}"),
+}
+
 # Third-party headers -> files of solver/ that may include them. Eigen is the vector type of base/types.hpp, so everywhere.
 THIRD_PARTY = [
     (r"Eigen/.*", ["*"]),
@@ -44,7 +53,7 @@ THIRD_PARTY = [
     (r"gmsh(c|\.h_cwrap)?\.h", ["mesh/gmsh_reader.cpp"]),
     (r"mpi\.h", ["parallel/*"]),
     (r"(hdf5(_hl)?|H5\w*)\.h", ["output/hdf5*.cpp"]),
-    (r"nlohmann/.*", ["output/*.cpp"]),
+    (r"nlohmann/.*", ["output/*.cpp", "commands/json_report.cpp"]),
     (r"CLI/.*", ["main.cpp"]),
 ]
 
@@ -114,6 +123,25 @@ def adaptor_problems(adaptor):
             yield path, number, f"catalyst must not include {match[2]}; it may include its own headers, VTK, ParaView, MPI, Python and X11"
 
 
+def gui_problems(gui):
+    for path in sorted(gui.rglob("*")):
+        folder = path.relative_to(gui).parts[0]
+        if path.suffix not in SOURCE_SUFFIXES or folder not in GUI:
+            continue
+        folders, third_party = GUI[folder]
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            match = INCLUDE.match(line)
+            if not match:
+                continue
+            header = match[2]
+            if "/" in header and header.split("/")[0] in folders:
+                continue
+            if folder == "core" and re.fullmatch(WIDGETS, header):
+                yield path, number, f"gui/core has no widget and must not include {header}"
+            elif not (re.fullmatch(third_party, header) or SYSTEM.fullmatch(header) or re.fullmatch(r"[a-z_]+|signal\.h", header)):
+                yield path, number, f"gui/{folder} must not include {header}; it may include {', '.join(folders)} and what matches {third_party}"
+
+
 def text_problems(repository):
     """Sizes and things left open, in every source of the repository."""
     for top in ("solver", "catalyst", "gui", "plugins", "meshes", "tests"):
@@ -133,7 +161,8 @@ def text_problems(repository):
 def problems(repository):
     """Every violation in the repository as "file:line: what"."""
     repository = Path(repository)
-    found = [*solver_problems(repository / "solver"), *adaptor_problems(repository / "catalyst"), *text_problems(repository)]
+    found = [*solver_problems(repository / "solver"), *adaptor_problems(repository / "catalyst"), *gui_problems(repository / "gui"),
+             *text_problems(repository)]
     return [f"{path.relative_to(repository)}:{line}: {what}" for path, line, what in found]
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from commands import PROGRAM
 from plans import RUN_GOING_ON, Problem
 
-LINKED = ("meshes", "catalyst", "solver", "tests", "CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md")
+LINKED = ("meshes", "catalyst", "gui", "solver", "tests", "CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md")
 PATIENCE = 240           # s for one command; the slowest takes ten on an idle machine, more under the sanitizers
 BLANK_PICTURE = 5000     # bytes; a picture of one colour takes less
 STUB = "#!/bin/sh\necho \"$0 $*\" >>'{record}'\n{work}\n"

@@ -1,0 +1,67 @@
+#include "core/case_queries.hpp"
+
+#include <unistd.h>
+
+#include <QDir>
+#include <QSaveFile>
+
+namespace breccia::gui {
+
+CaseQueries::CaseQueries(const Document& document, QString program, QObject* parent)
+    : QObject(parent), document_(document), program_(std::move(program)) {
+  const auto ended = [this] {
+    if (!busy() && !draft_.isEmpty()) QFile::remove(draft_);
+    emit busy_changed();
+  };
+  const auto join = [this, ended](SolverQuery& query, const QString& what) {
+    connect(&query, &SolverQuery::answered, this, ended);
+    connect(&query, &SolverQuery::failed, this, [this, ended, what](const QString& text, const auto& problems) {
+      ended();
+      emit failed(what, text, problems);
+    });
+  };
+  join(check_, tr("check"));
+  join(mesh_, tr("mesh"));
+  join(domains_, tr("domains"));
+  connect(&check_, &SolverQuery::answered, this, &CaseQueries::checked);
+  connect(&domains_, &SolverQuery::answered, this, &CaseQueries::divided);
+  connect(&mesh_, &SolverQuery::answered, this, [this](const QJsonObject& json) {
+    emit meshed(json, scratch_.filePath(QString("%1/elements_000000.vtkhdf").arg(meshes_)));
+  });
+}
+
+CaseQueries::~CaseQueries() {
+  if (!draft_.isEmpty()) QFile::remove(draft_);
+}
+
+QString CaseQueries::draft(const QString& what) {
+  if (!document_.modified()) return document_.file();
+  draft_ = QDir(document_.folder()).filePath(QString(".breccia-draft-%1.toml").arg(::getpid()));
+  QSaveFile file(draft_);
+  if (file.open(QIODevice::WriteOnly) && file.write(document_.text()) >= 0 && file.commit()) return draft_;
+  emit failed(what,
+              tr("%1 cannot be written (%2): save the case into a folder of your own").arg(draft_, file.errorString()),
+              {});
+  return {};
+}
+
+void CaseQueries::check() {
+  if (const QString file = draft(tr("check")); !file.isEmpty()) check_.ask(program_, {"check", file, "--json"});
+  emit busy_changed();
+}
+
+void CaseQueries::mesh() {
+  const QString folder = scratch_.filePath(QString::number(++meshes_));
+  QDir(scratch_.filePath(QString::number(meshes_ - 2))).removeRecursively();
+  if (const QString file = draft(tr("mesh")); !file.isEmpty())
+    mesh_.ask(program_, {"mesh", file, "--json", "-o", folder});
+  emit busy_changed();
+}
+
+void CaseQueries::domains(int ranks) {
+  if (const QString file = draft(tr("domains")); !file.isEmpty())
+    domains_.ask(program_, {"check", file, "--json", "--ranks", QString::number(ranks)});
+  emit busy_changed();
+}
+
+}  // namespace breccia::gui

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <QTemporaryDir>
+
+#include "core/document.hpp"
+#include "core/solver_query.hpp"
+
+namespace breccia::gui {
+
+/// What the solver's commands say of the case as it is edited, saved or not: a draft beside the case is what they read,
+/// so that relative names hold.
+class CaseQueries final : public QObject {
+  Q_OBJECT
+ public:
+  CaseQueries(const Document& document, QString program, QObject* parent = nullptr);
+  ~CaseQueries() override;
+
+  void check();
+  /// The mesh at rest is written for the preview.
+  void mesh();
+  void domains(int ranks);
+  [[nodiscard]] bool busy() const { return check_.busy() || mesh_.busy() || domains_.busy(); }
+
+ signals:
+  void busy_changed();
+  void checked(const QJsonObject& json);
+  /// @param elements_file  VTKHDF
+  void meshed(const QJsonObject& json, const QString& elements_file);
+  void divided(const QJsonObject& json);
+  void failed(const QString& what, const QString& text, const std::vector<breccia::Problem>& problems);
+
+ private:
+  /// The file that a command reads. Empty: it could not be written, told by `failed`.
+  [[nodiscard]] QString draft(const QString& what);
+
+  const Document& document_;
+  QString program_;
+  QTemporaryDir scratch_;
+  SolverQuery check_, mesh_, domains_;
+  int meshes_ = 0;
+  QString draft_;
+};
+
+}  // namespace breccia::gui

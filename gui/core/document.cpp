@@ -1,0 +1,199 @@
+#include "core/document.hpp"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <QCryptographicHash>
+#include <QDir>
+#include <QFile>
+#include <QFileInfo>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QSaveFile>
+#include <QUndoCommand>
+
+#include "case/reader.hpp"
+
+namespace breccia::gui {
+namespace {
+
+QString written(const QString& file, const QByteArray& bytes) {
+  QSaveFile out(file);
+  if (!out.open(QIODevice::WriteOnly) || out.write(bytes) != bytes.size() || !out.commit())
+    return Document::tr("%1 cannot be written: %2").arg(file, out.errorString());
+  return {};
+}
+
+bool is_alive(qint64 process) { return process > 0 && (::kill(static_cast<pid_t>(process), 0) == 0 || errno == EPERM); }
+
+}  // namespace
+
+/// One replacement of a piece of the text.
+class TextEdit final : public QUndoCommand {
+ public:
+  TextEdit(Document& document, TextChange change, const QString& words, bool merges)
+      : QUndoCommand(words), document_(document), change_(std::move(change)), merges_(merges) {}
+  void redo() override { document_.apply(change_); }
+  void undo() override { document_.apply(reversed(change_)); }
+  [[nodiscard]] int id() const override { return merges_ ? 1 : -1; }
+  // Letters that are typed one behind the other are one step; a new line begins another.
+  bool mergeWith(const QUndoCommand* next) override {
+    const auto& later = static_cast<const TextEdit&>(*next).change_;
+    if (!later.removed.empty() || !change_.removed.empty() || later.at != change_.at + change_.inserted.size() ||
+        change_.inserted.ends_with('\n'))
+      return false;
+    change_.inserted += later.inserted;
+    return true;
+  }
+
+ private:
+  Document& document_;
+  TextChange change_;
+  bool merges_;
+};
+
+Document::Document(QString state_folder, QObject* parent) : QObject(parent), state_folder_(std::move(state_folder)) {
+  autosave_.setSingleShot(true);
+  autosave_.setInterval(kAutosaveDelay);
+  connect(&autosave_, &QTimer::timeout, this, &Document::write_snapshot);
+  connect(&undo_, &QUndoStack::cleanChanged, this, [this](bool clean) { emit modification_changed(!clean); });
+}
+
+QString Document::folder() const { return QFileInfo(file_).absolutePath(); }
+
+void Document::start(const QString& file, const QByteArray& text) {
+  remove_snapshot();
+  file_ = QFileInfo(file).absoluteFilePath();
+  undo_.clear();
+  places_ = TomlPlaces(text.toStdString());
+  open_ = true;
+}
+
+QString Document::open(const QString& file) {
+  QFile in(file);
+  if (!in.open(QIODevice::ReadOnly)) return tr("%1 cannot be read: %2").arg(file, in.errorString());
+  start(file, in.readAll());
+  emit renamed();
+  emit changed();
+  return {};
+}
+
+void Document::recover(const Recovery& recovery) {
+  QFile in(recovery.file);
+  start(recovery.file, in.open(QIODevice::ReadOnly) ? in.readAll() : QByteArray());
+  push(difference(places_.text(), recovery.text.toStdString()), tr("recover unsaved edits"));
+  write_snapshot();
+  QFile::remove(recovery.snapshot);
+  emit renamed();
+  emit changed();
+}
+
+QString Document::save() {
+  const QString error = written(file_, text());
+  if (!error.isEmpty()) return error;
+  undo_.setClean();
+  remove_snapshot();
+  return {};
+}
+
+QString Document::save_as(const QString& file) {
+  const QString absolute = QFileInfo(file).absoluteFilePath();
+  const QString error = written(absolute, text());
+  if (!error.isEmpty()) return error;
+  remove_snapshot();
+  file_ = absolute;
+  undo_.setClean();
+  emit renamed();
+  return {};
+}
+
+void Document::close() {
+  remove_snapshot();
+  open_ = false;
+  file_.clear();
+  undo_.clear();
+  places_ = TomlPlaces();
+  emit renamed();
+  emit changed();
+}
+
+QString Document::value(const QString& path) const {
+  const std::string_view found = places_.value(path.toStdString());
+  return QString::fromUtf8(found.data(), static_cast<int>(found.size()));
+}
+
+void Document::set_value(const QString& path, const QString& toml) {
+  push(places_.set(path.toStdString(), toml.toStdString()), tr("set %1").arg(path));
+}
+
+void Document::remove(const QString& path) { push(places_.remove(path.toStdString()), tr("remove %1").arg(path)); }
+
+void Document::add_entry(const QString& list, const QString& lines) {
+  push(places_.add_entry(list.toStdString(), lines.toStdString()), tr("add to %1").arg(list));
+}
+
+void Document::set_text(const QByteArray& text) {
+  push(difference(places_.text(), text.toStdString()), tr("edit text"), true);
+}
+
+void Document::push(const TextChange& change, const QString& words, bool merges) {
+  if (!change.empty()) undo_.push(new TextEdit(*this, change, words, merges));
+}
+
+void Document::apply(const TextChange& change) {
+  places_ = TomlPlaces(applied(places_.text(), change));
+  if (!autosave_.isActive()) autosave_.start();  // not restarted: steady typing must not put it off
+  emit changed();
+}
+
+std::vector<Problem> Document::problems() const {
+  try {
+    (void)case_::read_case_text(places_.text(), file_.toStdString());
+  } catch (const InputError& error) {
+    return error.problems();
+  }
+  return {};
+}
+
+bool Document::editable_as_text() const {
+  const QByteArray bytes = text();
+  if (bytes.contains('\0') || QString::fromUtf8(bytes).toUtf8() != bytes) return false;
+  const auto returns = bytes.count('\r');
+  return returns == 0 || (returns == bytes.count("\r\n") && returns == bytes.count('\n'));
+}
+
+QString Document::snapshot_file() const {
+  const QByteArray name = QCryptographicHash::hash(file_.toUtf8(), QCryptographicHash::Sha1).toHex().left(16);
+  return QDir(state_folder_).filePath(QString("unsaved-%1-%2.json").arg(QString::fromLatin1(name)).arg(::getpid()));
+}
+
+void Document::write_snapshot() {
+  if (!open_ || !modified()) return;
+  QDir().mkpath(state_folder_);
+  const QJsonObject json{
+      {"file", file_}, {"process", static_cast<qint64>(::getpid())}, {"text", QString::fromLatin1(text().toBase64())}};
+  (void)written(snapshot_file(), QJsonDocument(json).toJson(QJsonDocument::Compact));
+}
+
+void Document::remove_snapshot() {
+  autosave_.stop();
+  if (!file_.isEmpty()) QFile::remove(snapshot_file());
+}
+
+std::vector<Recovery> Document::recoveries(const QString& state_folder) {
+  std::vector<Recovery> found;
+  const QDir folder(state_folder);
+  for (const QString& name : folder.entryList({"unsaved-*.json"}, QDir::Files, QDir::Time)) {
+    QFile in(folder.filePath(name));
+    if (!in.open(QIODevice::ReadOnly)) continue;
+    const QJsonObject json = QJsonDocument::fromJson(in.readAll()).object();
+    if (json.isEmpty() || is_alive(static_cast<qint64>(json["process"].toDouble()))) continue;
+    found.push_back(
+        {folder.filePath(name), json["file"].toString(), QByteArray::fromBase64(json["text"].toString().toLatin1())});
+  }
+  return found;
+}
+
+void Document::discard(const Recovery& recovery) { QFile::remove(recovery.snapshot); }
+
+}  // namespace breccia::gui

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <QByteArray>
+#include <QObject>
+#include <QTimer>
+#include <QUndoStack>
+#include <optional>
+#include <vector>
+
+#include "base/error.hpp"
+#include "core/toml_places.hpp"
+
+namespace breccia::gui {
+
+/// What an earlier session that ended without saying so has left.
+struct Recovery {
+  QString snapshot;  ///< file of the state folder
+  QString file;      ///< of the case
+  QByteArray text;
+};
+
+/// A case that is being edited. Its text is the truth, kept byte for byte; an edit replaces one piece of it and can be
+/// undone. A snapshot of unsaved edits is in the state folder at most `kAutosaveDelay` after an edit.
+class Document final : public QObject {
+  Q_OBJECT
+ public:
+  static constexpr int kAutosaveDelay = 1000;  // ms
+
+  /// @param state_folder  of snapshots; made when needed
+  explicit Document(QString state_folder, QObject* parent = nullptr);
+
+  /// Reads a file. Returns what went wrong, empty: nothing.
+  [[nodiscard]] QString open(const QString& file);
+  /// Takes a snapshot up again: the case of `file`, edited.
+  void recover(const Recovery& recovery);
+  [[nodiscard]] QString save();
+  [[nodiscard]] QString save_as(const QString& file);
+  /// Ends the work on this case; the snapshot is removed.
+  void close();
+
+  [[nodiscard]] const QString& file() const { return file_; }
+  [[nodiscard]] QString folder() const;
+  [[nodiscard]] bool is_open() const { return open_; }
+  [[nodiscard]] bool modified() const { return !undo_.isClean(); }
+  [[nodiscard]] QByteArray text() const { return QByteArray::fromStdString(places_.text()); }
+  [[nodiscard]] const TomlPlaces& places() const { return places_; }
+  [[nodiscard]] QUndoStack& undo_stack() { return undo_; }
+
+  /// TOML text of what stands at a path; empty: nothing does.
+  [[nodiscard]] QString value(const QString& path) const;
+  /// Edits, each one undoable step. An edit that changes nothing is none.
+  void set_value(const QString& path, const QString& toml);
+  void remove(const QString& path);
+  /// @param lines  "key = value\n..." of the new [[list]] entry
+  void add_entry(const QString& list, const QString& lines);
+  /// The whole text at once; steps that follow each other at neighbouring places while somebody types are one.
+  void set_text(const QByteArray& text);
+
+  /// What the solver's reader says of the present text, with its words.
+  [[nodiscard]] std::vector<Problem> problems() const;
+  /// True when the text, as it is shown, gives back the same bytes: UTF-8, one kind of line ends.
+  [[nodiscard]] bool editable_as_text() const;
+
+  /// Snapshots of processes that are no more.
+  [[nodiscard]] static std::vector<Recovery> recoveries(const QString& state_folder);
+  static void discard(const Recovery& recovery);
+
+ signals:
+  void changed();  ///< the text
+  void renamed();  ///< the file
+  void modification_changed(bool modified);
+
+ private:
+  friend class TextEdit;
+  void apply(const TextChange& change);
+  void push(const TextChange& change, const QString& words, bool merges = false);
+  void start(const QString& file, const QByteArray& text);
+  void write_snapshot();
+  void remove_snapshot();
+  [[nodiscard]] QString snapshot_file() const;
+
+  QString state_folder_, file_;
+  bool open_ = false;
+  TomlPlaces places_;
+  QUndoStack undo_;
+  QTimer autosave_;
+};
+
+}  // namespace breccia::gui

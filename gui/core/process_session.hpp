@@ -1,0 +1,34 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <QString>
+#include <QStringList>
+#include <QtGlobal>
+#include <optional>
+
+/// Processes that outlive their starter: each run is the leader of a session of its own, and so everything that it
+/// starts (mpiexec, its ranks) can be counted and ended, whoever asks.
+namespace breccia::gui {
+
+struct Session {
+  pid_t leader = 0;
+  qint64 started = 0;  ///< of the leader, ticks since boot: tells it from a later process of the same number
+};
+
+/// Starts a program in a new session, its output in a file. @param error  out: what went wrong
+[[nodiscard]] std::optional<Session> start_session(const QStringList& command, const QString& folder,
+                                                   const QString& output_file, const QStringList& environment,
+                                                   QString* error);
+
+/// Processes of the session that still run, zombies not counted.
+[[nodiscard]] QList<pid_t> members_of(const Session& session);
+
+/// Sends a signal to every one of them. Returns how many there were.
+int signal_session(const Session& session, int signal);
+
+/// Takes the exit status of a leader that is our child and has ended, so that it does not stay in the process table.
+/// Exit code, 128 + signal; nothing: it runs on, or is no child of ours.
+[[nodiscard]] std::optional<int> take_exit_code(const Session& session);
+
+}  // namespace breccia::gui

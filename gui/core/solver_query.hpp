@@ -1,0 +1,34 @@
+#pragma once
+
+#include <QJsonObject>
+#include <QObject>
+#include <QProcess>
+#include <vector>
+
+#include "base/error.hpp"
+
+namespace breccia::gui {
+
+/// One question to the solver (`check --json`, `mesh --json`): a child process whose answer is a JSON object. A new
+/// question ends the one before.
+class SolverQuery final : public QObject {
+  Q_OBJECT
+ public:
+  explicit SolverQuery(QObject* parent = nullptr);
+  ~SolverQuery() override;
+
+  void ask(const QString& program, const QStringList& arguments);
+  void cancel();
+  [[nodiscard]] bool busy() const { return process_ != nullptr; }
+
+ signals:
+  void answered(const QJsonObject& json);
+  /// @param problems  of the case; empty: the program could not do its work, `text` says why
+  void failed(const QString& text, const std::vector<breccia::Problem>& problems);
+
+ private:
+  void finish(QProcess* process);
+  QProcess* process_ = nullptr;
+};
+
+}  // namespace breccia::gui

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <QElapsedTimer>
+#include <QObject>
+#include <QTimer>
+#include <vector>
+
+#include "core/process_session.hpp"
+#include "core/run_folder.hpp"
+
+namespace breccia::gui {
+
+/// How runs are started here.
+struct Launch {
+  QString program = "breccia";   ///< the solver
+  QString launcher = "mpiexec";  ///< used on several ranks
+};
+
+/// What is needed to find a run again.
+struct RunRecord {
+  QString folder;  ///< of the results
+  QString case_file;
+  int ranks = 1;
+  QStringList command;
+  Session session;
+};
+
+/// One run: a process of its own that does not need us, watched through its folder. It is looked at every
+/// `kInterval` while somebody holds this object; the run goes on without.
+class SolverRun final : public QObject {
+  Q_OBJECT
+ public:
+  static constexpr int kInterval = 400;  // ms
+  /// How long a stop waits before it becomes stricter, ms: after the request, after SIGTERM.
+  struct Patience {
+    int request = 10000, terminate = 5000;
+  };
+
+  /// Finds a run again, or only its results when it has ended.
+  explicit SolverRun(RunRecord record, QObject* parent = nullptr);
+
+  /// The command line of a run, as it is shown and started.
+  [[nodiscard]] static QStringList command_line(const Launch& launch, const QString& case_file, const QString& folder,
+                                                int ranks);
+  /// Starts one. nullptr: it could not be started, see `error`.
+  [[nodiscard]] static SolverRun* start(const Launch& launch, const QString& case_file, const QString& folder,
+                                        int ranks, QString* error, QObject* parent);
+
+  [[nodiscard]] const RunRecord& record() const { return record_; }
+  [[nodiscard]] const RunStatus& status() const { return status_; }
+  [[nodiscard]] const History& history() const { return history_; }
+  [[nodiscard]] const std::vector<RunFrame>& frames() const { return frames_; }
+  [[nodiscard]] bool alive() const { return alive_; }
+  /// starting, running, paused, stopping, complete, stopped, failed
+  [[nodiscard]] QString state() const;
+  /// Why it failed, in the solver's words.
+  [[nodiscard]] QString failure() const;
+  [[nodiscard]] QString log_file() const { return record_.folder + ".log"; }
+
+  void pause() { ask("pause"); }
+  void resume() { ask("resume"); }
+  /// Asks the run to end after the present step; then SIGTERM; then SIGKILL to every process of its session.
+  void stop();
+  void set_patience(Patience patience) { patience_ = patience; }
+  /// Looks at the folder and the process table now.
+  void look();
+
+ signals:
+  void status_changed();
+  void history_grew();
+  void frames_changed();
+  void ended();
+
+ private:
+  void ask(const QByteArray& command);
+  void go_on_stopping();
+
+  RunRecord record_;
+  RunStatus status_;
+  History history_;
+  std::vector<RunFrame> frames_;
+  GrowingFile status_file_, history_file_;
+  QTimer timer_;
+  QElapsedTimer stopping_;
+  Patience patience_;
+  bool alive_ = true, terminated_ = false, told_end_ = false;
+};
+
+/// The runs that were started here, kept in a file of the state folder so that a later session finds them.
+class RunRegistry {
+ public:
+  explicit RunRegistry(QString file) : file_(std::move(file)) {}
+  [[nodiscard]] std::vector<RunRecord> load() const;
+  /// Newest first; folders that are no more are left out.
+  void add(const RunRecord& record) const;
+
+ private:
+  QString file_;
+};
+
+}  // namespace breccia::gui

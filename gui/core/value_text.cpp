@@ -1,0 +1,158 @@
+#include "core/value_text.hpp"
+
+#include <QMap>
+#include <QRegularExpression>
+
+#include "case/writer.hpp"
+#include "core/toml_places.hpp"
+
+namespace breccia::gui {
+namespace {
+
+using case_::Key;
+using case_::ValueType;
+
+QString text_of(std::string_view s) { return QString::fromUtf8(s.data(), static_cast<int>(s.size())); }
+
+/// A scalar in quotes without them; anything else as it is.
+QString unquoted(const QString& toml) {
+  if (toml.size() < 2 || toml.front() != toml.back() || toml.contains('\\')) return toml;
+  const bool quoted = toml.front() == '"' || toml.front() == '\'';
+  const QString inner = toml.mid(1, toml.size() - 2);
+  return quoted && !inner.contains('"') && !inner.startsWith('\'') ? inner : toml;
+}
+
+bool is_number(const QString& text) {
+  static const QRegularExpression number(R"(^[+-]?(0|[1-9][0-9_]*)(\.[0-9_]+)?([eE][+-]?[0-9_]+)?$)");
+  return number.match(text).hasMatch();
+}
+
+/// A quantity as TOML: a bare number, or text with its unit.
+QString quantity(const QString& typed) {
+  const QString text = typed.trimmed();
+  if (text.isEmpty() || is_number(text) || text.startsWith('"') || text.startsWith('\'') || text.startsWith('{'))
+    return text;
+  QString number = text;  // "3,5 mm": a decimal comma
+  static const QRegularExpression comma(R"(^([+-]?[0-9]+),([0-9]+))");
+  number.replace(comma, "\\1.\\2");
+  return is_number(number) ? number : quoted(number);
+}
+
+bool is_list(ValueType type) {
+  using enum ValueType;
+  switch (type) {
+    case text_list:
+    case text_pair:
+    case number_pair:
+    case vector:
+    case vector_or_number:
+    case integers_or_one:
+    case function_vector:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool is_text(ValueType type) {
+  using enum ValueType;
+  return type == text || type == path || type == choice || type == axes || type == text_list || type == text_pair;
+}
+
+}  // namespace
+
+QString quoted(const QString& text) { return QString::fromStdString(case_::toml_text(text.toStdString())); }
+
+QString shown_value(const Key& key, const QString& toml) {
+  if (toml.startsWith('[') && is_list(key.type)) {
+    const TomlPlaces places("v = " + toml.toStdString());
+    QStringList items;
+    for (const Place& place : places.all()) {
+      if (place.path == "v") continue;
+      const std::string_view item = places.value(place.path);
+      if (item.starts_with('[') || item.starts_with('{') || item.find('#') != std::string_view::npos) return toml;
+      const QString shown = unquoted(text_of(item));
+      if (shown.contains(',') || shown.isEmpty()) return toml;
+      items << shown;
+    }
+    return items.join(", ");
+  }
+  return unquoted(toml);
+}
+
+QString typed_value(const Key& key, const QString& typed) {
+  const QString text = typed.trimmed();
+  if (text.isEmpty() || text.startsWith('"') || text.startsWith('\'') || text.startsWith('[') || text.startsWith('{'))
+    return text;
+  if (key.type == ValueType::boolean) return text;
+  if (key.type == ValueType::integer) return is_number(text) ? text : quoted(text);
+  if (!is_list(key.type)) return is_text(key.type) ? quoted(text) : quantity(text);
+  const bool one_for_all = key.type == ValueType::vector_or_number || key.type == ValueType::integers_or_one;
+  const QStringList items = text.split(',');
+  if (one_for_all && items.size() == 1) return quantity(text);
+  QStringList out;
+  for (const QString& item : items) out << (is_text(key.type) ? quoted(item.trimmed()) : quantity(item));
+  return "[" + out.join(", ") + "]";
+}
+
+QString shown_default(const Key& key) {
+  const QString fallback = text_of(key.fallback);
+  if (fallback.startsWith('=')) return QObject::tr("that of %1").arg(fallback.mid(1).trimmed());
+  return shown_value(key, fallback);
+}
+
+QString label_of(const Key& key) {
+  QString name = text_of(key.name()).replace('_', ' ');
+  if (!name.isEmpty()) name[0] = name[0].toUpper();
+  return name;
+}
+
+QString symbol_of(const Key& key) {
+  static const QMap<QString, QString> symbols{{"material[].young", "E"},
+                                              {"material[].poisson", "ν"},
+                                              {"material[].density", "ρ"},
+                                              {"material[].viscosity", "μ"},
+                                              {"material[].friction_angle", "φ"},
+                                              {"material[].dilation_angle", "ψ"},
+                                              {"material[].cohesion", "c"},
+                                              {"joint[].penalty", "p"},
+                                              {"joint[].size", "h"},
+                                              {"joint[].tensile_strength", "f_t"},
+                                              {"joint[].shear_strength", "f_s"},
+                                              {"joint[].friction", "tan φ"},
+                                              {"joint[].friction_angle", "φ"},
+                                              {"joint[].energy_mode_1", "G_I"},
+                                              {"joint[].energy_mode_2", "G_II"},
+                                              {"contact[].penalty", "p"},
+                                              {"contact[].plateau", "σ_T"},
+                                              {"contact[].unloading_exponent", "b"},
+                                              {"contact[].friction", "μ"},
+                                              {"initial_velocity[].velocity", "v"},
+                                              {"initial_velocity[].angular", "ω"},
+                                              {"stage[].gravity", "g"},
+                                              {"stage[].mass_damping", "α"},
+                                              {"time.step", "Δt"}};
+  return symbols.value(text_of(key.path));
+}
+
+QString tooltip_of(const Key& key) {
+  const auto line = [](const QString& name, const QString& text) {
+    return text.isEmpty() ? QString() : QString("<br><i>%1</i> %2").arg(name, text.toHtmlEscaped());
+  };
+  const QString unit = key.unit == "1" ? QObject::tr("none") : text_of(key.unit);
+  const QString fallback = key.required ? QObject::tr("none, must be given") : shown_default(key);
+  return "<b>" + text_of(case_::plain_path(key.path)) + "</b><br>" + text_of(key.help).toHtmlEscaped() +
+         line(QObject::tr("Symbol:"), symbol_of(key)) + line(QObject::tr("Unit:"), unit) +
+         line(QObject::tr("Allowed:"), QString::fromStdString(case_::allowed_text(key))) +
+         line(QObject::tr("Default:"), fallback.isEmpty() ? QObject::tr("none") : fallback) +
+         line(QObject::tr("Example:"), shown_value(key, text_of(key.example)));
+}
+
+std::vector<const Key*> keys_in(const std::string& section) {
+  std::vector<const Key*> found;
+  for (const Key& key : case_::schema())
+    if (!key.is_section() && key.section() == section) found.push_back(&key);
+  return found;
+}
+
+}  // namespace breccia::gui

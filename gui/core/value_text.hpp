@@ -1,0 +1,34 @@
+#pragma once
+
+#include <QString>
+#include <QStringList>
+
+#include "case/schema.hpp"
+
+namespace breccia::gui {
+
+/// A value as people write it in a field, of its TOML text: "75 GPa" for "\"75 GPa\"", "0, -3 m/s, 0" for a list of
+/// quantities. Tables, functions and lists of lists stay TOML.
+[[nodiscard]] QString shown_value(const case_::Key& key, const QString& toml);
+
+/// TOML text of what was typed into the field of a key; empty: the key is taken out. A text that is TOML already
+/// (begins with a quote or a bracket) is taken as it is.
+[[nodiscard]] QString typed_value(const case_::Key& key, const QString& typed);
+
+/// Default of a key as it is shown, empty when there is none.
+[[nodiscard]] QString shown_default(const case_::Key& key);
+
+/// "Tensile strength" of joint[].tensile_strength.
+[[nodiscard]] QString label_of(const case_::Key& key);
+/// Symbol of the quantity in the method, if it has a usual one: "E".
+[[nodiscard]] QString symbol_of(const case_::Key& key);
+/// Path, meaning, symbol, unit, what is allowed, default and an example, as plain lines or as HTML.
+[[nodiscard]] QString tooltip_of(const case_::Key& key);
+
+/// Keys that stand directly in a section ("material[]", "stage[].constraint[]", "mesh"), in the order of the table.
+[[nodiscard]] std::vector<const case_::Key*> keys_in(const std::string& section);
+
+/// A text in TOML's quotes.
+[[nodiscard]] QString quoted(const QString& text);
+
+}  // namespace breccia::gui

@@ -1,0 +1,43 @@
+#include <QVTKOpenGLNativeWidget.h>
+
+#include <QApplication>
+#include <QCommandLineParser>
+#include <QIcon>
+#include <QSurfaceFormat>
+#include <clocale>
+
+#include "widgets/main_window.hpp"
+#include "widgets/theme.hpp"
+
+int main(int argc, char** argv) {
+  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
+#if QT_VERSION < QT_VERSION_CHECK(6, 0, 0)
+  QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
+  QApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
+#endif
+  QApplication application(argc, argv);
+  std::setlocale(LC_NUMERIC, "C");
+  QApplication::setApplicationName("breccia-gui");
+  QApplication::setApplicationDisplayName("Breccia");
+  QApplication::setDesktopFileName("breccia");
+  QApplication::setWindowIcon(QIcon(":/breccia.svg"));
+  QCommandLineParser arguments;
+  arguments.setApplicationDescription("Set up, run and watch cases of Breccia.");
+  arguments.addHelpOption();
+  arguments.addPositionalArgument("path", "a case file, or the folder of a run");
+  const QCommandLineOption dark("dark", "dark colours");
+  arguments.addOption(dark);
+  arguments.process(application);
+
+  const bool dark_wanted = arguments.isSet(dark) || breccia::gui::system_is_dark();
+  breccia::gui::apply_theme(dark_wanted);
+  breccia::gui::MainWindow window(breccia::gui::Places::of_this_machine());
+  window.show();
+  window.set_dark(dark_wanted);
+  if (arguments.positionalArguments().isEmpty()) {
+    window.offer_recovery();
+  } else {
+    window.open_path(arguments.positionalArguments().first());
+  }
+  return QApplication::exec();
+}

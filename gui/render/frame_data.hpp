@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// What is drawn of a frame: the skin of the bodies and the joints that are damaged. VTK only, no Qt; everything here
+/// may be called from any thread, one at a time for each object.
+namespace breccia::gui {
+
+/// Reads a VTKHDF file of the solver. nullptr: it cannot be read.
+[[nodiscard]] vtkSmartPointer<vtkUnstructuredGrid> read_vtkhdf(const std::string& file);
+
+/// Faces of the elements that are seen. Which are inner ones is found once, from the state at rest: two faces of one
+/// body whose corners rest at the same places. They are drawn as well where they have come apart. Elements are named by
+/// their ids, since frames of several ranks have them in other orders.
+class Skin {
+ public:
+  /// @param rest  elements of any frame: it is moved back by the displacement. O(elements log elements)
+  explicit Skin(vtkUnstructuredGrid& rest);
+
+  /// The faces as triangles with the arrays of their elements. @param elements  any frame of the same model
+  [[nodiscard]] vtkSmartPointer<vtkPolyData> draw(vtkUnstructuredGrid& elements) const;
+  [[nodiscard]] std::size_t num_outer() const { return outer_.size(); }
+  [[nodiscard]] std::size_t num_inner() const { return inner_.size(); }
+
+ private:
+  struct Face {
+    std::int64_t element;              ///< id
+    int side;                          ///< opposite corner
+    std::array<std::int8_t, 3> order;  ///< corners of the element in the order of their places
+  };
+  std::vector<Face> outer_;
+  std::vector<std::array<Face, 2>> inner_;  ///< two that rest on each other
+};
+
+/// One instant, ready to be drawn.
+struct FrameData {
+  double time = 0;
+  vtkSmartPointer<vtkPolyData> skin;    ///< nullptr: could not be read
+  vtkSmartPointer<vtkPolyData> broken;  ///< triangles of the joints that carry damage
+  std::shared_ptr<const Skin> faces;    ///< of this model, for the next frame
+};
+
+/// @param joints_file  empty: none is there
+/// @param faces        of the same run, nullptr: found anew
+[[nodiscard]] FrameData load_frame(const std::string& elements_file, const std::string& joints_file, double time,
+                                   std::shared_ptr<const Skin> faces);
+
+/// Adds the array "rank" to the cells of a skin by the owner of each element. @param owner  by id
+void set_ranks(vtkPolyData& skin, const std::vector<int>& owner);
+
+}  // namespace breccia::gui

@@ -1,0 +1,327 @@
+#include "render/scene.hpp"
+
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkIntArray.h>
+#include <vtkProperty.h>
+#include <vtkTextProperty.h>
+#include <vtkVariant.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace breccia::gui {
+namespace {
+
+using Colour = std::array<double, 3>;
+
+/// Told apart by people who see no red or no green as well (after Okabe and Ito).
+constexpr std::array<Colour, 8> kClasses{{{0.34, 0.71, 0.91},
+                                          {0.90, 0.62, 0.0},
+                                          {0.0, 0.62, 0.45},
+                                          {0.80, 0.47, 0.65},
+                                          {0.94, 0.89, 0.26},
+                                          {0.0, 0.45, 0.70},
+                                          {0.84, 0.37, 0.0},
+                                          {0.6, 0.6, 0.6}}};
+/// Damaged joints by mode: 0 undamaged, 1 opening, 2 sliding, 3 mixed.
+constexpr std::array<Colour, 4> kModes{{{0.5, 0.5, 0.5}, {0.90, 0.12, 0.12}, {0.12, 0.30, 0.90}, {0.75, 0.15, 0.80}}};
+/// Dark blue to yellow, of even steps in lightness.
+constexpr std::array<Colour, 5> kRamp{{{0.267, 0.005, 0.329},
+                                       {0.231, 0.318, 0.545},
+                                       {0.129, 0.567, 0.551},
+                                       {0.369, 0.789, 0.383},
+                                       {0.993, 0.906, 0.144}}};
+
+constexpr const char* kShown = "shown";
+
+void fill_ramp(vtkLookupTable& table) {
+  constexpr int kSteps = 128;
+  table.SetNumberOfTableValues(kSteps);
+  for (int i = 0; i < kSteps; ++i) {
+    const double x = (kRamp.size() - 1.0) * i / (kSteps - 1);
+    const auto k = std::min(static_cast<std::size_t>(x), kRamp.size() - 2);
+    const double w = x - static_cast<double>(k);
+    Colour c{};
+    for (std::size_t a = 0; a < 3; ++a) c[a] = (1 - w) * kRamp[k][a] + w * kRamp[k + 1][a];
+    table.SetTableValue(i, c[0], c[1], c[2]);
+  }
+  table.SetAnnotations(nullptr, nullptr);
+  table.IndexedLookupOff();
+}
+
+void place_legend(vtkScalarBarActor& legend, double x, double y, double width, double height) {
+  legend.SetPosition(x, y);
+  legend.SetPosition2(width, height);
+  legend.SetUnconstrainedFontSize(true);
+  legend.GetTitleTextProperty()->SetFontSize(13);
+  legend.GetLabelTextProperty()->SetFontSize(12);
+  legend.GetAnnotationTextProperty()->SetFontSize(12);
+  for (vtkTextProperty* text :
+       {legend.GetTitleTextProperty(), legend.GetLabelTextProperty(), legend.GetAnnotationTextProperty()}) {
+    text->SetBold(0);
+    text->SetItalic(0);
+    text->SetShadow(0);
+  }
+}
+
+}  // namespace
+
+const std::vector<std::pair<Colouring, std::string>>& colourings() {
+  static const std::vector<std::pair<Colouring, std::string>> list{
+      {Colouring::group, "group"},
+      {Colouring::body, "body"},
+      {Colouring::fragment, "fragment"},
+      {Colouring::rank, "rank"},
+      {Colouring::speed, "speed [m/s]"},
+      {Colouring::von_mises, "von Mises stress [MPa]"},
+      {Colouring::tension, "largest principal stress [MPa]"}};
+  return list;
+}
+
+Scene::Scene() {
+  skin_->SetMapper(skin_mapper_);
+  broken_->SetMapper(broken_mapper_);
+  skin_->GetProperty()->SetInterpolationToFlat();
+  skin_->GetProperty()->SetAmbient(0.25);
+  skin_->GetProperty()->SetDiffuse(0.75);
+  skin_->GetProperty()->SetEdgeColor(0.25, 0.25, 0.3);
+  broken_->GetProperty()->SetAmbient(0.5);
+  broken_->GetProperty()->SetDiffuse(0.5);
+  mode_colours_->SetNumberOfTableValues(static_cast<vtkIdType>(kModes.size()));
+  for (std::size_t i = 0; i < kModes.size(); ++i)
+    mode_colours_->SetTableValue(static_cast<vtkIdType>(i), kModes[i][0], kModes[i][1], kModes[i][2]);
+  mode_colours_->IndexedLookupOn();
+  const std::array<const char*, 4> names{"undamaged", "opening (I)", "sliding (II)", "mixed"};
+  for (std::size_t i = 0; i < names.size(); ++i)
+    mode_colours_->SetAnnotation(vtkVariant(static_cast<int>(i)), names[i]);
+  broken_mapper_->SetLookupTable(mode_colours_);
+  broken_mapper_->SetScalarModeToUseCellFieldData();
+  broken_mapper_->SelectColorArray("mode");
+  broken_mapper_->UseLookupTableScalarRangeOn();
+  // Cracks lie in the faces of the skin: they are drawn in front.
+  broken_mapper_->SetResolveCoincidentTopologyToPolygonOffset();
+  broken_mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(-2, -2);
+  skin_mapper_->SetLookupTable(colours_);
+  skin_mapper_->SetScalarModeToUseCellFieldData();
+  skin_mapper_->SelectColorArray(kShown);
+  skin_mapper_->UseLookupTableScalarRangeOn();
+  legend_->SetLookupTable(colours_);
+  mode_legend_->SetLookupTable(mode_colours_);
+  mode_legend_->SetTitle("damaged joints");
+  place_legend(*legend_, 0.82, 0.45, 0.17, 0.5);
+  place_legend(*mode_legend_, 0.82, 0.05, 0.17, 0.35);
+  caption_->SetPosition(10, 10);
+  caption_->GetTextProperty()->SetFontSize(14);
+  for (vtkProp* prop : {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(legend_),
+                        static_cast<vtkProp*>(mode_legend_), static_cast<vtkProp*>(caption_)})
+    renderer_->AddViewProp(prop);
+  clear();
+  set_dark(false);
+}
+
+void Scene::clear() {
+  frame_ = {};
+  for (vtkProp* prop : {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(legend_),
+                        static_cast<vtkProp*>(mode_legend_)})
+    prop->VisibilityOff();
+}
+
+void Scene::show(const FrameData& frame) {
+  const bool first = !has_data();
+  frame_ = frame;
+  if (frame_.skin == nullptr) {
+    clear();
+    return;
+  }
+  skin_->VisibilityOn();
+  colour();
+  const bool broken = frame_.broken != nullptr;
+  broken_->SetVisibility(broken);
+  mode_legend_->SetVisibility(broken);
+  if (broken) broken_mapper_->SetInputData(frame_.broken);
+  if (first) reset_camera();
+}
+
+vtkIdType Scene::num_broken() const {
+  if (frame_.broken == nullptr) return 0;
+  vtkDataArray* broken = frame_.broken->GetCellData()->GetArray("broken");
+  vtkIdType count = 0;
+  for (vtkIdType i = 0; broken != nullptr && i < broken->GetNumberOfTuples(); ++i)
+    count += broken->GetTuple1(i) > 0 ? 1 : 0;
+  return count;
+}
+
+void Scene::set_colouring(Colouring colouring) {
+  colouring_ = colouring;
+  if (has_data()) colour();
+}
+
+void Scene::highlight(const std::string& group) {
+  highlighted_ = group;
+  if (has_data()) colour();
+}
+
+void Scene::set_explode(double share) {
+  explode_ = share;
+  if (has_data()) colour();
+}
+
+void Scene::show_edges(bool on) { skin_->GetProperty()->SetEdgeVisibility(on); }
+
+void Scene::show_skin(bool on) { skin_->GetProperty()->SetOpacity(on ? 1.0 : 0.15); }
+
+void Scene::set_caption(const std::string& text) { caption_->SetInput(text.c_str()); }
+
+void Scene::set_dark(bool dark) {
+  const double low = dark ? 0.10 : 0.86, high = dark ? 0.20 : 0.98, ink = dark ? 0.92 : 0.1;
+  renderer_->GradientBackgroundOn();
+  renderer_->SetBackground(low, low, low + 0.02);
+  renderer_->SetBackground2(high, high, high + 0.02);
+  for (vtkTextProperty* text :
+       {legend_->GetTitleTextProperty(), legend_->GetLabelTextProperty(), legend_->GetAnnotationTextProperty(),
+        mode_legend_->GetTitleTextProperty(), mode_legend_->GetLabelTextProperty(),
+        mode_legend_->GetAnnotationTextProperty(), caption_->GetTextProperty()})
+    text->SetColor(ink, ink, ink);
+}
+
+void Scene::reset_camera() {
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  camera->SetFocalPoint(0, 0, 0);
+  camera->SetPosition(0.9, 0.9, 1.4);
+  camera->SetViewUp(0, 1, 0);
+  camera->SetWindowCenter(0.18, 0);  // room for the legends
+  renderer_->ResetCamera();
+  camera->Zoom(1.15);
+}
+
+vtkSmartPointer<vtkPolyData> Scene::exploded() const {
+  auto out = vtkSmartPointer<vtkPolyData>::New();
+  out->ShallowCopy(frame_.skin);
+  vtkDataArray* rank = frame_.skin->GetCellData()->GetArray("rank");
+  if (explode_ <= 0 || rank == nullptr) return out;
+  struct Sum {
+    std::array<double, 3> x{};
+    double n = 0;
+  };
+  std::map<int, Sum> parts;
+  Sum all;
+  vtkPoints* points = frame_.skin->GetPoints();
+  for (vtkIdType c = 0; c < frame_.skin->GetNumberOfCells(); ++c) {
+    Sum& part = parts[static_cast<int>(rank->GetTuple1(c))];
+    std::array<double, 3> p{};
+    points->GetPoint(3 * c, p.data());  // each triangle has its own three points
+    for (std::size_t a = 0; a < 3; ++a) {
+      part.x[a] += p[a];
+      all.x[a] += p[a];
+    }
+    part.n += 1;
+    all.n += 1;
+  }
+  vtkNew<vtkPoints> moved;
+  moved->DeepCopy(points);
+  for (vtkIdType c = 0; c < frame_.skin->GetNumberOfCells(); ++c) {
+    const Sum& part = parts[static_cast<int>(rank->GetTuple1(c))];
+    for (vtkIdType i = 3 * c; i < 3 * c + 3; ++i) {
+      std::array<double, 3> p{};
+      points->GetPoint(i, p.data());
+      for (std::size_t a = 0; a < 3; ++a) p[a] += explode_ * (part.x[a] / part.n - all.x[a] / all.n);
+      moved->SetPoint(i, p.data());
+    }
+  }
+  out->SetPoints(moved);
+  return out;
+}
+
+void Scene::colour() {
+  switch (colouring_) {
+    case Colouring::group:
+      colour_by_class("material", groups_, "group");
+      break;
+    case Colouring::body:
+      colour_by_class("body", {}, "body");
+      break;
+    case Colouring::fragment:
+      colour_by_class("fragment", {}, "fragment");
+      break;
+    case Colouring::rank:
+      colour_by_class("rank", {}, "rank");
+      break;
+    case Colouring::speed:
+      colour_by_value("velocity", -1, 1, "speed [m/s]");
+      break;
+    case Colouring::von_mises:
+      colour_by_value("von_mises", 0, 1e-6, "von Mises [MPa]");
+      break;
+    case Colouring::tension:
+      colour_by_value("principal", 0, 1e-6, "largest principal\nstress [MPa]");
+      break;
+  }
+}
+
+void Scene::colour_by_class(const char* array, const std::vector<std::string>& names, const char* title) {
+  constexpr std::size_t kMostNamed = 12;
+  const vtkSmartPointer<vtkPolyData> skin = exploded();
+  vtkDataArray* values = skin->GetCellData()->GetArray(array);
+  vtkNew<vtkIntArray> shown;
+  shown->SetName(kShown);
+  std::map<std::int64_t, int> seen;  // value -> its place among those present
+  for (vtkIdType c = 0; values != nullptr && c < values->GetNumberOfTuples(); ++c)
+    seen.emplace(static_cast<std::int64_t>(values->GetTuple1(c)), 0);
+  int next = 0;
+  for (auto& [value, place] : seen) place = next++;
+  for (vtkIdType c = 0; values != nullptr && c < values->GetNumberOfTuples(); ++c)
+    shown->InsertNextValue(seen[static_cast<std::int64_t>(values->GetTuple1(c))]);
+  colours_->ResetAnnotations();
+  colours_->SetNumberOfTableValues(std::max<vtkIdType>(1, static_cast<vtkIdType>(seen.size())));
+  for (const auto& [value, place] : seen) {
+    Colour c = kClasses[static_cast<std::size_t>(place) % kClasses.size()];
+    const auto index = static_cast<std::size_t>(value);
+    const std::string name = index < names.size() ? names[index] : std::to_string(value);
+    if (!highlighted_.empty() && colouring_ == Colouring::group && name != highlighted_)
+      for (double& part : c) part = 0.75 + 0.1 * part;
+    colours_->SetTableValue(place, c[0], c[1], c[2]);
+    if (seen.size() <= kMostNamed) colours_->SetAnnotation(vtkVariant(place), name);
+  }
+  colours_->SetTableRange(0, std::max(1.0, static_cast<double>(seen.size()) - 1));
+  colours_->SetIndexedLookup(seen.size() <= kMostNamed);
+  range_ = {0, static_cast<double>(seen.size()) - 1};
+  legend_->SetTitle(title);
+  legend_->SetVisibility(seen.size() <= kMostNamed);
+  skin->GetCellData()->AddArray(shown);
+  skin_mapper_->SetInputData(skin);
+}
+
+void Scene::colour_by_value(const char* array, int component, double scale, const char* title) {
+  const vtkSmartPointer<vtkPolyData> skin = exploded();
+  vtkDataArray* values = skin->GetCellData()->GetArray(array);
+  vtkNew<vtkDoubleArray> shown;
+  shown->SetName(kShown);
+  double low = 0, high = 0;
+  for (vtkIdType c = 0; values != nullptr && c < values->GetNumberOfTuples(); ++c) {
+    double x = 0;
+    if (component < 0) {
+      for (int a = 0; a < values->GetNumberOfComponents(); ++a) x += std::pow(values->GetComponent(c, a), 2);
+      x = std::sqrt(x);
+    } else {
+      x = values->GetComponent(c, component);
+    }
+    shown->InsertNextValue(scale * x);
+    low = c == 0 ? scale * x : std::min(low, scale * x);
+    high = c == 0 ? scale * x : std::max(high, scale * x);
+  }
+  if (!(high > low)) high = low + 1;
+  range_ = {low, high};
+  fill_ramp(*colours_);
+  colours_->SetTableRange(low, high);
+  legend_->SetTitle(title);
+  legend_->SetNumberOfLabels(5);
+  legend_->VisibilityOn();
+  skin->GetCellData()->AddArray(shown);
+  skin_mapper_->SetInputData(skin);
+}
+
+}  // namespace breccia::gui

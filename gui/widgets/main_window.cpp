@@ -1,0 +1,297 @@
+#include "widgets/main_window.hpp"
+
+#include <QAction>
+#include <QApplication>
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QFileDialog>
+#include <QLabel>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QProgressBar>
+#include <QStatusBar>
+#include <QToolBar>
+#include <QVBoxLayout>
+
+#include "widgets/case_text.hpp"
+#include "widgets/case_tree.hpp"
+#include "widgets/domains_panel.hpp"
+#include "widgets/frame_loader.hpp"
+#include "widgets/plots_panel.hpp"
+#include "widgets/problems_panel.hpp"
+#include "widgets/property_form.hpp"
+#include "widgets/results_panel.hpp"
+#include "widgets/run_panel.hpp"
+#include "widgets/runs_panel.hpp"
+#include "widgets/start_page.hpp"
+#include "widgets/theme.hpp"
+#include "widgets/view3d.hpp"
+
+namespace breccia::gui {
+namespace {
+
+constexpr int kValidationDelay = 150;  // ms after the last edit
+
+}  // namespace
+
+MainWindow::MainWindow(Places places, QWidget* parent)
+    : QMainWindow(parent),
+      places_(std::move(places)),
+      document_(places_.state),
+      queries_(document_, places_.launch.program),
+      registry_(places_.state + "/runs.json"),
+      loader_(new FrameLoader(this)) {
+  setObjectName("main_window");
+  resize(1400, 900);
+  setMinimumSize(900, 600);
+  setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks);
+  make_panels();
+  make_docks();
+  make_actions();
+  join_panels();
+  find_runs();
+  show_start();
+}
+
+MainWindow::~MainWindow() = default;
+
+bool MainWindow::busy() const { return queries_.busy() || loader_->busy(); }
+
+void MainWindow::make_panels() {
+  start_ = new StartPage(places_);
+  tree_ = new CaseTree(document_);
+  form_ = new PropertyForm(document_);
+  text_ = new CaseText(document_);
+  view_ = new View3D;
+  plots_ = new PlotsPanel;
+  messages_ = new ProblemsPanel;
+  run_panel_ = new RunPanel;
+  runs_panel_ = new RunsPanel;
+  domains_ = new DomainsPanel;
+  results_ = new ResultsPanel;
+  centre_ = new QStackedWidget;
+  centre_->addWidget(start_);
+  centre_->addWidget(view_);
+  setCentralWidget(centre_);
+  side_ = new QStackedWidget;
+  side_->setMinimumWidth(300);
+  auto* forms = new QWidget;
+  auto* column = new QVBoxLayout(forms);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(form_, 1);
+  column->addWidget(domains_);
+  domains_->hide();
+  for (QWidget* page : {forms, static_cast<QWidget*>(run_panel_), static_cast<QWidget*>(results_)})
+    side_->addWidget(page);
+  busy_ = new QLabel;
+  mesh_words_ = new QLabel;
+  run_words_ = new QLabel;
+  run_bar_ = new QProgressBar;
+  run_bar_->setRange(0, 1000);
+  run_bar_->setMaximumWidth(160);
+  run_bar_->setAccessibleName(tr("Progress of the run"));
+  run_bar_->setToolTip(tr("Share of the simulated time"));
+  run_bar_->hide();
+  statusBar()->addWidget(mesh_words_);
+  statusBar()->addWidget(busy_);
+  statusBar()->addPermanentWidget(run_words_);
+  statusBar()->addPermanentWidget(run_bar_);
+}
+
+void MainWindow::add_dock(QWidget* widget, const QString& title, const QString& name, Qt::DockWidgetArea area) {
+  auto* dock = new QDockWidget(title);
+  dock->setObjectName(name);
+  dock->setWidget(widget);
+  dock->setFeatures(QDockWidget::DockWidgetMovable | QDockWidget::DockWidgetClosable |
+                    QDockWidget::DockWidgetFloatable);
+  addDockWidget(area, dock);
+}
+
+void MainWindow::make_docks() {
+  add_dock(tree_, tr("Stages"), "dock_stages", Qt::LeftDockWidgetArea);
+  add_dock(side_, tr("Properties"), "dock_properties", Qt::RightDockWidgetArea);
+  add_dock(messages_, tr("Messages"), "dock_messages", Qt::BottomDockWidgetArea);
+  add_dock(plots_, tr("Plots"), "dock_plots", Qt::BottomDockWidgetArea);
+  add_dock(text_, tr("Text"), "dock_text", Qt::BottomDockWidgetArea);
+  add_dock(runs_panel_, tr("Runs"), "dock_runs", Qt::BottomDockWidgetArea);
+  auto* first = findChild<QDockWidget*>("dock_messages");
+  for (const char* name : {"dock_plots", "dock_text", "dock_runs"})
+    tabifyDockWidget(first, findChild<QDockWidget*>(name));
+  first->raise();
+  resizeDocks({findChild<QDockWidget*>("dock_stages"), findChild<QDockWidget*>("dock_properties")}, {240, 400},
+              Qt::Horizontal);
+  resizeDocks({first}, {230}, Qt::Vertical);
+}
+
+void MainWindow::show_dock(const QString& name) {
+  if (auto* dock = findChild<QDockWidget*>(name)) {
+    dock->show();
+    dock->raise();
+  }
+}
+
+void MainWindow::make_actions() {
+  auto* bar = addToolBar(tr("Main"));
+  bar->setObjectName("main_bar");
+  bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
+  const auto add = [this, bar](QMenu* menu, const QString& text, const QKeySequence& keys, const auto& slot,
+                               bool on_bar) {
+    QAction* action = menu->addAction(text);
+    action->setShortcut(keys);
+    action->setToolTip(QString(text).remove('&').remove("...") +
+                       (keys.isEmpty() ? "" : " (" + keys.toString(QKeySequence::NativeText) + ")"));
+    connect(action, &QAction::triggered, this, slot);
+    if (on_bar) bar->addAction(action);
+    return action;
+  };
+  QMenu* file = menuBar()->addMenu(tr("&File"));
+  add(
+      file, tr("&New from a template..."), QKeySequence::New,
+      [this] {
+        if (may_leave_case()) show_start();
+      },
+      true);
+  add(
+      file, tr("&Open..."), QKeySequence::Open,
+      [this] {
+        const QString name = QFileDialog::getOpenFileName(
+            this, tr("Open a case"), document_.is_open() ? document_.folder() : places_.projects, tr("Cases (*.toml)"));
+        if (!name.isEmpty()) open_path(name);
+      },
+      true);
+  add(
+      file, tr("Open &results..."), {},
+      [this] {
+        const QString name = QFileDialog::getExistingDirectory(this, tr("Open the folder of a run"), places_.projects);
+        if (!name.isEmpty()) open_path(name);
+      },
+      false);
+  add(
+      file, tr("&Save"), QKeySequence::Save, [this] { (void)save(); }, true);
+  add(
+      file, tr("Save &as..."), QKeySequence::SaveAs, [this] { save_as(); }, false);
+  file->addSeparator();
+  add(
+      file, tr("&Quit"), QKeySequence::Quit, [this] { close(); }, false);
+  QMenu* edit = menuBar()->addMenu(tr("&Edit"));
+  QAction* undo = document_.undo_stack().createUndoAction(this, tr("&Undo"));
+  undo->setShortcut(QKeySequence::Undo);
+  QAction* redo = document_.undo_stack().createRedoAction(this, tr("&Redo"));
+  redo->setShortcut(QKeySequence::Redo);
+  edit->addActions({undo, redo});
+  add(
+      edit, tr("Next &problem"), Qt::Key_F8, [this] { messages_->next_problem(); }, false);
+  QMenu* run = menuBar()->addMenu(tr("&Run"));
+  add(
+      run, tr("&Mesh"), Qt::Key_F6, [this] { queries_.mesh(); }, true);
+  add(
+      run, tr("&Check"), Qt::Key_F7, [this] { queries_.check(); }, true);
+  run_action_ = add(
+      run, tr("&Run"), Qt::Key_F5, [this] { start_run(); }, true);
+  add(
+      run, tr("&Stop"), QKeySequence("Shift+F5"),
+      [this] {
+        if (run_ != nullptr) run_->stop();
+      },
+      true);
+  QMenu* view = menuBar()->addMenu(tr("&View"));
+  for (QDockWidget* dock : findChildren<QDockWidget*>()) view->addAction(dock->toggleViewAction());
+  view->addSeparator();
+  dark_ = add(
+      view, tr("&Dark"), QKeySequence("Ctrl+D"), [this](bool on) { set_dark(on); }, true);
+  dark_->setCheckable(true);
+  QMenu* tools = menuBar()->addMenu(tr("&Tools"));
+  add(
+      tools, tr("Open in &ParaView"), {}, [this] { open_paraview(); }, false);
+  add(
+      tools, tr("Save p&icture..."), {}, [this] { save_picture(); }, false);
+  QMenu* help = menuBar()->addMenu(tr("&Help"));
+  add(
+      help, tr("&About Breccia"), {},
+      [this] {
+        QMessageBox::about(this, tr("Breccia"),
+                           tr("<b>Breccia</b><br>Combined finite-discrete element simulation of solids that break.<br>"
+                              "<br>F5 run, F6 mesh, F7 check, F8 next problem, Ctrl+Z undo."));
+      },
+      false);
+}
+
+void MainWindow::set_dark(bool dark) {
+  apply_theme(dark);
+  dark_->setChecked(dark);
+  view_->set_dark(dark);
+  plots_->set_dark(dark);
+}
+
+void MainWindow::join_panels() {
+  domains_->set_ranks(run_panel_->ranks());
+  validation_.setSingleShot(true);
+  validation_.setInterval(kValidationDelay);
+  preview_.setSingleShot(true);
+  connect(&validation_, &QTimer::timeout, this, &MainWindow::validate);
+  connect(&preview_, &QTimer::timeout, this, [this] { queries_.mesh(); });
+  connect(&document_, &Document::changed, this, &MainWindow::case_changed);
+  connect(&document_, &Document::renamed, this, &MainWindow::show_title);
+  connect(&document_, &Document::modification_changed, this, &MainWindow::show_title);
+  connect(&queries_, &CaseQueries::checked, this, &MainWindow::show_check);
+  connect(&queries_, &CaseQueries::meshed, this, &MainWindow::show_mesh);
+  connect(&queries_, &CaseQueries::divided, this, &MainWindow::show_division);
+  connect(&queries_, &CaseQueries::failed, this, &MainWindow::query_failed);
+  connect(&queries_, &CaseQueries::busy_changed, this,
+          [this] { busy_->setText(queries_.busy() ? tr("the solver is asked...") : QString()); });
+  connect(loader_, &FrameLoader::loaded, this, &MainWindow::show_frame);
+  connect(start_, &StartPage::template_chosen, this, [this](int n) { open_template(n, false); });
+  connect(start_, &StartPage::demo_wanted, this, [this] { open_template(0, true); });
+  connect(start_, &StartPage::case_chosen, this, &MainWindow::open_path);
+  connect(start_, &StartPage::run_chosen, this, &MainWindow::open_run);
+  connect(start_, &StartPage::open_wanted, this, [this] {
+    const QString name = QFileDialog::getOpenFileName(this, tr("Open a case"), places_.projects, tr("Cases (*.toml)"));
+    if (!name.isEmpty()) open_path(name);
+  });
+  connect(tree_, &CaseTree::selected, this, &MainWindow::stage_selected);
+  connect(text_, &CaseText::line_entered, this, [this](int line) {
+    const std::string path = document_.places().path_at_line(line);
+    const int stage = stage_of(path);
+    if (!path.empty() && work_stages()[static_cast<std::size_t>(tree_->stage())].kind == WorkStage::Kind::sections)
+      tree_->select(stage, QString::fromStdString(path));
+  });
+  connect(messages_, &ProblemsPanel::place_wanted, this, &MainWindow::go_to);
+  connect(form_, &PropertyForm::group_entered, this, [this](const QString& group) {
+    view_->scene().highlight(group.toStdString());
+    view_->render();
+  });
+  connect(run_panel_, &RunPanel::run_wanted, this, &MainWindow::start_run);
+  connect(run_panel_, &RunPanel::check_wanted, this, [this] { queries_.check(); });
+  connect(run_panel_, &RunPanel::stop_wanted, this, [this] {
+    if (run_ != nullptr) run_->stop();
+  });
+  connect(run_panel_, &RunPanel::pause_wanted, this, [this] {
+    if (run_ != nullptr) run_->state() == "paused" ? run_->resume() : run_->pause();
+  });
+  connect(run_panel_, &RunPanel::results_wanted, this,
+          [this] { tree_->select(static_cast<int>(work_stages().size()) - 1, {}); });
+  connect(run_panel_, &RunPanel::ranks_changed, this, [this](int n) {
+    run_panel_->set_command(command_line());
+    domains_->set_ranks(n);
+  });
+  connect(domains_, &DomainsPanel::division_wanted, this, [this](int n) { queries_.domains(n); });
+  connect(runs_panel_, &RunsPanel::run_chosen, this, &MainWindow::open_run);
+  connect(results_, &ResultsPanel::frame_wanted, this, [this](int n) {
+    if (run_ == nullptr || n >= static_cast<int>(run_->frames().size())) return;
+    const RunFrame& frame = run_->frames()[static_cast<std::size_t>(n)];
+    loader_->load(frame.file, frame.time);
+  });
+  connect(results_, &ResultsPanel::paraview_wanted, this, &MainWindow::open_paraview);
+  connect(results_, &ResultsPanel::picture_wanted, this, &MainWindow::save_picture);
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  if (!may_leave_case()) {
+    event->ignore();
+    return;
+  }
+  document_.close();
+  event->accept();
+}
+
+}  // namespace breccia::gui

@@ -1,0 +1,127 @@
+#pragma once
+
+#include <QMainWindow>
+#include <QStackedWidget>
+#include <QTimer>
+#include <vector>
+
+#include "core/case_queries.hpp"
+#include "core/document.hpp"
+#include "core/places.hpp"
+#include "core/solver_run.hpp"
+#include "render/frame_data.hpp"
+
+class QAction;
+class QLabel;
+class QProgressBar;
+
+namespace breccia::gui {
+
+class CaseText;
+class CaseTree;
+class DomainsPanel;
+class FrameLoader;
+class PlotsPanel;
+class ProblemsPanel;
+class PropertyForm;
+class ResultsPanel;
+class RunPanel;
+class RunsPanel;
+class StartPage;
+class View3D;
+
+/// The one window: stages left, 3D in the middle, properties right, docks below. It joins the parts; what they do is
+/// theirs, and what the case means is the solver's.
+class MainWindow final : public QMainWindow {
+  Q_OBJECT
+ public:
+  explicit MainWindow(Places places, QWidget* parent = nullptr);
+  ~MainWindow() override;
+
+  /// A case file or the folder of a run.
+  void open_path(const QString& path);
+  [[nodiscard]] Document& document() { return document_; }
+  [[nodiscard]] View3D& view() { return *view_; }
+  [[nodiscard]] SolverRun* run() { return run_; }
+  [[nodiscard]] bool busy() const;
+  /// Offers what a session that was killed has left.
+  void offer_recovery();
+  void set_dark(bool dark);
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+
+ private:
+  // main_window.cpp: construction
+  void make_panels();
+  void make_docks();
+  void make_actions();
+  void join_panels();
+  void add_dock(QWidget* widget, const QString& title, const QString& name, Qt::DockWidgetArea area);
+  void show_dock(const QString& name);
+
+  // main_window_case.cpp: the case in hand
+  void show_start();
+  void open_template(int number, bool run_it);
+  void open_case(const QString& file);
+  void show_workspace();
+  [[nodiscard]] bool save();
+  void save_as();
+  [[nodiscard]] bool may_leave_case();
+  void case_changed();
+  void validate();
+  void stage_selected(int stage, const QString& path);
+  void go_to(const QString& key, int line);
+  void show_title();
+  void show_check(const QJsonObject& json);
+  void show_mesh(const QJsonObject& json, const QString& elements_file);
+  void show_division(const QJsonObject& json);
+  void query_failed(const QString& what, const QString& text, const std::vector<Problem>& problems);
+
+  // main_window_runs.cpp: runs and their results
+  void start_run();
+  void take_run(SolverRun* run);
+  void open_run(const QString& folder);
+  void find_runs();
+  void watch(SolverRun* run);
+  void run_changed();
+  void run_ended(const SolverRun* run);
+  void show_frame(const FrameData& frame);
+  void open_paraview();
+  void save_picture();
+  [[nodiscard]] QString new_run_folder() const;
+  [[nodiscard]] QStringList command_line() const;
+
+  Places places_;
+  Document document_;
+  CaseQueries queries_;
+  RunRegistry registry_;
+  std::vector<SolverRun*> runs_;
+  SolverRun* run_ = nullptr;  ///< the one that is shown
+  FrameLoader* loader_;
+  QTimer validation_, preview_;
+  std::vector<Problem> problems_;
+  std::vector<int> owner_;  ///< rank of each element of the preview
+  FrameData preview_frame_;
+  bool showing_results_ = false, run_when_checked_ = false;
+  QString mesh_text_;  ///< what the preview was made of
+
+  StartPage* start_ = nullptr;
+  CaseTree* tree_ = nullptr;
+  PropertyForm* form_ = nullptr;
+  CaseText* text_ = nullptr;
+  View3D* view_ = nullptr;
+  PlotsPanel* plots_ = nullptr;
+  ProblemsPanel* messages_ = nullptr;
+  RunPanel* run_panel_ = nullptr;
+  RunsPanel* runs_panel_ = nullptr;
+  DomainsPanel* domains_ = nullptr;
+  ResultsPanel* results_ = nullptr;
+  QStackedWidget *centre_ = nullptr, *side_ = nullptr;
+  QWidget* domains_page_ = nullptr;
+  QAction *dark_ = nullptr, *run_action_ = nullptr;
+  QLabel *busy_ = nullptr, *mesh_words_ = nullptr, *run_words_ = nullptr;
+  QProgressBar* run_bar_ = nullptr;
+};
+
+}  // namespace breccia::gui

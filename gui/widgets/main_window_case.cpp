@@ -1,0 +1,260 @@
+#include <QAction>
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QJsonArray>
+#include <QLabel>
+#include <QMessageBox>
+
+#include "core/value_text.hpp"
+#include "widgets/case_text.hpp"
+#include "widgets/case_tree.hpp"
+#include "widgets/domains_panel.hpp"
+#include "widgets/frame_loader.hpp"
+#include "widgets/main_window.hpp"
+#include "widgets/plots_panel.hpp"
+#include "widgets/problems_panel.hpp"
+#include "widgets/property_form.hpp"
+#include "widgets/results_panel.hpp"
+#include "widgets/run_panel.hpp"
+#include "widgets/start_page.hpp"
+#include "widgets/view3d.hpp"
+
+namespace breccia::gui {
+namespace {
+
+constexpr int kPreviewDelay = 1000;  // ms after the last edit
+
+/// Name of a volume group of the answer of `mesh --json`.
+std::vector<std::string> names_of(const QJsonArray& groups) {
+  std::vector<std::string> names;
+  for (const QJsonValue& g : groups) names.push_back(g.toObject()["name"].toString().toStdString());
+  return names;
+}
+
+}  // namespace
+
+void MainWindow::show_start() {
+  start_->refresh(registry_.load());
+  centre_->setCurrentWidget(start_);
+  for (const char* name : {"dock_stages", "dock_properties", "dock_messages", "dock_plots", "dock_text", "dock_runs"})
+    findChild<QWidget*>(name)->hide();
+}
+
+void MainWindow::show_workspace() {
+  centre_->setCurrentWidget(view_);
+  for (const char* name : {"dock_stages", "dock_properties", "dock_plots", "dock_text", "dock_runs", "dock_messages"})
+    show_dock(name);
+}
+
+void MainWindow::open_template(int number, bool run_it) {
+  const std::vector<Template> list = templates(places_);
+  if (number < 0 || number >= static_cast<int>(list.size()) || !may_leave_case()) return;
+  QString error;
+  const QString file = copy_template(list[static_cast<std::size_t>(number)], places_, &error);
+  if (file.isEmpty()) {
+    QMessageBox::warning(this, tr("Breccia"), error);
+    return;
+  }
+  open_case(file);
+  if (run_it) start_run();
+}
+
+void MainWindow::open_path(const QString& path) {
+  if (QFileInfo(path).isDir()) {
+    open_run(path);
+  } else if (may_leave_case()) {
+    open_case(path);
+  }
+}
+
+void MainWindow::open_case(const QString& file) {
+  if (const QString error = document_.open(file); !error.isEmpty()) {
+    QMessageBox::warning(this, tr("Breccia"), error);
+    return;
+  }
+  remember_case(places_, document_.file());
+  watch(nullptr);
+  preview_frame_ = {};
+  owner_.clear();
+  mesh_text_.clear();
+  run_panel_->set_estimate(tr("Not checked yet."));
+  messages_->set_advice({});
+  view_->clear(tr("meshing..."));
+  show_workspace();
+  tree_->select(0, {});
+  stage_selected(tree_->stage(), tree_->path());
+  validate();
+}
+
+void MainWindow::offer_recovery() {
+  for (const Recovery& recovery : Document::recoveries(places_.state)) {
+    const auto answer = QMessageBox::question(
+        this, tr("Unsaved edits"),
+        tr("Breccia ended without saving its edits of\n%1\nTake them up again?").arg(recovery.file));
+    if (answer == QMessageBox::Yes) {
+      document_.recover(recovery);
+      show_workspace();
+      stage_selected(tree_->stage(), tree_->path());
+      validate();
+      return;
+    }
+    Document::discard(recovery);
+  }
+}
+
+bool MainWindow::save() {
+  if (!document_.is_open()) return false;
+  const QString error = document_.save();
+  if (!error.isEmpty()) QMessageBox::warning(this, tr("Breccia"), error);
+  return error.isEmpty();
+}
+
+void MainWindow::save_as() {
+  if (!document_.is_open()) return;
+  const QString name =
+      QFileDialog::getSaveFileName(this, tr("Save the case as"), document_.file(), tr("Cases (*.toml)"));
+  if (name.isEmpty()) return;
+  if (const QString error = document_.save_as(name); !error.isEmpty()) QMessageBox::warning(this, tr("Breccia"), error);
+  remember_case(places_, document_.file());
+}
+
+bool MainWindow::may_leave_case() {
+  if (!document_.is_open() || !document_.modified()) return true;
+  const auto answer = QMessageBox::question(this, tr("Breccia"), tr("Save the edits of %1?").arg(document_.file()),
+                                            QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel);
+  return answer == QMessageBox::Discard || (answer == QMessageBox::Save && save());
+}
+
+void MainWindow::show_title() {
+  const QFileInfo file(document_.file());
+  setWindowTitle(document_.is_open() ? tr("%1 (%2)[*] - Breccia").arg(file.fileName(), file.dir().dirName())
+                                     : tr("Breccia"));
+  setWindowModified(document_.is_open() && document_.modified());
+  run_panel_->set_command(command_line());
+}
+
+void MainWindow::case_changed() { validation_.start(); }
+
+void MainWindow::validate() {
+  validation_.stop();
+  if (!document_.is_open()) return;
+  problems_ = document_.problems();
+  tree_->set_problems(problems_);
+  form_->set_problems(problems_);
+  text_->set_problems(problems_);
+  messages_->set_problems(problems_);
+  run_panel_->set_problems(static_cast<int>(problems_.size()));
+  run_action_->setEnabled(problems_.empty());
+  run_action_->setText(run_words(static_cast<int>(problems_.size())));
+  // The preview follows what the mesh is made of, and the groups, which materials name.
+  QString source;
+  for (const Place& place : document_.places().all())
+    if (place.path.starts_with("mesh"))
+      source += QString::fromStdString(place.path + "=" + std::string(document_.places().value(place.path)) + "\n");
+  if (problems_.empty() && source != mesh_text_) {
+    const bool first = mesh_text_.isEmpty();
+    mesh_text_ = source;
+    preview_.start(first ? 0 : kPreviewDelay);
+  }
+}
+
+void MainWindow::stage_selected(int stage, const QString& path) {
+  const WorkStage& chosen = work_stages()[static_cast<std::size_t>(stage)];
+  using Kind = WorkStage::Kind;
+  side_->setCurrentIndex(chosen.kind == Kind::sections ? 0 : chosen.kind == Kind::run ? 1 : 2);
+  if (chosen.kind == Kind::sections) {
+    form_->show_section(path);
+    form_->set_problems(problems_);
+    // The group that the section is about lights up.
+    const QString name = shown_value(case_::key_of("material[].group"), document_.value(path + ".group"));
+    view_->scene().highlight(name.toStdString());
+    if (!name.isEmpty() && !showing_results_) view_->set_colouring(Colouring::group);
+    view_->render();
+    const bool domains = path == "domains";
+    domains_->setVisible(domains);
+    if (domains && owner_.empty() && problems_.empty()) queries_.domains(run_panel_->ranks());
+  }
+  if (chosen.kind == Kind::run) {
+    run_panel_->set_command(command_line());
+    if (problems_.empty() && !queries_.busy() && run_ == nullptr) queries_.check();
+    if (run_ != nullptr) show_dock("dock_plots");
+  }
+  const bool results = run_ != nullptr && chosen.kind != Kind::sections;
+  if (results == showing_results_) return;
+  showing_results_ = results;
+  loader_->start_model();
+  if (results) {
+    results_->set_frames(run_->frames());
+    if (!results_->follows() && !run_->frames().empty())
+      loader_->load(run_->frames().back().file, run_->frames().back().time);
+  } else if (preview_frame_.skin != nullptr) {
+    view_->show_frame(preview_frame_, tr("mesh at rest"));
+  }
+}
+
+void MainWindow::go_to(const QString& key, int line) {
+  tree_->select(stage_of(key.toStdString()), key);
+  form_->focus_field(key);
+  if (line > 0) text_->go_to_line(line);
+}
+
+void MainWindow::show_check(const QJsonObject& json) {
+  const double seconds = json["seconds"].toDouble(), most = json["most_seconds"].toDouble();
+  QString words =
+      tr("%1 elements, %2 joints<br>stable step %3; step used %4<br>%5 steps to %6<br>"
+         "about %7 on one core")
+          .arg(json["elements"].toInt())
+          .arg(json["joints"].toInt())
+          .arg(quantity_words(json["stable_step"].toDouble(), "s"), quantity_words(json["step"].toDouble(), "s"))
+          .arg(json["steps"].toDouble(), 0, 'f', 0)
+          .arg(quantity_words(json["end"].toDouble(), "s"), duration_words(seconds));
+  if (most > seconds) words += tr(" while little breaks, up to %1 where everything does").arg(duration_words(most));
+  words += tr("<br>memory %1, disk for %2 frames at most %3")
+               .arg(quantity_words(json["memory"].toDouble(), "B"))
+               .arg(json["frames"].toDouble(), 0, 'f', 0)
+               .arg(quantity_words(json["disk"].toDouble(), "B"));
+  QStringList advice;
+  for (const QJsonValue& line : json["advice"].toArray()) advice << line.toString();
+  if (!advice.isEmpty()) words += tr("<br>⚠ advice in the messages below: %1").arg(advice.size());
+  run_panel_->set_estimate(words);
+  messages_->set_advice(advice);
+}
+
+void MainWindow::show_mesh(const QJsonObject& json, const QString& elements_file) {
+  const QJsonObject groups = json["groups"].toObject();
+  QStringList words;
+  for (const char* kind : {"volumes", "surfaces"})
+    for (const std::string& name : names_of(groups[kind].toArray())) words << QString::fromStdString(name);
+  form_->set_groups(words);
+  view_->scene().set_groups(names_of(groups["volumes"].toArray()));
+  mesh_words_->setText(tr("%1 elements, %2 nodes, %3 bodies")
+                           .arg(json["elements"].toInt())
+                           .arg(json["nodes"].toInt())
+                           .arg(json["bodies"].toInt()));
+  owner_.clear();
+  preview_frame_ = {};
+  if (showing_results_) return;
+  loader_->start_model();
+  view_->clear({});
+  loader_->load(elements_file, 0);
+}
+
+void MainWindow::show_division(const QJsonObject& json) {
+  domains_->show_division(json);
+  owner_.clear();
+  for (const QJsonValue& rank : json["owner"].toArray()) owner_.push_back(rank.toInt());
+  if (preview_frame_.skin == nullptr || showing_results_) return;
+  set_ranks(*preview_frame_.skin, owner_);
+  view_->set_colouring(Colouring::rank);
+  view_->show_frame(preview_frame_, tr("coloured by the rank that would own each element"));
+}
+
+void MainWindow::query_failed(const QString& what, const QString& text, const std::vector<Problem>& problems) {
+  if (!text.isEmpty()) messages_->add_message(tr("%1: %2").arg(what, text));
+  for (const Problem& p : problems) messages_->add_message(tr("%1: %2").arg(what, QString::fromStdString(p.text())));
+  if (what == tr("check")) run_panel_->set_estimate(tr("The check found problems; see the messages below."));
+  show_dock("dock_messages");
+}
+
+}  // namespace breccia::gui

@@ -1,0 +1,185 @@
+#include <QApplication>
+#include <QDateTime>
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QLabel>
+#include <QMessageBox>
+#include <QProcess>
+#include <QProgressBar>
+#include <QStandardPaths>
+#include <QStatusBar>
+#include <QSystemTrayIcon>
+
+#include "widgets/case_tree.hpp"
+#include "widgets/domains_panel.hpp"
+#include "widgets/frame_loader.hpp"
+#include "widgets/main_window.hpp"
+#include "widgets/plots_panel.hpp"
+#include "widgets/results_panel.hpp"
+#include "widgets/run_panel.hpp"
+#include "widgets/runs_panel.hpp"
+#include "widgets/view3d.hpp"
+
+namespace breccia::gui {
+namespace {
+
+constexpr std::size_t kMostWatched = 20;
+
+int run_stage() { return static_cast<int>(work_stages().size()) - 2; }
+int results_stage() { return static_cast<int>(work_stages().size()) - 1; }
+
+}  // namespace
+
+QString MainWindow::new_run_folder() const {
+  const QFileInfo file(document_.file());
+  const QString name = file.completeBaseName() + QDateTime::currentDateTime().toString("-yyyyMMdd-HHmmss");
+  const QString folder = file.dir().filePath("runs/" + name);
+  QString free = folder;
+  for (int i = 2; QFileInfo::exists(free); ++i) free = folder + QString("-%1").arg(i);
+  return free;
+}
+
+QStringList MainWindow::command_line() const {
+  if (!document_.is_open()) return {};
+  return SolverRun::command_line(places_.launch, document_.file(), new_run_folder(), run_panel_->ranks());
+}
+
+void MainWindow::start_run() {
+  validate();
+  if (!problems_.empty() || (document_.modified() && !save())) {
+    show_dock("dock_messages");
+    return;
+  }
+  QString error;
+  SolverRun* run =
+      SolverRun::start(places_.launch, document_.file(), new_run_folder(), run_panel_->ranks(), &error, this);
+  if (run == nullptr) {
+    QMessageBox::warning(this, tr("Breccia"), tr("The run could not be started: %1").arg(error));
+    return;
+  }
+  registry_.add(run->record());
+  take_run(run);
+  tree_->select(run_stage(), {});
+  watch(run);
+  run_panel_->set_command(run->record().command);
+  show_dock("dock_plots");
+}
+
+void MainWindow::take_run(SolverRun* run) {
+  runs_.insert(runs_.begin(), run);
+  connect(run, &SolverRun::status_changed, this, &MainWindow::run_changed);
+  connect(run, &SolverRun::history_grew, this, [this, run] {
+    if (run == run_) plots_->show_history(run->history());
+  });
+  connect(run, &SolverRun::frames_changed, this, [this, run] {
+    if (run == run_) results_->set_frames(run->frames());
+  });
+  connect(run, &SolverRun::ended, this, [this, run] { run_ended(run); });
+  runs_panel_->show_runs(runs_);
+}
+
+void MainWindow::find_runs() {
+  std::vector<RunRecord> found = registry_.load();
+  if (found.size() > kMostWatched) found.resize(kMostWatched);
+  for (auto it = found.rbegin(); it != found.rend(); ++it) take_run(new SolverRun(*it, this));
+}
+
+void MainWindow::open_run(const QString& folder) {
+  if (!is_run_folder(folder)) {
+    QMessageBox::warning(this, tr("Breccia"), tr("%1 is not the folder of a run.").arg(folder));
+    return;
+  }
+  SolverRun* chosen = nullptr;
+  for (SolverRun* run : runs_)
+    if (run->record().folder == folder) chosen = run;
+  if (chosen == nullptr) {
+    take_run(chosen = new SolverRun({folder, {}, 1, {}, {}}, this));
+  }
+  const QString file =
+      chosen->record().case_file.isEmpty() ? QDir(folder).filePath("case.toml") : chosen->record().case_file;
+  if (!document_.is_open() && QFileInfo::exists(file)) open_case(file);
+  show_workspace();
+  watch(chosen);
+  tree_->select(chosen->alive() ? run_stage() : results_stage(), {});
+  show_dock("dock_plots");
+}
+
+void MainWindow::watch(SolverRun* run) {
+  run_ = run;
+  showing_results_ = run != nullptr;
+  loader_->start_model();
+  plots_->show_history(run == nullptr ? History() : run->history());
+  results_->set_run(run == nullptr ? QString() : run->record().folder);
+  if (run != nullptr) {
+    view_->clear(tr("waiting for the first frame..."));
+    results_->set_frames(run->frames());
+  }
+  run_changed();
+}
+
+void MainWindow::run_changed() {
+  run_panel_->show_run(run_);
+  runs_panel_->show_runs(runs_);
+  run_bar_->setVisible(run_ != nullptr && run_->alive());
+  if (run_ == nullptr) {
+    run_words_->clear();
+    return;
+  }
+  const RunStatus& s = run_->status();
+  run_bar_->setValue(static_cast<int>(1000 * s.share));
+  run_words_->setText(run_->alive() && !s.state.isEmpty() ? tr("%1, %2 to go").arg(run_->state(), duration_words(s.eta))
+                                                          : run_->state());
+  domains_->show_measured(s, run_->record().ranks);
+}
+
+void MainWindow::run_ended(const SolverRun* run) {
+  run_changed();
+  if (run->record().command.isEmpty()) return;  // only its results were opened
+  const QString words = tr("Run %1: %2").arg(QFileInfo(run->record().folder).fileName(), run->state());
+  statusBar()->showMessage(words, 15000);
+  QApplication::alert(this);
+  if (QSystemTrayIcon::isSystemTrayAvailable()) {
+    auto* tray = new QSystemTrayIcon(windowIcon(), this);
+    tray->show();
+    tray->showMessage(tr("Breccia"), words);
+    QTimer::singleShot(10000, tray, &QObject::deleteLater);
+  }
+}
+
+void MainWindow::show_frame(const FrameData& frame) {
+  if (frame.skin == nullptr) return;
+  if (!showing_results_) {
+    preview_frame_ = frame;
+    if (!owner_.empty()) set_ranks(*preview_frame_.skin, owner_);
+    view_->show_frame(preview_frame_, tr("mesh at rest"));
+    return;
+  }
+  view_->show_frame(frame, tr("time %1").arg(quantity_words(frame.time, "s")));
+}
+
+void MainWindow::open_paraview() {
+  if (run_ == nullptr) return;
+  const QString program = QStandardPaths::findExecutable("paraview");
+  if (program.isEmpty()) {
+    QMessageBox::information(
+        this, tr("Breccia"),
+        tr("ParaView is not installed (Debian: paraview). The frames are in %1/frames.").arg(run_->record().folder));
+    return;
+  }
+  QStringList files;
+  for (const char* part : {"elements", "joints"}) {
+    const QString file = QDir(run_->record().folder).filePath(QString("frames/%1.hdf.series").arg(part));
+    if (QFileInfo::exists(file)) files << file;
+  }
+  QProcess::startDetached(program, files, run_->record().folder);
+}
+
+void MainWindow::save_picture() {
+  const QString name = QFileDialog::getSaveFileName(this, tr("Save the picture as"),
+                                                    document_.folder() + "/picture.png", tr("Pictures (*.png)"));
+  if (!name.isEmpty() && !view_->picture().save(name))
+    QMessageBox::warning(this, tr("Breccia"), tr("%1 cannot be written.").arg(name));
+}
+
+}  // namespace breccia::gui

@@ -1,0 +1,75 @@
+#include "widgets/plots_panel.hpp"
+
+#include <QHBoxLayout>
+
+namespace breccia::gui {
+namespace {
+
+QVTKOpenGLNativeWidget* canvas(vtkGenericOpenGLRenderWindow* window, HistoryChart& chart, const QString& name) {
+  auto* widget = new QVTKOpenGLNativeWidget;
+  window->SetMultiSamples(0);
+  widget->setRenderWindow(window);
+  window->AddRenderer(chart.renderer());
+  widget->setAccessibleName(name);
+  widget->setToolTip(name);
+  widget->setMinimumSize(240, 140);
+  widget->setFocusPolicy(Qt::StrongFocus);
+  return widget;
+}
+
+/// Curves of those columns that are there and are not zero throughout.
+std::vector<Curve> curves_of(const History& history, const QStringList& columns, const QString& unit) {
+  std::vector<Curve> curves;
+  for (const QString& name : columns) {
+    const int column = history.column(unit.isEmpty() ? name : name + " [" + unit + "]");
+    if (column < 0) continue;
+    const std::vector<double>& values = history.values(column);
+    bool zero = true;
+    for (const double x : values) zero = zero && !(x != 0);
+    if (!zero) curves.push_back({name.toStdString(), values});
+  }
+  return curves;
+}
+
+}  // namespace
+
+PlotsPanel::PlotsPanel(QWidget* parent) : QWidget(parent) {
+  setObjectName("plots");
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(2, 2, 2, 2);
+  row->addWidget(canvas(energies_window_, energies_, tr("Energies [J] over time [us]")));
+  row->addWidget(canvas(breaking_window_, breaking_, tr("Broken joints and fragments over time [us]")));
+}
+
+void PlotsPanel::show_history(const History& history) {
+  const int time = history.column("time [s]");
+  if (time < 0) {
+    energies_.show({}, {}, "energy [J]");
+    breaking_.show({}, {}, "count");
+  } else {
+    energies_.show(history.values(time),
+                   curves_of(history,
+                             {"kinetic", "elastic", "joint mode 1", "joint mode 2", "contact friction", "damping",
+                              "plastic", "external work", "residual"},
+                             "J"),
+                   "energy [J]");
+    breaking_.show(
+        history.values(time),
+        curves_of(history, {"damaged joints", "broken joints", "broken in mode I", "broken in mode II", "fragments"},
+                  ""),
+        "count");
+  }
+  energies_window_->Render();
+  breaking_window_->Render();
+}
+
+void PlotsPanel::set_dark(bool dark) {
+  energies_.set_dark(dark);
+  breaking_.set_dark(dark);
+  energies_window_->Render();
+  breaking_window_->Render();
+}
+
+int PlotsPanel::num_curves() const { return static_cast<int>(energies_.num_curves() + breaking_.num_curves()); }
+
+}  // namespace breccia::gui

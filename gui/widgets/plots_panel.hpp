@@ -1,0 +1,28 @@
+#pragma once
+
+#include <QVTKOpenGLNativeWidget.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+
+#include <QWidget>
+
+#include "core/run_folder.hpp"
+#include "render/history_chart.hpp"
+
+namespace breccia::gui {
+
+/// Energies on the left, what breaks on the right, over simulated time.
+class PlotsPanel final : public QWidget {
+  Q_OBJECT
+ public:
+  explicit PlotsPanel(QWidget* parent = nullptr);
+  void show_history(const History& history);
+  void set_dark(bool dark);
+  [[nodiscard]] int num_curves() const;
+
+ private:
+  HistoryChart energies_, breaking_;
+  vtkNew<vtkGenericOpenGLRenderWindow> energies_window_, breaking_window_;
+};
+
+}  // namespace breccia::gui

@@ -1,0 +1,65 @@
+#include "widgets/problems_panel.hpp"
+
+#include <QStyle>
+
+namespace breccia::gui {
+namespace {
+constexpr int kKey = Qt::UserRole, kLine = Qt::UserRole + 1;
+}
+
+ProblemsPanel::ProblemsPanel(QWidget* parent) : QListWidget(parent) {
+  setObjectName("problems");
+  setAccessibleName(tr("Messages"));
+  setToolTip(tr("Problems of the case and advice of the solver; Enter or a double click leads to the field"));
+  setWordWrap(true);
+  connect(this, &QListWidget::itemActivated, this, &ProblemsPanel::go);
+}
+
+void ProblemsPanel::go(QListWidgetItem* item) {
+  if (const QString key = item->data(kKey).toString(); !key.isEmpty())
+    emit place_wanted(key, item->data(kLine).toInt());
+}
+
+void ProblemsPanel::rebuild() {
+  clear();
+  for (const Problem& p : problems_) {
+    Problem shown = p;
+    shown.file.clear();
+    QString words = QString::fromStdString(shown.text());
+    if (p.line > 0) words = tr("line %1: %2").arg(p.line).arg(words);
+    auto* item = new QListWidgetItem(style()->standardIcon(QStyle::SP_MessageBoxCritical), words, this);
+    item->setData(kKey, QString::fromStdString(p.key.empty() ? "title" : p.key));
+    item->setData(kLine, p.line);
+    item->setData(Qt::AccessibleTextRole, tr("Problem: %1").arg(words));
+  }
+  for (const QString& words : messages_)
+    new QListWidgetItem(style()->standardIcon(QStyle::SP_MessageBoxWarning), words, this);
+  for (const QString& words : advice_)
+    new QListWidgetItem(style()->standardIcon(QStyle::SP_MessageBoxInformation), tr("Advice: %1").arg(words), this);
+}
+
+void ProblemsPanel::set_problems(const std::vector<Problem>& problems) {
+  problems_ = problems;
+  rebuild();
+}
+
+void ProblemsPanel::set_advice(const QStringList& advice) {
+  advice_ = advice;
+  messages_.clear();
+  rebuild();
+}
+
+void ProblemsPanel::add_message(const QString& text) {
+  messages_ << text;
+  rebuild();
+}
+
+void ProblemsPanel::next_problem() {
+  const int n = static_cast<int>(problems_.size());
+  if (n == 0) return;
+  const int row = (currentRow() + 1) % n;
+  setCurrentRow(row);
+  go(item(row));
+}
+
+}  // namespace breccia::gui

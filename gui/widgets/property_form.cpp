@@ -1,0 +1,215 @@
+#include "widgets/property_form.hpp"
+
+#include <QHBoxLayout>
+#include <QLineEdit>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+
+#include "core/value_text.hpp"
+
+namespace breccia::gui {
+namespace {
+
+using case_::Key;
+using case_::ValueType;
+
+QString text_of(std::string_view s) { return QString::fromUtf8(s.data(), static_cast<int>(s.size())); }
+
+bool names_a_group(const Key& key) {
+  const std::string_view name = key.name();
+  return key.type == ValueType::text && (name == "group" || name == "surface");
+}
+
+/// Words to choose from; empty: the value is typed.
+QStringList words_of(const Key& key) {
+  if (key.type == ValueType::boolean) return {"true", "false"};
+  const bool one = key.type == ValueType::choice || key.type == ValueType::integer;
+  QStringList words;
+  if (one)
+    for (const std::string& word : key.choice_list()) words << QString::fromStdString(word);
+  return words;
+}
+
+bool stands_at(const std::string& key, const std::string& path) {
+  return key == path || key.starts_with(path + "[") || key.starts_with(path + ".");
+}
+
+}  // namespace
+
+PropertyForm::PropertyForm(Document& document, QWidget* parent) : QScrollArea(parent), document_(document) {
+  setWidgetResizable(true);
+  setFrameShape(QFrame::NoFrame);
+  setObjectName("property_form");
+  setAccessibleName(tr("Properties"));
+  setFocusPolicy(Qt::NoFocus);
+  connect(&document_, &Document::changed, this, &PropertyForm::refresh);
+}
+
+QString PropertyForm::path_of(const Key& key) const {
+  const QString name = text_of(key.name());
+  return section_.isEmpty() ? name : section_ + "." + name;
+}
+
+void PropertyForm::show_section(const QString& path) {
+  section_ = path;
+  fields_.clear();
+  auto* page = new QWidget;
+  auto* column = new QVBoxLayout(page);
+  const std::string pattern = case_::pattern_of(path.toStdString());
+  auto* help = new QLabel(page);
+  help->setWordWrap(true);
+  help->setObjectName("section_help");
+  if (const Key* section = case_::find_key(pattern); section != nullptr) {
+    help->setText("<b>" + QString::fromStdString(case_::header_of(*section)).toHtmlEscaped() + "</b><br>" +
+                  text_of(section->help).toHtmlEscaped());
+  } else {
+    help->setText(tr("<b>The case</b>"));
+  }
+  column->addWidget(help);
+  auto* form = new QFormLayout;
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  form->setRowWrapPolicy(QFormLayout::WrapLongRows);
+  column->addLayout(form);
+  for (const Key* key : keys_in(pattern)) add_field(*key, *form);
+  column->addStretch();
+  setWidget(page);  // deletes the one before
+  refresh();
+}
+
+void PropertyForm::add_field(const Key& key, QFormLayout& layout) {
+  const QString path = path_of(key);
+  auto* row = new QWidget;
+  auto* cells = new QHBoxLayout(row);
+  cells->setContentsMargins(0, 0, 0, 0);
+  Field field;
+  field.key = &key;
+  field.editor = editor_of(key, path);
+  field.mark = new QLabel;
+  const QString symbol = symbol_of(key);
+  field.label = label_of(key) + (symbol.isEmpty() ? "" : " " + symbol);
+  if (key.unit != "1") field.label += " [" + text_of(key.unit) + "]";
+  field.editor->setObjectName("field:" + path);
+  field.editor->setToolTip(tooltip_of(key));
+  field.editor->setAccessibleName(label_of(key) + (key.unit == "1" ? QString() : " [" + text_of(key.unit) + "]"));
+  field.editor->setAccessibleDescription(text_of(key.help));
+  cells->addWidget(field.editor, 1);
+  cells->addWidget(field.mark);
+  field.mark->setObjectName("mark:" + path);
+  field.mark->hide();
+  auto* label = new QLabel(field.label + (key.required ? " *" : ""));
+  label->setToolTip(tooltip_of(key));
+  label->setBuddy(field.editor);
+  layout.addRow(label, row);
+  fields_.insert(path, field);
+}
+
+QWidget* PropertyForm::editor_of(const Key& key, const QString& path) {
+  const QStringList words = words_of(key);
+  if (!words.isEmpty() || names_a_group(key)) {
+    auto* box = new QComboBox;
+    box->setEditable(names_a_group(key));
+    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    box->setMinimumContentsLength(8);
+    if (names_a_group(key)) {
+      box->addItems(groups_);
+      connect(box->lineEdit(), &QLineEdit::editingFinished, this,
+              [this, box, path, &key] { take_over(path, key, box->currentText()); });
+      connect(box, qOverload<int>(&QComboBox::activated), this, [this, box, path, &key] {
+        take_over(path, key, box->currentText());
+        emit group_entered(box->currentText());
+      });
+    } else {
+      const QString fallback = shown_default(key);
+      box->addItem(fallback.isEmpty() ? tr("(not given)") : tr("%1 (default)").arg(fallback), QString());
+      for (const QString& word : words) box->addItem(word, word);
+      connect(box, qOverload<int>(&QComboBox::activated), this,
+              [this, box, path, &key] { take_over(path, key, box->currentData().toString()); });
+    }
+    return box;
+  }
+  auto* line = new QLineEdit;
+  const QString fallback = shown_default(key);
+  line->setPlaceholderText(!fallback.isEmpty()   ? fallback
+                           : key.example.empty() ? QString()
+                                                 : tr("e.g. %1").arg(shown_value(key, text_of(key.example))));
+  line->setClearButtonEnabled(false);
+  connect(line, &QLineEdit::editingFinished, this, [this, line, path, &key] { take_over(path, key, line->text()); });
+  return line;
+}
+
+void PropertyForm::take_over(const QString& path, const Key& key, const QString& typed) {
+  const QString before = document_.value(path);
+  if (typed.trimmed() == shown_value(key, before)) return;  // as it was: the way it is written stays
+  const QString toml = typed_value(key, typed);
+  if (toml.isEmpty()) {
+    document_.remove(path);
+  } else {
+    document_.set_value(path, toml);
+  }
+}
+
+void PropertyForm::refresh() {
+  for (auto it = fields_.begin(); it != fields_.end(); ++it) {
+    const QString shown = shown_value(*it->key, document_.value(it.key()));
+    const QSignalBlocker quiet(it->editor);
+    if (auto* line = qobject_cast<QLineEdit*>(it->editor)) {
+      if (line->text() != shown) line->setText(shown);
+    } else if (auto* box = qobject_cast<QComboBox*>(it->editor)) {
+      if (box->isEditable()) {
+        box->setEditText(shown);
+      } else {
+        int index = shown.isEmpty() ? 0 : box->findData(shown);
+        if (index < 0) {
+          box->addItem(shown, shown);
+          index = box->count() - 1;
+        }
+        box->setCurrentIndex(index);
+      }
+    }
+  }
+  mark_problems();
+}
+
+void PropertyForm::set_problems(const std::vector<Problem>& problems) {
+  problems_ = problems;
+  mark_problems();
+}
+
+void PropertyForm::set_groups(const QStringList& groups) {
+  groups_ = groups;
+  for (const Field& field : fields_) {
+    auto* box = qobject_cast<QComboBox*>(field.editor);
+    if (box == nullptr || !box->isEditable()) continue;
+    const QString text = box->currentText();
+    const QSignalBlocker quiet(box);
+    box->clear();
+    box->addItems(groups_);
+    box->setEditText(text);
+  }
+}
+
+void PropertyForm::mark_problems() {
+  for (auto it = fields_.begin(); it != fields_.end(); ++it) {
+    QString words;
+    for (const Problem& p : problems_)
+      if (stands_at(p.key, it.key().toStdString())) words = QString::fromStdString(p.text());
+    it->mark->setVisible(!words.isEmpty());
+    it->mark->setText(words.isEmpty() ? QString() : "⚠");
+    it->mark->setToolTip(words);
+    it->mark->setAccessibleName(words.isEmpty() ? QString() : tr("Problem: %1").arg(words));
+    it->editor->setProperty("wrong", !words.isEmpty());
+    it->editor->setStyleSheet(words.isEmpty() ? QString() : "border: 2px solid #d03030;");
+    it->editor->setToolTip(words.isEmpty() ? tooltip_of(*it->key)
+                                           : "<b>" + words.toHtmlEscaped() + "</b><hr>" + tooltip_of(*it->key));
+  }
+}
+
+void PropertyForm::focus_field(const QString& path) {
+  for (auto it = fields_.begin(); it != fields_.end(); ++it) {
+    if (!stands_at(path.toStdString(), it.key().toStdString())) continue;
+    ensureWidgetVisible(it->editor);
+    it->editor->setFocus(Qt::OtherFocusReason);
+  }
+}
+
+}  // namespace breccia::gui

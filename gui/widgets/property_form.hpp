@@ -1,0 +1,55 @@
+#pragma once
+
+#include <QComboBox>
+#include <QFormLayout>
+#include <QLabel>
+#include <QMap>
+#include <QScrollArea>
+
+#include "case/schema.hpp"
+#include "core/document.hpp"
+
+namespace breccia::gui {
+
+/// The form of one section of the case, made from the table of keys: label, field, mark of what is wrong. A value that
+/// the case does not give is an empty field with the default in grey.
+class PropertyForm final : public QScrollArea {
+  Q_OBJECT
+ public:
+  explicit PropertyForm(Document& document, QWidget* parent = nullptr);
+
+  /// @param path  "material[0]", "mesh"; "" the top
+  void show_section(const QString& path);
+  [[nodiscard]] const QString& section() const { return section_; }
+  void set_problems(const std::vector<Problem>& problems);
+  /// Words that a group field offers.
+  void set_groups(const QStringList& groups);
+  /// Puts the cursor into the field of a path, if it is here.
+  void focus_field(const QString& path);
+
+ signals:
+  /// A field that names groups got one: the view shows it.
+  void group_entered(const QString& group);
+
+ private:
+  struct Field {
+    const case_::Key* key = nullptr;
+    QWidget* editor = nullptr;
+    QLabel* mark = nullptr;
+    QString label;
+  };
+  void add_field(const case_::Key& key, QFormLayout& layout);
+  [[nodiscard]] QWidget* editor_of(const case_::Key& key, const QString& path);
+  void take_over(const QString& path, const case_::Key& key, const QString& typed);
+  void refresh();
+  void mark_problems();
+  [[nodiscard]] QString path_of(const case_::Key& key) const;
+
+  Document& document_;
+  QString section_;
+  QMap<QString, Field> fields_;  // by path
+  std::vector<Problem> problems_;
+  QStringList groups_;
+};
+
+}  // namespace breccia::gui

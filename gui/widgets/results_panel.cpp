@@ -1,0 +1,105 @@
+#include "widgets/results_panel.hpp"
+
+#include <QHBoxLayout>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+
+#include "widgets/run_panel.hpp"
+
+namespace breccia::gui {
+
+ResultsPanel::ResultsPanel(QWidget* parent)
+    : QWidget(parent),
+      run_(new QLabel(tr("No run is open."))),
+      time_(new QLabel),
+      slider_(new QSlider(Qt::Horizontal)),
+      follow_(new QCheckBox(tr("&Follow the newest frame"))),
+      back_(new QPushButton("◀")),
+      forward_(new QPushButton("▶")),
+      paraview_(new QPushButton(tr("Open in Para&View"))),
+      picture_(new QPushButton(tr("Save p&icture..."))) {
+  run_->setWordWrap(true);
+  run_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  time_->setObjectName("frame_time");
+  slider_->setObjectName("frame");
+  slider_->setAccessibleName(tr("Frame"));
+  slider_->setToolTip(tr("Walk through the recorded frames (arrow keys)"));
+  slider_->setRange(0, 0);
+  follow_->setChecked(true);
+  follow_->setObjectName("follow");
+  follow_->setAccessibleName(tr("Follow the newest frame"));
+  follow_->setToolTip(tr("Show each frame as soon as the run has written it"));
+  back_->setObjectName("previous_frame");
+  back_->setAccessibleName(tr("Previous frame"));
+  back_->setToolTip(tr("Previous frame"));
+  forward_->setObjectName("next_frame");
+  forward_->setAccessibleName(tr("Next frame"));
+  forward_->setToolTip(tr("Next frame"));
+  paraview_->setObjectName("open_paraview");
+  paraview_->setAccessibleName(tr("Open in ParaView"));
+  paraview_->setToolTip(tr("Start ParaView with the frames of this run"));
+  picture_->setObjectName("save_picture");
+  picture_->setAccessibleName(tr("Save picture"));
+  picture_->setToolTip(tr("Save what the 3D view shows as PNG"));
+  auto* column = new QVBoxLayout(this);
+  column->addWidget(run_);
+  column->addWidget(follow_);
+  auto* row = new QHBoxLayout;
+  row->addWidget(back_);
+  row->addWidget(slider_, 1);
+  row->addWidget(forward_);
+  column->addLayout(row);
+  column->addWidget(time_);
+  column->addWidget(paraview_);
+  column->addWidget(picture_);
+  column->addStretch();
+  connect(slider_, &QSlider::valueChanged, this, &ResultsPanel::moved);
+  connect(back_, &QPushButton::clicked, this, [this] {
+    follow_->setChecked(false);
+    slider_->setValue(slider_->value() - 1);
+  });
+  connect(forward_, &QPushButton::clicked, this, [this] { slider_->setValue(slider_->value() + 1); });
+  connect(slider_, &QSlider::sliderPressed, this, [this] { follow_->setChecked(false); });
+  connect(paraview_, &QPushButton::clicked, this, &ResultsPanel::paraview_wanted);
+  connect(picture_, &QPushButton::clicked, this, &ResultsPanel::picture_wanted);
+  set_frames({});
+}
+
+void ResultsPanel::set_run(const QString& folder) {
+  run_->setText(folder.isEmpty() ? tr("No run is open.") : tr("<b>Run</b> %1").arg(folder.toHtmlEscaped()));
+  set_frames({});
+  follow_->setChecked(true);
+}
+
+void ResultsPanel::set_frames(const std::vector<RunFrame>& frames) {
+  frames_ = frames;
+  const bool any = !frames_.empty();
+  for (QWidget* w : {static_cast<QWidget*>(slider_), static_cast<QWidget*>(back_), static_cast<QWidget*>(forward_),
+                     static_cast<QWidget*>(paraview_), static_cast<QWidget*>(picture_)})
+    w->setEnabled(any);
+  const int last = any ? static_cast<int>(frames_.size()) - 1 : 0;
+  const int now = follow_->isChecked() ? last : std::min(slider_->value(), last);
+  {
+    const QSignalBlocker quiet(slider_);
+    slider_->setRange(0, last);
+    slider_->setValue(now);
+  }
+  if (any && follow_->isChecked()) {
+    moved(now);
+  } else if (any) {
+    time_->setText(tr("frame %1 of %2").arg(now + 1).arg(frames_.size()));
+  } else {
+    time_->setText(tr("no frames yet"));
+  }
+}
+
+void ResultsPanel::moved(int number) {
+  if (number < 0 || number >= static_cast<int>(frames_.size())) return;
+  time_->setText(tr("frame %1 of %2, time %3")
+                     .arg(number + 1)
+                     .arg(frames_.size())
+                     .arg(quantity_words(frames_[static_cast<std::size_t>(number)].time, "s")));
+  emit frame_wanted(number);
+}
+
+}  // namespace breccia::gui

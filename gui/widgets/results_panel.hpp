@@ -1,0 +1,37 @@
+#pragma once
+
+#include <QCheckBox>
+#include <QLabel>
+#include <QPushButton>
+#include <QSlider>
+
+#include "core/run_folder.hpp"
+
+namespace breccia::gui {
+
+/// Walks through the recorded frames of a run, also while it goes on.
+class ResultsPanel final : public QWidget {
+  Q_OBJECT
+ public:
+  explicit ResultsPanel(QWidget* parent = nullptr);
+  void set_run(const QString& folder);
+  void set_frames(const std::vector<RunFrame>& frames);
+  [[nodiscard]] bool follows() const { return follow_->isChecked(); }
+  void set_follow(bool on) { follow_->setChecked(on); }
+
+ signals:
+  void frame_wanted(int number);
+  void paraview_wanted();
+  void picture_wanted();
+
+ private:
+  void moved(int number);
+
+  QLabel *run_, *time_;
+  QSlider* slider_;
+  QCheckBox* follow_;
+  QPushButton *back_, *forward_, *paraview_, *picture_;
+  std::vector<RunFrame> frames_;
+};
+
+}  // namespace breccia::gui

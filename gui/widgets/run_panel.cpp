@@ -1,0 +1,180 @@
+#include "widgets/run_panel.hpp"
+
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QThread>
+#include <QVBoxLayout>
+#include <array>
+#include <cmath>
+
+namespace breccia::gui {
+namespace {
+
+QPushButton* button(const QString& text, const QString& name, const QString& tip) {
+  auto* made = new QPushButton(text);
+  made->setObjectName(name);
+  made->setAccessibleName(QString(text).remove('&'));
+  made->setToolTip(tip);
+  return made;
+}
+
+}  // namespace
+
+QString run_words(int problems) {
+  if (problems == 0) return RunPanel::tr("&Run");
+  return problems == 1 ? RunPanel::tr("&Run (1 problem)") : RunPanel::tr("&Run (%1 problems)").arg(problems);
+}
+
+QString duration_words(double seconds) {
+  if (!(seconds >= 0)) return RunPanel::tr("unknown");
+  const auto s = static_cast<qint64>(std::llround(seconds));
+  if (s < 60) return RunPanel::tr("%1 s").arg(seconds < 10 ? QString::number(seconds, 'g', 2) : QString::number(s));
+  if (s < 3600) return RunPanel::tr("%1 min %2 s").arg(s / 60).arg(s % 60);
+  return RunPanel::tr("%1 h %2 min").arg(s / 3600).arg(s / 60 % 60);
+}
+
+QString quantity_words(double value, const QString& unit) {
+  static const std::array<std::pair<double, const char*>, 8> prefixes{
+      {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "u"}, {1e-9, "n"}, {1e-12, "p"}}};
+  for (const auto& [factor, prefix] : prefixes)
+    if (std::abs(value) >= 0.9995 * factor) return QString::number(value / factor, 'g', 3) + " " + prefix + unit;
+  return QString::number(value, 'g', 3) + " " + unit;
+}
+
+RunPanel::RunPanel(QWidget* parent)
+    : QWidget(parent),
+      ranks_(new QSpinBox),
+      run_(button(tr("&Run"), "run", tr("Save the case and start the run (F5)"))),
+      pause_(button(tr("&Pause"), "pause", tr("Wait between two steps, and go on"))),
+      stop_(button(tr("&Stop"), "stop",
+                   tr("End after the present step with everything written; what does not end in time is killed"))),
+      check_(button(tr("C&heck"), "check", tr("Stable step, run time, memory and disk, with advice (F7)"))),
+      results_(button(tr("Open res&ults"), "open_results", tr("Walk through the recorded frames of this run"))),
+      command_(new QLineEdit),
+      estimate_(new QLabel),
+      state_(new QLabel),
+      warning_(new QLabel),
+      progress_(new QProgressBar),
+      failure_(new QPlainTextEdit) {
+  setObjectName("run_panel");
+  const int cores = QThread::idealThreadCount();
+  ranks_->setRange(1, 4096);
+  ranks_->setValue(cores);
+  ranks_->setObjectName("ranks");
+  ranks_->setAccessibleName(tr("Ranks"));
+  ranks_->setToolTip(tr("Processes that share the model; this machine has %1 cores").arg(cores));
+  connect(ranks_, qOverload<int>(&QSpinBox::valueChanged), this, [this, cores](int n) {
+    warning_->setVisible(n > cores);
+    emit ranks_changed(n);
+  });
+  warning_->setText(tr("⚠ more ranks than the %1 cores of this machine: they will be in each other's way").arg(cores));
+  warning_->setWordWrap(true);
+  warning_->hide();
+  command_->setReadOnly(true);
+  command_->setObjectName("command_line");
+  command_->setAccessibleName(tr("Command line"));
+  command_->setToolTip(tr("The same run from a terminal; select and copy"));
+  estimate_->setWordWrap(true);
+  estimate_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  estimate_->setObjectName("estimate");
+  estimate_->setText(tr("Not checked yet."));
+  state_->setWordWrap(true);
+  state_->setObjectName("run_state");
+  progress_->setRange(0, 1000);
+  progress_->setObjectName("progress");
+  progress_->setAccessibleName(tr("Progress of the run"));
+  progress_->setToolTip(tr("Share of the simulated time"));
+  failure_->setReadOnly(true);
+  failure_->setObjectName("failure");
+  failure_->setAccessibleName(tr("Why the run failed"));
+  failure_->setToolTip(tr("What the solver said"));
+  failure_->setTabChangesFocus(true);
+  failure_->hide();
+
+  auto* column = new QVBoxLayout(this);
+  auto* form = new QFormLayout;
+  auto* label = new QLabel(tr("&Ranks"));
+  label->setBuddy(ranks_);
+  form->addRow(label, ranks_);
+  column->addLayout(form);
+  column->addWidget(warning_);
+  column->addWidget(new QLabel(tr("<b>Estimate</b>")));
+  column->addWidget(estimate_);
+  column->addWidget(check_);
+  column->addWidget(new QLabel(tr("<b>Command line</b>")));
+  column->addWidget(command_);
+  auto* row = new QHBoxLayout;
+  for (QPushButton* b : {run_, pause_, stop_}) row->addWidget(b);
+  column->addLayout(row);
+  column->addWidget(progress_);
+  column->addWidget(state_);
+  column->addWidget(failure_);
+  column->addWidget(results_);
+  column->addStretch();
+  connect(run_, &QPushButton::clicked, this, &RunPanel::run_wanted);
+  connect(pause_, &QPushButton::clicked, this, &RunPanel::pause_wanted);
+  connect(stop_, &QPushButton::clicked, this, &RunPanel::stop_wanted);
+  connect(check_, &QPushButton::clicked, this, &RunPanel::check_wanted);
+  connect(results_, &QPushButton::clicked, this, &RunPanel::results_wanted);
+  show_run(nullptr);
+}
+
+void RunPanel::set_command(const QStringList& command) {
+  QStringList words;
+  for (const QString& word : command) words << (word.contains(' ') ? "'" + word + "'" : word);
+  command_->setText(words.join(' '));
+  command_->setCursorPosition(0);
+}
+
+void RunPanel::set_problems(int count) {
+  problems_ = count;
+  run_->setText(run_words(count));
+  run_->setAccessibleName(count == 0 ? tr("Run") : tr("Run, %1 problems").arg(count));
+  run_->setEnabled(count == 0 && !running_);
+  run_->setToolTip(count == 0 ? tr("Save the case and start the run (F5)")
+                              : tr("The case has %1 problems; F8 goes to the next one").arg(count));
+  check_->setEnabled(count == 0);
+}
+
+void RunPanel::set_estimate(const QString& html) { estimate_->setText(html); }
+
+void RunPanel::set_state_words(const SolverRun& run) {
+  const RunStatus& s = run.status();
+  QString words = "<b>" + run.state().toHtmlEscaped() + "</b>";
+  if (!s.state.isEmpty()) {
+    words += tr("<br>step %1 of about %2<br>time %3 of %4")
+                 .arg(s.step, 0, 'f', 0)
+                 .arg(s.steps_total, 0, 'f', 0)
+                 .arg(quantity_words(s.time, "s"), quantity_words(s.end, "s"));
+    if (run.alive()) words += tr("<br>time to go %1").arg(duration_words(s.eta));
+    words += tr("<br>wall time %1").arg(duration_words(s.wall));
+    words += tr("<br>broken joints %1, fragments %2").arg(s.broken_joints, 0, 'f', 0).arg(s.fragments, 0, 'f', 0);
+    words += tr("<br>unaccounted energy %1 %").arg(100 * s.residual, 0, 'g', 2);
+    if (run.record().ranks > 1) words += tr("<br>imbalance %1").arg(s.imbalance, 0, 'f', 3);
+  }
+  state_->setText(words);
+}
+
+void RunPanel::show_run(const SolverRun* run) {
+  running_ = run != nullptr && run->alive();
+  pause_->setEnabled(running_);
+  stop_->setEnabled(running_ && run->state() != "stopping");
+  results_->setEnabled(run != nullptr && !run->frames().empty());
+  const bool paused = run != nullptr && run->state() == "paused";
+  pause_->setText(paused ? tr("&Resume") : tr("&Pause"));
+  pause_->setAccessibleName(paused ? tr("Resume") : tr("Pause"));
+  set_problems(problems_);
+  if (run == nullptr) {
+    state_->setText(tr("No run yet."));
+    progress_->setValue(0);
+    failure_->hide();
+    return;
+  }
+  set_state_words(*run);
+  progress_->setValue(static_cast<int>(1000 * run->status().share));
+  const bool failed = run->state() == "failed";
+  failure_->setVisible(failed);
+  if (failed) failure_->setPlainText(run->failure());
+}
+
+}  // namespace breccia::gui

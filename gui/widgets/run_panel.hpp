@@ -1,0 +1,56 @@
+#pragma once
+
+#include <QLabel>
+#include <QLineEdit>
+#include <QPlainTextEdit>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSpinBox>
+
+#include "core/solver_run.hpp"
+
+namespace breccia::gui {
+
+/// Starting a run, and how it goes: estimate, ranks, command line, progress, pause, stop.
+class RunPanel final : public QWidget {
+  Q_OBJECT
+ public:
+  explicit RunPanel(QWidget* parent = nullptr);
+
+  [[nodiscard]] int ranks() const { return ranks_->value(); }
+  void set_command(const QStringList& command);
+  void set_problems(int count);
+  /// Answer of `check --json`.
+  void set_estimate(const QString& html);
+  /// nullptr: no run is in hand.
+  void show_run(const SolverRun* run);
+
+ signals:
+  void run_wanted();
+  void pause_wanted();
+  void stop_wanted();
+  void check_wanted();
+  void results_wanted();
+  void ranks_changed(int ranks);
+
+ private:
+  void set_state_words(const SolverRun& run);
+
+  QSpinBox* ranks_;
+  QPushButton *run_, *pause_, *stop_, *check_, *results_;
+  QLineEdit* command_;
+  QLabel *estimate_, *state_, *warning_;
+  QProgressBar* progress_;
+  QPlainTextEdit* failure_;
+  int problems_ = 0;
+  bool running_ = false;
+};
+
+/// "Run" or, with problems, how many: "Run (2 problems)".
+[[nodiscard]] QString run_words(int problems);
+/// "3 min 20 s".
+[[nodiscard]] QString duration_words(double seconds);
+/// "12.3 us" with a prefix of the unit.
+[[nodiscard]] QString quantity_words(double value, const QString& unit);
+
+}  // namespace breccia::gui

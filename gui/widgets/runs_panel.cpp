@@ -1,0 +1,45 @@
+#include "widgets/runs_panel.hpp"
+
+#include <QFileInfo>
+#include <QHeaderView>
+
+#include "widgets/run_panel.hpp"
+
+namespace breccia::gui {
+
+RunsPanel::RunsPanel(QWidget* parent) : QTableWidget(parent) {
+  setObjectName("runs");
+  setAccessibleName(tr("Runs"));
+  setToolTip(tr("Runs started here; Enter or a double click opens the results"));
+  setColumnCount(7);
+  setHorizontalHeaderLabels(
+      {tr("run"), tr("state"), tr("ranks"), tr("progress"), tr("to go"), tr("broken joints"), tr("folder")});
+  setEditTriggers(NoEditTriggers);
+  setSelectionBehavior(SelectRows);
+  setSelectionMode(SingleSelection);
+  setTabKeyNavigation(false);
+  verticalHeader()->hide();
+  horizontalHeader()->setStretchLastSection(true);
+  connect(this, &QTableWidget::cellActivated, this, [this](int row, int) { emit run_chosen(item(row, 6)->text()); });
+}
+
+void RunsPanel::show_runs(const std::vector<SolverRun*>& runs) {
+  setRowCount(static_cast<int>(runs.size()));
+  for (int row = 0; row < rowCount(); ++row) {
+    const SolverRun& run = *runs[static_cast<std::size_t>(row)];
+    const RunStatus& s = run.status();
+    const QStringList cells{QFileInfo(run.record().folder).fileName(),
+                            run.state(),
+                            QString::number(run.record().ranks),
+                            tr("%1 %").arg(100 * s.share, 0, 'f', 0),
+                            run.alive() ? duration_words(s.eta) : QString("-"),
+                            QString::number(s.broken_joints, 'f', 0),
+                            run.record().folder};
+    for (int c = 0; c < cells.size(); ++c) {
+      if (item(row, c) == nullptr) setItem(row, c, new QTableWidgetItem);
+      item(row, c)->setText(cells[c]);
+    }
+  }
+}
+
+}  // namespace breccia::gui

@@ -1,0 +1,119 @@
+#include "widgets/start_page.hpp"
+
+#include <QFileInfo>
+#include <QGridLayout>
+#include <QLabel>
+#include <QPainter>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+namespace breccia::gui {
+namespace {
+
+constexpr QSize kPicture(200, 130);
+
+/// The picture of a template, or its first letters where it has none.
+QIcon icon_of(const Template& t) {
+  QPixmap picture(t.picture);
+  if (picture.isNull()) {
+    picture = QPixmap(kPicture);
+    picture.fill(QColor(96, 112, 128));
+    QPainter painter(&picture);
+    painter.setPen(Qt::white);
+    QFont font = painter.font();
+    font.setPixelSize(20);
+    painter.setFont(font);
+    painter.drawText(picture.rect().adjusted(8, 8, -8, -8), Qt::AlignCenter | Qt::TextWordWrap, t.title);
+  }
+  return QIcon(picture.scaled(kPicture, Qt::KeepAspectRatio, Qt::SmoothTransformation));
+}
+
+QListWidget* list(const QString& name, const QString& accessible) {
+  auto* made = new QListWidget;
+  made->setObjectName(name);
+  made->setAccessibleName(accessible);
+  made->setToolTip(accessible);
+  return made;
+}
+
+}  // namespace
+
+StartPage::StartPage(const Places& places, QWidget* parent)
+    : QWidget(parent),
+      places_(places),
+      templates_(list("templates", tr("Templates: Enter or a click opens a copy"))),
+      recent_(list("recent", tr("Recent cases"))),
+      runs_(list("start_runs", tr("Runs started here"))) {
+  auto* demo = new QPushButton(tr("&Show me: shatter the glass plate"));
+  demo->setObjectName("demo");
+  demo->setAccessibleName(tr("Show me: shatter the glass plate"));
+  demo->setToolTip(tr("Opens the glass template, meshes it and runs it on all cores"));
+  QFont large = demo->font();
+  large.setPointSizeF(1.2 * large.pointSizeF());
+  demo->setFont(large);
+  auto* open = new QPushButton(tr("&Open a case..."));
+  open->setObjectName("open_case");
+  open->setAccessibleName(tr("Open a case"));
+  open->setToolTip(tr("Open a case file (Ctrl+O)"));
+  templates_->setViewMode(QListView::IconMode);
+  templates_->setIconSize(kPicture);
+  templates_->setGridSize(QSize(230, 190));
+  templates_->setResizeMode(QListView::Adjust);
+  templates_->setMovement(QListView::Static);
+  templates_->setWordWrap(true);
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(24, 16, 24, 16);
+  auto* title = new QLabel(tr("<h1>Breccia</h1>Solids that break: choose a template, change it, run it, watch it."));
+  grid->addWidget(title, 0, 0);
+  auto* column = new QVBoxLayout;
+  column->addWidget(demo);
+  column->addWidget(open);
+  grid->addLayout(column, 0, 1);
+  grid->addWidget(new QLabel(tr("<h3>New from a template</h3>")), 1, 0);
+  grid->addWidget(templates_, 2, 0, 3, 1);
+  grid->addWidget(new QLabel(tr("<h3>Recent cases</h3>")), 1, 1);
+  grid->addWidget(recent_, 2, 1);
+  grid->addWidget(new QLabel(tr("<h3>Runs</h3>")), 3, 1);
+  grid->addWidget(runs_, 4, 1);
+  grid->setColumnStretch(0, 3);
+  grid->setColumnStretch(1, 2);
+  for (const Template& t : templates(places_)) {
+    auto* item = new QListWidgetItem(icon_of(t), t.title, templates_);
+    item->setToolTip(t.text);
+    item->setData(Qt::AccessibleTextRole, t.title + ". " + t.text);
+  }
+  connect(demo, &QPushButton::clicked, this, &StartPage::demo_wanted);
+  connect(open, &QPushButton::clicked, this, &StartPage::open_wanted);
+  // One click or Enter; itemActivated alone would be a double click on some desktops.
+  const auto chosen = [this](QListWidgetItem* item) { emit template_chosen(templates_->row(item)); };
+  connect(templates_, &QListWidget::itemClicked, this, chosen);
+  connect(recent_, &QListWidget::itemClicked, this,
+          [this](QListWidgetItem* i) { emit case_chosen(i->data(Qt::UserRole).toString()); });
+  connect(runs_, &QListWidget::itemClicked, this,
+          [this](QListWidgetItem* i) { emit run_chosen(i->data(Qt::UserRole).toString()); });
+  const auto enter = [this](QListWidgetItem* i) {
+    // The style may call a click an activation as well; the page is gone by then.
+    if (!isVisible()) return;
+    if (i->listWidget() == templates_) emit template_chosen(templates_->row(i));
+    if (i->listWidget() == recent_) emit case_chosen(i->data(Qt::UserRole).toString());
+    if (i->listWidget() == runs_) emit run_chosen(i->data(Qt::UserRole).toString());
+  };
+  for (QListWidget* w : {templates_, recent_, runs_}) connect(w, &QListWidget::itemActivated, this, enter);
+}
+
+void StartPage::refresh(const std::vector<RunRecord>& runs) {
+  recent_->clear();
+  for (const QString& file : recent_cases(places_)) {
+    auto* item = new QListWidgetItem(file, recent_);
+    item->setData(Qt::UserRole, file);
+  }
+  runs_->clear();
+  for (const RunRecord& run : runs) {
+    const bool alive = !members_of(run.session).isEmpty();
+    auto* item = new QListWidgetItem(
+        tr("%1%2, ranks: %3").arg(alive ? tr("running: ") : QString(), run.folder).arg(run.ranks), runs_);
+    item->setData(Qt::UserRole, run.folder);
+  }
+}
+
+}  // namespace breccia::gui

@@ -1,0 +1,129 @@
+#include "widgets/view3d.hpp"
+
+#include <vtkInteractorStyleTrackballCamera.h>
+#include <vtkRenderWindowInteractor.h>
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSet>
+#include <QVBoxLayout>
+
+namespace breccia::gui {
+
+View3D::View3D(QWidget* parent)
+    : QWidget(parent),
+      canvas_(new QVTKOpenGLNativeWidget),
+      colour_(new QComboBox),
+      edges_(new QCheckBox(tr("&Edges"))),
+      skin_(new QCheckBox(tr("So&lid"))),
+      explode_(new QSlider(Qt::Horizontal)) {
+  window_->SetMultiSamples(0);
+  canvas_->setRenderWindow(window_);
+  window_->AddRenderer(scene_.renderer());
+  vtkNew<vtkInteractorStyleTrackballCamera> style;
+  window_->GetInteractor()->SetInteractorStyle(style);
+  canvas_->setObjectName("canvas");
+  canvas_->setAccessibleName(tr("3D view"));
+  canvas_->setToolTip(tr("Drag: turn; wheel: zoom; middle button: move"));
+  canvas_->setFocusPolicy(Qt::StrongFocus);
+  canvas_->setMinimumSize(320, 220);
+
+  for (const auto& [colouring, name] : colourings())
+    colour_->addItem(QString::fromStdString(name), static_cast<int>(colouring));
+  colour_->setObjectName("colour_by");
+  colour_->setAccessibleName(tr("Colour by"));
+  colour_->setToolTip(tr("What the colours mean"));
+  connect(colour_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
+    scene_.set_colouring(static_cast<Colouring>(colour_->currentData().toInt()));
+    render();
+  });
+  edges_->setObjectName("edges");
+  edges_->setAccessibleName(tr("Edges of elements"));
+  edges_->setToolTip(tr("Draw the edges of the elements"));
+  connect(edges_, &QCheckBox::toggled, this, [this](bool on) {
+    scene_.show_edges(on);
+    render();
+  });
+  skin_->setObjectName("solid");
+  skin_->setChecked(true);
+  skin_->setAccessibleName(tr("Solid bodies"));
+  skin_->setToolTip(tr("Draw the bodies solid; otherwise one looks through them at the broken joints"));
+  connect(skin_, &QCheckBox::toggled, this, [this](bool on) {
+    scene_.show_skin(on);
+    render();
+  });
+  explode_->setObjectName("explode");
+  explode_->setRange(0, 100);
+  explode_->setMaximumWidth(120);
+  explode_->setAccessibleName(tr("Explode"));
+  explode_->setToolTip(tr("Moves the parts of different ranks away from each other"));
+  connect(explode_, &QSlider::valueChanged, this, [this](int x) {
+    scene_.set_explode(x / 50.0);
+    render();
+  });
+  auto* fit = new QPushButton(tr("&Fit"));
+  fit->setObjectName("fit");
+  fit->setAccessibleName(tr("Fit the view"));
+  fit->setToolTip(tr("Show everything"));
+  connect(fit, &QPushButton::clicked, this, [this] {
+    scene_.reset_camera();
+    render();
+  });
+
+  auto* bar = new QHBoxLayout;
+  auto* label = new QLabel(tr("&Colour by"));
+  label->setBuddy(colour_);
+  bar->addWidget(label);
+  bar->addWidget(colour_);
+  bar->addWidget(edges_);
+  bar->addWidget(skin_);
+  bar->addWidget(new QLabel(tr("Explode")));
+  bar->addWidget(explode_);
+  bar->addStretch();
+  bar->addWidget(fit);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(2, 2, 2, 2);
+  column->addLayout(bar);
+  column->addWidget(canvas_, 1);
+}
+
+void View3D::render() { window_->Render(); }
+
+void View3D::show_frame(const FrameData& frame, const QString& caption) {
+  scene_.show(frame);
+  scene_.set_caption(caption.toStdString());
+  render();
+}
+
+void View3D::clear(const QString& caption) {
+  scene_.clear();
+  scene_.set_caption(caption.toStdString());
+  render();
+}
+
+void View3D::set_colouring(Colouring colouring) {
+  const int index = colour_->findData(static_cast<int>(colouring));
+  if (index >= 0) colour_->setCurrentIndex(index);
+}
+
+void View3D::set_dark(bool dark) {
+  scene_.set_dark(dark);
+  render();
+}
+
+QImage View3D::picture() {
+  render();
+  return canvas_->grabFramebuffer();
+}
+
+double View3D::drawn_share() {
+  const QImage image = picture();
+  qint64 drawn = 0;
+  // The background has one colour a line: what differs from its left edge has been drawn.
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) drawn += image.pixel(x, y) != image.pixel(0, y) ? 1 : 0;
+  return image.isNull() ? 0 : static_cast<double>(drawn) / (static_cast<double>(image.width()) * image.height());
+}
+
+}  // namespace breccia::gui

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <QVTKOpenGLNativeWidget.h>
+#include <vtkNew.h>
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QImage>
+#include <QSlider>
+
+#include "render/scene.hpp"
+
+namespace breccia::gui {
+
+/// The 3D view with what it is coloured by.
+class View3D final : public QWidget {
+  Q_OBJECT
+ public:
+  explicit View3D(QWidget* parent = nullptr);
+
+  [[nodiscard]] Scene& scene() { return scene_; }
+  void show_frame(const FrameData& frame, const QString& caption);
+  void clear(const QString& caption);
+  void set_colouring(Colouring colouring);
+  void set_dark(bool dark);
+  void render();
+  /// What is drawn now.
+  [[nodiscard]] QImage picture();
+  /// Share of the pixels that differ from the background; for tests.
+  [[nodiscard]] double drawn_share();
+
+ private:
+  Scene scene_;
+  vtkNew<vtkGenericOpenGLRenderWindow> window_;
+  QVTKOpenGLNativeWidget* canvas_;
+  QComboBox* colour_;
+  QCheckBox *edges_, *skin_;
+  QSlider* explode_;
+};
+
+}  // namespace breccia::gui

@@ -1,0 +1,217 @@
+#include "commands/json_report.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "case/schema.hpp"
+#include "commands/check_report.hpp"
+#include "mesh/quality.hpp"
+
+namespace breccia {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Points, cells and arrays of an element in a frame before compression, bytes.
+constexpr double kBytesAnElement = 4 * 3 * 8 + 4 * 8 + 8 + 1 + 8 + 3 * 4 + 8 + 8 * (6 + 1 + 3 + 3 + 3 + 1);
+constexpr int kBins = 10;
+
+std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+Json groups(const MeshReport& report) {
+  const auto list = [](const std::vector<MeshReport::Group>& from) {
+    Json out = Json::array();
+    for (const MeshReport::Group& group : from) out.push_back({{"name", group.name}, {"count", group.count}});
+    return out;
+  };
+  return {{"volumes", list(report.volume_groups)}, {"surfaces", list(report.surface_groups)}};
+}
+
+/// "- one\n- two\n" as a list.
+Json advice_list(const std::string& text) {
+  Json out = Json::array();
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find("\n- ", at), text.size());
+    std::string line = text.substr(at, end - at);
+    if (line.starts_with("- ")) line.erase(0, 2);
+    while (line.ends_with('\n')) line.pop_back();
+    if (!line.empty()) out.push_back(line);
+    at = end + 1;
+  }
+  return out;
+}
+
+/// Elements by radius ratio: bin i counts those from i/10 to (i+1)/10.
+Json quality_bins(const Mesh& mesh) {
+  std::array<std::int64_t, kBins> bins{};
+  for (const auto& corners : mesh.elements) {
+    std::array<Vec3, 4> p;
+    for (std::size_t i = 0; i < 4; ++i) p[i] = mesh.nodes[static_cast<std::size_t>(corners[i])];
+    const double ratio = element_quality(p).radius_ratio;
+    ++bins[static_cast<std::size_t>(std::clamp(static_cast<int>(kBins * ratio), 0, kBins - 1))];
+  }
+  return bins;
+}
+
+Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+const char* name_of(case_::ValueType type) {
+  using enum case_::ValueType;
+  switch (type) {
+    case section:
+      return "section";
+    case section_list:
+      return "section_list";
+    case notation:
+      return "notation";
+    case number:
+      return "number";
+    case integer:
+      return "integer";
+    case boolean:
+      return "boolean";
+    case text:
+      return "text";
+    case choice:
+      return "choice";
+    case path:
+      return "path";
+    case axes:
+      return "axes";
+    case text_list:
+      return "text_list";
+    case text_pair:
+      return "text_pair";
+    case number_pair:
+      return "number_pair";
+    case vector:
+      return "vector";
+    case vector_or_number:
+      return "vector_or_number";
+    case integers_or_one:
+      return "integers_or_one";
+    case function:
+      return "function";
+    case function_vector:
+      return "function_vector";
+    case axis_functions:
+      return "axis_functions";
+    case parameters:
+      return "parameters";
+    case points:
+      break;
+  }
+  return "points";
+}
+
+}  // namespace
+
+std::string check_json(const case_::Case& input, const Model& model) {
+  const CheckReport report = full_report(input, model);
+  const double end = input.stages.back().end, interval = input.output.frame_interval;
+  const double frames = 1 + (interval > 0 ? std::ceil(end / interval) : 0);
+  Json json{{"title", input.title},
+            {"elements", model.mesh.num_elements()},
+            {"nodes", model.mesh_report.nodes},
+            {"bodies", model.mesh_report.bodies},
+            {"joints", model.joints.size()},
+            {"groups", groups(model.mesh_report)},
+            {"end", end},
+            {"stable_step", number_or_null(report.step.limit)},
+            {"step", number_or_null(report.step.dt)},
+            {"steps", number_or_null(report.estimate.steps)},
+            {"seconds", number_or_null(report.estimate.seconds)},
+            {"most_seconds", number_or_null(report.estimate.most_seconds)},
+            {"memory", report.estimate.memory},
+            {"frames", frames},
+            {"disk",
+             input.output.elements ? frames * kBytesAnElement * static_cast<double>(model.mesh.elements.size()) : 0.0},
+            {"advice", advice_list(report.advice)},
+            {"report", report.text}};
+  return text_of(json);
+}
+
+std::string domains_json(const case_::Case& input, const Model& model, int parts) {
+  const Division division = divide_model(input, model, parts);
+  Json domains = Json::array();
+  for (const DomainLoad& load : division.report.domains) {
+    domains.push_back({{"elements", load.elements},
+                       {"joints", load.joints},
+                       {"shared", load.shared},
+                       {"cut_faces", load.cut_faces},
+                       {"proxies", load.held},
+                       {"gathered", load.gathered},
+                       {"neighbours", load.neighbours},
+                       {"bytes", load.bytes()},
+                       {"seconds_a_step", load.step}});
+  }
+  return text_of({{"title", input.title},
+                  {"elements", model.mesh.num_elements()},
+                  {"how", division.how},
+                  {"imbalance", division.report.imbalance},
+                  {"efficiency", division.report.efficiency},
+                  {"domains", domains},
+                  {"owner", division.owner}});
+}
+
+std::string mesh_json(const FinishedMesh& made) {
+  const MeshReport& r = made.report;
+  Json json{{"source", made.mesh.source},
+            {"elements", r.elements},
+            {"nodes", r.nodes},
+            {"bodies", r.bodies},
+            {"groups", groups(r)},
+            {"inverted_repaired", r.inverted_repaired},
+            {"duplicate_nodes", r.duplicate_nodes},
+            {"quality", quality_bins(made.mesh)},
+            {"report", mesh_report(made)}};
+  return text_of(json);
+}
+
+std::string schema_json() {
+  Json keys = Json::array();
+  for (const case_::Key& key : case_::schema()) {
+    Json row{{"path", key.path}, {"type", name_of(key.type)}};
+    if (!key.is_section()) row["unit"] = key.unit;
+    if (!key.fallback.empty()) row["default"] = key.fallback;
+    row["required"] = key.required;
+    if (key.range.limited()) {
+      row["lower"] = number_or_null(key.range.lower);
+      row["upper"] = number_or_null(key.range.upper);
+      row["lower_open"] = key.range.lower_open;
+      row["upper_open"] = key.range.upper_open;
+    }
+    if (!key.choices.empty()) row["choices"] = key.choice_list();
+    if (!key.word.empty()) row["word"] = key.word;
+    row["help"] = key.help;
+    if (!key.example.empty()) row["example"] = key.example;
+    row["allowed"] = case_::allowed_text(key);
+    keys.push_back(std::move(row));
+  }
+  return text_of({{"keys", keys}});
+}
+
+int or_problems(const std::function<int()>& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    Json problems = Json::array();
+    for (const Problem& p : error.problems()) {
+      problems.push_back({{"file", p.file},
+                          {"line", p.line},
+                          {"key", p.key},
+                          {"what", p.what},
+                          {"allowed", p.allowed},
+                          {"given", p.given},
+                          {"text", p.text()}});
+    }
+    fmt::print("{}", text_of({{"problems", problems}}));
+    return static_cast<int>(ExitCode::input);
+  }
+}
+
+}  // namespace breccia

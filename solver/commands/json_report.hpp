@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "case/case.hpp"
+#include "mesh/finish.hpp"
+#include "model/model.hpp"
+
+/// What `check`, `mesh` and `schema` say, for programs: one JSON object, numbers in SI, ending with a line feed.
+namespace breccia {
+
+/// title, report and advice in words, elements, nodes, joints, groups; stable_step and step, s; steps; seconds and
+/// most_seconds of one rank on this machine; memory, bytes; frames and disk, bytes, of the frames at most: measured
+/// frames of elements take less, since what repeats is compressed.
+[[nodiscard]] std::string check_json(const case_::Case& input, const Model& model);
+
+/// Division among `parts` ranks: how, imbalance, efficiency, `domains` with the loads of each, `owner` with the rank of
+/// each element in the order of ids. Throws as divide_model.
+[[nodiscard]] std::string domains_json(const case_::Case& input, const Model& model, int parts);
+
+/// Source, elements, nodes, bodies, volume and surface groups, repairs, the quality of every element in ten bins, and
+/// the report in words.
+[[nodiscard]] std::string mesh_json(const FinishedMesh& made);
+
+/// Every row of the table of keys: path, type, unit, default, required, lower, upper, choices, word, help, example,
+/// allowed in words.
+[[nodiscard]] std::string schema_json();
+
+/// Runs `work`. What is wrong with the case or the mesh is printed as {"problems": [...]} with file, line, key, what,
+/// allowed, given and text of each, and 2 returned; others go on.
+int or_problems(const std::function<int()>& work);
+
+}  // namespace breccia

@@ -1,0 +1,74 @@
+#include <gtest/gtest.h>
+
+#include <QDir>
+#include <QFile>
+#include <QTemporaryDir>
+
+#include "case/reader.hpp"
+#include "core/case_outline.hpp"
+#include "core/places.hpp"
+
+namespace breccia::gui {
+namespace {
+
+Places places_in(const QTemporaryDir& scratch) {
+  Places places;
+  places.meshes = BRECCIA_MESHES;
+  places.projects = scratch.filePath("projects");
+  places.state = scratch.filePath("state");
+  return places;
+}
+
+TEST(Templates, EachIsCopiedIntoAFolderOfItsOwnAndCanBeRead) {
+  const QTemporaryDir scratch;
+  const Places places = places_in(scratch);
+  const std::vector<Template> list = templates(places);
+  ASSERT_EQ(list.size(), 8U);
+  for (const Template& t : list) {
+    QString error;
+    const QString first = copy_template(t, places, &error), second = copy_template(t, places, &error);
+    ASSERT_FALSE(first.isEmpty()) << error.toStdString();
+    EXPECT_NE(first, second);
+    EXPECT_NO_THROW((void)case_::read_case(first.toStdString())) << first.toStdString();
+    EXPECT_TRUE(QFileInfo(first).isWritable());
+  }
+}
+
+TEST(Templates, AFolderThatCannotBeMadeIsTold) {
+  const QTemporaryDir scratch;
+  Places places = places_in(scratch);
+  QFile file(scratch.filePath("file"));
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  places.projects = file.fileName();
+  QString error;
+  EXPECT_TRUE(copy_template(templates(places).front(), places, &error).isEmpty());
+  EXPECT_TRUE(error.contains(file.fileName()));
+}
+
+TEST(RecentCases, TheNewestIsFirstAndThoseThatAreGoneAreLeftOut) {
+  const QTemporaryDir scratch;
+  const Places places = places_in(scratch);
+  const QString a = QString(BRECCIA_MESHES) + "/block_wall/case.toml",
+                b = QString(BRECCIA_MESHES) + "/bar_wave/case.toml";
+  for (const QString& file : {a, b, QString("/no/such/case.toml"), a}) remember_case(places, file);
+  EXPECT_EQ(recent_cases(places), QStringList({a, b}));
+}
+
+TEST(CaseOutline, AProblemBelongsToTheStageOfItsSection) {
+  const auto name = [](const char* path) { return work_stages()[static_cast<std::size_t>(stage_of(path))].name; };
+  EXPECT_EQ(name("material[1].young"), "Materials");
+  EXPECT_EQ(name("joint[0].softening.kind"), "Joints");
+  EXPECT_EQ(name("joints.broken"), "Joints");
+  EXPECT_EQ(name("stage[0].constraint[2].fixed"), "Loads and constraints");
+  EXPECT_EQ(name("mesh.raster.slit.lower"), "Geometry and mesh");
+  EXPECT_EQ(name("contact_points.field"), "Contacts");
+}
+
+TEST(CaseOutline, ANewEntryHasItsRequiredKeys) {
+  EXPECT_EQ(lines_of_new_entry("initial_velocity"), "group = \"projectile\"\n");
+  EXPECT_EQ(lines_of_new_entry("stage[3].constraint"), "group = \"support\"\n");
+  EXPECT_TRUE(lines_of_new_entry("material").contains("young = "));
+}
+
+}  // namespace
+}  // namespace breccia::gui

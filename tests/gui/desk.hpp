@@ -1,0 +1,90 @@
+#pragma once
+
+#include <QDir>
+#include <QElapsedTimer>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QTreeWidget>
+#include <functional>
+#include <memory>
+
+#include "widgets/main_window.hpp"
+#include "widgets/view3d.hpp"
+
+namespace breccia::gui::test {
+
+inline bool wait_until(const std::function<bool()>& ready, int ms) {
+  QElapsedTimer timer;
+  timer.start();
+  while (!ready() && timer.elapsed() < ms) QTest::qWait(20);
+  return ready();
+}
+
+/// A desktop with folders of its own, on the screen, driven by clicks and keys.
+struct Desk {
+  QTemporaryDir scratch;
+  std::unique_ptr<MainWindow> window;
+
+  Desk() { begin(); }
+  ~Desk() {
+    window->document().close();
+    if (window->run() != nullptr && window->run()->alive()) signal_session(window->run()->record().session, 9);
+  }
+
+  void begin() {
+    Places places;
+    places.launch = {BRECCIA_PROGRAM, BRECCIA_MPIEXEC};
+    places.meshes = BRECCIA_MESHES;
+    places.projects = scratch.filePath("projects");
+    places.state = scratch.filePath("state");
+    window = std::make_unique<MainWindow>(places);
+    window->resize(1280, 800);
+    window->show();
+    (void)QTest::qWaitForWindowExposed(window.get());
+    window->activateWindow();  // fields take over what was typed when they lose the focus
+    (void)QTest::qWaitForWindowActive(window.get());
+  }
+
+  template <class Widget>
+  Widget* find(const QString& name) {
+    auto* found = window->findChild<Widget*>(name);
+    if (found == nullptr) throw std::runtime_error("no widget " + name.toStdString());
+    return found;
+  }
+
+  void click(const QString& name) {
+    auto* widget = find<QWidget>(name);
+    QTest::mouseClick(widget, Qt::LeftButton);
+  }
+
+  /// A click on the line of the tree of stages whose text begins so.
+  void click_stage(const QString& text) {
+    auto* tree = find<QTreeWidget>("stages");
+    for (QTreeWidgetItemIterator it(tree); *it != nullptr; ++it) {
+      if (!(*it)->text(0).startsWith(text)) continue;
+      tree->scrollToItem(*it);
+      QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, tree->visualItemRect(*it).center());
+      return;
+    }
+    throw std::runtime_error("no stage " + text.toStdString());
+  }
+
+  /// Types into a field and leaves it.
+  void type(const QString& field, const QString& text) {
+    auto* widget = find<QWidget>(field);
+    widget->setFocus();
+    QTest::keyClick(widget, Qt::Key_A, Qt::ControlModifier);
+    QTest::keyClick(widget, Qt::Key_Delete);
+    QTest::keyClicks(widget, text);
+    QTest::keyClick(widget, Qt::Key_Tab);
+  }
+
+  /// A picture of the window, kept where BRECCIA_SCREENSHOTS says.
+  void picture(const QString& name) {
+    const QString folder = qEnvironmentVariable("BRECCIA_SCREENSHOTS");
+    QTest::qWait(100);
+    if (!folder.isEmpty() && QDir().mkpath(folder)) window->grab().save(QDir(folder).filePath(name + ".png"));
+  }
+};
+
+}  // namespace breccia::gui::test

@@ -1,0 +1,183 @@
+#include "core/document.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <QCoreApplication>
+#include <QDirIterator>
+#include <QElapsedTimer>
+#include <QFile>
+#include <QTemporaryDir>
+#include <random>
+
+#include "case/reader.hpp"
+#include "case/schema.hpp"
+
+namespace breccia::gui {
+namespace {
+
+QByteArray bytes_of(const QString& file) {
+  QFile in(file);
+  return in.open(QIODevice::ReadOnly) ? in.readAll() : QByteArray("unreadable");
+}
+
+QStringList shipped_cases() {
+  QStringList found;
+  QDirIterator it(BRECCIA_MESHES, {"*.toml"}, QDir::Files, QDirIterator::Subdirectories);
+  while (it.hasNext()) found << it.next();
+  found.sort();
+  return found;
+}
+
+void let_events_run(int ms) {
+  QElapsedTimer timer;
+  timer.start();
+  while (timer.elapsed() < ms) QCoreApplication::processEvents(QEventLoop::AllEvents, 10);
+}
+
+TEST(Document, EveryShippedCaseIsSavedByteForByte) {
+  const QTemporaryDir scratch;
+  ASSERT_GT(shipped_cases().size(), 20);
+  for (const QString& file : shipped_cases()) {
+    Document document(scratch.filePath("state"));
+    ASSERT_EQ(document.open(file), "");
+    EXPECT_TRUE(document.editable_as_text());
+    EXPECT_TRUE(document.problems().empty()) << file.toStdString() << "\n" << document.problems().front().text();
+    ASSERT_EQ(document.save_as(scratch.filePath("copy.toml")), "");
+    EXPECT_EQ(bytes_of(scratch.filePath("copy.toml")), bytes_of(file)) << file.toStdString();
+  }
+}
+
+/// One edit of some kind at some place.
+void edit(Document& document, std::mt19937& random) {
+  const auto any = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+  const auto& all = document.places().all();
+  const std::string path = all.empty() ? "title" : all[any(all.size())].path;
+  switch (any(5)) {
+    case 0:
+      document.remove(QString::fromStdString(path));
+      break;
+    case 1:
+      document.add_entry("material", QString("group = \"g%1\"\n").arg(random() % 100));
+      break;
+    case 2: {
+      QByteArray text = document.text();
+      const auto at = static_cast<int>(any(static_cast<std::size_t>(text.size()) + 1));
+      document.set_text(text.insert(at, QByteArray("#x\n[q] =\"").left(static_cast<int>(any(9)) + 1)));
+      break;
+    }
+    default:
+      document.set_value(QString::fromStdString(any(4) == 0 ? path + ".new" : path),
+                         QString("\"%1 mm\"").arg(random() % 1000));
+  }
+}
+
+TEST(Document, TwoHundredRandomEditsAndTheirUndosGiveBackTheFile) {
+  const QTemporaryDir scratch;
+  std::mt19937 random(7);
+  for (const QString& file : shipped_cases()) {
+    Document document(scratch.filePath("state"));
+    ASSERT_EQ(document.open(file), "");
+    const QByteArray before = document.text();
+    for (int i = 0; i < 200; ++i) edit(document, random);
+    const QByteArray after = document.text();
+    EXPECT_NE(after, before);
+    while (document.undo_stack().canUndo()) document.undo_stack().undo();
+    ASSERT_EQ(document.text(), before) << file.toStdString();
+    while (document.undo_stack().canRedo()) document.undo_stack().redo();
+    ASSERT_EQ(document.text(), after) << file.toStdString();
+  }
+}
+
+TEST(Document, LettersTypedOneBehindTheOtherAreOneStep) {
+  const QTemporaryDir scratch;
+  Document document(scratch.filePath("state"));
+  ASSERT_EQ(document.open(shipped_cases().front()), "");
+  QByteArray text = document.text();
+  for (const char c : std::string("# why")) document.set_text(text.append(c));
+  EXPECT_EQ(document.undo_stack().count(), 1);
+}
+
+TEST(Document, SaysWhatTheReaderSaysWithTheSameWords) {
+  const QTemporaryDir scratch;
+  Document document(scratch.filePath("state"));
+  ASSERT_EQ(document.open(QString(BRECCIA_MESHES) + "/block_wall/case.toml"), "");
+  document.set_value("material[0].poisson", "0.7");
+  document.set_value("time.safty", "0.5");
+  ASSERT_EQ(document.save_as(scratch.filePath("wrong.toml")), "");
+  std::vector<std::string> told, expected;
+  for (const Problem& p : document.problems()) told.push_back(p.text());
+  try {
+    (void)case_::read_case(scratch.filePath("wrong.toml").toStdString());
+  } catch (const InputError& error) {
+    for (const Problem& p : error.problems()) expected.push_back(p.text());
+  }
+  EXPECT_GE(told.size(), 2U);
+  EXPECT_EQ(told, expected);
+}
+
+TEST(Document, TextThatCannotBeShownExactlyIsNotEditedAsText) {
+  const QTemporaryDir scratch;
+  QFile file(scratch.filePath("latin1.toml"));
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  file.write("title = \"caf\xe9\"\n");
+  file.close();
+  Document document(scratch.filePath("state"));
+  ASSERT_EQ(document.open(file.fileName()), "");
+  EXPECT_FALSE(document.editable_as_text());
+  document.set_value("mesh.file", "\"a.geo\"");
+  ASSERT_EQ(document.save(), "");
+  EXPECT_EQ(bytes_of(file.fileName()), QByteArray("title = \"caf\xe9\"\n\n[mesh]\nfile = \"a.geo\"\n"));
+}
+
+TEST(Document, AFileThatIsNotThereIsTold) {
+  const QTemporaryDir scratch;
+  Document document(scratch.filePath("state"));
+  EXPECT_NE(document.open(scratch.filePath("none.toml")), "");
+  EXPECT_FALSE(document.is_open());
+}
+
+TEST(Document, EditsThatAreTwoSecondsOldSurviveAKill) {
+  const QTemporaryDir scratch;
+  const QString file = scratch.filePath("case.toml"), state = scratch.filePath("state");
+  ASSERT_TRUE(QFile::copy(QString(BRECCIA_MESHES) + "/block_wall/case.toml", file));
+  const pid_t child = ::fork();
+  if (child == 0) {
+    Document document(state);
+    if (!document.open(file).isEmpty()) ::_exit(1);
+    document.set_value("material[0].young", "\"31 GPa\"");
+    let_events_run(2000);
+    ::kill(::getpid(), SIGKILL);
+  }
+  ::waitpid(child, nullptr, 0);
+  const std::vector<Recovery> found = Document::recoveries(state);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].file, file);
+  Document document(state);
+  document.recover(found[0]);
+  EXPECT_EQ(document.value("material[0].young"), "\"31 GPa\"");
+  EXPECT_TRUE(document.modified());
+  document.undo_stack().undo();
+  EXPECT_EQ(document.text(), bytes_of(file));
+  document.close();
+  EXPECT_TRUE(Document::recoveries(state).empty());
+}
+
+TEST(Document, ASavedCaseLeavesNoSnapshot) {
+  const QTemporaryDir scratch;
+  const QString file = scratch.filePath("case.toml");
+  ASSERT_TRUE(QFile::copy(QString(BRECCIA_MESHES) + "/block_wall/case.toml", file));
+  Document document(scratch.filePath("state"));
+  ASSERT_EQ(document.open(file), "");
+  document.set_value("material[0].young", "\"31 GPa\"");
+  let_events_run(Document::kAutosaveDelay + 300);
+  EXPECT_EQ(QDir(scratch.filePath("state")).entryList({"unsaved-*"}).size(), 1);
+  ASSERT_EQ(document.save(), "");
+  EXPECT_FALSE(document.modified());
+  EXPECT_TRUE(QDir(scratch.filePath("state")).entryList({"unsaved-*"}).isEmpty());
+}
+
+}  // namespace
+}  // namespace breccia::gui

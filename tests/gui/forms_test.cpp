@@ -1,0 +1,174 @@
+#include <gtest/gtest.h>
+
+#include <QAbstractButton>
+#include <QAbstractScrollArea>
+#include <QDirIterator>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QMenu>
+#include <QPlainTextEdit>
+#include <QSet>
+
+#include "case/schema.hpp"
+#include "core/case_outline.hpp"
+#include "core/value_text.hpp"
+#include "gui/desk.hpp"
+
+namespace breccia::gui::test {
+namespace {
+
+/// A case that has something in every section of the table of keys; it need not run.
+QString everything(const QTemporaryDir& scratch) {
+  const QString file = scratch.filePath("everything.toml");
+  QFile out(file);
+  if (!out.open(QIODevice::WriteOnly)) return {};
+  for (const case_::Key& key : case_::schema()) {
+    if (key.path.starts_with('<')) continue;
+    if (key.is_section()) {
+      out.write(("\n" + case_::header_of(key) + "\n").c_str());
+    } else {
+      out.write((std::string(key.name()) + " = " + std::string(key.example) + "\n").c_str());
+    }
+  }
+  return file;
+}
+
+TEST(Forms, EverySectionOfTheSchemaIsInAStage) {
+  for (const case_::Key& key : case_::schema()) {
+    if (!key.is_section() || key.path.starts_with('<')) continue;
+    const std::string section(key.path);
+    bool found = false;
+    for (const WorkStage& stage : work_stages())
+      for (const std::string& own : stage.sections) found = found || own == section;
+    EXPECT_TRUE(found) << section;
+  }
+}
+
+TEST(Forms, EveryKeyOfTheSchemaHasItsFieldWithTheValueOfTheCase) {
+  Desk desk;
+  desk.window->open_path(everything(desk.scratch));
+  const Document& document = desk.window->document();
+  auto* tree = desk.find<QTreeWidget>("stages");
+  QSet<QString> seen;
+  for (QTreeWidgetItemIterator it(tree); *it != nullptr; ++it) {
+    tree->setCurrentItem(*it);
+    for (QWidget* field : desk.window->findChildren<QWidget*>()) {
+      if (!field->objectName().startsWith("field:")) continue;
+      const QString path = field->objectName().mid(6);
+      seen << QString::fromStdString(case_::pattern_of(path.toStdString()));
+      if (auto* line = qobject_cast<QLineEdit*>(field)) {
+        EXPECT_EQ(line->text(), shown_value(case_::key_of(case_::pattern_of(path.toStdString())), document.value(path)))
+            << path.toStdString();
+      }
+    }
+  }
+  for (const case_::Key& key : case_::schema()) {
+    if (key.is_section() || key.path.starts_with('<')) continue;
+    EXPECT_TRUE(seen.contains(QString::fromUtf8(key.path.data(), static_cast<int>(key.path.size())))) << key.path;
+  }
+}
+
+TEST(Forms, EveryShippedCaseOpensAndLookingAtItChangesNothing) {
+  Desk desk;
+  QDirIterator files(BRECCIA_MESHES, {"*.toml"}, QDir::Files, QDirIterator::Subdirectories);
+  int cases = 0;
+  while (files.hasNext()) {
+    const QString file = files.next();
+    desk.window->open_path(file);
+    const QByteArray before = desk.window->document().text();
+    auto* tree = desk.find<QTreeWidget>("stages");
+    for (QTreeWidgetItemIterator it(tree); *it != nullptr; ++it) {
+      tree->setCurrentItem(*it);
+      for (auto* line : desk.window->findChildren<QLineEdit*>())
+        if (line->objectName().startsWith("field:")) emit line->editingFinished();
+    }
+    EXPECT_EQ(desk.window->document().text(), before) << file.toStdString();
+    EXPECT_FALSE(desk.window->document().modified()) << file.toStdString();
+    EXPECT_EQ(desk.find<QListWidget>("problems")->count(), 0) << file.toStdString();
+    ++cases;
+  }
+  EXPECT_GT(cases, 20);
+}
+
+TEST(Forms, TextAndFormFollowEachOther) {
+  Desk desk;
+  desk.window->open_path(everything(desk.scratch));
+  auto* text = desk.find<QPlainTextEdit>("case_text");
+  auto* tree = desk.find<QTreeWidget>("stages");
+  tree->setCurrentItem(tree->topLevelItem(1)->child(0));
+  desk.type("field:material[0].young", "12 GPa");
+  EXPECT_TRUE(text->toPlainText().contains("young = \"12 GPa\""));
+  QString changed = text->toPlainText();
+  changed.replace("12 GPa", "13 GPa");
+  text->setPlainText(changed);
+  EXPECT_EQ(desk.find<QLineEdit>("field:material[0].young")->text(), "13 GPa");
+  desk.type("field:material[0].young", "");
+  EXPECT_FALSE(text->toPlainText().contains("13 GPa"));
+}
+
+TEST(Forms, AnEntryIsAddedAndRemoved) {
+  Desk desk;
+  desk.window->open_path(everything(desk.scratch));
+  auto* tree = desk.find<QTreeWidget>("stages");
+  const QByteArray before = desk.window->document().text();
+  tree->setCurrentItem(tree->topLevelItem(1)->child(0));
+  desk.window->document().add_entry("material", lines_of_new_entry("material"));
+  EXPECT_EQ(tree->topLevelItem(1)->childCount(), 2);
+  tree->setCurrentItem(tree->topLevelItem(1)->child(1));
+  desk.click("remove_entry");
+  EXPECT_EQ(tree->topLevelItem(1)->childCount(), 1);
+  while (desk.window->document().undo_stack().canUndo()) desk.window->document().undo_stack().undo();
+  EXPECT_EQ(desk.window->document().text(), before);
+}
+
+/// What can get the focus by Tab and is no part inside another widget.
+bool counts(const QWidget& widget) {
+  if ((widget.focusPolicy() & Qt::TabFocus) == 0 || !widget.isVisible()) return false;
+  if (widget.objectName().startsWith("qt_")) return false;
+  for (const QWidget* up = widget.parentWidget(); up != nullptr; up = up->parentWidget())
+    if (up->inherits("QComboBox") || up->inherits("QAbstractSpinBox") || up->inherits("QAbstractItemView") ||
+        up->inherits("QTabBar"))
+      return false;
+  return !widget.inherits("QTabBar") && !widget.inherits("QMenuBar");
+}
+
+TEST(Accessibility, EveryWidgetThatTakesTheFocusHasANameAndATooltipAndIsReachedByTab) {
+  Desk desk;
+  desk.window->open_path(everything(desk.scratch));
+  auto* tree = desk.find<QTreeWidget>("stages");
+  int seen = 0;
+  for (QTreeWidgetItemIterator it(tree); *it != nullptr; ++it) {
+    tree->setCurrentItem(*it);
+    QTest::qWait(1);
+    QSet<const QWidget*> reached;
+    for (const QWidget* w = desk.window->nextInFocusChain(); w != desk.window.get(); w = w->nextInFocusChain())
+      reached << w;
+    for (const QWidget* widget : desk.window->findChildren<QWidget*>()) {
+      if (!counts(*widget)) continue;
+      const std::string who = std::string(widget->metaObject()->className()) + " " + widget->objectName().toStdString();
+      EXPECT_FALSE(widget->accessibleName().isEmpty()) << who;
+      EXPECT_FALSE(widget->toolTip().isEmpty()) << who;
+      EXPECT_TRUE(reached.contains(widget)) << who;
+      if (widget->objectName().startsWith("field:")) {
+        EXPECT_TRUE(widget->toolTip().contains("Unit:")) << who;
+      }
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 200);
+}
+
+TEST(Forms, AnsweringAnEditTakesLessThanATenthOfASecond) {
+  Desk desk;
+  desk.window->open_path(QString(BRECCIA_MESHES) + "/glass_impact/case.toml");
+  constexpr int kEdits = 20;
+  constexpr qint64 kMost = 100;  // ms, mean of an edit with all that follows it
+  QElapsedTimer timer;
+  timer.start();
+  for (int i = 0; i < kEdits; ++i)
+    desk.window->document().set_value("material[0].young", QString("\"%1 GPa\"").arg(60 + i));
+  EXPECT_LT(timer.elapsed() / kEdits, kMost);
+}
+
+}  // namespace
+}  // namespace breccia::gui::test

@@ -1,0 +1,89 @@
+#include "core/run_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <QDir>
+#include <QFile>
+#include <QTemporaryDir>
+#include <cmath>
+
+namespace breccia::gui {
+namespace {
+
+void append(const QString& file, const QByteArray& text) {
+  QFile out(file);
+  ASSERT_TRUE(out.open(QIODevice::Append));
+  out.write(text);
+}
+
+TEST(RunFolder, ALineThatIsHalfWrittenWaitsForItsEnd) {
+  const QTemporaryDir scratch;
+  const QString file = scratch.filePath("status.jsonl");
+  GrowingFile growing(file);
+  EXPECT_TRUE(growing.news().isEmpty());
+  append(file, "{\"state\":\"running\",\"st");
+  EXPECT_TRUE(growing.news().isEmpty());
+  append(file, "ep\":7}\n{\"state\":");
+  QList<QByteArray> lines = growing.news();
+  ASSERT_EQ(lines.size(), 1);
+  RunStatus status;
+  ASSERT_TRUE(read_status(lines[0], status));
+  EXPECT_EQ(status.step, 7);
+  append(file, "\"complete\"}\n");
+  lines = growing.news();
+  ASSERT_EQ(lines.size(), 1);
+  ASSERT_TRUE(read_status(lines[0], status));
+  EXPECT_TRUE(status.over());
+}
+
+TEST(RunFolder, AFileThatBeganAnewIsReadFromItsStart) {
+  const QTemporaryDir scratch;
+  const QString file = scratch.filePath("history.csv");
+  GrowingFile growing(file);
+  append(file, "step,time [s]\n1,2\n");
+  EXPECT_EQ(growing.news().size(), 2);
+  QFile::remove(file);
+  append(file, "a\n");
+  bool restarted = false;
+  EXPECT_EQ(growing.news(&restarted).size(), 1);
+  EXPECT_TRUE(restarted);
+}
+
+TEST(RunFolder, EventsAndRubbishAreNoStatus) {
+  RunStatus status;
+  EXPECT_FALSE(read_status("{\"event\":\"pause\",\"accepted\":true}", status));
+  EXPECT_FALSE(read_status("rubbish", status));
+  EXPECT_FALSE(read_status("", status));
+}
+
+TEST(RunFolder, AnUnknownEndIsToldFromNone) {
+  RunStatus status;
+  ASSERT_TRUE(read_status("{\"state\":\"running\",\"eta_s\":null,\"broken_joints\":12}", status));
+  EXPECT_LT(status.eta, 0);
+  EXPECT_EQ(status.broken_joints, 12);
+  ASSERT_TRUE(read_status("{\"state\":\"running\",\"eta_s\":3.5}", status));
+  EXPECT_EQ(status.eta, 3.5);
+}
+
+TEST(RunFolder, HistoryGrowsByWholeRows) {
+  History history;
+  for (const char* line : {"step,time [s],kinetic [J]", "0,0,1.5", "1,1e-6", "2,2e-6,nan"}) history.add_line(line);
+  EXPECT_EQ(history.rows(), 2);
+  EXPECT_EQ(history.column("kinetic [J]"), 2);
+  EXPECT_EQ(history.values(2)[0], 1.5);
+  EXPECT_TRUE(std::isnan(history.values(2)[1]));
+}
+
+TEST(RunFolder, FramesWhoseFileIsThereAreListed) {
+  const QTemporaryDir scratch;
+  ASSERT_TRUE(QDir(scratch.path()).mkpath("frames"));
+  append(scratch.filePath("frames/elements_000000.vtkhdf"), "x");
+  append(scratch.filePath("frames/elements.hdf.series"),
+         R"({"files":[{"name":"elements_000000.vtkhdf","time":0.5},{"name":"elements_000001.vtkhdf","time":1}]})");
+  const auto frames = read_series(scratch.path(), "elements");
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(frames[0].time, 0.5);
+}
+
+}  // namespace
+}  // namespace breccia::gui

@@ -1,0 +1,18 @@
+#include <QVTKOpenGLNativeWidget.h>
+#include <gtest/gtest.h>
+#include <vtkLogger.h>
+
+#include <QApplication>
+#include <QSurfaceFormat>
+#include <clocale>
+
+#include "widgets/theme.hpp"
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
+  const QApplication application(argc, argv);
+  std::setlocale(LC_NUMERIC, "C");
+  breccia::gui::apply_theme(false);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,85 @@
+#include "commands/json_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "case/schema.hpp"
+#include "unit/case/case_files.hpp"
+
+namespace breccia {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string kCubes = R"(title = "cubes"
+[mesh.raster]
+cells = [2, 2, 2]
+cell_size = "10 mm"
+group = "cubes"
+[[material]]
+group = "cubes"
+young = "40 GPa"
+poisson = 0.2
+density = 2400
+[[joint]]
+group = "cubes"
+tensile_strength = "5 MPa"
+energy_mode_1 = "100 J/m2"
+[[stage]]
+end = "1 us"
+[output]
+frame_interval = "250 ns"
+)";
+
+constexpr int kElements = 8 * 24;
+
+TEST(JsonReport, check_tells_what_a_run_takes) {
+  const case_::Case input = case_::read_text(kCubes);
+  const Json json = Json::parse(check_json(input, build_model(input)));
+  EXPECT_EQ(json["title"], "cubes");
+  EXPECT_EQ(json["elements"], kElements);
+  EXPECT_EQ(json["groups"]["volumes"][0]["name"], "cubes");
+  EXPECT_EQ(json["frames"], 5);
+  EXPECT_DOUBLE_EQ(json["step"], 0.8 * json["stable_step"].get<double>());
+  EXPECT_EQ(json["steps"].get<double>(), std::ceil(1e-6 / json["step"].get<double>()));
+  EXPECT_GT(json["seconds"], 0);
+  EXPECT_GE(json["most_seconds"], json["seconds"]);
+}
+
+TEST(JsonReport, every_element_has_one_owner_among_the_ranks) {
+  const case_::Case input = case_::read_text(kCubes);
+  const Json json = Json::parse(domains_json(input, build_bare_model(input), 3));
+  std::vector<int> counted(3);
+  for (const int rank : json["owner"]) ++counted.at(static_cast<std::size_t>(rank));
+  for (std::size_t d = 0; d < 3; ++d) EXPECT_EQ(json["domains"][d]["elements"], counted[d]);
+  EXPECT_EQ(counted[0] + counted[1] + counted[2], kElements);
+}
+
+TEST(JsonReport, quality_of_the_mesh_counts_every_element_once) {
+  const Json json = Json::parse(mesh_json(build_mesh(case_::read_text(kCubes))));
+  int sum = 0;
+  for (const int n : json["quality"]) sum += n;
+  EXPECT_EQ(sum, kElements);
+}
+
+TEST(JsonReport, every_key_of_the_schema_has_its_row) {
+  const Json json = Json::parse(schema_json());
+  ASSERT_EQ(json["keys"].size(), case_::schema().size());
+  for (std::size_t i = 0; i < case_::schema().size(); ++i) EXPECT_EQ(json["keys"][i]["path"], case_::schema()[i].path);
+}
+
+TEST(JsonReport, problems_of_the_case_are_printed_and_end_with_two) {
+  testing::internal::CaptureStdout();
+  const int code = or_problems([]() -> int {
+    throw InputError({"a.toml", 3, "time.step", "is wrong", "more", "less"});
+  });
+  const Json json = Json::parse(testing::internal::GetCapturedStdout());
+  EXPECT_EQ(code, 2);
+  EXPECT_EQ(json["problems"][0]["line"], 3);
+  EXPECT_EQ(json["problems"][0]["text"], "a.toml:3: time.step: is wrong; allowed: more; given: less");
+}
+
+}  // namespace
+}  // namespace breccia
