@@ -2,53 +2,108 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace breccia {
+namespace {
 
-Constraints::Constraints(const std::vector<NodalConstraint>& entries, const LocalMesh& mesh, const NodalState& state) {
+bool is_still(PrescribedMotion kind, const TimeFunction& value) {
+  return kind == PrescribedMotion::velocity && value.is_zero();
+}
+
+}  // namespace
+
+bool holds_still(const NodalConstraint& entry) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (entry.axes[axis] && !is_still(entry.kind, entry.value[axis])) return false;
+  }
+  return true;
+}
+
+Constraints::Constraints(const std::vector<NodalConstraint>& entries, const LocalMesh& mesh, const NodalState& state,
+                         double mass_damping)
+    : mesh_(&mesh), mass_damping_(mass_damping) {
   std::map<Index, std::array<std::size_t, 3>> ruler;  // 1 + entry that rules an axis of a node
   for (std::size_t e = 0; e < entries.size(); ++e) {
-    entries_.push_back({entries[e].kind, entries[e].value, {}});
-    for (const Index node : entries[e].nodes) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (entries[e].axes[axis]) ruler[node][axis] = e + 1;
-      }
+    const NodalConstraint& given = entries[e];
+    Entry& entry = entries_.emplace_back(Entry{given.kind, given.value, {}});
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!given.axes[axis]) continue;
+      entry.holds.push_back({static_cast<int>(axis), is_still(given.kind, given.value[axis]), false, {}, {}, {}, {}});
+      for (const Index node : given.nodes) ruler[node][axis] = e + 1;
     }
   }
   for (const auto& [node, rules] : ruler) {
+    nodes_.push_back(node);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (rules[axis] == 0) continue;
+      std::vector<Hold>& holds = entries_[rules[axis] - 1].holds;
+      Hold& hold =
+          *std::find_if(holds.begin(), holds.end(), [&](const Hold& h) { return h.axis == static_cast<int>(axis); });
       const std::size_t at = nodal(node, static_cast<int>(axis));
-      entries_[rules[axis] - 1].holds.push_back({node, static_cast<int>(axis), state.position[at], state.velocity[at],
-                                                 0.0, mesh.counted[static_cast<std::size_t>(node)] != 0});
+      hold.nodes.push_back(node);
+      hold.start.push_back(state.position[at]);
+      hold.velocity.push_back(state.velocity[at]);
+      hold.free.push_back(state.velocity[at]);
     }
   }
 }
 
-void Constraints::apply(const LocalMesh& mesh, NodalState& state, double time, double dt_before, double dt) {
+bool Constraints::counts(Index node) const { return mesh_->counted[static_cast<std::size_t>(node)] != 0; }
+
+double Constraints::reaction_of(const Hold& hold, std::size_t k) const {
+  if (dt_ == 0) return 0.0;
+  const double mass = mesh_->node_mass[static_cast<std::size_t>(hold.nodes[k])];
+  return (1.0 + 0.5 * mass_damping_ * dt_) * (mass * (hold.velocity[k] - hold.free[k]) / dt_);
+}
+
+void Constraints::apply(NodalState& state, double time, double dt_before, double dt) {
+  dt_ = dt;
   for (Entry& entry : entries_) {
-    const bool displacement = entry.kind == PrescribedMotion::displacement;
-    const double when = displacement ? time + dt : time + 0.5 * dt;
-    const std::array<double, 3> target{entry.value[0](when), entry.value[1](when), entry.value[2](when)};
     for (Hold& hold : entry.holds) {
-      const std::size_t at = nodal(hold.node, hold.axis);
-      const auto axis = static_cast<std::size_t>(hold.axis);
-      const double x = state.position[at];
-      const double v = displacement ? (target[axis] - (x - hold.start)) / dt : target[axis];
-      hold.reaction = mesh.node_mass[static_cast<std::size_t>(hold.node)] * (v - state.velocity[at]) / dt;
-      if (hold.counted) work_.add_before(hold.reaction * hold.velocity, dt_before);
-      hold.velocity = v;
-      state.velocity[at] = v;
-      state.next_position[at] = x + dt * v;
+      if (hold.rests) {
+        apply_still(hold, state);
+      } else {
+        apply_moving(entry, hold, state, time, dt_before, dt);
+        hold.rests = hold.still;
+      }
     }
+  }
+}
+
+void Constraints::apply_still(Hold& hold, NodalState& state) const {
+  for (std::size_t k = 0; k < hold.nodes.size(); ++k) {
+    const std::size_t at = nodal(hold.nodes[k], hold.axis);
+    hold.free[k] = state.velocity[at];
+    state.velocity[at] = 0.0;
+    state.next_position[at] = state.position[at] + 0.0;  // the bits of x + dt v: never -0
+  }
+}
+
+void Constraints::apply_moving(const Entry& entry, Hold& hold, NodalState& state, double time, double dt_before,
+                               double dt) {
+  const bool displacement = entry.kind == PrescribedMotion::displacement;
+  const double target = entry.value[static_cast<std::size_t>(hold.axis)](displacement ? time + dt : time + 0.5 * dt);
+  for (std::size_t k = 0; k < hold.nodes.size(); ++k) {
+    const std::size_t at = nodal(hold.nodes[k], hold.axis);
+    const double x = state.position[at];
+    const double before = hold.velocity[k], v = displacement ? (target - (x - hold.start[k])) / dt : target;
+    hold.free[k] = state.velocity[at];
+    hold.velocity[k] = v;
+    if (counts(hold.nodes[k])) work_.add_before(reaction_of(hold, k) * before, dt_before);
+    state.velocity[at] = v;
+    state.next_position[at] = x + dt * v;
   }
 }
 
 void Constraints::book_after(double dt) {
   for (const Entry& entry : entries_) {
     for (const Hold& hold : entry.holds) {
-      if (hold.counted) work_.add_after(hold.reaction * hold.velocity, dt);
+      if (hold.still) continue;
+      for (std::size_t k = 0; k < hold.nodes.size(); ++k) {
+        if (counts(hold.nodes[k])) work_.add_after(reaction_of(hold, k) * hold.velocity[k], dt);
+      }
     }
   }
 }
@@ -56,7 +111,22 @@ void Constraints::book_after(double dt) {
 std::array<ExactSum, 3> Constraints::reaction(std::size_t entry) const {
   std::array<ExactSum, 3> sum;
   for (const Hold& hold : entries_[entry].holds) {
-    if (hold.counted) sum[static_cast<std::size_t>(hold.axis)].add(hold.reaction);
+    for (std::size_t k = 0; k < hold.nodes.size(); ++k) {
+      if (counts(hold.nodes[k])) sum[static_cast<std::size_t>(hold.axis)].add(reaction_of(hold, k));
+    }
+  }
+  return sum;
+}
+
+std::array<ExactSum, 3> Constraints::reaction_on(std::span<const Index> nodes) const {
+  std::array<ExactSum, 3> sum;
+  for (const Entry& entry : entries_) {
+    for (const Hold& hold : entry.holds) {
+      for (std::size_t k = 0; k < hold.nodes.size(); ++k) {
+        if (!counts(hold.nodes[k]) || !std::binary_search(nodes.begin(), nodes.end(), hold.nodes[k])) continue;
+        sum[static_cast<std::size_t>(hold.axis)].add(reaction_of(hold, k));
+      }
+    }
   }
   return sum;
 }
@@ -64,20 +134,27 @@ std::array<ExactSum, 3> Constraints::reaction(std::size_t entry) const {
 std::vector<Constraints::Anchor> Constraints::anchors() const {
   std::vector<Anchor> anchors;
   for (std::size_t e = 0; e < entries_.size(); ++e) {
-    for (const Hold& h : entries_[e].holds) anchors.push_back({e, h.node, h.axis, h.start, h.velocity});
+    for (const Hold& h : entries_[e].holds) {
+      for (std::size_t k = 0; k < h.nodes.size(); ++k)
+        anchors.push_back({e, h.nodes[k], h.axis, h.start[k], h.velocity[k]});
+    }
   }
+  std::sort(anchors.begin(), anchors.end(), [](const Anchor& p, const Anchor& q) {
+    return std::tie(p.entry, p.node, p.axis) < std::tie(q.entry, q.node, q.axis);
+  });
   return anchors;
 }
 
 void Constraints::restore(std::span<const Anchor> anchors) {
-  const auto place = [](const auto& h) { return std::pair(h.node, h.axis); };
   for (const Anchor& anchor : anchors) {
-    std::vector<Hold>& holds = entries_[anchor.entry].holds;
-    const auto found = std::lower_bound(holds.begin(), holds.end(), place(anchor),
-                                        [&](const Hold& h, const auto& wanted) { return place(h) < wanted; });
-    if (found == holds.end() || place(*found) != place(anchor)) continue;
-    found->start = anchor.start;
-    found->velocity = anchor.velocity;
+    for (Hold& hold : entries_[anchor.entry].holds) {
+      if (hold.axis != anchor.axis) continue;
+      const auto found = std::lower_bound(hold.nodes.begin(), hold.nodes.end(), anchor.node);
+      if (found == hold.nodes.end() || *found != anchor.node) continue;
+      const auto k = static_cast<std::size_t>(found - hold.nodes.begin());
+      hold.start[k] = anchor.start;
+      hold.velocity[k] = anchor.velocity;
+    }
   }
 }
 

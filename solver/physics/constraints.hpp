@@ -31,19 +31,25 @@ struct NodalConstraint {
 /// counts once.
 ///
 /// In a step: `apply` right after the sweep, `book_after` when the works up to t_n have been read. O(constrained
-/// nodes), no allocation, throws nothing.
+/// nodes), no allocation, throws nothing. An axis held at rest does no work: of its nodes `apply` only keeps the
+/// velocity that the sweep gave them, from which the reaction is found when someone asks.
 class Constraints {
  public:
   Constraints() = default;
   /// @param state  position at the stage's start, where displacements count from; velocity of the step before it
-  Constraints(const std::vector<NodalConstraint>& entries, const LocalMesh& mesh, const NodalState& state);
+  /// @param mass_damping  alpha of the force -alpha m v that the sweep has applied, 1/s
+  /// @pre mesh outlives this object
+  Constraints(const std::vector<NodalConstraint>& entries, const LocalMesh& mesh, const NodalState& state,
+              double mass_damping = 0);
 
   /// Overwrites v(n+1/2): by the velocity asked for at t_(n+1/2), or by (u(t_(n+1)) - (x_n - x_start)) / dt, with which
-  /// positions hold to round-off; and next_position by x_n + dt v. Keeps the reactions m (v - v_free) / dt and books
-  /// their work over the step that ended at t_n.
+  /// positions hold to round-off; and next_position by x_n + dt v. Keeps the reactions
+  ///   R = m (1 + alpha dt/2) (v - v_free) / dt,
+  /// which with the damping force -alpha m (v(n-1/2) + v(n+1/2)) / 2 give the node this velocity, and books their work
+  /// over the step that ended at t_n.
   /// @param state      position at t_n, velocity and next_position as the sweep left them
   /// @param time       t_n;  @param dt_before  t_n - t_(n-1), 0 at the start;  @param dt  t_(n+1) - t_n, s
-  void apply(const LocalMesh& mesh, NodalState& state, double time, double dt_before, double dt);
+  void apply(NodalState& state, double time, double dt_before, double dt);
 
   /// Books the work of the same reactions over the step that begins at t_n.
   void book_after(double dt);
@@ -52,6 +58,8 @@ class Constraints {
   [[nodiscard]] const ExactSum& work() const { return work_.sum(); }
   /// Force of an entry on the nodes and axes it rules and this rank counts, by axis, N, at t_n. O(nodes).
   [[nodiscard]] std::array<ExactSum, 3> reaction(std::size_t entry) const;
+  /// The same of all entries on some nodes. @param nodes  ascending. O(constrained nodes log nodes)
+  [[nodiscard]] std::array<ExactSum, 3> reaction_on(std::span<const Index> nodes) const;
   /// What an entry remembers of one axis of a node.
   struct Anchor {
     std::size_t entry;
@@ -65,26 +73,41 @@ class Constraints {
   /// Takes over what was remembered elsewhere; anchors that hold nothing here are passed over. O(n log n).
   void restore(std::span<const Anchor> anchors);
 
+  /// All nodes of which some axis is held, ascending.
+  [[nodiscard]] const std::vector<Index>& nodes() const { return nodes_; }
   [[nodiscard]] std::size_t num_entries() const { return entries_.size(); }
   [[nodiscard]] bool empty() const { return entries_.empty(); }
 
  private:
-  /// One axis of one node.
+  /// The nodes that an entry rules on one axis.
   struct Hold {
-    Index node;
     int axis;
-    double start;     ///< m
-    double velocity;  ///< m/s, of the last step, on this axis
-    double reaction;  ///< N
-    bool counted;     ///< by this rank
+    bool still;                    ///< held at rest at all times
+    bool rests = false;            ///< all velocities are zero: the axis is still, and has been in the last step
+    std::vector<Index> nodes;      ///< ascending
+    std::vector<double> start;     ///< (nodes) m
+    std::vector<double> velocity;  ///< (nodes) m/s, of the last step, on this axis
+    std::vector<double> free;      ///< (nodes) m/s, as the sweep left it in the last step
   };
   struct Entry {
     PrescribedMotion kind;
     std::array<TimeFunction, 3> value;
-    std::vector<Hold> holds;  ///< ascending nodes
+    std::vector<Hold> holds;  ///< ascending axes
   };
+  void apply_still(Hold& hold, NodalState& state) const;
+  void apply_moving(const Entry& entry, Hold& hold, NodalState& state, double time, double dt_before, double dt);
+  [[nodiscard]] bool counts(Index node) const;
+  [[nodiscard]] double reaction_of(const Hold& hold, std::size_t k) const;
+
+  const LocalMesh* mesh_ = nullptr;
   std::vector<Entry> entries_;
+  std::vector<Index> nodes_;
+  double mass_damping_ = 0;
+  double dt_ = 0;  ///< s, of the last step
   WorkSum work_;
 };
+
+/// True where the entry leaves every node at rest on the axes that it names, at all times.
+[[nodiscard]] bool holds_still(const NodalConstraint& entry);
 
 }  // namespace breccia

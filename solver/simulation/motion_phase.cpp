@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <set>
 #include <span>
 #include <string>
 
@@ -206,18 +205,10 @@ Vec3 damping_force(const SweepArgs& args, const Vec3& before, const Vec3& after,
   return force;
 }
 
-/// Calls visit(node) for the nodes of all constraints in turn.
-template <class Visit>
-void for_each_held_node(const Domain& domain, Visit&& visit) {
-  for (const NodalConstraint& entry : domain.state.loads.constraints) {
-    for (const Index node : entry.nodes) visit(node);
-  }
-}
-
 std::vector<Vec3> held_velocities(const Domain& domain) {
   std::vector<Vec3> velocities;
-  for_each_held_node(domain,
-                     [&](Index node) { velocities.push_back(load_node(domain.state.nodes.velocity.data(), node)); });
+  for (const Index node : domain.state.constraints.nodes())
+    velocities.push_back(load_node(domain.state.nodes.velocity.data(), node));
   return velocities;
 }
 
@@ -225,18 +216,20 @@ bool accounts_damping(const SweepArgs& args) {
   return args.damping_after != nullptr && (args.mass_damping > 0 || args.local_damping > 0);
 }
 
-/// The sweep accounted the damping of held nodes with the velocities they would have had; @param free  those
+/// The sweep accounted the damping of held nodes with the velocities they would have had; @param free  those. What it
+/// damps is their mean velocity as they are held.
 void account_held_damping(const SweepArgs& args, const std::vector<Vec3>& free, Domain& domain) {
-  std::set<Index> done;
-  std::size_t i = 0;
-  for_each_held_node(domain, [&](Index node) {
-    const Vec3 held = load_node(domain.state.nodes.velocity.data(), node);
-    const Vec3 force =
-        damping_force(args, domain.scratch.held_before[i], free[i], domain.model.local.node_mass[at(node)]);
-    // A node that two entries hold is met twice: what is final after the first visit changes nothing at the second.
-    if (done.insert(node).second) args.damping_after[at(node)] += 0.5 * args.dt * force.dot(free[i] - held);
-    ++i;
-  });
+  const std::vector<Index>& nodes = domain.state.constraints.nodes();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const std::size_t node = at(nodes[i]);
+    const Vec3 held = load_node(domain.state.nodes.velocity.data(), nodes[i]);
+    const Vec3& before = domain.scratch.held_before[i];
+    const double mass = domain.model.local.node_mass[node];
+    const Vec3 change = 0.5 * args.mass_damping * mass * (free[i] - held);  // of the force
+    const Vec3 force = damping_force(args, before, free[i], mass);
+    args.damping_before[node] -= 0.5 * domain.state.clock.dt_before * change.dot(before);
+    args.damping_after[node] += 0.5 * args.dt * (force.dot(free[i] - held) - change.dot(held));
+  }
 }
 
 void constrain(const SweepArgs& args, Domain& domain) {
@@ -245,13 +238,16 @@ void constrain(const SweepArgs& args, Domain& domain) {
   const auto lap = domain.timer.measure(Phase::loads);
   const bool damped = accounts_damping(args);
   const std::vector<Vec3> free = damped ? held_velocities(domain) : std::vector<Vec3>{};
-  state.constraints.apply(domain.model.local, state.nodes, state.clock.time, state.clock.dt_before, state.clock.dt);
+  state.constraints.apply(state.nodes, state.clock.time, state.clock.dt_before, state.clock.dt);
   if (damped) account_held_damping(args, free, domain);
   double& max_speed = state.signals.max_speed;
-  for_each_held_node(domain, [&](Index node) {
-    if (domain.model.local.counted[at(node)] == 0) return;
-    max_speed = std::max(max_speed, load_node(state.nodes.velocity.data(), node).norm());
-  });
+  for (const NodalConstraint& entry : state.loads.constraints) {
+    if (holds_still(entry)) continue;  // slower than the sweep left them
+    for (const Index node : entry.nodes) {
+      if (domain.model.local.counted[at(node)] == 0) continue;
+      max_speed = std::max(max_speed, load_node(state.nodes.velocity.data(), node).norm());
+    }
+  }
 }
 
 /// Padding stays where it is; work of the halves after t_n with the velocities as constraints left them.

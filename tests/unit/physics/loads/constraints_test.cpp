@@ -30,7 +30,7 @@ TEST(Constraints, PrescribeTheVelocityOfTheStepsMiddle) {
       model.local, model.state);
   const double y = model.state.position[nodal(node, 1)];
   drift(model, 0.5);
-  constraints.apply(model.local, model.state, 1.0, 0.5, 0.5);
+  constraints.apply(model.state, 1.0, 0.5, 0.5);
   EXPECT_EQ(model.state.velocity[nodal(node, 1)], 4.0 * 1.25);
   EXPECT_EQ(model.state.next_position[nodal(node, 1)], y + 0.5 * 5.0);
   EXPECT_EQ(model.state.velocity[nodal(node, 0)], 0.0);
@@ -47,7 +47,7 @@ TEST(Constraints, HoldPrescribedDisplacementsFromTheStagesStart) {
   constexpr double kStep = 0.01;
   for (int step = 0; step < 100; ++step) {
     drift(model, kStep);
-    constraints.apply(model.local, model.state, step * kStep, kStep, kStep);
+    constraints.apply(model.state, step * kStep, kStep, kStep);
     std::swap(model.state.position, model.state.next_position);
     const double time = (step + 1) * kStep;
     EXPECT_NEAR(model.state.position[nodal(node, 0)], 10 + sine(time), 10 * kRounding);
@@ -63,9 +63,54 @@ TEST(Constraints, ReactionIsTheForceThatChangedTheVelocity) {
   Constraints constraints({{{nodes[0], nodes[3]}, {true, true, true}, PrescribedMotion::velocity, {}}}, model.local,
                           model.state);
   for (const Index n : nodes) store_node(model.state.velocity.data(), n, Vec3(1, 0, -2));
-  constraints.apply(model.local, model.state, 0.0, 0.0, 0.1);
+  constraints.apply(model.state, 0.0, 0.0, 0.1);
   EXPECT_LT((test::value_of(constraints.reaction(0)) - 2 * node_mass / 0.1 * Vec3(-1, 0, 2)).norm(),
             kRounding * 2 * node_mass / 0.1);
+}
+
+TEST(Constraints, ReactAgainstMassDampingToo) {
+  Model model = lone_tetrahedron();
+  const Index node = model.real_nodes()[0];
+  const double mass = model.local.node_mass[test::at(node)];
+  constexpr double kDamping = 6, kStep = 0.1, kHalf = 0.5 * kDamping * kStep;
+  Constraints constraints({{{node}, {true, false, false}, PrescribedMotion::velocity, {in_time(2), {}, {}}}},
+                          model.local, model.state, kDamping);
+  const double before = 5, free = before * (1 - kHalf) / (1 + kHalf);  // of a damped node without forces
+  store_node(model.state.velocity.data(), node, Vec3(free, 0, 0));
+  constraints.apply(model.state, 0.0, 0.0, kStep);
+  const double reaction = mass * (2 - before) / kStep + kDamping * mass * (before + 2) / 2;
+  EXPECT_NEAR(constraints.reaction(0)[0].value(), reaction, kRounding * std::abs(reaction));
+}
+
+TEST(Constraints, AtRestDoNoWorkButReact) {
+  Model model = lone_tetrahedron();
+  const Index node = model.real_nodes()[0], other = model.real_nodes()[1];
+  const double mass = model.local.node_mass[test::at(node)];
+  Constraints constraints({{{node, other}, {false, true, false}, PrescribedMotion::velocity, {}}}, model.local,
+                          model.state);
+  for (int step = 0; step < 3; ++step) {
+    store_node(model.state.velocity.data(), node, Vec3(1, 2 + step, 3));
+    drift(model, 0.5);
+    constraints.apply(model.state, 0.5 * step, 0.5, 0.5);
+    EXPECT_EQ(load_node(model.state.velocity.data(), node), Vec3(1, 0, 3));
+    EXPECT_EQ(model.state.next_position[nodal(node, 1)], model.state.position[nodal(node, 1)]);
+    const double reaction = -mass * (2 + step) / 0.5;
+    EXPECT_NEAR(constraints.reaction(0)[1].value(), reaction, kRounding * std::abs(reaction));
+    EXPECT_EQ(constraints.reaction_on(std::vector{other})[1].value(), 0.0);
+    EXPECT_EQ(constraints.reaction_on(std::vector{node})[1].value(), constraints.reaction(0)[1].value());
+    constraints.book_after(0.5);
+  }
+  EXPECT_EQ(constraints.work().value(), 0.0);
+}
+
+TEST(Constraints, ThatStopANodeBookTheWorkOfItsLastWay) {
+  Model model = lone_tetrahedron();
+  const Index node = model.real_nodes()[0];
+  const double mass = model.local.node_mass[test::at(node)];
+  store_node(model.state.velocity.data(), node, Vec3(4, 0, 0));
+  Constraints constraints({{{node}, {true, false, false}, PrescribedMotion::velocity, {}}}, model.local, model.state);
+  constraints.apply(model.state, 0.0, 0.5, 0.5);
+  EXPECT_NEAR(constraints.work().value(), 0.5 * (-mass * 4 / 0.5) * 4 * 0.5, kRounding * mass);
 }
 
 TEST(Constraints, GiveAnAxisToTheLaterOfTwoEntriesAndCountANodeOnce) {
@@ -76,7 +121,7 @@ TEST(Constraints, GiveAnAxisToTheLaterOfTwoEntriesAndCountANodeOnce) {
       {{{node, other, node}, {true, true, false}, PrescribedMotion::velocity, {in_time(1), in_time(1), in_time(0)}},
        {{node}, {false, true, true}, PrescribedMotion::velocity, {in_time(0), in_time(5), in_time(6)}}},
       model.local, model.state);
-  constraints.apply(model.local, model.state, 0.0, 0.0, 1.0);
+  constraints.apply(model.state, 0.0, 0.0, 1.0);
   EXPECT_EQ(load_node(model.state.velocity.data(), node), Vec3(1, 5, 6));
   EXPECT_EQ(load_node(model.state.velocity.data(), other), Vec3(1, 1, 0));
   EXPECT_LT((test::value_of(constraints.reaction(0)) - mass * Vec3(2, 1, 0)).norm(), kRounding * mass);
@@ -90,7 +135,7 @@ TEST(Constraints, LeaveReactionAndWorkOfANodeToTheRankThatCountsIt) {
   model.local.counted[test::at(proxy)] = 0;
   Constraints constraints({{{own, proxy}, {true, false, false}, PrescribedMotion::velocity, {in_time(3), {}, {}}}},
                           model.local, model.state);
-  constraints.apply(model.local, model.state, 0.0, 0.0, 0.5);
+  constraints.apply(model.state, 0.0, 0.0, 0.5);
   EXPECT_EQ(load_node(model.state.velocity.data(), proxy), Vec3(3, 0, 0)) << "held all the same";
   EXPECT_NEAR(constraints.reaction(0)[0].value(), mass * 3 / 0.5, kRounding * mass);
   constraints.book_after(0.5);
@@ -103,15 +148,15 @@ TEST(Constraints, GoOnFromWhatTheyRememberedBeforeADivision) {
   const std::vector<NodalConstraint> entries{
       {{node}, {true, false, true}, PrescribedMotion::displacement, {in_time(0, 2.0), {}, in_time(0.5)}}};
   Constraints before(entries, model.local, model.state);
-  before.apply(model.local, model.state, 0.0, 0.0, 0.25);
+  before.apply(model.state, 0.0, 0.0, 0.25);
   std::swap(model.state.position, model.state.next_position);
   NodalState elsewhere = model.state;
   Constraints after(entries, model.local, elsewhere);
   std::vector<Constraints::Anchor> anchors = before.anchors();
   anchors.push_back({0, other, 0, 77.0, 0.0});  // of a node that is not held here
   after.restore(anchors);
-  before.apply(model.local, model.state, 0.25, 0.25, 0.25);
-  after.apply(model.local, elsewhere, 0.25, 0.25, 0.25);
+  before.apply(model.state, 0.25, 0.25, 0.25);
+  after.apply(elsewhere, 0.25, 0.25, 0.25);
   EXPECT_EQ(load_node(elsewhere.velocity.data(), node), load_node(model.state.velocity.data(), node));
   EXPECT_EQ(load_node(elsewhere.next_position.data(), node), load_node(model.state.next_position.data(), node));
   EXPECT_EQ(elsewhere.velocity[nodal(node, 0)], 2.0);
@@ -121,7 +166,7 @@ TEST(Constraints, OnNothingDoNothing) {
   Model model = lone_tetrahedron();
   const Field<double> before = model.state.velocity;
   Constraints constraints({}, model.local, model.state);
-  constraints.apply(model.local, model.state, 0.0, 0.1, 0.1);
+  constraints.apply(model.state, 0.0, 0.1, 0.1);
   constraints.book_after(0.1);
   EXPECT_TRUE(constraints.empty());
   EXPECT_EQ(model.state.velocity, before);

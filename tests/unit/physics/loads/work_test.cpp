@@ -40,7 +40,7 @@ class DrivenBody {
       store_node(state.velocity.data(), n, v);
       store_node(state.next_position.data(), n, load_node(state.position.data(), n) + kStep * v);
     }
-    constraints_.apply(model_.local, state, time, before, kStep);
+    constraints_.apply(state, time, before, kStep);
 
     const double kinetic = kinetic_energy(model_.local, v_before.data(), state.velocity.data()).value();
     const double works = internal_.sum().value() + pressure_.work().value() +
