@@ -35,10 +35,10 @@ void take_materials(const case_::Case& input, Model& model) {
   }
 }
 
-/// Faces of the surfaces whose joints are broken from the start, both sides, ascending.
-std::vector<std::pair<Index, int>> broken_faces(const case_::Case& input, const Model& model) {
+/// Faces of these surfaces, both sides, ascending.
+std::vector<std::pair<Index, int>> faces_of(const std::vector<std::string>& surfaces, const Model& model) {
   std::vector<std::pair<Index, int>> faces;
-  for (const std::string& name : input.broken_surfaces) {
+  for (const std::string& name : surfaces) {
     for (const Topology::Face& f : model.topology.surface_groups[index(group_named(model.mesh.surface_groups, name))]) {
       faces.emplace_back(f.element, f.face);
       const FaceLink& link = model.topology.links[index(f.element)][index(f.face)];
@@ -52,7 +52,7 @@ std::vector<std::pair<Index, int>> broken_faces(const case_::Case& input, const 
 
 /// Cuts the links of broken faces. Elements that share nodes cannot be parted: refused.
 void break_initial(const case_::Case& input, Model& model) {
-  for (const auto& [element, face] : broken_faces(input, model)) {
+  for (const auto& [element, face] : faces_of(input.broken_surfaces, model)) {
     FaceLink& link = model.topology.links[index(element)][index(face)];
     if (link.free()) continue;
     const Index group = model.mesh.element_group[index(element)];
@@ -80,24 +80,62 @@ void take_contact(const case_::Case& input, Model& model) {
   }
 }
 
-/// Every element corner that lies on a physical surface.
-std::vector<CornerTag> tag_corners(const Mesh& mesh) {
-  std::vector<CornerTag> tags;
-  std::vector<bool> on_surface;
-  for (std::size_t g = 0; g < mesh.surface_groups.size(); ++g) {
-    on_surface.assign(mesh.nodes.size(), false);
-    for (const Mesh::SurfaceFace& face : mesh.surface_faces) {
-      if (index(face.group) != g) continue;
-      for (const Index node : face.nodes) on_surface[index(node)] = true;
-    }
-    for (Index e = 0; e < mesh.num_elements(); ++e) {
-      std::uint8_t corners = 0;
-      for (std::size_t c = 0; c < 4; ++c) {
-        if (on_surface[index(mesh.elements[index(e)][c])]) corners |= static_cast<std::uint8_t>(1U << c);
-      }
-      if (corners != 0) tags.push_back({mesh.element_id(e), static_cast<Index>(g), corners});
+/// Corners of elements that belong to a surface: those of its faces, and those that hang together with them around the
+/// same node through faces that stages do not break. What lies across a notch, open from the start or opened by a stage,
+/// belongs to it with faces of its own only.
+class SurfaceCorners {
+ public:
+  SurfaceCorners(const case_::Case& input, const Model& model)
+      : model_(model), cut_(model.mesh.elements.size(), 0), corners_(model.mesh.elements.size(), 0) {
+    for (const case_::Stage& stage : input.stages) {
+      for (const auto& [element, face] : faces_of(stage.broken_surfaces, model))
+        cut_[index(element)] |= static_cast<std::uint8_t>(1U << face);
     }
   }
+  /// Tags of a surface group, ascending elements. O(elements).
+  void append_tags(Index group, std::vector<CornerTag>& tags) {
+    std::fill(corners_.begin(), corners_.end(), std::uint8_t{0});
+    for (const Topology::Face& face : model_.topology.surface_groups[index(group)]) {
+      for (const int corner : kFaceCorners[index(face.face)]) mark(face.element, corner);
+    }
+    while (!open_.empty()) {
+      const auto [element, corner] = open_.back();
+      open_.pop_back();
+      spread(element, corner);
+    }
+    for (Index e = 0; e < model_.mesh.num_elements(); ++e) {
+      if (corners_[index(e)] != 0) tags.push_back({model_.mesh.element_id(e), group, corners_[index(e)]});
+    }
+  }
+
+ private:
+  void mark(Index element, int corner) {
+    const auto bit = static_cast<std::uint8_t>(1U << corner);
+    if ((corners_[index(element)] & bit) != 0) return;
+    corners_[index(element)] |= bit;
+    open_.emplace_back(element, corner);
+  }
+  /// To the neighbours through the three faces that meet at the corner.
+  void spread(Index element, int corner) {
+    const Index node = model_.mesh.elements[index(element)][index(corner)];
+    for (int face = 0; face < 4; ++face) {
+      const FaceLink& link = model_.topology.links[index(element)][index(face)];
+      if (face == corner || !link.inner() || (cut_[index(element)] >> face & 1) != 0) continue;
+      const auto& nodes = model_.mesh.elements[index(link.neighbour)];
+      mark(link.neighbour, static_cast<int>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin()));
+    }
+  }
+
+  const Model& model_;
+  std::vector<std::uint8_t> cut_;      ///< (elements) a bit a face that a stage breaks
+  std::vector<std::uint8_t> corners_;  ///< (elements) a bit a corner
+  std::vector<std::pair<Index, int>> open_;
+};
+
+std::vector<CornerTag> tag_corners(const case_::Case& input, const Model& model) {
+  SurfaceCorners corners(input, model);
+  std::vector<CornerTag> tags;
+  for (std::size_t g = 0; g < model.mesh.surface_groups.size(); ++g) corners.append_tags(static_cast<Index>(g), tags);
   std::sort(tags.begin(), tags.end(), [](const CornerTag& p, const CornerTag& q) {
     return std::pair(p.element, p.group) < std::pair(q.element, q.group);
   });
@@ -119,11 +157,11 @@ Model build_bare_model(const case_::Case& input) {
   model.mesh = std::move(made.mesh);
   model.mesh_report = std::move(made.report);
   model.topology = build_topology(model.mesh);
-  model.corner_tags = tag_corners(model.mesh);
   take_materials(input, model);
   take_whole(input, model);
   take_contact(input, model);
   break_initial(input, model);
+  model.corner_tags = tag_corners(input, model);
   find_joint_groups(input, model);
   take_joint_laws(input, model);
   return model;

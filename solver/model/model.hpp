@@ -25,7 +25,7 @@ struct ModelJoint {
   Index law = 0;   ///< index into Model::joint_laws
 };
 
-/// Elements whose corners lie on a physical surface, with a face or only an edge or a point of theirs.
+/// Elements whose corners belong to a physical surface: with a face, or an edge or a point bonded to such a face.
 struct CornerTag {
   GlobalId element;
   Index group;           ///< index into Mesh::surface_groups

@@ -36,8 +36,9 @@ struct Model;
 [[nodiscard]] std::vector<InitialVelocity> initial_velocities(const case_::Case& input, const Model& model);
 [[nodiscard]] StageLoads stage_loads(const case_::Stage& stage, const Model& model);
 
-/// Nodes of a volume or surface group, ascending. A surface means every element corner at one of its mesh vertices, in
-/// bodies that have the surface's faces: also of elements that touch it with an edge or a corner only.
+/// Nodes of a volume or surface group, ascending. A surface means the corners of its faces, and those of
+/// elements that touch it with an edge or a corner and hang together with such a face around the node: not what lies
+/// across a notch that begins at the surface's border.
 [[nodiscard]] std::vector<Index> nodes_of_group(const Model& model, const std::string& group);
 
 /// Of these, the ones that this rank counts.

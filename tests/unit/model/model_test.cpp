@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesh/geometry.hpp"
+#include "model/parameters.hpp"
 #include "unit/model/two_boxes.hpp"
 
 namespace breccia {
@@ -90,6 +91,65 @@ TEST(Links, of_an_element_are_screened_by_its_weakest_joint) {
     }
   }
   EXPECT_TRUE(std::equal(limit.begin(), limit.end(), links.limit.begin()));
+}
+
+/// A beam of two halves with a notch between them, open from below; "foot" is the lower side of the right half.
+const std::string kNotchedBeam = R"(SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 0.5};
+Box(2) = {1, 0, 0, 1, 0.5, 0.5};
+Box(3) = {1, 0.5, 0, 1, 0.5, 0.5};
+BooleanFragments{ Volume{1, 2, 3}; Delete; }{}
+e = 0.01;
+Physical Volume("beam") = Volume{:};
+Physical Surface("notch") = Surface In BoundingBox{1 - e, -e, -e, 1 + e, 0.5 + e, 0.5 + e};
+Physical Surface("foot") = Surface In BoundingBox{1 - e, -e, -e, 2 + e, e, 0.5 + e};
+MeshSize{:} = 0.3;
+)";
+const std::string kNotchedCase = R"([mesh]
+file = "beam.geo"
+glue = true
+[[material]]
+group = "beam"
+young = "40 GPa"
+poisson = 0.2
+density = 2400
+[[joint]]
+group = "beam"
+penalty_factor = 100
+tensile_strength = "5 MPa"
+shear_strength = "15 MPa"
+energy_mode_1 = "100 J/m2"
+)";
+
+/// Nodes of the foot that belong to elements left of the notch.
+std::ptrdiff_t foot_on_the_left(const std::string& rest) {
+  const case_::CaseFolder folder;
+  folder.write("beam.geo", kNotchedBeam);
+  const Model model = build_model(case_::read_case(folder.write("case.toml", kNotchedCase + rest)));
+  const std::vector<Index> foot = nodes_of_group(model, "foot");
+  std::ptrdiff_t left = 0, lower = 0;
+  for (Index s = 0; s < model.local.num_slots; ++s) {
+    for (int c = 0; c < 4 && model.local.is_original(s); ++c) {
+      const Index node = model.local.corner_node(s, c);
+      if (!std::binary_search(foot.begin(), foot.end(), node)) continue;
+      (model.local.slot_body[at(s)] == 0 ? left : lower) += 1;
+      EXPECT_EQ(model.local.reference[nodal(node, 1)], 0.0);
+    }
+  }
+  EXPECT_GT(lower, 10);
+  return left;
+}
+
+TEST(Surface, beside_an_open_notch_has_no_nodes_of_the_other_flank) {
+  EXPECT_EQ(foot_on_the_left("[joints]\nbroken = [\"notch\"]\n[[stage]]\nend = \"1 ms\"\n"), 0);
+}
+
+TEST(Surface, beside_a_notch_that_a_stage_opens_has_no_nodes_of_the_other_flank) {
+  EXPECT_EQ(foot_on_the_left("[[stage]]\nend = \"1 ms\"\n[[stage]]\nend = \"2 ms\"\nbroken = [\"notch\"]\n"), 0);
+}
+
+TEST(Surface, beside_whole_material_has_the_nodes_of_all_elements_that_touch_its_border) {
+  EXPECT_GT(foot_on_the_left("[[stage]]\nend = \"1 ms\"\n"), 0);
 }
 
 TEST(MeshOfACase, has_the_scale_and_the_seed_of_the_case) {
