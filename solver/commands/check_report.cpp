@@ -1,4 +1,5 @@
 #include "commands/check_report.hpp"
+#include "commands/model_report.hpp"
 #include "commands/overlap_report.hpp"
 #include "commands/step_report.hpp"
 
@@ -303,6 +304,7 @@ CheckReport full_report(const case_::Case& input, const Model& model) {
   report.text += fmt::format("joints: {}\n", model.joints.size());
   for (std::size_t l = 0; l < model.joint_laws.size(); ++l)
     report.text += law_report(model, static_cast<Index>(l), report.advice);
+  report.advice += model_advice(input, model);
   const OverlapReport overlaps = overlap_report(input, model);
   report.text += stiffness_report(model) + overlaps.text;
   report.advice += overlaps.advice;

@@ -1,0 +1,170 @@
+#include "commands/model_report.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "mesh/tetrahedron.hpp"
+#include "model/parameters.hpp"
+
+namespace breccia {
+namespace {
+
+std::size_t index(Index i) { return static_cast<std::size_t>(i); }
+
+/// Of the extent of the model: places closer than this are one.
+constexpr double kSamePlace = 1e-9;
+
+/// Bodies that hang together, by the number of one of them.
+class Solids {
+ public:
+  explicit Solids(const Model& model) : solid_(index(model.mesh.num_bodies)) {
+    std::iota(solid_.begin(), solid_.end(), 0);
+    for (std::size_t e = 0; e < model.mesh.elements.size(); ++e) {
+      for (const FaceLink& link : model.topology.links[e]) {
+        if (link.inner()) solid_[index(of(model.mesh.element_body[e]))] = of(body(model, link.neighbour));
+      }
+    }
+  }
+  [[nodiscard]] Index of(Index body) const {
+    while (solid_[index(body)] != body) body = solid_[index(body)];
+    return body;
+  }
+  [[nodiscard]] bool several() const {
+    const auto body_count = static_cast<Index>(solid_.size());
+    for (Index b = 1; b < body_count; ++b) {
+      if (of(b) != of(0)) return true;
+    }
+    return false;
+  }
+
+ private:
+  static Index body(const Model& model, Index element) { return model.mesh.element_body[index(element)]; }
+  std::vector<Index> solid_;
+};
+
+/// Bodies that go through each other. Those that a constraint holds in every stage are nobody's danger by themselves.
+std::string missing_contact(const case_::Case& input, const Model& model) {
+  if (model.has_contact) return {};
+  const Solids solids(model);
+  if (!solids.several()) return {};
+  std::vector<bool> free(index(model.mesh.num_bodies), true);
+  for (std::size_t g = 0; g < model.mesh.volume_groups.size(); ++g) {
+    const bool held = std::all_of(input.stages.begin(), input.stages.end(), [&](const case_::Stage& stage) {
+      return std::any_of(stage.constraints.begin(), stage.constraints.end(), [&](const case_::Constraint& c) {
+        return c.group == model.mesh.volume_groups[g] && c.kind == case_::ConstraintKind::fixed &&
+               c.axes == std::array{true, true, true};
+      });
+    });
+    for (Index e = 0; held && e < model.mesh.num_elements(); ++e) {
+      if (model.mesh.element_group[index(e)] == static_cast<Index>(g))
+        free[index(model.mesh.element_body[index(e)])] = false;
+    }
+  }
+  if (std::find(free.begin(), free.end(), true) == free.end()) return {};
+  return "- There is no [[contact]]: bodies that meet go through each other. Add one, with between = [\"*\", \"*\"] "
+         "for "
+         "all groups, unless they never meet.\n";
+}
+
+std::string sphere_too_small(const Model& model) {
+  if (!model.contact.sphere) return {};
+  const SphericalBoundary& sphere = *model.contact.sphere;
+  double furthest = 0;
+  Index outside = 0, worst = -1;
+  for (Index e = 0; e < model.mesh.num_elements(); ++e) {
+    double distance = 0;
+    for (const Index node : model.mesh.elements[index(e)])
+      distance = std::max(distance, (model.mesh.nodes[index(node)] - sphere.centre).norm());
+    if (distance > sphere.radius) ++outside;
+    if (distance > furthest) furthest = distance, worst = e;
+  }
+  if (outside == 0) return {};
+  return fmt::format(
+      "- The sphere does not hold the model: {} elements begin outside, element {} by {:.3g} m, and what begins "
+      "outside "
+      "is not pushed back in. Raise sphere.radius from {:.4g} to more than {:.4g} m, or move sphere.centre.\n",
+      outside, worst, furthest - sphere.radius, sphere.radius, furthest);
+}
+
+/// Numbers of places: nodes that coincide have the same.
+std::vector<Index> places_of_nodes(const Mesh& mesh) {
+  Vec3 lower = mesh.nodes.front(), upper = lower;
+  for (const Vec3& x : mesh.nodes) {
+    lower = lower.cwiseMin(x);
+    upper = upper.cwiseMax(x);
+  }
+  const double same = std::max(kSamePlace * (upper - lower).maxCoeff(), std::numeric_limits<double>::min());
+  std::map<std::array<std::int64_t, 3>, Index> places;
+  std::vector<Index> place;
+  for (const Vec3& x : mesh.nodes) {
+    const Vec3 cell = (x - lower) / same;
+    const std::array key{std::llround(cell[0]), std::llround(cell[1]), std::llround(cell[2])};
+    place.push_back(
+        places.emplace(std::array<std::int64_t, 3>{key[0], key[1], key[2]}, static_cast<Index>(places.size()))
+            .first->second);
+  }
+  return place;
+}
+
+/// (elements) a bit a face that the case breaks from the start.
+std::vector<std::uint8_t> broken_on_purpose(const case_::Case& input, const Model& model) {
+  std::vector<std::uint8_t> broken(model.mesh.elements.size(), 0);
+  for (std::size_t g = 0; g < model.mesh.surface_groups.size(); ++g) {
+    const auto& names = input.broken_surfaces;
+    if (std::find(names.begin(), names.end(), model.mesh.surface_groups[g]) == names.end()) continue;
+    for (const Topology::Face& face : model.topology.surface_groups[g])
+      broken[index(face.element)] |= static_cast<std::uint8_t>(1U << face.face);
+  }
+  return broken;
+}
+
+/// Bodies of one group that lie face to face with nothing between them. The raster's boxes are meant to be apart.
+std::string silently_apart(const case_::Case& input, const Model& model) {
+  if (input.mesh.raster || model.mesh.num_bodies < 2) return {};
+  const Mesh& mesh = model.mesh;
+  const std::vector<Index> place = places_of_nodes(mesh);
+  const std::vector<std::uint8_t> broken = broken_on_purpose(input, model);
+  std::map<std::array<Index, 3>, std::pair<Index, Index>> free_faces;  // by places: group, body
+  struct Touch {
+    Index body = -1, other = -1, faces = 0;
+  };
+  std::map<Index, Touch> touches;  // by group
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    for (std::size_t f = 0; f < 4; ++f) {
+      if (!model.topology.links[index(e)][f].free() || (broken[index(e)] >> f & 1) != 0) continue;
+      std::array<Index, 3> key{};
+      for (std::size_t i = 0; i < 3; ++i) key[i] = place[index(mesh.elements[index(e)][index(kFaceCorners[f][i])])];
+      std::sort(key.begin(), key.end());
+      const Index group = mesh.element_group[index(e)], body = mesh.element_body[index(e)];
+      const auto [known, fresh] = free_faces.emplace(key, std::pair(group, body));
+      if (fresh || known->second.first != group || known->second.second == body) continue;
+      Touch& touch = touches[group];
+      if (touch.faces++ == 0) touch.body = known->second.second, touch.other = body;
+    }
+  }
+  std::string text;
+  for (const auto& [group, touch] : touches) {
+    text += fmt::format(
+        "- Volumes of \"{}\" touch along {} triangles and are not joined there (bodies {} and {}, for one): {}\n",
+        mesh.volume_groups[index(group)], touch.faces, touch.body, touch.other,
+        input.mesh.glue
+            ? "the geometry has their interface twice: use Coherence or BooleanFragments."
+            : "mesh.glue = true makes them one solid; give them different groups if they are meant to part.");
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string model_advice(const case_::Case& input, const Model& model) {
+  return missing_contact(input, model) + sphere_too_small(model) + silently_apart(input, model);
+}
+
+}  // namespace breccia

@@ -1,0 +1,76 @@
+#include "commands/model_report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "unit/case/case_files.hpp"
+
+namespace breccia {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+const std::string kMaterial = R"([[material]]
+group = "rock"
+young = "40 GPa"
+poisson = 0.2
+density = 2400
+joints = "none"
+)";
+const std::string kStage = "[[stage]]\nend = \"1 ms\"\n";
+
+std::string raster(const std::string& boxes) {
+  return "[mesh.raster]\ncell_size = \"10 mm\"\ngroup = \"rock\"\nboxes = " + boxes + "\ngap = \"1 mm\"\n" + kMaterial;
+}
+
+std::string advice_on(const std::string& text) {
+  const case_::Case input = case_::read_text(text);
+  return model_advice(input, build_model(input));
+}
+
+TEST(ModelAdvice, names_bodies_that_meet_without_contact) {
+  EXPECT_THAT(advice_on(raster("[2, 1, 1]") + kStage), HasSubstr("There is no [[contact]]"));
+}
+
+TEST(ModelAdvice, is_silent_where_there_is_contact_or_one_body_or_all_are_held) {
+  const std::string contact = "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"40 GPa\"\n";
+  EXPECT_EQ(advice_on(raster("[2, 1, 1]") + contact + kStage), "");
+  EXPECT_EQ(advice_on(raster("[1, 1, 1]") + kStage), "");
+  const std::string held = "[[stage.constraint]]\ngroup = \"rock\"\nfixed = \"xyz\"\n";
+  EXPECT_EQ(advice_on(raster("[2, 1, 1]") + kStage + held), "");
+}
+
+TEST(ModelAdvice, names_a_sphere_that_does_not_hold_the_model_and_the_radius_that_would) {
+  const auto sphere = [](const std::string& radius) {
+    return "[sphere]\ncentre = [\"5 mm\", \"5 mm\", \"5 mm\"]\nradius = \"" + radius + "\"\npenalty = \"40 GPa\"\n";
+  };
+  EXPECT_THAT(advice_on(raster("[1, 1, 1]") + sphere("8 mm") + kStage),
+              AllOf(HasSubstr("sphere does not hold the model"), HasSubstr("0.00866 m")));
+  EXPECT_EQ(advice_on(raster("[1, 1, 1]") + sphere("9 mm") + kStage), "");
+}
+
+/// Two boxes of one group side by side. @param join  a line of the geometry
+std::string touching(const std::string& join, const std::string& glue) {
+  const case_::CaseFolder folder;
+  folder.write("boxes.geo",
+               "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\nBox(2) = {1, 0, 0, 1, 1, 1};\n" + join +
+                   "\nPhysical Volume(\"rock\") = Volume{:};\nMeshSize{:} = 2;\n");
+  const case_::Case input = case_::read_case(
+      folder.write("case.toml", "[mesh]\nfile = \"boxes.geo\"\nglue = " + glue + "\n" + kMaterial +
+                                    "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"40 GPa\"\n" + kStage));
+  return model_advice(input, build_model(input));
+}
+
+TEST(ModelAdvice, names_volumes_of_one_group_that_touch_and_are_not_joined) {
+  EXPECT_THAT(touching("Coherence;", "false"), AllOf(HasSubstr("Volumes of \"rock\" touch along"),
+                                                     HasSubstr("bodies 0 and 1"), HasSubstr("mesh.glue = true")));
+  EXPECT_EQ(touching("Coherence;", "true"), "");
+}
+
+TEST(ModelAdvice, names_an_interface_that_is_there_twice) {
+  EXPECT_THAT(touching("", "true"), AllOf(HasSubstr("Volumes of \"rock\" touch along"), HasSubstr("Coherence")));
+}
+
+}  // namespace
+}  // namespace breccia
