@@ -254,8 +254,7 @@ struct Output {
   double frame_interval = 0;    ///< s; 0: no frames but the last
   double history_interval = 0;  ///< s; 0: chosen by the run
   bool elements = true, joints = true, contacts = true;
-  std::vector<std::string>
-      gauges;  ///< groups whose reaction, contact and applied force, displacement and velocity are recorded
+  std::vector<std::string> gauges;  ///< groups, or bodies as "body 3", whose forces and motion are recorded
   Origin origin;
   friend bool operator==(const Output&, const Output&) = default;
 };

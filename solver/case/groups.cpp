@@ -1,4 +1,7 @@
+#include "case/groups.hpp"
+
 #include <algorithm>
+#include <charconv>
 #include <set>
 
 #include "case/nearest.hpp"
@@ -26,6 +29,15 @@ class GroupChecker {
   void either(const Origin& origin, const char* name, const std::string& group) {
     check(origin, name, group, both_, "volume or surface group");
   }
+  void gauge(const Origin& origin, const std::string& name, std::int64_t num_bodies) {
+    const std::int64_t body = numbered_body(name);
+    if (body < 0 || std::find(both_.begin(), both_.end(), name) != both_.end()) {
+      either(origin, "gauges", name);
+    } else if (body >= num_bodies) {
+      add({file_, origin.line, origin.key + ".gauges", "the mesh has no such body",
+           num_bodies > 0 ? "\"body 0\" to \"body " + std::to_string(num_bodies - 1) + "\"" : "", name});
+    }
+  }
   void add(Problem problem) { problems_.push_back(std::move(problem)); }
   std::vector<Problem> take() { return std::move(problems_); }
 
@@ -51,8 +63,16 @@ void check_stage(const Stage& stage, GroupChecker& checker) {
 
 }  // namespace
 
+std::int64_t numbered_body(const std::string& name) {
+  const std::string mark = "body ";
+  if (!name.starts_with(mark) || name.size() == mark.size()) return -1;
+  std::int64_t number = -1;
+  const auto [end, error] = std::from_chars(name.data() + mark.size(), name.data() + name.size(), number);
+  return error == std::errc() && end == name.data() + name.size() ? number : -1;
+}
+
 std::vector<Problem> check_groups(const Case& c, std::span<const std::string> volume_groups,
-                                  std::span<const std::string> surface_groups) {
+                                  std::span<const std::string> surface_groups, std::int64_t num_bodies) {
   GroupChecker checker(c, volume_groups, surface_groups);
   std::set<std::string> with_material;
   for (const Material& m : c.materials) {
@@ -69,7 +89,7 @@ std::vector<Problem> check_groups(const Case& c, std::span<const std::string> vo
     checker.surface(c.contact_points.origin, "surfaces", group);
   for (const std::string& group : c.broken_surfaces) checker.surface(c.broken_origin, "broken", group);
   for (const Stage& stage : c.stages) check_stage(stage, checker);
-  for (const std::string& group : c.output.gauges) checker.either(c.output.origin, "gauges", group);
+  for (const std::string& group : c.output.gauges) checker.gauge(c.output.origin, group, num_bodies);
   return checker.take();
 }
 

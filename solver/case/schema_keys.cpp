@@ -365,7 +365,9 @@ constexpr auto table = std::to_array<Key>({
     {.path = "output.contacts", .type = boolean, .fallback = "true", .help = "Contact points in frames.",
      .example = "false"},
     {.path = "output.gauges", .type = text_list, .fallback = "[]",
-     .help = "Groups whose forces, displacement and velocity are recorded in the history.", .example = "[\"support\"]"},
+     .help = "Groups, or bodies as \"body 3\" (frames show their numbers), of which the history records reaction, "
+             "contact force, displacement, velocity, centre of mass, momentum, spin, resultant force and torque. Means "
+             "are weighted by mass.", .example = "[\"support\", \"body 0\"]"},
 
     {.path = "insitu", .type = section,
      .help = "Pictures, extracts and live views that are made while the run goes on, by ParaView Catalyst "

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,7 +18,9 @@ namespace breccia::case_ {
 
 /// Compares the groups a case names with those of its mesh, and the volumes of the mesh with the materials. Each
 /// problem names the group absent and lists those present, nearest first, with the line of the section that names it.
+/// @param num_bodies  of the mesh, for gauges of bodies
 [[nodiscard]] std::vector<Problem> check_groups(const Case& c, std::span<const std::string> volume_groups,
-                                                std::span<const std::string> surface_groups);
+                                                std::span<const std::string> surface_groups,
+                                                std::int64_t num_bodies = 0);
 
 }  // namespace breccia::case_

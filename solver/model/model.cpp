@@ -81,7 +81,8 @@ void take_contact(const case_::Case& input, Model& model) {
 }
 
 /// Corners of elements that belong to a surface: those of its faces, and those that hang together with them around the
-/// same node through faces that stages do not break. What lies across a notch, open from the start or opened by a stage,
+/// same node through faces that stages do not break. What lies across a notch, open from the start or opened by a
+/// stage,
 /// belongs to it with faces of its own only.
 class SurfaceCorners {
  public:

@@ -42,7 +42,8 @@ GmshSource gmsh_source(const case_::MeshSource& asked) {
 FinishedMesh build_mesh(const case_::Case& input) {
   FinishedMesh made =
       input.mesh.raster ? make_raster(raster_source(*input.mesh.raster)) : read_gmsh(gmsh_source(input.mesh));
-  std::vector<Problem> problems = case_::check_groups(input, made.mesh.volume_groups, made.mesh.surface_groups);
+  std::vector<Problem> problems =
+      case_::check_groups(input, made.mesh.volume_groups, made.mesh.surface_groups, made.mesh.num_bodies);
   if (!problems.empty()) throw InputError(std::move(problems));
   return made;
 }

@@ -7,6 +7,7 @@
 
 #include "mesh/tetrahedron.hpp"
 #include "physics/cauchy_stress.hpp"
+#include "physics/contact/overlap.hpp"
 
 namespace breccia {
 namespace {
@@ -230,6 +231,25 @@ void add_joints(const Domain& domain, Frame::Joints& out) {
   for (; next != released.end(); ++next) add_released(*next);
 }
 
+/// How fast the point slides over the element that it touches: the part of its velocity against that place of the
+/// element across the normal force.
+Vec3 slip_velocity(const Domain& domain, const TouchingCouple& couple) {
+  const LocalMesh& local = domain.model.local;
+  const ContactState& contact = domain.state.contact;
+  const FaceRule& rule = face_rule(domain.model.contact.points_per_face);
+  const double *x = domain.state.nodes.position.data(), *v = domain.state.nodes.velocity.data();
+  const ContactPoint& point = contact.points[at(couple.point)];
+  const Index slot = contact.contactors[at(couple.contactor)];
+  const auto lambda =
+      barycentric(prepare(load_corners(local, x, slot), local.volume[at(slot)]), at_point(rule, point, x));
+  Vec3 relative = at_point(rule, point, v);
+  for (int c = 0; c < 4; ++c) relative -= lambda[at(c)] * load_node(v, local.corner_node(slot, c));
+  const Vec3 normal = couple.force - couple.friction;
+  const double square = normal.squaredNorm();
+  if (!(square > 0)) return relative;
+  return relative - relative.dot(normal) / square * normal;
+}
+
 void add_contacts(const Domain& domain, Frame::Contacts& out) {
   if (!domain.contact) return;
   const LocalMesh& local = domain.model.local;
@@ -244,6 +264,7 @@ void add_contacts(const Domain& domain, Frame::Contacts& out) {
     append(out.force, couple.force);
     append(out.normal_force, couple.force - couple.friction);
     append(out.tangential_force, couple.friction);
+    append(out.slip_velocity, slip_velocity(domain, couple));
     out.body.push_back(local.slot_body[at(point.slot)]);
     const Index other = contact.contactors[at(couple.contactor)];
     out.other_body.push_back(local.slot_body[at(other)]);

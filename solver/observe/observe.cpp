@@ -16,78 +16,6 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// What a gauge reads on this rank, as sums: reaction, contact force, displacement and velocity of the nodes, their
-/// number.
-class GaugeSums {
- public:
-  static constexpr std::size_t kCount = 13;
-
-  GaugeSums(const Domain& domain, const Gauge& gauge) {
-    const LocalMesh& local = domain.model.local;
-    for (const std::size_t entry : gauge.constraints) add(0, domain.state.constraints.reaction(entry));
-    if (gauge.volume_group >= 0 && domain.contact) {
-      add(3, contact_force_on_group(domain.state.contact, local, gauge.volume_group));
-    }
-    const double* x = domain.state.nodes.position.data();
-    for (const Index node : gauge.nodes) {
-      add(6, load_node(x, node) - load_node(local.reference.data(), node));
-      add(9, load_node(domain.state.nodes.velocity.data(), node));
-    }
-    sums_[12].add(static_cast<double>(gauge.nodes.size()));
-  }
-  [[nodiscard]] const std::array<ExactSum, kCount>& sums() const { return sums_; }
-
- private:
-  void add(std::size_t first, const std::array<ExactSum, 3>& vector) {
-    for (std::size_t i = 0; i < 3; ++i) sums_[first + i].add(vector[i]);
-  }
-  void add(std::size_t first, const Vec3& vector) {
-    for (std::size_t i = 0; i < 3; ++i) sums_[first + i].add(vector[static_cast<Eigen::Index>(i)]);
-  }
-  std::array<ExactSum, kCount> sums_;
-};
-
-/// Largest displacements of a gauge's nodes, upwards and downwards by axis, m.
-std::array<double, 6> extremes(const Domain& domain, const Gauge& gauge) {
-  std::array<double, 6> most{};
-  for (const Index node : gauge.nodes) {
-    const Vec3 displacement =
-        load_node(domain.state.nodes.position.data(), node) - load_node(domain.model.local.reference.data(), node);
-    for (std::size_t i = 0; i < 3; ++i) {
-      most[2 * i] = std::max(most[2 * i], displacement[static_cast<Eigen::Index>(i)]);
-      most[2 * i + 1] = std::max(most[2 * i + 1], -displacement[static_cast<Eigen::Index>(i)]);
-    }
-  }
-  return most;
-}
-
-std::vector<GaugeReading> read_gauges(const Domain& domain, const std::vector<Gauge>& gauges) {
-  std::vector<ExactSum> parts;
-  std::vector<double> most;
-  for (const Gauge& gauge : gauges) {
-    const GaugeSums of_gauge(domain, gauge);
-    parts.insert(parts.end(), of_gauge.sums().begin(), of_gauge.sums().end());
-    const auto of_nodes = extremes(domain, gauge);
-    most.insert(most.end(), of_nodes.begin(), of_nodes.end());
-  }
-  const std::vector<double> sums = totals(domain.exchange.communicator(), parts);
-  domain.exchange.communicator().max(most);
-  std::vector<GaugeReading> readings;
-  for (std::size_t g = 0; g < gauges.size(); ++g) {
-    const double* s = sums.data() + g * GaugeSums::kCount;
-    const double* m = most.data() + g * 6;
-    const double count = std::max(s[12], 1.0);
-    GaugeReading reading;
-    reading.reaction = {s[0], s[1], s[2]};
-    reading.contact_force = {s[3], s[4], s[5]};
-    reading.displacement = Vec3(s[6], s[7], s[8]) / count;
-    reading.velocity = Vec3(s[9], s[10], s[11]) / count;
-    for (int i = 0; i < 3; ++i) reading.max_displacement[i] = m[2 * i] >= m[2 * i + 1] ? m[2 * i] : -m[2 * i + 1];
-    readings.push_back(reading);
-  }
-  return readings;
-}
-
 ExactSum sum_of_stress_yy(const Domain& domain) {
   const LocalMesh& local = domain.model.local;
   ExactSum sum;
@@ -100,19 +28,32 @@ ExactSum sum_of_stress_yy(const Domain& domain) {
   return sum;
 }
 
+/// Number and area of the joints that have failed, by their mode: this rank's, or those of all ranks.
+struct BrokenJoints {
+  std::int64_t mode_1 = 0, mode_2 = 0;
+  ExactSum area, area_mode_1, area_mode_2;
+
+  void add(FailureMode mode, double of_joint) {
+    area.add(of_joint);
+    if (mode == FailureMode::mode_1) ++mode_1, area_mode_1.add(of_joint);
+    if (mode == FailureMode::mode_2) ++mode_2, area_mode_2.add(of_joint);
+  }
+};
+
 /// Adds up this rank's counts over all ranks.
 void count_joints(const Domain& domain, HistoryRow& row) {
-  const auto count_mode = [&](FailureMode mode) {
-    if (mode == FailureMode::mode_1) ++row.broken_mode_1;
-    if (mode == FailureMode::mode_2) ++row.broken_mode_2;
+  const auto area_of = [&](Index slot, int face) {
+    return domain.model.joints[at(domain.derived.joint_at(slot, face))].face.area;
   };
-  row.broken_joints = domain.state.joints.broken;
+  BrokenJoints broken;
   for (const ActiveJoint& joint : domain.state.joints.active) {
     if (!domain.model.local.is_original(joint.slot_a)) continue;
-    if (joint.damage() > 0 || joint.state() == JointState::failed) ++row.damaged_joints;
-    if (joint.state() == JointState::failed) count_mode(joint.mode());
+    const bool failed = joint.state() == JointState::failed;
+    if (joint.damage() > 0 || failed) ++row.damaged_joints;
+    if (failed) broken.add(joint.mode(), area_of(joint.slot_a, joint.face_a));
   }
-  for (const ReleasedJoint& joint : domain.state.joints.released) count_mode(joint.mode);
+  for (const ReleasedJoint& joint : domain.state.joints.released)
+    broken.add(joint.mode, area_of(joint.slot_a, joint.face_a));
   row.damaged_joints += static_cast<std::int64_t>(domain.state.joints.released.size());
   if (domain.contact) {
     const ContactState& contact = domain.state.contact;
@@ -121,8 +62,8 @@ void count_joints(const Domain& domain, HistoryRow& row) {
     });
     row.contacts = domain.state.work.contact.touching;
   }
-  std::array counts{row.broken_joints,  row.broken_mode_1, row.broken_mode_2,
-                    row.damaged_joints, row.couples,       row.contacts};
+  std::array counts{domain.state.joints.broken, broken.mode_1, broken.mode_2,
+                    row.damaged_joints,         row.couples,   row.contacts};
   domain.exchange.communicator().sum(counts);
   row.broken_joints = counts[0];
   row.broken_mode_1 = counts[1];
@@ -130,6 +71,11 @@ void count_joints(const Domain& domain, HistoryRow& row) {
   row.damaged_joints = counts[3];
   row.couples = counts[4];
   row.contacts = counts[5];
+  const std::vector<double> areas =
+      totals(domain.exchange.communicator(), std::array{broken.area, broken.area_mode_1, broken.area_mode_2});
+  row.broken_area = areas[0];
+  row.broken_area_mode_1 = areas[1];
+  row.broken_area_mode_2 = areas[2];
 }
 
 }  // namespace
@@ -141,20 +87,8 @@ void Observer::begin_stage(const case_::Stage& stage) {
 
 /// The groups' nodes on this rank as it is now.
 void Observer::make_gauges() {
-  gauges_.clear();
   gauged_ = partition_.decompositions();
-  for (const std::string& group : input_.output.gauges) {
-    Gauge gauge;
-    gauge.group = group;
-    gauge.nodes = counted_nodes_of_group(partition_.model(), group);
-    const auto& names = partition_.model().mesh.volume_groups;
-    const auto found = std::find(names.begin(), names.end(), group);
-    if (found != names.end()) gauge.volume_group = static_cast<Index>(found - names.begin());
-    for (std::size_t c = 0; c < stage_->constraints.size(); ++c) {
-      if (stage_->constraints[c].group == gauge.group) gauge.constraints.push_back(c);
-    }
-    gauges_.push_back(std::move(gauge));
-  }
+  gauges_ = breccia::make_gauges(partition_.model(), input_.output.gauges, *stage_);
 }
 
 HistoryRow Observer::row(double time) {

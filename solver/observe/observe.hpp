@@ -7,17 +7,10 @@
 #include "case/case.hpp"
 #include "domains/partition.hpp"
 #include "observe/fragment_labels.hpp"
+#include "observe/gauges.hpp"
 #include "output/frame.hpp"
 
 namespace breccia {
-
-/// A group whose forces and motion are recorded.
-struct Gauge {
-  std::string group;
-  std::vector<Index> nodes;              ///< that this rank counts, ascending
-  Index volume_group = -1;               ///< -1: a surface; contact forces are those of volume groups only
-  std::vector<std::size_t> constraints;  ///< entries of the present stage that name this group
-};
 
 /// Looks at a running partition for the history and for pictures; changes nothing. Collective, all of it.
 class Observer {
@@ -28,8 +21,8 @@ class Observer {
   /// From now on gauges read the constraints of this stage. @pre stage outlives its use
   void begin_stage(const case_::Stage& stage);
 
-  /// One line of the history of the whole model: budget and gauges of the last sampled step. @param time  s, of that
-  /// step
+  /// One line of the history of the whole model: budget and gauges of the last step. @param time  s, of that step
+  /// @pre that step was sampled
   [[nodiscard]] HistoryRow row(double time);
   /// A picture of this rank's originals as they are. @param parts  the others stay empty
   [[nodiscard]] Frame picture(std::int64_t number, const FrameParts& parts);

@@ -67,6 +67,7 @@ struct Frame {
     std::vector<double> points;    ///< (num_contacts, 3)
     std::vector<double> force;     ///< (num_contacts, 3) on the point's body, N
     std::vector<double> normal_force, tangential_force;  ///< (num_contacts, 3) its parts, N
+    std::vector<double> slip_velocity;                   ///< (num_contacts, 3) of the point over the other body, m/s
     std::vector<std::int32_t> body, other_body;
     std::vector<std::int64_t> other_element;  ///< (num_contacts) the one that the point is in
   } contacts;
@@ -92,13 +93,19 @@ struct FrameParts {
   bool elements = true, joints = true, contacts = true, surface = false, domain = false;
 };
 
-/// What a gauge reads: sums over the nodes of a group.
+/// What a gauge reads of a group or a body. Forces and places are of t_n, velocities and momentum of t_n + dt/2. Means
+/// are weighted by mass; of a surface the mass is that of the nodes on it.
 struct GaugeReading {
-  Vec3 reaction{0, 0, 0};          ///< N, of constraints on the group
+  Vec3 reaction{0, 0, 0};          ///< N, of constraints
   Vec3 contact_force{0, 0, 0};     ///< N
-  Vec3 displacement{0, 0, 0};      ///< m, mean
+  Vec3 displacement{0, 0, 0};      ///< m, mean: of the centre of mass
   Vec3 max_displacement{0, 0, 0};  ///< m, component-wise signed value of largest magnitude
-  Vec3 velocity{0, 0, 0};          ///< m/s, mean
+  Vec3 velocity{0, 0, 0};          ///< m/s, mean: of the centre of mass
+  Vec3 centre{0, 0, 0};            ///< m, centre of mass
+  Vec3 momentum{0, 0, 0};          ///< kg m/s
+  Vec3 spin{0, 0, 0};              ///< rad/s, of the rigid body with the same angular momentum about the centre
+  Vec3 force{0, 0, 0};             ///< N, resultant of all forces on it: what changes its momentum
+  Vec3 torque{0, 0, 0};            ///< N m, of all forces on it about the centre: what changes its angular momentum
 };
 
 /// One line of the history file.
@@ -109,6 +116,7 @@ struct HistoryRow {
   EnergyBudget energy;
   std::int64_t damaged_joints = 0, broken_joints = 0, broken_mode_1 = 0, broken_mode_2 = 0, fragments = 0, couples = 0,
                contacts = 0;
+  double broken_area = 0, broken_area_mode_1 = 0, broken_area_mode_2 = 0;  ///< m2, reference, of failed joints
   Vec3 momentum{0, 0, 0}, angular_momentum{0, 0, 0};
   double max_speed = 0;
   double stress_yy_sum = 0;  ///< sum |sigma_yy| over the elements, Pa

@@ -57,6 +57,7 @@ void for_each_array(const Frame::Contacts& c, Visit&& visit) {
   visit("normal_force", c.normal_force, 3);
   visit("tangential_force", c.tangential_force, 3);
   visit("force", c.force, 3);
+  visit("slip_velocity", c.slip_velocity, 3);
   visit("body", c.body, 1);
   visit("other_body", c.other_body, 1);
   visit("other_element", c.other_element, 1);

@@ -22,6 +22,14 @@ constexpr std::array<Count, 7> kCounts{{{"damaged joints", &HistoryRow::damaged_
                                         {"couples", &HistoryRow::couples},
                                         {"contacts", &HistoryRow::contacts}}};
 
+struct Area {
+  const char* name;
+  double HistoryRow::*value;
+};
+constexpr std::array<Area, 3> kAreas{{{"broken area", &HistoryRow::broken_area},
+                                      {"broken area in mode I", &HistoryRow::broken_area_mode_1},
+                                      {"broken area in mode II", &HistoryRow::broken_area_mode_2}}};
+
 struct Vector {
   const char* name;
   const char* unit;
@@ -35,11 +43,16 @@ struct GaugeVector {
   const char* unit;
   Vec3 GaugeReading::*value;
 };
-constexpr std::array<GaugeVector, 5> kGaugeVectors{{{"reaction", "N", &GaugeReading::reaction},
-                                                    {"contact force", "N", &GaugeReading::contact_force},
-                                                    {"displacement", "m", &GaugeReading::displacement},
-                                                    {"max displacement", "m", &GaugeReading::max_displacement},
-                                                    {"velocity", "m/s", &GaugeReading::velocity}}};
+constexpr std::array<GaugeVector, 10> kGaugeVectors{{{"reaction", "N", &GaugeReading::reaction},
+                                                     {"contact force", "N", &GaugeReading::contact_force},
+                                                     {"displacement", "m", &GaugeReading::displacement},
+                                                     {"max displacement", "m", &GaugeReading::max_displacement},
+                                                     {"velocity", "m/s", &GaugeReading::velocity},
+                                                     {"centre", "m", &GaugeReading::centre},
+                                                     {"momentum", "kg m/s", &GaugeReading::momentum},
+                                                     {"spin", "rad/s", &GaugeReading::spin},
+                                                     {"resultant force", "N", &GaugeReading::force},
+                                                     {"resultant torque", "N m", &GaugeReading::torque}}};
 
 constexpr std::array<char, 3> kAxes{'x', 'y', 'z'};
 
@@ -73,6 +86,7 @@ void each_number(const HistoryRow& row, Add add) {
   for (const EnergyTerm& term : kEnergyTerms) add(row.energy.*term.value);
   add(row.energy.residual_relative);
   for (const Count& count : kCounts) add(row.*count.value);
+  for (const Area& area : kAreas) add(row.*area.value);
   for (const Vector& vector : kVectors) add_vector(row.*vector.value);
   add(row.max_speed);
   add(row.stress_yy_sum);
@@ -96,6 +110,7 @@ std::vector<std::string> history_columns(const std::vector<std::string>& gauges,
   for (const EnergyTerm& term : kEnergyTerms) columns.push_back(words_of(term.name) + " [J]");
   columns.emplace_back("relative residual");
   for (const Count& count : kCounts) columns.emplace_back(count.name);
+  for (const Area& area : kAreas) columns.push_back(fmt::format("{} [m2]", area.name));
   for (const Vector& vector : kVectors) {
     for (const char axis : kAxes) columns.push_back(fmt::format("{} {} [{}]", vector.name, axis, vector.unit));
   }

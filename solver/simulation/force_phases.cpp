@@ -47,10 +47,10 @@ void activate_crossed_joints(Domain& domain) {
   activate_joints(domain.model, domain.scratch.crossed, domain.state, domain.derived);
 }
 
-void sample_energies(const Field<double>& velocity_before, Domain& domain) {
+void sample_energies(Domain& domain) {
   domain.exchange.agree_on_failure();
   const auto lap = domain.timer.measure(Phase::energy);
-  domain.sample = energy_sample(velocity_before, domain);
+  domain.sample = energy_sample(domain.scratch.velocity_before, domain);
   double& first = domain.state.work.first_excess;
   if (std::isnan(first)) first = excess_energy(domain.sample.budget);
   set_residual(first, domain.model.whole.energy_floor, domain.sample.budget);

@@ -13,10 +13,10 @@ void step(Domain& domain, const StepOptions& options) {
   joint_forces(domain);    // active joints, by ascending ids
   contact_forces(domain);  // couples, by ascending ids
   send_signals(options.signals, domain);
-  const Field<double> velocity_before = options.sample ? domain.state.nodes.velocity : Field<double>{};
+  if (options.sample) domain.scratch.velocity_before = domain.state.nodes.velocity;
   move_nodes(options.sample, domain);  // internal forces, intact joints, motion, constraints; proxies leave
   activate_crossed_joints(domain);
-  if (options.sample) sample_energies(velocity_before, domain);
+  if (options.sample) sample_energies(domain);
   return_elastic_joints(domain);
   account_late_work(options.sample, domain);
   receive_proxies(domain);

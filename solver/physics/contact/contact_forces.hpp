@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <functional>
+
 #include "base/exact_sum.hpp"
 #include "discretisation/local_mesh.hpp"
 #include "discretisation/nodal_forces.hpp"
@@ -43,10 +46,10 @@ struct ContactWork {
 void contact_forces(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt,
                     ContactState& contact, NodalForces& forces, ContactWork& work);
 
-/// Sum of the contact forces of the last step on the elements of a volume group by axis, N: forces on its points (the
-/// spherical boundary's included), reactions on its contactors; of the points of this rank's originals. O(touching
-/// couples).
-[[nodiscard]] std::array<ExactSum, 3> contact_force_on_group(const ContactState& contact, const LocalMesh& local,
-                                                             Index group);
+/// Sum of the contact forces of the last step on some elements by axis, N: forces on their points (the spherical
+/// boundary's included), reactions on their contactors; of the points of this rank's originals. O(touching couples).
+/// @param holds  whether the element in a slot is one of them
+[[nodiscard]] std::array<ExactSum, 3> contact_force_on(const ContactState& contact, const LocalMesh& local,
+                                                       const std::function<bool(Index slot)>& holds);
 
 }  // namespace breccia

@@ -233,6 +233,7 @@ Frame SyntheticPlate::frame(std::int64_t number, double time) const {
       frame.contacts.force.push_back(k == 1 ? -10.0 * share : 0.0);
       frame.contacts.normal_force.push_back(frame.contacts.force.back());
       frame.contacts.tangential_force.push_back(0.0);
+      frame.contacts.slip_velocity.push_back(0.0);
     }
     frame.contacts.id.push_back(static_cast<std::int64_t>(frame.contacts.body.size()));
     frame.contacts.body.push_back(0);
@@ -268,8 +269,8 @@ Frame piece_of(const Frame& whole, int number, int count) {
   cut_all(j.id.size(), j.points, j.damage, j.mode, j.opening, j.slip, j.broken, j.time_of_failure, j.state, j.energy,
           j.id);
   auto& c = piece.contacts;
-  cut_all(c.body.size(), c.id, c.points, c.force, c.normal_force, c.tangential_force, c.other_body, c.other_element,
-          c.body);
+  cut_all(c.body.size(), c.id, c.points, c.force, c.normal_force, c.tangential_force, c.slip_velocity, c.other_body,
+          c.other_element, c.body);
   return piece;
 }
 

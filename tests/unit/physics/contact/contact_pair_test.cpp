@@ -109,8 +109,13 @@ TEST(contact_pair, books_what_the_closed_forms_return_and_keep) {
 TEST(contact_pair, groups_see_equal_and_opposite_forces) {
   Pair pair(kCases[0]);
   const double force = pair.force_at(kDeepest);
-  EXPECT_NEAR(contact_force_on_group(pair.scene.contact, pair.scene.local, 1)[0].value(), force, kRoundOff * force);
-  EXPECT_NEAR(contact_force_on_group(pair.scene.contact, pair.scene.local, 0)[0].value(), -force, kRoundOff * force);
+  const auto force_on = [&](Index group) {
+    const LocalMesh& local = pair.scene.local;
+    const auto holds = [&](Index slot) { return local.block_group[static_cast<std::size_t>(slot / kLanes)] == group; };
+    return contact_force_on(pair.scene.contact, local, holds)[0].value();
+  };
+  EXPECT_NEAR(force_on(1), force, kRoundOff * force);
+  EXPECT_NEAR(force_on(0), -force, kRoundOff * force);
 }
 
 TEST(contact_pair, leaves_the_work_at_points_of_another_rank_to_that_rank) {
