@@ -280,8 +280,8 @@ void define(CLI::App& app, Arguments& a) {
       "Writes frames for ParaView (frames/*.series), history.csv, status.jsonl, summary.json and .txt, the resolved "
       "case and provenance.json.\n"
       "Ctrl-C ends the run after the present step with everything written, with exit code 130 (under mpiexec, which "
-      "kills a second after it, `breccia control FOLDER stop` is the way); `breccia resume` goes on with it, also after "
-      "a power cut, from the last of its checkpoints (`breccia explain checkpoint`). SIGUSR1 asks for one.");
+      "kills a second after it, `breccia control FOLDER stop` is the way); `breccia resume` goes on with it, also "
+      "after a power cut, from the last of its checkpoints (`breccia explain checkpoint`). SIGUSR1 asks for one.");
 
   define_run_insitu(*run, a);
   define_resume(app, a);

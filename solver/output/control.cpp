@@ -189,12 +189,12 @@ std::string ask_run(const fs::path& run_folder, const std::string& command, doub
   const bool put = put_request(folder.control(), line, id, in_time);
   Tail tail(folder.status(), static_cast<std::streamoff>(size));
   while (in_time()) {
-    for (const nlohmann::json& line : tail.news()) {
-      if (line.value("id", "") == id) {
-        if (line.value("accepted", false)) return line.value("text", "");
-        throw no_answer(run_folder, "the run refuses: " + line.value("text", ""), "");
+    for (const nlohmann::json& news : tail.news()) {
+      if (news.value("id", "") == id) {
+        if (news.value("accepted", false)) return news.value("text", "");
+        throw no_answer(run_folder, "the run refuses: " + news.value("text", ""), "");
       }
-      if (is_over(line)) throw no_answer(run_folder, "the run has ended meanwhile", "");
+      if (is_over(news)) throw no_answer(run_folder, "the run has ended meanwhile", "");
     }
     std::this_thread::sleep_for(kGlance);
   }

@@ -68,14 +68,13 @@ void return_elastic_joints(Domain& domain) {
   domain.state.joints.active.erase(ids);
 }
 
-void account_late_work(bool sample, Domain& domain) {
+void account_late_work(Domain& domain) {
   const auto lap = domain.timer.measure(Phase::loads);
   State& state = domain.state;
   for (PressureLoad& p : state.loads.pressures) p.book_after(domain.model.local, state.nodes, state.clock.dt);
   state.constraints.book_after(state.clock.dt);
-  if (!sample) return;
   const auto merge = [](Field<double>& work, const Field<double>& late) {
-    for (std::size_t i = 0; i < work.size(); ++i) work[i] += late[i];
+    for (std::size_t i = 0; i < late.size(); ++i) work[i] += late[i];
   };
   merge(state.elements[kViscousWork], domain.scratch.viscous_late);
   merge(state.elements[kStressWork], domain.scratch.stress_late);

@@ -26,13 +26,14 @@ void note_crossing(void* context, Index slot, int face, double* force) {
   domain.scratch.crossed.push_back(at(index));
 }
 
-/// Where the sweep accounts the work of one kind: the half before t_n, and the half after it, which must wait when the
-/// energies at t_n are sampled.
-void split_work(bool sample, Field<double>& work, Field<double>& late, double*& before, double*& after) {
+/// Where the sweep accounts the work of one kind: the half before t_n, and the half after it, which waits in `late`
+/// for account_late_work() when the energies at t_n are sampled.
+void split_work(bool wait, Field<double>& work, Field<double>& late, double*& before, double*& after) {
+  late.clear();
   if (work.empty()) return;
-  if (sample) late.assign(work.size(), 0.0);
+  if (wait) late.assign(work.size(), 0.0);
   before = work.data();
-  after = sample ? late.data() : work.data();
+  after = wait ? late.data() : work.data();
 }
 
 void set_model_args(const Domain& domain, SweepArgs& args) {
@@ -82,7 +83,10 @@ SweepArgs sweep_args(bool sample, Domain& domain) {
   }
   split_work(sample, viscous, scratch.viscous_late, args.viscous_before, args.viscous_after);
   split_work(sample, stress, scratch.stress_late, args.stress_before, args.stress_after);
-  split_work(sample, state.damping_work, scratch.damping_late, args.damping_before, args.damping_after);
+  // That of held nodes is corrected afterwards (account_held_damping): it waits always, so that the sums are the same
+  // bits whether the energies are sampled or not.
+  split_work(sample || !state.constraints.empty(), state.damping_work, scratch.damping_late, args.damping_before,
+             args.damping_after);
   return args;
 }
 

@@ -41,7 +41,7 @@ void sample_energies(Domain& domain);
 void return_elastic_joints(Domain& domain);
 
 /// Work of pressures and constraints, and of what the sweep accounts, after t_n.
-void account_late_work(bool sample, Domain& domain);
+void account_late_work(Domain& domain);
 
 /// Waits for the proxies' next positions and velocities.
 void receive_proxies(Domain& domain);

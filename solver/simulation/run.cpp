@@ -126,7 +126,6 @@ class Runner {
       advance(last);
       look_at_checkpoints();
       status_ = status_now();
-      if (status_ == "stopped: by request" && !steps.over()) advance(true);
     }
     if (checkpoints_ && !checkpoints_->is_of_now()) checkpoints_->begin(position());
     steps_ = nullptr;

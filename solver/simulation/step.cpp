@@ -18,7 +18,7 @@ void step(Domain& domain, const StepOptions& options) {
   activate_crossed_joints(domain);
   if (options.sample) sample_energies(domain);
   return_elastic_joints(domain);
-  account_late_work(options.sample, domain);
+  account_late_work(domain);
   receive_proxies(domain);
   advance_clock(domain.state);
 }

@@ -56,7 +56,7 @@ TEST(SummaryJson, HasExactlyTheFieldsThatReadersKnow) {
                                    "time_step", "elements", "joints", "broken_joints", "fragments", "searches",
                                    "inverted_elements", "wall_s", "element_steps_per_s", "phases", "energy",
                                    "energy_residual_relative", "max_rss_bytes", "state_hash", "decompositions",
-                                   "imbalance", "messages", "message_bytes"));
+                                   "imbalance", "messages", "message_bytes", "checkpoints"));
   EXPECT_THAT(names_of(summary.at("energy")),
               UnorderedElementsAre("kinetic", "elastic", "joint_elastic", "contact_stored", "joint_mode_1",
                                    "joint_mode_2", "joint_friction", "contact_dissipated", "contact_friction",

@@ -94,11 +94,11 @@ TEST(contact_damping, is_nothing_where_it_is_off) {
 }
 
 TEST(contact_points, at_corners_feel_a_ridge_as_soon_as_it_touches) {
-  // A tetrahedron that stands on an edge, a micrometre deep in the floor.
+  // A tetrahedron that stands on an edge, a micrometre deep in the floor and beside all of the floor's points.
   constexpr double depth = 1e-6;
   const double edge = std::sqrt(0.5);
-  const Mesh ridge = test::lone(
-      {Vec3(1.8, 1.5, 4 - depth), Vec3(1.2, 1.5, 4 - depth), Vec3(1.5, 1.5 - edge, 4.5), Vec3(1.5, 1.5 + edge, 4.5)});
+  const Mesh ridge = test::lone({Vec3(1.8, 1.55, 4 - depth), Vec3(1.2, 1.55, 4 - depth), Vec3(1.5, 1.55 - edge, 4.5),
+                                 Vec3(1.5, 1.55 + edge, 4.5)});
   for (const int points : {3, 4}) {
     test::Scene scene(test::joined(test::box({3, 3, 4}, 1.0), ridge), {kPenalty, kInfinite, 1, 0, 1}, points);
     scene.evaluate(0.0);

@@ -1,0 +1,179 @@
+#pragma once
+
+#include <array>
+
+#include "case/schema_ranges.hpp"
+
+/// The rows of the table of keys for how a case is run and what is written, and for functions of time.
+namespace breccia::case_ {
+
+using namespace ranges;
+using enum ValueType;
+
+// Packed by hand: with a line a field the table could not be read.
+// clang-format off
+inline constexpr auto run_keys = std::to_array<Key>({
+    {.path = "detection", .type = section,
+     .help = "Search for points and elements that may touch. It changes the speed, never the results."},
+    {.path = "detection.algorithm", .type = choice, .fallback = "packed_tree",
+     .choices = "ms|ms_slices|sorted_grid|packed_tree|brute_force",
+     .help = "ms: the MS-tree and MS-search; ms_slices: the same one slice at a time; a sorted grid; a packed tree, "
+             "the fastest where sizes differ or the order in memory is poor; or all against all.", .example = "\"ms\""},
+    {.path = "detection.buffer", .type = number, .unit = "m", .fallback = "auto", .range = positive, .word = "auto",
+     .help = "Distance by which boxes are enlarged, so that a search lasts several steps. auto: a share of the element "
+             "size.", .example = "\"0.5 mm\""},
+    {.path = "detection.cell", .type = number, .unit = "m", .fallback = "auto", .range = positive, .word = "auto",
+     .help = "Edge of a cell of ms, ms_slices and sorted_grid; the others have none. auto: from buffer and element "
+             "size.", .example = "\"5 mm\""},
+    {.path = "detection.verify", .type = boolean, .fallback = "false",
+     .help = "Compare every step with all against all; slow.", .example = "true"},
+
+    {.path = "domains", .type = section,
+     .help = "How a run on several ranks (mpiexec -n N) divides the model. It changes the speed, never the results."},
+    {.path = "domains.kind", .type = choice, .fallback = "rcb", .choices = "rcb|grid",
+     .help = "rcb: bisected again and again so that all ranks have the same work; grid: equal cuboids. A small "
+             "fragment goes to one domain, whole.",
+     .example = "\"grid\""},
+    {.path = "domains.n", .type = integers_or_one, .fallback = "[0, 0, 0]", .range = at_most_100000,
+     .help = "Cuboids of the grid along x, y and z, as many as ranks; 0: chosen so that the least area is cut.",
+     .example = "[2, 2, 1]"},
+    {.path = "domains.exchange", .type = choice, .fallback = "non_blocking", .choices = "non_blocking|pairwise",
+     .help = "non_blocking: a rank sends to all its neighbours at once; pairwise: couple by couple, by a schedule in "
+             "which nobody waits for a third.", .example = "\"pairwise\""},
+    {.path = "domains.rebalance", .type = boolean, .fallback = "true",
+     .help = "Divide anew when that pays: when ranks have waited for each other for as long as it takes.",
+     .example = "false"},
+    {.path = "domains.margin", .type = number, .fallback = "1", .range = {.lower = 0.1, .upper = 100},
+     .help = "How far beyond a domain a rank knows its neighbours' elements at least, in longest edges of an element. "
+             "Larger: fewer new divisions while bodies move, but more to search. For fast bodies it is widened up to "
+             "fivefold by itself.",
+     .example = "2"},
+    {.path = "domains.patience", .type = number, .unit = "s", .fallback = "300", .range = positive,
+     .help = "Wall time that a rank waits for others before it says for whom, and where; after twice as long the "
+             "run ends.",
+     .example = "\"20 min\""},
+
+    {.path = "checkpoint", .type = section,
+     .help = "When the whole state is written into RUN/checkpoints, so that `breccia resume` goes on from there. "
+             "Beside these times it is at the end of every stage and of the run, and when the run is asked to end."},
+    {.path = "checkpoint.steps", .type = integer, .fallback = "0", .range = steps,
+     .help = "Steps between checkpoints; 0: not by steps.", .example = "10000"},
+    {.path = "checkpoint.interval", .type = number, .unit = "s", .fallback = "0", .range = not_negative,
+     .help = "Simulated time between checkpoints; 0: not by simulated time.", .example = "\"1 ms\""},
+    {.path = "checkpoint.wall_interval", .type = number, .unit = "s", .fallback = "300", .range = not_negative,
+     .help = "Wall time between checkpoints; 0: not by wall time.", .example = "\"10 min\""},
+    {.path = "checkpoint.keep", .type = integer, .fallback = "2", .range = at_most_100000,
+     .help = "So many of the last checkpoints are kept; 0: none are written.", .example = "5"},
+
+    {.path = "output", .type = section, .help = "What a run writes, and how often."},
+    {.path = "output.frame_interval", .type = number, .unit = "s", .fallback = "0", .range = not_negative,
+     .help = "Simulated time between frames for ParaView; 0: the last state only.", .example = "\"1 us\""},
+    {.path = "output.history_interval", .type = number, .unit = "s", .fallback = "auto", .range = positive,
+     .word = "auto",
+     .help = "Simulated time between lines of the history. auto: 500 lines a run, but no more than one in 20 steps.",
+     .example = "\"100 ns\""},
+    {.path = "output.elements", .type = boolean, .fallback = "true", .help = "Elements in frames.", .example = "false"},
+    {.path = "output.joints", .type = boolean, .fallback = "true", .help = "Joints in frames.", .example = "false"},
+    {.path = "output.contacts", .type = boolean, .fallback = "true", .help = "Contact points in frames.",
+     .example = "false"},
+    {.path = "output.gauges", .type = text_list, .fallback = "[]",
+     .help = "Groups, or bodies as \"body 3\" (frames show their numbers), of which the history records reaction, "
+             "contact force, displacement, velocity, centre of mass, momentum, spin, resultant force and torque. Means "
+             "are weighted by mass.", .example = "[\"support\", \"body 0\"]"},
+
+    {.path = "insitu", .type = section,
+     .help = "Pictures, extracts and live views that are made while the run goes on, by ParaView Catalyst "
+             "(catalyst/README.md)."},
+    {.path = "insitu.run", .type = text_list, .fallback = "[]",
+     .help = "Pipelines that run 50 times over the simulated time: names as in insitu.pipeline.name, or scripts. "
+             "Those with triggers or parameters of their own are [[insitu.pipeline]].",
+     .example = "[\"fractures\", \"stress\"]"},
+    {.path = "insitu.max_overhead", .type = number, .fallback = "0.02", .range = {.lower = 0, .upper = 1,
+     .lower_open = true},
+     .help = "Share of the wall time that pipelines may take; triggers beyond it are passed over, those of strict "
+             "pipelines excepted.",
+     .example = "0.1"},
+    {.path = "insitu.on_error", .type = choice, .fallback = "warn", .choices = "warn|stop",
+     .help = "What a pipeline's failure means: warn and switch it off after three failures, or end the run.",
+     .example = "\"stop\""},
+
+    {.path = "insitu.live", .type = section,
+     .help = "A running ParaView sees the run: Catalyst > Connect there, before or during the run. `breccia run "
+             "--live` adds this section."},
+    {.path = "insitu.live.address", .type = text, .fallback = "\"localhost:22222\"",
+     .help = "Where ParaView listens, host:port.", .example = "\"localhost:22333\""},
+    {.path = "insitu.live.remote", .type = boolean, .fallback = "false",
+     .help = "Allows an address on another machine; what is sent there is neither encrypted nor checked.",
+     .example = "true"},
+    {.path = "insitu.live.interval", .type = number, .unit = "s", .fallback = "1", .range = not_negative,
+     .help = "Wall time between two updates, at least.", .example = "\"0.2 s\""},
+    {.path = "insitu.live.channels", .type = text_list,
+     .fallback = "[\"surface\", \"fractures\", \"contacts\", \"domains\", \"elements\"]",
+     .choices = "elements|joints|fractures|contacts|surface|domains|history",
+     .help = "What ParaView is offered.", .example = "[\"surface\", \"fractures\"]"},
+    {.path = "insitu.live.max_overhead", .type = number, .fallback = "0.05",
+     .range = {.lower = 0, .upper = 1, .lower_open = true},
+     .help = "Share of the wall time that updates may take; they come more seldom when they would take more.",
+     .example = "0.5"},
+
+    {.path = "insitu.pipeline[]", .type = section_list,
+     .help = "Something to be done with the state while the run goes on. It is done whenever one of its triggers says "
+             "so; without any, 50 times over the simulated time."},
+    {.path = "insitu.pipeline[].name", .type = text, .required = true,
+     .choices = "volume|joints|fractures|contacts|surface|domains|history|fracture_growth|stress|ranks|contact_forces",
+     .help = "volume, joints, fractures, contacts, surface, domains and history record data; fracture_growth, stress, "
+             "ranks and contact_forces draw pictures; a name that ends with .py is a script exported from ParaView, "
+             "relative to the case file.",
+     .example = "\"fractures\""},
+    {.path = "insitu.pipeline[].every_steps", .type = integer, .fallback = "0", .range = steps,
+     .help = "Trigger: every so many steps; 0: not by steps.", .example = "100"},
+    {.path = "insitu.pipeline[].every_time", .type = number, .unit = "s", .fallback = "0", .range = not_negative,
+     .help = "Trigger: simulated time; 0: not by it.", .example = "\"1 us\""},
+    {.path = "insitu.pipeline[].every_wall", .type = number, .unit = "s", .fallback = "0", .range = not_negative,
+     .help = "Trigger: wall time; 0: not by it.", .example = "\"30 s\""},
+    {.path = "insitu.pipeline[].every_broken", .type = integer, .fallback = "0", .range = steps,
+     .help = "Trigger: so many more joints broken; 0: not by them.", .example = "50"},
+    {.path = "insitu.pipeline[].first_break", .type = boolean, .fallback = "false",
+     .help = "Trigger: the first joint breaks.",
+     .example = "true"},
+    {.path = "insitu.pipeline[].strict", .type = boolean, .fallback = "false",
+     .help = "Every trigger counts, whatever it costs.", .example = "true"},
+    {.path = "insitu.pipeline[].parameters", .type = parameters, .fallback = "{}",
+     .help = "Numbers handed to the pipeline, in SI or with a unit: width, height, azimuth, elevation, zoom, lower, "
+             "upper for pictures; any for scripts.",
+     .example = "{ width = 1280, azimuth = 30 }"},
+
+    {.path = "<function>", .type = notation,
+     .help = "A function of time is a quantity, or a table of the keys below, which add up. Time counts from the start "
+             "of the run."},
+    {.path = "<function>.constant", .type = number, .unit = "*", .fallback = "0", .help = "Value at all times.",
+     .example = "\"1 MPa\""},
+    {.path = "<function>.linear", .type = number, .unit = "*/s", .fallback = "0",
+     .help = "Growth a second, from 0 at time 0.", .example = "\"20 GPa/s\""},
+    {.path = "<function>.table", .type = points, .unit = "*",
+     .help = "Points [time, value], times increasing; straight between them, constant before the first and after the "
+             "last.", .example = "[[0, 0], [\"1 ms\", \"1 mm\"]]"},
+
+    {.path = "<function>.ramp[]", .type = section_list,
+     .help = "From one value to another in a straight line, constant before and after. One table, or a list of them."},
+    {.path = "<function>.ramp[].from", .type = number, .unit = "*", .fallback = "0", .help = "Value before.",
+     .example = "0"},
+    {.path = "<function>.ramp[].to", .type = number, .unit = "*", .required = true, .help = "Value after.",
+     .example = "\"-9.81 m/s2\""},
+    {.path = "<function>.ramp[].start", .type = number, .unit = "s", .fallback = "0",
+     .help = "Time at which it starts.", .example = "0"},
+    {.path = "<function>.ramp[].end", .type = number, .unit = "s", .required = true, .help = "Time at which it ends.",
+     .example = "\"2.4 s\""},
+
+    {.path = "<function>.sine[]", .type = section_list,
+     .help = "amplitude sin(2 pi frequency t + phase). One table, or a list of them."},
+    {.path = "<function>.sine[].amplitude", .type = number, .unit = "*", .required = true, .help = "Its amplitude.",
+     .example = "\"1 MPa\""},
+    {.path = "<function>.sine[].frequency", .type = number, .unit = "1/s", .required = true, .range = not_negative,
+     .help = "Its frequency.", .example = "\"10 Hz\""},
+    {.path = "<function>.sine[].phase", .type = number, .unit = "rad", .fallback = "0", .help = "Its phase.",
+     .example = "\"90 deg\""},
+});
+// clang-format on
+
+}  // namespace breccia::case_
