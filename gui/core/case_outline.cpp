@@ -61,7 +61,9 @@ const std::vector<WorkStage>& work_stages() {
        {"initial_velocity[]", "stage[]", "stage[].constraint[]", "stage[].pressure[]"}},
       {text("Time"), Kind::sections, {"time"}},
       {text("Domains"), Kind::sections, {"domains"}},
-      {text("Output and in situ"), Kind::sections, {"output", "insitu", "insitu.live", "insitu.pipeline[]"}},
+      {text("Output and in situ"),
+       Kind::sections,
+       {"output", "checkpoint", "insitu", "insitu.live", "insitu.pipeline[]"}},
       {text("Run"), Kind::run, {}},
       {text("Results"), Kind::results, {}}};
   return stages;

@@ -33,7 +33,8 @@ struct Desk {
 
   void begin() {
     Places places;
-    places.launch = {BRECCIA_PROGRAM, BRECCIA_MPIEXEC};
+    // Pictures show the program where it is installed.
+    places.launch = {qEnvironmentVariable("BRECCIA_PROGRAM", BRECCIA_PROGRAM), BRECCIA_MPIEXEC};
     places.meshes = BRECCIA_MESHES;
     places.projects = scratch.filePath("projects");
     places.state = scratch.filePath("state");
