@@ -222,8 +222,9 @@ void define_resume(CLI::App& app, Arguments& a) {
           "goes on to it; default: the end")
       ->check(simulated_time(false));
   resume
-      ->add_option("--set", a.resume.overrides,
-                   "override keys of [domains], [detection], [checkpoint]; others would change the results")
+      ->add_option(
+          "--set", a.resume.overrides,
+          "override keys of [domains], [detection], [checkpoint], or time.max_steps; others would change the results")
       ->allow_extra_args(false)
       ->take_all();
   resume->add_option("--progress", a.progress, kProgressHelp)->check(progress_modes());
@@ -424,9 +425,8 @@ int main(int argc, char** argv) {
     return answer == 0 ? code(ExitCode::success) : code(ExitCode::usage);
   }
   const auto asked_for = [&](const char* command) { return app.got_subcommand(command); };
-  const bool at_once = asked_for("check") || asked_for("mesh") || asked_for("control") || asked_for("diff") ||
-                       asked_for("explain") || asked_for("live");  // nothing is lost
-  if (!at_once) {
+  const bool in_order = asked_for("run") || asked_for("resume") || asked_for("race");  // the others lose nothing
+  if (in_order) {
     speaks_of_signals = session.world().is_root() ? 1 : 0;
     for (const int s : {SIGINT, SIGTERM, SIGHUP}) std::signal(s, stop_handler);
     std::signal(SIGUSR1, checkpoint_handler);

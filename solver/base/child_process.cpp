@@ -97,7 +97,7 @@ void keep_descriptors(int report, int words) {
   ::dup2(nothing, 0);
   ::dup2(high_words, 1);
   ::dup2(high_words, 2);
-  ::dup2(high_report, 3);
+  ::dup3(high_report, 3, O_CLOEXEC);  // a program that a trusted script leaves running must not keep it open
   if (::syscall(SYS_close_range, 4U, ~0U, 0U) != 0) {
     for (int d = 4; d < 65536; ++d) ::close(d);  // an older kernel
   }
@@ -192,7 +192,7 @@ void read_report(ChildEnd& end, std::vector<std::byte> bytes) {
 ChildEnd run_in_child(const ChildLimits& limits, const std::function<void()>& prepare,
                       const std::function<std::vector<std::byte>()>& work) {
   Pipe report, words;
-  // What the child says beyond a pipe's size is dropped, so that nobody waits for its reader.
+  // What the child says beyond a pipe's size is dropped, so that the child never waits for a reader.
   ::fcntl(words.writing, F_SETFL, O_NONBLOCK);
   ::fcntl(words.reading, F_SETFL, O_NONBLOCK);
   ::fcntl(report.writing, F_SETPIPE_SZ, 1 << 20);
@@ -218,10 +218,10 @@ ChildEnd run_in_child(const ChildLimits& limits, const std::function<void()>& pr
     if (end.signal == SIGSYS) {
       end.kind = ChildEnd::Kind::forbidden;
       end.text = "run a program";
+    } else if (interruption != 0) {  // the terminal's signal reaches the child as well
+      end.kind = ChildEnd::Kind::interrupted;
     } else if (end.signal == SIGKILL || grew || end.text.find("bad_alloc") != std::string::npos) {
       end.kind = ChildEnd::Kind::out_of_memory;
-    } else if (interruption != 0) {
-      end.kind = ChildEnd::Kind::interrupted;
     }
     return end;
   }

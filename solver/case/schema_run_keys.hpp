@@ -39,7 +39,7 @@ inline constexpr auto run_keys = std::to_array<Key>({
      .example = "[2, 2, 1]"},
     {.path = "domains.exchange", .type = choice, .fallback = "non_blocking", .choices = "non_blocking|pairwise",
      .help = "non_blocking: a rank sends to all its neighbours at once; pairwise: couple by couple, by a schedule in "
-             "which nobody waits for a third.", .example = "\"pairwise\""},
+             "which no rank waits for a third.", .example = "\"pairwise\""},
     {.path = "domains.rebalance", .type = boolean, .fallback = "true",
      .help = "Divide anew when that pays: when ranks have waited for each other for as long as it takes.",
      .example = "false"},

@@ -32,11 +32,11 @@ class Solids {
       }
     }
   }
-  [[nodiscard]] Index of(Index body) const {
-    while (solid_[index(body)] != body) body = solid_[index(body)];
+  [[nodiscard]] Index of(Index body) {
+    while (solid_[index(body)] != body) body = solid_[index(body)] = solid_[index(solid_[index(body)])];
     return body;
   }
-  [[nodiscard]] bool several() const {
+  [[nodiscard]] bool several() {
     const auto body_count = static_cast<Index>(solid_.size());
     for (Index b = 1; b < body_count; ++b) {
       if (of(b) != of(0)) return true;
@@ -49,10 +49,10 @@ class Solids {
   std::vector<Index> solid_;
 };
 
-/// Bodies that go through each other. Those that a constraint holds in every stage are nobody's danger by themselves.
+/// Bodies that go through each other. Those that a constraint holds in every stage cannot move into others.
 std::string missing_contact(const case_::Case& input, const Model& model) {
   if (model.has_contact) return {};
-  const Solids solids(model);
+  Solids solids(model);
   if (!solids.several()) return {};
   std::vector<bool> free(index(model.mesh.num_bodies), true);
   for (std::size_t g = 0; g < model.mesh.volume_groups.size(); ++g) {
@@ -69,8 +69,7 @@ std::string missing_contact(const case_::Case& input, const Model& model) {
   }
   if (std::find(free.begin(), free.end(), true) == free.end()) return {};
   return "- There is no [[contact]]: bodies that meet go through each other. Add one, with between = [\"*\", \"*\"] "
-         "for "
-         "all groups, unless they never meet.\n";
+         "for all groups, unless they never meet.\n";
 }
 
 std::string sphere_too_small(const Model& model) {
@@ -88,8 +87,7 @@ std::string sphere_too_small(const Model& model) {
   if (outside == 0) return {};
   return fmt::format(
       "- The sphere does not hold the model: {} elements begin outside, element {} by {:.3g} m, and what begins "
-      "outside "
-      "is not pushed back in. Raise sphere.radius from {:.4g} to more than {:.4g} m, or move sphere.centre.\n",
+      "outside is not pushed back in. Raise sphere.radius from {:.4g} to more than {:.4g} m, or move sphere.centre.\n",
       outside, worst, furthest - sphere.radius, sphere.radius, furthest);
 }
 

@@ -84,8 +84,10 @@ OverlapReport overlap_report(const case_::Case& input, const Model& model) {
   for (const GroupOverlap& groups : overlaps) {
     report.text += description(model, groups) + "\n";
     if (entry_of(input, model, groups.deepest).initial_overlap == case_::InitialOverlap::refuse) {
+      const BodyOverlap& o = groups.deepest;
       report.advice +=
-          fmt::format("- A run ends with an error, since bodies overlap. What helps: {}.\n", remedy(groups.deepest));
+          fmt::format("- A run ends with an error, since {} and {} overlap. What helps: {}.\n",
+                      name_of_body(model, o.group, o.body), name_of_body(model, o.other_group, o.other), remedy(o));
     }
   }
   return report;

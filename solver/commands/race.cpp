@@ -20,7 +20,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kRounds = 3;
-/// A lap whose length nobody has given: see race_case.
+/// A lap whose length is not given: see race_case.
 constexpr std::int64_t kSearches = 10, kFewestSteps = 50;
 constexpr double kAllLaps = 60;  ///< s
 /// Steps between two looks at the clock, which all ranks take together.

@@ -55,7 +55,7 @@ struct RaceEntry {
 };
 
 struct RaceResult {
-  std::string title, left_out;  ///< left_out: why somebody does not race; empty: nobody
+  std::string title, left_out;  ///< left_out: why one of them does not race; empty: all do
   std::int64_t elements = 0, steps = 0;
   int ranks = 1, rounds = 0;       ///< rounds that all racers have finished
   double start = 0, end = 0;       ///< s, simulated
@@ -69,7 +69,7 @@ struct RaceResult {
 /// The case is run once to the start, and its state kept. A lap rebuilds the model from that state and steps it,
 /// without output, budgets and detection.verify; ranks share the work as they did at the start. The first lap, the
 /// case's own, warms the machine, tells how large an automatic buffer is, and counts for nothing; then all race in
-/// turn, three times, to and fro, so that nobody is always first. Unless the settings give its length a lap lasts for
+/// turn, three times, to and fro, so that none is always first. Unless the settings give its length a lap lasts for
 /// ten searches of the case's own setting and at least fifty steps, or for as long as all laps fit into a minute; where
 /// rebuilding takes so long that they do not, there are fewer rounds than three. No lap goes beyond the end of the
 /// case; time.max_steps binds runs only.

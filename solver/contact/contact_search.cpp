@@ -35,7 +35,7 @@ Extent ContactSearch::extent(const Field<double>& position) const {
   const LocalMesh& local = surface_.model().local;
   Extent extent;
   for (Index s = 0; s < local.num_slots; ++s) {
-    if (contact_.matters(s)) extent.add(extent_of(load_corners(local, position.data(), s)));
+    if (contact_.evaluated(s)) extent.add(extent_of(load_corners(local, position.data(), s)));
   }
   return extent;
 }
@@ -64,7 +64,7 @@ void ContactSearch::verify(const NodalState& nodes) const {
     for (const Index p : contact_.order) {
       if (!inside(barycentric(tetra, at_point(rule, contact_.points[at(p)], nodes.position.data())))) continue;
       if (!surface_.may_touch(p, contactor)) continue;
-      if (!contact_.matters(contact_.points[at(p)].slot) && !contact_.matters(slot)) continue;
+      if (!contact_.evaluated(contact_.points[at(p)].slot) && !contact_.evaluated(slot)) continue;
       const bool known =
           std::binary_search(contact_.couples.begin(), contact_.couples.end(), ContactCouple{p, contactor},
                              [&](const ContactCouple& a, const ContactCouple& b) { return contact_.before(a, b); });

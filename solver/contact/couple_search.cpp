@@ -89,14 +89,14 @@ void CoupleSearch::choose(std::span<const std::uint8_t> current) {
   chosen_.corners.clear();
   for (std::size_t c = 0; c < corners_.size(); ++c) {
     const Index slot = contact_.contactors[c];
-    if (!contact_.matters(slot) && chosen_.roles[at(slot)] == HaloRole::none) continue;
+    if (!contact_.evaluated(slot) && chosen_.roles[at(slot)] == HaloRole::none) continue;
     chosen_.contactors.push_back(static_cast<Index>(c));
     chosen_.corners.push_back(corners_[c]);
   }
   chosen_.points.clear();
   for (const Index p : contact_.order) {
     const Index slot = contact_.points[at(p)].slot;
-    if (contact_.matters(slot) || chosen_.roles[at(slot)] == HaloRole::contactor_and_points)
+    if (contact_.evaluated(slot) || chosen_.roles[at(slot)] == HaloRole::contactor_and_points)
       chosen_.points.push_back(p);
   }
 }
@@ -106,7 +106,7 @@ void CoupleSearch::find_roles(std::span<const std::uint8_t> current) {
   chosen_.extents.assign(at(local.num_slots), Extent{});
   for (Index s = 0; s < local.num_slots; ++s) {
     const bool known = local.element_of_slot[at(s)] >= 0 && (current.empty() || current[at(s)] != 0);
-    if (known || contact_.matters(s)) chosen_.extents[at(s)] = extent_of(load_corners(local, reference_.data(), s));
+    if (known || contact_.evaluated(s)) chosen_.extents[at(s)] = extent_of(load_corners(local, reference_.data(), s));
   }
   find_halo_roles(contact_, chosen_.extents, buffer_, std::max(size_, buffer_), chosen_.roles);
 }

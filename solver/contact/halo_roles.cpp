@@ -6,7 +6,7 @@ namespace breccia {
 
 void find_halo_roles(const ContactState& contact, std::span<const Extent> extents, double buffer, double cell,
                      std::vector<HaloRole>& roles) {
-  const auto evaluated = [&](std::size_t s) { return contact.matters(static_cast<Index>(s)); };
+  const auto evaluated = [&](std::size_t s) { return contact.evaluated(static_cast<Index>(s)); };
   roles.assign(extents.size(), HaloRole::none);
   Extent ours, region;
   for (std::size_t s = 0; s < extents.size(); ++s) {

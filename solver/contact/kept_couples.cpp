@@ -25,9 +25,9 @@ void KeptCouples::keep_evaluated() {
   std::vector<ContactCouple>& couples = contact_.couples;
   std::size_t kept = 0;
   for (std::size_t first = 0, end = 0; first < couples.size(); first = end) {
-    bool evaluated = contact_.matters(contact_.points[at(couples[first].point)].slot);
+    bool evaluated = contact_.evaluated(contact_.points[at(couples[first].point)].slot);
     for (end = first; end < couples.size() && couples[end].point == couples[first].point; ++end) {
-      evaluated = evaluated || contact_.matters(contact_.contactors[at(couples[end].contactor)]);
+      evaluated = evaluated || contact_.evaluated(contact_.contactors[at(couples[end].contactor)]);
     }
     for (std::size_t i = first; i < end && evaluated; ++i) couples[kept++] = couples[i];
   }
@@ -35,7 +35,7 @@ void KeptCouples::keep_evaluated() {
 }
 
 bool KeptCouples::is_kept(Index point) const {
-  if (contact_.matters(contact_.points[at(point)].slot)) return true;
+  if (contact_.evaluated(contact_.points[at(point)].slot)) return true;
   const auto found = std::lower_bound(contact_.couples.begin(), contact_.couples.end(), ContactCouple{point, 0},
                                       [&](const auto& a, const auto& b) { return contact_.before(a, b); });
   return found != contact_.couples.end() && found->point == point;
@@ -47,7 +47,7 @@ bool KeptCouples::add(std::vector<ContactCouple>& made) {
   made.erase(std::unique(made.begin(), made.end()), made.end());
   // A couple with an evaluated contactor brings in all others of its point.
   const bool brings_others = std::any_of(made.begin(), made.end(), [&](const ContactCouple& c) {
-    return contact_.matters(contact_.contactors[at(c.contactor)]) && !is_kept(c.point);
+    return contact_.evaluated(contact_.contactors[at(c.contactor)]) && !is_kept(c.point);
   });
   if (brings_others) {
     choose_again(made);
@@ -57,8 +57,8 @@ bool KeptCouples::add(std::vector<ContactCouple>& made) {
   std::erase_if(made, [&](const ContactCouple& c) { return !is_kept(c.point); });
   add_fresh_couples(made, contact_);
   return std::any_of(made.begin(), made.end(), [&](const ContactCouple& c) {
-    return !contact_.matters(contact_.points[at(c.point)].slot) ||
-           !contact_.matters(contact_.contactors[at(c.contactor)]);
+    return !contact_.evaluated(contact_.points[at(c.point)].slot) ||
+           !contact_.evaluated(contact_.contactors[at(c.contactor)]);
   });
 }
 

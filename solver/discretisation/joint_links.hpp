@@ -56,7 +56,7 @@ struct JointLinks {
     set(a, face_a, make_link(b, code));
     set(b, code / 3, make_link(a, 3 * face_a + code % 3));
   }
-  /// The joint on this face is no longer the sweep's business.
+  /// The joint on this face is no longer evaluated by the sweep.
   void detach(Index slot, int face) { set(slot, face, self_link(slot, face)); }
 
  private:

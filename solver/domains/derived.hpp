@@ -18,7 +18,7 @@ struct BlockRun {
 /// What a rank computes once from its model and its state and keeps for the steps: no state of its own, rebuilt
 /// whenever elements change hands.
 struct Derived {
-  JointLinks links;                    ///< of the joints that the sweep looks after
+  JointLinks links;                    ///< of the joints that the sweep evaluates
   std::vector<Index> joint_of_face;    ///< (slots, 4) index of the joint, -1: none
   std::vector<std::uint8_t> relevant;  ///< (slots) 1: forces on its nodes are computed here: originals, and elements
                                        ///< with which they share nodes
@@ -37,7 +37,7 @@ struct Derived {
 /// For a state at rest: links of all joints that begin intact.
 [[nodiscard]] Derived derive(const Model& model);
 
-/// Whether the face has an intact joint that the sweep looks after.
+/// Whether the face has an intact joint that the sweep evaluates.
 [[nodiscard]] bool is_swept(const Model& model, const Derived& derived, Index slot, int face);
 
 /// A joint as it is before its first evaluation, for the active list. @param index  into model.joints

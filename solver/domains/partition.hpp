@@ -56,8 +56,8 @@ class Partition {
   void keep_up();
   /// The partition as it is, which ends with it: no more steps. Collective. @pre a stage has begun
   [[nodiscard]] Snapshot snapshot();
-  /// The same in the middle of a run, which goes on. What ranks ask of each other is not in it. Collective, so that a
-  /// rank that has failed is heard of: then throws SimulationError on all. @pre a stage has begun
+  /// The same in the middle of a run, which goes on. What ranks ask of each other is not in it. Collective, so that the
+  /// failure of a rank is received: then throws SimulationError on all. @pre a stage has begun
   [[nodiscard]] Snapshot copy() const;
   /// Stable step of the whole model at present under the constraints of the stage. Collective.
   /// @param steps  of it until the next call

@@ -80,10 +80,9 @@ void take_contact(const case_::Case& input, Model& model) {
   }
 }
 
-/// Corners of elements that belong to a surface: those of its faces, and those that hang together with them around the
-/// same node through faces that stages do not break. What lies across a notch, open from the start or opened by a
-/// stage,
-/// belongs to it with faces of its own only.
+/// Corners of elements that belong to a surface: those of its faces, and those connected to them around the same node
+/// through faces that no stage breaks. What lies across a notch, open from the start or opened by a stage, belongs to
+/// it with faces of its own only.
 class SurfaceCorners {
  public:
   SurfaceCorners(const case_::Case& input, const Model& model)

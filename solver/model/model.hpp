@@ -75,17 +75,18 @@ struct Model {
 
 /// The model of a piece of the mesh.
 /// @param mesh, topology  the piece, faces broken from the start cut;  @param original  (elements) 1: the rank's own
-/// @param whole           as build_model found it;  @param corner_tags  of the piece's elements, by (element, group)
+/// @param whole           as build_bare_model found it on the root, with contactor_size
+/// @param corner_tags     of the piece's elements, by (element, group)
 [[nodiscard]] Model build_piece(const case_::Case& input, WholeModel whole, Mesh mesh, Topology topology,
                                 const std::vector<std::uint8_t>& original, std::vector<CornerTag> corner_tags);
 
 /// The mesh alone, read or generated, with the case's groups checked against it.
 [[nodiscard]] FinishedMesh build_mesh(const case_::Case& input);
 
-/// Links of the joints that the sweep looks after.
+/// Links of the joints that the sweep evaluates.
 [[nodiscard]] JointLinks build_links(const Model& model);
 
-/// True if the joint is elastic at first and both its elements own their nodes: looked after by the sweep until it
+/// True if the joint is elastic at first and both its elements own their nodes: evaluated by the sweep until it
 /// crosses its limit; else it is on the active list from the start.
 [[nodiscard]] bool starts_intact(const Model& model, const ModelJoint& joint);
 

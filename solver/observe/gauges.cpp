@@ -43,7 +43,7 @@ Vec3 vector_at(const double* numbers) { return {numbers[0], numbers[1], numbers[
 struct Motion {
   explicit Motion(const Domain& domain)
       : local(domain.model.local),
-        place(domain.state.nodes.next_position.data()),  // positions have been exchanged since
+        place(domain.state.nodes.next_position.data()),  // position and next_position have been swapped since
         before(domain.scratch.velocity_before.data()),
         after(domain.state.nodes.velocity.data()),
         dt(domain.state.clock.dt_before) {}

@@ -30,7 +30,7 @@ void preflight(const case_::Case& input, const std::filesystem::path& folder, co
 /// for the sake of the overhead is the root's to say as well. With nothing due a step costs a few comparisons.
 class InSitu {
  public:
-  /// Hears news in words; called on all ranks. The flag is false for a warning.
+  /// Receives messages in words; called on all ranks. The flag is false for a warning.
   using Tell = std::function<void(const std::string& text, bool good)>;
 
   /// Loads the adaptor, looks whether everything asked for could work, and starts it. Collective.

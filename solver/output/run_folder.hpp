@@ -61,7 +61,7 @@ enum class OldResults { refuse, overwrite };
 /// Makes `root` ready for a run: creates it and frames/, writes case.toml and provenance.json.
 /// A folder with other things in it is refused, and so is a run with results unless old_results is overwrite: then the
 /// files a run writes are removed, and only those.
-/// The folder is locked first (output/run_lock.hpp), so that nobody takes the results of a run that goes on.
+/// The folder is locked first (output/run_lock.hpp), so that no other run takes the results of a run that goes on.
 /// @throws OutputError naming the path: refused, held by another run, not a folder, no permission, disk full.
 [[nodiscard]] RunFolder prepare_run_folder(const std::filesystem::path& root, const std::string& resolved_case,
                                            const Provenance& provenance, OldResults old_results);

@@ -86,22 +86,22 @@ void conclude(const char* status, bool failed) {
     for (int d = 4; d < 65536; ++d) ::close(d);
   }
   for (const int d : {0, 1, 2}) ::close(d);
-  static std::array<char, 1 << 13> heard;  // two paths, each ended by a zero, then perhaps kFailed
+  static std::array<char, 1 << 13> received;  // two paths, each ended by a zero, then perhaps kFailed
   std::size_t size = 0;
   for (;;) {
-    const ssize_t got = ::read(3, heard.data() + size, heard.size() - size);
+    const ssize_t got = ::read(3, received.data() + size, received.size() - size);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) break;
     size += static_cast<std::size_t>(got);
   }
-  const auto* first_end = static_cast<const char*>(std::memchr(heard.data(), 0, size));
+  const auto* first_end = static_cast<const char*>(std::memchr(received.data(), 0, size));
   if (first_end == nullptr) ::_exit(0);
   const char* status = first_end + 1;
   const auto* second_end =
-      static_cast<const char*>(std::memchr(status, 0, size - static_cast<std::size_t>(status - heard.data())));
+      static_cast<const char*>(std::memchr(status, 0, size - static_cast<std::size_t>(status - received.data())));
   if (second_end == nullptr) ::_exit(0);
-  const bool failed = second_end + 1 < heard.data() + size && second_end[1] == kFailed;
-  const int lock = ::open(heard.data(), O_RDWR | O_CLOEXEC);
+  const bool failed = second_end + 1 < received.data() + size && second_end[1] == kFailed;
+  const int lock = ::open(received.data(), O_RDWR | O_CLOEXEC);
   // A process that ends lets go of the pipe and of the lock one after the other. If the lock stays taken, somebody has
   // begun anew in this folder, and the file is theirs.
   bool ours = false;
@@ -155,7 +155,7 @@ RunWatch::RunWatch() : exceptions_(std::uncaught_exceptions()) {
   const pid_t middle = ::fork();
   if (middle == 0) {
     ::close(ends[1]);
-    if (::fork() == 0) watch(ends[0]);  // a grandchild: nobody has to wait for it
+    if (::fork() == 0) watch(ends[0]);  // a grandchild: no process has to wait for it
     ::_exit(0);
   }
   ::close(ends[0]);

@@ -21,8 +21,8 @@ class RunLock {
 
 [[nodiscard]] std::filesystem::path lock_file(const std::filesystem::path& folder);
 
-/// Words for who holds a folder ("process 17 on host, since ..."); empty: nobody. A folder without a lock file is held
-/// by nobody. Throws nothing.
+/// Words for who holds a folder ("process 17 on host, since ..."); empty: it is free. A folder without a lock file is
+/// free. Throws nothing.
 [[nodiscard]] std::string holder_of(const std::filesystem::path& folder);
 
 /// A small process of its own session that outlives this one: when this one ends, it looks at the end of the run's

@@ -44,8 +44,8 @@ struct GridView {
 
 /// Writes the grid of all ranks as one file with a piece a rank, in the order of ranks, under the name
 /// temporary_of(path): to be renamed when all is well. The root writes the structure, then every rank its rows of every
-/// dataset at their places, with plain writes that wait for nobody; nothing is deflated. On the disk when it returns. A
-/// piece may be empty. Collective.
+/// dataset at their places, with plain writes that wait for no other rank; nothing is deflated. On the disk when it
+/// returns. A piece may be empty. Collective.
 /// @pre as above; more than one rank; arrays, kind, time and step alike on all; all ranks see one file system, which
 /// keeps bytes apart that different machines write Throws OutputError that names `path` on all ranks when anything
 /// fails on any; then the temporary may remain.

@@ -107,7 +107,7 @@ std::optional<Failure> failure_of(const std::function<void()>& work) {
 void Communicator::agree(const std::function<void()>& work) const {
   if (size() == 1) return work();
   const std::optional<Failure> failure = failure_of(work);
-  // The larger, the lower the rank that failed; 0: nobody.
+  // The larger, the lower the rank that failed; 0: none.
   const std::int64_t lowest = max(failure ? std::int64_t{size()} - rank() : std::int64_t{0});
   if (lowest == 0) return;
   const bool speaks = lowest == size() - rank();

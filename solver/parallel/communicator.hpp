@@ -71,7 +71,7 @@ class Communicator {
   }
 
   /// Runs `work` here and everywhere. If it throws on any rank, all ranks throw what the lowest of these threw:
-  /// InputError, SimulationError, OutputError, or InternalError for everything else. One small reduction when nobody
+  /// InputError, SimulationError, OutputError, or InternalError for everything else. One small reduction when no rank
   /// throws. A rank that is alone throws what `work` threw.
   void agree(const std::function<void()>& work) const;
 

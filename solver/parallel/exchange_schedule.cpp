@@ -95,7 +95,7 @@ class EdgeColours {
   }
 
   std::size_t colours_;
-  std::vector<int> partner_;  ///< (vertices, colours) who is met by the edge of a colour, or nobody
+  std::vector<int> partner_;  ///< (vertices, colours) the other vertex of the edge of a colour; -1: none
 };
 
 }  // namespace

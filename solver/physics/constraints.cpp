@@ -97,7 +97,7 @@ void Constraints::apply_moving(const Entry& entry, Hold& hold, NodalState& state
   }
 }
 
-void Constraints::book_after(double dt) {
+void Constraints::account_after(double dt) {
   for (const Entry& entry : entries_) {
     for (const Hold& hold : entry.holds) {
       if (hold.still) continue;

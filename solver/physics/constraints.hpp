@@ -30,7 +30,7 @@ struct NodalConstraint {
 /// The constraints of a stage. Where entries overlap, the later one rules that axis of the node; a node named twice
 /// counts once.
 ///
-/// In a step: `apply` right after the sweep, `book_after` when the works up to t_n have been read. O(constrained
+/// In a step: `apply` right after the sweep, `account_after` when the works up to t_n have been read. O(constrained
 /// nodes), no allocation, throws nothing. An axis held at rest does no work: of its nodes `apply` only keeps the
 /// velocity that the sweep gave them, from which the reaction is found when someone asks.
 class Constraints {
@@ -45,16 +45,16 @@ class Constraints {
   /// Overwrites v(n+1/2): by the velocity asked for at t_(n+1/2), or by (u(t_(n+1)) - (x_n - x_start)) / dt, with which
   /// positions hold to round-off; and next_position by x_n + dt v. Keeps the reactions
   ///   R = m (1 + alpha dt/2) (v - v_free) / dt,
-  /// which with the damping force -alpha m (v(n-1/2) + v(n+1/2)) / 2 give the node this velocity, and books their work
-  /// over the step that ended at t_n.
+  /// which with the damping force -alpha m (v(n-1/2) + v(n+1/2)) / 2 give the node this velocity, and accounts their
+  /// work over the step that ended at t_n.
   /// @param state      position at t_n, velocity and next_position as the sweep left them
   /// @param time       t_n;  @param dt_before  t_n - t_(n-1), 0 at the start;  @param dt  t_(n+1) - t_n, s
   void apply(NodalState& state, double time, double dt_before, double dt);
 
-  /// Books the work of the same reactions over the step that begins at t_n.
-  void book_after(double dt);
+  /// Accounts the work of the same reactions over the step that begins at t_n.
+  void account_after(double dt);
 
-  /// Work of the reactions on the nodes that this rank counts, J; up to t_n between `apply` and `book_after`.
+  /// Work of the reactions on the nodes that this rank counts, J; up to t_n between `apply` and `account_after`.
   [[nodiscard]] const ExactSum& work() const { return work_.sum(); }
   /// Force of an entry on the nodes and axes it rules and this rank counts, by axis, N, at t_n. O(nodes).
   [[nodiscard]] std::array<ExactSum, 3> reaction(std::size_t entry) const;

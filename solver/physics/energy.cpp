@@ -18,17 +18,17 @@ elasticity::Corners<double> corners_of(const LocalMesh& mesh, const double* fiel
   return x;
 }
 
-/// Calls book(nodes) for all that this rank counts: an element with its own four nodes, whose terms may be added up as
-/// they are on whatever rank it is, or a shared node.
-template <class Book>
-void for_each_carrier(const LocalMesh& mesh, Book&& book) {
+/// Calls account(nodes) for all that this rank counts: an element with its own four nodes, whose terms may be added up
+/// as they are on whatever rank it is, or a shared node.
+template <class Account>
+void for_each_carrier(const LocalMesh& mesh, Account&& account) {
   for (Index s = 0; s < mesh.num_own_originals; ++s) {
     if (!mesh.is_original(s)) continue;
     const std::array nodes{own_corner_node(s, 0), own_corner_node(s, 1), own_corner_node(s, 2), own_corner_node(s, 3)};
-    book(std::span<const Index>(nodes));
+    account(std::span<const Index>(nodes));
   }
   for (Index n = mesh.num_own_nodes(); n < mesh.num_nodes; ++n) {
-    if (mesh.counted[static_cast<std::size_t>(n)] != 0) book(std::span(&std::as_const(n), 1));
+    if (mesh.counted[static_cast<std::size_t>(n)] != 0) account(std::span(&std::as_const(n), 1));
   }
 }
 

@@ -34,7 +34,7 @@ struct ElasticEnergy {
 [[nodiscard]] ExactSum plastic_work(const LocalMesh& mesh, std::span<const ElasticParams> params_of_group,
                                     const MaterialMemory& memory);
 
-/// Energy of the joints the sweep looks after (intact, elastic), J: k A0/3 |opening|^2 / 2 over the corners, each joint
+/// Energy of the joints the sweep evaluates (intact, elastic), J: k A0/3 |opening|^2 / 2 over the corners, each joint
 /// once.
 [[nodiscard]] ExactSum intact_joint_energy(const LocalMesh& mesh, const JointLinks& links, const double* position);
 

@@ -76,7 +76,7 @@ void virgin_forces(const JointLawParams& law, const LocalMesh& mesh, const doubl
                    bool side_a, double* force);
 
 /// Gives joints that have just left the elastic range their histories at x_n, with the forces that virgin_forces gave
-/// (evaluate_point says what a first evaluation books).
+/// (evaluate_point says what a first evaluation accounts).
 void start_history(std::span<const JointLawParams> laws, const LocalMesh& mesh, const double* position,
                    std::span<ActiveJoint> joints);
 

@@ -32,13 +32,13 @@ PressureLoad::PressureLoad(std::vector<LoadedFace> faces, TimeFunction pressure)
   corner_force_.assign(faces_.size(), Vec3::Zero());
 }
 
-template <class Book>
-void PressureLoad::for_each_power(const LocalMesh& mesh, const Field<double>& velocity, Book&& book) const {
+template <class Account>
+void PressureLoad::for_each_power(const LocalMesh& mesh, const Field<double>& velocity, Account&& account) const {
   for (std::size_t k = 0; k < faces_.size(); ++k) {
     if (!mesh.is_original(faces_[k].slot)) continue;
     Vec3 v = Vec3::Zero();
     for (const Index node : face_nodes(mesh, faces_[k])) v += load_node(velocity.data(), node);
-    book(corner_force_[k].dot(v));
+    account(corner_force_[k].dot(v));
   }
 }
 
@@ -56,7 +56,7 @@ void PressureLoad::apply(const LocalMesh& mesh, const NodalState& state, double 
   for_each_power(mesh, state.velocity, [&](double power) { work_.add_before(power, dt_before); });
 }
 
-void PressureLoad::book_after(const LocalMesh& mesh, const NodalState& state, double dt_after) {
+void PressureLoad::account_after(const LocalMesh& mesh, const NodalState& state, double dt_after) {
   for_each_power(mesh, state.velocity, [&](double power) { work_.add_after(power, dt_after); });
 }
 

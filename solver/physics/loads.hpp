@@ -22,30 +22,30 @@ struct LoadedFace {
 /// Pressure that follows its faces: each corner of a face gets f = -p(t) A / 3, A the current outward area vector;
 /// positive pressure pushes into the body.
 ///
-/// In a step: `apply` before the sweep, `book_after` once velocities belong to t_(n+1/2) and constraints have had their
-/// say. O(faces) each, no allocation.
+/// In a step: `apply` before the sweep, `account_after` once velocities belong to t_(n+1/2) and constraints have had
+/// their say. O(faces) each, no allocation.
 class PressureLoad {
  public:
   /// Faces are sorted by (slot, face) and named once: the order in which forces are summed.
   PressureLoad(std::vector<LoadedFace> faces, TimeFunction pressure);
 
-  /// Adds the forces at t_n and books their work over the step that ended there.
+  /// Adds the forces at t_n and accounts their work over the step that ended there.
   /// @param state      position at t_n, velocity at t_(n-1/2)
   /// @param time       t_n, s;  @param dt_before  t_n - t_(n-1), s
   void apply(const LocalMesh& mesh, const NodalState& state, double time, double dt_before, NodalForces& forces);
 
-  /// Books the work of the same forces over the step that begins at t_n. @param state velocity at t_(n+1/2)
-  void book_after(const LocalMesh& mesh, const NodalState& state, double dt_after);
+  /// Accounts the work of the same forces over the step that begins at t_n. @param state velocity at t_(n+1/2)
+  void account_after(const LocalMesh& mesh, const NodalState& state, double dt_after);
 
-  /// Work on the faces of this rank's originals, J; up to t_n between `apply` and `book_after`.
+  /// Work on the faces of this rank's originals, J; up to t_n between `apply` and `account_after`.
   [[nodiscard]] const ExactSum& work() const { return work_.sum(); }
   /// Sum of the forces at t_n, N.
   [[nodiscard]] Vec3 resultant() const;
 
  private:
-  /// Calls book(power of the face's forces) for every face of an original.
-  template <class Book>
-  void for_each_power(const LocalMesh& mesh, const Field<double>& velocity, Book&& book) const;
+  /// Calls account(power of the face's forces) for every face of an original.
+  template <class Account>
+  void for_each_power(const LocalMesh& mesh, const Field<double>& velocity, Account&& account) const;
 
   std::vector<LoadedFace> faces_;
   std::vector<Vec3> corner_force_;  ///< (faces) N, at t_n

@@ -84,8 +84,8 @@ struct SweepArgs {
   double* damping_after = nullptr;
 };
 
-/// Books the halves after t_n of viscous and stress work, from the stress the sweep has kept and the velocities as they
-/// are after constraints. To be called once a step when kept_stress is given. O(elements of such laws).
+/// Accounts the halves after t_n of viscous and stress work, from the stress the sweep has kept and the velocities as
+/// they are after constraints. To be called once a step when kept_stress is given. O(elements of such laws).
 using RateWorkFunction = void (*)(const SweepArgs&);
 
 /// One step of all elements and nodes, the heart of the solver.

@@ -125,7 +125,7 @@ inline bool needs_rate(const SweepArgs& args, const ElasticParams& p) {
   return p.viscosity > 0 || (!is_hyperelastic(p.law) && args.stress_before != nullptr);
 }
 
-/// Keeps the stress for book_after.
+/// Keeps the stress for account_after.
 inline void keep_stress(const SweepArgs& args, const ElasticParams& p, const Stress& s, std::size_t block,
                         std::size_t lane) {
   if (args.kept_stress == nullptr || !needs_rate(args, p)) return;
@@ -136,7 +136,7 @@ inline void keep_stress(const SweepArgs& args, const ElasticParams& p, const Str
   }
 }
 
-/// Books half a step's work of the viscous stress, and of the elastic stress of laws that have no energy.
+/// Accounts half a step's work of the viscous stress, and of the elastic stress of laws that have no energy.
 template <class X>
 inline void book_stress_work(const SweepArgs& args, const ElasticParams& p, const Stress& s, const X& v,
                              std::size_t slot, double* viscous, double* stress) {
@@ -199,7 +199,7 @@ template <std::size_t kFace>
   }
 }
 
-/// v_(n+1/2) of W nodes from the force on them; books damping work when asked.
+/// v_(n+1/2) of W nodes from the force on them; accounts damping work when asked.
 struct Mover {
   const SweepArgs& args;
   Real keep, gain;  // v <- keep v + gain dt a
@@ -345,7 +345,7 @@ inline void move_shared(const SweepArgs& args, const Mover& mover, std::size_t n
 }
 
 /// Second half of the stress work of W elements, when their nodes' velocities are final.
-inline void book_after(const SweepArgs& args, std::size_t block, std::size_t lane) {
+inline void account_after(const SweepArgs& args, std::size_t block, std::size_t lane) {
   const ElasticParams& p = args.params[args.block_group[block]];
   if (!needs_rate(args, p)) return;
   Stress stress;
@@ -356,23 +356,24 @@ inline void book_after(const SweepArgs& args, std::size_t block, std::size_t lan
     stress.viscous[i] = load(kept + 72);
   }
   stress.volume = load(args.volume + block * kLanes + lane);
-  const auto book = [&](const auto& v) {
+  const auto account = [&](const auto& v) {
     book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_after, args.stress_after);
   };
   if (block < static_cast<std::size_t>(args.num_own_blocks)) {
-    book(StoredCorners{args.velocity + block * 96 + lane});
+    account(StoredCorners{args.velocity + block * 96 + lane});
   } else {
-    book(gather(args.velocity,
-                args.shared_corners + (block - static_cast<std::size_t>(args.num_own_blocks)) * 32 + lane));
+    account(gather(args.velocity,
+                   args.shared_corners + (block - static_cast<std::size_t>(args.num_own_blocks)) * 32 + lane));
   }
 }
 
 inline void book_rate_work(const SweepArgs& args) {
-  const auto book = [&](Index block) {
-    for (std::size_t lane = 0; lane < kLanes; lane += kWidth) book_after(args, static_cast<std::size_t>(block), lane);
+  const auto account = [&](Index block) {
+    for (std::size_t lane = 0; lane < kLanes; lane += kWidth)
+      account_after(args, static_cast<std::size_t>(block), lane);
   };
-  for (Index block = args.first_own_block; block < args.end_own_block; ++block) book(block);
-  for (Index b = 0; b < args.num_shared_blocks; ++b) book(args.shared_blocks[b]);
+  for (Index block = args.first_own_block; block < args.end_own_block; ++block) account(block);
+  for (Index b = 0; b < args.num_shared_blocks; ++b) account(args.shared_blocks[b]);
 }
 
 inline SweepStatus sweep(const SweepArgs& args) {

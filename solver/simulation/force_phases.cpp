@@ -71,8 +71,8 @@ void return_elastic_joints(Domain& domain) {
 void account_late_work(Domain& domain) {
   const auto lap = domain.timer.measure(Phase::loads);
   State& state = domain.state;
-  for (PressureLoad& p : state.loads.pressures) p.book_after(domain.model.local, state.nodes, state.clock.dt);
-  state.constraints.book_after(state.clock.dt);
+  for (PressureLoad& p : state.loads.pressures) p.account_after(domain.model.local, state.nodes, state.clock.dt);
+  state.constraints.account_after(state.clock.dt);
   const auto merge = [](Field<double>& work, const Field<double>& late) {
     for (std::size_t i = 0; i < late.size(); ++i) work[i] += late[i];
   };

@@ -20,9 +20,9 @@ extern std::atomic<bool> stop_requested;
 /// Carries a case through all its stages and tells the sinks. Collective.
 /// @param whole  the model built from the case, on the root; null elsewhere
 /// @param sinks  of this rank: those that write for all are on the root alone; frames hold the rank's own elements
-/// @param folder  of the run, for its control file and the extracts of its pipelines; null: nobody controls it, and no
-/// pipelines Returns the summary, which the sinks have got too. Throws SimulationError after a last frame and a summary
-/// that names the error; OutputError as it comes from a sink.
+/// @param folder  of the run, for its control file and the extracts of its pipelines; null: it cannot be controlled,
+/// and no pipelines Returns the summary, which the sinks have got too. Throws SimulationError after a last frame and a
+/// summary that names the error; OutputError as it comes from a sink.
 Summary run_case(const case_::Case& input, std::unique_ptr<Model> whole,
                  const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator = {},
                  const RunFolder* folder = nullptr);

@@ -112,7 +112,7 @@ Checkpoint RunCheckpoints::content(RunPosition position) const {
   return checkpoint;
 }
 
-/// A rank that has written tells so at the end of a step, and all hear of it in the next.
+/// A rank that has written signals it at the end of a step; all receive that in the next.
 void RunCheckpoints::look() {
   const State& state = partition_.state();
   if (writer_ && state.clock.steps >= begun_at_ + 2 && !state.signals.received.writing) finish();

@@ -25,7 +25,7 @@ extern std::atomic<bool> checkpoint_requested;
 /// written while they go on. A checkpoint that fails is told as a warning, and the run goes on.
 class RunCheckpoints {
  public:
-  /// Hears in words what became of a checkpoint; called on all ranks. The flag is false for a failure.
+  /// Receives in words what became of a checkpoint; called on all ranks. The flag is false for a failure.
   using Tell = std::function<void(const std::string& text, bool good)>;
 
   /// @pre input and partition outlive this object

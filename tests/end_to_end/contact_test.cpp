@@ -21,23 +21,6 @@ std::string material(const std::string& group, const std::string& young) {
          "\"\npoisson = 0.2\ndensity = 2000\njoints = \"none\"\n";
 }
 
-/// The column of a history.
-std::vector<double> column(const std::filesystem::path& file, const std::string& name) {
-  std::istringstream lines(read_text(file));
-  std::vector<double> values;
-  std::size_t wanted = 0;
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream cells(line);
-    std::size_t at = 0;
-    const bool header = line.starts_with("step");
-    for (std::string cell; std::getline(cells, cell, ','); ++at) {
-      if (header && cell == name) wanted = at;
-      if (!header && at == wanted) values.push_back(std::stod(cell));
-    }
-  }
-  return values;
-}
-
 const std::string kCubesGeometry = R"(SetFactory("OpenCASCADE");
 Box(1) = {0, 0, 0, 0.01, 0.01, 0.01};
 Box(2) = {0.002, 0.001, 0.009, 0.01, 0.01, 0.01};
@@ -139,8 +122,8 @@ gauges = ["block"]
   const std::string folder = scratch.path("run").string();
   const Outcome outcome = call("run " + file + " --progress none -o '" + folder + "'");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  const std::vector<double> t = column(folder + "/history.csv", "time [s]");
-  const std::vector<double> x = column(folder + "/history.csv", "block displacement x [m]");
+  const std::vector<double> t = history_column(folder + "/history.csv", "time [s]");
+  const std::vector<double> x = history_column(folder + "/history.csv", "block displacement x [m]");
   // Three places after the ramp: their second difference is free of small vibrations.
   const auto at = [&](double time) {
     return static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), time) - t.begin());
@@ -204,8 +187,8 @@ gauges = ["top"]
   const std::string folder = scratch.path("run").string();
   const Outcome outcome = call("run " + file + " --progress none -o '" + folder + "'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const std::vector<double> t = column(folder + "/history.csv", "time [s]");
-  const std::vector<double> force = column(folder + "/history.csv", "top contact force z [N]");
+  const std::vector<double> t = history_column(folder + "/history.csv", "time [s]");
+  const std::vector<double> force = history_column(folder + "/history.csv", "top contact force z [N]");
   constexpr double speed = 0.05, gap = 0.5e-6, micrometre = 1e-6;
   const auto felt = std::find_if(force.begin(), force.end(), [](double f) { return f > 0; });
   ASSERT_NE(felt, force.end());

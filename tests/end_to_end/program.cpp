@@ -154,6 +154,34 @@ double sum_of(const std::vector<std::string>& header, const std::vector<std::str
 
 }  // namespace
 
+std::string history_without_couples(const std::filesystem::path& file) {
+  std::istringstream lines(read_text(file));
+  std::string text;
+  std::size_t left_out = std::string::npos;
+  for (std::string line; std::getline(lines, line);) {
+    const std::vector<std::string> cells = cells_of(line);
+    for (std::size_t column = 0; column < cells.size(); ++column) {
+      if (cells[column] == "couples") left_out = column;
+      if (column != left_out) text += cells[column] + ",";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::vector<double> history_column(const std::filesystem::path& file, const std::string& name) {
+  std::istringstream lines(read_text(file));
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> header = cells_of(line);
+  const auto found = std::find(header.begin(), header.end(), name);
+  if (found == header.end()) throw std::runtime_error("no column " + name);
+  std::vector<double> values;
+  while (std::getline(lines, line))
+    values.push_back(std::stod(cells_of(line).at(static_cast<std::size_t>(found - header.begin()))));
+  return values;
+}
+
 std::string energy_fault(const std::filesystem::path& history) {
   // Central differences conserve the energy of a linear system exactly and that of others to second order in the step:
   // this share of the largest energy is above what the small cases of the tests show at the default step.

@@ -50,6 +50,13 @@ std::string changed(const std::string& from, const std::string& to);
 
 std::string read_text(const std::filesystem::path& file);
 
+/// A history.csv without the number of candidate couples, which depends on when they were searched: a division of the
+/// model and a run that goes on search anew.
+std::string history_without_couples(const std::filesystem::path& file);
+
+/// A column of a history.csv by its name, such as "time [s]". Throws where there is none.
+std::vector<double> history_column(const std::filesystem::path& file, const std::string& name);
+
 /// What is wrong with the energies in a history.csv, empty if nothing: no dissipated term ever falls, and what is
 /// kinetic and stored never exceeds what was there at first and was put in since.
 std::string energy_fault(const std::filesystem::path& history);

@@ -35,23 +35,6 @@ std::string eventful_case() {
   return text;
 }
 
-/// The number of candidate couples depends on when was searched, which a run that goes on does anew.
-std::string history_without_couples(const fs::path& file) {
-  std::ifstream stream(file);
-  std::string text, line;
-  std::size_t left_out = std::string::npos;
-  while (std::getline(stream, line)) {
-    std::istringstream cells(line);
-    std::string cell;
-    for (std::size_t column = 0; std::getline(cells, cell, ','); ++column) {
-      if (cell == "couples") left_out = column;
-      if (column != left_out) text += cell + ",";
-    }
-    text += "\n";
-  }
-  return text;
-}
-
 json summary_of(const fs::path& run) { return json::parse(read_text(run / "summary.json"), nullptr, false); }
 
 std::vector<json> status_lines(const fs::path& run) {

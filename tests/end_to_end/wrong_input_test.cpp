@@ -378,6 +378,8 @@ TEST(WrongInputOfRanks, is_refused_with_one_message_by_two_of_them) {
     EXPECT_EQ(outcome.exit_code, kInput) << outcome.err;
     const std::size_t first = outcome.err.find(fragment);
     EXPECT_NE(first, std::string::npos) << fragment << " is missing in: " << outcome.err;
+    const std::string mark = "breccia: error:";
+    EXPECT_EQ(outcome.err.find(mark), outcome.err.rfind(mark)) << "told by both: " << outcome.err;
   }
 }
 

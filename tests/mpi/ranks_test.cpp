@@ -23,25 +23,9 @@
 namespace breccia {
 namespace {
 
+using test::history_without_couples;
 using test::Outcome;
 using test::Scratch;
-
-/// History without the number of couples: a new division of the model also searches anew, with other buffers.
-std::string history_without_couples(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::string text, line;
-  std::size_t left_out = std::string::npos;
-  while (std::getline(stream, line)) {
-    std::istringstream cells(line);
-    std::string cell;
-    for (std::size_t column = 0; std::getline(cells, cell, ','); ++column) {
-      if (cell == "couples") left_out = column;
-      if (column != left_out) text += cell + ",";
-    }
-    text += "\n";
-  }
-  return text;
-}
 
 /// By frame and joint: when it failed, state.
 using Failures = std::map<std::pair<std::string, double>, std::pair<double, double>>;

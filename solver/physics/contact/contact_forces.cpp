@@ -90,9 +90,9 @@ class Pass {
     const Index slot = slot_of(contactor);
     return overlap_shape(params_.field, local_, slot, values, length_of(slot));
   }
-  /// Where the work at a point is booked: couples are computed wherever one side is at home, and booked with their
-  /// points.
-  [[nodiscard]] ExactSum& book(const ContactPoint& point, ExactSum& sum) {
+  /// Where the work at a point is accounted: couples are computed wherever one side is at home, and accounted with
+  /// their points.
+  [[nodiscard]] ExactSum& account(const ContactPoint& point, ExactSum& sum) {
     return local_.is_original(point.slot) ? sum : ignored_;
   }
   /// Adds the contactor to the candidates if its overlap is positive now or was so before the field moved.
@@ -109,7 +109,7 @@ class Pass {
   std::vector<Candidate> candidates_;  ///< of the point at hand, ascending
   std::vector<bool> taken_;            ///< old histories of the point at hand that live on
   std::size_t old_ = 0;                ///< first old history not yet looked at
-  ExactSum ignored_;                   ///< what other ranks book
+  ExactSum ignored_;                   ///< what other ranks account
 };
 
 void Pass::run() {
@@ -153,7 +153,7 @@ void Pass::push_back_into_sphere() {
   contact_.boundary_offset.resize(contact_.points.size(), std::numeric_limits<double>::infinity());
   for (const Index index : contact_.order) {
     const ContactPoint& point = point_at(index);
-    if (!contact_.matters(point.slot)) continue;
+    if (!contact_.evaluated(point.slot)) continue;
     const Vec3 from_centre = at_point(rule_, point, state_.position.data()) - sphere.centre;
     const double r = from_centre.norm();
     // A point that comes into being outside, on a face freed by fracture, is not thrown back with energy from nowhere.
@@ -165,7 +165,7 @@ void Pass::push_back_into_sphere() {
     const Vec3 force = (-stiffness * beyond / r) * from_centre;
     const std::array<double, 3>& shape = rule_.shape[static_cast<std::size_t>(point.k)];
     for (std::size_t i = 0; i < 3; ++i) forces_.add(point.nodes[i], shape[i] * force);
-    book(point, work_.stored).add(0.5 * stiffness * beyond * beyond);
+    account(point, work_.stored).add(0.5 * stiffness * beyond * beyond);
     contact_.boundary.push_back({index, force});
   }
 }
@@ -260,10 +260,10 @@ void Pass::forget(const TouchingCouple& old) {
     Vec3 motion = Vec3::Zero();
     if (!crushed)
       motion = relative_motion(point, slot, barycentric(tetra, at_point(rule_, point, state_.position.data())));
-    book(point, work_.friction_dissipated).add(released_by_friction(motion, k, old.spring));
+    account(point, work_.friction_dissipated).add(released_by_friction(motion, k, old.spring));
   }
   // A contactor that was crushed while it was touched gives nothing back.
-  if (crushed) book(point, work_.dissipated).add(point.weight * length * normal_law::stored(law, old.d, old.d_max));
+  if (crushed) account(point, work_.dissipated).add(point.weight * length * normal_law::stored(law, old.d, old.d_max));
 }
 
 /// Overlap that makes no force, m, of a couple seen for the first time.
@@ -285,7 +285,7 @@ double Pass::first_offset(Index point, const Candidate& candidate) const {
 /// The law follows the motion (field at rest), then the field (points at rest), so that the energy each of them moves
 /// is known apart.
 void Pass::follow(const ContactLaw& law, double scale, double length, const Candidate& candidate, TouchingCouple& h) {
-  ExactSum& dissipated = book(point_at(h.point), work_.dissipated);
+  ExactSum& dissipated = account(point_at(h.point), work_.dissipated);
   const auto go_to = [&](double g) {
     h.offset = std::clamp(g, 0.0, h.offset);
     const double d = std::max(0.0, g - h.offset) / length;
@@ -302,6 +302,7 @@ void Pass::follow(const ContactLaw& law, double scale, double length, const Cand
   const double stored = normal_law::stored(law, h.d, h.d_max);
   h.offset = std::max(0.0, h.offset + (candidate.g - candidate.g_before));
   go_to(candidate.g);
+  // d does not rise here: the difference is negative by round-off only.
   dissipated.add(scale * std::max(0.0, stored - normal_law::stored(law, h.d, h.d_max)));
 }
 
@@ -351,12 +352,12 @@ void Pass::press(const ContactLaw& law, const ContactPoint& point, Index slot, d
     const Vec3 motion = relative_motion(point, slot, candidate.lambda);
     const FrictionStep friction =
         friction_step(-here.gradient / slope, motion, k, law.friction * pressure * slope, h.spring);
-    book(point, work_.friction_dissipated).add(friction.dissipated);
-    book(point, work_.friction_stored).add(0.5 * k * h.spring.squaredNorm());
+    account(point, work_.friction_dissipated).add(friction.dissipated);
+    account(point, work_.friction_stored).add(0.5 * k * h.spring.squaredNorm());
     h.friction = friction.force;
     h.force += friction.force;
   }
-  book(point, work_.stored).add(point.weight * length * normal_law::stored(law, h.d, h.d_max));
+  account(point, work_.stored).add(point.weight * length * normal_law::stored(law, h.d, h.d_max));
   if (h.d > 0 && local_.is_original(point.slot)) ++work_.touching;
   distribute(point, candidate, h.force);
 }
@@ -373,7 +374,7 @@ double Pass::damp(const ContactLaw& law, const ContactPoint& point, Index slot, 
     before =
         (old.force - old.friction).norm() / gradient.norm() - point.weight * normal_law::stress(law, old.d, old.d_max);
   }
-  book(point, work_.dissipated).add(std::max(0.0, 0.5 * (before + pressure - elastic) * deeper));
+  account(point, work_.dissipated).add(std::max(0.0, 0.5 * (before + pressure - elastic) * deeper));
   return pressure;
 }
 

@@ -35,8 +35,8 @@ struct ContactWork {
 /// mesh vertex or if fracture has just made it, else with 0, so that freeing a face makes no force.
 /// A new couple that is deeper at once than its point has moved takes the excess as its offset.
 /// The first thing done is one step of the field's ramps. The offset of a couple follows a change of g that comes from
-/// the field alone, down to 0 at least: a field that rises pushes nobody, one that sinks lets go of stored energy,
-/// which is booked as dissipated.
+/// the field alone, down to 0 at least: a field that rises exerts no force, one that sinks lets go of stored energy,
+/// which is accounted as dissipated.
 ///
 /// @param state    position at t_n, velocity at t_(n-1/2)
 /// @param dt       s, from t_(n-1) to t_n

@@ -60,7 +60,7 @@ namespace normal_law {
 
 /// Stress with damping, Pa: sigma + c dg/dt, never a pull. What it adds to sigma times dg/dt is dissipated, and never
 /// negative. With c = 2 zeta sqrt(sigma_p rho) a layer of thickness H and density rho on the stiffness sigma_p / H is
-/// damped by the share zeta of the critical. @param rate  m/s, dg/dt of the overlap g in m
+/// damped at the damping ratio zeta. @param rate  m/s, dg/dt of the overlap g in m
 [[nodiscard]] inline double damped(const ContactLaw& law, double stress, double rate) {
   return std::max(0.0, stress + law.damping * rate);
 }

@@ -59,7 +59,7 @@ struct ContactState {
   std::vector<ContactCouple> couples;    ///< by (point id, contactor)
   std::vector<ContactCouple> fresh;      ///< made by fracture since the last forces; by (point id, contactor)
 
-  std::vector<std::uint8_t> relevant;  ///< (num_slots) 1: forces on it matter to this rank; empty: on all
+  std::vector<std::uint8_t> relevant;  ///< (num_slots) 1: forces on it are evaluated on this rank; empty: on all
 
   // Overlap field.
   std::vector<FieldValues> field;        ///< (contactors)
@@ -77,7 +77,7 @@ struct ContactState {
   std::vector<Index> place;       ///< (contactors) index into `prepared`, -1: not in any couple
   std::vector<Index> in_couples;  ///< (prepared) contactors that are in some couple
 
-  [[nodiscard]] bool matters(Index slot) const {
+  [[nodiscard]] bool evaluated(Index slot) const {
     return relevant.empty() || relevant[static_cast<std::size_t>(slot)] != 0;
   }
   [[nodiscard]] GlobalId id(Index point) const { return points[static_cast<std::size_t>(point)].id; }

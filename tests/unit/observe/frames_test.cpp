@@ -106,7 +106,7 @@ TEST_F(TwoCubes, have_the_fields_of_the_elements_on_their_surface) {
   }
 }
 
-TEST_F(TwoCubes, are_a_domainwith_a_box_around_it) {
+TEST_F(TwoCubes, are_a_domain_with_a_box_around_it) {
   const Frame::Domain box = picture().domain;
   ASSERT_EQ(box.rank.size(), 1u);
   EXPECT_EQ(box.elements[0], 48);

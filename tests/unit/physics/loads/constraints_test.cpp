@@ -98,7 +98,7 @@ TEST(Constraints, AtRestDoNoWorkButReact) {
     EXPECT_NEAR(constraints.reaction(0)[1].value(), reaction, kRounding * std::abs(reaction));
     EXPECT_EQ(constraints.reaction_on(std::vector{other})[1].value(), 0.0);
     EXPECT_EQ(constraints.reaction_on(std::vector{node})[1].value(), constraints.reaction(0)[1].value());
-    constraints.book_after(0.5);
+    constraints.account_after(0.5);
   }
   EXPECT_EQ(constraints.work().value(), 0.0);
 }
@@ -138,7 +138,7 @@ TEST(Constraints, LeaveReactionAndWorkOfANodeToTheRankThatCountsIt) {
   constraints.apply(model.state, 0.0, 0.0, 0.5);
   EXPECT_EQ(load_node(model.state.velocity.data(), proxy), Vec3(3, 0, 0)) << "held all the same";
   EXPECT_NEAR(constraints.reaction(0)[0].value(), mass * 3 / 0.5, kRounding * mass);
-  constraints.book_after(0.5);
+  constraints.account_after(0.5);
   EXPECT_NEAR(constraints.work().value(), 0.5 * (mass * 3 / 0.5) * 3 * 0.5, kRounding * mass);
 }
 
@@ -167,7 +167,7 @@ TEST(Constraints, OnNothingDoNothing) {
   const Field<double> before = model.state.velocity;
   Constraints constraints({}, model.local, model.state);
   constraints.apply(model.state, 0.0, 0.1, 0.1);
-  constraints.book_after(0.1);
+  constraints.account_after(0.1);
   EXPECT_TRUE(constraints.empty());
   EXPECT_EQ(model.state.velocity, before);
   EXPECT_EQ(constraints.work().value(), 0.0);

@@ -90,7 +90,7 @@ TEST(PressureWork, OnABodyThatBreathesIsMinusPressureTimesChangeOfVolume) {
   load.apply(model.local, model.state, 0.0, kStep, forces);
   const double half = -kPressure * 3.0 * kRate * kStep / 2.0;
   EXPECT_NEAR(load.work().value(), half, std::abs(half) * kRounding);
-  load.book_after(model.local, model.state, 2.0 * kStep);
+  load.account_after(model.local, model.state, 2.0 * kStep);
   EXPECT_NEAR(load.work().value(), 3.0 * half, std::abs(half) * kRounding);
 }
 
@@ -102,7 +102,7 @@ TEST(PressureWork, OnElementsOfAnotherRankIsLeftToThatRank) {
   PressureLoad load(model.free_faces(), test::in_time(2.0));
   NodalForces forces(model.local.num_own_blocks(), model.local.num_nodes);
   load.apply(model.local, model.state, 0.0, 0.1, forces);
-  load.book_after(model.local, model.state, 0.1);
+  load.account_after(model.local, model.state, 0.1);
   EXPECT_EQ(load.work().value(), 0.0);
 }
 

@@ -52,8 +52,8 @@ class DrivenBody {
                   std::abs(constraints_.work().value())});
 
     internal_.add_after(power(force, state.velocity), kStep);
-    pressure_.book_after(model_.local, state, kStep);
-    constraints_.book_after(kStep);
+    pressure_.account_after(model_.local, state, kStep);
+    constraints_.account_after(kStep);
     std::swap(state.position, state.next_position);
     ++number_;
     return kinetic - works - start_;
