@@ -32,8 +32,8 @@ class ContactSearch {
   ContactSearch& operator=(const ContactSearch&) = delete;
 
   /// CoupleSearch::due(). Collective.
-  [[nodiscard]] bool due(const NodalState& nodes, double step_length, const Communicator& communicator) {
-    return search_.due(nodes, step_length, communicator);
+  [[nodiscard]] bool due(const NodalState& nodes, const KnownMotion& motion, const Communicator& communicator) {
+    return search_.due(nodes, motion, communicator);
   }
   /// A full search; arguments as of CoupleSearch::search().
   void search(const NodalState& nodes, double step_length, std::span<const std::uint8_t> current = {});

@@ -32,11 +32,12 @@ void CoupleSearch::expect_late_speeds() {
   moved_ = DisplacementWatch(kLate);
 }
 
-bool CoupleSearch::due(const NodalState& nodes, double step_length, const Communicator& communicator) {
+bool CoupleSearch::due(const NodalState& nodes, const KnownMotion& motion, const Communicator& communicator) {
   if (!surface_.any_law()) return false;
   if (!searched_) return true;
-  moved_.step(step_length);
-  return moved_.used_up(0.5 * buffer_, 0, surface_.model().local, nodes.position, reference_, communicator);
+  moved_.step(motion.length);
+  return moved_.used_up(0.5 * buffer_, motion.unforeseen, surface_.model().local, nodes.position, reference_,
+                        communicator);
 }
 
 double CoupleSearch::used_up(const NodalState& nodes, const Communicator& communicator) const {

@@ -39,10 +39,9 @@ class CoupleSearch {
 
   /// Speeds of other ranks become known a step late. @pre before the first search
   void expect_late_speeds();
-  /// Whether a search is due; to be called once a step. Collective. @param step_length  m, the furthest that a node of
-  /// any rank has gone in a step: the last, or the one before that after expect_late_speeds()
-  [[nodiscard]] bool due(const NodalState& nodes, double step_length, const Communicator& communicator);
-  /// A full search. @param step_length  as for due()
+  /// Whether a search is due; to be called once a step. Collective.
+  [[nodiscard]] bool due(const NodalState& nodes, const KnownMotion& motion, const Communicator& communicator);
+  /// A full search. @param step_length  m, KnownMotion::length
   /// @param current  (num_slots) 1: at its position of now; others are further than reach() from evaluated elements.
   /// Empty: all
   /// @param couples  out: sorted (ContactState::before)

@@ -17,12 +17,18 @@ namespace breccia {
 [[nodiscard]] double relative_displacement(const LocalMesh& local, const Field<double>& now, const Field<double>& then,
                                            const Communicator& communicator);
 
+/// What is known of the motion in a step, m.
+struct KnownMotion {
+  double length = 0;      ///< the furthest that a node of any rank has moved in a step: the last, or one told late
+  double unforeseen = 0;  ///< what nodes may have moved, in the steps not told yet, beyond twice as far in each
+};
+
 /// Watches relative_displacement() against an allowance, and rarely has to look: in between it is bounded by the sum of
 /// the largest speeds times the step.
 ///
 /// On several ranks the largest speed becomes known some steps late; each step not known yet counts as twice the last
-/// known. Nodes use up the allowance unseen only where they gain more speed than that within those steps, with next to
-/// nothing of it left: a stable time step is too short for that.
+/// known. What nodes may move beyond that belongs to `ahead`; a run in which they move further still ends
+/// (domains/motion_limit.hpp).
 class DisplacementWatch {
  public:
   /// @param late  steps by which lengths are told late

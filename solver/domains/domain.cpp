@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "domains/motion_limit.hpp"
 #include "domains/state_records.hpp"
 
 namespace breccia {
@@ -50,7 +51,7 @@ void Domain::connect(const Communicator& communicator, std::vector<SharedSlots> 
   exchange.connect(communicator, model, std::move(shared), kind, contact && contact->verifies());
   if (contact) contact->restrict_to(derived.relevant);
   plan_exchange();
-  exchange.begin_reduction(state.signals);
+  exchange.begin_reduction(state.clock, state.signals);
 }
 
 /// Near are elements on whose positions the forces computed here depend: those relevant, those that had a joint with
@@ -85,6 +86,7 @@ void start_joints(Domain& domain) {
 
 void add_velocity(Domain& domain, const InitialVelocity& initial) {
   add_initial_velocity(domain.model.local, initial, domain.state.nodes.position, domain.state.nodes.velocity);
+  domain.state.signals.max_speed = fastest_node(domain).speed;
 }
 
 void begin_stage(Domain& domain, StageLoads loads, double dt) {
@@ -92,8 +94,7 @@ void begin_stage(Domain& domain, StageLoads loads, double dt) {
   for (const PressureLoad& p : state.loads.pressures) state.work.past_loads.add(p.work());
   state.work.past_loads.add(state.constraints.work());
   state.loads = std::move(loads);
-  state.constraints =
-      Constraints(state.loads.constraints, domain.model.local, state.nodes, state.loads.mass_damping);
+  state.constraints = Constraints(state.loads.constraints, domain.model.local, state.nodes, state.loads.mass_damping);
   if (state.loads.mass_damping > 0 || state.loads.local_damping > 0)
     state.damping_work.resize(at(domain.model.local.num_nodes));
   state.clock.dt = dt;
@@ -148,6 +149,7 @@ ExactSum external_work(const Domain& domain) {
 void conclude(Domain& domain) {
   const auto lap = domain.timer.measure(Phase::communication);
   domain.exchange.conclude(domain.state.clock, domain.state.signals);
+  judge_motion(domain);
 }
 
 State closed_fields(const Domain& domain) {

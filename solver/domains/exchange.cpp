@@ -73,8 +73,9 @@ void Exchange::connect(const Communicator& communicator, const Model& model, std
   reduction_.emplace(communicator, 8);
 }
 
-void Exchange::begin_reduction(const Signals& signals) {
+void Exchange::begin_reduction(const Clock& clock, const Signals& signals) {
   if (alone()) return;
+  begun_after_ = clock.steps - 1;
   reduction_->begin(std::array{signals.max_speed, flag(failed()), flag(!signals.released_here.empty()),
                                flag(signals.sent.stop), flag(signals.sent.broke), flag(signals.sent.checkpoint),
                                flag(signals.sent.writing), static_cast<double>(signals.sent.orders)});
@@ -84,10 +85,15 @@ void Exchange::finish_reduction(const Clock& clock, Signals& signals) {
   signals.motion = signals.max_speed * clock.dt_before;
   signals.released = !signals.released_here.empty();
   signals.received = signals.sent;
+  signals.fastest = signals.max_speed;
+  signals.fastest_step = clock.steps - 1;
   if (alone()) return;
   communicator_.set_phase("reduction of the last step");
   const std::span<const double> largest = reduction_->finish();
-  signals.motion = largest[0] * std::max(clock.dt_before, clock.dt_earlier);
+  const double before_first = clock.steps == 0 ? clock.dt : 0;
+  signals.motion = largest[0] * std::max({clock.dt_before, clock.dt_earlier, before_first});
+  signals.fastest = largest[0];
+  signals.fastest_step = begun_after_;
   signals.released = largest[2] > 0;
   signals.received = {largest[3] > 0, largest[4] > 0, largest[5] > 0, largest[6] > 0,
                       static_cast<std::uint64_t>(largest[7])};

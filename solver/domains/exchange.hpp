@@ -49,9 +49,9 @@ class Exchange {
   [[nodiscard]] const std::vector<SharedSlots>& shared() const { return shared_; }
 
   /// Sends what is in `signals` of this rank. Alone: nothing.
-  void begin_reduction(const Signals& signals);
-  /// Receives what all ranks sent: sets `received`, `released`, `motion` and, if a rank has failed, throws its error on
-  /// all of them.
+  void begin_reduction(const Clock& clock, const Signals& signals);
+  /// Receives what all ranks sent: sets `received`, `released`, `motion`, `fastest` and, if a rank has failed, throws its
+  /// error on all of them.
   void finish_reduction(const Clock& clock, Signals& signals);
   /// The last one: after it this rank is alone.
   void conclude(const Clock& clock, Signals& signals);
@@ -96,6 +96,7 @@ class Exchange {
   std::vector<std::uint8_t> sent_;         ///< sent_blocks()
   std::int64_t messages_ = 0, bytes_ = 0;  ///< beside those of the present halos
   std::optional<PendingReduction> reduction_;
+  std::int64_t begun_after_ = -1;       ///< step whose motion it reduces
   std::optional<std::string> failure_;  ///< of this rank, not received by others yet
 };
 

@@ -8,6 +8,7 @@
 #include "contact/search_params.hpp"
 #include "domains/first_division.hpp"
 #include "domains/global_step.hpp"
+#include "domains/motion_limit.hpp"
 #include "domains/piece_mesh.hpp"
 #include "domains/state_records.hpp"
 #include "model/parameters.hpp"
@@ -183,6 +184,7 @@ void Partition::begin_stage(const case_::Stage& stage) {
   stage_ = &stage;
   for (const std::string& surface : stage.broken_surfaces) break_joints(*domain_, faces_of_surface(*model_, surface));
   breccia::begin_stage(*domain_, stage_loads(stage, *model_), domain_->state.clock.dt);
+  domain_->state.signals.step_motion.stage_step = domain_->state.clock.steps;
 }
 
 StableStep Partition::stable_step(double steps) {
@@ -215,12 +217,13 @@ bool Partition::balancing_pays() {
   return input_.domains.rebalance && domains_.kind == DomainKind::rcb && lost > decomposition_s_;
 }
 
-/// The next step is counted beforehand, at twice the speed.
+/// The next step is counted beforehand: two steps are not known yet, the second of which may go four times as far as
+/// the last that is.
 bool Partition::left_reach() {
   motion_ = domain_->state.signals.motion;
   moved_.step(motion_);
-  return moved_.used_up(reach_.allowed_motion(), 2 * motion_, model_->local, domain_->state.nodes.position, anchor_,
-                        communicator_);
+  return moved_.used_up(reach_.allowed_motion(), 2 * motion_ + 4 * unforeseen_motion(*domain_, kMotionLate), model_->local,
+                        domain_->state.nodes.position, anchor_, communicator_);
 }
 
 }  // namespace breccia

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "domains/motion_limit.hpp"
 #include "simulation/phases.hpp"
 
 /// The phases of a step that exchange something with other ranks.
@@ -56,11 +57,13 @@ void follow_couples(bool search, bool meets_others, Domain& domain) {
 void receive_signals(Domain& domain) {
   const auto lap = domain.timer.measure(Phase::communication);
   domain.exchange.finish_reduction(domain.state.clock, domain.state.signals);
+  judge_motion(domain);
+  check_motion(domain);
 }
 
 void send_signals(const StepSignals& signals, Domain& domain) {
   domain.state.signals.sent = signals;
-  domain.exchange.begin_reduction(domain.state.signals);
+  domain.exchange.begin_reduction(domain.state.clock, domain.state.signals);
 }
 
 /// Where ranks have to wait for each other they do so here, at the beginning of a step, one wait after the other: what
@@ -74,7 +77,7 @@ void update_couples(Domain& domain) {
   bool due = false, meets_others = false;
   {
     const auto lap = domain.timer.measure(Phase::search);
-    due = contact.due(state.nodes, state.signals.motion, domain.exchange.communicator());
+    due = contact.due(state.nodes, {state.signals.motion, unforeseen_motion(domain, 1)}, domain.exchange.communicator());
   }
   const std::vector<std::uint8_t> current = receive_moved(due, domain);
   {

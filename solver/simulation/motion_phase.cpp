@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "domains/motion_limit.hpp"
 #include "simulation/phases.hpp"
 
 /// The phase of a step that takes nodes from forces to their next positions.
@@ -284,6 +285,7 @@ void move_nodes(bool sample, Domain& domain) {
     stand_still_if_failed(domain);
   }
   finish_motion(args, domain);
+  note_motion(domain);
 }
 
 }  // namespace breccia

@@ -32,14 +32,30 @@ struct StepSignals {
   std::uint64_t orders = 0;  ///< of the root, fewer than 53 bits
 };
 
+/// How far nodes move in single steps, against the limits of domains/motion_limit.hpp.
+struct StepMotion {
+  double own = 0;                   ///< m, furthest of this rank's nodes in the last step
+  double known = 0;                 ///< m, furthest of all ranks' nodes in known_step
+  std::int64_t known_step = -2;     ///< the last step whose furthest motion is known; -1: before the first
+  std::int64_t stage_step = 0;      ///< first step of the present stage
+  std::int64_t exceeded_step = -1;  ///< in which a node of any rank exceeded a limit; -1: none
+  // Of this rank's fastest node in the last even and the last odd step in which it may have exceeded one.
+  std::array<std::int64_t, 2> fastest_step{-1, -1};
+  std::array<GlobalId, 2> fastest_node{-1, -1};
+  std::array<double, 2> fastest_speed{0, 0};  ///< m/s
+};
+
 /// What a rank sends to all others at the end of a step, and what it has received.
 struct Signals {
   StepSignals received;                 ///< sent by the ranks a step ago, alike on all of them
   StepSignals sent;                     ///< by this rank in the last step
   double max_speed = 0;                 ///< m/s, of this rank's originals after the last step
   double motion = 0;                    ///< m, furthest that a node of any rank went in a step, received late
+  double fastest = 0;                   ///< m/s, largest max_speed of all ranks, received late
+  std::int64_t fastest_step = -1;       ///< the step after which it was that; -1: before the first
   bool released = false;                ///< joints of some rank were released in the last step
   std::vector<GlobalId> released_here;  ///< joints of this rank that were released in the last step
+  StepMotion step_motion;
 };
 
 /// On several ranks, after a step, so many of the last are not in Signals::motion yet.
@@ -127,6 +143,14 @@ struct FieldTable<State> {
       FieldRow{"checkpoint_sent", "1", kPassing, [](auto& s) -> auto& { return s.signals.sent.checkpoint; }},
       FieldRow{"writing_sent", "1", kPassing, [](auto& s) -> auto& { return s.signals.sent.writing; }},
       FieldRow{"orders_sent", "1", kPassing, [](auto& s) -> auto& { return s.signals.sent.orders; }},
+      FieldRow{"own_motion", "m", kLargest, [](auto& s) -> auto& { return s.signals.step_motion.own; }},
+      FieldRow{"known_motion", "m", kNotHashed, [](auto& s) -> auto& { return s.signals.step_motion.known; }},
+      FieldRow{"known_motion_step", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.step_motion.known_step; }},
+      FieldRow{"stage_step", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.step_motion.stage_step; }},
+      FieldRow{"exceeded_step", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.step_motion.exceeded_step; }},
+      FieldRow{"fastest_steps", "1", kPassing, [](auto& s) -> auto& { return s.signals.step_motion.fastest_step; }},
+      FieldRow{"fastest_nodes", "1", kPassing, [](auto& s) -> auto& { return s.signals.step_motion.fastest_node; }},
+      FieldRow{"fastest_speeds", "m/s", kPassing, [](auto& s) -> auto& { return s.signals.step_motion.fastest_speed; }},
       FieldRow{"released_here", "1", kList, [](auto& s) -> auto& { return s.signals.released_here; }},
   };
 // clang-format on

@@ -121,6 +121,24 @@ TEST(Ranks, GiveTheSameBitsWhile64BoxesShatterInASphere) {
   boxes.on(3, "--set domains.kind=grid --set domains.rebalance=false");
 }
 
+/// 50 times the speed of waves in the boxes: further in a step than contact can be found for.
+TEST(Ranks, EndWithTheSameErrorWhenNodesMoveTooFarInAStep) {
+  const Scratch scratch;
+  const std::string boxes = scratch.write("case.toml", test::changed("[\"1 m/s\", \"2 m/s\"]", "[2000, 2400]"));
+  std::string message;
+  for (const int ranks : {1, 2, 3}) {
+    const std::string folder = scratch.path("run" + std::to_string(ranks)).string();
+    const Outcome outcome = test::call_ranks(ranks, "run --progress none -o '" + folder + "' " + boxes);
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+    const auto summary = nlohmann::json::parse(test::read_text(folder + "/summary.json"));
+    const std::string status = std::to_string(summary.at("steps").get<int>()) + ": " + std::string(summary["status"]);
+    if (ranks == 1) message = status;
+    EXPECT_EQ(status, message) << ranks << " ranks";
+  }
+  for (const char* part : {"of element", "m/s", "would be missed", "lower time.safety"})
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+}
+
 /// Frames of the small case: at 0, 1, 2, 3 and 4 ms.
 TEST(Ranks, KnowWhenTheirJointsFailed) {
   const Scratch scratch;

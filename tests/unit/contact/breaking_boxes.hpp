@@ -28,7 +28,7 @@ class OwnedContact : WithContactState, public ContactSearch {
 
   /// A step of length dt, s, in which no node was faster than max_speed, m/s.
   void update(const NodalState& nodes, double max_speed, double dt) {
-    if (due(nodes, max_speed * dt, {})) {
+    if (due(nodes, {max_speed * dt}, {})) {
       search(nodes, max_speed * dt);
       ++num_searches_;
     }

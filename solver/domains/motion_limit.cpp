@@ -1,0 +1,111 @@
+#include "domains/motion_limit.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+#include "base/error.hpp"
+
+namespace breccia {
+namespace {
+
+constexpr double kFurthest = 0.5;  ///< share of H
+
+double contactor_size(const Domain& domain) { return domain.contact->searches().contactor_size(); }
+
+double unforeseen_share(const Domain& domain, std::int64_t step) {
+  return step == domain.state.signals.step_motion.stage_step ? kUnforeseenAtStart : kUnforeseen;
+}
+
+/// @param motion, before  m, furthest in the step and in the one before it
+bool exceeds(const Domain& domain, std::int64_t step, double motion, double before) {
+  const double size = contactor_size(domain);
+  return motion > kFurthest * size || motion > 2 * before + unforeseen_share(domain, step) * size;
+}
+
+std::string name_of_node(GlobalId node) {
+  if (node < 0) return "a node";
+  if (node >= kFirstSharedNode) return "node " + std::to_string(node - kFirstSharedNode);
+  return "corner " + std::to_string(node % 4) + " of element " + std::to_string(node / 4);
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+}  // namespace
+
+FastestNode fastest_node(const Domain& domain) {
+  const LocalMesh& local = domain.model.local;
+  FastestNode fastest;
+  for (Index n = 0; n < local.num_nodes; ++n) {
+    if (local.counted[static_cast<std::size_t>(n)] == 0) continue;
+    const Vec3 v = load_node(domain.state.nodes.velocity.data(), n);
+    const double speed = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    const GlobalId id = local.node_id[static_cast<std::size_t>(n)];
+    if (fastest.node < 0 || speed > fastest.speed || (speed == fastest.speed && id < fastest.node))
+      fastest = {id, speed};
+  }
+  return fastest;
+}
+
+double unforeseen_motion(const Domain& domain, int unknown) {
+  if (!domain.contact || domain.exchange.alone()) return 0;
+  const std::int64_t in_stage = domain.state.clock.steps - domain.state.signals.step_motion.stage_step;
+  const bool at_start = 1 <= in_stage && in_stage <= unknown;
+  return (at_start ? kUnforeseenAtStart : kUnforeseen) * contactor_size(domain);
+}
+
+void note_motion(Domain& domain) {
+  if (!domain.contact) return;
+  State& state = domain.state;
+  StepMotion& motion = state.signals.step_motion;
+  const double before = motion.own;
+  motion.own = state.signals.max_speed * state.clock.dt;
+  if (!exceeds(domain, state.clock.steps, motion.own, before)) return;
+  const auto place = static_cast<std::size_t>(state.clock.steps % 2);
+  const FastestNode fastest = fastest_node(domain);
+  motion.fastest_step[place] = state.clock.steps;
+  motion.fastest_node[place] = fastest.node;
+  motion.fastest_speed[place] = fastest.speed;
+}
+
+void judge_motion(Domain& domain) {
+  if (!domain.contact) return;
+  const Clock& clock = domain.state.clock;
+  const Signals& signals = domain.state.signals;
+  StepMotion& motion = domain.state.signals.step_motion;
+  const std::int64_t step = signals.fastest_step;
+  if (step <= motion.known_step) return;
+  const bool last = step == clock.steps - 1;
+  const double length = signals.fastest * (clock.steps == 0 ? clock.dt : last ? clock.dt_before : clock.dt_earlier);
+  if (step >= 0 && motion.exceeded_step < 0 && exceeds(domain, step, length, motion.known)) motion.exceeded_step = step;
+  motion.known_step = step;
+  motion.known = length;
+}
+
+void check_motion(const Domain& domain) {
+  const StepMotion& motion = domain.state.signals.step_motion;
+  const Clock& clock = domain.state.clock;
+  if (motion.exceeded_step < 0 || clock.steps < motion.exceeded_step + 2) return;
+  const Communicator& communicator = domain.exchange.communicator();
+  const auto place = static_cast<std::size_t>(motion.exceeded_step % 2);
+  const bool mine = motion.fastest_step[place] == motion.exceeded_step;
+  const double speed = communicator.max(mine ? motion.fastest_speed[place] : 0.0);
+  constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();
+  const std::int64_t node =
+      communicator.max(mine && motion.fastest_speed[place] == speed ? -motion.fastest_node[place] : kNone);
+  const double size = contactor_size(domain), length = speed * clock.dt_earlier;
+  const bool far = length > kFurthest * size;
+  throw SimulationError(
+      "step " + std::to_string(motion.exceeded_step) + ": " + name_of_node(node == kNone ? -1 : -node) + " moves by " +
+      number(length) + " m in one step, at " + number(speed) + " m/s, " +
+      (far ? "more than half the mean size of what may touch (" + number(size) + " m): contacts would be missed"
+           : "much further than any node in the step before: contacts may be found too late") +
+      "; lower time.safety (or time.step), or the penalties, or bring what is driven to its velocity gradually");
+}
+
+}  // namespace breccia

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "domains/domain.hpp"
+
+namespace breccia {
+
+// Ranks learn each other's speeds a step or two late. Contact searches and proxies come in time all the same, and results
+// are the same on any number of ranks, as long as no node moves further in a step n than
+//   L_n = min(2 L_(n-1) + r H, H/2),
+// L_(n-1) the furthest motion of any node in the step before, H the mean size of a contactor, and r = kUnforeseen, or
+// kUnforeseenAtStart in the first step of a stage, whose constraints and loads may begin at their full values. Points that
+// move further than H/2 jump over what they should touch. A step in which a node exceeds the limit is an error, the same
+// on any number of ranks (also on one), thrown at the start of the second step after it, when all ranks know. Without
+// contact nothing depends on it.
+inline constexpr double kUnforeseen = 0.005, kUnforeseenAtStart = 0.04;
+
+/// A node that this rank counts.
+struct FastestNode {
+  GlobalId node = -1;
+  double speed = 0;  ///< m/s
+};
+/// O(nodes)
+[[nodiscard]] FastestNode fastest_node(const Domain& domain);
+
+/// The largest r H of the last steps, m; 0 on one rank, which knows all of them. @param unknown  number of these steps
+[[nodiscard]] double unforeseen_motion(const Domain& domain, int unknown);
+
+/// After the motion of a step: keeps this rank's fastest node if it may have exceeded the limit. O(1), O(nodes) then.
+void note_motion(Domain& domain);
+
+/// After the largest speed of an earlier step has been received: whether a node exceeded the limit in it. O(1)
+void judge_motion(Domain& domain);
+
+/// At the start of a step: throws SimulationError, the same on all ranks, if a node exceeded the limit two steps ago.
+/// Collective if it throws.
+void check_motion(const Domain& domain);
+
+}  // namespace breccia
