@@ -15,7 +15,7 @@ namespace {
 /// The deepest overlap of two groups.
 struct GroupOverlap {
   BodyOverlap deepest;
-  std::int64_t pairs = 1, points = 0, corners = 0;
+  std::int64_t pairs = 0, points = 0, corners = 0;
 };
 
 std::vector<GroupOverlap> overlaps_by_groups(const Model& model) {
@@ -26,7 +26,7 @@ std::vector<GroupOverlap> overlaps_by_groups(const Model& model) {
     };
     auto known = std::find_if(groups.begin(), groups.end(), same);
     if (known == groups.end()) {
-      groups.push_back({overlap, 0});
+      groups.push_back({overlap});
       known = groups.end() - 1;
     }
     ++known->pairs;
@@ -85,9 +85,9 @@ OverlapReport overlap_report(const case_::Case& input, const Model& model) {
     report.text += description(model, groups) + "\n";
     if (entry_of(input, model, groups.deepest).initial_overlap == case_::InitialOverlap::refuse) {
       const BodyOverlap& o = groups.deepest;
-      report.advice +=
-          fmt::format("- A run ends with an error, since {} and {} overlap. What helps: {}.\n",
-                      name_of_body(model, o.group, o.body), name_of_body(model, o.other_group, o.other), remedy(o));
+      report.advice.push_back(fmt::format("A run ends with an error, since {} and {} overlap. What helps: {}.",
+                                          name_of_body(model, o.group, o.body),
+                                          name_of_body(model, o.other_group, o.other), remedy(o)));
     }
   }
   return report;

@@ -3,14 +3,15 @@
 #include <string>
 
 #include "case/case.hpp"
+#include "commands/advice.hpp"
 #include "model/model.hpp"
 
 namespace breccia {
 
 /// What `check` says of bodies that overlap before the first step.
 struct OverlapReport {
-  std::string text;    ///< one line for each pair of groups, or one that there is none
-  std::string advice;  ///< where a run would end with an error
+  std::string text;  ///< one line for each pair of groups, or one that there is none
+  Advice advice;     ///< where a run would end with an error
 };
 
 /// @param model  of the whole mesh
