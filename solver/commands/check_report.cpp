@@ -1,5 +1,6 @@
 #include "commands/check_report.hpp"
 #include "commands/model_report.hpp"
+#include "commands/contact_report.hpp"
 #include "commands/overlap_report.hpp"
 #include "commands/step_report.hpp"
 
@@ -314,6 +315,7 @@ CheckReport full_report(const case_::Case& input, const Model& model) {
   const OverlapReport overlaps = overlap_report(input, model);
   report.text += stiffness_report(model) + overlaps.text;
   append(report.advice, overlaps.advice);
+  append(report.advice, late_contact_advice(model));
   report.step = step_report(input, model);
   report.estimate = estimate_run(input, model, report.step);
   report.text += report.step.text + run_time(report.step, report.estimate, input.stages.back().end) +

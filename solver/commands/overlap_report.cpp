@@ -93,35 +93,6 @@ OverlapReport overlap_report(const case_::Case& input, const Model& model) {
   return report;
 }
 
-std::string stiffness_report(const Model& model) {
-  const auto& names = model.mesh.volume_groups;
-  const auto modulus = [&](std::size_t group) {
-    const ElasticParams& p = model.elastic[group];
-    return p.mu * (3 * p.lambda + 2 * p.mu) / (p.lambda + p.mu);
-  };
-  std::vector<double> length(names.size(), 0.0);  // H of the groups' finest bodies
-  for (Index e = 0; e < model.mesh.num_elements(); ++e) {
-    const auto i = static_cast<std::size_t>(e);
-    const double h = model.whole.body_length[static_cast<std::size_t>(model.mesh.element_body[i])];
-    double& least = length[static_cast<std::size_t>(model.mesh.element_group[i])];
-    least = least > 0 ? std::min(least, h) : h;
-  }
-  std::string text;
-  for (std::size_t a = 0; a < names.size(); ++a) {
-    for (std::size_t b = a; b < names.size(); ++b) {
-      const auto i = static_cast<Index>(a), k = static_cast<Index>(b);
-      const double penalty = std::max(model.contact.law(i, k).penalty, model.contact.law(k, i).penalty);
-      if (!(penalty > 0) || !(length[a] > 0) || !(length[b] > 0)) continue;
-      text += fmt::format(
-          "contact of {} and {}: stiffness penalty/H = {:.3g} and {:.3g} Pa/m with H = {:.3g} and {:.3g} "
-          "m; recommended penalty {}, E of the softer\n",
-          names[a], names[b], penalty / length[a], penalty / length[b], length[a], length[b],
-          quantity_text(std::min(modulus(a), modulus(b)), "Pa"));
-    }
-  }
-  return text;
-}
-
 void refuse_initial_overlaps(const case_::Case& input, const Model& model) {
   std::vector<Problem> problems;
   if (!model.has_contact) return;

@@ -17,9 +17,6 @@ struct OverlapReport {
 /// @param model  of the whole mesh
 [[nodiscard]] OverlapReport overlap_report(const case_::Case& input, const Model& model);
 
-/// What `check` says of the stiffness of contact: a line for each pair of groups with a law, penalty over H of both.
-[[nodiscard]] std::string stiffness_report(const Model& model);
-
 /// Throws InputError with every pair of groups whose bodies overlap and that contact.initial_overlap refuses.
 /// @param model  of the whole mesh; a bare one will do
 void refuse_initial_overlaps(const case_::Case& input, const Model& model);
