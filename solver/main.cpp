@@ -19,6 +19,7 @@
 #include "case/units.hpp"
 #include "commands/commands.hpp"
 #include "parallel/mpi_session.hpp"
+#include "physics/sweep.hpp"
 #include "simulation/run.hpp"
 #include "simulation/run_checkpoints.hpp"
 
@@ -328,8 +329,8 @@ void define(CLI::App& app, Arguments& a) {
 void check_environment() {
   const char* simd = std::getenv("BRECCIA_SIMD");
   if (simd == nullptr || *simd == '\0') return;
-  for (const char* known : {"sse2", "avx2", "avx512"}) {
-    if (std::string(simd) == known) return;
+  for (const Simd known : {Simd::sse2, Simd::avx2, Simd::avx512}) {
+    if (std::string(simd) == name_of(known)) return;
   }
   throw InputError(Problem{"", 0, "BRECCIA_SIMD", "is no instruction set", "sse2, avx2, avx512, or not set", simd});
 }

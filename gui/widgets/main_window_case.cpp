@@ -210,7 +210,7 @@ void MainWindow::show_check(const QJsonObject& json) {
           .arg(json["steps"].toDouble(), 0, 'f', 0)
           .arg(quantity_words(json["end"].toDouble(), "s"), duration_words(seconds));
   if (most > seconds) words += tr(" while little breaks, up to %1 where everything does").arg(duration_words(most));
-  words += tr("<br>memory %1, disk for %2 frames at most %3")
+  words += tr("<br>memory %1, about %3 on disk for %2 frames")
                .arg(quantity_words(json["memory"].toDouble(), "B"))
                .arg(json["frames"].toDouble(), 0, 'f', 0)
                .arg(quantity_words(json["disk"].toDouble(), "B"));

@@ -11,10 +11,6 @@ bool same_letter(char a, char b) {
   return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
 }
 
-}  // namespace
-
-namespace {
-
 /// @param same  whether two letters are equal
 template <class Same>
 std::size_t alignment_distance(std::string_view a, std::string_view b, Same same) {

@@ -170,10 +170,6 @@ bool told_already(std::span<const Problem> problems, const std::string& key) {
   });
 }
 
-}  // namespace
-
-namespace {
-
 Case case_of(Node root, const std::filesystem::path& file, std::span<const std::string> overrides) {
   std::vector<Problem> problems;
   apply_overrides(root, overrides, problems);

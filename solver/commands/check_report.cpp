@@ -1,5 +1,6 @@
 #include "commands/check_report.hpp"
 #include "commands/model_report.hpp"
+#include "commands/contact_report.hpp"
 #include "commands/overlap_report.hpp"
 #include "commands/step_report.hpp"
 
@@ -58,7 +59,7 @@ ElasticParams params_of_law(const Model& model, Index law) {
 }
 
 /// One law: penalty, softness, process zone; warnings are added to `advice`.
-std::string law_report(const Model& model, Index l, std::string& advice) {
+std::string law_report(const Model& model, Index l, Advice& advice) {
   const JointLawParams& law = model.joint_laws[index(l)];
   const double h = model.joint_sizes[index(l)], modulus = young(params_of_law(model, l));
   const double softness = modulus * area_per_volume(model, l) / (3 * law.stiffness);
@@ -67,21 +68,20 @@ std::string law_report(const Model& model, Index l, std::string& advice) {
       fmt::format("joints of {}: k = p/h = {:.4g} Pa/m with h = {:.4g} m; they make the body {:.2g} % softer\n", name,
                   law.stiffness, h, 100 * softness);
   if (softness > kWorthRaising * kSoftness) {
-    advice += fmt::format(
-        "- The joints of {} make it {:.1f} % softer. For 5 % raise joint.penalty by a factor of {:.2g}; the time step "
-        "falls with its root.\n",
-        name, 100 * softness, softness / kSoftness);
+    advice.push_back(fmt::format(
+        "The joints of {} make it {:.1f} % softer. For 5 % raise joint.penalty by a factor of {:.2g}; the time step "
+        "falls with its root.",
+        name, 100 * softness, softness / kSoftness));
   }
   if (!law.breakable()) return text;
   const double zone = std::min(modulus * law.width_normal / (4 * law.tensile_strength),
                                std::numbers::pi * modulus * law.width_normal / (32 * law.tensile_strength));
   text += fmt::format("  fracture process zone at least {:.4g} m; mean joint edge {:.4g} m\n", zone, h);
   if (h > zone) {
-    advice += fmt::format(
-        "- The elements of {} (edge {:.3g} m) are larger than its fracture process zone (h_max = {:.3g} m): the load "
-        "at fracture "
-        "and the crack paths depend on the mesh. Refine by {:.2g}, or take the results as qualitative.\n",
-        name, h, zone, h / zone);
+    advice.push_back(fmt::format(
+        "The elements of {} (edge {:.3g} m) are larger than its fracture process zone (h_max = {:.3g} m): the load at "
+        "fracture and the crack paths depend on the mesh. Refine by {:.2g}, or take the results as qualitative.",
+        name, h, zone, h / zone));
   }
   return text;
 }
@@ -113,16 +113,22 @@ double seconds_a_step(const case_::Case& input, const Model& model, double dt, b
   return seconds / steps;
 }
 
-/// Frames and the room they take; what breaks adds to it.
-std::string frames_line(const case_::Case& input, const Model& model, std::string& advice) {
+/// Frames and the room they take.
+void estimate_frames(const case_::Case& input, const Model& model, RunEstimate& estimate) {
   constexpr double kElementBytes = 170, kFrameBytes = 27000;  // measured on glass_impact, block_wall and hertz_impact
-  constexpr double kManyFrames = 2000, kManyBytes = 100e9;
   const double end = input.stages.back().end, interval = input.output.frame_interval;
-  const double frames = interval > 0 ? std::ceil(end / interval) + 1 : 1;
-  const double bytes = frames * (kFrameBytes + (input.output.elements ? kElementBytes * model.mesh.num_elements() : 0));
-  if (frames > kManyFrames || bytes > kManyBytes)
-    advice += fmt::format("- {:.0f} frames are many: a larger output.frame_interval saves disk and time.\n", frames);
-  return fmt::format("{:.0f} frames, about {} on disk, more where joints break\n", frames, quantity_text(bytes, "B"));
+  estimate.frames = interval > 0 ? std::ceil(end / interval) + 1 : 1;
+  estimate.disk =
+      estimate.frames * (kFrameBytes + (input.output.elements ? kElementBytes * model.mesh.num_elements() : 0));
+}
+
+std::string frames_line(const RunEstimate& estimate, Advice& advice) {
+  constexpr double kManyFrames = 2000, kManyBytes = 100e9;
+  if (estimate.frames > kManyFrames || estimate.disk > kManyBytes)
+    advice.push_back(
+        fmt::format("{:.0f} frames are many: a larger output.frame_interval saves disk and time.", estimate.frames));
+  return fmt::format("{:.0f} frames, about {} on disk, more where joints break\n", estimate.frames,
+                     quantity_text(estimate.disk, "B"));
 }
 
 /// The estimate as a line.
@@ -201,6 +207,7 @@ RunEstimate estimate_run(const case_::Case& input, const Model& model, const Ste
     estimate.most_seconds = std::max(most, estimate.seconds);
   }
   estimate.memory = max_resident_bytes();
+  estimate_frames(input, model, estimate);
   return estimate;
 }
 
@@ -304,21 +311,22 @@ CheckReport full_report(const case_::Case& input, const Model& model) {
   report.text += fmt::format("joints: {}\n", model.joints.size());
   for (std::size_t l = 0; l < model.joint_laws.size(); ++l)
     report.text += law_report(model, static_cast<Index>(l), report.advice);
-  report.advice += model_advice(input, model);
+  append(report.advice, model_advice(input, model));
   const OverlapReport overlaps = overlap_report(input, model);
   report.text += stiffness_report(model) + overlaps.text;
-  report.advice += overlaps.advice;
+  append(report.advice, overlaps.advice);
+  append(report.advice, late_contact_advice(model));
   report.step = step_report(input, model);
   report.estimate = estimate_run(input, model, report.step);
   report.text += report.step.text + run_time(report.step, report.estimate, input.stages.back().end) +
-                 frames_line(input, model, report.advice);
-  report.advice += report.step.advice;
+                 frames_line(report.estimate, report.advice);
+  append(report.advice, report.step.advice);
   return report;
 }
 
 std::string check_report(const case_::Case& input, const Model& model) {
   const CheckReport report = full_report(input, model);
-  return report.text + (report.advice.empty() ? "nothing to advise\n" : "advice\n" + report.advice);
+  return report.text + (report.advice.empty() ? "nothing to advise\n" : "advice\n" + as_list(report.advice));
 }
 
 }  // namespace breccia

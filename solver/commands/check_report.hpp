@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "case/case.hpp"
+#include "commands/advice.hpp"
 #include "commands/step_report.hpp"
 #include "mesh/finish.hpp"
 #include "model/model.hpp"
@@ -32,6 +33,8 @@ struct RunEstimate {
   double most_seconds = 0;   ///< s, if all joints that can break had done so from the start
   bool breaks = false;       ///< there are joints that can break
   std::uint64_t memory = 0;  ///< bytes, largest so far of this process
+  double frames = 0;         ///< number
+  double disk = 0;           ///< bytes of the frames, compressed, as long as few joints break
 };
 
 [[nodiscard]] RunEstimate estimate_run(const case_::Case& input, const Model& model, const StepReport& step);
@@ -46,12 +49,13 @@ struct RunEstimate {
 
 /// Everything that can be told before the first step: size, stable step and what limits it, steps, memory, run time on
 /// this machine (from a few steps of a scratch copy), joints against the fracture process zone, softness added by the
-/// joints, and advice as sentences with their remedy.
+/// joints, and advice.
 [[nodiscard]] std::string check_report(const case_::Case& input, const Model& model);
 
 /// The parts of that report.
 struct CheckReport {
-  std::string text, advice;  ///< lines; each advice begins with "- "
+  std::string text;  ///< lines
+  Advice advice;
   StepReport step;
   RunEstimate estimate;
 };

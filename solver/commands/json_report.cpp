@@ -16,8 +16,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Points, cells and arrays of an element in a frame before compression, bytes.
-constexpr double kBytesAnElement = 4 * 3 * 8 + 4 * 8 + 8 + 1 + 8 + 3 * 4 + 8 + 8 * (6 + 1 + 3 + 3 + 3 + 1);
 constexpr int kBins = 10;
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
@@ -29,20 +27,6 @@ Json groups(const MeshReport& report) {
     return out;
   };
   return {{"volumes", list(report.volume_groups)}, {"surfaces", list(report.surface_groups)}};
-}
-
-/// "- one\n- two\n" as a list.
-Json advice_list(const std::string& text) {
-  Json out = Json::array();
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find("\n- ", at), text.size());
-    std::string line = text.substr(at, end - at);
-    if (line.starts_with("- ")) line.erase(0, 2);
-    while (line.ends_with('\n')) line.pop_back();
-    if (!line.empty()) out.push_back(line);
-    at = end + 1;
-  }
-  return out;
 }
 
 /// Elements by radius ratio: bin i counts those from i/10 to (i+1)/10.
@@ -112,25 +96,22 @@ const char* name_of(case_::ValueType type) {
 
 std::string check_json(const case_::Case& input, const Model& model) {
   const CheckReport report = full_report(input, model);
-  const double end = input.stages.back().end, interval = input.output.frame_interval;
-  const double frames = 1 + (interval > 0 ? std::ceil(end / interval) : 0);
   Json json{{"title", input.title},
             {"elements", model.mesh.num_elements()},
             {"nodes", model.mesh_report.nodes},
             {"bodies", model.mesh_report.bodies},
             {"joints", model.joints.size()},
             {"groups", groups(model.mesh_report)},
-            {"end", end},
+            {"end", input.stages.back().end},
             {"stable_step", number_or_null(report.step.limit)},
             {"step", number_or_null(report.step.dt)},
             {"steps", number_or_null(report.estimate.steps)},
             {"seconds", number_or_null(report.estimate.seconds)},
             {"most_seconds", number_or_null(report.estimate.most_seconds)},
             {"memory", report.estimate.memory},
-            {"frames", frames},
-            {"disk",
-             input.output.elements ? frames * kBytesAnElement * static_cast<double>(model.mesh.elements.size()) : 0.0},
-            {"advice", advice_list(report.advice)},
+            {"frames", report.estimate.frames},
+            {"disk", report.estimate.disk},
+            {"advice", report.advice},
             {"report", report.text}};
   return text_of(json);
 }

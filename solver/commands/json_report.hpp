@@ -10,9 +10,8 @@
 /// What `check`, `mesh` and `schema` say, for programs: one JSON object, numbers in SI, ending with a line feed.
 namespace breccia {
 
-/// title, report and advice in words, elements, nodes, joints, groups; stable_step and step, s; steps; seconds and
-/// most_seconds of one rank on this machine; memory, bytes; frames and disk, bytes, of the frames at most: measured
-/// frames of elements take less, since what repeats is compressed.
+/// title, report and advice in words, elements, nodes, bodies, joints, groups; end, stable_step and step, s; and of
+/// RunEstimate steps, seconds, most_seconds, memory, frames and disk.
 [[nodiscard]] std::string check_json(const case_::Case& input, const Model& model);
 
 /// Division among `parts` ranks: how, imbalance, efficiency, `domains` with the loads of each, `owner` with the rank of

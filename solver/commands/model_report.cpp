@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "base/disjoint_sets.hpp"
+#include "mesh/node_parting.hpp"
 #include "mesh/tetrahedron.hpp"
 #include "model/parameters.hpp"
 
@@ -18,35 +18,26 @@ namespace {
 
 std::size_t index(Index i) { return static_cast<std::size_t>(i); }
 
-/// Of the extent of the model: places closer than this are one.
-constexpr double kSamePlace = 1e-9;
-
-/// Bodies that hang together, by the number of one of them.
+/// Bodies that are glued to each other.
 class Solids {
  public:
-  explicit Solids(const Model& model) : solid_(index(model.mesh.num_bodies)) {
-    std::iota(solid_.begin(), solid_.end(), 0);
+  explicit Solids(const Model& model) : bodies_(model.mesh.num_bodies), sets_(index(bodies_)) {
     for (std::size_t e = 0; e < model.mesh.elements.size(); ++e) {
       for (const FaceLink& link : model.topology.links[e]) {
-        if (link.inner()) solid_[index(of(model.mesh.element_body[e]))] = of(body(model, link.neighbour));
+        if (link.inner()) sets_.join(model.mesh.element_body[e], model.mesh.element_body[index(link.neighbour)]);
       }
     }
   }
-  [[nodiscard]] Index of(Index body) {
-    while (solid_[index(body)] != body) body = solid_[index(body)] = solid_[index(solid_[index(body)])];
-    return body;
-  }
   [[nodiscard]] bool several() {
-    const auto body_count = static_cast<Index>(solid_.size());
-    for (Index b = 1; b < body_count; ++b) {
-      if (of(b) != of(0)) return true;
+    for (Index b = 1; b < bodies_; ++b) {
+      if (sets_.root(b) != sets_.root(0)) return true;
     }
     return false;
   }
 
  private:
-  static Index body(const Model& model, Index element) { return model.mesh.element_body[index(element)]; }
-  std::vector<Index> solid_;
+  Index bodies_;
+  DisjointSets sets_;
 };
 
 /// Bodies that go through each other. Those that a constraint holds in every stage cannot move into others.
@@ -68,8 +59,8 @@ std::string missing_contact(const case_::Case& input, const Model& model) {
     }
   }
   if (std::find(free.begin(), free.end(), true) == free.end()) return {};
-  return "- There is no [[contact]]: bodies that meet go through each other. Add one, with between = [\"*\", \"*\"] "
-         "for all groups, unless they never meet.\n";
+  return "There is no [[contact]]: bodies that meet go through each other. Add one, with between = [\"*\", \"*\"] "
+         "for all groups, unless they never meet.";
 }
 
 std::string sphere_too_small(const Model& model) {
@@ -86,29 +77,9 @@ std::string sphere_too_small(const Model& model) {
   }
   if (outside == 0) return {};
   return fmt::format(
-      "- The sphere does not hold the model: {} elements begin outside, element {} by {:.3g} m, and what begins "
-      "outside is not pushed back in. Raise sphere.radius from {:.4g} to more than {:.4g} m, or move sphere.centre.\n",
+      "The sphere does not hold the model: {} elements begin outside, element {} by {:.3g} m, and what begins "
+      "outside is not pushed back in. Raise sphere.radius from {:.4g} to more than {:.4g} m, or move sphere.centre.",
       outside, worst, furthest - sphere.radius, sphere.radius, furthest);
-}
-
-/// Numbers of places: nodes that coincide have the same.
-std::vector<Index> places_of_nodes(const Mesh& mesh) {
-  Vec3 lower = mesh.nodes.front(), upper = lower;
-  for (const Vec3& x : mesh.nodes) {
-    lower = lower.cwiseMin(x);
-    upper = upper.cwiseMax(x);
-  }
-  const double same = std::max(kSamePlace * (upper - lower).maxCoeff(), std::numeric_limits<double>::min());
-  std::map<std::array<std::int64_t, 3>, Index> places;
-  std::vector<Index> place;
-  for (const Vec3& x : mesh.nodes) {
-    const Vec3 cell = (x - lower) / same;
-    const std::array key{std::llround(cell[0]), std::llround(cell[1]), std::llround(cell[2])};
-    place.push_back(
-        places.emplace(std::array<std::int64_t, 3>{key[0], key[1], key[2]}, static_cast<Index>(places.size()))
-            .first->second);
-  }
-  return place;
 }
 
 /// (elements) a bit a face that the case breaks from the start.
@@ -124,10 +95,10 @@ std::vector<std::uint8_t> broken_on_purpose(const case_::Case& input, const Mode
 }
 
 /// Bodies of one group that lie face to face with nothing between them. The raster's boxes are meant to be apart.
-std::string silently_apart(const case_::Case& input, const Model& model) {
+Advice silently_apart(const case_::Case& input, const Model& model) {
   if (input.mesh.raster || model.mesh.num_bodies < 2) return {};
   const Mesh& mesh = model.mesh;
-  const std::vector<Index> place = places_of_nodes(mesh);
+  const std::vector<Index> place = coincident_nodes(mesh);
   const std::vector<std::uint8_t> broken = broken_on_purpose(input, model);
   std::map<std::array<Index, 3>, std::pair<Index, Index>> free_faces;  // by places: group, body
   struct Touch {
@@ -147,22 +118,26 @@ std::string silently_apart(const case_::Case& input, const Model& model) {
       if (touch.faces++ == 0) touch.body = known->second.second, touch.other = body;
     }
   }
-  std::string text;
+  Advice advice;
   for (const auto& [group, touch] : touches) {
-    text += fmt::format(
-        "- Volumes of \"{}\" touch along {} triangles and are not joined there (bodies {} and {}, for one): {}\n",
+    advice.push_back(fmt::format(
+        "Volumes of \"{}\" touch along {} triangles and are not joined there (bodies {} and {}, for one): {}",
         mesh.volume_groups[index(group)], touch.faces, touch.body, touch.other,
         input.mesh.glue
             ? "the geometry has their interface twice: use Coherence or BooleanFragments."
-            : "mesh.glue = true makes them one solid; give them different groups if they are meant to part.");
+            : "mesh.glue = true makes them one solid; give them different groups if they are meant to part."));
   }
-  return text;
+  return advice;
 }
 
 }  // namespace
 
-std::string model_advice(const case_::Case& input, const Model& model) {
-  return missing_contact(input, model) + sphere_too_small(model) + silently_apart(input, model);
+Advice model_advice(const case_::Case& input, const Model& model) {
+  Advice advice;
+  advise(advice, missing_contact(input, model));
+  advise(advice, sphere_too_small(model));
+  append(advice, silently_apart(input, model));
+  return advice;
 }
 
 }  // namespace breccia

@@ -15,7 +15,7 @@ namespace {
 /// The deepest overlap of two groups.
 struct GroupOverlap {
   BodyOverlap deepest;
-  std::int64_t pairs = 1, points = 0, corners = 0;
+  std::int64_t pairs = 0, points = 0, corners = 0;
 };
 
 std::vector<GroupOverlap> overlaps_by_groups(const Model& model) {
@@ -26,7 +26,7 @@ std::vector<GroupOverlap> overlaps_by_groups(const Model& model) {
     };
     auto known = std::find_if(groups.begin(), groups.end(), same);
     if (known == groups.end()) {
-      groups.push_back({overlap, 0});
+      groups.push_back({overlap});
       known = groups.end() - 1;
     }
     ++known->pairs;
@@ -85,41 +85,12 @@ OverlapReport overlap_report(const case_::Case& input, const Model& model) {
     report.text += description(model, groups) + "\n";
     if (entry_of(input, model, groups.deepest).initial_overlap == case_::InitialOverlap::refuse) {
       const BodyOverlap& o = groups.deepest;
-      report.advice +=
-          fmt::format("- A run ends with an error, since {} and {} overlap. What helps: {}.\n",
-                      name_of_body(model, o.group, o.body), name_of_body(model, o.other_group, o.other), remedy(o));
+      report.advice.push_back(fmt::format("A run ends with an error, since {} and {} overlap. What helps: {}.",
+                                          name_of_body(model, o.group, o.body),
+                                          name_of_body(model, o.other_group, o.other), remedy(o)));
     }
   }
   return report;
-}
-
-std::string stiffness_report(const Model& model) {
-  const auto& names = model.mesh.volume_groups;
-  const auto modulus = [&](std::size_t group) {
-    const ElasticParams& p = model.elastic[group];
-    return p.mu * (3 * p.lambda + 2 * p.mu) / (p.lambda + p.mu);
-  };
-  std::vector<double> length(names.size(), 0.0);  // H of the groups' finest bodies
-  for (Index e = 0; e < model.mesh.num_elements(); ++e) {
-    const auto i = static_cast<std::size_t>(e);
-    const double h = model.whole.body_length[static_cast<std::size_t>(model.mesh.element_body[i])];
-    double& least = length[static_cast<std::size_t>(model.mesh.element_group[i])];
-    least = least > 0 ? std::min(least, h) : h;
-  }
-  std::string text;
-  for (std::size_t a = 0; a < names.size(); ++a) {
-    for (std::size_t b = a; b < names.size(); ++b) {
-      const auto i = static_cast<Index>(a), k = static_cast<Index>(b);
-      const double penalty = std::max(model.contact.law(i, k).penalty, model.contact.law(k, i).penalty);
-      if (!(penalty > 0) || !(length[a] > 0) || !(length[b] > 0)) continue;
-      text += fmt::format(
-          "contact of {} and {}: stiffness penalty/H = {:.3g} and {:.3g} Pa/m with H = {:.3g} and {:.3g} "
-          "m; recommended penalty {}, E of the softer\n",
-          names[a], names[b], penalty / length[a], penalty / length[b], length[a], length[b],
-          quantity_text(std::min(modulus(a), modulus(b)), "Pa"));
-    }
-  }
-  return text;
 }
 
 void refuse_initial_overlaps(const case_::Case& input, const Model& model) {

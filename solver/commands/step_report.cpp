@@ -107,16 +107,16 @@ std::string contact_advice(const Model& model, const Start& start, const std::ve
   const auto& slot_of = model.local.slot_of_element;
   const Index slot = slot_of[index(static_cast<Index>(step.element))];
   const Index group = model.local.block_group[index(slot / kLanes)], against = contacts[index(slot)].against;
-  std::string text = fmt::format("- {} makes the step {:.2g} times shorter", when, step.joint_step / step.step);
+  std::string text = fmt::format("{} makes the step {:.2g} times shorter", when, step.joint_step / step.step);
   if (against < 0) {
     const double penalty = model.contact.sphere->penalty;
-    return text + fmt::format(" at the sphere; a penalty of {:.2g} Pa instead of {:.3g} Pa would not.\n",
+    return text + fmt::format(" at the sphere; a penalty of {:.2g} Pa instead of {:.3g} Pa would not.",
                               factor * penalty, penalty);
   }
   const ContactLaw& forth = model.contact.law(group, against);
   const ContactLaw& law = forth.active() ? forth : model.contact.law(against, group);
   const auto& names = model.mesh.volume_groups;
-  return text + fmt::format(" (\"{}\" on \"{}\", element {}); a penalty of {:.2g} Pa instead of {:.3g} Pa would not.\n",
+  return text + fmt::format(" (\"{}\" on \"{}\", element {}); a penalty of {:.2g} Pa instead of {:.3g} Pa would not.",
                             names[index(group)], names[index(against)], step.element,
                             factor * stiffest_slope(law) / law.exponent, law.penalty);
 }
@@ -135,9 +135,9 @@ std::string sliver_advice(const Model& model, const Start& start) {
   const double without = 2.0 / std::sqrt(stiffest(start.time_step().step_model(), others));
   if (!(without > kSliverCost * start.now().step)) return {};
   return fmt::format(
-      "- {} slivers (radius ratio below {}), the worst element {}, set the time step: without them it would be at "
+      "{} slivers (radius ratio below {}), the worst element {}, set the time step: without them it would be at "
       "least "
-      "{:.2g} times longer. Optimise the mesh (Mesh.Optimize, Mesh.OptimizeThreshold) or merge them.\n",
+      "{:.2g} times longer. Optimise the mesh (Mesh.Optimize, Mesh.OptimizeThreshold) or merge them.",
       slivers.size(), kSliver, quality.worst.front().element, without / start.now().step);
 }
 
@@ -165,17 +165,16 @@ StepReport step_report(const case_::Case& input, const Model& model) {
           fmt::format("  {} once bodies meet that are on their way to each other\n", quantity_text(met.step, "s"));
     if (report.broken < 0.99 * met.step)
       report.text += fmt::format("  {} where fracture makes fragments that meet\n", quantity_text(report.broken, "s"));
-    report.advice += contact_advice(model, start, start.parts().contacts, "Contact");
-    if (report.advice.empty()) report.advice += contact_advice(model, start, later, "Once bodies meet, contact");
+    advise(report.advice, contact_advice(model, start, start.parts().contacts, "Contact"));
+    if (report.advice.empty()) advise(report.advice, contact_advice(model, start, later, "Once bodies meet, contact"));
   }
-  if (const std::string text = given_step_text(input.time.step, now); !text.empty())
-    report.advice += "- " + text + "\n";
+  advise(report.advice, given_step_text(input.time.step, now));
   if (now.limit != StepLimit::contact && now.quantiles[0] < 0.3 * now.quantiles[1]) {
-    report.advice += fmt::format(
-        "- The worst element allows {:.1f} times less than the worst per cent: one bad element slows the whole run.\n",
-        now.quantiles[1] / now.quantiles[0]);
+    report.advice.push_back(fmt::format(
+        "The worst element allows {:.1f} times less than the worst per cent: one bad element slows the whole run.",
+        now.quantiles[1] / now.quantiles[0]));
   }
-  report.advice += sliver_advice(model, start);
+  advise(report.advice, sliver_advice(model, start));
   return report;
 }
 

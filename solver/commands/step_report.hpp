@@ -3,17 +3,18 @@
 #include <string>
 
 #include "case/case.hpp"
+#include "commands/advice.hpp"
 #include "model/model.hpp"
 
 namespace breccia {
 
 /// What can be told of the time step before the first one.
 struct StepReport {
-  double limit = 0;    ///< s, stable step at the start
-  double dt = 0;       ///< s, that the run begins with
-  double broken = 0;   ///< s, stable step if all joints that can break had, all faces near each other meeting
-  std::string text;    ///< lines
-  std::string advice;  ///< sentences with their remedy, a line each
+  double limit = 0;   ///< s, stable step at the start
+  double dt = 0;      ///< s, that the run begins with
+  double broken = 0;  ///< s, stable step if all joints that can break had, all faces near each other meeting
+  std::string text;   ///< lines
+  Advice advice;
 };
 
 [[nodiscard]] StepReport step_report(const case_::Case& input, const Model& model);

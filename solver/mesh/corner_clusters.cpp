@@ -7,15 +7,6 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Root of a corner; halves the path on the way. Roots are the smallest place of their set.
-Index root_of(std::vector<Index>& parent, Index place) {
-  while (parent[at(place)] != place) {
-    parent[at(place)] = parent[at(parent[at(place)])];
-    place = parent[at(place)];
-  }
-  return place;
-}
-
 }  // namespace
 
 CornerClusters::CornerClusters(const Mesh& mesh, const Topology& topology)
@@ -71,9 +62,7 @@ void CornerClusters::break_faces(std::span<const Topology::Face> faces, std::vec
 
 void CornerClusters::cluster_corners_at(Index node, std::vector<Index>& changed) {
   const auto corners = corners_at(node);
-  parent_.resize(corners.size());
-  for (std::size_t k = 0; k < corners.size(); ++k) parent_[k] = static_cast<Index>(k);
-
+  places_.reset(corners.size());
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Index element = corners[k] / 4, own_corner = corners[k] % 4;
     for (int face = 0; face < 4; ++face) {
@@ -81,13 +70,11 @@ void CornerClusters::cluster_corners_at(Index node, std::vector<Index>& changed)
       // The face opposite to the corner does not touch the node; every bond is met from its higher element.
       if (face == own_corner || link.neighbour >= element || !link.inner() || broken(element, face)) continue;
       const auto twin = std::lower_bound(corners.begin(), corners.end(), 4 * link.neighbour);
-      const Index a = root_of(parent_, static_cast<Index>(k));
-      const Index b = root_of(parent_, static_cast<Index>(twin - corners.begin()));
-      parent_[at(std::max(a, b))] = std::min(a, b);
+      places_.join(static_cast<Index>(k), static_cast<Index>(twin - corners.begin()));
     }
   }
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Index id = corners[at(root_of(parent_, static_cast<Index>(k)))];
+    const Index id = corners[at(places_.root(static_cast<Index>(k)))];
     Index& stored = cluster_[at(corners[k] / 4)][at(corners[k] % 4)];
     if (stored == id) continue;
     stored = id;

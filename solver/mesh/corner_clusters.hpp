@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/disjoint_sets.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/topology.hpp"
 
@@ -55,7 +56,8 @@ class CornerClusters {
   std::vector<std::uint8_t> broken_;           // (num_elements) a bit a face
   std::vector<Index> first_corner_;            // (num_nodes + 1)
   std::vector<Index> corners_;                 // (4 num_elements) by node
-  std::vector<Index> parent_, nodes_;          // work space
+  DisjointSets places_;                        // of corners at a node: work space
+  std::vector<Index> nodes_;                   // work space
 };
 
 }  // namespace breccia

@@ -68,7 +68,7 @@ Index count_orphan_nodes(const Mesh& mesh) {
   return static_cast<Index>(std::count(used.begin(), used.end(), 0));
 }
 
-Index count_duplicate_nodes(const Mesh& mesh) {
+std::vector<Index> coincident_nodes(const Mesh& mesh) {
   const auto used = used_nodes(mesh);
   Vec3 lowest = Vec3::Constant(std::numeric_limits<double>::max()), highest = -lowest;
   for (std::size_t n = 0; n < used.size(); ++n) {
@@ -91,31 +91,36 @@ Index count_duplicate_nodes(const Mesh& mesh) {
     for (const std::int64_t c : cell) h = (h ^ static_cast<std::uint64_t>(c)) * 0x9e3779b97f4a7c15ULL, h ^= h >> 29;
     return static_cast<std::size_t>(h);
   };
-  std::unordered_multimap<Cell, std::size_t, decltype(hash)> seen(mesh.nodes.size(), hash);
-  const auto has_twin = [&](const Vec3& x) {
+  std::unordered_multimap<Cell, Index, decltype(hash)> seen(mesh.nodes.size(), hash);
+  const auto first_at = [&](Index node) {
+    const Vec3& x = mesh.nodes[at(node)];
     const Cell first = cell_of(x - Vec3::Constant(tolerance)), last = cell_of(x + Vec3::Constant(tolerance));
     for (std::int64_t i = first[0]; i <= last[0]; ++i) {
       for (std::int64_t j = first[1]; j <= last[1]; ++j) {
         for (std::int64_t k = first[2]; k <= last[2]; ++k) {
           const auto [begin, end] = seen.equal_range(Cell{i, j, k});
           const auto near = [&](const auto& entry) {
-            return (mesh.nodes[entry.second] - x).cwiseAbs().maxCoeff() <= tolerance;
+            return (mesh.nodes[at(entry.second)] - x).cwiseAbs().maxCoeff() <= tolerance;
           };
-          if (std::any_of(begin, end, near)) return true;
+          const auto twin = std::find_if(begin, end, near);
+          if (twin != end) return twin->second;
         }
       }
     }
-    return false;
+    return node;
   };
-  Index twins = 0;
-  for (std::size_t n = 0; n < used.size(); ++n) {
-    if (used[n] == 0) continue;
-    if (has_twin(mesh.nodes[n])) {
-      ++twins;  // not entered: a third node here finds the first
-    } else {
-      seen.emplace(cell_of(mesh.nodes[n]), n);
-    }
+  std::vector<Index> first(used.size());
+  for (Index n = 0; n < mesh.num_nodes(); ++n) {
+    first[at(n)] = used[at(n)] != 0 ? first_at(n) : n;
+    if (used[at(n)] != 0 && first[at(n)] == n) seen.emplace(cell_of(mesh.nodes[at(n)]), n);
   }
+  return first;
+}
+
+Index count_duplicate_nodes(const Mesh& mesh) {
+  const std::vector<Index> first = coincident_nodes(mesh);
+  Index twins = 0;
+  for (Index n = 0; n < mesh.num_nodes(); ++n) twins += first[at(n)] != n;
   return twins;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "mesh/mesh.hpp"
 
 namespace breccia {
@@ -9,8 +11,11 @@ namespace breccia {
 /// Nodes of no element.
 [[nodiscard]] Index count_orphan_nodes(const Mesh& mesh);
 
-/// Nodes of elements that lie within 1e-9 of the mesh's size (largest extent) of a node of smaller index, along each
-/// axis.
+/// (nodes) The first node within 1e-9 of the mesh's size (largest extent) of each node, along each axis: itself where
+/// there is none before it. Nodes of no element count for none.
+[[nodiscard]] std::vector<Index> coincident_nodes(const Mesh& mesh);
+
+/// Nodes that have one before them there.
 [[nodiscard]] Index count_duplicate_nodes(const Mesh& mesh);
 
 /// Throws InputError, one problem a surface group, when a surface triangle is no face of any element.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/disjoint_sets.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/triangle_tree.hpp"
 
@@ -11,30 +12,19 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-Index root_of(std::vector<Index>& parent, Index i) {
-  while (parent[at(i)] != i) {
-    parent[at(i)] = parent[at(parent[at(i)])];
-    i = parent[at(i)];
-  }
-  return i;
-}
-
 /// Solid of every node: the lowest body that its body is glued to. (num_nodes)
 std::vector<Index> solids_of_nodes(const Mesh& mesh) {
-  std::vector<Index> parent(at(mesh.num_bodies));
-  for (std::size_t b = 0; b < parent.size(); ++b) parent[b] = static_cast<Index>(b);
+  DisjointSets bodies(at(mesh.num_bodies));
   std::vector<Index> solid(mesh.nodes.size(), -1);
   for (Index e = 0; e < mesh.num_elements(); ++e) {
     const Index body = mesh.element_body[at(e)];
     for (const Index node : mesh.elements[at(e)]) {
       Index& seen = solid[at(node)];
       if (seen < 0) seen = body;
-      if (seen == body) continue;
-      const Index a = root_of(parent, seen), b = root_of(parent, body);
-      parent[at(std::max(a, b))] = std::min(a, b);
+      if (seen != body) bodies.join(seen, body);
     }
   }
-  for (Index& s : solid) s = root_of(parent, s);
+  for (Index& s : solid) s = bodies.root(s);
   return solid;
 }
 

@@ -125,11 +125,10 @@ double reduced_density(const case_::Case& input, const std::string& group, const
   return a > 0 && b > 0 ? a * b / (a + b) : 0.0;
 }
 
+bool fits(const std::string& pattern, const std::string& group) { return pattern == "*" || pattern == group; }
+
 /// Whether points of a group are felt by the other.
 bool carries_points(const case_::Contact& entry, const std::string& group, const std::string& other) {
-  const auto fits = [](const std::string& pattern, const std::string& name) {
-    return pattern == "*" || pattern == name;
-  };
   return entry.points_on == case_::PointsOn::both || (fits(entry.groups[0], group) && fits(entry.groups[1], other));
 }
 
@@ -176,9 +175,6 @@ JointLawParams joint_law_params(const case_::Joint& joint, double size, bool unb
 }
 
 const case_::Contact* contact_entry(const case_::Case& input, const std::string& group, const std::string& other) {
-  const auto fits = [](const std::string& pattern, const std::string& name) {
-    return pattern == "*" || pattern == name;
-  };
   const auto names = [](const case_::Contact& entry) { return (entry.groups[0] != "*") + (entry.groups[1] != "*"); };
   const case_::Contact* found = nullptr;
   for (const case_::Contact& entry : input.contacts) {

@@ -26,7 +26,7 @@ std::string raster(const std::string& boxes) {
 
 std::string advice_on(const std::string& text) {
   const case_::Case input = case_::read_text(text);
-  return model_advice(input, build_model(input));
+  return as_list(model_advice(input, build_model(input)));
 }
 
 TEST(ModelAdvice, names_bodies_that_meet_without_contact) {
@@ -59,7 +59,7 @@ std::string touching(const std::string& join, const std::string& glue) {
   const case_::Case input = case_::read_case(
       folder.write("case.toml", "[mesh]\nfile = \"boxes.geo\"\nglue = " + glue + "\n" + kMaterial +
                                     "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"40 GPa\"\n" + kStage));
-  return model_advice(input, build_model(input));
+  return as_list(model_advice(input, build_model(input)));
 }
 
 TEST(ModelAdvice, names_volumes_of_one_group_that_touch_and_are_not_joined) {

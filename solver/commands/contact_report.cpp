@@ -1,0 +1,135 @@
+#include "commands/contact_report.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "mesh/tetrahedron.hpp"
+#include "output/quantity_text.hpp"
+#include "physics/contact/contact_point.hpp"
+
+namespace breccia {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// m, (groups) H of the finest body, 0: no element.
+std::vector<double> finest_lengths(const Model& model) {
+  std::vector<double> length(model.mesh.volume_groups.size(), 0.0);
+  for (Index e = 0; e < model.mesh.num_elements(); ++e) {
+    const double h = model.whole.body_length[at(model.mesh.element_body[at(e)])];
+    double& least = length[at(model.mesh.element_group[at(e)])];
+    least = least > 0 ? std::min(least, h) : h;
+  }
+  return length;
+}
+
+/// The surface around a node.
+struct Corner {
+  Vec3 normal = Vec3::Zero();                                  ///< m2, sum of area vectors
+  double late = std::numeric_limits<double>::max(), edge = 0;  ///< m
+  bool smooth = true;
+  Index group = -1;
+};
+
+/// Calls f(element, its face's nodes, area vector of that face) for every free face.
+template <class F>
+void for_each_free_face(const Model& model, F&& f) {
+  const Mesh& mesh = model.mesh;
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    for (int face = 0; face < 4; ++face) {
+      if (!model.topology.links[at(e)][at(face)].free()) continue;
+      std::array<Index, 3> node{};
+      for (std::size_t i = 0; i < 3; ++i) node[i] = mesh.elements[at(e)][at(kFaceCorners[at(face)][i])];
+      const Vec3& x = mesh.nodes[at(node[0])];
+      f(e, node, Vec3(0.5 * (mesh.nodes[at(node[1])] - x).cross(mesh.nodes[at(node[2])] - x)));
+    }
+  }
+}
+
+/// How far behind each corner the nearest contact points around it lie, along the normal there.
+std::vector<Corner> corners_of_surface(const Model& model) {
+  constexpr double kSmooth = 0.8;  // cosine of the angle between a face and the mean of those around the corner
+  const FaceRule& rule = face_rule(model.contact.points_per_face);
+  std::vector<Corner> corners(model.mesh.nodes.size());
+  for_each_free_face(model, [&](Index e, const std::array<Index, 3>& nodes, const Vec3& area) {
+    for (const Index n : nodes) {
+      corners[at(n)].normal += area;
+      corners[at(n)].group = model.mesh.element_group[at(e)];
+    }
+  });
+  for_each_free_face(model, [&](Index, const std::array<Index, 3>& nodes, const Vec3& area) {
+    for (const Index n : nodes) {
+      Corner& corner = corners[at(n)];
+      const Vec3 up = corner.normal.normalized();
+      corner.smooth = corner.smooth && area.dot(up) > kSmooth * area.norm();
+      for (int p = 0; p < rule.num_points; ++p) {
+        Vec3 place = Vec3::Zero();
+        for (std::size_t i = 0; i < 3; ++i) place += rule.shape[at(p)][i] * model.mesh.nodes[at(nodes[i])];
+        corner.late = std::min(corner.late, (model.mesh.nodes[at(n)] - place).dot(up));
+      }
+      for (const Index other : nodes)
+        corner.edge = std::max(corner.edge, (model.mesh.nodes[at(n)] - model.mesh.nodes[at(other)]).norm());
+    }
+  });
+  return corners;
+}
+
+bool has_points(const Model& model, Index group) {
+  for (std::size_t other = 0; other < model.mesh.volume_groups.size(); ++other) {
+    if (model.contact.law(group, static_cast<Index>(other)).active()) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string stiffness_report(const Model& model) {
+  const auto& names = model.mesh.volume_groups;
+  const std::vector<double> length = finest_lengths(model);
+  std::string text;
+  for (std::size_t g = 0; g < names.size(); ++g) {
+    double least = std::numeric_limits<double>::max(), most = 0;
+    for (std::size_t other = 0; other < names.size(); ++other) {
+      const auto i = static_cast<Index>(g), k = static_cast<Index>(other);
+      const double penalty = std::max(model.contact.law(i, k).penalty, model.contact.law(k, i).penalty);
+      if (!(penalty > 0) || !(length[other] > 0)) continue;
+      least = std::min(least, penalty), most = std::max(most, penalty);
+    }
+    if (!(most > 0) || !(length[g] > 0)) continue;
+    const ElasticParams& p = model.elastic[g];
+    const double young = p.mu * (3 * p.lambda + 2 * p.mu) / (p.lambda + p.mu);
+    const std::string range = most > least ? fmt::format("{:.3g} to {:.3g}", least / length[g], most / length[g])
+                                           : fmt::format("{:.3g}", most / length[g]);
+    text += fmt::format(
+        "contact of {}: stiffness penalty/H = {} Pa/m with H = {}; recommended penalty {}, E, or that "
+        "of what it meets if softer\n",
+        names[g], range, quantity_text(length[g], "m"), quantity_text(young, "Pa"));
+  }
+  return text;
+}
+
+Advice late_contact_advice(const Model& model) {
+  constexpr double kWorthTelling = 0.01;  // of the edges there
+  Advice advice;
+  if (!model.has_contact || !model.contact_everywhere) return advice;
+  std::vector<double> late(model.mesh.volume_groups.size(), 0.0);
+  for (const Corner& corner : corners_of_surface(model)) {
+    if (corner.group < 0 || !corner.smooth || corner.late < kWorthTelling * corner.edge) continue;
+    late[at(corner.group)] = std::max(late[at(corner.group)], corner.late);
+  }
+  for (std::size_t g = 0; g < late.size(); ++g) {
+    if (!(late[g] > 0) || !has_points(model, static_cast<Index>(g))) continue;
+    advice.push_back(
+        fmt::format("The surface of {} is curved, and its contact points lie up to {} behind the corners of its faces: "
+                    "other bodies "
+                    "come so much nearer before they feel it. contact_points.per_face = 4 has points on corners.",
+                    model.mesh.volume_groups[g], quantity_text(late[g], "m")));
+  }
+  return advice;
+}
+
+}  // namespace breccia

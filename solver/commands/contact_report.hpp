@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "commands/advice.hpp"
+#include "model/model.hpp"
+
+/// What `check` says of contact beside overlaps.
+namespace breccia {
+
+/// A line for each group with a law: H, m, of its finest body, the stiffness penalty/H, Pa/m, of its laws, and the
+/// recommended penalty.
+[[nodiscard]] std::string stiffness_report(const Model& model);
+
+/// Groups with curved surfaces whose contact points, inside the faces, lie so far behind the corners that bodies come
+/// noticeably nearer before they feel each other. Edges and corners proper, flat surfaces: nothing. O(elements).
+[[nodiscard]] Advice late_contact_advice(const Model& model);
+
+}  // namespace breccia

@@ -1,0 +1,69 @@
+#include "commands/contact_report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "unit/case/case_files.hpp"
+
+namespace breccia {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kRest = R"(
+[[contact]]
+between = ["*", "*"]
+penalty = "40 GPa"
+[[stage]]
+end = "1 ms"
+)";
+
+std::string material(const std::string& group, const std::string& young) {
+  return "[[material]]\ngroup = \"" + group + "\"\nyoung = \"" + young +
+         "\"\npoisson = 0.2\ndensity = 2000\njoints = \"none\"\n";
+}
+
+/// Model of a geometry. @param more  lines of the case before the materials
+Model model_of(const std::string& geometry, const std::string& groups, const std::string& more = "") {
+  const case_::CaseFolder folder;
+  folder.write("geometry.geo", "SetFactory(\"OpenCASCADE\");\n" + geometry);
+  return build_model(
+      case_::read_case(folder.write("case.toml", "[mesh]\nfile = \"geometry.geo\"\n" + more + groups + kRest)));
+}
+
+constexpr const char* kCylinder =
+    "Cylinder(1) = {0, 0, 0, 0, 0, 0.004, 0.01};\nPhysical Volume(\"roller\") = {1};\nMeshSize{:} = 0.004;\n";
+
+TEST(LateContact, NamesCurvedSurfacesAndHowFarBehindTheirCornersPointsLie) {
+  const Advice advice = late_contact_advice(model_of(kCylinder, material("roller", "1 GPa")));
+  ASSERT_EQ(advice.size(), 1u);
+  EXPECT_THAT(advice[0], HasSubstr("The surface of roller is curved"));
+  EXPECT_THAT(advice[0], HasSubstr(" um behind"));
+}
+
+TEST(LateContact, IsNoneWherePointsLieOnCorners) {
+  EXPECT_TRUE(late_contact_advice(model_of(kCylinder, material("roller", "1 GPa"), "[contact_points]\nper_face = 4\n"))
+                  .empty());
+}
+
+TEST(LateContact, IsNoneForBoxes) {
+  EXPECT_TRUE(late_contact_advice(model_of("Box(1) = {0, 0, 0, 1, 1, 1};\nPhysical Volume(\"box\") = {1};\n"
+                                           "MeshSize{:} = 0.5;\n",
+                                           material("box", "1 GPa")))
+                  .empty());
+}
+
+TEST(StiffnessReport, HasALineForEachGroupWithItsOwnModulus) {
+  const std::string text = stiffness_report(
+      model_of("Box(1) = {0, 0, 0, 1, 1, 1};\nBox(2) = {2, 0, 0, 1, 1, 1};\nPhysical Volume(\"soft\") = {1};\n"
+               "Physical Volume(\"hard\") = {2};\nMeshSize{:} = 0.5;\n",
+               material("soft", "1 GPa") + material("hard", "200 GPa")));
+  EXPECT_THAT(text, HasSubstr("contact of soft: stiffness penalty/H = "));
+  EXPECT_THAT(text, HasSubstr("recommended penalty 1 GPa"));
+  EXPECT_THAT(text, HasSubstr("contact of hard: stiffness penalty/H = "));
+  EXPECT_THAT(text, HasSubstr("recommended penalty 200 GPa"));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2);
+}
+
+}  // namespace
+}  // namespace breccia
