@@ -176,40 +176,45 @@ template <class T>
   return force;
 }
 
-/// Share of a point's stiffness that is lost: there the normal traction under pressure depends on the normal alone.
+/// sigma - K_s delta_n of a point, Pa, tau = K_s delta_s but for friction, whose spring turns with the surface: 0 where
+/// the traction is parallel to the opening.
 template <class T>
-[[nodiscard]] inline T lost_share(const JointLawParams& law, const Point<T>& p) {
+[[nodiscard]] inline T unequal_traction(const JointLawParams& law, const Kinematics<T>& k, const Vector<T>& opening,
+                                        const Point<T>& p) {
   switch (law.law) {
     case JointLaw::mixed_mode:
-      return p.damage;
-    case JointLaw::independent_peaks:
-      return select(p.damage >= 1.0, T(1.0), T(0.0));
+      return select(p.normal_opening < 0.0, T(law.stiffness * p.damage * p.normal_opening), T(0.0));
+    case JointLaw::independent_peaks: {
+      const Components<T> c = split(law, k.frame, opening);
+      const PointState<T> now = state_of(law, c, remaining_of(law, p));
+      return now.normal - now.shear_stiffness * c.normal;
+    }
   }
   __builtin_unreachable();
 }
 
 template <class T>
 [[nodiscard]] inline Mask<T> may_tilt(const JointLawParams& law, const Joint<T>& joint) {
-  Mask<T> tilts(false);
-  for (const Point<T>& p : joint.points) tilts = tilts || (lost_share(law, p) > 0.0 && p.normal_opening < 0.0);
+  Mask<T> tilts(!rises_linearly(law.rise));
+  for (const Point<T>& p : joint.points) {
+    const Mask<T> damaged = p.damage > 0.0;
+    tilts = tilts || (has_secants(law.law) ? damaged : damaged && p.normal_opening < 0.0);
+  }
   return tilts;
 }
 
-/// What turning the mid-surface does to a closed joint that has slid: its normal energy k d delta_n^2 / 2 beyond the
-/// isotropic part depends on the normal. T = sum A0/3 k d delta_n delta_s, N: dU = T . dn.
+/// What turning the mid-surface does to a joint whose traction is not parallel to its opening: its energy then depends
+/// on the normal. T = sum A0/3 (sigma - K_s delta_n) delta_s, N: dU = T . dn.
 template <class T>
 [[nodiscard]] inline Vector<T> tilting(const JointLawParams& law, const Kinematics<T>& k, const Joint<T>& joint) {
   const T zero = 0.0;
   Vector<T> tilt{zero, zero, zero};
   for (std::size_t i = 0; i < 3; ++i) {
     const Point<T>& p = joint.points[i];
-    const T share = lost_share(law, p);
-    const Mask<T> tilts = share > zero && p.normal_opening < zero;
-    if (!any(tilts)) continue;
     const Vector<T> opening = point_opening(law, k.opening, i);
+    const T unequal = unequal_traction(law, k, opening, p);
     const Vector<T> shear = minus(opening, times(p.normal_opening, k.frame.normal));
-    const T weight = joint.hold * joint.area / 3.0 * law.stiffness * share * p.normal_opening;
-    tilt = select3<T>(tilts, plus(tilt, times(weight, shear)), tilt);
+    tilt = plus(tilt, times(T(joint.hold * joint.area / 3.0 * unequal), shear));
   }
   return tilt;
 }

@@ -109,17 +109,22 @@ struct Damping {
   T dissipated;  // J/m2
 };
 
-/// A damaged point is stiffer closed than open, and central differences gain energy, 1/2 d k |delta_n before|
-/// |delta_n|, where it opens within a step, and lose as much where it closes: near the stability limit more is gained
-/// than lost. A viscous traction c k' (delta_n - delta_n before), k' the present normal stiffness, takes more than
-/// that. It dissipates its trapezoidal work.
+/// A damaged point is stiffer closed than open by d k, and central differences lose energy, 1/2 d k |delta_n before|
+/// |delta_n|, where it closes within a step, and gain as much where it opens. What it gains is taken back by a pull
+/// whose work over the step is that. A viscous traction c k' (delta_n - delta_n before), k' the present normal
+/// stiffness, damps what chatters so. Both dissipate their trapezoidal work; neither is there without viscosity.
 template <class T>
 [[nodiscard]] inline Damping<T> damp(const JointLawParams& law, const Components<T>& c, const Remaining<T>& remaining,
                                      const Mask<T>& on, Point<T>& h) {
   const T zero = 0.0;
+  if (!(law.viscosity > 0)) return {zero, zero};
   const T moved = c.normal - h.normal_opening;
-  const T share = select(c.normal > zero, remaining.normal(), T(1.0));
-  const T traction = select(on, T(law.viscosity * law.stiffness * share * moved), zero);
+  const Mask<T> is_open = c.normal > zero;
+  const T share = select(is_open, remaining.normal(), T(1.0));
+  T traction = select(on, T(law.viscosity * law.stiffness * share * moved), zero);
+  const Mask<T> opens = on && is_open && h.normal_opening < zero;
+  const T lost_stiffness = law.stiffness * (1.0 - remaining.normal());
+  traction += select(opens, T(-lost_stiffness * c.normal * h.normal_opening / moved), zero);
   const T work = 0.5 * (h.viscous_traction + traction) * moved;
   h.viscous_traction = traction;
   return {traction, select(on, greater(work, zero), zero)};

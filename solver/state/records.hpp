@@ -119,6 +119,7 @@ struct FieldTable<CoupleRecord> {
       FieldRow{"spring", "m", kState, [](auto& r) -> auto& { return r.couple.spring; }},
       FieldRow{"friction", "N", kState, [](auto& r) -> auto& { return r.couple.friction; }},
       FieldRow{"force", "N", kState, [](auto& r) -> auto& { return r.couple.force; }},
+      FieldRow{"gained", "J", kState, [](auto& r) -> auto& { return r.couple.gained; }},
   };
 // clang-format on
 }

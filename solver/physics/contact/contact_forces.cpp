@@ -33,6 +33,11 @@ struct Candidate {
   std::ptrdiff_t old = -1;  ///< index of its history among those of the last step, -1: none
 };
 
+/// Normal force with damping over the slope of the overlap, N, and what the damping takes, J.
+struct Damping {
+  double pressure, dissipated;
+};
+
 /// One call of contact_forces.
 class Pass {
  public:
@@ -56,17 +61,20 @@ class Pass {
   void drop_ambiguous();
   void find_histories(Index point);
   void take_over(std::size_t first, std::size_t last);
-  void forget(const TouchingCouple& old);
+  void forget(const TouchingCouple& old, double lost = 0);
+  void take_back(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda,
+                 const Vec3& last_force, const Vec3& motion, double gained);
   [[nodiscard]] Vec3 relative_motion(const ContactPoint& point, Index slot, const std::array<double, 4>& lambda) const;
   [[nodiscard]] double first_offset(Index point, const Candidate& candidate) const;
-  void follow(const ContactLaw& law, double scale, double length, const Candidate& candidate, TouchingCouple& h);
+  [[nodiscard]] static double follow(const ContactLaw& law, double scale, double length, const Candidate& candidate,
+                                     TouchingCouple& h);
   void keep_step(const ContactPoint& point, Index slot, double g_old, Candidate& candidate) const;
   void act(Index point, Candidate& candidate);
-  void press(const ContactLaw& law, const ContactPoint& point, Index slot, double length, const Candidate& candidate,
-             TouchingCouple& h);
-  [[nodiscard]] double damp(const ContactLaw& law, const ContactPoint& point, Index slot, const Candidate& candidate,
-                            const Vec3& gradient, double elastic);
-  void distribute(const ContactPoint& point, const Candidate& candidate, const Vec3& force);
+  [[nodiscard]] double press(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
+                             const Candidate& candidate, TouchingCouple& h);
+  [[nodiscard]] Damping damp(const ContactLaw& law, const ContactPoint& point, const Vec3& motion,
+                             const Candidate& candidate, const Vec3& gradient, double elastic) const;
+  void distribute(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda, const Vec3& force);
 
   [[nodiscard]] const ContactPoint& point_at(Index point) const {
     return contact_.points[static_cast<std::size_t>(point)];
@@ -82,6 +90,19 @@ class Pass {
   }
   [[nodiscard]] const ContactLaw& law_of(Index point, Index contactor) const {
     return params_.law(group_of(local_, point_at(point).slot), group_of(local_, slot_of(contactor)));
+  }
+  /// N/m, of the friction of a couple.
+  [[nodiscard]] double spring_stiffness(const ContactPoint& point, const TouchingCouple& h) const {
+    const ContactLaw& law = law_of(h.point, h.contactor);
+    return law.tangential_ratio * point.weight * law.penalty / length_of(slot_of(h.contactor));
+  }
+  /// J, by the normal law of a couple.
+  [[nodiscard]] double normal_held(const ContactPoint& point, const TouchingCouple& h) const {
+    const double scale = point.weight * length_of(slot_of(h.contactor));
+    return scale * normal_law::stored(law_of(h.point, h.contactor), h.d, h.d_max);
+  }
+  [[nodiscard]] double held(const ContactPoint& point, const TouchingCouple& h) const {
+    return normal_held(point, h) + 0.5 * spring_stiffness(point, h) * h.spring.squaredNorm();
   }
   [[nodiscard]] const PreparedTetra& prepared(Index contactor) const {
     return contact_.prepared[static_cast<std::size_t>(contact_.place[static_cast<std::size_t>(contactor)])];
@@ -246,24 +267,38 @@ Vec3 Pass::relative_motion(const ContactPoint& point, Index slot, const std::arr
 }
 
 /// The overlap is gone. What the normal law had stored was given back as work; the spring lets go. The contactor may
-/// have left all couples with a search in this step, so it is prepared here: what is accounted depends on no search.
-void Pass::forget(const TouchingCouple& old) {
-  const ContactLaw& law = law_of(old.point, old.contactor);
+/// have left all couples with a search in this step, so it is prepared here: what happens depends on no search.
+/// @param lost  J dissipated by the normal law on the way
+void Pass::forget(const TouchingCouple& old, double lost) {
+  if (!(old.d > 0) && old.force == Vec3::Zero()) return;
   const ContactPoint& point = point_at(old.point);
   const Index slot = slot_of(old.contactor);
-  const double length = length_of(slot);
   const PreparedTetra tetra =
       prepare(load_corners(local_, state_.position.data(), slot), local_.volume[static_cast<std::size_t>(slot)]);
   const bool crushed = inert(tetra);
+  std::array<double, 4> lambda{};
+  Vec3 motion = Vec3::Zero();
+  if (!crushed) {
+    lambda = barycentric(tetra, at_point(rule_, point, state_.position.data()));
+    motion = relative_motion(point, slot, lambda);
+  }
   if (old.friction != Vec3::Zero()) {
-    const double k = law.tangential_ratio * point.weight * law.penalty / length;
-    Vec3 motion = Vec3::Zero();
-    if (!crushed)
-      motion = relative_motion(point, slot, barycentric(tetra, at_point(rule_, point, state_.position.data())));
-    account(point, work_.friction_dissipated).add(released_by_friction(motion, k, old.spring));
+    const double released = released_by_friction(motion, spring_stiffness(point, old), old.spring);
+    account(point, work_.friction_dissipated).add(released);
+    lost += released;
   }
   // A contactor that was crushed while it was touched gives nothing back.
-  if (crushed) account(point, work_.dissipated).add(point.weight * length * normal_law::stored(law, old.d, old.d_max));
+  if (crushed) account(point, work_.dissipated).add(normal_held(point, old));
+  if (crushed) return;
+  const double gained = old.gained + 0.5 * old.force.dot(motion) - held(point, old) + lost;
+  take_back(point, old.contactor, lambda, old.force, motion, gained);
+}
+
+/// @param motion  m, since the last force acted;  @param gained  J
+void Pass::take_back(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda,
+                     const Vec3& last_force, const Vec3& motion, double gained) {
+  const double work = last_force.dot(motion);
+  if (gained > 0 && work > 0) distribute(point, contactor, lambda, -std::min(gained / work, 1.0) * last_force);
 }
 
 /// Overlap that makes no force, m, of a couple seen for the first time.
@@ -283,9 +318,8 @@ double Pass::first_offset(Index point, const Candidate& candidate) const {
 }
 
 /// The law follows the motion (field at rest), then the field (points at rest), so that the energy each of them moves
-/// is known apart.
-void Pass::follow(const ContactLaw& law, double scale, double length, const Candidate& candidate, TouchingCouple& h) {
-  ExactSum& dissipated = account(point_at(h.point), work_.dissipated);
+/// is known apart. @return  J dissipated
+double Pass::follow(const ContactLaw& law, double scale, double length, const Candidate& candidate, TouchingCouple& h) {
   const auto go_to = [&](double g) {
     h.offset = std::clamp(g, 0.0, h.offset);
     const double d = std::max(0.0, g - h.offset) / length;
@@ -295,15 +329,15 @@ void Pass::follow(const ContactLaw& law, double scale, double length, const Cand
     h.d_max = d_max;
     return scale * lost;
   };
-  dissipated.add(go_to(candidate.g_before));
-  if (candidate.g == candidate.g_before) return;
+  const double lost = go_to(candidate.g_before);
+  if (candidate.g == candidate.g_before) return lost;
   // The offset takes up the field's change: what rises makes no force, what sinks takes force away once the offset is
   // gone.
   const double stored = normal_law::stored(law, h.d, h.d_max);
   h.offset = std::max(0.0, h.offset + (candidate.g - candidate.g_before));
   go_to(candidate.g);
   // d does not rise here: the difference is negative by round-off only.
-  dissipated.add(scale * std::max(0.0, stored - normal_law::stored(law, h.d, h.d_max)));
+  return lost + scale * std::max(0.0, stored - normal_law::stored(law, h.d, h.d_max));
 }
 
 /// A point that moves on into another element finds the field it leaves only while the two are bonded. What the overlap
@@ -325,48 +359,68 @@ void Pass::act(Index index, Candidate& candidate) {
   } else {
     h.offset = first_offset(index, candidate);
   }
+  const TouchingCouple last = h;
   h.point = index;
   h.contactor = candidate.contactor;
-  h.force = Vec3::Zero();
-  follow(law, point.weight * length, length, candidate, h);
+  h.force = h.friction = Vec3::Zero();
+  const double lost = follow(law, point.weight * length, length, candidate, h);
+  account(point, work_.dissipated).add(lost);
   if (!(candidate.g > 0)) {
-    forget(h);
+    h.d = last.d;
+    h.d_max = last.d_max;
+    h.force = last.force;
+    h.friction = last.friction;
+    forget(h, lost);
     contact_.touching.pop_back();
-  } else if (h.d > 0 || h.friction != Vec3::Zero()) {
+  } else if (h.d > 0 || last.force != Vec3::Zero()) {
     // Freshly broken surfaces are full of couples that lie together without force: nothing more to do for those.
-    press(law, point, slot, length, candidate, h);
+    const Vec3 motion = relative_motion(point, slot, candidate.lambda);
+    const double before = candidate.old >= 0 ? held(point, last) : 0.0;
+    const double kept = press(law, point, length, motion, candidate, h);
+    // What a couple holds that was there before anything moved has been put in.
+    if (candidate.old >= 0 || motion != Vec3::Zero())
+      h.gained += 0.5 * (last.force + h.force).dot(motion) + kept - before + lost;
+    if (h.force != Vec3::Zero()) return;
+    take_back(point, candidate.contactor, candidate.lambda, last.force, motion, h.gained);
+    h.gained = 0;
   }
 }
 
-void Pass::press(const ContactLaw& law, const ContactPoint& point, Index slot, double length,
-                 const Candidate& candidate, TouchingCouple& h) {
+/// @return  J that the couple holds, and that friction and damping have dissipated
+double Pass::press(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
+                   const Candidate& candidate, TouchingCouple& h) {
   const FieldValues& values = contact_.field[static_cast<std::size_t>(candidate.contactor)];
   const Overlap here = overlap(shape_of(candidate.contactor, values), prepared(candidate.contactor), candidate.lambda);
-  double pressure = point.weight * normal_law::stress(law, h.d, h.d_max);
+  Damping normal{point.weight * normal_law::stress(law, h.d, h.d_max), 0.0};
   if (law.damping > 0 && h.d > 0 && dt_ > 0 && here.gradient != Vec3::Zero())
-    pressure = damp(law, point, slot, candidate, here.gradient, pressure);
-  h.force = -pressure * here.gradient;
+    normal = damp(law, point, motion, candidate, here.gradient, normal.pressure);
+  account(point, work_.dissipated).add(normal.dissipated);
+  h.force = -normal.pressure * here.gradient;
+  const double stored = point.weight * length * normal_law::stored(law, h.d, h.d_max);
+  double kept = stored + normal.dissipated;
   const double slope = here.gradient.norm();
   if (law.friction > 0 && law.tangential_ratio > 0 && slope > 0) {
     const double k = law.tangential_ratio * point.weight * law.penalty / length;
-    const Vec3 motion = relative_motion(point, slot, candidate.lambda);
     const FrictionStep friction =
-        friction_step(-here.gradient / slope, motion, k, law.friction * pressure * slope, h.spring);
+        friction_step(-here.gradient / slope, motion, k, law.friction * normal.pressure * slope, h.spring);
+    const double spring = 0.5 * k * h.spring.squaredNorm();
     account(point, work_.friction_dissipated).add(friction.dissipated);
-    account(point, work_.friction_stored).add(0.5 * k * h.spring.squaredNorm());
+    account(point, work_.friction_stored).add(spring);
     h.friction = friction.force;
     h.force += friction.force;
+    kept += spring + friction.dissipated;
   }
-  account(point, work_.stored).add(point.weight * length * normal_law::stored(law, h.d, h.d_max));
+  account(point, work_.stored).add(stored);
   if (h.d > 0 && local_.is_original(point.slot)) ++work_.touching;
-  distribute(point, candidate, h.force);
+  distribute(point, candidate.contactor, candidate.lambda, h.force);
+  return kept;
 }
 
-/// Normal force with damping, N over the slope of the overlap. Its work is that of the mean of this and the last force
-/// over the motion between them; where the motion turns round within a step there is none.
-double Pass::damp(const ContactLaw& law, const ContactPoint& point, Index slot, const Candidate& candidate,
-                  const Vec3& gradient, double elastic) {
-  const double deeper = gradient.dot(relative_motion(point, slot, candidate.lambda));  // m, during the last step
+/// Its work is that of the mean of this and the last force over the motion between them; where the motion turns round
+/// within a step there is none.
+Damping Pass::damp(const ContactLaw& law, const ContactPoint& point, const Vec3& motion, const Candidate& candidate,
+                   const Vec3& gradient, double elastic) const {
+  const double deeper = gradient.dot(motion);  // m, during the last step
   const double pressure = point.weight * normal_law::damped(law, elastic / point.weight, deeper / dt_);
   double before = 0;
   if (candidate.old >= 0) {
@@ -374,17 +428,17 @@ double Pass::damp(const ContactLaw& law, const ContactPoint& point, Index slot, 
     before =
         (old.force - old.friction).norm() / gradient.norm() - point.weight * normal_law::stress(law, old.d, old.d_max);
   }
-  account(point, work_.dissipated).add(std::max(0.0, 0.5 * (before + pressure - elastic) * deeper));
-  return pressure;
+  return {pressure, std::max(0.0, 0.5 * (before + pressure - elastic) * deeper)};
 }
 
-void Pass::distribute(const ContactPoint& point, const Candidate& candidate, const Vec3& force) {
+void Pass::distribute(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda,
+                      const Vec3& force) {
   if (force == Vec3::Zero()) return;
   const std::array<double, 3>& shape = rule_.shape[static_cast<std::size_t>(point.k)];
   for (std::size_t i = 0; i < 3; ++i) forces_.add(point.nodes[i], shape[i] * force);
-  const Index slot = slot_of(candidate.contactor);
+  const Index slot = slot_of(contactor);
   for (int a = 0; a < 4; ++a) {
-    forces_.add(local_.corner_node(slot, a), -candidate.lambda[static_cast<std::size_t>(a)] * force);
+    forces_.add(local_.corner_node(slot, a), -lambda[static_cast<std::size_t>(a)] * force);
   }
 }
 

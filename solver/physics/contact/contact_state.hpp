@@ -29,6 +29,7 @@ struct TouchingCouple {
   Vec3 spring{0, 0, 0};    ///< m, elongation of the friction spring
   Vec3 friction{0, 0, 0};  ///< N, tangential force on the point
   Vec3 force{0, 0, 0};     ///< N, whole force on the point
+  double gained = 0;       ///< J, work done since the force began beyond what it took and holds (contact_forces.hpp)
 };
 
 /// Overlap field of a contactor: Phi at its four corners, then Phi_c of its bubble; m.

@@ -218,6 +218,65 @@ TEST(JointEnergy, viscosity_takes_nothing_that_matters_of_a_slow_opening_and_act
   EXPECT_LT(point.viscous, 1e-3 * kEnergy);
 }
 
+TEST(JointEnergy, opening_within_a_step_gives_no_more_than_was_stored_however_long_the_step) {
+  constexpr double kViscous = 1e-6;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> part(0, 1);
+  for (int i = 0; i < 100; ++i) {
+    JointLawParams law = example_law();
+    law.viscosity = 1e-9;  // there, and of no weight beside what is taken back
+    law.law = i % 2 == 0 ? JointLaw::mixed_mode : JointLaw::independent_peaks;
+    law = prepared(law);
+    PointDriver point{law};
+    point.move_to(at_angle(0, law.onset_normal + part(random) * law.width_normal), 200);
+    const double farthest = point.opening.norm();
+    point.step(at_angle(0, -part(random) * farthest));
+    const double closed = point.history.stored - point.work;
+    point.step(at_angle(0, part(random) * farthest));
+    EXPECT_LE(point.history.stored - point.work, closed + kViscous * kEnergy) << i;
+  }
+}
+
+/// A mass held by a spring as stiff as the joint and by a damaged point, in central differences; J/m2 and kg/m2.
+struct Chatter {
+  PointDriver point;
+  double mass, dt, place, velocity, force = 0, energy = 0;
+
+  Chatter(const JointLawParams& law, double share_of_limit, double damaged_to)
+      : point{law}, mass(1.0), dt(share_of_limit * 2 * std::sqrt(mass / (2 * law.stiffness))), place(0), velocity(0) {
+    point.move_to(at_angle(0, damaged_to), 200);
+    place = damaged_to;
+    pull();
+  }
+  void pull() { force = -point.traction.dot(point.frame.normal) - point.law.stiffness * place; }
+  void step() {
+    const double before = velocity;
+    velocity += dt * force / mass;
+    energy = 0.5 * mass * before * velocity + 0.5 * point.law.stiffness * place * place + point.history.stored;
+    place += dt * velocity;
+    point.step(at_angle(0, place));
+    pull();
+  }
+};
+
+TEST(JointEnergy, chatter_between_open_and_closed_gains_none_in_100000_steps_at_the_default_share_of_the_stable_step) {
+  JointLawParams law = example_law();
+  law.viscosity = kJointViscosity;
+  law = prepared(law);
+  for (int i = 1; i <= 20; ++i) {
+    const double damaged_to = law.onset_normal + 0.045 * i * law.width_normal;
+    Chatter chatter(law, 0.8, damaged_to);
+    chatter.step();
+    const double first = chatter.energy;
+    double largest = 0;
+    for (int step = 0; step < 100000; ++step) {
+      chatter.step();
+      largest = std::max(largest, chatter.energy);
+    }
+    EXPECT_LE(largest, 1.001 * first) << i;
+  }
+}
+
 /// Closed polygon from the origin through random corners.
 struct Loop {
   std::array<Vec3, 5> corners;

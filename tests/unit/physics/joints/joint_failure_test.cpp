@@ -334,14 +334,8 @@ TEST(JointFailure, takes_only_the_released_joints_off_the_list_and_keeps_the_ord
   EXPECT_TRUE(pair.work.released.empty());
 }
 
-TEST(JointFailure, a_closed_joint_that_has_slid_far_pushes_with_the_gradient_of_its_energy) {
-  JointPair pair(prepared(example_law()));
-  pair.open({-1e-6, 4e-3, 1e-3});  // a fifth of the edge: far beyond failure in shear, closed
-  pair.evaluate();
-  ASSERT_EQ(pair.joints.size(), 1U);
-  ASSERT_EQ(pair.joints[0].state(), JointState::failed);
-  std::mt19937 random(5);
-  pair.shake(random, 2e-7);
+/// Forces of a pair against the slopes of its energy, by moving each corner a little. The pair shall not damage by it.
+void expect_gradient(JointPair pair, const char* what) {
   const auto energy = [&](Index node, const Vec3& by) {
     JointPair moved = pair;
     store_node(moved.position.data(), node, load_node(moved.position.data(), node) + by);
@@ -359,7 +353,43 @@ TEST(JointFailure, a_closed_joint_that_has_slid_far_pushes_with_the_gradient_of_
         const Vec3 by = kStep * Vec3::Unit(axis);
         const Index node = pair.corner(side_a, i);
         const double slope = (energy(node, by) - energy(node, -by)) / (2 * kStep);
-        EXPECT_NEAR(pair.force(side_a, i)[axis], -slope, kDifference * scale);
+        EXPECT_NEAR(pair.force(side_a, i)[axis], -slope, kDifference * scale) << what;
+      }
+    }
+  }
+}
+
+TEST(JointFailure, a_closed_joint_that_has_slid_far_pushes_with_the_gradient_of_its_energy) {
+  JointPair pair(prepared(example_law()));
+  pair.open({-1e-6, 4e-3, 1e-3});  // a fifth of the edge: far beyond failure in shear, closed
+  pair.evaluate();
+  ASSERT_EQ(pair.joints.size(), 1U);
+  ASSERT_EQ(pair.joints[0].state(), JointState::failed);
+  std::mt19937 random(5);
+  pair.shake(random, 2e-7);
+  expect_gradient(pair, "mixed_mode");
+}
+
+TEST(JointFailure, a_damaged_joint_pulls_with_the_gradient_of_its_energy_also_where_it_has_slid_and_opened_far) {
+  for (const JointPoints points : {JointPoints::nodal, JointPoints::mid_edge}) {
+    for (const auto& [kind, rise] :
+         {std::pair(JointLaw::mixed_mode, JointRise::linear), std::pair(JointLaw::independent_peaks, JointRise::linear),
+          std::pair(JointLaw::independent_peaks, JointRise::parabolic)}) {
+      JointLawParams law = example_law();
+      law.points = points;
+      law.law = kind;
+      law.rise = rise;
+      law.cohesion = 0.5 * law.tensile_strength;
+      law.energy_mode_1 = law.energy_mode_2 = 2e4;  // J/m2: critical openings of millimetres
+      JointPair pair(prepared(law));
+      pair.open({1e-3, 2e-3, 1e-3});
+      pair.evaluate();
+      ASSERT_GT(pair.joints[0].damage(), 0.0);
+      for (const double normal : {0.9e-3, -1e-6}) {  // open, closed
+        pair.open({normal, 1.8e-3, 0.9e-3});
+        std::mt19937 random(5);
+        pair.shake(random, 2e-7);
+        expect_gradient(pair, kind == JointLaw::mixed_mode ? "mixed_mode" : "independent_peaks");
       }
     }
   }
