@@ -31,6 +31,15 @@ void bind(A& a, Raster& raster) {
 }
 
 template <class A>
+void bind(A& a, Start& start) {
+  a.origin(start.origin);
+  a.value("from", start.from);
+  if constexpr (A::reads) a.at_most_one({"at", "step"});
+  if (A::reads || start.step == 0) a.value("at", start.at);
+  if (A::reads || start.step > 0) a.value("step", start.step);
+}
+
+template <class A>
 void bind(A& a, MeshSource& mesh) {
   a.origin(mesh.origin);
   if constexpr (A::reads) a.exactly_one({"file", "raster"});
@@ -302,11 +311,22 @@ void bind(A& a, InSitu& insitu) {
   }
 }
 
+/// A case that starts from a state may leave the mesh to it.
+template <class A>
+bool has_mesh(const A& a, const Case& c) {
+  if constexpr (A::reads) {
+    return a.has("mesh") || !a.has("start");
+  } else {
+    return !c.mesh.file.empty() || c.mesh.raster;
+  }
+}
+
 /// Materials come before joints, whose penalty may be a multiple of Young's modulus.
 template <class A>
 void bind(A& a, Case& c) {
   a.value("title", c.title);
-  a.section("mesh", [&](auto& s) { bind(s, c.mesh); });
+  a.optional_section("start", c.start);
+  if (has_mesh(a, c)) a.section("mesh", [&](auto& s) { bind(s, c.mesh); });
   a.list("material", c.materials);
   a.list("joint", c.joints);
   a.list("contact", c.contacts);

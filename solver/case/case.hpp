@@ -62,6 +62,15 @@ struct MeshSource {
   friend bool operator==(const MeshSource&, const MeshSource&) = default;
 };
 
+/// [start]: the run goes on from the state of another one, under this case.
+struct Start {
+  std::filesystem::path from;  ///< folder of the run, or one of its checkpoints; absolute
+  double at = 0;               ///< s, time of the state; 0: of the last one
+  std::int64_t step = 0;       ///< of the state; 0: not given by its step
+  Origin origin;
+  friend bool operator==(const Start&, const Start&) = default;
+};
+
 enum class BulkLaw { neo_hookean, green_st_venant, drucker_prager };
 enum class JointPlacement { breakable, unbreakable, none };
 
@@ -306,7 +315,8 @@ struct InSitu {
 struct Case {
   std::string title;
   std::filesystem::path file;  ///< absolute
-  MeshSource mesh;
+  std::optional<Start> start;
+  MeshSource mesh;  ///< neither file nor raster: that of the state, left out in the case file
   std::vector<Material> materials;
   std::vector<Joint> joints;
   std::vector<Contact> contacts;

@@ -59,8 +59,15 @@ std::string line_of(const Key& key) {
   return columns + meaning.substr(columns.size());
 }
 
+/// What [start] makes of a key, where it cannot change.
+std::string start_text(const Key& key) {
+  const std::string_view why = fixed_by_state(key.path);
+  return why.empty() ? "" : "as in the run that it starts from: " + std::string(why);
+}
+
 std::string section_text(const Key& section) {
   std::string out = header_of(section) + "\n" + wrapped(std::string(section.help), "  ");
+  if (!section.fixed_by_state.empty()) out += wrapped("With [start]: " + start_text(section) + ".", "  ");
   for (const Key& key : schema())
     if (key.section() == section.path) out += key.is_section() ? "  " + header_of(key) + "\n" : line_of(key);
   return out;
@@ -74,6 +81,7 @@ std::string key_text(const Key& key) {
   std::string allowed = allowed_text(key);
   if (const std::size_t star = allowed.find(" in *"); star != std::string::npos)
     allowed.replace(star, 4 + key.unit.size(), " in " + unit_text(key));
+  field("start", start_text(key));
   field("default", default_text(key));
   field("unit", unit_text(key));
   field("choices", joined(key.choice_list()));

@@ -5,6 +5,7 @@
 
 #include "case/bindings.hpp"
 #include "case/nearest.hpp"
+#include "case/parent_case.hpp"
 #include "case/reader_keys.hpp"
 #include "case/reader_overrides.hpp"
 #include "case/validate.hpp"
@@ -170,8 +171,17 @@ bool told_already(std::span<const Problem> problems, const std::string& key) {
   });
 }
 
-Case case_of(Node root, const std::filesystem::path& file, std::span<const std::string> overrides) {
+/// What a case is read against.
+struct Surroundings {
+  MeshFile mesh = MeshFile::must_be_there;
+  const ParentCase* parent = nullptr;
+};
+
+Case case_of(Node root, const std::filesystem::path& file, std::span<const std::string> overrides,
+             const Surroundings& around) {
   std::vector<Problem> problems;
+  std::vector<std::string> inherited;
+  if (around.parent != nullptr) inherited = inherit_sections(*around.parent, root);
   apply_overrides(root, overrides, problems);
 
   Case c;
@@ -182,27 +192,54 @@ Case case_of(Node root, const std::filesystem::path& file, std::span<const std::
   bind(reader, c);
   add_default_joints(c, values);
 
-  const std::vector<Problem> of_reading = problems;
-  for (Problem& p : validate(c)) {
-    if (told_already(of_reading, p.key)) continue;
-    const Node& node = deepest_on_path(root, p.key);
-    p.file = node.file;
-    p.line = node.line;
-    problems.push_back(std::move(p));
-  }
+  const auto add = [&](std::vector<Problem> found) {
+    const std::vector<Problem> before = problems;
+    for (Problem& p : found) {
+      if (told_already(before, p.key)) continue;
+      const Node& node = deepest_on_path(root, p.key);
+      p.file = node.file.empty() ? c.file.string() : node.file;
+      p.line = node.line;
+      problems.push_back(std::move(p));
+    }
+  };
+  add(validate(c, around.parent == nullptr && around.mesh == MeshFile::must_be_there));
   if (!problems.empty()) throw InputError(std::move(problems));
   c.resolved = write_case(c);
+  if (around.parent != nullptr) add(refused_changes(*around.parent, c, inherited));
+  if (!problems.empty()) throw InputError(std::move(problems));
   return c;
 }
 
 }  // namespace
 
 Case read_case(const std::filesystem::path& file, std::span<const std::string> overrides) {
-  return case_of(parse_toml_file(file), file, overrides);
+  return case_of(parse_toml_file(file), file, overrides, {});
 }
 
-Case read_case_text(std::string_view text, const std::filesystem::path& file, std::span<const std::string> overrides) {
-  return case_of(parse_toml_text(text, file.string()), file, overrides);
+std::optional<Start> read_start(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  Node root = parse_toml_file(file);
+  std::vector<Problem> of_others, problems;
+  apply_overrides(root, overrides, of_others);
+  Case c;
+  ValueReader values(problems, std::filesystem::absolute(file).lexically_normal().parent_path());
+  SectionReader reader(values, c, root, "", true);
+  reader.optional_section("start", c.start);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return c.start;
+}
+
+Case read_started_case(const std::filesystem::path& file, std::span<const std::string> overrides,
+                       const ParentCase& parent) {
+  return case_of(parse_toml_file(file), file, overrides, {MeshFile::may_be_gone, &parent});
+}
+
+Case read_case_text(std::string_view text, const std::filesystem::path& file, std::span<const std::string> overrides,
+                    MeshFile mesh) {
+  return case_of(parse_toml_text(text, file.string()), file, overrides, {mesh, nullptr});
+}
+
+Case read_case_tree(Node root, const std::filesystem::path& file, MeshFile mesh) {
+  return case_of(std::move(root), file, {}, {mesh, nullptr});
 }
 
 }  // namespace breccia::case_

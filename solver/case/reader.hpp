@@ -1,11 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "case/case.hpp"
+#include "case/reader_toml.hpp"
 
 namespace breccia::case_ {
 
@@ -16,8 +18,24 @@ namespace breccia::case_ {
 /// validate() finds. Group names are compared with the mesh later, by check_groups().
 [[nodiscard]] Case read_case(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
+struct ParentCase;
+
+/// The section [start] alone; nullopt: there is none. Throws InputError: TOML, and what is wrong with this section.
+[[nodiscard]] std::optional<Start> read_start(const std::filesystem::path& file,
+                                              std::span<const std::string> overrides = {});
+
+/// A case that starts from the state of another run (parent_case.hpp): sections that it leaves out and the state fixes
+/// are the parent's, and what it changes of them is refused. Throws InputError as read_case.
+[[nodiscard]] Case read_started_case(const std::filesystem::path& file, std::span<const std::string> overrides,
+                                     const ParentCase& parent);
+
+/// Whether the mesh file must be there: not where its elements are in a checkpoint.
+enum class MeshFile { must_be_there, may_be_gone };
+
 /// The same of a text that stands, or will stand, in `file`, whose folder relative names start from.
 [[nodiscard]] Case read_case_text(std::string_view text, const std::filesystem::path& file,
-                                  std::span<const std::string> overrides = {});
+                                  std::span<const std::string> overrides = {}, MeshFile mesh = MeshFile::must_be_there);
+/// The same of a tree.
+[[nodiscard]] Case read_case_tree(Node root, const std::filesystem::path& file, MeshFile mesh);
 
 }  // namespace breccia::case_

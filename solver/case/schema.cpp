@@ -120,6 +120,14 @@ const Key* find_key(std::string_view pattern) {
   return it == index.end() ? nullptr : it->second;
 }
 
+std::string_view fixed_by_state(std::string_view pattern) {
+  for (std::string_view at = pattern; !at.empty(); at = key_of(at).section()) {
+    const std::string_view why = key_of(at).fixed_by_state;
+    if (!why.empty()) return why == may_change ? std::string_view{} : why;
+  }
+  return {};
+}
+
 const Key& key_of(std::string_view pattern) {
   const Key* key = find_key(pattern);
   DEMAND(key != nullptr, std::string(pattern));

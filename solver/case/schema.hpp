@@ -63,6 +63,9 @@ struct Key {
   std::string_view word{};     ///< a word that may stand instead of a number and means 0, e.g. "auto"
   std::string_view help{};     ///< one or two sentences
   std::string_view example{};  ///< value as it would be written
+  /// Why a run that starts from the state of another has this as the other had it, for a section and all in it; empty:
+  /// as the section around it; may_change: it may change there.
+  std::string_view fixed_by_state{};
 
   [[nodiscard]] std::vector<std::string> choice_list() const;
   /// Last part of the path: "density".
@@ -73,6 +76,11 @@ struct Key {
     return type == ValueType::section || type == ValueType::section_list || type == ValueType::notation;
   }
 };
+
+inline constexpr std::string_view may_change = "-";
+
+/// Why what stands at a pattern cannot change in a run that starts from the state of another; empty: it can.
+[[nodiscard]] std::string_view fixed_by_state(std::string_view pattern);
 
 /// All rows, sections before their keys, in the order of a case file.
 [[nodiscard]] std::span<const Key> schema();

@@ -30,7 +30,7 @@ std::string words(const Pair& p) { return p[0] == p[1] ? "\"" + p[0] + "\"" : "\
 
 class Validator {
  public:
-  explicit Validator(const Case& c) : c_(c) {}
+  Validator(const Case& c, bool needs_mesh_file) : c_(c), needs_mesh_file_(needs_mesh_file) {}
 
   std::vector<Problem> run() {
     mesh();
@@ -68,7 +68,9 @@ class Validator {
 
   void mesh() {
     const MeshSource& mesh = c_.mesh;
-    if (mesh.file.empty() == !mesh.raster) problem(mesh.origin, "", "needs a source", "exactly one of file, raster");
+    const bool of_state = c_.start && mesh.file.empty() && !mesh.raster;
+    if (!of_state && mesh.file.empty() == !mesh.raster)
+      problem(mesh.origin, "", "needs a source", "exactly one of file, raster");
     if (!mesh.file.empty()) {
       std::error_code error;
       const std::string extension = mesh.file.extension().string();
@@ -76,7 +78,7 @@ class Validator {
         problem(mesh.origin, "file", "is a folder", "a .geo or .msh file", mesh.file.string());
       else if (std::filesystem::exists(mesh.file, error) && !std::filesystem::is_regular_file(mesh.file, error))
         problem(mesh.origin, "file", "is no ordinary file", "a .geo or .msh file", mesh.file.string());
-      else if (!std::filesystem::is_regular_file(mesh.file, error))
+      else if (needs_mesh_file_ && !std::filesystem::is_regular_file(mesh.file, error))
         problem(mesh.origin, "file", "the file does not exist", "a .geo or .msh file", mesh.file.string());
       else if (extension != ".geo" && extension != ".msh")
         problem(mesh.origin, "file", "is no file of gmsh", "a .geo or .msh file", mesh.file.string());
@@ -285,11 +287,12 @@ class Validator {
   }
 
   const Case& c_;
+  bool needs_mesh_file_;
   std::vector<Problem> problems_;
 };
 
 }  // namespace
 
-std::vector<Problem> validate(const Case& c) { return Validator(c).run(); }
+std::vector<Problem> validate(const Case& c, bool needs_mesh_file) { return Validator(c, needs_mesh_file).run(); }
 
 }  // namespace breccia::case_

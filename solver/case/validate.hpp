@@ -14,7 +14,8 @@ namespace breccia::case_ {
 /// joint law, duplicates, exclusive choices, order of stages, files that exist. Problems carry the key; file and line
 /// are those of the section. Values that were never given (empty text, zero where the range excludes it) are not
 /// reported again.
-[[nodiscard]] std::vector<Problem> validate(const Case& c);
+/// @param needs_mesh_file  false: the elements are those of a checkpoint, and the mesh file may be gone
+[[nodiscard]] std::vector<Problem> validate(const Case& c, bool needs_mesh_file = true);
 
 /// Compares the groups a case names with those of its mesh, and the volumes of the mesh with the materials. Each
 /// problem names the group absent and lists those present, nearest first, with the line of the section that names it.

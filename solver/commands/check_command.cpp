@@ -6,13 +6,15 @@
 #include "case/reader.hpp"
 #include "commands/check_report.hpp"
 #include "commands/json_report.hpp"
+#include "commands/start_state.hpp"
 #include "output/insitu.hpp"
 
 namespace breccia {
 namespace {
 
 int check(const CheckCommand& asked, int launched) {
-  case_::Case input = case_::read_case(asked.case_file, asked.overrides);
+  const std::optional<StartState> start = read_start_state(asked.case_file, asked.overrides, {});
+  case_::Case input = read_case_of(asked.case_file, asked.overrides, start);
   input.mesh.trust = asked.trust_geometry;
   if (input.insitu.asked_for()) preflight(input, std::filesystem::temp_directory_path(), InSituPlugin(), {});
   if (asked.ranks > 0) {

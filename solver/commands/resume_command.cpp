@@ -11,6 +11,7 @@
 #include "commands/commands.hpp"
 #include "commands/oversubscription.hpp"
 #include "commands/run_sinks.hpp"
+#include "commands/start_state.hpp"
 #include "output/checkpoint_writer.hpp"
 #include "output/insitu.hpp"
 #include "output/quantity_text.hpp"
@@ -40,7 +41,7 @@ void check_overrides(const std::vector<std::string>& overrides) {
   }
 }
 
-std::vector<fs::path> candidates(const fs::path& run) {
+[[nodiscard]] std::vector<fs::path> candidates(const fs::path& run) {
   std::error_code error;
   if (!fs::exists(run, error)) throw refused(run.string(), "there is no such run", "the folder of a run");
   if (fs::is_regular_file(run, error)) return {run};
@@ -69,12 +70,12 @@ std::pair<Checkpoint, fs::path> latest_sound(const std::vector<fs::path>& files,
 /// The case of the checkpoint, with a later end if that is asked for.
 case_::Case case_of(const Checkpoint& from, const fs::path& file, std::vector<std::string> overrides, double until,
                     ResumeOptions& options) {
-  case_::Case input = case_::read_case_text(from.case_text, file, overrides);
+  case_::Case input = case_::read_case_text(from.case_text, file, overrides, case_::MeshFile::may_be_gone);
   options.until = until;
   if (until <= input.stages.back().end || !std::isfinite(until)) return input;
   overrides.push_back(fmt::format("stage[{}].end={:.17g}", input.stages.size() - 1, until));
   options.extended = true;
-  return case_::read_case_text(from.case_text, file, overrides);
+  return case_::read_case_text(from.case_text, file, overrides, case_::MeshFile::may_be_gone);
 }
 
 /// Throws InputError where there is nothing to do.
@@ -83,7 +84,7 @@ void check_there_is_more(const case_::Case& input, const Checkpoint& from, const
   if (until <= clock.time + 0.5 * clock.dt)
     throw refused(run.string(), "the run has come as far already",
                   "--until later than " + quantity_text(clock.time, "s"), quantity_text(until, "s"));
-  if (input.time.max_steps > 0 && clock.steps >= input.time.max_steps)
+  if (input.time.max_steps > 0 && clock.steps - from.position.start_step >= input.time.max_steps)
     throw refused(run.string(), fmt::format("the run has done its time.max_steps, {}", input.time.max_steps),
                   "--set time.max_steps=0, or a larger number");
 }
@@ -120,9 +121,12 @@ int resume_command(const ResumeCommand& asked, const Communicator& world) {
     return 0;
   }
   world.agree([&] {
-    if (world.is_root())
-      folder = prepare_resumed_folder({run}, folder.root, from, input.resolved,
-                                      collect_provenance(BRECCIA_VERSION, asked.command_line));
+    if (!world.is_root()) return;
+    Provenance provenance = collect_provenance(BRECCIA_VERSION, asked.command_line);
+    provenance.ranks = world.size();
+    provenance.inputs = inputs_in(from.provenance);
+    provenance.parents = with_parent(file, from);
+    folder = prepare_resumed_folder({run}, folder.root, from, input.resolved, provenance);
   });
   warn_of_oversubscription(world);
   if (watch) watch->guard(folder.root);

@@ -11,6 +11,7 @@
 #include "commands/overlap_report.hpp"
 #include "commands/oversubscription.hpp"
 #include "commands/run_sinks.hpp"
+#include "commands/start_state.hpp"
 #include "mesh/geo_scan.hpp"
 #include "output/insitu.hpp"
 #include "output/run_folder.hpp"
@@ -30,14 +31,23 @@ void warn_of_remote_viewer(const case_::InSitu& insitu) {
 }
 
 /// Where the results come from, with hashes of all files that went in.
-Provenance provenance_of(const RunCommand& asked, const case_::Case& input, const Communicator& world) {
+Provenance provenance_of(const RunCommand& asked, const case_::Case& input, const std::optional<StartState>& start,
+                         const Communicator& world) {
   Provenance provenance = collect_provenance(BRECCIA_VERSION, asked.command_line);
   provenance.ranks = world.size();
   std::set<std::filesystem::path> files{asked.case_file};
   if (!input.mesh.file.empty()) files.insert(input.mesh.file);
   if (input.mesh.file.extension() == ".geo") files.merge(scan_geo(input.mesh.file).files);
   for (const std::filesystem::path& file : files) provenance.inputs.push_back(input_file(file));
+  if (start) provenance.parents = with_parent(start->file, start->checkpoint);
   return provenance;
+}
+
+Summary carry_out(const case_::Case& input, std::unique_ptr<Model> model, std::optional<StartState>& start,
+                  const std::vector<std::unique_ptr<Sink>>& sinks, const RunFolder& folder, const Communicator& world) {
+  if (!start) return run_case(input, std::move(model), sinks, world, &folder);
+  const StartOptions options = start_options(input, *start);
+  return start_case(input, std::move(start->checkpoint), options, sinks, world, folder);
 }
 
 }  // namespace
@@ -49,19 +59,25 @@ int run_command(const RunCommand& asked, const Communicator& world) {
   RunFolder folder;
   std::optional<RunWatch> watch;
   if (world.is_root()) watch.emplace();  // before memory is taken
+  std::optional<StartState> start = read_start_state(asked.case_file, asked.overrides, world);
   world.agree([&] {
-    input = case_::read_case(asked.case_file, asked.overrides);
+    input = read_case_of(asked.case_file, asked.overrides, start);
     input.mesh.trust = asked.trust_geometry;
     world.set_patience(input.domains.patience);
     root = asked.folder.empty() ? default_run_folder(input.file) : asked.folder;
     if (input.insitu.asked_for()) InSituPlugin();  // before anything is made: stays loaded
     if (!world.is_root()) return;
     const bool announce = asked.progress == ProgressMode::log || asked.progress == ProgressMode::bar;
-    if (announce) fmt::print(stderr, "breccia: reading the mesh and building the model\n");
-    model = std::make_unique<Model>(world.size() > 1 ? build_bare_model(input) : build_model(input));
-    give_up_if_interrupted();
-    refuse_initial_overlaps(input, *model);
-    folder = prepare_run_folder(root, input.resolved, provenance_of(asked, input, world),
+    if (start) {
+      refuse_folder_of_state(root, *start);
+      if (announce) fmt::print(stderr, "breccia: starting from {}\n", words_of(*start));
+    } else {
+      if (announce) fmt::print(stderr, "breccia: reading the mesh and building the model\n");
+      model = std::make_unique<Model>(world.size() > 1 ? build_bare_model(input) : build_model(input));
+      give_up_if_interrupted();
+      refuse_initial_overlaps(input, *model);
+    }
+    folder = prepare_run_folder(root, input.resolved, provenance_of(asked, input, start, world),
                                 asked.overwrite ? OldResults::overwrite : OldResults::refuse);
     if (announce) fmt::print(stderr, "breccia: dividing the model and preparing the first step\n");
   });
@@ -70,7 +86,7 @@ int run_command(const RunCommand& asked, const Communicator& world) {
   folder.root = root;
   if (watch) watch->guard(root);
   const auto sinks = run_sinks(input, folder, asked.progress, world);
-  const Summary summary = run_case(input, std::move(model), sinks, world, &folder);
+  const Summary summary = carry_out(input, std::move(model), start, sinks, folder, world);
   print_results(summary, folder, asked.progress, world);
   return 0;
 }

@@ -104,9 +104,10 @@ Partition::Partition(const case_::Case& input, const Communicator& communicator,
     : input_(input),
       communicator_(communicator),
       domains_(std::move(from.domains)),
-      stage_(&input.stages[from.stage]),
+      stage_(from.in_stage ? &input.stages[from.stage] : nullptr),
       motion_(from.motion) {
   decompose_anew(std::move(from.whole), std::move(from.mine), from.weight, std::move(from.state));
+  model_->whole.step_ratio = time_step_->ratio();
 }
 
 Snapshot Partition::opened() const {

@@ -19,7 +19,8 @@ struct Snapshot {
   Continuation state;          ///< the rank's fields of the model
   DomainSpec domains;
   double motion = 0;      ///< m, largest of a node in a step
-  std::size_t stage = 0;  ///< of the case, begun
+  std::size_t stage = 0;  ///< of the case
+  bool in_stage = true;   ///< it has begun; false: a stage of another case has ended, or was left
 };
 
 /// A rank's part of the model: its originals and proxies, and everything that is built upon them. When a node has gone
@@ -30,8 +31,8 @@ class Partition {
   /// Collective. @param model  on the root, null elsewhere: on several ranks a bare one is enough (build_bare_model)
   /// @pre input outlives this object
   Partition(const case_::Case& input, const Communicator& communicator, std::unique_ptr<Model> model);
-  /// Goes on where another partition was. Collective. @pre input differs from that partition's in [detection] and
-  /// [domains] at most
+  /// Goes on where another partition was. Collective. @pre input differs from that partition's in what the elements of
+  /// the snapshot do not depend on: [detection], [domains], and what the table of keys lets change (fixed_by_state)
   Partition(const case_::Case& input, const Communicator& communicator, Snapshot from);
 
   [[nodiscard]] Domain& domain() { return *domain_; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "base/error.hpp"
@@ -36,13 +37,14 @@ void take_materials(const case_::Case& input, Model& model) {
 }
 
 /// Faces of these surfaces, both sides, ascending.
-std::vector<std::pair<Index, int>> faces_of(const std::vector<std::string>& surfaces, const Model& model) {
+std::vector<std::pair<Index, int>> faces_of(const std::vector<std::string>& surfaces, const Mesh& mesh,
+                                            const Topology& topology) {
   std::vector<std::pair<Index, int>> faces;
   for (const std::string& name : surfaces) {
-    for (const Topology::Face& f : model.topology.surface_groups[index(group_named(model.mesh.surface_groups, name))]) {
+    for (const Topology::Face& f : topology.surface_groups[index(group_named(mesh.surface_groups, name))]) {
       faces.emplace_back(f.element, f.face);
-      const FaceLink& link = model.topology.links[index(f.element)][index(f.face)];
-      if (!link.free()) faces.emplace_back(link.neighbour, link.face());
+      const FaceLink& link = topology.links[index(f.element)][index(f.face)];
+      if (link.inner()) faces.emplace_back(link.neighbour, link.face());
     }
   }
   std::sort(faces.begin(), faces.end());
@@ -52,7 +54,7 @@ std::vector<std::pair<Index, int>> faces_of(const std::vector<std::string>& surf
 
 /// Cuts the links of broken faces. Elements that share nodes cannot be parted: refused.
 void break_initial(const case_::Case& input, Model& model) {
-  for (const auto& [element, face] : faces_of(input.broken_surfaces, model)) {
+  for (const auto& [element, face] : faces_of(input.broken_surfaces, model.mesh, model.topology)) {
     FaceLink& link = model.topology.links[index(element)][index(face)];
     if (link.free()) continue;
     const Index group = model.mesh.element_group[index(element)];
@@ -85,17 +87,15 @@ void take_contact(const case_::Case& input, Model& model) {
 /// it with faces of its own only.
 class SurfaceCorners {
  public:
-  SurfaceCorners(const case_::Case& input, const Model& model)
-      : model_(model), cut_(model.mesh.elements.size(), 0), corners_(model.mesh.elements.size(), 0) {
-    for (const case_::Stage& stage : input.stages) {
-      for (const auto& [element, face] : faces_of(stage.broken_surfaces, model))
-        cut_[index(element)] |= static_cast<std::uint8_t>(1U << face);
-    }
+  SurfaceCorners(const std::vector<std::string>& cut, const Mesh& mesh, const Topology& topology)
+      : mesh_(mesh), topology_(topology), cut_(mesh.elements.size(), 0), corners_(mesh.elements.size(), 0) {
+    for (const auto& [element, face] : faces_of(cut, mesh, topology))
+      cut_[index(element)] |= static_cast<std::uint8_t>(1U << face);
   }
   /// Tags of a surface group, ascending elements. O(elements).
   void append_tags(Index group, std::vector<CornerTag>& tags) {
     std::fill(corners_.begin(), corners_.end(), std::uint8_t{0});
-    for (const Topology::Face& face : model_.topology.surface_groups[index(group)]) {
+    for (const Topology::Face& face : topology_.surface_groups[index(group)]) {
       for (const int corner : kFaceCorners[index(face.face)]) mark(face.element, corner);
     }
     while (!open_.empty()) {
@@ -103,8 +103,8 @@ class SurfaceCorners {
       open_.pop_back();
       spread(element, corner);
     }
-    for (Index e = 0; e < model_.mesh.num_elements(); ++e) {
-      if (corners_[index(e)] != 0) tags.push_back({model_.mesh.element_id(e), group, corners_[index(e)]});
+    for (Index e = 0; e < mesh_.num_elements(); ++e) {
+      if (corners_[index(e)] != 0) tags.push_back({mesh_.element_id(e), group, corners_[index(e)]});
     }
   }
 
@@ -117,30 +117,21 @@ class SurfaceCorners {
   }
   /// To the neighbours through the three faces that meet at the corner.
   void spread(Index element, int corner) {
-    const Index node = model_.mesh.elements[index(element)][index(corner)];
+    const Index node = mesh_.elements[index(element)][index(corner)];
     for (int face = 0; face < 4; ++face) {
-      const FaceLink& link = model_.topology.links[index(element)][index(face)];
+      const FaceLink& link = topology_.links[index(element)][index(face)];
       if (face == corner || !link.inner() || (cut_[index(element)] >> face & 1) != 0) continue;
-      const auto& nodes = model_.mesh.elements[index(link.neighbour)];
+      const auto& nodes = mesh_.elements[index(link.neighbour)];
       mark(link.neighbour, static_cast<int>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin()));
     }
   }
 
-  const Model& model_;
+  const Mesh& mesh_;
+  const Topology& topology_;
   std::vector<std::uint8_t> cut_;      ///< (elements) a bit a face that a stage breaks
   std::vector<std::uint8_t> corners_;  ///< (elements) a bit a corner
   std::vector<std::pair<Index, int>> open_;
 };
-
-std::vector<CornerTag> tag_corners(const case_::Case& input, const Model& model) {
-  SurfaceCorners corners(input, model);
-  std::vector<CornerTag> tags;
-  for (std::size_t g = 0; g < model.mesh.surface_groups.size(); ++g) corners.append_tags(static_cast<Index>(g), tags);
-  std::sort(tags.begin(), tags.end(), [](const CornerTag& p, const CornerTag& q) {
-    return std::pair(p.element, p.group) < std::pair(q.element, q.group);
-  });
-  return tags;
-}
 
 /// What is known of the model as a whole before its joints are.
 void take_whole(const case_::Case& input, Model& model) {
@@ -150,6 +141,36 @@ void take_whole(const case_::Case& input, Model& model) {
 }
 
 }  // namespace
+
+std::vector<std::string> surfaces_to_break(const case_::Case& input) {
+  std::set<std::string> surfaces;
+  for (const case_::Stage& stage : input.stages)
+    surfaces.insert(stage.broken_surfaces.begin(), stage.broken_surfaces.end());
+  return {surfaces.begin(), surfaces.end()};
+}
+
+std::vector<CornerTag> tag_corners(const std::vector<std::string>& cut, const Mesh& mesh, const Topology& topology) {
+  SurfaceCorners corners(cut, mesh, topology);
+  std::vector<CornerTag> tags;
+  for (std::size_t g = 0; g < mesh.surface_groups.size(); ++g) corners.append_tags(static_cast<Index>(g), tags);
+  std::sort(tags.begin(), tags.end(), [](const CornerTag& p, const CornerTag& q) {
+    return std::pair(p.element, p.group) < std::pair(q.element, q.group);
+  });
+  return tags;
+}
+
+void check_laws(const case_::Case& input, const WholeModel& whole) {
+  Model model;
+  model.mesh.volume_groups = whole.volume_groups;
+  model.whole = whole;
+  std::vector<Problem> problems;
+  for (const WholeModel::JointGroups& groups : whole.joint_groups) {
+    if (auto problem = missing_joint_law(input, whole.volume_groups, groups)) problems.push_back(std::move(*problem));
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  take_materials(input, model);
+  take_joint_laws(input, model);
+}
 
 Model build_bare_model(const case_::Case& input) {
   Model model;
@@ -161,7 +182,7 @@ Model build_bare_model(const case_::Case& input) {
   take_whole(input, model);
   take_contact(input, model);
   break_initial(input, model);
-  model.corner_tags = tag_corners(input, model);
+  model.corner_tags = tag_corners(surfaces_to_break(input), model.mesh, model.topology);
   find_joint_groups(input, model);
   take_joint_laws(input, model);
   return model;

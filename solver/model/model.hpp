@@ -80,6 +80,17 @@ struct Model {
 [[nodiscard]] Model build_piece(const case_::Case& input, WholeModel whole, Mesh mesh, Topology topology,
                                 const std::vector<std::uint8_t>& original, std::vector<CornerTag> corner_tags);
 
+/// Corners on the surfaces of a mesh: those of their faces, and those connected to them around the same node through
+/// faces that no stage breaks. @param cut  surfaces that stages break;  by (element, group). O(elements x surfaces).
+[[nodiscard]] std::vector<CornerTag> tag_corners(const std::vector<std::string>& cut, const Mesh& mesh,
+                                                 const Topology& topology);
+/// Surfaces that stages break, in the order of the alphabet.
+[[nodiscard]] std::vector<std::string> surfaces_to_break(const case_::Case& input);
+
+/// Whether a case has laws for a model that is there already. Throws InputError with every joint law that is missing or
+/// makes no sense.
+void check_laws(const case_::Case& input, const WholeModel& whole);
+
 /// The mesh alone, read or generated, with the case's groups checked against it.
 [[nodiscard]] FinishedMesh build_mesh(const case_::Case& input);
 

@@ -46,6 +46,13 @@ Problem no_law(const case_::Case& input, const std::vector<std::string>& names, 
 
 }  // namespace
 
+std::optional<Problem> missing_joint_law(const case_::Case& input, const std::vector<std::string>& names,
+                                         const WholeModel::JointGroups& groups) {
+  const Pair pair{groups.a, groups.b};
+  if (entry_for(input, names, pair) != nullptr) return std::nullopt;
+  return no_law(input, names, pair);
+}
+
 void find_joint_groups(const case_::Case& input, Model& model) {
   const std::vector<std::string>& names = model.mesh.volume_groups;
   WholeModel& whole = model.whole;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "base/error.hpp"
 #include "model/model.hpp"
 
 namespace breccia {
@@ -10,6 +13,10 @@ namespace breccia {
 /// Of the whole model: WholeModel::joint_groups, in the order of their first joints, and num_joints.
 /// Throws InputError with every pair of groups that is glued and has no [[joint]]. O(elements).
 void find_joint_groups(const case_::Case& input, Model& model);
+
+/// The problem of a pair of groups that joints hold together and that has no [[joint]]; nullopt: it has one.
+[[nodiscard]] std::optional<Problem> missing_joint_law(const case_::Case& input, const std::vector<std::string>& names,
+                                                       const WholeModel::JointGroups& groups);
 
 /// Model::joint_laws with their names and sizes. Throws InputError with every law that makes no sense.
 void take_joint_laws(const case_::Case& input, Model& model);

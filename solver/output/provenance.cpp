@@ -1,3 +1,5 @@
+#include <fcntl.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <array>
@@ -43,11 +45,17 @@ std::string utc_now() {
 }  // namespace
 
 Provenance::Input input_file(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream content;
-  if (!stream || !(content << stream.rdbuf())) return {file.string(), ""};
-  const std::string text = content.str();
-  return {file.string(), sha256(std::as_bytes(std::span(text)))};
+  std::error_code error;
+  const int descriptor =
+      std::filesystem::is_regular_file(file, error) ? ::open(file.c_str(), O_RDONLY | O_CLOEXEC) : -1;
+  if (descriptor < 0) return {file.string(), ""};
+  const auto size = static_cast<std::size_t>(std::filesystem::file_size(file, error));
+  void* const bytes = size > 0 ? ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0) : nullptr;
+  ::close(descriptor);
+  if (error || bytes == MAP_FAILED) return {file.string(), ""};
+  std::string hash = sha256({static_cast<const std::byte*>(bytes), size});
+  if (size > 0) ::munmap(bytes, size);
+  return {file.string(), std::move(hash)};
 }
 
 Provenance collect_provenance(std::string version, std::vector<std::string> command_line) {

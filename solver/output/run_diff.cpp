@@ -36,6 +36,8 @@ void flatten(const json& node, const std::string& path, Values& out) {
     for (const auto& [name, value] : node.items()) flatten(value, path.empty() ? name : path + "." + name, out);
   } else if (node.is_array() && path == "inputs") {
     for (const json& file : node) out["input " + file.value("file", "")] = file.value("sha256", "");
+  } else if (node.is_array() && path == "parents") {
+    for (std::size_t i = 0; i < node.size(); ++i) flatten(node[i], "parents[" + std::to_string(i) + "]", out);
   } else if (node.is_string()) {
     out[path] = node.get<std::string>();
   } else {

@@ -77,6 +77,29 @@ std::filesystem::path default_run_folder(const fs::path& case_file) {
   return fs::path("runs") / fs::absolute(case_file).lexically_normal().parent_path().filename();
 }
 
+std::vector<Provenance::Input> inputs_in(const std::string& provenance) {
+  std::vector<Provenance::Input> inputs;
+  try {
+    const nlohmann::json json = nlohmann::json::parse(provenance);
+    for (const auto& entry : json.at("inputs")) inputs.push_back({entry.at("file"), entry.at("sha256")});
+  } catch (const nlohmann::json::exception&) {
+    return inputs;
+  }
+  return inputs;
+}
+
+std::vector<Provenance::Parent> parents_in(const std::string& provenance) {
+  std::vector<Provenance::Parent> parents;
+  try {
+    const nlohmann::json json = nlohmann::json::parse(provenance);
+    for (const auto& entry : json.at("parents"))
+      parents.push_back({entry.at("file"), entry.at("sha256"), entry.at("step"), entry.at("time")});
+  } catch (const nlohmann::json::exception&) {
+    return parents;
+  }
+  return parents;
+}
+
 std::string provenance_json(const Provenance& provenance) {
   nlohmann::ordered_json json;
   json["program"] = kProgram;
@@ -89,6 +112,9 @@ std::string provenance_json(const Provenance& provenance) {
   json["inputs"] = nlohmann::json::array();
   for (const Provenance::Input& input : provenance.inputs)
     json["inputs"].push_back({{"file", input.file}, {"sha256", input.sha256}});
+  for (const Provenance::Parent& parent : provenance.parents)
+    json["parents"].push_back(
+        {{"file", parent.file}, {"sha256", parent.sha256}, {"step", parent.step}, {"time", parent.time}});
   json["host"] = provenance.host;
   json["processor"] = provenance.processor;
   json["cores"] = provenance.cores;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -27,10 +28,20 @@ struct Provenance {
   std::string started;    ///< UTC, ISO 8601
   std::vector<std::string> command_line;
   int ranks = 1;
-  std::vector<Input> inputs;  ///< case, geometry or mesh, and what a geometry includes by name
+  /// A checkpoint of another run, whose state this one started from.
+  struct Parent {
+    std::string file, sha256;
+    std::int64_t step = 0;
+    double time = 0;  ///< s
+  };
+  std::vector<Parent> parents;  ///< the nearest first
+  std::vector<Input> inputs;    ///< case, geometry or mesh, and what a geometry includes by name
 };
 
 [[nodiscard]] Provenance::Input input_file(const std::filesystem::path& file);
+/// What the provenance of another run, JSON, says of its inputs and parents. What cannot be read is left out.
+[[nodiscard]] std::vector<Provenance::Input> inputs_in(const std::string& provenance);
+[[nodiscard]] std::vector<Provenance::Parent> parents_in(const std::string& provenance);
 
 /// Asks the machine and the build; unknown parts are empty. Throws nothing but std::bad_alloc.
 [[nodiscard]] Provenance collect_provenance(std::string version, std::vector<std::string> command_line);

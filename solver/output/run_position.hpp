@@ -29,6 +29,8 @@ struct RunPosition {
   std::int64_t fragments = 0, broken_joints = 0;               ///< as last counted
   std::array<double, kEnergyTerms.size() + 1> energy{};        ///< J, last sample, then the relative residual
   std::int64_t worst_element = -1;                             ///< of that sample
+  double start_time = 0;                                       ///< s, of the state that the run started from
+  std::int64_t start_step = 0;                                 ///< likewise
   OutputMarks marks;
 };
 template <>
@@ -47,6 +49,8 @@ struct FieldTable<RunPosition> {
       FieldRow{"broken_joints", "1", kNotHashed, [](auto& r) -> auto& { return r.broken_joints; }},
       FieldRow{"energies_of_last_sample", "J", kNotHashed, [](auto& r) -> auto& { return r.energy; }},
       FieldRow{"densest_element", "1", kNotHashed, [](auto& r) -> auto& { return r.worst_element; }},
+      FieldRow{"start_time", "s", kNotHashed, [](auto& r) -> auto& { return r.start_time; }},
+      FieldRow{"start_step", "1", kNotHashed, [](auto& r) -> auto& { return r.start_step; }},
       FieldRow{"history_bytes", "1", kNotHashed, [](auto& r) -> auto& { return r.marks.history_bytes; }},
       FieldRow{"status_bytes", "1", kNotHashed, [](auto& r) -> auto& { return r.marks.status_bytes; }},
       FieldRow{"frames", "1", kNotHashed, [](auto& r) -> auto& { return r.marks.frames; }},

@@ -1,11 +1,13 @@
 #include "simulation/run.hpp"
 
 #include <chrono>
+#include <limits>
 #include <optional>
 #include <thread>
 #include <utility>
 
 #include "base/error.hpp"
+#include "domains/corner_tags.hpp"
 #include "domains/model_fields.hpp"
 #include "domains/partition.hpp"
 #include "domains/piece_mesh.hpp"
@@ -40,6 +42,14 @@ class Runner {
     if (checkpoints_) checkpoints_->restore(*from_);
   }
 
+  Runner(const case_::Case& input, Checkpoint from, const StartOptions& options,
+         const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator, const RunFolder& folder)
+      : Runner(input, sinks, communicator, &folder,
+               [&] { return Partition(input, communicator, start_of(input, communicator, options, from)); }) {
+    output_.start_from(from.position);
+    start_words_ = options.words;
+  }
+
   Summary run() {
     output_.tell_start(insitu_.has_value(), from_ ? &*from_ : nullptr);
     if (from_)
@@ -47,6 +57,7 @@ class Runner {
                          "the run goes on from step " + std::to_string(clock().steps) + " on " +
                              std::to_string(communicator_.size()) + " rank" + (communicator_.size() == 1 ? "" : "s"),
                          true);
+    if (!start_words_.empty()) output_.tell_event("start", start_words_, true);
     try {
       for (auto s = first_stage(); s < input_.stages.size() && status_ == "complete"; ++s) run_stage(s);
       if (checkpoints_) end_with_checkpoint();
@@ -98,6 +109,19 @@ class Runner {
     return snapshot;
   }
 
+  /// What new laws change: the stable step, and the energy that the state holds.
+  static Snapshot start_of(const case_::Case& input, const Communicator& communicator, const StartOptions& options,
+                           Checkpoint& from) {
+    Snapshot snapshot = snapshot_of(input, communicator, from);
+    snapshot.stage = 0;
+    snapshot.in_stage = false;
+    if (!options.cut.empty()) tag_corners_anew(communicator, snapshot.whole, options.cut, snapshot.mine);
+    if (!options.new_laws) return snapshot;
+    snapshot.whole.step_ratio = 0;
+    snapshot.state.state.work.first_excess = std::numeric_limits<double>::quiet_NaN();
+    return snapshot;
+  }
+
   [[nodiscard]] std::size_t first_stage() const { return from_ ? static_cast<std::size_t>(from_->stage) : 0; }
 
   /// As written in the checkpoint, or at its start.
@@ -121,7 +145,7 @@ class Runner {
       take_commands();
       steps.look();
       const bool last = (s + 1 == input_.stages.size() && steps.at_last()) ||
-                        clock().steps + 1 == input_.time.max_steps ||
+                        output_.steps_done() + 1 == input_.time.max_steps ||
                         clock().time + clock().dt > options_.until - 0.5 * clock().dt;
       advance(last);
       look_at_checkpoints();
@@ -133,7 +157,8 @@ class Runner {
 
   [[nodiscard]] std::string status_now() const {
     if (partition_.state().signals.received.stop || stop_commanded_) return "stopped: by request";
-    if (input_.time.max_steps > 0 && clock().steps >= input_.time.max_steps) return "stopped: time.max_steps reached";
+    if (input_.time.max_steps > 0 && output_.steps_done() >= input_.time.max_steps)
+      return "stopped: time.max_steps reached";
     if (clock().time > options_.until - 0.5 * clock().dt) return "stopped: --until reached";
     return "complete";
   }
@@ -282,6 +307,7 @@ class Runner {
   std::vector<Command> wait_for_checkpoint_;  ///< their answers do
   std::optional<RunPosition> from_;           ///< the run goes on from here
   ResumeOptions options_;
+  std::string start_words_;      ///< whose state the run starts from; empty: at rest
   StageSteps* steps_ = nullptr;  ///< of the present stage
 };
 
@@ -296,6 +322,12 @@ Summary run_case(const case_::Case& input, std::unique_ptr<Model> whole,
 Summary resume_case(const case_::Case& input, Checkpoint from, const ResumeOptions& options,
                     const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator,
                     const RunFolder& folder) {
+  return Runner(input, std::move(from), options, sinks, communicator, folder).run();
+}
+
+Summary start_case(const case_::Case& input, Checkpoint from, const StartOptions& options,
+                   const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator,
+                   const RunFolder& folder) {
   return Runner(input, std::move(from), options, sinks, communicator, folder).run();
 }
 

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <limits>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "case/case.hpp"
@@ -38,5 +39,20 @@ struct ResumeOptions {
 Summary resume_case(const case_::Case& input, Checkpoint from, const ResumeOptions& options,
                     const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator,
                     const RunFolder& folder);
+
+struct StartOptions {
+  std::string words;             ///< where the state is from, for the status
+  bool new_laws = false;         ///< materials, joints or contacts have other laws than in the run that left the state
+  std::vector<std::string> cut;  ///< surfaces that either run breaks, where this one breaks others; empty: it does not
+};
+
+/// Carries a case through all its stages from the state of another one, on any number of ranks with the same bits.
+/// Time, steps and the works accounted go on counting. Under the same laws the energy residual does as well; under new
+/// ones what the first sample finds counts as put in, and the residual counts from there. Collective.
+/// @param from  as read_checkpoint gave it;  @pre input changes nothing that the state fixes (parent_case.hpp)
+/// Returns and throws as run_case.
+Summary start_case(const case_::Case& input, Checkpoint from, const StartOptions& options,
+                   const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator,
+                   const RunFolder& folder);
 
 }  // namespace breccia

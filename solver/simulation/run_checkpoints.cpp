@@ -39,7 +39,8 @@ std::string report_text(const CheckpointWriter& writer, double pause) {
 
 RunCheckpoints::RunCheckpoints(const case_::Case& input, const Partition& partition, const RunFolder& folder, Tell tell)
     : input_(input), partition_(partition), folder_(folder), tell_(std::move(tell)), times_(input.checkpoint.interval) {
-  (void)times_.due(0, 0, 0);  // none at the start
+  const Clock& clock = partition.state().clock;
+  (void)times_.due(clock.time, clock.dt, clock.steps);  // none at the start
 }
 
 void RunCheckpoints::add_signals(StepSignals& signals) {

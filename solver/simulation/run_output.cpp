@@ -17,6 +17,12 @@ namespace {
 /// than so many steps.
 constexpr std::int64_t kStepsBetweenLines = 20;
 
+/// @param length  s, of the run
+Schedule history_schedule(const case_::Case& input, double length) {
+  const double interval = input.output.history_interval;
+  return interval > 0 ? Schedule(interval) : Schedule(length / 500, kStepsBetweenLines);
+}
+
 std::string scientific(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);
@@ -31,13 +37,20 @@ RunOutput::RunOutput(const case_::Case& input, const std::vector<std::unique_ptr
       partition_(partition),
       observer_(input, partition),
       end_(input.stages.back().end),
-      histories_(input.output.history_interval > 0 ? Schedule(input.output.history_interval)
-                                                   : Schedule(end_ / 500, kStepsBetweenLines)),
+      histories_(history_schedule(input, end_)),
       frames_(input.output.frame_interval) {}
 
 void RunOutput::tell_event(const std::string& kind, const std::string& text, bool accepted, const std::string& id) {
   const RunEvent event{kind, text, id, accepted, clock().steps, clock().time};
   sink_group_.tell([&](Sink& sink) { sink.event(event); });
+}
+
+void RunOutput::start_from(const RunPosition& from) {
+  start_time_ = clock().time;
+  start_step_ = clock().steps;
+  histories_ = history_schedule(input_, end_ - start_time_);
+  last_fragments_ = from.fragments;
+  last_broken_ = from.broken_joints;
 }
 
 void RunOutput::tell_start(bool insitu, const RunPosition* from) {
@@ -54,6 +67,8 @@ void RunOutput::tell_start(bool insitu, const RunPosition* from) {
     last_fragments_ = from->fragments;
     last_broken_ = from->broken_joints;
     wall_before_ = from->wall;
+    start_time_ = from->start_time;
+    start_step_ = from->start_step;
   }
   sink_group_.tell([&](Sink& sink) { sink.start(start); });
 }
@@ -101,10 +116,10 @@ StatusLine RunOutput::status_line(bool paused) const {
   line.steps_total = line.step + static_cast<std::int64_t>(std::llround(left / clock().dt));
   line.time = clock().time;
   line.end = end_;
-  line.share = clock().time / end_;
+  line.share = (clock().time - start_time_) / (end_ - start_time_);
   line.wall_s = wall();
   line.element_steps_per_s =
-      static_cast<double>(partition_.whole().num_elements) * static_cast<double>(line.step) / line.wall_s;
+      static_cast<double>(partition_.whole().num_elements) * static_cast<double>(steps_done()) / line.wall_s;
   line.eta_s = line.share > 0 ? line.wall_s * (1.0 - line.share) / line.share : -1.0;
   line.energy_residual = partition_.domain().sample.budget.residual_relative;
   line.broken_joints = last_broken_;
@@ -139,7 +154,7 @@ Summary RunOutput::summary_of(const std::string& status) {
   summary.inverted_elements = partition_.communicator().sum(partition_.state().counters.crushed);
   summary.wall_s = wall();
   summary.element_steps_per_s =
-      static_cast<double>(summary.elements) * static_cast<double>(summary.steps) / summary.wall_s;
+      static_cast<double>(summary.elements) * static_cast<double>(steps_done()) / summary.wall_s;
   for (int p = 0; p < static_cast<int>(Phase::count); ++p) {
     const auto phase = static_cast<Phase>(p);
     summary.phases.emplace_back(std::string(name_of(phase)),
@@ -161,6 +176,8 @@ RunPosition RunOutput::position() const {
   position.fragments = last_fragments_;
   position.broken_joints = last_broken_;
   position.wall = wall();
+  position.start_time = start_time_;
+  position.start_step = start_step_;
   position.marks = sink_group_.marks();
   return position;
 }

@@ -24,6 +24,8 @@ class RunOutput {
   /// @pre all arguments outlive this object
   RunOutput(const case_::Case& input, const std::vector<std::unique_ptr<Sink>>& sinks, Partition& partition);
 
+  /// The run starts from the state of another one. @param from  where that one was
+  void start_from(const RunPosition& from);
   /// @param from  where the run goes on; null: at its start
   void tell_start(bool insitu, const RunPosition* from);
   void tell_event(const std::string& kind, const std::string& text, bool accepted, const std::string& id = {});
@@ -49,6 +51,9 @@ class RunOutput {
   /// Where the output is.
   [[nodiscard]] RunPosition position() const;
 
+  /// Steps of this run, without those of the run whose state it started from.
+  [[nodiscard]] std::int64_t steps_done() const { return clock().steps - start_step_; }
+
   [[nodiscard]] Observer& observer() { return observer_; }
 
  private:
@@ -61,8 +66,10 @@ class RunOutput {
   SinkGroup sink_group_;
   Partition& partition_;
   Observer observer_;
-  double end_;              ///< s, of the run
-  double wall_before_ = 0;  ///< s, that the run took before it went on here
+  double end_;                   ///< s, of the run
+  double start_time_ = 0;        ///< s, of the state that the run started from
+  std::int64_t start_step_ = 0;  ///< likewise
+  double wall_before_ = 0;       ///< s, that the run took before it went on here
   Schedule histories_, frames_;
   std::string stage_name_;
   std::int64_t frame_number_ = 0, last_fragments_ = 0, last_broken_ = 0;

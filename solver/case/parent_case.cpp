@@ -1,0 +1,172 @@
+#include "case/parent_case.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <set>
+#include <span>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include "base/sha256.hpp"
+#include "case/reader.hpp"
+#include "case/schema.hpp"
+#include "case/writer.hpp"
+
+namespace breccia::case_ {
+namespace {
+
+/// Lists whose entries stand for a group or a pair of groups, in any order.
+constexpr std::array<std::string_view, 3> kByGroups{"material", "joint", "contact"};
+/// Sections without influence on a state that is there.
+constexpr std::array<std::string_view, 5> kOfTheRun{"start", "output", "insitu", "checkpoint", "domains"};
+
+bool same(const Node& a, const Node& b) {
+  const auto is_number = [](const Node& n) { return n.is(Node::Kind::number) || n.is(Node::Kind::integer); };
+  if (is_number(a) && is_number(b)) return a.number == b.number && a.integer == b.integer;
+  const auto same_entry = [](const auto& p, const auto& q) { return p.first == q.first && same(p.second, q.second); };
+  return a.kind == b.kind && a.boolean == b.boolean && a.text == b.text &&
+         std::equal(a.items.begin(), a.items.end(), b.items.begin(), b.items.end(), same) &&
+         std::equal(a.entries.begin(), a.entries.end(), b.entries.begin(), b.entries.end(), same_entry);
+}
+
+/// A value with its key and pattern in the schema.
+struct Value {
+  const Node* node;
+  std::string key, pattern;
+};
+using Values = std::map<std::string, Value>;  // by the key with groups in place of indices
+
+bool is_table_list(const Node& node) {
+  return node.is(Node::Kind::list) && !node.items.empty() && node.items.front().is(Node::Kind::table);
+}
+
+/// "glass" or "brick,mortar": the groups that an entry is of, in the order of the alphabet.
+std::string groups_of(const Node& entry) {
+  if (const Node* group = entry.find("group")) return group->text;
+  const Node* between = entry.find("between");
+  if (between == nullptr || between->items.size() != 2) return "";
+  const auto [first, second] = std::minmax(between->items[0].text, between->items[1].text);
+  return first == second ? first : first + "," + second;
+}
+
+/// The values that a state fixes.
+void collect(const Node& table, const std::string& identity, const std::string& key, const std::string& pattern,
+             Values& values) {
+  for (const auto& [name, node] : table.entries) {
+    const auto below = [&name = name](const std::string& path) { return path + (path.empty() ? "" : ".") + name; };
+    if (is_table_list(node) && find_key(below(pattern) + "[]") != nullptr) {
+      const bool by_groups = key.empty() && std::find(kByGroups.begin(), kByGroups.end(), name) != kByGroups.end();
+      for (std::size_t i = 0; i < node.items.size(); ++i) {
+        const std::string index = std::to_string(i);
+        collect(node.items[i], below(identity) + "[" + (by_groups ? groups_of(node.items[i]) : index) + "]",
+                below(key) + "[" + index + "]", below(pattern) + "[]", values);
+      }
+    } else if (const Key* row = find_key(below(pattern)); row != nullptr && row->is_section()) {
+      collect(node, below(identity), below(key), below(pattern), values);
+    } else if (row != nullptr && !fixed_by_state(row->path).empty()) {
+      values[below(identity)] = {&node, below(key), below(pattern)};
+    }
+  }
+}
+
+std::string hash_of_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream content;
+  if (!stream || !(content << stream.rdbuf())) return "";
+  const std::string text = content.str();
+  return sha256(std::as_bytes(std::span(text)));
+}
+
+constexpr const char* kCannot = "cannot change where a run starts from the state of another: ";
+
+Problem refused(const std::string& key, const std::string& pattern, const std::string& allowed,
+                const std::string& given) {
+  return {"", 0, key, kCannot + std::string(fixed_by_state(pattern)), allowed, given};
+}
+
+/// Another name is allowed, another content is not.
+void compare_mesh_files(const ParentCase& parent, const Case& now, std::vector<Problem>& problems) {
+  const std::filesystem::path &before = parent.input.mesh.file, &file = now.mesh.file;
+  const auto known = parent.files.find(before.string());
+  const std::string hash = file.empty() ? "" : hash_of_file(file);
+  const bool same_content = known != parent.files.end() && !hash.empty() && hash == known->second;
+  if (same_content || (file == before && (hash.empty() || known == parent.files.end()))) return;
+  problems.push_back(refused("mesh.file", "mesh.file",
+                             "a file with the content that " + before.string() + " had then, or no [mesh]",
+                             file.string()));
+}
+
+}  // namespace
+
+ParentCase parent_case(const std::string& text, const std::filesystem::path& source,
+                       std::map<std::string, std::string> files) {
+  Node root = parse_toml_text(text, source.string());
+  std::erase_if(root.entries, [](const auto& entry) {
+    return std::find(kOfTheRun.begin(), kOfTheRun.end(), entry.first) != kOfTheRun.end();
+  });
+  ParentCase parent;
+  parent.input = read_case_tree(std::move(root), source, MeshFile::may_be_gone);
+  parent.tree = parse_toml_text(parent.input.resolved, source.string());
+  parent.files = std::move(files);
+  return parent;
+}
+
+std::vector<std::string> inherit_sections(const ParentCase& parent, Node& root) {
+  std::vector<std::string> inherited;
+  for (const Key& key : schema()) {
+    if (!key.section().empty() || key.fixed_by_state.empty()) continue;
+    const std::string name(key.name());
+    const Node* section = parent.tree.find(name);
+    if (section == nullptr || root.find(name) != nullptr) continue;
+    root.entries.emplace_back(name, *section);
+    inherited.push_back(name);
+  }
+  return inherited;
+}
+
+std::vector<Problem> refused_changes(const ParentCase& parent, const Case& now,
+                                     const std::vector<std::string>& inherited) {
+  const Node tree = parse_toml_text(now.resolved, now.file.string());
+  Values before, after;
+  collect(parent.tree, "", "", "", before);
+  collect(tree, "", "", "", after);
+  std::vector<Problem> problems;
+  const auto by_groups = [](const std::string& identity) {
+    return std::any_of(kByGroups.begin(), kByGroups.end(),
+                       [&](std::string_view list) { return identity.starts_with(std::string(list) + "["); });
+  };
+  for (const auto& [identity, value] : after) {
+    const auto other = before.find(identity);
+    if (value.pattern == "mesh.file" || (other != before.end() && same(*other->second.node, *value.node))) continue;
+    if (other == before.end() && by_groups(identity)) continue;  // entries of pairs that "*" stood for
+    problems.push_back(refused(value.key, value.pattern, other == before.end() ? "none" : other->second.node->shown(),
+                               value.node->shown()));
+  }
+  for (const auto& [identity, value] : before) {
+    if (after.contains(identity) || by_groups(identity) || value.pattern == "mesh.file") continue;
+    problems.push_back(refused(value.key, value.pattern, value.node->shown(), "none"));
+  }
+  const bool own_mesh = std::find(inherited.begin(), inherited.end(), "mesh") == inherited.end();
+  if (own_mesh && !parent.input.mesh.file.empty()) compare_mesh_files(parent, now, problems);
+  if (parent.input.contacts.empty() != now.contacts.empty()) {
+    problems.push_back({"", 0, "contact", kCannot + std::string("which points may touch is part of the state"),
+                        parent.input.contacts.empty() ? "no [[contact]]" : "a [[contact]]", ""});
+  }
+  return problems;
+}
+
+bool laws_differ(const Case& a, const Case& b) {
+  const auto of_group = [](const Material& m) { return m.group; };
+  const auto of_groups = [](const auto& entry) { return entry.groups; };
+  const auto differ = [](auto p, auto q, auto groups) {
+    std::ranges::sort(p, {}, groups);
+    std::ranges::sort(q, {}, groups);
+    return p != q;
+  };
+  return differ(a.materials, b.materials, of_group) || differ(a.joints, b.joints, of_groups) ||
+         differ(a.contacts, b.contacts, of_groups) || a.sphere != b.sphere;
+}
+
+}  // namespace breccia::case_

@@ -1,0 +1,181 @@
+#include "commands/start_state.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <span>
+#include <system_error>
+
+#include "base/error.hpp"
+#include "case/reader.hpp"
+#include "case/validate.hpp"
+#include "domains/piece_mesh.hpp"
+#include "output/checkpoint_index.hpp"
+#include "output/quantity_text.hpp"
+
+namespace breccia {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Checkpoints that a message names at most.
+constexpr std::size_t kNamed = 8;
+
+[[noreturn]] void refuse(const fs::path& case_file, const case_::Start& start, const std::string& key,
+                         const std::string& what, const std::string& allowed, const std::string& given) {
+  throw InputError(Problem{case_file.string(), start.origin.line, "start." + key, what, allowed, given});
+}
+
+struct Choice {
+  fs::path file;
+  std::int64_t step = 0;
+  double time = 0;  ///< s
+};
+
+std::vector<Choice> choices_in(const fs::path& folder) {
+  std::vector<Choice> choices;
+  for (const CheckpointEntry& entry : checkpoints_in(folder)) {
+    const CheckpointIndex index = read_index(entry.file);
+    choices.push_back({entry.file, index.step, index.time});
+  }
+  return choices;
+}
+
+std::string words_of(const std::vector<Choice>& choices) {
+  std::string words;
+  for (std::size_t i = 0; i < std::min(choices.size(), kNamed); ++i)
+    words += fmt::format("{}step {} at {}", i == 0 ? "" : ", ", choices[i].step, quantity_text(choices[i].time, "s"));
+  return words;
+}
+
+/// The checkpoint that is asked for by its time or step, from a folder.
+fs::path chosen(const fs::path& case_file, const case_::Start& start, const fs::path& folder) {
+  const std::vector<Choice> choices = choices_in(folder);
+  const auto off = [&](const Choice& choice) {
+    return start.step > 0 ? std::abs(static_cast<double>(choice.step - start.step)) : std::abs(choice.time - start.at);
+  };
+  const auto nearest = std::min_element(choices.begin(), choices.end(),
+                                        [&](const Choice& a, const Choice& b) { return off(a) < off(b); });
+  // A checkpoint at an interval is that of the step next to it.
+  const double close =
+      start.step > 0 ? 0.0 : 1.01 * nearest->time / static_cast<double>(std::max<std::int64_t>(1, nearest->step));
+  if (off(*nearest) <= close) return nearest->file;
+  const std::string given = start.step > 0 ? std::to_string(start.step) : quantity_text(start.at, "s");
+  refuse(case_file, start, start.step > 0 ? "step" : "at", "the run has no checkpoint of that", words_of(choices),
+         given);
+}
+
+fs::path checkpoint_of(const fs::path& case_file, const case_::Start& start) {
+  std::error_code error;
+  if (!fs::exists(start.from, error))
+    refuse(case_file, start, "from", "there is no such run", "the folder of a run, or one of its checkpoints",
+           start.from.string());
+  if (!fs::is_directory(start.from, error)) {
+    if (start.step > 0 || start.at > 0)
+      refuse(case_file, start, start.step > 0 ? "step" : "at", "belongs to the folder of a run",
+             "no at and no step beside a checkpoint", start.from.string());
+    return start.from;
+  }
+  const fs::path folder = RunFolder{start.from}.checkpoints();
+  const std::vector<CheckpointEntry> all = checkpoints_in(folder);
+  if (all.empty())
+    refuse(case_file, start, "from", "there are no checkpoints of a run here",
+           "the folder of a run with checkpoints/step_*.h5, or one of these files", start.from.string());
+  return start.step == 0 && start.at == 0 ? all.front().file : chosen(case_file, start, folder);
+}
+
+/// What reading the checkpoint finds wrong belongs to the case that names it.
+[[noreturn]] void refuse_start(const fs::path& case_file, const case_::Start& start, const InputError& error) {
+  std::vector<Problem> problems;
+  for (const Problem& p : error.problems())
+    problems.push_back({case_file.string(), start.origin.line, "start.from", p.what, p.allowed, p.file});
+  throw InputError(std::move(problems));
+}
+
+case_::ParentCase parent_of(const Checkpoint& checkpoint, const fs::path& file) {
+  std::map<std::string, std::string> files;
+  for (const Provenance::Input& input : inputs_in(checkpoint.provenance)) files[input.file] = input.sha256;
+  return case_::parent_case(checkpoint.case_text, file, std::move(files));
+}
+
+/// Stages count from the start of the first run.
+void check_stages(const case_::Case& input, const Clock& clock) {
+  const case_::Stage& first = input.stages.front();
+  if (first.end > clock.time + 0.5 * clock.dt) return;
+  throw InputError(Problem{input.file.string(), first.origin.line, first.origin.key + ".end",
+                           "the state that the run starts from is later than the end of this stage: time goes on "
+                           "counting there",
+                           "later than " + quantity_text(clock.time, "s"), quantity_text(first.end, "s")});
+}
+
+}  // namespace
+
+std::optional<StartState> read_start_state(const fs::path& case_file, const std::vector<std::string>& overrides,
+                                           const Communicator& world) {
+  std::optional<case_::Start> start;
+  StartState state;
+  world.agree([&] {
+    start = case_::read_start(case_file, overrides);
+    if (start) state.file = checkpoint_of(case_file, *start);
+  });
+  if (!start) return std::nullopt;
+  try {
+    state.checkpoint = read_checkpoint(state.file, world);
+  } catch (const InputError& error) {  // the same on all ranks
+    refuse_start(case_file, *start, error);
+  }
+  world.agree([&] { state.parent = parent_of(state.checkpoint, state.file); });
+  return state;
+}
+
+case_::Case read_case_of(const fs::path& case_file, const std::vector<std::string>& overrides,
+                         const std::optional<StartState>& start) {
+  if (!start) return case_::read_case(case_file, overrides);
+  case_::Case input = case_::read_started_case(case_file, overrides, start->parent);
+  check_stages(input, start->checkpoint.model.clock);
+  const WholeModel whole = unpack_whole(start->checkpoint.whole_model);
+  std::vector<Problem> problems = case_::check_groups(input, whole.volume_groups, whole.surface_groups,
+                                                      static_cast<std::int64_t>(whole.body_length.size()));
+  if (!problems.empty()) throw InputError(std::move(problems));
+  check_laws(input, whole);
+  return input;
+}
+
+StartOptions start_options(const case_::Case& input, const StartState& start) {
+  StartOptions options{"the run starts from " + words_of(start), case_::laws_differ(start.parent.input, input), {}};
+  if (options.new_laws)
+    options.words +=
+        "; under other laws than there, so the energy that it holds counts as put in, and the residual "
+        "from here";
+  const std::vector<std::string> before = surfaces_to_break(start.parent.input), now = surfaces_to_break(input);
+  std::set<std::string> all(before.begin(), before.end());
+  all.insert(now.begin(), now.end());
+  if (all.size() > before.size()) options.cut.assign(all.begin(), all.end());
+  return options;
+}
+
+void refuse_folder_of_state(const fs::path& results, const StartState& start) {
+  std::error_code error;
+  const fs::path run = fs::absolute(start.file, error).parent_path().parent_path();
+  if (!fs::equivalent(results, run, error) || error) return;
+  throw OutputError(Problem{results.string(), 0, "", "this folder holds the state that the run starts from",
+                            "another folder (-o)", ""});
+}
+
+std::vector<Provenance::Parent> with_parent(const fs::path& file, const Checkpoint& checkpoint) {
+  const Clock& clock = checkpoint.model.clock;
+  std::error_code error;
+  const Provenance::Input hashed = input_file(fs::absolute(file, error).lexically_normal());
+  std::vector<Provenance::Parent> parents{{hashed.file, hashed.sha256, clock.steps, clock.time}};
+  const std::vector<Provenance::Parent> earlier = parents_in(checkpoint.provenance);
+  parents.insert(parents.end(), earlier.begin(), earlier.end());
+  return parents;
+}
+
+std::string words_of(const StartState& start) {
+  const Clock& clock = start.checkpoint.model.clock;
+  return fmt::format("step {} at {} of {}", clock.steps, quantity_text(clock.time, "s"), start.file.string());
+}
+
+}  // namespace breccia

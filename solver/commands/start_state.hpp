@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+#include "case/parent_case.hpp"
+#include "output/checkpoint.hpp"
+#include "output/run_folder.hpp"
+#include "parallel/communicator.hpp"
+#include "simulation/run.hpp"
+
+namespace breccia {
+
+/// The state that a case with [start] goes on from.
+struct StartState {
+  std::filesystem::path file;  ///< the checkpoint
+  Checkpoint checkpoint;
+  case_::ParentCase parent;
+};
+
+/// Finds, reads and verifies what [start] names; nullopt: the case starts at rest. Another checkpoint than the one
+/// asked for is never taken. Collective. Throws InputError on all ranks: no such run, none of that time or step,
+/// damaged or foreign files.
+[[nodiscard]] std::optional<StartState> read_start_state(const std::filesystem::path& case_file,
+                                                         const std::vector<std::string>& overrides,
+                                                         const Communicator& world);
+
+/// The case, read against the state. Throws InputError: as read_case; what it changes that the state fixes; stages that
+/// have ended before; groups and joint laws that do not fit the elements of the state.
+[[nodiscard]] case_::Case read_case_of(const std::filesystem::path& case_file,
+                                       const std::vector<std::string>& overrides,
+                                       const std::optional<StartState>& start);
+
+/// For start_case.
+[[nodiscard]] StartOptions start_options(const case_::Case& input, const StartState& start);
+
+/// Throws InputError if the results would be written where the state is.
+void refuse_folder_of_state(const std::filesystem::path& results, const StartState& start);
+
+/// The parents of a run that goes on from a checkpoint: that one and its own.
+[[nodiscard]] std::vector<Provenance::Parent> with_parent(const std::filesystem::path& file,
+                                                          const Checkpoint& checkpoint);
+
+/// Whose state it is: "the state of step 1200 at 2.4 s of FILE".
+[[nodiscard]] std::string words_of(const StartState& start);
+
+}  // namespace breccia
