@@ -1,5 +1,8 @@
 #include "catalyst/adaptor.hpp"
 
+#include <utility>
+
+#include "catalyst/animation.hpp"
 #include "catalyst/extract_pipeline.hpp"
 #include "catalyst/live_pipeline.hpp"
 #include "catalyst/messages.hpp"
@@ -14,7 +17,7 @@ constexpr std::uint32_t kLiveDefault = bit(BRECCIA_SURFACE) | bit(BRECCIA_FRACTU
 
 }  // namespace
 
-Adaptor::Adaptor(const BrecciaConfig& config) : ranks_(config.communicator, config.patience) {
+Adaptor::Adaptor(const BrecciaConfig& config) : ranks_(config.communicator, config.patience), folder_(config.folder) {
   capture_messages();
   start_display(config);
   for (std::int32_t i = 0; i < config.num_pipelines; ++i) {
@@ -31,8 +34,20 @@ Adaptor::Adaptor(const BrecciaConfig& config) : ranks_(config.communicator, conf
   }
 }
 
-Adaptor::~Adaptor() {
+Adaptor::~Adaptor() { end_pipelines(); }
+
+void Adaptor::end_pipelines() {
+  if (std::exchange(finished_, true)) return;
   for (Named& pipeline : pipelines_) pipeline.work->finish();
+}
+
+std::string Adaptor::finish() {
+  end_pipelines();
+  std::vector<std::filesystem::path> folders;
+  for (const Named& pipeline : pipelines_) {
+    if (pipeline.work->draws()) folders.push_back(folder_ / std::filesystem::path(pipeline.name).stem());
+  }
+  return ranks_.is_root() ? make_animations(folders) : std::string();
 }
 
 void Adaptor::start_display(const BrecciaConfig& config) {
@@ -78,7 +93,8 @@ std::unique_ptr<Pipeline> Adaptor::made(const BrecciaPipeline& pipeline, const B
   }
   make_folder(folder);
   const std::uint32_t channels = script_channels_[static_cast<std::size_t>(&pipeline - config.pipelines)];
-  return backend().script(choice.name, choice.file, folder, channels, choice.parameters);
+  const python::About about{config.title, config.end, config.strength};
+  return backend().script({choice.name, choice.file, folder, channels, choice.parameters, about});
 }
 
 std::uint32_t Adaptor::channels(int pipeline, std::int64_t step, double time) {

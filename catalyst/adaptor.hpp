@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,6 +37,10 @@ class Adaptor {
                         std::string& text);
   std::uint32_t execute(std::uint32_t pipelines, const Frame& frame, BrecciaRequests& requests, std::string& text);
 
+  /// Ends the pipelines and makes animations of their pictures; nothing can be executed afterwards.
+  /// @return  lines about the animations, on the first rank
+  [[nodiscard]] std::string finish();
+
   /// On this rank; not collective.
   [[nodiscard]] std::int64_t bytes_written(int pipeline) const {
     return pipelines_.at(static_cast<std::size_t>(pipeline)).work->bytes_written();
@@ -47,6 +52,7 @@ class Adaptor {
     std::unique_ptr<Pipeline> work;
   };
 
+  void end_pipelines();
   void start_display(const BrecciaConfig& config);
   [[nodiscard]] std::unique_ptr<Pipeline> made(const BrecciaPipeline& pipeline, const BrecciaConfig& config);
   CatalystBackend& backend();
@@ -59,6 +65,8 @@ class Adaptor {
   std::unique_ptr<Display> display_;
   std::unique_ptr<CatalystBackend> backend_;
   std::vector<Named> pipelines_;
+  std::filesystem::path folder_;
+  bool finished_ = false;
 };
 
 }  // namespace breccia::insitu

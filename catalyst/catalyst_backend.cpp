@@ -87,14 +87,6 @@ void empty_producers() {
   }
 }
 
-struct ScriptDescription {
-  std::string name;
-  std::filesystem::path file;
-  std::filesystem::path folder;
-  std::uint32_t channels = 0;
-  std::map<std::string, double> parameters;
-};
-
 class ScriptPipeline final : public Pipeline {
  public:
   ScriptPipeline(const Ranks& ranks, ScriptDescription description) : ranks_(ranks), is_(std::move(description)) {
@@ -150,6 +142,8 @@ class ScriptPipeline final : public Pipeline {
     return ranks_.is_root() ? bytes_in_folder(is_.folder) - written_before_ : 0;
   }
 
+  [[nodiscard]] bool draws() const override { return true; }
+
   void finish() override {
     enter();
     script_->Finalize();
@@ -157,7 +151,7 @@ class ScriptPipeline final : public Pipeline {
   }
 
  private:
-  void enter() const { python::enter(is_.name, is_.file, is_.folder, is_.parameters); }
+  void enter() const { python::enter(is_.name, is_.file, is_.folder, is_.parameters, is_.about); }
 
   /// What Python raised or VTK reported since the last call.
   [[nodiscard]] static std::string error_now() {
@@ -212,11 +206,9 @@ CatalystBackend::~CatalystBackend() {
   static_cast<void>(take_errors());
 }
 
-std::unique_ptr<Pipeline> CatalystBackend::script(const std::string& name, const std::filesystem::path& file,
-                                                  const std::filesystem::path& folder, std::uint32_t channels,
-                                                  const std::map<std::string, double>& parameters) {
+std::unique_ptr<Pipeline> CatalystBackend::script(ScriptDescription description) {
   python::start(data_folder() / "pipelines", data_folder() / "python", ranks_);
-  return std::make_unique<ScriptPipeline>(ranks_, ScriptDescription{name, file, folder, channels, parameters});
+  return std::make_unique<ScriptPipeline>(ranks_, std::move(description));
 }
 
 const char* backend_description() {

@@ -6,9 +6,19 @@
 #include <string>
 
 #include "catalyst/pipeline.hpp"
+#include "catalyst/python_guard.hpp"
 #include "catalyst/ranks.hpp"
 
 namespace breccia::insitu {
+
+struct ScriptDescription {
+  std::string name;
+  std::filesystem::path file;
+  std::filesystem::path folder;  ///< where its extracts go; exists
+  std::uint32_t channels = 0;    ///< mask of those that the script names; all of them may be asked for
+  std::map<std::string, double> parameters;
+  python::About about;
+};
 
 /// ParaView Catalyst, started: needed by scripts and by the live link, not by the recordings. Once in a process:
 /// ParaView cannot be started again after its end. Together with its source file this is all that knows vtkCPProcessor
@@ -24,11 +34,7 @@ class CatalystBackend {
 
   /// A script of version 2, exported from ParaView or written by hand. Starts Python at the first call. Collective.
   /// Throws PipelineError.
-  /// @param folder where its extracts go; exists
-  /// @param channels mask of those that the script names; all of them may be asked for
-  [[nodiscard]] std::unique_ptr<Pipeline> script(const std::string& name, const std::filesystem::path& file,
-                                                 const std::filesystem::path& folder, std::uint32_t channels,
-                                                 const std::map<std::string, double>& parameters);
+  [[nodiscard]] std::unique_ptr<Pipeline> script(ScriptDescription description);
 
  private:
   struct Session;

@@ -16,7 +16,7 @@
 extern "C" {
 #endif
 
-#define BRECCIA_INSITU_ABI_VERSION 2
+#define BRECCIA_INSITU_ABI_VERSION 3
 
 /* The channels: frozen names, in this order everywhere. A set of channels is a mask of bits 1 << channel. */
 enum {
@@ -87,6 +87,9 @@ typedef struct {
   int32_t rank, size;
   double patience;    /* s that a rank which is done with a pipeline waits for the others */
   const char* title;  /* of the case */
+  double end;         /* s, simulated, of the run; 0: unknown */
+  double strength;    /* Pa, a stress at which something breaks in this case; 0: unknown. Where colours of stress end
+                         as long as there is no more than that */
   const char* folder; /* absolute, exists: pipelines write here and nowhere else */
   const char* live_host;
   int32_t live_port;
@@ -130,12 +133,13 @@ typedef struct {
   /* Bytes that a pipeline has written on this rank so far. */
   int64_t (*bytes_written)(void* adaptor, int32_t pipeline);
 
-  /* Ends the pipelines, and whatever open has started. Collective, before MPI_Finalize. */
-  void (*close)(void* adaptor);
+  /* Ends the pipelines, and whatever open has started; the first rank makes animations of the pictures. What there is
+   * to tell of them stands in the text, a line each, on the first rank. Collective, before MPI_Finalize. */
+  void (*close)(void* adaptor, char* text, size_t size);
 
   /* Feeds what pipelines recorded (folder/<channel>/, as "volume", "fractures", "surface" and others write it) through
-   * the pipelines of the config as if a solver ran. folder_of_records is absolute. 0: all instants passed. Collective.
-   */
+   * the pipelines of the config as if a solver ran. folder_of_records is absolute. 0: all instants passed; the text is
+   * that of close. Collective. */
   int32_t (*replay)(const BrecciaConfig* config, const char* folder_of_records, char* text, size_t size);
 } BrecciaInsituApi;
 

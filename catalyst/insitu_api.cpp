@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 
 #include "catalyst/adaptor.hpp"
 #include "catalyst/messages.hpp"
@@ -85,10 +86,12 @@ std::int64_t bytes_written(void* adaptor, std::int32_t pipeline) {
   }
 }
 
-void close(void* adaptor) {
+void close(void* adaptor, char* text, size_t size) {
   const SignalGuard signals;
+  put({}, text, size);
   try {
-    delete static_cast<Adaptor*>(adaptor);
+    const std::unique_ptr<Adaptor> owned(static_cast<Adaptor*>(adaptor));
+    put(owned->finish(), text, size);
   } catch (const std::exception&) {
     // Nothing is left to do with what has failed to end.
   }
@@ -100,6 +103,7 @@ std::int32_t replay_records(const BrecciaConfig* config, const char* folder, cha
   try {
     Adaptor adaptor(*config);
     replay(adaptor, folder);
+    put(adaptor.finish(), text, size);
     return 0;
   } catch (const std::exception& error) {
     put(one_line(error.what()), text, size);

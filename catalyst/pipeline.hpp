@@ -46,6 +46,9 @@ class Pipeline {
   /// Bytes written on this rank. Not collective.
   [[nodiscard]] virtual std::int64_t bytes_written() const { return 0; }
 
+  /// Whether there may be pictures in its folder. Not collective.
+  [[nodiscard]] virtual bool draws() const { return false; }
+
   /// Ends it; it is not used any more.
   virtual void finish() {}
 };

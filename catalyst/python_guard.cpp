@@ -81,14 +81,15 @@ void start(const std::filesystem::path& pipelines, const std::filesystem::path& 
 }
 
 void enter(const std::string& name, const std::filesystem::path& script, const std::filesystem::path& folder,
-           const std::map<std::string, double>& parameters) {
+           const std::map<std::string, double>& parameters, const About& about) {
   const vtkPythonScopeGilEnsurer lock;
   PyObject* values = PyDict_New();
   for (const auto& [key, value] : parameters) {
     const vtkSmartPyObject number(PyFloat_FromDouble(value));
     PyDict_SetItemString(values, key.c_str(), number);
   }
-  call("enter", Py_BuildValue("(sssN)", name.c_str(), script.c_str(), folder.c_str(), values));
+  call("enter", Py_BuildValue("(sssN{sssdsd})", name.c_str(), script.c_str(), folder.c_str(), values, "title",
+                              about.title.c_str(), "end", about.end, "strength", about.strength));
 }
 
 std::string take_error() {

@@ -8,6 +8,13 @@
 
 namespace breccia::insitu::python {
 
+/// What scripts may know of the run.
+struct About {
+  std::string title;    ///< of the case
+  double end = 0;       ///< s, simulated; 0: unknown
+  double strength = 0;  ///< Pa; 0: unknown
+};
+
 /// Starts Python in this process and puts python/breccia_guard.py between ParaView and the scripts: what a script
 /// raises is kept as one line instead of being printed, on all ranks when on any; SystemExit does not end the process.
 /// `pipelines` and `guard` are put on the search path of modules. Idempotent. Throws PipelineError. @pre ranks outlives
@@ -16,7 +23,7 @@ void start(const std::filesystem::path& pipelines, const std::filesystem::path& 
 
 /// Tells breccia_insitu.py which pipeline runs from now on. Throws PipelineError.
 void enter(const std::string& name, const std::filesystem::path& script, const std::filesystem::path& folder,
-           const std::map<std::string, double>& parameters);
+           const std::map<std::string, double>& parameters, const About& about);
 
 /// What the script that runs raised since the last call: "TypeError: what (script.py:12)"; empty: nothing. Throws
 /// Abandoned when other ranks have not come out of it in time.

@@ -14,14 +14,15 @@ import os
 _name = ""
 _folder = os.environ.get("BRECCIA_INSITU_FOLDER", os.getcwd())
 _parameters = {}
+_about = {}
 
 REQUESTS = ("stop", "pause", "extract", "frame_interval")
 
 
-def set_active(name, folder, parameters):
+def set_active(name, folder, parameters, about):
     """Called by the adaptor whenever a script's turn begins."""
-    global _name, _folder, _parameters
-    _name, _folder, _parameters = name, folder, dict(parameters)
+    global _name, _folder, _parameters, _about
+    _name, _folder, _parameters, _about = name, folder, dict(parameters), dict(about)
 
 
 def pipeline():
@@ -41,6 +42,21 @@ def parameter(name, default):
     """
     value = _parameters.get(name, default)
     return int(round(value)) if isinstance(default, int) and not isinstance(default, bool) else value
+
+
+def title():
+    """Title of the case; "" outside a run."""
+    return _about.get("title", "")
+
+
+def end():
+    """Simulated time at which the run ends, s; 0: unknown."""
+    return _about.get("end", 0.0)
+
+
+def strength():
+    """A stress at which something breaks in this case, Pa; 0: unknown."""
+    return _about.get("strength", 0.0)
 
 
 def request(info, **wishes):

@@ -1,15 +1,20 @@
-"""What Breccia's picture pipelines share: the look of a view, where its camera stands, words over it, sums over ranks.
+"""What Breccia's picture pipelines share: the look of a view, where its camera stands, words over it, ranges of colours, sums over ranks.
 
-Parameters of every picture: width, height (pixels), azimuth, elevation (degrees, from the front: along -z, y up), zoom, and orbit: so many
-pictures around the model, as a Cinema database (data.csv names every picture); 0: one picture.
+A picture tells its case, its subject, time and step, has a key to its colours and a length scale, and its colours mean the same in all
+pictures of a run, but where it says since when they mean more. Parameters of every picture: width, height (pixels), azimuth, elevation
+(degrees, from the front: along -z, y up), zoom, and orbit: so many pictures around the model, as a Cinema database (data.csv names every
+picture); 0: one picture.
 """
 
 import math
 import os
 import re
 
-from paraview.simple import ColorBy, CreateExtractor, CreateRenderView, GetColorTransferFunction, GetScalarBar, SetActiveView, Show, Text, Threshold
+import numpy
+from paraview.simple import (ColorBy, CreateExtractor, CreateRenderView, GetColorTransferFunction, GetScalarBar, Line, SetActiveView, Show, Text,
+                             Threshold)
 from vtkmodules.vtkCommonCore import vtkDoubleArray
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkParallelCore import vtkCommunicator, vtkMultiProcessController
 
 import breccia_insitu
@@ -44,6 +49,33 @@ def data_of(producer):
     return producer.GetClientSideObject().GetOutputDataObject(0)
 
 
+def quantile_of(producer, array, part):
+    """The value of a cell array below which a part of the cells of all ranks lies, up to a twelfth; 0 without positive values."""
+    values = data_of(producer).GetCellData().GetArray(array)
+    mine = numpy.zeros(0) if values is None or values.GetNumberOfTuples() == 0 else vtk_to_numpy(values)
+    lowest, highest, bins_of_octave = -40, 60, 8  # powers of two; what is smaller counts as smallest
+    positive = numpy.maximum(mine, 2.0 ** lowest) if len(mine) else mine
+    bins = numpy.clip(numpy.ceil((numpy.log2(positive) - lowest) * bins_of_octave), 0, (highest - lowest) * bins_of_octave).astype(int)
+    counts = sums_over_ranks(numpy.bincount(bins, minlength=(highest - lowest) * bins_of_octave + 1).astype(float))
+    if counts.sum() == 0:
+        return 0.0
+    place = int(numpy.searchsorted(numpy.cumsum(counts), part * counts.sum()))
+    return 0.0 if place == 0 else 2.0 ** (lowest + place / bins_of_octave)
+
+
+def sums_over_ranks(values):
+    """Element by element."""
+    controller = vtkMultiProcessController.GetGlobalController()
+    if controller is None or controller.GetNumberOfProcesses() == 1:
+        return values
+    mine, all_ranks = vtkDoubleArray(), vtkDoubleArray()
+    for value in values:
+        mine.InsertNextValue(value)
+        all_ranks.InsertNextValue(0)
+    controller.AllReduce(mine, all_ranks, vtkCommunicator.SUM_OP)
+    return vtk_to_numpy(all_ranks).copy()
+
+
 def cells_of(producer):
     """Cells of a channel on all ranks."""
     return int(over_ranks(data_of(producer).GetNumberOfCells()))
@@ -56,20 +88,57 @@ def bounds_of(producer):
     return [-largest(-bounds[2 * i]) for i in range(3)], [largest(bounds[2 * i + 1]) for i in range(3)]
 
 
+PREFIXES = (("G", 1e9), ("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("\u00b5", 1e-6), ("n", 1e-9))
+
+
+def unit_of(value, unit):
+    """The unit in which a value has one to three digits before its point, and what it is: 1.2e-5, "s" -> ("µs", 1e-6)"""
+    for prefix, size in PREFIXES:
+        if abs(value) >= size * 0.9999:
+            return prefix + unit, size
+    return unit, 1.0
+
+
 def quantity(value, unit):
     """1.2e-5, "s" -> "12 µs" """
     if value == 0 or not math.isfinite(value):
         return f"{value:g} {unit}"
-    for prefix, size in (("G", 1e9), ("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("\u00b5", 1e-6), ("n", 1e-9)):
-        if abs(value) >= size * 0.9999:
-            return f"{value / size:.4g} {prefix}{unit}"
-    return f"{value:.3g} {unit}"
+    name, size = unit_of(value, unit)
+    return f"{value / size:.4g} {name}"
+
+
+def round_above(value):
+    """The smallest of 1, 2, 5, 10, ... (and their tenths, ...) that is not below a positive value."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return next(step * power for step in (1, 2, 5, 10) if step * power >= value * (1 - 1e-9))
+
+
+class Range:
+    """The upper end of colours (or lengths) that mean the same over a run: given, or a round number that grows, in words, when it must."""
+
+    def __init__(self, name, unit, given, least):
+        self._name, self._unit, self._given = name, unit, given
+        self.upper = given or (round_above(least) if least > 0 else 0.0)
+        self._since = None
+
+    def include(self, value, time):
+        if not self._given and value > self.upper:
+            self._since = time if self.upper > 0 else None
+            self.upper = round_above(value)
+        return self.upper or 1.0
+
+    def news(self):
+        """A line that tells since when it is what it is; "" when it always was."""
+        return "" if self._since is None else f"{self._name} up to {quantity(self.upper, self._unit)} since t = {quantity(self._since, 's')}"
 
 
 class Picture:
-    """A view, and the extractor that writes it as folder/NAME_000000123.png."""
+    """A view, and the extractor that writes it as folder/NAME_000000123.png.
 
-    def __init__(self):
+    @param subject  what it shows, in words
+    @param copies   how often it shows the model, beside or below each other: solid(..., copy=1) is in the second one"""
+
+    def __init__(self, subject, copies=()):
         self.view = CreateRenderView()
         self.view.ViewSize = [breccia_insitu.parameter("width", 1600), breccia_insitu.parameter("height", 1000)]
         self.view.UseColorPaletteForBackground = 0
@@ -77,20 +146,23 @@ class Picture:
         self.view.OrientationAxesVisibility = 0
         self.view.CameraParallelProjection = 1
         SetActiveView(self.view)
+        self._subject = subject
+        self._copies, self._moved = copies, []
+        self._size = max(9, self.view.ViewSize[1] // 38)  # of letters, pixels
         self._placed = False
-        self._words = Text()
-        words = Show(self._words, self.view)
-        words.WindowLocation = "Upper Left Corner"
-        words.Color = INK
-        words.Justification = "Left"
-        words.FontSize = max(8, self.view.ViewSize[1] // 45)
+        self._keys = []
+        self._title = self.words("", 1.15, bold=True)
+        self._lines = self.words("")
+        self._names = [self.words("") for _ in copies]
+        self._scale, self._scale_words = Line(), self.words("")
+        self.line_of(self._scale, INK)
         self._name = name = breccia_insitu.pipeline() or "picture"
         self._times = {}
         self.extractor = CreateExtractor("PNG", self.view)
         self.extractor.Trigger = "TimeStep"
         self.extractor.Writer.FileName = name + "_{timestep:09d}{camera}.png"
         self.extractor.Writer.ImageResolution = self.view.ViewSize
-        orbit = breccia_insitu.parameter("orbit", 0)
+        self._orbit = orbit = breccia_insitu.parameter("orbit", 0)
         if orbit > 0:
             self.extractor.Writer.CameraMode = "Phi-Theta"
             self.extractor.Writer.PhiResolution = orbit
@@ -98,53 +170,110 @@ class Picture:
         else:
             self.extractor.Writer.FileName = name + "_{timestep:09d}.png"
 
-    def solid(self, producer, colour):
+    def words(self, text, size=1.0, colour=INK, bold=False):
+        """Words over the picture; stand(...) says where. Returns the text and how it is shown."""
+        source = Text(Text=text)
+        shown = Show(source, self.view)
+        shown.WindowLocation = "Any Location"
+        shown.Color, shown.Bold = colour, int(bold)
+        shown.Justification = "Left"
+        shown.FontSize = int(self._size * size)
+        return source, shown
+
+    def stand(self, words, text, x, y):
+        """Puts words with their lower left corner at x, y, parts of the picture's width and height."""
+        words[0].Text = text
+        words[1].Position = [x, y]
+
+    def line_of(self, source, colour, width=4.0):
+        shown = Show(source, self.view)
+        shown.ColorArrayName = ["POINTS", ""]
+        shown.DiffuseColor = shown.AmbientColor = colour
+        shown.Ambient, shown.Diffuse = 1.0, 0.0
+        shown.LineWidth = width
+        return shown
+
+    def solid(self, producer, colour, copy=0):
         shown = Show(producer, self.view)
         shown.ColorArrayName = ["POINTS", ""]
         shown.DiffuseColor = shown.AmbientColor = colour
         shown.Ambient, shown.Diffuse = 0.3, 0.75
+        self._in_copy(shown, copy)
         return shown
 
-    def opened(self, surface):
+    def _in_copy(self, shown, copy):
+        if copy > 0:
+            self._moved.append((shown, copy))
+
+    def opened(self, surface, copy=0):
         """Shows the bodies as shells whose near side is left out, so that one looks at what is inside. Nothing here is translucent:
         ranks would have to trade their geometry for it, which takes long and fails with the XML parser of Debian 12 (expat)."""
-        outside = Threshold(Input=surface, Scalars=["CELLS", "crack"], LowerThreshold=0, UpperThreshold=0.5, ThresholdMethod="Between")
-        self.solid(outside, STONE).BackfaceRepresentation = "Cull Frontface"
+        self.solid(outside(surface), STONE, copy).BackfaceRepresentation = "Cull Frontface"
 
-    def coloured(self, producer, array, colours, title, label="%-#6.3g"):
+    def coloured(self, producer, array, colours, title, label="%g", copy=0):
         """Shows cells in the colours of an array; with a bar. Returns the colour table, whose range is the caller's."""
         shown = Show(producer, self.view)
         ColorBy(shown, ("CELLS", array))
         shown.Ambient, shown.Diffuse = 0.3, 0.75
+        self._in_copy(shown, copy)
         table = GetColorTransferFunction(array)
         table.AutomaticRescaleRangeMode = "Never"
         table.ColorSpace = "RGB"
         table.RGBPoints = colours
         if title is not None:
-            bar = GetScalarBar(table, self.view)
-            bar.Title, bar.ComponentTitle = title, ""
-            bar.TitleColor = bar.LabelColor = INK
-            bar.RangeLabelFormat = bar.LabelFormat = label
-            bar.AutomaticLabelFormat = 0
-            bar.WindowLocation = "Any Location"
-            bar.Position = [0.88, 0.2]
-            bar.ScalarBarLength = 0.6
-            shown.SetScalarBarVisibility(self.view, True)
+            self.bar(shown, table, title, label)
         return table
 
-    def lines(self, producer, colour=INK, width=2.0):
+    def bar(self, shown, table, title, label="%g"):
+        bar = GetScalarBar(table, self.view)
+        bar.Title, bar.ComponentTitle = title, ""
+        bar.TitleColor = bar.LabelColor = INK
+        bar.TitleFontSize = bar.LabelFontSize = self._size
+        bar.RangeLabelFormat = bar.LabelFormat = label
+        bar.AutomaticLabelFormat = 0
+        bar.ScalarBarThickness = self._size
+        bar.WindowLocation = "Any Location"
+        bar.Position = [0.87, 0.2]
+        bar.ScalarBarLength = 0.6
+        shown.SetScalarBarVisibility(self.view, True)
+
+    def coloured_lines(self, producer, array, copy=0, width=3.0):
+        """The edges of cells in the colours that coloured(...) has given the array."""
+        shown = Show(producer, self.view)
+        shown.SetRepresentationType("Wireframe")
+        ColorBy(shown, ("CELLS", array))
+        shown.Ambient, shown.Diffuse = 1.0, 0.0
+        shown.LineWidth = width
+        self._in_copy(shown, copy)
+        return shown
+
+    def lines(self, producer, colour=INK, width=2.0, copy=0):
         shown = Show(producer, self.view)
         shown.SetRepresentationType("Wireframe")
         shown.ColorArrayName = ["POINTS", ""]
         shown.DiffuseColor = shown.AmbientColor = colour
         shown.LineWidth = width
+        self._in_copy(shown, copy)
         return shown
 
+    def key(self, colour):
+        """A key beside the length scale: a line of that colour with words of what its length means, which set_keys(...) gives."""
+        line, words = Line(), self.words("", colour=colour)
+        self.line_of(line, colour, 6.0)
+        self._keys.append((line, words))
+
     def say(self, info, *lines):
-        """The time and other words in the corner of the picture that is drawn next."""
-        self._words.Text = "\n".join(("t = " + quantity(info.time, "s"),) + lines)
+        """Case, subject, time, step and other lines, over the picture that is drawn next; empty lines are left out."""
+        title = breccia_insitu.title() or self._name
+        most = int(1.6 * self.view.ViewSize[0] / (1.15 * self._size))
+        self.stand(self._title, title if len(title) <= most else title[: most - 1] + "\u2026", 0.015, 1 - self._height(1.7))
+        text = [self._subject, f"t = {quantity(info.time, 's')}, step {info.timestep:,}", *filter(None, lines)]
+        self.stand(self._lines, "\n".join(text), 0.015, 1 - self._height(1.9 + 1.25 * len(text)))
         self.list_pictures()
         self._times[info.timestep] = info.time
+
+    def _height(self, lines):
+        return lines * self._size / self.view.ViewSize[1]
 
     def list_pictures(self):
         """Writes data.csv, which makes the folder a Cinema database (specification D): the pictures that are complete."""
@@ -175,21 +304,59 @@ class Picture:
         self._placed = True
         azimuth = math.radians(breccia_insitu.parameter("azimuth", 38.0))
         elevation = math.radians(breccia_insitu.parameter("elevation", 32.0))
-        towards = [math.sin(azimuth) * math.cos(elevation), math.sin(elevation), math.cos(azimuth) * math.cos(elevation)]
-        up = [-math.sin(azimuth) * math.sin(elevation), math.cos(elevation), -math.cos(azimuth) * math.sin(elevation)]
-        right = [math.cos(azimuth), 0.0, -math.sin(azimuth)]
+        towards = numpy.array([math.sin(azimuth) * math.cos(elevation), math.sin(elevation), math.cos(azimuth) * math.cos(elevation)])
+        up = numpy.array([-math.sin(azimuth) * math.sin(elevation), math.cos(elevation), -math.cos(azimuth) * math.sin(elevation)])
+        right = numpy.array([math.cos(azimuth), 0.0, -math.sin(azimuth)])
         # The shadow of a box on an axis is the sum of the shadows of its edges.
         wide, tall = (sum(abs(axis[i]) * (high[i] - low[i]) for i in range(3)) for axis in (right, up))
         aspect = self.view.ViewSize[0] / self.view.ViewSize[1]
-        scale = 0.5 * max(tall / 0.85, wide / (0.80 * aspect)) / breccia_insitu.parameter("zoom", 1.0)
-        shift = 0.06 * aspect * 2 * scale  # the bar of the colours stands on the right
-        centre = [(low[i] + high[i]) / 2 + shift * right[i] for i in range(3)]
-        distance = 4 * max(high[i] - low[i] for i in range(3))
-        self.view.CameraFocalPoint = centre
-        self.view.CameraPosition = [centre[i] + distance * towards[i] for i in range(3)]
-        self.view.CameraViewUp = up
-        self.view.CameraParallelScale = scale
-        self.view.CenterOfRotation = centre
+        # Words stand above, the length scale below, the bar of the colours on the right: what is left, in parts of the height.
+        below, above, rim = self._height(3.2), self._height(7.5), 0.02 * aspect
+        room = (0.84 * aspect - 2 * rim, 1 - below - above)
+        count = max(1, len(self._copies))
+        beside = max(1.06 * count * wide / room[0], tall / room[1])
+        stacked = max(wide / room[0], 1.12 * count * tall / room[1])
+        whole = min(beside, stacked) / breccia_insitu.parameter("zoom", 1.0)  # the picture's height, m
+        step = 1.06 * wide * right if beside <= stacked else -1.12 * tall * up
+        centre = (numpy.array(low) + high) / 2 + 0.5 * (count - 1) * step
+        focus = centre + (0.5 * aspect - (rim + room[0] / 2)) * whole * right + (0.5 - (below + room[1] / 2)) * whole * up
+        distance = 4 * max(high[i] - low[i] for i in range(3)) + whole
+        self.view.CameraFocalPoint = list(focus)
+        self.view.CameraPosition = list(focus + distance * towards)
+        self.view.CameraViewUp = list(up)
+        self.view.CameraParallelScale = whole / 2
+        self.view.CenterOfRotation = list(centre)
+        for shown, copy in self._moved:
+            shown.Position = list(copy * step)
+        self._near = focus + 0.45 * distance * towards  # in front of everything
+        self._axes = (right, up, whole, aspect)
+        for i, name in enumerate(self._copies):
+            place = (numpy.array(low) + high) / 2 + i * step - 0.5 * wide * right + 0.42 * tall * up - focus
+            self.stand(self._names[i], name, 0.5 + place @ right / (whole * aspect), 0.5 + place @ up / whole)
+        if self._orbit == 0:
+            length = round_above(0.06 * whole * aspect)
+            self._show_length(self._scale, self._scale_words, 0.015, length, quantity(length, "m"))
+
+    def _show_length(self, line, words, x, length, text):
+        """A line of a length, m, that begins at x, with words over it. Returns where it ends."""
+        right, up, whole, aspect = self._axes
+        begin = self._near + (x - 0.5) * whole * aspect * right + (self._height(0.8) - 0.5) * whole * up
+        line.Point1, line.Point2 = list(begin), list(begin + length * right)
+        self.stand(words, text, x, self._height(1.2))
+        return x + max(length / (whole * aspect), len(text) * 0.55 * self._size / self.view.ViewSize[0])
+
+    def set_keys(self, *keys):
+        """What the lines of the keys mean: (length in m, words) for each, in their order. @pre place_camera has placed the camera"""
+        if not self._placed or self._orbit > 0:
+            return
+        x = 0.16
+        for (line, words), (length, text) in zip(self._keys, keys):
+            x = self._show_length(line, words, x, length, text) + 0.03
+
+
+def outside(surface):
+    """The faces of a surface that no crack has laid bare."""
+    return Threshold(Input=surface, Scalars=["CELLS", "crack"], LowerThreshold=0, UpperThreshold=0.5, ThresholdMethod="Between")
 
 
 def table_range(table, low, high):

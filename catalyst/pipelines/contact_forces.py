@@ -1,7 +1,8 @@
 # script-version: 2.0
 """Forces where bodies and fragments touch: an arrow at every contact point, normal forces red, friction blue; bodies opened.
 
-Parameters besides those of every picture (breccia_pictures.py): upper, the force of the longest arrow, N; default: the largest so far.
+Parameters besides those of every picture (breccia_pictures.py): upper, the force of the longest arrow, N; default: the next of 1, 2, 5,
+10, ... above the largest so far.
 """
 
 from paraview.simple import CellCenters, Glyph, TrivialProducer
@@ -11,13 +12,15 @@ import breccia_insitu
 import breccia_pictures as pictures
 
 NORMAL, FRICTION = [0.78, 0.20, 0.22], [0.15, 0.35, 0.75]
-LONGEST = 0.12  # arrow, of the model's size
+LONGEST = 0.2  # arrow, of the model's size
+# The longest arrow is at least the strength on the square of so much of the model's size: no round-off is drawn.
+LEAST = 0.01
 
 surface = TrivialProducer(registrationName="surface")
 contacts = TrivialProducer(registrationName="contacts")
 points = CellCenters(Input=contacts, VertexCells=1)
 
-picture = pictures.Picture()
+picture = pictures.Picture("Forces where bodies and fragments touch; bodies opened")
 picture.opened(surface)
 
 
@@ -31,8 +34,11 @@ def arrows(array, colour):
 
 
 glyphs = [arrows("normal_force", NORMAL), arrows("tangential_force", FRICTION)]
+for shade in (NORMAL, FRICTION):
+    picture.key(shade)
 upper = breccia_insitu.parameter("upper", 0.0)
 largest_so_far = 0.0
+range_of_forces = None
 
 
 def largest_force():
@@ -49,15 +55,22 @@ def model_size():
 
 
 def catalyst_execute(info):
-    global largest_so_far
+    global largest_so_far, range_of_forces
     surface.UpdatePipeline()
     contacts.UpdatePipeline()
-    largest_so_far = max(largest_so_far, largest_force())
-    force = upper or largest_so_far
+    size = model_size()
+    if range_of_forces is None:
+        range_of_forces = pictures.Range("arrows", "N", upper, breccia_insitu.strength() * (LEAST * size) ** 2)
+    now = largest_force()
+    largest_so_far = max(largest_so_far, now)
+    force = range_of_forces.include(largest_so_far, info.time)
     for glyph in glyphs:
-        glyph.ScaleFactor = LONGEST * model_size() / force if force > 0 else 1.0
-    picture.say(info, f"{pictures.cells_of(contacts):,} contact points, largest force so far {pictures.quantity(largest_so_far, 'N')}")
+        glyph.ScaleFactor = LONGEST * size / force
+    picture.say(info, f"{pictures.cells_of(contacts):,} contact points, largest force {pictures.quantity(now, 'N')}, "
+                f"so far {pictures.quantity(largest_so_far, 'N')}", range_of_forces.news())
     picture.place_camera(surface)
+    words = pictures.quantity(force, "N")
+    picture.set_keys((LONGEST * size, "normal force " + words), (LONGEST * size, "friction " + words))
 
 
 def catalyst_finalize():

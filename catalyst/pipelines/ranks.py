@@ -16,11 +16,11 @@ surface = TrivialProducer(registrationName="surface")
 fractures = TrivialProducer(registrationName="fractures")
 domains = TrivialProducer(registrationName="domains")
 
-picture = pictures.Picture()
-ranks = picture.coloured(surface, "rank", [0, 0, 0, 0, 1, 1, 1, 1], None)
+picture = pictures.Picture("Which rank owns what; boxes of the domains")
+ranks = picture.coloured(surface, "rank", [0, 0, 0, 0, 1, 1, 1, 1], "owner")
 ranks.InterpretValuesAsCategories = 1
 ranks.IndexedColors = COLOURS
-picture.lines(fractures, pictures.FRACTURE, 1.0)
+picture.lines(fractures, pictures.FRACTURE, 1.5)
 picture.lines(domains, pictures.INK, 2.5)
 named = 0
 

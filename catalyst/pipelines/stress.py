@@ -1,43 +1,35 @@
 # script-version: 2.0
 """Von Mises stress on the bodies' surface and on the faces of cracks, which are edged dark.
 
-Parameters besides those of every picture (breccia_pictures.py): lower, upper, ends of the colours, Pa; default: 0, and the largest 99 %
-quantile so far.
+Parameters besides those of every picture (breccia_pictures.py): lower, upper, ends of the colours, Pa; default: 0, and the next of 1, 2,
+5, 10, ... above the largest strength of the joints and the largest 99 % quantile so far.
 """
 
-import numpy
 from paraview.simple import Calculator, TrivialProducer
-from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import breccia_insitu
 import breccia_pictures as pictures
 
 surface = TrivialProducer(registrationName="surface")
 fractures = TrivialProducer(registrationName="fractures")
-stress = Calculator(Input=surface, AttributeType="Cell Data", ResultArrayName="von Mises [MPa]", Function="von_mises*0.000001")
 
-picture = pictures.Picture()
-colours = picture.coloured(stress, "von Mises [MPa]", pictures.SEQUENTIAL, "von Mises [MPa]")
+lower = breccia_insitu.parameter("lower", 0.0)
+range_of_stress = pictures.Range("colours", "Pa", breccia_insitu.parameter("upper", 0.0), breccia_insitu.strength())
+unit, size = pictures.unit_of(range_of_stress.upper or 1e6, "Pa")
+STRESS = f"von Mises stress [{unit}]"
+stress = Calculator(Input=surface, AttributeType="Cell Data", ResultArrayName=STRESS, Function=f"von_mises/{size!r}")
+
+picture = pictures.Picture("Stress, and cracks (dark)")
+colours = picture.coloured(stress, STRESS, pictures.SEQUENTIAL, STRESS)
 picture.lines(fractures)
-lower, upper = breccia_insitu.parameter("lower", 0.0), breccia_insitu.parameter("upper", 0.0)
-largest_so_far = 0.0
-
-
-def upper_end():
-    global largest_so_far
-    values = pictures.data_of(surface).GetCellData().GetArray("von_mises")
-    mine = 0.0
-    if values is not None and values.GetNumberOfTuples() > 0:
-        mine = float(numpy.quantile(vtk_to_numpy(values), 0.99))
-    largest_so_far = max(largest_so_far, pictures.largest(mine))
-    return upper or largest_so_far
 
 
 def catalyst_execute(info):
     surface.UpdatePipeline()
     fractures.UpdatePipeline()
-    pictures.table_range(colours, lower * 1e-6, upper_end() * 1e-6)
-    picture.say(info, f"{pictures.cells_of(fractures):,} broken joints")
+    upper = range_of_stress.include(pictures.quantile_of(surface, "von_mises", 0.99), info.time)
+    pictures.table_range(colours, lower / size, upper / size)
+    picture.say(info, f"{pictures.cells_of(fractures):,} broken joints", range_of_stress.news())
     picture.place_camera(surface)
 
 

@@ -48,12 +48,12 @@ def _channel_of_source(name):
     return re.sub(r"^(\w+?)(_\d+)?\.\w+\*?$", r"\1", name or "")
 
 
-def enter(name, script, folder, parameters):
+def enter(name, script, folder, parameters, about):
     """A pipeline's turn begins."""
     global _error, _script
     _error = ""
     _script = script
-    breccia_insitu.set_active(name, folder, parameters)
+    breccia_insitu.set_active(name, folder, parameters, about)
     directory = os.path.dirname(script)
     if directory not in sys.path:
         sys.path.append(directory)  # modules beside the script

@@ -300,13 +300,17 @@ template <class A>
 void bind(A& a, InSitu& insitu) {
   a.origin(insitu.origin);
   a.value("max_overhead", insitu.max_overhead);
+  a.value("least_instants", insitu.least_instants);
   a.choice("on_error", insitu.on_error);
   a.optional_section("live", insitu.live);
   a.list("pipeline", insitu.pipelines);
   std::vector<std::string> names;  // written as pipelines of their own
   a.value("run", names);
   if constexpr (A::reads) {
-    for (const std::string& name : names) insitu.pipelines.emplace_back().name = name;
+    for (const std::string& name : names) {
+      insitu.pipelines.emplace_back().name = name;
+      insitu.pipelines.back().least = insitu.least_instants;
+    }
     for (Pipeline& pipeline : insitu.pipelines) a.resolve_script(pipeline.name);
   }
 }

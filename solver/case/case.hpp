@@ -276,7 +276,8 @@ struct Pipeline {
   double every_wall = 0;          ///< s
   std::int64_t every_broken = 0;  ///< joints
   bool first_break = false;
-  bool strict = false;  ///< whatever it costs
+  bool strict = false;     ///< whatever it costs
+  std::int64_t least = 0;  ///< executions over the whole run, whatever they cost; of insitu.run
   std::map<std::string, double> parameters;
   Origin origin;
   [[nodiscard]] bool has_trigger() const {
@@ -287,6 +288,11 @@ struct Pipeline {
 
 /// True for the name of a pipeline that is a script of the user's.
 [[nodiscard]] inline bool is_script(const std::string& name) { return name.ends_with(".py"); }
+
+/// True for the adaptor's own pipelines that make pictures.
+[[nodiscard]] inline bool draws_pictures(const std::string& name) {
+  return name == "fracture_growth" || name == "stress" || name == "ranks" || name == "contact_forces";
+}
 
 /// [insitu.live]
 struct Live {
@@ -305,7 +311,8 @@ enum class OnError { warn, stop };
 struct InSitu {
   std::vector<Pipeline> pipelines;  ///< those of insitu.run included
   std::optional<Live> live;
-  double max_overhead = 0.02;  ///< of the wall time
+  double max_overhead = 0.02;       ///< of the wall time
+  std::int64_t least_instants = 0;  ///< of those of insitu.run
   OnError on_error = OnError::warn;
   Origin origin;
   [[nodiscard]] bool asked_for() const { return !pipelines.empty() || live; }

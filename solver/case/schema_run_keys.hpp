@@ -85,14 +85,21 @@ inline constexpr auto run_keys = std::to_array<Key>({
      .help = "Pictures, extracts and live views that are made while the run goes on, by ParaView Catalyst "
              "(catalyst/README.md)."},
     {.path = "insitu.run", .type = text_list, .fallback = "[]",
-     .help = "Pipelines that run 50 times over the simulated time: names as in insitu.pipeline.name, or scripts. "
-             "Those with triggers or parameters of their own are [[insitu.pipeline]].",
+     .help = "Pipelines that run up to 50 times over the simulated time, at even distances: names as in "
+             "insitu.pipeline.name, or scripts. Those with triggers or parameters of their own are "
+             "[[insitu.pipeline]].",
      .example = "[\"fractures\", \"stress\"]"},
     {.path = "insitu.max_overhead", .type = number, .fallback = "0.02", .range = {.lower = 0, .upper = 1,
      .lower_open = true},
-     .help = "Share of the wall time that pipelines may take; triggers beyond it are passed over, those of strict "
-             "pipelines excepted.",
+     .help = "Share of the wall time that pipelines may take, starts included. Each gets an even part and what others "
+             "leave of theirs; it is executed twice to learn what that costs, then at even distances over the rest of "
+             "the run. Pipelines with triggers by broken joints or wall time are passed over while they have taken "
+             "more. Strict pipelines and insitu.least_instants go beyond it.",
      .example = "0.1"},
+    {.path = "insitu.least_instants", .type = integer, .fallback = "20", .range = steps,
+     .help = "Pipelines of insitu.run (breccia run --insitu) are executed at least so many times over the simulated "
+             "time, whatever that costs; 0: max_overhead counts.",
+     .example = "50"},
     {.path = "insitu.on_error", .type = choice, .fallback = "warn", .choices = "warn|stop",
      .help = "What a pipeline's failure means: warn and switch it off after three failures, or end the run.",
      .example = "\"stop\""},
@@ -118,7 +125,7 @@ inline constexpr auto run_keys = std::to_array<Key>({
 
     {.path = "insitu.pipeline[]", .type = section_list,
      .help = "Something to be done with the state while the run goes on. It is done whenever one of its triggers says "
-             "so; without any, 50 times over the simulated time."},
+             "so; without any, up to 50 times over the simulated time."},
     {.path = "insitu.pipeline[].name", .type = text, .required = true,
      .choices = "volume|joints|fractures|contacts|surface|domains|history|fracture_growth|stress|ranks|contact_forces",
      .help = "volume, joints, fractures, contacts, surface, domains and history record data; fracture_growth, stress, "

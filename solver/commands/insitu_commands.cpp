@@ -38,9 +38,11 @@ int live_command(const LiveCommand& asked) {
 int replay_command(const ReplayCommand& asked, const Communicator& world) {
   const std::filesystem::path folder =
       std::filesystem::absolute(asked.folder.empty() ? asked.run / "replay" : asked.folder);
-  case_::InSitu insitu;
+  case_::Case input;
+  input.title = "replay of " + asked.run.string();
   for (const std::string& name : asked.pipelines) {
-    insitu.pipelines.emplace_back().name = case_::is_script(name) ? std::filesystem::absolute(name).string() : name;
+    input.insitu.pipelines.emplace_back().name =
+        case_::is_script(name) ? std::filesystem::absolute(name).string() : name;
   }
   world.agree([&] {
     if (!world.is_root()) return;
@@ -50,7 +52,7 @@ int replay_command(const ReplayCommand& asked, const Communicator& world) {
   });
   std::optional<InSituPlugin> plugin;
   world.agree([&] { plugin.emplace(); });
-  const InSituConfig config(insitu, "replay of " + asked.run.string(), folder, world);
+  const InSituConfig config(input, folder, world);
   const auto checked = [&](auto&& call) {
     std::int32_t result = 0;
     const std::string text = words_of([&](char* words, std::size_t size) { result = call(words, size); });

@@ -128,8 +128,8 @@ struct HistoryRow {
 struct PipelineReport {
   std::string name;
   std::int64_t executed = 0, passed_over = 0, failed = 0;
-  double start_s = 0;      ///< s, of the first execution, which starts what stays (Python, a renderer)
-  double seconds = 0;      ///< s, of all others, on the slowest rank
+  double start_s = 0;      ///< s, that the first execution took beyond a usual one: it starts what stays
+  double seconds = 0;      ///< s, of all executions without that, on the slowest rank
   std::int64_t bytes = 0;  ///< written by all ranks
 };
 

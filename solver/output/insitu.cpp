@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <sstream>
 #include <system_error>
+#include <utility>
 
 #include "output/atomic_file.hpp"
 #include "output/channels.hpp"
@@ -24,7 +27,7 @@ std::uint32_t bit(std::size_t i) { return std::uint32_t{1} << i; }
 
 void preflight(const case_::Case& input, const std::filesystem::path& folder, const InSituPlugin& plugin,
                const Communicator& communicator) {
-  const InSituConfig config(input.insitu, input.title, std::filesystem::absolute(folder), communicator);
+  const InSituConfig config(input, std::filesystem::absolute(folder), communicator);
   std::int32_t result = 0;
   const std::string text =
       words_of([&](char* words, std::size_t size) { result = plugin.api().preflight(&config.get(), words, size); });
@@ -35,10 +38,13 @@ InSitu::InSitu(const case_::Case& input, const std::filesystem::path& folder, co
                Tell tell)
     : communicator_(communicator),
       tell_(std::move(tell)),
-      stop_on_error_(input.insitu.on_error == case_::OnError::stop) {
+      stop_on_error_(input.insitu.on_error == case_::OnError::stop),
+      share_(input.insitu.max_overhead),
+      end_(input.stages.back().end),
+      most_steps_(input.time.max_steps) {
   make_pipelines(input);
   open(input, folder);
-  started_ = Clock::now();
+  opening_ = elapsed();
 }
 
 void InSitu::make_pipelines(const case_::Case& input) {
@@ -48,7 +54,11 @@ void InSitu::make_pipelines(const case_::Case& input) {
   // Shared evenly, so that a cheap pipeline leaves a dear one its part.
   const double share = input.insitu.max_overhead / static_cast<double>(std::max<std::size_t>(paced, 1));
   for (const case_::Pipeline& p : input.insitu.pipelines) {
-    pipelines_.push_back({p.name, p.every_wall, p.strict, Trigger(p, end), Overhead(share)});
+    Pipeline made{p.name, p.every_wall, p.strict, Trigger(p, end), Overhead(share)};
+    made.even = !p.strict && p.every_wall == 0 && made.trigger.is_regular();
+    made.interval = p.has_trigger() ? 0 : end / Trigger::kTimes;
+    made.least = p.least;
+    pipelines_.push_back(std::move(made));
   }
   if (!input.insitu.live) return;
   case_::Pipeline by_wall;
@@ -65,7 +75,7 @@ void InSitu::open(const case_::Case& input, const std::filesystem::path& folder)
     if (error) throw output_error(folder, "cannot create this folder", error.value());
   });
   communicator_.agree([&] { preflight(input, folder, plugin_, communicator_); });
-  const InSituConfig config(input.insitu, input.title, std::filesystem::absolute(folder), communicator_);
+  const InSituConfig config(input, std::filesystem::absolute(folder), communicator_);
   const std::string text =
       words_of([&](char* words, std::size_t size) { adaptor_ = plugin_.api().open(&config.get(), words, size); });
   communicator_.agree([&] {
@@ -75,7 +85,12 @@ void InSitu::open(const case_::Case& input, const std::filesystem::path& folder)
 }
 
 InSitu::~InSitu() {
-  if (adaptor_ != nullptr) plugin_.api().close(adaptor_);
+  if (adaptor_ != nullptr) static_cast<void>(close());
+}
+
+std::string InSitu::close() {
+  return words_of(
+      [&](char* words, std::size_t size) { plugin_.api().close(std::exchange(adaptor_, nullptr), words, size); });
 }
 
 double InSitu::elapsed() const { return seconds_since(started_); }
@@ -100,19 +115,23 @@ bool InSitu::counts_broken() const {
 std::uint32_t InSitu::affordable(std::uint32_t due) const {
   std::uint32_t go = 0;
   for (std::size_t i = 0; i < pipelines_.size(); ++i) {
-    if ((due & bit(i)) != 0 && (pipelines_[i].strict || pipelines_[i].overhead.allows(elapsed()))) go |= bit(i);
+    const Pipeline& p = pipelines_[i];
+    if ((due & bit(i)) != 0 && (p.strict || p.even || p.overhead.allows(elapsed()))) go |= bit(i);
   }
   return go;
 }
 
 InSitu::Plan InSitu::plan(const Moment& now, std::uint32_t ordered, bool all) {
   std::uint32_t due = 0;
+  if (!begin_) begin_ = now.time;
+  space_anew(now);
   for (std::size_t i = 0; i < pipelines_.size(); ++i) {
     Pipeline& p = pipelines_[i];
-    const bool triggered = p.trigger.due(now);  // asked in any event: it moves on
-    if (!p.off && (triggered || all || (ordered & bit(i)) != 0)) due |= bit(i);
+    const bool is_due = this->due(p, now);  // asked in any event: its trigger moves on
+    if (!p.off && (is_due || all || (ordered & bit(i)) != 0)) due |= bit(i);
   }
   if (due == 0) return {};
+  now_ = now;
   planned_ = Clock::now();
   const auto told = static_cast<std::uint32_t>(
       communicator_.max(static_cast<std::int64_t>(communicator_.is_root() ? affordable(due) : 0)));
@@ -133,7 +152,24 @@ InSitu::Plan InSitu::plan(const Moment& now, std::uint32_t ordered, bool all) {
     plan.channels |= channels;
     plan.pipelines |= bit(i);
   }
+  if (!plan) book_vain(due);
   return plan;
+}
+
+bool InSitu::due(Pipeline& p, const Moment& now) {
+  const bool triggered = p.trigger.due(now);
+  if (!p.even) return triggered;
+  const bool is_time = now.time + 0.5 * now.dt >= p.not_before;
+  if (p.interval > 0) return is_time;
+  if (triggered && !is_time && !p.off) ++p.passed_over;
+  return triggered && is_time;
+}
+
+/// Ranks have agreed, and scripts were asked, for nothing.
+void InSitu::book_vain(std::uint32_t asked) {
+  for (std::size_t i = 0; i < pipelines_.size(); ++i) {
+    if ((asked & bit(i)) != 0) pipelines_[i].overhead.book_vain(seconds_since(planned_) / std::popcount(asked));
+  }
 }
 
 void InSitu::execute(const Plan& plan, const Frame& frame, const std::vector<std::string>& columns,
@@ -142,8 +178,11 @@ void InSitu::execute(const Plan& plan, const Frame& frame, const std::vector<std
   const double shared_cost = seconds_since(planned_) / std::popcount(plan.pipelines);  // making the frame
   requests_ = {};
   for (std::size_t i = 0; i < pipelines_.size(); ++i) {
-    if ((plan.pipelines & bit(i)) != 0) run_one(i, channels.instant(), shared_cost);
+    if ((plan.pipelines & bit(i)) == 0) continue;
+    run_one(i, channels.instant(), shared_cost);
+    pipelines_[i].last = now_.time;
   }
+  space(plan.pipelines);
 }
 
 void InSitu::run_one(std::size_t i, const BrecciaInstant& instant, double shared_cost) {
@@ -180,16 +219,37 @@ void InSitu::fail(Pipeline& pipeline, const std::string& why) {
   tell_(text + (pipeline.off ? "; switched off after " + std::to_string(kMostFailures) + " failures" : ""), false);
 }
 
+double InSitu::starts() const {
+  double seconds = opening_;
+  for (const Pipeline& p : pipelines_) seconds += p.overhead.start();
+  return seconds;
+}
+
 double InSitu::share() const {
-  double seconds = 0;
+  double seconds = starts();
   for (const Pipeline& p : pipelines_) seconds += p.overhead.spent();
   return elapsed() > 0 ? seconds / elapsed() : 0.0;
+}
+
+/// @param lines  the root's, of which the others know nothing
+void InSitu::tell_animations(const std::string& lines) {
+  std::vector<std::byte> bytes(lines.size());
+  std::transform(lines.begin(), lines.end(), bytes.begin(), [](char c) { return std::byte(c); });
+  communicator_.broadcast(bytes);
+  std::string text(bytes.size(), ' ');
+  std::transform(bytes.begin(), bytes.end(), text.begin(), [](std::byte b) { return static_cast<char>(b); });
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) tell_(line, true);
 }
 
 std::vector<PipelineReport> InSitu::finish() {
   std::vector<PipelineReport> reports;
   for (std::size_t i = 0; i < pipelines_.size(); ++i) {
-    const Pipeline& p = pipelines_[i];
+    Pipeline& p = pipelines_[i];
+    if (p.even && p.interval > 0 && begin_) {
+      const std::int64_t asked = std::llround((now_.time - *begin_) / p.interval) + 1;
+      p.passed_over = std::max<std::int64_t>(asked - p.overhead.times(), 0);
+    }
     PipelineReport report{p.name,
                           p.overhead.times(),
                           p.passed_over,
@@ -200,8 +260,7 @@ std::vector<PipelineReport> InSitu::finish() {
     report.bytes = communicator_.sum(plugin_.api().bytes_written(adaptor_, static_cast<std::int32_t>(i)));
     reports.push_back(std::move(report));
   }
-  plugin_.api().close(adaptor_);
-  adaptor_ = nullptr;
+  tell_animations(close());
   return reports;
 }
 

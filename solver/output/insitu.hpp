@@ -10,6 +10,7 @@
 
 #include "case/case.hpp"
 #include "output/frame.hpp"
+#include "output/insitu_pace.hpp"
 #include "output/insitu_plugin.hpp"
 #include "output/sink.hpp"
 #include "output/trigger.hpp"
@@ -26,8 +27,11 @@ void preflight(const case_::Case& input, const std::filesystem::path& folder, co
 /// failure means. The work itself is the adaptor's (catalyst/insitu_abi.h).
 ///
 /// Triggers by step, simulated time and broken joints are known to all ranks alike and hit the very step; those by wall
-/// time are the root's, which sends them to the others as orders, received a step later. Which triggers are passed over
-/// for the sake of the overhead is the root's to say as well. With nothing due a step costs a few comparisons.
+/// time are the root's, which sends them to the others as orders, received a step later. A pipeline without triggers,
+/// or due by steps or simulated time, is executed twice, so that its cost is known; then the root spaces as many
+/// executions as its part of the budget affords evenly over the rest of the run, and does so again after each of them
+/// and now and then. Pipelines with other triggers are passed over while what they have taken passes their part of the
+/// wall time so far. With nothing due a step costs a few comparisons.
 class InSitu {
  public:
   /// Receives messages in words; called on all ranks. The flag is false for a warning.
@@ -63,7 +67,7 @@ class InSitu {
 
   /// Whether on_error has ended the run.
   [[nodiscard]] bool failed() const { return failed_; }
-  /// Share of the wall time that pipelines have taken on this rank, starts excepted.
+  /// Share of the wall time that pipelines have taken on this rank, their start included.
   [[nodiscard]] double share() const;
   /// Leaves the adaptor as it is: other ranks will not come to close it.
   void abandon() { adaptor_ = nullptr; }
@@ -80,12 +84,28 @@ class InSitu {
     double next_wall = 0;  ///< s, when wall time makes it due again
     std::int64_t passed_over = 0, failures = 0;
     bool off = false;
+    bool even = false;       ///< spaced evenly over the run
+    double interval = 0;     ///< s, simulated: of an even one without triggers; 0: it has triggers
+    std::int64_t least = 0;  ///< executions of an even one, whatever they cost
+    double last = 0;         ///< s, simulated: of the last execution
+    double not_before = 0;   ///< s, simulated: of an even one
+    bool told = false;       ///< how often it is executed
   };
   void make_pipelines(const case_::Case& input);
   void open(const case_::Case& input, const std::filesystem::path& folder);
   [[nodiscard]] double elapsed() const;
   [[nodiscard]] std::uint32_t affordable(std::uint32_t due) const;
+  [[nodiscard]] bool due(Pipeline& pipeline, const Moment& now);
+  void book_vain(std::uint32_t asked);
+  [[nodiscard]] double starts() const;
+  [[nodiscard]] PaceState pace_state(const Pipeline& pipeline) const;
+  [[nodiscard]] std::vector<double> shares() const;
+  void space(std::uint32_t pipelines);
+  void space_anew(const Moment& now);
+  void space_one(Pipeline& pipeline, double share);
   void run_one(std::size_t pipeline, const BrecciaInstant& instant, double shared_cost);
+  [[nodiscard]] std::string close();
+  void tell_animations(const std::string& lines);
   void fail(Pipeline& pipeline, const std::string& why);
 
   using Clock = std::chrono::steady_clock;
@@ -97,6 +117,12 @@ class InSitu {
   void* adaptor_ = nullptr;
   BrecciaRequests requests_{};
   Clock::time_point started_ = Clock::now(), planned_;
+  double share_, end_;           ///< insitu.max_overhead; s, simulated
+  std::int64_t most_steps_;      ///< 0: no limit
+  double next_spacing_ = 0;      ///< s, simulated
+  double opening_ = 0;           ///< s, wall: start of the adaptor
+  std::optional<double> begin_;  ///< s, simulated: where this process began
+  Moment now_;                   ///< of the last plan
 };
 
 }  // namespace breccia

@@ -1,5 +1,6 @@
 #include "output/insitu_config.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include "case/live_address.hpp"
@@ -7,9 +8,23 @@
 
 namespace breccia {
 
-InSituConfig::InSituConfig(const case_::InSitu& insitu, const std::string& title, const std::filesystem::path& folder,
+namespace {
+
+/// Of the stress at which something breaks where nothing does: of Young's modulus.
+constexpr double kPartOfYoung = 1e-4;
+
+double strength_of(const case_::Case& input) {
+  double strength = 0, young = 0;
+  for (const case_::Joint& joint : input.joints) strength = std::max(strength, joint.tensile_strength);
+  for (const case_::Material& material : input.materials) young = std::max(young, material.young);
+  return strength > 0 ? strength : kPartOfYoung * young;
+}
+
+}  // namespace
+
+InSituConfig::InSituConfig(const case_::Case& input, const std::filesystem::path& folder,
                            const Communicator& communicator)
-    : insitu_(insitu), title_(title), folder_(folder.string()) {
+    : insitu_(input.insitu), title_(input.title), folder_(folder.string()) {
   parameters_.reserve(insitu_.pipelines.size());
   for (const case_::Pipeline& pipeline : insitu_.pipelines) add(pipeline);
   if (insitu_.live) {
@@ -25,6 +40,8 @@ InSituConfig::InSituConfig(const case_::InSitu& insitu, const std::string& title
   config_.size = communicator.size();
   config_.patience = 2 * communicator.patience();
   config_.title = title_.c_str();
+  config_.end = input.stages.empty() ? 0 : input.stages.back().end;
+  config_.strength = strength_of(input);
   config_.folder = folder_.c_str();
   config_.live_host = live_host_.c_str();
   config_.num_pipelines = static_cast<std::int32_t>(pipelines_.size());

@@ -15,8 +15,7 @@ namespace breccia {
 class InSituConfig {
  public:
   /// @param folder  absolute
-  InSituConfig(const case_::InSitu& insitu, const std::string& title, const std::filesystem::path& folder,
-               const Communicator& communicator);
+  InSituConfig(const case_::Case& input, const std::filesystem::path& folder, const Communicator& communicator);
   InSituConfig(const InSituConfig&) = delete;
   InSituConfig& operator=(const InSituConfig&) = delete;
 

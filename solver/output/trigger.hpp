@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "case/case.hpp"
@@ -26,7 +27,8 @@ class Trigger {
       : every_steps_(pipeline.every_steps),
         every_broken_(pipeline.every_broken),
         first_break_(pipeline.first_break),
-        times_(pipeline.has_trigger() ? pipeline.every_time : end / kTimes) {}
+        every_time_(pipeline.has_trigger() ? pipeline.every_time : end / kTimes),
+        times_(every_time_) {}
 
   /// To be asked once a step; moves on.
   [[nodiscard]] bool due(const Moment& now) {
@@ -38,33 +40,51 @@ class Trigger {
     if (by_broken) next_broken_ = (now.broken / every_broken_ + 1) * every_broken_;
     return by_time || by_steps || first || by_broken;
   }
+  /// Simulated time between two times that time or steps make due, s, with steps of dt.
+  [[nodiscard]] double distance(double dt) const {
+    const double steps = every_steps_ > 0 ? static_cast<double>(every_steps_) * dt : every_time_;
+    return every_time_ > 0 ? std::min(every_time_, steps) : steps;
+  }
+  /// Whether only time and steps make it due, at even distances.
+  [[nodiscard]] bool is_regular() const { return every_broken_ == 0 && !first_break_; }
   /// Whether joints that break must be counted for it.
   [[nodiscard]] bool counts_broken() const { return every_broken_ > 0 || (first_break_ && !broke_); }
 
  private:
   std::int64_t every_steps_, every_broken_;
   bool first_break_, broke_ = false;
+  double every_time_;
   Schedule times_;
   std::int64_t next_broken_ = every_broken_;
 };
 
-/// Keeps what something costs below a share of the wall time. The first time is for free: it starts what stays.
+/// What something that is done again and again has cost. The first time starts what stays: what it took beyond a usual
+/// time is the start.
 class Overhead {
  public:
   explicit Overhead(double share) : share_(share) {}
-  /// Whether once more, at the cost of the last time, stays within the share of the wall time gone so far, s.
+  /// Whether once more, at the cost of the last time, stays within the share of the wall time gone so far, s; the start
+  /// is free.
   [[nodiscard]] bool allows(double elapsed) const { return times_ == 0 || spent_ + last_ <= share_ * elapsed; }
   void book(double seconds) {
     if (times_++ == 0) {
       start_ = seconds;
       return;
     }
+    if (times_ == 2) {
+      spent_ = std::min(start_, seconds);
+      start_ -= spent_;
+    }
     last_ = seconds;
     spent_ += seconds;
   }
+  /// What was spent on it while nothing of it was done.
+  void book_vain(double seconds) { spent_ += seconds; }
   [[nodiscard]] std::int64_t times() const { return times_; }
-  [[nodiscard]] double spent() const { return spent_; }  ///< s, without the first time
-  [[nodiscard]] double start() const { return start_; }  ///< s, of the first time
+  [[nodiscard]] double spent() const { return spent_; }  ///< s, without the start
+  [[nodiscard]] double start() const { return start_; }  ///< s
+  /// Of one time, s, the last ones counting most; 0: not known yet.
+  [[nodiscard]] double cost() const { return times_ < 2 ? 0 : 0.5 * (last_ + spent_ / static_cast<double>(times_)); }
 
  private:
   double share_;

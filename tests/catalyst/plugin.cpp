@@ -24,6 +24,8 @@ Config::Config(std::string folder, int communicator, int rank, int size) : folde
   config_.rank = rank;
   config_.size = size;
   config_.title = "synthetic";
+  config_.end = 1e-3;
+  config_.strength = 1e6;
   config_.live_host = "localhost";
 }
 
@@ -65,7 +67,7 @@ Adaptor::Adaptor(const BrecciaConfig& config) {
 }
 
 Adaptor::~Adaptor() {
-  if (adaptor_ != nullptr) plugin().close(adaptor_);
+  if (adaptor_ != nullptr) plugin().close(adaptor_, nullptr, 0);
 }
 
 std::int64_t Adaptor::execute(std::uint32_t pipelines, const BrecciaInstant& instant) {

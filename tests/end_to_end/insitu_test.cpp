@@ -92,10 +92,21 @@ TEST_P(InSitu, triggers_by_the_first_break_and_by_broken_joints_hit_the_same_ste
 }
 
 TEST_P(InSitu, a_dear_pipeline_is_passed_over) {
-  const WatchedRun run(GetParam(), "--insitu volume --set insitu.max_overhead=1e-6");
+  const WatchedRun run(GetParam(), "--insitu volume --set insitu.max_overhead=1e-6 --set insitu.least_instants=0");
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   EXPECT_GE(run.pipeline("volume")["passed_over"].get<int>(), 40);
   EXPECT_LE(run.pipeline("volume")["executed"].get<int>(), 3);  // the first, the first that has a price, the last
+}
+
+TEST_P(InSitu, asked_for_on_the_command_line_it_shows_twenty_instants_at_even_distances_whatever_that_costs) {
+  const WatchedRun run(GetParam(), "--insitu volume --set insitu.max_overhead=1e-6");
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  EXPECT_EQ(run.pipeline("volume")["executed"], 21);  // the second, to learn the cost, comes early
+  EXPECT_EQ(run.outcome.err.find("passed over"), std::string::npos);
+  const std::string status = read_text(run.folder() / "status.jsonl");
+  EXPECT_NE(status.find("volume: a record every "), std::string::npos) << status;
+  EXPECT_NE(status.find(", 21 in all, for "), std::string::npos) << status;
+  EXPECT_NE(status.find("insitu.least_instants = 20"), std::string::npos) << status;
 }
 
 TEST_P(InSitu, a_script_that_fails_three_times_is_switched_off_and_the_run_goes_on) {
@@ -153,6 +164,10 @@ TEST_P(InSitu, pictures_need_no_display) {
   for (; std::getline(table, line); ++rows)
     EXPECT_TRUE(fs::exists(run.folder() / "extracts/stress" / line.substr(line.find(',') + 1))) << line;
   EXPECT_EQ(rows, 3);
+  const std::string status = read_text(run.folder() / "status.jsonl");
+  EXPECT_NE(status.find("animation: "), std::string::npos) << status;
+  if (status.find("apt-get install ffmpeg") == std::string::npos)
+    EXPECT_TRUE(fs::exists(run.folder() / "extracts/stress/stress.mp4")) << status;
 }
 
 TEST_P(InSitu, nobody_listening_does_not_matter) {

@@ -76,7 +76,7 @@ TEST(SummaryJson, HoldsTheValues) {
   EXPECT_EQ(summary.at("max_rss_bytes"), 151'000'000);
 }
 
-TEST(SummaryJson, TellsTheShareOfPipelinesWithoutTheirStarts) {
+TEST(SummaryJson, TellsTheShareOfPipelinesAndOfTheirStarts) {
   Summary summary = example_summary();
   summary.wall_s = 100;
   for (const char* name : {"surface", "stress"}) {
@@ -86,8 +86,9 @@ TEST(SummaryJson, TellsTheShareOfPipelinesWithoutTheirStarts) {
     pipeline.seconds = 1.5;
     summary.insitu.push_back(pipeline);
   }
-  EXPECT_DOUBLE_EQ(json::parse(summary_json(summary)).at("insitu").at("share").get<double>(), 0.03);
-  EXPECT_THAT(summary_text(summary), HasSubstr("3.00 % of the wall time"));
+  EXPECT_DOUBLE_EQ(json::parse(summary_json(summary)).at("insitu").at("share").get<double>(), 0.63);
+  EXPECT_DOUBLE_EQ(json::parse(summary_json(summary)).at("insitu").at("start_share").get<double>(), 0.6);
+  EXPECT_THAT(summary_text(summary), HasSubstr("63.00 % of the wall time, 60.00 % to start"));
 }
 
 TEST(SummaryJson, IsValidWithNumbersThatJsonCannotHold) {

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace breccia::insitu {
+
+/// Makes NAME.mp4 of the pictures NAME_000000120.png, two at least, in each folder, by ffmpeg; a file is there whole or
+/// not at all. Takes two minutes at most for each, then that animation is given up. Throws nothing.
+/// @return  a line for what was made, or failed, or one line that says how to make it where ffmpeg is not installed;
+///          separated by newlines
+[[nodiscard]] std::string make_animations(const std::vector<std::filesystem::path>& folders);
+
+}  // namespace breccia::insitu
