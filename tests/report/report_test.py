@@ -65,8 +65,8 @@ class Page(HTMLParser):
         return [e for e in self.elements if e[0] == tag]
 
     def values(self, caption):
-        """The last number of each row by the words of the row."""
-        return {row[0][0][2]: [cell[1] for cell in row[1:]] for row in self.tables[caption] if row and row[0][0][0] == "th"}
+        """The numbers of each row by the words of the row; the row of heads is none."""
+        return {row[0][0][2]: [cell[1] for cell in row[1:]] for row in self.tables[caption] if row[-1][0][0] == "td"}
 
 
 def report(folder, *options, ends=0, environment=None):
