@@ -63,6 +63,7 @@ struct Arguments {
   LiveCommand live;
   ReplayCommand replay;
   DiffCommand diff;
+  ReportCommand report;
   std::string key;
   bool schema_json = false;
   std::string progress = "auto";
@@ -232,6 +233,15 @@ void define_resume(CLI::App& app, Arguments& a) {
   resume->footer(kResumeFooter);
 }
 
+void define_report(CLI::App& app, Arguments& a) {
+  CLI::App* report = app.add_subcommand("report", "Write one HTML page of a run, to read, print and send on");
+  report->add_option("run", a.report.run, "folder of the run, which may go on or have been killed")->required();
+  report->add_option("-o,--output", a.report.file, "file of the page; default: report.html in the folder of the run");
+  report->add_flag("--no-pictures", a.report.no_pictures, "leave out what ParaView makes of the frames");
+  const char* limit = "seconds that ParaView may take; what is done by then is shown; default 600";
+  report->add_option("--time-limit", a.report.time_limit, limit)->check(CLI::Range(1, 1000000));
+}
+
 /// What --live and --insitu add to the case, as overrides.
 void define_run_insitu(CLI::App& run, Arguments& a) {
   const auto live = [&a](const std::vector<std::string>& address) {
@@ -317,6 +327,8 @@ void define(CLI::App& app, Arguments& a) {
   diff->add_option("first", a.diff.first, "folder of a run")->required();
   diff->add_option("second", a.diff.second, "folder of another")->required();
 
+  define_report(app, a);
+
   CLI::App* explain =
       app.add_subcommand("explain", "What a key of the case file means: unit, default, range; all keys without one");
   explain->add_option("key", a.key, "such as material.young, or the name of a section");
@@ -356,6 +368,7 @@ int dispatch(const CLI::App& app, Arguments& a, const Communicator& world, int a
   if (app.got_subcommand("check")) return check_command(a.check, world.size());
   if (app.got_subcommand("mesh")) return mesh_command(a.mesh);
   if (app.got_subcommand("diff")) return diff_command(a.diff);
+  if (app.got_subcommand("report")) return report_command(a.report);
   if (app.got_subcommand("control")) return control_command(a.control);
   if (app.got_subcommand("live")) return live_command(a.live);
   if (app.got_subcommand("insitu")) return insitu_info_command();

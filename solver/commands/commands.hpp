@@ -95,6 +95,14 @@ struct DiffCommand {
 };
 int diff_command(const DiffCommand& asked);
 
+struct ReportCommand {
+  std::filesystem::path run;   ///< folder of the run
+  std::filesystem::path file;  ///< of the page; empty: report.html in the folder of the run
+  bool no_pictures = false;    ///< nor statistics of the frames, both by ParaView
+  int time_limit = 600;        ///< s, for ParaView
+};
+int report_command(const ReportCommand& asked);
+
 int explain_command(const std::string& key);
 
 /// The table of all keys: a line a key, or JSON.

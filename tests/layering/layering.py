@@ -25,6 +25,7 @@ MAY_INCLUDE = {
     "domains": {"base", "case", "mesh", "discretisation", "physics", "model", "state", "contact", "parallel"},
     "observe": {"base", "case", "mesh", "discretisation", "physics", "model", "state", "contact", "domains", "parallel", "output"},
 }
+MAY_INCLUDE["report"] = {"base", "case", "output"}
 MAY_INCLUDE["simulation"] = set(MAY_INCLUDE)
 MAY_INCLUDE["commands"] = set(MAY_INCLUDE)
 PROGRAM = set(MAY_INCLUDE)  # what main.cpp may include: everything
@@ -48,12 +49,12 @@ GUI = {
 THIRD_PARTY = [
     (r"Eigen/.*", ["*"]),
     (r"spdlog/.*", ["base/log.cpp"]),
-    (r"fmt/.*", ["base/log.cpp", "output/*.cpp", "commands/*.cpp"]),
+    (r"fmt/.*", ["base/log.cpp", "output/*.cpp", "report/*.cpp", "commands/*.cpp"]),
     (r"(toml\.hpp|toml\+\+/.*|toml\+\+\.h|tomlplusplus/.*)", ["case/*reader*.cpp"]),
     (r"gmsh(c|\.h_cwrap)?\.h", ["mesh/gmsh_reader.cpp"]),
     (r"mpi\.h", ["parallel/*"]),
     (r"(hdf5(_hl)?|H5\w*)\.h", ["output/hdf5*.cpp"]),
-    (r"nlohmann/.*", ["output/*.cpp", "commands/json_report.cpp"]),
+    (r"nlohmann/.*", ["output/*.cpp", "report/*.cpp", "commands/json_report.cpp"]),
     (r"CLI/.*", ["main.cpp"]),
 ]
 

@@ -29,7 +29,7 @@ PLACEHOLDER = re.compile(r"(?<![\w.-])(?<!\d )[A-Z][A-Z_]*(?!\w)|\.\.\.|…|<[^>
 NO_RULE = "no rule of tests/readme/plans.py says how to try"
 STEPS = "--set time.max_steps=10"
 NEEDS_CASE = {"run", "check", "mesh", "live", "race"}
-SUBCOMMANDS = NEEDS_CASE | {"control", "insitu", "explain", "resume", "diff", "schema"}
+SUBCOMMANDS = NEEDS_CASE | {"control", "insitu", "explain", "resume", "diff", "schema", "report"}
 # tests/bare runs these on a bare system; bench and detection take minutes. Here their names and options are looked up in `./run help`.
 LOOKED_UP = {"demo", "desktop", "test", "build", "install", "package", "bench", "detection"}
 

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "output/run_folder.hpp"
+#include "output/sink.hpp"
+
+namespace breccia::report {
+
+/// history.csv: columns by name.
+struct History {
+  std::vector<std::string> names;            ///< as in the file's first line: "kinetic [J]"
+  std::vector<std::vector<double>> columns;  ///< as many; equal lengths
+  [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
+  /// Empty when there is no such column.
+  [[nodiscard]] const std::vector<double>& column(const std::string& name) const;
+  /// Last value of a column; NaN when there is none.
+  [[nodiscard]] double last(const std::string& name) const;
+};
+
+/// A line of status.jsonl that tells where the run stood.
+struct StatusPoint {
+  double wall = 0;  ///< s, since the start or the resumption
+  double time = 0;  ///< s, simulated
+  double imbalance = 1;
+};
+
+/// All that a run's files say of it, whether it is complete, goes on or was killed.
+struct RunRecord {
+  std::filesystem::path folder;
+  std::string title;
+  std::string state;    ///< "complete", "running", "paused", "stopped", "failed", "interrupted", or "unknown"
+  std::string message;  ///< with the state
+  double end = 0;       ///< s, simulated: where the case ends; 0: unknown
+  Provenance provenance;
+  std::string case_text;  ///< resolved
+  char up = 'z';          ///< axis against gravity, or of the fastest initial motion
+  History history;
+  std::vector<StatusPoint> status;
+  std::vector<RunEvent> events;
+  std::map<std::string, double> numbers;               ///< of summary.json, nested ones as "checkpoints.bytes"
+  std::map<std::string, std::string> words;            ///< of summary.json
+  std::vector<std::pair<std::string, double>> phases;  ///< s
+  std::vector<std::string> flaws;                      ///< files that are missing or not whole
+
+  /// NaN when the summary does not say.
+  [[nodiscard]] double number(const std::string& name) const;
+};
+
+/// Reads what there is; lines and files that are not whole are left out and told in `flaws`.
+/// Throws OutputError for a folder that is no run of breccia's (no provenance.json and no history.csv), or one that
+/// cannot be read.
+[[nodiscard]] RunRecord read_run(const std::filesystem::path& folder);
+
+}  // namespace breccia::report

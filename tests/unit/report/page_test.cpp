@@ -1,0 +1,66 @@
+#include "report/page.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace breccia::report {
+namespace {
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(Pages, ShowNothingOfARunAsMarkup) {
+  RunRecord run;
+  const std::string evil = "\"><script>alert(1)</script>";
+  run.folder = "/runs/" + evil;
+  run.title = run.state = run.message = run.case_text = evil;
+  run.provenance.command_line = {"breccia", evil};
+  run.provenance.inputs = {{evil, evil}};
+  run.provenance.version = run.provenance.host = run.provenance.flags = evil;
+  run.flaws = {evil};
+  run.events.resize(1);
+  run.events[0].kind = "resume";
+  run.events[0].text = evil;
+  run.events[0].accepted = false;
+  run.phases = {{evil, 1.0}};
+  run.words["state_hash"] = run.words["simd"] = evil;
+  run.history.names = {"time [s]",
+                       "contacts",
+                       evil + " velocity x [m/s]",
+                       evil + " velocity y [m/s]",
+                       evil + " velocity z [m/s]",
+                       evil + " contact force x [N]"};
+  run.history.columns.assign(6, {1.0, 2.0});
+  Figures figures;
+  figures.paraview = figures.missing = evil;
+  figures.problems = {evil};
+  figures.pictures = {{"Zg==", evil, evil, 0}};
+  const std::string page = page_of(run, figures, evil);
+  EXPECT_FALSE(has(page, "<script")) << page.substr(page.find("<script"), 200);
+  EXPECT_FALSE(has(page, "\"&gt;<"));
+  EXPECT_TRUE(has(page, "&lt;script&gt;"));
+}
+
+TEST(Pages, OfARunWithoutFilesAreWhole) {
+  RunRecord run;
+  run.folder = "/runs/empty";
+  run.state = "unknown";
+  const std::string page = page_of(run, {}, "");
+  EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
+  EXPECT_TRUE(page.ends_with("</html>\n"));
+  EXPECT_TRUE(has(page, "<h1>empty</h1>"));
+  EXPECT_FALSE(has(page, "nan"));
+}
+
+TEST(Pages, WarnOfABudgetThatDoesNotClose) {
+  RunRecord run;
+  run.folder = "/runs/a";
+  run.state = "complete";
+  run.numbers["energy_residual_relative"] = 1e-3;
+  EXPECT_EQ(warnings(run, {}), "");
+  run.numbers["energy_residual_relative"] = -0.02;
+  EXPECT_TRUE(has(warnings(run, {}), "does not close"));
+}
+
+}  // namespace
+}  // namespace breccia::report
