@@ -113,13 +113,21 @@ double seconds_a_step(const case_::Case& input, const Model& model, double dt, b
   return seconds / steps;
 }
 
-/// Frames and the room they take; what breaks adds to it.
-std::string frames_line(const case_::Case& input, const Model& model, std::string& advice) {
+}  // namespace
+
+FramesEstimate estimate_frames(const case_::Case& input, const Model& model) {
   constexpr double kElementBytes = 170, kFrameBytes = 27000;  // measured on glass_impact, block_wall and hertz_impact
-  constexpr double kManyFrames = 2000, kManyBytes = 100e9;
   const double end = input.stages.back().end, interval = input.output.frame_interval;
   const double frames = interval > 0 ? std::ceil(end / interval) + 1 : 1;
-  const double bytes = frames * (kFrameBytes + (input.output.elements ? kElementBytes * model.mesh.num_elements() : 0));
+  return {frames, frames * (kFrameBytes + (input.output.elements ? kElementBytes * model.mesh.num_elements() : 0))};
+}
+
+namespace {
+
+/// What is said of the frames.
+std::string frames_line(const case_::Case& input, const Model& model, std::string& advice) {
+  constexpr double kManyFrames = 2000, kManyBytes = 100e9;
+  const auto [frames, bytes] = estimate_frames(input, model);
   if (frames > kManyFrames || bytes > kManyBytes)
     advice += fmt::format("- {:.0f} frames are many: a larger output.frame_interval saves disk and time.\n", frames);
   return fmt::format("{:.0f} frames, about {} on disk, more where joints break\n", frames, quantity_text(bytes, "B"));

@@ -34,6 +34,13 @@ struct RunEstimate {
   std::uint64_t memory = 0;  ///< bytes, largest so far of this process
 };
 
+/// Frames of a run and the room they take, bytes, while nothing has broken.
+struct FramesEstimate {
+  double frames = 0, bytes = 0;
+};
+
+[[nodiscard]] FramesEstimate estimate_frames(const case_::Case& input, const Model& model);
+
 [[nodiscard]] RunEstimate estimate_run(const case_::Case& input, const Model& model, const StepReport& step);
 
 /// How a run on `parts` ranks divides the model: elements, joints, proxies, messages and bytes a step by domain, or the

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "case/schema.hpp"
 #include "commands/check_report.hpp"
+#include "commands/joint_curves.hpp"
 #include "mesh/quality.hpp"
 
 namespace breccia {
@@ -16,8 +17,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Points, cells and arrays of an element in a frame before compression, bytes.
-constexpr double kBytesAnElement = 4 * 3 * 8 + 4 * 8 + 8 + 1 + 8 + 3 * 4 + 8 + 8 * (6 + 1 + 3 + 3 + 3 + 1);
 constexpr int kBins = 10;
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
@@ -112,24 +111,22 @@ const char* name_of(case_::ValueType type) {
 
 std::string check_json(const case_::Case& input, const Model& model) {
   const CheckReport report = full_report(input, model);
-  const double end = input.stages.back().end, interval = input.output.frame_interval;
-  const double frames = 1 + (interval > 0 ? std::ceil(end / interval) : 0);
+  const FramesEstimate frames = estimate_frames(input, model);
   Json json{{"title", input.title},
             {"elements", model.mesh.num_elements()},
             {"nodes", model.mesh_report.nodes},
             {"bodies", model.mesh_report.bodies},
             {"joints", model.joints.size()},
             {"groups", groups(model.mesh_report)},
-            {"end", end},
+            {"end", input.stages.back().end},
             {"stable_step", number_or_null(report.step.limit)},
             {"step", number_or_null(report.step.dt)},
             {"steps", number_or_null(report.estimate.steps)},
             {"seconds", number_or_null(report.estimate.seconds)},
             {"most_seconds", number_or_null(report.estimate.most_seconds)},
             {"memory", report.estimate.memory},
-            {"frames", frames},
-            {"disk",
-             input.output.elements ? frames * kBytesAnElement * static_cast<double>(model.mesh.elements.size()) : 0.0},
+            {"frames", frames.frames},
+            {"disk", frames.bytes},
             {"advice", advice_list(report.advice)},
             {"report", report.text}};
   return text_of(json);
@@ -156,6 +153,23 @@ std::string domains_json(const case_::Case& input, const Model& model, int parts
                   {"efficiency", division.report.efficiency},
                   {"domains", domains},
                   {"owner", division.owner}});
+}
+
+std::string joints_json(const Model& model) {
+  const auto curve = [](const JointCurve& c) {
+    return Json{{"opening", c.opening}, {"traction", c.traction}, {"peak", c.peak}, {"energy", c.energy}};
+  };
+  Json laws = Json::array();
+  for (const JointLawCurves& law : joint_curves(model)) {
+    laws.push_back({{"name", law.name},
+                    {"size", law.size},
+                    {"stiffness", law.stiffness},
+                    {"normal", curve(law.normal)},
+                    {"shear", curve(law.shear)},
+                    {"unloading", curve(law.unloading)},
+                    {"envelope", {{"normal", law.envelope_normal}, {"shear", law.envelope_shear}}}});
+  }
+  return text_of({{"laws", laws}});
 }
 
 std::string mesh_json(const FinishedMesh& made) {

@@ -11,13 +11,17 @@
 namespace breccia {
 
 /// title, report and advice in words, elements, nodes, joints, groups; stable_step and step, s; steps; seconds and
-/// most_seconds of one rank on this machine; memory, bytes; frames and disk, bytes, of the frames at most: measured
-/// frames of elements take less, since what repeats is compressed.
+/// most_seconds of one rank on this machine; memory, bytes; frames and disk, bytes, about, more where
+/// joints break.
 [[nodiscard]] std::string check_json(const case_::Case& input, const Model& model);
 
 /// Division among `parts` ranks: how, imbalance, efficiency, `domains` with the loads of each, `owner` with the rank of
 /// each element in the order of ids. Throws as divide_model.
 [[nodiscard]] std::string domains_json(const case_::Case& input, const Model& model, int parts);
+
+/// Laws of the joints that can break: name, size and stiffness; opening, traction, peak and energy of `normal` and
+/// `shear`; `unloading`; `envelope` with normal and shear.
+[[nodiscard]] std::string joints_json(const Model& model);
 
 /// Source, elements, nodes, bodies, volume and surface groups, repairs, the quality of every element in ten bins, and
 /// the report in words.
