@@ -47,8 +47,10 @@ HistoryChart::HistoryChart() {
   scene_->SetRenderer(renderer_);
   renderer_->AddActor(actor);
   chart_->SetShowLegend(true);
-  chart_->GetLegend()->SetHorizontalAlignment(vtkChartLegend::LEFT);
+  chart_->GetLegend()->SetInline(false);  // beside the curves, not over them
+  chart_->GetLegend()->SetHorizontalAlignment(vtkChartLegend::RIGHT);
   chart_->GetLegend()->SetVerticalAlignment(vtkChartLegend::TOP);
+  chart_->SetBorders(20, 20, 16, 10);  // at the right: half of the last label
   chart_->GetAxis(vtkAxis::BOTTOM)->SetTitle("time [us]");
   set_dark(false);
 }

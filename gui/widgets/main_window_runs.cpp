@@ -10,6 +10,7 @@
 #include <QStandardPaths>
 #include <QStatusBar>
 #include <QSystemTrayIcon>
+#include <algorithm>
 
 #include "widgets/case_tree.hpp"
 #include "widgets/domains_panel.hpp"
@@ -34,7 +35,9 @@ int results_stage() { return static_cast<int>(work_stages().size()) - 1; }
 QString MainWindow::new_run_folder() const {
   const QFileInfo file(document_.file());
   const QString name = file.completeBaseName() + QDateTime::currentDateTime().toString("-yyyyMMdd-HHmmss");
-  const QString folder = file.dir().filePath("runs/" + name);
+  const QFileInfo beside(file.dir().filePath("runs"));
+  const bool writable = beside.exists() ? beside.isWritable() : QFileInfo(file.absolutePath()).isWritable();
+  const QString folder = QDir(writable ? file.absolutePath() : places_.projects).filePath("runs/" + name);
   QString free = folder;
   for (int i = 2; QFileInfo::exists(free); ++i) free = folder + QString("-%1").arg(i);
   return free;
@@ -62,8 +65,39 @@ void MainWindow::start_run() {
   take_run(run);
   tree_->select(run_stage(), {});
   watch(run);
-  run_panel_->set_command(run->record().command);
+  run_panel_->set_command(run->record().command, {});
   show_dock("dock_plots");
+}
+
+void MainWindow::go_on_with_run() {
+  if (run_ == nullptr || !run_->can_go_on()) return;
+  QString error;
+  SolverRun* ended = run_;
+  SolverRun* run = SolverRun::go_on(places_.launch, ended->record(), run_panel_->ranks(), &error, this);
+  if (run == nullptr) {
+    QMessageBox::warning(this, tr("Breccia"), tr("The run could not be resumed: %1").arg(error));
+    return;
+  }
+  runs_.erase(std::remove(runs_.begin(), runs_.end(), ended), runs_.end());
+  ended->disconnect(this);
+  ended->deleteLater();
+  registry_.add(run->record());
+  take_run(run);
+  tree_->select(run_stage(), {});
+  watch(run);
+  show_dock("dock_plots");
+}
+
+void MainWindow::pause_or_resume() {
+  if (run_ == nullptr || !run_->alive()) return;
+  run_->state() == "paused" ? run_->resume() : run_->pause();
+}
+
+void MainWindow::show_commands() {
+  const bool can = run_ != nullptr && run_->can_go_on();
+  run_panel_->set_command(
+      run_ != nullptr && run_->alive() ? run_->record().command : command_line(),
+      can ? SolverRun::resume_line(places_.launch, run_->record().folder, run_panel_->ranks()) : QStringList());
 }
 
 void MainWindow::take_run(SolverRun* run) {
@@ -109,6 +143,7 @@ void MainWindow::watch(SolverRun* run) {
   run_ = run;
   showing_results_ = run != nullptr;
   loader_->start_model();
+  if (run != nullptr) run->read_history();
   plots_->show_history(run == nullptr ? History() : run->history());
   results_->set_run(run == nullptr ? QString() : run->record().folder);
   if (run != nullptr) {
@@ -120,6 +155,7 @@ void MainWindow::watch(SolverRun* run) {
 
 void MainWindow::run_changed() {
   run_panel_->show_run(run_);
+  show_commands();
   runs_panel_->show_runs(runs_);
   run_bar_->setVisible(run_ != nullptr && run_->alive());
   if (run_ == nullptr) {

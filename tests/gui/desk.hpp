@@ -81,10 +81,11 @@ struct Desk {
   }
 
   /// A picture of the window, kept where BRECCIA_SCREENSHOTS says.
-  void picture(const QString& name) {
+  void picture(const QString& name, QWidget* of = nullptr) {
     const QString folder = qEnvironmentVariable("BRECCIA_SCREENSHOTS");
     QTest::qWait(100);
-    if (!folder.isEmpty() && QDir().mkpath(folder)) window->grab().save(QDir(folder).filePath(name + ".png"));
+    if (!folder.isEmpty() && QDir().mkpath(folder))
+      (of == nullptr ? window.get() : of)->grab().save(QDir(folder).filePath(name + ".png"));
   }
 };
 

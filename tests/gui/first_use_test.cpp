@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <QAbstractButton>
+#include <QApplication>
+#include <QClipboard>
+#include <QDialog>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
@@ -8,8 +11,10 @@
 #include <QSlider>
 #include <QSpinBox>
 #include <QTableWidget>
+#include <QTimer>
 
 #include "gui/desk.hpp"
+#include "widgets/joint_plot.hpp"
 #include "widgets/plots_panel.hpp"
 
 namespace breccia::gui::test {
@@ -63,8 +68,31 @@ TEST(FirstUse, FromATemplateToBreakingGlassAndItsResults) {
   EXPECT_EQ(document.value("initial_velocity[0].velocity"), "[0, \"-20 m/s\", 0]");
   EXPECT_TRUE(desk.find<QPlainTextEdit>("case_text")->toPlainText().contains("\"-20 m/s\""));
   desk.picture("loads");
+
+  // The joint law as the solver evaluates it, and a material of the library.
+  desk.click_stage("joint: glass");
+  auto* plot = desk.find<JointPlot>("joint_plot");
+  ASSERT_TRUE(wait_until([&] { return plot->isVisible() && plot->num_points() > 200; }, kSolver));
+  EXPECT_TRUE(plot->accessibleDescription().contains("Pa/m"));
+  desk.picture("joint");
+  desk.click_stage("material: glass");
+  const QByteArray by_hand = document.text();
+  QTimer::singleShot(500, desk.window.get(), [&] {
+    auto* dialog = desk.find<QDialog>("library");
+    auto* filter = dialog->findChild<QLineEdit*>("library_filter");
+    QTest::keyClicks(filter, "soda");
+    desk.picture("library", dialog);
+    QTest::mouseClick(dialog->findChild<QAbstractButton*>("library_take"), Qt::LeftButton);
+  });
+  desk.click("from_library");
+  EXPECT_EQ(document.value("joint[0].energy_mode_1"), "\"8 J/m2\"");
+  desk.window->activateWindow();
+  (void)QTest::qWaitForWindowActive(desk.window.get());
+  document.undo_stack().undo();
+  EXPECT_EQ(document.text(), by_hand);
   desk.click_stage("output");
   desk.type("field:output.frame_interval", "1 us");
+  EXPECT_EQ(document.value("output.frame_interval"), "\"1 us\"");
 
   // Domains for two ranks.
   desk.find<QSpinBox>("ranks")->setValue(2);
@@ -98,12 +126,35 @@ TEST(FirstUse, FromATemplateToBreakingGlassAndItsResults) {
   ASSERT_TRUE(wait_until([&] { return solver.state() == "paused"; }, kSolver));
   desk.window->set_dark(true);
   desk.picture("paused_dark");
+  desk.click("checkpoint");
+  ASSERT_TRUE(wait_until([&] { return !solver.checkpoints().empty(); }, kSolver));
+  EXPECT_TRUE(desk.find<QLabel>("checkpoints")->text().contains("latest at step"));
   desk.click("pause");
   ASSERT_TRUE(wait_until([&] { return solver.state() == "running"; }, kSolver));
+  auto* go_on = desk.find<QAbstractButton>("go_on");
+  EXPECT_FALSE(go_on->isVisible());
   desk.click("stop");
-  ASSERT_TRUE(wait_until([&] { return !solver.alive(); }, kSolver));
+  ASSERT_TRUE(wait_until([&] { return !solver.alive() && go_on->isVisible(); }, kSolver));
   EXPECT_EQ(solver.state(), "stopped");
   EXPECT_TRUE(members_of(solver.record().session).isEmpty());
+  desk.window->set_dark(false);
+  desk.picture("stopped");
+
+  // On, on one rank.
+  const qint64 left_at = solver.checkpoints().front().step;
+  desk.find<QSpinBox>("ranks")->setValue(1);
+  desk.click("copy_go_on_command");
+  EXPECT_TRUE(QApplication::clipboard()->text().contains(" resume "));
+  desk.click("go_on");
+  SolverRun& second = *desk.window->run();
+  ASSERT_EQ(second.record().ranks, 1);
+  EXPECT_FALSE(go_on->isVisible());
+  ASSERT_TRUE(wait_until([&] { return second.status().step > static_cast<double>(left_at); }, kSolver))
+      << second.failure().toStdString();
+  EXPECT_EQ(desk.find<QTableWidget>("runs")->rowCount(), 1);
+  desk.click("stop");
+  ASSERT_TRUE(wait_until([&] { return !second.alive(); }, kSolver));
+  desk.window->set_dark(true);
 
   // Results.
   desk.click("open_results");
