@@ -67,6 +67,29 @@ void History::add_line(const QByteArray& line) {
   ++rows_;
 }
 
+QByteArray histories_csv(const std::vector<std::pair<QString, const History*>>& runs) {
+  QList<QByteArray> head;
+  int rows = 0;
+  for (const auto& [name, history] : runs) {
+    for (const QString& column : history->columns()) {
+      QString title = runs.size() > 1 ? name + ": " + column : column;
+      if (title.contains(',') || title.contains('"')) title = '"' + title.replace('"', "\"\"") + '"';
+      head << title.toUtf8();
+    }
+    rows = std::max(rows, history->rows());
+  }
+  QByteArray text = head.join(',') + '\n';
+  for (int row = 0; row < rows; ++row) {
+    QList<QByteArray> cells;
+    for (const auto& [name, history] : runs)
+      for (int c = 0; c < history->columns().size(); ++c)
+        cells << (row < history->rows() ? QByteArray::number(history->values(c)[static_cast<std::size_t>(row)], 'g', 17)
+                                        : QByteArray());
+    text += cells.join(',') + '\n';
+  }
+  return text;
+}
+
 bool read_status(const QByteArray& line, RunStatus& out) {
   const QJsonObject json = QJsonDocument::fromJson(line).object();
   if (!json.contains("state")) return false;

@@ -73,6 +73,9 @@ class History {
   int rows_ = 0;
 };
 
+/// Histories of several runs beside each other, as CSV: blocks of columns "RUN: COLUMN".
+[[nodiscard]] QByteArray histories_csv(const std::vector<std::pair<QString, const History*>>& runs);
+
 /// False for a line that is no status (an event, broken JSON).
 [[nodiscard]] bool read_status(const QByteArray& line, RunStatus& out);
 /// Index of a series, e.g. frames/elements.hdf.series; frames whose file is there. Empty: there is none.

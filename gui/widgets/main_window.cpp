@@ -219,6 +219,8 @@ void MainWindow::join_panels() {
     view_->scene().highlight(group.toStdString());
     view_->render();
   });
+  connect(form_, &PropertyForm::pick_wanted, view_, &View3D::set_picking);
+  connect(view_, &View3D::group_picked, this, &MainWindow::group_picked);
   connect(run_panel_, &RunPanel::run_wanted, this, &MainWindow::start_run);
   connect(run_panel_, &RunPanel::check_wanted, this, [this] { queries_.check(); });
   connect(run_panel_, &RunPanel::stop_wanted, this, [this] {
@@ -237,6 +239,14 @@ void MainWindow::join_panels() {
   });
   connect(domains_, &DomainsPanel::division_wanted, this, [this](int n) { queries_.domains(n); });
   connect(runs_panel_, &RunsPanel::run_chosen, this, &MainWindow::open_run);
+  connect(runs_panel_, &RunsPanel::comparison_wanted, this, [this](const QStringList& folders) {
+    std::vector<SolverRun*> others;
+    for (SolverRun* run : runs_)
+      if (folders.contains(run->record().folder)) others.push_back(run);
+    compare(others);
+  });
+  connect(results_, &ResultsPanel::curves_wanted, this, &MainWindow::export_curves);
+  connect(results_, &ResultsPanel::animation_wanted, this, &MainWindow::save_animation);
   connect(results_, &ResultsPanel::frame_wanted, this, [this](int n) {
     if (run_ == nullptr || n >= static_cast<int>(run_->frames().size())) return;
     const RunFrame& frame = run_->frames()[static_cast<std::size_t>(n)];

@@ -20,6 +20,7 @@ class QVBoxLayout;
 
 namespace breccia::gui {
 
+class AnimationExport;
 class CaseText;
 class CaseTree;
 class DomainsPanel;
@@ -83,6 +84,7 @@ class MainWindow final : public QMainWindow {
   void show_division(const QJsonObject& json);
   void show_extras(const QString& path);
   void show_joint_law();
+  void group_picked(const QString& group);
   void take_from_library();
   void add_to_library();
   void query_failed(const QString& what, const QString& text, const std::vector<Problem>& problems);
@@ -100,6 +102,12 @@ class MainWindow final : public QMainWindow {
   void run_ended(const SolverRun* run);
   void show_frame(const FrameData& frame);
   void open_paraview();
+  void watch_live();
+  void compare(const std::vector<SolverRun*>& others);
+  void show_curves();
+  void export_curves();
+  void save_animation();
+  void end_animation();
   void save_picture();
   [[nodiscard]] QString new_run_folder() const;
   [[nodiscard]] QStringList command_line() const;
@@ -109,9 +117,10 @@ class MainWindow final : public QMainWindow {
   CaseQueries queries_;
   RunRegistry registry_;
   UserLibrary library_;
-  std::vector<SolverRun*> runs_;
+  std::vector<SolverRun*> runs_, compared_;
   SolverRun* run_ = nullptr;  ///< the one that is shown
   FrameLoader* loader_;
+  AnimationExport* animation_ = nullptr;
   QTimer validation_, preview_, law_;
   std::vector<Problem> problems_;
   std::vector<int> owner_;  ///< rank of each element of the preview

@@ -94,6 +94,12 @@ void MainWindow::make_actions() {
   add(
       tools, tr("Open in &ParaView"), {}, [this] { open_paraview(); }, false);
   add(
+      tools, tr("Watch &live in ParaView"), {}, [this] { watch_live(); }, false);
+  add(
+      tools, tr("Export &curves..."), {}, [this] { export_curves(); }, false);
+  add(
+      tools, tr("Save &animation..."), {}, [this] { save_animation(); }, false);
+  add(
       tools, tr("Save p&icture..."), {}, [this] { save_picture(); }, false);
   QMenu* help = menuBar()->addMenu(tr("&Help"));
   add(

@@ -231,6 +231,16 @@ void MainWindow::show_joint_law() {
                                                                : tr("This law has no curve: its joints cannot break."));
 }
 
+void MainWindow::group_picked(const QString& group) {
+  if (form_->take_pick(group) || showing_results_) return;
+  const int count = document_.places().count("material");
+  for (int i = 0; i < count; ++i) {
+    const QString path = QString("material[%1]").arg(i);
+    if (shown_value(case_::key_of("material[].group"), document_.value(path + ".group")) == group)
+      tree_->select(stage_of(path.toStdString()), path);
+  }
+}
+
 void MainWindow::take_from_library() {
   const QString path = form_->section();
   LibraryDialog dialog(library_, document_.value(path + ".group"), this);

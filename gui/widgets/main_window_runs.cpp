@@ -1,17 +1,15 @@
 #include <QApplication>
 #include <QDateTime>
 #include <QDir>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QLabel>
 #include <QMessageBox>
-#include <QProcess>
 #include <QProgressBar>
-#include <QStandardPaths>
 #include <QStatusBar>
 #include <QSystemTrayIcon>
 #include <algorithm>
 
+#include "widgets/animation_export.hpp"
 #include "widgets/case_tree.hpp"
 #include "widgets/domains_panel.hpp"
 #include "widgets/frame_loader.hpp"
@@ -78,7 +76,8 @@ void MainWindow::go_on_with_run() {
     QMessageBox::warning(this, tr("Breccia"), tr("The run could not be resumed: %1").arg(error));
     return;
   }
-  runs_.erase(std::remove(runs_.begin(), runs_.end(), ended), runs_.end());
+  for (std::vector<SolverRun*>* list : {&runs_, &compared_})
+    list->erase(std::remove(list->begin(), list->end(), ended), list->end());
   ended->disconnect(this);
   ended->deleteLater();
   registry_.add(run->record());
@@ -104,7 +103,7 @@ void MainWindow::take_run(SolverRun* run) {
   runs_.insert(runs_.begin(), run);
   connect(run, &SolverRun::status_changed, this, &MainWindow::run_changed);
   connect(run, &SolverRun::history_grew, this, [this, run] {
-    if (run == run_) plots_->show_history(run->history());
+    if (run == run_ || std::find(compared_.begin(), compared_.end(), run) != compared_.end()) show_curves();
   });
   connect(run, &SolverRun::frames_changed, this, [this, run] {
     if (run == run_) results_->set_frames(run->frames());
@@ -140,11 +139,12 @@ void MainWindow::open_run(const QString& folder) {
 }
 
 void MainWindow::watch(SolverRun* run) {
+  if (animation_ != nullptr) end_animation();
   run_ = run;
   showing_results_ = run != nullptr;
   loader_->start_model();
   if (run != nullptr) run->read_history();
-  plots_->show_history(run == nullptr ? History() : run->history());
+  show_curves();
   results_->set_run(run == nullptr ? QString() : run->record().folder);
   if (run != nullptr) {
     view_->clear(tr("waiting for the first frame..."));
@@ -192,30 +192,7 @@ void MainWindow::show_frame(const FrameData& frame) {
     return;
   }
   view_->show_frame(frame, tr("time %1").arg(quantity_words(frame.time, "s")));
-}
-
-void MainWindow::open_paraview() {
-  if (run_ == nullptr) return;
-  const QString program = QStandardPaths::findExecutable("paraview");
-  if (program.isEmpty()) {
-    QMessageBox::information(
-        this, tr("Breccia"),
-        tr("ParaView is not installed (Debian: paraview). The frames are in %1/frames.").arg(run_->record().folder));
-    return;
-  }
-  QStringList files;
-  for (const char* part : {"elements", "joints"}) {
-    const QString file = QDir(run_->record().folder).filePath(QString("frames/%1.hdf.series").arg(part));
-    if (QFileInfo::exists(file)) files << file;
-  }
-  QProcess::startDetached(program, files, run_->record().folder);
-}
-
-void MainWindow::save_picture() {
-  const QString name = QFileDialog::getSaveFileName(this, tr("Save the picture as"),
-                                                    document_.folder() + "/picture.png", tr("Pictures (*.png)"));
-  if (!name.isEmpty() && !view_->picture().save(name))
-    QMessageBox::warning(this, tr("Breccia"), tr("%1 cannot be written.").arg(name));
+  if (animation_ != nullptr) animation_->take(frame.time, view_->picture());
 }
 
 }  // namespace breccia::gui

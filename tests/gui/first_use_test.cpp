@@ -4,16 +4,19 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QDialog>
+#include <QFile>
+#include <QFileInfo>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QPlainTextEdit>
 #include <QSlider>
 #include <QSpinBox>
+#include <QStatusBar>
 #include <QTableWidget>
-#include <QTimer>
 
 #include "gui/desk.hpp"
+#include "widgets/animation_export.hpp"
 #include "widgets/joint_plot.hpp"
 #include "widgets/plots_panel.hpp"
 
@@ -60,7 +63,20 @@ TEST(FirstUse, FromATemplateToBreakingGlassAndItsResults) {
   EXPECT_EQ(document.text(), before);
   ASSERT_TRUE(wait_until([&] { return run->isEnabled(); }, 2000));
 
+  // A click in the view leads to the material; a field picks its group there.
+  auto* canvas = desk.find<QWidget>("canvas");
+  QTest::mouseClick(canvas, Qt::LeftButton, {}, desk.place_of("support"));
+  EXPECT_TRUE(desk.find<QWidget>("field:material[1].young")->isVisible());
+  desk.click_stage("initial velocity");
+  desk.click("pick:initial_velocity[0].group");
+  QTest::mouseClick(canvas, Qt::LeftButton, {}, desk.place_of("glass"));
+  EXPECT_EQ(document.value("initial_velocity[0].group"), "\"glass\"");
+  EXPECT_FALSE(desk.find<QAbstractButton>("pick:initial_velocity[0].group")->isChecked());
+  document.undo_stack().undo();
+  EXPECT_EQ(document.text(), before);
+
   // Material and speed.
+  desk.click_stage("material: glass");
   desk.type("field:material[0].young", "70 GPa");
   EXPECT_EQ(document.value("material[0].young"), "\"70 GPa\"");
   desk.click_stage("initial velocity");
@@ -170,6 +186,20 @@ TEST(FirstUse, FromATemplateToBreakingGlassAndItsResults) {
   desk.picture("results_dark");
   desk.window->set_dark(false);
   desk.picture("results");
+
+  // Curves and a film for others.
+  const QString table_file = desk.scratch.filePath("curves.csv"), film = desk.scratch.filePath("film.mp4");
+  desk.click_and_name("export_curves", table_file);
+  QFile curves(table_file);
+  ASSERT_TRUE(curves.open(QIODevice::ReadOnly));
+  EXPECT_TRUE(curves.readLine().contains("kinetic [J]"));
+  EXPECT_GT(curves.readAll().count('\n'), 1);
+  if (!AnimationExport::program().isEmpty()) {
+    desk.click_and_name("save_animation", film);
+    const auto is_written = [&] { return desk.window->statusBar()->currentMessage().contains("is written"); };
+    EXPECT_TRUE(wait_until(is_written, kSolver));
+    EXPECT_GT(QFileInfo(film).size(), 1000);
+  }
   // A fresh view is drawn after the light theme.
   EXPECT_GT(desk.window->view().drawn_share(), kSomethingDrawn);
 }

@@ -125,6 +125,15 @@ TEST(RunFolder, HistoryGrowsByWholeRows) {
   EXPECT_TRUE(std::isnan(history.values(2)[1]));
 }
 
+TEST(RunFolder, HistoriesOfSeveralRunsStandBesideEachOther) {
+  History one, two;
+  for (const char* line : {"time [s],kinetic [J]", "0,1.5", "1e-6,2"}) one.add_line(line);
+  for (const char* line : {"time [s]", "0"}) two.add_line(line);
+  EXPECT_EQ(histories_csv({{"a", &one}}), "time [s],kinetic [J]\n0,1.5\n9.9999999999999995e-07,2\n");
+  EXPECT_EQ(histories_csv({{"a, b", &one}, {"c", &two}}),
+            "\"a, b: time [s]\",\"a, b: kinetic [J]\",c: time [s]\n0,1.5,0\n9.9999999999999995e-07,2,\n");
+}
+
 TEST(RunFolder, FramesWhoseFileIsThereAreListed) {
   const QTemporaryDir scratch;
   ASSERT_TRUE(QDir(scratch.path()).mkpath("frames"));
