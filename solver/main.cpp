@@ -312,6 +312,8 @@ void define(CLI::App& app, Arguments& a) {
       ->add_option("--ranks", a.check.ranks, "tell only how a run on so many ranks (mpiexec -n) would divide the model")
       ->check(CLI::Range(1, 1000000));
 
+  check->add_flag("--joints", a.check.joints,
+                  "tell only, as JSON, the traction curves and strengths of the joint laws");
   check->add_flag("--json", a.check.json, "as JSON, problems of the case too");
 
   CLI::App* mesh =

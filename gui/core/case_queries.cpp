@@ -15,7 +15,12 @@ CaseQueries::CaseQueries(const Document& document, QString program, QObject* par
   };
   const auto join = [this, ended](SolverQuery& query, const QString& what) {
     connect(&query, &SolverQuery::answered, this, ended);
-    connect(&query, &SolverQuery::failed, this, [this, ended, what](const QString& text, const auto& problems) {
+    connect(&query, &SolverQuery::failed, this, [this, ended, what](QString text, std::vector<Problem> problems) {
+      if (!draft_.isEmpty()) {  // its name says nothing to anybody
+        text.replace(draft_, document_.file());
+        for (Problem& p : problems)
+          if (p.file == draft_.toStdString()) p.file = document_.file().toStdString();
+      }
       ended();
       emit failed(what, text, problems);
     });
@@ -23,6 +28,8 @@ CaseQueries::CaseQueries(const Document& document, QString program, QObject* par
   join(check_, tr("check"));
   join(mesh_, tr("mesh"));
   join(domains_, tr("domains"));
+  join(joints_, tr("joints"));
+  connect(&joints_, &SolverQuery::answered, this, &CaseQueries::joints_told);
   connect(&check_, &SolverQuery::answered, this, &CaseQueries::checked);
   connect(&domains_, &SolverQuery::answered, this, &CaseQueries::divided);
   connect(&mesh_, &SolverQuery::answered, this, [this](const QJsonObject& json) {
@@ -55,6 +62,11 @@ void CaseQueries::mesh() {
   QDir(scratch_.filePath(QString::number(meshes_ - 2))).removeRecursively();
   if (const QString file = draft(tr("mesh")); !file.isEmpty())
     mesh_.ask(program_, {"mesh", file, "--json", "-o", folder});
+  emit busy_changed();
+}
+
+void CaseQueries::joints() {
+  if (const QString file = draft(tr("joints")); !file.isEmpty()) joints_.ask(program_, {"check", file, "--joints"});
   emit busy_changed();
 }
 

@@ -19,7 +19,8 @@ class CaseQueries final : public QObject {
   /// The mesh at rest is written for the preview.
   void mesh();
   void domains(int ranks);
-  [[nodiscard]] bool busy() const { return check_.busy() || mesh_.busy() || domains_.busy(); }
+  void joints();
+  [[nodiscard]] bool busy() const { return check_.busy() || mesh_.busy() || domains_.busy() || joints_.busy(); }
 
  signals:
   void busy_changed();
@@ -27,6 +28,7 @@ class CaseQueries final : public QObject {
   /// @param elements_file  VTKHDF
   void meshed(const QJsonObject& json, const QString& elements_file);
   void divided(const QJsonObject& json);
+  void joints_told(const QJsonObject& json);
   void failed(const QString& what, const QString& text, const std::vector<breccia::Problem>& problems);
 
  private:
@@ -36,7 +38,7 @@ class CaseQueries final : public QObject {
   const Document& document_;
   QString program_;
   QTemporaryDir scratch_;
-  SolverQuery check_, mesh_, domains_;
+  SolverQuery check_, mesh_, domains_, joints_;
   int meshes_ = 0;
   QString draft_;
 };

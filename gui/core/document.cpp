@@ -66,6 +66,7 @@ void Document::start(const QString& file, const QByteArray& text) {
   file_ = QFileInfo(file).absoluteFilePath();
   undo_.clear();
   places_ = TomlPlaces(text.toStdString());
+  on_disk_ = text;
   open_ = true;
 }
 
@@ -91,6 +92,7 @@ void Document::recover(const Recovery& recovery) {
 QString Document::save() {
   const QString error = written(file_, text());
   if (!error.isEmpty()) return error;
+  on_disk_ = text();
   undo_.setClean();
   remove_snapshot();
   return {};
@@ -102,9 +104,15 @@ QString Document::save_as(const QString& file) {
   if (!error.isEmpty()) return error;
   remove_snapshot();
   file_ = absolute;
+  on_disk_ = text();
   undo_.setClean();
   emit renamed();
   return {};
+}
+
+bool Document::changed_on_disk() const {
+  QFile in(file_);
+  return open_ && in.open(QIODevice::ReadOnly) && in.readAll() != on_disk_;
 }
 
 void Document::close() {

@@ -35,6 +35,8 @@ class Document final : public QObject {
   void recover(const Recovery& recovery);
   [[nodiscard]] QString save();
   [[nodiscard]] QString save_as(const QString& file);
+  /// Another program has written the file since it was read or saved here.
+  [[nodiscard]] bool changed_on_disk() const;
   /// Ends the work on this case; the snapshot is removed.
   void close();
 
@@ -82,6 +84,7 @@ class Document final : public QObject {
   QString state_folder_, file_;
   bool open_ = false;
   TomlPlaces places_;
+  QByteArray on_disk_;  ///< what the file held when it was last read or written here
   QUndoStack undo_;
   QTimer autosave_;
 };

@@ -60,7 +60,7 @@ std::optional<Session> start_session(const QStringList& command, const QString& 
   posix_spawn_file_actions_addchdir_np(&files, folder.toStdString().c_str());
   posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, output_file.toStdString().c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0644);
+                                   O_WRONLY | O_CREAT | O_APPEND, 0644);
   posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
   pid_t process = 0;
   const int failed = ::posix_spawnp(&process, words.front().c_str(), &files, &attributes, pointers(words).data(),
@@ -75,23 +75,45 @@ std::optional<Session> start_session(const QStringList& command, const QString& 
   return Session{process, entry ? entry->started : 0};
 }
 
-QList<pid_t> members_of(const Session& session) {
-  QList<pid_t> found;
-  if (session.leader <= 0) return found;
-  // A leader of that number which started at another time is somebody else's, and so is its session.
-  const auto leader = entry_of(session.leader);
-  if (leader && leader->started != session.started) return found;
-  const QStringList names = QDir("/proc").entryList(QDir::Dirs | QDir::NoDotAndDotDot);
-  for (const QString& name : names) {
+namespace {
+
+bool runs(const Entry& entry) { return entry.state != 'Z' && entry.state != 'X'; }
+
+/// Every process of the machine.
+QList<QPair<pid_t, Entry>> process_table() {
+  QList<QPair<pid_t, Entry>> table;
+  for (const QString& name : QDir("/proc").entryList(QDir::Dirs | QDir::NoDotAndDotDot)) {
     bool number = false;
     const pid_t process = name.toInt(&number);
     if (!number) continue;
-    const auto entry = entry_of(process);
-    if (entry && entry->session == session.leader && entry->started >= session.started && entry->state != 'Z' &&
-        entry->state != 'X')
-      found.append(process);
+    if (const auto entry = entry_of(process); entry) table.append({process, *entry});
+  }
+  return table;
+}
+
+QList<pid_t> members_in(const QList<QPair<pid_t, Entry>>& table, const Session& session) {
+  QList<pid_t> found;
+  if (session.leader <= 0) return found;
+  for (const auto& [process, entry] : table) {
+    // A leader of that number which started at another time is somebody else's, and so is its session.
+    if (process == session.leader && entry.started != session.started) return {};
+    if (entry.session == session.leader && entry.started >= session.started && runs(entry)) found.append(process);
   }
   return found;
+}
+
+}  // namespace
+
+QList<pid_t> members_of(const Session& session) {
+  if (session.leader <= 0) return {};
+  return members_in(process_table(), session);
+}
+
+std::vector<bool> are_alive(const std::vector<Session>& sessions) {
+  const auto table = process_table();
+  std::vector<bool> alive;
+  for (const Session& session : sessions) alive.push_back(!members_in(table, session).isEmpty());
+  return alive;
 }
 
 int signal_session(const Session& session, int signal) {

@@ -6,6 +6,7 @@
 #include <QStringList>
 #include <QtGlobal>
 #include <optional>
+#include <vector>
 
 /// Processes that outlive their starter: each run is the leader of a session of its own, and so everything that it
 /// starts (mpiexec, its ranks) can be counted and ended, whoever asks.
@@ -16,13 +17,16 @@ struct Session {
   qint64 started = 0;  ///< of the leader, ticks since boot: tells it from a later process of the same number
 };
 
-/// Starts a program in a new session, its output in a file. @param error  out: what went wrong
+/// Starts a program in a new session, its output at the end of a file. @param error  out: what went wrong
 [[nodiscard]] std::optional<Session> start_session(const QStringList& command, const QString& folder,
                                                    const QString& output_file, const QStringList& environment,
                                                    QString* error);
 
 /// Processes of the session that still run, zombies not counted.
 [[nodiscard]] QList<pid_t> members_of(const Session& session);
+
+/// Which of the sessions still have a process. One look at the process table for all.
+[[nodiscard]] std::vector<bool> are_alive(const std::vector<Session>& sessions);
 
 /// Sends a signal to every one of them. Returns how many there were.
 int signal_session(const Session& session, int signal);

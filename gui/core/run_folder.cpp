@@ -1,28 +1,48 @@
 #include "core/run_folder.hpp"
 
+#include <sys/stat.h>
+
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <QRegularExpression>
+#include <algorithm>
 #include <limits>
 
 namespace breccia::gui {
 
+namespace {
+
+constexpr qint64 kMostAtOnce = 1 << 20, kRemembered = 64;  // bytes
+
+}  // namespace
+
 QList<QByteArray> GrowingFile::news(bool* restarted) {
   QFile file(path_);
+  has_more_ = false;
+  if (restarted != nullptr) *restarted = false;
   if (!file.open(QIODevice::ReadOnly)) return {};
-  const bool shorter = file.size() < read_;
-  if (shorter) read_ = 0;
-  if (restarted != nullptr) *restarted = shorter;
+  if (read_ > 0) {
+    const bool same = file.size() >= read_ && file.seek(read_ - last_.size()) && file.read(last_.size()) == last_;
+    if (restarted != nullptr) *restarted = !same;
+    if (!same) read_ = 0;
+  }
+  if (read_ == 0 && tail_ >= 0 && file.size() > tail_) {
+    if (!file.seek(file.size() - tail_)) return {};
+    read_ = file.size() - tail_ + file.readLine().size();
+  }
   if (file.size() == read_ || !file.seek(read_)) return {};
-  const QByteArray bytes = file.readAll();
+  QByteArray bytes = file.read(kMostAtOnce);
+  if (!bytes.contains('\n')) bytes += file.readLine();  // one line that is longer than all that
   const auto end = bytes.lastIndexOf('\n');
   if (end < 0) return {};
   read_ += end + 1;
-  QList<QByteArray> lines = bytes.left(end).split('\n');
-  return lines;
+  last_ = bytes.left(end + 1).right(kRemembered);
+  has_more_ = !file.atEnd();
+  return bytes.left(end).split('\n');
 }
 
 void History::clear() {
@@ -45,6 +65,29 @@ void History::add_line(const QByteArray& line) {
     values_[static_cast<std::size_t>(c)].push_back(good ? value : std::numeric_limits<double>::quiet_NaN());
   }
   ++rows_;
+}
+
+QByteArray histories_csv(const std::vector<std::pair<QString, const History*>>& runs) {
+  QList<QByteArray> head;
+  int rows = 0;
+  for (const auto& [name, history] : runs) {
+    for (const QString& column : history->columns()) {
+      QString title = runs.size() > 1 ? name + ": " + column : column;
+      if (title.contains(',') || title.contains('"')) title = '"' + title.replace('"', "\"\"") + '"';
+      head << title.toUtf8();
+    }
+    rows = std::max(rows, history->rows());
+  }
+  QByteArray text = head.join(',') + '\n';
+  for (int row = 0; row < rows; ++row) {
+    QList<QByteArray> cells;
+    for (const auto& [name, history] : runs)
+      for (int c = 0; c < history->columns().size(); ++c)
+        cells << (row < history->rows() ? QByteArray::number(history->values(c)[static_cast<std::size_t>(row)], 'g', 17)
+                                        : QByteArray());
+    text += cells.join(',') + '\n';
+  }
+  return text;
 }
 
 bool read_status(const QByteArray& line, RunStatus& out) {
@@ -79,6 +122,29 @@ std::vector<RunFrame> read_series(const QString& run_folder, const QString& part
     if (QFileInfo::exists(path)) found.push_back({path, entry.toObject()["time"].toDouble()});
   }
   return found;
+}
+
+std::vector<RunCheckpoint> read_checkpoints(const QString& run_folder) {
+  static const QRegularExpression name(R"(^step_(\d+)\.h5$)");
+  const QDir folder(QDir(run_folder).filePath("checkpoints"));
+  std::vector<RunCheckpoint> found;
+  for (const QString& file : folder.entryList({"step_*.h5"}, QDir::Files))
+    if (const auto match = name.match(file); match.hasMatch())
+      found.push_back({folder.absoluteFilePath(file), match.captured(1).toLongLong()});
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.step > b.step; });
+  return found;
+}
+
+bool is_held(const QString& run_folder) {
+  struct stat about {};
+  if (::stat(QFile::encodeName(QDir(run_folder).filePath("run.lock")).constData(), &about) != 0) return false;
+  // To take the lock for a look would be in the way of a run that wants it; the system's list is not.
+  QFile locks("/proc/locks");
+  if (!locks.open(QIODevice::ReadOnly)) return false;
+  const QByteArray inode = ":" + QByteArray::number(static_cast<qulonglong>(about.st_ino)) + " ";
+  for (const QByteArray& line : locks.readAll().split('\n'))
+    if (line.contains(" FLOCK ") && line.contains(inode) && !line.contains("->")) return true;
+  return false;
 }
 
 bool is_run_folder(const QString& folder) {

@@ -10,7 +10,7 @@ namespace breccia::gui {
 
 /// One line of status.jsonl.
 struct RunStatus {
-  QString state;  ///< running, paused, complete, stopped, failed; empty: nothing said yet
+  QString state;  ///< running, paused, complete, stopped, failed, interrupted; empty: nothing said yet
   QString stage, message;
   double step = 0, steps_total = 0;
   double time = 0, end = 0;   ///< s
@@ -18,7 +18,9 @@ struct RunStatus {
   double wall = 0, eta = -1;  ///< s; eta < 0: unknown
   double residual = 0, speed = 0, imbalance = 1;
   double broken_joints = 0, fragments = 0;
-  [[nodiscard]] bool over() const { return state == "complete" || state == "stopped" || state == "failed"; }
+  [[nodiscard]] bool over() const {
+    return state == "complete" || state == "stopped" || state == "failed" || state == "interrupted";
+  }
 };
 
 /// One frame of a series.
@@ -27,16 +29,29 @@ struct RunFrame {
   double time = 0;  ///< s
 };
 
-/// Whole lines of a growing file; a line that is half written waits for its end.
+/// A state from which a run can go on.
+struct RunCheckpoint {
+  QString file;  ///< absolute
+  qint64 step = 0;
+};
+
+/// Whole lines of a growing file; a line that is half written waits for its end. A call reads a few hundred lines or
+/// thousands, never a whole long file, so that whoever watches is not held up.
 class GrowingFile {
  public:
-  explicit GrowingFile(QString path = {}) : path_(std::move(path)) {}
-  /// Lines that came to it since the last call. A file that has become shorter is read anew; `restarted` tells.
+  /// @param tail  bytes before the end at which the first call begins, with the next whole line; < 0: at the start
+  explicit GrowingFile(QString path = {}, qint64 tail = -1) : path_(std::move(path)), tail_(tail) {}
+  /// Lines that came to it since the last call. A file that has become shorter, or is another one than before, is read
+  /// anew; `restarted` tells.
   [[nodiscard]] QList<QByteArray> news(bool* restarted = nullptr);
+  /// More is there than the last call returned.
+  [[nodiscard]] bool has_more() const { return has_more_; }
 
  private:
   QString path_;
-  qint64 read_ = 0;
+  qint64 tail_ = -1, read_ = 0;
+  QByteArray last_;  ///< bytes before read_: a file in which others stand there is another one
+  bool has_more_ = false;
 };
 
 /// history.csv by columns; grows with the run.
@@ -58,10 +73,17 @@ class History {
   int rows_ = 0;
 };
 
+/// Histories of several runs beside each other, as CSV: blocks of columns "RUN: COLUMN".
+[[nodiscard]] QByteArray histories_csv(const std::vector<std::pair<QString, const History*>>& runs);
+
 /// False for a line that is no status (an event, broken JSON).
 [[nodiscard]] bool read_status(const QByteArray& line, RunStatus& out);
 /// Index of a series, e.g. frames/elements.hdf.series; frames whose file is there. Empty: there is none.
 [[nodiscard]] std::vector<RunFrame> read_series(const QString& run_folder, const QString& part);
+/// Checkpoints of a run, latest first.
+[[nodiscard]] std::vector<RunCheckpoint> read_checkpoints(const QString& run_folder);
+/// Whether a process of this machine holds the folder of a run, whoever started it.
+[[nodiscard]] bool is_held(const QString& run_folder);
 /// True for a folder that a run has written into.
 [[nodiscard]] bool is_run_folder(const QString& folder);
 

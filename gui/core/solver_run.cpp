@@ -9,14 +9,20 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <QLockFile>
 #include <QProcessEnvironment>
+#include <QRegularExpression>
 #include <QSaveFile>
 #include <QThread>
+#include <algorithm>
+#include <cerrno>
 
 namespace breccia::gui {
 namespace {
 
 constexpr int kRemembered = 200;
+constexpr qint64 kStatusTail = 1 << 16;  // bytes of status.jsonl in which its last state stands
+constexpr int kLooksAfterEnd = 3;
 
 QStringList environment_of_runs() {
   QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
@@ -25,6 +31,27 @@ QStringList environment_of_runs() {
     environment.insert("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
   }
   return environment.toStringList();
+}
+
+QStringList launcher_words(const Launch& launch, int ranks) {
+  QStringList words;
+  if (ranks <= 1) return words;
+  words << launch.launcher;
+  if (ranks > QThread::idealThreadCount()) words << "--oversubscribe";
+  return words << "-n" << QString::number(ranks);
+}
+
+/// Runs the command of a record, and watches it.
+SolverRun* launch_session(RunRecord record, const QString& folder, QString* error, QObject* parent) {
+  const QString parent_folder = QFileInfo(record.folder).absolutePath();
+  if (!QDir().mkpath(parent_folder) || !QFileInfo(parent_folder).isWritable()) {
+    *error = QObject::tr("the folder %1 cannot be written").arg(parent_folder);
+    return nullptr;
+  }
+  const auto session = start_session(record.command, folder, record.folder + ".log", environment_of_runs(), error);
+  if (!session) return nullptr;
+  record.session = *session;
+  return new SolverRun(std::move(record), parent);
 }
 
 QJsonObject json_of(const RunRecord& r) {
@@ -52,7 +79,7 @@ RunRecord record_of(const QJsonObject& json) {
 SolverRun::SolverRun(RunRecord record, QObject* parent)
     : QObject(parent),
       record_(std::move(record)),
-      status_file_(QDir(record_.folder).filePath("status.jsonl")),
+      status_file_(QDir(record_.folder).filePath("status.jsonl"), kStatusTail),
       history_file_(QDir(record_.folder).filePath("history.csv")) {
   connect(&timer_, &QTimer::timeout, this, &SolverRun::look);
   timer_.start(kInterval);
@@ -60,25 +87,32 @@ SolverRun::SolverRun(RunRecord record, QObject* parent)
 }
 
 QStringList SolverRun::command_line(const Launch& launch, const QString& case_file, const QString& folder, int ranks) {
-  QStringList words;
-  if (ranks > 1) {
-    words << launch.launcher;
-    if (ranks > QThread::idealThreadCount()) words << "--oversubscribe";
-    words << "-n" << QString::number(ranks);
-  }
-  return words << launch.program << "run" << case_file << "-o" << folder << "--progress"
-               << "none";
+  return launcher_words(launch, ranks) << launch.program << "run" << case_file << "-o" << folder << "--progress"
+                                       << "none";
+}
+
+QStringList SolverRun::resume_line(const Launch& launch, const QString& folder, int ranks) {
+  return launcher_words(launch, ranks) << launch.program << "resume" << folder << "--progress"
+                                       << "none";
 }
 
 SolverRun* SolverRun::start(const Launch& launch, const QString& case_file, const QString& folder, int ranks,
                             QString* error, QObject* parent) {
   RunRecord record{folder, case_file, ranks, command_line(launch, case_file, folder, ranks), {}};
-  QDir().mkpath(QFileInfo(folder).absolutePath());
-  const auto session =
-      start_session(record.command, QFileInfo(case_file).absolutePath(), folder + ".log", environment_of_runs(), error);
-  if (!session) return nullptr;
-  record.session = *session;
-  return new SolverRun(record, parent);
+  SolverRun* run = launch_session(std::move(record), QFileInfo(case_file).absolutePath(), error, parent);
+  if (run != nullptr) run->read_history();
+  return run;
+}
+
+SolverRun* SolverRun::go_on(const Launch& launch, const RunRecord& ended, int ranks, QString* error, QObject* parent) {
+  RunRecord record = ended;
+  record.ranks = ranks;
+  record.command = resume_line(launch, ended.folder, ranks);
+  SolverRun* run = launch_session(std::move(record), QFileInfo(ended.folder).absolutePath(), error, parent);
+  if (run == nullptr) return nullptr;
+  run->read_history();
+  run->status_ = {};  // what stands there was said by the run that has ended
+  return run;
 }
 
 QString SolverRun::state() const {
@@ -86,48 +120,96 @@ QString SolverRun::state() const {
     if (stopping_.isValid()) return "stopping";
     return status_.state.isEmpty() ? QString("starting") : status_.over() ? QString("finishing") : status_.state;
   }
-  return status_.over() ? status_.state : QString("failed");
+  if (status_.state.isEmpty()) return "failed";
+  return status_.over() ? status_.state : QString("interrupted");
 }
 
 QString SolverRun::failure() const {
-  if (!status_.message.isEmpty()) return status_.message;
+  if (status_.over() && !status_.message.isEmpty()) return status_.message;
   QFile file(log_file());
   if (!file.open(QIODevice::ReadOnly)) return {};
-  return QString::fromUtf8(file.readAll().right(4000)).trimmed();
+  constexpr qint64 kShown = 4000;
+  file.seek(std::max<qint64>(0, file.size() - kShown));
+  return QString::fromUtf8(file.readAll()).trimmed();
+}
+
+void SolverRun::read_history() {
+  wants_history_ = true;
+  if (!timer_.isActive()) timer_.start(kInterval);
+  if (look_at_history()) emit history_grew();
+}
+
+bool SolverRun::look_at_status() {
+  bool news = false;
+  for (const QByteArray& line : status_file_.news()) news = read_status(line, status_) || news;
+  return news;
+}
+
+bool SolverRun::look_at_history() {
+  if (!wants_history_) return false;
+  bool restarted = false;
+  const QList<QByteArray> lines = history_file_.news(&restarted);
+  if (restarted) history_.clear();
+  for (const QByteArray& line : lines) history_.add_line(line);
+  return restarted || !lines.isEmpty();
+}
+
+void SolverRun::look_at_frames() {
+  const QFileInfo index(QDir(record_.folder).filePath("frames/elements.hdf.series"));
+  const QByteArray mark =
+      QByteArray::number(index.lastModified().toMSecsSinceEpoch()) + " " + QByteArray::number(index.size());
+  if (mark == series_mark_) return;
+  series_mark_ = mark;
+  frames_ = read_series(record_.folder, "elements");
+  emit frames_changed();
 }
 
 void SolverRun::look() {
   (void)take_exit_code(record_.session);
   const bool lived = alive_;
-  alive_ = !members_of(record_.session).isEmpty();
-  bool restarted = false, status_news = lived != alive_, history_news = false;
-  for (const QByteArray& line : status_file_.news()) status_news = read_status(line, status_) || status_news;
-  const QList<QByteArray> lines = history_file_.news(&restarted);
-  if (restarted) history_.clear();
-  for (const QByteArray& line : lines) {
-    history_.add_line(line);
-    history_news = true;
+  alive_ = !members_of(record_.session).isEmpty() || is_held(record_.folder);
+  const bool status_news = look_at_status(), history_news = look_at_history();
+  const std::size_t had = checkpoints_.size();
+  const qint64 latest = had > 0 ? checkpoints_.front().step : -1;
+  checkpoints_ = read_checkpoints(record_.folder);
+  const bool more = had != checkpoints_.size() || (had > 0 && checkpoints_.front().step != latest);
+  if (alive_) {
+    send_requests();
+    go_on_stopping();
   }
-  std::vector<RunFrame> frames = read_series(record_.folder, "elements");
-  const bool frame_news = frames.size() != frames_.size();
-  frames_ = std::move(frames);
-  if (alive_) go_on_stopping();
-  if (status_news) emit status_changed();
+  if (status_news || more || lived != alive_) emit status_changed();
   if (history_news) emit history_grew();
-  if (frame_news) emit frames_changed();
-  if (!alive_ && !told_end_) {
-    told_end_ = true;
-    timer_.stop();
-    emit ended();
+  look_at_frames();
+  // The last line of a run that was killed is written by a process that outlives it for a moment.
+  if (alive_) {
+    looks_after_end_ = 0;
+    told_end_ = false;
   }
+  if (alive_ || ++looks_after_end_ <= kLooksAfterEnd || history_file_.has_more()) return;
+  timer_.stop();
+  if (told_end_) return;
+  told_end_ = true;
+  emit ended();
 }
 
 void SolverRun::ask(const QByteArray& command) {
-  QSaveFile file(QDir(record_.folder).filePath("control"));
-  if (file.open(QIODevice::WriteOnly)) {
-    file.write(command + "\n");
-    file.commit();
-  }
+  requests_.append(command);
+  send_requests();
+}
+
+/// The run takes the file away when it has read it. What somebody else has asked meanwhile is not written over: a link
+/// never replaces a file.
+void SolverRun::send_requests() {
+  if (requests_.isEmpty()) return;
+  const QDir folder(record_.folder);
+  const QString own = folder.filePath(QString(".control.gui.%1").arg(::getpid())), control = folder.filePath("control");
+  QSaveFile file(own);
+  if (!file.open(QIODevice::WriteOnly) || file.write(requests_.join('\n') + "\n") < 0 || !file.commit()) return;
+  bool sent = ::link(QFile::encodeName(own).constData(), QFile::encodeName(control).constData()) == 0;
+  if (!sent && errno != EEXIST)  // a file system without links
+    sent = ::rename(QFile::encodeName(own).constData(), QFile::encodeName(control).constData()) == 0;
+  QFile::remove(own);
+  if (sent) requests_.clear();
 }
 
 void SolverRun::stop() {
@@ -138,6 +220,7 @@ void SolverRun::stop() {
     signal_session(record_.session, SIGTERM);
     terminated_ = true;
   } else {
+    requests_.clear();  // what was asked before has no sense any more
     ask("stop");
   }
   emit status_changed();
@@ -155,25 +238,41 @@ void SolverRun::go_on_stopping() {
 }
 
 std::vector<RunRecord> RunRegistry::load() const {
-  std::vector<RunRecord> records;
+  std::vector<RunRecord> records, found;
   QFile file(file_);
-  if (!file.open(QIODevice::ReadOnly)) return records;
+  if (!file.open(QIODevice::ReadOnly)) return found;
+  std::vector<Session> sessions;
   for (const QJsonValue& row : QJsonDocument::fromJson(file.readAll()).array()) {
-    RunRecord record = record_of(row.toObject());
-    if (QFileInfo::exists(record.folder) || !members_of(record.session).isEmpty()) records.push_back(std::move(record));
+    records.push_back(record_of(row.toObject()));
+    sessions.push_back(records.back().session);
   }
-  return records;
+  const std::vector<bool> alive = are_alive(sessions);
+  for (std::size_t i = 0; i < records.size(); ++i)
+    if (alive[i] || QFileInfo::exists(records[i].folder)) found.push_back(std::move(records[i]));
+  return found;
 }
 
 void RunRegistry::add(const RunRecord& record) const {
+  QDir().mkpath(QFileInfo(file_).absolutePath());
+  QLockFile alone(file_ + ".lock");  // two windows may start runs at once
+  (void)alone.tryLock(1000);
   QJsonArray rows{json_of(record)};
   for (const RunRecord& other : load())
     if (other.folder != record.folder && rows.size() < kRemembered) rows.append(json_of(other));
-  QDir().mkpath(QFileInfo(file_).absolutePath());
   QSaveFile file(file_);
   if (!file.open(QIODevice::WriteOnly)) return;
   file.write(QJsonDocument(rows).toJson());
   file.commit();
+}
+
+QString shell_line(const QStringList& command) {
+  static const QRegularExpression plain(R"(^[A-Za-z0-9_@%+=:,./-]+$)");
+  QStringList words;
+  for (QString word : command) {
+    if (!plain.match(word).hasMatch()) word = "'" + word.replace("'", R"('\'')") + "'";
+    words << word;
+  }
+  return words.join(' ');
 }
 
 }  // namespace breccia::gui

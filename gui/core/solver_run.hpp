@@ -42,24 +42,37 @@ class SolverRun final : public QObject {
   /// The command line of a run, as it is shown and started.
   [[nodiscard]] static QStringList command_line(const Launch& launch, const QString& case_file, const QString& folder,
                                                 int ranks);
+  /// That of a run that goes on from its last checkpoint.
+  [[nodiscard]] static QStringList resume_line(const Launch& launch, const QString& folder, int ranks);
   /// Starts one. nullptr: it could not be started, see `error`.
   [[nodiscard]] static SolverRun* start(const Launch& launch, const QString& case_file, const QString& folder,
                                         int ranks, QString* error, QObject* parent);
+  /// Goes on with one that has ended before its time, from its last checkpoint, on any number of ranks. The object that
+  /// watched it until now has no more to do.
+  [[nodiscard]] static SolverRun* go_on(const Launch& launch, const RunRecord& ended, int ranks, QString* error,
+                                        QObject* parent);
 
   [[nodiscard]] const RunRecord& record() const { return record_; }
   [[nodiscard]] const RunStatus& status() const { return status_; }
+  /// Empty until somebody has called read_history, since it may be long.
   [[nodiscard]] const History& history() const { return history_; }
+  void read_history();
   [[nodiscard]] const std::vector<RunFrame>& frames() const { return frames_; }
+  [[nodiscard]] const std::vector<RunCheckpoint>& checkpoints() const { return checkpoints_; }
   [[nodiscard]] bool alive() const { return alive_; }
-  /// starting, running, paused, stopping, complete, stopped, failed
+  /// starting, running, paused, stopping, finishing, complete, stopped, failed, interrupted
   [[nodiscard]] QString state() const;
+  /// It has ended before its time and left a checkpoint.
+  [[nodiscard]] bool can_go_on() const { return !alive_ && state() != "complete" && !checkpoints_.empty(); }
   /// Why it failed, in the solver's words.
   [[nodiscard]] QString failure() const;
   [[nodiscard]] QString log_file() const { return record_.folder + ".log"; }
 
   void pause() { ask("pause"); }
   void resume() { ask("resume"); }
-  /// Asks the run to end after the present step; then SIGTERM; then SIGKILL to every process of its session.
+  void checkpoint() { ask("checkpoint"); }
+  /// Asks the run to end after the present step; then SIGTERM; then SIGKILL to every process of its session. A run that
+  /// was started elsewhere, in a terminal, is only asked: its session has other processes.
   void stop();
   void set_patience(Patience patience) { patience_ = patience; }
   /// Looks at the folder and the process table now.
@@ -73,18 +86,29 @@ class SolverRun final : public QObject {
 
  private:
   void ask(const QByteArray& command);
+  void send_requests();
   void go_on_stopping();
+  void look_at_frames();
+  [[nodiscard]] bool look_at_history();
+  [[nodiscard]] bool look_at_status();
 
   RunRecord record_;
   RunStatus status_;
   History history_;
   std::vector<RunFrame> frames_;
+  std::vector<RunCheckpoint> checkpoints_;
   GrowingFile status_file_, history_file_;
+  QByteArray series_mark_;  ///< time and size of the index of frames
+  QList<QByteArray> requests_;
   QTimer timer_;
   QElapsedTimer stopping_;
   Patience patience_;
-  bool alive_ = true, terminated_ = false, told_end_ = false;
+  int looks_after_end_ = 0;
+  bool alive_ = true, terminated_ = false, told_end_ = false, wants_history_ = false;
 };
+
+/// A command line for a shell: words with blanks, quotes and other signs that a shell reads stand in quotes.
+[[nodiscard]] QString shell_line(const QStringList& command);
 
 /// The runs that were started here, kept in a file of the state folder so that a later session finds them.
 class RunRegistry {

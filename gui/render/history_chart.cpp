@@ -47,8 +47,10 @@ HistoryChart::HistoryChart() {
   scene_->SetRenderer(renderer_);
   renderer_->AddActor(actor);
   chart_->SetShowLegend(true);
-  chart_->GetLegend()->SetHorizontalAlignment(vtkChartLegend::LEFT);
+  chart_->GetLegend()->SetInline(false);  // beside the curves, not over them
+  chart_->GetLegend()->SetHorizontalAlignment(vtkChartLegend::RIGHT);
   chart_->GetLegend()->SetVerticalAlignment(vtkChartLegend::TOP);
+  chart_->SetBorders(20, 20, 16, 10);  // at the right: half of the last label
   chart_->GetAxis(vtkAxis::BOTTOM)->SetTitle("time [us]");
   set_dark(false);
 }
@@ -59,16 +61,18 @@ void HistoryChart::show(const std::vector<double>& time, const std::vector<Curve
   chart_->ClearPlots();
   chart_->GetAxis(vtkAxis::LEFT)->SetTitle(value_axis);
   if (time.size() < 2) return;  // a line needs two points
-  vtkNew<vtkTable> table;
-  table->AddColumn(column("time", time, kMicro));
-  for (const Curve& curve : curves)
-    if (curve.values.size() == time.size()) table->AddColumn(column(curve.name, curve.values, 1));
-  for (vtkIdType c = 1; c < table->GetNumberOfColumns(); ++c) {
+  std::size_t number = 0;
+  for (const Curve& curve : curves) {
+    const std::vector<double>& own = curve.time.empty() ? time : curve.time;
+    if (curve.values.size() != own.size() || own.size() < 2) continue;
+    vtkNew<vtkTable> table;
+    table->AddColumn(column("time", own, kMicro));
+    table->AddColumn(column(curve.name, curve.values, 1));
     vtkPlot* line = chart_->AddPlot(vtkChart::LINE);
-    line->SetInputData(table, 0, c);
-    const Look& look = kLooks[static_cast<std::size_t>(c - 1) % kLooks.size()];
+    line->SetInputData(table, 0, 1);
+    const Look& look = kLooks[number++ % kLooks.size()];
     line->SetColor(look.colour[0], look.colour[1], look.colour[2], 255);
-    line->GetPen()->SetLineType(look.pen);
+    line->GetPen()->SetLineType(curve.time.empty() ? look.pen : vtkPen::DASH_DOT_LINE);
     line->SetWidth(2);
   }
   chart_->RecalculateBounds();

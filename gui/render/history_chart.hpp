@@ -15,6 +15,7 @@ namespace breccia::gui {
 struct Curve {
   std::string name;
   std::vector<double> values;
+  std::vector<double> time = {};  ///< s, its own; empty: that of the others
 };
 
 /// A chart over simulated time with a legend; axes carry name and unit.

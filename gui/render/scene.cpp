@@ -3,6 +3,7 @@
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkCellPicker.h>
 #include <vtkDoubleArray.h>
 #include <vtkIntArray.h>
 #include <vtkProperty.h>
@@ -174,6 +175,18 @@ void Scene::show_edges(bool on) { skin_->GetProperty()->SetEdgeVisibility(on); }
 
 void Scene::show_skin(bool on) { skin_->GetProperty()->SetOpacity(on ? 1.0 : 0.15); }
 
+std::string Scene::group_at(double x, double y) const {
+  vtkNew<vtkCellPicker> picker;
+  picker->PickFromListOn();
+  picker->AddPickList(skin_);
+  picker->SetTolerance(0);
+  if (frame_.skin == nullptr || picker->Pick(x, y, 0, renderer_) == 0 || picker->GetCellId() < 0) return {};
+  vtkDataArray* groups = frame_.skin->GetCellData()->GetArray("material");
+  if (groups == nullptr || picker->GetCellId() >= groups->GetNumberOfTuples()) return {};
+  const auto group = static_cast<std::size_t>(groups->GetTuple1(picker->GetCellId()));
+  return group < groups_.size() ? groups_[group] : std::string();
+}
+
 void Scene::set_caption(const std::string& text) { caption_->SetInput(text.c_str()); }
 
 void Scene::set_dark(bool dark) {
@@ -314,6 +327,10 @@ void Scene::colour_by_value(const char* array, int component, double scale, cons
     high = c == 0 ? scale * x : std::max(high, scale * x);
   }
   if (!(high > low)) high = low + 1;
+  if (hold_) {
+    low = std::min(low, range_[0]);
+    high = std::max(high, range_[1]);
+  }
   range_ = {low, high};
   fill_ramp(*colours_);
   colours_->SetTableRange(low, high);

@@ -39,6 +39,10 @@ class Scene {
   void set_groups(const std::vector<std::string>& names) { groups_ = names; }
   /// The group that is shown bright while others are dim; empty: all alike.
   void highlight(const std::string& group);
+  /// The group of what is seen at a pixel, from the lower left corner; empty: nothing is there.
+  [[nodiscard]] std::string group_at(double x, double y) const;
+  /// Keeps the range of colours of the present picture for those that follow, so that they can be compared.
+  void hold_range(bool on) { hold_ = on; }
   /// How far parts of different ranks are moved apart: 0 not at all.
   void set_explode(double share);
   void show_edges(bool on);
@@ -71,6 +75,7 @@ class Scene {
   Colouring colouring_ = Colouring::group;
   double explode_ = 0;
   std::array<double, 2> range_{0, 1};
+  bool hold_ = false;
 };
 
 }  // namespace breccia::gui

@@ -9,6 +9,8 @@
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QProgressBar>
+#include <QPushButton>
+#include <QScrollArea>
 #include <QStatusBar>
 #include <QToolBar>
 #include <QVBoxLayout>
@@ -17,6 +19,7 @@
 #include "widgets/case_tree.hpp"
 #include "widgets/domains_panel.hpp"
 #include "widgets/frame_loader.hpp"
+#include "widgets/joint_plot.hpp"
 #include "widgets/plots_panel.hpp"
 #include "widgets/problems_panel.hpp"
 #include "widgets/property_form.hpp"
@@ -30,7 +33,7 @@
 namespace breccia::gui {
 namespace {
 
-constexpr int kValidationDelay = 150;  // ms after the last edit
+constexpr int kValidationDelay = 150, kLawDelay = 500;  // ms after the last edit
 
 }  // namespace
 
@@ -40,6 +43,7 @@ MainWindow::MainWindow(Places places, QWidget* parent)
       document_(places_.state),
       queries_(document_, places_.launch.program),
       registry_(places_.state + "/runs.json"),
+      library_(places_.state + "/materials.toml"),
       loader_(new FrameLoader(this)) {
   setObjectName("main_window");
   resize(1400, 900);
@@ -65,6 +69,7 @@ void MainWindow::make_panels() {
   view_ = new View3D;
   plots_ = new PlotsPanel;
   messages_ = new ProblemsPanel;
+  joint_plot_ = new JointPlot;
   run_panel_ = new RunPanel;
   runs_panel_ = new RunsPanel;
   domains_ = new DomainsPanel;
@@ -81,8 +86,17 @@ void MainWindow::make_panels() {
   column->addWidget(form_, 1);
   column->addWidget(domains_);
   domains_->hide();
-  for (QWidget* page : {forms, static_cast<QWidget*>(run_panel_), static_cast<QWidget*>(results_)})
-    side_->addWidget(page);
+  make_extras(*column);
+  side_->addWidget(forms);
+  for (QWidget* page : {static_cast<QWidget*>(run_panel_), static_cast<QWidget*>(results_)}) {
+    auto* area = new QScrollArea;  // on a small screen nothing is cut off
+    area->setWidgetResizable(true);
+    area->setFrameShape(QFrame::NoFrame);
+    area->setFocusPolicy(Qt::NoFocus);
+    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    area->setWidget(page);
+    side_->addWidget(area);
+  }
   busy_ = new QLabel;
   mesh_words_ = new QLabel;
   run_words_ = new QLabel;
@@ -96,6 +110,27 @@ void MainWindow::make_panels() {
   statusBar()->addWidget(busy_);
   statusBar()->addPermanentWidget(run_words_);
   statusBar()->addPermanentWidget(run_bar_);
+}
+
+/// What stands below the form of some sections.
+void MainWindow::make_extras(QVBoxLayout& column) {
+  library_bar_ = new QWidget;
+  auto* row = new QHBoxLayout(library_bar_);
+  const auto add = [row](const QString& text, const QString& name, const QString& tip) {
+    auto* button = new QPushButton(text);
+    button->setObjectName(name);
+    button->setAccessibleName(QString(text).remove('&').remove("..."));
+    button->setToolTip(tip);
+    row->addWidget(button);
+    return button;
+  };
+  connect(add(tr("From the &library..."), "from_library",
+              tr("Values of rocks, concretes, glasses, ceramics, metals and ice, each with its source")),
+          &QPushButton::clicked, this, &MainWindow::take_from_library);
+  connect(add(tr("Into &my library..."), "into_library", tr("Keeps the values of this material for other cases")),
+          &QPushButton::clicked, this, &MainWindow::add_to_library);
+  column.addWidget(library_bar_);
+  library_bar_->hide();
 }
 
 void MainWindow::add_dock(QWidget* widget, const QString& title, const QString& name, Qt::DockWidgetArea area) {
@@ -114,8 +149,9 @@ void MainWindow::make_docks() {
   add_dock(plots_, tr("Plots"), "dock_plots", Qt::BottomDockWidgetArea);
   add_dock(text_, tr("Text"), "dock_text", Qt::BottomDockWidgetArea);
   add_dock(runs_panel_, tr("Runs"), "dock_runs", Qt::BottomDockWidgetArea);
+  add_dock(joint_plot_, tr("Joint law"), "dock_law", Qt::BottomDockWidgetArea);
   auto* first = findChild<QDockWidget*>("dock_messages");
-  for (const char* name : {"dock_plots", "dock_text", "dock_runs"})
+  for (const char* name : {"dock_plots", "dock_text", "dock_runs", "dock_law"})
     tabifyDockWidget(first, findChild<QDockWidget*>(name));
   first->raise();
   resizeDocks({findChild<QDockWidget*>("dock_stages"), findChild<QDockWidget*>("dock_properties")}, {240, 400},
@@ -128,92 +164,6 @@ void MainWindow::show_dock(const QString& name) {
     dock->show();
     dock->raise();
   }
-}
-
-void MainWindow::make_actions() {
-  auto* bar = addToolBar(tr("Main"));
-  bar->setObjectName("main_bar");
-  bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
-  const auto add = [this, bar](QMenu* menu, const QString& text, const QKeySequence& keys, const auto& slot,
-                               bool on_bar) {
-    QAction* action = menu->addAction(text);
-    action->setShortcut(keys);
-    action->setToolTip(QString(text).remove('&').remove("...") +
-                       (keys.isEmpty() ? "" : " (" + keys.toString(QKeySequence::NativeText) + ")"));
-    connect(action, &QAction::triggered, this, slot);
-    if (on_bar) bar->addAction(action);
-    return action;
-  };
-  QMenu* file = menuBar()->addMenu(tr("&File"));
-  add(
-      file, tr("&New from a template..."), QKeySequence::New,
-      [this] {
-        if (may_leave_case()) show_start();
-      },
-      true);
-  add(
-      file, tr("&Open..."), QKeySequence::Open,
-      [this] {
-        const QString name = QFileDialog::getOpenFileName(
-            this, tr("Open a case"), document_.is_open() ? document_.folder() : places_.projects, tr("Cases (*.toml)"));
-        if (!name.isEmpty()) open_path(name);
-      },
-      true);
-  add(
-      file, tr("Open &results..."), {},
-      [this] {
-        const QString name = QFileDialog::getExistingDirectory(this, tr("Open the folder of a run"), places_.projects);
-        if (!name.isEmpty()) open_path(name);
-      },
-      false);
-  add(
-      file, tr("&Save"), QKeySequence::Save, [this] { (void)save(); }, true);
-  add(
-      file, tr("Save &as..."), QKeySequence::SaveAs, [this] { save_as(); }, false);
-  file->addSeparator();
-  add(
-      file, tr("&Quit"), QKeySequence::Quit, [this] { close(); }, false);
-  QMenu* edit = menuBar()->addMenu(tr("&Edit"));
-  QAction* undo = document_.undo_stack().createUndoAction(this, tr("&Undo"));
-  undo->setShortcut(QKeySequence::Undo);
-  QAction* redo = document_.undo_stack().createRedoAction(this, tr("&Redo"));
-  redo->setShortcut(QKeySequence::Redo);
-  edit->addActions({undo, redo});
-  add(
-      edit, tr("Next &problem"), Qt::Key_F8, [this] { messages_->next_problem(); }, false);
-  QMenu* run = menuBar()->addMenu(tr("&Run"));
-  add(
-      run, tr("&Mesh"), Qt::Key_F6, [this] { queries_.mesh(); }, true);
-  add(
-      run, tr("&Check"), Qt::Key_F7, [this] { queries_.check(); }, true);
-  run_action_ = add(
-      run, tr("&Run"), Qt::Key_F5, [this] { start_run(); }, true);
-  add(
-      run, tr("&Stop"), QKeySequence("Shift+F5"),
-      [this] {
-        if (run_ != nullptr) run_->stop();
-      },
-      true);
-  QMenu* view = menuBar()->addMenu(tr("&View"));
-  for (QDockWidget* dock : findChildren<QDockWidget*>()) view->addAction(dock->toggleViewAction());
-  view->addSeparator();
-  dark_ = add(
-      view, tr("&Dark"), QKeySequence("Ctrl+D"), [this](bool on) { set_dark(on); }, true);
-  dark_->setCheckable(true);
-  QMenu* tools = menuBar()->addMenu(tr("&Tools"));
-  add(
-      tools, tr("Open in &ParaView"), {}, [this] { open_paraview(); }, false);
-  add(
-      tools, tr("Save p&icture..."), {}, [this] { save_picture(); }, false);
-  QMenu* help = menuBar()->addMenu(tr("&Help"));
-  add(
-      help, tr("&About Breccia"), {},
-      [this] {
-        QMessageBox::about(this, tr("Breccia"),
-                           tr("<b>Breccia</b><br>Combined finite-discrete element simulation of solids that break.<br>"
-                              "<br>F5 run, F6 mesh, F7 check, F8 next problem, Ctrl+Z undo."));
-      },
-      false);
 }
 
 void MainWindow::set_dark(bool dark) {
@@ -230,6 +180,15 @@ void MainWindow::join_panels() {
   preview_.setSingleShot(true);
   connect(&validation_, &QTimer::timeout, this, &MainWindow::validate);
   connect(&preview_, &QTimer::timeout, this, [this] { queries_.mesh(); });
+  law_.setSingleShot(true);
+  law_.setInterval(kLawDelay);
+  connect(&law_, &QTimer::timeout, this, [this] {
+    if (problems_.empty() && form_->section().startsWith("joint[")) queries_.joints();
+  });
+  connect(&queries_, &CaseQueries::joints_told, this, [this](const QJsonObject& json) {
+    laws_ = json["laws"].toArray();
+    show_joint_law();
+  });
   connect(&document_, &Document::changed, this, &MainWindow::case_changed);
   connect(&document_, &Document::renamed, this, &MainWindow::show_title);
   connect(&document_, &Document::modification_changed, this, &MainWindow::show_title);
@@ -260,22 +219,34 @@ void MainWindow::join_panels() {
     view_->scene().highlight(group.toStdString());
     view_->render();
   });
+  connect(form_, &PropertyForm::pick_wanted, view_, &View3D::set_picking);
+  connect(view_, &View3D::group_picked, this, &MainWindow::group_picked);
   connect(run_panel_, &RunPanel::run_wanted, this, &MainWindow::start_run);
   connect(run_panel_, &RunPanel::check_wanted, this, [this] { queries_.check(); });
   connect(run_panel_, &RunPanel::stop_wanted, this, [this] {
     if (run_ != nullptr) run_->stop();
   });
-  connect(run_panel_, &RunPanel::pause_wanted, this, [this] {
-    if (run_ != nullptr) run_->state() == "paused" ? run_->resume() : run_->pause();
+  connect(run_panel_, &RunPanel::pause_wanted, this, &MainWindow::pause_or_resume);
+  connect(run_panel_, &RunPanel::checkpoint_wanted, this, [this] {
+    if (run_ != nullptr) run_->checkpoint();
   });
+  connect(run_panel_, &RunPanel::go_on_wanted, this, &MainWindow::go_on_with_run);
   connect(run_panel_, &RunPanel::results_wanted, this,
           [this] { tree_->select(static_cast<int>(work_stages().size()) - 1, {}); });
   connect(run_panel_, &RunPanel::ranks_changed, this, [this](int n) {
-    run_panel_->set_command(command_line());
+    show_commands();
     domains_->set_ranks(n);
   });
   connect(domains_, &DomainsPanel::division_wanted, this, [this](int n) { queries_.domains(n); });
   connect(runs_panel_, &RunsPanel::run_chosen, this, &MainWindow::open_run);
+  connect(runs_panel_, &RunsPanel::comparison_wanted, this, [this](const QStringList& folders) {
+    std::vector<SolverRun*> others;
+    for (SolverRun* run : runs_)
+      if (folders.contains(run->record().folder)) others.push_back(run);
+    compare(others);
+  });
+  connect(results_, &ResultsPanel::curves_wanted, this, &MainWindow::export_curves);
+  connect(results_, &ResultsPanel::animation_wanted, this, &MainWindow::save_animation);
   connect(results_, &ResultsPanel::frame_wanted, this, [this](int n) {
     if (run_ == nullptr || n >= static_cast<int>(run_->frames().size())) return;
     const RunFrame& frame = run_->frames()[static_cast<std::size_t>(n)];

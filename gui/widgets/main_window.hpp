@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QJsonArray>
 #include <QMainWindow>
 #include <QStackedWidget>
 #include <QTimer>
@@ -7,6 +8,7 @@
 
 #include "core/case_queries.hpp"
 #include "core/document.hpp"
+#include "core/material_library.hpp"
 #include "core/places.hpp"
 #include "core/solver_run.hpp"
 #include "render/frame_data.hpp"
@@ -14,13 +16,16 @@
 class QAction;
 class QLabel;
 class QProgressBar;
+class QVBoxLayout;
 
 namespace breccia::gui {
 
+class AnimationExport;
 class CaseText;
 class CaseTree;
 class DomainsPanel;
 class FrameLoader;
+class JointPlot;
 class PlotsPanel;
 class ProblemsPanel;
 class PropertyForm;
@@ -55,7 +60,8 @@ class MainWindow final : public QMainWindow {
   // main_window.cpp: construction
   void make_panels();
   void make_docks();
-  void make_actions();
+  void make_extras(QVBoxLayout& column);
+  void make_actions();  // main_window_actions.cpp
   void join_panels();
   void add_dock(QWidget* widget, const QString& title, const QString& name, Qt::DockWidgetArea area);
   void show_dock(const QString& name);
@@ -76,10 +82,18 @@ class MainWindow final : public QMainWindow {
   void show_check(const QJsonObject& json);
   void show_mesh(const QJsonObject& json, const QString& elements_file);
   void show_division(const QJsonObject& json);
+  void show_extras(const QString& path);
+  void show_joint_law();
+  void group_picked(const QString& group);
+  void take_from_library();
+  void add_to_library();
   void query_failed(const QString& what, const QString& text, const std::vector<Problem>& problems);
 
   // main_window_runs.cpp: runs and their results
   void start_run();
+  void go_on_with_run();
+  void pause_or_resume();
+  void show_commands();
   void take_run(SolverRun* run);
   void open_run(const QString& folder);
   void find_runs();
@@ -88,6 +102,12 @@ class MainWindow final : public QMainWindow {
   void run_ended(const SolverRun* run);
   void show_frame(const FrameData& frame);
   void open_paraview();
+  void watch_live();
+  void compare(const std::vector<SolverRun*>& others);
+  void show_curves();
+  void export_curves();
+  void save_animation();
+  void end_animation();
   void save_picture();
   [[nodiscard]] QString new_run_folder() const;
   [[nodiscard]] QStringList command_line() const;
@@ -96,14 +116,17 @@ class MainWindow final : public QMainWindow {
   Document document_;
   CaseQueries queries_;
   RunRegistry registry_;
-  std::vector<SolverRun*> runs_;
+  UserLibrary library_;
+  std::vector<SolverRun*> runs_, compared_;
   SolverRun* run_ = nullptr;  ///< the one that is shown
   FrameLoader* loader_;
-  QTimer validation_, preview_;
+  AnimationExport* animation_ = nullptr;
+  QTimer validation_, preview_, law_;
   std::vector<Problem> problems_;
   std::vector<int> owner_;  ///< rank of each element of the preview
   FrameData preview_frame_;
   bool showing_results_ = false, run_when_checked_ = false;
+  QJsonArray laws_;    ///< of joints, as last told
   QString mesh_text_;  ///< what the preview was made of
 
   StartPage* start_ = nullptr;
@@ -118,7 +141,8 @@ class MainWindow final : public QMainWindow {
   DomainsPanel* domains_ = nullptr;
   ResultsPanel* results_ = nullptr;
   QStackedWidget *centre_ = nullptr, *side_ = nullptr;
-  QWidget* domains_page_ = nullptr;
+  QWidget* library_bar_ = nullptr;
+  JointPlot* joint_plot_ = nullptr;
   QAction *dark_ = nullptr, *run_action_ = nullptr;
   QLabel *busy_ = nullptr, *mesh_words_ = nullptr, *run_words_ = nullptr;
   QProgressBar* run_bar_ = nullptr;

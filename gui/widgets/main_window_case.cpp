@@ -2,6 +2,7 @@
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QInputDialog>
 #include <QJsonArray>
 #include <QLabel>
 #include <QMessageBox>
@@ -11,6 +12,8 @@
 #include "widgets/case_tree.hpp"
 #include "widgets/domains_panel.hpp"
 #include "widgets/frame_loader.hpp"
+#include "widgets/joint_plot.hpp"
+#include "widgets/library_dialog.hpp"
 #include "widgets/main_window.hpp"
 #include "widgets/plots_panel.hpp"
 #include "widgets/problems_panel.hpp"
@@ -37,13 +40,15 @@ std::vector<std::string> names_of(const QJsonArray& groups) {
 void MainWindow::show_start() {
   start_->refresh(registry_.load());
   centre_->setCurrentWidget(start_);
-  for (const char* name : {"dock_stages", "dock_properties", "dock_messages", "dock_plots", "dock_text", "dock_runs"})
+  for (const char* name :
+       {"dock_stages", "dock_properties", "dock_messages", "dock_plots", "dock_text", "dock_runs", "dock_law"})
     findChild<QWidget*>(name)->hide();
 }
 
 void MainWindow::show_workspace() {
   centre_->setCurrentWidget(view_);
-  for (const char* name : {"dock_stages", "dock_properties", "dock_plots", "dock_text", "dock_runs", "dock_messages"})
+  for (const char* name :
+       {"dock_stages", "dock_properties", "dock_plots", "dock_text", "dock_runs", "dock_law", "dock_messages"})
     show_dock(name);
 }
 
@@ -78,6 +83,7 @@ void MainWindow::open_case(const QString& file) {
   preview_frame_ = {};
   owner_.clear();
   mesh_text_.clear();
+  laws_ = {};
   run_panel_->set_estimate(tr("Not checked yet."));
   messages_->set_advice({});
   view_->clear(tr("meshing..."));
@@ -105,6 +111,12 @@ void MainWindow::offer_recovery() {
 
 bool MainWindow::save() {
   if (!document_.is_open()) return false;
+  if (document_.changed_on_disk() &&
+      QMessageBox::question(
+          this, tr("Save"),
+          tr("Another program has changed\n%1\nsince it was opened. Write over it?").arg(document_.file()),
+          QMessageBox::Save | QMessageBox::Cancel, QMessageBox::Cancel) != QMessageBox::Save)
+    return false;
   const QString error = document_.save();
   if (!error.isEmpty()) QMessageBox::warning(this, tr("Breccia"), error);
   return error.isEmpty();
@@ -131,10 +143,13 @@ void MainWindow::show_title() {
   setWindowTitle(document_.is_open() ? tr("%1 (%2)[*] - Breccia").arg(file.fileName(), file.dir().dirName())
                                      : tr("Breccia"));
   setWindowModified(document_.is_open() && document_.modified());
-  run_panel_->set_command(command_line());
+  show_commands();
 }
 
-void MainWindow::case_changed() { validation_.start(); }
+void MainWindow::case_changed() {
+  validation_.start();
+  if (form_->section().startsWith("joint[")) law_.start();
+}
 
 void MainWindow::validate() {
   validation_.stop();
@@ -174,9 +189,10 @@ void MainWindow::stage_selected(int stage, const QString& path) {
     const bool domains = path == "domains";
     domains_->setVisible(domains);
     if (domains && owner_.empty() && problems_.empty()) queries_.domains(run_panel_->ranks());
+    show_extras(path);
   }
   if (chosen.kind == Kind::run) {
-    run_panel_->set_command(command_line());
+    show_commands();
     if (problems_.empty() && !queries_.busy() && run_ == nullptr) queries_.check();
     if (run_ != nullptr) show_dock("dock_plots");
   }
@@ -191,6 +207,56 @@ void MainWindow::stage_selected(int stage, const QString& path) {
   } else if (preview_frame_.skin != nullptr) {
     view_->show_frame(preview_frame_, tr("mesh at rest"));
   }
+}
+
+/// What belongs to a section beside its form.
+void MainWindow::show_extras(const QString& path) {
+  const QString section = QString::fromStdString(case_::pattern_of(path.toStdString()));
+  const bool law = section.startsWith("joint[]");
+  library_bar_->setVisible(section == "material[]");
+  if (!law) return;
+  show_dock("dock_law");
+  show_joint_law();
+  law_.start();
+}
+
+void MainWindow::show_joint_law() {
+  const QString path = form_->section().section('.', 0, 0);
+  QString name = shown_value(case_::key_of("joint[].group"), document_.value(path + ".group"));
+  if (name.isEmpty())
+    name = shown_value(case_::key_of("joint[].between"), document_.value(path + ".between")).replace(", ", "-");
+  for (const QJsonValue& law : laws_)
+    if (law.toObject()["name"].toString() == name) return joint_plot_->show_law(law.toObject(), {});
+  joint_plot_->show_law({}, queries_.busy() || law_.isActive() ? tr("the solver works out the curves...")
+                                                               : tr("This law has no curve: its joints cannot break."));
+}
+
+void MainWindow::group_picked(const QString& group) {
+  if (form_->take_pick(group) || showing_results_) return;
+  const int count = document_.places().count("material");
+  for (int i = 0; i < count; ++i) {
+    const QString path = QString("material[%1]").arg(i);
+    if (shown_value(case_::key_of("material[].group"), document_.value(path + ".group")) == group)
+      tree_->select(stage_of(path.toStdString()), path);
+  }
+}
+
+void MainWindow::take_from_library() {
+  const QString path = form_->section();
+  LibraryDialog dialog(library_, document_.value(path + ".group"), this);
+  if (dialog.exec() == QDialog::Accepted && dialog.chosen() != nullptr)
+    take_material(document_, path, *dialog.chosen());
+}
+
+void MainWindow::add_to_library() {
+  const QString path = form_->section();
+  bool good = false;
+  const QString name =
+      QInputDialog::getText(this, tr("Into my library"), tr("Name of the material"), QLineEdit::Normal,
+                            shown_value(case_::key_of("material[].group"), document_.value(path + ".group")), &good);
+  if (!good || name.trimmed().isEmpty()) return;
+  if (const QString error = library_.add(material_of(document_, path, name.trimmed())); !error.isEmpty())
+    QMessageBox::warning(this, tr("Breccia"), error);
 }
 
 void MainWindow::go_to(const QString& key, int line) {
@@ -210,7 +276,7 @@ void MainWindow::show_check(const QJsonObject& json) {
           .arg(json["steps"].toDouble(), 0, 'f', 0)
           .arg(quantity_words(json["end"].toDouble(), "s"), duration_words(seconds));
   if (most > seconds) words += tr(" while little breaks, up to %1 where everything does").arg(duration_words(most));
-  words += tr("<br>memory %1, about %3 on disk for %2 frames")
+  words += tr("<br>memory %1, about %3 on disk for %2 frames, more where joints break")
                .arg(quantity_words(json["memory"].toDouble(), "B"))
                .arg(json["frames"].toDouble(), 0, 'f', 0)
                .arg(quantity_words(json["disk"].toDouble(), "B"));

@@ -1,16 +1,15 @@
 #include <QApplication>
 #include <QDateTime>
 #include <QDir>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QLabel>
 #include <QMessageBox>
-#include <QProcess>
 #include <QProgressBar>
-#include <QStandardPaths>
 #include <QStatusBar>
 #include <QSystemTrayIcon>
+#include <algorithm>
 
+#include "widgets/animation_export.hpp"
 #include "widgets/case_tree.hpp"
 #include "widgets/domains_panel.hpp"
 #include "widgets/frame_loader.hpp"
@@ -34,7 +33,9 @@ int results_stage() { return static_cast<int>(work_stages().size()) - 1; }
 QString MainWindow::new_run_folder() const {
   const QFileInfo file(document_.file());
   const QString name = file.completeBaseName() + QDateTime::currentDateTime().toString("-yyyyMMdd-HHmmss");
-  const QString folder = file.dir().filePath("runs/" + name);
+  const QFileInfo beside(file.dir().filePath("runs"));
+  const bool writable = beside.exists() ? beside.isWritable() : QFileInfo(file.absolutePath()).isWritable();
+  const QString folder = QDir(writable ? file.absolutePath() : places_.projects).filePath("runs/" + name);
   QString free = folder;
   for (int i = 2; QFileInfo::exists(free); ++i) free = folder + QString("-%1").arg(i);
   return free;
@@ -62,15 +63,47 @@ void MainWindow::start_run() {
   take_run(run);
   tree_->select(run_stage(), {});
   watch(run);
-  run_panel_->set_command(run->record().command);
+  run_panel_->set_command(run->record().command, {});
   show_dock("dock_plots");
+}
+
+void MainWindow::go_on_with_run() {
+  if (run_ == nullptr || !run_->can_go_on()) return;
+  QString error;
+  SolverRun* ended = run_;
+  SolverRun* run = SolverRun::go_on(places_.launch, ended->record(), run_panel_->ranks(), &error, this);
+  if (run == nullptr) {
+    QMessageBox::warning(this, tr("Breccia"), tr("The run could not be resumed: %1").arg(error));
+    return;
+  }
+  for (std::vector<SolverRun*>* list : {&runs_, &compared_})
+    list->erase(std::remove(list->begin(), list->end(), ended), list->end());
+  ended->disconnect(this);
+  ended->deleteLater();
+  registry_.add(run->record());
+  take_run(run);
+  tree_->select(run_stage(), {});
+  watch(run);
+  show_dock("dock_plots");
+}
+
+void MainWindow::pause_or_resume() {
+  if (run_ == nullptr || !run_->alive()) return;
+  run_->state() == "paused" ? run_->resume() : run_->pause();
+}
+
+void MainWindow::show_commands() {
+  const bool can = run_ != nullptr && run_->can_go_on();
+  run_panel_->set_command(
+      run_ != nullptr && run_->alive() ? run_->record().command : command_line(),
+      can ? SolverRun::resume_line(places_.launch, run_->record().folder, run_panel_->ranks()) : QStringList());
 }
 
 void MainWindow::take_run(SolverRun* run) {
   runs_.insert(runs_.begin(), run);
   connect(run, &SolverRun::status_changed, this, &MainWindow::run_changed);
   connect(run, &SolverRun::history_grew, this, [this, run] {
-    if (run == run_) plots_->show_history(run->history());
+    if (run == run_ || std::find(compared_.begin(), compared_.end(), run) != compared_.end()) show_curves();
   });
   connect(run, &SolverRun::frames_changed, this, [this, run] {
     if (run == run_) results_->set_frames(run->frames());
@@ -106,10 +139,12 @@ void MainWindow::open_run(const QString& folder) {
 }
 
 void MainWindow::watch(SolverRun* run) {
+  if (animation_ != nullptr) end_animation();
   run_ = run;
   showing_results_ = run != nullptr;
   loader_->start_model();
-  plots_->show_history(run == nullptr ? History() : run->history());
+  if (run != nullptr) run->read_history();
+  show_curves();
   results_->set_run(run == nullptr ? QString() : run->record().folder);
   if (run != nullptr) {
     view_->clear(tr("waiting for the first frame..."));
@@ -120,6 +155,7 @@ void MainWindow::watch(SolverRun* run) {
 
 void MainWindow::run_changed() {
   run_panel_->show_run(run_);
+  show_commands();
   runs_panel_->show_runs(runs_);
   run_bar_->setVisible(run_ != nullptr && run_->alive());
   if (run_ == nullptr) {
@@ -156,30 +192,7 @@ void MainWindow::show_frame(const FrameData& frame) {
     return;
   }
   view_->show_frame(frame, tr("time %1").arg(quantity_words(frame.time, "s")));
-}
-
-void MainWindow::open_paraview() {
-  if (run_ == nullptr) return;
-  const QString program = QStandardPaths::findExecutable("paraview");
-  if (program.isEmpty()) {
-    QMessageBox::information(
-        this, tr("Breccia"),
-        tr("ParaView is not installed (Debian: paraview). The frames are in %1/frames.").arg(run_->record().folder));
-    return;
-  }
-  QStringList files;
-  for (const char* part : {"elements", "joints"}) {
-    const QString file = QDir(run_->record().folder).filePath(QString("frames/%1.hdf.series").arg(part));
-    if (QFileInfo::exists(file)) files << file;
-  }
-  QProcess::startDetached(program, files, run_->record().folder);
-}
-
-void MainWindow::save_picture() {
-  const QString name = QFileDialog::getSaveFileName(this, tr("Save the picture as"),
-                                                    document_.folder() + "/picture.png", tr("Pictures (*.png)"));
-  if (!name.isEmpty() && !view_->picture().save(name))
-    QMessageBox::warning(this, tr("Breccia"), tr("%1 cannot be written.").arg(name));
+  if (animation_ != nullptr) animation_->take(frame.time, view_->picture());
 }
 
 }  // namespace breccia::gui

@@ -31,6 +31,15 @@ std::vector<Curve> curves_of(const History& history, const QStringList& columns,
   return curves;
 }
 
+/// The curve of another run.
+void add_other(std::vector<Curve>& curves, const QString& run, const History& history, const QString& name,
+               const QString& unit) {
+  const int time = history.column("time [s]"),
+            column = history.column(unit.isEmpty() ? name : name + " [" + unit + "]");
+  if (time >= 0 && column >= 0)
+    curves.push_back({(run + ": " + name).toStdString(), history.values(column), history.values(time)});
+}
+
 }  // namespace
 
 PlotsPanel::PlotsPanel(QWidget* parent) : QWidget(parent) {
@@ -41,23 +50,24 @@ PlotsPanel::PlotsPanel(QWidget* parent) : QWidget(parent) {
   row->addWidget(canvas(breaking_window_, breaking_, tr("Broken joints and fragments over time [us]")));
 }
 
-void PlotsPanel::show_history(const History& history) {
+void PlotsPanel::show_history(const History& history, const std::vector<std::pair<QString, const History*>>& others) {
   const int time = history.column("time [s]");
   if (time < 0) {
     energies_.show({}, {}, "energy [J]");
     breaking_.show({}, {}, "count");
   } else {
-    energies_.show(history.values(time),
-                   curves_of(history,
-                             {"kinetic", "elastic", "joint mode 1", "joint mode 2", "contact friction", "damping",
-                              "plastic", "external work", "residual"},
-                             "J"),
-                   "energy [J]");
-    breaking_.show(
-        history.values(time),
-        curves_of(history, {"damaged joints", "broken joints", "broken in mode I", "broken in mode II", "fragments"},
-                  ""),
-        "count");
+    std::vector<Curve> energies = curves_of(history,
+                                            {"kinetic", "elastic", "joint mode 1", "joint mode 2", "contact friction",
+                                             "damping", "plastic", "external work", "residual"},
+                                            "J");
+    std::vector<Curve> breaking = curves_of(
+        history, {"damaged joints", "broken joints", "broken in mode I", "broken in mode II", "fragments"}, "");
+    for (const auto& [run, other] : others) {
+      add_other(energies, run, *other, "kinetic", "J");
+      add_other(breaking, run, *other, "broken joints", {});
+    }
+    energies_.show(history.values(time), energies, "energy [J]");
+    breaking_.show(history.values(time), breaking, "count");
   }
   energies_window_->Render();
   breaking_window_->Render();

@@ -16,7 +16,8 @@ class PlotsPanel final : public QWidget {
   Q_OBJECT
  public:
   explicit PlotsPanel(QWidget* parent = nullptr);
-  void show_history(const History& history);
+  /// @param others  runs to compare with: their kinetic energy and broken joints are shown as well
+  void show_history(const History& history, const std::vector<std::pair<QString, const History*>>& others = {});
   void set_dark(bool dark);
   [[nodiscard]] int num_curves() const;
 

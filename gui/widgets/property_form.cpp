@@ -1,6 +1,5 @@
 #include "widgets/property_form.hpp"
 
-#include <QHBoxLayout>
 #include <QLineEdit>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
@@ -53,6 +52,10 @@ QString PropertyForm::path_of(const Key& key) const {
 void PropertyForm::show_section(const QString& path) {
   section_ = path;
   fields_.clear();
+  if (!picks_for_.isEmpty()) {
+    picks_for_.clear();
+    emit pick_wanted(false);
+  }
   auto* page = new QWidget;
   auto* column = new QVBoxLayout(page);
   const std::string pattern = case_::pattern_of(path.toStdString());
@@ -93,6 +96,7 @@ void PropertyForm::add_field(const Key& key, QFormLayout& layout) {
   field.editor->setAccessibleName(label_of(key) + (key.unit == "1" ? QString() : " [" + text_of(key.unit) + "]"));
   field.editor->setAccessibleDescription(text_of(key.help));
   cells->addWidget(field.editor, 1);
+  if (names_a_group(key)) add_picker(path, label_of(key), *cells);
   cells->addWidget(field.mark);
   field.mark->setObjectName("mark:" + path);
   field.mark->hide();
@@ -101,6 +105,33 @@ void PropertyForm::add_field(const Key& key, QFormLayout& layout) {
   label->setBuddy(field.editor);
   layout.addRow(label, row);
   fields_.insert(path, field);
+}
+
+void PropertyForm::add_picker(const QString& path, const QString& label, QHBoxLayout& cells) {
+  auto* pick = new QToolButton;
+  pick->setText(tr("Pick"));
+  pick->setCheckable(true);
+  pick->setFocusPolicy(Qt::StrongFocus);
+  pick->setObjectName("pick:" + path);
+  pick->setAccessibleName(tr("Pick: %1").arg(label));
+  pick->setToolTip(tr("Then click on a body in the 3D view; once more ends it"));
+  connect(pick, &QToolButton::toggled, this, [this, path](bool on) {
+    if (!on && picks_for_ != path) return;
+    for (auto* other : findChildren<QToolButton*>())
+      if (on && other->isChecked() && other->objectName() != "pick:" + path) other->setChecked(false);
+    picks_for_ = on ? path : QString();
+    emit pick_wanted(on);
+  });
+  cells.addWidget(pick);
+}
+
+bool PropertyForm::take_pick(const QString& group) {
+  const QString path = picks_for_;
+  if (path.isEmpty() || !fields_.contains(path)) return false;
+  if (auto* pick = findChild<QToolButton*>("pick:" + path)) pick->setChecked(false);
+  take_over(path, *fields_[path].key, group);
+  emit group_entered(group);
+  return true;
 }
 
 QWidget* PropertyForm::editor_of(const Key& key, const QString& path) {

@@ -2,9 +2,11 @@
 
 #include <QComboBox>
 #include <QFormLayout>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QMap>
 #include <QScrollArea>
+#include <QToolButton>
 
 #include "case/schema.hpp"
 #include "core/document.hpp"
@@ -24,12 +26,16 @@ class PropertyForm final : public QScrollArea {
   void set_problems(const std::vector<Problem>& problems);
   /// Words that a group field offers.
   void set_groups(const QStringList& groups);
+  /// Somebody has clicked on a group in the view. True: the field that waits for it has taken it.
+  bool take_pick(const QString& group);
   /// Puts the cursor into the field of a path, if it is here.
   void focus_field(const QString& path);
 
  signals:
   /// A field that names groups got one: the view shows it.
   void group_entered(const QString& group);
+  /// A field waits, or waits no more, for a click in the view.
+  void pick_wanted(bool on);
 
  private:
   struct Field {
@@ -39,6 +45,7 @@ class PropertyForm final : public QScrollArea {
     QString label;
   };
   void add_field(const case_::Key& key, QFormLayout& layout);
+  void add_picker(const QString& path, const QString& label, QHBoxLayout& cells);
   [[nodiscard]] QWidget* editor_of(const case_::Key& key, const QString& path);
   void take_over(const QString& path, const case_::Key& key, const QString& typed);
   void refresh();
@@ -50,6 +57,7 @@ class PropertyForm final : public QScrollArea {
   QMap<QString, Field> fields_;  // by path
   std::vector<Problem> problems_;
   QStringList groups_;
+  QString picks_for_;  ///< path of the field that waits for a click
 };
 
 }  // namespace breccia::gui

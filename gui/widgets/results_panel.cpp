@@ -17,7 +17,9 @@ ResultsPanel::ResultsPanel(QWidget* parent)
       back_(new QPushButton("◀")),
       forward_(new QPushButton("▶")),
       paraview_(new QPushButton(tr("Open in Para&View"))),
-      picture_(new QPushButton(tr("Save p&icture..."))) {
+      picture_(new QPushButton(tr("Save p&icture..."))),
+      curves_(new QPushButton(tr("Export &curves..."))),
+      animation_(new QPushButton(tr("Save &animation..."))) {
   run_->setWordWrap(true);
   run_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   time_->setObjectName("frame_time");
@@ -41,6 +43,12 @@ ResultsPanel::ResultsPanel(QWidget* parent)
   picture_->setObjectName("save_picture");
   picture_->setAccessibleName(tr("Save picture"));
   picture_->setToolTip(tr("Save what the 3D view shows as PNG"));
+  curves_->setObjectName("export_curves");
+  curves_->setAccessibleName(tr("Export curves"));
+  curves_->setToolTip(tr("Save the history of this run, and of those ticked in the table of runs, as CSV"));
+  animation_->setObjectName("save_animation");
+  animation_->setAccessibleName(tr("Save animation"));
+  animation_->setToolTip(tr("Save all frames, as the 3D view shows them, as a film (MP4, by ffmpeg)"));
   auto* column = new QVBoxLayout(this);
   column->addWidget(run_);
   column->addWidget(follow_);
@@ -52,6 +60,8 @@ ResultsPanel::ResultsPanel(QWidget* parent)
   column->addWidget(time_);
   column->addWidget(paraview_);
   column->addWidget(picture_);
+  column->addWidget(animation_);
+  column->addWidget(curves_);
   column->addStretch();
   connect(slider_, &QSlider::valueChanged, this, &ResultsPanel::moved);
   connect(back_, &QPushButton::clicked, this, [this] {
@@ -62,6 +72,8 @@ ResultsPanel::ResultsPanel(QWidget* parent)
   connect(slider_, &QSlider::sliderPressed, this, [this] { follow_->setChecked(false); });
   connect(paraview_, &QPushButton::clicked, this, &ResultsPanel::paraview_wanted);
   connect(picture_, &QPushButton::clicked, this, &ResultsPanel::picture_wanted);
+  connect(curves_, &QPushButton::clicked, this, &ResultsPanel::curves_wanted);
+  connect(animation_, &QPushButton::clicked, this, &ResultsPanel::animation_wanted);
   set_frames({});
 }
 
@@ -74,8 +86,9 @@ void ResultsPanel::set_run(const QString& folder) {
 void ResultsPanel::set_frames(const std::vector<RunFrame>& frames) {
   frames_ = frames;
   const bool any = !frames_.empty();
-  for (QWidget* w : {static_cast<QWidget*>(slider_), static_cast<QWidget*>(back_), static_cast<QWidget*>(forward_),
-                     static_cast<QWidget*>(paraview_), static_cast<QWidget*>(picture_)})
+  for (QWidget* w :
+       {static_cast<QWidget*>(slider_), static_cast<QWidget*>(back_), static_cast<QWidget*>(forward_),
+        static_cast<QWidget*>(paraview_), static_cast<QWidget*>(picture_), static_cast<QWidget*>(animation_)})
     w->setEnabled(any);
   const int last = any ? static_cast<int>(frames_.size()) - 1 : 0;
   const int now = follow_->isChecked() ? last : std::min(slider_->value(), last);

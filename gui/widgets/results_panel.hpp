@@ -23,6 +23,8 @@ class ResultsPanel final : public QWidget {
   void frame_wanted(int number);
   void paraview_wanted();
   void picture_wanted();
+  void curves_wanted();
+  void animation_wanted();
 
  private:
   void moved(int number);
@@ -30,7 +32,7 @@ class ResultsPanel final : public QWidget {
   QLabel *run_, *time_;
   QSlider* slider_;
   QCheckBox* follow_;
-  QPushButton *back_, *forward_, *paraview_, *picture_;
+  QPushButton *back_, *forward_, *paraview_, *picture_, *curves_, *animation_;
   std::vector<RunFrame> frames_;
 };
 

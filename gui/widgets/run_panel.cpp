@@ -1,5 +1,10 @@
 #include "widgets/run_panel.hpp"
 
+#include <QApplication>
+#include <QClipboard>
+#include <QDateTime>
+#include <QFileInfo>
+#include <QFontDatabase>
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QThread>
@@ -46,14 +51,20 @@ RunPanel::RunPanel(QWidget* parent)
       ranks_(new QSpinBox),
       run_(button(tr("&Run"), "run", tr("Save the case and start the run (F5)"))),
       pause_(button(tr("&Pause"), "pause", tr("Wait between two steps, and go on"))),
+      checkpoint_(button(tr("Check&point"), "checkpoint",
+                         tr("Write the whole state now; the run can be resumed from there, whatever happens"))),
       stop_(button(tr("&Stop"), "stop",
                    tr("End after the present step with everything written; what does not end in time is killed"))),
+      go_on_(button(tr("Resu&me from checkpoint"), "go_on",
+                    tr("Go on to the same results as if nothing had happened, on as many ranks as are set above"))),
       check_(button(tr("C&heck"), "check", tr("Stable step, run time, memory and disk, with advice (F7)"))),
       results_(button(tr("Open res&ults"), "open_results", tr("Walk through the recorded frames of this run"))),
       command_(new QLineEdit),
+      go_on_command_(new QLineEdit),
       estimate_(new QLabel),
       state_(new QLabel),
       warning_(new QLabel),
+      checkpoints_(new QLabel),
       progress_(new QProgressBar),
       failure_(new QPlainTextEdit) {
   setObjectName("run_panel");
@@ -70,10 +81,8 @@ RunPanel::RunPanel(QWidget* parent)
   warning_->setText(tr("⚠ more ranks than the %1 cores of this machine: they will be in each other's way").arg(cores));
   warning_->setWordWrap(true);
   warning_->hide();
-  command_->setReadOnly(true);
-  command_->setObjectName("command_line");
-  command_->setAccessibleName(tr("Command line"));
-  command_->setToolTip(tr("The same run from a terminal; select and copy"));
+  checkpoints_->setWordWrap(true);
+  checkpoints_->setObjectName("checkpoints");
   estimate_->setWordWrap(true);
   estimate_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   estimate_->setObjectName("estimate");
@@ -98,32 +107,64 @@ RunPanel::RunPanel(QWidget* parent)
   form->addRow(label, ranks_);
   column->addLayout(form);
   column->addWidget(warning_);
-  column->addWidget(new QLabel(tr("<b>Estimate</b>")));
+  auto* head = new QHBoxLayout;
+  head->addWidget(new QLabel(tr("<b>Estimate</b>")), 1);
+  head->addWidget(check_);
+  column->addLayout(head);
   column->addWidget(estimate_);
-  column->addWidget(check_);
   column->addWidget(new QLabel(tr("<b>Command line</b>")));
-  column->addWidget(command_);
-  auto* row = new QHBoxLayout;
-  for (QPushButton* b : {run_, pause_, stop_}) row->addWidget(b);
-  column->addLayout(row);
+  column->addWidget(command_row(command_, "command_line", tr("Command line")));
+  auto* grid = new QGridLayout;
+  grid->addWidget(run_, 0, 0);
+  grid->addWidget(pause_, 0, 1);
+  grid->addWidget(stop_, 1, 0);
+  grid->addWidget(checkpoint_, 1, 1);
+  column->addLayout(grid);
   column->addWidget(progress_);
   column->addWidget(state_);
   column->addWidget(failure_);
+  column->addWidget(checkpoints_);
+  column->addWidget(go_on_);
+  go_on_row_ = command_row(go_on_command_, "go_on_command", tr("Command line that resumes the run"));
+  column->addWidget(go_on_row_);
   column->addWidget(results_);
   column->addStretch();
   connect(run_, &QPushButton::clicked, this, &RunPanel::run_wanted);
   connect(pause_, &QPushButton::clicked, this, &RunPanel::pause_wanted);
   connect(stop_, &QPushButton::clicked, this, &RunPanel::stop_wanted);
+  connect(checkpoint_, &QPushButton::clicked, this, &RunPanel::checkpoint_wanted);
+  connect(go_on_, &QPushButton::clicked, this, &RunPanel::go_on_wanted);
   connect(check_, &QPushButton::clicked, this, &RunPanel::check_wanted);
   connect(results_, &QPushButton::clicked, this, &RunPanel::results_wanted);
   show_run(nullptr);
 }
 
-void RunPanel::set_command(const QStringList& command) {
-  QStringList words;
-  for (const QString& word : command) words << (word.contains(' ') ? "'" + word + "'" : word);
-  command_->setText(words.join(' '));
-  command_->setCursorPosition(0);
+QWidget* RunPanel::command_row(QLineEdit* line, const QString& name, const QString& title) {
+  line->setReadOnly(true);
+  line->setObjectName(name);
+  line->setAccessibleName(title);
+  line->setToolTip(tr("The same from a terminal"));
+  QFont font = QFontDatabase::systemFont(QFontDatabase::FixedFont);
+  line->setFont(font);
+  QPushButton* copy = button(tr("Copy"), "copy_" + name, tr("Copy the command line: %1").arg(title));
+  copy->setAccessibleName(tr("Copy: %1").arg(title));
+  connect(copy, &QPushButton::clicked, this, [line] { QApplication::clipboard()->setText(line->text()); });
+  auto* row = new QWidget(this);
+  auto* cells = new QHBoxLayout(row);
+  cells->setContentsMargins(0, 0, 0, 0);
+  cells->addWidget(line, 1);
+  cells->addWidget(copy);
+  return row;
+}
+
+void RunPanel::set_command(const QStringList& command, const QStringList& go_on) {
+  const auto show = [](QLineEdit* line, const QStringList& words) {
+    if (line->text() == shell_line(words)) return;  // what somebody has selected stays selected
+    line->setText(shell_line(words));
+    line->setCursorPosition(0);
+  };
+  show(command_, command);
+  show(go_on_command_, go_on);
 }
 
 void RunPanel::set_problems(int count) {
@@ -155,10 +196,27 @@ void RunPanel::set_state_words(const SolverRun& run) {
   state_->setText(words);
 }
 
+void RunPanel::show_checkpoints(const SolverRun& run) {
+  const std::vector<RunCheckpoint>& list = run.checkpoints();
+  checkpoints_->setVisible(!list.empty());
+  if (list.empty()) return;
+  const QFileInfo latest(list.front().file);
+  checkpoints_->setText(
+      tr("checkpoints: %1, the latest at step %2 (%3, %4)")
+          .arg(list.size())
+          .arg(list.front().step)
+          .arg(quantity_words(static_cast<double>(latest.size()), "B"), latest.lastModified().toString("HH:mm:ss")));
+}
+
 void RunPanel::show_run(const SolverRun* run) {
   running_ = run != nullptr && run->alive();
   pause_->setEnabled(running_);
+  for (QPushButton* b : {pause_, stop_, checkpoint_}) b->setVisible(running_);
   stop_->setEnabled(running_ && run->state() != "stopping");
+  checkpoint_->setEnabled(running_ && (run->state() == "running" || run->state() == "paused"));
+  const bool can_go_on = run != nullptr && run->can_go_on();
+  go_on_->setVisible(can_go_on);
+  go_on_row_->setVisible(can_go_on);
   results_->setEnabled(run != nullptr && !run->frames().empty());
   const bool paused = run != nullptr && run->state() == "paused";
   pause_->setText(paused ? tr("&Resume") : tr("&Pause"));
@@ -168,11 +226,13 @@ void RunPanel::show_run(const SolverRun* run) {
     state_->setText(tr("No run yet."));
     progress_->setValue(0);
     failure_->hide();
+    checkpoints_->hide();
     return;
   }
+  show_checkpoints(*run);
   set_state_words(*run);
   progress_->setValue(static_cast<int>(1000 * run->status().share));
-  const bool failed = run->state() == "failed";
+  const bool failed = run->state() == "failed" || run->state() == "interrupted";
   failure_->setVisible(failed);
   if (failed) failure_->setPlainText(run->failure());
 }

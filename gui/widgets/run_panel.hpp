@@ -11,14 +11,16 @@
 
 namespace breccia::gui {
 
-/// Starting a run, and how it goes: estimate, ranks, command line, progress, pause, stop.
+/// Starting a run, and how it goes: estimate, ranks, command line, progress, pause, checkpoint, stop, and
+/// going on from a checkpoint.
 class RunPanel final : public QWidget {
   Q_OBJECT
  public:
   explicit RunPanel(QWidget* parent = nullptr);
 
   [[nodiscard]] int ranks() const { return ranks_->value(); }
-  void set_command(const QStringList& command);
+  /// @param go_on  that of the run in hand, should it go on from its checkpoint; empty: it cannot
+  void set_command(const QStringList& command, const QStringList& go_on);
   void set_problems(int count);
   /// Answer of `check --json`.
   void set_estimate(const QString& html);
@@ -29,17 +31,22 @@ class RunPanel final : public QWidget {
   void run_wanted();
   void pause_wanted();
   void stop_wanted();
+  void checkpoint_wanted();
+  void go_on_wanted();
   void check_wanted();
   void results_wanted();
   void ranks_changed(int ranks);
 
  private:
+  [[nodiscard]] QWidget* command_row(QLineEdit* line, const QString& name, const QString& title);
   void set_state_words(const SolverRun& run);
+  void show_checkpoints(const SolverRun& run);
 
   QSpinBox* ranks_;
-  QPushButton *run_, *pause_, *stop_, *check_, *results_;
-  QLineEdit* command_;
-  QLabel *estimate_, *state_, *warning_;
+  QPushButton *run_, *pause_, *checkpoint_, *stop_, *go_on_, *check_, *results_;
+  QLineEdit *command_, *go_on_command_;
+  QWidget* go_on_row_ = nullptr;
+  QLabel *estimate_, *state_, *warning_, *checkpoints_;
   QProgressBar* progress_;
   QPlainTextEdit* failure_;
   int problems_ = 0;

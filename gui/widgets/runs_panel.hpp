@@ -15,6 +15,11 @@ class RunsPanel final : public QTableWidget {
 
  signals:
   void run_chosen(const QString& folder);
+  /// Ticks have changed. @param folders  of the runs to compare with
+  void comparison_wanted(const QStringList& folders);
+
+ private:
+  bool showing_ = false;
 };
 
 }  // namespace breccia::gui

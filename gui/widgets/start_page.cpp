@@ -108,10 +108,15 @@ void StartPage::refresh(const std::vector<RunRecord>& runs) {
     item->setData(Qt::UserRole, file);
   }
   runs_->clear();
-  for (const RunRecord& run : runs) {
-    const bool alive = !members_of(run.session).isEmpty();
-    auto* item = new QListWidgetItem(
-        tr("%1%2, ranks: %3").arg(alive ? tr("running: ") : QString(), run.folder).arg(run.ranks), runs_);
+  std::vector<Session> sessions;
+  for (const RunRecord& run : runs) sessions.push_back(run.session);
+  const std::vector<bool> alive = are_alive(sessions);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const RunRecord& run = runs[i];
+    auto* item = new QListWidgetItem(tr("%1%2, ranks: %3")
+                                         .arg(alive[i] || is_held(run.folder) ? tr("running: ") : QString(), run.folder)
+                                         .arg(run.ranks),
+                                     runs_);
     item->setData(Qt::UserRole, run.folder);
   }
 }

@@ -5,6 +5,7 @@
 
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QMouseEvent>
 #include <QPushButton>
 #include <QSet>
 #include <QVBoxLayout>
@@ -25,7 +26,8 @@ View3D::View3D(QWidget* parent)
   window_->GetInteractor()->SetInteractorStyle(style);
   canvas_->setObjectName("canvas");
   canvas_->setAccessibleName(tr("3D view"));
-  canvas_->setToolTip(tr("Drag: turn; wheel: zoom; middle button: move"));
+  canvas_->setToolTip(tr("Drag: turn; wheel: zoom; middle button: move; click: choose a group"));
+  canvas_->installEventFilter(this);
   canvas_->setFocusPolicy(Qt::StrongFocus);
   canvas_->setMinimumSize(320, 220);
 
@@ -86,6 +88,29 @@ View3D::View3D(QWidget* parent)
   column->setContentsMargins(2, 2, 2, 2);
   column->addLayout(bar);
   column->addWidget(canvas_, 1);
+}
+
+bool View3D::eventFilter(QObject* watched, QEvent* event) {
+  constexpr int kStill = 3;  // pixels that a hand moves in a click
+  if (watched == canvas_ && event->type() == QEvent::MouseButtonPress) {
+    pressed_ = static_cast<QMouseEvent*>(event)->pos();
+  } else if (watched == canvas_ && event->type() == QEvent::MouseButtonRelease) {
+    const auto* mouse = static_cast<QMouseEvent*>(event);
+    if (mouse->button() == Qt::LeftButton && (mouse->pos() - pressed_).manhattanLength() <= kStill) {
+      if (const QString group = group_at(mouse->pos()); !group.isEmpty()) emit group_picked(group);
+    }
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+QString View3D::group_at(const QPoint& place) const {
+  const double ratio = canvas_->devicePixelRatioF();
+  return QString::fromStdString(scene_.group_at(ratio * place.x(), ratio * (canvas_->height() - 1 - place.y())));
+}
+
+void View3D::set_picking(bool on) {
+  on ? canvas_->setCursor(Qt::CrossCursor) : canvas_->unsetCursor();
+  if (on) canvas_->setFocus();
 }
 
 void View3D::render() { window_->Render(); }

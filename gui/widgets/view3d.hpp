@@ -26,8 +26,19 @@ class View3D final : public QWidget {
   void render();
   /// What is drawn now.
   [[nodiscard]] QImage picture();
+  /// Shows that a click is waited for.
+  void set_picking(bool on);
+  /// The group at a place of the canvas; empty: none.
+  [[nodiscard]] QString group_at(const QPoint& place) const;
   /// Share of the pixels that differ from the background; for tests.
   [[nodiscard]] double drawn_share();
+
+ signals:
+  /// Somebody has clicked on it, without dragging.
+  void group_picked(const QString& group);
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   Scene scene_;
@@ -36,6 +47,7 @@ class View3D final : public QWidget {
   QComboBox* colour_;
   QCheckBox *edges_, *skin_;
   QSlider* explode_;
+  QPoint pressed_;
 };
 
 }  // namespace breccia::gui

@@ -22,6 +22,10 @@ int check(const CheckCommand& asked, int launched) {
     fmt::print("{}", asked.json ? domains_json(input, bare, asked.ranks) : domain_table(input, bare, asked.ranks));
     return 0;
   }
+  if (asked.joints) {
+    fmt::print("{}", joints_json(build_bare_model(input)));
+    return 0;
+  }
   const Model model = build_model(input);
   if (asked.json) {
     fmt::print("{}", check_json(input, model));
@@ -37,7 +41,7 @@ int check(const CheckCommand& asked, int launched) {
 }  // namespace
 
 int check_command(const CheckCommand& asked, int launched) {
-  return asked.json ? or_problems([&] { return check(asked, launched); }) : check(asked, launched);
+  return asked.json || asked.joints ? or_problems([&] { return check(asked, launched); }) : check(asked, launched);
 }
 
 }  // namespace breccia

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "case/schema.hpp"
 #include "commands/check_report.hpp"
+#include "commands/joint_curves.hpp"
 #include "mesh/quality.hpp"
 
 namespace breccia {
@@ -137,6 +138,23 @@ std::string domains_json(const case_::Case& input, const Model& model, int parts
                   {"efficiency", division.report.efficiency},
                   {"domains", domains},
                   {"owner", division.owner}});
+}
+
+std::string joints_json(const Model& model) {
+  const auto curve = [](const JointCurve& c) {
+    return Json{{"opening", c.opening}, {"traction", c.traction}, {"peak", c.peak}, {"energy", c.energy}};
+  };
+  Json laws = Json::array();
+  for (const JointLawCurves& law : joint_curves(model)) {
+    laws.push_back({{"name", law.name},
+                    {"size", law.size},
+                    {"stiffness", law.stiffness},
+                    {"normal", curve(law.normal)},
+                    {"shear", curve(law.shear)},
+                    {"unloading", curve(law.unloading)},
+                    {"envelope", {{"normal", law.envelope_normal}, {"shear", law.envelope_shear}}}});
+  }
+  return text_of({{"laws", laws}});
 }
 
 std::string mesh_json(const FinishedMesh& made) {

@@ -18,6 +18,10 @@ namespace breccia {
 /// each element in the order of ids. Throws as divide_model.
 [[nodiscard]] std::string domains_json(const case_::Case& input, const Model& model, int parts);
 
+/// Laws of the joints that can break: name, size and stiffness; opening, traction, peak and energy of `normal` and
+/// `shear`; `unloading`; `envelope` with normal and shear.
+[[nodiscard]] std::string joints_json(const Model& model);
+
 /// Source, elements, nodes, bodies, volume and surface groups, repairs, the quality of every element in ten bins, and
 /// the report in words.
 [[nodiscard]] std::string mesh_json(const FinishedMesh& made);

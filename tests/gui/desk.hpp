@@ -2,8 +2,11 @@
 
 #include <QDir>
 #include <QElapsedTimer>
+#include <QFileDialog>
+#include <QLineEdit>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QTimer>
 #include <QTreeWidget>
 #include <functional>
 #include <memory>
@@ -80,11 +83,37 @@ struct Desk {
     QTest::keyClick(widget, Qt::Key_Tab);
   }
 
+  /// Clicks a button that opens the dialog for files, and types a name there.
+  void click_and_name(const QString& button, const QString& file) {
+    QTimer::singleShot(300, window.get(), [this, file] {
+      auto* dialog = window->findChild<QFileDialog*>();
+      if (dialog == nullptr) throw std::runtime_error("no dialog for files");
+      auto* name = dialog->findChild<QLineEdit*>("fileNameEdit");
+      name->setFocus();
+      name->clear();
+      QTest::keyClicks(name, file);
+      QTest::keyClick(name, Qt::Key_Return);
+    });
+    click(button);
+    window->activateWindow();
+    (void)QTest::qWaitForWindowActive(window.get());
+  }
+
+  /// A place of the 3D view where a group is seen; none: not in sight.
+  QPoint place_of(const QString& group) {
+    auto* canvas = find<QWidget>("canvas");
+    for (int y = 5; y < canvas->height(); y += 7)
+      for (int x = 5; x < canvas->width(); x += 7)
+        if (window->view().group_at({x, y}) == group) return {x, y};
+    throw std::runtime_error("not in sight: " + group.toStdString());
+  }
+
   /// A picture of the window, kept where BRECCIA_SCREENSHOTS says.
-  void picture(const QString& name) {
+  void picture(const QString& name, QWidget* of = nullptr) {
     const QString folder = qEnvironmentVariable("BRECCIA_SCREENSHOTS");
     QTest::qWait(100);
-    if (!folder.isEmpty() && QDir().mkpath(folder)) window->grab().save(QDir(folder).filePath(name + ".png"));
+    if (!folder.isEmpty() && QDir().mkpath(folder))
+      (of == nullptr ? window.get() : of)->grab().save(QDir(folder).filePath(name + ".png"));
   }
 };
 

@@ -179,5 +179,25 @@ TEST(Document, ASavedCaseLeavesNoSnapshot) {
   EXPECT_TRUE(QDir(scratch.filePath("state")).entryList({"unsaved-*"}).isEmpty());
 }
 
+TEST(Document, AFileThatAnotherProgramHasChangedIsNoticed) {
+  const QTemporaryDir scratch;
+  const QString file = scratch.filePath("case.toml");
+  const auto write = [&](const QByteArray& text) {
+    QFile out(file);
+    ASSERT_TRUE(out.open(QIODevice::WriteOnly));
+    out.write(text);
+  };
+  write("title = \"a\"\n");
+  Document document(scratch.filePath("state"));
+  ASSERT_TRUE(document.open(file).isEmpty());
+  EXPECT_FALSE(document.changed_on_disk());
+  document.set_value("title", "\"b\"");
+  EXPECT_FALSE(document.changed_on_disk());
+  write("title = \"c\"\n");
+  EXPECT_TRUE(document.changed_on_disk());
+  ASSERT_TRUE(document.save().isEmpty());
+  EXPECT_FALSE(document.changed_on_disk());
+}
+
 }  // namespace
 }  // namespace breccia::gui

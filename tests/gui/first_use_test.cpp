@@ -1,15 +1,23 @@
 #include <gtest/gtest.h>
 
 #include <QAbstractButton>
+#include <QApplication>
+#include <QClipboard>
+#include <QDialog>
+#include <QFile>
+#include <QFileInfo>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QPlainTextEdit>
 #include <QSlider>
 #include <QSpinBox>
+#include <QStatusBar>
 #include <QTableWidget>
 
 #include "gui/desk.hpp"
+#include "widgets/animation_export.hpp"
+#include "widgets/joint_plot.hpp"
 #include "widgets/plots_panel.hpp"
 
 namespace breccia::gui::test {
@@ -55,7 +63,20 @@ TEST(FirstUse, FromATemplateToBreakingGlassAndItsResults) {
   EXPECT_EQ(document.text(), before);
   ASSERT_TRUE(wait_until([&] { return run->isEnabled(); }, 2000));
 
+  // A click in the view leads to the material; a field picks its group there.
+  auto* canvas = desk.find<QWidget>("canvas");
+  QTest::mouseClick(canvas, Qt::LeftButton, {}, desk.place_of("support"));
+  EXPECT_TRUE(desk.find<QWidget>("field:material[1].young")->isVisible());
+  desk.click_stage("initial velocity");
+  desk.click("pick:initial_velocity[0].group");
+  QTest::mouseClick(canvas, Qt::LeftButton, {}, desk.place_of("glass"));
+  EXPECT_EQ(document.value("initial_velocity[0].group"), "\"glass\"");
+  EXPECT_FALSE(desk.find<QAbstractButton>("pick:initial_velocity[0].group")->isChecked());
+  document.undo_stack().undo();
+  EXPECT_EQ(document.text(), before);
+
   // Material and speed.
+  desk.click_stage("material: glass");
   desk.type("field:material[0].young", "70 GPa");
   EXPECT_EQ(document.value("material[0].young"), "\"70 GPa\"");
   desk.click_stage("initial velocity");
@@ -63,8 +84,31 @@ TEST(FirstUse, FromATemplateToBreakingGlassAndItsResults) {
   EXPECT_EQ(document.value("initial_velocity[0].velocity"), "[0, \"-20 m/s\", 0]");
   EXPECT_TRUE(desk.find<QPlainTextEdit>("case_text")->toPlainText().contains("\"-20 m/s\""));
   desk.picture("loads");
+
+  // The joint law as the solver evaluates it, and a material of the library.
+  desk.click_stage("joint: glass");
+  auto* plot = desk.find<JointPlot>("joint_plot");
+  ASSERT_TRUE(wait_until([&] { return plot->isVisible() && plot->num_points() > 200; }, kSolver));
+  EXPECT_TRUE(plot->accessibleDescription().contains("Pa/m"));
+  desk.picture("joint");
+  desk.click_stage("material: glass");
+  const QByteArray by_hand = document.text();
+  QTimer::singleShot(500, desk.window.get(), [&] {
+    auto* dialog = desk.find<QDialog>("library");
+    auto* filter = dialog->findChild<QLineEdit*>("library_filter");
+    QTest::keyClicks(filter, "soda");
+    desk.picture("library", dialog);
+    QTest::mouseClick(dialog->findChild<QAbstractButton*>("library_take"), Qt::LeftButton);
+  });
+  desk.click("from_library");
+  EXPECT_EQ(document.value("joint[0].energy_mode_1"), "\"8 J/m2\"");
+  desk.window->activateWindow();
+  (void)QTest::qWaitForWindowActive(desk.window.get());
+  document.undo_stack().undo();
+  EXPECT_EQ(document.text(), by_hand);
   desk.click_stage("output");
   desk.type("field:output.frame_interval", "1 us");
+  EXPECT_EQ(document.value("output.frame_interval"), "\"1 us\"");
 
   // Domains for two ranks.
   desk.find<QSpinBox>("ranks")->setValue(2);
@@ -98,12 +142,35 @@ TEST(FirstUse, FromATemplateToBreakingGlassAndItsResults) {
   ASSERT_TRUE(wait_until([&] { return solver.state() == "paused"; }, kSolver));
   desk.window->set_dark(true);
   desk.picture("paused_dark");
+  desk.click("checkpoint");
+  ASSERT_TRUE(wait_until([&] { return !solver.checkpoints().empty(); }, kSolver));
+  EXPECT_TRUE(desk.find<QLabel>("checkpoints")->text().contains("latest at step"));
   desk.click("pause");
   ASSERT_TRUE(wait_until([&] { return solver.state() == "running"; }, kSolver));
+  auto* go_on = desk.find<QAbstractButton>("go_on");
+  EXPECT_FALSE(go_on->isVisible());
   desk.click("stop");
-  ASSERT_TRUE(wait_until([&] { return !solver.alive(); }, kSolver));
+  ASSERT_TRUE(wait_until([&] { return !solver.alive() && go_on->isVisible(); }, kSolver));
   EXPECT_EQ(solver.state(), "stopped");
   EXPECT_TRUE(members_of(solver.record().session).isEmpty());
+  desk.window->set_dark(false);
+  desk.picture("stopped");
+
+  // On, on one rank.
+  const qint64 left_at = solver.checkpoints().front().step;
+  desk.find<QSpinBox>("ranks")->setValue(1);
+  desk.click("copy_go_on_command");
+  EXPECT_TRUE(QApplication::clipboard()->text().contains(" resume "));
+  desk.click("go_on");
+  SolverRun& second = *desk.window->run();
+  ASSERT_EQ(second.record().ranks, 1);
+  EXPECT_FALSE(go_on->isVisible());
+  ASSERT_TRUE(wait_until([&] { return second.status().step > static_cast<double>(left_at); }, kSolver))
+      << second.failure().toStdString();
+  EXPECT_EQ(desk.find<QTableWidget>("runs")->rowCount(), 1);
+  desk.click("stop");
+  ASSERT_TRUE(wait_until([&] { return !second.alive(); }, kSolver));
+  desk.window->set_dark(true);
 
   // Results.
   desk.click("open_results");
@@ -119,6 +186,20 @@ TEST(FirstUse, FromATemplateToBreakingGlassAndItsResults) {
   desk.picture("results_dark");
   desk.window->set_dark(false);
   desk.picture("results");
+
+  // Curves and a film for others.
+  const QString table_file = desk.scratch.filePath("curves.csv"), film = desk.scratch.filePath("film.mp4");
+  desk.click_and_name("export_curves", table_file);
+  QFile curves(table_file);
+  ASSERT_TRUE(curves.open(QIODevice::ReadOnly));
+  EXPECT_TRUE(curves.readLine().contains("kinetic [J]"));
+  EXPECT_GT(curves.readAll().count('\n'), 1);
+  if (!AnimationExport::program().isEmpty()) {
+    desk.click_and_name("save_animation", film);
+    const auto is_written = [&] { return desk.window->statusBar()->currentMessage().contains("is written"); };
+    EXPECT_TRUE(wait_until(is_written, kSolver));
+    EXPECT_GT(QFileInfo(film).size(), 1000);
+  }
   // A fresh view is drawn after the light theme.
   EXPECT_GT(desk.window->view().drawn_share(), kSomethingDrawn);
 }

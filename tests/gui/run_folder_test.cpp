@@ -49,6 +49,57 @@ TEST(RunFolder, AFileThatBeganAnewIsReadFromItsStart) {
   EXPECT_TRUE(restarted);
 }
 
+TEST(RunFolder, AFileThatIsAnotherOneIsReadFromItsStartThoughItIsLonger) {
+  const QTemporaryDir scratch;
+  const QString file = scratch.filePath("status.jsonl");
+  GrowingFile growing(file);
+  append(file, "one\nstopped\n");
+  EXPECT_EQ(growing.news().size(), 2);
+  QFile::remove(file);
+  append(file, "one\ntwo\nthree\nfour\n");
+  bool restarted = false;
+  EXPECT_EQ(growing.news(&restarted).size(), 4);
+  EXPECT_TRUE(restarted);
+}
+
+TEST(RunFolder, OfALongFileTheTailIsReadByWholeLines) {
+  const QTemporaryDir scratch;
+  const QString file = scratch.filePath("status.jsonl");
+  append(file, "first line\nsecond\nthird\n");
+  GrowingFile growing(file, 15);  // the cut goes through the first line
+  EXPECT_EQ(growing.news(), (QList<QByteArray>{"second", "third"}));
+  append(file, "fourth\n");
+  EXPECT_EQ(growing.news(), QList<QByteArray>{"fourth"});
+}
+
+TEST(RunFolder, ALongFileIsReadPieceByPiece) {
+  const QTemporaryDir scratch;
+  const QString file = scratch.filePath("history.csv");
+  constexpr int kLines = 300000;
+  QByteArray text;
+  for (int i = 0; i < kLines; ++i) text += QByteArray::number(i) + "\n";
+  append(file, text);
+  GrowingFile growing(file);
+  int lines = 0, calls = 0;
+  do {
+    for (const QByteArray& line : growing.news()) EXPECT_EQ(line.toInt(), lines++);
+    ++calls;
+  } while (growing.has_more());
+  EXPECT_EQ(lines, kLines);
+  EXPECT_GT(calls, 1);
+}
+
+TEST(RunFolder, CheckpointsAreListedLatestFirst) {
+  const QTemporaryDir scratch;
+  ASSERT_TRUE(QDir(scratch.path()).mkpath("checkpoints"));
+  for (const char* name : {"step_000000900.h5", "step_000010000.h5", "step_2.h5.partial", "other.h5"})
+    append(scratch.filePath(QString("checkpoints/") + name), "x");
+  const auto found = read_checkpoints(scratch.path());
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].step, 10000);
+  EXPECT_EQ(found[1].step, 900);
+}
+
 TEST(RunFolder, EventsAndRubbishAreNoStatus) {
   RunStatus status;
   EXPECT_FALSE(read_status("{\"event\":\"pause\",\"accepted\":true}", status));
@@ -72,6 +123,15 @@ TEST(RunFolder, HistoryGrowsByWholeRows) {
   EXPECT_EQ(history.column("kinetic [J]"), 2);
   EXPECT_EQ(history.values(2)[0], 1.5);
   EXPECT_TRUE(std::isnan(history.values(2)[1]));
+}
+
+TEST(RunFolder, HistoriesOfSeveralRunsStandBesideEachOther) {
+  History one, two;
+  for (const char* line : {"time [s],kinetic [J]", "0,1.5", "1e-6,2"}) one.add_line(line);
+  for (const char* line : {"time [s]", "0"}) two.add_line(line);
+  EXPECT_EQ(histories_csv({{"a", &one}}), "time [s],kinetic [J]\n0,1.5\n9.9999999999999995e-07,2\n");
+  EXPECT_EQ(histories_csv({{"a, b", &one}, {"c", &two}}),
+            "\"a, b: time [s]\",\"a, b: kinetic [J]\",c: time [s]\n0,1.5,0\n9.9999999999999995e-07,2,\n");
 }
 
 TEST(RunFolder, FramesWhoseFileIsThereAreListed) {

@@ -9,6 +9,9 @@
 #include <QDir>
 #include <QElapsedTimer>
 #include <QFile>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QProcess>
 #include <QTemporaryDir>
 #include <functional>
 #include <memory>
@@ -25,12 +28,12 @@ bool wait_until(const std::function<bool()>& ready, int ms) {
   return ready();
 }
 
-/// A case that runs for minutes unless it is stopped.
-QString long_case(const QTemporaryDir& scratch) {
+/// A case that runs for minutes unless it is stopped or ends earlier.
+QString long_case(const QTemporaryDir& scratch, const QByteArray& end = "10 s") {
   const QString file = scratch.filePath("case.toml");
   QFile out(file);
   if (out.open(QIODevice::WriteOnly)) {
-    out.write(R"(title = "long"
+    out.write(QByteArray(R"(title = "long"
 [mesh.raster]
 cells = [4, 4, 4]
 cell_size = "10 mm"
@@ -44,12 +47,16 @@ density = 2400
 group = "block"
 tensile_strength = "5 MPa"
 energy_mode_1 = "100 J/m2"
+[[initial_velocity]]
+group = "block"
+angular = [0, 0, 20000]
 [[stage]]
-end = "10 s"
+end = "END"
 [output]
 frame_interval = "100 us"
 history_interval = "100 us"
-)");
+)")
+                  .replace("END", end));
   }
   return file;
 }
@@ -89,6 +96,108 @@ TEST(SolverRun, AStopEndsARunOfWhichARankHangs) {
   run->stop();
   EXPECT_TRUE(wait_until([&] { return !run->alive(); }, 30000));
   EXPECT_TRUE(members_of(run->record().session).isEmpty());
+}
+
+/// Hash of the state at the end of a run.
+QString hash_of(const QString& folder) {
+  QFile file(folder + "/summary.json");
+  return file.open(QIODevice::ReadOnly) ? QJsonDocument::fromJson(file.readAll()).object()["state_hash"].toString()
+                                        : QString();
+}
+
+TEST(SolverRun, AStoppedRunGoesOnUnderAnotherNumberOfRanksToTheBitsOfTheUndisturbedOne) {
+  const QTemporaryDir scratch;
+  QString error;
+  const QString file = long_case(scratch, "1 ms");
+  const std::unique_ptr<SolverRun> whole(
+      SolverRun::start(kLaunch, file, scratch.filePath("runs/whole"), 1, &error, nullptr));
+  ASSERT_NE(whole, nullptr) << error.toStdString();
+  ASSERT_TRUE(wait_until([&] { return !whole->alive(); }, 120000));
+  ASSERT_EQ(whole->state(), "complete") << whole->failure().toStdString();
+  EXPECT_FALSE(whole->can_go_on());
+  EXPECT_GT(whole->status().broken_joints, 0);
+
+  const std::unique_ptr<SolverRun> first(
+      SolverRun::start(kLaunch, file, scratch.filePath("runs/two parts"), 2, &error, nullptr));
+  ASSERT_NE(first, nullptr) << error.toStdString();
+  ASSERT_TRUE(wait_until([&] { return first->status().step > 10; }, 60000)) << first->failure().toStdString();
+  first->stop();
+  ASSERT_TRUE(wait_until([&] { return !first->alive(); }, 30000));
+  ASSERT_EQ(first->state(), "stopped");
+  ASSERT_TRUE(first->can_go_on());
+  EXPECT_GT(first->checkpoints().front().step, 10);
+
+  const std::unique_ptr<SolverRun> second(SolverRun::go_on(kLaunch, first->record(), 1, &error, nullptr));
+  ASSERT_NE(second, nullptr) << error.toStdString();
+  EXPECT_EQ(second->state(), "starting");  // not what the ended run has said
+  EXPECT_EQ(second->record().command.join(' '),
+            QString(BRECCIA_PROGRAM) + " resume " + scratch.filePath("runs/two parts") + " --progress none");
+  ASSERT_TRUE(wait_until([&] { return !second->alive(); }, 120000));
+  EXPECT_EQ(second->state(), "complete") << second->failure().toStdString();
+  EXPECT_FALSE(hash_of(second->record().folder).isEmpty());
+  EXPECT_EQ(hash_of(second->record().folder), hash_of(whole->record().folder));
+  EXPECT_EQ(second->history().rows(), [&] {
+    whole->look();
+    return whole->history().rows();
+  }());
+}
+
+TEST(SolverRun, ARunOfWhichARankHungGoesOnFromItsCheckpoint) {
+  const QTemporaryDir scratch;
+  const auto run = started(scratch, 2);
+  ASSERT_TRUE(wait_until([&] { return run->status().step > 1; }, 60000)) << run->failure().toStdString();
+  run->checkpoint();
+  ASSERT_TRUE(wait_until([&] { return !run->checkpoints().empty(); }, 30000));
+  ::kill(members_of(run->record().session).back(), SIGSTOP);
+  run->set_patience({500, 500});
+  run->stop();
+  ASSERT_TRUE(wait_until([&] { return !run->alive(); }, 30000));
+  EXPECT_TRUE(members_of(run->record().session).isEmpty());
+  EXPECT_TRUE(run->state() == "interrupted" || run->state() == "stopped" || run->state() == "failed")
+      << run->state().toStdString();
+  ASSERT_TRUE(run->can_go_on());
+  const qint64 from = run->checkpoints().front().step;
+  QString error;
+  const std::unique_ptr<SolverRun> second(SolverRun::go_on(kLaunch, run->record(), 2, &error, nullptr));
+  ASSERT_NE(second, nullptr) << error.toStdString();
+  EXPECT_TRUE(wait_until([&] { return second->status().step > static_cast<double>(from); }, 60000))
+      << second->failure().toStdString();
+  second->stop();
+  EXPECT_TRUE(wait_until([&] { return !second->alive(); }, 30000));
+}
+
+TEST(SolverRun, ARunThatWasStartedElsewhereIsFollowedAndAskedToStopButNotKilled) {
+  const QTemporaryDir scratch;
+  const auto elsewhere = started(scratch, 1);
+  SolverRun run({scratch.filePath("runs/one"), {}, 1, {}, {}});
+  ASSERT_TRUE(wait_until([&] { return run.status().step > 1; }, 60000)) << elsewhere->failure().toStdString();
+  EXPECT_TRUE(run.alive());
+  EXPECT_EQ(run.state(), "running");
+  run.pause();
+  run.checkpoint();  // two requests at once: none is lost
+  EXPECT_TRUE(wait_until([&] { return run.state() == "paused" && !run.checkpoints().empty(); }, 30000));
+  run.stop();
+  EXPECT_TRUE(wait_until([&] { return !run.alive(); }, 30000));
+  EXPECT_EQ(run.state(), "stopped");
+}
+
+TEST(SolverRun, AFolderThatCannotBeWrittenIsTold) {
+  const QTemporaryDir scratch;
+  QFile file(scratch.filePath("file"));
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  QString error;
+  EXPECT_EQ(SolverRun::start(kLaunch, long_case(scratch), scratch.filePath("file/run"), 1, &error, nullptr), nullptr);
+  EXPECT_TRUE(error.contains("cannot be written")) << error.toStdString();
+}
+
+TEST(SolverRun, ACommandLineIsQuotedForAShell) {
+  const QStringList words{"breccia", "run", "a b/it's $HOME.toml", "", "x;y", "é"};
+  const QString line = shell_line(words);
+  QProcess shell;
+  shell.start("/bin/sh", {"-c", "printf '%s\n' " + line});
+  ASSERT_TRUE(shell.waitForFinished());
+  EXPECT_EQ(QString::fromUtf8(shell.readAllStandardOutput()), words.join('\n') + "\n");
+  EXPECT_TRUE(line.startsWith("breccia run '"));
 }
 
 TEST(SolverRun, ARunOutlivesItsStarterAndIsFoundAgain) {

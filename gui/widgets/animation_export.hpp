@@ -1,0 +1,44 @@
+#pragma once
+
+#include <QImage>
+#include <QObject>
+#include <QProcess>
+#include <QTemporaryDir>
+#include <vector>
+
+#include "core/run_folder.hpp"
+
+namespace breccia::gui {
+
+/// Makes a film of pictures that are shown one after the other: asks for each frame, takes its picture, and lets ffmpeg
+/// put them together in a process of its own.
+class AnimationExport final : public QObject {
+  Q_OBJECT
+ public:
+  /// @param file  .mp4
+  AnimationExport(std::vector<RunFrame> frames, QString file, QObject* parent = nullptr);
+  ~AnimationExport() override;
+  /// The program that makes films; empty: it is not here.
+  [[nodiscard]] static QString program();
+
+  void begin();
+  /// A frame has been drawn; it is taken if it is the one that was asked for. @param time  of the frame, s
+  void take(double time, const QImage& picture);
+  [[nodiscard]] int next() const { return next_; }
+
+ signals:
+  void frame_wanted(const QString& file, double time);
+  void progress(const QString& words);
+  /// @param error  empty: the film is there
+  void done(const QString& error);
+
+ private:
+  void put_together();
+  std::vector<RunFrame> frames_;
+  QString file_;
+  QTemporaryDir pictures_;
+  QProcess process_;
+  int next_ = 0;
+};
+
+}  // namespace breccia::gui

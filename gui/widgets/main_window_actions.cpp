@@ -1,0 +1,115 @@
+#include <QAction>
+#include <QDockWidget>
+#include <QFileDialog>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QToolBar>
+
+#include "widgets/main_window.hpp"
+#include "widgets/problems_panel.hpp"
+
+namespace breccia::gui {
+
+void MainWindow::make_actions() {
+  auto* bar = addToolBar(tr("Main"));
+  bar->setObjectName("main_bar");
+  bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
+  const auto add = [this, bar](QMenu* menu, const QString& text, const QKeySequence& keys, const auto& slot,
+                               bool on_bar) {
+    QAction* action = menu->addAction(text);
+    action->setShortcut(keys);
+    action->setToolTip(QString(text).remove('&').remove("...") +
+                       (keys.isEmpty() ? "" : " (" + keys.toString(QKeySequence::NativeText) + ")"));
+    connect(action, &QAction::triggered, this, slot);
+    if (on_bar) bar->addAction(action);
+    return action;
+  };
+  QMenu* file = menuBar()->addMenu(tr("&File"));
+  add(
+      file, tr("&New from a template..."), QKeySequence::New,
+      [this] {
+        if (may_leave_case()) show_start();
+      },
+      true);
+  add(
+      file, tr("&Open..."), QKeySequence::Open,
+      [this] {
+        const QString name = QFileDialog::getOpenFileName(
+            this, tr("Open a case"), document_.is_open() ? document_.folder() : places_.projects, tr("Cases (*.toml)"));
+        if (!name.isEmpty()) open_path(name);
+      },
+      true);
+  add(
+      file, tr("Open &results..."), {},
+      [this] {
+        const QString name = QFileDialog::getExistingDirectory(this, tr("Open the folder of a run"), places_.projects);
+        if (!name.isEmpty()) open_path(name);
+      },
+      false);
+  add(
+      file, tr("&Save"), QKeySequence::Save, [this] { (void)save(); }, true);
+  add(
+      file, tr("Save &as..."), QKeySequence::SaveAs, [this] { save_as(); }, false);
+  file->addSeparator();
+  add(
+      file, tr("&Quit"), QKeySequence::Quit, [this] { close(); }, false);
+  QMenu* edit = menuBar()->addMenu(tr("&Edit"));
+  QAction* undo = document_.undo_stack().createUndoAction(this, tr("&Undo"));
+  undo->setShortcut(QKeySequence::Undo);
+  QAction* redo = document_.undo_stack().createRedoAction(this, tr("&Redo"));
+  redo->setShortcut(QKeySequence::Redo);
+  edit->addActions({undo, redo});
+  add(
+      edit, tr("Next &problem"), Qt::Key_F8, [this] { messages_->next_problem(); }, false);
+  QMenu* run = menuBar()->addMenu(tr("&Run"));
+  add(
+      run, tr("&Mesh"), Qt::Key_F6, [this] { queries_.mesh(); }, true);
+  add(
+      run, tr("&Check"), Qt::Key_F7, [this] { queries_.check(); }, true);
+  run_action_ = add(
+      run, tr("&Run"), Qt::Key_F5, [this] { start_run(); }, true);
+  add(
+      run, tr("&Pause or resume"), Qt::Key_F4, [this] { pause_or_resume(); }, false);
+  add(
+      run, tr("Check&point"), QKeySequence("Shift+F4"),
+      [this] {
+        if (run_ != nullptr && run_->alive()) run_->checkpoint();
+      },
+      false);
+  add(
+      run, tr("Resu&me from checkpoint"), QKeySequence("Ctrl+F5"), [this] { go_on_with_run(); }, false);
+  add(
+      run, tr("&Stop"), QKeySequence("Shift+F5"),
+      [this] {
+        if (run_ != nullptr) run_->stop();
+      },
+      true);
+  QMenu* view = menuBar()->addMenu(tr("&View"));
+  for (QDockWidget* dock : findChildren<QDockWidget*>()) view->addAction(dock->toggleViewAction());
+  view->addSeparator();
+  dark_ = add(
+      view, tr("&Dark"), QKeySequence("Ctrl+D"), [this](bool on) { set_dark(on); }, true);
+  dark_->setCheckable(true);
+  QMenu* tools = menuBar()->addMenu(tr("&Tools"));
+  add(
+      tools, tr("Open in &ParaView"), {}, [this] { open_paraview(); }, false);
+  add(
+      tools, tr("Watch &live in ParaView"), {}, [this] { watch_live(); }, false);
+  add(
+      tools, tr("Export &curves..."), {}, [this] { export_curves(); }, false);
+  add(
+      tools, tr("Save &animation..."), {}, [this] { save_animation(); }, false);
+  add(
+      tools, tr("Save p&icture..."), {}, [this] { save_picture(); }, false);
+  QMenu* help = menuBar()->addMenu(tr("&Help"));
+  add(
+      help, tr("&About Breccia"), {},
+      [this] {
+        QMessageBox::about(this, tr("Breccia"),
+                           tr("<b>Breccia</b><br>Combined finite-discrete element simulation of solids that break.<br>"
+                              "<br>F5 run, F6 mesh, F7 check, F8 next problem, Ctrl+Z undo."));
+      },
+      false);
+}
+
+}  // namespace breccia::gui

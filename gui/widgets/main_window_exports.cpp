@@ -1,0 +1,121 @@
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMessageBox>
+#include <QProcess>
+#include <QSaveFile>
+#include <QStandardPaths>
+#include <QStatusBar>
+
+#include "widgets/animation_export.hpp"
+#include "widgets/frame_loader.hpp"
+#include "widgets/main_window.hpp"
+#include "widgets/plots_panel.hpp"
+#include "widgets/results_panel.hpp"
+#include "widgets/view3d.hpp"
+
+namespace breccia::gui {
+namespace {
+
+QString name_of(const SolverRun& run) { return QFileInfo(run.record().folder).fileName(); }
+
+}  // namespace
+
+void MainWindow::compare(const std::vector<SolverRun*>& others) {
+  compared_ = others;
+  for (SolverRun* run : compared_) run->read_history();
+  show_curves();
+}
+
+void MainWindow::show_curves() {
+  std::vector<std::pair<QString, const History*>> others;
+  for (const SolverRun* run : compared_)
+    if (run != run_) others.emplace_back(name_of(*run), &run->history());
+  plots_->show_history(run_ == nullptr ? History() : run_->history(), others);
+}
+
+void MainWindow::export_curves() {
+  std::vector<std::pair<QString, const History*>> runs;
+  if (run_ != nullptr) runs.emplace_back(name_of(*run_), &run_->history());
+  for (const SolverRun* run : compared_)
+    if (run != run_) runs.emplace_back(name_of(*run), &run->history());
+  if (runs.empty()) return;
+  const QString name = QFileDialog::getSaveFileName(this, tr("Export the curves as"),
+                                                    document_.folder() + "/curves.csv", tr("Tables (*.csv)"));
+  if (name.isEmpty()) return;
+  QSaveFile file(name);
+  const QByteArray text = histories_csv(runs);
+  if (!file.open(QIODevice::WriteOnly) || file.write(text) != text.size() || !file.commit())
+    QMessageBox::warning(this, tr("Breccia"), tr("%1 cannot be written: %2").arg(name, file.errorString()));
+}
+
+void MainWindow::save_animation() {
+  if (run_ == nullptr || run_->frames().empty() || animation_ != nullptr) return;
+  if (AnimationExport::program().isEmpty()) {
+    QMessageBox::information(this, tr("Breccia"), tr("Films are made by ffmpeg, which is not installed here."));
+    return;
+  }
+  const QString name = QFileDialog::getSaveFileName(this, tr("Save the animation as"),
+                                                    document_.folder() + "/animation.mp4", tr("Films (*.mp4)"));
+  if (name.isEmpty()) return;
+  results_->set_follow(false);
+  animation_ = new AnimationExport(run_->frames(), name, this);
+  connect(animation_, &AnimationExport::frame_wanted, loader_, &FrameLoader::load);
+  connect(animation_, &AnimationExport::progress, this,
+          [this](const QString& words) { statusBar()->showMessage(words, 5000); });
+  connect(animation_, &AnimationExport::done, this, [this, name](const QString& error) {
+    end_animation();
+    statusBar()->showMessage(error.isEmpty() ? tr("%1 is written").arg(name) : QString(), 15000);
+    if (!error.isEmpty()) QMessageBox::warning(this, tr("Breccia"), tr("The film could not be made: %1").arg(error));
+  });
+  view_->scene().hold_range(true);
+  animation_->begin();
+}
+
+void MainWindow::end_animation() {
+  animation_->disconnect(this);
+  animation_->deleteLater();
+  animation_ = nullptr;
+  view_->scene().hold_range(false);
+}
+
+/// ParaView waits for a run of this case that is started with --live.
+void MainWindow::watch_live() {
+  if (!document_.is_open()) return;
+  if (QStandardPaths::findExecutable("paraview").isEmpty()) {
+    QMessageBox::information(this, tr("Breccia"), tr("ParaView is not installed (Debian: paraview)."));
+    return;
+  }
+  if (document_.modified() && !save()) return;
+  if (QProcess::startDetached(places_.launch.program, {"live", document_.file()}, document_.folder())) {
+    statusBar()->showMessage(tr("ParaView starts; a case with [insitu.live] is seen there while it runs"), 15000);
+  } else {
+    QMessageBox::warning(this, tr("Breccia"), tr("%1 could not be started.").arg(places_.launch.program));
+  }
+}
+
+void MainWindow::open_paraview() {
+  if (run_ == nullptr) return;
+  const QString program = QStandardPaths::findExecutable("paraview");
+  if (program.isEmpty()) {
+    QMessageBox::information(
+        this, tr("Breccia"),
+        tr("ParaView is not installed (Debian: paraview). The frames are in %1/frames.").arg(run_->record().folder));
+    return;
+  }
+  QStringList files;
+  for (const char* part : {"elements", "joints"}) {
+    const QString file = QDir(run_->record().folder).filePath(QString("frames/%1.hdf.series").arg(part));
+    if (QFileInfo::exists(file)) files << file;
+  }
+  QProcess::startDetached(program, files, run_->record().folder);
+}
+
+void MainWindow::save_picture() {
+  const QString name = QFileDialog::getSaveFileName(this, tr("Save the picture as"),
+                                                    document_.folder() + "/picture.png", tr("Pictures (*.png)"));
+  if (!name.isEmpty() && !view_->picture().save(name))
+    QMessageBox::warning(this, tr("Breccia"), tr("%1 cannot be written.").arg(name));
+}
+
+}  // namespace breccia::gui

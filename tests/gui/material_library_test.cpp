@@ -1,0 +1,116 @@
+#include "core/material_library.hpp"
+
+#include <gtest/gtest.h>
+
+#include <QFile>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QRegularExpression>
+#include <QSet>
+#include <QTemporaryDir>
+#include <cmath>
+
+#include "case/reader.hpp"
+#include "case/units.hpp"
+
+namespace breccia::gui {
+namespace {
+
+const QByteArray kCase = R"(title = "block"
+[mesh.raster]
+cells = [1, 1, 1]
+cell_size = "10 mm"
+group = "block"
+[[material]]
+group = "block"  # mine
+young = "40 GPa"
+poisson = 0.2
+density = 2400
+[[joint]]
+group = "block"
+tensile_strength = "5 MPa"
+energy_mode_1 = "100 J/m2"
+[[stage]]
+end = "1 us"
+)";
+
+QString case_in(const QTemporaryDir& scratch) {
+  const QString file = scratch.filePath("case.toml");
+  QFile out(file);
+  if (out.open(QIODevice::WriteOnly)) out.write(kCase);
+  return file;
+}
+
+double number(QString toml, const char* unit) { return case_::to_si(toml.remove('"').toStdString(), unit); }
+
+TEST(MaterialLibrary, ThereAreRocksConcretesGlassesCeramicsMetalsAndIceWithASourceForEveryValue) {
+  QSet<QString> kinds, names;
+  for (const LibraryMaterial& material : shipped_materials()) {
+    kinds << material.kind;
+    EXPECT_FALSE(names.contains(material.name)) << material.name.toStdString();
+    names << material.name;
+    for (const char* key : {"young", "poisson", "density"})
+      EXPECT_FALSE(material.value(key).isEmpty()) << material.name.toStdString() << " " << key;
+    for (const MaterialValue& v : material.values)
+      EXPECT_GT(v.source.size(), 10) << material.name.toStdString() << " " << v.key.toStdString();
+  }
+  EXPECT_EQ(kinds, (QSet<QString>{"rock", "concrete", "glass", "ceramic", "metal", "ice"}));
+  EXPECT_GE(names.size(), 15);
+}
+
+TEST(MaterialLibrary, ACaseWithAnyOfThemIsAccepted) {
+  for (const LibraryMaterial& material : shipped_materials()) {
+    const QTemporaryDir scratch;
+    Document document(scratch.filePath("state"));
+    ASSERT_TRUE(document.open(case_in(scratch)).isEmpty());
+    take_material(document, "material[0]", material);
+    EXPECT_TRUE(document.problems().empty()) << material.name.toStdString();
+    EXPECT_EQ(document.value("material[0].young"), material.value("young"));
+    if (const QString strength = material.value("joint.tensile_strength"); !strength.isEmpty()) {
+      EXPECT_EQ(document.value("joint[0].tensile_strength"), strength);
+    }
+    document.undo_stack().undo();
+    EXPECT_EQ(document.text(), kCase) << "one step takes it back";
+  }
+}
+
+TEST(MaterialLibrary, EnergiesDerivedFromAToughnessFollowFromIt) {
+  static const QRegularExpression toughness(R"(K_Ic = ([0-9.]+) MPa)");
+  int seen = 0;
+  for (const LibraryMaterial& material : shipped_materials()) {
+    for (const MaterialValue& v : material.values) {
+      const auto match = toughness.match(v.source);
+      if (!match.hasMatch()) continue;
+      const double k = 1e6 * match.captured(1).toDouble(), nu = material.value("poisson").toDouble();
+      const double energy = k * k * (1 - nu * nu) / number(material.value("young"), "Pa");
+      EXPECT_NEAR(number(v.toml, "J/m2"), energy, 0.01 * energy) << material.name.toStdString();
+      ++seen;
+    }
+  }
+  EXPECT_GE(seen, 4);
+}
+
+TEST(MaterialLibrary, AMaterialOfTheCaseGoesIntoTheUsersLibraryAndBack) {
+  const QTemporaryDir scratch;
+  Document document(scratch.filePath("state"));
+  ASSERT_TRUE(document.open(case_in(scratch)).isEmpty());
+  const UserLibrary library(scratch.filePath("state/materials.toml"));
+  EXPECT_TRUE(library.load().empty());
+  ASSERT_TRUE(library.add(material_of(document, "material[0]", "my \"stone\"")).isEmpty());
+  ASSERT_TRUE(library.add(material_of(document, "material[0]", "other")).isEmpty());
+  std::vector<LibraryMaterial> list = library.load();
+  ASSERT_EQ(list.size(), 2U);
+  EXPECT_EQ(list[0].name, "my \"stone\"");
+  EXPECT_TRUE(list[0].own);
+  EXPECT_EQ(list[0].value("young"), "\"40 GPa\"");
+  EXPECT_EQ(list[0].value("joint.energy_mode_1"), "\"100 J/m2\"");
+  EXPECT_TRUE(list[0].value("group").isEmpty());
+  document.set_value("material[0].young", "\"1 GPa\"");
+  take_material(document, "material[0]", list[0]);
+  EXPECT_EQ(document.value("material[0].young"), "\"40 GPa\"");
+  ASSERT_TRUE(library.remove("other").isEmpty());
+  EXPECT_EQ(library.load().size(), 1U);
+}
+
+}  // namespace
+}  // namespace breccia::gui
