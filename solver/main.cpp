@@ -399,7 +399,7 @@ int guarded(const CLI::App& app, Arguments& arguments, MpiSession& session, int 
   } catch (const SimulationError& error) {
     return report(root, error.what(), ExitCode::simulation);
   } catch (const std::bad_alloc&) {
-    ended = report(true, "out of memory; `breccia check` tells how much a case needs", ExitCode::input);
+    ended = report(true, out_of_memory().text(), ExitCode::input);
   } catch (const std::filesystem::filesystem_error& error) {  // a file or folder that cannot be used
     ended = report(true, error.what(), ExitCode::input);
   } catch (const std::exception& error) {

@@ -32,4 +32,6 @@ void demand_failed(const char* condition, const char* file, int line, const std:
                       condition + " does not hold" + (detail.empty() ? "" : " (" + detail + ")"));
 }
 
+Problem out_of_memory() { return {"", 0, "", "out of memory; `breccia check` tells how much a case needs", "", ""}; }
+
 }  // namespace breccia

@@ -22,6 +22,9 @@ struct Problem {
   [[nodiscard]] std::string text() const;
 };
 
+/// What a std::bad_alloc says to the user.
+[[nodiscard]] Problem out_of_memory();
+
 /// Case or mesh cannot be run. Carries every problem found, not only the first. Exit code 2.
 class InputError : public std::exception {
  public:

@@ -22,10 +22,10 @@ ElementRecord mesh_record(const Mesh& mesh, const Topology& topology, Index elem
     record.reference[c] = {x[0], x[1], x[2]};
   }
   for (std::size_t f = 0; f < 4; ++f) {
-    // An element beyond the piece can be one that has broken off and left: for what remains, the face is simply free.
+    // An element beyond the piece is one that has broken off and left. What it was to this one is still known.
     const FaceLink& link = topology.links[at(element)][f];
-    record.neighbour[f] = link.inner() ? mesh.element_id(link.neighbour) : -1;
-    record.code[f] = link.inner() ? link.code : std::int8_t{0};
+    record.neighbour[f] = neighbour_id(mesh, topology, element, static_cast<int>(f));
+    record.code[f] = link.free() ? std::int8_t{0} : link.code;
   }
   return record;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "base/error.hpp"
 #include "state/packed_bytes.hpp"
 
 namespace breccia {
@@ -47,7 +48,9 @@ WholeModel unpack_whole(std::span<const std::byte> packed) {
     groups.size = bytes.take<double>();
   }
   whole.body_length = bytes.take_list<double>();
-  whole.spin_centres.resize(bytes.take<std::uint64_t>());
+  const auto lists = bytes.take<std::uint64_t>();
+  DEMAND(lists <= bytes.left(), "lists of centres beyond the end");
+  whole.spin_centres.resize(lists);
   for (std::vector<Vec3>& centres : whole.spin_centres) {
     for (auto left = bytes.take<std::uint64_t>(); left > 0; --left) {
       Vec3& centre = centres.emplace_back();
@@ -58,6 +61,7 @@ WholeModel unpack_whole(std::span<const std::byte> packed) {
   for (auto* names : {&whole.volume_groups, &whole.surface_groups}) {
     for (auto left = bytes.take<std::uint64_t>(); left > 0; --left) names->push_back(bytes.take_text());
   }
+  DEMAND(bytes.left() == 0, std::to_string(bytes.left()) + " bytes too many");
   return whole;
 }
 
@@ -132,6 +136,7 @@ Topology topology_of(const Records& records, const Mesh& mesh) {
       if (r.neighbour[f] < 0) continue;
       const Index neighbour = place(r.neighbour[f]);
       topology.links[e][f] = {neighbour >= 0 ? neighbour : FaceLink::kBeyond, r.code[f]};
+      if (neighbour < 0) topology.beyond.push_back({{static_cast<Index>(e), static_cast<int>(f)}, r.neighbour[f]});
     }
   }
   topology.surface_groups.resize(mesh.surface_groups.size());

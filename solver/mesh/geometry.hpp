@@ -36,6 +36,14 @@ namespace breccia::geometry {
   return {at(e[0]), at(e[1]), at(e[2]), at(e[3])};
 }
 
+/// Area of a face, m2.
+[[nodiscard]] inline double face_area(const Mesh& mesh, Index element, int face) {
+  const auto x = corners_of(mesh, element);
+  const auto& f = kFaceCorners[static_cast<std::size_t>(face)];
+  const auto corner = [&](std::size_t i) { return x[static_cast<std::size_t>(f[i])]; };
+  return triangle_area(corner(0), corner(1), corner(2));
+}
+
 /// The six edges of a tetrahedron as pairs of corners; edge i and edge 5 - i share no corner.
 inline constexpr std::array<std::array<int, 2>, 6> kEdges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 

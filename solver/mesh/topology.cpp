@@ -169,4 +169,16 @@ Topology build_topology(const Mesh& mesh) {
   return topology;
 }
 
+GlobalId neighbour_id(const Mesh& mesh, const Topology& topology, Index element, int face) {
+  const FaceLink& link = topology.links[at(element)][static_cast<std::size_t>(face)];
+  if (link.free()) return -1;
+  if (link.inner()) return mesh.element_id(link.neighbour);
+  const auto found = std::lower_bound(
+      topology.beyond.begin(), topology.beyond.end(), std::pair(element, face),
+      [](const Topology::Beyond& b, const auto& key) { return std::pair(b.face.element, b.face.face) < key; });
+  DEMAND(found != topology.beyond.end() && found->face.element == element && found->face.face == face,
+         "element " + std::to_string(element) + " has no neighbour beyond");
+  return found->neighbour;
+}
+
 }  // namespace breccia

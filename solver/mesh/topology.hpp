@@ -35,9 +35,18 @@ struct Topology {
     Index element;
     int face;
   };
+  /// In a piece of a mesh: the element behind a face whose link says kBeyond.
+  struct Beyond {
+    Face face;
+    GlobalId neighbour;
+  };
+  std::vector<Beyond> beyond;                     ///< by element, face
   std::vector<std::vector<Face>> surface_groups;  ///< (surface_groups) faces of each physical surface; an inner
                                                   ///< surface lists both sides
 };
+
+/// Id of the element across a face, here or beyond; -1: the free surface. O(log beyond) where it is beyond.
+[[nodiscard]] GlobalId neighbour_id(const Mesh& mesh, const Topology& topology, Index element, int face);
 
 /// O(num_elements). Throws InputError when three elements share a face or a physical surface names a triangle that is
 /// no face of any element.

@@ -79,8 +79,8 @@ void add_cell(const Domain& domain, const Fragments& fragments, Index slot, Fram
 
 /// Ids of the elements that are or were held across the four faces.
 void add_neighbours(const Model& model, Index slot, std::vector<std::int64_t>& out) {
-  for (const FaceLink& link : model.topology.links[at(model.local.mesh_element[at(slot)])])
-    out.push_back(link.inner() ? model.mesh.element_id(link.neighbour) : -1);
+  for (int face = 0; face < 4; ++face)
+    out.push_back(neighbour_id(model.mesh, model.topology, model.local.mesh_element[at(slot)], face));
 }
 
 void add_elements(const Domain& domain, const Fragments& fragments, Frame::Elements& out) {
@@ -98,6 +98,10 @@ void add_elements(const Domain& domain, const Fragments& fragments, Frame::Eleme
   add_memory(domain, slots, out);
 }
 
+const FaceLink& link_of(const Model& model, Index slot, int face) {
+  return model.topology.links[at(model.local.mesh_element[at(slot)])][at(face)];
+}
+
 /// Which faces of a rank's originals are free: those of the bodies' surfaces, and those that a failed joint has laid
 /// bare.
 class FreeFaces {
@@ -111,9 +115,7 @@ class FreeFaces {
   }
   [[nodiscard]] bool operator()(Index slot, int face) const {
     if (is_swept(domain_.model, domain_.derived, slot, face)) return false;  // nearly always
-    const Model& model = domain_.model;
-    if (domain_.derived.joint_at(slot, face) < 0)
-      return model.topology.links[at(model.local.mesh_element[at(slot)])][at(face)].free();
+    if (domain_.derived.joint_at(slot, face) < 0) return !link_of(domain_.model, slot, face).inner();
     return held_[at(slot) * 4 + at(face)] == 0;
   }
 
@@ -139,7 +141,8 @@ void add_surface(const Domain& domain, const Fragments& fragments, const std::ve
       slots.push_back(slot);
       out.cells.cost.push_back(cost[original]);
       out.face.push_back(face);
-      out.crack.push_back(domain.derived.joint_at(slot, face) >= 0 ? 1 : 0);
+      const bool broken_off = link_of(domain.model, slot, face).neighbour == FaceLink::kBeyond;
+      out.crack.push_back(broken_off || domain.derived.joint_at(slot, face) >= 0 ? 1 : 0);
     }
     ++original;
   }

@@ -42,8 +42,10 @@ struct BrokenJoints {
 
 /// Adds up this rank's counts over all ranks.
 void count_joints(const Domain& domain, HistoryRow& row) {
+  const Model& model = domain.model;
+  // Not that of the model's joint: where the faces have flown apart, the element on the other side may not be here.
   const auto area_of = [&](Index slot, int face) {
-    return domain.model.joints[at(domain.derived.joint_at(slot, face))].face.area;
+    return geometry::face_area(model.mesh, model.local.mesh_element[at(slot)], face);
   };
   BrokenJoints broken;
   for (const ActiveJoint& joint : domain.state.joints.active) {

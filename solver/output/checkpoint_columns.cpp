@@ -104,7 +104,7 @@ template <class T, class Field>
 void gather(const Field& field, const std::vector<std::size_t>& places, T* out) {
   std::array<T, kMostNumbers> all;
   std::size_t count = 0;
-  for_each_scalar(field, [&](const auto& x) { all[count++] = static_cast<T>(x); });
+  for_each_scalar(field, [&](const auto& x) { all.at(count++) = static_cast<T>(x); });
   for (const std::size_t place : places) *out++ = all[place];
 }
 template <class T, class Field>

@@ -129,8 +129,9 @@ std::string diff_runs(const fs::path& first, const fs::path& second) {
           Problem{run->root.string(), 0, "", "is no folder of a run", "two folders that `run` has made", ""});
   }
   const std::set<std::string> of_a_run{"started", "command_line"};
-  const std::set<std::string> timings{"wall_s",   "element_steps_per_s", "phases",         "max_rss_bytes", "imbalance",
-                                      "messages", "message_bytes",       "decompositions", "searches",      "insitu"};
+  const std::set<std::string> timings{
+      "wall_s",        "element_steps_per_s", "phases",   "max_rss_bytes", "imbalance",  "messages",
+      "message_bytes", "decompositions",      "searches", "insitu",        "checkpoints"};
   return part("case", differences(case_of(a), case_of(b))) +
          part("inputs, versions, machine",
               differences(json_of(a.provenance(), of_a_run), json_of(b.provenance(), of_a_run))) +

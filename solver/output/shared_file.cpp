@@ -20,8 +20,9 @@ SharedFile::~SharedFile() {
 }
 
 void SharedFile::reserve(std::uint64_t size) const {
-  const int error = ::posix_fallocate(descriptor_, 0, static_cast<off_t>(size));
-  if (error != 0 && error != EOPNOTSUPP && error != EINVAL) fail(error);
+  // Not posix_fallocate: where a file system has none (NFS 3), that reads the file, and writes where other ranks write.
+  if (::fallocate(descriptor_, 0, 0, static_cast<off_t>(size)) == 0) return;
+  if (errno != EOPNOTSUPP && errno != EINVAL && errno != ENOSYS) fail(errno);
 }
 
 void SharedFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) const {

@@ -1,4 +1,6 @@
 #include <cstring>
+#include <filesystem>
+#include <new>
 #include <optional>
 
 #include "base/error.hpp"
@@ -94,6 +96,10 @@ std::optional<Failure> failure_of(const std::function<void()>& work) {
     return Failure{Kind::input, error.problems(), {}};
   } catch (const SimulationError& error) {
     return Failure{Kind::simulation, {}, error.what()};
+  } catch (const std::bad_alloc&) {
+    return Failure{Kind::input, {out_of_memory()}, {}};
+  } catch (const std::filesystem::filesystem_error& error) {
+    return Failure{Kind::output, {Problem{"", 0, "", error.what(), "", ""}}, {}};
   } catch (const std::exception& error) {
     return Failure{Kind::internal, {}, error.what()};
   } catch (...) {

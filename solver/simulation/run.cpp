@@ -65,10 +65,11 @@ class Runner {
       output_.write_frame();
       look_in_situ(true);
     } catch (const SimulationError& error) {
-      if (checkpoints_) checkpoints_->finish();  // the last sound state
+      complete_checkpoint();
       finish(error.what());
       throw;
     } catch (const OutputError& error) {
+      complete_checkpoint();
       if (insitu_ && insitu_->failed()) finish(error.what());
       throw;
     } catch (const InternalError&) {
@@ -129,7 +130,7 @@ class Runner {
     const case_::Stage& stage = input_.stages[s];
     if (!from_ || s != first_stage()) return {input_, stage, partition_};
     StageSteps steps(input_, stage, partition_, from_->until_look);
-    if (options_.extended) steps.fit_end();
+    if (options_.extended && s + 1 == input_.stages.size()) steps.fit_end();
     return steps;
   }
 
@@ -144,7 +145,7 @@ class Runner {
     while (!steps.over() && status_ == "complete") {
       take_commands();
       steps.look();
-      const bool last = (s + 1 == input_.stages.size() && steps.at_last()) ||
+      const bool last = stop_commanded_ || (s + 1 == input_.stages.size() && steps.at_last()) ||
                         output_.steps_done() + 1 == input_.time.max_steps ||
                         clock().time + clock().dt > options_.until - 0.5 * clock().dt;
       advance(last);
@@ -186,6 +187,15 @@ class Runner {
     if (!checkpoints_) return;
     checkpoints_->look();
     if (checkpoints_->due()) checkpoints_->begin(position());
+  }
+
+  /// When a run ends with an error: the last sound state. A checkpoint that cannot be written is not what is told then.
+  void complete_checkpoint() {
+    if (!checkpoints_) return;
+    try {
+      checkpoints_->finish();
+    } catch (const OutputError&) {
+    }
   }
 
   void end_with_checkpoint() {

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -19,10 +20,13 @@ class SinkGroup {
 
   /// An error on one rank is an error on all. Collective. @param tell_one  called with each sink
   template <class Tell>
-  void tell(Tell&& tell_one) const {
+  void tell(Tell&& tell_one) {
     communicator_.set_phase("output");
+    // By itself: only one rank may have such an error, while sinks speak with those of other ranks.
     communicator_.agree([&] {
-      if (late_) throw OutputError(*late_);
+      if (const std::optional<OutputError> late = std::exchange(late_, std::nullopt)) throw OutputError(*late);
+    });
+    communicator_.agree([&] {
       for (const auto& sink : sinks_) tell_one(*sink);
     });
   }

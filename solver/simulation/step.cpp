@@ -8,15 +8,16 @@ namespace breccia {
 
 void step(Domain& domain, const StepOptions& options) {
   receive_signals(domain);
+  const bool sample = options.sample || domain.state.signals.received.stop;  // the last step, for the summary
   update_couples(domain);  // a new search if one is due; contact takes the faces that came apart a step ago
   apply_loads(domain);
   joint_forces(domain);    // active joints, by ascending ids
   contact_forces(domain);  // couples, by ascending ids
   send_signals(options.signals, domain);
-  if (options.sample) domain.scratch.velocity_before = domain.state.nodes.velocity;
-  move_nodes(options.sample, domain);  // internal forces, intact joints, motion, constraints; proxies leave
+  if (sample) domain.scratch.velocity_before = domain.state.nodes.velocity;
+  move_nodes(sample, domain);  // internal forces, intact joints, motion, constraints; proxies leave
   activate_crossed_joints(domain);
-  if (options.sample) sample_energies(domain);
+  if (sample) sample_energies(domain);
   return_elastic_joints(domain);
   account_late_work(domain);
   receive_proxies(domain);

@@ -73,6 +73,19 @@ TEST(Records, OfAPieceKeepIdsAndTellFreeFacesFromElementsBeyond) {
   EXPECT_GT(beyond, 10);
 }
 
+TEST(Records, MadeOfAPieceStillKnowTheNeighboursBeyondIt) {
+  const Mesh mesh = cubes();
+  Records piece = records_of(mesh, build_topology(mesh));
+  keep(piece, marks(piece, [](GlobalId id) { return id % 5 != 0; }));
+  const Mesh part = mesh_of(piece, whole_of(mesh));
+  const Records again = records_of(part, topology_of(piece, part));
+  ASSERT_EQ(again.elements.size(), piece.elements.size());
+  for (std::size_t e = 0; e < piece.elements.size(); ++e) {
+    EXPECT_EQ(again.elements[e].neighbour, piece.elements[e].neighbour);
+    EXPECT_EQ(again.elements[e].code, piece.elements[e].code);
+  }
+}
+
 TEST(WholeModel, ArrivesAsItWasSent) {
   WholeModel whole = whole_of(cubes());
   whole.num_elements = 144;
