@@ -178,7 +178,15 @@ class Validator {
     if (inside && material(j.groups[0]) != nullptr && material(j.groups[0])->joints == JointPlacement::none)
       problem(j.origin, "group", "the group has no joints",
               "joints = \"breakable\" or \"unbreakable\" in its [[material]]", j.groups[0]);
-    if (!breakable(j.groups[0]) && !breakable(j.groups[1])) return;
+    const auto shares_nodes = [&](const std::string& group) {
+      const Material* m = material(group);
+      return m != nullptr && m->joints == JointPlacement::none;
+    };
+    if (!inside && shares_nodes(j.groups[0]) && shares_nodes(j.groups[1]))
+      problem(j.origin, "between", "the elements of both groups share their nodes: no joints lie between them",
+              "joints = \"unbreakable\" or \"breakable\" in a [[material]] of the two", words(j.groups));
+    const bool strong = !inside && (j.tensile_strength > 0 || j.shear_strength > 0 || j.energy_mode_1 > 0);
+    if (!breakable(j.groups[0]) && !breakable(j.groups[1]) && !strong) return;
     const std::string why = "is missing: joints of " + words(j.groups) + " can fail";
     if (j.tensile_strength == 0) problem(j.origin, "tensile_strength", why, "a strength > 0");
     if (j.energy_mode_1 == 0) problem(j.origin, "energy_mode_1", why, "a fracture energy > 0");

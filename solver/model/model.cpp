@@ -34,6 +34,11 @@ void take_materials(const case_::Case& input, Model& model) {
     model.density[g] = material.density;
     model.breakable[g] = material.joints == case_::JointPlacement::breakable;
   }
+  for (const case_::Joint& interface : input.joints) {
+    if (interface.groups[0] == interface.groups[1] || !(interface.tensile_strength > 0)) continue;
+    for (const std::string& group : interface.groups)
+      model.breakable[index(group_named(model.mesh.volume_groups, group))] = true;
+  }
 }
 
 /// Faces of these surfaces, both sides, ascending.

@@ -43,7 +43,7 @@ struct Model {
   std::vector<ElasticParams> elastic;          ///< (volume groups)
   std::vector<double> density;                 ///< (volume groups) kg/m3
   std::vector<Discretisation> discretisation;  ///< (volume groups)
-  std::vector<bool> breakable;                 ///< (volume groups)
+  std::vector<bool> breakable;                 ///< (volume groups) inner faces, or those at an interface, may be freed
 
   WholeModel whole;
 

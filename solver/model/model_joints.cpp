@@ -76,13 +76,22 @@ void find_joint_groups(const case_::Case& input, Model& model) {
   for (std::size_t l = 0; l < count.size(); ++l) whole.joint_groups[l].size /= count[l];
 }
 
+/// Joints can fail inside of a breakable group and where one ends, and at any interface that has a strength.
+bool can_fail(const case_::Case& input, const case_::Joint& entry) {
+  const auto breakable = [&](const case_::Material& m) {
+    return m.joints == case_::JointPlacement::breakable && (m.group == entry.groups[0] || m.group == entry.groups[1]);
+  };
+  return std::any_of(input.materials.begin(), input.materials.end(), breakable) ||
+         (entry.groups[0] != entry.groups[1] && entry.tensile_strength > 0);
+}
+
 void take_joint_laws(const case_::Case& input, Model& model) {
   const std::vector<std::string>& names = model.mesh.volume_groups;
   std::vector<Problem> problems;
   for (const WholeModel::JointGroups& groups : model.whole.joint_groups) {
     const case_::Joint* entry = entry_for(input, names, {groups.a, groups.b});
     DEMAND(entry != nullptr, names[index(groups.a)] + " and " + names[index(groups.b)] + " have no joint law");
-    const bool unbreakable = !model.breakable[index(groups.a)] && !model.breakable[index(groups.b)];
+    const bool unbreakable = !can_fail(input, *entry);
     model.joint_sizes.push_back(entry->size > 0 ? entry->size : groups.size);
     JointLawParams params = joint_law_params(*entry, model.joint_sizes.back(), unbreakable);
     if (const std::string problem = prepare(params); !problem.empty())

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "domains/motion_limit.hpp"
 #include "mesh/tetrahedron.hpp"
 #include "model/parameters.hpp"
 #include "observe/frames.hpp"
@@ -111,7 +112,7 @@ HistoryRow Observer::row(double time) {
   row.momentum = {sums[0], sums[1], sums[2]};
   row.angular_momentum = {sums[3], sums[4], sums[5]};
   row.stress_yy_sum = sums[6];
-  row.max_speed = domain.exchange.communicator().max(domain.state.signals.max_speed);
+  row.max_speed = domain.exchange.communicator().max(fastest_node(domain).speed);
   row.gauges = read_gauges(domain, gauges_);
   return row;
 }

@@ -150,12 +150,14 @@ inline void book_stress_work(const SweepArgs& args, const ElasticParams& p, cons
   if (no_energy) add_to(stress + slot, half * contract(s.total, rate) - viscous_work);
 }
 
-/// Replaces the elastic joint forces of the lanes whose opening has left the surely elastic range.
+/// Replaces the elastic joint forces of the lanes whose opening has left the surely elastic range. The limit is that of
+/// the element's weakest joint: one that is still elastic by its own keeps its force.
 [[gnu::noinline]] inline void replace_crossing(const SweepArgs& args, std::size_t at, Index first_slot, int face,
                                                const bool* crossing, double (*force)[kWidth]) {
   for (std::size_t l = 0; l < kWidth; ++l) {
     if (!crossing[l] || (args.link[at + l] & 15) >= 12) continue;
     double virgin[9];
+    for (std::size_t k = 0; k < 9; ++k) virgin[k] = force[k][l];
     args.crossing(args.crossing_context, first_slot + static_cast<Index>(l), face, virgin);
     for (std::size_t k = 0; k < 9; ++k) force[k][l] = virgin[k];
   }

@@ -14,7 +14,7 @@ namespace {
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// An element's limit is that of its weakest joint: whether this one has left its elastic range is seen here, alike
-/// from both sides, since only one of them may be swept on this rank.
+/// from both sides, since only one of them may be swept on this rank. @param force  stays as it is if it has not
 void note_crossing(void* context, Index slot, int face, double* force) {
   auto& domain = *static_cast<Domain*>(context);
   const Model& model = domain.model;
