@@ -158,7 +158,10 @@ TEST(Budget, holds_what_the_springs_of_friction_store) {
 
 TEST(NotFinite, names_the_element_where_it_began_and_leaves_numbers_that_can_be_shown) {
   const Scratch scratch;
-  const FinishedRun run(scratch.write("case.toml", kSmallCase) +
+  std::string alone = kSmallCase;  // with contact the run would end earlier: nodes move too far in a step
+  alone.erase(alone.find("[[contact]]"), alone.find("[[initial_velocity]]") - alone.find("[[contact]]"));
+  alone.erase(alone.find("[sphere]"), alone.find("[[stage]]") - alone.find("[sphere]"));
+  const FinishedRun run(scratch.write("case.toml", alone) +
                         " --set time.step=1e-4 --set output.history_interval=1 --set output.frame_interval=0");
   EXPECT_EQ(run.outcome.exit_code, 3);
   EXPECT_NE(run.outcome.err.find("a velocity is not finite in element "), std::string::npos) << run.outcome.err;
