@@ -42,11 +42,12 @@ end = "1 ms"
 struct CubesDomain {
   explicit CubesDomain(const std::string& more = "")
       : input(two_cubes(more)), model(build_model(input)), domain(model, search_params(input, model)) {
+    if (domain.contact) model.whole.contactor_size = domain.contact->searches().contactor_size();
     begin_stage(domain, stage_loads(input.stages[0], model), kCubeStep);
   }
 
   const case_::Case input;
-  const Model model;
+  Model model;
   Domain domain;
 };
 
