@@ -155,7 +155,8 @@ inline void book_stress_work(const SweepArgs& args, const ElasticParams& p, cons
                                                const bool* crossing, double (*force)[kWidth]) {
   for (std::size_t l = 0; l < kWidth; ++l) {
     if (!crossing[l] || (args.link[at + l] & 15) >= 12) continue;
-    double virgin[9];
+    double virgin[9];  // stays elastic where the limit is that of another, weaker joint of the element
+    for (std::size_t k = 0; k < 9; ++k) virgin[k] = force[k][l];
     args.crossing(args.crossing_context, first_slot + static_cast<Index>(l), face, virgin);
     for (std::size_t k = 0; k < 9; ++k) force[k][l] = virgin[k];
   }
