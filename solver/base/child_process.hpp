@@ -35,10 +35,14 @@ struct ChildEnd {
 /// Runs `work` in a forked copy of this process and returns its result. A crash, endless loop or memory bomb there ends
 /// the child alone. It has its own stdin (empty), stdout and stderr (kept for `text`), no other descriptor of the
 /// parent's, no core dump, and dies with the parent. Signals have their default meaning in it.
+/// The work may read files, take memory up to the limit and start threads; with limits.confined it may not write, run,
+/// connect or signal (confinement.hpp). Whatever it does ends as one of ChildEnd::Kind, never in this process.
+/// @param limits   seconds > 0, counted from the fork; bytes beyond what this process has at that moment
 /// @param prepare  runs first, with refusals as errors: libraries that open files of their own when they start go on
-/// @param work  runs in the child; what it changes there is lost. They must not throw; std::bad_alloc alone is taken as
-///              the end of memory
-/// Throws OutputError when the system refuses a process.
+/// @param work     runs in the child; what it changes there is lost. It returns any number of bytes. Neither may throw;
+///                 std::bad_alloc alone is taken as the end of memory
+/// Throws OutputError when the system refuses a process or a pipe; nothing is left behind then.
+/// Blocks until the child has ended. Cost: a fork, and a copy of the result through a pipe.
 [[nodiscard]] ChildEnd run_in_child(const ChildLimits& limits, const std::function<void()>& prepare,
                                     const std::function<std::vector<std::byte>()>& work);
 

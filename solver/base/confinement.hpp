@@ -21,8 +21,9 @@ enum class Refusal {
 /// Every other system call that is not needed for the above fails with EPERM. May be called again: the stricter
 /// refusal holds.
 ///
-/// @param report  descriptor open for writing
-/// @return  false when the system cannot confine a process; then nothing has changed
+/// @param report   descriptor open for writing, which gets kForbiddenMark and words when refusal is ends_process
+/// @param refusal  what becomes of forbidden calls from now on
+/// @return  false when the system cannot confine a process; then nothing has changed. Throws nothing.
 [[nodiscard]] bool confine_this_process(int report, Refusal refusal);
 
 }  // namespace breccia

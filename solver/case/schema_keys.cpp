@@ -15,8 +15,8 @@ constexpr auto model_keys = std::to_array<Key>({
 
     {.path = "start", .type = section,
      .help = "The run goes on from the state of another run, with other loads, constraints, stages, strengths, contact "
-             "laws or output. Time and steps go on counting there, and so does the energy put in. `breccia explain KEY` "
-             "says what cannot change; sections that cannot may be left out."},
+             "laws or output. Time and steps go on counting there, and so does the energy put in. `breccia explain "
+             "KEY` says what cannot change; sections that cannot may be left out."},
     {.path = "start.from", .type = path, .required = true,
      .help = "Folder of a run, or one of its checkpoints (checkpoints/step_*.h5). Relative to the case file.",
      .example = "\"../settle/run\""},

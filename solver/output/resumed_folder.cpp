@@ -6,6 +6,7 @@
 
 #include "output/atomic_file.hpp"
 #include "output/checkpoint_writer.hpp"
+#include "output/extracts_cut.hpp"
 #include "output/run_lock.hpp"
 
 namespace breccia {
@@ -62,6 +63,7 @@ RunFolder prepare_resumed_folder(const RunFolder& run, const fs::path& root, con
     copy_lines(run.status(), folder.status());
     copy_folder(run.frames(), folder.frames());
     copy_folder(run.extracts(), folder.extracts());
+    cut_extracts_back(folder.extracts(), from.model.clock.steps);
     return folder;
   }
   const RunFolder folder{root, std::make_shared<const RunLock>(root)};
@@ -70,6 +72,7 @@ RunFolder prepare_resumed_folder(const RunFolder& run, const fs::path& root, con
   for (const fs::path& path :
        {folder.summary(), folder.summary_text(), folder.control(), temporary_of(folder.control())})
     remove_stale(path);
+  cut_extracts_back(folder.extracts(), from.model.clock.steps);
   write_file_atomically(folder.case_file(), resolved_case);
   fs::create_directories(folder.frames(), error);
   return folder;

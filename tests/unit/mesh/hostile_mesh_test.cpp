@@ -170,14 +170,15 @@ TEST(HostileMesh, FlippedBytesOfABinaryMeshNeverEndThisProcess) {
   ASSERT_EQ(refusal_of(source), "accepted");
   source.time_limit = 10;
   source.memory_limit = 500e6 / static_cast<double>(memory_of_machine());
-  int accepted = 0;
+  int tried = 0, accepted = 0;
   for (std::size_t at = 30; at < text.size(); at += 7) {
     std::string flipped = text;
     flipped[at] = static_cast<char>(flipped[at] ^ 0x80);
     source.file = test::write_file(folder / "flipped.msh", flipped);
     accepted += refusal_of(source) == "accepted" ? 1 : 0;
+    ++tried;
   }
-  EXPECT_LT(accepted, 30) << "most places matter";
+  EXPECT_LT(2 * accepted, tried) << "most places matter";
 }
 
 // --- What the child sends
@@ -247,60 +248,6 @@ TEST(MeshBytes, RefuseIndicesThatPointNowhere) {
   refused([](RawMesh& raw) { raw.mesh.surface_faces[0].group = 1; });
   refused([](RawMesh& raw) { raw.mesh.num_bodies = -1; });
   refused([](RawMesh& raw) { raw.ungrouped_elements = -1; });
-}
-
-// --- The child itself
-// -------------------------------------------------------------------------------------------------
-
-ChildEnd end_of(const std::function<std::vector<std::byte>()>& work, ChildLimits limits = {}) {
-  return run_in_child(
-      limits, [] {}, work);
-}
-
-TEST(ChildProcess, BringsAResultLargerThanAPipe) {
-  const ChildEnd end = end_of([] { return std::vector<std::byte>(5'000'000, std::byte{7}); });
-  EXPECT_EQ(end.kind, ChildEnd::Kind::finished);
-  EXPECT_EQ(end.result, std::vector<std::byte>(5'000'000, std::byte{7}));
-}
-
-TEST(ChildProcess, TellsHowItCrashed) {
-  const ChildEnd end = end_of([]() -> std::vector<std::byte> {
-    std::fprintf(stderr, "first\nthe last words\n");
-    std::abort();
-  });
-  EXPECT_EQ(end.kind, ChildEnd::Kind::crashed);
-  EXPECT_EQ(end.signal, SIGABRT);
-  EXPECT_EQ(end.text, "the last words");
-}
-
-TEST(ChildProcess, LeavingWithoutAResultIsACrash) {
-  const ChildEnd end = end_of([]() -> std::vector<std::byte> { std::_Exit(0); });
-  EXPECT_EQ(end.kind, ChildEnd::Kind::crashed);
-  EXPECT_EQ(end.signal, 0);
-}
-
-TEST(ChildProcess, MayReadButNotWriteRunOrConnect) {
-  const auto folder = test::scratch_folder("confined");
-  const std::string file = test::write_file(folder / "there", "text").string();
-  const auto nothing = std::vector<std::byte>{};
-  const auto kind = [&](const std::function<void()>& attempt) {
-    return end_of([&] {
-      attempt();
-      return nothing;
-    });
-  };
-  EXPECT_EQ(kind([&] { std::ifstream(file).get(); }).kind, ChildEnd::Kind::finished);
-  const ChildEnd written = kind([&] { std::ofstream(file) << "x"; });
-  EXPECT_EQ(written.kind, ChildEnd::Kind::forbidden);
-  EXPECT_EQ(written.text, "open a file for writing: " + file);
-  EXPECT_EQ(kind([&] { std::remove(file.c_str()); }).kind, ChildEnd::Kind::forbidden);
-  EXPECT_EQ(kind([&] { std::rename(file.c_str(), (file + "2").c_str()); }).kind, ChildEnd::Kind::forbidden);
-  EXPECT_EQ(kind([&] { ::mkdir((file + "3").c_str(), 0700); }).kind, ChildEnd::Kind::forbidden);
-  EXPECT_EQ(kind([&] { (void)!std::system("true"); }).kind, ChildEnd::Kind::forbidden);
-  EXPECT_EQ(kind([&] { ::execl("/bin/true", "true", nullptr); }).text, "run a program: /bin/true");
-  EXPECT_EQ(kind([&] { (void)::fork(); }).kind, ChildEnd::Kind::forbidden);
-  EXPECT_EQ(kind([&] { ::kill(::getppid(), SIGUSR2); }).kind, ChildEnd::Kind::forbidden);
-  EXPECT_EQ(names_in(folder), std::vector<std::string>{"there"});
 }
 
 }  // namespace
