@@ -120,14 +120,17 @@ class Drawing:
         source.UpdatePipeline(view.ViewTime)
         info = (source.CellData if association == "CELLS" else source.PointData)[array]
         low, high = info.GetRange() if highest is None else (0.0, highest)
+        if low < high < low + 1e-3 * abs(high):  # marks could not be told apart
+            low = min(low, 0.0)
         factor, letter = prefix(max(abs(low), abs(high)))
         kind = "Cell Data" if association == "CELLS" else "Point Data"
-        name = f"{title} [{letter}{unit}]"
+        name = f"{title} [{letter}{unit}]" if unit else title
         scaled = Calculator(Input=source, AttributeType=kind, Function=f"{array}*{1 / factor:.17g}", ResultArrayName=name)
         shown = Show(scaled, view)
         ColorBy(shown, (association, name))
         table = GetColorTransferFunction(name)
         table.ApplyPreset(preset, True)
+        low = low if high > low else min(low, 0.0)
         table.RescaleTransferFunction(low / factor, high / factor if high > low else low / factor + 1)
         bar = GetScalarBar(table, view)
         bar.Title, bar.ComponentTitle = name, ""

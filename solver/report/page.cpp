@@ -58,7 +58,10 @@ footer { color: #4c535c; font-size: .82rem; padding: 1.5rem 20px 2.5rem; }
   nav { display: none; }
   figure, tr, .tiles, .warning { break-inside: avoid; }
   h2, caption { break-after: avoid; }
-  .pair { grid-template-columns: 1fr 1fr; }
+  .pair { grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); }
+  .scroll { overflow: visible; }
+  table { font-size: 8.5pt; }
+  th, td { padding-right: .6rem; }
   * { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
 }
 )";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "output/energy_terms.hpp"
 #include "report/chart.hpp"
@@ -138,8 +139,13 @@ std::string energies(const RunRecord& run) {
   Table table{"Energy at the last line of the history", {"term", "energy"}, {}};
   for (const EnergyTerm& term : kEnergyTerms) {
     const double value = run.history.last(column_of(term));
-    if (std::isfinite(value)) table.rows.push_back({Cell::text(term.words), Cell::number_of(value, "J")});
+    const bool outside = std::string_view(term.name) == "external_work";
+    if (std::isfinite(value))
+      table.rows.push_back({Cell::text(outside ? "work from outside" : term.words), Cell::number_of(value, "J")});
   }
+  const std::vector<double> total = put_in(run.history);
+  if (!total.empty())
+    table.rows.push_back({Cell::text("put in: start and outside"), Cell::number_of(total.back(), "J")});
   table.rows.push_back({Cell::text("relative residual"), Cell::number_of(run.history.last("relative residual"), "")});
   return energy_chart(run.history) + pair(html + table.html());
 }

@@ -51,6 +51,17 @@ if RANK == 0:
 else:
     b.expect(history.GetNumberOfRows() == 0, "the history is on the first rank")
 
+if RANKS == 1:  # a gauge's name may have commas and quotes
+    import shutil
+    import tempfile
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copytree(run, f"{folder}/run")
+        text = open(f"{run}/history.csv").read().replace(",kinetic [J],", ',"a, ""b"" [J]",', 1)
+        open(f"{folder}/run/history.csv", "w").write(text)
+        quoted = simple.BrecciaReader(FileName=f"{folder}/run")
+        quoted.UpdatePipeline(index[-1]["time"])
+        b.expect(b.output(quoted, 1).GetColumnName(3) == 'a, "b" [J]', f"column {b.output(quoted, 1).GetColumnName(3)}")
+
 reader.Channels = ["joints"]
 reader.UpdatePipeline(index[-1]["time"])
 b.expect(b.output(reader).GetNumberOfBlocks() == 1, "one channel is asked for")

@@ -130,6 +130,8 @@ def numbers():
                           ("friction in joints", "joint friction [J]"), ("residual, unaccounted", "residual [J]"),
                           ("relative residual", "relative residual")):
         expect(energy[words] == [end[column]], f"{words} {energy[words]}, in the history {end[column]!r}")
+    stock = sum(energy[words][0] for words in energy if not re.search("residual|outside", words))
+    expect(abs(stock - energy["put in: start and outside"][0]) <= 2 * abs(end["residual [J]"]) + 1e-15, f"the terms add up to {stock}")
     joints = shown.values("At the last line of the history")
     for words, count, area in (("all", "broken joints", "broken area [m2]"), ("mode I", "broken in mode I", "broken area in mode I [m2]"),
                                ("mode II", "broken in mode II", "broken area in mode II [m2]")):
