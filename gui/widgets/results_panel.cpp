@@ -69,7 +69,7 @@ ResultsPanel::ResultsPanel(QWidget* parent)
     slider_->setValue(slider_->value() - 1);
   });
   connect(forward_, &QPushButton::clicked, this, [this] { slider_->setValue(slider_->value() + 1); });
-  connect(slider_, &QSlider::sliderPressed, this, [this] { follow_->setChecked(false); });
+  connect(slider_, &QSlider::actionTriggered, this, [this] { follow_->setChecked(false); });
   connect(paraview_, &QPushButton::clicked, this, &ResultsPanel::paraview_wanted);
   connect(picture_, &QPushButton::clicked, this, &ResultsPanel::picture_wanted);
   connect(curves_, &QPushButton::clicked, this, &ResultsPanel::curves_wanted);
