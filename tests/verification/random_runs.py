@@ -3,7 +3,10 @@
 A case comes from its seed alone, so that a failure can be repeated. Its run is sound when
 - it ends with exit code 0,
 - no dissipated term ever falls in history.csv,
-- from no line to a later one the energy held rises by more than what is put in between, but for GAIN of the most that was put in so far.
+- at no line is there energy from nowhere, but for GAIN of the most that was put in so far: what is held has risen since an earlier line
+  by more than what was put in between, and what is held and dissipated is more than what was there at first and was put in. Each
+  alone says less: the one also rises where a coarse step gives back what it lost before, the other where a law dissipates more than
+  the step took from the motion.
 """
 
 import argparse
@@ -29,8 +32,8 @@ def lines_of(folder):
 
 
 def judge(lines):
-    """What is wrong with a history, and its figures as shares of what was put in: gain, the largest rise of the energy held beyond what
-    was put in meanwhile, and made, the largest negative residual."""
+    """What is wrong with a history, and its figures as shares of what was put in: gain, the most that came from nowhere, and made, the
+    largest negative residual."""
     found, before, first, least, put_in = [], None, 0.0, 0.0, 0.0
     figures = {"gain": 0.0, "made": 0.0, "broken": 0, "fragments": 0, "steps": 0}
     for line in lines:
@@ -40,11 +43,11 @@ def judge(lines):
         least, put_in = min(least, excess), max(put_in, first + line[WORK])
         when = f"t = {line['time [s]']:.4e} s"
         if put_in > 0:
-            gain = (excess - least) / put_in
-            figures["gain"] = max(figures["gain"], gain)
-            figures["made"] = max(figures["made"], -line["residual [J]"] / put_in)
+            made = -line["residual [J]"] / put_in
+            gain = min((excess - least) / put_in, made)
+            figures.update(gain=max(figures["gain"], gain), made=max(figures["made"], made))
             if gain > GAIN:
-                found.append(f"{when}: {excess - least:.4g} J from nowhere, {put_in:.4g} J put in")
+                found.append(f"{when}: {gain * put_in:.4g} J from nowhere, {put_in:.4g} J put in")
         for key in DISSIPATED if before else []:
             if line[key] < before[key]:
                 found.append(f"{when}: {key} falls from {before[key]:.17g} to {line[key]:.17g}")
