@@ -7,6 +7,8 @@ namespace breccia {
 namespace {
 
 constexpr std::int64_t kStepsBetweenLooks = 100;
+constexpr std::int64_t kSoonest = 10;  // steps between looks where joints come apart
+constexpr std::int64_t kTaken = 2;     // steps until contact has the faces of a joint that was released
 
 }  // namespace
 
@@ -28,6 +30,8 @@ StableStep StageSteps::limit() const {
 }
 
 void StageSteps::look() {
+  if (partition_.state().signals.released)
+    until_look_ = std::min(until_look_, std::max(kTaken, until_look_ - (kStepsBetweenLooks - kSoonest)));
   if (--until_look_ != 0 || input_.time.step > 0) return;
   until_look_ = kStepsBetweenLooks;
   const double dt = length(), now = partition_.state().clock.dt;

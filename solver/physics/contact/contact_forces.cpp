@@ -294,7 +294,6 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   take_back(point, old.contactor, lambda, old.force, motion, gained);
 }
 
-/// @param motion  m, since the last force acted;  @param gained  J
 void Pass::take_back(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda,
                      const Vec3& last_force, const Vec3& motion, double gained) {
   const double work = last_force.dot(motion);
@@ -416,8 +415,7 @@ double Pass::press(const ContactLaw& law, const ContactPoint& point, double leng
   return kept;
 }
 
-/// Its work is that of the mean of this and the last force over the motion between them; where the motion turns round
-/// within a step there is none.
+/// Its work is that of the mean of this and the last force over the motion; where that turns round there is none.
 Damping Pass::damp(const ContactLaw& law, const ContactPoint& point, const Vec3& motion, const Candidate& candidate,
                    const Vec3& gradient, double elastic) const {
   const double deeper = gradient.dot(motion);  // m, during the last step
@@ -447,26 +445,6 @@ void Pass::distribute(const ContactPoint& point, Index contactor, const std::arr
 void contact_forces(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt,
                     ContactState& contact, NodalForces& forces, ContactWork& work) {
   Pass(params, local, state, dt, contact, forces, work).run();
-}
-
-std::array<ExactSum, 3> contact_force_on(const ContactState& contact, const LocalMesh& local,
-                                         const std::function<bool(Index slot)>& holds) {
-  std::array<ExactSum, 3> sum;
-  const auto add = [&](const Vec3& force) {
-    for (std::size_t i = 0; i < 3; ++i) sum[i].add(force[static_cast<Eigen::Index>(i)]);
-  };
-  const auto slot_of = [&](Index point) { return contact.points[static_cast<std::size_t>(point)].slot; };
-  for (const BoundaryForce& b : contact.boundary) {
-    const Index slot = slot_of(b.point);
-    if (local.is_original(slot) && holds(slot)) add(b.force);
-  }
-  for (const TouchingCouple& t : contact.touching) {
-    const Index slot = slot_of(t.point);
-    if (!local.is_original(slot)) continue;
-    if (holds(slot)) add(t.force);
-    if (holds(contact.contactors[static_cast<std::size_t>(t.contactor)])) add(-t.force);
-  }
-  return sum;
 }
 
 }  // namespace breccia
