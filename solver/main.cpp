@@ -18,8 +18,8 @@
 #include "case/schema.hpp"
 #include "case/units.hpp"
 #include "commands/commands.hpp"
+#include "commands/environment.hpp"
 #include "parallel/mpi_session.hpp"
-#include "physics/sweep.hpp"
 #include "simulation/run.hpp"
 #include "simulation/run_checkpoints.hpp"
 
@@ -337,16 +337,6 @@ void define(CLI::App& app, Arguments& a) {
 
   CLI::App* schema = app.add_subcommand("schema", "The table of all keys of a case file, a line a key");
   schema->add_flag("--json", a.schema_json, "as JSON, with units, defaults, ranges, choices and help");
-}
-
-/// Variables of the environment that are ours and say nothing that we know.
-void check_environment() {
-  const char* simd = std::getenv("BRECCIA_SIMD");
-  if (simd == nullptr || *simd == '\0') return;
-  for (const Simd known : {Simd::sse2, Simd::avx2, Simd::avx512}) {
-    if (std::string(simd) == name_of(known)) return;
-  }
-  throw InputError(Problem{"", 0, "BRECCIA_SIMD", "is no instruction set", "sse2, avx2, avx512, or not set", simd});
 }
 
 int dispatch(const CLI::App& app, Arguments& a, const Communicator& world, int argc, char** argv) {
