@@ -4,14 +4,14 @@
 
 namespace breccia {
 
-// Ranks learn each other's speeds a step or two late. Contact searches and proxies come in time all the same, and results
-// are the same on any number of ranks, as long as no node moves further in a step n than
+// Ranks learn each other's speeds a step or two late. Contact searches and proxies come in time all the same, and
+// results are the same on any number of ranks, as long as no node moves further in a step n than
 //   L_n = min(2 L_(n-1) + r H, H/2),
 // L_(n-1) the furthest motion of any node in the step before, H the mean size of a contactor, and r = kUnforeseen, or
-// kUnforeseenAtStart in the first step of a stage, whose constraints and loads may begin at their full values. Points that
-// move further than H/2 jump over what they should touch. A step in which a node exceeds the limit is an error, the same
-// on any number of ranks (also on one), thrown at the start of the second step after it, when all ranks know. Without
-// contact nothing depends on it.
+// kUnforeseenAtStart in the first step of a stage, whose constraints and loads may begin at their full values. Points
+// that move further than H/2 jump over what they should touch. A step in which a node exceeds the limit is an error,
+// the same on any number of ranks (also on one), thrown at the start of the second step after it, when all ranks know.
+// Without contact nothing depends on it.
 inline constexpr double kUnforeseen = 0.005, kUnforeseenAtStart = 0.04;
 
 /// A node that this rank counts.

@@ -223,8 +223,8 @@ bool Partition::balancing_pays() {
 bool Partition::left_reach() {
   motion_ = domain_->state.signals.motion;
   moved_.step(motion_);
-  return moved_.used_up(reach_.allowed_motion(), 2 * motion_ + 4 * unforeseen_motion(*domain_, kMotionLate), model_->local,
-                        domain_->state.nodes.position, anchor_, communicator_);
+  return moved_.used_up(reach_.allowed_motion(), 2 * motion_ + 4 * unforeseen_motion(*domain_, kMotionLate),
+                        model_->local, domain_->state.nodes.position, anchor_, communicator_);
 }
 
 }  // namespace breccia

@@ -77,7 +77,8 @@ void update_couples(Domain& domain) {
   bool due = false, meets_others = false;
   {
     const auto lap = domain.timer.measure(Phase::search);
-    due = contact.due(state.nodes, {state.signals.motion, unforeseen_motion(domain, 1)}, domain.exchange.communicator());
+    due =
+        contact.due(state.nodes, {state.signals.motion, unforeseen_motion(domain, 1)}, domain.exchange.communicator());
   }
   const std::vector<std::uint8_t> current = receive_moved(due, domain);
   {
