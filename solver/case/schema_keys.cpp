@@ -123,8 +123,8 @@ constexpr auto model_keys = std::to_array<Key>({
      .fixed_by_state = "who shares nodes and who may touch whom is part of the state; strengths may change"},
 
     {.path = "joint[]", .type = section_list,
-     .help = "Law of the joints inside a group, or on the glued interface of two, which breaks where it has a strength. "
-             "Every breakable group needs one."},
+     .help = "Law of the joints inside a group, or on the glued interface of two, which breaks where it has a "
+             "strength. Every breakable group needs one."},
     {.path = "joint[].group", .type = text, .help = "Group whose inner joints follow this law. Give this or between.",
      .example = "\"glass\""},
     {.path = "joint[].between", .type = text_pair,

@@ -50,8 +50,8 @@ class Exchange {
 
   /// Sends what is in `signals` of this rank. Alone: nothing.
   void begin_reduction(const Clock& clock, const Signals& signals);
-  /// Receives what all ranks sent: sets `received`, `released`, `motion`, `fastest` and, if a rank has failed, throws its
-  /// error on all of them.
+  /// Receives what all ranks sent: sets `received`, `released`, `motion`, `fastest` and, if a rank has failed, throws
+  /// its error on all of them.
   void finish_reduction(const Clock& clock, Signals& signals);
   /// The last one: after it this rank is alone.
   void conclude(const Clock& clock, Signals& signals);
