@@ -11,6 +11,7 @@
 #include "case/groups.hpp"
 #include "model/parameters.hpp"
 #include "parallel/totals.hpp"
+#include "physics/kick.hpp"
 
 namespace breccia {
 namespace {
@@ -46,16 +47,16 @@ struct Motion {
         place(domain.state.nodes.next_position.data()),  // position and next_position have been swapped since
         before(domain.scratch.velocity_before.data()),
         after(domain.state.nodes.velocity.data()),
-        dt(domain.state.clock.dt_before) {}
+        kick(kick_length(domain.state.clock.dt_earlier, domain.state.clock.dt_before)) {}
 
   [[nodiscard]] Vec3 x(Index node) const { return load_node(place, node); }
   [[nodiscard]] Vec3 v(Index node) const { return load_node(after, node); }
-  [[nodiscard]] Vec3 acceleration(Index node) const { return (v(node) - load_node(before, node)) / dt; }
+  [[nodiscard]] Vec3 acceleration(Index node) const { return (v(node) - load_node(before, node)) / kick; }
   [[nodiscard]] Vec3 displacement(Index node) const { return x(node) - load_node(local.reference.data(), node); }
 
   const LocalMesh& local;
   const double *place, *before, *after;
-  double dt;
+  double kick;  ///< s
 };
 
 /// Calls visit(nodes, mass of the gauge at each of them) for its elements, or the nodes of a surface: what one rank has

@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "physics/kick.hpp"
+
 namespace breccia {
 namespace {
 
@@ -53,13 +55,13 @@ Constraints::Constraints(const std::vector<NodalConstraint>& entries, const Loca
 bool Constraints::counts(Index node) const { return mesh_->counted[static_cast<std::size_t>(node)] != 0; }
 
 double Constraints::reaction_of(const Hold& hold, std::size_t k) const {
-  if (dt_ == 0) return 0.0;
+  if (kick_ == 0) return 0.0;
   const double mass = mesh_->node_mass[static_cast<std::size_t>(hold.nodes[k])];
-  return (1.0 + 0.5 * mass_damping_ * dt_) * (mass * (hold.velocity[k] - hold.free[k]) / dt_);
+  return (1.0 + 0.5 * mass_damping_ * kick_) * (mass * (hold.velocity[k] - hold.free[k]) / kick_);
 }
 
 void Constraints::apply(NodalState& state, double time, double dt_before, double dt) {
-  dt_ = dt;
+  kick_ = kick_length(dt_before, dt);
   for (Entry& entry : entries_) {
     for (Hold& hold : entry.holds) {
       if (hold.rests) {

@@ -44,7 +44,7 @@ class Constraints {
 
   /// Overwrites v(n+1/2): by the velocity asked for at t_(n+1/2), or by (u(t_(n+1)) - (x_n - x_start)) / dt, with which
   /// positions hold to round-off; and next_position by x_n + dt v. Keeps the reactions
-  ///   R = m (1 + alpha dt/2) (v - v_free) / dt,
+  ///   R = m (1 + alpha k/2) (v - v_free) / k,  k = kick_length(dt_before, dt),
   /// which with the damping force -alpha m (v(n-1/2) + v(n+1/2)) / 2 give the node this velocity, and accounts their
   /// work over the step that ended at t_n.
   /// @param state      position at t_n, velocity and next_position as the sweep left them
@@ -103,7 +103,7 @@ class Constraints {
   std::vector<Entry> entries_;
   std::vector<Index> nodes_;
   double mass_damping_ = 0;
-  double dt_ = 0;  ///< s, of the last step
+  double kick_ = 0;  ///< s, of the last step
   WorkSum work_;
 };
 

@@ -67,7 +67,8 @@ struct SweepArgs {
   double* memory = nullptr;       ///< [slot][memory_stride] what elements remember whose law has a memory
   std::size_t memory_stride = 0;  ///< (physics/material/bulk_law.hpp)
 
-  double dt = 0;                           ///< s
+  double dt = 0;                           ///< s, from x_n to x_(n+1)
+  double kick = 0;                         ///< s, from v_(n-1/2) to v_(n+1/2): kick_length()
   std::array<double, 3> gravity{0, 0, 0};  ///< m/s2
   double mass_damping = 0;                 ///< 1/s, f = -alpha m (v_(n-1/2) + v_(n+1/2)) / 2
   double local_damping = 0;                ///< f = -beta |f| sign(v_(n-1/2)) by component of the unbalanced force

@@ -204,22 +204,22 @@ template <std::size_t kFace>
 /// v_(n+1/2) of W nodes from the force on them; accounts damping work when asked.
 struct Mover {
   const SweepArgs& args;
-  Real keep, gain;  // v <- keep v + gain dt a
+  Real keep, gain;  // v <- keep v + gain kick a
   bool damped;
 
   explicit Mover(const SweepArgs& a)
       : args(a),
-        keep((1.0 - 0.5 * a.mass_damping * a.dt) / (1.0 + 0.5 * a.mass_damping * a.dt)),
-        gain(1.0 / (1.0 + 0.5 * a.mass_damping * a.dt)),
+        keep((1.0 - 0.5 * a.mass_damping * a.kick) / (1.0 + 0.5 * a.mass_damping * a.kick)),
+        gain(1.0 / (1.0 + 0.5 * a.mass_damping * a.kick)),
         damped(a.mass_damping > 0 || a.local_damping > 0) {}
 
   /// @param v  as of Vector
   template <class V>
   Vector move(const V& v, const Vector& force, const Real& mass, std::size_t node) const {
-    const Real dt_over_mass = args.dt / mass;
+    const Real kick_over_mass = args.kick / mass;
     Vector moved;
     if (!damped) {
-      for (std::size_t i = 0; i < 3; ++i) moved[i] = v[i] + (dt_over_mass * force[i] + args.dt * args.gravity[i]);
+      for (std::size_t i = 0; i < 3; ++i) moved[i] = v[i] + (kick_over_mass * force[i] + args.kick * args.gravity[i]);
       return moved;
     }
     Real before = 0.0, after = 0.0;
@@ -227,7 +227,7 @@ struct Mover {
       const Real unbalanced = force[i] + mass * args.gravity[i];
       const Real size = args.local_damping * stdx::abs(unbalanced);
       const Real local = el::select(v[i] > 0.0, Real(-size), el::select(v[i] < 0.0, size, Real(0.0)));
-      moved[i] = keep * v[i] + gain * (dt_over_mass * (unbalanced + local));
+      moved[i] = keep * v[i] + gain * (kick_over_mass * (unbalanced + local));
       const Real damping = local - 0.5 * args.mass_damping * mass * (v[i] + moved[i]);
       before -= damping * v[i];
       after -= damping * moved[i];

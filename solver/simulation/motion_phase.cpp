@@ -5,6 +5,7 @@
 #include <string>
 
 #include "domains/motion_limit.hpp"
+#include "physics/kick.hpp"
 #include "simulation/phases.hpp"
 
 /// The phase of a step that takes nodes from forces to their next positions.
@@ -74,6 +75,7 @@ SweepArgs sweep_args(bool sample, Domain& domain) {
   args.memory = state.elements[kMaterialMemory].data();
   args.memory_stride = kElementFields[kMaterialMemory].components;
   args.dt = state.clock.dt;
+  args.kick = kick_length(state.clock.dt_before, state.clock.dt);
   args.gravity = scratch.gravity;
   args.mass_damping = state.loads.mass_damping;
   args.local_damping = state.loads.local_damping;
@@ -197,10 +199,10 @@ void send_proxies(Domain& domain) {
 
 /// Damping force that the sweep put on a node, N, regained from what it did to its velocity (sweep_kernel.hpp, Mover).
 Vec3 damping_force(const SweepArgs& args, const Vec3& before, const Vec3& after, double mass) {
-  const double half = 0.5 * args.mass_damping * args.dt;
+  const double half = 0.5 * args.mass_damping * args.kick;
   Vec3 force;
   for (Eigen::Index i = 0; i < 3; ++i) {
-    const double net = mass * ((1.0 + half) * after[i] - (1.0 - half) * before[i]) / args.dt;  // unbalanced and local
+    const double net = mass * ((1.0 + half) * after[i] - (1.0 - half) * before[i]) / args.kick;  // unbalanced and local
     const double opposed = before[i] == 0.0               ? 0.0
                            : (net > 0) == (before[i] > 0) ? -args.local_damping
                                                           : args.local_damping;

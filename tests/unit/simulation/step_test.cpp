@@ -63,6 +63,16 @@ TEST_F(StepOfCubes, SumsUpGravityAsCentralDifferencesDo) {
       kSteps * kRounding);
 }
 
+TEST_F(StepOfCubes, KicksByTheMeanOfTwoStepsWhereTheirLengthChanges) {
+  domain.state.loads.gravity[2].constant = -9.81;
+  step(domain);
+  domain.state.clock.dt = 3 * kCubeStep;
+  step(domain);
+  const double speed = 9.81 * (1 + 0.5 * (1 + 3)) * kCubeStep;
+  constexpr double kRounding = 1e-20;  // m/s
+  EXPECT_LE(deviation(model.local, domain.state.nodes.velocity, [&](Index) { return Vec3(0, 0, -speed); }), kRounding);
+}
+
 TEST_F(StepOfCubes, SamplesTheEnergiesWhenAskedTo) {
   set_velocity(Vec3(1, 0, 0));
   step(domain);

@@ -68,7 +68,7 @@ struct Swept {
     a.block_group = local.block_group.data();
     a.original = local.original.data();
     a.params = params.data();
-    a.dt = kStep;
+    a.dt = a.kick = kStep;
     a.gravity = {0.5, -2, 3};
     a.viscous_before = a.viscous_after = viscous.data();
     a.stress_before = a.stress_after = stress.data();
