@@ -283,6 +283,7 @@ void bind(A& a, Pipeline& pipeline) {
   a.value("every_broken", pipeline.every_broken);
   a.value("first_break", pipeline.first_break);
   a.value("strict", pipeline.strict);
+  a.value("least_instants", pipeline.least);
   a.value("parameters", pipeline.parameters);
 }
 

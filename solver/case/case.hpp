@@ -277,7 +277,7 @@ struct Pipeline {
   std::int64_t every_broken = 0;  ///< joints
   bool first_break = false;
   bool strict = false;     ///< whatever it costs
-  std::int64_t least = 0;  ///< executions over the whole run, whatever they cost; of insitu.run
+  std::int64_t least = 0;  ///< executions over the whole run, whatever they cost
   std::map<std::string, double> parameters;
   Origin origin;
   [[nodiscard]] bool has_trigger() const {

@@ -145,6 +145,8 @@ inline constexpr auto run_keys = std::to_array<Key>({
      .example = "true"},
     {.path = "insitu.pipeline[].strict", .type = boolean, .fallback = "false",
      .help = "Every trigger counts, whatever it costs.", .example = "true"},
+    {.path = "insitu.pipeline[].least_instants", .type = integer, .fallback = "0", .range = steps,
+     .help = "Executed at least so many times over the simulated time, whatever that costs.", .example = "20"},
     {.path = "insitu.pipeline[].parameters", .type = parameters, .fallback = "{}",
      .help = "Numbers handed to the pipeline, in SI or with a unit: width, height, azimuth, elevation, zoom, lower, "
              "upper for pictures; any for scripts.",

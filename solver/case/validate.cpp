@@ -166,7 +166,8 @@ class Validator {
     if (!j.groups[0].empty() && !seen.insert(sorted(j.groups)).second)
       problem(j.origin, inside ? "group" : "between", "the joints have a law already", "one [[joint]] a group or pair",
               words(j.groups));
-    if (!inside && !j.groups[0].empty() && !c_.mesh.glue)
+    const bool of_parent = c_.start && c_.mesh.file.empty() && !c_.mesh.raster;  // it has the mesh
+    if (!inside && !j.groups[0].empty() && !c_.mesh.glue && !of_parent)
       problem(j.origin, "between", "interfaces are not glued in this case", "mesh.glue = true", words(j.groups));
     if (j.softening == Softening::z_curve && j.a + j.b <= 1)
       problem(j.origin, "softening", "a + b of the z-curve is not above 1", "a + b > 1", std::to_string(j.a + j.b));

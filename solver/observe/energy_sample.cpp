@@ -59,7 +59,9 @@ EnergySample energy_sample(const Field<double>& velocity_before, const Domain& d
   joints.viscous.add(sum_of(state.elements[kViscousWork], local.original));
   ExactSum contact = state.work.contact.stored;
   contact.add(state.work.contact.friction_stored);
-  const std::array parts{kinetic_energy(local, velocity_before.data(), state.nodes.velocity.data()),
+  const Clock& clock = state.clock;
+  const double change = clock.dt_before > 0 ? (clock.dt_before - clock.dt) / (clock.dt_before + clock.dt) : 0.0;
+  const std::array parts{kinetic_energy(local, velocity_before.data(), state.nodes.velocity.data(), change),
                          elastic.total,
                          joints.stored,
                          contact,

@@ -34,7 +34,8 @@ void for_each_carrier(const LocalMesh& mesh, Account&& account) {
 
 }  // namespace
 
-ExactSum kinetic_energy(const LocalMesh& mesh, const double* velocity_before, const double* velocity_after) {
+ExactSum kinetic_energy(const LocalMesh& mesh, const double* velocity_before, const double* velocity_after,
+                        double change) {
   ExactSum sum;
   for_each_carrier(mesh, [&](std::span<const Index> nodes) {
     double energy = 0;
@@ -43,7 +44,11 @@ ExactSum kinetic_energy(const LocalMesh& mesh, const double* velocity_before, co
       const double product = velocity_before[at] * velocity_after[at] +
                              velocity_before[at + 8] * velocity_after[at + 8] +
                              velocity_before[at + 16] * velocity_after[at + 16];
-      energy += 0.5 * mesh.node_mass[static_cast<std::size_t>(n)] * product;
+      const double mass = mesh.node_mass[static_cast<std::size_t>(n)];
+      energy += 0.5 * mass * product;
+      if (change == 0) continue;
+      const Vec3 before = load_node(velocity_before, n), after = load_node(velocity_after, n);
+      energy += 0.5 * change * mass * (after - before).dot(after);
     }
     sum.add(energy);
   });

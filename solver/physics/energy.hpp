@@ -17,9 +17,11 @@ namespace breccia {
 /// O(elements), no allocation, throws nothing.
 
 /// Kinetic energy of central differences at t_n, J: sum of m v_(n-1/2) . v_(n+1/2) / 2, the form that together with the
-/// potential energy at x_n is conserved exactly by a linear system.
+/// potential energy at x_n is conserved exactly by a linear system. Where the step changes, with s m (v_(n+1/2) -
+/// v_(n-1/2)) . v_(n+1/2) / 2 more: what holds from t_n on under the new step.
+/// @param change  s = (before - dt)/(before + dt), 0 where the step stays the same (physics/kick.hpp)
 [[nodiscard]] ExactSum kinetic_energy(const LocalMesh& mesh, const double* velocity_before,
-                                      const double* velocity_after);
+                                      const double* velocity_after, double change = 0);
 
 /// Strain energy of all elements whose law has one, J.
 struct ElasticEnergy {

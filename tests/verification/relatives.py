@@ -65,7 +65,7 @@ def text_of(rng, arguments, harder):
     poisson = rng.choice([0, 0.2, 0.3, 0.45])
     for group in ["box", "lid"] if shared else ["box"]:
         lines += ["[[material]]", f'group = "{group}"', f"young = {young}", f"poisson = {poisson}", f"density = {density}",
-                  f'joints = "{"none" if shared else "breakable"}"']
+                  f'joints = "{("none" if group == "box" else "unbreakable") if shared else "breakable"}"']
     lines += joint_lines(rng, young, size, 'between = ["box", "lid"]' if shared else 'group = "box"', factor, strength)
     speed = (young / density) ** 0.5
     wave_time = 4 * size / speed
