@@ -167,10 +167,13 @@ State closed_fields(const Domain& domain) {
 
 Continuation close(Domain& domain) {
   State& state = domain.state;
+  // What the last step received counts until the next one has received, which receives the rest again.
   const StepSignals received = state.signals.received;
+  const bool released = state.signals.released;
   conclude(domain);
   state.signals.sent = state.signals.received;
   state.signals.received = received;
+  state.signals.released = released;
   Continuation carried{closed_fields(domain), domain.timer, domain.sample};
   begin_stage(domain, {}, state.clock.dt);
   return carried;

@@ -151,6 +151,7 @@ struct FieldTable<State> {
       FieldRow{"fastest_steps", "1", kPassing, [](auto& s) -> auto& { return s.signals.step_motion.fastest_step; }},
       FieldRow{"fastest_nodes", "1", kPassing, [](auto& s) -> auto& { return s.signals.step_motion.fastest_node; }},
       FieldRow{"fastest_speeds", "m/s", kPassing, [](auto& s) -> auto& { return s.signals.step_motion.fastest_speed; }},
+      FieldRow{"released", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.released; }},
       FieldRow{"released_here", "1", kList, [](auto& s) -> auto& { return s.signals.released_here; }},
   };
 // clang-format on

@@ -49,6 +49,18 @@ TEST(StateRecords, TakeAStateToAnotherDomainThatGoesOnWithTheSameBits) {
   EXPECT_EQ(hash_of(other).text(), hash_of(undisturbed.domain).text());
 }
 
+/// The look at the time step depends on it.
+TEST(StateRecords, KeepWhetherJointsWereReleasedInTheStepBeforeTheLast) {
+  for (const bool released : {false, true}) {
+    PartedCubes cubes;
+    cubes.domain.state.signals.released = released;
+    cubes.domain.state.signals.released_here.assign(released ? 0 : 1, 3);
+    const Records records = records_of(cubes.domain);
+    const Domain other(cubes.model, search_params(cubes.input, cubes.model), records, close(cubes.domain));
+    EXPECT_EQ(other.state.signals.released, released);
+  }
+}
+
 TEST(StateRecords, HoldTheHashOfEveryPartOfTheState) {
   PartedCubes one, two;
   EXPECT_EQ(hash_of(one.domain).text(), hash_of(two.domain).text());
