@@ -20,12 +20,12 @@ using nlohmann::json;
 /// that nothing much happens in a test.
 class LongRun {
  public:
-  explicit LongRun(int ranks) : folder_(scratch_.path("run").string()) {
+  explicit LongRun(int ranks, const std::string& settings = "") : folder_(scratch_.path("run").string()) {
     const std::string file = scratch_.write("case.toml", kSmallCase);
     launcher_ = start_ranks(ranks, "run " + file +
                                        " --progress none --set 'stage[0].end=1000 s' --set 'time.step=10 ns' --set "
-                                       "'output.frame_interval=0 s' -o '" +
-                                       folder_ + "'");
+                                       "'output.frame_interval=0 s' " +
+                                       settings + " -o '" + folder_ + "'");
     for (int look = 0; look < 500 && lines().empty(); ++look)
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
@@ -104,6 +104,16 @@ TEST_P(Control, stops_in_order_also_while_paused) {
   EXPECT_EQ(json::parse(read_text(run.folder() + "/summary.json"))["status"].get<std::string>().substr(0, 7),
             "stopped");
   EXPECT_EQ(run.ask("pause").exit_code, 2) << "of a run that has ended";
+}
+
+TEST_P(Control, samples_the_energies_of_the_step_in_which_a_run_is_stopped) {
+  LongRun run(GetParam(), "--set 'output.history_interval=1000 s'");
+  const auto is_running = [](const std::vector<json>& seen) { return seen.back()["step"] > 100; };
+  ASSERT_GT(run.states_until(is_running).back()["step"], 100);
+  ASSERT_EQ(run.ask("stop").exit_code, 0);
+  EXPECT_EQ(run.wait_for_end(), 0);
+  const double first = history_column(run.folder() + "/history.csv", "kinetic [J]").front();
+  EXPECT_NE(json::parse(read_text(run.folder() + "/summary.json"))["energy"]["kinetic"].get<double>(), first);
 }
 
 TEST_P(Control, gets_a_frame_at_once_and_then_as_often_as_asked) {

@@ -164,6 +164,21 @@ TEST_F(Resume, TellsThatARunIsCompleteAndExtendsIt) {
   EXPECT_NE(summary_of(folder("whole")).at("state_hash"), hash);
 }
 
+TEST_F(Resume, ExtendedFromAnEarlyStageChangesTheLastOneOnly) {
+  const Outcome longer = call("run " + case_ + " --progress none --set 'stage[1].end=4.5 ms' -o " + quoted("longer"));
+  ASSERT_EQ(longer.exit_code, 0) << longer.err;
+  run_up_to(50, "early");
+  EXPECT_EQ(resume("early", 1, "--until '4.5 ms'").exit_code, 0);
+  EXPECT_EQ(summary_of(folder("early")).at("state_hash"), summary_of(folder("longer")).at("state_hash"));
+}
+
+TEST_F(Resume, HasTheSameResultsAsTheSameRun) {
+  ASSERT_EQ(call("run " + case_ + " --progress none -o " + quoted("again")).exit_code, 0);
+  const Outcome diff = call("diff " + quoted("whole") + " " + quoted("again"));
+  EXPECT_EQ(diff.exit_code, 0);
+  EXPECT_NE(diff.out.find("results: the same"), std::string::npos) << diff.out;
+}
+
 TEST_F(Resume, NamesADamagedCheckpointAndUsesTheOneBefore) {
   run_up_to(120, "damaged");
   const auto files = checkpoints(folder("damaged"));

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <functional>
+#include <new>
 #include <numeric>
 #include <stdexcept>
 
@@ -244,6 +246,23 @@ TEST(Agree, TakesTheTypeOfTheLowestRankWhenRanksDiffer) {
     throw SimulationError(text_of(rank));
   };
   EXPECT_EQ(agreed({last() - 1, last()}, mixed), Thrown::simulation);
+}
+
+TEST(Agree, TellsOfMemoryAndOfFilesThatCannotBeUsedInWords) {
+  if (world().size() == 1) GTEST_SKIP() << "a rank that is alone throws the exception itself";
+  const auto told = [](const auto& error) {
+    try {
+      world().agree([&] {
+        if (world().is_root()) throw error;
+      });
+    } catch (const InputError& agreed) {
+      return std::string(agreed.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(told(std::bad_alloc()), HasSubstr("out of memory"));
+  EXPECT_THAT(told(std::filesystem::filesystem_error("no such folder", std::error_code())),
+              HasSubstr("no such folder"));
 }
 
 TEST(Agree, MakesInternalErrorsOfOtherExceptions) {
