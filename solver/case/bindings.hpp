@@ -53,18 +53,6 @@ void bind(A& a, MeshSource& mesh) {
   a.optional_section("raster", mesh.raster);
 }
 
-/// Of a material with another law they are read, to be refused with their names, but not written.
-template <class A>
-void bind(A& a, DruckerPrager& plasticity) {
-  a.value("friction_angle", plasticity.friction_angle);
-  a.value("dilation_angle", plasticity.dilation_angle);
-  a.value("cohesion", plasticity.cohesion);
-  a.value("hardening", plasticity.hardening);
-  a.value("tension_cutoff", plasticity.tension_cutoff);
-  a.value("cap_pressure", plasticity.cap_pressure);
-  a.value("cap_hardening", plasticity.cap_hardening);
-}
-
 template <class A>
 void bind(A& a, Material& material) {
   a.origin(material.origin);
@@ -74,7 +62,7 @@ void bind(A& a, Material& material) {
   a.value("poisson", material.poisson);
   a.value("density", material.density);
   a.value("viscosity", material.viscosity);
-  if (A::reads || material.law == BulkLaw::drucker_prager) bind(a, material.plasticity);
+  bind(a, material.law, material.plasticity);
   a.choice("joints", material.joints);
 }
 

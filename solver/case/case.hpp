@@ -10,6 +10,7 @@
 
 #include "base/time_function.hpp"
 #include "base/types.hpp"
+#include "case/bulk_laws.hpp"
 
 /// A checked case as plain data: what the user asked for, in SI units, every default filled in. Keys of the case file
 /// stand in comments; case/schema.hpp is their one table (unit, default, range, help).
@@ -71,20 +72,7 @@ struct Start {
   friend bool operator==(const Start&, const Start&) = default;
 };
 
-enum class BulkLaw { neo_hookean, green_st_venant, drucker_prager };
 enum class JointPlacement { breakable, unbreakable, none };
-
-/// Strength and flow of a material whose law is drucker_prager.
-struct DruckerPrager {
-  double friction_angle = 0;  ///< rad
-  double dilation_angle = 0;  ///< rad
-  double cohesion = 0;        ///< Pa
-  double hardening = 0;       ///< Pa, cohesion gained a unit of plastic shear
-  double tension_cutoff = 0;  ///< Pa, largest mean stress; 0: the apex of the cone
-  double cap_pressure = 0;    ///< Pa; 0: no cap
-  double cap_hardening = 0;   ///< Pa, cap pressure gained a unit of compaction
-  friend bool operator==(const DruckerPrager&, const DruckerPrager&) = default;
-};
 
 /// [[material]]: one physical volume group.
 struct Material {

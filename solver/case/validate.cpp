@@ -116,35 +116,11 @@ class Validator {
     for (const Material& m : c_.materials)
       if (!m.group.empty() && !seen.insert(m.group).second)
         problem(m.origin, "group", "the group has a material already", "one [[material]] a group", m.group);
-    for (const Material& m : c_.materials) plasticity(m);
-  }
-
-  void plasticity(const Material& m) {
-    const DruckerPrager& p = m.plasticity;
-    if (m.law != BulkLaw::drucker_prager) {
-      for (const auto& [name, value] : {std::pair{"friction_angle", p.friction_angle},
-                                        {"dilation_angle", p.dilation_angle},
-                                        {"cohesion", p.cohesion},
-                                        {"hardening", p.hardening},
-                                        {"tension_cutoff", p.tension_cutoff},
-                                        {"cap_pressure", p.cap_pressure},
-                                        {"cap_hardening", p.cap_hardening}})
-        if (value != 0)
-          problem(m.origin, name, "belongs to a law that this material does not have", "law = \"drucker_prager\"");
-      return;
-    }
-    if (p.cohesion == 0 && p.friction_angle == 0)
-      problem(m.origin, "cohesion", "the material has no strength", "cohesion > 0, or friction_angle > 0");
-    if (p.dilation_angle > p.friction_angle)
-      problem(m.origin, "dilation_angle", "is above the friction angle: flow would give energy",
-              "at most friction_angle, " + std::to_string(p.friction_angle) + " rad", std::to_string(p.dilation_angle));
-    const double apex = p.cohesion / std::tan(p.friction_angle);
-    if (p.friction_angle > 0 && p.tension_cutoff > apex)
-      problem(m.origin, "tension_cutoff", "lies beyond the tip of the cone",
-              "at most cohesion / tan(friction_angle), " + std::to_string(apex) + " Pa, or \"apex\"",
-              std::to_string(p.tension_cutoff));
-    if (p.cap_hardening > 0 && p.cap_pressure == 0)
-      problem(m.origin, "cap_hardening", "hardens a cap that is not there", "with a cap_pressure");
+    for (const Material& m : c_.materials)
+      validate(m.law, m.plasticity,
+               [&](const char* name, const char* what, const std::string& allowed, const std::string& given) {
+                 problem(m.origin, name, what, allowed, given);
+               });
   }
 
   void joints() {

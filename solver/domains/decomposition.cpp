@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/extent.hpp"
 #include "parallel/whole_fragments.hpp"
@@ -45,33 +46,40 @@ std::vector<Vec3> places(const Communicator& communicator, const Records& mine, 
   return places_of_fragments(centroid, neighbours, all / communicator.size(), reach);
 }
 
-/// Sends marked elements to the ranks that want them. @param wanted  [rank](elements)
+/// Elements by the rank that wants them, ascending: places in a rank's records.
+using Wanted = std::vector<std::vector<Index>>;
+
+std::vector<std::uint8_t> marks_of(const std::vector<Index>& places, std::size_t elements) {
+  std::vector<std::uint8_t> marks(elements, 0);
+  for (const Index e : places) marks[static_cast<std::size_t>(e)] = 1;
+  return marks;
+}
+
+/// Sends elements to the ranks that want them.
 std::vector<Communicator::Parcel> exchange(const Communicator& communicator, const Records& records,
-                                           const std::vector<std::vector<std::uint8_t>>& wanted) {
+                                           const Wanted& wanted) {
   std::vector<Communicator::Parcel> parcels;
   for (std::size_t r = 0; r < wanted.size(); ++r) {
-    const bool any = std::find(wanted[r].begin(), wanted[r].end(), std::uint8_t{1}) != wanted[r].end();
-    if (any) parcels.push_back({static_cast<int>(r), pack(records, wanted[r])});
+    if (!wanted[r].empty())
+      parcels.push_back({static_cast<int>(r), pack(records, marks_of(wanted[r], records.elements.size()))});
   }
   return communicator.exchange(std::move(parcels));
 }
 
-using Marks = std::vector<std::vector<std::uint8_t>>;
-
 Records migrate(const Communicator& communicator, Records mine, const std::vector<int>& owner) {
-  Marks wanted(static_cast<std::size_t>(communicator.size()), std::vector<std::uint8_t>(mine.elements.size(), 0));
-  for (std::size_t e = 0; e < owner.size(); ++e) wanted[static_cast<std::size_t>(owner[e])][e] = 1;
-  std::vector<std::uint8_t> stay(mine.elements.size(), 0);
-  stay.swap(wanted[static_cast<std::size_t>(communicator.rank())]);
+  Wanted wanted(static_cast<std::size_t>(communicator.size()));
+  for (std::size_t e = 0; e < owner.size(); ++e)
+    wanted[static_cast<std::size_t>(owner[e])].push_back(static_cast<Index>(e));
+  const std::vector<Index> stay = std::exchange(wanted[static_cast<std::size_t>(communicator.rank())], {});
   Records arrivals;
   for (const Communicator::Parcel& parcel : exchange(communicator, mine, wanted)) unpack(parcel.bytes, arrivals);
-  keep(mine, stay);
+  keep(mine, marks_of(stay, mine.elements.size()));
   merge(mine, std::move(arrivals));
   return mine;
 }
 
 /// Originals that other ranks need.
-Marks needed_elsewhere(const Communicator& communicator, const Records& owned, double reach) {
+Wanted needed_elsewhere(const Communicator& communicator, const Records& owned, double reach) {
   std::vector<Extent> elements;
   Extent all;
   for (const ElementRecord& element : owned.elements) {
@@ -79,12 +87,11 @@ Marks needed_elsewhere(const Communicator& communicator, const Records& owned, d
     all.add(elements.back());
   }
   const std::vector<std::vector<Extent>> extents = communicator.all_gather(std::span<const Extent>(&all, 1));
-  Marks wanted(extents.size());
+  Wanted wanted(extents.size());
   for (std::size_t r = 0; r < extents.size(); ++r) {
-    wanted[r].assign(owned.elements.size(), 0);
     if (static_cast<int>(r) == communicator.rank() || !all.near(extents[r][0], reach)) continue;
     for (std::size_t e = 0; e < owned.elements.size(); ++e) {
-      if (elements[e].near(extents[r][0], reach)) wanted[r][e] = 1;
+      if (elements[e].near(extents[r][0], reach)) wanted[r].push_back(static_cast<Index>(e));
     }
   }
   return wanted;
@@ -120,13 +127,11 @@ Piece decompose(const Communicator& communicator, DomainSpec& domains, Records m
   Records owned = migrate(communicator, std::move(mine), owner);
 
   Piece piece;
-  const Marks wanted = needed_elsewhere(communicator, owned, reach.distance());
+  const Wanted wanted = needed_elsewhere(communicator, owned, reach.distance());
   std::vector<SharedElements> by_rank(wanted.size());
   for (std::size_t r = 0; r < wanted.size(); ++r) {
     by_rank[r].rank = static_cast<int>(r);
-    for (std::size_t e = 0; e < owned.elements.size(); ++e) {
-      if (wanted[r][e] != 0) by_rank[r].send.push_back(owned.elements[e].id);
-    }
+    for (const Index e : wanted[r]) by_rank[r].send.push_back(owned.elements[static_cast<std::size_t>(e)].id);
   }
   const std::vector<Communicator::Parcel> parcels = exchange(communicator, owned, wanted);
   std::vector<GlobalId> own_ids;

@@ -36,8 +36,8 @@ struct StepScratch {
   std::vector<std::size_t> crossed;                       ///< joints that left their elastic range in this step
   Field<double> kept_stress;                              ///< [block][18][8]
   Field<double> viscous_late, stress_late, damping_late;  ///< J, work after t_n of a step with a sample
-  std::vector<Vec3> held_before;                          ///< m/s, of the nodes of the constraints
-  Field<double> velocity_before;                          ///< m/s, v_(n-1/2) of the last step with a sample
+  std::vector<Vec3> held_before, held_free;  ///< m/s, of the nodes of the constraints: before the step, free
+  Field<double> velocity_before;             ///< m/s, v_(n-1/2) of the last step with a sample
 };
 
 /// What goes on when a rank's elements change: the model's rows of the state, and what was measured.

@@ -27,24 +27,24 @@ std::vector<BrecciaArray> arrays_of(const Part& part) {
   return arrays;
 }
 
-/// Entries [n i, n i + n) of a list, for the places i where `keep` is not 0.
+/// Leaves the entries [n i, n i + n) of a list, for the places i where `keep` is not 0.
 template <class T>
-std::vector<T> picked(const std::vector<T>& values, const std::vector<std::int32_t>& keep, std::size_t n = 1) {
-  std::vector<T> out;
+void pick(std::vector<T>& values, const std::vector<std::int32_t>& keep, std::size_t n) {
+  auto end = values.begin();
   for (std::size_t i = 0; i < keep.size(); ++i) {
-    if (keep[i] != 0)
-      out.insert(out.end(), values.begin() + static_cast<std::ptrdiff_t>(n * i),
-                 values.begin() + static_cast<std::ptrdiff_t>(n * (i + 1)));
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(n * i);
+    if (keep[i] != 0) end = std::copy_n(first, n, end);
   }
-  return out;
+  values.erase(end, values.end());
 }
 
-Frame::Joints broken_ones(const Frame::Joints& j) {
-  return {picked(j.points, j.broken, 9), picked(j.id, j.broken),
-          picked(j.damage, j.broken),    picked(j.mode, j.broken),
-          picked(j.opening, j.broken),   picked(j.slip, j.broken),
-          picked(j.broken, j.broken),    picked(j.time_of_failure, j.broken),
-          picked(j.state, j.broken),     picked(j.energy, j.broken)};
+Frame::Joints broken_ones(Frame::Joints joints) {
+  const std::vector<std::int32_t> broken = joints.broken;
+  pick(joints.points, broken, 9);
+  for_each_array(joints, [&](const char*, auto& values, int components) {
+    pick(values, broken, static_cast<std::size_t>(components));
+  });
+  return joints;
 }
 
 bool has(std::uint32_t mask, int channel) { return (mask >> channel & 1U) != 0; }

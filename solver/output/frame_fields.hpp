@@ -1,6 +1,8 @@
 #pragma once
 
+#include <concepts>
 #include <string_view>
+#include <type_traits>
 
 #include "output/frame.hpp"
 
@@ -38,8 +40,10 @@ void for_each_array(const Frame::Elements& e, Visit&& visit) {
   visit("neighbour", e.neighbour, 4);
 }
 
-template <class Visit>
-void for_each_array(const Frame::Joints& j, Visit&& visit) {
+/// Of joints that may change, too. @tparam J  Frame::Joints or const Frame::Joints
+template <class J, class Visit>
+requires std::same_as<std::remove_const_t<J>, Frame::Joints>
+void for_each_array(J& j, Visit&& visit) {
   visit("id", j.id, 1);
   visit("damage", j.damage, 1);
   visit("mode", j.mode, 1);

@@ -29,16 +29,24 @@ enum class BulkLaw {
   __builtin_unreachable();
 }
 
-/// Whether elements of the law remember what has happened to them (physics/material/bulk_law.hpp).
-[[gnu::always_inline]] constexpr bool has_memory(BulkLaw law) {
+/// How the stress of a law is computed: side by side from F alone, or element by element by `step_bulk_law`
+/// (physics/material/bulk_law.hpp), as for every law whose elements remember what has happened to them.
+enum class StressKernel { neo_hookean, green_st_venant, with_memory };
+
+[[gnu::always_inline]] constexpr StressKernel stress_kernel(BulkLaw law) {
   switch (law) {
     case BulkLaw::neo_hookean:
+      return StressKernel::neo_hookean;
     case BulkLaw::green_st_venant:
-      return false;
+      return StressKernel::green_st_venant;
     case BulkLaw::drucker_prager:
-      return true;
+      return StressKernel::with_memory;
   }
   __builtin_unreachable();
+}
+
+[[gnu::always_inline]] constexpr bool has_memory(BulkLaw law) {
+  return stress_kernel(law) == StressKernel::with_memory;
 }
 
 /// Parameters of the element's kernels. Made by `make_elastic_params`.
@@ -183,14 +191,14 @@ template <class T>
   const Tensor<T> cof = cofactor(f);
   const T j = determinant(f, cof);
   Tensor<T> piola;
-  switch (p.law) {
-    case BulkLaw::neo_hookean:
+  switch (stress_kernel(p.law)) {
+    case StressKernel::neo_hookean:
       neo_hookean_piola(f, cof, j, p, piola);
       break;
-    case BulkLaw::green_st_venant:
+    case StressKernel::green_st_venant:
       piola = product(green_st_venant_stress(f, j, p), cof);
       break;
-    case BulkLaw::drucker_prager:
+    case StressKernel::with_memory:
       piola.fill(T(std::numeric_limits<double>::quiet_NaN()));
       break;
   }

@@ -104,14 +104,14 @@ template <bool is_plain, class X>
   const Real j = el::determinant(f, cof);
   const auto crushed = j < p.j_min;
   if (stdx::any_of(crushed)) totals.status.crushed += count_originals(args, crushed, block * kLanes + lane);
-  switch (is_plain ? BulkLaw::neo_hookean : p.law) {
-    case BulkLaw::neo_hookean:
+  switch (is_plain ? StressKernel::neo_hookean : stress_kernel(p.law)) {
+    case StressKernel::neo_hookean:
       el::neo_hookean_piola(f, cof, j, p, s.total);
       break;
-    case BulkLaw::green_st_venant:
+    case StressKernel::green_st_venant:
       s.total = el::product(el::green_st_venant_stress(f, j, p), cof);
       break;
-    case BulkLaw::drucker_prager:
+    case StressKernel::with_memory:
       step_with_memory(args, p, block * kLanes + lane, f, s.total);
       break;
   }

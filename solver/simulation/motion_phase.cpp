@@ -212,20 +212,21 @@ Vec3 damping_force(const SweepArgs& args, const Vec3& before, const Vec3& after,
   return force;
 }
 
-std::vector<Vec3> held_velocities(const Domain& domain) {
-  std::vector<Vec3> velocities;
+/// Velocities of the nodes of the constraints.
+void keep_held(const Domain& domain, std::vector<Vec3>& velocities) {
+  velocities.clear();
   for (const Index node : domain.state.constraints.nodes())
     velocities.push_back(load_node(domain.state.nodes.velocity.data(), node));
-  return velocities;
 }
 
 bool accounts_damping(const SweepArgs& args) {
   return args.damping_after != nullptr && (args.mass_damping > 0 || args.local_damping > 0);
 }
 
-/// The sweep accounted the damping of held nodes with the velocities they would have had; @param free  those. What it
-/// damps is their mean velocity as they are held.
-void account_held_damping(const SweepArgs& args, const std::vector<Vec3>& free, Domain& domain) {
+/// The sweep accounted the damping of held nodes with the velocities they would have had. What it damps is their mean
+/// velocity as they are held.
+void account_held_damping(const SweepArgs& args, Domain& domain) {
+  const std::vector<Vec3>& free = domain.scratch.held_free;
   const std::vector<Index>& nodes = domain.state.constraints.nodes();
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const std::size_t node = at(nodes[i]);
@@ -244,9 +245,9 @@ void constrain(const SweepArgs& args, Domain& domain) {
   if (state.constraints.empty()) return;
   const auto lap = domain.timer.measure(Phase::loads);
   const bool damped = accounts_damping(args);
-  const std::vector<Vec3> free = damped ? held_velocities(domain) : std::vector<Vec3>{};
+  if (damped) keep_held(domain, domain.scratch.held_free);
   state.constraints.apply(state.nodes, state.clock.time, state.clock.dt_before, state.clock.dt);
-  if (damped) account_held_damping(args, free, domain);
+  if (damped) account_held_damping(args, domain);
   double& max_speed = state.signals.max_speed;
   for (const NodalConstraint& entry : state.loads.constraints) {
     if (holds_still(entry)) continue;  // slower than the sweep left them
@@ -273,7 +274,7 @@ void finish_motion(const SweepArgs& args, Domain& domain) {
 
 void move_nodes(bool sample, Domain& domain) {
   const SweepArgs args = sweep_args(sample, domain);
-  if (accounts_damping(args)) domain.scratch.held_before = held_velocities(domain);
+  if (accounts_damping(args)) keep_held(domain, domain.scratch.held_before);
   domain.state.signals.max_speed = 0;
   if (domain.exchange.alone()) {
     sweep_all(args, domain);

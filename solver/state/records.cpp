@@ -138,15 +138,7 @@ void merge_list(std::vector<T>& list, std::vector<T>& arrivals) {
 }  // namespace
 
 void merge(Records& records, Records arrivals) {
-  merge_list(records.elements, arrivals.elements);
-  merge_list(records.joints, arrivals.joints);
-  merge_list(records.released, arrivals.released);
-  merge_list(records.couples, arrivals.couples);
-  merge_list(records.ramps, arrivals.ramps);
-  merge_list(records.offsets, arrivals.offsets);
-  merge_list(records.holds, arrivals.holds);
-  merge_list(records.faces, arrivals.faces);
-  merge_list(records.corners, arrivals.corners);
+  std::apply([&](const auto&... row) { (merge_list(records.*row.second, arrivals.*row.second), ...); }, kRecordLists);
 }
 
 }  // namespace breccia

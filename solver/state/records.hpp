@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "model/model.hpp"
@@ -228,18 +229,21 @@ struct Records {
   [[nodiscard]] Index place_of(GlobalId element) const;
 };
 
+/// The lists of the records by name.
+inline constexpr std::tuple kRecordLists{std::pair{"element", &Records::elements},
+                                         std::pair{"joint", &Records::joints},
+                                         std::pair{"released_joint", &Records::released},
+                                         std::pair{"couple", &Records::couples},
+                                         std::pair{"field_ramp", &Records::ramps},
+                                         std::pair{"boundary_offset", &Records::offsets},
+                                         std::pair{"hold", &Records::holds},
+                                         std::pair{"surface_face", &Records::faces},
+                                         std::pair{"surface_corner", &Records::corners}};
+
 /// Calls visit(name, list) for every list of the records.
 template <class R, class Visit>
 void for_each_list(R& records, Visit&& visit) {
-  visit("element", records.elements);
-  visit("joint", records.joints);
-  visit("released_joint", records.released);
-  visit("couple", records.couples);
-  visit("field_ramp", records.ramps);
-  visit("boundary_offset", records.offsets);
-  visit("hold", records.holds);
-  visit("surface_face", records.faces);
-  visit("surface_corner", records.corners);
+  std::apply([&](const auto&... row) { (visit(row.first, records.*row.second), ...); }, kRecordLists);
 }
 
 /// The elements marked, packed for a message: list by list, field by field, numbers of fixed width, little-endian.
