@@ -21,6 +21,7 @@
 #include <string_view>
 
 #include "base/confinement.hpp"
+#include "base/control_group.hpp"
 #include "base/error.hpp"
 #include "base/interruption.hpp"
 
@@ -231,11 +232,9 @@ ChildEnd run_in_child(const ChildLimits& limits, const std::function<void()>& pr
 }
 
 std::uint64_t memory_of_machine() {
-  std::uint64_t bytes = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * page();
-  std::ifstream group("/sys/fs/cgroup/memory.max");
-  std::uint64_t allowed = 0;
-  if (group >> allowed && allowed > 0) bytes = std::min(bytes, allowed);
-  return bytes;
+  const std::uint64_t bytes = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * page();
+  const std::uint64_t allowed = memory_of_control_group();
+  return allowed > 0 ? std::min(bytes, allowed) : bytes;
 }
 
 }  // namespace breccia
