@@ -85,7 +85,7 @@ class Race {
     if (driver.over()) throw starts_too_late();
     choose_algorithms(communicator_.max(pairs_of(partition)));
     result_.start = partition.state().clock.time;
-    until_look_ = driver.until_look();
+    looks_ = driver.looks();
     start_ = partition.snapshot();
     return true;
   }
@@ -198,7 +198,7 @@ class Race {
     as_raced.detection.algorithm = racer.algorithm;
     as_raced.detection.buffer = racer.buffer;
     Partition partition(as_raced, communicator_, start_);
-    StageDriver driver(as_raced, partition, start_.stage, until_look_);
+    StageDriver driver(as_raced, partition, start_.stage, looks_);
     communicator_.barrier();
     TimingSegments pieces(partition, piece_);
     std::int64_t steps = 0;
@@ -252,7 +252,7 @@ class Race {
   RaceProgress& progress_;
   Communicator communicator_;
   Snapshot start_;
-  std::int64_t until_look_ = 0;  ///< of the driver at the start
+  StepLooks looks_;  ///< of the driver at the start
   std::vector<case_::DetectionAlgorithm> algorithms_;
   std::vector<RaceEntry> entries_;
   std::vector<TimingSegments> least_;  ///< (entries) of all laps

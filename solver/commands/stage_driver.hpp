@@ -15,14 +15,14 @@ class StageDriver {
   StageDriver(const case_::Case& input, Partition& partition) : input_(input), partition_(partition) {
     steps_.emplace(input_, input_.stages[stage_], partition_);
   }
-  /// Goes on from a snapshot. @param until_look  of the driver that it was taken of
-  StageDriver(const case_::Case& input, Partition& partition, std::size_t stage, std::int64_t until_look)
+  /// Goes on from a snapshot. @param looks  of the driver that it was taken of
+  StageDriver(const case_::Case& input, Partition& partition, std::size_t stage, const StepLooks& looks)
       : input_(input), partition_(partition), stage_(stage) {
-    steps_.emplace(input_, input_.stages[stage_], partition_, until_look);
+    steps_.emplace(input_, input_.stages[stage_], partition_, looks);
   }
 
   [[nodiscard]] bool over() const { return steps_->over() && stage_ + 1 == input_.stages.size(); }
-  [[nodiscard]] std::int64_t until_look() const { return steps_->until_look(); }
+  [[nodiscard]] const StepLooks& looks() const { return steps_->looks(); }
 
   /// One step; a stage that ends with it is followed by the next one. Collective. @pre not over
   void step(bool stop) {

@@ -63,9 +63,9 @@ void note_motion(Domain& domain) {
   if (!domain.contact) return;
   State& state = domain.state;
   StepMotion& motion = state.signals.step_motion;
-  const double before = motion.own;
+  motion.own_before = motion.own;
   motion.own = state.signals.max_speed * state.clock.dt;
-  if (!exceeds(domain, state.clock.steps, motion.own, before)) return;
+  if (!exceeds(domain, state.clock.steps, motion.own, motion.own_before)) return;
   const auto place = static_cast<std::size_t>(state.clock.steps % 2);
   const FastestNode fastest = fastest_node(domain);
   motion.fastest_step[place] = state.clock.steps;
@@ -73,18 +73,38 @@ void note_motion(Domain& domain) {
   motion.fastest_speed[place] = fastest.speed;
 }
 
+namespace {
+
+/// The furthest motion of a step is known from now on.
+void judge(Domain& domain, std::int64_t step, double length) {
+  StepMotion& motion = domain.state.signals.step_motion;
+  if (step >= 0 && motion.exceeded_step < 0 && exceeds(domain, step, length, motion.known)) {
+    motion.exceeded_step = step;
+    motion.exceeded = length;
+  }
+  motion.known_step = step;
+  motion.known = length;
+}
+
+}  // namespace
+
 void judge_motion(Domain& domain) {
   if (!domain.contact) return;
   const Clock& clock = domain.state.clock;
   const Signals& signals = domain.state.signals;
-  StepMotion& motion = domain.state.signals.step_motion;
   const std::int64_t step = signals.fastest_step;
-  if (step <= motion.known_step) return;
+  if (step <= signals.step_motion.known_step) return;
   const bool last = step == clock.steps - 1;
   const double length = signals.fastest * (clock.steps == 0 ? clock.dt : last ? clock.dt_before : clock.dt_earlier);
-  if (step >= 0 && motion.exceeded_step < 0 && exceeds(domain, step, length, motion.known)) motion.exceeded_step = step;
-  motion.known_step = step;
-  motion.known = length;
+  judge(domain, step, length);
+}
+
+void judge_motion_before_last(Domain& domain) {
+  if (!domain.contact) return;
+  const StepMotion& motion = domain.state.signals.step_motion;
+  const std::int64_t step = domain.state.clock.steps - 2;
+  if (step <= motion.known_step) return;
+  judge(domain, step, step < 0 ? motion.own : motion.own_before);  // before the first step all go on as they began
 }
 
 void check_motion(const Domain& domain) {
@@ -98,11 +118,11 @@ void check_motion(const Domain& domain) {
   constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();
   const std::int64_t node =
       communicator.max(mine && motion.fastest_speed[place] == speed ? -motion.fastest_node[place] : kNone);
-  const double size = contactor_size(domain), length = speed * clock.dt_earlier;
+  const double size = contactor_size(domain), length = motion.exceeded;
   const bool far = length > kFurthest * size;
   throw SimulationError(
       "step " + std::to_string(motion.exceeded_step) + ": " + name_of_node(node == kNone ? -1 : -node) + " moves by " +
-      number(length) + " m in one step, at " + number(speed) + " m/s, " +
+      number(length) + " m in one step, at " + number(length / clock.dt_earlier) + " m/s, " +
       (far ? "more than half the mean size of what may touch (" + number(size) + " m): contacts would be missed"
            : "much further than any node in the step before: contacts may be found too late") +
       "; lower time.safety (or time.step), or the penalties, or bring what is driven to its velocity gradually");

@@ -110,24 +110,27 @@ struct Damping {
 };
 
 /// A damaged point is stiffer closed than open by d k, and central differences lose energy, 1/2 d k |delta_n before|
-/// |delta_n|, where it closes within a step, and gain as much where it opens. What it gains is taken back by a pull
-/// whose work over the step is that. A viscous traction c k' (delta_n - delta_n before), k' the present normal
-/// stiffness, damps what chatters so. Both dissipate their trapezoidal work; neither is there without viscosity.
+/// |delta_n|, where it closes within a step, and gain as much where it opens; what damage takes on that way they do not
+/// feel at all. Both are taken back by a pull whose work over the step is that: nothing is dissipated by it beyond what
+/// the law says, but for its work in the step that follows. A viscous traction c k' (delta_n - delta_n before), k' the
+/// present normal stiffness, damps what chatters so, and dissipates its trapezoidal work. Neither is there without
+/// viscosity.
+/// @param on  damaged before this evaluation;  @param damaged  after it;  @param loss  J/m2, of normal stiffness, in it
 template <class T>
 [[nodiscard]] inline Damping<T> damp(const JointLawParams& law, const Components<T>& c, const Remaining<T>& remaining,
-                                     const Mask<T>& on, Point<T>& h) {
+                                     const Mask<T>& on, const Mask<T>& damaged, const T& loss, Point<T>& h) {
   const T zero = 0.0;
   if (!(law.viscosity > 0)) return {zero, zero};
   const T moved = c.normal - h.normal_opening;
   const Mask<T> is_open = c.normal > zero;
   const T share = select(is_open, remaining.normal(), T(1.0));
-  T traction = select(on, T(law.viscosity * law.stiffness * share * moved), zero);
-  const Mask<T> opens = on && is_open && h.normal_opening < zero;
+  const T viscous = select(on, T(law.viscosity * law.stiffness * share * moved), zero);
+  const Mask<T> opens = damaged && is_open && h.normal_opening < zero;
   const T lost_stiffness = law.stiffness * (1.0 - remaining.normal());
-  traction += select(opens, T(-lost_stiffness * c.normal * h.normal_opening / moved), zero);
-  const T work = 0.5 * (h.viscous_traction + traction) * moved;
-  h.viscous_traction = traction;
-  return {traction, select(on, greater(work, zero), zero)};
+  const T pull = select(opens, T((2.0 * loss - lost_stiffness * c.normal * h.normal_opening) / moved), zero);
+  const T work = 0.5 * (h.viscous_traction + viscous) * moved;
+  h.viscous_traction = viscous + pull;
+  return {h.viscous_traction, select(on, greater(work, zero), zero)};
 }
 
 /// Contract: evaluate_point of joint_law.hpp.
@@ -169,7 +172,7 @@ template <class T>
           greater(T(shear_loss - 0.5 * law.stiffness * (before.shear() - remaining.shear()) * sliding.spring2), zero);
       h.friction_weight = select(damaged, weight, h.friction_weight);
     }
-    const Damping<T> damping = damp(law, c, remaining, damaged_before, h);
+    const Damping<T> damping = damp(law, c, remaining, damaged_before, h.damage > zero, normal_loss, h);
     traction = plus(traction, times(damping.traction, frame.normal));
     response.viscous = damping.dissipated;
     response.traction = select3<T>(damaged, traction, elastic_traction);

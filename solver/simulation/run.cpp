@@ -129,7 +129,7 @@ class Runner {
   StageSteps begin_stage(std::size_t s) {
     const case_::Stage& stage = input_.stages[s];
     if (!from_ || s != first_stage()) return {input_, stage, partition_};
-    StageSteps steps(input_, stage, partition_, from_->until_look);
+    StageSteps steps(input_, stage, partition_, StepLooks{from_->until_look, from_->since_look});
     if (options_.extended && s + 1 == input_.stages.size()) steps.fit_end();
     return steps;
   }
@@ -205,7 +205,8 @@ class Runner {
 
   [[nodiscard]] RunPosition position() const {
     RunPosition position = output_.position();
-    position.until_look = steps_->until_look();
+    position.until_look = steps_->looks().until;
+    position.since_look = steps_->looks().since;
     return position;
   }
 

@@ -6,16 +6,23 @@
 
 namespace breccia {
 
+/// When the stable step is looked at.
+struct StepLooks {
+  std::int64_t until = 0;  ///< steps to the next look
+  std::int64_t since = 0;  ///< steps from the last one
+};
+
 /// The steps of one stage: how long they are, and when the stage is over. A stage is a whole number of equal steps, as
 /// long as is stable; every hundred steps the stable step is looked at again, since it shrinks when elements are
-/// crushed, and after ten where a joint has been released: its faces may meet others from then on.
+/// crushed, and after ten where a joint has been released: its faces may meet others from then on. From one look to the
+/// next, and into a stage, a step grows by half at most (domains/motion_limit.hpp), and after ten steps again.
 class StageSteps {
  public:
   /// Begins the stage. Collective.  @pre input, stage and partition outlive this object
   StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition);
-  /// Goes on in a stage that has begun. @param until_look  as it was
-  StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition, std::int64_t until_look)
-      : input_(input), stage_(stage), partition_(partition), until_look_(until_look) {}
+  /// Goes on in a stage that has begun. @param looks  as they were
+  StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition, const StepLooks& looks)
+      : input_(input), stage_(stage), partition_(partition), looks_(looks) {}
 
   [[nodiscard]] bool over() const {
     return !(partition_.state().clock.time < stage_.end - 0.5 * partition_.state().clock.dt);
@@ -29,18 +36,20 @@ class StageSteps {
   }
   /// Before every step: a new length if it is time to look and the limit has moved. Collective.
   void look();
-  [[nodiscard]] std::int64_t until_look() const { return until_look_; }
+  [[nodiscard]] const StepLooks& looks() const { return looks_; }
   /// Where the end of the stage has moved: steps that fit it. Collective.
-  void fit_end() { partition_.domain().state.clock.dt = length(); }
+  void fit_end();
 
  private:
   /// What is allowed, shortened so that a whole number of steps ends with the stage, s.
-  [[nodiscard]] double length() const;
+  [[nodiscard]] double length(double allowed) const;
+  /// The length that is allowed now, and when it is to be looked at again. Collective.
+  [[nodiscard]] double next_length();
 
   const case_::Case& input_;
   const case_::Stage& stage_;
   Partition& partition_;
-  std::int64_t until_look_;
+  StepLooks looks_;
 };
 
 }  // namespace breccia

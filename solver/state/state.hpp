@@ -34,11 +34,12 @@ struct StepSignals {
 
 /// How far nodes move in single steps, against the limits of domains/motion_limit.hpp.
 struct StepMotion {
-  double own = 0;                   ///< m, furthest of this rank's nodes in the last step
+  double own = 0, own_before = 0;   ///< m, furthest of this rank's nodes in the last step and in the one before it
   double known = 0;                 ///< m, furthest of all ranks' nodes in known_step
   std::int64_t known_step = -2;     ///< the last step whose furthest motion is known; -1: before the first
   std::int64_t stage_step = 0;      ///< first step of the present stage
   std::int64_t exceeded_step = -1;  ///< in which a node of any rank exceeded a limit; -1: none
+  double exceeded = 0;              ///< m, its motion in that step
   // Of this rank's fastest node in the last even and the last odd step in which it may have exceeded one.
   std::array<std::int64_t, 2> fastest_step{-1, -1};
   std::array<GlobalId, 2> fastest_node{-1, -1};
@@ -144,10 +145,12 @@ struct FieldTable<State> {
       FieldRow{"writing_sent", "1", kPassing, [](auto& s) -> auto& { return s.signals.sent.writing; }},
       FieldRow{"orders_sent", "1", kPassing, [](auto& s) -> auto& { return s.signals.sent.orders; }},
       FieldRow{"own_motion", "m", kLargest, [](auto& s) -> auto& { return s.signals.step_motion.own; }},
+      FieldRow{"own_motion_before", "m", kLargest, [](auto& s) -> auto& { return s.signals.step_motion.own_before; }},
       FieldRow{"known_motion", "m", kNotHashed, [](auto& s) -> auto& { return s.signals.step_motion.known; }},
       FieldRow{"known_motion_step", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.step_motion.known_step; }},
       FieldRow{"stage_step", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.step_motion.stage_step; }},
       FieldRow{"exceeded_step", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.step_motion.exceeded_step; }},
+      FieldRow{"exceeded_motion", "m", kNotHashed, [](auto& s) -> auto& { return s.signals.step_motion.exceeded; }},
       FieldRow{"fastest_steps", "1", kPassing, [](auto& s) -> auto& { return s.signals.step_motion.fastest_step; }},
       FieldRow{"fastest_nodes", "1", kPassing, [](auto& s) -> auto& { return s.signals.step_motion.fastest_node; }},
       FieldRow{"fastest_speeds", "m/s", kPassing, [](auto& s) -> auto& { return s.signals.step_motion.fastest_speed; }},

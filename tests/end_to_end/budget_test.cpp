@@ -180,5 +180,30 @@ TEST(MaxSteps, is_the_number_of_steps_after_which_a_run_stops) {
   }
 }
 
+/// Two boxes that meet and fly apart: contact makes the step some thirty times shorter than it is without.
+std::string rebound_case() {
+  return "[mesh.raster]\ncells = [1, 1, 1]\nboxes = [2, 1, 1]\ngap = [0.0002, 0, 0]\ncell_size = 0.02\ngroup = \"b\"\n"
+         "[[material]]\ngroup = \"b\"\nyoung = 26.6e6\npoisson = 0.2\ndensity = 2340\njoints = \"none\"\n"
+         "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = 2.66e9\nfriction = 0.3\n"
+         "[[initial_velocity]]\ngroup = \"b\"\nrandom = [3, 6]\nseed = 1\nangular = [3, 20, -40]\n"
+         "[[stage]]\nname = \"all\"\nend = 40e-3\n[output]\nhistory_interval = 1e-5\n";
+}
+
+TEST(TimeStep, grows_by_half_at_most_after_a_rebound_so_that_the_run_goes_on) {
+  const Scratch scratch;
+  const FinishedRun run(scratch.write("rebound.toml", rebound_case()));
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  double before = 0, growth = 0, longest = 0;
+  const std::vector<double>& steps = run.history.at("time step [s]");
+  for (const double step : steps) {
+    if (before > 0) growth = std::max(growth, step / before);
+    before = step;
+    longest = std::max(longest, step);
+  }
+  EXPECT_GT(growth, 1.2);
+  EXPECT_LE(growth, 1.5 * (1 + 1e-9));
+  EXPECT_GT(longest, 10 * *std::min_element(steps.begin(), steps.end()));
+}
+
 }  // namespace
 }  // namespace breccia::test

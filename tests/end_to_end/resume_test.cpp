@@ -179,6 +179,33 @@ TEST_F(Resume, HasTheSameResultsAsTheSameRun) {
   EXPECT_NE(diff.out.find("results: the same"), std::string::npos) << diff.out;
 }
 
+/// A bar that is held, and driven at full speed at once in the second stage.
+std::string sudden_case() {
+  return "[mesh.raster]\ncells = [3, 1, 1]\ncell_size = 0.02\ngroup = \"b\"\n"
+         "[[material]]\ngroup = \"b\"\nyoung = 26.6e9\npoisson = 0.2\ndensity = 2340\njoints = \"none\"\n"
+         "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = 2.66e9\n"
+         "[[stage]]\nname = \"held\"\nend = 1e-5\n[[stage.constraint]]\ngroup = \"b.x0\"\nfixed = \"xyz\"\n"
+         "[[stage]]\nname = \"driven\"\nend = 3e-5\n[[stage.constraint]]\ngroup = \"b.x0\"\n"
+         "velocity = { x = 150 }\n"
+         "[checkpoint]\nsteps = 1\nkeep = 1000\n[time]\nresidual_limit = 10\nenergy_gain_limit = 10\n";
+}
+
+TEST_F(Resume, FromEveryStepAroundASuddenMotionGoesOnAsTheRunDid) {
+  case_ = scratch_.write("sudden.toml", sudden_case());
+  ASSERT_EQ(call_ranks(2, "run " + case_ + " --progress none -o " + quoted("sudden")).exit_code, 0);
+  const json hash = summary_of(folder("sudden")).at("state_hash");
+  const auto files = checkpoints(folder("sudden"));
+  ASSERT_GT(files.size(), 12U);
+  for (std::size_t i = 5; i < 10; ++i) {
+    const int ranks = 1 + static_cast<int>(i % 2);
+    fs::remove_all(folder("again"));
+    const Outcome resumed =
+        call_ranks(ranks, "resume '" + files[i].string() + "' --progress none -o " + quoted("again"));
+    ASSERT_EQ(resumed.exit_code, 0) << files[i] << resumed.err;
+    EXPECT_EQ(summary_of(folder("again")).at("state_hash"), hash) << files[i];
+  }
+}
+
 TEST_F(Resume, NamesADamagedCheckpointAndUsesTheOneBefore) {
   run_up_to(120, "damaged");
   const auto files = checkpoints(folder("damaged"));

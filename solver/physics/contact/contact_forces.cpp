@@ -138,6 +138,7 @@ void Pass::run() {
   contact_.touching_before.swap(contact_.touching);
   contact_.touching.clear();
   contact_.boundary.clear();
+  contact_.taken_back.clear();
   work_.stored = {};
   work_.friction_stored = {};
   work_.touching = 0;
@@ -297,7 +298,10 @@ void Pass::forget(const TouchingCouple& old, double lost) {
 void Pass::take_back(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda,
                      const Vec3& last_force, const Vec3& motion, double gained) {
   const double work = last_force.dot(motion);
-  if (gained > 0 && work > 0) distribute(point, contactor, lambda, -std::min(gained / work, 1.0) * last_force);
+  if (!(gained > 0) || !(work > 0)) return;
+  const Vec3 force = -std::min(gained / work, 1.0) * last_force;
+  distribute(point, contactor, lambda, force);
+  contact_.taken_back.push_back({point.slot, slot_of(contactor), force});
 }
 
 /// Overlap that makes no force, m, of a couple seen for the first time.

@@ -49,6 +49,12 @@ struct BoundaryForce {
   Vec3 force;  ///< N
 };
 
+/// Force that took back what a couple that has ended had gained: on the point's element, its reaction on the contactor.
+struct TakenBack {
+  Index slot, contactor;  ///< slots
+  Vec3 force;             ///< N
+};
+
 /// Everything about contact that changes in a run. Plain data.
 struct ContactState {
   // Who may touch whom.
@@ -70,6 +76,7 @@ struct ContactState {
   // History and forces of the last step.
   std::vector<TouchingCouple> touching;  ///< by (point id, contactor)
   std::vector<BoundaryForce> boundary;   ///< by point id
+  std::vector<TakenBack> taken_back;     ///< by point id
   std::vector<double> boundary_offset;  ///< (points) m outside the sphere without force: where the point was first seen
 
   // Scratch, worth keeping only for its storage.

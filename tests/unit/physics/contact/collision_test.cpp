@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <random>
+#include <set>
 
 #include <Eigen/Geometry>
 
@@ -49,6 +50,7 @@ class Collision {
   void step() {
     scene_.evaluate(step_);
     touched_ = touched_ || scene_.work.touching > 0;
+    compare_resultant();
     add_element_forces();
     before_ = scene_.state.velocity;
     for (Index n = 0; n < scene_.local.num_nodes; ++n) {
@@ -84,10 +86,27 @@ class Collision {
     return sum;
   }
 
+  /// N, largest so far between the resultant on a body and the forces on its nodes, and of the latter.
+  [[nodiscard]] double resultant_error() const { return resultant_error_; }
+  [[nodiscard]] double largest_force() const { return largest_force_; }
   [[nodiscard]] const test::Scene& scene() const { return scene_; }
   [[nodiscard]] bool touched() const { return touched_; }
 
  private:
+  void compare_resultant() {
+    const auto in_second = [&](Index slot) { return scene_.local.slot_body[at(slot)] == 1; };
+    std::set<Index> nodes;
+    for (Index s = 0; s < scene_.local.num_slots; ++s) {
+      if (scene_.local.element_of_slot[at(s)] < 0 || !in_second(s)) continue;
+      for (int c = 0; c < 4; ++c) nodes.insert(scene_.local.corner_node(s, c));
+    }
+    Vec3 sum = Vec3::Zero();
+    for (const Index n : nodes) sum += scene_.forces.get(n);
+    const std::array<ExactSum, 3> resultant = contact_force_on(scene_.contact, scene_.local, in_second);
+    const Vec3 told(resultant[0].value(), resultant[1].value(), resultant[2].value());
+    resultant_error_ = std::max(resultant_error_, (told - sum).norm());
+    largest_force_ = std::max(largest_force_, sum.norm());
+  }
   [[nodiscard]] elasticity::Corners<double> corners(const Field<double>& field, Index s) const {
     elasticity::Corners<double> x;
     for (int c = 0; c < 4; ++c) {
@@ -118,6 +137,7 @@ class Collision {
   Field<double> before_;
   ElasticParams params_ = make_elastic_params(BulkLaw::neo_hookean, kYoung, kPoisson, 0);
   bool touched_ = false;
+  double resultant_error_ = 0, largest_force_ = 0;
 };
 
 double scale_of_angular_momentum() { return 1000 * 8e-6 * kSpeed * 0.036; }
@@ -156,6 +176,7 @@ TEST(collision, at_half_of_the_stable_step_gains_no_energy) {
       ASSERT_TRUE(c.touched()) << "seed " << seed;
       expect_momenta(start, end);
       EXPECT_LT((end.kinetic + c.elastic()) / start.kinetic, 1 + kGain) << "seed " << seed << " friction " << friction;
+      EXPECT_LT(c.resultant_error(), 1e-9 * c.largest_force()) << "what is taken back is part of the resultant";
     }
   }
 }

@@ -237,6 +237,27 @@ TEST(JointEnergy, opening_within_a_step_gives_no_more_than_was_stored_however_lo
   }
 }
 
+TEST(JointEnergy, opening_from_pressure_within_a_step_takes_what_the_damage_takes_also_where_it_is_the_first) {
+  constexpr double kRoundOff = 1e-9;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> part(0, 1);
+  for (int i = 0; i < 100; ++i) {
+    JointLawParams law = example_law();
+    law.viscosity = 1e-15;
+    law.law = i % 2 == 0 ? JointLaw::mixed_mode : JointLaw::independent_peaks;
+    law = prepared(law);
+    PointDriver point{law};
+    if (i % 4 >= 2) point.move_to(at_angle(0, law.onset_normal + 0.2 * part(random) * law.width_normal), 200);
+    const double wide = law.onset_normal + law.width_normal;
+    point.step(at_angle(0, -wide * part(random)));
+    const double taken = point.work - point.history.stored, mode_1 = point.mode_1;
+    point.step(at_angle(0, law.onset_normal + law.width_normal * (0.3 + 0.6 * part(random))));
+    EXPECT_GT(point.mode_1, mode_1) << i;
+    EXPECT_NEAR(point.work - point.history.stored - taken, point.mode_1 - mode_1, kRoundOff * kEnergy) << i;
+    EXPECT_LT(point.viscous, kRoundOff * kEnergy) << i;
+  }
+}
+
 /// A mass held by a spring as stiff as the joint and by a damaged point, in central differences; J/m2 and kg/m2.
 struct Chatter {
   PointDriver point;
