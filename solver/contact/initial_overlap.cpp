@@ -26,6 +26,7 @@ struct Place {
   Vec3 x;
   Index element;
   Kind kind;
+  Index node = -1;  ///< of a corner
 };
 
 /// Faces without a neighbour that carry contact points.
@@ -63,7 +64,7 @@ std::vector<Place> places_of(const Model& model) {
   const auto last =
       std::unique(corners.begin(), corners.end(), [](const auto& p, const auto& q) { return p.first == q.first; });
   for (auto c = corners.begin(); c != last; ++c)
-    places.push_back({model.mesh.nodes[at(c->first)], c->second, Place::corner});
+    places.push_back({model.mesh.nodes[at(c->first)], c->second, Place::corner, c->first});
   return places;
 }
 
@@ -86,6 +87,9 @@ std::vector<Hit> hits_of(const Model& model, const std::vector<Place>& places) {
     const std::size_t entered = at(couple.contactor), own = at(places[at(couple.point)].element);
     if (mesh.element_body[entered] == mesh.element_body[own]) continue;
     if (!model.contact.law(mesh.element_group[own], mesh.element_group[entered]).active()) continue;
+    // Bodies that are glued beside a crack have the nodes of its front in common.
+    const auto& nodes = mesh.elements[entered];
+    if (std::find(nodes.begin(), nodes.end(), places[at(couple.point)].node) != nodes.end()) continue;
     const std::array<Vec3, 4>& x = corners[entered];
     const auto lambda =
         barycentric(prepare(x, geometry::tetra_volume(x[0], x[1], x[2], x[3])), points[at(couple.point)]);

@@ -63,6 +63,46 @@ TEST(InitialOverlap, ends_a_run_with_the_bodies_the_depth_and_what_helps) {
   EXPECT_NE(check.out.find("A run ends with an error"), std::string::npos) << check.out;
 }
 
+TEST(InitialOverlap, is_not_seen_at_the_front_of_a_crack_between_glued_bodies) {
+  const Scratch scratch;
+  scratch.write("four.geo", R"(SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 0.02, 0.02, 0.02}; Box(2) = {0.02, 0, 0, 0.02, 0.02, 0.02};
+Box(3) = {0, 0.02, 0, 0.02, 0.02, 0.02}; Box(4) = {0.02, 0.02, 0, 0.02, 0.02, 0.02};
+Coherence;
+Physical Volume("rock") = {1, 2, 3, 4};
+Physical Surface("cut") = Surface In BoundingBox{-1e-6, 0.02 - 1e-6, -1e-6, 0.02 + 1e-6, 0.02 + 1e-6, 0.02 + 1e-6};
+MeshSize{PointsOf{Volume{:};}} = 0.01;
+)");
+  const std::string file = scratch.write("four.toml", R"([mesh]
+file = "four.geo"
+glue = true
+[[material]]
+group = "rock"
+young = "10 GPa"
+poisson = 0.2
+density = 2500
+joints = "breakable"
+[[joint]]
+group = "rock"
+tensile_strength = "3 MPa"
+energy_mode_1 = "50 J/m2"
+[joints]
+broken = ["cut"]
+[[contact]]
+between = ["*", "*"]
+penalty = "10 GPa"
+[[stage]]
+end = "1 us"
+[output]
+frame_interval = 0
+)");
+  const std::string folder = scratch.path("run").string();
+  const Outcome outcome = call("run " + file + " --progress none -o '" + folder + "'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json energy = json::parse(read_text(folder + "/summary.json")).at("energy");
+  EXPECT_LT(energy.at("kinetic").get<double>(), 1e-18) << "nothing pushes";
+}
+
 TEST(InitialOverlap, that_is_relaxed_gives_no_energy_and_the_same_bits_on_any_number_of_ranks) {
   const Scratch scratch;
   const std::string arguments =
