@@ -209,8 +209,8 @@ void add_joints(const Domain& domain, Frame::Joints& out) {
     add_released_joint(domain, joint, out);
     out.damage.push_back(1.0);
     out.mode.push_back(static_cast<std::int32_t>(joint.mode));
-    out.opening.push_back(0.0);  // its faces have parted: there is no opening left to speak of
-    out.slip.push_back(0.0);
+    out.opening.push_back(joint.opening);
+    out.slip.push_back(joint.slip);
     out.broken.push_back(1);
     out.time_of_failure.push_back(joint.time_of_failure);
     out.state.push_back(Frame::Joints::apart);

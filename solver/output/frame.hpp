@@ -54,7 +54,7 @@ struct Frame {
     std::vector<std::int64_t> id;         ///< 4 a + face: across that face of element a lies the other, of higher id
     std::vector<double> damage;           ///< largest of the points, 0..1
     std::vector<std::int32_t> mode;       ///< 0 undamaged, 1 mostly mode I, 2 mostly mode II, 3 mixed
-    std::vector<double> opening, slip;    ///< mean over the points, m
+    std::vector<double> opening, slip;    ///< mean over the points, m; of those apart: as they were released
     std::vector<std::int32_t> broken;     ///< 0 or 1: its state is failed or apart
     std::vector<double> time_of_failure;  ///< s, start of the step in which it failed; -1: it holds
     std::vector<std::int32_t> state;      ///< State

@@ -179,7 +179,8 @@ void active_joint_forces(std::span<const JointLawParams> laws, const LocalMesh& 
     released.push_back(who.id);
     const ActiveJoint joint = joints[i];
     const double dissipated = joint.history.mode_1 + joint.history.mode_2;
-    work.released.push_back({joint.id, joint.slot_a, joint.face_a, joint.mode(), joint.time_of_failure, dissipated});
+    work.released.push_back({joint.id, joint.slot_a, joint.face_a, joint.mode(), joint.time_of_failure, dissipated,
+                             joint.opening(), joint.slip()});
     if (!mesh.is_original(joint.slot_a)) continue;
     work.mode_1.add(joint.history.mode_1);
     work.mode_2.add(joint.history.mode_2);

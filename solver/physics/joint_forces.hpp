@@ -18,8 +18,9 @@ struct ReleasedJoint {
   Index slot_a = 0;
   std::int8_t face_a = 0;
   FailureMode mode = FailureMode::none;
-  double time_of_failure = -1;  ///< s, as in ActiveJoint
-  double dissipated = 0;        ///< J, in modes I and II
+  double time_of_failure = -1;   ///< s, as in ActiveJoint
+  double dissipated = 0;         ///< J, in modes I and II
+  double opening = 0, slip = 0;  ///< m, as it was released: means of its points, as of an active joint
 };
 
 /// A joint without damage that is back in its elastic range.

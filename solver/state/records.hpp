@@ -97,6 +97,8 @@ struct FieldTable<ReleasedRecord> {
       FieldRow{"mode", "1", kState, [](auto& r) -> auto& { return r.joint.mode; }},
       FieldRow{"time_of_failure", "s", kState, [](auto& r) -> auto& { return r.joint.time_of_failure; }},
       FieldRow{"dissipated", "J", kNotHashed, [](auto& r) -> auto& { return r.joint.dissipated; }},
+      FieldRow{"opening", "m", kNotHashed, [](auto& r) -> auto& { return r.joint.opening; }},
+      FieldRow{"slip", "m", kNotHashed, [](auto& r) -> auto& { return r.joint.slip; }},
   };
 // clang-format on
 }
