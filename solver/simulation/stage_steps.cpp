@@ -35,7 +35,7 @@ void StageSteps::look() {
   if (--until_look_ != 0 || input_.time.step > 0) return;
   until_look_ = kStepsBetweenLooks;
   const double dt = length(), now = partition_.state().clock.dt;
-  // Follow a shrinking limit at once, a growing one only when it is worth it.
+  // By more than 1 % down or 20 % up: a length that is kept leaves the limit a margin.
   if (dt < 0.99 * now || dt > 1.2 * now) partition_.domain().state.clock.dt = dt;
 }
 

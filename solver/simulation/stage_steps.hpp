@@ -8,7 +8,7 @@ namespace breccia {
 
 /// The steps of one stage: how long they are, and when the stage is over. A stage is a whole number of equal steps, as
 /// long as is stable; every hundred steps the stable step is looked at again, since it shrinks when elements are
-/// crushed, and after ten where a joint has been released: its faces may meet others from then on.
+/// crushed, and within ten where a joint has been released: its faces may meet others from then on.
 class StageSteps {
  public:
   /// Begins the stage. Collective.  @pre input, stage and partition outlive this object
