@@ -123,7 +123,8 @@ void RunCheckpoints::finish() {
   if (!writer_) return;
   attempt([&] {
     writer_->finish();
-    if (partition_.communicator().is_root()) remove_old_checkpoints(folder_.checkpoints(), input_.checkpoint.keep);
+    if (partition_.communicator().is_root())
+      remove_old_checkpoints(folder_.checkpoints(), input_.checkpoint.keep, sound_step_);
   });
   if (!writer_) return;
   ++report_.written;
