@@ -131,8 +131,9 @@ void RunCheckpoints::finish() {
   report_.pause_s += pause_;
   report_.longest_pause_s = std::max(report_.longest_pause_s, pause_);
   report_.bytes = writer_->bytes();
-  tell_(report_text(*writer_, pause_), true);
-  writer_.reset();
+  const std::string text = report_text(*writer_, pause_);
+  writer_.reset();  // before the status, which may be what cannot be written
+  tell_(text, true);
 }
 
 void RunCheckpoints::restore(const RunPosition& position) {
