@@ -1,7 +1,5 @@
 #include "simulation/sound_state.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <span>
 #include <vector>
@@ -14,14 +12,11 @@ namespace {
 std::string words_of_files(const SoundState& sound, const RunFolder& folder) {
   const std::vector<CheckpointEntry> all = checkpoints_in(folder.checkpoints());
   const auto last = std::find_if(all.begin(), all.end(), [&](const auto& entry) { return entry.step <= sound.step; });
-  const std::string frame = sound.frame >= 0 ? fmt::format("frame {}", sound.frame) : "no frame";
+  const std::string frame = sound.frame >= 0 ? "frame " + std::to_string(sound.frame) : "no frame";
   if (last == all.end())
-    return fmt::format("; sound before that: {}, no checkpoint (checkpoint.steps or checkpoint.interval asks for some)",
-                       frame);
-  return fmt::format(
-      "; sound before that: {}, {}; a case with [start] from = \"{}\", step = {} goes on from there under other "
-      "settings",
-      last->file.string(), frame, folder.root.string(), last->step);
+    return "; sound before that: " + frame + ", no checkpoint (checkpoint.steps or checkpoint.interval asks for some)";
+  return "; sound before that: " + last->file.string() + ", " + frame + "; a case with [start] from = \"" +
+         folder.root.string() + "\", step = " + std::to_string(last->step) + " goes on from there under other settings";
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
-// Loaded before the program (LD_PRELOAD): a disk that is full, read-only, broken or slow for some files. The environment
-// says which: FAULTY_DISK="name bytes errno delay_us". After so many bytes written by this process to files whose paths
-// hold the name, every further write fails with errno (0: none does); each one takes so long, and so does each fsync.
+// Loaded before the program (LD_PRELOAD): a disk that is full, read-only, broken or slow for some files. The
+// environment says which: FAULTY_DISK="name bytes errno delay_us". After so many bytes written by this process to files
+// whose paths hold the name, every further write fails with errno (0: none does); each takes so long, and so does each
+// fsync.
 #include <dlfcn.h>
 #include <sys/types.h>
 #include <unistd.h>

@@ -10,8 +10,8 @@
 
 #include "end_to_end/program.hpp"
 
-/// Disks that are full, over quota, read-only, broken or slow in the middle of a run (faulty_disk.cpp): what the run says,
-/// what stands, and that it goes on to the same end when there is space again.
+/// Disks that are full, over quota, read-only, broken or slow in the middle of a run (faulty_disk.cpp): what the run
+/// says, what stands, and that it goes on to the same end when there is space again.
 namespace breccia::test {
 namespace {
 
