@@ -94,7 +94,7 @@ void RunOutput::check_energies(double time) {
   const EnergySample& sample = partition_.domain().sample;
   const EnergyFault fault = energy_fault(sample.budget, input_.time.residual_limit, input_.time.energy_gain_limit);
   if (fault.what.empty()) {
-    sound_ = {clock().steps - 1, frame_number_ - 1};
+    sound_ = {clock().steps, frame_number_ - 1};  // the sample holds the velocities that lead to this state
     return;
   }
   throw SimulationError("step " + std::to_string(clock().steps - 1) + ", time " + scientific(time) +

@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(ranks, FaultyDisk, testing::Combine(testing::Values(1, 
 class SlowDisk : public FaultyDisk {};
 
 TEST_P(SlowDisk, DelaysTheRunAndChangesNothing) {
-  const Outcome slow = run_on_disk("/run/ 0 0 3000");
+  const Outcome slow = run_on_disk("/run/ 0 0 1000");
   EXPECT_EQ(slow.exit_code, 0) << slow.err;
   expect_same_as_undisturbed();
 }
