@@ -63,7 +63,8 @@ inline constexpr auto run_keys = std::to_array<Key>({
     {.path = "checkpoint.wall_interval", .type = number, .unit = "s", .fallback = "300", .range = not_negative,
      .help = "Wall time between checkpoints; 0: not by wall time.", .example = "\"10 min\""},
     {.path = "checkpoint.keep", .type = integer, .fallback = "2", .range = at_most_100000,
-     .help = "So many of the last checkpoints are kept; 0: none are written.", .example = "5"},
+     .help = "So many of the last checkpoints are kept, and the last one known to be sound; 0: none are written.",
+     .example = "5"},
 
     {.path = "output", .type = section, .help = "What a run writes, and how often."},
     {.path = "output.frame_interval", .type = number, .unit = "s", .fallback = "0", .range = not_negative,

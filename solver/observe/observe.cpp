@@ -98,7 +98,7 @@ HistoryRow Observer::row(double time) {
   if (gauged_ != partition_.decompositions()) make_gauges();
   const Domain& domain = partition_.domain();
   HistoryRow row;
-  row.step = domain.state.clock.steps;
+  row.step = domain.state.clock.steps - 1;
   row.time = time;
   row.time_step = domain.state.clock.dt;
   row.energy = domain.sample.budget;

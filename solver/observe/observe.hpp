@@ -21,7 +21,8 @@ class Observer {
   /// From now on gauges read the constraints of this stage. @pre stage outlives its use
   void begin_stage(const case_::Stage& stage);
 
-  /// One line of the history of the whole model: budget and gauges of the last step. @param time  s, of that step
+  /// One line of the history of the whole model: budget and gauges of the last step, under the number that a frame of
+  /// its beginning has. @param time  s, of that step
   /// @pre that step was sampled
   [[nodiscard]] HistoryRow row(double time);
   /// A picture of this rank's originals as they are. @param parts  the others stay empty

@@ -92,6 +92,11 @@ void write_files_atomically(std::span<const FileContent> files) {
   if (error != 0) throw output_error(path, "cannot write its folder to the disk", error);
 }
 
+void sync_file(const std::filesystem::path& path) {
+  const int error = write_synced(path, {});
+  if (error != 0 && error != ENOENT) throw output_error(path, "cannot write this file to the disk", error);
+}
+
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> content) {
   const FileContent file{path, content};
   write_files_atomically({&file, 1});

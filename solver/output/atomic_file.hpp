@@ -33,6 +33,9 @@ struct FileContent {
 /// @throws OutputError as above; no temporary stays, files renamed before the failure are complete.
 void write_files_atomically(std::span<const FileContent> files);
 
+/// Waits until a file is on the disk; one that is not there has nothing to lose. Throws OutputError.
+void sync_file(const std::filesystem::path& path);
+
 /// Name of the temporary that write_file_atomically(path) uses; it survives only a kill.
 [[nodiscard]] std::filesystem::path temporary_of(const std::filesystem::path& path);
 

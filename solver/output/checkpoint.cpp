@@ -128,10 +128,13 @@ std::vector<CheckpointEntry> checkpoints_in(const fs::path& folder) {
   return found;
 }
 
-void remove_old_checkpoints(const fs::path& folder, std::int64_t keep) {
+void remove_old_checkpoints(const fs::path& folder, std::int64_t keep, std::int64_t sound_step) {
   const std::vector<CheckpointEntry> all = checkpoints_in(folder);
+  const auto sound = std::find_if(all.begin(), all.end(), [&](const auto& entry) { return entry.step <= sound_step; });
   std::error_code ignored;  // one that cannot be removed is no harm
-  for (std::size_t i = static_cast<std::size_t>(keep); i < all.size(); ++i) fs::remove(all[i].file, ignored);
+  for (auto entry = all.begin() + std::min(keep, std::ssize(all)); entry != all.end(); ++entry) {
+    if (entry != sound) fs::remove(entry->file, ignored);
+  }
   static const std::regex unfinished(R"(\.step_\d+\.h5\.tmp)");
   std::vector<fs::path> left_over;
   for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end; entry.increment(ignored)) {

@@ -90,7 +90,8 @@ CheckpointIndex parsed_index(std::span<const std::byte> bytes) {
   return index;
 }
 
-/// Whether the columns lie within the file and have as many rows as may be, so that none is read beyond.
+/// Whether the columns lie within the file and have as many rows as may be, so that none is read beyond, and a list
+/// whose numbers are all 0 takes no more memory than others: a record has a byte in the file at least.
 bool fits(const CheckpointIndex& index) {
   return std::all_of(index.columns.begin(), index.columns.end(), [&](const IndexedColumn& column) {
     if (column.components < 1 || column.components > 4096) return false;
@@ -100,7 +101,8 @@ bool fits(const CheckpointIndex& index) {
       if (of_rank > index.size / row) return false;
       rows += of_rank;
     }
-    return column.zero || (column.offset <= index.size && rows <= (index.size - column.offset) / row);
+    if (column.zero) return rows <= index.size;
+    return column.offset <= index.size && rows <= (index.size - column.offset) / row;
   });
 }
 

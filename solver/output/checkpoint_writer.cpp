@@ -1,10 +1,8 @@
 #include "output/checkpoint_writer.hpp"
 
 #include <fcntl.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <set>
 #include <system_error>
@@ -29,15 +27,6 @@ Hdf5Format checkpoint_format(const std::vector<CheckpointColumn>& columns) {
   for (const CheckpointColumn& column : columns) groups.insert(column.group);
   groups.erase("");
   return {"checkpoint", "BrecciaCheckpoint", {groups.begin(), groups.end()}, kCheckpointHeader};
-}
-
-/// Waits until a file is on the disk; one that is not there, or cannot be synced, has nothing to lose.
-void sync_file(const std::filesystem::path& file) {
-  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  const int error = ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS ? 0 : errno;
-  ::close(descriptor);
-  if (error != 0) throw output_error(file, "cannot write this file to the disk", error);
 }
 
 std::vector<std::uint64_t> numbers_of(const std::vector<std::byte>& bytes) {

@@ -61,9 +61,9 @@ class CheckpointWriter {
   std::thread thread_;
 };
 
-/// Removes the oldest checkpoints of a folder but for the last `keep`, and what killed runs left of others.
-/// @pre none is being written
-void remove_old_checkpoints(const std::filesystem::path& folder, std::int64_t keep);
+/// Removes the oldest checkpoints of a folder but for the last `keep` and the last until `sound_step`, whose state is
+/// known to be sound; and what killed runs left of others.  @pre none is being written
+void remove_old_checkpoints(const std::filesystem::path& folder, std::int64_t keep, std::int64_t sound_step);
 /// Removes those after a step. Throws OutputError.
 void remove_checkpoints_after(const std::filesystem::path& folder, std::int64_t step);
 

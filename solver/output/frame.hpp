@@ -110,7 +110,7 @@ struct GaugeReading {
 
 /// One line of the history file.
 struct HistoryRow {
-  std::int64_t step = 0;
+  std::int64_t step = 0;  ///< steps done before this instant, as in frames
   double time = 0;
   double time_step = 0;
   EnergyBudget energy;
@@ -124,7 +124,7 @@ struct HistoryRow {
   std::optional<double> insitu_share;  ///< of the wall time, that pipelines have taken on the first rank
 };
 
-/// What a pipeline has done in a run.
+/// What a pipeline has done since the run began or last went on from a checkpoint.
 struct PipelineReport {
   std::string name;
   std::int64_t executed = 0, passed_over = 0, failed = 0;
@@ -133,25 +133,27 @@ struct PipelineReport {
   std::int64_t bytes = 0;  ///< written by all ranks
 };
 
-/// Written to summary.json at the end of a run.
-/// What the checkpoints of a run have cost it.
+/// What the checkpoints have cost since the run began or last went on from one.
 struct CheckpointReport {
   std::int64_t written = 0, failed = 0;
   double pause_s = 0, longest_pause_s = 0;  ///< s, that steps waited for them: in all, at most
   std::uint64_t bytes = 0;                  ///< of the last one
 };
 
+/// Written to summary.json at the end of a run.
 struct Summary {
   std::string title, version, host, status;  ///< status: "complete", "stopped: ..." or the error
   int ranks = 1;
   std::int64_t decompositions = 1;               ///< divisions of the model among the ranks
   double imbalance = 1;                          ///< largest over mean working time of the ranks, at the last look
-  std::int64_t messages = 0, message_bytes = 0;  ///< that gathered proxies, of all ranks
+  std::int64_t messages = 0, message_bytes = 0;  ///< that gathered proxies, of all ranks, in span_s
   std::int64_t steps = 0;
   double simulated_time = 0, time_step = 0;
   std::int64_t elements = 0, joints = 0, broken_joints = 0, fragments = 0, searches = 0, inverted_elements = 0;
-  double wall_s = 0, element_steps_per_s = 0;
-  std::vector<std::pair<std::string, double>> phases;
+  double wall_s = 0, element_steps_per_s = 0;          ///< of the whole run, also of what other processes did of it
+  double span_s = 0;                                   ///< s, of wall_s, that this process has worked on it
+  std::int64_t resumed_at = -1;                        ///< step from which this process went on; -1: from its start
+  std::vector<std::pair<std::string, double>> phases;  ///< s, in span_s
   std::vector<PipelineReport> insitu;
   CheckpointReport checkpoints;
   EnergyBudget energy;

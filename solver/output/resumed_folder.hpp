@@ -8,9 +8,10 @@ namespace breccia {
 /// Whether the run in a folder has come to its end with so many steps: its summary says so.
 [[nodiscard]] bool is_complete(const RunFolder& folder, std::int64_t steps);
 
-/// Makes a folder ready for a run that goes on from a checkpoint: in its own folder, where later checkpoints and the
-/// summary are removed, or in another, which gets a copy of its files as far as the checkpoint. Of the root.
-/// Throws OutputError that names the path; then the run's own folder is as it was, or can be gone on with.
+/// Makes a folder ready for a run that goes on from a checkpoint. In its own folder later checkpoints, later extracts
+/// and the summary are removed and the case is written anew. Another folder gets the history, the status and the frames
+/// as they are, and the extracts as far as the checkpoint; in both, sinks cut the first three back when they start. Of
+/// the root. Throws OutputError that names the path; then the run's own folder is as it was, or can be gone on with.
 [[nodiscard]] RunFolder prepare_resumed_folder(const RunFolder& run, const std::filesystem::path& root,
                                                const Checkpoint& from, const std::string& resolved_case,
                                                const Provenance& provenance);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -31,11 +32,26 @@ void flatten(const case_::Node& node, const std::string& path, Values& out) {
   if (!of_tables && !node.is(case_::Node::Kind::table)) out[path] = node.shown();
 }
 
+/// Hashes of inputs, each by its place relative to the case, wherever the program was called and however they were
+/// named.
+void flatten_inputs(const json& inputs, Values& out) {
+  std::vector<std::pair<fs::path, std::string>> files;
+  fs::path folder;
+  for (const json& input : inputs) {
+    files.emplace_back(fs::path(input.value("file", "")).lexically_normal(), input.value("sha256", ""));
+    if (files.back().first.extension() == ".toml") folder = files.back().first.parent_path();
+  }
+  for (const auto& [file, hash] : files) {
+    const fs::path relative = folder.empty() ? file : file.lexically_relative(folder);
+    out["input " + (relative.empty() ? file : relative).string()] = hash;
+  }
+}
+
 void flatten(const json& node, const std::string& path, Values& out) {
   if (node.is_object()) {
     for (const auto& [name, value] : node.items()) flatten(value, path.empty() ? name : path + "." + name, out);
   } else if (node.is_array() && path == "inputs") {
-    for (const json& file : node) out["input " + file.value("file", "")] = file.value("sha256", "");
+    flatten_inputs(node, out);
   } else if (node.is_array() && path == "parents") {
     for (std::size_t i = 0; i < node.size(); ++i) flatten(node[i], "parents[" + std::to_string(i) + "]", out);
   } else if (node.is_string()) {
@@ -130,8 +146,8 @@ std::string diff_runs(const fs::path& first, const fs::path& second) {
   }
   const std::set<std::string> of_a_run{"started", "command_line"};
   const std::set<std::string> timings{
-      "wall_s",        "element_steps_per_s", "phases",   "max_rss_bytes", "imbalance",  "messages",
-      "message_bytes", "decompositions",      "searches", "insitu",        "checkpoints"};
+      "wall_s",        "element_steps_per_s", "phases",   "max_rss_bytes", "imbalance",   "messages",
+      "message_bytes", "decompositions",      "searches", "insitu",        "checkpoints", "since_resume"};
   return part("case", differences(case_of(a), case_of(b))) +
          part("inputs, versions, machine",
               differences(json_of(a.provenance(), of_a_run), json_of(b.provenance(), of_a_run))) +

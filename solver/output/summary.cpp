@@ -53,18 +53,18 @@ void add_energies(std::string& text, const EnergyBudget& energy) {
   }
 }
 
-/// Share of the wall time that the starts of pipelines took.
+/// Share of the wall time of this span that the starts of pipelines took.
 double insitu_start_share(const Summary& summary) {
   double seconds = 0;
   for (const PipelineReport& p : summary.insitu) seconds += p.start_s;
-  return summary.wall_s > 0 ? seconds / summary.wall_s : 0.0;
+  return summary.span_s > 0 ? seconds / summary.span_s : 0.0;
 }
 
-/// Share of the wall time that pipelines took, starts included.
+/// Share of the wall time of this span that pipelines took, starts included.
 double insitu_share(const Summary& summary) {
   double seconds = 0;
   for (const PipelineReport& p : summary.insitu) seconds += p.seconds;
-  return insitu_start_share(summary) + (summary.wall_s > 0 ? seconds / summary.wall_s : 0.0);
+  return insitu_start_share(summary) + (summary.span_s > 0 ? seconds / summary.span_s : 0.0);
 }
 
 Json insitu_json(const Summary& summary) {
@@ -82,6 +82,15 @@ Json insitu_json(const Summary& summary) {
                                  {"bytes", p.bytes}});
   }
   return json;
+}
+
+/// Speed, energies and counts of what has happened are of the whole run; what the program has spent is of this span.
+std::string wall_text(const Summary& summary) {
+  std::string text = duration_text(summary.wall_s);
+  if (summary.resumed_at >= 0)
+    text += fmt::format("; {} since the resume at step {}, to which phases, messages, pipelines and checkpoints belong",
+                        duration_text(summary.span_s), count_text(summary.resumed_at));
+  return text;
 }
 
 void add_pipelines(std::string& text, const Summary& summary) {
@@ -133,6 +142,7 @@ std::string summary_json(const Summary& summary) {
   json["inverted_elements"] = summary.inverted_elements;
   json["wall_s"] = summary.wall_s;
   json["element_steps_per_s"] = summary.element_steps_per_s;
+  if (summary.resumed_at >= 0) json["since_resume"] = {{"step", summary.resumed_at}, {"wall_s", summary.span_s}};
   json["phases"] = Json::object();
   for (const auto& [name, seconds] : summary.phases) json["phases"][name] = seconds;
   if (!summary.insitu.empty()) json["insitu"] = insitu_json(summary);
@@ -159,7 +169,7 @@ std::string summary_text(const Summary& summary) {
   add_line(text, "fragments", count_text(summary.fragments));
   add_line(text, "contact searches", count_text(summary.searches));
   if (summary.inverted_elements > 0) add_line(text, "inverted elements", count_text(summary.inverted_elements));
-  add_line(text, "wall time", duration_text(summary.wall_s));
+  add_line(text, "wall time", wall_text(summary));
   add_line(text, "speed", quantity_text(summary.element_steps_per_s, "element-steps/s"));
   add_phases(text, summary);
   add_pipelines(text, summary);

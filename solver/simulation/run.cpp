@@ -15,6 +15,7 @@
 #include "simulation/run_checkpoints.hpp"
 #include "simulation/run_control.hpp"
 #include "simulation/run_output.hpp"
+#include "simulation/sound_state.hpp"
 #include "simulation/stage_steps.hpp"
 #include "simulation/step.hpp"
 
@@ -65,9 +66,7 @@ class Runner {
       output_.write_frame();
       look_in_situ(true);
     } catch (const SimulationError& error) {
-      complete_checkpoint();
-      finish(error.what());
-      throw;
+      throw SimulationError(end_with_fault(error.what()));
     } catch (const OutputError& error) {
       complete_checkpoint();
       if (insitu_ && insitu_->failed()) finish(error.what());
@@ -145,15 +144,17 @@ class Runner {
     while (!steps.over() && status_ == "complete") {
       take_commands();
       steps.look();
-      const bool last = stop_commanded_ || (s + 1 == input_.stages.size() && steps.at_last()) ||
-                        output_.steps_done() + 1 == input_.time.max_steps ||
+      const bool end = s + 1 == input_.stages.size() && steps.at_last();
+      const bool last = end || stop_commanded_ || output_.steps_done() + 1 == input_.time.max_steps ||
                         clock().time + clock().dt > options_.until - 0.5 * clock().dt;
-      advance(last);
+      advance(end, last);
       look_at_checkpoints();
       status_ = status_now();
     }
     if (checkpoints_ && !checkpoints_->is_of_now()) checkpoints_->begin(position());
     steps_ = nullptr;
+    // Behind the checkpoint: a run that goes on from it does not have this line.
+    if (status_ != "complete" && sampled_without_line_) take_line(*sampled_without_line_);
   }
 
   [[nodiscard]] std::string status_now() const {
@@ -169,17 +170,30 @@ class Runner {
     if (paused_) stay_paused();
   }
 
+  /// @param end   of the run: the step gets a line of the history
   /// @param last  the energies are sampled, for the summary
-  void advance(bool last) {
+  void advance(bool end, bool last) {
     const double time = clock().time;
     if (output_.frame_due()) output_.write_frame();
     look_in_situ(false);
-    const bool line = output_.line_due();
+    const bool line = output_.line_due() || end;
     step(partition_.domain(), {line || last, signals()});
-    if (line) output_.take_line(time, insitu_ ? &*insitu_ : nullptr);
-    if (line || last) output_.check_energies(time);
+    const bool sampled = line || last || partition_.state().signals.received.stop;
+    sampled_without_line_ = sampled ? std::optional(time) : std::nullopt;
+    if (line) take_line(time);
+    if (line || last) check_energies(time);
     output_.tell_status(paused_);
     partition_.keep_up();
+  }
+
+  void take_line(double time) {
+    output_.take_line(time, insitu_ ? &*insitu_ : nullptr);
+    sampled_without_line_.reset();
+  }
+
+  void check_energies(double time) {
+    output_.check_energies(time);
+    if (checkpoints_) checkpoints_->confirm(output_.sound().step);
   }
 
   /// Between two steps, where a run that goes on from the checkpoint begins.
@@ -196,6 +210,18 @@ class Runner {
       checkpoints_->finish();
     } catch (const OutputError&) {
     }
+  }
+
+  /// Writes what can be written. @return  what went wrong, and the last state before it
+  std::string end_with_fault(const std::string& fault) {
+    complete_checkpoint();
+    std::string text = fault + (checkpoints_ ? words_of(output_.sound(), checkpoints_->folder(), communicator_) : "");
+    try {
+      finish(text);
+    } catch (const OutputError& error) {
+      text += "; not written: " + std::string(error.what());
+    }
+    return text;
   }
 
   void end_with_checkpoint() {
@@ -315,8 +341,9 @@ class Runner {
   bool paused_ = false, stop_commanded_ = false, extract_commanded_ = false;
   std::optional<InSituWatch> insitu_;
   std::optional<RunCheckpoints> checkpoints_;
-  std::vector<Command> wait_for_checkpoint_;  ///< their answers do
-  std::optional<RunPosition> from_;           ///< the run goes on from here
+  std::optional<double> sampled_without_line_;  ///< s, of the last step, where it is so
+  std::vector<Command> wait_for_checkpoint_;    ///< their answers do
+  std::optional<RunPosition> from_;             ///< the run goes on from here
   ResumeOptions options_;
   std::string start_words_;      ///< whose state the run starts from; empty: at rest
   StageSteps* steps_ = nullptr;  ///< of the present stage

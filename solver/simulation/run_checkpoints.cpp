@@ -123,15 +123,17 @@ void RunCheckpoints::finish() {
   if (!writer_) return;
   attempt([&] {
     writer_->finish();
-    if (partition_.communicator().is_root()) remove_old_checkpoints(folder_.checkpoints(), input_.checkpoint.keep);
+    if (partition_.communicator().is_root())
+      remove_old_checkpoints(folder_.checkpoints(), input_.checkpoint.keep, sound_step_);
   });
   if (!writer_) return;
   ++report_.written;
   report_.pause_s += pause_;
   report_.longest_pause_s = std::max(report_.longest_pause_s, pause_);
   report_.bytes = writer_->bytes();
-  tell_(report_text(*writer_, pause_), true);
-  writer_.reset();
+  const std::string text = report_text(*writer_, pause_);
+  writer_.reset();  // before the status, which may be what cannot be written
+  tell_(text, true);
 }
 
 void RunCheckpoints::restore(const RunPosition& position) {

@@ -44,6 +44,10 @@ class RunCheckpoints {
   /// True where begin() was called for the present step already.
   [[nodiscard]] bool is_of_now() const { return begun_at_ == partition_.state().clock.steps; }
 
+  /// The states until this step are sound: of the checkpoints before a fault the last stays, however old.
+  void confirm(std::int64_t step) { sound_step_ = step; }
+  [[nodiscard]] const RunFolder& folder() const { return folder_; }
+
   /// Goes on as written in a checkpoint.
   void restore(const RunPosition& position);
   [[nodiscard]] const CheckpointReport& report() const { return report_; }
@@ -60,7 +64,8 @@ class RunCheckpoints {
   Schedule times_;
   std::unique_ptr<CheckpointWriter> writer_;
   std::int64_t begun_at_ = -1;  ///< step of the last one
-  double pause_ = 0;            ///< s, of the one that is being written
+  std::int64_t sound_step_ = -1;
+  double pause_ = 0;  ///< s, of the one that is being written
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
   CheckpointReport report_;
 };

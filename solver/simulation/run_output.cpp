@@ -69,6 +69,8 @@ void RunOutput::tell_start(bool insitu, const RunPosition* from) {
     wall_before_ = from->wall;
     start_time_ = from->start_time;
     start_step_ = from->start_step;
+    resumed_at_ = clock().steps;
+    sound_.step = clock().steps - 1;  // whether the run goes well from here on is not known yet
   }
   sink_group_.tell([&](Sink& sink) { sink.start(start); });
 }
@@ -88,10 +90,13 @@ void RunOutput::take_line(double time, InSituWatch* insitu) {
   sink_group_.tell([&](Sink& sink) { sink.history(row); });
 }
 
-void RunOutput::check_energies(double time) const {
+void RunOutput::check_energies(double time) {
   const EnergySample& sample = partition_.domain().sample;
   const EnergyFault fault = energy_fault(sample.budget, input_.time.residual_limit, input_.time.energy_gain_limit);
-  if (fault.what.empty()) return;
+  if (fault.what.empty()) {
+    sound_ = {clock().steps, frame_number_ - 1};  // the sample holds the velocities that lead to this state
+    return;
+  }
   throw SimulationError("step " + std::to_string(clock().steps - 1) + ", time " + scientific(time) +
                         " s: " + fault.what + "; the strain energy is densest in element " +
                         std::to_string(sample.worst_element) + "; lower time.safety, or raise " + fault.key +
@@ -153,6 +158,8 @@ Summary RunOutput::summary_of(const std::string& status) {
   summary.searches = partition_.communicator().max(partition_.state().counters.searches);
   summary.inverted_elements = partition_.communicator().sum(partition_.state().counters.crushed);
   summary.wall_s = wall();
+  summary.span_s = summary.wall_s - wall_before_;
+  summary.resumed_at = resumed_at_;
   summary.element_steps_per_s =
       static_cast<double>(summary.elements) * static_cast<double>(steps_done()) / summary.wall_s;
   for (int p = 0; p < static_cast<int>(Phase::count); ++p) {

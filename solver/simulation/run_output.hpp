@@ -14,6 +14,7 @@
 #include "output/sink.hpp"
 #include "simulation/insitu_watch.hpp"
 #include "simulation/sink_group.hpp"
+#include "simulation/sound_state.hpp"
 
 namespace breccia {
 
@@ -41,8 +42,9 @@ class RunOutput {
   /// A line of the history. @param time  s, of the step that was sampled;  @param insitu  null: none
   void take_line(double time, InSituWatch* insitu);
   /// Throws SimulationError if the residual of the step that was sampled, or the energy that it holds beyond what was
-  /// put in, is above its limit. @param time  s, of that step
-  void check_energies(double time) const;
+  /// put in, is above its limit; otherwise all until then is sound. @param time  s, of that step
+  void check_energies(double time);
+  [[nodiscard]] const SoundState& sound() const { return sound_; }
   void tell_status(bool paused) {
     sink_group_.tell_status([this, paused] { return status_line(paused); });
   }
@@ -73,6 +75,8 @@ class RunOutput {
   Schedule histories_, frames_;
   std::string stage_name_;
   std::int64_t frame_number_ = 0, last_fragments_ = 0, last_broken_ = 0;
+  std::int64_t resumed_at_ = -1;  ///< step; -1: begun here
+  SoundState sound_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 

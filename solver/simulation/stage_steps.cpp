@@ -50,7 +50,7 @@ void StageSteps::look() {
   ++looks_.since;
   if (--looks_.until != 0 || input_.time.step > 0) return;
   const double dt = next_length(), now = partition_.state().clock.dt;
-  // Follow a shrinking limit at once, a growing one only when it is worth it.
+  // By more than 1 % down or 20 % up: a length that is kept leaves the limit a margin.
   if (dt < 0.99 * now || dt > 1.2 * now) partition_.domain().state.clock.dt = dt;
 }
 

@@ -74,9 +74,11 @@ std::string Scratch::write(const std::string& name, const std::string& text) con
 namespace {
 
 /// As root, too, as in a container.
-std::string launch(int ranks, const std::string& arguments) {
-  return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 exec '" BRECCIA_MPIEXEC "' --oversubscribe -n " +
-         std::to_string(ranks) + " '" BRECCIA_PROGRAM "' " + arguments;
+std::string launch(int ranks, const std::string& arguments, const std::string& environment = "") {
+  return "exec env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 '" BRECCIA_MPIEXEC
+         "' --oversubscribe -n " +
+         std::to_string(ranks) + (environment.empty() ? "" : " env " + environment) + " '" BRECCIA_PROGRAM "' " +
+         arguments;
 }
 
 Outcome outcome_of(const std::string& command) {
@@ -102,7 +104,9 @@ Outcome call(const std::string& arguments, const std::string& environment) {
   return outcome_of(environment + " '" BRECCIA_PROGRAM "' " + arguments);
 }
 
-Outcome call_ranks(int ranks, const std::string& arguments) { return outcome_of(launch(ranks, arguments)); }
+Outcome call_ranks(int ranks, const std::string& arguments, const std::string& environment) {
+  return outcome_of(launch(ranks, arguments, environment));
+}
 
 pid_t start_ranks(int ranks, const std::string& arguments) {
   return start(launch(ranks, arguments) + " > /dev/null 2>&1 < /dev/null");

@@ -18,7 +18,8 @@ struct Outcome {
 Outcome call(const std::string& arguments, const std::string& environment = "");
 
 /// Likewise on several ranks, which may be more than there are cores. @pre compiled with BRECCIA_MPIEXEC
-Outcome call_ranks(int ranks, const std::string& arguments);
+/// @param environment  "NAME=value ...", of the ranks
+Outcome call_ranks(int ranks, const std::string& arguments, const std::string& environment = "");
 /// Starts the program on several ranks and does not wait for it. Returns the launcher, whose children the ranks are.
 pid_t start_ranks(int ranks, const std::string& arguments);
 

@@ -9,25 +9,13 @@
 #include "base/error.hpp"
 #include "case/reader.hpp"
 #include "case/units.hpp"
+#include "fuzz/checkpoint_targets.hpp"
 #include "mesh/geo_scan.hpp"
 #include "mesh/mesh_bytes.hpp"
 #include "output/control.hpp"
 
 namespace breccia::fuzz {
-namespace {
 
-using Bytes = std::vector<std::byte>;
-
-Bytes bytes_of_text(const std::string& text) {
-  const auto raw = std::as_bytes(std::span(text));
-  return {raw.begin(), raw.end()};
-}
-
-std::string text_of(std::span<const std::byte> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-/// One file of this process in memory-backed storage where there is some.
 const std::filesystem::path& scratch_file() {
   static const std::filesystem::path file =
       (std::filesystem::exists("/dev/shm") ? std::filesystem::path("/dev/shm")
@@ -37,6 +25,17 @@ const std::filesystem::path& scratch_file() {
     ~Remover() { std::filesystem::remove(file); }
   } remover;
   return file;
+}
+
+namespace {
+
+Bytes bytes_of_text(const std::string& text) {
+  const auto raw = std::as_bytes(std::span(text));
+  return {raw.begin(), raw.end()};
+}
+
+std::string text_of(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 const std::filesystem::path& written(std::span<const std::byte> bytes) {
@@ -124,6 +123,9 @@ const std::vector<Target>& targets() {
       {"geometry", scan_script, [] { return files_of_meshes(".geo"); }},
       {"mesh", read_mesh_bytes, mesh_seeds},
       {"control", read_control, control_seeds},
+      {"checkpoint", read_checkpoint_file, checkpoint_seeds},
+      {"index", read_checkpoint_index, index_seeds},
+      {"state", read_checkpoint_state, state_seeds},
   };
   return all;
 }

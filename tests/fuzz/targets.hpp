@@ -17,7 +17,7 @@ struct Target {
 };
 
 /// Of the case file, of --set, of quantities, of geometry scripts (their scan), of the mesh that a child process sends,
-/// of the control file.
+/// of the control file, of checkpoints: of the file, of its index and of its numbers under right checksums.
 [[nodiscard]] const std::vector<Target>& targets();
 
 }  // namespace breccia::fuzz

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "verification/recorder.hpp"
 
@@ -19,6 +20,28 @@ TEST(Recording, with_a_residual_that_is_no_number_passes_no_limit) {
   EXPECT_FALSE(recording.worst_residual() < 1e-3);
   recording.rows.erase(recording.rows.begin() + 1);
   EXPECT_EQ(recording.worst_residual(), 2e-6);
+}
+
+TEST(Recording, has_the_same_step_in_lines_and_frames_of_an_instant_and_a_line_of_the_last_step) {
+  const Recording run = run_case_file("joint_pair/case_smoke.toml", {"output.frame_interval=0"});
+  const double interval = run.rows.at(1).time * 1.5;  // neither every step nor a whole number of them
+  const std::string text = std::to_string(interval);
+  const Recording both =
+      run_case_file("joint_pair/case_smoke.toml", {"output.frame_interval=" + text, "output.history_interval=" + text});
+  std::size_t found = 0;
+  for (const Frame& frame : both.frames) {
+    for (const HistoryRow& row : both.rows) {
+      if (row.time != frame.time) continue;
+      EXPECT_EQ(row.step, frame.step);
+      ++found;
+    }
+  }
+  EXPECT_EQ(found, both.frames.size() - 1) << "all but the frame after the last step";
+  for (const Recording* one : {&run, &both}) {
+    EXPECT_EQ(one->rows.back().step, one->summary.steps - 1);
+    EXPECT_EQ(one->rows.back().energy.kinetic, one->summary.energy.kinetic);
+    EXPECT_LT(one->rows.at(one->rows.size() - 2).step, one->rows.back().step) << "not twice";
+  }
 }
 
 }  // namespace

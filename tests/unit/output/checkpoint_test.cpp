@@ -115,7 +115,7 @@ TEST_F(CheckpointFile, AppearsOnlyWhenItIsFinished) {
 TEST_F(CheckpointFile, IsRemovedWhenEnoughLaterOnesAreThere) {
   for (const int step : {14, 13}) CheckpointWriter(checkpoint_file(folder_.path(), step), sample(), {}, {}).finish();
   std::ofstream(folder_.path() / ".step_000000000011.h5.tmp") << "left by a kill";
-  remove_old_checkpoints(folder_.path(), 2);
+  remove_old_checkpoints(folder_.path(), 2, -1);
   const auto kept = checkpoints_in(folder_.path());
   ASSERT_EQ(kept.size(), 2U);
   EXPECT_EQ(kept[0].step, 14);
@@ -123,6 +123,23 @@ TEST_F(CheckpointFile, IsRemovedWhenEnoughLaterOnesAreThere) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / ".step_000000000011.h5.tmp"));
   remove_checkpoints_after(folder_.path(), 13);
   EXPECT_EQ(checkpoints_in(folder_.path()).size(), 1U);
+}
+
+TEST_F(CheckpointFile, OfTheLastSoundStateStaysHoweverManyComeAfterIt) {
+  for (const int step : {13, 14, 15, 16})
+    CheckpointWriter(checkpoint_file(folder_.path(), step), sample(), {}, {}).finish();
+  remove_old_checkpoints(folder_.path(), 2, 13);
+  std::vector<std::int64_t> kept;
+  for (const CheckpointEntry& entry : checkpoints_in(folder_.path())) kept.push_back(entry.step);
+  EXPECT_EQ(kept, (std::vector<std::int64_t>{16, 15, 13}));
+}
+
+TEST_F(CheckpointFile, IsWrittenOnlyAfterTheFilesThatItCounts) {
+  const auto later = checkpoint_file(folder_.path(), 13);
+  EXPECT_THROW(CheckpointWriter(later, sample(), {}, {folder_.path()}).finish(), OutputError);  // a folder: not written
+  EXPECT_FALSE(std::filesystem::exists(later));
+  CheckpointWriter(later, sample(), {}, {folder_.path() / "nothing"}).finish();
+  EXPECT_TRUE(std::filesystem::exists(later));
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ Summary example_summary() {
   summary.broken_joints = 2310;
   summary.fragments = 120;
   summary.searches = 17;
-  summary.wall_s = 125;
+  summary.wall_s = summary.span_s = 125;
   summary.element_steps_per_s = 1.32e7;
   summary.phases = {{"sweep", 75.0}, {"contact", 25.0}};
   summary.energy.kinetic = 0.225;
@@ -78,7 +78,8 @@ TEST(SummaryJson, HoldsTheValues) {
 
 TEST(SummaryJson, TellsTheShareOfPipelinesAndOfTheirStarts) {
   Summary summary = example_summary();
-  summary.wall_s = 100;
+  summary.wall_s = 1000;
+  summary.span_s = 100;
   for (const char* name : {"surface", "stress"}) {
     PipelineReport pipeline;
     pipeline.name = name;
@@ -89,6 +90,16 @@ TEST(SummaryJson, TellsTheShareOfPipelinesAndOfTheirStarts) {
   EXPECT_DOUBLE_EQ(json::parse(summary_json(summary)).at("insitu").at("share").get<double>(), 0.63);
   EXPECT_DOUBLE_EQ(json::parse(summary_json(summary)).at("insitu").at("start_share").get<double>(), 0.6);
   EXPECT_THAT(summary_text(summary), HasSubstr("63.00 % of the wall time, 60.00 % to start"));
+}
+
+TEST(SummaryJson, TellsApartWhatARunTookAndWhatItTookSinceItWentOn) {
+  Summary summary = example_summary();
+  EXPECT_THAT(summary_text(summary), HasSubstr("2 min 5 s\n"));
+  summary.resumed_at = 9000;
+  summary.span_s = 5;
+  EXPECT_EQ(json::parse(summary_json(summary)).at("wall_s"), 125);
+  EXPECT_EQ(json::parse(summary_json(summary)).at("since_resume"), json({{"step", 9000}, {"wall_s", 5.0}}));
+  EXPECT_THAT(summary_text(summary), HasSubstr("2 min 5 s; 5.00 s since the resume at step 9,000"));
 }
 
 TEST(SummaryJson, IsValidWithNumbersThatJsonCannotHold) {

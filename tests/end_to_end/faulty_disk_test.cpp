@@ -1,0 +1,166 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <tuple>
+
+#include "end_to_end/program.hpp"
+
+/// Disks that are full, over quota, read-only, broken or slow in the middle of a run (faulty_disk.cpp): what the run
+/// says, what stands, and that it goes on to the same end when there is space again.
+namespace breccia::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct DiskFault {
+  const char* name;    ///< of the test
+  const char* file;    ///< part of the paths that are written to
+  const char* result;  ///< what of the undisturbed run's folder such files become; their bytes are counted
+  int error;           ///< errno
+  bool ends_the_run = true;
+};
+constexpr DiskFault kFaults[] = {
+    {"FullForFrames", "/frames/", "frames", ENOSPC},
+    {"OverQuotaForFrames", "/frames/", "frames", EDQUOT},
+    {"FullForIndexOfFrames", ".series", "frames/elements.hdf.series", ENOSPC},
+    {"FullForHistory", "history.csv", "history.csv", ENOSPC},
+    {"ReadOnlyForHistory", "history.csv", "history.csv", EROFS},
+    {"FullForStatus", "status.jsonl", "status.jsonl", ENOSPC},
+    {"FullForSummary", "summary.json", "", ENOSPC},
+    {"FullForCheckpoints", "/checkpoints/", "", ENOSPC, false},
+    {"BrokenForCheckpoints", "/checkpoints/", "checkpoints", EIO, false},
+};
+void PrintTo(const DiskFault& fault, std::ostream* stream) { *stream << fault.name; }
+
+std::uintmax_t size_of(const fs::path& path) {
+  if (!fs::is_directory(path)) return fs::file_size(path);
+  std::uintmax_t sum = 0;
+  for (const auto& entry : fs::directory_iterator(path)) sum += fs::file_size(entry.path());
+  return sum;
+}
+
+/// All lines of a file are whole; those of the status are JSON.
+void expect_whole_lines(const fs::path& run) {
+  const std::string history = read_text(run / "history.csv");
+  EXPECT_TRUE(history.empty() || history.back() == '\n');
+  std::ifstream status(run / "status.jsonl");
+  for (std::string line; std::getline(status, line);)
+    EXPECT_TRUE(json::parse(line, nullptr, false).is_object()) << line;
+}
+
+/// Every frame that the index lists is there.
+void expect_sound_frames(const fs::path& run) {
+  const fs::path index = run / "frames/elements.hdf.series";
+  if (!fs::exists(index)) return;
+  const json listed = json::parse(read_text(index), nullptr, false);
+  ASSERT_TRUE(listed.is_object());
+  for (const json& file : listed.at("files")) EXPECT_TRUE(fs::exists(run / "frames" / file.at("name"))) << file;
+}
+
+class FaultyDisk : public testing::TestWithParam<std::tuple<int, DiskFault>> {
+ protected:
+  FaultyDisk() : case_(scratch_.write("case.toml", kSmallCase)) {
+    const Outcome whole = call("run " + case_ + kSettings + quoted("whole"));
+    EXPECT_EQ(whole.exit_code, 0) << whole.err;
+  }
+  [[nodiscard]] fs::path folder(const std::string& name) const { return scratch_.path(name); }
+  [[nodiscard]] std::string quoted(const std::string& name) const { return "'" + folder(name).string() + "'"; }
+  [[nodiscard]] Outcome run_on_disk(const std::string& disk) const {
+    const std::string arguments = "run " + case_ + kSettings + quoted("run");
+    const std::string environment = "LD_PRELOAD='" BRECCIA_FAULTY_DISK "' FAULTY_DISK='" + disk + "'";
+    return ranks_ == 1 ? call(arguments, environment) : call_ranks(ranks_, arguments, environment);
+  }
+  void expect_same_as_undisturbed() const {
+    const json whole = json::parse(read_text(folder("whole") / "summary.json"));
+    const json other = json::parse(read_text(folder("run") / "summary.json"), nullptr, false);
+    ASSERT_TRUE(other.is_object());
+    EXPECT_EQ(other.at("state_hash"), whole.at("state_hash"));
+    EXPECT_EQ(history_without_couples(folder("run") / "history.csv"),
+              history_without_couples(folder("whole") / "history.csv"));
+    EXPECT_EQ(read_text(folder("run") / "frames/elements.hdf.series"),
+              read_text(folder("whole") / "frames/elements.hdf.series"));
+  }
+
+  static constexpr const char* kSettings =
+      " --progress none --set checkpoint.steps=30 --set 'output.frame_interval=\"0.25 ms\"' -o ";
+  const int ranks_ = std::get<0>(GetParam());
+  Scratch scratch_;
+  std::string case_;
+};
+
+TEST_P(FaultyDisk, EndsTheRunWithOneLineAndLeavesWhatGoesOnWhenThereIsSpaceAgain) {
+  const DiskFault& fault = std::get<1>(GetParam());
+  const std::uintmax_t bytes =
+      *fault.result == '\0' ? 0 : size_of(folder("whole") / fault.result) / (2 * static_cast<unsigned>(ranks_));
+  const Outcome ended =
+      run_on_disk(fault.file + (" " + std::to_string(bytes)) + " " + std::to_string(fault.error) + " 0");
+  EXPECT_EQ(ended.exit_code, fault.ends_the_run ? 2 : 0) << ended.err;
+  EXPECT_NE(ended.err.find(std::strerror(fault.error)), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find(folder("run").string()), std::string::npos) << ended.err;
+  expect_whole_lines(folder("run"));
+  expect_sound_frames(folder("run"));
+  if (fault.ends_the_run) {
+    std::size_t lines = 0;
+    std::istringstream words(ended.err);
+    for (std::string line; std::getline(words, line);) lines += line.starts_with("breccia: ") ? 1 : 0;
+    EXPECT_EQ(lines, 1U) << ended.err;
+    const Outcome resumed = call("resume " + quoted("run") + " --progress none");
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  } else {
+    const json checkpoints = json::parse(read_text(folder("run") / "summary.json")).at("checkpoints");
+    EXPECT_GT(checkpoints.at("failed"), 0);
+    EXPECT_NE(ended.err.find("breccia: warning: no checkpoint: "), std::string::npos) << ended.err;
+  }
+  expect_same_as_undisturbed();
+}
+
+INSTANTIATE_TEST_SUITE_P(ranks, FaultyDisk, testing::Combine(testing::Values(1, 2), testing::ValuesIn(kFaults)),
+                         [](const auto& tested) {
+                           return std::string(std::get<1>(tested.param).name) + "On" +
+                                  std::to_string(std::get<0>(tested.param));
+                         });
+
+class SlowDisk : public FaultyDisk {};
+
+TEST_P(SlowDisk, DelaysTheRunAndChangesNothing) {
+  const Outcome slow = run_on_disk("/run/ 0 0 1000");
+  EXPECT_EQ(slow.exit_code, 0) << slow.err;
+  expect_same_as_undisturbed();
+}
+
+INSTANTIATE_TEST_SUITE_P(ranks, SlowDisk, testing::Combine(testing::Values(1, 2), testing::Values(DiskFault{"Slow"})),
+                         [](const auto& tested) { return "On" + std::to_string(std::get<0>(tested.param)); });
+
+/// A real one, where this process may mount it.
+TEST(FullDisk, OfARunLeavesFramesThatAreWholeAndAFolderThatGoesOnElsewhere) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", kSmallCase), disk = scratch.path("disk").string(),
+                    kept = scratch.path("kept").string();
+  fs::create_directories(disk);
+  const std::string namespace_with_disk = "unshare -m sh -c 'mount -t tmpfs -o size=2m none \"$0\" && \"$@\"; " +
+                                          ("code=$?; cp -a \"$0\" \"" + kept + "\"; exit $code' '") + disk + "'";
+  if (std::system(("unshare -m mount -t tmpfs -o size=2m none '" + disk + "' > /dev/null 2>&1").c_str()) != 0)
+    GTEST_SKIP() << "nothing can be mounted here";
+  const Outcome full = call("run " + file + " --progress none --set checkpoint.steps=30 --set checkpoint.keep=1 " +
+                                "--set 'output.frame_interval=\"0.05 ms\"' -o '" + disk + "/run'",
+                            namespace_with_disk);
+  EXPECT_EQ(full.exit_code, 2) << full.err;
+  EXPECT_NE(full.err.find(std::strerror(ENOSPC)), std::string::npos) << full.err;
+  expect_whole_lines(kept + "/run");
+  expect_sound_frames(kept + "/run");
+  std::string last;
+  std::ifstream status(kept + "/run/status.jsonl");
+  for (std::string line; std::getline(status, line);) last = line;
+  EXPECT_EQ(json::parse(last).at("state"), "failed");
+  const Outcome resumed = call("resume '" + kept + "/run' --progress none");
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+}
+
+}  // namespace
+}  // namespace breccia::test
