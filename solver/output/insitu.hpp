@@ -45,6 +45,8 @@ class InSitu {
   InSitu& operator=(const InSitu&) = delete;
   ~InSitu();
 
+  /// Where the run's first step was, from which its limit of steps counts. Before the first plan.
+  void start_from(const Moment& first) { first_ = first; }
   /// Pipelines that are due by wall time, each once, to be sent to all ranks; empty on all but the root.
   [[nodiscard]] std::uint64_t orders();
   /// Whether some trigger needs the number of broken joints.
@@ -123,6 +125,7 @@ class InSitu {
   double opening_ = 0;           ///< s, wall: start of the adaptor
   std::optional<double> begin_;  ///< s, simulated: where this process began
   Moment now_;                   ///< of the last plan
+  Moment first_;                 ///< of the run
 };
 
 }  // namespace breccia

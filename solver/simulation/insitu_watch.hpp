@@ -20,6 +20,8 @@ class InSituWatch {
   /// Starts the adaptor. Collective. @pre input and partition outlive this object. Throws as InSitu does.
   InSituWatch(const case_::Case& input, const std::filesystem::path& extracts, Partition& partition, InSitu::Tell tell);
 
+  /// Where the run's first step was. Before the first look.
+  void start_from(const Moment& first) { insitu_.start_from(first); }
   /// What this rank has to tell the others at the end of a step.
   void add_signals(StepSignals& signals);
   /// A line of the history has been written.

@@ -52,6 +52,7 @@ class Runner {
 
   Summary run() {
     output_.tell_start(insitu_.has_value(), from_ ? &*from_ : nullptr);
+    if (insitu_) insitu_->start_from(output_.first_step());
     if (from_)
       output_.tell_event("resume",
                          "the run goes on from step " + std::to_string(clock().steps) + " on " +

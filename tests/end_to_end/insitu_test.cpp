@@ -109,6 +109,28 @@ TEST_P(InSitu, asked_for_on_the_command_line_it_shows_twenty_instants_at_even_di
   EXPECT_NE(status.find("insitu.least_instants = 20"), std::string::npos) << status;
 }
 
+/// A run whose start is the state at 2 ms of another one, with its own pipelines.
+struct StartedRun : WatchedRun {
+  StartedRun(int ranks, const std::string& arguments) : WatchedRun(1, "--set 'stage[0].end=2 ms'") {
+    const std::size_t laws = kSmallCase.find("[[material]]"), state = kSmallCase.find("[[initial_velocity]]");
+    const std::string file =
+        scratch.write("started.toml", "[start]\nfrom = \"run\"\n" + kSmallCase.substr(laws, state - laws) +
+                                          kSmallCase.substr(kSmallCase.find("[[stage]]")));
+    const std::string line = "run " + file + " --progress none -o '" + started().string() + "' " + arguments;
+    outcome = ranks > 1 ? call_ranks(ranks, line) : call(line);
+  }
+  [[nodiscard]] fs::path started() const { return scratch.path("started"); }
+  [[nodiscard]] json report() const {
+    return json::parse(read_text(started() / "summary.json"))["insitu"]["pipelines"][0];
+  }
+};
+
+TEST_P(InSitu, spaces_the_pipelines_of_a_started_run_over_the_steps_that_it_may_take) {
+  const StartedRun run(GetParam(), "--insitu history --set insitu.max_overhead=1e-6 --set time.max_steps=100");
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  EXPECT_LE(run.report()["executed"].get<int>(), 22);
+}
+
 TEST_P(InSitu, a_script_that_fails_three_times_is_switched_off_and_the_run_goes_on) {
   const Scratch scratch;
   (void)scratch.write("always.py",
