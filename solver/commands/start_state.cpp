@@ -163,6 +163,18 @@ void refuse_folder_of_state(const fs::path& results, const StartState& start) {
                             "another folder (-o)", ""});
 }
 
+std::vector<Provenance::Input> inputs_of_started(const fs::path& case_file, const fs::path& mesh,
+                                                 const Checkpoint& checkpoint) {
+  std::vector<Provenance::Input> inputs{input_file(case_file)};
+  const auto add = [&](const Provenance::Input& added) {
+    const auto is_it = [&](const Provenance::Input& input) { return input.file == added.file; };
+    if (std::none_of(inputs.begin(), inputs.end(), is_it)) inputs.push_back(added);
+  };
+  for (const Provenance::Input& input : inputs_in(checkpoint.provenance)) add(input);
+  if (!mesh.empty()) add(input_file(mesh));
+  return inputs;
+}
+
 std::vector<Provenance::Parent> with_parent(const fs::path& file, const Checkpoint& checkpoint) {
   const Clock& clock = checkpoint.model.clock;
   std::error_code error;

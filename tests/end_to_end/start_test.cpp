@@ -64,6 +64,14 @@ class Start : public testing::Test {
     EXPECT_EQ(summary(name).at("energy"), summary(other).at("energy")) << name;
     EXPECT_EQ(summary(name).at("broken_joints"), summary(other).at("broken_joints")) << name;
   }
+  /// Of the geometry that a run was made from, as it says.
+  [[nodiscard]] std::string mesh_hash(const std::string& name) const {
+    const json provenance = json_of(folder(name) / "provenance.json");
+    for (const json& input : provenance.at("inputs")) {
+      if (input.at("file").get<std::string>().ends_with(".geo")) return input.at("sha256");
+    }
+    return "none";
+  }
   /// The parent's model without what the state fixes.
   [[nodiscard]] static std::string laws() {
     const std::string text = model_text();
@@ -238,6 +246,10 @@ TEST_F(Start, MayBreakASurfaceThatTheFirstRunLeftWhole) {
   const Outcome refused = attempt("refused", started("beam") + mesh + beam + hold);
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.err.find("mesh.file: cannot change"), std::string::npos) << refused.err;
+  run("inherited", started("beam") + beam + hold);
+  EXPECT_EQ(mesh_hash("inherited"), mesh_hash("beam")) << "what stands there now was never read";
+  const Outcome again = attempt("refused", started("inherited") + mesh + beam + replaced(hold, "3 ms", "4 ms"));
+  EXPECT_NE(again.err.find("mesh.file: cannot change"), std::string::npos) << again.err;
   fs::remove(folder("beam.geo"));
   run("without_its_mesh", started("beam") + mesh + beam + hold);
   expect_same_state("without_its_mesh", "whole");
