@@ -33,11 +33,16 @@ struct Choice {
   double time = 0;  ///< s
 };
 
-std::vector<Choice> choices_in(const fs::path& folder) {
+/// @param unreadable  receives the names of those that cannot be read
+std::vector<Choice> choices_in(const fs::path& folder, std::string& unreadable) {
   std::vector<Choice> choices;
   for (const CheckpointEntry& entry : checkpoints_in(folder)) {
-    const CheckpointIndex index = read_index(entry.file);
-    choices.push_back({entry.file, index.step, index.time});
+    try {
+      const CheckpointIndex index = read_index(entry.file);
+      choices.push_back({entry.file, index.step, index.time});
+    } catch (const InputError&) {
+      unreadable += (unreadable.empty() ? "" : ", ") + entry.file.filename().string();
+    }
   }
   return choices;
 }
@@ -51,19 +56,24 @@ std::string words_of(const std::vector<Choice>& choices) {
 
 /// The checkpoint that is asked for by its time or step, from a folder.
 fs::path chosen(const fs::path& case_file, const case_::Start& start, const fs::path& folder) {
-  const std::vector<Choice> choices = choices_in(folder);
-  const auto off = [&](const Choice& choice) {
-    return start.step > 0 ? std::abs(static_cast<double>(choice.step - start.step)) : std::abs(choice.time - start.at);
-  };
+  for (const CheckpointEntry& entry : checkpoints_in(folder)) {
+    if (start.step > 0 && entry.step == start.step) return entry.file;
+  }
+  std::string unreadable;
+  const std::vector<Choice> choices = choices_in(folder, unreadable);
+  const auto off = [&](const Choice& choice) { return std::abs(choice.time - start.at); };
   const auto nearest = std::min_element(choices.begin(), choices.end(),
                                         [&](const Choice& a, const Choice& b) { return off(a) < off(b); });
   // A checkpoint at an interval is that of the step next to it.
-  const double close =
-      start.step > 0 ? 0.0 : 1.01 * nearest->time / static_cast<double>(std::max<std::int64_t>(1, nearest->step));
-  if (off(*nearest) <= close) return nearest->file;
+  const auto is_close = [&](const Choice& choice) {
+    return off(choice) <= 1.01 * choice.time / static_cast<double>(std::max<std::int64_t>(1, choice.step));
+  };
+  if (start.step == 0 && nearest != choices.end() && is_close(*nearest)) return nearest->file;
   const std::string given = start.step > 0 ? std::to_string(start.step) : quantity_text(start.at, "s");
-  refuse(case_file, start, start.step > 0 ? "step" : "at", "the run has no checkpoint of that", words_of(choices),
-         given);
+  refuse(case_file, start, start.step > 0 ? "step" : "at",
+         "the run has no checkpoint of that" +
+             (unreadable.empty() ? "" : ", apart from what cannot be read: " + unreadable),
+         choices.empty() ? "none can be read" : words_of(choices), given);
 }
 
 fs::path checkpoint_of(const fs::path& case_file, const case_::Start& start) {

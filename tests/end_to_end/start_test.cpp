@@ -272,6 +272,20 @@ TEST_F(Start, CollapsesACoolingTowerThatHasSettled) {
   }
 }
 
+TEST_F(Start, ChoosesAmongTheCheckpointsThatCanBeRead) {
+  const fs::path damaged = folder("parent") / "checkpoints" / "step_000000000100.h5";
+  const std::string sound = read_text(damaged);
+  std::ofstream(damaged, std::ios::binary) << sound.substr(0, sound.size() / 2);
+  const std::string rest = laws() + kPush;
+  run("by_time", started("parent", "at = \"2 ms\"\n") + rest, 1, "--set time.max_steps=2");
+  run("by_step", started("parent", "step = 200\n") + rest, 1, "--set time.max_steps=2");
+  const Outcome other = attempt("refused", started("parent", "at = \"7 ms\"\n") + rest);
+  EXPECT_NE(other.err.find("cannot be read: step_000000000100.h5; allowed: step "), std::string::npos) << other.err;
+  const Outcome itself = attempt("refused", started("parent", "step = 100\n") + rest);
+  EXPECT_EQ(itself.exit_code, 2);
+  EXPECT_NE(itself.err.find("cut off"), std::string::npos) << itself.err;
+}
+
 TEST_F(Start, NeverTakesAnEarlierStateThanTheOneAskedFor) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder("parent") / "checkpoints")) files.push_back(entry.path());
