@@ -13,6 +13,7 @@
 #include "domains/piece_mesh.hpp"
 #include "output/checkpoint_index.hpp"
 #include "output/quantity_text.hpp"
+#include "output/run_lock.hpp"
 
 namespace breccia {
 namespace {
@@ -92,7 +93,22 @@ fs::path checkpoint_of(const fs::path& case_file, const case_::Start& start) {
   if (all.empty())
     refuse(case_file, start, "from", "there are no checkpoints of a run here",
            "the folder of a run with checkpoints/step_*.h5, or one of these files", start.from.string());
-  return start.step == 0 && start.at == 0 ? all.front().file : chosen(case_file, start, folder);
+  if (start.step > 0 || start.at > 0) return chosen(case_file, start, folder);
+  if (const std::string holder = holder_of(start.from); !holder.empty())
+    refuse(case_file, start, "from", "this run goes on, its last state is yet to come: " + holder,
+           "start.at, start.step or one of its checkpoints, or this folder when that run has ended",
+           start.from.string());
+  return all.front().file;
+}
+
+/// A run that goes on writes and removes checkpoints, so that ranks that looked by themselves might choose differently.
+fs::path of_root(const fs::path& file, const Communicator& world) {
+  std::vector<std::byte> bytes;
+  for (const char c : file.native()) bytes.push_back(std::byte(c));
+  world.broadcast(bytes);
+  std::string name(bytes.size(), ' ');
+  std::transform(bytes.begin(), bytes.end(), name.begin(), [](std::byte b) { return static_cast<char>(b); });
+  return name;
 }
 
 /// What reading the checkpoint finds wrong belongs to the case that names it.
@@ -127,9 +143,10 @@ std::optional<StartState> read_start_state(const fs::path& case_file, const std:
   StartState state;
   world.agree([&] {
     start = case_::read_start(case_file, overrides);
-    if (start) state.file = checkpoint_of(case_file, *start);
+    if (start && world.is_root()) state.file = checkpoint_of(case_file, *start);
   });
   if (!start) return std::nullopt;
+  state.file = of_root(state.file, world);
   try {
     state.checkpoint = read_checkpoint(state.file, world);
   } catch (const InputError& error) {  // the same on all ranks

@@ -1,4 +1,7 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -284,6 +287,33 @@ TEST_F(Start, ChoosesAmongTheCheckpointsThatCanBeRead) {
   const Outcome itself = attempt("refused", started("parent", "step = 100\n") + rest);
   EXPECT_EQ(itself.exit_code, 2);
   EXPECT_NE(itself.err.find("cut off"), std::string::npos) << itself.err;
+}
+
+TEST_F(Start, TakesTheLastStateOfARunThatHasEndedOnly) {
+  const int lock = open((folder("parent") / "run.lock").c_str(), O_RDWR | O_CLOEXEC);
+  ASSERT_EQ(flock(lock, LOCK_EX | LOCK_NB), 0);
+  const Outcome early = attempt("refused", started() + laws() + kPush);
+  EXPECT_EQ(early.exit_code, 2);
+  EXPECT_NE(early.err.find("start.from: this run goes on"), std::string::npos) << early.err;
+  run("by_step", started("parent", "step = 100\n") + laws() + kPush, 1, "--set time.max_steps=2");
+  close(lock);
+  run("ended", started() + laws() + kPush, 1, "--set time.max_steps=2");
+}
+
+TEST_F(Start, TakesTheSameCheckpointOnRanksThatSeeDifferentOnes) {
+  run("on_1", started() + laws() + kPush);
+  fs::create_directories(folder("other"));
+  fs::copy(folder("parent"), folder("other") / "parent", fs::copy_options::recursive);
+  fs::path last;
+  for (const auto& entry : fs::directory_iterator(folder("other") / "parent" / "checkpoints"))
+    last = std::max(last, entry.path());
+  fs::remove(last);
+  const std::string command = "run " + quoted("on_1.toml") + " --progress none -o " + quoted("on_2");
+  fs::copy(folder("on_1.toml"), folder("other/on_1.toml"));
+  const Outcome outcome = call_ranks(1, command + " : -n 1 '" BRECCIA_PROGRAM "' " +
+                                            replaced(command, quoted("on_1.toml"), quoted("other/on_1.toml")));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_same_state("on_2", "on_1");
 }
 
 TEST_F(Start, NeverTakesAnEarlierStateThanTheOneAskedFor) {
