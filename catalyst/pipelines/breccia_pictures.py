@@ -50,9 +50,11 @@ def data_of(producer):
 
 
 def quantile_of(producer, array, part):
-    """The value of a cell array below which a part of the cells of all ranks lies, up to a twelfth; 0 without positive values."""
+    """The value of a cell array below which a part of the cells of all ranks lies, up to a twelfth; 0 without positive values. Values that
+    are not finite are left out, lest the rank that has them fails alone while the others wait for its counts."""
     values = data_of(producer).GetCellData().GetArray(array)
     mine = numpy.zeros(0) if values is None or values.GetNumberOfTuples() == 0 else vtk_to_numpy(values)
+    mine = mine[numpy.isfinite(mine)]
     lowest, highest, bins_of_octave = -40, 60, 8  # powers of two; what is smaller counts as smallest
     positive = numpy.maximum(mine, 2.0 ** lowest) if len(mine) else mine
     bins = numpy.clip(numpy.ceil((numpy.log2(positive) - lowest) * bins_of_octave), 0, (highest - lowest) * bins_of_octave).astype(int)
