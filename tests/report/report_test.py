@@ -6,6 +6,7 @@ import os
 import re
 import shutil
 import signal
+import stat
 import subprocess
 import sys
 import time
@@ -218,6 +219,17 @@ def refusals():
     for file in (f"{scratch}/nowhere/page.html", scratch):
         said = report(run, "-o", file, "--no-pictures", ends=2)
         expect(file in said and said.count("\n") == 1, f"said: {said}")
+    os.mkfifo(f"{scratch}/pipe")
+    os.symlink("pipe", f"{scratch}/to_pipe")
+    os.symlink("nothing", f"{scratch}/to_nothing")
+    for name in ("pipe", "to_pipe", "to_nothing"):
+        said = report(run, "-o", f"{scratch}/{name}", "--no-pictures", ends=2)
+        expect("is no regular file" in said and said.count("\n") == 1, f"said: {said}")
+    expect(stat.S_ISFIFO(os.stat(f"{scratch}/pipe").st_mode) and os.path.islink(f"{scratch}/to_nothing"), "nothing is replaced")
+    open(f"{scratch}/page.html", "w").close()
+    os.symlink("page.html", f"{scratch}/to_page")
+    report(run, "-o", f"{scratch}/to_page", "--no-pictures")
+    expect(os.path.islink(f"{scratch}/to_page") and Page(f"{scratch}/page.html").all("h1"), "the page is where the link leads")
     report(run, "--time-limit", "0", ends=1)
     expect(subprocess.run([breccia, "report"], capture_output=True).returncode == 1, "no run is wrong usage")
 
