@@ -98,7 +98,7 @@ class InSitu {
   [[nodiscard]] double elapsed() const;
   [[nodiscard]] std::uint32_t affordable(std::uint32_t due) const;
   [[nodiscard]] bool due(Pipeline& pipeline, const Moment& now);
-  void book_vain(std::uint32_t asked);
+  void account_idle(std::uint32_t asked);
   [[nodiscard]] double starts() const;
   [[nodiscard]] PaceState pace_state(const Pipeline& pipeline) const;
   [[nodiscard]] std::vector<double> shares() const;

@@ -66,7 +66,7 @@ class Overhead {
   /// Whether once more, at the cost of the last time, stays within the share of the wall time gone so far, s; the start
   /// is free.
   [[nodiscard]] bool allows(double elapsed) const { return times_ == 0 || spent_ + last_ <= share_ * elapsed; }
-  void book(double seconds) {
+  void account(double seconds) {
     if (times_++ == 0) {
       start_ = seconds;
       return;
@@ -78,8 +78,8 @@ class Overhead {
     last_ = seconds;
     spent_ += seconds;
   }
-  /// What was spent on it while nothing of it was done.
-  void book_vain(double seconds) { spent_ += seconds; }
+  /// Time spent on it in which it was not done.
+  void account_idle(double seconds) { spent_ += seconds; }
   [[nodiscard]] std::int64_t times() const { return times_; }
   [[nodiscard]] double spent() const { return spent_; }  ///< s, without the start
   [[nodiscard]] double start() const { return start_; }  ///< s

@@ -175,7 +175,7 @@ Figures draw_run(const fs::path& run, char up, std::chrono::seconds limit) {
   else if (end == End::failed || figures.paraview.empty())
     figures.missing = "ParaView could not read or draw the run: " + last_words(log, scratch.path() / "messages.log");
   else if (!draws)
-    figures.missing = "pictures need a screen: apt-get install xvfb xauth brings one that nobody sees";
+    figures.missing = "pictures need a screen: apt-get install xvfb xauth brings a virtual one";
   return figures;
 }
 

@@ -283,7 +283,7 @@ class Runner {
     return {};
   }
 
-  /// Waits between two steps until somebody lets the run go on or asks for its end.
+  /// Waits between two steps until a command lets the run go on or ends it.
   void stay_paused() {
     communicator_.set_phase("pause");
     while (paused_) {

@@ -87,19 +87,19 @@ TEST(Trigger, NeedsTheCountOnlyWhileItMatters) {
 TEST(Overhead, TakesForItsStartWhatTheFirstTimeTookBeyondTheSecond) {
   Overhead overhead(0.02);
   EXPECT_TRUE(overhead.allows(0));
-  overhead.book(5);
+  overhead.account(5);
   EXPECT_EQ(overhead.spent(), 0);
   EXPECT_EQ(overhead.start(), 5);
   EXPECT_EQ(overhead.cost(), 0) << "not known";
-  overhead.book(0.5);
+  overhead.account(0.5);
   EXPECT_EQ(overhead.spent(), 1);
   EXPECT_EQ(overhead.start(), 4.5);
   EXPECT_EQ(overhead.cost(), 0.5);
 }
 
-TEST(Overhead, CountsWhatWasSpentInVain) {
+TEST(Overhead, CountsTimeInWhichItWasNotDone) {
   Overhead overhead(0.02);
-  overhead.book_vain(0.25);
+  overhead.account_idle(0.25);
   EXPECT_EQ(overhead.spent(), 0.25);
   EXPECT_EQ(overhead.times(), 0);
 }
@@ -107,11 +107,11 @@ TEST(Overhead, CountsWhatWasSpentInVain) {
 TEST(Overhead, StaysBelowItsShare) {
   constexpr double kShare = 0.02, kCost = 0.3;
   Overhead overhead(kShare);
-  overhead.book(4);
+  overhead.account(4);
   std::int64_t times = 0;
   for (double wall = 0; wall < 100; wall += 0.1) {
     if (!overhead.allows(wall)) continue;
-    overhead.book(kCost);
+    overhead.account(kCost);
     ++times;
     EXPECT_LE(overhead.spent(), kShare * wall + 2 * kCost);  // what a time costs is known after two
   }
