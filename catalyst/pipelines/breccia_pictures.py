@@ -284,6 +284,8 @@ class Picture:
             return
         folder = breccia_insitu.folder()
         pattern = re.compile(re.escape(self._name) + r"_(\d{9})(\D*([-\d.]+)\D+([-\d.]+)\D*)?\.png")
+        if not self._times:
+            self._times = listed_times(os.path.join(folder, "data.csv"), pattern)
         found = (match for match in map(pattern.fullmatch, sorted(os.listdir(folder))) if match)
         rows = [(self._times[int(m[1])], m[3], m[4], m[0]) for m in found if int(m[1]) in self._times]
         turns = any(row[1] for row in rows)
@@ -354,6 +356,21 @@ class Picture:
         x = 0.16
         for (line, words), (length, text) in zip(self._keys, keys):
             x = self._show_length(line, words, x, length, text) + 0.03
+
+
+def listed_times(file, pattern):
+    """Times by step of the pictures that a table lists: those drawn before the run was stopped, which goes on here."""
+    times = {}
+    try:
+        with open(file, encoding="utf-8") as table:
+            for line in table.read().splitlines()[1:]:
+                time, *_, name = line.split(",")
+                picture = pattern.fullmatch(name)
+                if picture:
+                    times[int(picture[1])] = float(time)
+    except (OSError, ValueError):  # there is none, or not of this form
+        pass
+    return times
 
 
 def outside(surface):

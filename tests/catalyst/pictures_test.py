@@ -1,5 +1,7 @@
 """pvpython pictures_test.py PIPELINES FOLDER: what the picture pipelines share."""
 import math
+import os
+import re
 import sys
 import types
 
@@ -40,3 +42,10 @@ spoilt = breccia_pictures.quantile_of(Producer(sound + [math.nan, math.inf, -mat
 expect(spoilt == quantile, f"values that are not finite count: {spoilt}")
 expect(breccia_pictures.quantile_of(Producer([math.nan]), "von_mises", 0.5) == 0, "of nothing")
 expect(breccia_pictures.quantile_of(Producer([]), "von_mises", 0.5) == 0, "of an empty channel")
+
+os.makedirs(sys.argv[2], exist_ok=True)
+table, pattern = os.path.join(sys.argv[2], "data.csv"), re.compile(r"view_(\d{9})(\D*([-\d.]+)\D+([-\d.]+)\D*)?\.png")
+with open(table, "w", encoding="utf-8") as file:
+    file.write("time,phi,theta,FILE\n1e-06,0,90,view_000000010_phi=0_theta=90.png\n0.0025,view_000000020.png\n0,other_000000030.png\n")
+expect(breccia_pictures.listed_times(table, pattern) == {10: 1e-6, 20: 0.0025}, "times of a table")
+expect(breccia_pictures.listed_times(table + ".none", pattern) == {}, "times of no table")

@@ -192,6 +192,19 @@ TEST_P(InSitu, pictures_need_no_display) {
     EXPECT_TRUE(fs::exists(run.folder() / "extracts/stress/stress.mp4")) << status;
 }
 
+TEST_P(InSitu, a_run_that_goes_on_lists_the_pictures_that_were_drawn_before) {
+  const WatchedRun run(GetParam(),
+                       "--set insitu.pipeline='[{name=\"ranks\", every_time=\"1 ms\", strict=true, "
+                       "parameters={width=160, height=100}}]' --set time.max_steps=400");
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  const Outcome resumed = call("resume '" + run.folder().string() + "' --progress none --set time.max_steps=0");
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  const fs::path folder = run.folder() / "extracts/ranks";
+  const std::string table = read_text(folder / "data.csv");
+  EXPECT_EQ(count_files(folder, ".png"), 6) << "0 to 4 ms, and where the run went on";
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 6) << table;
+}
+
 TEST_P(InSitu, nobody_listening_does_not_matter) {
   const WatchedRun run(GetParam(), "--live localhost:1");
   EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
