@@ -67,6 +67,14 @@ void InSitu::make_pipelines(const case_::Case& input) {
       {"live", by_wall.every_wall, false, Trigger(by_wall, end), Overhead(input.insitu.live->max_overhead)});
 }
 
+void InSitu::start_from(const Moment& first, std::int64_t broken) {
+  first_ = first;
+  for (Pipeline& p : pipelines_) {
+    if (p.interval > 0) p.interval = (end_ - first.time) / Trigger::kTimes;
+    p.trigger.start_from(first, end_, broken);
+  }
+}
+
 void InSitu::open(const case_::Case& input, const std::filesystem::path& folder) {
   communicator_.agree([&] {
     if (!communicator_.is_root()) return;

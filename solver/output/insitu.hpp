@@ -45,8 +45,9 @@ class InSitu {
   InSitu& operator=(const InSitu&) = delete;
   ~InSitu();
 
-  /// Where the run's first step was, from which its limit of steps counts. Before the first plan.
-  void start_from(const Moment& first) { first_ = first; }
+  /// Where the run's first step was, from which its limit of steps and the parts of its length count. Before the first
+  /// plan. @param broken  joints of which pipelines know
+  void start_from(const Moment& first, std::int64_t broken);
   /// Pipelines that are due by wall time, each once, to be sent to all ranks; empty on all but the root.
   [[nodiscard]] std::uint64_t orders();
   /// Whether some trigger needs the number of broken joints.

@@ -54,7 +54,7 @@ std::vector<double> InSitu::shares() const {
 /// Now and then all are planned anew: the run may have become slower, which affords more.
 void InSitu::space_anew(const Moment& now) {
   if (now.time < next_spacing_) return;
-  const double distance = end_ / Trigger::kTimes;
+  const double distance = (end_ - first_.time) / Trigger::kTimes;
   next_spacing_ = (std::floor(now.time / distance) + 1) * distance;
   now_ = now;
   std::uint32_t known = 0;

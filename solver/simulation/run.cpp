@@ -52,7 +52,7 @@ class Runner {
 
   Summary run() {
     output_.tell_start(insitu_.has_value(), from_ ? &*from_ : nullptr);
-    if (insitu_) insitu_->start_from(output_.first_step());
+    if (insitu_) insitu_->start_from(output_.first_step(), from_ ? &*from_ : nullptr);
     if (from_)
       output_.tell_event("resume",
                          "the run goes on from step " + std::to_string(clock().steps) + " on " +
@@ -207,6 +207,7 @@ class Runner {
   [[nodiscard]] RunPosition position() const {
     RunPosition position = output_.position();
     position.until_look = steps_->until_look();
+    if (insitu_) position.broken_count = insitu_->broken_count();
     return position;
   }
 

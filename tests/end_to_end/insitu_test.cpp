@@ -131,6 +131,33 @@ TEST_P(InSitu, spaces_the_pipelines_of_a_started_run_over_the_steps_that_it_may_
   EXPECT_LE(run.report()["executed"].get<int>(), 22);
 }
 
+TEST_P(InSitu, shows_a_started_run_as_often_as_another) {
+  const StartedRun run(GetParam(), "--insitu history --set insitu.max_overhead=1e-6 --set 'stage[0].end=2.4 ms'");
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  EXPECT_GE(run.report()["executed"].get<int>(), 20);
+  EXPECT_LE(run.report()["executed"].get<int>(), 22);
+}
+
+TEST_P(InSitu, a_run_that_goes_on_has_the_extracts_of_one_that_was_never_stopped) {
+  const std::string triggers =
+      "--set 'insitu.pipeline=[{name=\"fractures\", first_break=true, strict=true}, {name=\"surface\", "
+      "every_broken=3, strict=true}]' ";
+  const WatchedRun whole(1, triggers);
+  const std::string first = read_text(whole.folder() / "extracts/fractures/fractures.pvd");
+  const std::size_t at = first.find("fractures_");
+  ASSERT_NE(at, std::string::npos) << first;
+  const int seen = std::stoi(first.substr(at + 10));
+  for (const int stop : {seen - 1, seen, seen + 1}) {
+    const WatchedRun run(GetParam(), triggers + "--set time.max_steps=" + std::to_string(stop));
+    const Outcome resumed = call("resume '" + run.folder().string() + "' --progress none --set time.max_steps=0");
+    ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+    for (const std::string channel : {"fractures", "surface"}) {
+      const std::string series = "extracts/" + channel + "/" + channel + ".pvd";
+      EXPECT_EQ(read_text(run.folder() / series), read_text(whole.folder() / series)) << "stopped after " << stop;
+    }
+  }
+}
+
 TEST_P(InSitu, a_script_that_fails_three_times_is_switched_off_and_the_run_goes_on) {
   const Scratch scratch;
   (void)scratch.write("always.py",

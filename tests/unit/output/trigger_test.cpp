@@ -32,6 +32,16 @@ TEST(Trigger, WithoutAnyRunsFiftyTimes) {
   EXPECT_EQ(due[1], 20);
 }
 
+TEST(Trigger, WithoutAnyRunsFiftyTimesOverARunThatStartsLate) {
+  Trigger trigger({}, kEnd);
+  trigger.start_from({900, 0.9 * kEnd, 1e-6, 0}, kEnd, 0);
+  EXPECT_DOUBLE_EQ(trigger.distance(1e-6), 2e-6);
+  int times = 0;
+  for (std::int64_t step = 900; step < 1000; ++step)
+    times += trigger.due({step, 1e-6 * static_cast<double>(step), 1e-6, 0}) ? 1 : 0;
+  EXPECT_EQ(times, 50);
+}
+
 TEST(Trigger, BySteps) {
   case_::Pipeline pipeline;
   pipeline.every_steps = 400;
@@ -55,6 +65,27 @@ TEST(Trigger, ByBrokenJointsCountsFromOneMultipleToTheNext) {
   case_::Pipeline pipeline;
   pipeline.every_broken = 10;
   EXPECT_THAT(due_steps(pipeline, {0, 9, 10, 11, 19, 45, 49, 50, 50}), ElementsAre(2, 5, 7));
+}
+
+TEST(Trigger, CountsBreaksFromTheStartOfTheRun) {
+  case_::Pipeline pipeline;
+  pipeline.first_break = true;
+  const Moment first{100, 1e-4, 1e-6, 7};
+  Trigger started(pipeline, kEnd), resumed(pipeline, kEnd);
+  started.start_from(first, kEnd, 7);
+  EXPECT_FALSE(started.due({101, 1.01e-4, 1e-6, 7})) << "broken before";
+  EXPECT_TRUE(started.due({102, 1.02e-4, 1e-6, 8}));
+  resumed.start_from(first, kEnd, 8);
+  EXPECT_FALSE(resumed.due({103, 1.03e-4, 1e-6, 9})) << "not the first";
+}
+
+TEST(Trigger, ByBrokenJointsGoesOnFromTheOnesThatAreKnown) {
+  case_::Pipeline pipeline;
+  pipeline.every_broken = 10;
+  Trigger trigger(pipeline, kEnd);
+  trigger.start_from({100, 1e-4, 1e-6, 7}, kEnd, 23);
+  EXPECT_FALSE(trigger.due({101, 1.01e-4, 1e-6, 29}));
+  EXPECT_TRUE(trigger.due({102, 1.02e-4, 1e-6, 30}));
 }
 
 TEST(Trigger, ByWallTimeIsNobodysBusinessHere) {
