@@ -4,6 +4,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <string_view>
 
 #include "catalyst/child_process.hpp"
 #include "catalyst/pipeline_error.hpp"
@@ -20,23 +21,59 @@ constexpr int kSlowest = 3, kFastest = 25;  ///< pictures a second
 /// Video wants even widths and heights; the last picture stays for a second.
 constexpr const char* kFilter = "pad=ceil(iw/2)*2:ceil(ih/2)*2,tpad=stop_mode=clone:stop_duration=1";
 
-/// Pictures of a folder that belong together: what stands before their number, and how many there are.
-std::map<std::string, int> series_of(const fs::path& folder) {
-  static const std::regex numbered("([^*?\\[\\]{}\\\\%]*)_[0-9]{6,}\\.png");
-  std::map<std::string, int> series;
+/// Pictures that belong together.
+struct Series {
+  int pictures = 0;
+  std::set<std::size_t> digits;  ///< of their numbers
+};
+
+/// Those of a folder, by what stands before their number.
+std::map<std::string, Series> series_of(const fs::path& folder) {
+  static const std::regex numbered("([^*?\\[\\]{}\\\\%]*)_([0-9]{6,})\\.png");
+  std::map<std::string, Series> series;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     std::smatch match;
     const std::string name = entry.path().filename();
-    if (std::regex_match(name, match, numbered)) ++series[match[1]];
+    if (!std::regex_match(name, match, numbered)) continue;
+    ++series[match[1]].pictures;
+    series[match[1]].digits.insert(static_cast<std::size_t>(match.length(2)));
   }
-  std::erase_if(series, [](const auto& one) { return one.second < 2; });
+  std::erase_if(series, [](const auto& one) { return one.second.pictures < 2; });
   return series;
 }
 
-std::vector<std::string> command_of(const fs::path& folder, const std::string& name, int pictures,
+/// A text as a pattern of glob that it alone fits.
+std::string as_pattern(const std::string& text) {
+  std::string pattern;
+  for (const char c : text)
+    pattern += (std::string_view("\\*?[]{},~").find(c) == std::string_view::npos ? "" : "\\") + std::string(1, c);
+  return pattern;
+}
+
+/// As one word of a shell.
+std::string quoted(const std::string& word) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./";
+  if (word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
+  return text + "'";
+}
+
+/// The pictures of a series and no others, as a pattern of glob: "view_*.png" would take those of "view_top" as well.
+std::string pattern_of(const fs::path& folder, const std::string& name, const Series& series) {
+  std::string numbers;
+  for (const std::size_t digits : series.digits) {
+    if (!numbers.empty()) numbers += ',';
+    for (std::size_t i = 0; i < digits; ++i) numbers += "[0-9]";
+  }
+  if (series.digits.size() > 1) numbers = "{" + numbers + "}";
+  return as_pattern((folder / name).string()) + "_" + numbers + ".png";
+}
+
+std::vector<std::string> command_of(const fs::path& folder, const std::string& name, const Series& series,
                                     const fs::path& result) {
-  const int speed = std::clamp(static_cast<int>(pictures / kLength), kSlowest, kFastest);
+  const int speed = std::clamp(static_cast<int>(series.pictures / kLength), kSlowest, kFastest);
   return {"ffmpeg",
           "-nostdin",
           "-y",
@@ -47,7 +84,7 @@ std::vector<std::string> command_of(const fs::path& folder, const std::string& n
           "-pattern_type",
           "glob",
           "-i",
-          (folder / (name + "_*.png")).string(),
+          pattern_of(folder, name, series),
           "-vf",
           kFilter,
           "-pix_fmt",
@@ -57,9 +94,9 @@ std::vector<std::string> command_of(const fs::path& folder, const std::string& n
           result.string()};
 }
 
-std::string made(const fs::path& folder, const std::string& name, int pictures) {
+std::string made(const fs::path& folder, const std::string& name, const Series& series) {
   const fs::path result = folder / (name + ".mp4"), temporary = folder / ("." + name + ".mp4.tmp");
-  std::vector<std::string> command = command_of(folder, name, pictures, temporary);
+  std::vector<std::string> command = command_of(folder, name, series, temporary);
   command.insert(command.begin(), {"timeout", kPatience});
   std::error_code error;
   try {
@@ -73,10 +110,9 @@ std::string made(const fs::path& folder, const std::string& name, int pictures) 
   return "animation: ffmpeg could not make " + result.string();
 }
 
-std::string recipe(const fs::path& folder, const std::string& name, int pictures) {
+std::string recipe(const fs::path& folder, const std::string& name, const Series& series) {
   std::string line = "animation: apt-get install ffmpeg, then:";
-  for (const std::string& word : command_of(folder, name, pictures, folder / (name + ".mp4")))
-    line += word.find_first_of("*(=") == std::string::npos ? " " + word : " '" + word + "'";
+  for (const std::string& word : command_of(folder, name, series, folder / (name + ".mp4"))) line += " " + quoted(word);
   return line;
 }
 
@@ -86,9 +122,9 @@ std::string make_animations(const std::vector<fs::path>& folders) {
   std::string lines;
   const bool can = is_on_path("ffmpeg");
   for (const fs::path& folder : std::set<fs::path>(folders.begin(), folders.end())) {
-    for (const auto& [name, pictures] : series_of(folder)) {
-      if (!can) return recipe(folder, name, pictures);
-      lines += (lines.empty() ? "" : "\n") + made(folder, name, pictures);
+    for (const auto& [name, series] : series_of(folder)) {
+      if (!can) return recipe(folder, name, series);
+      lines += (lines.empty() ? "" : "\n") + made(folder, name, series);
     }
   }
   return lines;

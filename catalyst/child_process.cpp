@@ -44,7 +44,7 @@ std::string output_of(const std::vector<std::string>& arguments) {
   pid_t ended = 0;
   do ended = ::waitpid(child, &status, 0);
   while (ended < 0 && errno == EINTR);
-  // Where the run ignores SIGCHLD nobody knows how it ended; then its output must do.
+  // Where the run ignores SIGCHLD it is not known how it ended; then its output must do.
   if (ended == child && (!WIFEXITED(status) || WEXITSTATUS(status) != 0)) throw PipelineError(arguments[0] + " failed");
   return text;
 }

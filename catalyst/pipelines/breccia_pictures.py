@@ -50,9 +50,11 @@ def data_of(producer):
 
 
 def quantile_of(producer, array, part):
-    """The value of a cell array below which a part of the cells of all ranks lies, up to a twelfth; 0 without positive values."""
+    """The value of a cell array below which a part of the cells of all ranks lies, up to a twelfth; 0 without positive values. Values that
+    are not finite are left out, lest the rank that has them fails alone while the others wait for its counts."""
     values = data_of(producer).GetCellData().GetArray(array)
     mine = numpy.zeros(0) if values is None or values.GetNumberOfTuples() == 0 else vtk_to_numpy(values)
+    mine = mine[numpy.isfinite(mine)]
     lowest, highest, bins_of_octave = -40, 60, 8  # powers of two; what is smaller counts as smallest
     positive = numpy.maximum(mine, 2.0 ** lowest) if len(mine) else mine
     bins = numpy.clip(numpy.ceil((numpy.log2(positive) - lowest) * bins_of_octave), 0, (highest - lowest) * bins_of_octave).astype(int)
@@ -282,6 +284,8 @@ class Picture:
             return
         folder = breccia_insitu.folder()
         pattern = re.compile(re.escape(self._name) + r"_(\d{9})(\D*([-\d.]+)\D+([-\d.]+)\D*)?\.png")
+        if not self._times:
+            self._times = listed_times(os.path.join(folder, "data.csv"), pattern)
         found = (match for match in map(pattern.fullmatch, sorted(os.listdir(folder))) if match)
         rows = [(self._times[int(m[1])], m[3], m[4], m[0]) for m in found if int(m[1]) in self._times]
         turns = any(row[1] for row in rows)
@@ -352,6 +356,21 @@ class Picture:
         x = 0.16
         for (line, words), (length, text) in zip(self._keys, keys):
             x = self._show_length(line, words, x, length, text) + 0.03
+
+
+def listed_times(file, pattern):
+    """Times by step of the pictures that a table lists: those drawn before the run was stopped, which goes on here."""
+    times = {}
+    try:
+        with open(file, encoding="utf-8") as table:
+            for line in table.read().splitlines()[1:]:
+                time, *_, name = line.split(",")
+                picture = pattern.fullmatch(name)
+                if picture:
+                    times[int(picture[1])] = float(time)
+    except (OSError, ValueError):  # there is none, or not of this form
+        pass
+    return times
 
 
 def outside(surface):

@@ -10,6 +10,7 @@ import sys
 
 import numpy as np
 import paraview
+from paraview import servermanager
 from paraview.simple import *  # noqa: F403: ParaView's way
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkFileOutputWindow, vtkOutputWindow
@@ -53,6 +54,15 @@ def facts(thing):
     return found
 
 
+def finite(thing):
+    """The same with None, which JSON knows, for numbers that are not finite."""
+    if isinstance(thing, dict):
+        return {key: finite(value) for key, value in thing.items()}
+    if isinstance(thing, (list, tuple)):
+        return [finite(value) for value in thing]
+    return None if isinstance(thing, float) and not np.isfinite(thing) else thing
+
+
 def rows(table, names, order, count=LARGEST):
     """The first rows in an order, as lists."""
     chosen = order[:count]
@@ -70,9 +80,7 @@ class Drawing:
         window.FlushOn()
         vtkOutputWindow.SetInstance(window)
         self.said = 0
-        self.run = BrecciaReader(registrationName="run", FileName=arguments.run)
-        self.run.UpdatePipelineInformation()
-        self.times = list(self.run.TimestepValues)
+        self.file, self.times = arguments.run, []
 
     def messages(self):
         """What ParaView has said since the last call: the last words of each error, once."""
@@ -100,7 +108,7 @@ class Drawing:
     def write(self):
         path = os.path.join(self.folder, "figures.json")
         with open(path + ".tmp", "w", encoding="utf-8") as file:
-            json.dump(self.result, file, allow_nan=False)
+            json.dump(finite(self.result), file, allow_nan=False)
         os.replace(path + ".tmp", path)
 
     # Views.
@@ -205,11 +213,18 @@ class Drawing:
     # Parts.
 
     def start(self):
-        time = self.times[-1]
+        self.run = BrecciaReader(registrationName="run", FileName=self.file)
+        self.run.UpdatePipelineInformation()
+        values = self.run.TimestepValues  # of one frame: a number
+        times = [values] if isinstance(values, (int, float)) else list(values or ())
+        if not times:
+            raise RuntimeError("the run holds no whole frame")
+        time = times[-1]
         self.run.UpdatePipeline(time)
-        self.result["frames"], self.result["time"] = len(self.times), time
+        self.result["frames"], self.result["time"] = len(times), time
         self.elements = ExtractBlock(registrationName="elements", Input=self.run, Selectors=["/Root/elements"])
         self.cracks = FractureSurface(registrationName="Fracture Surface", Input=self.run, Up=self.up.upper())
+        self.times = times
 
     def stress(self):
         time = self.frame_at_most_of("elastic [J]")
@@ -331,10 +346,9 @@ def main():
     LoadPlugin(arguments.plugin, remote=False, ns=globals())
     paraview.simple._DisableFirstRenderCameraReset()
     drawing = Drawing(arguments)
+    drawing.part("frames", drawing.start)
     if not drawing.times:
-        drawing.part("frames", lambda: drawing.result["problems"].append("frames: the run holds no whole frame"))
         return
-    drawing.start()
     for name, work in (("fragments", drawing.fragments), ("fracture", drawing.fracture), ("events", drawing.events),
                        ("contacts", drawing.contacts), ("ranks", drawing.ranks), ("stress", drawing.stress)):
         drawing.part(name, work)

@@ -7,8 +7,8 @@
 
 namespace breccia {
 
-/// Number of the signal by which somebody asked this process to end (Ctrl-C, a polite kill, a closed terminal); 0:
-/// nobody has. Set by a handler in main; long work that can be given up looks at it.
+/// Number of the signal that asked this process to end (Ctrl-C, a polite kill, a closed terminal); 0: none has.
+/// Set by a handler in main; long work that can be given up looks at it.
 inline std::atomic<int> interruption{0};
 
 /// Thrown where work that has written nothing is given up because of it; main turns it into 128 + the signal.

@@ -1,9 +1,14 @@
 #include "base/sha256.hpp"
 
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <cstdio>
+#include <system_error>
 #include <vector>
 
 namespace breccia {
@@ -65,6 +70,20 @@ std::string sha256(std::span<const std::byte> bytes) {
     text += digits.data();
   }
   return text;
+}
+
+std::string sha256_of_file(const std::filesystem::path& file) {
+  std::error_code error;
+  const int descriptor =
+      std::filesystem::is_regular_file(file, error) ? ::open(file.c_str(), O_RDONLY | O_CLOEXEC) : -1;
+  if (descriptor < 0) return {};
+  const auto size = static_cast<std::size_t>(std::filesystem::file_size(file, error));
+  void* const bytes = size > 0 ? ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0) : nullptr;
+  ::close(descriptor);
+  if (error || bytes == MAP_FAILED) return {};
+  std::string hash = sha256({static_cast<const std::byte*>(bytes), size});
+  if (size > 0) ::munmap(bytes, size);
+  return hash;
 }
 
 }  // namespace breccia

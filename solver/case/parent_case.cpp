@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <set>
-#include <span>
-#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -71,14 +68,6 @@ void collect(const Node& table, const std::string& identity, const std::string& 
   }
 }
 
-std::string hash_of_file(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream content;
-  if (!stream || !(content << stream.rdbuf())) return "";
-  const std::string text = content.str();
-  return sha256(std::as_bytes(std::span(text)));
-}
-
 constexpr const char* kCannot = "cannot change where a run starts from the state of another: ";
 
 Problem refused(const std::string& key, const std::string& pattern, const std::string& allowed,
@@ -90,7 +79,7 @@ Problem refused(const std::string& key, const std::string& pattern, const std::s
 void compare_mesh_files(const ParentCase& parent, const Case& now, std::vector<Problem>& problems) {
   const std::filesystem::path &before = parent.input.mesh.file, &file = now.mesh.file;
   const auto known = parent.files.find(before.string());
-  const std::string hash = file.empty() ? "" : hash_of_file(file);
+  const std::string hash = file.empty() ? "" : sha256_of_file(file);
   const bool same_content = known != parent.files.end() && !hash.empty() && hash == known->second;
   if (same_content || (file == before && (hash.empty() || known == parent.files.end()))) return;
   problems.push_back(refused("mesh.file", "mesh.file",

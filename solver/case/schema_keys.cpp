@@ -21,7 +21,7 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Folder of a run, or one of its checkpoints (checkpoints/step_*.h5). Relative to the case file.",
      .example = "\"../settle/run\""},
     {.path = "start.at", .type = number, .unit = "s", .fallback = "last", .range = positive, .word = "last",
-     .help = "Time of the checkpoint. last: the latest that is there.", .example = "\"2.4 s\""},
+     .help = "Time of the checkpoint. last: the latest of a run that has ended.", .example = "\"2.4 s\""},
     {.path = "start.step", .type = integer, .fallback = "0", .range = steps,
      .help = "Step of the checkpoint, in place of its time; 0: by its time.", .example = "120000"},
 

@@ -3,6 +3,8 @@
 
 #include <chrono>
 #include <ctime>
+#include <filesystem>
+#include <system_error>
 
 #include "base/error.hpp"
 #include "commands/commands.hpp"
@@ -12,15 +14,32 @@
 #include "report/record.hpp"
 
 namespace breccia {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The file that a name leads to: what is written there replaces it, which must befall no link, device or pipe.
+fs::path replaceable(const fs::path& file) {
+  std::error_code error;
+  const bool is_link = fs::is_symlink(file, error);
+  const fs::file_status status = fs::status(file, error);
+  if (!is_link && !fs::exists(status)) return file;
+  if (!fs::is_regular_file(status))
+    throw OutputError(
+        Problem{file.string(), 0, "", "this is no regular file", "a new file, or one to be replaced", ""});
+  return is_link ? fs::canonical(file) : file;
+}
+
+}  // namespace
 
 int report_command(const ReportCommand& asked) {
+  const fs::path file = replaceable(asked.file.empty() ? asked.run / "report.html" : asked.file);
   const report::RunRecord run = report::read_run(asked.run);
   report::Figures figures;
   if (asked.no_pictures)
     figures.missing = "not asked for (--no-pictures)";
   else
     figures = report::draw_run(asked.run, run.up, std::chrono::seconds(asked.time_limit));
-  const std::filesystem::path file = asked.file.empty() ? asked.run / "report.html" : asked.file;
   const std::string made = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   write_file_atomically(file, report::page_of(run, figures, made));
   if (!asked.no_pictures && !figures.missing.empty()) fmt::print(stderr, "breccia: {}\n", figures.missing);

@@ -35,11 +35,15 @@ Provenance provenance_of(const RunCommand& asked, const case_::Case& input, cons
                          const Communicator& world) {
   Provenance provenance = collect_provenance(BRECCIA_VERSION, asked.command_line);
   provenance.ranks = world.size();
+  if (start) {
+    provenance.inputs = inputs_of_started(asked.case_file, input.mesh.file, start->checkpoint);
+    provenance.parents = with_parent(start->file, start->checkpoint);
+    return provenance;
+  }
   std::set<std::filesystem::path> files{asked.case_file};
   if (!input.mesh.file.empty()) files.insert(input.mesh.file);
   if (input.mesh.file.extension() == ".geo") files.merge(scan_geo(input.mesh.file).files);
   for (const std::filesystem::path& file : files) provenance.inputs.push_back(input_file(file));
-  if (start) provenance.parents = with_parent(start->file, start->checkpoint);
   return provenance;
 }
 

@@ -13,6 +13,7 @@
 #include "domains/piece_mesh.hpp"
 #include "output/checkpoint_index.hpp"
 #include "output/quantity_text.hpp"
+#include "output/run_lock.hpp"
 
 namespace breccia {
 namespace {
@@ -33,11 +34,16 @@ struct Choice {
   double time = 0;  ///< s
 };
 
-std::vector<Choice> choices_in(const fs::path& folder) {
+/// @param unreadable  receives the names of those that cannot be read
+std::vector<Choice> choices_in(const fs::path& folder, std::string& unreadable) {
   std::vector<Choice> choices;
   for (const CheckpointEntry& entry : checkpoints_in(folder)) {
-    const CheckpointIndex index = read_index(entry.file);
-    choices.push_back({entry.file, index.step, index.time});
+    try {
+      const CheckpointIndex index = read_index(entry.file);
+      choices.push_back({entry.file, index.step, index.time});
+    } catch (const InputError&) {
+      unreadable += (unreadable.empty() ? "" : ", ") + entry.file.filename().string();
+    }
   }
   return choices;
 }
@@ -51,19 +57,24 @@ std::string words_of(const std::vector<Choice>& choices) {
 
 /// The checkpoint that is asked for by its time or step, from a folder.
 fs::path chosen(const fs::path& case_file, const case_::Start& start, const fs::path& folder) {
-  const std::vector<Choice> choices = choices_in(folder);
-  const auto off = [&](const Choice& choice) {
-    return start.step > 0 ? std::abs(static_cast<double>(choice.step - start.step)) : std::abs(choice.time - start.at);
-  };
+  for (const CheckpointEntry& entry : checkpoints_in(folder)) {
+    if (start.step > 0 && entry.step == start.step) return entry.file;
+  }
+  std::string unreadable;
+  const std::vector<Choice> choices = choices_in(folder, unreadable);
+  const auto off = [&](const Choice& choice) { return std::abs(choice.time - start.at); };
   const auto nearest = std::min_element(choices.begin(), choices.end(),
                                         [&](const Choice& a, const Choice& b) { return off(a) < off(b); });
   // A checkpoint at an interval is that of the step next to it.
-  const double close =
-      start.step > 0 ? 0.0 : 1.01 * nearest->time / static_cast<double>(std::max<std::int64_t>(1, nearest->step));
-  if (off(*nearest) <= close) return nearest->file;
+  const auto is_close = [&](const Choice& choice) {
+    return off(choice) <= 1.01 * choice.time / static_cast<double>(std::max<std::int64_t>(1, choice.step));
+  };
+  if (start.step == 0 && nearest != choices.end() && is_close(*nearest)) return nearest->file;
   const std::string given = start.step > 0 ? std::to_string(start.step) : quantity_text(start.at, "s");
-  refuse(case_file, start, start.step > 0 ? "step" : "at", "the run has no checkpoint of that", words_of(choices),
-         given);
+  refuse(case_file, start, start.step > 0 ? "step" : "at",
+         "the run has no checkpoint of that" +
+             (unreadable.empty() ? "" : ", apart from what cannot be read: " + unreadable),
+         choices.empty() ? "none can be read" : words_of(choices), given);
 }
 
 fs::path checkpoint_of(const fs::path& case_file, const case_::Start& start) {
@@ -82,7 +93,22 @@ fs::path checkpoint_of(const fs::path& case_file, const case_::Start& start) {
   if (all.empty())
     refuse(case_file, start, "from", "there are no checkpoints of a run here",
            "the folder of a run with checkpoints/step_*.h5, or one of these files", start.from.string());
-  return start.step == 0 && start.at == 0 ? all.front().file : chosen(case_file, start, folder);
+  if (start.step > 0 || start.at > 0) return chosen(case_file, start, folder);
+  if (const std::string holder = holder_of(start.from); !holder.empty())
+    refuse(case_file, start, "from", "this run goes on, its last state is yet to come: " + holder,
+           "start.at, start.step or one of its checkpoints, or this folder when that run has ended",
+           start.from.string());
+  return all.front().file;
+}
+
+/// A run that goes on writes and removes checkpoints, so that ranks that looked by themselves might choose differently.
+fs::path of_root(const fs::path& file, const Communicator& world) {
+  std::vector<std::byte> bytes;
+  for (const char c : file.native()) bytes.push_back(std::byte(c));
+  world.broadcast(bytes);
+  std::string name(bytes.size(), ' ');
+  std::transform(bytes.begin(), bytes.end(), name.begin(), [](std::byte b) { return static_cast<char>(b); });
+  return name;
 }
 
 /// What reading the checkpoint finds wrong belongs to the case that names it.
@@ -117,9 +143,10 @@ std::optional<StartState> read_start_state(const fs::path& case_file, const std:
   StartState state;
   world.agree([&] {
     start = case_::read_start(case_file, overrides);
-    if (start) state.file = checkpoint_of(case_file, *start);
+    if (start && world.is_root()) state.file = checkpoint_of(case_file, *start);
   });
   if (!start) return std::nullopt;
+  state.file = of_root(state.file, world);
   try {
     state.checkpoint = read_checkpoint(state.file, world);
   } catch (const InputError& error) {  // the same on all ranks
@@ -161,6 +188,18 @@ void refuse_folder_of_state(const fs::path& results, const StartState& start) {
   if (!fs::equivalent(results, run, error) || error) return;
   throw OutputError(Problem{results.string(), 0, "", "this folder holds the state that the run starts from",
                             "another folder (-o)", ""});
+}
+
+std::vector<Provenance::Input> inputs_of_started(const fs::path& case_file, const fs::path& mesh,
+                                                 const Checkpoint& checkpoint) {
+  std::vector<Provenance::Input> inputs{input_file(case_file)};
+  const auto add = [&](const Provenance::Input& added) {
+    const auto is_it = [&](const Provenance::Input& input) { return input.file == added.file; };
+    if (std::none_of(inputs.begin(), inputs.end(), is_it)) inputs.push_back(added);
+  };
+  for (const Provenance::Input& input : inputs_in(checkpoint.provenance)) add(input);
+  if (!mesh.empty()) add(input_file(mesh));
+  return inputs;
 }
 
 std::vector<Provenance::Parent> with_parent(const fs::path& file, const Checkpoint& checkpoint) {

@@ -41,8 +41,7 @@ class TimingSegments {
   void keep_least_rest(const TimingSegments& other) { keep_least(other, kRest, kRest + 1); }
 
   /// @param alone  wall time is put together from its parts, of which the rest may be that of another lap: on one rank,
-  /// where
-  ///               nobody waits
+  ///               where none waits for another
   void sum_up(Lap& lap, bool alone) const {
     Piece sum{};
     for (const Piece& piece : pieces_) {

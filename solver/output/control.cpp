@@ -62,7 +62,7 @@ std::vector<std::string> lines_of(std::istream& stream) {
   return lines;
 }
 
-/// Of an ordinary file; nothing of a pipe, a folder or a link, which might never end or be somebody else's.
+/// Of an ordinary file; nothing of a pipe, a folder or a link, which might never end or be another user's.
 std::string content_of(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC);
   if (descriptor < 0) return {};

@@ -67,6 +67,14 @@ void InSitu::make_pipelines(const case_::Case& input) {
       {"live", by_wall.every_wall, false, Trigger(by_wall, end), Overhead(input.insitu.live->max_overhead)});
 }
 
+void InSitu::start_from(const Moment& first, std::int64_t broken) {
+  first_ = first;
+  for (Pipeline& p : pipelines_) {
+    if (p.interval > 0) p.interval = (end_ - first.time) / Trigger::kTimes;
+    p.trigger.start_from(first, end_, broken);
+  }
+}
+
 void InSitu::open(const case_::Case& input, const std::filesystem::path& folder) {
   communicator_.agree([&] {
     if (!communicator_.is_root()) return;
@@ -152,7 +160,7 @@ InSitu::Plan InSitu::plan(const Moment& now, std::uint32_t ordered, bool all) {
     plan.channels |= channels;
     plan.pipelines |= bit(i);
   }
-  if (!plan) book_vain(due);
+  if (!plan) account_idle(due);
   return plan;
 }
 
@@ -166,9 +174,9 @@ bool InSitu::due(Pipeline& p, const Moment& now) {
 }
 
 /// Ranks have agreed, and scripts were asked, for nothing.
-void InSitu::book_vain(std::uint32_t asked) {
+void InSitu::account_idle(std::uint32_t asked) {
   for (std::size_t i = 0; i < pipelines_.size(); ++i) {
-    if ((asked & bit(i)) != 0) pipelines_[i].overhead.book_vain(seconds_since(planned_) / std::popcount(asked));
+    if ((asked & bit(i)) != 0) pipelines_[i].overhead.account_idle(seconds_since(planned_) / std::popcount(asked));
   }
 }
 
@@ -193,7 +201,7 @@ void InSitu::run_one(std::size_t i, const BrecciaInstant& instant, double shared
   const std::string text = words_of([&](char* words, std::size_t size) {
     failed = plugin_.api().execute(adaptor_, bit(i), &instant, &asked, words, size);
   });
-  p.overhead.book(shared_cost + std::max(seconds_since(start) - asked.waited, 0.0));
+  p.overhead.account(shared_cost + std::max(seconds_since(start) - asked.waited, 0.0));
   p.next_wall = elapsed() + p.every_wall;
   requests_.stop |= asked.stop;
   requests_.pause |= asked.pause;

@@ -45,6 +45,9 @@ class InSitu {
   InSitu& operator=(const InSitu&) = delete;
   ~InSitu();
 
+  /// Where the run's first step was, from which its limit of steps and the parts of its length count. Before the first
+  /// plan. @param broken  joints of which pipelines know
+  void start_from(const Moment& first, std::int64_t broken);
   /// Pipelines that are due by wall time, each once, to be sent to all ranks; empty on all but the root.
   [[nodiscard]] std::uint64_t orders();
   /// Whether some trigger needs the number of broken joints.
@@ -96,7 +99,7 @@ class InSitu {
   [[nodiscard]] double elapsed() const;
   [[nodiscard]] std::uint32_t affordable(std::uint32_t due) const;
   [[nodiscard]] bool due(Pipeline& pipeline, const Moment& now);
-  void book_vain(std::uint32_t asked);
+  void account_idle(std::uint32_t asked);
   [[nodiscard]] double starts() const;
   [[nodiscard]] PaceState pace_state(const Pipeline& pipeline) const;
   [[nodiscard]] std::vector<double> shares() const;
@@ -123,6 +126,7 @@ class InSitu {
   double opening_ = 0;           ///< s, wall: start of the adaptor
   std::optional<double> begin_;  ///< s, simulated: where this process began
   Moment now_;                   ///< of the last plan
+  Moment first_;                 ///< of the run
 };
 
 }  // namespace breccia

@@ -22,7 +22,8 @@ const char* thing_of(const std::string& pipeline) {
 
 PaceState InSitu::pace_state(const Pipeline& p) const {
   const double interval = p.interval > 0 ? p.interval : p.trigger.distance(now_.dt);
-  const double last = most_steps_ > 0 ? now_.time + static_cast<double>(most_steps_ - now_.step) * now_.dt : kInfinite;
+  const auto steps = static_cast<double>(first_.step + most_steps_ - now_.step);
+  const double last = most_steps_ > 0 ? now_.time + steps * now_.dt : kInfinite;
   PaceState state{now_.time, *begin_, std::min(end_, last), p.last, elapsed(), starts(), interval};
   state.least = p.least;
   state.spent = p.overhead.start() + p.overhead.spent();
@@ -53,7 +54,7 @@ std::vector<double> InSitu::shares() const {
 /// Now and then all are planned anew: the run may have become slower, which affords more.
 void InSitu::space_anew(const Moment& now) {
   if (now.time < next_spacing_) return;
-  const double distance = end_ / Trigger::kTimes;
+  const double distance = (end_ - first_.time) / Trigger::kTimes;
   next_spacing_ = (std::floor(now.time / distance) + 1) * distance;
   now_ = now;
   std::uint32_t known = 0;
@@ -81,7 +82,7 @@ void InSitu::space(std::uint32_t pipelines) {
 void InSitu::space_one(Pipeline& p, double share) {
   PaceState state = pace_state(p);
   state.share = share;
-  Spacing spacing;
+  Spacing spacing{.next = kInfinite};
   if (communicator_.is_root() && state.end > state.last) spacing = spaced_evenly(state);
   std::array<double, 6> roots{spacing.next,  spacing.distance, static_cast<double>(spacing.times),
                               spacing.share, state.share,      state.interval};
@@ -95,6 +96,7 @@ void InSitu::space_one(Pipeline& p, double share) {
   } else {  // the trigger's instant that is nearest
     p.not_before = spacing.next - 0.5 * state.interval;
   }
+  if (spacing.times == 0) return;
   if (!p.told) tell_(pace_text(p.name, thing_of(p.name), spacing, state), true);
   p.told = true;
 }

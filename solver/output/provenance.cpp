@@ -1,13 +1,9 @@
-#include <fcntl.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include <array>
 #include <chrono>
 #include <ctime>
 #include <fstream>
-#include <span>
-#include <sstream>
 #include <string>
 #include <thread>
 
@@ -44,19 +40,7 @@ std::string utc_now() {
 
 }  // namespace
 
-Provenance::Input input_file(const std::filesystem::path& file) {
-  std::error_code error;
-  const int descriptor =
-      std::filesystem::is_regular_file(file, error) ? ::open(file.c_str(), O_RDONLY | O_CLOEXEC) : -1;
-  if (descriptor < 0) return {file.string(), ""};
-  const auto size = static_cast<std::size_t>(std::filesystem::file_size(file, error));
-  void* const bytes = size > 0 ? ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0) : nullptr;
-  ::close(descriptor);
-  if (error || bytes == MAP_FAILED) return {file.string(), ""};
-  std::string hash = sha256({static_cast<const std::byte*>(bytes), size});
-  if (size > 0) ::munmap(bytes, size);
-  return {file.string(), std::move(hash)};
-}
+Provenance::Input input_file(const std::filesystem::path& file) { return {file.string(), sha256_of_file(file)}; }
 
 Provenance collect_provenance(std::string version, std::vector<std::string> command_line) {
   Provenance provenance;

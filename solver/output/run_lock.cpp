@@ -102,8 +102,8 @@ void conclude(const char* status, bool failed) {
   if (second_end == nullptr) ::_exit(0);
   const bool failed = second_end + 1 < received.data() + size && second_end[1] == kFailed;
   const int lock = ::open(received.data(), O_RDWR | O_CLOEXEC);
-  // A process that ends lets go of the pipe and of the lock one after the other. If the lock stays taken, somebody has
-  // begun anew in this folder, and the file is theirs.
+  // A process that ends lets go of the pipe and of the lock one after the other. If the lock stays taken, another run
+  // has begun in this folder, and the file is that run's.
   bool ours = false;
   for (int look = 0; lock >= 0 && !ours && look < 200; ++look) {
     ours = ::flock(lock, LOCK_EX | LOCK_NB) == 0 || no_locks_here(errno);

@@ -17,6 +17,12 @@ struct OutputMarks {
   std::int64_t frames = 0;                           ///< in the indices of frames
 };
 
+/// What the triggers of pipelines know of broken joints.
+struct BrokenCount {
+  std::int64_t at_start = 0, known = 0;  ///< at the run's first step; as last counted
+  bool due = false, due_next = false;    ///< counted anew before the next step; before the one after it
+};
+
 /// Where a run is besides its state: in its stages, its schedules and its files. Alike on all ranks, but for the marks,
 /// which are the root's.
 struct RunPosition {
@@ -31,6 +37,7 @@ struct RunPosition {
   std::int64_t worst_element = -1;                             ///< of that sample
   double start_time = 0;                                       ///< s, of the state that the run started from
   std::int64_t start_step = 0;                                 ///< likewise
+  BrokenCount broken_count;
   OutputMarks marks;
 };
 template <>
@@ -52,6 +59,10 @@ struct FieldTable<RunPosition> {
       FieldRow{"densest_element", "1", kNotHashed, [](auto& r) -> auto& { return r.worst_element; }},
       FieldRow{"start_time", "s", kNotHashed, [](auto& r) -> auto& { return r.start_time; }},
       FieldRow{"start_step", "1", kNotHashed, [](auto& r) -> auto& { return r.start_step; }},
+      FieldRow{"joints_broken_at_start", "1", kNotHashed, [](auto& r) -> auto& { return r.broken_count.at_start; }},
+      FieldRow{"joints_known_to_be_broken", "1", kNotHashed, [](auto& r) -> auto& { return r.broken_count.known; }},
+      FieldRow{"broken_count_due", "1", kNotHashed, [](auto& r) -> auto& { return r.broken_count.due; }},
+      FieldRow{"broken_count_due_next", "1", kNotHashed, [](auto& r) -> auto& { return r.broken_count.due_next; }},
       FieldRow{"history_bytes", "1", kNotHashed, [](auto& r) -> auto& { return r.marks.history_bytes; }},
       FieldRow{"status_bytes", "1", kNotHashed, [](auto& r) -> auto& { return r.marks.status_bytes; }},
       FieldRow{"frames", "1", kNotHashed, [](auto& r) -> auto& { return r.marks.frames; }},

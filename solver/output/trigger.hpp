@@ -27,16 +27,26 @@ class Trigger {
       : every_steps_(pipeline.every_steps),
         every_broken_(pipeline.every_broken),
         first_break_(pipeline.first_break),
+        times_over_the_run_(!pipeline.has_trigger()),
         every_time_(pipeline.has_trigger() ? pipeline.every_time : end / kTimes),
         times_(every_time_) {}
 
+  /// @param first  where the run begins: joints that are broken there do not count
+  /// @param end    s, of the run
+  /// @param broken joints that have been counted since
+  void start_from(const Moment& first, double end, std::int64_t broken) {
+    if (times_over_the_run_) times_ = Schedule(every_time_ = (end - first.time) / kTimes);
+    broken_at_start_ = first.broken;
+    broke_ = broken > broken_at_start_;
+    if (every_broken_ > 0) next_broken_ = (broken / every_broken_ + 1) * every_broken_;
+  }
   /// To be asked once a step; moves on.
   [[nodiscard]] bool due(const Moment& now) {
     const bool by_time = times_.due(now.time, now.dt, now.step);
     const bool by_steps = every_steps_ > 0 && now.step % every_steps_ == 0;
-    const bool first = first_break_ && !broke_ && now.broken > 0;
+    const bool first = first_break_ && !broke_ && now.broken > broken_at_start_;
     const bool by_broken = every_broken_ > 0 && now.broken >= next_broken_;
-    broke_ = broke_ || now.broken > 0;
+    broke_ = broke_ || now.broken > broken_at_start_;
     if (by_broken) next_broken_ = (now.broken / every_broken_ + 1) * every_broken_;
     return by_time || by_steps || first || by_broken;
   }
@@ -53,9 +63,10 @@ class Trigger {
  private:
   std::int64_t every_steps_, every_broken_;
   bool first_break_, broke_ = false;
+  bool times_over_the_run_;
   double every_time_;
   Schedule times_;
-  std::int64_t next_broken_ = every_broken_;
+  std::int64_t next_broken_ = every_broken_, broken_at_start_ = 0;
 };
 
 /// What something that is done again and again has cost. The first time starts what stays: what it took beyond a usual
@@ -66,7 +77,7 @@ class Overhead {
   /// Whether once more, at the cost of the last time, stays within the share of the wall time gone so far, s; the start
   /// is free.
   [[nodiscard]] bool allows(double elapsed) const { return times_ == 0 || spent_ + last_ <= share_ * elapsed; }
-  void book(double seconds) {
+  void account(double seconds) {
     if (times_++ == 0) {
       start_ = seconds;
       return;
@@ -78,8 +89,8 @@ class Overhead {
     last_ = seconds;
     spent_ += seconds;
   }
-  /// What was spent on it while nothing of it was done.
-  void book_vain(double seconds) { spent_ += seconds; }
+  /// Time spent on it in which it was not done.
+  void account_idle(double seconds) { spent_ += seconds; }
   [[nodiscard]] std::int64_t times() const { return times_; }
   [[nodiscard]] double spent() const { return spent_; }  ///< s, without the start
   [[nodiscard]] double start() const { return start_; }  ///< s

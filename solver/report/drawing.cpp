@@ -126,12 +126,14 @@ End run_program(const std::vector<std::string>& words, const fs::path& log, std:
   return end;
 }
 
-/// The last line that says something.
-std::string last_words(const fs::path& log) {
-  std::ifstream stream(log);
-  std::string line, last;
-  while (std::getline(stream, line)) {
-    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
+/// The last line that says something, of the program or else of ParaView's messages, which take errors of the script.
+std::string last_words(const fs::path& log, const fs::path& messages) {
+  std::string last;
+  for (const fs::path& file : {messages, log}) {
+    std::ifstream stream(file);
+    for (std::string line; std::getline(stream, line);) {
+      if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
+    }
   }
   return last.substr(0, 300);
 }
@@ -171,9 +173,9 @@ Figures draw_run(const fs::path& run, char up, std::chrono::seconds limit) {
     figures.missing =
         fmt::format("ParaView took more than {} s and was ended; what was done by then is shown", limit.count());
   else if (end == End::failed || figures.paraview.empty())
-    figures.missing = "ParaView could not read or draw the run: " + last_words(log);
+    figures.missing = "ParaView could not read or draw the run: " + last_words(log, scratch.path() / "messages.log");
   else if (!draws)
-    figures.missing = "pictures need a screen: apt-get install xvfb xauth brings one that nobody sees";
+    figures.missing = "pictures need a screen: apt-get install xvfb xauth brings a virtual one";
   return figures;
 }
 

@@ -15,6 +15,25 @@ InSituWatch::InSituWatch(const case_::Case& input, const std::filesystem::path& 
       insitu_(input, extracts, partition.communicator(), std::move(tell)),
       columns_(history_columns(input.output.gauges, true)) {}
 
+void InSituWatch::start_from(Moment first, const RunPosition* from) {
+  count_broken();
+  BrokenCount count{broken_everywhere_, broken_everywhere_};
+  if (from != nullptr) count = from->broken_count;
+  if (!count.due && count.known != broken_everywhere_) {  // ranks have yet to signal it
+    broken_everywhere_ = count.known;
+    broken_here_ = -1;
+  }
+  if (count.due_next) count_at_ = partition_.state().clock.steps + 1;
+  first.broken = broken_at_start_ = count.at_start;
+  insitu_.start_from(first, count.known);
+}
+
+BrokenCount InSituWatch::broken_count() const {
+  const Signals& signals = partition_.state().signals;
+  const std::int64_t sent = partition_.communicator().max(static_cast<std::int64_t>(signals.sent.broke));
+  return {broken_at_start_, broken_everywhere_, signals.received.broke, sent != 0};
+}
+
 void InSituWatch::add_signals(StepSignals& signals) {
   signals.orders |= insitu_.orders();
   signals.broke = insitu_.counts_broken() && partition_.state().joints.broken != broken_here_;
@@ -31,7 +50,7 @@ void InSituWatch::count_broken() {
 
 std::vector<Command> InSituWatch::look(Observer& observer, bool all) {
   Domain& domain = partition_.domain();
-  if (domain.state.signals.received.broke) count_broken();
+  if (domain.state.signals.received.broke || domain.state.clock.steps == count_at_) count_broken();
   const Moment now{domain.state.clock.steps, domain.state.clock.time, domain.state.clock.dt, broken_everywhere_};
   const auto lap = domain.timer.measure(Phase::insitu);
   partition_.communicator().set_phase("in-situ pipelines");

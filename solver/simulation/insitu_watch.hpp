@@ -20,6 +20,11 @@ class InSituWatch {
   /// Starts the adaptor. Collective. @pre input and partition outlive this object. Throws as InSitu does.
   InSituWatch(const case_::Case& input, const std::filesystem::path& extracts, Partition& partition, InSitu::Tell tell);
 
+  /// Before the first look. Collective.
+  /// @param first  where the run's first step was; @param from  where it goes on; null: at its first step
+  void start_from(Moment first, const RunPosition* from);
+  /// For a checkpoint. Collective.
+  [[nodiscard]] BrokenCount broken_count() const;
   /// What this rank has to tell the others at the end of a step.
   void add_signals(StepSignals& signals);
   /// A line of the history has been written.
@@ -44,6 +49,8 @@ class InSituWatch {
   std::vector<std::string> columns_;                      ///< of the history
   std::optional<std::vector<double>> last_row_;           ///< of the history, on the root
   std::int64_t broken_here_ = 0, broken_everywhere_ = 0;  ///< joints, when they were last counted
+  std::int64_t broken_at_start_ = 0;                      ///< likewise, of the run
+  std::int64_t count_at_ = -1;                            ///< step before which they are to be counted; -1: none
 };
 
 }  // namespace breccia

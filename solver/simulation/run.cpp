@@ -53,6 +53,7 @@ class Runner {
 
   Summary run() {
     output_.tell_start(insitu_.has_value(), from_ ? &*from_ : nullptr);
+    if (insitu_) insitu_->start_from(output_.first_step(), from_ ? &*from_ : nullptr);
     if (from_)
       output_.tell_event("resume",
                          "the run goes on from step " + std::to_string(clock().steps) + " on " +
@@ -233,6 +234,7 @@ class Runner {
     RunPosition position = output_.position();
     position.until_look = steps_->looks().until;
     position.since_look = steps_->looks().since;
+    if (insitu_) position.broken_count = insitu_->broken_count();
     return position;
   }
 
@@ -309,7 +311,7 @@ class Runner {
     return {};
   }
 
-  /// Waits between two steps until somebody lets the run go on or asks for its end.
+  /// Waits between two steps until a command lets the run go on or ends it.
   void stay_paused() {
     communicator_.set_phase("pause");
     while (paused_) {

@@ -56,6 +56,9 @@ class RunOutput {
   /// Steps of this run, without those of the run whose state it started from.
   [[nodiscard]] std::int64_t steps_done() const { return clock().steps - start_step_; }
 
+  /// Where the first one was.
+  [[nodiscard]] Moment first_step() const { return {start_step_, start_time_}; }
+
   [[nodiscard]] Observer& observer() { return observer_; }
 
  private:

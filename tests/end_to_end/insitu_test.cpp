@@ -109,6 +109,55 @@ TEST_P(InSitu, asked_for_on_the_command_line_it_shows_twenty_instants_at_even_di
   EXPECT_NE(status.find("insitu.least_instants = 20"), std::string::npos) << status;
 }
 
+/// A run whose start is the state at 2 ms of another one, with its own pipelines.
+struct StartedRun : WatchedRun {
+  StartedRun(int ranks, const std::string& arguments) : WatchedRun(1, "--set 'stage[0].end=2 ms'") {
+    const std::size_t laws = kSmallCase.find("[[material]]"), state = kSmallCase.find("[[initial_velocity]]");
+    const std::string file =
+        scratch.write("started.toml", "[start]\nfrom = \"run\"\n" + kSmallCase.substr(laws, state - laws) +
+                                          kSmallCase.substr(kSmallCase.find("[[stage]]")));
+    const std::string line = "run " + file + " --progress none -o '" + started().string() + "' " + arguments;
+    outcome = ranks > 1 ? call_ranks(ranks, line) : call(line);
+  }
+  [[nodiscard]] fs::path started() const { return scratch.path("started"); }
+  [[nodiscard]] json report() const {
+    return json::parse(read_text(started() / "summary.json"))["insitu"]["pipelines"][0];
+  }
+};
+
+TEST_P(InSitu, spaces_the_pipelines_of_a_started_run_over_the_steps_that_it_may_take) {
+  const StartedRun run(GetParam(), "--insitu history --set insitu.max_overhead=1e-6 --set time.max_steps=100");
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  EXPECT_LE(run.report()["executed"].get<int>(), 22);
+}
+
+TEST_P(InSitu, shows_a_started_run_as_often_as_another) {
+  const StartedRun run(GetParam(), "--insitu history --set insitu.max_overhead=1e-6 --set 'stage[0].end=2.4 ms'");
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  EXPECT_GE(run.report()["executed"].get<int>(), 20);
+  EXPECT_LE(run.report()["executed"].get<int>(), 22);
+}
+
+TEST_P(InSitu, a_run_that_goes_on_has_the_extracts_of_one_that_was_never_stopped) {
+  const std::string triggers =
+      "--set 'insitu.pipeline=[{name=\"fractures\", first_break=true, strict=true}, {name=\"surface\", "
+      "every_broken=3, strict=true}]' ";
+  const WatchedRun whole(1, triggers);
+  const std::string first = read_text(whole.folder() / "extracts/fractures/fractures.pvd");
+  const std::size_t at = first.find("fractures_");
+  ASSERT_NE(at, std::string::npos) << first;
+  const int seen = std::stoi(first.substr(at + 10));
+  for (const int stop : {seen - 1, seen, seen + 1}) {
+    const WatchedRun run(GetParam(), triggers + "--set time.max_steps=" + std::to_string(stop));
+    const Outcome resumed = call("resume '" + run.folder().string() + "' --progress none --set time.max_steps=0");
+    ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+    for (const std::string channel : {"fractures", "surface"}) {
+      const std::string series = "extracts/" + channel + "/" + channel + ".pvd";
+      EXPECT_EQ(read_text(run.folder() / series), read_text(whole.folder() / series)) << "stopped after " << stop;
+    }
+  }
+}
+
 TEST_P(InSitu, a_script_that_fails_three_times_is_switched_off_and_the_run_goes_on) {
   const Scratch scratch;
   (void)scratch.write("always.py",
@@ -168,6 +217,19 @@ TEST_P(InSitu, pictures_need_no_display) {
   EXPECT_NE(status.find("animation: "), std::string::npos) << status;
   if (status.find("apt-get install ffmpeg") == std::string::npos)
     EXPECT_TRUE(fs::exists(run.folder() / "extracts/stress/stress.mp4")) << status;
+}
+
+TEST_P(InSitu, a_run_that_goes_on_lists_the_pictures_that_were_drawn_before) {
+  const WatchedRun run(GetParam(),
+                       "--set insitu.pipeline='[{name=\"ranks\", every_time=\"1 ms\", strict=true, "
+                       "parameters={width=160, height=100}}]' --set time.max_steps=400");
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  const Outcome resumed = call("resume '" + run.folder().string() + "' --progress none --set time.max_steps=0");
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  const fs::path folder = run.folder() / "extracts/ranks";
+  const std::string table = read_text(folder / "data.csv");
+  EXPECT_EQ(count_files(folder, ".png"), 6) << "0 to 4 ms, and where the run went on";
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 6) << table;
 }
 
 TEST_P(InSitu, nobody_listening_does_not_matter) {

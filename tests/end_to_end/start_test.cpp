@@ -1,4 +1,7 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -63,6 +66,14 @@ class Start : public testing::Test {
     EXPECT_EQ(summary(name).at("state_hash"), summary(other).at("state_hash")) << name;
     EXPECT_EQ(summary(name).at("energy"), summary(other).at("energy")) << name;
     EXPECT_EQ(summary(name).at("broken_joints"), summary(other).at("broken_joints")) << name;
+  }
+  /// Of the geometry that a run was made from, as it says.
+  [[nodiscard]] std::string mesh_hash(const std::string& name) const {
+    const json provenance = json_of(folder(name) / "provenance.json");
+    for (const json& input : provenance.at("inputs")) {
+      if (input.at("file").get<std::string>().ends_with(".geo")) return input.at("sha256");
+    }
+    return "none";
   }
   /// The parent's model without what the state fixes.
   [[nodiscard]] static std::string laws() {
@@ -238,6 +249,10 @@ TEST_F(Start, MayBreakASurfaceThatTheFirstRunLeftWhole) {
   const Outcome refused = attempt("refused", started("beam") + mesh + beam + hold);
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.err.find("mesh.file: cannot change"), std::string::npos) << refused.err;
+  run("inherited", started("beam") + beam + hold);
+  EXPECT_EQ(mesh_hash("inherited"), mesh_hash("beam")) << "what stands there now was never read";
+  const Outcome again = attempt("refused", started("inherited") + mesh + beam + replaced(hold, "3 ms", "4 ms"));
+  EXPECT_NE(again.err.find("mesh.file: cannot change"), std::string::npos) << again.err;
   fs::remove(folder("beam.geo"));
   run("without_its_mesh", started("beam") + mesh + beam + hold);
   expect_same_state("without_its_mesh", "whole");
@@ -258,6 +273,47 @@ TEST_F(Start, CollapsesACoolingTowerThatHasSettled) {
     EXPECT_GT(summary(test).at("broken_joints"), 0) << "the front of the foot";
     EXPECT_EQ(energy_fault(folder(test) / "history.csv"), "");
   }
+}
+
+TEST_F(Start, ChoosesAmongTheCheckpointsThatCanBeRead) {
+  const fs::path damaged = folder("parent") / "checkpoints" / "step_000000000100.h5";
+  const std::string sound = read_text(damaged);
+  std::ofstream(damaged, std::ios::binary) << sound.substr(0, sound.size() / 2);
+  const std::string rest = laws() + kPush;
+  run("by_time", started("parent", "at = \"2 ms\"\n") + rest, 1, "--set time.max_steps=2");
+  run("by_step", started("parent", "step = 200\n") + rest, 1, "--set time.max_steps=2");
+  const Outcome other = attempt("refused", started("parent", "at = \"7 ms\"\n") + rest);
+  EXPECT_NE(other.err.find("cannot be read: step_000000000100.h5; allowed: step "), std::string::npos) << other.err;
+  const Outcome itself = attempt("refused", started("parent", "step = 100\n") + rest);
+  EXPECT_EQ(itself.exit_code, 2);
+  EXPECT_NE(itself.err.find("cut off"), std::string::npos) << itself.err;
+}
+
+TEST_F(Start, TakesTheLastStateOfARunThatHasEndedOnly) {
+  const int lock = open((folder("parent") / "run.lock").c_str(), O_RDWR | O_CLOEXEC);
+  ASSERT_EQ(flock(lock, LOCK_EX | LOCK_NB), 0);
+  const Outcome early = attempt("refused", started() + laws() + kPush);
+  EXPECT_EQ(early.exit_code, 2);
+  EXPECT_NE(early.err.find("start.from: this run goes on"), std::string::npos) << early.err;
+  run("by_step", started("parent", "step = 100\n") + laws() + kPush, 1, "--set time.max_steps=2");
+  close(lock);
+  run("ended", started() + laws() + kPush, 1, "--set time.max_steps=2");
+}
+
+TEST_F(Start, TakesTheSameCheckpointOnRanksThatSeeDifferentOnes) {
+  run("on_1", started() + laws() + kPush);
+  fs::create_directories(folder("other"));
+  fs::copy(folder("parent"), folder("other") / "parent", fs::copy_options::recursive);
+  fs::path last;
+  for (const auto& entry : fs::directory_iterator(folder("other") / "parent" / "checkpoints"))
+    last = std::max(last, entry.path());
+  fs::remove(last);
+  const std::string command = "run " + quoted("on_1.toml") + " --progress none -o " + quoted("on_2");
+  fs::copy(folder("on_1.toml"), folder("other/on_1.toml"));
+  const Outcome outcome = call_ranks(1, command + " : -n 1 '" BRECCIA_PROGRAM "' " +
+                                            replaced(command, quoted("on_1.toml"), quoted("other/on_1.toml")));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_same_state("on_2", "on_1");
 }
 
 TEST_F(Start, NeverTakesAnEarlierStateThanTheOneAskedFor) {

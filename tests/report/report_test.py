@@ -6,6 +6,7 @@ import os
 import re
 import shutil
 import signal
+import stat
 import subprocess
 import sys
 import time
@@ -176,6 +177,10 @@ def no_paraview():
     environment["BRECCIA_PARAVIEW_PLUGIN"] = f"{scratch}/Breccia.so"
     said = report(run, "-o", file, environment=environment)
     expect("could not read or draw the run: it broke" in said, f"said: {said}")
+    open(f"{scratch}/xvfb-run", "w").write("#!/bin/sh\nfor word; do case $word in */breccia-report-*) "
+                                           "echo 'TypeError: of the script' >$word/messages.log;; esac; done\nexit 1\n")
+    said = report(run, "-o", file, environment=environment)
+    expect("could not read or draw the run: TypeError: of the script" in said, f"said: {said}")
     open(f"{scratch}/xvfb-run", "w").write("#!/bin/sh\nsleep 60 & wait\n")
     start = time.monotonic()
     said = report(run, "-o", file, "--time-limit", "1", environment=environment)
@@ -218,6 +223,17 @@ def refusals():
     for file in (f"{scratch}/nowhere/page.html", scratch):
         said = report(run, "-o", file, "--no-pictures", ends=2)
         expect(file in said and said.count("\n") == 1, f"said: {said}")
+    os.mkfifo(f"{scratch}/pipe")
+    os.symlink("pipe", f"{scratch}/to_pipe")
+    os.symlink("nothing", f"{scratch}/to_nothing")
+    for name in ("pipe", "to_pipe", "to_nothing"):
+        said = report(run, "-o", f"{scratch}/{name}", "--no-pictures", ends=2)
+        expect("is no regular file" in said and said.count("\n") == 1, f"said: {said}")
+    expect(stat.S_ISFIFO(os.stat(f"{scratch}/pipe").st_mode) and os.path.islink(f"{scratch}/to_nothing"), "nothing is replaced")
+    open(f"{scratch}/page.html", "w").close()
+    os.symlink("page.html", f"{scratch}/to_page")
+    report(run, "-o", f"{scratch}/to_page", "--no-pictures")
+    expect(os.path.islink(f"{scratch}/to_page") and Page(f"{scratch}/page.html").all("h1"), "the page is where the link leads")
     report(run, "--time-limit", "0", ends=1)
     expect(subprocess.run([breccia, "report"], capture_output=True).returncode == 1, "no run is wrong usage")
 
@@ -242,6 +258,21 @@ def paraview():
     expect(summary["broken_joints"] > 0 and abs(area[0] - joints[1]) < STRETCH * joints[1], f"areas {area} and {joints}")
     ranks = shown.values("Ranks at the last frame; load: cost over the mean")
     expect(sum(values[0] for values in ranks.values()) == summary["elements"], f"elements of ranks {ranks}")
+
+
+def one_frame():
+    """A run with one frame and one crack event has its pictures; one without a whole frame has a reason."""
+    meshes = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "meshes")
+    folder, file = f"{scratch}/pair", f"{scratch}/page.html"
+    subprocess.run([breccia, "run", f"{meshes}/joint_pair/case_smoke.toml", "-o", folder, "--progress", "none"], check=True)
+    said = report(folder, "-o", file)
+    expect(said == "", f"said: {said}")
+    shown = Page(file)
+    expect("ParaView, " not in shown.source and len(shown.all("img")) >= 2, f"{len(shown.all('img'))} pictures")
+    expect(len(os.listdir(f"{folder}/frames")) >= 1 and "Crack events" in shown.source, "the event is shown")
+    shutil.rmtree(f"{folder}/frames")
+    report(folder, "-o", file)
+    expect("ParaView, frames: the run holds no whole frame" in Page(file).source, "it has no frames")
 
 
 globals()[case]()

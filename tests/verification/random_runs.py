@@ -53,6 +53,8 @@ def judge(lines):
                 found.append(f"{when}: {key} falls from {before[key]:.17g} to {line[key]:.17g}")
         figures.update(broken=int(line["broken joints"]), fragments=int(line["fragments"]), steps=int(line["step"]))
         before = line
+    if before is None:
+        found.append("history.csv has no lines")
     return found, figures
 
 

@@ -32,6 +32,16 @@ TEST(Trigger, WithoutAnyRunsFiftyTimes) {
   EXPECT_EQ(due[1], 20);
 }
 
+TEST(Trigger, WithoutAnyRunsFiftyTimesOverARunThatStartsLate) {
+  Trigger trigger({}, kEnd);
+  trigger.start_from({900, 0.9 * kEnd, 1e-6, 0}, kEnd, 0);
+  EXPECT_DOUBLE_EQ(trigger.distance(1e-6), 2e-6);
+  int times = 0;
+  for (std::int64_t step = 900; step < 1000; ++step)
+    times += trigger.due({step, 1e-6 * static_cast<double>(step), 1e-6, 0}) ? 1 : 0;
+  EXPECT_EQ(times, 50);
+}
+
 TEST(Trigger, BySteps) {
   case_::Pipeline pipeline;
   pipeline.every_steps = 400;
@@ -55,6 +65,27 @@ TEST(Trigger, ByBrokenJointsCountsFromOneMultipleToTheNext) {
   case_::Pipeline pipeline;
   pipeline.every_broken = 10;
   EXPECT_THAT(due_steps(pipeline, {0, 9, 10, 11, 19, 45, 49, 50, 50}), ElementsAre(2, 5, 7));
+}
+
+TEST(Trigger, CountsBreaksFromTheStartOfTheRun) {
+  case_::Pipeline pipeline;
+  pipeline.first_break = true;
+  const Moment first{100, 1e-4, 1e-6, 7};
+  Trigger started(pipeline, kEnd), resumed(pipeline, kEnd);
+  started.start_from(first, kEnd, 7);
+  EXPECT_FALSE(started.due({101, 1.01e-4, 1e-6, 7})) << "broken before";
+  EXPECT_TRUE(started.due({102, 1.02e-4, 1e-6, 8}));
+  resumed.start_from(first, kEnd, 8);
+  EXPECT_FALSE(resumed.due({103, 1.03e-4, 1e-6, 9})) << "not the first";
+}
+
+TEST(Trigger, ByBrokenJointsGoesOnFromTheOnesThatAreKnown) {
+  case_::Pipeline pipeline;
+  pipeline.every_broken = 10;
+  Trigger trigger(pipeline, kEnd);
+  trigger.start_from({100, 1e-4, 1e-6, 7}, kEnd, 23);
+  EXPECT_FALSE(trigger.due({101, 1.01e-4, 1e-6, 29}));
+  EXPECT_TRUE(trigger.due({102, 1.02e-4, 1e-6, 30}));
 }
 
 TEST(Trigger, ByWallTimeIsNobodysBusinessHere) {
@@ -87,19 +118,19 @@ TEST(Trigger, NeedsTheCountOnlyWhileItMatters) {
 TEST(Overhead, TakesForItsStartWhatTheFirstTimeTookBeyondTheSecond) {
   Overhead overhead(0.02);
   EXPECT_TRUE(overhead.allows(0));
-  overhead.book(5);
+  overhead.account(5);
   EXPECT_EQ(overhead.spent(), 0);
   EXPECT_EQ(overhead.start(), 5);
   EXPECT_EQ(overhead.cost(), 0) << "not known";
-  overhead.book(0.5);
+  overhead.account(0.5);
   EXPECT_EQ(overhead.spent(), 1);
   EXPECT_EQ(overhead.start(), 4.5);
   EXPECT_EQ(overhead.cost(), 0.5);
 }
 
-TEST(Overhead, CountsWhatWasSpentInVain) {
+TEST(Overhead, CountsTimeInWhichItWasNotDone) {
   Overhead overhead(0.02);
-  overhead.book_vain(0.25);
+  overhead.account_idle(0.25);
   EXPECT_EQ(overhead.spent(), 0.25);
   EXPECT_EQ(overhead.times(), 0);
 }
@@ -107,11 +138,11 @@ TEST(Overhead, CountsWhatWasSpentInVain) {
 TEST(Overhead, StaysBelowItsShare) {
   constexpr double kShare = 0.02, kCost = 0.3;
   Overhead overhead(kShare);
-  overhead.book(4);
+  overhead.account(4);
   std::int64_t times = 0;
   for (double wall = 0; wall < 100; wall += 0.1) {
     if (!overhead.allows(wall)) continue;
-    overhead.book(kCost);
+    overhead.account(kCost);
     ++times;
     EXPECT_LE(overhead.spent(), kShare * wall + 2 * kCost);  // what a time costs is known after two
   }

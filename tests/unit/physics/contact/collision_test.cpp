@@ -193,9 +193,9 @@ TEST(collision, with_friction_and_a_plateau_keeps_momenta_and_books_what_is_lost
     const ContactWork& work = c.scene().work;
     EXPECT_GT(work.dissipated.value(), 0.01 * start.kinetic);
     EXPECT_GT(work.friction_dissipated.value(), 0);
-    const double booked = end.kinetic + c.elastic() + work.stored.value() + work.friction_stored.value() +
-                          work.dissipated.value() + work.friction_dissipated.value();
-    EXPECT_NEAR(booked / start.kinetic, 1, 2 * kEnergy) << "seed " << seed;
+    const double accounted = end.kinetic + c.elastic() + work.stored.value() + work.friction_stored.value() +
+                             work.dissipated.value() + work.friction_dissipated.value();
+    EXPECT_NEAR(accounted / start.kinetic, 1, 2 * kEnergy) << "seed " << seed;
   }
 }
 

@@ -84,7 +84,7 @@ struct Pressed {
               law) {
     scene.couple([&](Index s) { return scene.body(s) == 1; }, [&](Index s) { return scene.body(s) == 0; });
   }
-  [[nodiscard]] double booked() const { return scene.work.stored.value() + scene.work.dissipated.value(); }
+  [[nodiscard]] double accounted() const { return scene.work.stored.value() + scene.work.dissipated.value(); }
 };
 
 /// Lets the field of every contactor touched go to `share` of its values within some steps.
@@ -104,12 +104,12 @@ TEST(overlap_field, that_sinks_under_a_resting_point_books_what_it_takes_from_th
     Pressed pressed({kPenalty, kInfinite, b, 0, 1});
     test::Scene& scene = pressed.scene;
     scene.evaluate(1e-3);
-    const double stored = scene.work.stored.value(), booked = pressed.booked();
+    const double stored = scene.work.stored.value(), accounted = pressed.accounted();
     ASSERT_GT(stored, 0);
     scale_field(scene, 0.5, 10);
     for (int step = 0; step < 12; ++step) {
       scene.evaluate(1e-3);
-      EXPECT_NEAR(pressed.booked(), booked, kRoundOff * booked) << "no motion, no work";
+      EXPECT_NEAR(pressed.accounted(), accounted, kRoundOff * accounted) << "no motion, no work";
       // d falls by a twentieth of its first value in a step, the energy goes with d^(b+1).
       const double share = 1 - 0.05 * std::min(step + 1, 10);
       EXPECT_NEAR(scene.work.stored.value() / stored, std::pow(share, b + 1), kRoundOff);
@@ -135,7 +135,7 @@ TEST(overlap_field, keeps_the_budget_closed_while_it_sinks_under_a_moving_point)
   test::Scene& scene = pressed.scene;
   scene.evaluate(1e-3);
   scale_field(scene, 0.5, 400);
-  const double start = pressed.booked();
+  const double start = pressed.accounted();
   double done = 0, before = scene.force_on(1)[2];
   constexpr double step = 1e-5;  // m; what the trapezoid rule leaves goes with it
   for (int i = 0; i < 500; ++i) {
@@ -146,7 +146,7 @@ TEST(overlap_field, keeps_the_budget_closed_while_it_sinks_under_a_moving_point)
     before = force;
   }
   EXPECT_GT(scene.work.dissipated.value(), 0.05 * start);
-  EXPECT_NEAR(pressed.booked() - start, done, 2e-3 * start);
+  EXPECT_NEAR(pressed.accounted() - start, done, 2e-3 * start);
 }
 
 /// Two elements of one body that share a vertex but are no longer bonded, pushed into each other.

@@ -81,8 +81,8 @@ TEST(normal_law, stored_and_dissipated_energy_add_up_to_the_work_along_any_path)
       for (const double next : {1.0 / 3, 0.1, 0.25, 1.0 / 3, 0.6, 0.05, 0.6, 0.2}) {
         done += work(l, d, next, d_max);
         d = next;
-        const double booked = normal_law::stored(l, d, d_max) + normal_law::dissipated(l, d_max);
-        EXPECT_NEAR(booked, done, kQuadrature * kPenalty) << "b = " << b << ", d = " << d;
+        const double accounted = normal_law::stored(l, d, d_max) + normal_law::dissipated(l, d_max);
+        EXPECT_NEAR(accounted, done, kQuadrature * kPenalty) << "b = " << b << ", d = " << d;
       }
     }
   }

@@ -47,7 +47,7 @@ inline Vec3 opening_of(const JointFrame& frame, double normal, double shear) {
 }
 
 /// Leads one point along a path and adds up the work done on it, J/m2, by the trapezoid rule, apart from what the law
-/// books.
+/// accounts for.
 struct PointDriver {
   const JointLawParams& law;
   JointFrame frame = axes();

@@ -11,7 +11,7 @@ namespace {
 using test::Model;
 
 /// A body of 24 soft elements, driven at one end, held at the other, under pressure and a gravity that swings: every
-/// force is booked, so the kinetic energy of central differences must change by the sum of the works, whatever the
+/// force is accounted, so the kinetic energy of central differences must change by the sum of the works, whatever the
 /// forces are.
 class DrivenBody {
  public:
@@ -22,7 +22,7 @@ class DrivenBody {
         pressure_(model_.free_faces(), test::in_time(0, 4e3, 1e3, 2)),
         constraints_(make_constraints(), model_.local, model_.state) {}
 
-  /// One step; returns what kinetic energy and booked works disagree by, J.
+  /// One step; returns what kinetic energy and accounted works disagree by, J.
   double step() {
     NodalState& state = model_.state;
     const double time = number_ * kStep, before = number_ == 0 ? 0.0 : kStep;
