@@ -53,6 +53,13 @@ void bind(A& a, MeshSource& mesh) {
   a.optional_section("raster", mesh.raster);
 }
 
+template <class A>
+void bind(A& a, Plane& plane) {
+  a.origin(plane.origin);
+  a.choice("kind", plane.kind);
+  a.choice("axis", plane.axis);
+}
+
 /// Of a material with another law they are read, to be refused with their names, but not written.
 template <class A>
 void bind(A& a, DruckerPrager& plasticity) {
@@ -332,6 +339,7 @@ void bind(A& a, Case& c) {
   a.value("title", c.title);
   a.optional_section("start", c.start);
   if (has_mesh(a, c)) a.section("mesh", [&](auto& s) { bind(s, c.mesh); });
+  a.optional_section("plane", c.plane);
   a.list("material", c.materials);
   a.list("joint", c.joints);
   a.list("contact", c.contacts);
