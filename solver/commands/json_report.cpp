@@ -95,8 +95,8 @@ const char* name_of(case_::ValueType type) {
 
 }  // namespace
 
-std::string check_json(const case_::Case& input, const Model& model) {
-  const CheckReport report = full_report(input, model);
+std::string check_json(const case_::Case& input, const Model& model, const StartedFrom& from) {
+  const CheckReport report = full_report(input, model, from);
   Json json{{"title", input.title},
             {"elements", model.mesh.num_elements()},
             {"nodes", model.mesh_report.nodes},
