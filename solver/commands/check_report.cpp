@@ -141,7 +141,8 @@ std::string run_time(const StepReport& step, const RunEstimate& estimate, double
       fmt::format("{:.0f} steps of {} to {}; about {} on this machine while little breaks", estimate.steps,
                   quantity_text(step.dt, "s"), quantity_text(end, "s"), quantity_text(estimate.seconds, "s"));
   if (estimate.breaks)
-    text += fmt::format(", up to {} where everything does", quantity_text(estimate.most_seconds, "s"));
+    text += fmt::format(", {} where much does, up to {} where everything does at once",
+                        quantity_text(estimate.likely_seconds, "s"), quantity_text(estimate.most_seconds, "s"));
   return text + fmt::format(", memory {:.0f} MB\n", static_cast<double>(estimate.memory) / 1e6);
 }
 
@@ -210,6 +211,7 @@ RunEstimate estimate_run(const case_::Case& input, const Model& model, const Ste
     const double most = std::ceil(end / dt) * seconds_a_step(input, model, kShort * std::min(dt, step.limit), true);
     estimate.most_seconds = std::max(most, estimate.seconds);
   }
+  estimate.likely_seconds = 0.5 * (estimate.seconds + estimate.most_seconds);
   estimate.memory = max_resident_bytes();
   estimate_frames(input, model, start, estimate);
   return estimate;

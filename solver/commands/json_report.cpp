@@ -108,6 +108,7 @@ std::string check_json(const case_::Case& input, const Model& model, const Start
             {"step", number_or_null(report.step.dt)},
             {"steps", number_or_null(report.estimate.steps)},
             {"seconds", number_or_null(report.estimate.seconds)},
+            {"likely_seconds", number_or_null(report.estimate.likely_seconds)},
             {"most_seconds", number_or_null(report.estimate.most_seconds)},
             {"memory", report.estimate.memory},
             {"frames", report.estimate.frames},
