@@ -52,7 +52,7 @@ std::vector<std::string> paths_of(const std::string& pattern, const TomlPlaces& 
 const std::vector<WorkStage>& work_stages() {
   using Kind = WorkStage::Kind;
   static const std::vector<WorkStage> stages{
-      {text("Geometry and mesh"), Kind::sections, {"", "start", "mesh", "mesh.raster", "mesh.raster.slit"}},
+      {text("Geometry and mesh"), Kind::sections, {"", "start", "mesh", "mesh.raster", "mesh.raster.slit", "plane"}},
       {text("Materials"), Kind::sections, {"material[]"}},
       {text("Joints"), Kind::sections, {"joint[]", "joint[].softening", "joints"}},
       {text("Contacts"), Kind::sections, {"contact[]", "contact_points", "sphere", "detection"}},

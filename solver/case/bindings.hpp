@@ -54,6 +54,13 @@ void bind(A& a, MeshSource& mesh) {
 }
 
 template <class A>
+void bind(A& a, Plane& plane) {
+  a.origin(plane.origin);
+  a.choice("kind", plane.kind);
+  a.choice("axis", plane.axis);
+}
+
+template <class A>
 void bind(A& a, Material& material) {
   a.origin(material.origin);
   a.value("group", material.group);
@@ -320,6 +327,7 @@ void bind(A& a, Case& c) {
   a.value("title", c.title);
   a.optional_section("start", c.start);
   if (has_mesh(a, c)) a.section("mesh", [&](auto& s) { bind(s, c.mesh); });
+  a.optional_section("plane", c.plane);
   a.list("material", c.materials);
   a.list("joint", c.joints);
   a.list("contact", c.contacts);

@@ -63,6 +63,17 @@ struct MeshSource {
   friend bool operator==(const MeshSource&, const MeshSource&) = default;
 };
 
+enum class PlaneKind { strain, stress };
+enum class Axis { x, y, z };
+
+/// [plane]: the model is a slice, one flat layer of elements extruded along an axis.
+struct Plane {
+  PlaneKind kind = PlaneKind::strain;
+  Axis axis = Axis::z;  ///< across the layer
+  Origin origin;
+  friend bool operator==(const Plane&, const Plane&) = default;
+};
+
 /// [start]: the run goes on from the state of another one, under this case.
 struct Start {
   std::filesystem::path from;  ///< folder of the run, or one of its checkpoints; absolute
@@ -312,6 +323,7 @@ struct Case {
   std::filesystem::path file;  ///< absolute
   std::optional<Start> start;
   MeshSource mesh;  ///< neither file nor raster: that of the state, left out in the case file
+  std::optional<Plane> plane;
   std::vector<Material> materials;
   std::vector<Joint> joints;
   std::vector<Contact> contacts;

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <vector>
 
@@ -114,6 +115,11 @@ std::string unknown_unit(std::string_view name) {
   // Names are short, so one wrong letter is half of them: only a difference of case or of one letter in three is a
   // hint.
   std::string what = "unknown unit \"" + std::string(name) + "\"";
+  // Letters of another case: all that are meant perhaps, large units first, as "mpa" is rather MPa than mPa.
+  std::vector<std::string> same;
+  std::copy_if(all.rbegin(), all.rend(), std::back_inserter(same),
+               [&](const std::string& unit) { return edit_distance(name, unit) == 0; });
+  if (same.size() > 1) return what + "; did you mean \"" + joined(same, "\" or \"") + "\"?";
   const std::string meant = likely_meant(name, all);
   if (!meant.empty() && (name.size() > 2 || edit_distance(name, meant) == 0))
     what += "; did you mean \"" + meant + "\"?";

@@ -9,6 +9,7 @@
 #include "case/live_address.hpp"
 #include "case/nearest.hpp"
 #include "case/schema.hpp"
+#include "case/validate_motion.hpp"
 
 namespace breccia::case_ {
 namespace {
@@ -278,6 +279,11 @@ class Validator {
 
 }  // namespace
 
-std::vector<Problem> validate(const Case& c, bool needs_mesh_file) { return Validator(c, needs_mesh_file).run(); }
+std::vector<Problem> validate(const Case& c, bool needs_mesh_file) {
+  std::vector<Problem> problems = Validator(c, needs_mesh_file).run();
+  const std::vector<Problem> motion = validate_motion(c);
+  problems.insert(problems.end(), motion.begin(), motion.end());
+  return problems;
+}
 
 }  // namespace breccia::case_

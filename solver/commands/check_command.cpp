@@ -27,11 +27,13 @@ int check(const CheckCommand& asked, int launched) {
     return 0;
   }
   const Model model = build_model(input);
+  StartedFrom from;
+  if (start) from = {start->checkpoint.model.clock.time, words_of(*start)};
   if (asked.json) {
-    fmt::print("{}", check_json(input, model));
+    fmt::print("{}", check_json(input, model, from));
     return 0;
   }
-  fmt::print("{}", check_report(input, model));
+  fmt::print("{}", check_report(input, model, from));
   const std::array<int, 3>& n = input.domains.n;
   const int ranks = launched > 1 ? launched : n[0] * n[1] * n[2];  // the product is bounded by the case's validation
   if (ranks > 1) fmt::print("{}", domain_line(input, model, ranks));

@@ -1,14 +1,15 @@
 #include "commands/check_report.hpp"
-#include "commands/model_report.hpp"
 #include "commands/contact_report.hpp"
+#include "commands/model_report.hpp"
 #include "commands/overlap_report.hpp"
+#include "commands/stage_report.hpp"
 #include "commands/step_report.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 #include <numeric>
 
@@ -31,6 +32,9 @@ std::size_t index(Index i) { return static_cast<std::size_t>(i); }
 
 /// Softness added by the joints that is wanted, and more than that is worth a warning.
 constexpr double kSoftness = 0.05, kWorthRaising = 1.1;
+
+/// Share of the stable step with which steps are timed: nothing moves, whatever step is given.
+constexpr double kShort = 1e-3;
 
 /// Young's modulus regained from the Lame constants.
 double young(const ElasticParams& p) { return p.mu * (3 * p.lambda + 2 * p.mu) / (p.lambda + p.mu); }
@@ -86,8 +90,8 @@ std::string law_report(const Model& model, Index l, Advice& advice) {
   return text;
 }
 
-/// Seconds a step takes here at rest, on a scratch copy: the mean of some, since a machine that does other things too
-/// does so in the run as well. @param broken  with all joints broken that can break
+/// Seconds of a core that a step takes here at rest, on a scratch copy: what other programs take is not counted.
+/// @param broken  with all joints broken that can break
 double seconds_a_step(const case_::Case& input, const Model& model, double dt, bool broken) {
   constexpr int kLeast = 8;
   constexpr double kLongEnough = 0.2;  // s
@@ -102,21 +106,21 @@ double seconds_a_step(const case_::Case& input, const Model& model, double dt, b
     break_joints(scratch, faces);
   }
   for (int i = 0; i < 3; ++i) step(scratch);  // the first search, joints that come to the list
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   double seconds = 0;
   int steps = 0;
   while (steps < kLeast || seconds < kLongEnough) {
     step(scratch);
-    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     ++steps;
   }
   return seconds / steps;
 }
 
 /// Frames and the room they take.
-void estimate_frames(const case_::Case& input, const Model& model, RunEstimate& estimate) {
+void estimate_frames(const case_::Case& input, const Model& model, double start, RunEstimate& estimate) {
   constexpr double kElementBytes = 170, kFrameBytes = 27000;  // measured on glass_impact, block_wall and hertz_impact
-  const double end = input.stages.back().end, interval = input.output.frame_interval;
+  const double end = input.stages.back().end - start, interval = input.output.frame_interval;
   estimate.frames = interval > 0 ? std::ceil(end / interval) + 1 : 1;
   estimate.disk =
       estimate.frames * (kFrameBytes + (input.output.elements ? kElementBytes * model.mesh.num_elements() : 0));
@@ -137,7 +141,8 @@ std::string run_time(const StepReport& step, const RunEstimate& estimate, double
       fmt::format("{:.0f} steps of {} to {}; about {} on this machine while little breaks", estimate.steps,
                   quantity_text(step.dt, "s"), quantity_text(end, "s"), quantity_text(estimate.seconds, "s"));
   if (estimate.breaks)
-    text += fmt::format(", up to {} where everything does", quantity_text(estimate.most_seconds, "s"));
+    text += fmt::format(", {} where much does, up to {} where everything does at once",
+                        quantity_text(estimate.likely_seconds, "s"), quantity_text(estimate.most_seconds, "s"));
   return text + fmt::format(", memory {:.0f} MB\n", static_cast<double>(estimate.memory) / 1e6);
 }
 
@@ -193,21 +198,22 @@ std::string verdict(const Division& division) {
 
 }  // namespace
 
-RunEstimate estimate_run(const case_::Case& input, const Model& model, const StepReport& step) {
-  const double end = input.stages.back().end;
+RunEstimate estimate_run(const case_::Case& input, const Model& model, const StepReport& step, double start) {
+  const double end = input.stages.back().end - start;
   RunEstimate estimate;
   estimate.steps = std::ceil(end / step.dt);
-  estimate.seconds = estimate.steps * seconds_a_step(input, model, 1e-3 * step.dt, false);
+  estimate.seconds = estimate.steps * seconds_a_step(input, model, kShort * std::min(step.dt, step.limit), false);
   estimate.most_seconds = estimate.seconds;
   estimate.breaks = std::any_of(model.joint_laws.begin(), model.joint_laws.end(),
                                 [](const JointLawParams& law) { return law.breakable(); });
   if (estimate.breaks) {
     const double dt = input.time.step > 0 ? step.dt : std::min(step.dt, input.time.safety * step.broken);
-    const double most = std::ceil(end / dt) * seconds_a_step(input, model, 1e-3 * dt, true);
+    const double most = std::ceil(end / dt) * seconds_a_step(input, model, kShort * std::min(dt, step.limit), true);
     estimate.most_seconds = std::max(most, estimate.seconds);
   }
+  estimate.likely_seconds = 0.5 * (estimate.seconds + estimate.most_seconds);
   estimate.memory = max_resident_bytes();
-  estimate_frames(input, model, estimate);
+  estimate_frames(input, model, start, estimate);
   return estimate;
 }
 
@@ -305,27 +311,34 @@ std::string mesh_report(const FinishedMesh& made) {
   return text + "\n";
 }
 
-CheckReport full_report(const case_::Case& input, const Model& model) {
+CheckReport full_report(const case_::Case& input, const Model& model, const StartedFrom& from) {
+  refuse_contradictions(input, model);
   CheckReport report;
-  report.text = fmt::format("{}\n", input.title) + mesh_report({model.mesh, model.mesh_report});
+  report.text = fmt::format("{}\n", input.title);
+  if (!from.words.empty())
+    report.text += fmt::format(
+        "starts from {}; what is said of mesh, joints, contact and step is of the model at rest, before that run\n",
+        from.words);
+  report.text += mesh_report({model.mesh, model.mesh_report});
   report.text += fmt::format("joints: {}\n", model.joints.size());
   for (std::size_t l = 0; l < model.joint_laws.size(); ++l)
     report.text += law_report(model, static_cast<Index>(l), report.advice);
   append(report.advice, model_advice(input, model));
-  const OverlapReport overlaps = overlap_report(input, model);
+  const OverlapReport overlaps = from.words.empty() ? overlap_report(input, model) : OverlapReport{};
   report.text += stiffness_report(model) + overlaps.text;
   append(report.advice, overlaps.advice);
   append(report.advice, late_contact_advice(model));
+  append(report.advice, stage_advice(input, model));
   report.step = step_report(input, model);
-  report.estimate = estimate_run(input, model, report.step);
+  report.estimate = estimate_run(input, model, report.step, from.time);
   report.text += report.step.text + run_time(report.step, report.estimate, input.stages.back().end) +
                  frames_line(report.estimate, report.advice);
   append(report.advice, report.step.advice);
   return report;
 }
 
-std::string check_report(const case_::Case& input, const Model& model) {
-  const CheckReport report = full_report(input, model);
+std::string check_report(const case_::Case& input, const Model& model, const StartedFrom& from) {
+  const CheckReport report = full_report(input, model, from);
   return report.text + (report.advice.empty() ? "nothing to advise\n" : "advice\n" + as_list(report.advice));
 }
 

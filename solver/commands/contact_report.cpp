@@ -42,6 +42,7 @@ void for_each_free_face(const Model& model, F&& f) {
   for (Index e = 0; e < mesh.num_elements(); ++e) {
     for (int face = 0; face < 4; ++face) {
       if (!model.topology.links[at(e)][at(face)].free()) continue;
+      if (model.plane && on_side(mesh, e, face, model.plane->axis)) continue;
       std::array<Index, 3> node{};
       for (std::size_t i = 0; i < 3; ++i) node[i] = mesh.elements[at(e)][at(kFaceCorners[at(face)][i])];
       const Vec3& x = mesh.nodes[at(node[0])];

@@ -95,8 +95,8 @@ const char* name_of(case_::ValueType type) {
 
 }  // namespace
 
-std::string check_json(const case_::Case& input, const Model& model) {
-  const CheckReport report = full_report(input, model);
+std::string check_json(const case_::Case& input, const Model& model, const StartedFrom& from) {
+  const CheckReport report = full_report(input, model, from);
   Json json{{"title", input.title},
             {"elements", model.mesh.num_elements()},
             {"nodes", model.mesh_report.nodes},
@@ -108,6 +108,7 @@ std::string check_json(const case_::Case& input, const Model& model) {
             {"step", number_or_null(report.step.dt)},
             {"steps", number_or_null(report.estimate.steps)},
             {"seconds", number_or_null(report.estimate.seconds)},
+            {"likely_seconds", number_or_null(report.estimate.likely_seconds)},
             {"most_seconds", number_or_null(report.estimate.most_seconds)},
             {"memory", report.estimate.memory},
             {"frames", report.estimate.frames},

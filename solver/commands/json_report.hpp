@@ -4,6 +4,7 @@
 #include <string>
 
 #include "case/case.hpp"
+#include "commands/check_report.hpp"
 #include "mesh/finish.hpp"
 #include "model/model.hpp"
 
@@ -12,7 +13,7 @@ namespace breccia {
 
 /// title, report and advice in words, elements, nodes, bodies, joints, groups; end, stable_step and step, s; and of
 /// RunEstimate steps, seconds, most_seconds, memory, frames and disk.
-[[nodiscard]] std::string check_json(const case_::Case& input, const Model& model);
+[[nodiscard]] std::string check_json(const case_::Case& input, const Model& model, const StartedFrom& from = {});
 
 /// Division among `parts` ranks: how, imbalance, efficiency, `domains` with the loads of each, `owner` with the rank of
 /// each element in the order of ids. Throws as divide_model.

@@ -2,9 +2,9 @@
 
 #include <fmt/core.h>
 
-#include "case/reader.hpp"
 #include "commands/check_report.hpp"
 #include "commands/json_report.hpp"
+#include "commands/start_state.hpp"
 #include "contact/search_params.hpp"
 #include "domains/balance.hpp"
 #include "observe/fragment_labels.hpp"
@@ -18,7 +18,8 @@ int mesh(const MeshCommand& asked) {
   const auto told = [&](const FinishedMesh& made) {
     fmt::print("{}", asked.json ? mesh_json(made) : mesh_report(made));
   };
-  case_::Case input = case_::read_case(asked.case_file, asked.overrides);
+  case_::Case input =
+      read_case_of(asked.case_file, asked.overrides, read_start_state(asked.case_file, asked.overrides, {}));
   input.mesh.trust = asked.trust_geometry;
   if (asked.folder.empty()) {
     told(build_mesh(input));

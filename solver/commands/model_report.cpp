@@ -12,6 +12,7 @@
 #include "mesh/node_parting.hpp"
 #include "mesh/tetrahedron.hpp"
 #include "model/parameters.hpp"
+#include "output/quantity_text.hpp"
 
 namespace breccia {
 namespace {
@@ -39,6 +40,35 @@ class Solids {
   Index bodies_;
   DisjointSets sets_;
 };
+
+/// Fragments go through each other as well.
+std::string missing_contact_of_fragments(const Model& model) {
+  if (model.has_contact) return {};
+  std::string groups;
+  std::vector<bool> named(model.joint_laws.size(), false);
+  for (const ModelJoint& joint : model.joints) {
+    if (named[index(joint.law)] || !model.joint_laws[index(joint.law)].breakable()) continue;
+    named[index(joint.law)] = true;
+    groups += (groups.empty() ? "" : ", ") + model.joint_law_names[index(joint.law)];
+  }
+  if (groups.empty()) return {};
+  return fmt::format(
+      "There is no [[contact]], and {} can break: fragments go through each other, and cracks that close do not press. "
+      "Add one, with between = [\"*\", \"*\"] for all groups, unless cracks only open.",
+      groups);
+}
+
+/// A layer much thicker or thinner than its elements are wide.
+std::string layer_advice(const Model& model) {
+  constexpr double kMost = 2;
+  if (!model.plane) return {};
+  const Layer layer = layer_of(model.mesh, model.plane->axis);
+  if (layer.thickness <= kMost * layer.edge && layer.edge <= kMost * layer.thickness) return {};
+  return fmt::format(
+      "The layer of this plane model is {} thick and its elements {} wide: such slender elements make the time step "
+      "short and the answer stiff. A thickness of about {} is best; forces and energies grow with it.",
+      quantity_text(layer.thickness, "m"), quantity_text(layer.edge, "m"), quantity_text(layer.edge, "m"));
+}
 
 /// Bodies that go through each other. Those that a constraint holds in every stage cannot move into others.
 std::string missing_contact(const case_::Case& input, const Model& model) {
@@ -134,7 +164,9 @@ Advice silently_apart(const case_::Case& input, const Model& model) {
 
 Advice model_advice(const case_::Case& input, const Model& model) {
   Advice advice;
-  advise(advice, missing_contact(input, model));
+  const std::string bodies_meet = missing_contact(input, model);
+  advise(advice, bodies_meet.empty() ? missing_contact_of_fragments(model) : bodies_meet);
+  advise(advice, layer_advice(model));
   advise(advice, sphere_too_small(model));
   append(advice, silently_apart(input, model));
   return advice;

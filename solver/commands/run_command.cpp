@@ -11,6 +11,7 @@
 #include "commands/overlap_report.hpp"
 #include "commands/oversubscription.hpp"
 #include "commands/run_sinks.hpp"
+#include "commands/stage_report.hpp"
 #include "commands/start_state.hpp"
 #include "mesh/geo_scan.hpp"
 #include "output/insitu.hpp"
@@ -80,6 +81,9 @@ int run_command(const RunCommand& asked, const Communicator& world) {
       model = std::make_unique<Model>(world.size() > 1 ? build_bare_model(input) : build_model(input));
       give_up_if_interrupted();
       refuse_initial_overlaps(input, *model);
+      refuse_contradictions(input, *model);
+      for (const std::string& sentence : overruled_constraints(input, *model))
+        fmt::print(stderr, "breccia: warning: {}\n", sentence);
     }
     folder = prepare_run_folder(root, input.resolved, provenance_of(asked, input, start, world),
                                 asked.overwrite ? OldResults::overwrite : OldResults::refuse);

@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "case/reader.hpp"
 #include "case/validate.hpp"
+#include "case/validate_motion.hpp"
 #include "domains/piece_mesh.hpp"
 #include "output/checkpoint_index.hpp"
 #include "output/quantity_text.hpp"
@@ -128,7 +129,11 @@ case_::ParentCase parent_of(const Checkpoint& checkpoint, const fs::path& file) 
 /// Stages count from the start of the first run.
 void check_stages(const case_::Case& input, const Clock& clock) {
   const case_::Stage& first = input.stages.front();
-  if (first.end > clock.time + 0.5 * clock.dt) return;
+  if (first.end > clock.time + 0.5 * clock.dt) {
+    std::vector<Problem> jumps = case_::jumps_at(input, first, clock.time);
+    if (!jumps.empty()) throw InputError(std::move(jumps));
+    return;
+  }
   throw InputError(Problem{input.file.string(), first.origin.line, first.origin.key + ".end",
                            "the state that the run starts from is later than the end of this stage: time goes on "
                            "counting there",

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "contact/contactors.hpp"
 #include "mesh/quality.hpp"
+#include "model/plane.hpp"
 #include "physics/contact/contact_couples.hpp"
 #include "physics/contact/contact_field.hpp"
 
@@ -23,6 +24,12 @@ std::vector<std::uint8_t> carrying_faces(const ContactSearchParams& search, cons
     carries[at(face.element)] |= static_cast<std::uint8_t>(1 << face.face);
     const FaceLink& link = model.topology.links[at(face.element)][at(face.face)];
     if (link.inner()) carries[at(link.neighbour)] |= static_cast<std::uint8_t>(1 << link.face());
+  }
+  if (search.across < 0) return carries;
+  for (Index e = 0; e < model.mesh.num_elements(); ++e) {
+    for (int f = 0; f < 4; ++f) {
+      if (on_side(model.mesh, e, f, search.across)) carries[at(e)] &= static_cast<std::uint8_t>(~(1U << f));
+    }
   }
   return carries;
 }
@@ -44,7 +51,8 @@ ContactSurface::ContactSurface(const ContactSearchParams& search, const ContactM
 }
 
 double ContactSurface::choose_contactors(const ContactSearchParams& search) {
-  const Contactors contactors = breccia::choose_contactors(search.breakable, model_.mesh, model_.topology);
+  const Contactors contactors =
+      breccia::choose_contactors(search.breakable, model_.mesh, model_.topology, search.across);
   std::vector<Index> slots;
   for (Index e = 0; e < model_.mesh.num_elements(); ++e) {
     if (contactors.chosen[at(e)] != 0) slots.push_back(model_.slot_of(e));

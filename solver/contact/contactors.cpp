@@ -5,6 +5,7 @@
 
 #include "mesh/geometry.hpp"
 #include "mesh/point_distance.hpp"
+#include "model/plane.hpp"
 
 namespace breccia {
 
@@ -27,9 +28,10 @@ std::vector<bool> nodes_between_groups(const Mesh& mesh) {
 
 }  // namespace
 
-Contactors choose_contactors(const std::vector<bool>& breakable, const Mesh& mesh, const Topology& topology) {
+Contactors choose_contactors(const std::vector<bool>& breakable, const Mesh& mesh, const Topology& topology,
+                             int across) {
   Contactors result;
-  result.surface_distance = nodal_surface_distance(mesh, topology);
+  result.surface_distance = nodal_surface_distance(mesh, across < 0 ? topology : without_sides(mesh, topology, across));
   const std::vector<bool> between = nodes_between_groups(mesh);
   result.chosen.assign(at(mesh.num_elements()), 0);
   double volume = 0, number = 0;

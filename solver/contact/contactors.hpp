@@ -16,8 +16,9 @@ struct Contactors {
   double size = 0;                       ///< m, mean: the edge of the regular tetrahedron of their mean volume
 };
 
-/// @param breakable  (volume groups) inner faces may be freed. O(elements).
+/// @param breakable  (volume groups) inner faces may be freed;  @param across  axis of a plane model, whose sides are
+/// no surface, -1: none. O(elements).
 [[nodiscard]] Contactors choose_contactors(const std::vector<bool>& breakable, const Mesh& mesh,
-                                           const Topology& topology);
+                                           const Topology& topology, int across = -1);
 
 }  // namespace breccia

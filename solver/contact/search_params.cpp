@@ -29,6 +29,7 @@ ContactSearchParams search_params(const case_::Case& input, const Model& model) 
   params.verify = input.detection.verify;
   params.breakable = model.breakable;
   params.everywhere = model.contact_everywhere;
+  if (model.plane) params.across = model.plane->axis;
   params.faces = model.contact_faces;
   return params;
 }

@@ -17,6 +17,7 @@ struct ContactSearchParams {
   bool verify = false;                ///< compare the couples that touch with brute force at every step
   std::vector<bool> breakable;        ///< (volume groups) inner faces may be freed
   bool everywhere = true;             ///< every free face carries points; false: only `faces`
+  int across = -1;                    ///< axis of a plane model, whose sides carry no points and are no surface
   std::vector<Topology::Face> faces;  ///< faces that may carry points; one side of an inner face is enough
 };
 

@@ -51,7 +51,9 @@ void Partition::start_divided() {
   std::vector<std::byte> packed;
   Contactors contactors;
   if (model_) {
-    if (model_->has_contact) contactors = choose_contactors(model_->breakable, model_->mesh, model_->topology);
+    if (model_->has_contact)
+      contactors = choose_contactors(model_->breakable, model_->mesh, model_->topology,
+                                     model_->plane ? model_->plane->axis : -1);
     model_->whole.contactor_size = contactors.size;
     packed = pack(model_->whole);
   }

@@ -76,6 +76,7 @@ void break_initial(const case_::Case& input, Model& model) {
 }
 
 void take_contact(const case_::Case& input, Model& model) {
+  model.plane = plane_model(input);
   model.contact = contact_params(input, model.mesh.volume_groups);
   model.has_contact =
       model.contact.sphere.has_value() || std::any_of(model.contact.laws.begin(), model.contact.laws.end(),
@@ -183,6 +184,7 @@ Model build_bare_model(const case_::Case& input) {
   model.mesh = std::move(made.mesh);
   model.mesh_report = std::move(made.report);
   model.topology = build_topology(model.mesh);
+  check_layer(input, model.mesh, model.topology);
   take_materials(input, model);
   take_whole(input, model);
   take_contact(input, model);

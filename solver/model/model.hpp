@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "mesh/joints.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/topology.hpp"
+#include "model/plane.hpp"
 #include "model/whole_model.hpp"
 #include "physics/contact/contact_params.hpp"
 #include "physics/elasticity.hpp"
@@ -46,6 +48,7 @@ struct Model {
   std::vector<bool> breakable;                 ///< (volume groups) inner faces, or those at an interface, may be freed
 
   WholeModel whole;
+  std::optional<PlaneModel> plane;
 
   std::vector<JointLawParams> joint_laws;
   std::vector<std::string> joint_law_names;  ///< "glass", "glass-steel": for reports

@@ -59,6 +59,7 @@ std::vector<FreeFace> free_faces(const Model& model, std::vector<PatchTree::Box>
     if (!touched[index(model.mesh.element_group[index(e)])]) continue;
     for (int f = 0; f < 4; ++f) {
       if (!model.topology.links[index(e)][index(f)].free()) continue;
+      if (model.plane && on_side(model.mesh, e, f, model.plane->axis)) continue;
       std::array<Vec3, 3> x;
       for (std::size_t i = 0; i < 3; ++i)
         x[i] = model.mesh.nodes[index(model.mesh.elements[index(e)][index(kFaceCorners[index(f)][i])])];

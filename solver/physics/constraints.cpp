@@ -74,12 +74,23 @@ void Constraints::apply(NodalState& state, double time, double dt_before, double
   }
 }
 
+// Nodes that fill a block stand side by side, as all do where a whole body is held.
 void Constraints::apply_still(Hold& hold, NodalState& state) const {
-  for (std::size_t k = 0; k < hold.nodes.size(); ++k) {
-    const std::size_t at = nodal(hold.nodes[k], hold.axis);
-    hold.free[k] = state.velocity[at];
-    state.velocity[at] = 0.0;
-    state.next_position[at] = state.position[at] + 0.0;  // the bits of x + dt v: never -0
+  const auto still = [&](std::size_t k, std::size_t at, std::size_t number) {
+    for (std::size_t i = 0; i < number; ++i) {
+      hold.free[k + i] = state.velocity[at + i];
+      state.velocity[at + i] = 0.0;
+      state.next_position[at + i] = state.position[at + i] + 0.0;  // the bits of x + dt v: never -0
+    }
+  };
+  constexpr auto kBlock = static_cast<std::size_t>(kLanes);
+  for (std::size_t k = 0; k < hold.nodes.size();) {
+    const Index node = hold.nodes[k];
+    const bool fills =
+        node % kLanes == 0 && k + kBlock <= hold.nodes.size() && hold.nodes[k + kBlock - 1] == node + kLanes - 1;
+    const std::size_t number = fills ? kBlock : 1;
+    still(k, nodal(node, hold.axis), number);
+    k += number;
   }
 }
 

@@ -186,6 +186,39 @@ TEST_F(Start, RefusesEveryChangeThatTheStateDoesNotAllow) {
   EXPECT_FALSE(fs::exists(folder("refused")));
 }
 
+TEST_F(Start, IsFollowedByCheckAndMeshAndRefusedByRace) {
+  const std::string text = started() + laws() + kPush + kOutput;
+  const Outcome check = attempt("case", text, 1, "", "check"), mesh = attempt("case", text, 1, "", "mesh");
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  EXPECT_NE(check.out.find("starts from step "), std::string::npos) << check.out;
+  EXPECT_EQ(check.out.find("overlap"), std::string::npos) << check.out;
+  const Outcome whole = attempt("whole", model_text() + kFly + kPush + kOutput, 1, "", "check");
+  const auto steps = [](const Outcome& outcome) {
+    const std::size_t at = outcome.out.find(" steps of ");
+    return std::stod(outcome.out.substr(outcome.out.rfind('\n', at) + 1));
+  };
+  EXPECT_NEAR(steps(check) / steps(whole), 1.0 / 3.0, 0.01);
+  EXPECT_EQ(mesh.exit_code, 0) << mesh.err;
+  EXPECT_NE(mesh.out.find("elements"), std::string::npos) << mesh.out;
+  const Outcome race = attempt("case", text, 1, "", "race");
+  EXPECT_EQ(race.exit_code, 2);
+  EXPECT_NE(race.err.find("case.toml:1: start: a race begins at the first step of its case"), std::string::npos)
+      << race.err;
+}
+
+TEST_F(Start, RefusesADisplacementThatJumpsAtTheTimeOfTheState) {
+  const auto pulled = [](const std::string& value) {
+    return started() + laws() + "[[stage]]\nend = \"3 ms\"\n[[stage.constraint]]\ngroup = \"box.x0\"\n" +
+           "displacement = { x = { " + value + " } }\n";
+  };
+  for (const char* command : {"run", "check"}) {
+    const Outcome jump = attempt("jump", pulled("linear = \"0.1 m/s\""), 1, "", command);
+    EXPECT_EQ(jump.exit_code, 2) << command;
+    EXPECT_NE(jump.err.find("displacement.x: jumps in the first step of its stage"), std::string::npos) << jump.err;
+  }
+  run("smooth", pulled("ramp = { start = \"2 ms\", end = \"3 ms\", to = \"0.1 mm\" }"));
+}
+
 TEST_F(Start, RefusesWhatDoesNotFitTheState) {
   const std::string no_contact = laws().substr(0, laws().find("[[contact]]"));
   for (const auto& [text, message] :

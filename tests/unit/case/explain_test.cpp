@@ -68,7 +68,7 @@ TEST(Explain, ASectionListsItsKeys) {
 TEST(Explain, AnUnknownKeyNamesTheNearest) {
   EXPECT_THAT(message_of_key("material.yung"), HasSubstr("did you mean material.young"));
   EXPECT_THAT(message_of_key("densty"), HasSubstr("did you mean material.density"));
-  EXPECT_THAT(message_of_key("xyzzy"), AllOf(HasSubstr("unknown key"), HasSubstr("mesh, material, joint")));
+  EXPECT_THAT(message_of_key("xyzzy"), AllOf(HasSubstr("unknown key"), HasSubstr("mesh, plane, material, joint")));
   EXPECT_THAT(message_of_key(""), HasSubstr("unknown key"));
 }
 

@@ -70,6 +70,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"3 m2 kg", "Pa", "dimension m2 kg, not pressure", "GPa"},
         Bad{"3 Hz", "rad/s", "is of dimension frequency, not angular velocity", "deg/s"},
         Bad{"3 parsec", "m", "unknown unit \"parsec\"", "units m g s"},
+        Bad{"3 mpa", "Pa", "did you mean \"MPa\" or \"mPa\"?", "prefix"},
         Bad{"3 Gpa", "Pa", "did you mean \"GPa\"?", "prefix"}, Bad{"3 kmin", "s", "unknown unit \"kmin\"", "units"},
         Bad{"GPa", "Pa", "does not begin with a number", "26.6 GPa"}, Bad{"", "Pa", "does not begin", "number"},
         Bad{"nan Pa", "Pa", "does not begin with a number", "number"},

@@ -68,6 +68,19 @@ TEST(CheckReport, warns_of_a_time_step_beyond_the_stable_one_and_of_no_other) {
   EXPECT_THAT(report_of(kCubes, {"time.step=" + std::to_string(1e9 * limit * 0.9) + " ns"}), Not(HasSubstr("blow up")));
 }
 
+TEST(CheckReport, tells_of_a_step_a_million_times_too_long_without_taking_it) {
+  EXPECT_THAT(report_of(kCubes, {"time.step=1 s", "stage[0].end=10 s"}), HasSubstr("blow up"));
+}
+
+TEST(CheckReport, of_a_case_that_starts_from_a_state_counts_what_is_left_of_the_run) {
+  const case_::Case input = case_::read_text(kCubes);
+  const Model model = build_model(input);
+  const CheckReport all = full_report(input, model), rest = full_report(input, model, {0.75e-6, "step 3 of it"});
+  EXPECT_NEAR(rest.estimate.steps / all.estimate.steps, 0.25, 1.0 / all.estimate.steps);
+  EXPECT_THAT(rest.text, HasSubstr("starts from step 3 of it"));
+  EXPECT_THAT(all.text, Not(HasSubstr("starts from")));
+}
+
 TEST(MeshReport, gives_angles_in_degrees) {
   RasterSource source;
   source.cell_size = Vec3(1, 2, 3);

@@ -1,0 +1,112 @@
+#include "case/validate_motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace breccia::case_ {
+namespace {
+
+std::string number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", value);
+  return text.data();
+}
+
+/// What the parts of a function amount to at a time, whatever their signs.
+double parts_of(const TimeFunction& f, double time) {
+  double sum = std::abs(f.constant) + std::abs(f.linear * time);
+  for (const TimeFunction::Sine& s : f.sines) sum += std::abs(s.amplitude);
+  double most = 0;
+  for (const TimeFunction::Point& p : f.table) most = std::max(most, std::abs(p.value));
+  return sum + most;
+}
+
+class PlaneCheck {
+ public:
+  explicit PlaneCheck(const Case& c)
+      : c_(c),
+        axis_(static_cast<std::size_t>(c.plane->axis)),
+        name_(1, "xyz"[axis_]),
+        strain_(c.plane->kind == PlaneKind::strain) {}
+
+  std::vector<Problem> run() {
+    for (const InitialVelocity& v : c_.initial_velocities) initial_velocity(v);
+    for (const Stage& stage : c_.stages) {
+      if (!stage.gravity[axis_].is_zero()) problem(stage.origin, "gravity", "none along " + name_);
+      for (const Constraint& constraint : stage.constraints) this->constraint(constraint);
+    }
+    if (c_.sphere) problem(c_.sphere->origin, "", "no [sphere]");
+    return std::move(problems_);
+  }
+
+ private:
+  void problem(const Origin& origin, const std::string& name, const std::string& allowed) {
+    problems_.push_back({c_.file.string(), origin.line, origin.key + (name.empty() ? "" : "." + name),
+                         "acts along " + name_ + ", the axis of this plane model", allowed, ""});
+  }
+  void initial_velocity(const InitialVelocity& v) {
+    const auto axis = static_cast<Eigen::Index>(axis_);
+    if (v.velocity[axis] != 0) problem(v.origin, "velocity", "none along " + name_);
+    if (v.random[1] > 0) problem(v.origin, "random", "no random velocity");
+    Vec3 across = v.angular;
+    across[axis] = 0;
+    if (across != Vec3::Zero()) problem(v.origin, "angular", "a rotation about " + name_);
+  }
+  void constraint(const Constraint& constraint) {
+    if (!constraint.axes[axis_]) return;
+    if (constraint.kind != ConstraintKind::fixed)
+      problem(constraint.origin, constraint.kind == ConstraintKind::velocity ? "velocity" : "displacement",
+              "none along " + name_);
+    else if (!strain_)
+      problem(constraint.origin, "fixed", "the other axes: under plane stress nothing holds the sides");
+  }
+
+  const Case& c_;
+  std::size_t axis_;
+  std::string name_;
+  bool strain_;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+std::vector<Problem> jumps_at(const Case& c, const Stage& stage, double start) {
+  constexpr double kRoundOff = 1e-9;
+  std::vector<Problem> problems;
+  for (const Constraint& constraint : stage.constraints) {
+    if (constraint.kind != ConstraintKind::displacement) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double jump = constraint.value[axis](start);
+      if (!constraint.axes[axis] || std::abs(jump) <= kRoundOff * parts_of(constraint.value[axis], start)) continue;
+      problems.push_back({c.file.string(), constraint.origin.line,
+                          constraint.origin.key + ".displacement." + std::string(1, "xyz"[axis]),
+                          "jumps in the first step of its stage: displacements count from the start of the stage, at " +
+                              number(start) + " s of the run, and time from the start of the run",
+                          "a function that is 0 at " + number(start) +
+                              " s, such as { ramp = { start = " + number(start) + ", end = ..., to = ... } }",
+                          number(jump) + " m"});
+    }
+  }
+  return problems;
+}
+
+std::vector<Problem> validate_motion(const Case& c) {
+  std::vector<Problem> problems;
+  double start = 0;
+  for (std::size_t s = 0; s < c.stages.size(); ++s) {
+    if (s > 0 || !c.start) {
+      const std::vector<Problem> jumps = jumps_at(c, c.stages[s], start);
+      problems.insert(problems.end(), jumps.begin(), jumps.end());
+    }
+    start = c.stages[s].end;
+  }
+  if (!c.plane) return problems;
+  const std::vector<Problem> across = PlaneCheck(c).run();
+  problems.insert(problems.end(), across.begin(), across.end());
+  return problems;
+}
+
+}  // namespace breccia::case_

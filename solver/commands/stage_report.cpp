@@ -1,0 +1,255 @@
+#include "commands/stage_report.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "base/disjoint_sets.hpp"
+#include "base/error.hpp"
+#include "model/constraint_conflicts.hpp"
+#include "output/quantity_text.hpp"
+
+namespace breccia {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+const char* kind_of(const case_::Constraint& entry) {
+  switch (entry.kind) {
+    case case_::ConstraintKind::fixed:
+      break;
+    case case_::ConstraintKind::velocity:
+      return "velocity";
+    case case_::ConstraintKind::displacement:
+      return "displacement";
+  }
+  return "fixed";
+}
+
+/// "stage[0].constraint[1] (fixed, \"bottom\", line 24)"
+std::string name_of(const case_::Constraint& entry) {
+  return fmt::format("{} ({}, \"{}\", line {})", entry.origin.key, kind_of(entry), entry.group, entry.origin.line);
+}
+
+/// Bodies glued to each other, and what is known of each such solid.
+struct Solid {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::max());
+  Vec3 high = Vec3::Constant(std::numeric_limits<double>::lowest());
+  double speed = std::numeric_limits<double>::max();  ///< m/s, of waves, the slowest
+  double edge = std::numeric_limits<double>::max();   ///< m, H of its finest body
+  bool held = false;                                  ///< somewhere, in the stage
+  bool whole = false;                                 ///< all of it is held along all axes
+
+  [[nodiscard]] double size() const { return (high - low).norm(); }
+};
+
+class Solids {
+ public:
+  explicit Solids(const Model& model) : model_(model), sets_(at(model.mesh.num_bodies)) {
+    const Mesh& mesh = model.mesh;
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+      for (const FaceLink& link : model.topology.links[e]) {
+        if (link.inner()) sets_.join(mesh.element_body[e], mesh.element_body[at(link.neighbour)]);
+      }
+    }
+    all_.resize(at(mesh.num_bodies));
+    for (Index e = 0; e < mesh.num_elements(); ++e) {
+      Solid& solid = of(e);
+      for (const Index node : mesh.elements[at(e)]) {
+        solid.low = solid.low.cwiseMin(mesh.nodes[at(node)]);
+        solid.high = solid.high.cwiseMax(mesh.nodes[at(node)]);
+      }
+      const ElasticParams& p = model.elastic[at(mesh.element_group[at(e)])];
+      const double density = model.density[at(mesh.element_group[at(e)])];
+      solid.speed = std::min(solid.speed, std::sqrt((p.lambda + 2 * p.mu) / density));
+      solid.edge = std::min(solid.edge, model.whole.body_length[at(mesh.element_body[at(e)])]);
+    }
+  }
+
+  Solid& of(Index element) { return all_[at(sets_.root(model_.mesh.element_body[at(element)]))]; }
+
+  /// Which of them the constraints of a stage hold.
+  void hold(const case_::Stage& stage) {
+    for (Solid& solid : all_) solid.held = solid.whole = false;
+    for (const case_::Constraint& entry : stage.constraints) {
+      const bool all_axes = entry.axes == std::array{true, true, true};
+      for_each_element(entry.group, [&](Index e, bool volume) {
+        of(e).held = true;
+        of(e).whole = of(e).whole || (volume && all_axes);
+      });
+    }
+  }
+
+  /// The largest crossing time of a wave among solids that are held at some place or lie on others, s; 0: none.
+  [[nodiscard]] double slowest_at_rest() const {
+    double time = 0;
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      const Solid& solid = all_[i];
+      if (solid.whole || !(solid.speed < std::numeric_limits<double>::max())) continue;
+      if (solid.held || lies_on_another(i)) time = std::max(time, solid.size() / solid.speed);
+    }
+    return time;
+  }
+
+ private:
+  template <class F>
+  void for_each_element(const std::string& group, F&& f) {
+    const Mesh& mesh = model_.mesh;
+    for (Index e = 0; e < mesh.num_elements(); ++e) {
+      if (mesh.volume_groups[at(mesh.element_group[at(e)])] == group) f(e, true);
+    }
+    for (std::size_t s = 0; s < mesh.surface_groups.size(); ++s) {
+      if (mesh.surface_groups[s] != group) continue;
+      for (const Topology::Face& face : model_.topology.surface_groups[s]) f(face.element, false);
+    }
+  }
+
+  /// Bodies that touch do so with their boxes as well; the gap of boxes that lie on each other is far below H.
+  [[nodiscard]] bool lies_on_another(std::size_t i) const {
+    constexpr double kTouches = 0.01;
+    if (!model_.has_contact) return false;
+    const Solid& a = all_[i];
+    const double gap = kTouches * a.edge;
+    for (std::size_t k = 0; k < all_.size(); ++k) {
+      if (k == i || !(all_[k].speed < std::numeric_limits<double>::max())) continue;
+      if (((a.low - all_[k].high).array() <= gap).all() && ((all_[k].low - a.high).array() <= gap).all()) return true;
+    }
+    return false;
+  }
+
+  const Model& model_;
+  DisjointSets sets_;
+  std::vector<Solid> all_;  ///< (bodies) by their root
+};
+
+/// Whether anything takes energy out of vibrations in a stage.
+bool damped(const case_::Case& input, const case_::Stage& stage) {
+  const auto any = [](const auto& entries, auto member) {
+    return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) { return entry.*member > 0; });
+  };
+  return stage.mass_damping > 0 || stage.local_damping > 0 || any(input.materials, &case_::Material::viscosity) ||
+         any(input.contacts, &case_::Contact::damping_ratio);
+}
+
+Vec3 gravity_at(const case_::Stage& stage, double time) {
+  return {stage.gravity[0](time), stage.gravity[1](time), stage.gravity[2](time)};
+}
+
+/// The pressure that a stage puts on a surface at a time, Pa.
+double pressure_at(const case_::Stage* stage, const std::string& surface, double time) {
+  double sum = 0;
+  if (stage == nullptr) return sum;
+  for (const case_::Pressure& p : stage->pressures) {
+    if (p.surface == surface) sum += p.value(time);
+  }
+  return sum;
+}
+
+/// Loads that a stage begins with, in words; empty: none that comes suddenly.
+std::string sudden_loads(const case_::Stage& stage, const case_::Stage* before, double start) {
+  constexpr double kMuch = 0.1;  // of the load, in one step
+  const Vec3 last = before != nullptr ? gravity_at(*before, start) : Vec3::Zero(), first = gravity_at(stage, start);
+  std::string loads;
+  if ((first - last).norm() > kMuch * std::max(first.norm(), gravity_at(stage, stage.end).norm()))
+    loads = fmt::format("gravity ({} at once)", quantity_text((first - last).norm(), "m/s2"));
+  for (const case_::Pressure& p : stage.pressures) {
+    const double jump = pressure_at(&stage, p.surface, start) - pressure_at(before, p.surface, start);
+    if (std::abs(jump) <= kMuch * std::max(std::abs(p.value(start)), std::abs(p.value(stage.end)))) continue;
+    loads += fmt::format("{}the pressure on \"{}\" ({} at once)", loads.empty() ? "" : " and ", p.surface,
+                         quantity_text(jump, "Pa"));
+  }
+  return loads;
+}
+
+/// The smallest Young's modulus of a model, Pa.
+double softest(const Model& model) {
+  double least = std::numeric_limits<double>::max();
+  for (const ElasticParams& p : model.elastic)
+    least = std::min(least, p.mu * (3 * p.lambda + 2 * p.mu) / (p.lambda + p.mu));
+  return least;
+}
+
+/// A load that is meant to be static vibrates; one that lasts for few crossings of a wave is meant to be a pulse.
+Advice sudden_load_advice(const case_::Case& input, const Model& model) {
+  constexpr double kStatic = 10, kSlow = 20;  // crossings of a wave
+  constexpr double kViscosity = 0.005;        // over Young's modulus, of a crossing: 2 % of critical damping
+  Advice advice;
+  Solids solids(model);
+  const case_::Stage* before = nullptr;
+  double start = 0;
+  for (const case_::Stage& stage : input.stages) {
+    const bool known = before != nullptr || !input.start;
+    const std::string loads = known && !damped(input, stage) ? sudden_loads(stage, before, start) : "";
+    solids.hold(stage);
+    const double crossing = loads.empty() ? 0.0 : solids.slowest_at_rest();
+    if (crossing > 0 && stage.end - start > kStatic * crossing) {
+      advice.push_back(fmt::format(
+          "Stage {} begins with {}, on bodies that are held or lie on others and that nothing damps: they vibrate with "
+          "up to twice the static stress, and what lies on a slope near its angle of friction creeps. If a slow load "
+          "is meant, let it grow over {} or more, {{ ramp = {{ start = {:g}, end = ..., to = ... }} }}, and damp: a "
+          "material.viscosity of {}, or stage.local_damping; contact.damping_ratio = 0.2 damps what bounces.",
+          stage.name.empty() ? fmt::format("{}", &stage - input.stages.data()) : "\"" + stage.name + "\"", loads,
+          quantity_text(kSlow * crossing, "s"), start, quantity_text(kViscosity * crossing * softest(model), "Pa s")));
+    }
+    before = &stage;
+    start = stage.end;
+  }
+  return advice;
+}
+
+/// Intervals at which nothing happens before the run is over.
+Advice long_intervals(const case_::Case& input) {
+  const double end = input.stages.back().end;
+  Advice advice;
+  for (const auto& [name, interval, what] :
+       {std::tuple{"output.frame_interval", input.output.frame_interval,
+                   "only the first and the last frame are written"},
+        {"output.history_interval", input.output.history_interval, "the history has a first and a last line alone"},
+        {"checkpoint.interval", input.checkpoint.interval, "it makes no checkpoint"}}) {
+    if (interval > end)
+      advice.push_back(fmt::format("{} = {} is longer than the run of {}: {}.", name, quantity_text(interval, "s"),
+                                   quantity_text(end, "s"), what));
+  }
+  return advice;
+}
+
+}  // namespace
+
+Advice overruled_constraints(const case_::Case& input, const Model& model) {
+  Advice advice;
+  for (const ConstraintConflict& c : constraint_conflicts(input, model)) {
+    if (c.whole) continue;
+    advice.push_back(fmt::format(
+        "{} overrules {} along {} on {} of its {} nodes, which both name and which cannot follow both. If that is not "
+        "meant, leave {} out of one of them.",
+        name_of(*c.later), name_of(*c.earlier), "xyz"[c.axis], c.shared, c.of_earlier, "xyz"[c.axis]));
+  }
+  return advice;
+}
+
+void refuse_contradictions(const case_::Case& input, const Model& model) {
+  std::vector<Problem> problems;
+  for (const ConstraintConflict& c : constraint_conflicts(input, model)) {
+    if (!c.whole) continue;
+    problems.push_back({input.file.string(), c.later->origin.line, c.later->origin.key,
+                        fmt::format("contradicts {}: all its {} nodes are asked for another motion along {} here",
+                                    name_of(*c.earlier), c.of_earlier, "xyz"[c.axis]),
+                        fmt::format("one of them without {}", "xyz"[c.axis]),
+                        fmt::format("{} of \"{}\"", kind_of(*c.later), c.later->group)});
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+Advice stage_advice(const case_::Case& input, const Model& model) {
+  Advice advice = overruled_constraints(input, model);
+  append(advice, sudden_load_advice(input, model));
+  append(advice, long_intervals(input));
+  return advice;
+}
+
+}  // namespace breccia

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+
+#include "case/case.hpp"
+#include "mesh/mesh.hpp"
+#include "mesh/topology.hpp"
+
+namespace breccia {
+
+/// A model of plane strain or stress: a slice of one flat layer of elements. Its two flat sides, whose normals lie
+/// along the axis, are no surface for contact. Under plane strain no node moves along the axis.
+struct PlaneModel {
+  bool strain = false;
+  int axis = 2;
+};
+
+[[nodiscard]] std::optional<PlaneModel> plane_model(const case_::Case& input);
+
+/// Thickness of a layer, and the median edge of the elements on its sides, m.
+struct Layer {
+  double thickness = 0, edge = 0;
+};
+
+/// @pre check_layer.  O(elements).
+[[nodiscard]] Layer layer_of(const Mesh& mesh, int axis);
+
+/// Throws InputError unless the mesh is one flat layer across the axis: free faces lie on one of two planes or stand
+/// upright on them, every element reaches one of the planes, and no face between two elements is parallel to them.
+void check_layer(const case_::Case& input, const Mesh& mesh, const Topology& topology);
+
+/// Whether the face lies on a side of the layer. @pre check_layer: faces parallel to the sides lie on them
+[[nodiscard]] bool on_side(const Mesh& mesh, Index element, int face, int axis);
+
+/// The topology whose free faces are those of the outline alone: sides are no free surface.
+[[nodiscard]] Topology without_sides(const Mesh& mesh, const Topology& topology, int axis);
+
+}  // namespace breccia

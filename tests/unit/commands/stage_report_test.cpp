@@ -1,0 +1,93 @@
+#include "commands/stage_report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "unit/case/case_files.hpp"
+
+namespace breccia {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// A wave crosses the cube of 10 mm in 3 us; gravity lasts 1 ms.
+std::string cube(const std::string& stage, const std::string& constraint = "group = \"raster.z0\"\nfixed = \"xyz\"\n") {
+  return case_::minimal + stage + (constraint.empty() ? "" : "[[stage.constraint]]\n" + constraint);
+}
+const std::string kGravity = "gravity = [0, 0, \"-9.81 m/s2\"]\n";
+
+std::string advice_on(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  const case_::Case input = case_::read_text(text, overrides);
+  return as_list(stage_advice(input, build_bare_model(input)));
+}
+
+TEST(SuddenLoads, on_an_undamped_body_that_is_held_are_worth_a_ramp) {
+  EXPECT_THAT(advice_on(cube(kGravity)), AllOf(HasSubstr("Stage 0 begins with gravity (9.81 m/s2 at once)"),
+                                               HasSubstr("ramp"), HasSubstr("viscosity")));
+  EXPECT_THAT(advice_on(cube("[[stage.pressure]]\nsurface = \"raster.z1\"\nvalue = \"1 MPa\"\n")),
+              HasSubstr("begins with the pressure on \"raster.z1\" (1 MPa at once)"));
+}
+
+TEST(SuddenLoads, that_grow_or_are_damped_or_meet_a_free_or_a_rigid_body_or_are_a_pulse_are_not) {
+  EXPECT_EQ(advice_on(cube("gravity = [0, 0, { ramp = { to = -9.81, end = \"0.5 ms\" } }]\n")), "");
+  EXPECT_EQ(advice_on(cube(kGravity + "local_damping = 0.3\n")), "");
+  EXPECT_EQ(advice_on(cube(kGravity + "mass_damping = 100\n")), "");
+  EXPECT_EQ(advice_on(cube(kGravity), {"material[0].viscosity=10 Pa s"}), "");
+  EXPECT_EQ(advice_on(cube(kGravity, "")), "") << "it falls";
+  EXPECT_EQ(advice_on(cube(kGravity, "group = \"raster\"\nfixed = \"xyz\"\n")), "");
+  EXPECT_EQ(advice_on(cube(kGravity), {"stage[0].end=10 us"}), "");
+}
+
+TEST(SuddenLoads, that_a_stage_goes_on_with_are_not) {
+  const std::string next = "[[stage]]\nend = \"2 ms\"\n" + kGravity;
+  const std::string held = "[[stage.constraint]]\ngroup = \"raster.z0\"\nfixed = \"xyz\"\n";
+  const std::string grown = "gravity = [0, 0, { ramp = { to = -9.81, end = \"0.5 ms\" } }]\n";
+  EXPECT_EQ(advice_on(cube(grown) + next + held), "");
+  EXPECT_THAT(advice_on(cube("") + next + held), HasSubstr("Stage 1 begins with gravity"));
+}
+
+TEST(SuddenLoads, on_what_lies_on_another_body_are) {
+  const std::string contact = "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"75 GPa\"\n";
+  const auto boxes = [&](const std::string& gap) {
+    return advice_on(cube(kGravity, "") + contact,
+                     {"mesh.raster.boxes=[1, 1, 2]", "mesh.raster.gap=[0, 0, \"" + gap + "\"]"});
+  };
+  EXPECT_THAT(boxes("0 mm"), HasSubstr("begins with gravity"));
+  EXPECT_EQ(boxes("1 mm"), "");
+}
+
+TEST(Constraints, that_overrule_others_in_part_are_named_with_the_number_of_nodes) {
+  const std::string top = "[[stage.constraint]]\ngroup = \"raster.x1\"\nvelocity = { z = 1 }\n";
+  EXPECT_THAT(advice_on(cube("") + top),
+              AllOf(HasSubstr("stage[0].constraint[1] (velocity, \"raster.x1\", line "),
+                    HasSubstr("overrules stage[0].constraint[0] (fixed, \"raster.z0\", line "),
+                    HasSubstr("along z on 2 of its 5 nodes")));
+}
+
+TEST(Constraints, that_leave_nothing_of_others_are_refused) {
+  const case_::Case input =
+      case_::read_text(cube("") + "[[stage.constraint]]\ngroup = \"raster\"\nvelocity = { z = 1 }\n");
+  const Model model = build_bare_model(input);
+  EXPECT_EQ(as_list(overruled_constraints(input, model)), "");
+  try {
+    refuse_contradictions(input, model);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("stage[0].constraint[1]: contradicts stage[0].constraint[0]"),
+                                    HasSubstr("all its 5 nodes"), HasSubstr("along z")));
+  }
+}
+
+TEST(Intervals, longer_than_the_run_are_named) {
+  const std::string text = cube("");
+  EXPECT_THAT(advice_on(text, {"output.frame_interval=2 ms"}),
+              HasSubstr("output.frame_interval = 2 ms is longer than"));
+  EXPECT_THAT(advice_on(text, {"output.history_interval=2 ms"}), HasSubstr("output.history_interval"));
+  EXPECT_THAT(advice_on(text, {"checkpoint.interval=2 ms"}), HasSubstr("checkpoint.interval"));
+  EXPECT_EQ(advice_on(text, {"output.frame_interval=1 ms", "checkpoint.interval=1 ms"}), "");
+}
+
+}  // namespace
+}  // namespace breccia

@@ -1,0 +1,72 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "verification/recorder.hpp"
+
+namespace breccia::test {
+namespace {
+
+constexpr double kYoung = 30e9, kPoisson = 0.3, kThickness = 0.01, kHeight = 0.04, kLength = 0.08, kStrain = 1e-4;
+
+/// A strip of 8 x 4 cubes of 10 mm, one across, drawn out along x and free to narrow along y.
+std::string strip(const std::string& kind) {
+  return R"([mesh.raster]
+cells = [8, 4, 1]
+cell_size = "10 mm"
+group = "strip"
+[plane]
+kind = ")" +
+         kind + R"("
+[[material]]
+group = "strip"
+young = "30 GPa"
+poisson = 0.3
+density = 2400
+joints = "none"
+[[stage]]
+end = "2 ms"
+mass_damping = "40000 1/s"
+[[stage.constraint]]
+group = "strip.x0"
+fixed = "x"
+[[stage.constraint]]
+group = "strip.x1"
+displacement = { x = { ramp = { to = "8 um", end = "1 ms" } } }
+[output]
+gauges = ["strip.x1", "strip.y0", "strip.y1", "strip.z0", "strip.z1"]
+)";
+}
+
+constexpr double kTolerance = 1e-4;  // finite strain: of the order of the strain; what is left of vibrations
+
+struct Drawn {
+  double stress;    ///< Pa, along x
+  double narrower;  ///< strain along y over that along x
+  double thinner;   ///< the same along z
+};
+
+Drawn drawn(const std::string& kind) {
+  const HistoryRow last = run_case_text(strip(kind)).rows.back();
+  const auto& g = last.gauges;
+  return {g[0].reaction[0] / (kHeight * kThickness), (g[2].displacement[1] - g[1].displacement[1]) / kHeight / kStrain,
+          (g[4].displacement[2] - g[3].displacement[2]) / kThickness / kStrain};
+}
+
+TEST(Plane, strain_of_a_strip_in_tension_has_the_modulus_of_a_plate_and_does_not_thin) {
+  const Drawn strip = drawn("strain");
+  EXPECT_NEAR(strip.stress / (kStrain * kYoung / (1 - kPoisson * kPoisson)), 1.0, 3 * kTolerance);
+  EXPECT_NEAR(strip.narrower / (-kPoisson / (1 - kPoisson)), 1.0, 3 * kTolerance);
+  EXPECT_EQ(strip.thinner, 0.0);
+}
+
+TEST(Plane, stress_of_a_strip_in_tension_has_youngs_modulus_and_thins_as_it_narrows) {
+  const Drawn strip = drawn("stress");
+  EXPECT_NEAR(strip.stress / (kStrain * kYoung), 1.0, 3 * kTolerance);
+  EXPECT_NEAR(strip.narrower / -kPoisson, 1.0, 3 * kTolerance);
+  EXPECT_NEAR(strip.thinner / -kPoisson, 1.0, 3 * kTolerance);
+}
+
+}  // namespace
+}  // namespace breccia::test
