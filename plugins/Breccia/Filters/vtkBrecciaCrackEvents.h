@@ -7,13 +7,18 @@
  * b-value in its field data.
  *
  * Moment tensor of an event: sum of A (lambda (u . n) I + mu (u n + n u)) over its joints of area A, normal n and
- * displacement jump u [Aki and Richards, Quantitative Seismology, 3.2]. The jump is that of the time shown: between
- * the two faces where elements are given, else the opening. Scalar moment M0 = sqrt(M:M / 2); magnitude 2/3 (lg M0 -
+ * displacement jump u [Aki and Richards, Quantitative Seismology, 3.2]. The jump between the two faces, their normal,
+ * area and centre are those at the time of failure, between the frames before and after it in proportion to the time
+ * (MomentAt: time of failure); of the time shown where that is asked for, and where the input has one time only; the
+ * opening along the normal where elements are not given. Scalar moment M0 = sqrt(M:M / 2); magnitude 2/3 (lg M0 -
  * 9.1) [Hanks and Kanamori 1979, in N m]; energy magnitude 2/3 lg E - 2.9, E in J [Choy and Boatwright 1995]. b-value:
  * lg e / (mean - M_c) over M >= M_c [Aki 1965], M_c where most events are [Wiemer and Wyss 2000] unless given.
  */
 #ifndef vtkBrecciaCrackEvents_h
 #define vtkBrecciaCrackEvents_h
+
+#include <memory>  // for what is kept between executions
+#include <vector>  // for times
 
 #include "vtkBrecciaFilter.h"
 
@@ -45,6 +50,12 @@ class BRECCIAFILTERS_EXPORT vtkBrecciaCrackEvents : public vtkBrecciaFilter {
   vtkSetMacro(PoissonsRatio, double);
   vtkGetMacro(PoissonsRatio, double);
   ///@}
+  enum Instants { AT_FAILURE = 0, AT_TIME_SHOWN = 1 };
+  ///@{
+  /// Of which instant the positions are.
+  vtkSetClampMacro(MomentAt, int, AT_FAILURE, AT_TIME_SHOWN);
+  vtkGetMacro(MomentAt, int);
+  ///@}
   enum Magnitudes { OF_MOMENT = 0, OF_ENERGY = 1 };
   ///@{
   /// Which magnitude the b-value is of.
@@ -59,9 +70,13 @@ class BRECCIAFILTERS_EXPORT vtkBrecciaCrackEvents : public vtkBrecciaFilter {
 
  protected:
   vtkBrecciaCrackEvents();
-  ~vtkBrecciaCrackEvents() override = default;
+  ~vtkBrecciaCrackEvents() override;
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   void Make(vtkDataObject* input, vtkDataObject* joints, vtkInformationVector* outputs) override;
 
+  int MomentAt = AT_FAILURE;
   double Distance = 0;
   double Duration = 0;
   double WaveSpeed = 3000;
@@ -73,6 +88,14 @@ class BRECCIAFILTERS_EXPORT vtkBrecciaCrackEvents : public vtkBrecciaFilter {
  private:
   vtkBrecciaCrackEvents(const vtkBrecciaCrackEvents&) = delete;
   void operator=(const vtkBrecciaCrackEvents&) = delete;
+
+  /// What is kept while the frames around the failures are read, one in each execution of the pipeline.
+  struct Walk;
+  void Begin(vtkDataObject* input, vtkDataObject* joints, double shown);
+  void Visit(vtkDataObject* input);
+  void Finish(vtkInformationVector* outputs);
+  std::unique_ptr<Walk> Frames;
+  std::vector<double> Times;  ///< s, of the input's frames, ascending
 };
 
 #endif
