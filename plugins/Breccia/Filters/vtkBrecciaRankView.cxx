@@ -84,6 +84,7 @@ void FillBoxes(const std::map<vtkTypeInt64, Part>& parts, vtkTable* table, vtkUn
     out->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
   }
   out->GetCellData()->ShallowCopy(table->GetRowData());
+  out->GetCellData()->SetActiveScalars("load");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "brecciaData.h"
 #include "brecciaRunFolder.h"
 #include "vtkCallbackCommand.h"
+#include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArraySelection.h"
@@ -142,6 +143,7 @@ vtkSmartPointer<vtkUnstructuredGrid> vtkBrecciaReader::ReadFrame(const std::stri
                             (complaint.empty() ? "" : ": " + complaint));
   auto copy = vtkSmartPointer<vtkUnstructuredGrid>::New();
   copy->ShallowCopy(grid);
+  if (channel == "elements") copy->GetCellData()->SetActiveScalars("von_mises");
   return copy;
 }
 
