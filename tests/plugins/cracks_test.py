@@ -144,6 +144,7 @@ def moment_tensors_are_those_of_opening_and_slip():
 def moment_tensors_are_those_at_the_time_of_failure():
     mu, lam = 12.5e9, 30e9 * 0.2 / (1.2 * 0.6)
     joint_area = 0.5e-4
+    flying_wall.asked.clear()
     found = simple.CrackEvents(Input=flying_wall.source(), YoungsModulus=30e9, PoissonsRatio=0.2, Distance=1e-9, Duration=1e-12)
     for time in (3e-6, 9e-6, 4e-6):  # also backwards, and where everything has flown apart
         found.UpdatePipeline(time)
@@ -167,6 +168,28 @@ def moment_tensors_are_those_at_the_time_of_failure():
     found.UpdatePipeline(9e-6)
     if RANK == 0:
         b.expect(b.column(b.output(found, 1), "scalar_moment").min() > 1e5, "at the time shown everything has flown apart")
+
+
+def ranks_have_their_load_over_time():
+    found = simple.RankView(Input=flying_wall.source(), OverTime=1)
+    found.UpdatePipeline(3e-6)
+    if RANK != 0:
+        b.expect(b.output(found, 2).GetNumberOfRows() == 0, "the table over time is on the first rank")
+        return
+    table = b.output(found, 2)
+    times = np.array(flying_wall.TIMES)
+    b.expect(np.allclose(b.column(table, "time [s]"), times), f"times {b.column(table, 'time [s]')}")
+    more = 1 + times / flying_wall.START
+    mean = (1 + more) / 2
+    b.expect(np.allclose(b.column(table, "load of rank 1"), more / mean), f"load {b.column(table, 'load of rank 1')}")
+    b.expect(np.allclose(b.column(table, "load of rank 0"), 1 / mean), f"load {b.column(table, 'load of rank 0')}")
+    b.expect(np.allclose(b.column(table, "imbalance"), more / mean - 1), f"imbalance {b.column(table, 'imbalance')}")
+    b.expect(np.all(b.column(table, "elements of rank 1") == 12), "elements of a rank")
+    shown = b.output(found, 1)  # at 3e-6 s, though later frames were read after that
+    b.expect(np.isclose(b.fact(shown, "imbalance"), (more / mean - 1)[3]), f"imbalance shown {b.fact(shown, 'imbalance')}")
+    found.OverTime = 0
+    found.UpdatePipeline(4e-6)
+    b.expect(list(b.column(b.output(found, 2), "time [s]")) == [4e-6], "without OverTime the time shown alone")
 
 
 def b_value_is_given_back():
@@ -250,5 +273,6 @@ events_are_apart_in_space_and_time()
 moment_tensors_are_those_of_opening_and_slip()
 b_value_is_given_back()
 run_has_its_energies_and_contacts()
-moment_tensors_are_those_at_the_time_of_failure()  # the last: scripts of sources put their own sum and max among this file's names
+ranks_have_their_load_over_time()
+moment_tensors_are_those_at_the_time_of_failure()  # with the one before the last: scripts of sources put their own sum and max among this file's names
 b.finish()

@@ -1,5 +1,5 @@
 """Frames with a known answer: a wall normal to x whose right half moves away from START on, in proportion to the time, opening and sliding along y. Its
-joints fail between the frames; in the last frame everything has turned a quarter about z and flown far apart."""
+joints fail between the frames; elements of uneven ids are another rank's, and cost more by the time. In the last frame everything has turned a quarter about z and flown far apart."""
 import numpy as np
 from paraview import simple
 
@@ -26,7 +26,13 @@ def frame(time):
     broken = (time > FAILURE).astype(np.int32)
     joints = box.joints(plane, np.arange(len(plane)) % ranks == rank, broken=broken, energy=np.full(len(plane), ENERGY),
                         time_of_failure=np.where(broken, FAILURE, -1.0))
-    return b.blocks(elements=box.elements(np.arange(box.count) % ranks == rank), joints=joints)
+    mine = np.arange(box.count) % ranks == rank
+    elements = box.elements(mine)
+    for name, values in (("rank", box.id % 2), ("cost", 1 + box.id % 2 * time / START)):
+        array = b.numpy_to_vtk(np.ascontiguousarray(values[mine]), deep=1)
+        array.SetName(name)
+        elements.GetCellData().AddArray(array)
+    return b.blocks(elements=elements, joints=joints)
 
 
 def fill(algorithm):
