@@ -27,9 +27,9 @@ constexpr Appearance kAppearances[] = {
     {"displacement", "displacement [m]", kStress},
     {"mass", "mass [kg]", kSize},
     {"cost", "cost over that of a plain element", nullptr},
-    {"fragment_mass", "mass of the fragment [kg]", kSize},
-    {"fragment_diameter", "diameter of the fragment [m]", kSize},
-    {"fragment_speed", "speed of the fragment [m/s]", kSize},
+    {"fragment_mass", "fragment mass [kg]", kSize},
+    {"fragment_diameter", "fragment diameter [m]", kSize},
+    {"fragment_speed", "fragment speed [m/s]", kSize},
     // joints
     {"damage", "damage", kTime},
     {"opening", "opening [m]", kSize},

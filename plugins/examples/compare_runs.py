@@ -24,7 +24,8 @@ for i, name in enumerate(runs):
     history = run.GetClientSideObject().GetOutputDataObject(1)
     columns = [history.GetColumnName(c) for c in range(history.GetNumberOfColumns())]
     if wanted not in columns:
-        sys.exit(f"compare_runs.py: the history of {name} has no column '{wanted}'; it has {', '.join(columns)}")
+        print(f"compare_runs.py: the history of {name} has no column '{wanted}'; it has {', '.join(columns)}", file=sys.stderr, flush=True)
+        os._exit(1)  # readers that are still open would have HDF5 complain
     shown = simple.Show(simple.OutputPort(run, 1), view, "XYChartRepresentation")
     shown.UseIndexForXAxis, shown.XArrayName = 0, "time [s]"
     shown.SeriesVisibility = [wanted]

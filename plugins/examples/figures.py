@@ -20,12 +20,15 @@ sys.path.insert(0, os.path.dirname(plugin))
 import breccia_pictures  # noqa: E402: beside the plugin
 from paraview import simple  # noqa: E402
 
+wanted = arguments.pictures.split(",")
+for name in wanted:
+    if name not in breccia_pictures.PICTURES:
+        sys.exit(f"figures.py: there is no picture '{name}'; there are {', '.join(breccia_pictures.PICTURES)}")
+breccia_pictures.SIZE = [800, 560]  # letters are of a size to match; pictures are as large as asked for
 run = breccia_pictures.made("BrecciaReader", FileName=arguments.run)
 os.makedirs(arguments.folder, exist_ok=True)
 size = [int(n) for n in arguments.size.split("x")]
-for name in arguments.pictures.split(","):
-    if name not in breccia_pictures.PICTURES:
-        sys.exit(f"figures.py: there is no picture '{name}'; there are {', '.join(breccia_pictures.PICTURES)}")
+for name in wanted:
     try:
         views = breccia_pictures.PICTURES[name](run, arguments.time)
     except breccia_pictures.NoPicture as why:

@@ -11,9 +11,9 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 INK = [0.13, 0.14, 0.17]
 GREY = [0.45, 0.48, 0.52]
-SIZE = [800, 560]      # of a view where there is no window
+SIZE = None            # of views: that of ParaView's window; pvpython, which has none, sets it
 LOWER_SHARE = 0.995    # of the elements have a stress below the end of its colours
-ZOOM = 1.3             # nearer than ParaView's own look at all there is
+ZOOM = 1.2             # nearer than ParaView's own look at all there is
 UP = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 _filters = {}
 
@@ -93,9 +93,11 @@ def layout_with(count, name):
 
 
 def placed(kind, layout, cell, time):
+    simple._DisableFirstRenderCameraReset()
     view = simple.CreateView(kind)
     simple.AssignViewToLayout(view=view, layout=layout, hint=cell)
-    view.ViewSize = SIZE
+    if SIZE:
+        view.ViewSize = SIZE
     if kind == "RenderView":
         view.UseColorPaletteForBackground = 0
         view.Background = [1.0, 1.0, 1.0]
@@ -118,6 +120,7 @@ def coloured(source, view, array, association="CELLS", highest=None):
             table.RescaleTransferFunction(0.0, highest)
     bar = simple.GetScalarBar(table, view)
     bar.TitleColor = bar.LabelColor = INK
+    bar.HorizontalTitle = 1
     shown.SetScalarBarVisibility(view, True)
     shown.Ambient, shown.Specular = 0.3, 0.0
     return shown
@@ -149,6 +152,7 @@ def charted(view, source, x, columns, titles, legend, logarithmic=(0, 0)):
     shown.SeriesVisibility = [name for name, _ in columns]
     shown.SeriesLabel = [text for pair in columns for text in pair]
     view.BottomAxisTitle, view.LeftAxisTitle = titles
+    simple.SetActiveSource(run_of(source))  # an editor of series that opens for the active source would switch them off
     view.LegendLocation = legend
     view.BottomAxisLogScale, view.LeftAxisLogScale = logarithmic
     simple.Render(view)
@@ -184,13 +188,17 @@ def fragments(run=None, time=None):
     time, up = time_shown(run, time), up_of(run)
     parts = made("Fragments", registrationName="Fragments", Input=run)
     edges = made("FractureSurface", registrationName="cracks", Input=run)
-    layout = layout_with(2, "Fragments")
-    view = placed("RenderView", layout, 1, time)
+    parts.UpdatePipeline(time)
+    several = parts.GetDataInformation(2).GetNumberOfRows() > 1  # a curve needs two sizes
+    layout = layout_with(2 if several else 1, "Fragments")
+    view = placed("RenderView", layout, 1 if several else 0, time)
     coloured(parts, view, "fragment_diameter")
     edges.UpdatePipeline(time)
     if edges.GetDataInformation().GetNumberOfCells() > 0:
         outlined(edges, view, "Wireframe", INK)
     looked_at(view, up)
+    if not several:
+        return [view]
     chart = placed("XYChartView", layout, 2, time)
     charted(chart, simple.OutputPort(parts, 2), "size", [("passing", "mass that passes"), ("rosin_rammler", "Rosin-Rammler"),
                                                         ("swebrec", "Swebrec")], ["size [m]", "share of the mass"], "TopLeft", (1, 0))
@@ -241,8 +249,8 @@ def energy(run=None, time=None):
     rows = balance.GetDataInformation().DataInformation.GetRowDataInformation()
     names = [rows.GetArrayInformation(i).GetName() for i in range(rows.GetNumberOfArrays())]
     stacked = [name for name in names if name.startswith("up to ")]
-    if not stacked:
-        raise NoPicture("the run has no history yet")
+    if not stacked or balance.GetDataInformation().GetNumberOfRows() < 2:
+        raise NoPicture("the run's history has no two lines yet")
     view = placed("XYChartView", layout_with(1, "Energy"), 0, time)
     charted(view, balance, "time [s]", [(name, "+ " + name[6:-4]) for name in stacked] + [("external work [J]", "external work")],
             ["time [s]", "energy, stacked [J]"], "BottomRight")
