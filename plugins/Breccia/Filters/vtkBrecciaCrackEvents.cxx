@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 
 #include "brecciaEvents.h"
 #include "vtkCellArray.h"
 #include "vtkDataSetAttributes.h"
-#include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
@@ -98,143 +97,63 @@ void FillMagnitudes(const std::vector<double>& magnitudes, double completeness, 
 
 double Auto(double given, double otherwise) { return given > 0 ? given : otherwise; }
 
-/// Grows when anything that the input comes from is modified; not with the time asked for.
-vtkMTimeType StateOf(vtkAlgorithm* filter) {
-  auto* pipeline = vtkDemandDrivenPipeline::SafeDownCast(filter->GetInputExecutive(0, 0));
-  return pipeline ? pipeline->GetPipelineMTime() : 0;
-}
+/// A failed joint between two frames of the run.
+struct Failure {
+  double before, after;  ///< s
+  breccia::FacePair first, second;
+};
 
 }  // namespace
 
-struct vtkBrecciaCrackEvents::Walk {
-  /// A failed joint between two frames of the run.
-  struct Failure {
-    double before = 0, after = 0;  ///< s
-    breccia::FacePair first, second;
-  };
-  double shown = 0;          ///< s
-  vtkMTimeType state = 0;    ///< of what the input comes from
-  double damage_energy = 0;  ///< J, in joints that hold
-  std::vector<breccia::FailedJoint> joints;
-  std::vector<Failure> failures;  ///< of each joint; none where the positions of the time shown are taken
-  std::vector<double> pending;    ///< s, frames that are still to be read, the last one next
-};
-
 vtkBrecciaCrackEvents::vtkBrecciaCrackEvents() : vtkBrecciaFilter(2, {"vtkPolyData", "vtkTable", "vtkTable"}) {}
 
-vtkBrecciaCrackEvents::~vtkBrecciaCrackEvents() = default;
-
-int vtkBrecciaCrackEvents::RequestInformation(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*) {
-  vtkInformation* info = inputs[0]->GetInformationObject(0);
-  vtkInformationDoubleVectorKey* key = vtkStreamingDemandDrivenPipeline::TIME_STEPS();
-  this->Times.clear();
-  if (info->Has(key)) this->Times.assign(info->Get(key), info->Get(key) + info->Length(key));
-  return 1;
-}
-
-int vtkBrecciaCrackEvents::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs,
-                                               vtkInformationVector* outputs) {
-  if (!this->Frames) return 1;
-  vtkInformationDoubleKey* key = vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP();
-  vtkInformation* out = outputs->GetInformationObject(0);
-  if ((out->Has(key) && out->Get(key) != this->Frames->shown) || StateOf(this) != this->Frames->state) {
-    this->Frames.reset();  // what an error in the input has left
-    return 1;
-  }
-  inputs[0]->GetInformationObject(0)->Set(key, this->Frames->pending.back());
-  return 1;
-}
-
-int vtkBrecciaCrackEvents::RequestData(vtkInformation* request, vtkInformationVector** inputs,
-                                       vtkInformationVector* outputs) {
-  vtkInformationDoubleKey* key = vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP();
-  vtkInformationIntegerKey* again = vtkStreamingDemandDrivenPipeline::CONTINUE_EXECUTING();
-  request->Remove(again);
-  try {
-    vtkInformation* out = outputs->GetInformationObject(0);
-    vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
-    if (this->Frames)
-      this->Visit(input);
-    else
-      this->Begin(input, vtkDataObject::GetData(inputs[1], 0), out->Has(key) ? out->Get(key) : 0);
-    if (!this->Frames->pending.empty()) {
-      request->Set(again, 1);
-      return 1;
-    }
-    this->Finish(outputs);
-    for (int port = 0; port < 3 && out->Has(key); ++port)
-      vtkDataObject::GetData(outputs, port)->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), out->Get(key));
-    this->Frames.reset();
-    return 1;
-  } catch (const breccia::BadInput& bad) {
-    this->Frames.reset();
-    vtkErrorMacro(<< bad.what());
-    return 0;
-  }
-}
-
-void vtkBrecciaCrackEvents::Begin(vtkDataObject* input, vtkDataObject* given, double shown) {
+void vtkBrecciaCrackEvents::GoToFailures(std::vector<breccia::FailedJoint>& joints, double shown) {
   const breccia::Ranks ranks;
-  auto walk = std::make_unique<Walk>();
-  walk->shown = shown;
-  walk->state = StateOf(this);
-  const breccia::Cracks cracks = breccia::FindCracks(input, given, ranks);
-  walk->joints = breccia::AllFailed(cracks, true, ranks);
-  walk->damage_energy = breccia::EnergyOfDamage(cracks, ranks);
-  std::vector<double> has_elements{breccia::FindPart(input, "neighbour") ? 1.0 : 0.0};
-  ranks.Largest(has_elements);
-  this->Frames = std::move(walk);
-  if (!(has_elements[0] > 0)) return;
-  if (this->MomentAt == AT_TIME_SHOWN || this->Times.size() < 2) {
-    const auto faces = breccia::FacesOf(breccia::FindElements(input, ranks), ranks, this->Frames->joints);
-    for (std::size_t i = 0; i < faces.size(); ++i) breccia::SetJump(faces[i], this->Frames->joints[i]);
-    return;
-  }
-  std::set<double> needed;
-  for (const breccia::FailedJoint& joint : this->Frames->joints) {
-    const auto next = std::lower_bound(this->Times.begin(), this->Times.end(), joint.time);
+  std::map<double, std::vector<std::size_t>> frames;  // joints that failed just before or after them
+  std::vector<Failure> failures;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const auto next = std::lower_bound(this->Times.begin(), this->Times.end(), joints[i].time);
     const auto after = next == this->Times.end() ? next - 1 : next;
     const auto before = after == this->Times.begin() ? after : after - 1;
-    this->Frames->failures.push_back({*before, *after, {}, {}});
-    needed.insert({*before, *after});
+    failures.push_back({*before, *after, {}, {}});
+    frames[*before].push_back(i);
+    if (after != before) frames[*after].push_back(i);
   }
-  this->Frames->pending.assign(needed.rbegin(), needed.rend());
+  for (const auto& [time, failed] : frames) {
+    std::vector<breccia::FailedJoint> near;
+    for (const std::size_t i : failed) near.push_back(joints[i]);
+    const auto faces = breccia::FacesOf(breccia::FindElements(this->InputAt(time), ranks), ranks, near);
+    for (std::size_t n = 0; n < failed.size(); ++n) {
+      Failure& failure = failures[failed[n]];
+      if (failure.before == time) failure.first = faces[n];
+      if (failure.after == time) failure.second = faces[n];
+    }
+  }
+  this->InputAt(shown);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const double between = failures[i].after - failures[i].before;
+    const double share = between > 0 ? std::clamp((joints[i].time - failures[i].before) / between, 0.0, 1.0) : 0;
+    breccia::SetPlace(breccia::Between(failures[i].first, failures[i].second, share), joints[i]);
+  }
 }
 
-void vtkBrecciaCrackEvents::Visit(vtkDataObject* input) {
+void vtkBrecciaCrackEvents::Make(vtkDataObject* input, vtkDataObject* given, vtkInformationVector* outputs) {
   const breccia::Ranks ranks;
-  Walk& walk = *this->Frames;
-  const double time = walk.pending.back();
-  walk.pending.pop_back();
-  std::vector<std::size_t> place;
-  std::vector<breccia::FailedJoint> joints;
-  for (std::size_t i = 0; i < walk.joints.size(); ++i) {
-    if (walk.failures[i].before != time && walk.failures[i].after != time) continue;
-    place.push_back(i);
-    joints.push_back(walk.joints[i]);
+  const breccia::Cracks cracks = breccia::FindCracks(input, given, ranks);
+  std::vector<breccia::FailedJoint> joints = breccia::AllFailed(cracks, true, ranks);
+  const double damage_energy = breccia::EnergyOfDamage(cracks, ranks);
+  std::vector<double> has_elements{breccia::FindPart(input, "neighbour") ? 1.0 : 0.0};
+  ranks.Largest(has_elements);
+  vtkInformation* out = outputs->GetInformationObject(0);
+  vtkInformationDoubleKey* key = vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP();
+  if (has_elements[0] > 0 && this->MomentAt == AT_FAILURE && this->Times.size() > 1 && out->Has(key)) {
+    this->GoToFailures(joints, out->Get(key));
+  } else if (has_elements[0] > 0) {
+    const auto faces = breccia::FacesOf(breccia::FindElements(input, ranks), ranks, joints);
+    for (std::size_t i = 0; i < faces.size(); ++i) breccia::SetJump(faces[i], joints[i]);
   }
-  const auto faces = breccia::FacesOf(breccia::FindElements(input, ranks), ranks, joints);
-  for (std::size_t n = 0; n < place.size(); ++n) {
-    Walk::Failure& failure = walk.failures[place[n]];
-    if (failure.before == time) failure.first = faces[n];
-    if (failure.after == time) failure.second = faces[n];
-  }
-}
+  if (!ranks.First()) joints.clear();
 
-void vtkBrecciaCrackEvents::Finish(vtkInformationVector* outputs) {
-  std::vector<breccia::FailedJoint>& joints = this->Frames->joints;
-  for (std::size_t i = 0; i < this->Frames->failures.size(); ++i) {
-    const Walk::Failure& failure = this->Frames->failures[i];
-    const double between = failure.after - failure.before;
-    const double share = between > 0 ? std::clamp((joints[i].time - failure.before) / between, 0.0, 1.0) : 0;
-    breccia::SetPlace(breccia::Between(failure.first, failure.second, share), joints[i]);
-  }
-  if (!breccia::Ranks().First()) joints.clear();
-  this->Make(nullptr, nullptr, outputs);
-}
-
-void vtkBrecciaCrackEvents::Make(vtkDataObject*, vtkDataObject*, vtkInformationVector* outputs) {
-  const std::vector<breccia::FailedJoint>& joints = this->Frames->joints;
   double area = 0;
   for (const breccia::FailedJoint& joint : joints) area += joint.area;
   const double mean_area = joints.empty() ? 1 : area / static_cast<double>(joints.size());
@@ -254,8 +173,8 @@ void vtkBrecciaCrackEvents::Make(vtkDataObject*, vtkDataObject*, vtkInformationV
     magnitudes.push_back(this->MagnitudeOf == OF_ENERGY ? event.EnergyMagnitude() : event.Magnitude());
   }
   breccia::AddFact(table, "energy", energy);
-  breccia::AddFact(table, "energy_of_damage", this->Frames->damage_energy);
-  breccia::AddFact(table, "fracture_energy", energy + this->Frames->damage_energy);
+  breccia::AddFact(table, "energy_of_damage", damage_energy);
+  breccia::AddFact(table, "fracture_energy", energy + damage_energy);
   FillMagnitudes(magnitudes, this->Completeness, vtkTable::GetData(outputs, 2));
 }
 

@@ -17,10 +17,13 @@
 #ifndef vtkBrecciaCrackEvents_h
 #define vtkBrecciaCrackEvents_h
 
-#include <memory>  // for what is kept between executions
-#include <vector>  // for times
+#include <vector>  // for joints
 
 #include "vtkBrecciaFilter.h"
+
+namespace breccia {
+struct FailedJoint;
+}
 
 class BRECCIAFILTERS_EXPORT vtkBrecciaCrackEvents : public vtkBrecciaFilter {
  public:
@@ -70,10 +73,7 @@ class BRECCIAFILTERS_EXPORT vtkBrecciaCrackEvents : public vtkBrecciaFilter {
 
  protected:
   vtkBrecciaCrackEvents();
-  ~vtkBrecciaCrackEvents() override;
-  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
-  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  ~vtkBrecciaCrackEvents() override = default;
   void Make(vtkDataObject* input, vtkDataObject* joints, vtkInformationVector* outputs) override;
 
   int MomentAt = AT_FAILURE;
@@ -89,13 +89,8 @@ class BRECCIAFILTERS_EXPORT vtkBrecciaCrackEvents : public vtkBrecciaFilter {
   vtkBrecciaCrackEvents(const vtkBrecciaCrackEvents&) = delete;
   void operator=(const vtkBrecciaCrackEvents&) = delete;
 
-  /// What is kept while the frames around the failures are read, one in each execution of the pipeline.
-  struct Walk;
-  void Begin(vtkDataObject* input, vtkDataObject* joints, double shown);
-  void Visit(vtkDataObject* input);
-  void Finish(vtkInformationVector* outputs);
-  std::unique_ptr<Walk> Frames;
-  std::vector<double> Times;  ///< s, of the input's frames, ascending
+  /// Sets places and jumps of the joints to those at their time of failure.
+  void GoToFailures(std::vector<breccia::FailedJoint>& joints, double shown);
 };
 
 #endif

@@ -149,84 +149,28 @@ void FillHistory(const std::map<double, std::map<vtkTypeInt64, Part>>& frames, v
 
 }  // namespace
 
-struct vtkBrecciaRankView::Walk {
-  double shown = 0;                                         ///< s
-  std::size_t next = 0;                                     ///< of the times
-  std::map<double, std::map<vtkTypeInt64, Part>> frames{};  ///< by time
-};
-
 vtkBrecciaRankView::vtkBrecciaRankView() : vtkBrecciaFilter(1, {"vtkUnstructuredGrid", "vtkTable", "vtkTable"}) {}
-
-vtkBrecciaRankView::~vtkBrecciaRankView() = default;
-
-int vtkBrecciaRankView::RequestInformation(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*) {
-  vtkInformation* info = inputs[0]->GetInformationObject(0);
-  vtkInformationDoubleVectorKey* key = vtkStreamingDemandDrivenPipeline::TIME_STEPS();
-  this->Times.clear();
-  this->Frames.reset();
-  if (info->Has(key)) this->Times.assign(info->Get(key), info->Get(key) + info->Length(key));
-  return 1;
-}
-
-int vtkBrecciaRankView::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs,
-                                            vtkInformationVector* outputs) {
-  if (!this->Frames) return 1;
-  vtkInformationDoubleKey* key = vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP();
-  vtkInformation* out = outputs->GetInformationObject(0);
-  if (!this->OverTime || (out->Has(key) && out->Get(key) != this->Frames->shown)) {
-    this->Frames.reset();  // what an error in the input has left
-    return 1;
-  }
-  inputs[0]->GetInformationObject(0)->Set(key, this->Times[this->Frames->next]);
-  return 1;
-}
-
-int vtkBrecciaRankView::RequestData(vtkInformation* request, vtkInformationVector** inputs,
-                                    vtkInformationVector* outputs) {
-  vtkInformationDoubleKey* key = vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP();
-  vtkInformation* out = outputs->GetInformationObject(0);
-  request->Remove(vtkStreamingDemandDrivenPipeline::CONTINUE_EXECUTING());
-  try {
-    vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
-    if (!this->Frames) {
-      this->Make(input, nullptr, outputs);
-      this->Frames = std::make_unique<Walk>();
-      this->Frames->shown = out->Has(key) ? out->Get(key) : 0;
-      if (!this->OverTime || this->Times.size() < 2) {
-        this->Frames->frames[this->Frames->shown] = PartsOf(input, breccia::Ranks());
-        this->Frames->next = this->Times.size();
-      }
-    } else {
-      this->Frames->frames[this->Times[this->Frames->next++]] = PartsOf(input, breccia::Ranks());
-    }
-    if (this->Frames->next < this->Times.size()) {
-      request->Set(vtkStreamingDemandDrivenPipeline::CONTINUE_EXECUTING(), 1);
-      return 1;
-    }
-    auto* history = vtkTable::GetData(outputs, 2);
-    history->Initialize();
-    if (breccia::Ranks().First()) FillHistory(this->Frames->frames, history);
-    for (int port = 0; port < 3 && out->Has(key); ++port)
-      vtkDataObject::GetData(outputs, port)->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), out->Get(key));
-    this->Frames.reset();
-    return 1;
-  } catch (const breccia::BadInput& bad) {
-    this->Frames.reset();
-    vtkErrorMacro(<< bad.what());
-    return 0;
-  }
-}
 
 void vtkBrecciaRankView::Make(vtkDataObject* input, vtkDataObject*, vtkInformationVector* outputs) {
   const breccia::Ranks ranks;
+  vtkInformation* out = outputs->GetInformationObject(0);
+  vtkInformationDoubleKey* key = vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP();
+  const double shown = out->Has(key) ? out->Get(key) : 0;
   std::map<vtkTypeInt64, Part> parts = PartsOf(input, ranks);
-  if (!ranks.First()) parts.clear();
+  std::map<double, std::map<vtkTypeInt64, Part>> frames;
+  if (this->OverTime && this->Times.size() > 1 && out->Has(key)) {
+    for (const double time : this->Times) frames[time] = PartsOf(this->InputAt(time), ranks);
+    this->InputAt(shown);
+  } else {
+    frames[shown] = parts;
+  }
   auto* boxes = vtkUnstructuredGrid::GetData(outputs, 0);
+  for (int port = 0; port < 3; ++port) vtkDataObject::GetData(outputs, port)->Initialize();
+  if (!ranks.First()) parts.clear();
   auto* table = vtkTable::GetData(outputs, 1);
-  boxes->Initialize();
-  table->Initialize();
   FillTable(parts, table);
   FillBoxes(parts, table, boxes);
+  if (ranks.First()) FillHistory(frames, vtkTable::GetData(outputs, 2));
 }
 
 void vtkBrecciaRankView::PrintSelf(ostream& os, vtkIndent indent) {

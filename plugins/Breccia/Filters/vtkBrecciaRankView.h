@@ -10,9 +10,6 @@
 #ifndef vtkBrecciaRankView_h
 #define vtkBrecciaRankView_h
 
-#include <memory>  // for what is kept between executions
-#include <vector>  // for times
-
 #include "vtkBrecciaFilter.h"
 
 class BRECCIAFILTERS_EXPORT vtkBrecciaRankView : public vtkBrecciaFilter {
@@ -30,20 +27,13 @@ class BRECCIAFILTERS_EXPORT vtkBrecciaRankView : public vtkBrecciaFilter {
 
  protected:
   vtkBrecciaRankView();
-  ~vtkBrecciaRankView() override;
-  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
-  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  ~vtkBrecciaRankView() override = default;
   void Make(vtkDataObject* input, vtkDataObject* joints, vtkInformationVector* outputs) override;
 
  private:
   vtkBrecciaRankView(const vtkBrecciaRankView&) = delete;
   void operator=(const vtkBrecciaRankView&) = delete;
 
-  /// What is kept while frames are read, one in each execution of the pipeline.
-  struct Walk;
-  std::unique_ptr<Walk> Frames;
-  std::vector<double> Times;  ///< s, of the input's frames, ascending
   bool OverTime = false;
 };
 
