@@ -79,8 +79,8 @@ void end_with_child(int signal) {
 
 void end_group(int) { ::kill(0, SIGKILL); }
 
-/// Goes on in a process of its own; what it was waits for that, and ends the whole group when `parent` ends, in whatever
-/// way: a screen and ParaView would live on for nobody.
+/// Goes on in a process of its own; what it was waits for that, and ends the whole group when `parent` ends, in
+/// whatever way: a screen and ParaView would live on for nobody.
 void guard_against_end_of(pid_t parent) {
   std::signal(SIGTERM, end_group);
   if (::prctl(PR_SET_PDEATHSIG, SIGTERM) != 0 || ::getppid() != parent) end_group(0);

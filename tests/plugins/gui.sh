@@ -10,7 +10,7 @@ printf '[General]\nGeneralSettings.ShowWelcomeDialog=false\n' >"$scratch/.config
 Xvfb "$DISPLAY" -screen 0 1152x762x24 -noreset -fbdir "$scratch" >/dev/null 2>&1 &
 screen=$!
 gui=
-trap 'kill $gui $screen 2>/dev/null; rm -rf "$scratch"' EXIT
+trap 'kill $gui $screen 2>/dev/null || true; rm -rf "$scratch"' EXIT
 sleep 2
 for name in ${BRECCIA_WINDOWS:-toolbar BrecciaReader Fragments FractureSurface CrackEvents ContactNetwork EnergyBalance RankView}; do
   rm -f "$scratch/done"

@@ -29,8 +29,8 @@ class BRECCIAFILTERS_EXPORT vtkBrecciaFilter : public vtkDataObjectAlgorithm {
   virtual void Make(vtkDataObject* input, vtkDataObject* joints, vtkInformationVector* outputs) = 0;
 
   /// The first input at another time, on all ranks: its own frames are read for that. What is held of the input before
-  /// is no more; ask for the time shown at the end, which others look at. Throws breccia::BadInput on all ranks when there
-  /// is none. (The pipeline's way, CONTINUE_EXECUTING, never ends when the input fails.)
+  /// is no more; ask for the time shown at the end, which others look at. Throws breccia::BadInput on all ranks when
+  /// there is none. (The pipeline's way, CONTINUE_EXECUTING, never ends when the input fails.)
   vtkDataObject* InputAt(double time);
   /// s, of the first input's frames, ascending; as told before the data.
   std::vector<double> Times;
