@@ -278,7 +278,7 @@ class Drawing:
 
     def events(self):
         time = self.times[-1]
-        found = CrackEvents(registrationName="Crack Events", Input=self.run, MagnitudeOf="Energy")
+        found = CrackEvents(registrationName="Crack Events", Input=self.run, MagnitudeOf="Energy", MomentAt="Time shown")
         found.UpdatePipeline(time)
         table, sizes = data_of(found, 1), data_of(found, 2)
         part = {"count": int(table.GetNumberOfRows()), **facts(table), **facts(sizes)}

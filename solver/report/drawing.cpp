@@ -1,6 +1,7 @@
 #include "report/drawing.hpp"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -76,8 +77,25 @@ void end_with_child(int signal) {
   ::raise(signal);
 }
 
-[[noreturn]] void become(const std::vector<std::string>& words, const fs::path& log) {
+void end_group(int) { ::kill(0, SIGKILL); }
+
+/// Goes on in a process of its own; what it was waits for that, and ends the whole group when `parent` ends, in
+/// whatever way: a screen and ParaView would live on for nobody.
+void guard_against_end_of(pid_t parent) {
+  std::signal(SIGTERM, end_group);
+  if (::prctl(PR_SET_PDEATHSIG, SIGTERM) != 0 || ::getppid() != parent) end_group(0);
+  const pid_t guarded = ::fork();
+  if (guarded < 0) ::_exit(127);
+  if (guarded == 0) return;
+  int status = 0;
+  while (::waitpid(guarded, &status, 0) < 0 && errno == EINTR) {
+  }
+  ::_exit(WIFEXITED(status) ? WEXITSTATUS(status) : 126);
+}
+
+[[noreturn]] void become(const std::vector<std::string>& words, const fs::path& log, pid_t parent) {
   ::setpgid(0, 0);
+  guard_against_end_of(parent);
   for (const int s : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ}) ::signal(s, SIG_DFL);
   const int nothing = ::open("/dev/null", O_RDONLY);
   const int said = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
@@ -97,9 +115,9 @@ enum class End { done, failed, out_of_time };
 
 /// Runs a program with its words into `log`.
 End run_program(const std::vector<std::string>& words, const fs::path& log, std::chrono::seconds limit) {
-  const pid_t child = ::fork();
+  const pid_t parent = ::getpid(), child = ::fork();
   if (child < 0) return End::failed;
-  if (child == 0) become(words, log);
+  if (child == 0) become(words, log, parent);
   ::setpgid(child, child);
   drawing_group = child;
   for (const int s : {SIGINT, SIGTERM, SIGHUP}) std::signal(s, end_with_child);

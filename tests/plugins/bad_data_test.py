@@ -75,6 +75,21 @@ def first():
     reader.UpdatePipeline(0.0)
 expect_told("a frame whose inside is damaged", first, "elements_000000.vtkhdf", "can be read")
 
+# Filters that read all frames: what is damaged is named, and the next look is as if nothing had been.
+folder = copy("hole")
+path = f"{folder}/frames/elements_000002.vtkhdf"
+whole = open(path, "rb").read()
+open(path, "wb").write(whole[:96] + b"\0" * (len(whole) - 96))
+reader = simple.BrecciaReader(FileName=folder)
+reader.UpdatePipelineInformation()
+end = reader.TimestepValues[-1]
+walks = {simple.RankView(Input=reader, OverTime=1): ("OverTime", 0), simple.CrackEvents(Input=reader): ("MomentAt", "Time shown")}
+for walk, (name, without) in walks.items():
+    expect_told(f"{walk.GetXMLName()} over a damaged frame", lambda: walk.UpdatePipeline(end), "elements_000002.vtkhdf", "can be read")
+    walk.SetPropertyWithName(name, without)
+    b.expect("ERR" not in told(lambda: walk.UpdatePipeline(end)), f"{walk.GetXMLName()} of a whole frame")
+    b.expect(b.output(walk, 1).GetNumberOfRows() > 0, f"rows of {walk.GetXMLName()}")
+
 folder = copy("killed")  # in the middle of a line of the history; the last frame is named by the index, and not there
 with open(f"{folder}/history.csv", "r+") as history:
     text = history.read()
@@ -106,6 +121,26 @@ for missing, from_part in (("neighbour", "elements"), ("mass", "elements"), ("id
 def without_cells():
     simple.Fragments(Input=b.producer(b.blocks(elements=box.elements(slice(0)), joints=box.joints([])))).UpdatePipeline()
 expect_told("no elements", without_cells, "no elements")
+
+def without_history():
+    simple.EnergyBalance(Input=b.producer(b.blocks(elements=box.elements()))).UpdatePipeline()
+expect_told("energies of a run's first output", without_history, "a table is needed", "second output")
+
+for missing in ("rank", "cost"):
+    elements = box.elements()
+    for name in {"rank", "cost"} - {missing}:
+        array = b.numpy_to_vtk(box.mass, deep=1)
+        array.SetName(name)
+        elements.GetCellData().AddArray(array)
+    def action(data=b.blocks(elements=elements)):
+        simple.RankView(Input=b.producer(data)).UpdatePipeline()
+    expect_told(f"no array {missing}", action, f"'{missing}'")
+
+joints = box.joints(box.joint[:3])
+joints.GetCellData().RemoveArray("energy")
+def without_energy():
+    simple.CrackEvents(Input=b.producer(b.blocks(elements=box.elements(), joints=joints))).UpdatePipeline()
+expect_told("no energies", without_energy, "'energy'")
 
 def sphere():
     simple.Fragments(Input=simple.Sphere()).UpdatePipeline()

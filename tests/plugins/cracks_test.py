@@ -6,6 +6,7 @@ import sys
 import numpy as np
 
 import broken_box as b
+import flying_wall
 
 simple = b.load()
 RANK, RANKS = b.rank()
@@ -140,6 +141,58 @@ def moment_tensors_are_those_of_opening_and_slip():
     b.expect(np.isclose(b.column(opened, "clvd_part")[0], 1 - share, rtol=1e-6), "the rest of opening is a vector dipole")
 
 
+def moment_tensors_are_those_at_the_time_of_failure():
+    mu, lam = 12.5e9, 30e9 * 0.2 / (1.2 * 0.6)
+    joint_area = 0.5e-4
+    flying_wall.asked.clear()
+    found = simple.CrackEvents(Input=flying_wall.source(), YoungsModulus=30e9, PoissonsRatio=0.2, Distance=1e-9, Duration=1e-12)
+    for time in (3e-6, 9e-6, 4e-6):  # also backwards, and where everything has flown apart
+        found.UpdatePipeline(time)
+        if RANK != 0:
+            continue
+        table = b.output(found, 1)
+        until = np.sort(flying_wall.FAILURE[flying_wall.FAILURE < time])
+        b.expect(table.GetNumberOfRows() == len(until), f"{table.GetNumberOfRows()} events until {time}")
+        order = np.argsort(b.column(table, "time"))
+        for i, row in enumerate(order[:len(until)]):
+            u = (until[i] - flying_wall.START) * flying_wall.SPEED
+            expected = joint_area * np.array([(lam + 2 * mu) * u[0], lam * u[0], lam * u[0], mu * u[1], 0, 0])
+            got = b.column(table, "moment_tensor")[row]
+            b.expect(np.allclose(got, expected, rtol=1e-6, atol=1e-6), f"moment tensor of {until[i]} at {time}: {got} of {expected}")
+            centre = b.column(table, "centre")[row]
+            b.expect(abs(centre[0] - (0.01 + u[0] / 2)) < 1e-9, f"centre of {until[i]} at {time}: {centre}")
+        b.expect(np.isclose(b.fact(table, "fracture_energy"), 4 * 0.25), f"fracture energy {b.fact(table, 'fracture_energy')}")
+        b.expect(np.isclose(b.fact(table, "energy_of_damage"), (4 - len(until)) * 0.25), "energy of damage")
+    b.expect(1e-6 not in flying_wall.asked, "only the frames around failures are read")
+    found.MomentAt = "Time shown"
+    found.UpdatePipeline(9e-6)
+    if RANK == 0:
+        b.expect(b.column(b.output(found, 1), "scalar_moment").min() > 1e5, "at the time shown everything has flown apart")
+
+
+def ranks_have_their_load_over_time():
+    found = simple.RankView(Input=flying_wall.source(), OverTime=1)
+    found.UpdatePipeline(3e-6)
+    table, shown = b.output(found, 2), b.output(found, 1)
+    if RANK != 0:
+        b.expect(table.GetNumberOfRows() == 0, "the table over time is on the first rank")
+    else:
+        times = np.array(flying_wall.TIMES)
+        b.expect(np.allclose(b.column(table, "time [s]"), times), f"times {b.column(table, 'time [s]')}")
+        more = 1 + times / flying_wall.START
+        mean = (1 + more) / 2
+        b.expect(np.allclose(b.column(table, "load of rank 1"), more / mean), f"load {b.column(table, 'load of rank 1')}")
+        b.expect(np.allclose(b.column(table, "load of rank 0"), 1 / mean), f"load {b.column(table, 'load of rank 0')}")
+        b.expect(np.allclose(b.column(table, "imbalance"), more / mean - 1), f"imbalance {b.column(table, 'imbalance')}")
+        b.expect(np.all(b.column(table, "elements of rank 1") == 12), "elements of a rank")
+        # At 3e-6 s, though later frames were read after that.
+        b.expect(np.isclose(b.fact(shown, "imbalance"), (more / mean - 1)[3]), f"imbalance shown {b.fact(shown, 'imbalance')}")
+    found.OverTime = 0
+    found.UpdatePipeline(4e-6)
+    if RANK == 0:
+        b.expect(list(b.column(b.output(found, 2), "time [s]")) == [4e-6], "without OverTime the time shown alone")
+
+
 def b_value_is_given_back():
     n, slope, start = 4000, 0.9, -5.0
     box = b.Box((1, 1, 1))
@@ -186,6 +239,8 @@ def run_has_its_energies_and_contacts():
     b.expect(np.isclose(energy.sum(dtype=float), budget, rtol=SINGLE), f"energy of joints {energy.sum()} of {budget}")
     shown = b.fact(b.output(events, 1), "energy")
     b.expect(np.isclose(shown, energy[broken != 0].sum(dtype=float), rtol=SINGLE), f"energy of events {shown}")
+    fracture = b.fact(b.output(events, 1), "fracture_energy")
+    b.expect(np.isclose(fracture, budget, rtol=SINGLE), f"energy of events and of damage {fracture} of the budget's {budget}")
     b.expect(b.column(b.output(events, 1), "joints").sum() == summary["broken_joints"], "joints of events")
     b.expect(b.output(surface).GetNumberOfCells() == summary["broken_joints"], "faces of the surface")
 
@@ -219,4 +274,6 @@ events_are_apart_in_space_and_time()
 moment_tensors_are_those_of_opening_and_slip()
 b_value_is_given_back()
 run_has_its_energies_and_contacts()
+ranks_have_their_load_over_time()
+moment_tensors_are_those_at_the_time_of_failure()  # with the one before the last: scripts of sources put their own sum and max among this file's names
 b.finish()

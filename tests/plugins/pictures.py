@@ -1,6 +1,5 @@
-"""Draws what the filters make of a run; for pvpython, and for the ParaView GUI: paraview --script=pictures.py. BRECCIA_PICTURE_RUNS names a run and one
-on several ranks, separated by a colon, BRECCIA_PICTURES the folder to draw into, BRECCIA_PARAVIEW_PLUGIN the plugin; with BRECCIA_PICTURE_WINDOW the GUI
-draws no charts and stays open once that file, which says so, is there."""
+"""Draws what the filters make of a run; for pvpython. BRECCIA_PICTURE_RUNS names a run and one on several ranks, separated by a colon, BRECCIA_PICTURES the
+folder to draw into, BRECCIA_PARAVIEW_PLUGIN the plugin."""
 import os
 
 from paraview.simple import *  # noqa: F403: ParaView's way
@@ -53,8 +52,6 @@ def saved(view, name, look=(0.5, 0.9, 1.2), zoom=1.15):
 
 
 def chart(source, port, x, columns, name, titles, logarithmic=(0, 0)):
-    if "BRECCIA_PICTURE_WINDOW" in os.environ:
-        return
     view = CreateView("XYChartView")
     AssignViewToLayout(view=view, layout=CreateLayout(f"view {len(GetLayouts()) + 1}"))
     view.ViewSize = SIZE
@@ -135,10 +132,3 @@ boxes.Representation = "Surface With Edges"
 coloured(boxes, view, "load", "cost over the mean")
 coloured(Show(ExtractBlock(Input=on_ranks, Selectors=["/Root/elements"]), view), view, "rank", "rank")
 saved(view, "rank_view")
-
-if "BRECCIA_PICTURE_WINDOW" in os.environ:
-    view = room(time)
-    coloured(Show(cracks, view), view, "time_of_failure", "time of failure [s]", preset="Inferno (matplotlib)")
-    saved(view, "last")
-    SetActiveSource(cracks)
-    open(os.environ["BRECCIA_PICTURE_WINDOW"], "w").close()

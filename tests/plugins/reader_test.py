@@ -1,6 +1,7 @@
 """pvbatch --symmetric reader_test.py RUN: a run as the reader shows it, against what the run's own files say."""
 import csv
 import json
+import math
 import sys
 
 import numpy as np
@@ -33,7 +34,15 @@ for name in ("status.jsonl", "summary.json", "history.csv", "frames/joints.hdf.s
     b.expect(list(reader.TimestepValues) == [f["time"] for f in index], f"times by {name}")
 b.expect(simple.OpenDataFile(f"{run}/status.jsonl").GetXMLName() == "BrecciaReader", "status.jsonl is opened as a run")
 
-reader.UpdatePipeline(index[-1]["time"])
+last = index[-1]["time"]
+fresh = simple.BrecciaReader(FileName=run)
+simple.EnergyBalance(Input=simple.OutputPort(fresh, 1)).UpdatePipeline(last)
+cells = simple.FractureSurface(Input=fresh)
+cells.UpdatePipeline(last)
+found = gathered([float(b.output(cells).GetNumberOfCells())])
+b.expect(found == [summary["broken_joints"]], f"{found} failed joints after the history was asked for first")
+
+reader.UpdatePipeline(last)
 data = b.output(reader)
 names = [data.GetMetaData(i).Get(data.NAME()) for i in range(data.GetNumberOfBlocks())]
 b.expect(names == ["elements", "contacts", "joints"], f"blocks {names}")
@@ -71,11 +80,34 @@ reader.Channels = names
 fragments = simple.Fragments(Input=reader)
 for entry in index:
     fragments.UpdatePipeline(entry["time"])
+    mass = b.vtk_to_numpy(b.output(reader).GetBlock(0).GetCellData().GetArray("mass")) if b.output(reader).GetBlock(0).GetNumberOfCells() else []
+    model = gathered([math.fsum(mass)])[0]
+    if RANK == 0:
+        total = math.fsum(b.column(b.output(fragments, 1), "mass"))
+        b.expect(abs(total - model) <= 1e-12 * model, f"masses of fragments {total!r} of the model's {model!r} at {entry['time']}")
     found = b.output(fragments)
     own = b.output(reader).GetBlock(0)
     if found.GetNumberOfCells():
         label = b.vtk_to_numpy(found.GetCellData().GetArray("fragment"))
         b.expect(np.array_equal(label, b.vtk_to_numpy(own.GetCellData().GetArray("fragment"))), f"labels at {entry['time']}")
+
+def straight(x, y):
+    slope, intercept = np.polyfit(x, y, 1)
+    return slope, np.exp(-intercept / slope)
+
+
+sieve = b.output(fragments, 2)
+if RANK == 0 and sieve.GetNumberOfRows() > 2:  # the fits once more, by numpy
+    x, p = (b.column(sieve, name)[:-1] for name in ("size", "passing"))
+    largest = b.column(sieve, "size")[-1]
+    exponent, size = straight(np.log(x), np.log(-np.log1p(-p)))
+    b.expect(np.isclose(b.fact(sieve, "rosin_rammler_exponent"), exponent, rtol=1e-6), f"Rosin-Rammler exponent {exponent}")
+    b.expect(np.isclose(b.fact(sieve, "rosin_rammler_size"), size, rtol=1e-6), f"Rosin-Rammler size {size}")
+    exponent, median = straight(np.log(np.log(largest / x)), np.log(1 / p - 1))
+    b.expect(np.isclose(b.fact(sieve, "swebrec_exponent"), exponent, rtol=1e-6), f"Swebrec exponent {exponent}")
+    b.expect(np.isclose(b.fact(sieve, "swebrec_median"), largest * np.exp(-median), rtol=1e-6), f"Swebrec median {largest * np.exp(-median)}")
+    half = np.interp(0.5, b.column(sieve, "passing"), b.column(sieve, "size"))
+    b.expect(np.isclose(b.fact(sieve, "d50"), half, rtol=1e-9), f"d50 {half}")
 if RANK == 0:
     count = b.output(fragments, 1).GetNumberOfRows()
     b.expect(count == summary["fragments"], f"{count} fragments of {summary['fragments']}")

@@ -187,6 +187,36 @@ def no_paraview():
     expect(time.monotonic() - start < 30 and "took more than 1 s" in said, f"said after {time.monotonic() - start} s: {said}")
 
 
+def lives(process):
+    """Whether it runs; one that has ended and that nobody has asked for does not."""
+    try:
+        return open(f"/proc/{process}/stat").read().rsplit(")", 1)[1].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def killed():
+    """A report that is killed leaves no ParaView and no screen behind."""
+    for name in ("pvpython", "xvfb-run"):
+        open(f"{scratch}/{name}", "w").write(f"#!/bin/sh\nsleep 60 &\necho $$ $! >{scratch}/made\nmv {scratch}/made {scratch}/processes\nwait\n")
+        os.chmod(f"{scratch}/{name}", 0o755)
+    for name in ("Breccia.so", "draw_report.py"):
+        open(f"{scratch}/{name}", "w").close()
+    environment = dict(os.environ, BRECCIA_PARAVIEW_PLUGIN=f"{scratch}/Breccia.so", PATH=f"{scratch}:{os.environ['PATH']}")
+    going = subprocess.Popen([breccia, "report", run, "-o", f"{scratch}/page.html"], env=environment)
+    begin = time.monotonic()
+    while not os.path.exists(f"{scratch}/processes") and time.monotonic() - begin < 60:
+        time.sleep(0.02)
+    processes = [int(process) for process in open(f"{scratch}/processes").read().split()]
+    expect(all(lives(process) for process in processes), "the processes run")
+    going.kill()
+    going.wait()
+    begin = time.monotonic()
+    while any(lives(process) for process in processes) and time.monotonic() - begin < 30:
+        time.sleep(0.02)
+    expect(not any(lives(process) for process in processes), f"of {processes} some live on")
+
+
 def unfinished():
     """Runs that go on, were killed, or left files that are not whole."""
     folder = f"{scratch}/killed"

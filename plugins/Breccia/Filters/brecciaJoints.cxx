@@ -8,21 +8,27 @@
 namespace breccia {
 namespace {
 
-/// The middle of a face of an element whose joint has failed; `seen_from`: the element across.
-struct FaceCentre {
+/// A face of an element whose joint has failed; `seen_from`: the element across.
+struct Face {
   vtkTypeInt64 element, seen_from;
-  Vector centre;
-  bool operator<(const FaceCentre& other) const {
+  std::array<double, 9> corners;
+  bool operator<(const Face& other) const {
     return element != other.element ? element < other.element : seen_from < other.seen_from;
   }
 };
 
-Vector Centre(const Elements& elements, vtkIdType e, int face) {
-  Vector centre{};
-  for (const int corner : kFaceCorners[face]) {
-    for (std::size_t k = 0; k < 3; ++k)
-      centre[k] += elements.corners[static_cast<std::size_t>(12 * e + 3 * corner) + k] / 3;
+std::array<double, 9> FaceAt(const Elements& elements, vtkIdType e, int face) {
+  std::array<double, 9> corners{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto from = static_cast<std::size_t>(12 * e + 3 * kFaceCorners[face][c]);
+    for (std::size_t k = 0; k < 3; ++k) corners[3 * c + k] = elements.corners[from + k];
   }
+  return corners;
+}
+
+Vector Centroid(const std::array<double, 9>& corners) {
+  Vector centre{};
+  for (std::size_t i = 0; i < 9; ++i) centre[i % 3] += corners[i] / 3;
   return centre;
 }
 
@@ -75,31 +81,84 @@ std::vector<FailedJoint> AllFailed(const Cracks& cracks, bool with_energy, const
   return all;
 }
 
-void SetJumps(const Elements& elements, const Ranks& ranks, std::vector<FailedJoint>& joints) {
+double EnergyOfDamage(const Cracks& cracks, const Ranks& ranks) {
+  struct Damaged {
+    vtkTypeInt64 id;
+    double energy;
+  };
+  std::vector<Damaged> mine;
+  std::string problem;
+  try {
+    const std::vector<vtkTypeInt64> id = Integers(cracks.grid, "id");
+    const std::vector<double> energy = Numbers(cracks.grid, "energy");
+    std::vector<bool> failed(id.size());
+    for (const vtkIdType cell : cracks.cell) failed[static_cast<std::size_t>(cell)] = true;
+    for (std::size_t i = 0; i < id.size(); ++i) {
+      if (!failed[i]) mine.push_back({id[i], energy[i]});
+    }
+  } catch (const BadInput& bad) {
+    problem = std::string("joints: ") + bad.what();
+  }
+  ranks.Agree(problem);
+  mine = ranks.Gather(mine);
+  std::sort(mine.begin(), mine.end(), [](const Damaged& a, const Damaged& b) { return a.id < b.id; });
+  double sum = 0;
+  for (const Damaged& joint : mine) sum += joint.energy;
+  return sum;
+}
+
+std::vector<FacePair> FacesOf(const Elements& elements, const Ranks& ranks, const std::vector<FailedJoint>& joints) {
   std::vector<vtkTypeInt64> low;  // elements of lower id of the joints
   for (const FailedJoint& joint : joints) low.push_back(joint.id / 4);
-  std::vector<FaceCentre> mine, other;
+  std::vector<Face> mine, other;
   for (vtkIdType e = 0; e < elements.Count(); ++e) {
     for (int f = 0; f < 4; ++f) {
       const vtkTypeInt64 own = elements.id[static_cast<std::size_t>(e)];
       const vtkTypeInt64 across = elements.neighbour[static_cast<std::size_t>(4 * e + f)];
       const bool near = std::binary_search(low.begin(), low.end(), own) && across > own;
       const bool far = across >= 0 && across < own && std::binary_search(low.begin(), low.end(), across);
-      if (near) mine.push_back({4 * own + f, across, Centre(elements, e, f)});
-      if (far) other.push_back({across, own, Centre(elements, e, f)});
+      if (near) mine.push_back({4 * own + f, across, FaceAt(elements, e, f)});
+      if (far) other.push_back({across, own, FaceAt(elements, e, f)});
     }
   }
   mine = ranks.Gather(mine);
   other = ranks.Gather(other);
   std::sort(mine.begin(), mine.end());
   std::sort(other.begin(), other.end());
-  for (FailedJoint& joint : joints) {
-    const auto near = std::lower_bound(mine.begin(), mine.end(), FaceCentre{joint.id, -1, {}});
+  std::vector<FacePair> pairs;
+  for (const FailedJoint& joint : joints) {
+    FacePair& pair = pairs.emplace_back();
+    const auto near = std::lower_bound(mine.begin(), mine.end(), Face{joint.id, -1, {}});
     if (near == mine.end() || near->element != joint.id) continue;
-    const FaceCentre wanted{joint.id / 4, near->seen_from, {}};
+    const Face wanted{joint.id / 4, near->seen_from, {}};
     const auto far = std::lower_bound(other.begin(), other.end(), wanted);
     if (far == other.end() || wanted < *far) continue;
-    joint.jump = Difference(far->centre, near->centre);
+    pair = {true, near->corners, Centroid(far->corners)};
+  }
+  return pairs;
+}
+
+FacePair Between(const FacePair& from, const FacePair& to, double share) {
+  if (!from.found || !to.found) return from.found ? from : to;
+  FacePair between = from;
+  for (std::size_t i = 0; i < 9; ++i) between.near[i] += share * (to.near[i] - from.near[i]);
+  for (std::size_t k = 0; k < 3; ++k) between.far[k] += share * (to.far[k] - from.far[k]);
+  return between;
+}
+
+void SetJump(const FacePair& faces, FailedJoint& joint) {
+  if (faces.found) joint.jump = Difference(faces.far, Centroid(faces.near));
+}
+
+void SetPlace(const FacePair& faces, FailedJoint& joint) {
+  if (!faces.found) return;
+  SetJump(faces, joint);
+  const Vector centre = Centroid(faces.near);
+  joint.normal = AreaVector(faces.near.data());
+  joint.area = Length(joint.normal);
+  for (std::size_t k = 0; k < 3; ++k) {
+    joint.centre[k] = (centre[k] + faces.far[k]) / 2;
+    if (joint.area > 0) joint.normal[k] /= joint.area;
   }
 }
 

@@ -23,12 +23,28 @@ struct FailedJoint {
 };
 
 /// The failed joints of all ranks, ascending by id: alike on all of them. Needs the array energy where `with_energy`.
-/// The jump is the opening along the normal; see SetJumps. Collective.
+/// The jump is the opening along the normal; see SetJump. Collective.
 std::vector<FailedJoint> AllFailed(const Cracks& cracks, bool with_energy, const Ranks& ranks);
 
-/// Sets the jumps to the distance between the centroids of the two faces, in the elements. Those of joints whose
-/// elements are not there stay. Collective.
-void SetJumps(const Elements& elements, const Ranks& ranks, std::vector<FailedJoint>& joints);
+/// J dissipated in joints that are damaged and hold; alike on any number of ranks. Collective.
+double EnergyOfDamage(const Cracks& cracks, const Ranks& ranks);
+
+/// Where the two faces of a joint are.
+struct FacePair {
+  bool found = false;            ///< both elements are there
+  std::array<double, 9> near{};  ///< m, corners of that of the element of lower id, outward sense
+  Vector far{};                  ///< m, centroid of the other
+};
+/// The faces of joints in the elements, one after the other as in the list: alike on all ranks. Collective.
+std::vector<FacePair> FacesOf(const Elements& elements, const Ranks& ranks, const std::vector<FailedJoint>& joints);
+
+/// At `share` (0..1) of the way from one pair to the other; the one that is there where one is missing.
+FacePair Between(const FacePair& from, const FacePair& to, double share);
+
+/// The jump between the centroids of the faces; joints whose faces were not found stay.
+void SetJump(const FacePair& faces, FailedJoint& joint);
+/// The jump, and centre (halfway between the faces), normal and area as well.
+void SetPlace(const FacePair& faces, FailedJoint& joint);
 
 inline double Dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 inline Vector Difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }

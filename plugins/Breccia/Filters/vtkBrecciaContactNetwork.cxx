@@ -133,6 +133,7 @@ void FillChains(const std::map<Pair, Link>& links, const std::map<vtkTypeInt64, 
   tubes->CappingOn();
   tubes->Update();
   out->ShallowCopy(tubes->GetOutput());
+  out->GetPointData()->SetActiveScalars("force");
 }
 
 void FillNodes(const std::map<Pair, Link>& links, vtkTable* table) {

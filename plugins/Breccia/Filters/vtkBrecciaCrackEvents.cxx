@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "brecciaEvents.h"
 #include "vtkCellArray.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
 vtkStandardNewMacro(vtkBrecciaCrackEvents);
@@ -65,6 +69,7 @@ void FillPoints(const std::vector<CrackEvent>& events, vtkTable* table, vtkPolyD
   out->SetPoints(points);
   out->SetVerts(verts);
   out->GetPointData()->ShallowCopy(table->GetRowData());
+  out->GetPointData()->SetActiveScalars("time");
 }
 
 /// Events of each magnitude, and of it or more, with the fitted line.
@@ -92,17 +97,61 @@ void FillMagnitudes(const std::vector<double>& magnitudes, double completeness, 
 
 double Auto(double given, double otherwise) { return given > 0 ? given : otherwise; }
 
+/// A failed joint between two frames of the run.
+struct Failure {
+  double before, after;  ///< s
+  breccia::FacePair first, second;
+};
+
 }  // namespace
 
 vtkBrecciaCrackEvents::vtkBrecciaCrackEvents() : vtkBrecciaFilter(2, {"vtkPolyData", "vtkTable", "vtkTable"}) {}
+
+void vtkBrecciaCrackEvents::GoToFailures(std::vector<breccia::FailedJoint>& joints, double shown) {
+  const breccia::Ranks ranks;
+  std::map<double, std::vector<std::size_t>> frames;  // joints that failed just before or after them
+  std::vector<Failure> failures;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const auto next = std::lower_bound(this->Times.begin(), this->Times.end(), joints[i].time);
+    const auto after = next == this->Times.end() ? next - 1 : next;
+    const auto before = after == this->Times.begin() ? after : after - 1;
+    failures.push_back({*before, *after, {}, {}});
+    frames[*before].push_back(i);
+    if (after != before) frames[*after].push_back(i);
+  }
+  for (const auto& [time, failed] : frames) {
+    std::vector<breccia::FailedJoint> near;
+    for (const std::size_t i : failed) near.push_back(joints[i]);
+    const auto faces = breccia::FacesOf(breccia::FindElements(this->InputAt(time), ranks), ranks, near);
+    for (std::size_t n = 0; n < failed.size(); ++n) {
+      Failure& failure = failures[failed[n]];
+      if (failure.before == time) failure.first = faces[n];
+      if (failure.after == time) failure.second = faces[n];
+    }
+  }
+  this->InputAt(shown);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const double between = failures[i].after - failures[i].before;
+    const double share = between > 0 ? std::clamp((joints[i].time - failures[i].before) / between, 0.0, 1.0) : 0;
+    breccia::SetPlace(breccia::Between(failures[i].first, failures[i].second, share), joints[i]);
+  }
+}
 
 void vtkBrecciaCrackEvents::Make(vtkDataObject* input, vtkDataObject* given, vtkInformationVector* outputs) {
   const breccia::Ranks ranks;
   const breccia::Cracks cracks = breccia::FindCracks(input, given, ranks);
   std::vector<breccia::FailedJoint> joints = breccia::AllFailed(cracks, true, ranks);
+  const double damage_energy = breccia::EnergyOfDamage(cracks, ranks);
   std::vector<double> has_elements{breccia::FindPart(input, "neighbour") ? 1.0 : 0.0};
   ranks.Largest(has_elements);
-  if (has_elements[0] > 0) breccia::SetJumps(breccia::FindElements(input, ranks), ranks, joints);
+  vtkInformation* out = outputs->GetInformationObject(0);
+  vtkInformationDoubleKey* key = vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP();
+  if (has_elements[0] > 0 && this->MomentAt == AT_FAILURE && this->Times.size() > 1 && out->Has(key)) {
+    this->GoToFailures(joints, out->Get(key));
+  } else if (has_elements[0] > 0) {
+    const auto faces = breccia::FacesOf(breccia::FindElements(input, ranks), ranks, joints);
+    for (std::size_t i = 0; i < faces.size(); ++i) breccia::SetJump(faces[i], joints[i]);
+  }
   if (!ranks.First()) joints.clear();
 
   double area = 0;
@@ -124,6 +173,8 @@ void vtkBrecciaCrackEvents::Make(vtkDataObject* input, vtkDataObject* given, vtk
     magnitudes.push_back(this->MagnitudeOf == OF_ENERGY ? event.EnergyMagnitude() : event.Magnitude());
   }
   breccia::AddFact(table, "energy", energy);
+  breccia::AddFact(table, "energy_of_damage", damage_energy);
+  breccia::AddFact(table, "fracture_energy", energy + damage_energy);
   FillMagnitudes(magnitudes, this->Completeness, vtkTable::GetData(outputs, 2));
 }
 
@@ -134,6 +185,7 @@ void vtkBrecciaCrackEvents::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "WaveSpeed: " << this->WaveSpeed << "\n"
      << indent << "YoungsModulus: " << this->YoungsModulus << "\n"
      << indent << "PoissonsRatio: " << this->PoissonsRatio << "\n"
+     << indent << "MomentAt: " << this->MomentAt << "\n"
      << indent << "MagnitudeOf: " << this->MagnitudeOf << "\n"
      << indent << "Completeness: " << this->Completeness << "\n";
 }

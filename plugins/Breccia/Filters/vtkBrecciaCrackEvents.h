@@ -7,15 +7,23 @@
  * b-value in its field data.
  *
  * Moment tensor of an event: sum of A (lambda (u . n) I + mu (u n + n u)) over its joints of area A, normal n and
- * displacement jump u [Aki and Richards, Quantitative Seismology, 3.2]. The jump is that of the time shown: between
- * the two faces where elements are given, else the opening. Scalar moment M0 = sqrt(M:M / 2); magnitude 2/3 (lg M0 -
+ * displacement jump u [Aki and Richards, Quantitative Seismology, 3.2]. The jump between the two faces, their normal,
+ * area and centre are those at the time of failure, between the frames before and after it in proportion to the time
+ * (MomentAt: time of failure); of the time shown where that is asked for, and where the input has one time only; the
+ * opening along the normal where elements are not given. Scalar moment M0 = sqrt(M:M / 2); magnitude 2/3 (lg M0 -
  * 9.1) [Hanks and Kanamori 1979, in N m]; energy magnitude 2/3 lg E - 2.9, E in J [Choy and Boatwright 1995]. b-value:
  * lg e / (mean - M_c) over M >= M_c [Aki 1965], M_c where most events are [Wiemer and Wyss 2000] unless given.
  */
 #ifndef vtkBrecciaCrackEvents_h
 #define vtkBrecciaCrackEvents_h
 
+#include <vector>  // for joints
+
 #include "vtkBrecciaFilter.h"
+
+namespace breccia {
+struct FailedJoint;
+}
 
 class BRECCIAFILTERS_EXPORT vtkBrecciaCrackEvents : public vtkBrecciaFilter {
  public:
@@ -45,6 +53,12 @@ class BRECCIAFILTERS_EXPORT vtkBrecciaCrackEvents : public vtkBrecciaFilter {
   vtkSetMacro(PoissonsRatio, double);
   vtkGetMacro(PoissonsRatio, double);
   ///@}
+  enum Instants { AT_FAILURE = 0, AT_TIME_SHOWN = 1 };
+  ///@{
+  /// Of which instant the positions are.
+  vtkSetClampMacro(MomentAt, int, AT_FAILURE, AT_TIME_SHOWN);
+  vtkGetMacro(MomentAt, int);
+  ///@}
   enum Magnitudes { OF_MOMENT = 0, OF_ENERGY = 1 };
   ///@{
   /// Which magnitude the b-value is of.
@@ -62,6 +76,7 @@ class BRECCIAFILTERS_EXPORT vtkBrecciaCrackEvents : public vtkBrecciaFilter {
   ~vtkBrecciaCrackEvents() override = default;
   void Make(vtkDataObject* input, vtkDataObject* joints, vtkInformationVector* outputs) override;
 
+  int MomentAt = AT_FAILURE;
   double Distance = 0;
   double Duration = 0;
   double WaveSpeed = 3000;
@@ -73,6 +88,9 @@ class BRECCIAFILTERS_EXPORT vtkBrecciaCrackEvents : public vtkBrecciaFilter {
  private:
   vtkBrecciaCrackEvents(const vtkBrecciaCrackEvents&) = delete;
   void operator=(const vtkBrecciaCrackEvents&) = delete;
+
+  /// Sets places and jumps of the joints to those at their time of failure.
+  void GoToFailures(std::vector<breccia::FailedJoint>& joints, double shown);
 };
 
 #endif

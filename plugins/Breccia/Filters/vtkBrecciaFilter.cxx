@@ -1,10 +1,14 @@
 #include "vtkBrecciaFilter.h"
 
+#include <sstream>
+
 #include "brecciaData.h"
+#include "vtkAlgorithmOutput.h"
 #include "vtkDataObjectTypes.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 vtkBrecciaFilter::vtkBrecciaFilter(int inputs, std::vector<std::string> outputs) : OutputTypes(std::move(outputs)) {
   this->SetNumberOfInputPorts(inputs);
@@ -20,6 +24,26 @@ int vtkBrecciaFilter::FillInputPortInformation(int port, vtkInformation* info) {
 int vtkBrecciaFilter::FillOutputPortInformation(int port, vtkInformation* info) {
   info->Set(vtkDataObject::DATA_TYPE_NAME(), this->OutputTypes[static_cast<std::size_t>(port)].c_str());
   return 1;
+}
+
+int vtkBrecciaFilter::RequestInformation(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*) {
+  vtkInformation* info = inputs[0]->GetInformationObject(0);
+  vtkInformationDoubleVectorKey* key = vtkStreamingDemandDrivenPipeline::TIME_STEPS();
+  this->Times.clear();
+  if (info->Has(key)) this->Times.assign(info->Get(key), info->Get(key) + info->Length(key));
+  return 1;
+}
+
+vtkDataObject* vtkBrecciaFilter::InputAt(double time) {
+  vtkAlgorithmOutput* from = this->GetInputConnection(0, 0);
+  auto* pipeline = vtkStreamingDemandDrivenPipeline::SafeDownCast(from->GetProducer()->GetExecutive());
+  vtkInformation* info = pipeline ? pipeline->GetOutputInformation(from->GetIndex()) : nullptr;
+  if (info) info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP(), time);
+  const bool read = info && pipeline->Update(from->GetIndex()) != 0;
+  std::ostringstream problem;
+  if (!read) problem << "the input cannot be read at " << time << " s";
+  breccia::Ranks().Agree(problem.str());
+  return this->GetInputDataObject(0, 0);
 }
 
 int vtkBrecciaFilter::RequestDataObject(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) {

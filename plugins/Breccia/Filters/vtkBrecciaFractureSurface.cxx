@@ -97,6 +97,7 @@ void FillSurface(const breccia::Cracks& cracks, int mode, int up, vtkPolyData* o
   clean->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   clean->Update();
   out->ShallowCopy(clean->GetOutput());
+  out->GetCellData()->SetActiveScalars("time_of_failure");
 }
 
 void FillRose(const std::vector<breccia::FailedJoint>& joints, int up, vtkTable* table) {

@@ -118,6 +118,7 @@ vtkSmartPointer<vtkUnstructuredGrid> Painted(const breccia::Elements& elements, 
   }
   for (vtkDataArray* array : std::initializer_list<vtkDataArray*>{id, mass, diameter, speed})
     grid->GetCellData()->AddArray(array);
+  grid->GetCellData()->SetActiveScalars("fragment_diameter");
   return grid;
 }
 

@@ -8,9 +8,12 @@
 #include "vtkCellData.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPoints.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -84,28 +87,25 @@ void FillBoxes(const std::map<vtkTypeInt64, Part>& parts, vtkTable* table, vtkUn
     out->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
   }
   out->GetCellData()->ShallowCopy(table->GetRowData());
+  out->GetCellData()->SetActiveScalars("load");
 }
 
-}  // namespace
+double Mean(const std::map<vtkTypeInt64, Part>& parts) {
+  double sum = 0;
+  for (const auto& [number, part] : parts) sum += part.cost;
+  return sum / static_cast<double>(std::max<std::size_t>(parts.size(), 1));
+}
 
-vtkBrecciaRankView::vtkBrecciaRankView() : vtkBrecciaFilter(1, {"vtkUnstructuredGrid", "vtkTable"}) {}
+double Imbalance(const std::map<vtkTypeInt64, Part>& parts) {
+  double largest = 0;
+  for (const auto& [number, part] : parts) largest = std::max(largest, part.cost);
+  return Mean(parts) > 0 ? largest / Mean(parts) - 1 : 0;
+}
 
-void vtkBrecciaRankView::Make(vtkDataObject* input, vtkDataObject*, vtkInformationVector* outputs) {
-  const breccia::Ranks ranks;
-  std::map<vtkTypeInt64, Part> parts = PartsOf(input, ranks);
-  if (!ranks.First()) parts.clear();
-  auto* boxes = vtkUnstructuredGrid::GetData(outputs, 0);
-  auto* table = vtkTable::GetData(outputs, 1);
-  boxes->Initialize();
-  table->Initialize();
+void FillTable(const std::map<vtkTypeInt64, Part>& parts, vtkTable* table) {
   std::vector<vtkTypeInt64> rank, elements;
   std::vector<double> cost, load;
-  double sum = 0, largest = 0;
-  for (const auto& [number, part] : parts) {
-    sum += part.cost;
-    largest = std::max(largest, part.cost);
-  }
-  const double mean = sum / static_cast<double>(std::max<std::size_t>(parts.size(), 1));
+  const double mean = Mean(parts);
   for (const auto& [number, part] : parts) {
     rank.push_back(number);
     elements.push_back(part.elements);
@@ -116,6 +116,64 @@ void vtkBrecciaRankView::Make(vtkDataObject* input, vtkDataObject*, vtkInformati
   breccia::AddColumn(table, "elements", elements);
   breccia::AddColumn(table, "cost", cost);
   breccia::AddColumn(table, "load", load);
-  breccia::AddFact(table, "imbalance", mean > 0 ? largest / mean - 1 : 0);
+  breccia::AddFact(table, "imbalance", Imbalance(parts));
+}
+
+/// A line for each frame. Ranks without elements in a frame have the load 0 there.
+void FillHistory(const std::map<double, std::map<vtkTypeInt64, Part>>& frames, vtkTable* table) {
+  std::vector<double> time, imbalance;
+  std::map<vtkTypeInt64, std::vector<double>> load;
+  std::map<vtkTypeInt64, std::vector<vtkTypeInt64>> elements;
+  for (const auto& [at, parts] : frames) {
+    for (const auto& [rank, part] : parts) {
+      load[rank].resize(frames.size());
+      elements[rank].resize(frames.size());
+    }
+  }
+  for (const auto& [at, parts] : frames) {
+    for (const auto& [rank, part] : parts) {
+      load[rank][time.size()] = Mean(parts) > 0 ? part.cost / Mean(parts) : 0;
+      elements[rank][time.size()] = part.elements;
+    }
+    time.push_back(at);
+    imbalance.push_back(Imbalance(parts));
+  }
+  breccia::AddColumn(table, "time [s]", time);
+  breccia::AddColumn(table, "imbalance", imbalance);
+  for (const auto& [rank, values] : load)
+    breccia::AddColumn(table, ("load of rank " + std::to_string(rank)).c_str(), values);
+  for (const auto& [rank, values] : elements)
+    breccia::AddColumn(table, ("elements of rank " + std::to_string(rank)).c_str(), values);
+  breccia::AddFact(table, "imbalance", imbalance.empty() ? 0 : *std::max_element(imbalance.begin(), imbalance.end()));
+}
+
+}  // namespace
+
+vtkBrecciaRankView::vtkBrecciaRankView() : vtkBrecciaFilter(1, {"vtkUnstructuredGrid", "vtkTable", "vtkTable"}) {}
+
+void vtkBrecciaRankView::Make(vtkDataObject* input, vtkDataObject*, vtkInformationVector* outputs) {
+  const breccia::Ranks ranks;
+  vtkInformation* out = outputs->GetInformationObject(0);
+  vtkInformationDoubleKey* key = vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP();
+  const double shown = out->Has(key) ? out->Get(key) : 0;
+  std::map<vtkTypeInt64, Part> parts = PartsOf(input, ranks);
+  std::map<double, std::map<vtkTypeInt64, Part>> frames;
+  if (this->OverTime && this->Times.size() > 1 && out->Has(key)) {
+    for (const double time : this->Times) frames[time] = PartsOf(this->InputAt(time), ranks);
+    this->InputAt(shown);
+  } else {
+    frames[shown] = parts;
+  }
+  auto* boxes = vtkUnstructuredGrid::GetData(outputs, 0);
+  for (int port = 0; port < 3; ++port) vtkDataObject::GetData(outputs, port)->Initialize();
+  if (!ranks.First()) parts.clear();
+  auto* table = vtkTable::GetData(outputs, 1);
+  FillTable(parts, table);
   FillBoxes(parts, table, boxes);
+  if (ranks.First()) FillHistory(frames, vtkTable::GetData(outputs, 2));
+}
+
+void vtkBrecciaRankView::PrintSelf(ostream& os, vtkIndent indent) {
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "OverTime: " << this->OverTime << "\n";
 }

@@ -5,6 +5,7 @@
 #include "brecciaData.h"
 #include "brecciaRunFolder.h"
 #include "vtkCallbackCommand.h"
+#include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArraySelection.h"
@@ -95,8 +96,11 @@ int vtkBrecciaReader::RequestData(vtkInformation*, vtkInformationVector**, vtkIn
   try {
     const breccia::RunFolder run = breccia::OpenRun(this->FileName ? this->FileName : "");
     double time = run.Times().front();
-    if (info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
-      time = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
+    for (const int port : {1, 0}) {  // who asks for the history alone asks for the run of that time next
+      vtkInformation* asking = outputs->GetInformationObject(port);
+      if (asking->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
+        time = asking->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
+    }
     auto* blocks = vtkMultiBlockDataSet::GetData(outputs, 0);
     blocks->Initialize();
     unsigned int block = 0;
@@ -142,6 +146,7 @@ vtkSmartPointer<vtkUnstructuredGrid> vtkBrecciaReader::ReadFrame(const std::stri
                             (complaint.empty() ? "" : ": " + complaint));
   auto copy = vtkSmartPointer<vtkUnstructuredGrid>::New();
   copy->ShallowCopy(grid);
+  if (channel == "elements") copy->GetCellData()->SetActiveScalars("von_mises");
   return copy;
 }
 
