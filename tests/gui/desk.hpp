@@ -1,27 +1,22 @@
 #pragma once
 
+#include <signal.h>
+
 #include <QDir>
-#include <QElapsedTimer>
 #include <QFileDialog>
 #include <QLineEdit>
+#include <QTabBar>
 #include <QTemporaryDir>
 #include <QTest>
 #include <QTimer>
 #include <QTreeWidget>
-#include <functional>
 #include <memory>
 
+#include "gui/block_case.hpp"
 #include "widgets/main_window.hpp"
 #include "widgets/view3d.hpp"
 
 namespace breccia::gui::test {
-
-inline bool wait_until(const std::function<bool()>& ready, int ms) {
-  QElapsedTimer timer;
-  timer.start();
-  while (!ready() && timer.elapsed() < ms) QTest::qWait(20);
-  return ready();
-}
 
 /// A desktop with folders of its own, on the screen, driven by clicks and keys.
 struct Desk {
@@ -31,13 +26,17 @@ struct Desk {
   Desk() { begin(); }
   ~Desk() {
     window->document().close();
-    if (window->run() != nullptr && window->run()->alive()) signal_session(window->run()->record().session, 9);
+    const RunQueue queue(scratch.filePath("state"));
+    queue.hold(true);
+    for (const RunRecord& run : RunRegistry(scratch.filePath("state/runs.json")).load())
+      signal_session(run.session, SIGKILL);
   }
 
   void begin() {
     Places places;
     // Pictures show the program where it is installed.
     places.launch = {qEnvironmentVariable("BRECCIA_PROGRAM", BRECCIA_PROGRAM), BRECCIA_MPIEXEC};
+    places.desktop = BRECCIA_GUI;
     places.meshes = BRECCIA_MESHES;
     places.projects = scratch.filePath("projects");
     places.state = scratch.filePath("state");
@@ -71,6 +70,14 @@ struct Desk {
       return;
     }
     throw std::runtime_error("no stage " + text.toStdString());
+  }
+
+  /// Brings a panel of the foot to the front.
+  void show_tab(const QString& title) {
+    for (auto* bar : window->findChildren<QTabBar*>())
+      for (int i = 0; i < bar->count(); ++i)
+        if (bar->tabText(i) == title) return QTest::mouseClick(bar, Qt::LeftButton, {}, bar->tabRect(i).center());
+    throw std::runtime_error("no tab " + title.toStdString());
   }
 
   /// Types into a field and leaves it.
