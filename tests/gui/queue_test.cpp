@@ -22,14 +22,14 @@ QStringList states(const QTableWidget& table) {
 
 TEST(Queue, RunsThatWereAddedStartInTheChosenOrderAndGoOnWhileNoWindowIsOpen) {
   Desk desk;
-  desk.window->open_path(written_case(desk.scratch, turning_case("500 us")));
+  desk.window->open_path(written_case(desk.scratch, turning_case("300 us")));
   desk.click_stage("Run");
   desk.find<QSpinBox>("ranks")->setValue(1);
   desk.find<QSpinBox>("queue_cores")->setValue(1);
   desk.find<QCheckBox>("queue_hold")->setChecked(true);
   auto* table = desk.find<QTableWidget>("queue_table");
   desk.click("queue_run");
-  desk.window->document().set_value("stage[0].end", "\"600 us\"");
+  desk.window->document().set_value("stage[0].end", "\"100 us\"");
   QTest::keyClick(desk.window.get(), Qt::Key_F5, Qt::ControlModifier | Qt::ShiftModifier);
   desk.click("queue_run");
   ASSERT_EQ(states(*table), (QStringList{"waiting", "waiting", "waiting"}));
@@ -72,6 +72,8 @@ TEST(Queue, ARunOfItIsStoppedAndTheNextOneFollows) {
   auto* table = desk.find<QTableWidget>("queue_table");
   for (int row = 0; row < 2; ++row) {
     ASSERT_TRUE(wait_until([&] { return states(*table)[row] == "running"; }, kSolver));
+    const auto* runs = desk.find<QTableWidget>("runs");  // the latest is the first
+    ASSERT_TRUE(wait_until([&] { return runs->rowCount() == row + 1 && states(*runs)[0] == "running"; }, kSolver));
     table->setCurrentCell(row, 0);
     desk.click("queue_stop");
     ASSERT_TRUE(

@@ -139,7 +139,7 @@ TEST(RunQueue, AWorkerGoesOnWithoutAnybodyAndIsTheOnlyOne) {
 TEST(RunQueue, AWorkerThatWasKilledLeavesItsRunToTheNextOne) {
   const Bench bench;
   bench.queue.set_cores(1);
-  bench.add({bench.wish("a", "500 us"), bench.wish("b")});
+  bench.add({bench.wish("a", "300 us"), bench.wish("b")});
   QProcess worker;
   worker.start(BRECCIA_GUI, {"--work-queue", bench.state});
   ASSERT_TRUE(wait_until([&] { return bench.states() == "a running, b waiting"; }, 20000));

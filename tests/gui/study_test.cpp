@@ -19,7 +19,7 @@ struct StudyBench {
   Study study{scratch.filePath("runs/one-study"), {}, 1, {}, {}};
   QStringList problems;
 
-  StudyBench() { EXPECT_EQ(document.open(written_case(scratch, turning_case("200 us"))), QString()); }
+  StudyBench() { EXPECT_EQ(document.open(written_case(scratch, turning_case("50 us"))), QString()); }
   std::vector<RunWish> plan(const std::vector<StudyParameter>& parameters) {
     study.parameters = parameters;
     return plan_study(document, study, &problems);
