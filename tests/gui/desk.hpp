@@ -90,9 +90,11 @@ struct Desk {
     QTest::keyClick(widget, Qt::Key_Tab);
   }
 
-  /// Clicks a button that opens the dialog for files, and types a name there.
+  /// Clicks a button that opens the dialog for files, and types a name there; again while the dialog stays, since it
+  /// takes no name before it has read the folder.
   void click_and_name(const QString& button, const QString& file) {
-    QTimer::singleShot(300, window.get(), [this, file] {
+    QTimer typing;
+    QObject::connect(&typing, &QTimer::timeout, window.get(), [this, file] {
       auto* dialog = window->findChild<QFileDialog*>();
       if (dialog == nullptr) throw std::runtime_error("no dialog for files");
       auto* name = dialog->findChild<QLineEdit*>("fileNameEdit");
@@ -101,7 +103,9 @@ struct Desk {
       QTest::keyClicks(name, file);
       QTest::keyClick(name, Qt::Key_Return);
     });
+    typing.start(500);
     click(button);
+    typing.stop();
     window->activateWindow();
     (void)QTest::qWaitForWindowActive(window.get());
   }

@@ -45,6 +45,7 @@ TEST(Queue, RunsThatWereAddedStartInTheChosenOrderAndGoOnWhileNoWindowIsOpen) {
   ASSERT_EQ(table->rowCount(), 2);
   desk.find<QCheckBox>("queue_hold")->setChecked(false);
   ASSERT_TRUE(wait_until([&] { return states(*table) == QStringList({"running", "waiting"}); }, kSolver));
+  EXPECT_TRUE(wait_until([&] { return desk.window->view().scene().has_data(); }, kSolver));
   desk.picture("queue");
   EXPECT_EQ(desk.find<QTableWidget>("runs")->rowCount(), 1);
 
