@@ -2,14 +2,21 @@
 
 #include <QApplication>
 #include <QCommandLineParser>
+#include <QFile>
 #include <QIcon>
 #include <QSurfaceFormat>
 #include <clocale>
 
+#include "core/run_queue.hpp"
 #include "widgets/main_window.hpp"
 #include "widgets/theme.hpp"
 
 int main(int argc, char** argv) {
+  // The worker of the queue has no window and needs no display.
+  if (argc == 3 && QByteArray(argv[1]) == "--work-queue") {
+    const QCoreApplication worker(argc, argv);
+    return breccia::gui::work_queue(QFile::decodeName(argv[2]));
+  }
   QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
 #if QT_VERSION < QT_VERSION_CHECK(6, 0, 0)
   QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);

@@ -32,6 +32,7 @@ Places Places::of_this_machine() {
   Places places;
   places.launch.program = first_there({qEnvironmentVariable("BRECCIA_PROGRAM"), program.filePath("breccia"),
                                        program.filePath("../solver/breccia"), "breccia"});
+  places.desktop = QCoreApplication::applicationFilePath();
   places.meshes = first_there({qEnvironmentVariable("BRECCIA_MESHES"), program.filePath("../share/breccia/meshes"),
                                program.filePath("../../../meshes"), "meshes"});
   places.projects = qEnvironmentVariable("BRECCIA_PROJECTS", QDir::home().filePath("Breccia"));

@@ -19,6 +19,7 @@ struct Template {
 /// BRECCIA_PROJECTS, BRECCIA_STATE.
 struct Places {
   Launch launch;
+  QString desktop;   ///< this program, which works the queue of runs as well
   QString meshes;    ///< folder of the shipped cases
   QString projects;  ///< new cases go below it
   QString state;     ///< snapshots, runs, recent cases

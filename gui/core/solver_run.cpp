@@ -42,17 +42,29 @@ QStringList launcher_words(const Launch& launch, int ranks) {
 }
 
 /// Runs the command of a record, and watches it.
-SolverRun* launch_session(RunRecord record, const QString& folder, QString* error, QObject* parent) {
-  const QString parent_folder = QFileInfo(record.folder).absolutePath();
-  if (!QDir().mkpath(parent_folder) || !QFileInfo(parent_folder).isWritable()) {
-    *error = QObject::tr("the folder %1 cannot be written").arg(parent_folder);
-    return nullptr;
-  }
-  const auto session = start_session(record.command, folder, record.folder + ".log", environment_of_runs(), error);
-  if (!session) return nullptr;
-  record.session = *session;
-  return new SolverRun(std::move(record), parent);
+SolverRun* launch_watched(RunRecord record, const QString& folder, QString* error, QObject* parent) {
+  return SolverRun::launch(record, folder, error) ? new SolverRun(std::move(record), parent) : nullptr;
 }
+
+/// Of a run that is no more. @param told  the last it has said
+QString state_after(const RunStatus& told) {
+  if (told.state.isEmpty()) return "failed";
+  return told.over() ? told.state : QString("interrupted");
+}
+
+QString log_of(const QString& folder) { return folder + ".log"; }
+
+/// What it said in the end, else the end of its log.
+QString last_words(const RunStatus& told, const QString& folder) {
+  if (told.over() && !told.message.isEmpty()) return told.message;
+  QFile file(log_of(folder));
+  if (!file.open(QIODevice::ReadOnly)) return {};
+  constexpr qint64 kShown = 4000;
+  file.seek(std::max<qint64>(0, file.size() - kShown));
+  return QString::fromUtf8(file.readAll()).trimmed();
+}
+
+}  // namespace
 
 QJsonObject json_of(const RunRecord& r) {
   return {{"folder", r.folder},
@@ -74,7 +86,13 @@ RunRecord record_of(const QJsonObject& json) {
   return r;
 }
 
-}  // namespace
+RunOutcome outcome_of(const QString& folder) {
+  GrowingFile file(QDir(folder).filePath("status.jsonl"), kStatusTail);
+  RunStatus told;
+  for (const QByteArray& line : file.news()) (void)read_status(line, told);
+  const QString state = state_after(told);
+  return {told, state, state == "failed" || state == "interrupted" ? last_words(told, folder) : QString()};
+}
 
 SolverRun::SolverRun(RunRecord record, QObject* parent)
     : QObject(parent),
@@ -96,10 +114,21 @@ QStringList SolverRun::resume_line(const Launch& launch, const QString& folder, 
                                        << "none";
 }
 
+bool SolverRun::launch(RunRecord& record, const QString& folder, QString* error) {
+  const QString parent_folder = QFileInfo(record.folder).absolutePath();
+  if (!QDir().mkpath(parent_folder) || !QFileInfo(parent_folder).isWritable()) {
+    *error = QObject::tr("the folder %1 cannot be written").arg(parent_folder);
+    return false;
+  }
+  const auto session = start_session(record.command, folder, log_of(record.folder), environment_of_runs(), error);
+  if (session) record.session = *session;
+  return session.has_value();
+}
+
 SolverRun* SolverRun::start(const Launch& launch, const QString& case_file, const QString& folder, int ranks,
                             QString* error, QObject* parent) {
   RunRecord record{folder, case_file, ranks, command_line(launch, case_file, folder, ranks), {}};
-  SolverRun* run = launch_session(std::move(record), QFileInfo(case_file).absolutePath(), error, parent);
+  SolverRun* run = launch_watched(std::move(record), QFileInfo(case_file).absolutePath(), error, parent);
   if (run != nullptr) run->read_history();
   return run;
 }
@@ -108,7 +137,7 @@ SolverRun* SolverRun::go_on(const Launch& launch, const RunRecord& ended, int ra
   RunRecord record = ended;
   record.ranks = ranks;
   record.command = resume_line(launch, ended.folder, ranks);
-  SolverRun* run = launch_session(std::move(record), QFileInfo(ended.folder).absolutePath(), error, parent);
+  SolverRun* run = launch_watched(std::move(record), QFileInfo(ended.folder).absolutePath(), error, parent);
   if (run == nullptr) return nullptr;
   run->read_history();
   run->status_ = {};  // what stands there was said by the run that has ended
@@ -120,18 +149,10 @@ QString SolverRun::state() const {
     if (stopping_.isValid()) return "stopping";
     return status_.state.isEmpty() ? QString("starting") : status_.over() ? QString("finishing") : status_.state;
   }
-  if (status_.state.isEmpty()) return "failed";
-  return status_.over() ? status_.state : QString("interrupted");
+  return state_after(status_);
 }
 
-QString SolverRun::failure() const {
-  if (status_.over() && !status_.message.isEmpty()) return status_.message;
-  QFile file(log_file());
-  if (!file.open(QIODevice::ReadOnly)) return {};
-  constexpr qint64 kShown = 4000;
-  file.seek(std::max<qint64>(0, file.size() - kShown));
-  return QString::fromUtf8(file.readAll()).trimmed();
-}
+QString SolverRun::failure() const { return last_words(status_, record_.folder); }
 
 void SolverRun::read_history() {
   wants_history_ = true;

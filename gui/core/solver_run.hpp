@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QElapsedTimer>
+#include <QJsonObject>
 #include <QObject>
 #include <QTimer>
 #include <vector>
@@ -25,6 +26,17 @@ struct RunRecord {
   Session session;
 };
 
+[[nodiscard]] QJsonObject json_of(const RunRecord& record);
+[[nodiscard]] RunRecord record_of(const QJsonObject& json);
+
+/// How a run has ended, from its folder.
+struct RunOutcome {
+  RunStatus told;   ///< the last it has said
+  QString state;    ///< complete, stopped, failed, interrupted
+  QString message;  ///< why it failed
+};
+[[nodiscard]] RunOutcome outcome_of(const QString& folder);
+
 /// One run: a process of its own that does not need us, watched through its folder. It is looked at every
 /// `kInterval` while somebody holds this object; the run goes on without.
 class SolverRun final : public QObject {
@@ -44,6 +56,9 @@ class SolverRun final : public QObject {
                                                 int ranks);
   /// That of a run that goes on from its last checkpoint.
   [[nodiscard]] static QStringList resume_line(const Launch& launch, const QString& folder, int ranks);
+  /// Runs the command of a record as a session of its own, which is noted there. False: it could not be started.
+  /// @param folder  in which it works
+  [[nodiscard]] static bool launch(RunRecord& record, const QString& folder, QString* error);
   /// Starts one. nullptr: it could not be started, see `error`.
   [[nodiscard]] static SolverRun* start(const Launch& launch, const QString& case_file, const QString& folder,
                                         int ranks, QString* error, QObject* parent);
@@ -66,7 +81,6 @@ class SolverRun final : public QObject {
   [[nodiscard]] bool can_go_on() const { return !alive_ && state() != "complete" && !checkpoints_.empty(); }
   /// Why it failed, in the solver's words.
   [[nodiscard]] QString failure() const;
-  [[nodiscard]] QString log_file() const { return record_.folder + ".log"; }
 
   void pause() { ask("pause"); }
   void resume() { ask("resume"); }

@@ -12,13 +12,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <tuple>
 
 namespace breccia::gui {
 namespace {
-
-/// Corners of the face opposite to corner i, seen from outside in the same sense.
-constexpr std::array<std::array<int, 3>, 4> kFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
 /// Distances over edges of a face: from where on one looks into a crack, and from where on it is a gap.
 constexpr double kApart = 0.01, kFarApart = 0.2;
@@ -65,6 +63,8 @@ double value(vtkDataArray* array, vtkIdType i) { return array == nullptr ? 0.0 :
 }  // namespace
 
 vtkSmartPointer<vtkUnstructuredGrid> read_vtkhdf(const std::string& file) {
+  static std::mutex one_reader;  // HDF5 as it comes is not made for several threads
+  const std::scoped_lock alone(one_reader);
   vtkNew<vtkHDFReader> reader;
   if (reader->CanReadFile(file.c_str()) == 0) return nullptr;
   reader->SetFileName(file.c_str());
@@ -87,7 +87,8 @@ Skin::Skin(vtkUnstructuredGrid& rest) {
     for (int f = 0; f < 4; ++f) {
       const auto place_of = [&](std::int8_t corner) { return place[static_cast<std::size_t>(4 * c + corner)]; };
       std::array<std::int8_t, 3> order{};
-      for (std::size_t i = 0; i < 3; ++i) order[i] = static_cast<std::int8_t>(kFaces[static_cast<std::size_t>(f)][i]);
+      for (std::size_t i = 0; i < 3; ++i)
+        order[i] = static_cast<std::int8_t>(kTetraFaces[static_cast<std::size_t>(f)][i]);
       std::sort(order.begin(), order.end(), [&](std::int8_t a, std::int8_t b) { return place_of(a) < place_of(b); });
       sides.push_back(
           {{static_cast<std::int64_t>(value(body, c)), place_of(order[0]), place_of(order[1]), place_of(order[2])},
@@ -132,7 +133,8 @@ class FaceWriter {
     if (c < 0) return;
     std::array<vtkIdType, 3> corners{};
     for (std::size_t i = 0; i < 3; ++i)
-      corners[i] = points_->InsertNextPoint(at(elements_, 4 * c + kFaces[static_cast<std::size_t>(side)][i]).data());
+      corners[i] =
+          points_->InsertNextPoint(at(elements_, 4 * c + kTetraFaces[static_cast<std::size_t>(side)][i]).data());
     const vtkIdType cell = triangles_->InsertNextCell(3, corners.data());
     skin_->GetCellData()->CopyData(elements_.GetCellData(), c, cell);
   }

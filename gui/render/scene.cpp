@@ -86,6 +86,11 @@ const std::vector<std::pair<Colouring, std::string>>& colourings() {
 Scene::Scene() {
   skin_->SetMapper(skin_mapper_);
   broken_->SetMapper(broken_mapper_);
+  marked_->SetMapper(marked_mapper_);
+  marked_->GetProperty()->SetColor(0.84, 0.37, 0);
+  marked_->GetProperty()->SetAmbient(0.35);
+  marked_->GetProperty()->EdgeVisibilityOn();
+  marked_->VisibilityOff();
   skin_->GetProperty()->SetInterpolationToFlat();
   skin_->GetProperty()->SetAmbient(0.25);
   skin_->GetProperty()->SetDiffuse(0.75);
@@ -117,8 +122,9 @@ Scene::Scene() {
   place_legend(*mode_legend_, 0.82, 0.05, 0.17, 0.35);
   caption_->SetPosition(10, 10);
   caption_->GetTextProperty()->SetFontSize(14);
-  for (vtkProp* prop : {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(legend_),
-                        static_cast<vtkProp*>(mode_legend_), static_cast<vtkProp*>(caption_)})
+  for (vtkProp* prop :
+       {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(marked_),
+        static_cast<vtkProp*>(legend_), static_cast<vtkProp*>(mode_legend_), static_cast<vtkProp*>(caption_)})
     renderer_->AddViewProp(prop);
   clear();
   set_dark(false);
@@ -126,6 +132,7 @@ Scene::Scene() {
 
 void Scene::clear() {
   frame_ = {};
+  mark(nullptr);
   for (vtkProp* prop : {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(legend_),
                         static_cast<vtkProp*>(mode_legend_)})
     prop->VisibilityOff();
@@ -173,7 +180,22 @@ void Scene::set_explode(double share) {
 
 void Scene::show_edges(bool on) { skin_->GetProperty()->SetEdgeVisibility(on); }
 
-void Scene::show_skin(bool on) { skin_->GetProperty()->SetOpacity(on ? 1.0 : 0.15); }
+void Scene::show_skin(bool on) {
+  solid_ = on;
+  set_opacity();
+}
+
+void Scene::mark(vtkPolyData* faces) {
+  marked_mapper_->SetInputData(faces);
+  marked_->SetVisibility(faces != nullptr);
+  set_opacity();
+}
+
+vtkIdType Scene::num_marked() const {
+  return marked_->GetVisibility() != 0 ? marked_mapper_->GetInput()->GetNumberOfPolys() : 0;
+}
+
+void Scene::set_opacity() { skin_->GetProperty()->SetOpacity(solid_ && marked_->GetVisibility() == 0 ? 1.0 : 0.15); }
 
 std::string Scene::group_at(double x, double y) const {
   vtkNew<vtkCellPicker> picker;

@@ -45,6 +45,9 @@ class Scene {
   void hold_range(bool on) { hold_ = on; }
   /// How far parts of different ranks are moved apart: 0 not at all.
   void set_explode(double share);
+  /// Draws these faces and looks through the others at them; nullptr: none.
+  void mark(vtkPolyData* faces);
+  [[nodiscard]] vtkIdType num_marked() const;
   void show_edges(bool on);
   void show_skin(bool on);
   void set_dark(bool dark);
@@ -59,13 +62,14 @@ class Scene {
 
  private:
   void colour();
+  void set_opacity();
   void colour_by_class(const char* array, const std::vector<std::string>& names, const char* title);
   void colour_by_value(const char* array, int component, double scale, const char* title);
   [[nodiscard]] vtkSmartPointer<vtkPolyData> exploded() const;
 
   vtkNew<vtkRenderer> renderer_;
-  vtkNew<vtkPolyDataMapper> skin_mapper_, broken_mapper_;
-  vtkNew<vtkActor> skin_, broken_;
+  vtkNew<vtkPolyDataMapper> skin_mapper_, broken_mapper_, marked_mapper_;
+  vtkNew<vtkActor> skin_, broken_, marked_;
   vtkNew<vtkLookupTable> colours_, mode_colours_;
   vtkNew<vtkScalarBarActor> legend_, mode_legend_;
   vtkNew<vtkTextActor> caption_;
@@ -75,7 +79,7 @@ class Scene {
   Colouring colouring_ = Colouring::group;
   double explode_ = 0;
   std::array<double, 2> range_{0, 1};
-  bool hold_ = false;
+  bool hold_ = false, solid_ = true;
 };
 
 }  // namespace breccia::gui

@@ -4,8 +4,8 @@
 #include <QPainter>
 #include <QPainterPath>
 #include <algorithm>
-#include <cmath>
 
+#include "widgets/chart_frame.hpp"
 #include "widgets/run_panel.hpp"
 
 namespace breccia::gui {
@@ -13,14 +13,6 @@ namespace {
 
 constexpr double kMicro = 1e6, kMega = 1e-6;
 const QColor kOpening(0, 114, 178), kSliding(213, 94, 0);
-
-/// Round numbers on an axis: at most six.
-double tick_of(double span) {
-  const double raw = span / 5, power = std::pow(10, std::floor(std::log10(std::max(raw, 1e-300))));
-  for (const double step : {1.0, 2.0, 5.0})
-    if (raw <= step * power) return step * power;
-  return 10 * power;
-}
 
 double largest(const std::vector<double>& values) {
   return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
@@ -36,10 +28,6 @@ JointPlot::JointPlot(QWidget* parent) : QWidget(parent) {
       "the energies of fracture, the dotted line is the way back from half of the opening. At the right: the strength "
       "under "
       "normal and shear traction [MPa]"));
-}
-
-QPointF JointPlot::Frame::at(double x, double y) const {
-  return {box.left() + (x - left) / (right - left) * box.width(), box.bottom() - y / top * box.height()};
 }
 
 JointPlot::Series JointPlot::series(const QJsonObject& from, const char* x, const char* y, double x_scale) {
@@ -70,39 +58,9 @@ void JointPlot::show_law(const QJsonObject& law, const QString& words) {
 
 int JointPlot::num_points() const { return static_cast<int>(normal_.x.size() + shear_.x.size() + envelope_.x.size()); }
 
-void JointPlot::paint_axes(QPainter& painter, const Frame& frame, const QString& x, const QString& y) const {
-  const QColor ink = palette().color(QPalette::WindowText);
-  QColor grid = ink;
-  grid.setAlpha(45);
-  const QFontMetrics metrics(painter.font());
-  const double step_x = tick_of(frame.right - frame.left), step_y = tick_of(frame.top);
-  for (double v = std::ceil(frame.left / step_x) * step_x; v <= frame.right + 1e-9 * step_x; v += step_x) {
-    const QPointF p = frame.at(v, 0);
-    painter.setPen(grid);
-    painter.drawLine(p, frame.at(v, frame.top));
-    painter.setPen(ink);
-    painter.drawText(QRectF(p.x() - 40, p.y() + 3, 80, metrics.height()), Qt::AlignCenter,
-                     QString::number(std::abs(v) < 1e-9 * step_x ? 0 : v, 'g', 4));
-  }
-  for (double v = 0; v <= frame.top * (1 + 1e-9); v += step_y) {
-    const QPointF p = frame.at(frame.left, v);
-    painter.setPen(grid);
-    painter.drawLine(p, frame.at(frame.right, v));
-    painter.setPen(ink);
-    painter.drawText(QRectF(p.x() - 64, p.y() - metrics.height() / 2.0, 60, metrics.height()),
-                     Qt::AlignRight | Qt::AlignVCenter, QString::number(v, 'g', 4));
-  }
-  painter.drawLine(frame.at(frame.left, 0), frame.at(frame.right, 0));
-  painter.drawText(
-      QRectF(frame.box.left(), frame.box.bottom() + metrics.height() + 3, frame.box.width(), metrics.height()),
-      Qt::AlignCenter, x);
-  painter.drawText(QRectF(frame.box.left() - 40, frame.box.top() - metrics.height() - 4, 240, metrics.height()),
-                   Qt::AlignLeft, y);
-}
-
 void JointPlot::paint_curves(QPainter& painter, const QRectF& box) const {
-  Frame frame{box, 0, 1.05 * std::max(largest(normal_.x), largest(shear_.x)),
-              1.1 * std::max(largest(normal_.y), largest(shear_.y))};
+  const ChartFrame frame{box, 0, 1.05 * std::max(largest(normal_.x), largest(shear_.x)), 0,
+                         1.1 * std::max(largest(normal_.y), largest(shear_.y))};
   const auto path = [&](const Series& s) {
     QPainterPath p;
     for (std::size_t i = 0; i < s.x.size(); ++i) {
@@ -117,7 +75,7 @@ void JointPlot::paint_curves(QPainter& painter, const QRectF& box) const {
   };
   area(shear_, kSliding);
   area(normal_, kOpening);
-  paint_axes(painter, frame, tr("opening, slip [um]"), tr("traction [MPa]"));
+  paint_axes(painter, frame, palette(), tr("opening, slip [um]"), tr("traction [MPa]"));
   painter.setPen(QPen(kSliding, 2, Qt::DashLine));
   painter.drawPath(path(shear_));
   painter.setPen(QPen(kOpening, 2));
@@ -143,7 +101,7 @@ void JointPlot::paint_curves(QPainter& painter, const QRectF& box) const {
 void JointPlot::paint_envelope(QPainter& painter, const QRectF& box) const {
   const double low = envelope_.x.empty() ? 0 : *std::min_element(envelope_.x.begin(), envelope_.x.end());
   const double high = largest(envelope_.x);
-  const Frame frame{box, low, high + 0.1 * (high - low), 1.1 * largest(envelope_.y)};
+  const ChartFrame frame{box, low, high + 0.1 * (high - low), 0, 1.1 * largest(envelope_.y)};
   QPainterPath line, area;
   for (std::size_t i = 0; i < envelope_.x.size(); ++i) {
     const QPointF at = frame.at(envelope_.x[i], envelope_.y[i]);
@@ -155,7 +113,7 @@ void JointPlot::paint_envelope(QPainter& painter, const QRectF& box) const {
   QColor inside(0, 158, 115);
   inside.setAlpha(45);
   painter.fillPath(area, inside);
-  paint_axes(painter, frame, tr("normal traction, tension positive [MPa]"), tr("shear strength [MPa]"));
+  paint_axes(painter, frame, palette(), tr("normal traction, tension positive [MPa]"), tr("shear strength [MPa]"));
   painter.setPen(QPen(QColor(0, 158, 115), 2));
   painter.drawPath(line);
 }

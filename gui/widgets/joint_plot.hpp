@@ -26,13 +26,6 @@ class JointPlot final : public QWidget {
   struct Series {
     std::vector<double> x, y;
   };
-  /// Where values are on the widget.
-  struct Frame {
-    QRectF box;
-    double left = 0, right = 1, top = 1;
-    [[nodiscard]] QPointF at(double x, double y) const;
-  };
-  void paint_axes(QPainter& painter, const Frame& frame, const QString& x, const QString& y) const;
   void paint_curves(QPainter& painter, const QRectF& box) const;
   void paint_envelope(QPainter& painter, const QRectF& box) const;
   [[nodiscard]] static Series series(const QJsonObject& from, const char* x, const char* y, double x_scale);

@@ -17,16 +17,22 @@
 
 #include "widgets/case_text.hpp"
 #include "widgets/case_tree.hpp"
+#include "widgets/conditions_panel.hpp"
+#include "widgets/contact_matrix.hpp"
 #include "widgets/domains_panel.hpp"
 #include "widgets/frame_loader.hpp"
 #include "widgets/joint_plot.hpp"
+#include "widgets/named_button.hpp"
 #include "widgets/plots_panel.hpp"
 #include "widgets/problems_panel.hpp"
 #include "widgets/property_form.hpp"
+#include "widgets/quality_panel.hpp"
+#include "widgets/queue_panel.hpp"
 #include "widgets/results_panel.hpp"
 #include "widgets/run_panel.hpp"
 #include "widgets/runs_panel.hpp"
 #include "widgets/start_page.hpp"
+#include "widgets/study_panel.hpp"
 #include "widgets/theme.hpp"
 #include "widgets/view3d.hpp"
 
@@ -43,6 +49,7 @@ MainWindow::MainWindow(Places places, QWidget* parent)
       document_(places_.state),
       queries_(document_, places_.launch.program),
       registry_(places_.state + "/runs.json"),
+      queue_(places_.state),
       library_(places_.state + "/materials.toml"),
       loader_(new FrameLoader(this)) {
   setObjectName("main_window");
@@ -54,6 +61,7 @@ MainWindow::MainWindow(Places places, QWidget* parent)
   make_actions();
   join_panels();
   find_runs();
+  queue_panel_->look();
   show_start();
 }
 
@@ -70,8 +78,13 @@ void MainWindow::make_panels() {
   plots_ = new PlotsPanel;
   messages_ = new ProblemsPanel;
   joint_plot_ = new JointPlot;
+  contacts_ = new ContactMatrix(document_);
+  conditions_ = new ConditionsPanel;
+  quality_ = new QualityPanel;
   run_panel_ = new RunPanel;
   runs_panel_ = new RunsPanel;
+  queue_panel_ = new QueuePanel(queue_);
+  study_panel_ = new StudyPanel(document_, queue_);
   domains_ = new DomainsPanel;
   results_ = new ResultsPanel;
   centre_ = new QStackedWidget;
@@ -117,10 +130,7 @@ void MainWindow::make_extras(QVBoxLayout& column) {
   library_bar_ = new QWidget;
   auto* row = new QHBoxLayout(library_bar_);
   const auto add = [row](const QString& text, const QString& name, const QString& tip) {
-    auto* button = new QPushButton(text);
-    button->setObjectName(name);
-    button->setAccessibleName(QString(text).remove('&').remove("..."));
-    button->setToolTip(tip);
+    QPushButton* button = named_button(text, name, tip);
     row->addWidget(button);
     return button;
   };
@@ -149,9 +159,15 @@ void MainWindow::make_docks() {
   add_dock(plots_, tr("Plots"), "dock_plots", Qt::BottomDockWidgetArea);
   add_dock(text_, tr("Text"), "dock_text", Qt::BottomDockWidgetArea);
   add_dock(runs_panel_, tr("Runs"), "dock_runs", Qt::BottomDockWidgetArea);
+  add_dock(queue_panel_, tr("Queue"), "dock_queue", Qt::BottomDockWidgetArea);
+  add_dock(study_panel_, tr("Study"), "dock_study", Qt::BottomDockWidgetArea);
+  add_dock(quality_, tr("Quality"), "dock_quality", Qt::BottomDockWidgetArea);
+  add_dock(conditions_, tr("Conditions"), "dock_conditions", Qt::BottomDockWidgetArea);
+  add_dock(contacts_, tr("Contacts"), "dock_contacts", Qt::BottomDockWidgetArea);
   add_dock(joint_plot_, tr("Joint law"), "dock_law", Qt::BottomDockWidgetArea);
   auto* first = findChild<QDockWidget*>("dock_messages");
-  for (const char* name : {"dock_plots", "dock_text", "dock_runs", "dock_law"})
+  for (const char* name : {"dock_plots", "dock_text", "dock_runs", "dock_queue", "dock_study", "dock_quality",
+                           "dock_conditions", "dock_law", "dock_contacts"})
     tabifyDockWidget(first, findChild<QDockWidget*>(name));
   first->raise();
   resizeDocks({findChild<QDockWidget*>("dock_stages"), findChild<QDockWidget*>("dock_properties")}, {240, 400},
@@ -215,13 +231,21 @@ void MainWindow::join_panels() {
       tree_->select(stage, QString::fromStdString(path));
   });
   connect(messages_, &ProblemsPanel::place_wanted, this, &MainWindow::go_to);
-  connect(form_, &PropertyForm::group_entered, this, [this](const QString& group) {
+  const auto show_group = [this](const QString& group) {
     view_->scene().highlight(group.toStdString());
     view_->render();
-  });
+  };
+  connect(form_, &PropertyForm::group_entered, this, show_group);
+  const auto show_entry = [this](const QString& path) { tree_->select(stage_of(path.toStdString()), path); };
+  connect(contacts_, &ContactMatrix::entry_wanted, this, show_entry);
+  connect(contacts_, &ContactMatrix::group_entered, this, show_group);
+  connect(quality_, &QualityPanel::elements_chosen, this, &MainWindow::show_elements);
+  connect(conditions_, &ConditionsPanel::entry_wanted, this, show_entry);
+  connect(conditions_, &ConditionsPanel::group_entered, this, show_group);
   connect(form_, &PropertyForm::pick_wanted, view_, &View3D::set_picking);
   connect(view_, &View3D::group_picked, this, &MainWindow::group_picked);
   connect(run_panel_, &RunPanel::run_wanted, this, &MainWindow::start_run);
+  connect(run_panel_, &RunPanel::queue_wanted, this, &MainWindow::queue_run);
   connect(run_panel_, &RunPanel::check_wanted, this, [this] { queries_.check(); });
   connect(run_panel_, &RunPanel::stop_wanted, this, [this] {
     if (run_ != nullptr) run_->stop();
@@ -245,6 +269,16 @@ void MainWindow::join_panels() {
       if (folders.contains(run->record().folder)) others.push_back(run);
     compare(others);
   });
+  connect(queue_panel_, &QueuePanel::changed, this, &MainWindow::take_queue);
+  connect(queue_panel_, &QueuePanel::worker_wanted, this, &MainWindow::start_worker);
+  connect(queue_panel_, &QueuePanel::run_chosen, this, &MainWindow::open_run);
+  connect(queue_panel_, &QueuePanel::stop_wanted, this, [this](const QString& folder) {
+    for (SolverRun* run : runs_)
+      if (run->record().folder == folder) run->stop();
+  });
+  connect(study_panel_, &StudyPanel::start_wanted, this, &MainWindow::start_study);
+  connect(study_panel_, &StudyPanel::export_wanted, this, &MainWindow::export_study);
+  connect(study_panel_, &StudyPanel::run_chosen, this, &MainWindow::open_run);
   connect(results_, &ResultsPanel::curves_wanted, this, &MainWindow::export_curves);
   connect(results_, &ResultsPanel::animation_wanted, this, &MainWindow::save_animation);
   connect(results_, &ResultsPanel::frame_wanted, this, [this](int n) {

@@ -10,7 +10,7 @@
 #include "core/document.hpp"
 #include "core/material_library.hpp"
 #include "core/places.hpp"
-#include "core/solver_run.hpp"
+#include "core/study.hpp"
 #include "render/frame_data.hpp"
 
 class QAction;
@@ -23,16 +23,21 @@ namespace breccia::gui {
 class AnimationExport;
 class CaseText;
 class CaseTree;
+class ConditionsPanel;
+class ContactMatrix;
 class DomainsPanel;
 class FrameLoader;
 class JointPlot;
 class PlotsPanel;
 class ProblemsPanel;
 class PropertyForm;
+class QualityPanel;
+class QueuePanel;
 class ResultsPanel;
 class RunPanel;
 class RunsPanel;
 class StartPage;
+class StudyPanel;
 class View3D;
 
 /// The one window: stages left, 3D in the middle, properties right, docks below. It joins the parts; what they do is
@@ -79,15 +84,25 @@ class MainWindow final : public QMainWindow {
   void stage_selected(int stage, const QString& path);
   void go_to(const QString& key, int line);
   void show_title();
-  void show_check(const QJsonObject& json);
-  void show_mesh(const QJsonObject& json, const QString& elements_file);
-  void show_division(const QJsonObject& json);
   void show_extras(const QString& path);
   void show_joint_law();
   void group_picked(const QString& group);
   void take_from_library();
   void add_to_library();
+
+  // main_window_answers.cpp: what the solver says of the case
+  void show_check(const QJsonObject& json);
+  void show_mesh(const QJsonObject& json, const QString& elements_file);
+  void show_elements(vtkPolyData* faces, const QString& words);
+  void show_division(const QJsonObject& json);
   void query_failed(const QString& what, const QString& text, const std::vector<Problem>& problems);
+
+  // main_window_queue.cpp: runs that wait, alone or as a study
+  void queue_run();
+  void start_worker();
+  void take_queue();
+  void start_study(const std::vector<StudyParameter>& parameters);
+  void show_studies();
 
   // main_window_runs.cpp: runs and their results
   void start_run();
@@ -101,11 +116,15 @@ class MainWindow final : public QMainWindow {
   void run_changed();
   void run_ended(const SolverRun* run);
   void show_frame(const FrameData& frame);
+
+  // main_window_exports.cpp
   void open_paraview();
   void watch_live();
   void compare(const std::vector<SolverRun*>& others);
   void show_curves();
   void export_curves();
+  void export_study();
+  void save_table(const QString& title, const QString& suggested, const QByteArray& text);
   void save_animation();
   void end_animation();
   void save_picture();
@@ -116,6 +135,8 @@ class MainWindow final : public QMainWindow {
   Document document_;
   CaseQueries queries_;
   RunRegistry registry_;
+  RunQueue queue_;
+  QStringList waiting_;  ///< folders of the runs that waited when the queue was last looked at
   UserLibrary library_;
   std::vector<SolverRun*> runs_, compared_;
   SolverRun* run_ = nullptr;  ///< the one that is shown
@@ -138,12 +159,17 @@ class MainWindow final : public QMainWindow {
   ProblemsPanel* messages_ = nullptr;
   RunPanel* run_panel_ = nullptr;
   RunsPanel* runs_panel_ = nullptr;
+  QualityPanel* quality_ = nullptr;
+  QueuePanel* queue_panel_ = nullptr;
+  StudyPanel* study_panel_ = nullptr;
   DomainsPanel* domains_ = nullptr;
   ResultsPanel* results_ = nullptr;
   QStackedWidget *centre_ = nullptr, *side_ = nullptr;
   QWidget* library_bar_ = nullptr;
   JointPlot* joint_plot_ = nullptr;
-  QAction *dark_ = nullptr, *run_action_ = nullptr;
+  ContactMatrix* contacts_ = nullptr;
+  ConditionsPanel* conditions_ = nullptr;
+  QAction *dark_ = nullptr, *run_action_ = nullptr, *queue_action_ = nullptr;
   QLabel *busy_ = nullptr, *mesh_words_ = nullptr, *run_words_ = nullptr;
   QProgressBar* run_bar_ = nullptr;
 };

@@ -68,6 +68,8 @@ void MainWindow::make_actions() {
       run, tr("&Check"), Qt::Key_F7, [this] { queries_.check(); }, true);
   run_action_ = add(
       run, tr("&Run"), Qt::Key_F5, [this] { start_run(); }, true);
+  queue_action_ = add(
+      run, tr("Add to the &queue"), QKeySequence("Ctrl+Shift+F5"), [this] { queue_run(); }, false);
   add(
       run, tr("&Pause or resume"), Qt::Key_F4, [this] { pause_or_resume(); }, false);
   add(

@@ -4,18 +4,18 @@
 #include <QFileInfo>
 #include <QInputDialog>
 #include <QJsonArray>
-#include <QLabel>
 #include <QMessageBox>
+#include <array>
 
 #include "core/value_text.hpp"
 #include "widgets/case_text.hpp"
 #include "widgets/case_tree.hpp"
+#include "widgets/conditions_panel.hpp"
 #include "widgets/domains_panel.hpp"
 #include "widgets/frame_loader.hpp"
 #include "widgets/joint_plot.hpp"
 #include "widgets/library_dialog.hpp"
 #include "widgets/main_window.hpp"
-#include "widgets/plots_panel.hpp"
 #include "widgets/problems_panel.hpp"
 #include "widgets/property_form.hpp"
 #include "widgets/results_panel.hpp"
@@ -26,30 +26,23 @@
 namespace breccia::gui {
 namespace {
 
+/// The last one is in front.
+constexpr std::array kDocks{"dock_stages", "dock_properties", "dock_plots",    "dock_text",
+                            "dock_runs",   "dock_queue",      "dock_study",    "dock_quality",
+                            "dock_law",    "dock_conditions", "dock_contacts", "dock_messages"};
 constexpr int kPreviewDelay = 1000;  // ms after the last edit
-
-/// Name of a volume group of the answer of `mesh --json`.
-std::vector<std::string> names_of(const QJsonArray& groups) {
-  std::vector<std::string> names;
-  for (const QJsonValue& g : groups) names.push_back(g.toObject()["name"].toString().toStdString());
-  return names;
-}
 
 }  // namespace
 
 void MainWindow::show_start() {
   start_->refresh(registry_.load());
   centre_->setCurrentWidget(start_);
-  for (const char* name :
-       {"dock_stages", "dock_properties", "dock_messages", "dock_plots", "dock_text", "dock_runs", "dock_law"})
-    findChild<QWidget*>(name)->hide();
+  for (const char* name : kDocks) findChild<QWidget*>(name)->hide();
 }
 
 void MainWindow::show_workspace() {
   centre_->setCurrentWidget(view_);
-  for (const char* name :
-       {"dock_stages", "dock_properties", "dock_plots", "dock_text", "dock_runs", "dock_law", "dock_messages"})
-    show_dock(name);
+  for (const char* name : kDocks) show_dock(name);
 }
 
 void MainWindow::open_template(int number, bool run_it) {
@@ -91,6 +84,7 @@ void MainWindow::open_case(const QString& file) {
   tree_->select(0, {});
   stage_selected(tree_->stage(), tree_->path());
   validate();
+  show_studies();
 }
 
 void MainWindow::offer_recovery() {
@@ -161,7 +155,9 @@ void MainWindow::validate() {
   messages_->set_problems(problems_);
   run_panel_->set_problems(static_cast<int>(problems_.size()));
   run_action_->setEnabled(problems_.empty());
+  queue_action_->setEnabled(problems_.empty());
   run_action_->setText(run_words(static_cast<int>(problems_.size())));
+  if (problems_.empty()) conditions_->show_conditions(conditions_of(document_));
   // The preview follows what the mesh is made of, and the groups, which materials name.
   QString source;
   for (const Place& place : document_.places().all())
@@ -199,6 +195,7 @@ void MainWindow::stage_selected(int stage, const QString& path) {
   const bool results = run_ != nullptr && chosen.kind != Kind::sections;
   if (results == showing_results_) return;
   showing_results_ = results;
+  view_->scene().mark(nullptr);
   loader_->start_model();
   if (results) {
     results_->set_frames(run_->frames());
@@ -214,6 +211,11 @@ void MainWindow::show_extras(const QString& path) {
   const QString section = QString::fromStdString(case_::pattern_of(path.toStdString()));
   const bool law = section.startsWith("joint[]");
   library_bar_->setVisible(section == "material[]");
+  if (section == "contact[]") show_dock("dock_contacts");
+  if (section.startsWith("stage[]") || section == "initial_velocity[]") {
+    show_dock("dock_conditions");
+    conditions_->choose(path);
+  }
   if (!law) return;
   show_dock("dock_law");
   show_joint_law();
@@ -263,64 +265,6 @@ void MainWindow::go_to(const QString& key, int line) {
   tree_->select(stage_of(key.toStdString()), key);
   form_->focus_field(key);
   if (line > 0) text_->go_to_line(line);
-}
-
-void MainWindow::show_check(const QJsonObject& json) {
-  const double seconds = json["seconds"].toDouble(), most = json["most_seconds"].toDouble();
-  QString words =
-      tr("%1 elements, %2 joints<br>stable step %3; step used %4<br>%5 steps to %6<br>"
-         "about %7 on one core")
-          .arg(json["elements"].toInt())
-          .arg(json["joints"].toInt())
-          .arg(quantity_words(json["stable_step"].toDouble(), "s"), quantity_words(json["step"].toDouble(), "s"))
-          .arg(json["steps"].toDouble(), 0, 'f', 0)
-          .arg(quantity_words(json["end"].toDouble(), "s"), duration_words(seconds));
-  if (most > seconds) words += tr(" while little breaks, up to %1 where everything does").arg(duration_words(most));
-  words += tr("<br>memory %1, about %3 on disk for %2 frames, more where joints break")
-               .arg(quantity_words(json["memory"].toDouble(), "B"))
-               .arg(json["frames"].toDouble(), 0, 'f', 0)
-               .arg(quantity_words(json["disk"].toDouble(), "B"));
-  QStringList advice;
-  for (const QJsonValue& line : json["advice"].toArray()) advice << line.toString();
-  if (!advice.isEmpty()) words += tr("<br>⚠ advice in the messages below: %1").arg(advice.size());
-  run_panel_->set_estimate(words);
-  messages_->set_advice(advice);
-}
-
-void MainWindow::show_mesh(const QJsonObject& json, const QString& elements_file) {
-  const QJsonObject groups = json["groups"].toObject();
-  QStringList words;
-  for (const char* kind : {"volumes", "surfaces"})
-    for (const std::string& name : names_of(groups[kind].toArray())) words << QString::fromStdString(name);
-  form_->set_groups(words);
-  view_->scene().set_groups(names_of(groups["volumes"].toArray()));
-  mesh_words_->setText(tr("%1 elements, %2 nodes, %3 bodies")
-                           .arg(json["elements"].toInt())
-                           .arg(json["nodes"].toInt())
-                           .arg(json["bodies"].toInt()));
-  owner_.clear();
-  preview_frame_ = {};
-  if (showing_results_) return;
-  loader_->start_model();
-  view_->clear({});
-  loader_->load(elements_file, 0);
-}
-
-void MainWindow::show_division(const QJsonObject& json) {
-  domains_->show_division(json);
-  owner_.clear();
-  for (const QJsonValue& rank : json["owner"].toArray()) owner_.push_back(rank.toInt());
-  if (preview_frame_.skin == nullptr || showing_results_) return;
-  set_ranks(*preview_frame_.skin, owner_);
-  view_->set_colouring(Colouring::rank);
-  view_->show_frame(preview_frame_, tr("coloured by the rank that would own each element"));
-}
-
-void MainWindow::query_failed(const QString& what, const QString& text, const std::vector<Problem>& problems) {
-  if (!text.isEmpty()) messages_->add_message(tr("%1: %2").arg(what, text));
-  for (const Problem& p : problems) messages_->add_message(tr("%1: %2").arg(what, QString::fromStdString(p.text())));
-  if (what == tr("check")) run_panel_->set_estimate(tr("The check found problems; see the messages below."));
-  show_dock("dock_messages");
 }
 
 }  // namespace breccia::gui

@@ -12,6 +12,7 @@
 #include "widgets/main_window.hpp"
 #include "widgets/plots_panel.hpp"
 #include "widgets/results_panel.hpp"
+#include "widgets/study_panel.hpp"
 #include "widgets/view3d.hpp"
 
 namespace breccia::gui {
@@ -40,11 +41,19 @@ void MainWindow::export_curves() {
   for (const SolverRun* run : compared_)
     if (run != run_) runs.emplace_back(name_of(*run), &run->history());
   if (runs.empty()) return;
-  const QString name = QFileDialog::getSaveFileName(this, tr("Export the curves as"),
-                                                    document_.folder() + "/curves.csv", tr("Tables (*.csv)"));
+  save_table(tr("Export the curves as"), "curves.csv", histories_csv(runs));
+}
+
+void MainWindow::export_study() {
+  if (const std::optional<Study>& study = study_panel_->study(); study)
+    save_table(tr("Export the study as"), "study.csv", study_csv(*study, study_panel_->results()));
+}
+
+void MainWindow::save_table(const QString& title, const QString& suggested, const QByteArray& text) {
+  const QString name =
+      QFileDialog::getSaveFileName(this, title, QDir(document_.folder()).filePath(suggested), tr("Tables (*.csv)"));
   if (name.isEmpty()) return;
   QSaveFile file(name);
-  const QByteArray text = histories_csv(runs);
   if (!file.open(QIODevice::WriteOnly) || file.write(text) != text.size() || !file.commit())
     QMessageBox::warning(this, tr("Breccia"), tr("%1 cannot be written: %2").arg(name, file.errorString()));
 }

@@ -15,6 +15,7 @@
 #include "widgets/frame_loader.hpp"
 #include "widgets/main_window.hpp"
 #include "widgets/plots_panel.hpp"
+#include "widgets/queue_panel.hpp"
 #include "widgets/results_panel.hpp"
 #include "widgets/run_panel.hpp"
 #include "widgets/runs_panel.hpp"
@@ -36,8 +37,10 @@ QString MainWindow::new_run_folder() const {
   const QFileInfo beside(file.dir().filePath("runs"));
   const bool writable = beside.exists() ? beside.isWritable() : QFileInfo(file.absolutePath()).isWritable();
   const QString folder = QDir(writable ? file.absolutePath() : places_.projects).filePath("runs/" + name);
+  QStringList waiting;
+  for (const QueuedRun& run : queue_panel_->contents().runs) waiting << run.record.folder;
   QString free = folder;
-  for (int i = 2; QFileInfo::exists(free); ++i) free = folder + QString("-%1").arg(i);
+  for (int i = 2; QFileInfo::exists(free) || waiting.contains(free); ++i) free = folder + QString("-%1").arg(i);
   return free;
 }
 

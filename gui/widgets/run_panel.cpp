@@ -12,18 +12,9 @@
 #include <array>
 #include <cmath>
 
+#include "widgets/named_button.hpp"
+
 namespace breccia::gui {
-namespace {
-
-QPushButton* button(const QString& text, const QString& name, const QString& tip) {
-  auto* made = new QPushButton(text);
-  made->setObjectName(name);
-  made->setAccessibleName(QString(text).remove('&'));
-  made->setToolTip(tip);
-  return made;
-}
-
-}  // namespace
 
 QString run_words(int problems) {
   if (problems == 0) return RunPanel::tr("&Run");
@@ -49,16 +40,20 @@ QString quantity_words(double value, const QString& unit) {
 RunPanel::RunPanel(QWidget* parent)
     : QWidget(parent),
       ranks_(new QSpinBox),
-      run_(button(tr("&Run"), "run", tr("Save the case and start the run (F5)"))),
-      pause_(button(tr("&Pause"), "pause", tr("Wait between two steps, and go on"))),
-      checkpoint_(button(tr("Check&point"), "checkpoint",
-                         tr("Write the whole state now; the run can be resumed from there, whatever happens"))),
-      stop_(button(tr("&Stop"), "stop",
-                   tr("End after the present step with everything written; what does not end in time is killed"))),
-      go_on_(button(tr("Resu&me from checkpoint"), "go_on",
-                    tr("Go on to the same results as if nothing had happened, on as many ranks as are set above"))),
-      check_(button(tr("C&heck"), "check", tr("Stable step, run time, memory and disk, with advice (F7)"))),
-      results_(button(tr("Open res&ults"), "open_results", tr("Walk through the recorded frames of this run"))),
+      run_(named_button(tr("&Run"), "run", tr("Save the case and start the run (F5)"))),
+      queue_(named_button(tr("Add to &queue"), "queue_run",
+                          tr("Run the case as it is now when its turn comes and cores are free (Ctrl+Shift+F5)"))),
+      pause_(named_button(tr("&Pause"), "pause", tr("Wait between two steps, and go on"))),
+      checkpoint_(named_button(tr("Check&point"), "checkpoint",
+                               tr("Write the whole state now; the run can be resumed from there, whatever happens"))),
+      stop_(
+          named_button(tr("&Stop"), "stop",
+                       tr("End after the present step with everything written; what does not end in time is killed"))),
+      go_on_(
+          named_button(tr("Resu&me from checkpoint"), "go_on",
+                       tr("Go on to the same results as if nothing had happened, on as many ranks as are set above"))),
+      check_(named_button(tr("C&heck"), "check", tr("Stable step, run time, memory and disk, with advice (F7)"))),
+      results_(named_button(tr("Open res&ults"), "open_results", tr("Walk through the recorded frames of this run"))),
       command_(new QLineEdit),
       go_on_command_(new QLineEdit),
       estimate_(new QLabel),
@@ -116,9 +111,10 @@ RunPanel::RunPanel(QWidget* parent)
   column->addWidget(command_row(command_, "command_line", tr("Command line")));
   auto* grid = new QGridLayout;
   grid->addWidget(run_, 0, 0);
-  grid->addWidget(pause_, 0, 1);
-  grid->addWidget(stop_, 1, 0);
-  grid->addWidget(checkpoint_, 1, 1);
+  grid->addWidget(queue_, 0, 1);
+  grid->addWidget(pause_, 1, 0);
+  grid->addWidget(stop_, 1, 1);
+  grid->addWidget(checkpoint_, 2, 0);
   column->addLayout(grid);
   column->addWidget(progress_);
   column->addWidget(state_);
@@ -130,6 +126,7 @@ RunPanel::RunPanel(QWidget* parent)
   column->addWidget(results_);
   column->addStretch();
   connect(run_, &QPushButton::clicked, this, &RunPanel::run_wanted);
+  connect(queue_, &QPushButton::clicked, this, &RunPanel::queue_wanted);
   connect(pause_, &QPushButton::clicked, this, &RunPanel::pause_wanted);
   connect(stop_, &QPushButton::clicked, this, &RunPanel::stop_wanted);
   connect(checkpoint_, &QPushButton::clicked, this, &RunPanel::checkpoint_wanted);
@@ -146,7 +143,7 @@ QWidget* RunPanel::command_row(QLineEdit* line, const QString& name, const QStri
   line->setToolTip(tr("The same from a terminal"));
   QFont font = QFontDatabase::systemFont(QFontDatabase::FixedFont);
   line->setFont(font);
-  QPushButton* copy = button(tr("Copy"), "copy_" + name, tr("Copy the command line: %1").arg(title));
+  QPushButton* copy = named_button(tr("Copy"), "copy_" + name, tr("Copy the command line: %1").arg(title));
   copy->setAccessibleName(tr("Copy: %1").arg(title));
   connect(copy, &QPushButton::clicked, this, [line] { QApplication::clipboard()->setText(line->text()); });
   auto* row = new QWidget(this);
@@ -175,6 +172,7 @@ void RunPanel::set_problems(int count) {
   run_->setToolTip(count == 0 ? tr("Save the case and start the run (F5)")
                               : tr("The case has %1 problems; F8 goes to the next one").arg(count));
   check_->setEnabled(count == 0);
+  queue_->setEnabled(count == 0);
 }
 
 void RunPanel::set_estimate(const QString& html) { estimate_->setText(html); }

@@ -29,6 +29,7 @@ class RunPanel final : public QWidget {
 
  signals:
   void run_wanted();
+  void queue_wanted();
   void pause_wanted();
   void stop_wanted();
   void checkpoint_wanted();
@@ -43,7 +44,7 @@ class RunPanel final : public QWidget {
   void show_checkpoints(const SolverRun& run);
 
   QSpinBox* ranks_;
-  QPushButton *run_, *pause_, *checkpoint_, *stop_, *go_on_, *check_, *results_;
+  QPushButton *run_, *queue_, *pause_, *checkpoint_, *stop_, *go_on_, *check_, *results_;
   QLineEdit *command_, *go_on_command_;
   QWidget* go_on_row_ = nullptr;
   QLabel *estimate_, *state_, *warning_, *checkpoints_;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "end_to_end/program.hpp"
+#include "support/notched_beam.hpp"
 
 /// Runs that start from the state of another one under a case of their own.
 namespace breccia::test {
@@ -245,19 +246,6 @@ TEST_F(Start, RefusesWhatDoesNotFitTheState) {
   EXPECT_NE(own.err.find("this folder holds the state"), std::string::npos) << own.err;
   EXPECT_EQ(summary("parent").at("status"), "complete");
 }
-
-/// A beam with a notch whose flank must not be held with the foot beside it once the notch is open.
-constexpr const char* kNotchedBeam = R"(SetFactory("OpenCASCADE");
-Box(1) = {0, 0, 0, 1, 1, 0.5};
-Box(2) = {1, 0, 0, 1, 0.5, 0.5};
-Box(3) = {1, 0.5, 0, 1, 0.5, 0.5};
-BooleanFragments{ Volume{1, 2, 3}; Delete; }{}
-e = 0.01;
-Physical Volume("beam") = Volume{:};
-Physical Surface("notch") = Surface In BoundingBox{1 - e, -e, -e, 1 + e, 0.5 + e, 0.5 + e};
-Physical Surface("foot") = Surface In BoundingBox{1 - e, -e, -e, 2 + e, e, 0.5 + e};
-MeshSize{:} = 0.3;
-)";
 
 TEST_F(Start, MayBreakASurfaceThatTheFirstRunLeftWhole) {
   scratch_.write("beam.geo", kNotchedBeam);

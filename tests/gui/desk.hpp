@@ -1,27 +1,22 @@
 #pragma once
 
+#include <signal.h>
+
 #include <QDir>
-#include <QElapsedTimer>
 #include <QFileDialog>
 #include <QLineEdit>
+#include <QTabBar>
 #include <QTemporaryDir>
 #include <QTest>
 #include <QTimer>
 #include <QTreeWidget>
-#include <functional>
 #include <memory>
 
+#include "gui/block_case.hpp"
 #include "widgets/main_window.hpp"
 #include "widgets/view3d.hpp"
 
 namespace breccia::gui::test {
-
-inline bool wait_until(const std::function<bool()>& ready, int ms) {
-  QElapsedTimer timer;
-  timer.start();
-  while (!ready() && timer.elapsed() < ms) QTest::qWait(20);
-  return ready();
-}
 
 /// A desktop with folders of its own, on the screen, driven by clicks and keys.
 struct Desk {
@@ -31,13 +26,17 @@ struct Desk {
   Desk() { begin(); }
   ~Desk() {
     window->document().close();
-    if (window->run() != nullptr && window->run()->alive()) signal_session(window->run()->record().session, 9);
+    const RunQueue queue(scratch.filePath("state"));
+    queue.hold(true);
+    for (const RunRecord& run : RunRegistry(scratch.filePath("state/runs.json")).load())
+      signal_session(run.session, SIGKILL);
   }
 
   void begin() {
     Places places;
     // Pictures show the program where it is installed.
     places.launch = {qEnvironmentVariable("BRECCIA_PROGRAM", BRECCIA_PROGRAM), BRECCIA_MPIEXEC};
+    places.desktop = BRECCIA_GUI;
     places.meshes = BRECCIA_MESHES;
     places.projects = scratch.filePath("projects");
     places.state = scratch.filePath("state");
@@ -73,6 +72,14 @@ struct Desk {
     throw std::runtime_error("no stage " + text.toStdString());
   }
 
+  /// Brings a panel of the foot to the front.
+  void show_tab(const QString& title) {
+    for (auto* bar : window->findChildren<QTabBar*>())
+      for (int i = 0; i < bar->count(); ++i)
+        if (bar->tabText(i) == title) return QTest::mouseClick(bar, Qt::LeftButton, {}, bar->tabRect(i).center());
+    throw std::runtime_error("no tab " + title.toStdString());
+  }
+
   /// Types into a field and leaves it.
   void type(const QString& field, const QString& text) {
     auto* widget = find<QWidget>(field);
@@ -83,9 +90,11 @@ struct Desk {
     QTest::keyClick(widget, Qt::Key_Tab);
   }
 
-  /// Clicks a button that opens the dialog for files, and types a name there.
+  /// Clicks a button that opens the dialog for files, and types a name there; again while the dialog stays, since it
+  /// takes no name before it has read the folder.
   void click_and_name(const QString& button, const QString& file) {
-    QTimer::singleShot(300, window.get(), [this, file] {
+    QTimer typing;
+    QObject::connect(&typing, &QTimer::timeout, window.get(), [this, file] {
       auto* dialog = window->findChild<QFileDialog*>();
       if (dialog == nullptr) throw std::runtime_error("no dialog for files");
       auto* name = dialog->findChild<QLineEdit*>("fileNameEdit");
@@ -94,7 +103,9 @@ struct Desk {
       QTest::keyClicks(name, file);
       QTest::keyClick(name, Qt::Key_Return);
     });
+    typing.start(500);
     click(button);
+    typing.stop();
     window->activateWindow();
     (void)QTest::qWaitForWindowActive(window.get());
   }

@@ -8,6 +8,7 @@
 #include <QMenu>
 #include <QPlainTextEdit>
 #include <QSet>
+#include <QTableWidget>
 
 #include "case/schema.hpp"
 #include "core/case_outline.hpp"
@@ -121,6 +122,25 @@ TEST(Forms, AnEntryIsAddedAndRemoved) {
   EXPECT_EQ(desk.window->document().text(), before);
 }
 
+TEST(Forms, APairOfGroupsGetsItsContactFromTheMatrix) {
+  Desk desk;
+  desk.window->open_path(QString(BRECCIA_MESHES) + "/glass_impact/case.toml");
+  auto* table = desk.find<QTableWidget>("contact_matrix");
+  desk.click_stage("contact:");
+  ASSERT_EQ(table->rowCount(), 3);
+  table->setCurrentCell(0, 2);
+  desk.click("own_contact");
+  EXPECT_EQ(desk.window->document().value("contact[1].between"), "[\"glass\", \"projectile\"]");
+  EXPECT_TRUE(desk.find<QWidget>("field:contact[1].penalty")->isVisible());
+  EXPECT_FALSE(desk.find<QAbstractButton>("own_contact")->isEnabled());
+  desk.type("field:contact[1].friction", "0.55");
+  EXPECT_TRUE(table->item(2, 0)->text().endsWith("0.55"));
+  EXPECT_FALSE(table->item(0, 0)->text().endsWith("0.55"));
+  EXPECT_TRUE(desk.window->document().problems().empty());
+  EXPECT_TRUE(wait_until([&] { return desk.window->view().scene().has_data(); }, 60000));
+  desk.picture("contacts");
+}
+
 /// What can get the focus by Tab and is no part inside another widget.
 bool counts(const QWidget& widget) {
   if ((widget.focusPolicy() & Qt::TabFocus) == 0 || !widget.isVisible()) return false;
@@ -137,8 +157,7 @@ TEST(Accessibility, EveryWidgetThatTakesTheFocusHasANameAndATooltipAndIsReachedB
   desk.window->open_path(everything(desk.scratch));
   auto* tree = desk.find<QTreeWidget>("stages");
   int seen = 0;
-  for (QTreeWidgetItemIterator it(tree); *it != nullptr; ++it) {
-    tree->setCurrentItem(*it);
+  const auto check = [&] {
     QTest::qWait(1);
     QSet<const QWidget*> reached;
     for (const QWidget* w = desk.window->nextInFocusChain(); w != desk.window.get(); w = w->nextInFocusChain())
@@ -154,8 +173,16 @@ TEST(Accessibility, EveryWidgetThatTakesTheFocusHasANameAndATooltipAndIsReachedB
       }
       ++seen;
     }
+  };
+  for (QTreeWidgetItemIterator it(tree); *it != nullptr; ++it) {
+    tree->setCurrentItem(*it);
+    check();
   }
-  EXPECT_GT(seen, 200);
+  for (const char* panel : {"Plots", "Text", "Runs", "Queue", "Study", "Quality", "Conditions", "Contacts"}) {
+    desk.show_tab(panel);
+    check();
+  }
+  EXPECT_GT(seen, 300);
 }
 
 TEST(Forms, AnsweringAnEditTakesLessThanATenthOfASecond) {

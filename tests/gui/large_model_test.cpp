@@ -22,32 +22,6 @@ double busy_ms() {
   return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
 }
 
-QString large_case(const QTemporaryDir& scratch) {
-  const QString file = scratch.filePath("large.toml");
-  QFile out(file);
-  if (!out.open(QIODevice::WriteOnly)) return {};
-  out.write(QString(R"(title = "large"
-[mesh.raster]
-cells = [%1, %1, %1]
-cell_size = "10 mm"
-group = "block"
-[[material]]
-group = "block"
-young = "40 GPa"
-poisson = 0.2
-density = 2400
-[[joint]]
-group = "block"
-tensile_strength = "5 MPa"
-energy_mode_1 = "100 J/m2"
-[[stage]]
-end = "1 ms"
-)")
-                .arg(kCells)
-                .toUtf8());
-  return file;
-}
-
 /// Longest time for which the thread of the window did not answer, ms of its own.
 class Heartbeat {
  public:
@@ -75,7 +49,7 @@ TEST(LargeModel, FourHundredThousandElementsOpenTurnAndAreEditedWithoutHoldingUp
   const Heartbeat heart;
   QElapsedTimer timer;
   timer.start();
-  desk.window->open_path(large_case(desk.scratch));
+  desk.window->open_path(written_case(desk.scratch, block_case(kCells, "1 ms")));
   ASSERT_TRUE(wait_until([&] { return desk.window->view().scene().has_data() && !desk.window->busy(); }, kSolver));
   const double opened = 1e-3 * static_cast<double>(timer.elapsed());
   const double held_up = heart.longest();

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <QFile>
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QRegularExpression>
@@ -12,34 +11,14 @@
 
 #include "case/reader.hpp"
 #include "case/units.hpp"
+#include "gui/block_case.hpp"
 
 namespace breccia::gui {
 namespace {
 
-const QByteArray kCase = R"(title = "block"
-[mesh.raster]
-cells = [1, 1, 1]
-cell_size = "10 mm"
-group = "block"
-[[material]]
-group = "block"  # mine
-young = "40 GPa"
-poisson = 0.2
-density = 2400
-[[joint]]
-group = "block"
-tensile_strength = "5 MPa"
-energy_mode_1 = "100 J/m2"
-[[stage]]
-end = "1 us"
-)";
+const QByteArray kCase = test::block_case(1, "1 us");
 
-QString case_in(const QTemporaryDir& scratch) {
-  const QString file = scratch.filePath("case.toml");
-  QFile out(file);
-  if (out.open(QIODevice::WriteOnly)) out.write(kCase);
-  return file;
-}
+QString case_in(const QTemporaryDir& scratch) { return test::written_case(scratch, kCase); }
 
 double number(QString toml, const char* unit) { return case_::to_si(toml.remove('"').toStdString(), unit); }
 

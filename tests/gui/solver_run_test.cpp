@@ -5,60 +5,25 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <QCoreApplication>
 #include <QDir>
-#include <QElapsedTimer>
 #include <QFile>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QProcess>
 #include <QTemporaryDir>
-#include <functional>
 #include <memory>
 
 #include "core/solver_query.hpp"
+#include "gui/block_case.hpp"
 
 namespace breccia::gui {
 namespace {
 
-bool wait_until(const std::function<bool()>& ready, int ms) {
-  QElapsedTimer timer;
-  timer.start();
-  while (!ready() && timer.elapsed() < ms) QCoreApplication::processEvents(QEventLoop::AllEvents, 20);
-  return ready();
-}
+using test::turning_case, test::wait_until, test::written_case;
 
 /// A case that runs for minutes unless it is stopped or ends earlier.
 QString long_case(const QTemporaryDir& scratch, const QByteArray& end = "10 s") {
-  const QString file = scratch.filePath("case.toml");
-  QFile out(file);
-  if (out.open(QIODevice::WriteOnly)) {
-    out.write(QByteArray(R"(title = "long"
-[mesh.raster]
-cells = [4, 4, 4]
-cell_size = "10 mm"
-group = "block"
-[[material]]
-group = "block"
-young = "40 GPa"
-poisson = 0.2
-density = 2400
-[[joint]]
-group = "block"
-tensile_strength = "5 MPa"
-energy_mode_1 = "100 J/m2"
-[[initial_velocity]]
-group = "block"
-angular = [0, 0, 20000]
-[[stage]]
-end = "END"
-[output]
-frame_interval = "100 us"
-history_interval = "100 us"
-)")
-                  .replace("END", end));
-  }
-  return file;
+  return written_case(scratch, turning_case(end));
 }
 
 const Launch kLaunch{BRECCIA_PROGRAM, BRECCIA_MPIEXEC};

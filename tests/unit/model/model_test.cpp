@@ -8,6 +8,7 @@
 
 #include "mesh/geometry.hpp"
 #include "model/parameters.hpp"
+#include "support/notched_beam.hpp"
 #include "unit/model/two_boxes.hpp"
 
 namespace breccia {
@@ -93,18 +94,6 @@ TEST(Links, of_an_element_are_screened_by_its_weakest_joint) {
   EXPECT_TRUE(std::equal(limit.begin(), limit.end(), links.limit.begin()));
 }
 
-/// A beam of two halves with a notch between them, open from below; "foot" is the lower side of the right half.
-const std::string kNotchedBeam = R"(SetFactory("OpenCASCADE");
-Box(1) = {0, 0, 0, 1, 1, 0.5};
-Box(2) = {1, 0, 0, 1, 0.5, 0.5};
-Box(3) = {1, 0.5, 0, 1, 0.5, 0.5};
-BooleanFragments{ Volume{1, 2, 3}; Delete; }{}
-e = 0.01;
-Physical Volume("beam") = Volume{:};
-Physical Surface("notch") = Surface In BoundingBox{1 - e, -e, -e, 1 + e, 0.5 + e, 0.5 + e};
-Physical Surface("foot") = Surface In BoundingBox{1 - e, -e, -e, 2 + e, e, 0.5 + e};
-MeshSize{:} = 0.3;
-)";
 const std::string kNotchedCase = R"([mesh]
 file = "beam.geo"
 glue = true
@@ -124,7 +113,7 @@ energy_mode_1 = "100 J/m2"
 /// Nodes of the foot that belong to elements left of the notch.
 std::ptrdiff_t foot_on_the_left(const std::string& rest) {
   const case_::CaseFolder folder;
-  folder.write("beam.geo", kNotchedBeam);
+  folder.write("beam.geo", test::kNotchedBeam);
   const Model model = build_model(case_::read_case(folder.write("case.toml", kNotchedCase + rest)));
   const std::vector<Index> foot = nodes_of_group(model, "foot");
   std::ptrdiff_t left = 0, lower = 0;

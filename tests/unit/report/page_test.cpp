@@ -9,6 +9,13 @@ namespace {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
+RunRecord record_in(const std::string& folder, const std::string& state) {
+  RunRecord run;
+  run.folder = folder;
+  run.state = state;
+  return run;
+}
+
 TEST(Pages, ShowNothingOfARunAsMarkup) {
   RunRecord run;
   const std::string evil = "\"><script>alert(1)</script>";
@@ -42,9 +49,7 @@ TEST(Pages, ShowNothingOfARunAsMarkup) {
 }
 
 TEST(Pages, OfARunWithoutFilesAreWhole) {
-  RunRecord run;
-  run.folder = "/runs/empty";
-  run.state = "unknown";
+  const RunRecord run = record_in("/runs/empty", "unknown");
   const std::string page = page_of(run, {}, "");
   EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
   EXPECT_TRUE(page.ends_with("</html>\n"));
@@ -53,9 +58,7 @@ TEST(Pages, OfARunWithoutFilesAreWhole) {
 }
 
 TEST(Pages, WarnOfABudgetThatDoesNotClose) {
-  RunRecord run;
-  run.folder = "/runs/a";
-  run.state = "complete";
+  RunRecord run = record_in("/runs/a", "complete");
   run.numbers["energy_residual_relative"] = 1e-3;
   EXPECT_EQ(warnings(run, {}), "");
   run.numbers["energy_residual_relative"] = -0.02;

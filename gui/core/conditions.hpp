@@ -1,0 +1,26 @@
+#pragma once
+
+#include <QString>
+#include <vector>
+
+#include "core/document.hpp"
+#include "core/plot_line.hpp"
+
+namespace breccia::gui {
+
+/// A load or constraint of the case.
+struct Condition {
+  QString path;    ///< "stage[0].constraint[1]"
+  QString stage;   ///< name, or its number from 1; empty: before the first one
+  QString type;    ///< "gravity", "fixed", "velocity", "displacement", "pressure", "initial velocity"
+  QString target;  ///< group or surface; empty: everything
+  QString value;   ///< as it stands in the case
+  QString unit;    ///< of the curves
+  /// Functions of time over their stage, s and SI; empty: it is none.
+  std::vector<PlotLine> curves;
+};
+
+/// All of them, stage by stage. Empty where the reader refuses the case.
+[[nodiscard]] std::vector<Condition> conditions_of(const Document& document);
+
+}  // namespace breccia::gui

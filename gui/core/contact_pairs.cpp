@@ -1,0 +1,59 @@
+#include "core/contact_pairs.hpp"
+
+#include "core/case_outline.hpp"
+#include "core/value_text.hpp"
+
+namespace breccia::gui {
+namespace {
+
+QStringList shown_list(const Document& document, const QString& path, const char* key) {
+  return shown_value(case_::key_of(key), document.value(path)).split(", ");
+}
+
+}  // namespace
+
+QStringList groups_of(const Document& document) {
+  QStringList groups;
+  for (int i = 0; i < document.places().count("material"); ++i)
+    groups += shown_list(document, QString("material[%1].group").arg(i), "material[].group");
+  groups.removeAll(QString());
+  groups.removeDuplicates();
+  return groups;
+}
+
+QString contact_of(const Document& document, const QString& a, const QString& b, bool* own) {
+  const auto fits = [](const QString& pattern, const QString& name) { return pattern == "*" || pattern == name; };
+  QString found;
+  int most = -1;
+  for (int i = 0; i < document.places().count("contact"); ++i) {
+    const QString path = QString("contact[%1]").arg(i);
+    const QStringList pair = shown_list(document, path + ".between", "contact[].between");
+    if (pair.size() != 2) continue;
+    const int names = (pair[0] != "*" ? 1 : 0) + (pair[1] != "*" ? 1 : 0);
+    const bool named = (fits(pair[0], a) && fits(pair[1], b)) || (fits(pair[1], a) && fits(pair[0], b));
+    if (!named || names < most) continue;
+    most = names;
+    found = path;
+  }
+  *own = most == 2;
+  return found;
+}
+
+QString give_own_contact(Document& document, const QString& a, const QString& b) {
+  bool own = false;
+  const QString now = contact_of(document, a, b, &own);
+  if (own) return now;
+  QString lines = "between = [" + quoted(a) + ", " + quoted(b) + "]\n";
+  if (now.isEmpty()) {
+    for (const QString& line : lines_of_new_entry("contact").split('\n'))
+      if (!line.isEmpty() && !line.startsWith("between")) lines += line + "\n";
+  } else {
+    for (const std::string& key : document.places().names_below(now.toStdString()))
+      if (key != "between")
+        lines += QString::fromStdString(key) + " = " + document.value(now + "." + QString::fromStdString(key)) + "\n";
+  }
+  document.add_entry("contact", lines);
+  return contact_of(document, a, b, &own);
+}
+
+}  // namespace breccia::gui

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <vector>
+
+#include "core/solver_run.hpp"
+
+/// Runs that wait for their turn. The queue is a file of the state folder; a process of its own, the worker, starts the
+/// runs, so that the windows may be closed meanwhile. Whoever changes the file holds its lock for that moment.
+namespace breccia::gui {
+
+/// A run that somebody wants.
+struct RunWish {
+  QString case_file, folder;  ///< of the results
+  QByteArray text;            ///< of the case; what is edited later is not its matter
+  int ranks = 1;
+  QStringList overrides;  ///< key=value
+  QString words;          ///< what it is called; empty: by its folder
+};
+
+struct QueuedRun {
+  RunRecord record;
+  QString words;
+  QString snapshot;           ///< file that the command reads, taken away in the end; empty: the case itself
+  QString state = "waiting";  ///< waiting, running, then as it ended: complete, stopped, failed, interrupted
+  QString message;            ///< why it failed
+  [[nodiscard]] bool waits() const { return state == "waiting"; }
+  [[nodiscard]] bool runs() const { return state == "running"; }
+};
+
+/// What stands in the file.
+struct QueueContents {
+  int cores = 0;      ///< that runs may use at a time, those started by hand counted too
+  bool held = false;  ///< nothing is started
+  std::vector<QueuedRun> runs;
+};
+
+class RunQueue {
+ public:
+  /// @param state_folder  made when needed
+  explicit RunQueue(const QString& state_folder);
+
+  [[nodiscard]] QueueContents load() const;
+  /// Puts runs at the end. Returns what went wrong, empty: nothing.
+  [[nodiscard]] QString add(const Launch& launch, const std::vector<RunWish>& wishes) const;
+  /// Takes a run that waits or has ended off the list; one that runs stays.
+  void remove(const QString& folder) const;
+  /// Moves one that waits past others that wait. @param by  < 0: earlier
+  void move(const QString& folder, int by) const;
+  void remove_ended() const;
+  void set_cores(int cores) const;
+  void hold(bool on) const;
+
+  /// One look: notes what has ended and starts, in their order, the runs for which cores are free; the first one starts
+  /// alone where it wants more than all. A run that cannot be started or fails is in nobody's way.
+  /// @param registry  gets those that were started
+  /// @return whether anything runs, or will without somebody's help
+  bool advance(const RunRegistry& registry) const;
+
+  /// A worker is at it.
+  [[nodiscard]] bool is_worked() const;
+  /// Nobody is at it, and there is something to do.
+  [[nodiscard]] bool wants_worker() const;
+  /// Changes whenever the file does.
+  [[nodiscard]] QByteArray mark() const;
+
+ private:
+  template <class Change>
+  void change(const Change& what) const;
+  void save(const QueueContents& contents) const;
+  [[nodiscard]] QString file() const;
+  [[nodiscard]] QString worker_lock() const;
+  friend int work_queue(const QString& state_folder);
+
+  QString folder_;
+};
+
+/// The worker: starts runs until none is left, then returns 0; at once where another is at it.
+/// @param state_folder  of RunQueue; its runs.json is the registry
+int work_queue(const QString& state_folder);
+
+}  // namespace breccia::gui

@@ -1,0 +1,84 @@
+#include "widgets/conditions_panel.hpp"
+
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QSignalBlocker>
+
+namespace breccia::gui {
+namespace {
+
+/// A unit in which a time has few digits before the point.
+std::pair<double, QString> unit_of_time(double seconds) {
+  if (seconds >= 1) return {1, "s"};
+  if (seconds >= 1e-3) return {1e3, "ms"};
+  return {1e6, "us"};
+}
+
+}  // namespace
+
+ConditionsPanel::ConditionsPanel(QWidget* parent) : QWidget(parent), table_(new QTableWidget), chart_(new LineChart) {
+  setObjectName("conditions");
+  table_->setObjectName("conditions_table");
+  table_->setAccessibleName(tr("Loads and constraints"));
+  table_->setToolTip(tr("Loads and constraints by stage; Enter or a double click leads to the entry"));
+  table_->setColumnCount(5);
+  table_->setHorizontalHeaderLabels({tr("stage"), tr("type"), tr("target"), tr("value"), tr("entry")});
+  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table_->setSelectionMode(QAbstractItemView::SingleSelection);
+  table_->setTabKeyNavigation(false);
+  table_->verticalHeader()->hide();
+  table_->horizontalHeader()->setStretchLastSection(true);
+  chart_->setObjectName("load_chart");
+  chart_->setAccessibleName(tr("Functions of time"));
+  chart_->setToolTip(tr("The value of the condition in hand over its stage, in SI units, as the solver reads it"));
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(2, 2, 2, 2);
+  row->addWidget(table_, 1);
+  row->addWidget(chart_, 1);
+  connect(table_, &QTableWidget::currentCellChanged, this, [this](int now, int, int, int) {
+    show_curves();
+    if (now >= 0 && table_->hasFocus()) emit group_entered(conditions_[static_cast<std::size_t>(now)].target);
+  });
+  connect(table_, &QTableWidget::cellActivated, this, [this](int now, int) {
+    emit entry_wanted(QString(conditions_[static_cast<std::size_t>(now)].path));  // the list may change meanwhile
+  });
+}
+
+void ConditionsPanel::show_conditions(std::vector<Condition> conditions) {
+  const int current = table_->currentRow();
+  const QSignalBlocker quiet(table_);
+  conditions_ = std::move(conditions);
+  table_->setRowCount(static_cast<int>(conditions_.size()));
+  for (int row = 0; row < table_->rowCount(); ++row) {
+    const Condition& c = conditions_[static_cast<std::size_t>(row)];
+    const QStringList cells{c.stage.isEmpty() ? tr("start") : c.stage, c.type,
+                            c.target.isEmpty() ? tr("everything") : c.target, c.value, c.path};
+    for (int column = 0; column < cells.size(); ++column) {
+      if (table_->item(row, column) == nullptr) table_->setItem(row, column, new QTableWidgetItem);
+      table_->item(row, column)->setText(cells[column]);
+      table_->item(row, column)->setToolTip(cells[column]);
+    }
+  }
+  for (const int column : {0, 1, 2}) table_->resizeColumnToContents(column);
+  table_->setCurrentCell(std::min(std::max(current, 0), table_->rowCount() - 1), 0);
+  show_curves();
+}
+
+void ConditionsPanel::choose(const QString& path) {
+  for (int row = 0; row < table_->rowCount(); ++row)
+    if (conditions_[static_cast<std::size_t>(row)].path == path) table_->setCurrentCell(row, 0);
+}
+
+void ConditionsPanel::show_curves() {
+  const int row = table_->currentRow();
+  if (row < 0 || row >= static_cast<int>(conditions_.size())) return chart_->show_lines({}, {}, {});
+  const Condition& chosen = conditions_[static_cast<std::size_t>(row)];
+  std::vector<PlotLine> lines = chosen.curves;
+  const auto [scale, unit] = unit_of_time(lines.empty() ? 1 : lines.front().x.back());
+  for (PlotLine& line : lines)
+    for (double& t : line.x) t *= scale;
+  chart_->show_lines(std::move(lines), tr("time [%1]").arg(unit), QString("%1 [%2]").arg(chosen.type, chosen.unit));
+}
+
+}  // namespace breccia::gui

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <QStringList>
+#include <QWidget>
+#include <vector>
+
+#include "core/plot_line.hpp"
+
+namespace breccia::gui {
+
+struct ChartFrame;
+
+/// Lines with a legend, told apart by dashes and marks as well as by colour.
+class LineChart final : public QWidget {
+  Q_OBJECT
+ public:
+  explicit LineChart(QWidget* parent = nullptr);
+  /// @param x_title, y_title  "name [unit]";  @param x_words  what stands at 0, 1, 2...; empty: numbers
+  void show_lines(std::vector<PlotLine> lines, const QString& x_title, const QString& y_title,
+                  const QStringList& x_words = {});
+  [[nodiscard]] QSize sizeHint() const override { return {420, 200}; }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {240, 120}; }
+  [[nodiscard]] const std::vector<PlotLine>& lines() const { return lines_; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  void paint_line(QPainter& painter, const ChartFrame& frame, const PlotLine& line, int number) const;
+  void paint_legend(QPainter& painter, const QRectF& box) const;
+
+  std::vector<PlotLine> lines_;
+  QString x_title_, y_title_;
+  QStringList x_words_;
+};
+
+}  // namespace breccia::gui

@@ -1,0 +1,94 @@
+#include <QJsonArray>
+#include <QLabel>
+
+#include "widgets/domains_panel.hpp"
+#include "widgets/frame_loader.hpp"
+#include "widgets/main_window.hpp"
+#include "widgets/problems_panel.hpp"
+#include "widgets/property_form.hpp"
+#include "widgets/quality_panel.hpp"
+#include "widgets/run_panel.hpp"
+#include "widgets/view3d.hpp"
+
+// What is done with the solver's answers about the case.
+
+namespace breccia::gui {
+namespace {
+
+/// Name of a volume group of the answer of `mesh --json`.
+std::vector<std::string> names_of(const QJsonArray& groups) {
+  std::vector<std::string> names;
+  for (const QJsonValue& g : groups) names.push_back(g.toObject()["name"].toString().toStdString());
+  return names;
+}
+
+}  // namespace
+
+void MainWindow::show_check(const QJsonObject& json) {
+  const double seconds = json["seconds"].toDouble(), most = json["most_seconds"].toDouble();
+  QString words =
+      tr("%1 elements, %2 joints<br>stable step %3; step used %4<br>%5 steps to %6<br>"
+         "about %7 on one core")
+          .arg(json["elements"].toInt())
+          .arg(json["joints"].toInt())
+          .arg(quantity_words(json["stable_step"].toDouble(), "s"), quantity_words(json["step"].toDouble(), "s"))
+          .arg(json["steps"].toDouble(), 0, 'f', 0)
+          .arg(quantity_words(json["end"].toDouble(), "s"), duration_words(seconds));
+  if (most > seconds) words += tr(" while little breaks, up to %1 where everything does").arg(duration_words(most));
+  words += tr("<br>memory %1, about %3 on disk for %2 frames, more where joints break")
+               .arg(quantity_words(json["memory"].toDouble(), "B"))
+               .arg(json["frames"].toDouble(), 0, 'f', 0)
+               .arg(quantity_words(json["disk"].toDouble(), "B"));
+  QStringList advice;
+  for (const QJsonValue& line : json["advice"].toArray()) advice << line.toString();
+  if (!advice.isEmpty()) words += tr("<br>⚠ advice in the messages below: %1").arg(advice.size());
+  run_panel_->set_estimate(words);
+  messages_->set_advice(advice);
+}
+
+void MainWindow::show_mesh(const QJsonObject& json, const QString& elements_file) {
+  const QJsonObject groups = json["groups"].toObject();
+  QStringList words;
+  for (const char* kind : {"volumes", "surfaces"})
+    for (const std::string& name : names_of(groups[kind].toArray())) words << QString::fromStdString(name);
+  form_->set_groups(words);
+  view_->scene().set_groups(names_of(groups["volumes"].toArray()));
+  mesh_words_->setText(tr("%1 elements, %2 nodes, %3 bodies")
+                           .arg(json["elements"].toInt())
+                           .arg(json["nodes"].toInt())
+                           .arg(json["bodies"].toInt()));
+  owner_.clear();
+  preview_frame_ = {};
+  quality_->set_mesh(elements_file);
+  if (showing_results_) return;
+  loader_->start_model();
+  view_->clear({});
+  loader_->load(elements_file, 0);
+}
+
+/// Of a bar of the histogram: seen where the mesh at rest is.
+void MainWindow::show_elements(vtkPolyData* faces, const QString& words) {
+  if (showing_results_) return;
+  view_->scene().mark(faces);
+  view_->scene().set_caption((faces == nullptr ? tr("mesh at rest") : words).toStdString());
+  view_->render();
+}
+
+void MainWindow::show_division(const QJsonObject& json) {
+  domains_->show_division(json);
+  owner_.clear();
+  for (const QJsonValue& rank : json["owner"].toArray()) owner_.push_back(rank.toInt());
+  if (preview_frame_.skin == nullptr || showing_results_) return;
+  set_ranks(*preview_frame_.skin, owner_);
+  view_->set_colouring(Colouring::rank);
+  view_->show_frame(preview_frame_, tr("coloured by the rank that would own each element"));
+}
+
+void MainWindow::query_failed(const QString& what, const QString& text, const std::vector<Problem>& problems) {
+  if (!text.isEmpty()) messages_->add_message(tr("%1: %2").arg(what, text));
+  for (const Problem& p : problems) messages_->add_message(tr("%1: %2").arg(what, QString::fromStdString(p.text())));
+  if (what == tr("check")) run_panel_->set_estimate(tr("The check found problems; see the messages below."));
+  show_dock("dock_messages");
+}
+
+}  // namespace breccia::gui

@@ -1,0 +1,162 @@
+#include "widgets/queue_panel.hpp"
+
+#include <QFileInfo>
+#include <QHeaderView>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+
+#include "widgets/named_button.hpp"
+
+namespace breccia::gui {
+namespace {
+
+constexpr int kLook = 1000;         // ms
+constexpr qint64 kStarting = 5000;  // ms that a worker needs at most before it holds its lock
+
+}  // namespace
+
+QueuePanel::QueuePanel(const RunQueue& queue, QWidget* parent)
+    : QWidget(parent),
+      queue_(queue),
+      table_(new QTableWidget),
+      earlier_(named_button(tr("Ear&lier"), "queue_earlier", tr("Before the run above it"))),
+      later_(named_button(tr("Late&r"), "queue_later", tr("After the run below it"))),
+      stop_(named_button(tr("S&top"), "queue_stop", tr("End this run after its present step; the next one follows"))),
+      remove_(named_button(tr("Re&move"), "queue_remove", tr("Take a run that waits or has ended off this list"))),
+      clear_(named_button(tr("Clear en&ded"), "queue_clear", tr("Take all runs that have ended off this list"))),
+      cores_(new QSpinBox),
+      held_(new QCheckBox(tr("&Hold"))) {
+  setObjectName("queue");
+  make_table();
+  auto* row = new QHBoxLayout;
+  make_buttons(*row);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(2, 2, 2, 2);
+  column->addWidget(table_, 1);
+  column->addLayout(row);
+  connect(&timer_, &QTimer::timeout, this, &QueuePanel::look);
+  timer_.start(kLook);
+  contents_ = queue_.load();
+  show_contents();
+}
+
+void QueuePanel::make_table() {
+  table_->setObjectName("queue_table");
+  table_->setAccessibleName(tr("Queue of runs"));
+  table_->setToolTip(
+      tr("Runs start in this order as cores become free, also while no window is open; Enter or a double click shows "
+         "a run that has started"));
+  table_->setColumnCount(5);
+  table_->setHorizontalHeaderLabels({tr("run"), tr("state"), tr("ranks"), tr("case"), tr("folder")});
+  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table_->setSelectionMode(QAbstractItemView::SingleSelection);
+  table_->setTabKeyNavigation(false);
+  table_->verticalHeader()->hide();
+  table_->horizontalHeader()->setStretchLastSection(true);
+  connect(table_, &QTableWidget::itemSelectionChanged, this, &QueuePanel::show_buttons);
+  connect(table_, &QTableWidget::cellActivated, this, [this] {
+    if (const QueuedRun* run = chosen(); run != nullptr && !run->waits()) emit run_chosen(run->record.folder);
+  });
+}
+
+void QueuePanel::make_buttons(QHBoxLayout& row) {
+  for (QPushButton* b : {earlier_, later_, stop_, remove_, clear_}) row.addWidget(b);
+  row.addStretch();
+  cores_->setRange(1, 4096);
+  cores_->setObjectName("queue_cores");
+  cores_->setAccessibleName(tr("Cores for runs"));
+  cores_->setToolTip(
+      tr("Ranks that may run at a time, those of runs started by hand among them; 1: one run after another"));
+  held_->setObjectName("queue_hold");
+  held_->setAccessibleName(tr("Hold the queue"));
+  held_->setToolTip(tr("Nothing more is started; what runs goes on"));
+  auto* label = new QLabel(tr("C&ores"));
+  label->setBuddy(cores_);
+  row.addWidget(label);
+  row.addWidget(cores_);
+  row.addWidget(held_);
+  connect(earlier_, &QPushButton::clicked, this, [this] { move(-1); });
+  connect(later_, &QPushButton::clicked, this, [this] { move(1); });
+  connect(remove_, &QPushButton::clicked, this, [this] { act(&RunQueue::remove); });
+  connect(stop_, &QPushButton::clicked, this, [this] {
+    if (const QueuedRun* run = chosen(); run != nullptr) emit stop_wanted(run->record.folder);
+  });
+  connect(clear_, &QPushButton::clicked, this, [this] {
+    queue_.remove_ended();
+    look();
+  });
+  connect(cores_, qOverload<int>(&QSpinBox::valueChanged), this, [this](int n) { queue_.set_cores(n); });
+  connect(held_, &QCheckBox::toggled, this, [this](bool on) {
+    queue_.hold(on);
+    look();
+  });
+}
+
+const QueuedRun* QueuePanel::chosen() const {
+  const int row = table_->currentRow();
+  return row >= 0 && row < static_cast<int>(contents_.runs.size()) ? &contents_.runs[static_cast<std::size_t>(row)]
+                                                                   : nullptr;
+}
+
+void QueuePanel::act(void (RunQueue::*what)(const QString&) const) {
+  if (const QueuedRun* run = chosen(); run != nullptr) (queue_.*what)(QString(run->record.folder));
+  look();
+}
+
+void QueuePanel::move(int by) {
+  const QueuedRun* run = chosen();
+  if (run == nullptr) return;
+  const QString folder = run->record.folder;
+  queue_.move(folder, by);
+  look();
+  for (int row = 0; row < table_->rowCount(); ++row)
+    if (contents_.runs[static_cast<std::size_t>(row)].record.folder == folder) table_->setCurrentCell(row, 0);
+}
+
+void QueuePanel::look() {
+  if (const QByteArray mark = queue_.mark(); mark != mark_) {
+    mark_ = mark;
+    contents_ = queue_.load();
+    show_contents();
+    emit changed();
+  }
+  const bool just_started = since_worker_.isValid() && since_worker_.elapsed() < kStarting;
+  if (contents_.runs.empty() || just_started || !queue_.wants_worker()) return;
+  since_worker_.start();
+  emit worker_wanted();
+}
+
+void QueuePanel::show_contents() {
+  const QSignalBlocker quiet_cores(cores_), quiet_held(held_);
+  cores_->setValue(contents_.cores);
+  held_->setChecked(contents_.held);
+  table_->setRowCount(static_cast<int>(contents_.runs.size()));
+  for (int row = 0; row < table_->rowCount(); ++row) {
+    const QueuedRun& run = contents_.runs[static_cast<std::size_t>(row)];
+    const QStringList cells{run.words, run.state, QString::number(run.record.ranks),
+                            QFileInfo(run.record.case_file).fileName(), run.record.folder};
+    for (int c = 0; c < cells.size(); ++c) {
+      if (table_->item(row, c) == nullptr) table_->setItem(row, c, new QTableWidgetItem);
+      table_->item(row, c)->setText(cells[c]);
+      table_->item(row, c)->setToolTip(run.message.isEmpty() ? shell_line(run.record.command) : run.message);
+    }
+  }
+  table_->resizeColumnsToContents();
+  show_buttons();
+}
+
+void QueuePanel::show_buttons() {
+  const QueuedRun* run = chosen();
+  const bool waits = run != nullptr && run->waits();
+  earlier_->setEnabled(waits);
+  later_->setEnabled(waits);
+  stop_->setEnabled(run != nullptr && run->runs());
+  remove_->setEnabled(run != nullptr && !run->runs());
+  bool ended = false;
+  for (const QueuedRun& r : contents_.runs) ended = ended || (!r.waits() && !r.runs());
+  clear_->setEnabled(ended);
+}
+
+}  // namespace breccia::gui

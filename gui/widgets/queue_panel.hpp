@@ -1,0 +1,52 @@
+#pragma once
+
+#include <QCheckBox>
+#include <QElapsedTimer>
+#include <QHBoxLayout>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QTableWidget>
+#include <QTimer>
+
+#include "core/run_queue.hpp"
+
+namespace breccia::gui {
+
+/// The queue of runs: its order, how it goes, and how many cores it may use. It is looked at every second, since the
+/// worker and other windows change it.
+class QueuePanel final : public QWidget {
+  Q_OBJECT
+ public:
+  explicit QueuePanel(const RunQueue& queue, QWidget* parent = nullptr);
+  /// Reads the file if it has changed, and asks for a worker where one is missing.
+  void look();
+  [[nodiscard]] const QueueContents& contents() const { return contents_; }
+
+ signals:
+  void changed();
+  void worker_wanted();
+  void run_chosen(const QString& folder);
+  void stop_wanted(const QString& folder);
+
+ private:
+  void make_table();
+  void make_buttons(QHBoxLayout& row);
+  void show_contents();
+  void show_buttons();
+  /// nullptr: no row is chosen.
+  [[nodiscard]] const QueuedRun* chosen() const;
+  void act(void (RunQueue::*what)(const QString&) const);
+  void move(int by);
+
+  const RunQueue& queue_;
+  QueueContents contents_;
+  QByteArray mark_;
+  QTimer timer_;
+  QElapsedTimer since_worker_;
+  QTableWidget* table_;
+  QPushButton *earlier_, *later_, *stop_, *remove_, *clear_;
+  QSpinBox* cores_;
+  QCheckBox* held_;
+};
+
+}  // namespace breccia::gui

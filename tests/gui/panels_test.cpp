@@ -1,0 +1,121 @@
+#include <gtest/gtest.h>
+
+#include <QComboBox>
+#include <QLabel>
+#include <QSpinBox>
+#include <QTableWidget>
+
+#include "core/study.hpp"
+#include "gui/desk.hpp"
+#include "widgets/line_chart.hpp"
+#include "widgets/quality_panel.hpp"
+
+namespace breccia::gui::test {
+namespace {
+
+constexpr int kSolver = 240000;  // ms; the machine may be busy
+
+TEST(Panels, AStudyIsQueuedFromATableAndEndsInOnePlotAndOneTable) {
+  Desk desk;
+  desk.window->open_path(written_case(desk.scratch, turning_case("200 us")));
+  desk.find<QSpinBox>("ranks")->setValue(1);
+  desk.find<QSpinBox>("queue_cores")->setValue(2);
+  desk.show_tab("Study");
+  desk.type("study_key_1", "material[0].density");
+  desk.type("study_values_1", "1 g/cm3; 2 g/cm3; -1");
+  desk.type("study_key_2", "detection.algorithm");
+  desk.type("study_values_2", "ms; sorted_grid");
+  auto* start = desk.find<QAbstractButton>("study_start");
+  EXPECT_EQ(start->text(), "Add 6 runs to the queue");
+  desk.click("study_start");
+  EXPECT_TRUE(desk.find<QLabel>("study_words")->text().contains("density")) << "the solver's words";
+  EXPECT_EQ(desk.find<QTableWidget>("queue_table")->rowCount(), 0);
+  desk.type("study_values_1", "1 g/cm3; 2 g/cm3; 4 g/cm3");
+  desk.click("study_start");
+  EXPECT_TRUE(desk.find<QLabel>("study_words")->text().isEmpty());
+  auto* table = desk.find<QTableWidget>("study_table");
+  ASSERT_EQ(table->rowCount(), 6);
+  const auto complete = [&] {
+    int n = 0;
+    for (int row = 0; row < table->rowCount(); ++row) n += table->item(row, 2)->text() == "complete" ? 1 : 0;
+    return n == 6;
+  };
+  ASSERT_TRUE(wait_until(complete, kSolver));
+  auto* column = desk.find<QComboBox>("study_column");
+  column->setCurrentText("kinetic [J]");
+  const auto& lines = desk.find<LineChart>("study_chart")->lines();
+  ASSERT_EQ(lines.size(), 2U);
+  ASSERT_EQ(lines[0].y.size(), 3U);
+  EXPECT_LT(lines[0].y[0], lines[0].y[2]);
+  EXPECT_EQ(table->item(0, 3)->text(), QString::number(lines[0].y[0], 'g', 6));
+  desk.picture("study");
+  const QString file = desk.scratch.filePath("runs/study.csv");
+  desk.click_and_name("study_export", file);
+  QFile csv(file);
+  ASSERT_TRUE(csv.open(QIODevice::ReadOnly));
+  EXPECT_EQ(csv.readAll().count('\n'), 7);
+
+  desk.begin();  // another window finds it
+  desk.window->open_path(desk.scratch.filePath("case.toml"));
+  EXPECT_EQ(desk.find<QComboBox>("studies")->count(), 1);
+  EXPECT_EQ(desk.find<QTableWidget>("study_table")->rowCount(), 6);
+}
+
+TEST(Panels, AFunctionOfTimeIsDrawnBesideTheTableOfConditions) {
+  Desk desk;
+  desk.window->open_path(written_case(desk.scratch, block_case(2, "1 ms") + R"(gravity = [0, 0, "-9.81 m/s2"]
+[[stage.constraint]]
+group = "block"
+velocity = { x = { ramp = { to = "2 m/s", end = "400 us" } }, z = { linear = "-1000 m/s2" } }
+)"));
+  auto* table = desk.find<QTableWidget>("conditions_table");
+  ASSERT_EQ(table->rowCount(), 2);
+  desk.click_stage("constraint");
+  EXPECT_EQ(table->currentRow(), 1) << "the entry in hand";
+  auto* chart = desk.find<LineChart>("load_chart");
+  ASSERT_EQ(chart->lines().size(), 2U);
+  EXPECT_EQ(chart->lines()[0].name, "velocity x");
+  EXPECT_EQ(chart->lines()[0].y.back(), 2);
+  EXPECT_EQ(chart->lines()[0].x.back(), 1) << "ms";
+  ASSERT_TRUE(wait_until([&] { return desk.window->view().scene().has_data(); }, kSolver));
+  desk.picture("conditions");
+  desk.window->document().set_value("stage[0].constraint[0].velocity", "{ x = \"5 m/s\" }");
+  ASSERT_TRUE(wait_until([&] { return chart->lines()[0].y.front() == 5; }, 5000));
+  table->setCurrentCell(0, 0);
+  EXPECT_EQ(chart->lines()[0].name, "gravity z");
+}
+
+TEST(Panels, ABarOfTheHistogramShowsItsElements) {
+  Desk desk;
+  desk.window->open_path(QString(BRECCIA_MESHES) + "/glass_impact/case_demo.toml");
+  auto* bars = desk.find<HistogramView>("quality_bars");
+  ASSERT_TRUE(
+      wait_until([&] { return desk.window->view().scene().has_data() && !bars->bars().counts.empty(); }, kSolver));
+  SolverQuery query;
+  QJsonObject told;
+  QObject::connect(&query, &SolverQuery::answered, [&](const QJsonObject& json) { told = json; });
+  query.ask(BRECCIA_PROGRAM, {"mesh", desk.window->document().file(), "--json"});
+  ASSERT_TRUE(wait_until([&] { return !told.isEmpty(); }, kSolver));
+  const QJsonArray counts = told["quality"].toArray();
+  ASSERT_EQ(counts.size(), static_cast<int>(bars->bars().counts.size()));
+  for (int bar = 0; bar < counts.size(); ++bar)
+    EXPECT_NEAR(bars->bars().counts[static_cast<std::size_t>(bar)], counts[bar].toInt(), 2) << "those of the solver";
+
+  desk.show_tab("Quality");
+  int fullest = 0;
+  for (int bar = 0; bar < counts.size(); ++bar)
+    if (counts[bar].toInt() > counts[fullest].toInt()) fullest = bar;
+  QTest::mouseClick(bars, Qt::LeftButton, {}, bars->place_of(fullest).center().toPoint());
+  Scene& scene = desk.window->view().scene();
+  EXPECT_EQ(scene.num_marked(), 4 * bars->bars().counts[static_cast<std::size_t>(fullest)]);
+  QTest::keyClick(bars, Qt::Key_Left);
+  EXPECT_EQ(scene.num_marked(), 4 * bars->bars().counts[static_cast<std::size_t>(fullest - 1)]);
+  QTest::keyClick(bars, Qt::Key_Left);
+  QTest::keyClick(bars, Qt::Key_Left);
+  desk.picture("quality");
+  QTest::keyClick(bars, Qt::Key_Escape);
+  EXPECT_EQ(scene.num_marked(), 0);
+}
+
+}  // namespace
+}  // namespace breccia::gui::test
