@@ -16,7 +16,7 @@
 extern "C" {
 #endif
 
-#define BRECCIA_INSITU_ABI_VERSION 3
+#define BRECCIA_INSITU_ABI_VERSION 4
 
 /* The channels: frozen names, in this order everywhere. A set of channels is a mask of bits 1 << channel. */
 enum {
@@ -110,6 +110,7 @@ typedef struct {
 typedef struct {
   int32_t abi_version;
   const char* description; /* "ParaView Catalyst 5.11.0" */
+  const char* data_folder; /* absolute: pipelines/, and python/, the view of `breccia live` */
 
   /* Looks whether all pipelines could run: scripts can be read and compile, names are known, parameters are known to
    * the adaptor's own pipelines, images find a display (one is made when none is there and Xvfb is installed),

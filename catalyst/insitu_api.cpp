@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "catalyst/adaptor.hpp"
+#include "catalyst/folders.hpp"
 #include "catalyst/messages.hpp"
 #include "catalyst/preflight.hpp"
 #include "catalyst/replay.hpp"
@@ -116,8 +117,10 @@ std::int32_t replay_records(const BrecciaConfig* config, const char* folder, cha
 
 extern "C" __attribute__((visibility("default"))) const BrecciaInsituApi* breccia_insitu_api(void) {
   using namespace breccia::insitu;
+  static const std::string folder = data_folder().string();
   static const BrecciaInsituApi api{BRECCIA_INSITU_ABI_VERSION,
                                     backend_description(),
+                                    folder.c_str(),
                                     preflight,
                                     open,
                                     channels,

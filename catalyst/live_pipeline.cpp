@@ -1,12 +1,19 @@
 #include "catalyst/live_pipeline.hpp"
 
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkLiveInsituLink.h>
+#include <vtkNew.h>
 #include <vtkPVTrivialProducer.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkProcessModule.h>
 #include <vtkSMProxyManager.h>
 #include <vtkSMSession.h>
 #include <vtkSMSessionProxyManager.h>
 #include <vtkSMSourceProxy.h>
+#include <vtkTable.h>
 
 #include "catalyst/frame_to_vtk.hpp"
 #include "catalyst/messages.hpp"
@@ -17,6 +24,25 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto kBetweenAttempts = std::chrono::milliseconds(500);
 constexpr int kAttemptShare = 50;  ///< an attempt that took t is followed by 50 t without one
+
+/// The link joins what ranks send, but for tables, which get lost: rows become points.
+vtkSmartPointer<vtkDataObject> sendable(vtkDataObject* object) {
+  auto* table = vtkTable::SafeDownCast(object);
+  if (table == nullptr) return object;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> vertices;
+  for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row) {
+    points->InsertNextPoint(0, 0, 0);
+    vertices->InsertNextCell(1, &row);
+  }
+  auto rows = vtkSmartPointer<vtkPolyData>::New();
+  rows->SetPoints(points);
+  rows->SetVerts(vertices);
+  rows->GetCellData()->ShallowCopy(table->GetRowData());
+  rows->GetFieldData()->ShallowCopy(table->GetFieldData());
+  return rows;
+}
 
 }  // namespace
 
@@ -61,7 +87,7 @@ void LivePipeline::publish(const Frame& frame) {
   for (std::size_t channel = 0; channel < sources_.size(); ++channel) {
     if (!sources_[channel]) continue;
     auto* producer = vtkPVTrivialProducer::SafeDownCast(sources_[channel]->GetClientSideObject());
-    producer->SetOutput(frame.channels[channel], frame.time);
+    producer->SetOutput(sendable(frame.channels[channel]), frame.time);
     sources_[channel]->MarkModified(sources_[channel]);
     sources_[channel]->UpdatePipeline(frame.time);
   }

@@ -12,7 +12,7 @@ install(FILES README.md DESTINATION share/doc/breccia COMPONENT solver)
 install(FILES LICENSE DESTINATION share/doc/breccia RENAME copyright COMPONENT solver)
 
 if(TARGET breccia_catalyst)
-  install(TARGETS breccia_catalyst LIBRARY DESTINATION lib/breccia COMPONENT insitu)
+  install(TARGETS breccia_catalyst breccia_loopback LIBRARY DESTINATION lib/breccia COMPONENT insitu)
   install(DIRECTORY catalyst/pipelines catalyst/python DESTINATION share/breccia/catalyst COMPONENT insitu FILES_MATCHING PATTERN "*.py")
   install(FILES LICENSE DESTINATION share/doc/breccia-insitu RENAME copyright COMPONENT insitu)
 endif()

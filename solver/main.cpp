@@ -14,6 +14,7 @@
 
 #include "base/error.hpp"
 #include "base/interruption.hpp"
+#include "case/live_address.hpp"
 #include "case/nearest.hpp"
 #include "case/schema.hpp"
 #include "case/units.hpp"
@@ -246,7 +247,7 @@ void define_report(CLI::App& app, Arguments& a) {
 void define_run_insitu(CLI::App& run, Arguments& a) {
   const auto live = [&a](const std::vector<std::string>& address) {
     a.run.overrides.push_back("insitu.live.address=\"" +
-                              (address.empty() || address[0].empty() ? "localhost:22222" : address[0]) + "\"");
+                              (address.empty() || address[0].empty() ? case_::live_address : address[0]) + "\"");
   };
   CLI::Option* asked = run.add_option_function<std::vector<std::string>>(
                               "--live", live,

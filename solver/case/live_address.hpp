@@ -7,6 +7,9 @@
 
 namespace breccia::case_ {
 
+/// Where ParaView listens unless the user says otherwise.
+inline constexpr const char* live_address = "localhost:22222";
+
 /// "host:port" or "port", an IPv6 host in brackets; nothing if it is neither.
 [[nodiscard]] std::optional<std::pair<std::string, int>> host_and_port(std::string_view address);
 

@@ -106,8 +106,8 @@ inline constexpr auto run_keys = std::to_array<Key>({
      .example = "\"stop\""},
 
     {.path = "insitu.live", .type = section,
-     .help = "A running ParaView sees the run: Catalyst > Connect there, before or during the run. `breccia run "
-             "--live` adds this section."},
+     .help = "A running ParaView sees the run: `breccia live`, or Catalyst > Connect there, before or during the run. "
+             "`breccia run --live` adds this section."},
     {.path = "insitu.live.address", .type = text, .fallback = "\"localhost:22222\"",
      .help = "Where ParaView listens, host:port.", .example = "\"localhost:22333\""},
     {.path = "insitu.live.remote", .type = boolean, .fallback = "false",
@@ -116,7 +116,7 @@ inline constexpr auto run_keys = std::to_array<Key>({
     {.path = "insitu.live.interval", .type = number, .unit = "s", .fallback = "1", .range = not_negative,
      .help = "Wall time between two updates, at least.", .example = "\"0.2 s\""},
     {.path = "insitu.live.channels", .type = text_list,
-     .fallback = "[\"surface\", \"fractures\", \"contacts\", \"domains\", \"elements\"]",
+     .fallback = "[\"surface\", \"fractures\", \"contacts\", \"domains\", \"elements\", \"history\"]",
      .choices = "elements|joints|fractures|contacts|surface|domains|history",
      .help = "What ParaView is offered.", .example = "[\"surface\", \"fractures\"]"},
     {.path = "insitu.live.max_overhead", .type = number, .fallback = "0.05",

@@ -46,7 +46,8 @@ struct LiveCommand {
   std::filesystem::path case_file;
   std::vector<std::string> overrides;
 };
-/// Becomes ParaView, which listens at the address of the case; returns only by throwing.
+/// Becomes ParaView with a prepared view, which listens at the address of the case, or localhost:22222 without one;
+/// returns only by throwing.
 int live_command(const LiveCommand& asked);
 
 struct ReplayCommand {

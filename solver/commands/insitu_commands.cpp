@@ -1,12 +1,6 @@
-#include <unistd.h>
-
 #include <fmt/core.h>
-#include <array>
-#include <cerrno>
 #include <optional>
 
-#include "case/live_address.hpp"
-#include "case/reader.hpp"
 #include "commands/commands.hpp"
 #include "output/atomic_file.hpp"
 #include "output/control.hpp"
@@ -22,17 +16,6 @@ int control_command(const ControlCommand& asked) {
     throw InputError(Problem{"", 0, asked.command, command.complaint, "", ""});
   fmt::print("{}: done\n", ask_run(asked.folder, command.text, asked.patience));
   return 0;
-}
-
-int live_command(const LiveCommand& asked) {
-  const case_::Case input = case_::read_case(asked.case_file, asked.overrides);
-  const auto address = case_::host_and_port(input.insitu.live.value_or(case_::Live{}).address);
-  const std::string port = std::to_string(address->second);
-  fmt::print("ParaView listens at port {}; start the run with --live, before or afterwards.\n", port);
-  std::fflush(stdout);
-  const std::string option = "--live=" + port;
-  ::execlp("paraview", "paraview", option.c_str(), static_cast<char*>(nullptr));
-  throw output_error("paraview", "cannot be started; apt-get install paraview brings it", errno);
 }
 
 int replay_command(const ReplayCommand& asked, const Communicator& world) {

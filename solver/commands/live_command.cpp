@@ -1,0 +1,132 @@
+#include <arpa/inet.h>
+#include <unistd.h>
+
+#include <fmt/core.h>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "case/live_address.hpp"
+#include "case/reader.hpp"
+#include "commands/commands.hpp"
+#include "output/atomic_file.hpp"
+#include "output/insitu_config.hpp"
+#include "output/insitu_plugin.hpp"
+
+namespace breccia {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What our ParaView begins with, each where its word does not occur in the settings yet.
+struct Setting {
+  const char *word, *lines;
+};
+constexpr std::array kSettings{
+    Setting{"ShowWelcomeDialog", "[General]\nGeneralSettings.ShowWelcomeDialog=false\n"},
+    Setting{"[MainWindow]", "[MainWindow]\nSize=@Size(1600 1000)\n"},
+};
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+void set(const char* name, const std::string& value) { ::setenv(name, value.c_str(), 1); }
+
+void prepend(const char* name, const std::string& value) {
+  const std::string old = variable(name);
+  set(name, old.empty() ? value : value + ":" + old);
+}
+
+std::string content(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+/// A folder of settings that starts as a copy of the user's, welcomes nobody, and has the buttons of the view; the
+/// user's own stay as they are. What cannot be written is left out: ParaView opens all the same.
+fs::path settings_folder(const std::string& paraview_version, const fs::path& macros) {
+  const std::string given = variable("XDG_CONFIG_HOME");
+  const fs::path users = given.empty() ? fs::path(variable("HOME")) / ".config" : fs::path(given);
+  const fs::path ours = users / "breccia", folder = ours / "ParaView";
+  std::error_code error;
+  if (!fs::exists(folder, error)) {
+    fs::create_directories(folder, error);
+    fs::copy(users / "ParaView", folder, fs::copy_options::recursive, error);  // there may be none
+  }
+  fs::create_directories(folder / "Macros", error);
+  fs::copy(macros, folder / "Macros", fs::copy_options::recursive | fs::copy_options::overwrite_existing, error);
+  const fs::path file = folder / ("ParaView" + paraview_version + ".ini");
+  const std::string old = content(file);
+  for (const Setting& setting : kSettings) {
+    if (old.find(setting.word) == std::string::npos) std::ofstream(file, std::ios::app) << setting.lines;
+  }
+  return ours;
+}
+
+/// ParaView's ports, and those of the MPI that it starts, are reached from this machine only. Throws OutputError when
+/// the library that does it is not there.
+void keep_on_this_machine() {
+  const fs::path library = InSituPlugin::place().parent_path() / "libbreccia_loopback.so";
+  if (!fs::exists(library)) throw output_error(library, "cannot be loaded into ParaView", ENOENT);
+  prepend("LD_PRELOAD", library.string());
+  for (const char* name : {"OMPI_MCA_oob_tcp_if_include", "PMIX_MCA_ptl_tcp_if_include"}) set(name, "lo");
+}
+
+/// Throws OutputError when somebody listens at the port already, of which ParaView would say nothing.
+void demand_free(int port) {
+  const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const int yes = 1;
+  ::setsockopt(listener, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  place.sin_port = htons(static_cast<std::uint16_t>(port));
+  const bool is_free = ::bind(listener, reinterpret_cast<const sockaddr*>(&place), sizeof place) == 0;
+  const int why = errno;
+  ::close(listener);
+  if (!is_free)
+    throw output_error("port " + std::to_string(port),
+                       "ParaView cannot listen there; insitu.live.address says where it does", why);
+}
+
+/// What the view is told of the run.
+void describe(const case_::Case& input, int port) {
+  const InSituConfig config(input, ".", {});
+  set("BRECCIA_LIVE_PORT", std::to_string(port));
+  set("BRECCIA_LIVE_TITLE", input.title);
+  set("BRECCIA_LIVE_END", fmt::format("{:.17g}", config.get().end));
+  set("BRECCIA_LIVE_STRENGTH", fmt::format("{:.17g}", config.get().strength));
+}
+
+}  // namespace
+
+int live_command(const LiveCommand& asked) {
+  const case_::Case input = case_::read_case(asked.case_file, asked.overrides);
+  const std::string address = input.insitu.live ? input.insitu.live->address : case_::live_address;
+  const int port = case_::host_and_port(address)->second;
+  demand_free(port);
+  const InSituPlugin plugin;
+  const fs::path data = plugin.api().data_folder;
+  const std::string description = plugin.api().description;
+  describe(input, port);
+  prepend("PYTHONPATH", (data / "pipelines").string());
+  prepend("PYTHONPATH", (data / "python").string());
+  const std::string version = description.substr(description.rfind(' ') + 1);
+  set("XDG_CONFIG_HOME", settings_folder(version, data / "python" / "macros").string());
+  if (!input.insitu.live || !input.insitu.live->remote) keep_on_this_machine();
+  fmt::print("ParaView listens at port {}; start the run, before or afterwards: breccia run {} --live{}\n", port,
+             asked.case_file.string(), address == case_::live_address ? "" : "=" + address);
+  std::fflush(stdout);
+  const std::string script = "--script=" + (data / "python" / "open_live_view.py").string();
+  ::execlp("paraview", "paraview", script.c_str(), static_cast<char*>(nullptr));
+  throw output_error("paraview", "cannot be started; apt-get install paraview brings it", errno);
+}
+
+}  // namespace breccia
