@@ -41,6 +41,25 @@ TEST(ModelAdvice, is_silent_where_there_is_contact_or_one_body_or_all_are_held) 
   EXPECT_EQ(advice_on(raster("[2, 1, 1]") + kStage + held), "");
 }
 
+TEST(ModelAdvice, names_what_can_break_where_there_is_no_contact) {
+  const std::string breakable = "[[joint]]\ngroup = \"rock\"\ntensile_strength = 1e6\nenergy_mode_1 = 10\n";
+  std::string text = raster("[1, 1, 1]") + breakable + kStage;
+  text.replace(text.find("\"none\""), 6, "\"breakable\"");
+  EXPECT_THAT(advice_on(text), HasSubstr("no [[contact]], and rock can break"));
+  EXPECT_EQ(advice_on(text + "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"40 GPa\"\n"), "");
+}
+
+TEST(ModelAdvice, names_the_thickness_that_fits_the_elements_of_a_plane_model) {
+  const auto layer = [](const std::string& thickness) {
+    std::string text = raster("[1, 1, 1]") + kStage + "[plane]\nkind = \"strain\"\n";
+    const std::string size = "\"10 mm\"";
+    return advice_on(text.replace(text.find(size), size.size(), "[0.01, 0.01, " + thickness + "]"));
+  };
+  EXPECT_EQ(layer("0.01"), "");
+  EXPECT_THAT(layer("0.03"), AllOf(HasSubstr("30 mm thick"), HasSubstr("about 7.07 mm is best")));
+  EXPECT_THAT(layer("0.002"), HasSubstr("2 mm thick"));
+}
+
 TEST(ModelAdvice, names_a_sphere_that_does_not_hold_the_model_and_the_radius_that_would) {
   const auto sphere = [](const std::string& radius) {
     return "[sphere]\ncentre = [\"5 mm\", \"5 mm\", \"5 mm\"]\nradius = \"" + radius + "\"\npenalty = \"40 GPa\"\n";
