@@ -86,7 +86,8 @@ std::unique_ptr<Pipeline> Adaptor::made(const BrecciaPipeline& pipeline, const B
       return std::make_unique<HistoryPipeline>(ranks_, folder);
     case PipelineKind::live: {
       const std::uint32_t channels = choice.channels == 0 ? kLiveDefault : choice.channels & kAllChannels;
-      return std::make_unique<LivePipeline>((backend(), ranks_), config.live_host, config.live_port, channels);
+      return std::make_unique<LivePipeline>((backend(), ranks_), config.live_host, config.live_port, channels,
+                                            [ends = config.run_ends] { return ends != nullptr && ends() != 0; });
     }
     case PipelineKind::script:
       break;
@@ -99,6 +100,15 @@ std::unique_ptr<Pipeline> Adaptor::made(const BrecciaPipeline& pipeline, const B
 
 std::uint32_t Adaptor::channels(int pipeline, std::int64_t step, double time) {
   return pipelines_.at(static_cast<std::size_t>(pipeline)).work->channels(step, time);
+}
+
+std::string Adaptor::notices() {
+  std::string text;
+  for (const Named& pipeline : pipelines_) {
+    if (const std::string notice = pipeline.work->notice(); !notice.empty())
+      text += pipeline.name + ": " + notice + '\n';
+  }
+  return text;
 }
 
 std::uint32_t Adaptor::execute(std::uint32_t pipelines, const BrecciaInstant& instant, BrecciaRequests& requests,

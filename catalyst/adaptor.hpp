@@ -37,6 +37,9 @@ class Adaptor {
                         std::string& text);
   std::uint32_t execute(std::uint32_t pipelines, const Frame& frame, BrecciaRequests& requests, std::string& text);
 
+  /// Lines of what there is to tell since the last call that is no failure; the same on all ranks.
+  [[nodiscard]] std::string notices();
+
   /// Ends the pipelines and makes animations of their pictures; nothing can be executed afterwards.
   /// @return  lines about the animations, on the first rank
   [[nodiscard]] std::string finish();

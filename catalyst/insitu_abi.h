@@ -93,7 +93,9 @@ typedef struct {
   const char* folder; /* absolute, exists: pipelines write here and nowhere else */
   const char* live_host;
   int32_t live_port;
-  int32_t num_pipelines; /* at most 32 */
+  int32_t (*run_ends)(void); /* whether somebody wants the run to end: a live view that pauses it is let go; on the
+                                first rank, by any thread; NULL: nobody does */
+  int32_t num_pipelines;     /* at most 32 */
   const BrecciaPipeline* pipelines;
 } BrecciaConfig;
 
@@ -130,6 +132,10 @@ typedef struct {
    * rank alone: others have not come out of a pipeline in time. Nothing collective can follow, not even close. */
   int64_t (*execute)(void* adaptor, uint32_t pipelines, const BrecciaInstant* instant, BrecciaRequests* requests,
                      char* text, size_t size);
+
+  /* What there is to tell of the pipelines since the last call that is no failure, a line each: the same on all ranks.
+   * Collective; between calls of `channels` and `execute`. */
+  void (*notices)(void* adaptor, char* text, size_t size);
 
   /* Bytes that a pipeline has written on this rank so far. */
   int64_t (*bytes_written)(void* adaptor, int32_t pipeline);

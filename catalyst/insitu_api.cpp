@@ -79,6 +79,15 @@ std::int64_t execute(void* adaptor, std::uint32_t pipelines, const BrecciaInstan
   }
 }
 
+void notices(void* adaptor, char* text, size_t size) {
+  put({}, text, size);
+  try {
+    put(adaptor_of(adaptor).notices(), text, size);
+  } catch (const std::exception&) {
+    // There is nothing to tell.
+  }
+}
+
 std::int64_t bytes_written(void* adaptor, std::int32_t pipeline) {
   try {
     return adaptor_of(adaptor).bytes_written(pipeline);
@@ -125,6 +134,7 @@ extern "C" __attribute__((visibility("default"))) const BrecciaInsituApi* brecci
                                     open,
                                     channels,
                                     execute,
+                                    notices,
                                     bytes_written,
                                     close,
                                     replay_records};

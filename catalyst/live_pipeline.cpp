@@ -15,6 +15,9 @@
 #include <vtkSMSourceProxy.h>
 #include <vtkTable.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "catalyst/frame_to_vtk.hpp"
 #include "catalyst/messages.hpp"
 
@@ -23,7 +26,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto kBetweenAttempts = std::chrono::milliseconds(500);
-constexpr int kAttemptShare = 50;  ///< an attempt that took t is followed by 50 t without one
+constexpr auto kLongestRest = std::chrono::seconds(5);  ///< after an attempt that was refused
+constexpr int kAttemptShare = 50;                       ///< an attempt that took t is followed by 50 t without one
+
+constexpr auto kPatience = std::chrono::seconds(10);
 
 /// The link joins what ranks send, but for tables, which get lost: rows become points.
 vtkSmartPointer<vtkDataObject> sendable(vtkDataObject* object) {
@@ -46,7 +52,8 @@ vtkSmartPointer<vtkDataObject> sendable(vtkDataObject* object) {
 
 }  // namespace
 
-LivePipeline::LivePipeline(const Ranks& ranks, std::string host, int port, std::uint32_t channels)
+LivePipeline::LivePipeline(const Ranks& ranks, std::string host, int port, std::uint32_t channels,
+                           std::function<bool()> run_ends)
     : ranks_(ranks), mask_(channels), next_attempt_(Clock::now()) {
   session_ = vtkSmartPointer<vtkSMSession>::New();
   vtkProcessModule::GetProcessModule()->RegisterSession(session_);
@@ -64,6 +71,7 @@ LivePipeline::LivePipeline(const Ranks& ranks, std::string host, int port, std::
   link_->SetHostname(host.c_str());
   link_->SetInsituPort(port);
   link_->SetProcessType(vtkLiveInsituLink::INSITU);
+  if (ranks_.is_root()) watch_.emplace(port, std::move(run_ends));
 }
 
 LivePipeline::~LivePipeline() {
@@ -73,12 +81,26 @@ LivePipeline::~LivePipeline() {
     module->UnRegisterSession(session_);
 }
 
+template <class Call>
+auto LivePipeline::limited(std::optional<std::chrono::milliseconds> limit, Call&& call) {
+  if (watch_) watch_->begin(limit);
+  const auto result = call();
+  if (watch_ && watch_->end() && limit) cut_ = true;
+  return result;
+}
+
+std::string LivePipeline::notice() {
+  if (ranks_.from_root(std::int64_t{std::exchange(cut_, false)}) == 0) return {};
+  return "whoever listens at the port did not answer, and was let go";
+}
+
 std::uint32_t LivePipeline::channels(std::int64_t, double) {
   if (connected_) return mask_;
   if (ranks_.from_root(std::int64_t{Clock::now() >= next_attempt_}) == 0) return 0;
   const auto begin = Clock::now();
-  connected_ = link_->Initialize(proxies_);
-  next_attempt_ = Clock::now() + std::max<Clock::duration>(kBetweenAttempts, kAttemptShare * (Clock::now() - begin));
+  connected_ = limited(kPatience, [this] { return link_->Initialize(proxies_); });
+  const Clock::duration rest = kAttemptShare * (Clock::now() - begin);
+  next_attempt_ = Clock::now() + (cut_ ? rest : std::clamp<Clock::duration>(rest, kBetweenAttempts, kLongestRest));
   static_cast<void>(take_errors());  // nobody listens: not an error
   return connected_ ? mask_ : 0;
 }
@@ -96,7 +118,7 @@ void LivePipeline::publish(const Frame& frame) {
 /// Waits until ParaView wants something. @return  whether the run stays paused
 bool LivePipeline::paused_longer(BrecciaRequests& requests) {
   const auto begin = Clock::now();
-  const bool stays = link_->WaitForLiveChange() == 0;
+  const bool stays = limited({}, [this] { return link_->WaitForLiveChange(); }) == 0;
   requests.waited += std::chrono::duration<double>(Clock::now() - begin).count();
   return stays;
 }
@@ -112,12 +134,18 @@ void LivePipeline::withdraw() {
 void LivePipeline::execute(const Frame& frame, BrecciaRequests& requests) {
   publish(frame);
   // Each turn sends what ParaView has asked for; while it pauses the run, a turn follows each of its wishes.
+  const auto turn = [&] {
+    const bool connected = link_->Initialize(proxies_);
+    if (connected) link_->InsituUpdate(frame.time, frame.step);
+    if (connected) link_->InsituPostProcess(frame.time, frame.step);
+    return connected;
+  };
   do {
-    connected_ = link_->Initialize(proxies_);
+    connected_ = limited(kPatience, turn);
     if (!connected_) break;
-    link_->InsituUpdate(frame.time, frame.step);
-    link_->InsituPostProcess(frame.time, frame.step);
   } while (link_->GetSimulationPaused() != 0 && paused_longer(requests));
+  // Not at once again to one that did not answer.
+  if (cut_) next_attempt_ = Clock::now() + kAttemptShare * kPatience;
   withdraw();
   static_cast<void>(take_errors());  // a ParaView that has gone is no failure of the run
 }

@@ -4,8 +4,11 @@
 
 #include <array>
 #include <chrono>
+#include <functional>
+#include <optional>
 #include <string>
 
+#include "catalyst/link_watch.hpp"
 #include "catalyst/pipeline.hpp"
 #include "catalyst/ranks.hpp"
 
@@ -20,17 +23,22 @@ namespace breccia::insitu {
 /// as sources of their names, ParaView takes those it wants, may pause the run, and lets it go on. Without a listener
 /// nothing is asked of the solver and an attempt to connect is made at most every half second, and so that attempts
 /// take at most 2 % of the time. Starts no Python. A pause blocks execute on all ranks until ParaView continues or
-/// dies.
+/// dies, or the run is to end. A ParaView that does not answer for ten seconds is let go.
 class LivePipeline final : public Pipeline {
  public:
   /// @pre a CatalystBackend lives as long as this
-  LivePipeline(const Ranks& ranks, std::string host, int port, std::uint32_t channels);
+  /// @param run_ends  whether somebody wants the run to end; asked on the first rank, by another thread
+  LivePipeline(const Ranks& ranks, std::string host, int port, std::uint32_t channels, std::function<bool()> run_ends);
   ~LivePipeline() override;
 
   std::uint32_t channels(std::int64_t step, double time) override;
   void execute(const Frame& frame, BrecciaRequests& requests) override;
+  std::string notice() override;
 
  private:
+  /// Runs a call of the link within a limit of time. @return  what the call returns
+  template <class Call>
+  auto limited(std::optional<std::chrono::milliseconds> limit, Call&& call);
   void publish(const Frame& frame);
   void withdraw();
   [[nodiscard]] bool paused_longer(BrecciaRequests& requests);
@@ -41,7 +49,9 @@ class LivePipeline final : public Pipeline {
   vtkSMSessionProxyManager* proxies_ = nullptr;
   std::array<vtkSmartPointer<vtkSMSourceProxy>, BRECCIA_NUM_CHANNELS> sources_;
   vtkSmartPointer<vtkLiveInsituLink> link_;
+  std::optional<LinkWatch> watch_;  ///< on the first rank
   bool connected_ = false;
+  bool cut_ = false;                                    ///< on the first rank, since the last notice
   std::chrono::steady_clock::time_point next_attempt_;  ///< on the first rank
 };
 

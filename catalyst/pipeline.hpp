@@ -43,6 +43,9 @@ class Pipeline {
   /// It may throw PipelineError on some ranks only, but not between its own collective operations.
   virtual void execute(const Frame& frame, BrecciaRequests& requests) = 0;
 
+  /// What there is to tell of it since the last call that is no failure, the same on all ranks; "" mostly.
+  [[nodiscard]] virtual std::string notice() { return {}; }
+
   /// Bytes written on this rank. Not collective.
   [[nodiscard]] virtual std::int64_t bytes_written() const { return 0; }
 

@@ -160,7 +160,10 @@ InSitu::Plan InSitu::plan(const Moment& now, std::uint32_t ordered, bool all) {
     plan.channels |= channels;
     plan.pipelines |= bit(i);
   }
-  if (!plan) account_idle(due);
+  if (!plan) {
+    account_idle(due);
+    tell_notices();
+  }
   return plan;
 }
 
@@ -191,6 +194,13 @@ void InSitu::execute(const Plan& plan, const Frame& frame, const std::vector<std
     pipelines_[i].last = now_.time;
   }
   space(plan.pipelines);
+  tell_notices();
+}
+
+void InSitu::tell_notices() {
+  std::istringstream lines(
+      words_of([&](char* words, std::size_t size) { plugin_.api().notices(adaptor_, words, size); }));
+  for (std::string line; std::getline(lines, line);) tell_("pipeline " + line, false);
 }
 
 void InSitu::run_one(std::size_t i, const BrecciaInstant& instant, double shared_cost) {

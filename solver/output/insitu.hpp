@@ -110,6 +110,7 @@ class InSitu {
   [[nodiscard]] std::string close();
   void tell_animations(const std::string& lines);
   void fail(Pipeline& pipeline, const std::string& why);
+  void tell_notices();
 
   using Clock = std::chrono::steady_clock;
   InSituPlugin plugin_;

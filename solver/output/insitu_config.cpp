@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "base/interruption.hpp"
 #include "case/live_address.hpp"
 #include "output/channels.hpp"
 
@@ -44,6 +45,7 @@ InSituConfig::InSituConfig(const case_::Case& input, const std::filesystem::path
   config_.strength = strength_of(input);
   config_.folder = folder_.c_str();
   config_.live_host = live_host_.c_str();
+  config_.run_ends = [] { return std::int32_t{interruption != 0}; };
   config_.num_pipelines = static_cast<std::int32_t>(pipelines_.size());
   config_.pipelines = pipelines_.data();
 }

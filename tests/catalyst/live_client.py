@@ -1,7 +1,7 @@
 """A ParaView without windows that watches a run: connects, receives channels, pauses, continues, takes a picture, and dies without goodbye.
 
-usage: pvpython live_client.py PORT FOLDER [--briefly]
---briefly: dies as soon as it has received the channels.
+usage: pvpython live_client.py PORT FOLDER [--briefly | --freeze]
+--briefly: dies as soon as it has received the channels. --freeze: stops as soon as it is connected, as by Ctrl-Z.
 Writes FOLDER/client.log; FOLDER/step is written by the run; FOLDER/done says that it was killed on purpose.
 """
 
@@ -48,6 +48,9 @@ def die():
 link = live.ConnectToCatalyst("localhost", PORT)
 proxies = link.GetInsituProxyManager
 wait("sources", lambda: proxies() and proxies().GetNumberOfProxies("sources") >= 3)
+if "--freeze" in sys.argv:
+    os.kill(os.getpid(), signal.SIGSTOP)
+    os._exit(0)
 print("connected at step", step(), file=log)
 extracts = {name: live.ExtractCatalystData(link, name) for name in ("elements", "fractures", "domains")}
 for name, extract in extracts.items():

@@ -6,6 +6,7 @@ CATALYST: the folder catalyst of the sources; LOOPBACK: the library that is prel
 
 import json
 import os
+import re
 import shutil
 import signal
 import socket
@@ -104,6 +105,11 @@ def public_ports(process):
     with open("/proc/net/tcp", encoding="ascii") as file:
         rows = [line.split() for line in list(file)[1:]]
     return [row[1] for row in rows if row[3] == "0A" and row[9] in sockets and not row[1].startswith("0100007F")]
+
+
+def state(process):
+    with open(f"/proc/{process}/stat", encoding="utf-8") as file:
+        return file.read().rpartition(")")[2].split()[0]
 
 
 class Screen:
@@ -252,6 +258,39 @@ class LiveView(unittest.TestCase):
         settings = os.path.join(self.folder, ".config", "breccia", "ParaView")
         self.assertEqual(sorted(os.listdir(os.path.join(settings, "Macros"))), ["Continue.py", "Pause.py"])
         self.assertFalse(os.path.exists(os.path.join(self.folder, ".config", "ParaView")), "the user's own settings stay as they are")
+
+    def assert_let_go_and_complete(self, name, before):
+        """The run has told that nobody answered, once, and goes on, and ends when it is told to."""
+        self.wait("a word", lambda: "did not answer, and was let go" in self.text(name + ".log"), name + ".log")
+        self.assertEqual(self.text(name + ".log").count("\n"), 1, self.text(name + ".log"))
+        self.wait("steps", lambda: self.steps(name) > before)
+
+    def steps(self, name):
+        found = re.findall(r'"step":(\d+)', self.text(os.path.join(name, "status.jsonl")))
+        return int(found[-1]) if found else -1
+
+    def test_a_service_that_says_nothing_does_not_hold_a_run(self):
+        for ranks in (1, 2):
+            with socket.socket() as mute:
+                mute.bind(("127.0.0.1", 0))
+                mute.listen()
+                self.port, name = mute.getsockname()[1], f"run_{ranks}"
+                run = self.run_with_live(name, ranks)
+                self.assert_let_go_and_complete(name, 0)
+                self.stop(run, name)
+                self.assertIn("stopped", json.loads(self.text(os.path.join(name, "summary.json")))["status"])
+
+    def test_a_paraview_that_is_stopped_does_not_hold_a_run(self):
+        screen = Screen(self.folder)
+        self.addCleanup(screen.close)
+        client = self.start(["pvpython", os.path.join(HERE, "live_client.py"), str(self.port), self.folder, "--freeze"], "pvpython.log",
+                            DISPLAY=screen.name)
+        self.wait("the port", lambda: listeners(self.port), "pvpython.log")
+        run = self.run_with_live("run", 2)
+        self.wait("a client that stands", lambda: state(client.pid) == "T", "client.log", "pvpython.log", "run.log")
+        self.assert_let_go_and_complete("run", self.steps("run"))
+        self.stop(run, "run")
+        os.kill(client.pid, signal.SIGCONT)
 
     def test_a_port_that_is_taken_is_told(self):
         with socket.socket() as other:
