@@ -29,7 +29,8 @@ constexpr auto kBetweenAttempts = std::chrono::milliseconds(500);
 constexpr auto kLongestRest = std::chrono::seconds(5);  ///< after an attempt that was refused
 constexpr int kAttemptShare = 50;                       ///< an attempt that took t is followed by 50 t without one
 
-constexpr auto kPatience = std::chrono::seconds(10);
+constexpr auto kPatience = std::chrono::seconds(30);  // a ParaView that draws may take long
+constexpr auto kRestAfterSilence = std::chrono::minutes(1);
 
 /// The link joins what ranks send, but for tables, which get lost: rows become points.
 vtkSmartPointer<vtkDataObject> sendable(vtkDataObject* object) {
@@ -100,7 +101,8 @@ std::uint32_t LivePipeline::channels(std::int64_t, double) {
   const auto begin = Clock::now();
   connected_ = limited(kPatience, [this] { return link_->Initialize(proxies_); });
   const Clock::duration rest = kAttemptShare * (Clock::now() - begin);
-  next_attempt_ = Clock::now() + (cut_ ? rest : std::clamp<Clock::duration>(rest, kBetweenAttempts, kLongestRest));
+  next_attempt_ = Clock::now() + (cut_ ? Clock::duration(kRestAfterSilence)
+                                       : std::clamp<Clock::duration>(rest, kBetweenAttempts, kLongestRest));
   static_cast<void>(take_errors());  // nobody listens: not an error
   return connected_ ? mask_ : 0;
 }
@@ -145,7 +147,7 @@ void LivePipeline::execute(const Frame& frame, BrecciaRequests& requests) {
     if (!connected_) break;
   } while (link_->GetSimulationPaused() != 0 && paused_longer(requests));
   // Not at once again to one that did not answer.
-  if (cut_) next_attempt_ = Clock::now() + kAttemptShare * kPatience;
+  if (cut_) next_attempt_ = Clock::now() + kRestAfterSilence;
   withdraw();
   static_cast<void>(take_errors());  // a ParaView that has gone is no failure of the run
 }

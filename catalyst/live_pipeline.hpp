@@ -23,7 +23,7 @@ namespace breccia::insitu {
 /// as sources of their names, ParaView takes those it wants, may pause the run, and lets it go on. Without a listener
 /// nothing is asked of the solver and an attempt to connect is made at most every half second, and so that attempts
 /// take at most 2 % of the time. Starts no Python. A pause blocks execute on all ranks until ParaView continues or
-/// dies, or the run is to end. A ParaView that does not answer for ten seconds is let go.
+/// dies, or the run is to end. A ParaView that does not answer for thirty seconds is let go.
 class LivePipeline final : public Pipeline {
  public:
   /// @pre a CatalystBackend lives as long as this
