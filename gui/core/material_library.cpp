@@ -5,6 +5,7 @@
 #include <QFileInfo>
 #include <QJsonArray>
 #include <QJsonDocument>
+#include <QRegularExpression>
 #include <QSaveFile>
 
 #include "core/shipped_materials.hpp"
@@ -85,6 +86,19 @@ std::vector<LibraryMaterial> UserLibrary::load() const {
   return list;
 }
 
+QString UserLibrary::trouble() const {
+  QFile file(file_);
+  if (!file.exists()) return {};
+  if (!file.open(QIODevice::ReadOnly))
+    return Document::tr("%1 cannot be read: %2; nothing was changed").arg(file_, file.errorString());
+  const QByteArray text = file.readAll();
+  static const QRegularExpression entry(R"(^\s*\[\[\s*material\s*\]\])", QRegularExpression::MultilineOption);
+  int entries = 0;
+  for (auto match = entry.globalMatch(QString::fromUtf8(text)); match.hasNext(); match.next()) ++entries;
+  if (static_cast<int>(read_materials(text).size()) == entries && (entries > 0 || text.trimmed().isEmpty())) return {};
+  return Document::tr("%1 holds what is no material with a name, and would lose it; mend or move the file").arg(file_);
+}
+
 QString UserLibrary::save(const std::vector<LibraryMaterial>& list) const {
   QDir().mkpath(QFileInfo(file_).absolutePath());
   QSaveFile file(file_);
@@ -95,6 +109,7 @@ QString UserLibrary::save(const std::vector<LibraryMaterial>& list) const {
 }
 
 QString UserLibrary::add(const LibraryMaterial& material) const {
+  if (QString error = trouble(); !error.isEmpty()) return error;
   std::vector<LibraryMaterial> list = load();
   for (LibraryMaterial& old : list) {
     if (old.name != material.name) continue;
@@ -106,6 +121,7 @@ QString UserLibrary::add(const LibraryMaterial& material) const {
 }
 
 QString UserLibrary::remove(const QString& name) const {
+  if (QString error = trouble(); !error.isEmpty()) return error;
   std::vector<LibraryMaterial> rest;
   for (LibraryMaterial& material : load())
     if (material.name != name) rest.push_back(std::move(material));

@@ -39,6 +39,8 @@ class UserLibrary {
   [[nodiscard]] QString remove(const QString& name) const;
 
  private:
+  /// Why the file must not be written anew: it is not, or not all, what was read. Empty: it may.
+  [[nodiscard]] QString trouble() const;
   [[nodiscard]] QString save(const std::vector<LibraryMaterial>& list) const;
   QString file_;
 };

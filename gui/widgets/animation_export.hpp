@@ -24,6 +24,8 @@ class AnimationExport final : public QObject {
   void begin();
   /// A frame has been drawn; it is taken if it is the one that was asked for. @param time  of the frame, s
   void take(double time, const QImage& picture);
+  /// No picture of the frame that was asked for will come.
+  void give_up(const QString& why) { emit done(why); }
   [[nodiscard]] int next() const { return next_; }
 
  signals:

@@ -10,7 +10,9 @@ FrameLoader::FrameLoader(QObject* parent) : QObject(parent) {
     const FrameData frame = watcher_.result();
     if (loading_model_ == model_) {
       faces_ = frame.faces;
+      telling_ = true;  // what is asked for meanwhile comes last, and is read
       emit loaded(frame);
+      telling_ = false;
     }
     if (next_) {
       const Wanted wanted = *next_;
@@ -29,7 +31,7 @@ void FrameLoader::start_model() {
 }
 
 void FrameLoader::load(const QString& elements_file, double time) {
-  if (watcher_.isRunning()) {
+  if (watcher_.isRunning() || telling_) {
     next_ = Wanted{elements_file, time};
   } else {
     begin({elements_file, time});

@@ -33,6 +33,7 @@ class FrameLoader final : public QObject {
   std::shared_ptr<const Skin> faces_;
   std::optional<Wanted> next_;
   int model_ = 0, loading_model_ = 0;
+  bool telling_ = false;  ///< of a frame that has been read
 };
 
 }  // namespace breccia::gui

@@ -1,6 +1,7 @@
 #include <QJsonArray>
 #include <QLabel>
 
+#include "widgets/animation_export.hpp"
 #include "widgets/domains_panel.hpp"
 #include "widgets/frame_loader.hpp"
 #include "widgets/main_window.hpp"
@@ -61,6 +62,7 @@ void MainWindow::show_mesh(const QJsonObject& json, const QString& elements_file
   preview_frame_ = {};
   quality_->set_mesh(elements_file);
   if (showing_results_) return;
+  if (animation_ != nullptr) animation_->give_up(tr("the view shows something else"));
   loader_->start_model();
   view_->clear({});
   loader_->load(elements_file, 0);

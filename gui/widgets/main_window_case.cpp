@@ -8,6 +8,7 @@
 #include <array>
 
 #include "core/value_text.hpp"
+#include "widgets/animation_export.hpp"
 #include "widgets/case_text.hpp"
 #include "widgets/case_tree.hpp"
 #include "widgets/conditions_panel.hpp"
@@ -196,6 +197,7 @@ void MainWindow::stage_selected(int stage, const QString& path) {
   if (results == showing_results_) return;
   showing_results_ = results;
   view_->scene().mark(nullptr);
+  if (animation_ != nullptr) animation_->give_up(tr("the view shows something else"));
   loader_->start_model();
   if (results) {
     results_->set_frames(run_->frames());
@@ -224,11 +226,14 @@ void MainWindow::show_extras(const QString& path) {
 
 void MainWindow::show_joint_law() {
   const QString path = form_->section().section('.', 0, 0);
-  QString name = shown_value(case_::key_of("joint[].group"), document_.value(path + ".group"));
-  if (name.isEmpty())
-    name = shown_value(case_::key_of("joint[].between"), document_.value(path + ".between")).replace(", ", "-");
+  QStringList names{shown_value(case_::key_of("joint[].group"), document_.value(path + ".group"))};
+  if (names[0].isEmpty()) {  // the solver names interfaces in the order of the mesh
+    const QStringList groups =
+        shown_value(case_::key_of("joint[].between"), document_.value(path + ".between")).split(", ");
+    names = {groups.first() + "-" + groups.last(), groups.last() + "-" + groups.first()};
+  }
   for (const QJsonValue& law : laws_)
-    if (law.toObject()["name"].toString() == name) return joint_plot_->show_law(law.toObject(), {});
+    if (names.contains(law.toObject()["name"].toString())) return joint_plot_->show_law(law.toObject(), {});
   joint_plot_->show_law({}, queries_.busy() || law_.isActive() ? tr("the solver works out the curves...")
                                                                : tr("This law has no curve: its joints cannot break."));
 }

@@ -187,6 +187,11 @@ void MainWindow::run_ended(const SolverRun* run) {
 }
 
 void MainWindow::show_frame(const FrameData& frame) {
+  if (animation_ != nullptr && (frame.skin == nullptr || !showing_results_)) {
+    animation_->give_up(frame.skin == nullptr
+                            ? tr("the frame at %1 cannot be read").arg(quantity_words(frame.time, "s"))
+                            : tr("the view shows something else"));
+  }
   if (frame.skin == nullptr) return;
   if (!showing_results_) {
     preview_frame_ = frame;

@@ -53,6 +53,26 @@ TEST(MaterialLibrary, ACaseWithAnyOfThemIsAccepted) {
   }
 }
 
+TEST(MaterialLibrary, OfTheUserIsNotWrittenOverWhereNotAllOfItWasRead) {
+  const QTemporaryDir scratch;
+  const QString file = scratch.filePath("own.toml");
+  const UserLibrary library(file);
+  const LibraryMaterial marble{"marble", "own", {}, true, {{"young", "\"60 GPa\"", {}}}};
+  EXPECT_TRUE(library.add(marble).isEmpty());
+  EXPECT_EQ(library.load().size(), 1U);
+  for (const QByteArray& text :
+       {QByteArray("[[material]]\nkind = \"own\"\nyoung = \"1 GPa\"\n"), QByteArray("not TOML at all = = 1\n")}) {
+    QFile out(file);
+    ASSERT_TRUE(out.open(QIODevice::WriteOnly));
+    out.write(text);
+    out.close();
+    EXPECT_FALSE(library.add(marble).isEmpty());
+    EXPECT_FALSE(library.remove("marble").isEmpty());
+    ASSERT_TRUE(out.open(QIODevice::ReadOnly));
+    EXPECT_EQ(out.readAll(), text);
+  }
+}
+
 TEST(MaterialLibrary, EnergiesDerivedFromAToughnessFollowFromIt) {
   static const QRegularExpression toughness(R"(K_Ic = ([0-9.]+) MPa)");
   int seen = 0;
