@@ -202,9 +202,8 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Contact stress at overlap 1. The overlap is g/H, g in m, H the mean inradius of the elements of the body "
              "that is entered (a fifth of an edge), so the stiffness is penalty/H, Pa/m; `breccia check` prints both "
              "for every pair. Where flat faces meet and both carry points, both press: up to twice that stress. "
-             "Recommended: Young's modulus of the softer body; a tenth of it for bodies that slide, "
-             "which chatter less; up to ten times it where overlaps must be small, for a time step up to three times "
-             "shorter.", .example = "\"7500 GPa\""},
+             "Recommended: Young's modulus of the softer body; up to ten times it where overlaps must be small, for a "
+             "time step up to three times shorter; of bodies that slide see friction.", .example = "\"7500 GPa\""},
     {.path = "contact[].plateau", .type = number, .unit = "Pa", .fallback = "0", .range = not_negative,
      .help = "Stress sigma that loading of the points of a face does not pass; 0: none. Flat faces of area A that both "
              "carry points press with up to 2 A sigma. Measured on two cubes: 1.9 A sigma, and 0.94 with points_on = "
@@ -213,7 +212,10 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "contact[].unloading_exponent", .type = number, .fallback = "1", .range = at_least_one,
      .help = "Exponent b of the unloading curve: 1 gives all energy back, more dissipates.", .example = "2"},
     {.path = "contact[].friction", .type = number, .fallback = "0", .range = not_negative,
-     .help = "Coefficient of Coulomb friction.", .example = "0.3"},
+     .help = "Coefficient of Coulomb friction. From about 0.2 on bodies without any damping chatter while they slide: "
+             "plates of 10 GPa under 2 MPa rub with 0.24 in the mean for 0.3, with 0.58 for 0.8, at any time step. A "
+             "viscosity, mass_damping, or damping_ratio 0.5 with a tenth of the penalty gives 0.30.",
+     .example = "0.3"},
     {.path = "contact[].tangential_ratio", .type = number, .fallback = "1", .range = share,
      .help = "Tangential over normal contact stiffness.", .example = "0.8"},
     {.path = "contact[].damping_ratio", .type = number, .fallback = "0", .range = share,
