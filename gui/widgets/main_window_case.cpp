@@ -230,7 +230,7 @@ void MainWindow::show_joint_law() {
   if (names[0].isEmpty()) {  // the solver names interfaces in the order of the mesh
     const QStringList groups =
         shown_value(case_::key_of("joint[].between"), document_.value(path + ".between")).split(", ");
-    names = {groups.first() + "-" + groups.last(), groups.last() + "-" + groups.first()};
+    names = QStringList{groups.first() + "-" + groups.last(), groups.last() + "-" + groups.first()};
   }
   for (const QJsonValue& law : laws_)
     if (names.contains(law.toObject()["name"].toString())) return joint_plot_->show_law(law.toObject(), {});
