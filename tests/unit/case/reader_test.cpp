@@ -234,9 +234,9 @@ slit = { lower = ["-1 mm", 0, 0], upper = ["1 mm", 0, "2 mm"] })"));
 
 TEST(Reader, ALiveViewIsOfferedAllThatIsDrawnUnlessToldOtherwise) {
   const Case c = read_text(minimal + "[insitu.live]\n");
-  // What ParaView can show; joints not broken yet and the history are there for those who ask.
+  // What ParaView can show; joints not broken yet are there for those who ask.
   EXPECT_EQ(c.insitu.live.value().channels,
-            (std::vector<std::string>{"surface", "fractures", "contacts", "domains", "elements"}));
+            (std::vector<std::string>{"surface", "fractures", "contacts", "domains", "elements", "history"}));
   EXPECT_EQ(c.insitu.live->address, "localhost:22222");
   EXPECT_FALSE(c.insitu.live->remote);
   const Case told = read_text(minimal + "[insitu.live]\nchannels = [\"history\"]\n");
