@@ -65,7 +65,8 @@ std::string pattern_of(const fs::path& folder, const std::string& name, const Se
   std::string numbers;
   for (const std::size_t digits : series.digits) {
     if (!numbers.empty()) numbers += ',';
-    for (std::size_t i = 0; i < digits; ++i) numbers += "[0-9]";
+    for (std::size_t i = 1; i < digits; ++i) numbers += "[0-9]";
+    numbers += '?';  // a digit; without one of *?{ ffmpeg takes a pattern for a name
   }
   if (series.digits.size() > 1) numbers = "{" + numbers + "}";
   return as_pattern((folder / name).string()) + "_" + numbers + ".png";

@@ -50,7 +50,7 @@ std::string content(const fs::path& file) {
   return text.str();
 }
 
-/// A folder of settings that starts as a copy of the user's, welcomes nobody, and has the buttons of the view; the
+/// A folder of settings that starts as a copy of the user's, shows no welcome, and has the buttons of the view; the
 /// user's own stay as they are. What cannot be written is left out: ParaView opens all the same.
 fs::path settings_folder(const std::string& paraview_version, const fs::path& macros) {
   const std::string given = variable("XDG_CONFIG_HOME");
@@ -80,7 +80,7 @@ void keep_on_this_machine() {
   for (const char* name : {"OMPI_MCA_oob_tcp_if_include", "PMIX_MCA_ptl_tcp_if_include"}) set(name, "lo");
 }
 
-/// Throws OutputError when somebody listens at the port already, of which ParaView would say nothing.
+/// Throws OutputError when another program listens at the port already, of which ParaView would say nothing.
 void demand_free(int port) {
   const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   const int yes = 1;

@@ -51,6 +51,13 @@ TEST_F(Animations, HaveThePicturesOfTheirSeriesAndNoOthers) {
   EXPECT_EQ(frames_of("view_top.mp4"), 3 + kLast);
 }
 
+TEST_F(Animations, AreMadeInAFolderOfAPlainNameWithNumbersOfOneLength) {
+  const fs::path plain = root_ / "plain";
+  fs::create_directories(plain);
+  for (const char* name : {"view_000001.png", "view_000002.png"}) fs::copy(root_ / "picture.png", plain / name);
+  EXPECT_EQ(make_animations({plain}), "animation: " + (plain / "view.mp4").string());
+}
+
 TEST_F(Animations, AreMadeByTheLineThatIsToldWhereFfmpegIsMissing) {
   const std::string path = std::getenv("PATH"), before = "animation: apt-get install ffmpeg, then: ";
   setenv("PATH", "/nowhere", 1);

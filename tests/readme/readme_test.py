@@ -46,7 +46,7 @@ def try_plan(scratch, plan):
         raise Problem(f"the help does not tell of {', '.join(not_in_help(plan, printed))}")
     if plan.kind == "ctest" and not re.search(r"Total Tests: [1-9]", printed):
         raise Problem("finds no test")
-    if plan.kind == "live" and "paraview --live=" not in scratch.calls():
+    if plan.kind == "live" and "paraview --script=" not in scratch.calls():
         raise Problem("did not start ParaView")
     if plan.run_folder:
         scratch.check_run(plan.run_folder)

@@ -139,8 +139,7 @@ void Pass::run() {
   contact_.touching.clear();
   contact_.boundary.clear();
   contact_.taken_back.clear();
-  work_.stored = {};
-  work_.friction_stored = {};
+  work_.stored = work_.friction_stored = ExactSum{};
   work_.touching = 0;
   if (params_.sphere) push_back_into_sphere();
   prepare_contactors();
@@ -268,8 +267,7 @@ Vec3 Pass::relative_motion(const ContactPoint& point, Index slot, const std::arr
 }
 
 /// The overlap is gone. What the normal law had stored was given back as work; the spring lets go. The contactor may
-/// have left all couples with a search in this step, so it is prepared here: what happens depends on no search.
-/// @param lost  J dissipated by the normal law on the way
+/// have left all couples with a search in this step, so it is prepared here. @param lost  J, by the normal law
 void Pass::forget(const TouchingCouple& old, double lost) {
   if (!(old.d > 0) && old.force == Vec3::Zero()) return;
   const ContactPoint& point = point_at(old.point);
@@ -289,8 +287,7 @@ void Pass::forget(const TouchingCouple& old, double lost) {
     lost += released;
   }
   // A contactor that was crushed while it was touched gives nothing back.
-  if (crushed) account(point, work_.dissipated).add(normal_held(point, old));
-  if (crushed) return;
+  if (crushed) return account(point, work_.dissipated).add(normal_held(point, old));
   const double gained = old.gained + 0.5 * old.force.dot(motion) - held(point, old) + lost;
   take_back(point, old.contactor, lambda, old.force, motion, gained);
 }
@@ -299,9 +296,8 @@ void Pass::take_back(const ContactPoint& point, Index contactor, const std::arra
                      const Vec3& last_force, const Vec3& motion, double gained) {
   const double work = last_force.dot(motion);
   if (!(gained > 0) || !(work > 0)) return;
-  const Vec3 force = -std::min(gained / work, 1.0) * last_force;
-  distribute(point, contactor, lambda, force);
-  contact_.taken_back.push_back({point.slot, slot_of(contactor), force});
+  contact_.taken_back.push_back({point.slot, slot_of(contactor), -std::min(gained / work, 1.0) * last_force});
+  distribute(point, contactor, lambda, contact_.taken_back.back().force);
 }
 
 /// Overlap that makes no force, m, of a couple seen for the first time.
