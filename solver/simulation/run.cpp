@@ -184,7 +184,7 @@ class Runner {
     if (line) take_line(time);
     if (line || last) check_energies(time);
     output_.tell_status(paused_);
-    partition_.keep_up();
+    if (!sampled_without_line_) partition_.keep_up();  // a line that is to come needs what a division forgets
   }
 
   void take_line(double time) {

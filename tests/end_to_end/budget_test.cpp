@@ -180,6 +180,23 @@ TEST(MaxSteps, is_the_number_of_steps_after_which_a_run_stops) {
   }
 }
 
+TEST(MaxSteps, gives_the_last_line_also_where_the_model_would_be_divided_anew_then) {
+  const Scratch scratch;
+  const std::string settings = scratch.write("case.toml", kSmallCase) +
+                               " --progress none --set domains.margin=0.1 --set output.history_interval=1"
+                               " --set time.residual_limit=1e9 --set time.energy_gain_limit=1e9"
+                               " --set 'initial_velocity[0].random=[\"40 m/s\", \"40.5 m/s\"]' --set time.max_steps=";
+  for (const int steps : {25, 26, 27}) {
+    const std::string arguments = "run " + settings + std::to_string(steps) + " -o '";
+    ASSERT_EQ(call(arguments + scratch.path("one").string() + "' -f").exit_code, 0);
+    const Outcome two = call_ranks(2, arguments + scratch.path("two").string() + "' -f");
+    ASSERT_EQ(two.exit_code, 0) << steps << " steps: " << two.err;
+    EXPECT_EQ(history_without_couples(scratch.path("two/history.csv")),
+              history_without_couples(scratch.path("one/history.csv")))
+        << steps;
+  }
+}
+
 /// Two boxes that meet and fly apart: contact makes the step some thirty times shorter than it is without.
 std::string rebound_case() {
   return "[mesh.raster]\ncells = [1, 1, 1]\nboxes = [2, 1, 1]\ngap = [0.0002, 0, 0]\ncell_size = 0.02\ngroup = \"b\"\n"
