@@ -77,8 +77,9 @@ void keep_on_this_machine() {
   const fs::path library = InSituPlugin::place().parent_path() / "libbreccia_loopback.so";
   if (!fs::exists(library)) throw output_error(library, "cannot be loaded into ParaView", ENOENT);
   prepend("LD_PRELOAD", library.string());
-  for (const char* name : {"OMPI_MCA_oob_tcp_if_include", "OMPI_MCA_btl_tcp_if_include", "PMIX_MCA_ptl_tcp_if_include"})
-    set(name, "lo");
+  for (const char* name : {"OMPI_MCA_oob_tcp_if_include", "PMIX_MCA_ptl_tcp_if_include"}) set(name, "lo");
+  set("OMPI_MCA_pml", "ob1");  // it is one process and sends itself nothing over a network
+  set("OMPI_MCA_btl", "self,vader");
 }
 
 /// Throws OutputError when another program listens at the port already, of which ParaView would say nothing.
