@@ -249,9 +249,13 @@ class LiveView(unittest.TestCase):
         for name in ("one", "two"):
             run = self.run_with_live(name, 1)
             self.wait("a connection", lambda: listeners(self.port, "01"), "live.log", name + ".log")
+            # The second run finds the picture of the first one, and its own is pale until joints break.
+            self.wait("broken joints", lambda: self.last_status(name).get("broken_joints", 0) > 0, name + ".log")
             self.wait("a coloured view", lambda: screen.coloured(*view) > 0.02, "live.log", name + ".log")
             self.stop(run, name)
             self.assertGreaterEqual(self.live_updates(name), 1)
+            time.sleep(3)  # a box of messages would cover the view by then
+            self.assertGreater(screen.coloured(*view), 0.02)
         self.assertIsNone(window.poll())
         settings = os.path.join(self.folder, ".config", "breccia", "ParaView")
         self.assertEqual(sorted(os.listdir(os.path.join(settings, "Macros"))), ["Continue.py", "Pause.py"])
@@ -263,9 +267,12 @@ class LiveView(unittest.TestCase):
         self.assertEqual(self.text(name + ".log").count("\n"), 1, self.text(name + ".log"))
         self.wait("steps", lambda: self.steps(name) > before)
 
+    def last_status(self, name):
+        lines = [line for line in self.text(os.path.join(name, "status.jsonl")).splitlines() if '"state"' in line]
+        return json.loads(lines[-1]) if lines else {}
+
     def steps(self, name):
-        found = re.findall(r'"step":(\d+)', self.text(os.path.join(name, "status.jsonl")))
-        return int(found[-1]) if found else -1
+        return self.last_status(name).get("step", -1)
 
     def test_a_service_that_says_nothing_does_not_hold_a_run(self):
         for ranks in (1, 2):
