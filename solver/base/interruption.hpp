@@ -7,7 +7,7 @@
 
 namespace breccia {
 
-/// Number of the signal that asked this process to end (Ctrl-C, a polite kill, a closed terminal); 0: none has.
+/// Number of the signal that asked this process to end (Ctrl-C, SIGTERM, a closed terminal); 0: none has.
 /// Set by a handler in main; long work that can be given up looks at it.
 inline std::atomic<int> interruption{0};
 
@@ -16,7 +16,7 @@ inline void give_up_if_interrupted() {
   if (interruption != 0) throw InputError(Problem{"", 0, "", "interrupted; nothing has been written", "", ""});
 }
 
-/// What a program that ends by such a request returns, as shells do: 130 for Ctrl-C, 143 for a polite kill.
+/// What a program that ends by such a request returns, as shells do: 130 for Ctrl-C, 143 for SIGTERM.
 [[nodiscard]] inline int exit_code_of(int signal) { return 128 + signal; }
 
 }  // namespace breccia

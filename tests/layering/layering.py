@@ -55,7 +55,7 @@ THIRD_PARTY = [
     (r"mpi\.h", ["parallel/*"]),
     (r"(hdf5(_hl)?|H5\w*)\.h", ["output/hdf5*.cpp"]),
     (r"nlohmann/.*", ["output/*.cpp", "report/*.cpp", "commands/json_report.cpp"]),
-    (r"CLI/.*", ["main.cpp"]),
+    (r"CLI/.*", ["main.cpp", "commands/command_line*"]),
 ]
 
 # Of the operating system and the compiler; anything else with a slash or ".h" needs a line in THIRD_PARTY.

@@ -1,0 +1,127 @@
+#include "commands/command_line.hpp"
+
+#include <string>
+#include <vector>
+
+#include "case/nearest.hpp"
+#include "commands/command_line_parts.hpp"
+
+namespace breccia {
+namespace {
+
+const char* kControlFooter =
+    R"(Commands:
+  pause, resume               wait between two steps, and go on
+  stop                        end after the present step, with everything written
+  extract                     let all in-situ pipelines work on the present state
+  frame                       write a frame
+  frame_interval TIME         from now on a frame every so much simulated time, such as "2 us"
+  checkpoint                  write the whole state, from which `breccia resume` goes on
+The answer comes when it is done. A line with a command in the file `control` of the run's folder does the same.)";
+
+void define_control(CLI::App& app, Arguments& a) {
+  CLI::App* control =
+      app.add_subcommand("control", "Ask something of a run that goes on: pause, resume, stop, extract, ...");
+  control->add_option("run", a.control.folder, "folder of the run")->required();
+  const auto join = [&a](const std::vector<std::string>& words) {
+    for (const std::string& word : words) a.control.command += (a.control.command.empty() ? "" : " ") + word;
+  };
+  control->add_option_function<std::vector<std::string>>("command", join, "see below")->required();
+  control->add_option("--patience", a.control.patience, "seconds to wait for the answer; default 60")
+      ->check(CLI::PositiveNumber);
+  control->footer(kControlFooter);
+}
+
+void define_insitu(CLI::App& app, Arguments& a) {
+  CLI::App* live =
+      app.add_subcommand("live", "Start ParaView so that it sees a run of this case that is started with --live");
+  live->add_option("case", a.live.case_file, kCaseHelp)->required();
+  live->add_option("--set", a.live.overrides, kSetHelp)->allow_extra_args(false)->take_all();
+
+  CLI::App* insitu =
+      app.add_subcommand("insitu", "Pipelines that work while a run goes on: try them, or see what they need");
+  insitu->require_subcommand(1);
+  insitu->add_subcommand("info", "what the in-situ adaptor is, or what is missing");
+  CLI::App* replay = insitu->add_subcommand(
+      "replay", "Feed what a run has recorded (pipelines volume, surface, fractures, ...) through pipelines");
+  replay->add_option("run", a.replay.run, "folder of the run")->required();
+  replay->add_option("pipelines", a.replay.pipelines, "scripts exported from ParaView, or names of pipelines")
+      ->required();
+  replay->add_option("-o,--output", a.replay.folder,
+                     "folder of what they write; default: replay in the folder of the run");
+}
+
+void define_report(CLI::App& app, Arguments& a) {
+  CLI::App* report = app.add_subcommand("report", "Write one HTML page of a run, to read, print and send on");
+  report->add_option("run", a.report.run, "folder of the run, which may go on or have been killed")->required();
+  report->add_option("-o,--output", a.report.file, "file of the page; default: report.html in the folder of the run");
+  report->add_flag("--no-pictures", a.report.no_pictures, "leave out what ParaView makes of the frames");
+  const char* limit = "seconds that ParaView may take; what is done by then is shown; default 600";
+  report->add_option("--time-limit", a.report.time_limit, limit)->check(CLI::Range(1, 1000000));
+}
+
+}  // namespace
+
+void define_command_line(CLI::App& app, Arguments& a) {
+  app.require_subcommand(1);
+  app.set_version_flag("--version", std::string("breccia ") + BRECCIA_VERSION);
+  app.footer(
+      "Exit codes: 0 success, 1 usage, 2 case, mesh or output refused, 3 the numbers went wrong, 4 a fault of ours, "
+      "128 + N ended by signal N: 130 Ctrl-C, 143 SIGTERM.");
+
+  define_run(app, a);
+  define_resume(app, a);
+  define_control(app, a);
+  define_insitu(app, a);
+  define_race(app, a);
+
+  CLI::App* check =
+      app.add_subcommand("check", "Everything short of the first step: time step, memory, run time, advice");
+  check->add_option("case", a.check.case_file, kCaseHelp)->required();
+  check->add_option("--set", a.check.overrides, kSetHelp)->allow_extra_args(false)->take_all();
+  check->add_flag("--trust-geometry", a.check.trust_geometry, kTrustHelp);
+
+  check
+      ->add_option("--ranks", a.check.ranks, "tell only how a run on so many ranks (mpiexec -n) would divide the model")
+      ->check(CLI::Range(1, 1000000));
+
+  check->add_flag("--joints", a.check.joints,
+                  "tell only, as JSON, the traction curves and strengths of the joint laws");
+  check->add_flag("--json", a.check.json, "as JSON, problems of the case too");
+
+  CLI::App* mesh =
+      app.add_subcommand("mesh", "Read or generate the mesh of a case and report its bodies, groups and quality");
+  mesh->add_option("case", a.mesh.case_file, kCaseHelp)->required();
+  mesh->add_option("--set", a.mesh.overrides, kSetHelp)->allow_extra_args(false)->take_all();
+  mesh->add_flag("--trust-geometry", a.mesh.trust_geometry, kTrustHelp);
+  mesh->add_option("-o,--output", a.mesh.folder, "write the elements for ParaView into this folder");
+  mesh->add_flag("--json", a.mesh.json, "as JSON, problems of the case too");
+
+  CLI::App* diff =
+      app.add_subcommand("diff", "In which keys, inputs, versions and results two runs differ, and where they part");
+  diff->add_option("first", a.diff.first, "folder of a run")->required();
+  diff->add_option("second", a.diff.second, "folder of another")->required();
+
+  define_report(app, a);
+
+  CLI::App* explain =
+      app.add_subcommand("explain", "What a key of the case file means: unit, default, range; all keys without one");
+  explain->add_option("key", a.key, "such as material.young, or the name of a section");
+
+  CLI::App* schema = app.add_subcommand("schema", "The table of all keys of a case file, a line a key");
+  schema->add_flag("--json", a.schema_json, "as JSON, with units, defaults, ranges, choices and help");
+}
+
+std::string unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return {};
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == argv[1]) return {};
+    commands.push_back(command->get_name());
+  }
+  const std::string meant = case_::likely_meant(argv[1], commands);
+  return "unknown command \"" + std::string(argv[1]) + "\"" + (meant.empty() ? "" : "; did you mean " + meant + "?") +
+         "; allowed: " + case_::joined(commands) + "; `breccia --help` tells what they do";
+}
+
+}  // namespace breccia
