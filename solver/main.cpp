@@ -24,7 +24,7 @@ using namespace breccia;
 
 int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 
-volatile std::sig_atomic_t speaks_of_signals = 0;  // one rank tells
+volatile std::sig_atomic_t reports_signals = 0;  // one rank does
 
 /// Ctrl-C, SIGTERM and a closed terminal end the run after the present step, with everything written; a second
 /// one kills.
@@ -32,7 +32,7 @@ void stop_handler(int signal) {
   interruption = signal;
   stop_requested = true;
   std::signal(signal, SIG_DFL);
-  if (!speaks_of_signals) return;
+  if (!reports_signals) return;
   const char words[] = "\nbreccia: ending after the present step; a second signal ends at once\n";
   (void)!::write(STDERR_FILENO, words, sizeof words - 1);
 }
@@ -76,9 +76,9 @@ int dispatch(const CLI::App& app, Arguments& a, const Communicator& world, int a
   return explain_command(a.key);
 }
 
-/// What went wrong, told by `speaks` alone.
-int report(bool speaks, const std::string& what, ExitCode exit_code) {
-  if (speaks) std::fprintf(stderr, "breccia: error: %s\n", what.c_str());
+/// Prints what went wrong where `prints`: one rank for all.
+int report(bool prints, const std::string& what, ExitCode exit_code) {
+  if (prints) std::fprintf(stderr, "breccia: error: %s\n", what.c_str());
   return code(exit_code);
 }
 
@@ -128,7 +128,7 @@ int main(int argc, char** argv) {
   const auto asked_for = [&](const char* command) { return app.got_subcommand(command); };
   const bool in_order = asked_for("run") || asked_for("resume") || asked_for("race");  // the others lose nothing
   if (in_order) {
-    speaks_of_signals = session.world().is_root() ? 1 : 0;
+    reports_signals = session.world().is_root() ? 1 : 0;
     for (const int s : {SIGINT, SIGTERM, SIGHUP}) std::signal(s, stop_handler);
     std::signal(SIGUSR1, checkpoint_handler);
   }

@@ -92,7 +92,7 @@ std::size_t num_pieces(const CheckpointIndex& index) {
   return pieces;
 }
 
-/// Whether every list ascends by element and speaks of elements that are there.
+/// Whether every list ascends by element and names only elements of the checkpoint.
 bool belong_together(const Records& records) {
   const auto before = [](const ElementRecord& a, const ElementRecord& b) { return a.id < b.id; };
   if (!std::is_sorted(records.elements.begin(), records.elements.end(), before)) return false;

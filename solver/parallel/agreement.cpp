@@ -116,8 +116,8 @@ void Communicator::agree(const std::function<void()>& work) const {
   // The larger, the lower the rank that failed; 0: none.
   const std::int64_t lowest = max(failure ? std::int64_t{size()} - rank() : std::int64_t{0});
   if (lowest == 0) return;
-  const bool speaks = lowest == size() - rank();
-  const std::vector<std::byte> mine = speaks ? packed(*failure) : std::vector<std::byte>{};
+  const bool reports = lowest == size() - rank();
+  const std::vector<std::byte> mine = reports ? packed(*failure) : std::vector<std::byte>{};
   for (const std::vector<std::byte>& bytes : all_gather_bytes(mine)) {
     if (!bytes.empty()) raise(unpacked(bytes));
   }

@@ -79,8 +79,8 @@ void end_with_child(int signal) {
 
 void end_group(int) { ::kill(0, SIGKILL); }
 
-/// Goes on in a process of its own; what it was waits for that, and ends the whole group when `parent` ends, in
-/// whatever way: a screen and ParaView would live on for nobody.
+/// Forks: the child goes on; the caller waits for it and ends the whole process group when `parent` ends, however it
+/// does, so that no screen and no ParaView outlives it.
 void guard_against_end_of(pid_t parent) {
   std::signal(SIGTERM, end_group);
   if (::prctl(PR_SET_PDEATHSIG, SIGTERM) != 0 || ::getppid() != parent) end_group(0);

@@ -12,7 +12,7 @@ struct Connectivity {
   enum Face : unsigned char {
     free_face = 0,  ///< of the body's surface
     held = 1,       ///< by an element across
-    cracked = 2     ///< by nobody any more: its joint has failed
+    cracked = 2     ///< no more: its joint has failed
   };
   std::vector<vtkTypeInt64> fragment;  ///< (elements) smallest element id of the part that hangs together
   std::vector<unsigned char> face;     ///< (elements, 4) Face
