@@ -94,7 +94,8 @@ void begin_stage(Domain& domain, StageLoads loads, double dt) {
   for (const PressureLoad& p : state.loads.pressures) state.work.past_loads.add(p.work());
   state.work.past_loads.add(state.constraints.work());
   state.loads = std::move(loads);
-  state.constraints = Constraints(state.loads.constraints, domain.model.local, state.nodes, state.loads.mass_damping);
+  state.constraints = Constraints(state.loads.constraints, domain.model.local, state.nodes, state.loads.mass_damping,
+                                  state.loads.local_damping);
   if (state.loads.mass_damping > 0 || state.loads.local_damping > 0)
     state.damping_work.resize(at(domain.model.local.num_nodes));
   state.clock.dt = dt;

@@ -5,8 +5,6 @@
 #include <tuple>
 #include <utility>
 
-#include "physics/kick.hpp"
-
 namespace breccia {
 namespace {
 
@@ -24,8 +22,8 @@ bool holds_still(const NodalConstraint& entry) {
 }
 
 Constraints::Constraints(const std::vector<NodalConstraint>& entries, const LocalMesh& mesh, const NodalState& state,
-                         double mass_damping)
-    : mesh_(&mesh), mass_damping_(mass_damping) {
+                         double mass_damping, double local_damping)
+    : mesh_(&mesh), damping_{mass_damping, local_damping, 0.0} {
   std::map<Index, std::array<std::size_t, 3>> ruler;  // 1 + entry that rules an axis of a node
   for (std::size_t e = 0; e < entries.size(); ++e) {
     const NodalConstraint& given = entries[e];
@@ -38,6 +36,7 @@ Constraints::Constraints(const std::vector<NodalConstraint>& entries, const Loca
   }
   for (const auto& [node, rules] : ruler) {
     nodes_.push_back(node);
+    held_axes_.push_back({rules[0] != 0, rules[1] != 0, rules[2] != 0});
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (rules[axis] == 0) continue;
       std::vector<Hold>& holds = entries_[rules[axis] - 1].holds;
@@ -55,13 +54,20 @@ Constraints::Constraints(const std::vector<NodalConstraint>& entries, const Loca
 bool Constraints::counts(Index node) const { return mesh_->counted[static_cast<std::size_t>(node)] != 0; }
 
 double Constraints::reaction_of(const Hold& hold, std::size_t k) const {
-  if (kick_ == 0) return 0.0;
+  const double kick = damping_.kick;
+  if (kick == 0) return 0.0;
   const double mass = mesh_->node_mass[static_cast<std::size_t>(hold.nodes[k])];
-  return (1.0 + 0.5 * mass_damping_ * kick_) * (mass * (hold.velocity[k] - hold.free[k]) / kick_);
+  return (1.0 + 0.5 * damping_.mass * kick) * (mass * (hold.velocity[k] - hold.free[k]) / kick);
+}
+
+double Constraints::change_by_local_damping(Index node, double before, double after) const {
+  const double mass = mesh_->node_mass[static_cast<std::size_t>(node)];
+  return damping_.kick * damping_.local_force(before, after, mass) /
+         (mass * (1.0 + 0.5 * damping_.mass * damping_.kick));
 }
 
 void Constraints::apply(NodalState& state, double time, double dt_before, double dt) {
-  kick_ = kick_length(dt_before, dt);
+  damping_.kick = kick_length(dt_before, dt);
   for (Entry& entry : entries_) {
     for (Hold& hold : entry.holds) {
       if (hold.rests) {
@@ -103,6 +109,7 @@ void Constraints::apply_moving(const Entry& entry, Hold& hold, NodalState& state
     const double x = state.position[at];
     const double before = hold.velocity[k], v = displacement ? (target - (x - hold.start[k])) / dt : target;
     hold.free[k] = state.velocity[at];
+    if (damping_.local > 0) hold.free[k] -= change_by_local_damping(hold.nodes[k], before, state.velocity[at]);
     hold.velocity[k] = v;
     if (counts(hold.nodes[k])) work_.add_before(reaction_of(hold, k) * before, dt_before);
     state.velocity[at] = v;

@@ -11,6 +11,7 @@
 #include "base/work_sum.hpp"
 #include "discretisation/local_mesh.hpp"
 #include "discretisation/nodal_state.hpp"
+#include "physics/kick.hpp"
 
 namespace breccia {
 
@@ -38,15 +39,17 @@ class Constraints {
   Constraints() = default;
   /// @param state  position at the stage's start, where displacements count from; velocity of the step before it
   /// @param mass_damping  alpha of the force -alpha m v that the sweep has applied, 1/s
+  /// @param local_damping  beta of the other force that it has applied; it does not act on axes that are held
   /// @pre mesh outlives this object
   Constraints(const std::vector<NodalConstraint>& entries, const LocalMesh& mesh, const NodalState& state,
-              double mass_damping = 0);
+              double mass_damping = 0, double local_damping = 0);
 
   /// Overwrites v(n+1/2): by the velocity asked for at t_(n+1/2), or by (u(t_(n+1)) - (x_n - x_start)) / dt, with which
   /// positions hold to round-off; and next_position by x_n + dt v. Keeps the reactions
   ///   R = m (1 + alpha k/2) (v - v_free) / k,  k = kick_length(dt_before, dt),
   /// which with the damping force -alpha m (v(n-1/2) + v(n+1/2)) / 2 give the node this velocity, and accounts their
-  /// work over the step that ended at t_n.
+  /// work over the step that ended at t_n. v_free is the velocity that the sweep would have left without local damping,
+  /// which is that of free motion: a platen feels what presses on it.
   /// @param state      position at t_n, velocity and next_position as the sweep left them
   /// @param time       t_n;  @param dt_before  t_n - t_(n-1), 0 at the start;  @param dt  t_(n+1) - t_n, s
   void apply(NodalState& state, double time, double dt_before, double dt);
@@ -75,6 +78,8 @@ class Constraints {
 
   /// All nodes of which some axis is held, ascending.
   [[nodiscard]] const std::vector<Index>& nodes() const { return nodes_; }
+  /// (nodes) which axes.
+  [[nodiscard]] const std::vector<std::array<bool, 3>>& held_axes() const { return held_axes_; }
   [[nodiscard]] std::size_t num_entries() const { return entries_.size(); }
   [[nodiscard]] bool empty() const { return entries_.empty(); }
 
@@ -87,7 +92,7 @@ class Constraints {
     std::vector<Index> nodes;      ///< ascending
     std::vector<double> start;     ///< (nodes) m
     std::vector<double> velocity;  ///< (nodes) m/s, of the last step, on this axis
-    std::vector<double> free;      ///< (nodes) m/s, as the sweep left it in the last step
+    std::vector<double> free;      ///< (nodes) m/s, as the sweep left it in the last step, but for local damping
   };
   struct Entry {
     PrescribedMotion kind;
@@ -96,14 +101,16 @@ class Constraints {
   };
   void apply_still(Hold& hold, NodalState& state) const;
   void apply_moving(const Entry& entry, Hold& hold, NodalState& state, double time, double dt_before, double dt);
+  /// m/s. @param before, after  velocities of the sweep's step
+  [[nodiscard]] double change_by_local_damping(Index node, double before, double after) const;
   [[nodiscard]] bool counts(Index node) const;
   [[nodiscard]] double reaction_of(const Hold& hold, std::size_t k) const;
 
   const LocalMesh* mesh_ = nullptr;
   std::vector<Entry> entries_;
   std::vector<Index> nodes_;
-  double mass_damping_ = 0;
-  double kick_ = 0;  ///< s, of the last step
+  std::vector<std::array<bool, 3>> held_axes_;
+  AppliedDamping damping_;  ///< its kick is that of the last step
   WorkSum work_;
 };
 

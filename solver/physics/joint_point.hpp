@@ -102,6 +102,20 @@ template <class T>
   return {select(slid, T(law.stiffness * mean * (length - limit)), zero), spring2};
 }
 
+/// Twice the energy, J/m2, that central differences gain where a point opens from pressure within a step: of what it
+/// stores now, less what it stored at `last` < 0, less the trapezoidal work on it. @param moved  from last to c.normal
+template <class T>
+[[nodiscard]] inline T gained_by_opening(const JointLawParams& law, const Components<T>& c,
+                                         const Remaining<T>& remaining, const PointState<T>& now, const T& moved,
+                                         const T& last) {
+  if (rises_linearly(law.rise)) {
+    const T lost_stiffness = law.stiffness * (1.0 - remaining.normal());
+    return -lost_stiffness * c.normal * last;
+  }
+  const T pressure = -law.stiffness * last;
+  return (pressure - now.normal) * moved + pressure * last + 2.0 * now.stored.open;
+}
+
 /// Damping of a damaged point's normal opening.
 template <class T>
 struct Damping {
@@ -114,11 +128,14 @@ struct Damping {
 /// feel at all. Both are taken back by a pull whose work over the step is that: nothing is dissipated by it beyond what
 /// the law says, but for its work in the step that follows. A viscous traction c k' (delta_n - delta_n before), k' the
 /// present normal stiffness, damps what chatters so, and dissipates its trapezoidal work. Neither is there without
-/// viscosity.
+/// viscosity. For the parabolic rise the gain is that of its own curve: what is stored now less what was, less the
+/// trapezoidal work on the point.
+/// @param now  normal traction and stored energy, friction and damping apart
 /// @param on  damaged before this evaluation;  @param damaged  after it;  @param loss  J/m2, of normal stiffness, in it
 template <class T>
 [[nodiscard]] inline Damping<T> damp(const JointLawParams& law, const Components<T>& c, const Remaining<T>& remaining,
-                                     const Mask<T>& on, const Mask<T>& damaged, const T& loss, Point<T>& h) {
+                                     const PointState<T>& now, const Mask<T>& on, const Mask<T>& damaged, const T& loss,
+                                     Point<T>& h) {
   const T zero = 0.0;
   if (!(law.viscosity > 0)) return {zero, zero};
   const T moved = c.normal - h.normal_opening;
@@ -126,8 +143,8 @@ template <class T>
   const T share = select(is_open, remaining.normal(), T(1.0));
   const T viscous = select(on, T(law.viscosity * law.stiffness * share * moved), zero);
   const Mask<T> opens = damaged && is_open && h.normal_opening < zero;
-  const T lost_stiffness = law.stiffness * (1.0 - remaining.normal());
-  const T pull = select(opens, T((2.0 * loss - lost_stiffness * c.normal * h.normal_opening) / moved), zero);
+  const T gain = gained_by_opening(law, c, remaining, now, moved, h.normal_opening);
+  const T pull = select(opens, T((2.0 * loss + gain) / moved), zero);
   const T work = 0.5 * (h.viscous_traction + viscous) * moved;
   h.viscous_traction = viscous + pull;
   return {h.viscous_traction, select(on, greater(work, zero), zero)};
@@ -172,7 +189,7 @@ template <class T>
           greater(T(shear_loss - 0.5 * law.stiffness * (before.shear() - remaining.shear()) * sliding.spring2), zero);
       h.friction_weight = select(damaged, weight, h.friction_weight);
     }
-    const Damping<T> damping = damp(law, c, remaining, damaged_before, h.damage > zero, normal_loss, h);
+    const Damping<T> damping = damp(law, c, remaining, now, damaged_before, h.damage > zero, normal_loss, h);
     traction = plus(traction, times(damping.traction, frame.normal));
     response.viscous = damping.dissipated;
     response.traction = select3<T>(damaged, traction, elastic_traction);

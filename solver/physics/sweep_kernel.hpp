@@ -136,15 +136,20 @@ inline void keep_stress(const SweepArgs& args, const ElasticParams& p, const Str
   }
 }
 
-/// Accounts half a step's work of the viscous stress, and of the elastic stress of laws that have no energy.
+/// Half of the step before t_n, s; before the first step as of one as long as it. kick_length() is this and half of the
+/// step after t_n.
+inline double half_before(const SweepArgs& args) { return args.kick - 0.5 * args.dt; }
+
+/// Accounts the work of the viscous stress, and of the elastic stress of laws that have no energy, during half a step.
+/// @param length  of that half, s
 template <class X>
-inline void book_stress_work(const SweepArgs& args, const ElasticParams& p, const Stress& s, const X& v,
-                             std::size_t slot, double* viscous, double* stress) {
+inline void book_stress_work(const ElasticParams& p, const Stress& s, const X& v, double length, std::size_t slot,
+                             double* viscous, double* stress) {
   const bool no_energy = !is_hyperelastic(p.law) && stress != nullptr;
   const bool dissipates = p.viscosity > 0 && viscous != nullptr;
   if (!no_energy && !dissipates) return;
   const Tensor rate = el::deformation<Real>(v, s.inverse);
-  const Real half = 0.5 * args.dt * s.volume;
+  const Real half = length * s.volume;
   const Real viscous_work = p.viscosity > 0 ? half * contract(s.viscous, rate) : Real(0.0);
   if (dissipates) add_to(viscous + slot, viscous_work);
   if (no_energy) add_to(stress + slot, half * contract(s.total, rate) - viscous_work);
@@ -233,7 +238,7 @@ struct Mover {
       after -= damping * moved[i];
     }
     if (args.damping_before != nullptr) {
-      add_to(args.damping_before + node, 0.5 * args.dt * before);
+      add_to(args.damping_before + node, half_before(args) * before);
       add_to(args.damping_after + node, 0.5 * args.dt * after);
     }
     return moved;
@@ -273,7 +278,7 @@ inline void sweep_own(const SweepArgs& args, const ElasticParams& p, const Mover
     }
   }
   if (!is_plain) {
-    book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_before, args.stress_before);
+    book_stress_work(p, stress, v, half_before(args), block * kLanes + lane, args.viscous_before, args.stress_before);
     keep_stress(args, p, stress, block, lane);
   }
   const Real mass = load(args.node_mass + block * 4 * kLanes + lane);
@@ -312,7 +317,7 @@ inline void scatter_shared(const SweepArgs& args, const ElasticParams& p, std::s
   Stress stress;
   evaluate_stress<is_plain>(args, p, block, lane, x, v, totals, stress);
   if (!is_plain) {
-    book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_before, args.stress_before);
+    book_stress_work(p, stress, v, half_before(args), block * kLanes + lane, args.viscous_before, args.stress_before);
     keep_stress(args, p, stress, block, lane);
   }
   const Corners force = el::corner_forces(stress.total, stress.inverse, stress.volume);
@@ -359,7 +364,7 @@ inline void account_after(const SweepArgs& args, std::size_t block, std::size_t 
   }
   stress.volume = load(args.volume + block * kLanes + lane);
   const auto account = [&](const auto& v) {
-    book_stress_work(args, p, stress, v, block * kLanes + lane, args.viscous_after, args.stress_after);
+    book_stress_work(p, stress, v, 0.5 * args.dt, block * kLanes + lane, args.viscous_after, args.stress_after);
   };
   if (block < static_cast<std::size_t>(args.num_own_blocks)) {
     account(StoredCorners{args.velocity + block * 96 + lane});

@@ -197,17 +197,14 @@ void send_proxies(Domain& domain) {
   domain.exchange.begin_gather(domain.state.nodes.next_position, domain.state.nodes.velocity);
 }
 
-/// Damping force that the sweep put on a node, N, regained from what it did to its velocity (sweep_kernel.hpp, Mover).
-Vec3 damping_force(const SweepArgs& args, const Vec3& before, const Vec3& after, double mass) {
-  const double half = 0.5 * args.mass_damping * args.kick;
-  Vec3 force;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    const double net = mass * ((1.0 + half) * after[i] - (1.0 - half) * before[i]) / args.kick;  // unbalanced and local
-    const double opposed = before[i] == 0.0               ? 0.0
-                           : (net > 0) == (before[i] > 0) ? -args.local_damping
-                                                          : args.local_damping;
-    const double unbalanced = net / (1.0 + opposed);
-    force[i] = net - unbalanced - 0.5 * args.mass_damping * mass * (before[i] + after[i]);
+/// Local damping force that the sweep put on the held axes of a node, N, regained from what it did to their velocities.
+Vec3 local_force_on_held(const SweepArgs& args, const std::array<bool, 3>& held, const Vec3& before, const Vec3& after,
+                         double mass) {
+  const AppliedDamping damping{args.mass_damping, args.local_damping, args.kick};
+  Vec3 force = Vec3::Zero();
+  for (std::size_t i = 0; i < 3 && args.local_damping > 0; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    if (held[i]) force[axis] = damping.local_force(before[axis], after[axis], mass);
   }
   return force;
 }
@@ -223,8 +220,8 @@ bool accounts_damping(const SweepArgs& args) {
   return args.damping_after != nullptr && (args.mass_damping > 0 || args.local_damping > 0);
 }
 
-/// The sweep accounted the damping of held nodes with the velocities they would have had. What it damps is their mean
-/// velocity as they are held.
+/// The sweep accounted the damping of held nodes with the velocities they would have had. Mass damping acts on their
+/// mean velocity as they are held, local damping not at all.
 void account_held_damping(const SweepArgs& args, Domain& domain) {
   const std::vector<Vec3>& free = domain.scratch.held_free;
   const std::vector<Index>& nodes = domain.state.constraints.nodes();
@@ -234,9 +231,10 @@ void account_held_damping(const SweepArgs& args, Domain& domain) {
     const Vec3& before = domain.scratch.held_before[i];
     const double mass = domain.model.local.node_mass[node];
     const Vec3 change = 0.5 * args.mass_damping * mass * (free[i] - held);  // of the force
-    const Vec3 force = damping_force(args, before, free[i], mass);
-    args.damping_before[node] -= 0.5 * domain.state.clock.dt_before * change.dot(before);
-    args.damping_after[node] += 0.5 * args.dt * (force.dot(free[i] - held) - change.dot(held));
+    const Vec3 force = -0.5 * args.mass_damping * mass * (before + free[i]);
+    const Vec3 local = local_force_on_held(args, domain.state.constraints.held_axes()[i], before, free[i], mass);
+    args.damping_before[node] += (args.kick - 0.5 * args.dt) * (local - change).dot(before);
+    args.damping_after[node] += 0.5 * args.dt * (force.dot(free[i] - held) + local.dot(free[i]) - change.dot(held));
   }
 }
 

@@ -365,11 +365,7 @@ void Pass::act(Index index, Candidate& candidate) {
   const double lost = follow(law, point.weight * length, length, candidate, h);
   account(point, work_.dissipated).add(lost);
   if (!(candidate.g > 0)) {
-    h.d = last.d;
-    h.d_max = last.d_max;
-    h.force = last.force;
-    h.friction = last.friction;
-    forget(h, lost);
+    forget(last, lost);  // by the law and on the contactor that it had
     contact_.touching.pop_back();
   } else if (h.d > 0 || last.force != Vec3::Zero()) {
     // Freshly broken surfaces are full of couples that lie together without force: nothing more to do for those.

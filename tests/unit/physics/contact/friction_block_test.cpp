@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "scene.hpp"
 
@@ -99,6 +100,45 @@ TEST(friction_block, slides_above_the_angle_of_friction_with_the_acceleration_le
   block.run(time);
   const double acceleration = kGravity * (std::sin(slope) - mu * std::cos(slope));
   EXPECT_NEAR(block.path()[0] / (0.5 * acceleration * time * time), 1, 0.01);
+}
+
+/// Two elements of one body and different groups, glued by their nodes, and a small body inside the first of them.
+Mesh two_groups_and_a_grain() {
+  Mesh pair = test::lone({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)});
+  pair.nodes.push_back(Vec3(1, 1, 1));
+  pair.elements.push_back({1, 2, 3, 4});
+  pair.element_group.push_back(1);
+  pair.element_body.push_back(0);
+  pair.element_source_id.push_back(2);
+  pair.volume_groups = {"first", "second"};
+  constexpr double kGrain = 0.05;
+  return test::joined(pair, test::lone({Vec3(0.2, 0.2, 0.2), Vec3(0.2 + kGrain, 0.2, 0.2), Vec3(0.2, 0.2 + kGrain, 0.2),
+                                        Vec3(0.2, 0.2, 0.2 + kGrain)}));
+}
+
+TEST(friction, a_spring_that_lets_go_in_another_group_gives_back_what_it_held_under_its_own_law) {
+  constexpr double kPenalty = 1e6, kStep = 1e-3;
+  test::Scene scene(two_groups_and_a_grain(), {kPenalty, std::numeric_limits<double>::infinity(), 1, 1.0, 1});
+  const Index grain = 1;
+  scene.params.laws[2 * 3 + 1].penalty = 10 * kPenalty;  // of the grain's points against the second group
+  scene.couple([&](Index slot) { return scene.body(slot) == grain; },
+               [&](Index slot) { return scene.body(slot) != grain; });
+  scene.evaluate(kStep);
+  scene.set_velocity(grain, Vec3(1e-3, -2e-3, 1e-3));
+  scene.evaluate(kStep);
+  const double held = scene.work.friction_stored.value(), lost = scene.work.friction_dissipated.value();
+  ASSERT_GT(held, 0.0);
+
+  // The grain stands in the second element, whose field goes down to nothing meanwhile.
+  scene.set_velocity(grain, Vec3::Zero());
+  scene.shift(grain, Vec3::Constant(0.3));
+  const std::size_t second = test::at(scene.contact.contactor_of_slot[test::at(scene.local.slot_of_element[1])]);
+  scene.contact.ramps.push_back({static_cast<Index>(second), {1, 1, 1, 1, 1}, scene.contact.field[second], {}});
+  scene.contact.ramp_of_contactor[second] = 0;
+  scene.evaluate(kStep);
+  EXPECT_TRUE(scene.contact.touching.empty());
+  constexpr double kRoundOff = 1e-12;
+  EXPECT_NEAR(scene.work.friction_dissipated.value() - lost, held, kRoundOff * held);
 }
 
 }  // namespace

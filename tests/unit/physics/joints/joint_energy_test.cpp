@@ -258,6 +258,49 @@ TEST(JointEnergy, opening_from_pressure_within_a_step_takes_what_the_damage_take
   }
 }
 
+TEST(JointEnergy, opening_from_pressure_within_a_step_takes_what_the_damage_takes_on_the_parabolic_rise_too) {
+  constexpr double kRoundOff = 1e-9;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> part(0, 1);
+  for (int i = 0; i < 100; ++i) {
+    JointLawParams law = test::reference_law(JointRise::parabolic);
+    law.viscosity = 1e-15;
+    PointDriver point{law};
+    // Damaged by sliding or by opening before, or not at all; then opened up to its peak or beyond.
+    const double slid = law.onset_shear + 0.2 * law.width_shear;
+    if (i % 3 == 0) point.move_to(at_angle(90, slid), 200);
+    if (i % 3 == 1) point.move_to(at_angle(0, law.onset_normal + 0.2 * part(random) * law.width_normal), 200);
+    const double shear = i % 3 == 0 ? slid : 0.0;
+    point.step(opening_of(axes(), -law.onset_normal * part(random), shear));
+    const double taken = point.work - point.history.stored, dissipated = point.dissipated();
+    const double far = i % 3 == 0 ? 0.9 * law.onset_normal * part(random)
+                                  : law.onset_normal + law.width_normal * (0.3 + 0.6 * part(random));
+    point.step(opening_of(axes(), far, shear));
+    ASSERT_GT(point.history.damage, 0.0);
+    EXPECT_NEAR(point.work - point.history.stored - taken, point.dissipated() - dissipated, kRoundOff * kEnergy) << i;
+  }
+}
+
+TEST(JointEnergy, an_evaluation_that_passes_the_peak_takes_what_the_force_before_it_and_after_it_give) {
+  constexpr double kRoundOff = 1e-9;
+  for (const JointLaw kind : {JointLaw::mixed_mode, JointLaw::independent_peaks}) {
+    for (const double angle : kAngles) {
+      for (const double short_of_the_peak : {0.0, 0.3, 0.9}) {
+        JointLawParams law = example_law();
+        law.law = kind;
+        law = prepared(law);
+        PointDriver point{law};
+        point.step(at_angle(angle, short_of_the_peak * law.onset_normal));
+        ASSERT_EQ(point.history.damage, 0.0);
+        point.step(at_angle(angle, 1.9 * law.onset_normal));
+        ASSERT_GT(point.history.damage, 0.0);
+        EXPECT_NEAR(point.work - point.history.stored, point.dissipated(), kRoundOff * kEnergy)
+            << angle << " degrees, from " << short_of_the_peak;
+      }
+    }
+  }
+}
+
 /// A mass held by a spring as stiff as the joint and by a damaged point, in central differences; J/m2 and kg/m2.
 struct Chatter {
   PointDriver point;

@@ -82,6 +82,25 @@ TEST(Constraints, ReactAgainstMassDampingToo) {
   EXPECT_NEAR(constraints.reaction(0)[0].value(), reaction, kRounding * std::abs(reaction));
 }
 
+TEST(Constraints, ReactToTheUnbalancedForceWhateverTheLocalDampingOfFreeNodes) {
+  constexpr double kLocal = 0.7, kMass = 6, kStep = 0.1, kSpeed = 2, kHalf = 0.5 * kMass * kStep;
+  for (const double unbalanced : {-30.0, 0.4}) {
+    Model model = lone_tetrahedron();
+    const Index node = model.real_nodes()[0];
+    const double mass = model.local.node_mass[test::at(node)];
+    store_node(model.state.velocity.data(), node, Vec3(kSpeed, 0, 0));
+    Constraints constraints({{{node}, {true, false, false}, PrescribedMotion::velocity, {in_time(kSpeed), {}, {}}}},
+                            model.local, model.state, kMass, kLocal);
+    // As the sweep moves it, with the local force against its velocity.
+    const double force = unbalanced - kLocal * std::abs(unbalanced);
+    const double swept = ((1 - kHalf) * kSpeed + kStep / mass * force) / (1 + kHalf);
+    store_node(model.state.velocity.data(), node, Vec3(swept, 0, 0));
+    constraints.apply(model.state, 0.0, kStep, kStep);
+    const double reaction = kMass * mass * kSpeed - unbalanced;
+    EXPECT_NEAR(constraints.reaction(0)[0].value(), reaction, kRounding * 30 / kLocal) << unbalanced;
+  }
+}
+
 TEST(Constraints, AtRestDoNoWorkButReact) {
   Model model = lone_tetrahedron();
   const Index node = model.real_nodes()[0], other = model.real_nodes()[1];

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 
 #include "physics/energy.hpp"
@@ -87,6 +88,38 @@ TEST_P(MomentumOf, a_turning_body_is_right_handed_and_moves_with_its_centre) {
   EXPECT_LT((linear - mass * velocity).norm(), kRounding * mass * velocity.norm());
   EXPECT_NEAR(angular[2], -centre[1] * mass * velocity[0] + inertia * omega[2], kRounding * mass * 100);
   EXPECT_GT(inertia * omega[2], 0.01 * mass) << "the spin alone shows";
+}
+
+TEST(KineticEnergyOf, free_vibrations_moves_by_what_the_kick_says_where_the_step_changes_and_by_nothing_elsewhere) {
+  constexpr double kStiffness = 3000, kRoundOff = 1e-11;
+  Model model(test::tetrahedron(1.0, {3, 1, 1}), Discretisation::own_nodes, 1000);
+  const std::vector<Index> nodes = model.real_nodes();
+  Field<double>&v = model.state.velocity, displacement(v.size(), 0.0), before = v;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    store_node(v.data(), nodes[i], Vec3(1.0 + static_cast<double>(i), -2.0, 0.3));
+  const auto each = [&](auto&& f) {
+    for (const Index n : nodes) {
+      for (int axis = 0; axis < 3; ++axis) f(nodal(n, axis), model.local.node_mass[test::at(n)]);
+    }
+  };
+  const std::array steps{0.05, 0.05, 0.02, 0.07, 0.07, 0.11};
+  double expected = 0;
+  for (std::size_t s = 0; s < steps.size(); ++s) {
+    const double dt = steps[s], dt_before = s > 0 ? steps[s - 1] : dt, kick = 0.5 * (dt_before + dt);
+    double potential = 0, kicked = 0;
+    before = v;
+    each([&](std::size_t k, double mass) {
+      potential += 0.5 * kStiffness * displacement[k] * displacement[k];
+      v[k] -= kick / mass * kStiffness * displacement[k];
+      kicked += mass * (v[k] - before[k]) * (v[k] - before[k]);
+    });
+    const double change = (dt_before - dt) / (dt_before + dt);
+    const double energy = potential + kinetic_energy(model.local, before.data(), v.data(), change).value();
+    if (s == 0) expected = energy;
+    expected -= (dt - dt_before) / (4 * kick) * kicked;
+    EXPECT_NEAR(energy, expected, kRoundOff * energy) << "step " << s;
+    each([&](std::size_t k, double) { displacement[k] += dt * v[k]; });
+  }
 }
 
 TEST(IntactJointEnergyOf, joints_that_one_element_has_opened_is_half_their_stiffness_times_opening_squared) {

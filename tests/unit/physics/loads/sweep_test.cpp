@@ -218,6 +218,29 @@ TEST_P(Sweep, AccountsTheWorkOfViscousStressAndOfElasticStressWithoutAnEnergy) {
   EXPECT_NEAR(sum_stress, all_stress, kRounding * (1 + std::abs(all_stress)));
 }
 
+TEST_P(Sweep, AccountsTheHalfBeforeWithTheLengthOfTheStepBeforeWhereTheStepChanges) {
+  const auto swept_after = [&](double step_before) {
+    Swept swept = deformed(GetParam().discretisation, law(GetParam().law, GetParam().viscosity));
+    SweepArgs args = swept.args();
+    args.viscous_after = args.stress_after = nullptr;
+    args.kick = 0.5 * (step_before + args.dt);
+    args.local_damping = 0.3;  // does not depend on the kick
+    (void)sweep_for(best_simd())(args);
+    return swept;
+  };
+  constexpr double kLonger = 3, kRounding = 1e-12;
+  const Swept even = swept_after(kStep), uneven = swept_after(kLonger * kStep);
+  double sum = 0;
+  for (const auto sums : {&Swept::viscous, &Swept::stress, &Swept::damping_before}) {
+    for (std::size_t i = 0; i < (even.*sums).size(); ++i) {
+      const double expected = kLonger * (even.*sums)[i];
+      EXPECT_NEAR((uneven.*sums)[i], expected, kRounding * std::abs(expected));
+      sum += std::abs(expected);
+    }
+  }
+  EXPECT_GT(sum, 0.0);
+}
+
 TEST_P(Sweep, GivesTheSameBitsForEveryInstructionSet) {
   Field<double> first;
   for (const Simd simd : available()) {
