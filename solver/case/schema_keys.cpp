@@ -167,8 +167,8 @@ constexpr auto model_keys = std::to_array<Key>({
      .range = positive, .help = "Greatest shear traction without normal pressure (cohesion).", .example = "\"20 MPa\""},
     {.path = "joint[].friction", .type = number, .fallback = "0", .range = not_negative,
      .help = "Coefficient of friction: slope of the Mohr-Coulomb strength, and friction of closed damaged joints. From "
-             "about 0.2 on what slides without any damping chatters and rubs too little, as contact.friction tells: give "
-             "the material a viscosity.",
+             "about 0.2 on what slides without any damping chatters and rubs too little, as contact.friction "
+             "tells: give the material a viscosity.",
      .example = "0.6"},
     {.path = "joint[].friction_angle", .type = number, .unit = "rad",
      .range = angle,
@@ -283,7 +283,8 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Seed of the random velocities.", .example = "7"},
     {.path = "initial_velocity[].angular", .type = vector, .unit = "rad/s", .fallback = "[0, 0, 0]",
      .help = "Rotation of each body about its centre of mass. Masses are lumped at the nodes: moments of inertia of a "
-             "coarse body are above those of the solid, 12 to 30 % for a box of 1 x 2 x 3 cells.", .example = "[0, 0, \"90 deg/s\"]"},
+             "coarse body are above those of the solid, 12 to 30 % for a box of 1 x 2 x 3 cells.",
+     .example = "[0, 0, \"90 deg/s\"]"},
 
     {.path = "stage[]", .type = section_list, .required = true,
      .help = "A part of the run with its own loads and constraints; it starts from the state in which the previous one "
