@@ -160,11 +160,15 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Length h of the joint stiffness k = p/h. auto: the mean edge of the joints that this entry governs.",
      .example = "\"20 mm\""},
     {.path = "joint[].tensile_strength", .type = number, .unit = "Pa", .range = positive,
-     .help = "Greatest normal traction. Needed where joints can fail.", .example = "\"10 MPa\""},
+     .help = "Greatest normal traction. Needed where joints can fail. A crack of an unstructured mesh follows edges: "
+             "samples broke at 5 to 13 % more than this (13 % in tension, compression and a Brazilian disc).",
+     .example = "\"10 MPa\""},
     {.path = "joint[].shear_strength", .type = number, .unit = "Pa", .fallback = "= tensile_strength",
      .range = positive, .help = "Greatest shear traction without normal pressure (cohesion).", .example = "\"20 MPa\""},
     {.path = "joint[].friction", .type = number, .fallback = "0", .range = not_negative,
-     .help = "Coefficient of friction: slope of the Mohr-Coulomb strength, and friction of closed damaged joints.",
+     .help = "Coefficient of friction: slope of the Mohr-Coulomb strength, and friction of closed damaged joints. From "
+             "about 0.2 on what slides without any damping chatters and rubs too little, as contact.friction "
+             "tells: give the material a viscosity.",
      .example = "0.6"},
     {.path = "joint[].friction_angle", .type = number, .unit = "rad",
      .range = angle,
@@ -221,7 +225,11 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "contact[].damping_ratio", .type = number, .fallback = "0", .range = share,
      .help = "Damping of approach and retreat while bodies press on each other, as a share of the critical damping of "
              "a surface layer as thick as H. Accounted as dissipated by contact; shortens the time step by about that "
-             "share. It damps bodies that bounce, hardly vibrations inside of them.", .example = "0.2"},
+             "share. It damps bodies that bounce, hardly vibrations inside of them: a cube that falls flat on a floor "
+             "comes back with 1.000, 0.919, 0.781 and 0.480 of its speed for 0, 0.1, 0.3 and 1. It cures the creep of "
+             "bodies near their angle of friction only with a penalty of about a tenth of Young's modulus: on a slope "
+             "of 27 degrees that gave 0.0808 m/s2 for 0.083, but 0.345 with a penalty of Young's modulus.",
+     .example = "0.2"},
     {.path = "contact[].points_on", .type = choice, .fallback = "both", .choices = "both|first",
      .help = "Whose contact points are felt by the other group: those of both, or of the group named first alone. A "
              "floor is best named second: its points would catch the edges of what slides on it.",
@@ -274,7 +282,9 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "initial_velocity[].seed", .type = integer, .fallback = "1", .range = seed,
      .help = "Seed of the random velocities.", .example = "7"},
     {.path = "initial_velocity[].angular", .type = vector, .unit = "rad/s", .fallback = "[0, 0, 0]",
-     .help = "Rotation of each body about its centre of mass.", .example = "[0, 0, \"90 deg/s\"]"},
+     .help = "Rotation of each body about its centre of mass. Masses are lumped at the nodes: moments of inertia of a "
+             "coarse body are above those of the solid, 12 to 30 % for a box of 1 x 2 x 3 cells.",
+     .example = "[0, 0, \"90 deg/s\"]"},
 
     {.path = "stage[]", .type = section_list, .required = true,
      .help = "A part of the run with its own loads and constraints; it starts from the state in which the previous one "
@@ -296,7 +306,8 @@ constexpr auto model_keys = std::to_array<Key>({
 
     {.path = "stage[].constraint[]", .type = section_list,
      .help = "Imposed motion of the nodes of a group: one of fixed, velocity and displacement. Axes not named stay "
-             "free."},
+             "free. A patch of several nodes is clamped: it cannot turn. A roller or a pin is a small body of its own "
+             "that is held or driven and presses through contact."},
     {.path = "stage[].constraint[].group", .type = text, .required = true, .help = "Physical volume or surface group.",
      .example = "\"support\""},
     {.path = "stage[].constraint[].fixed", .type = axes, .help = "Axes along which the nodes stay where they are.",

@@ -80,7 +80,9 @@ inline constexpr auto run_keys = std::to_array<Key>({
     {.path = "output.gauges", .type = text_list, .fallback = "[]",
      .help = "Groups, or bodies as \"body 3\" (frames show their numbers), of which the history records reaction, "
              "contact force, displacement, velocity, centre of mass, momentum, spin, resultant force and torque. Means "
-             "are weighted by mass.", .example = "[\"support\", \"body 0\"]"},
+             "are weighted by mass. The reaction is the force of the constraints on the group, what accelerates the "
+             "held part included: under a press that moves down it points down. Velocity, momentum and spin are those "
+             "of half a step after the other columns of their line.", .example = "[\"support\", \"body 0\"]"},
 
     {.path = "insitu", .type = section,
      .help = "Pictures, extracts and live views that are made while the run goes on, by ParaView Catalyst "

@@ -4,6 +4,7 @@
 #include "commands/overlap_report.hpp"
 #include "commands/stage_report.hpp"
 #include "commands/step_report.hpp"
+#include "commands/unmeant_report.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -62,6 +63,42 @@ ElasticParams params_of_law(const Model& model, Index law) {
   return {};
 }
 
+/// m, below which the edges of a tenth of a law's joints are.
+double fine_edge(const Model& model, Index law) {
+  std::vector<double> edges;
+  for (const ModelJoint& joint : model.joints) {
+    if (joint.law == law) edges.push_back(joint.face.size);
+  }
+  if (edges.empty()) return 0;
+  const auto tenth = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 10);
+  std::nth_element(edges.begin(), tenth, edges.end());
+  return *tenth;
+}
+
+/// Element size against the process zone, m. @param h, fine  edges: mean, and of the finest tenth
+std::string zone_advice(const std::string& name, double zone, double h, double fine) {
+  constexpr double kWanted = 1.0 / 3, kGraded = 0.7;
+  if (h <= kWanted * zone) return {};
+  const std::string elements = fmt::format("The elements of {} (edge {:.3g} m)", name, h);
+  if (fine < kGraded * h && fine <= kWanted * zone) {
+    return fmt::format(
+        "{} are larger than a third of its fracture process zone ({:.3g} m), but for the finest tenth (below {:.3g} "
+        "m): trust fracture in that part alone.",
+        elements, zone, fine);
+  }
+  const std::string finest = fine < kGraded * h ? fmt::format(", in the finest tenth {:.2g}", fine / zone) : "";
+  if (h > zone) {
+    return fmt::format(
+        "{} are larger than its fracture process zone (h_max = {:.3g} m{}): the load at fracture and the crack paths "
+        "depend on the mesh. Refine by {:.2g}, or take the results as qualitative.",
+        elements, zone, finest.empty() ? "" : finest + " of it", h / zone);
+  }
+  return fmt::format(
+      "{} are {:.2g} of its fracture process zone ({:.3g} m){}: crack paths still depend on the mesh, branching was "
+      "lost at 0.4 and found at 0.3. Refine by {:.2g} where cracks are to branch or turn.",
+      elements, h / zone, zone, finest, h / (kWanted * zone));
+}
+
 /// One law: penalty, softness, process zone; warnings are added to `advice`.
 std::string law_report(const Model& model, Index l, Advice& advice) {
   const JointLawParams& law = model.joint_laws[index(l)];
@@ -80,13 +117,10 @@ std::string law_report(const Model& model, Index l, Advice& advice) {
   if (!law.breakable()) return text;
   const double zone = std::min(modulus * law.width_normal / (4 * law.tensile_strength),
                                std::numbers::pi * modulus * law.width_normal / (32 * law.tensile_strength));
-  text += fmt::format("  fracture process zone at least {:.4g} m; mean joint edge {:.4g} m\n", zone, h);
-  if (h > zone) {
-    advice.push_back(fmt::format(
-        "The elements of {} (edge {:.3g} m) are larger than its fracture process zone (h_max = {:.3g} m): the load at "
-        "fracture and the crack paths depend on the mesh. Refine by {:.2g}, or take the results as qualitative.",
-        name, h, zone, h / zone));
-  }
+  const double fine = fine_edge(model, l);
+  text += fmt::format("  fracture process zone at least {:.4g} m; mean joint edge {:.4g} m, a tenth below {:.4g} m\n",
+                      zone, h, fine);
+  advise(advice, zone_advice(name, zone, h, fine));
   return text;
 }
 
@@ -328,6 +362,8 @@ CheckReport full_report(const case_::Case& input, const Model& model, const Star
   report.text += stiffness_report(model) + overlaps.text;
   append(report.advice, overlaps.advice);
   append(report.advice, late_contact_advice(model));
+  append(report.advice, thin_body_advice(model));
+  append(report.advice, unmeant_advice(input, model));
   append(report.advice, stage_advice(input, model));
   report.step = step_report(input, model);
   report.estimate = estimate_run(input, model, report.step, from.time);

@@ -98,14 +98,19 @@ std::string sphere_too_small(const Model& model) {
   const SphericalBoundary& sphere = *model.contact.sphere;
   double furthest = 0;
   Index outside = 0, worst = -1;
+  bool around_something = false;  // else unmeant_advice tells
   for (Index e = 0; e < model.mesh.num_elements(); ++e) {
     double distance = 0;
-    for (const Index node : model.mesh.elements[index(e)])
+    Vec3 centre = Vec3::Zero();
+    for (const Index node : model.mesh.elements[index(e)]) {
       distance = std::max(distance, (model.mesh.nodes[index(node)] - sphere.centre).norm());
+      centre += model.mesh.nodes[index(node)] / 4;
+    }
+    around_something = around_something || (centre - sphere.centre).norm() <= sphere.radius;
     if (distance > sphere.radius) ++outside;
     if (distance > furthest) furthest = distance, worst = e;
   }
-  if (outside == 0) return {};
+  if (outside == 0 || !around_something) return {};
   return fmt::format(
       "The sphere does not hold the model: {} elements begin outside, element {} by {:.3g} m, and what begins "
       "outside is not pushed back in. Raise sphere.radius from {:.4g} to more than {:.4g} m, or move sphere.centre.",

@@ -13,6 +13,7 @@
 #include "commands/run_sinks.hpp"
 #include "commands/stage_report.hpp"
 #include "commands/start_state.hpp"
+#include "commands/unmeant_report.hpp"
 #include "mesh/geo_scan.hpp"
 #include "output/insitu.hpp"
 #include "output/run_folder.hpp"
@@ -82,7 +83,7 @@ int run_command(const RunCommand& asked, const Communicator& world) {
       give_up_if_interrupted();
       refuse_initial_overlaps(input, *model);
       refuse_contradictions(input, *model);
-      for (const std::string& sentence : overruled_constraints(input, *model))
+      for (const std::string& sentence : unmeant_advice(input, *model))
         fmt::print(stderr, "breccia: warning: {}\n", sentence);
     }
     folder = prepare_run_folder(root, input.resolved, provenance_of(asked, input, start, world),

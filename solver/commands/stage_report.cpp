@@ -44,6 +44,7 @@ struct Solid {
   double edge = std::numeric_limits<double>::max();   ///< m, H of its finest body
   bool held = false;                                  ///< somewhere, in the stage
   bool whole = false;                                 ///< all of it is held along all axes
+  bool pressed = false;                               ///< a pressure of the stage acts on it
 
   [[nodiscard]] double size() const { return (high - low).norm(); }
 };
@@ -73,9 +74,9 @@ class Solids {
 
   Solid& of(Index element) { return all_[at(sets_.root(model_.mesh.element_body[at(element)]))]; }
 
-  /// Which of them the constraints of a stage hold.
+  /// Which of them the constraints of a stage hold, and its pressures press on.
   void hold(const case_::Stage& stage) {
-    for (Solid& solid : all_) solid.held = solid.whole = false;
+    for (Solid& solid : all_) solid.held = solid.whole = solid.pressed = false;
     for (const case_::Constraint& entry : stage.constraints) {
       const bool all_axes = entry.axes == std::array{true, true, true};
       for_each_element(entry.group, [&](Index e, bool volume) {
@@ -83,15 +84,27 @@ class Solids {
         of(e).whole = of(e).whole || (volume && all_axes);
       });
     }
+    for (const case_::Pressure& pressure : stage.pressures)
+      for_each_element(pressure.surface, [&](Index e, bool) { of(e).pressed = true; });
   }
 
-  /// The largest crossing time of a wave among solids that are held at some place or lie on others, s; 0: none.
+  /// The largest crossing time of a wave, s.
+  [[nodiscard]] double slowest_crossing() const {
+    double time = 0;
+    for (const Solid& solid : all_) {
+      if (solid.speed < std::numeric_limits<double>::max()) time = std::max(time, solid.size() / solid.speed);
+    }
+    return time;
+  }
+
+  /// The largest crossing time of a wave among solids that are held at some place, lie on others or are pressed on, s;
+  /// 0: none.
   [[nodiscard]] double slowest_at_rest() const {
     double time = 0;
     for (std::size_t i = 0; i < all_.size(); ++i) {
       const Solid& solid = all_[i];
       if (solid.whole || !(solid.speed < std::numeric_limits<double>::max())) continue;
-      if (solid.held || lies_on_another(i)) time = std::max(time, solid.size() / solid.speed);
+      if (solid.held || solid.pressed || lies_on_another(i)) time = std::max(time, solid.size() / solid.speed);
     }
     return time;
   }
@@ -126,6 +139,9 @@ class Solids {
   DisjointSets sets_;
   std::vector<Solid> all_;  ///< (bodies) by their root
 };
+
+/// Viscosity over Young's modulus, of the time in which a wave crosses a body: 2 % of critical damping.
+constexpr double kViscosity = 0.005;
 
 /// Whether anything takes energy out of vibrations in a stage.
 bool damped(const case_::Case& input, const case_::Stage& stage) {
@@ -174,10 +190,14 @@ double softest(const Model& model) {
   return least;
 }
 
+/// A stage's name in quotes, or its number.
+std::string words_of(const case_::Case& input, const case_::Stage& stage) {
+  return stage.name.empty() ? fmt::format("{}", &stage - input.stages.data()) : "\"" + stage.name + "\"";
+}
+
 /// A load that is meant to be static vibrates; one that lasts for few crossings of a wave is meant to be a pulse.
 Advice sudden_load_advice(const case_::Case& input, const Model& model) {
   constexpr double kStatic = 10, kSlow = 20;  // crossings of a wave
-  constexpr double kViscosity = 0.005;        // over Young's modulus, of a crossing: 2 % of critical damping
   Advice advice;
   Solids solids(model);
   const case_::Stage* before = nullptr;
@@ -189,17 +209,76 @@ Advice sudden_load_advice(const case_::Case& input, const Model& model) {
     const double crossing = loads.empty() ? 0.0 : solids.slowest_at_rest();
     if (crossing > 0 && stage.end - start > kStatic * crossing) {
       advice.push_back(fmt::format(
-          "Stage {} begins with {}, on bodies that are held or lie on others and that nothing damps: they vibrate with "
-          "up to twice the static stress, and what lies on a slope near its angle of friction creeps. If a slow load "
+          "Stage {} begins with {}, on bodies that are held, lie on others or are pressed on and that nothing damps: "
+          "they "
+          "vibrate with up to twice the static stress, and what lies on a slope near its angle of friction creeps. If "
+          "a slow load "
           "is meant, let it grow over {} or more, {{ ramp = {{ start = {:g}, end = ..., to = ... }} }}, and damp: a "
           "material.viscosity of {}, or stage.local_damping; contact.damping_ratio = 0.2 damps what bounces.",
-          stage.name.empty() ? fmt::format("{}", &stage - input.stages.data()) : "\"" + stage.name + "\"", loads,
-          quantity_text(kSlow * crossing, "s"), start, quantity_text(kViscosity * crossing * softest(model), "Pa s")));
+          words_of(input, stage), loads, quantity_text(kSlow * crossing, "s"), start,
+          quantity_text(kViscosity * crossing * softest(model), "Pa s")));
     }
     before = &stage;
     start = stage.end;
   }
   return advice;
+}
+
+/// Whether a stage loads or drives anything at any of some times in it.
+bool is_loaded(const case_::Stage& stage, double start) {
+  constexpr int kTimes = 16;
+  for (int i = 0; i <= kTimes; ++i) {
+    const double time = start + (stage.end - start) * i / kTimes;
+    const auto acts = [&](const TimeFunction& function) { return function(time) != 0; };
+    if (std::any_of(stage.gravity.begin(), stage.gravity.end(), acts)) return true;
+    for (const case_::Pressure& p : stage.pressures) {
+      if (acts(p.value)) return true;
+    }
+    for (const case_::Constraint& c : stage.constraints) {
+      if (c.kind != case_::ConstraintKind::fixed && std::any_of(c.value.begin(), c.value.end(), acts)) return true;
+    }
+  }
+  return false;
+}
+
+/// Entries whose friction is high enough for what slides to chatter, in words; empty: none.
+std::string rough_entries(const case_::Case& input) {
+  constexpr double kChatters = 0.2;
+  std::string entries;
+  const auto add = [&](const char* what, const std::array<std::string, 2>& groups, double friction) {
+    if (friction < kChatters) return;
+    entries += fmt::format("{}{} of {} {:g}", entries.empty() ? "" : ", ", what,
+                           groups[0] == groups[1] ? groups[0] : groups[0] + " and " + groups[1], friction);
+  };
+  for (const case_::Contact& c : input.contacts) add("contact", c.groups, c.friction);
+  for (const case_::Joint& j : input.joints) {
+    const bool breaks = j.groups[0] != j.groups[1] ||
+                        std::any_of(input.materials.begin(), input.materials.end(), [&](const case_::Material& m) {
+                          return m.group == j.groups[0] && m.joints == case_::JointPlacement::breakable;
+                        });
+    if (breaks && j.tensile_strength > 0) add("joint", j.groups, j.friction);
+  }
+  return entries;
+}
+
+/// What slides without damping.
+Advice undamped_friction_advice(const case_::Case& input, const Model& model) {
+  const bool breaks = std::any_of(model.breakable.begin(), model.breakable.end(), [](bool b) { return b; });
+  if (model.mesh.num_bodies < 2 && !breaks) return {};
+  const std::string entries = rough_entries(input);
+  double start = 0;
+  for (const case_::Stage& stage : input.stages) {
+    if (!entries.empty() && !damped(input, stage) && is_loaded(stage, start)) {
+      const double viscosity = kViscosity * Solids(model).slowest_crossing() * softest(model);
+      return {fmt::format(
+          "Nothing damps stage {}, and there is friction (coefficients: {}): what slides chatters and rubs up to 28 to "
+          "40 % too little, and a body near its angle of friction creeps. If anything slides, damp: a "
+          "material.viscosity of {}, or a contact penalty of a tenth of Young's modulus with damping_ratio = 0.5.",
+          words_of(input, stage), entries, quantity_text(viscosity, "Pa s"))};
+    }
+    start = stage.end;
+  }
+  return {};
 }
 
 /// Intervals at which nothing happens before the run is over.
@@ -246,8 +325,8 @@ void refuse_contradictions(const case_::Case& input, const Model& model) {
 }
 
 Advice stage_advice(const case_::Case& input, const Model& model) {
-  Advice advice = overruled_constraints(input, model);
-  append(advice, sudden_load_advice(input, model));
+  Advice advice = sudden_load_advice(input, model);
+  append(advice, undamped_friction_advice(input, model));
   append(advice, long_intervals(input));
   return advice;
 }

@@ -6,12 +6,12 @@
 
 namespace breccia {
 
-/// What of the stages is probably not meant: entries that overrule others on some of their nodes, loads that act at
-/// full size from the first step on bodies that rest and that nothing damps, intervals longer than the run.
+/// What of the stages is probably not meant: loads that act at full size from the first step on bodies that rest and
+/// that nothing damps, friction where nothing damps, intervals longer than the run.
 /// @param model  of the whole mesh; a bare one will do. O(elements log elements).
 [[nodiscard]] Advice stage_advice(const case_::Case& input, const Model& model);
 
-/// The first of these: what `run` says as well.
+/// Entries that overrule others on some of their nodes.
 [[nodiscard]] Advice overruled_constraints(const case_::Case& input, const Model& model);
 
 /// Throws InputError with every constraint of which another leaves nothing along an axis.

@@ -51,6 +51,13 @@ class Start {
     return stable_step(time_step_.step_model(), parts_.shares, parts_.most, contacts, parts_.open);
   }
 
+  /// s, as it is now but for the viscosity.
+  [[nodiscard]] double step_without_viscosity() const {
+    std::vector<StepShare> shares = parts_.shares;
+    for (StepShare& share : shares) share.damping = 0;
+    return stable_step(time_step_.step_model(), shares, parts_.most, parts_.contacts, parts_.open).step;
+  }
+
   /// With every joint of breakable groups gone and its faces meeting.
   [[nodiscard]] StableStep broken() const {
     CornerClusters clusters(model_.mesh, model_.topology);
@@ -141,6 +148,25 @@ std::string sliver_advice(const Model& model, const Start& start) {
       slivers.size(), kSliver, quality.worst.front().element, without / start.now().step);
 }
 
+/// A viscosity that costs much of the step. With xi the damping of the highest vibrations, as a share of the critical
+/// one, the step is 1/f of that without, f = xi + sqrt(1 + xi^2); xi is proportional to the viscosity.
+std::string viscosity_advice(const Model& model, const Start& start) {
+  constexpr double kMuch = 2, kLittle = 1.2;
+  const auto share_of = [](double factor) { return 0.5 * (factor - 1 / factor); };
+  const double factor = start.step_without_viscosity() / start.now().step;
+  if (!(factor > kMuch)) return {};
+  std::size_t group = 0;
+  for (std::size_t g = 1; g < model.elastic.size(); ++g) {
+    if (model.elastic[g].viscosity > model.elastic[group].viscosity) group = g;
+  }
+  const double viscosity = model.elastic[group].viscosity;
+  return fmt::format(
+      "Viscosity makes the step {:.2g} times shorter (material.viscosity of {}: {}); {} would make it {:.2g} times "
+      "shorter.",
+      factor, model.mesh.volume_groups[group], quantity_text(viscosity, "Pa s"),
+      quantity_text(viscosity * share_of(kLittle) / share_of(factor), "Pa s"), kLittle);
+}
+
 }  // namespace
 
 StepReport step_report(const case_::Case& input, const Model& model) {
@@ -168,6 +194,7 @@ StepReport step_report(const case_::Case& input, const Model& model) {
     advise(report.advice, contact_advice(model, start, start.parts().contacts, "Contact"));
     if (report.advice.empty()) advise(report.advice, contact_advice(model, start, later, "Once bodies meet, contact"));
   }
+  advise(report.advice, viscosity_advice(model, start));
   advise(report.advice, given_step_text(input.time.step, now));
   if (now.limit != StepLimit::contact && now.quantiles[0] < 0.3 * now.quantiles[1]) {
     report.advice.push_back(fmt::format(

@@ -132,9 +132,8 @@ void demand_surfaces_are_faces(const Mesh& mesh) {
   }
   std::vector<Problem> problems;
   for (const auto& [group, number] : strays) {
-    problems.push_back({mesh.source, 0, "surface group \"" + mesh.surface_groups[at(group)] + "\"",
-                        "holds triangles that are no face of any element", "faces of meshed physical volumes",
-                        std::to_string(number) + " such triangles"});
+    problems.push_back({mesh.source, 0, "surface group \"" + mesh.surface_groups[at(group)] + "\"", kStrayTriangles,
+                        kFacesOfVolumes, std::to_string(number) + " such triangles"});
   }
   if (!problems.empty()) throw InputError(std::move(problems));
 }

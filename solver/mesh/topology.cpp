@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "mesh/node_parting.hpp"
 
 namespace breccia {
 namespace {
@@ -126,9 +127,8 @@ std::vector<std::vector<Topology::Face>> find_surfaces(const Mesh& mesh, const F
         std::unique(groups[g].begin(), groups[g].end(), [&](const auto& a, const auto& b) { return key(a) == key(b); }),
         groups[g].end());
     if (strays[g] > 0) {
-      problems.push_back({mesh.source, 0, "surface group \"" + mesh.surface_groups[g] + "\"",
-                          "holds triangles that are no face of any element", "faces of meshed physical volumes",
-                          std::to_string(strays[g]) + " such triangles"});
+      problems.push_back({mesh.source, 0, "surface group \"" + mesh.surface_groups[g] + "\"", kStrayTriangles,
+                          kFacesOfVolumes, std::to_string(strays[g]) + " such triangles"});
     }
   }
   return groups;

@@ -61,6 +61,36 @@ TEST(CheckReport, names_the_process_zone_of_the_more_cautious_estimate) {
   EXPECT_NEAR(number_after(report_of(kCubes), "process zone at least ") / zone, 1.0, kFourDigits);
 }
 
+TEST(CheckReport, advises_on_elements_from_a_third_of_the_process_zone_on) {
+  const std::string report = report_of(kCubes);
+  const double ratio = number_after(report, "mean joint edge ") / number_after(report, "process zone at least ");
+  const auto at_ratio = [&](double wanted) {
+    return report_of(kCubes, {"joint[0].energy_mode_1=" + std::to_string(100 * ratio / wanted) + " J/m2"});
+  };
+  EXPECT_THAT(at_ratio(1.2), HasSubstr("are larger than its fracture process zone"));
+  EXPECT_THAT(at_ratio(0.4), HasSubstr("are 0.4 of its fracture process zone"));
+  EXPECT_THAT(at_ratio(0.3), Not(HasSubstr("of its fracture process zone (")));
+}
+
+TEST(CheckReport, tells_that_the_finest_part_alone_of_a_graded_mesh_is_fine_enough) {
+  const case_::CaseFolder folder;
+  folder.write("graded.geo",
+               "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 0.08, 0.02, 0.02};\nMeshSize{:} = 0.02;\n"
+               "MeshSize{ PointsOf{ Surface{1}; } } = 0.002;\nPhysical Volume(\"cubes\") = {1};\n");
+  const auto graded = [&](const std::string& energy) {
+    const std::string text = kCubes.substr(kCubes.find("[[material]]"));
+    const std::vector<std::string> overrides{"joint[0].energy_mode_1=" + energy};
+    const auto file = folder.write("case.toml", "[mesh]\nfile = \"graded.geo\"\n" + text);
+    const case_::Case input = case_::read_case(file, overrides);
+    return check_report(input, build_model(input));
+  };
+  const std::string report = graded("100 J/m2");
+  const double zone = number_after(report, "process zone at least ") / 100,
+               fine = number_after(report, "a tenth below ");
+  EXPECT_THAT(graded(std::to_string(3.1 * fine / zone) + " J/m2"), HasSubstr("trust fracture in that part alone"));
+  EXPECT_THAT(graded(std::to_string(2.5 * fine / zone) + " J/m2"), HasSubstr("in the finest tenth 0.4"));
+}
+
 TEST(CheckReport, warns_of_a_time_step_beyond_the_stable_one_and_of_no_other) {
   const Model model = build_model(case_::read_text(kCubes));
   const double limit = TimeStep(model).limit(model.local.reference);

@@ -58,9 +58,41 @@ TEST(SuddenLoads, on_what_lies_on_another_body_are) {
   EXPECT_EQ(boxes("1 mm"), "");
 }
 
+TEST(SuddenLoads, of_pressure_on_a_body_that_nothing_supports_are) {
+  const std::string pressure = "[[stage.pressure]]\nsurface = \"raster.z1\"\nvalue = ";
+  EXPECT_THAT(advice_on(cube(pressure + "\"1 MPa\"\n", "")),
+              HasSubstr("the pressure on \"raster.z1\" (1 MPa at once)"));
+  EXPECT_EQ(advice_on(cube(pressure + "{ ramp = { to = 1e6, end = \"0.5 ms\" } }\n", "")), "");
+}
+
+TEST(Friction, where_nothing_damps_what_is_loaded_is_named_with_a_viscosity) {
+  const std::string contact = "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"75 GPa\"\nfriction = 0.3\n";
+  const std::string grown = "gravity = [0, 0, { ramp = { to = -9.81, end = \"0.5 ms\" } }]\n";
+  const auto boxes = [&](const std::string& stage, const std::string& entry) {
+    return advice_on(cube(stage) + contact, {"mesh.raster.boxes=[1, 1, 2]", "mesh.raster.gap=1 mm", entry});
+  };
+  const std::string as_it_is = "contact[0].friction=0.3";
+  EXPECT_THAT(boxes(grown, as_it_is), AllOf(HasSubstr("Nothing damps stage 0"), HasSubstr("contact of * 0.3"),
+                                            HasSubstr("material.viscosity of ")));
+  EXPECT_EQ(boxes(grown, "contact[0].friction=0.1"), "");
+  EXPECT_EQ(boxes(grown, "material[0].viscosity=10 Pa s"), "");
+  EXPECT_EQ(boxes(grown, "contact[0].damping_ratio=0.5"), "");
+  EXPECT_EQ(boxes("", as_it_is), "") << "nothing is loaded";
+  EXPECT_EQ(advice_on(cube(grown) + contact), "") << "one body that cannot break";
+}
+
+TEST(Friction, of_joints_that_can_break_counts_as_well) {
+  const std::string joint =
+      "[[joint]]\ngroup = \"raster\"\ntensile_strength = 1e6\nenergy_mode_1 = 10\nfriction = 0.6\n";
+  const std::string drive = "[[stage.constraint]]\ngroup = \"raster.z1\"\nvelocity = { z = -0.01 }\n";
+  EXPECT_THAT(advice_on(cube("") + drive + joint, {"material[0].joints=breakable"}), HasSubstr("joint of raster 0.6"));
+  EXPECT_EQ(advice_on(cube("") + joint, {"material[0].joints=breakable"}), "");
+}
+
 TEST(Constraints, that_overrule_others_in_part_are_named_with_the_number_of_nodes) {
   const std::string top = "[[stage.constraint]]\ngroup = \"raster.x1\"\nvelocity = { z = 1 }\n";
-  EXPECT_THAT(advice_on(cube("") + top),
+  const case_::Case input = case_::read_text(cube("") + top);
+  EXPECT_THAT(as_list(overruled_constraints(input, build_bare_model(input))),
               AllOf(HasSubstr("stage[0].constraint[1] (velocity, \"raster.x1\", line "),
                     HasSubstr("overrules stage[0].constraint[0] (fixed, \"raster.z0\", line "),
                     HasSubstr("along z on 2 of its 5 nodes")));

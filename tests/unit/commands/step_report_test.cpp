@@ -58,6 +58,27 @@ Checked check(const std::string& text) {
   return {std::move(input), std::move(model), std::move(report)};
 }
 
+TEST(StepReport, BlamesAViscosityForTheStepItCostsAndNamesOneThatCostsLittle) {
+  const auto with = [](const std::string& viscosity) {
+    std::string text = boxes("\"1 GPa\"");
+    return check(text.insert(text.find("[[contact]]"), "viscosity = " + viscosity + "\n"));
+  };
+  const double plain = with("0").report.limit;
+  const Checked much = with("1e6");
+  const std::string advice = as_list(much.report.advice);
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(
+      advice, found,
+      std::regex("Viscosity makes the step ([0-9.e+]+) times shorter \\(material.viscosity of box: 1 MPa s\\); "
+                 "([0-9.]+) kPa s would make it 1.2 times shorter")))
+      << advice;
+  constexpr double kTwoDigits = 0.05;  // as many as are told
+  EXPECT_NEAR(std::stod(found[1]) * much.report.limit / plain, 1.0, kTwoDigits);
+  const Checked little = with(found[2].str() + "e3");
+  EXPECT_NEAR(plain / little.report.limit, 1.2, kTwoDigits);
+  EXPECT_THAT(as_list(little.report.advice), Not(HasSubstr("Viscosity")));
+}
+
 TEST(StepReport, NamesAPenaltyThatWouldNotCostAnything) {
   const Checked stiff = check(boxes("\"300 GPa\""));
   EXPECT_THAT(as_list(stiff.report.advice), HasSubstr("Contact makes the step"));

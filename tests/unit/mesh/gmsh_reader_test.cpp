@@ -301,6 +301,14 @@ INSTANTIATE_TEST_SUITE_P(
                   "SetFactory(\"OpenCASCADE\");\nBox(1) = {0,0,0,1,1,1};\nBox(2) = {2,0,0,1,1,1};\n"
                   "Physical Volume(\"a\") = {1};\nPhysical Surface(\"far\") = {8};\n",
                   "surface group \"far\": holds triangles that are no face of any element"},
+        BadScript{"NotchThatEndsInsideAnExtrudedLayer",
+                  "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0,-1,0,2,2};\nPoint(100) = {0,0,0};\n"
+                  "Point(101) = {1,0,0};\nLine(100) = {100,101};\n"
+                  "BooleanFragments{ Surface{1}; Delete; }{ Line{100}; Delete; }\ns() = Surface{:};\n"
+                  "Extrude {0,0,0.5} { Surface{s()}; Layers{1}; }\nPhysical Volume(\"plate\") = Volume{:};\n"
+                  "Physical Surface(\"notch\") = Surface In BoundingBox {-0.1,-0.1,-0.1,1.1,0.1,0.6};\n"
+                  "MeshSize{:} = 0.5;\n",
+                  "cut the surface in two along the line and on from its tip to the border"},
         BadScript{"OpenShell",
                   "Point(1)={0,0,0,.5};Point(2)={1,0,0,.5};Point(3)={0,1,0,.5};Point(4)={0,0,1,.5};\n"
                   "Line(1)={1,2};Line(2)={2,3};Line(3)={3,1};Line(4)={1,4};Line(5)={2,4};Line(6)={3,4};\n"

@@ -1,0 +1,178 @@
+#include "commands/unmeant_report.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "commands/stage_report.hpp"
+#include "mesh/geometry.hpp"
+#include "output/quantity_text.hpp"
+
+namespace breccia {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+std::string empty_sphere(const Model& model) {
+  if (!model.contact.sphere) return {};
+  const SphericalBoundary& sphere = *model.contact.sphere;
+  double furthest = 0;
+  for (const auto& nodes : model.mesh.elements) {
+    Vec3 centre = Vec3::Zero();
+    for (const Index node : nodes) {
+      centre += model.mesh.nodes[at(node)] / 4;
+      furthest = std::max(furthest, (model.mesh.nodes[at(node)] - sphere.centre).norm());
+    }
+    if ((centre - sphere.centre).norm() <= sphere.radius) return {};
+  }
+  return fmt::format(
+      "The sphere is around nothing: the whole model begins outside, and what begins outside is not pushed back in. "
+      "Raise sphere.radius from {:.4g} to more than {:.4g} m, or move sphere.centre.",
+      sphere.radius, furthest);
+}
+
+std::string no_contact_points(const case_::Case& input, const Model& model) {
+  if (input.contacts.empty() || model.contact_everywhere || !model.contact_faces.empty()) return {};
+  return "There is [[contact]], but contact_points.surfaces leaves no face with contact points: bodies go through each "
+         "other. Name surfaces there, or leave the key out for all free faces.";
+}
+
+/// m, cube root of the volume of the largest body of each group.
+std::vector<double> body_sizes(const Model& model) {
+  const Mesh& mesh = model.mesh;
+  std::vector<double> volume(at(mesh.num_bodies), 0.0), size(mesh.volume_groups.size(), 0.0);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const auto& n = mesh.elements[e];
+    volume[at(mesh.element_body[e])] += std::abs(
+        geometry::tetra_volume(mesh.nodes[at(n[0])], mesh.nodes[at(n[1])], mesh.nodes[at(n[2])], mesh.nodes[at(n[3])]));
+  }
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    double& largest = size[at(mesh.element_group[e])];
+    largest = std::max(largest, std::cbrt(volume[at(mesh.element_body[e])]));
+  }
+  return size;
+}
+
+/// m, (groups) H of the finest body.
+std::vector<double> contact_lengths(const Model& model) {
+  std::vector<double> length(model.mesh.volume_groups.size(), 0.0);
+  for (std::size_t e = 0; e < model.mesh.elements.size(); ++e) {
+    double& least = length[at(model.mesh.element_group[e])];
+    const double h = model.whole.body_length[at(model.mesh.element_body[e])];
+    least = least > 0 ? std::min(least, h) : h;
+  }
+  return length;
+}
+
+/// A mass rho L on a spring penalty/H, both a unit of area, is stopped after v sqrt(rho L H / penalty).
+Advice soft_penalties(const case_::Case& input, const Model& model) {
+  constexpr double kEdge = 5;  // edges of an element over H, about
+  constexpr double kShare = 0.1;
+  Advice advice;
+  if (!model.has_contact || input.initial_velocities.empty()) return advice;
+  const auto& names = model.mesh.volume_groups;
+  const std::vector<double> size = body_sizes(model), length = contact_lengths(model);
+  for (const case_::InitialVelocity& initial : input.initial_velocities) {
+    const auto found = std::find(names.begin(), names.end(), initial.group);
+    if (found == names.end()) continue;
+    const auto g = static_cast<Index>(found - names.begin());
+    const double speed = initial.velocity.norm() + initial.random[1];
+    for (std::size_t other = 0; other < names.size(); ++other) {
+      const auto k = static_cast<Index>(other);
+      const double penalty = std::max(model.contact.law(g, k).penalty, model.contact.law(k, g).penalty);
+      const double h = std::max(length[at(g)], length[other]);
+      if (!(penalty > 0) || !(h > 0)) continue;
+      const double mass = std::min(model.density[at(g)] * size[at(g)], model.density[other] * size[other]);
+      const double depth = speed * std::sqrt(mass * h / penalty);
+      if (depth <= kEdge * h) continue;
+      advice.push_back(fmt::format(
+          "The contact penalty of {} between \"{}\" and \"{}\" is too soft for {}: they would enter each other by {}, "
+          "more than an element (about {}), and go on through. A penalty of {} or more stops them within a tenth of "
+          "one.",
+          quantity_text(penalty, "Pa"), names[at(g)], names[other], quantity_text(speed, "m/s"),
+          quantity_text(depth, "m"), quantity_text(kEdge * h, "m"),
+          quantity_text(mass * h * std::pow(speed / (kShare * kEdge * h), 2), "Pa")));
+    }
+  }
+  return advice;
+}
+
+/// Axes along which an entry takes the initial velocity away from all of its group.
+std::string lost_axes(const case_::InitialVelocity& initial, const case_::Constraint& entry) {
+  std::string axes;
+  if (entry.group != initial.group || entry.kind == case_::ConstraintKind::displacement) return axes;
+  const bool fixed = entry.kind == case_::ConstraintKind::fixed;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double given = initial.velocity[static_cast<Eigen::Index>(a)];
+    if (entry.axes[a] && given != 0 && (fixed || entry.value[a](0) != given)) axes += "xyz"[a];
+  }
+  return axes;
+}
+
+Advice lost_velocities(const case_::Case& input) {
+  Advice advice;
+  if (input.stages.empty()) return advice;
+  for (const case_::InitialVelocity& initial : input.initial_velocities) {
+    for (const case_::Constraint& entry : input.stages.front().constraints) {
+      const std::string axes = lost_axes(initial, entry);
+      if (axes.empty()) continue;
+      advice.push_back(fmt::format(
+          "The initial velocity of \"{}\" (line {}) is lost along {}: {} (line {}) prescribes the motion of "
+          "the whole group there from the first step on. Leave one of them out.",
+          initial.group, initial.origin.line, axes, entry.origin.key, entry.origin.line));
+    }
+  }
+  return advice;
+}
+
+/// Groups of volumes, and the surface itself, whose motion a stage prescribes along all axes.
+bool wholly_held(const case_::Stage& stage, const Model& model, const std::string& surface) {
+  const Mesh& mesh = model.mesh;
+  const auto held = [&](const std::string& group) {
+    std::array<bool, 3> axes{};
+    for (const case_::Constraint& entry : stage.constraints) {
+      for (std::size_t a = 0; a < 3 && entry.group == group; ++a) axes[a] = axes[a] || entry.axes[a];
+    }
+    return axes == std::array{true, true, true};
+  };
+  if (held(surface)) return true;
+  for (std::size_t s = 0; s < mesh.surface_groups.size(); ++s) {
+    if (mesh.surface_groups[s] != surface) continue;
+    const auto& faces = model.topology.surface_groups[s];
+    return !faces.empty() && std::all_of(faces.begin(), faces.end(), [&](const Topology::Face& face) {
+      return held(mesh.volume_groups[at(mesh.element_group[at(face.element)])]);
+    });
+  }
+  return false;
+}
+
+Advice pressures_on_what_is_held(const case_::Case& input, const Model& model) {
+  Advice advice;
+  for (const case_::Stage& stage : input.stages) {
+    for (const case_::Pressure& pressure : stage.pressures) {
+      if (!wholly_held(stage, model, pressure.surface)) continue;
+      advice.push_back(
+          fmt::format("{} (line {}) moves nothing: the motion of all nodes of \"{}\" is prescribed along x, y and z.",
+                      pressure.origin.key, pressure.origin.line, pressure.surface));
+    }
+  }
+  return advice;
+}
+
+}  // namespace
+
+Advice unmeant_advice(const case_::Case& input, const Model& model) {
+  Advice advice;
+  advise(advice, empty_sphere(model));
+  advise(advice, no_contact_points(input, model));
+  append(advice, soft_penalties(input, model));
+  append(advice, lost_velocities(input));
+  append(advice, pressures_on_what_is_held(input, model));
+  append(advice, overruled_constraints(input, model));
+  return advice;
+}
+
+}  // namespace breccia

@@ -1,0 +1,86 @@
+#include "commands/unmeant_report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "unit/case/case_files.hpp"
+
+namespace breccia {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// Two cubes of 10 mm, one above the other.
+const std::string kCubes = R"([mesh.raster]
+cell_size = "10 mm"
+boxes = [1, 1, 2]
+gap = "1 mm"
+group = "rock"
+[[material]]
+group = "rock"
+young = "1 GPa"
+poisson = 0.2
+density = 1000
+joints = "none"
+[[contact]]
+between = ["*", "*"]
+penalty = "1 GPa"
+[[stage]]
+end = "1 ms"
+)";
+
+std::string advice_on(const std::string& more, const std::vector<std::string>& overrides = {}) {
+  const case_::Case input = case_::read_text(kCubes + more, overrides);
+  return as_list(unmeant_advice(input, build_bare_model(input)));
+}
+const std::string kFlying = "[[initial_velocity]]\ngroup = \"rock\"\nvelocity = [\"10 m/s\", 0, 0]\n";
+const std::string kHeld = "[[stage.constraint]]\ngroup = \"rock\"\n";
+
+TEST(Unmeant, IsASphereAroundNothing) {
+  const auto sphere = [](const std::string& radius) {
+    return advice_on("[sphere]\nradius = \"" + radius + "\"\npenalty = 1e9\n");
+  };
+  EXPECT_THAT(sphere("1 mm"), AllOf(HasSubstr("The sphere is around nothing"), HasSubstr("more than 0.02532 m")));
+  EXPECT_EQ(sphere("20 mm"), "") << "it holds a part: model_advice tells";
+}
+
+TEST(Unmeant, IsContactWithoutContactPoints) {
+  EXPECT_THAT(advice_on("[contact_points]\nsurfaces = []\n"), HasSubstr("leaves no face with contact points"));
+  EXPECT_EQ(advice_on("[contact_points]\nsurfaces = [\"rock.z1\"]\n"), "");
+  EXPECT_EQ(advice_on(""), "");
+}
+
+TEST(Unmeant, IsAPenaltyTooSoftToStopWhatComesWithinAnElement) {
+  EXPECT_THAT(advice_on(kFlying, {"contact[0].penalty=1 kPa"}),
+              AllOf(HasSubstr("penalty of 1 kPa between \"rock\" and \"rock\" is too soft for 10 m/s"),
+                    HasSubstr("more than an element")));
+  EXPECT_EQ(advice_on(kFlying), "");
+  EXPECT_EQ(advice_on("", {"contact[0].penalty=1 kPa"}), "") << "nothing moves";
+}
+
+TEST(Unmeant, IsAnInitialVelocityAlongAxesThatAreHeld) {
+  EXPECT_THAT(
+      advice_on(kHeld + "fixed = \"xy\"\n" + kFlying),
+      AllOf(HasSubstr("The initial velocity of \"rock\""), HasSubstr("is lost along x: stage[0].constraint[0]")));
+  EXPECT_THAT(advice_on(kHeld + "velocity = { x = 3 }\n" + kFlying), HasSubstr("is lost along x"));
+  EXPECT_EQ(advice_on(kHeld + "velocity = { x = 10 }\n" + kFlying), "") << "it goes on at that velocity";
+  EXPECT_EQ(advice_on(kHeld + "fixed = \"yz\"\n" + kFlying), "");
+  EXPECT_EQ(advice_on("[[stage.constraint]]\ngroup = \"rock.z0\"\nfixed = \"xyz\"\n" + kFlying), "") << "a part is";
+}
+
+TEST(Unmeant, IsAPressureOnABodyThatIsWhollyHeld) {
+  const std::string pressure = "[[stage.pressure]]\nsurface = \"rock.z1\"\nvalue = 1e6\n";
+  EXPECT_THAT(advice_on(kHeld + "fixed = \"xyz\"\n" + pressure), HasSubstr("stage[0].pressure[0] (line "));
+  EXPECT_EQ(advice_on(kHeld + "fixed = \"xy\"\n" + pressure), "");
+  EXPECT_EQ(advice_on("[[stage.constraint]]\ngroup = \"rock.z0\"\nfixed = \"xyz\"\n" + pressure), "");
+}
+
+TEST(Unmeant, IsAnEntryThatOverrulesAnotherInPart) {
+  EXPECT_THAT(advice_on("[[stage.constraint]]\ngroup = \"rock.z0\"\nfixed = \"z\"\n"
+                        "[[stage.constraint]]\ngroup = \"rock.x0\"\nvelocity = { z = 1 }\n"),
+              HasSubstr("overrules stage[0].constraint[0]"));
+}
+
+}  // namespace
+}  // namespace breccia
