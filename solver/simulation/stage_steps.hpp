@@ -18,7 +18,8 @@ struct StepLooks {
 /// next, and into a stage, a step grows by half at most (domains/motion_limit.hpp), and after ten steps again.
 class StageSteps {
  public:
-  /// Begins the stage. Collective. Throws InputError where it would take more steps than can be counted.  @pre input, stage and partition outlive this object
+  /// Begins the stage. Collective. Throws InputError where it would take more steps than can be counted.
+  /// @pre input, stage and partition outlive this object
   StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition);
   /// Goes on in a stage that has begun. @param looks  as they were
   StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition, const StepLooks& looks)
