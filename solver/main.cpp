@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <sstream>
 
 #include "base/error.hpp"
 #include "base/interruption.hpp"
+#include "base/printable.hpp"
 #include "commands/command_line.hpp"
 #include "commands/environment.hpp"
 #include "parallel/mpi_session.hpp"
@@ -116,14 +116,14 @@ int main(int argc, char** argv) {
   Arguments arguments;
   define_command_line(app, arguments);
   if (const std::string complaint = unknown_command(app, argc, argv); !complaint.empty())
-    return report(session.world().is_root(), complaint, ExitCode::usage);
+    return report(session.world().is_root(), printable(complaint), ExitCode::usage);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    std::ostringstream nowhere;
     const bool root = session.world().is_root();
-    const int answer = root ? app.exit(error) : app.exit(error, nowhere, nowhere);
-    return answer == 0 ? code(ExitCode::success) : code(ExitCode::usage);
+    if (error.get_exit_code() != 0) return report(root, usage_problem(app, error), ExitCode::usage);
+    if (root) app.exit(error);  // the help, or the version
+    return code(ExitCode::success);
   }
   const auto asked_for = [&](const char* command) { return app.got_subcommand(command); };
   const bool in_order = asked_for("run") || asked_for("resume") || asked_for("race");  // the others lose nothing

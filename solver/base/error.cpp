@@ -2,27 +2,36 @@
 
 #include <utility>
 
+#include "base/printable.hpp"
+
 namespace breccia {
+namespace {
+
+/// More lines than these hide the first ones, which are the ones to mend.
+constexpr std::size_t kProblemsTold = 50;
+
+}  // namespace
 
 std::string Problem::text() const {
   std::string out;
   if (!file.empty()) {
-    out += file;
+    out += printable(file);
     if (line > 0) out.append(":").append(std::to_string(line));
     out += ": ";
   }
-  if (!key.empty()) out.append(key).append(": ");
-  out += what;
-  if (!allowed.empty()) out.append("; allowed: ").append(allowed);
-  if (!given.empty()) out.append("; given: ").append(given);
+  if (!key.empty()) out.append(printable(key)).append(": ");
+  out += printable(what);
+  if (!allowed.empty()) out.append("; allowed: ").append(printable(allowed));
+  if (!given.empty()) out.append("; given: ").append(printable(given));
   return out;
 }
 
 InputError::InputError(std::vector<Problem> problems) : problems_(std::move(problems)) {
-  for (const Problem& p : problems_) {
+  for (std::size_t i = 0; i < problems_.size() && i < kProblemsTold; ++i) {
     if (!text_.empty()) text_ += '\n';
-    text_ += p.text();
+    text_ += problems_[i].text();
   }
+  if (problems_.size() > kProblemsTold) text_ += "\nand " + std::to_string(problems_.size() - kProblemsTold) + " more";
 }
 
 InputError::InputError(Problem problem) : InputError(std::vector<Problem>{std::move(problem)}) {}

@@ -28,6 +28,10 @@ class GroupChecker {
   }
   void either(const Origin& origin, const char* name, const std::string& group) {
     check(origin, name, group, both_, "volume or surface group");
+    if (std::count(both_.begin(), both_.end(), group) > 1)
+      problems_.push_back({file_, origin.line, origin.key + "." + name,
+                           "a volume group and a surface group of the mesh have this name: which is meant is not clear",
+                           "groups with different names", group});
   }
   void gauge(const Origin& origin, const std::string& name, std::int64_t num_bodies) {
     const std::int64_t body = numbered_body(name);

@@ -25,12 +25,11 @@ void ValueReader::wrong_type(const Key& key, const Node& node, const std::string
 void ValueReader::unknown_key(const Node& node, const std::string& path, const std::string& pattern) {
   const std::size_t dot = pattern.rfind('.');
   const std::string section = dot == std::string::npos ? "" : pattern.substr(0, dot);
+  // Those of the same section come first; a key of another one may not stand here.
   const std::vector<std::string> similar = similar_keys(pattern, 1);
   std::string what = "unknown key";
-  if (!similar.empty()) {
-    const Key& key = key_of(similar.front());
-    what += "; did you mean \"" + std::string(key.section() == section ? key.name() : key.path) + "\"?";
-  }
+  if (!similar.empty() && key_of(similar.front()).section() == section)
+    what += "; did you mean \"" + std::string(key_of(similar.front()).name()) + "\"?";
   problem(node, path, what, joined(names_in(section)), "");
 }
 
@@ -56,6 +55,10 @@ bool ValueReader::number(const Key& key, const Node& node, const std::string& pa
     }
   } else {
     wrong_type(key, node, path);
+    return false;
+  }
+  if (value != 0 && std::abs(value) < smallest_magnitude) {
+    problem(node, path, "is a number outside the range of double precision", magnitudes_help(), node.shown());
     return false;
   }
   if (!std::isfinite(value) || !key.range.contains(value)) {

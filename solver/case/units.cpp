@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/printable.hpp"
 #include "case/nearest.hpp"
 
 namespace breccia::case_ {
@@ -114,7 +115,7 @@ std::string unknown_unit(std::string_view name) {
   }
   // Names are short, so one wrong letter is half of them: only a difference of case or of one letter in three is a
   // hint.
-  std::string what = "unknown unit \"" + std::string(name) + "\"";
+  std::string what = "unknown unit \"" + printable(name) + "\"";
   // Letters of another case: all that are meant perhaps, large units first, as "mpa" is rather MPa than mPa.
   std::vector<std::string> same;
   std::copy_if(all.rbegin(), all.rend(), std::back_inserter(same),
@@ -162,7 +163,7 @@ class UnitParser {
   }
   [[noreturn]] void fail() const {
     throw UnitError(
-        "cannot read the unit at \"" + std::string(rest_) + "\"",
+        "cannot read the unit at \"" + printable(rest_) + "\"",
         "units multiplied by a space or *, divided by /, with whole exponents, e.g. kg/m3, m/s^2, J/(m2 s)");
   }
 
@@ -303,9 +304,11 @@ Quantity parse_quantity(std::string_view text) {
   const std::string decimal = std::string(text.substr(0, number.digits)) + "e" + std::to_string(exponent);
   double value = 0;
   const auto [end, error] = std::from_chars(decimal.data(), decimal.data() + decimal.size(), value);
-  if (error != std::errc() || !std::isfinite(value * scale.factor))
-    throw UnitError("is a number outside the range of double precision", "magnitudes between 1e-307 and 1e308");
-  return {value * scale.factor, scale.dimension, !unit.empty()};
+  value *= scale.factor;
+  const bool lost = value != 0 && std::abs(value) < smallest_magnitude;
+  if (error != std::errc() || !std::isfinite(value) || lost)
+    throw UnitError("is a number outside the range of double precision", magnitudes_help());
+  return {value, scale.dimension, !unit.empty()};
 }
 
 Dimension dimension_of(std::string_view unit) { return UnitParser(unit).parse().dimension; }
@@ -319,6 +322,8 @@ double to_si(std::string_view text, std::string_view unit) {
   const std::string given = q.dimension == Dimension{} ? "has no dimension" : "is of dimension " + name_of(q.dimension);
   throw UnitError(given + ", not " + name_of(wanted), units_of(unit));
 }
+
+std::string magnitudes_help() { return "0, and magnitudes between 1e-307 and 1e308"; }
 
 std::string units_help() {
   std::string out = "units";

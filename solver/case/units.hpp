@@ -46,6 +46,12 @@ class UnitError : public std::runtime_error {
 /// `unit` is dimensionless. Throws UnitError, which names the units allowed.
 [[nodiscard]] double to_si(std::string_view text, std::string_view unit);
 
+/// Magnitudes below this lose digits, and what is computed with them more.
+inline constexpr double smallest_magnitude = 1e-307;
+
+/// Which magnitudes a number may have, for messages.
+[[nodiscard]] std::string magnitudes_help();
+
 /// The names of all units and prefixes, for messages and help.
 [[nodiscard]] std::string units_help();
 

@@ -1,8 +1,10 @@
 #include "case/validate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <set>
 #include <utility>
 
@@ -17,6 +19,14 @@ namespace {
 constexpr const char* every_group = "*";
 
 constexpr std::int64_t most_domains = 1000000;
+
+constexpr double most_steps = 1e15;  // of a stage: beyond them a step is lost in the digits of the time
+
+std::string in_seconds(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g s", value);
+  return text.data();
+}
 
 constexpr std::size_t most_pipelines = 31;  // and the live view: a mask of 32
 
@@ -133,6 +143,21 @@ class Validator {
                 "a [[joint]] with group = \"" + m.group + "\", or joints = \"unbreakable\" or \"none\"", m.group);
   }
 
+  /// Keys of one kind say nothing in another: what was meant to act would not.
+  void softening_of_another_kind(const Joint& j) {
+    const Joint usual;
+    const auto refuse = [&](const char* name, const char* kind) {
+      problem(j.origin, std::string("softening.") + name, "belongs to a softening of another kind",
+              std::string("kind = \"") + kind + "\"");
+    };
+    if (j.softening != Softening::z_curve) {
+      if (j.a != usual.a) refuse("a", "z_curve");
+      if (j.b != usual.b) refuse("b", "z_curve");
+      if (j.c != usual.c) refuse("c", "z_curve");
+    }
+    if (j.softening != Softening::exponential && j.exponent != usual.exponent) refuse("exponent", "exponential");
+  }
+
   void joint(const Joint& j, std::set<Pair>& seen) {
     const bool inside = j.groups[0] == j.groups[1];
     if (inside) {
@@ -149,6 +174,7 @@ class Validator {
     if (j.softening == Softening::z_curve && j.a + j.b <= 1)
       problem(j.origin, "softening", "a + b of the z-curve is not above 1", "a + b > 1", std::to_string(j.a + j.b));
 
+    softening_of_another_kind(j);
     const auto breakable = [&](const std::string& group) {
       const Material* m = material(group);
       return m != nullptr && m->joints == JointPlacement::breakable;
@@ -215,6 +241,10 @@ class Validator {
       if (stage.end != 0 && !(stage.end > start))
         problem(stage.origin, "end", "the stage does not end after the one before", "> " + std::to_string(start) + " s",
                 std::to_string(stage.end) + " s");
+      if (c_.time.step > 0 && (stage.end - start) / c_.time.step > most_steps)
+        problem(stage.origin, "end", "the stage would take more steps of the given time.step than can be counted",
+                "at most 1e15 steps: a time.step of at least " + in_seconds((stage.end - start) / most_steps),
+                "time.step = " + in_seconds(c_.time.step));
       if (stage.end != 0) start = stage.end;
       // An axis held twice in one group has no answer; axes of different groups that share nodes are seen with the
       // mesh.

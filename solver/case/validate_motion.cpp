@@ -24,6 +24,48 @@ double parts_of(const TimeFunction& f, double time) {
   return sum + most;
 }
 
+// Beyond any sense, and far below what makes an energy overflow: a unit forgotten, or an exponent too long.
+constexpr double kFastest = 3e8;        // m/s, that of light
+constexpr double kFastestTurn = 1e15;   // rad/s
+constexpr double kMostGravity = 1e20;   // m/s2
+constexpr double kMostPressure = 1e20;  // Pa
+
+/// Speeds and loads that no run can bear.
+class MotionLimits {
+ public:
+  explicit MotionLimits(const Case& c) : c_(c) {}
+
+  std::vector<Problem> run() {
+    for (const InitialVelocity& v : c_.initial_velocities) {
+      demand(v.origin, "velocity", v.velocity.cwiseAbs().maxCoeff(), kFastest, "m/s");
+      demand(v.origin, "random", std::max(std::abs(v.random[0]), std::abs(v.random[1])), kFastest, "m/s");
+      demand(v.origin, "angular", v.angular.cwiseAbs().maxCoeff(), kFastestTurn, "rad/s");
+    }
+    for (const Stage& stage : c_.stages) {
+      for (const TimeFunction& f : stage.gravity)
+        demand(stage.origin, "gravity", parts_of(f, stage.end), kMostGravity, "m/s2");
+      for (const Constraint& constraint : stage.constraints) {
+        if (constraint.kind != ConstraintKind::velocity) continue;
+        for (const TimeFunction& f : constraint.value)
+          demand(constraint.origin, "velocity", parts_of(f, stage.end), kFastest, "m/s");
+      }
+      for (const Pressure& pressure : stage.pressures)
+        demand(pressure.origin, "value", parts_of(pressure.value, stage.end), kMostPressure, "Pa");
+    }
+    return std::move(problems_);
+  }
+
+ private:
+  void demand(const Origin& origin, const char* name, double magnitude, double most, const std::string& unit) {
+    if (magnitude <= most) return;
+    problems_.push_back({c_.file.string(), origin.line, origin.key + "." + name, "is beyond what can be computed",
+                         "magnitudes up to " + number(most) + " " + unit, number(magnitude) + " " + unit});
+  }
+
+  const Case& c_;
+  std::vector<Problem> problems_;
+};
+
 class PlaneCheck {
  public:
   explicit PlaneCheck(const Case& c)
@@ -103,6 +145,8 @@ std::vector<Problem> validate_motion(const Case& c) {
     }
     start = c.stages[s].end;
   }
+  const std::vector<Problem> beyond = MotionLimits(c).run();
+  problems.insert(problems.end(), beyond.begin(), beyond.end());
   if (!c.plane) return problems;
   const std::vector<Problem> across = PlaneCheck(c).run();
   problems.insert(problems.end(), across.begin(), across.end());

@@ -14,6 +14,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/error.hpp"
+#include "base/printable.hpp"
 #include "contact/search_params.hpp"
 #include "domains/decomposition.hpp"
 #include "domains/global_step.hpp"
@@ -110,8 +112,8 @@ std::string law_report(const Model& model, Index l, Advice& advice) {
                   law.stiffness, h, 100 * softness);
   if (softness > kWorthRaising * kSoftness) {
     advice.push_back(fmt::format(
-        "The joints of {} make it {:.1f} % softer. For 5 % raise joint.penalty by a factor of {:.2g}; the time step "
-        "falls with its root.",
+        "The joints of {} make it {:.1f} % softer. For 5 % raise joint.penalty (or joint.penalty_factor, whichever the "
+        "case has) by a factor of {:.2g}; the time step falls with its root.",
         name, 100 * softness, softness / kSoftness));
   }
   if (!law.breakable()) return text;
@@ -286,8 +288,8 @@ std::string domain_line(const case_::Case& input, const Model& model, int parts)
 std::string domain_table(const case_::Case& input, const Model& model, int parts) {
   const Division division = divide_model(input, model, parts);
   const std::vector<DomainLoad>& domains = division.report.domains;
-  std::string text =
-      fmt::format("{}\n{} elements, {}\n  {:<10}", input.title, model.mesh.num_elements(), verdict(division), "domain");
+  std::string text = fmt::format("{}\n{} elements, {}\n  {:<10}", printable(input.title), model.mesh.num_elements(),
+                                 verdict(division), "domain");
   for (const char* column : kColumns) text += fmt::format(" {:>11}", column);
   text += "\n";
   std::vector<std::size_t> shown(domains.size());
@@ -316,12 +318,12 @@ std::string domain_table(const case_::Case& input, const Model& model, int parts
 
 std::string mesh_report(const FinishedMesh& made) {
   const MeshReport& r = made.report;
-  std::string text =
-      fmt::format("{}: {} elements, {} nodes, {} bodies\n", made.mesh.source, r.elements, r.nodes, r.bodies);
+  std::string text = fmt::format("{}: {} elements, {} nodes, {} {}\n", printable(made.mesh.source), r.elements, r.nodes,
+                                 r.bodies, r.bodies == 1 ? "body" : "bodies");
   for (const MeshReport::Group& g : r.volume_groups)
-    text += fmt::format("  volume  {:<20} {:>9} elements\n", g.name, g.count);
+    text += fmt::format("  volume  {:<20} {:>9} elements\n", printable(g.name), g.count);
   for (const MeshReport::Group& g : r.surface_groups)
-    text += fmt::format("  surface {:<20} {:>9} triangles\n", g.name, g.count);
+    text += fmt::format("  surface {:<20} {:>9} triangles\n", printable(g.name), g.count);
   const auto note = [&](Index count, const char* what) {
     if (count > 0) text += fmt::format("  {} {}\n", count, what);
   };
@@ -348,7 +350,7 @@ std::string mesh_report(const FinishedMesh& made) {
 CheckReport full_report(const case_::Case& input, const Model& model, const StartedFrom& from) {
   refuse_contradictions(input, model);
   CheckReport report;
-  report.text = fmt::format("{}\n", input.title);
+  report.text = fmt::format("{}\n", printable(input.title));
   if (!from.words.empty())
     report.text += fmt::format(
         "starts from {}; what is said of mesh, joints, contact and step is of the model at rest, before that run\n",

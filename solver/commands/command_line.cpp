@@ -36,7 +36,7 @@ void define_insitu(CLI::App& app, Arguments& a) {
   CLI::App* live =
       app.add_subcommand("live", "Start ParaView so that it sees a run of this case that is started with --live");
   live->add_option("case", a.live.case_file, kCaseHelp)->required();
-  live->add_option("--set", a.live.overrides, kSetHelp)->allow_extra_args(false)->take_all();
+  live->add_option("--set", a.live.overrides, kSetHelp)->allow_extra_args(false)->take_all()->check(override_text());
 
   CLI::App* insitu =
       app.add_subcommand("insitu", "Pipelines that work while a run goes on: try them, or see what they need");
@@ -47,14 +47,17 @@ void define_insitu(CLI::App& app, Arguments& a) {
   replay->add_option("run", a.replay.run, "folder of the run")->required();
   replay->add_option("pipelines", a.replay.pipelines, "scripts exported from ParaView, or names of pipelines")
       ->required();
-  replay->add_option("-o,--output", a.replay.folder,
-                     "folder of what they write; default: replay in the folder of the run");
+  replay
+      ->add_option("-o,--output", a.replay.folder,
+                   "folder of what they write; default: replay in the folder of the run")
+      ->check(some_name());
 }
 
 void define_report(CLI::App& app, Arguments& a) {
   CLI::App* report = app.add_subcommand("report", "Write one HTML page of a run, to read, print and send on");
   report->add_option("run", a.report.run, "folder of the run, which may go on or have been killed")->required();
-  report->add_option("-o,--output", a.report.file, "file of the page; default: report.html in the folder of the run");
+  report->add_option("-o,--output", a.report.file, "file of the page; default: report.html in the folder of the run")
+      ->check(some_name());
   report->add_flag("--no-pictures", a.report.no_pictures, "leave out what ParaView makes of the frames");
   const char* limit = "seconds that ParaView may take; what is done by then is shown; default 600";
   report->add_option("--time-limit", a.report.time_limit, limit)->check(CLI::Range(1, 1000000));
@@ -78,7 +81,7 @@ void define_command_line(CLI::App& app, Arguments& a) {
   CLI::App* check =
       app.add_subcommand("check", "Everything short of the first step: time step, memory, run time, advice");
   check->add_option("case", a.check.case_file, kCaseHelp)->required();
-  check->add_option("--set", a.check.overrides, kSetHelp)->allow_extra_args(false)->take_all();
+  check->add_option("--set", a.check.overrides, kSetHelp)->allow_extra_args(false)->take_all()->check(override_text());
   check->add_flag("--trust-geometry", a.check.trust_geometry, kTrustHelp);
 
   check
@@ -92,9 +95,10 @@ void define_command_line(CLI::App& app, Arguments& a) {
   CLI::App* mesh =
       app.add_subcommand("mesh", "Read or generate the mesh of a case and report its bodies, groups and quality");
   mesh->add_option("case", a.mesh.case_file, kCaseHelp)->required();
-  mesh->add_option("--set", a.mesh.overrides, kSetHelp)->allow_extra_args(false)->take_all();
+  mesh->add_option("--set", a.mesh.overrides, kSetHelp)->allow_extra_args(false)->take_all()->check(override_text());
   mesh->add_flag("--trust-geometry", a.mesh.trust_geometry, kTrustHelp);
-  mesh->add_option("-o,--output", a.mesh.folder, "write the elements for ParaView into this folder");
+  mesh->add_option("-o,--output", a.mesh.folder, "write the elements for ParaView into this folder")
+      ->check(some_name());
   mesh->add_flag("--json", a.mesh.json, "as JSON, problems of the case too");
 
   CLI::App* diff =
@@ -110,6 +114,18 @@ void define_command_line(CLI::App& app, Arguments& a) {
 
   CLI::App* schema = app.add_subcommand("schema", "The table of all keys of a case file, a line a key");
   schema->add_flag("--json", a.schema_json, "as JSON, with units, defaults, ranges, choices and help");
+}
+
+std::string usage_problem(const CLI::App& app, const CLI::ParseError& error) {
+  std::string command = "breccia", what = error.what();
+  for (const CLI::App* chosen : app.get_subcommands()) command += " " + chosen->get_name();
+  const std::string lacking = " missing";
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)) {
+    what = "not expected: " + case_::joined(app.remaining(true), " ");
+  } else if (error.get_name() == "ArgumentMismatch" && what.ends_with(lacking) && what.find(':') != std::string::npos) {
+    what = what.substr(0, what.find(':')) + ": the value is missing";
+  }
+  return printable(what) + "; `" + command + " --help` tells what is allowed";
 }
 
 std::string unknown_command(const CLI::App& app, int argc, char** argv) {

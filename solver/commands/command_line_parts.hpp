@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/printable.hpp"
 #include "commands/command_line.hpp"
 
 /// What the definitions of several sub-commands share.
@@ -16,6 +17,23 @@ inline constexpr const char* kProgressHelp =
 
 inline constexpr const char* kTrustHelp =
     "the geometry may do what gmsh lets it: run programs, write files; without, it is read by a process that cannot";
+
+/// An override names a key and a value.
+inline CLI::Validator override_text() {
+  const auto check = [](const std::string& text) -> std::string {
+    if (text.find('=') != std::string::npos && text.front() != '=') return {};
+    return "no override; allowed: key=value, such as time.safety=0.5; given: \"" + printable(text) + "\"";
+  };
+  return {check, ""};
+}
+
+/// A name of a file or folder is not empty: an empty one is a variable of a script that was not set.
+inline CLI::Validator some_name() {
+  const auto check = [](const std::string& text) -> std::string {
+    return text.empty() ? "is empty; allowed: a name" : "";
+  };
+  return {check, ""};
+}
 
 void define_run(CLI::App& app, Arguments& arguments);
 void define_resume(CLI::App& app, Arguments& arguments);

@@ -97,8 +97,9 @@ void define_run_insitu(CLI::App& run, Arguments& a) {
 void define_run(CLI::App& app, Arguments& a) {
   CLI::App* run = app.add_subcommand("run", "Run a case through all its stages");
   run->add_option("case", a.run.case_file, kCaseHelp)->required();
-  run->add_option("-o,--output", a.run.folder, "folder of the results; default runs/<folder of the case>");
-  run->add_option("--set", a.run.overrides, kSetHelp)->allow_extra_args(false)->take_all();
+  run->add_option("-o,--output", a.run.folder, "folder of the results; default runs/<folder of the case>")
+      ->check(some_name());
+  run->add_option("--set", a.run.overrides, kSetHelp)->allow_extra_args(false)->take_all()->check(override_text());
   run->add_flag("--trust-geometry", a.run.trust_geometry, kTrustHelp);
   run->add_flag("-f,--overwrite", a.run.overwrite, "replace the results of an earlier run in that folder");
   run->add_option("--progress", a.progress, kProgressHelp)->check(progress_modes());
@@ -115,7 +116,8 @@ void define_run(CLI::App& app, Arguments& a) {
 void define_resume(CLI::App& app, Arguments& a) {
   CLI::App* resume = app.add_subcommand("resume", "Go on with a run from its last checkpoint, on any number of ranks");
   resume->add_option("run", a.resume.run, "folder of the run, or one of its checkpoints")->required();
-  resume->add_option("-o,--output", a.resume.folder, "folder of the results; default: the run's own");
+  resume->add_option("-o,--output", a.resume.folder, "folder of the results; default: the run's own")
+      ->check(some_name());
   const auto set_until = [&a](const std::string& text) { a.resume.until = seconds_of(text); };
   resume
       ->add_option_function<std::string>(
@@ -128,7 +130,8 @@ void define_resume(CLI::App& app, Arguments& a) {
           "--set", a.resume.overrides,
           "override keys of [domains], [detection], [checkpoint], or time.max_steps; others would change the results")
       ->allow_extra_args(false)
-      ->take_all();
+      ->take_all()
+      ->check(override_text());
   resume->add_option("--progress", a.progress, kProgressHelp)->check(progress_modes());
   resume->footer(kResumeFooter);
 }
@@ -169,10 +172,11 @@ void define_race(CLI::App& app, Arguments& a) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Range(0.01, 100.0));
-  race->add_option("--set", a.race.overrides, kSetHelp)->allow_extra_args(false)->take_all();
+  race->add_option("--set", a.race.overrides, kSetHelp)->allow_extra_args(false)->take_all()->check(override_text());
   race->add_flag("--trust-geometry", a.race.trust_geometry, kTrustHelp);
   race->add_option("-o,--output", a.race.folder,
-                   "write the table as race.csv into this folder; default: nothing is written");
+                   "write the table as race.csv into this folder; default: nothing is written")
+      ->check(some_name());
   race->add_option("--progress", a.progress, kProgressHelp)->check(progress_modes());
   race->footer(kRaceFooter);
 }

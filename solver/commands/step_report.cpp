@@ -11,6 +11,7 @@
 #include "model/parameters.hpp"
 #include "model/time_step.hpp"
 #include "output/quantity_text.hpp"
+#include "simulation/countable_steps.hpp"
 
 namespace breccia {
 namespace {
@@ -175,6 +176,12 @@ StepReport step_report(const case_::Case& input, const Model& model) {
   StepReport report;
   report.limit = now.step;
   report.dt = input.time.step > 0 ? input.time.step : input.time.safety * now.step;
+  double begun = 0;
+  for (const case_::Stage& stage : input.stages) {
+    const double left = stage.end - begun;
+    if (!are_countable(left, report.dt)) throw InputError(uncountable_steps(input, stage, left, report.dt, now));
+    begun = stage.end;
+  }
   report.text = fmt::format("stable time step {}, limited by {}; elements alone {}, with joints {}\n",
                             quantity_text(now.step, "s"), limit_text(now), quantity_text(now.element_step, "s"),
                             quantity_text(now.joint_step, "s"));

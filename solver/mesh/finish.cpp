@@ -14,6 +14,7 @@ namespace breccia {
 namespace {
 
 constexpr double kFlatShare = 1e-10;  // of the longest edge cubed: a height of 1e-9 edges, below any use
+constexpr double kSmallest = 1e-50, kLargest = 1e50;  // m, of edges and coordinates: far beyond any use
 constexpr std::size_t kIdsNamed = 10;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -43,13 +44,27 @@ void demand_sizes(const Mesh& mesh) {
          std::to_string(num_elements) + " elements");
 }
 
-void demand_finite(const Mesh& mesh) {
-  std::vector<std::int64_t> bad;
+/// Elements can be computed with: their sixth powers, of volumes squared, are numbers.
+void demand_computable(const Mesh& mesh) {
+  std::vector<std::int64_t> bad, beyond;
   for (Index e = 0; e < mesh.num_elements(); ++e) {
     const auto& corners = mesh.elements[at(e)];
     if (!std::all_of(corners.begin(), corners.end(), [&](Index n) { return mesh.nodes[at(n)].allFinite(); })) {
       bad.push_back(mesh.element_source_id[at(e)]);
+      continue;
     }
+    const auto x = geometry::corners_of(mesh, e);
+    double largest = 0, longest = 0;
+    for (const Vec3& corner : x) largest = std::max(largest, corner.cwiseAbs().maxCoeff());
+    for (const auto& [a, b] : geometry::kEdges) {
+      longest = std::max(longest, (x[at(a)] - x[at(b)]).cwiseAbs().maxCoeff());  // a square may vanish
+    }
+    const bool tiny = longest > 0 && longest < kSmallest;  // of no length at all: a flat one, told as such
+    if (largest > kLargest || tiny) beyond.push_back(mesh.element_source_id[at(e)]);
+  }
+  if (!beyond.empty()) {
+    throw InputError(Problem{mesh.source, 0, "mesh", "elements of a size or place that cannot be computed with",
+                             "coordinates up to 1e50 m, edges of at least 1e-50 m", "element " + list_of(beyond)});
   }
   if (!bad.empty()) {
     throw InputError(Problem{mesh.source, 0, "mesh", "elements with a coordinate that is not finite", "finite numbers",
@@ -78,7 +93,7 @@ Index orient(Mesh& mesh, bool repair) {
         {mesh.source, 0, "mesh", "elements of zero volume", "tetrahedra with a volume", "element " + list_of(flat)});
   }
   if (!inverted.empty() && !repair) {
-    problems.push_back({mesh.source, 0, "mesh", "inverted elements", "positive volumes, or mesh.repair_inverted = true",
+    problems.push_back({mesh.source, 0, "mesh", "inverted elements", "positive volumes, or mesh.inverted = \"repair\"",
                         "element " + list_of(inverted)});
   }
   if (!problems.empty()) throw InputError(std::move(problems));
@@ -191,7 +206,7 @@ FinishedMesh finish_mesh(Mesh raw, const FinishOptions& options) {
   MeshReport& report = result.report;
 
   demand_sizes(mesh);
-  demand_finite(mesh);
+  demand_computable(mesh);
   report.inverted_repaired = orient(mesh, options.repair_inverted);
   report.orphan_nodes = count_orphan_nodes(mesh);
   report.duplicate_nodes = count_duplicate_nodes(mesh);

@@ -26,6 +26,12 @@ std::string text(const Triple& v) {
   return out.str();
 }
 
+std::string short_text(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
 void demand_valid(const RasterSource& source) {
   std::vector<Problem> problems;
   const auto refuse = [&](const std::string& key, const std::string& what, const std::string& allowed,
@@ -49,7 +55,7 @@ void demand_valid(const RasterSource& source) {
   for (int a = 0; a < 3; ++a) elements *= static_cast<double>(source.cells[at(a)]) * source.boxes[at(a)];
   if (elements > std::numeric_limits<Index>::max() / 4) {
     refuse("cells", "makes too many tetrahedra", "up to " + std::to_string(std::numeric_limits<Index>::max() / 4),
-           std::to_string(elements));
+           short_text(elements));
   }
   if (source.slit) {
     const Vec3 extent = source.slit->upper - source.slit->lower;

@@ -1,6 +1,7 @@
 #include "mesh/topology.hpp"
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -142,8 +143,9 @@ Topology build_topology(const Mesh& mesh) {
   const FaceTable table(mesh);
 
   std::vector<Problem> problems;
+  std::set<std::pair<Index, Index>> reported;  // two elements on the same four nodes share four faces: one line
   const auto report = [&](Index element, const std::string& what, const std::string& allowed, Index other) {
-    if (problems.size() < kProblemsNamed) {
+    if (problems.size() < kProblemsNamed && reported.insert(std::minmax(element, other)).second) {
       problems.push_back({mesh.source, 0, element_name(mesh, element), what, allowed, element_name(mesh, other)});
     }
   };

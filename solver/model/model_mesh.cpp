@@ -37,11 +37,25 @@ GmshSource gmsh_source(const case_::MeshSource& asked) {
   return source;
 }
 
+/// What is wrong with a raster stands in the case file.
+FinishedMesh raster_of(const case_::Case& input) {
+  try {
+    return make_raster(raster_source(*input.mesh.raster));
+  } catch (const InputError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& p : problems) {
+      p.file = input.file.string();
+      p.line = input.mesh.origin.line;
+      if (p.key == "mesh") p.key = "mesh.raster";
+    }
+    throw InputError(std::move(problems));
+  }
+}
+
 }  // namespace
 
 FinishedMesh build_mesh(const case_::Case& input) {
-  FinishedMesh made =
-      input.mesh.raster ? make_raster(raster_source(*input.mesh.raster)) : read_gmsh(gmsh_source(input.mesh));
+  FinishedMesh made = input.mesh.raster ? raster_of(input) : read_gmsh(gmsh_source(input.mesh));
   std::vector<Problem> problems =
       case_::check_groups(input, made.mesh.volume_groups, made.mesh.surface_groups, made.mesh.num_bodies);
   if (!problems.empty()) throw InputError(std::move(problems));

@@ -109,7 +109,9 @@ EnergyFault energy_fault(const EnergyBudget& budget, double residual_limit, doub
     std::snprintf(text, sizeof text, "%s %.6g %% of the largest term (limit %.6g %%)", words, 100 * value, 100 * limit);
     return std::string(text);
   };
-  if (!std::isfinite(budget.residual)) return {"the energies are not finite", "time.residual_limit"};
+  // Of shares that are no numbers every comparison below is false, and the run would end as a sound one.
+  if (!std::isfinite(budget.residual) || std::isnan(budget.residual_relative) || std::isnan(budget.gain_relative))
+    return {"the energies are not finite", "time.residual_limit"};
   if (budget.is_round_off) return {};
   if (budget.gain_relative > gain_limit)
     return {share("the energy held exceeds what was put in by", budget.gain_relative, gain_limit),

@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "base/printable.hpp"
 #include "output/quantity_text.hpp"
 
 namespace breccia {
@@ -131,6 +133,10 @@ void StatusSink::finish(const Summary& summary) {
 }
 
 ProgressMode default_progress_mode(int descriptor) {
+  // A launcher of ranks may give them a terminal of its own, and send what they write there to a file.
+  for (const char* launched : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"}) {
+    if (std::getenv(launched) != nullptr) return ProgressMode::log;
+  }
   return ::isatty(descriptor) == 1 ? ProgressMode::bar : ProgressMode::log;
 }
 
@@ -151,7 +157,7 @@ std::string progress_text(const StatusLine& line) {
       count_text(line.steps_total), quantity_text(line.time, "s"), quantity_text(line.end, "s"),
       quantity_text(line.element_steps_per_s, "element-steps/s"), duration_text(line.eta_s), line.energy_residual);
   text += fmt::format("  broken joints {}  fragments {}", count_text(line.broken_joints), count_text(line.fragments));
-  if (!line.stage.empty()) text += fmt::format("  [{}]", line.stage);
+  if (!line.stage.empty()) text += fmt::format("  [{}]", printable(line.stage));
   return text;
 }
 
@@ -161,7 +167,7 @@ std::string bar_text(const StatusLine& line, int columns) {
                                  "", kBarWidth - filled, percent(line), quantity_text(line.time, "s"),
                                  quantity_text(line.element_steps_per_s, "element-steps/s"), duration_text(line.eta_s),
                                  count_text(line.broken_joints), count_text(line.fragments));
-  if (!line.stage.empty()) text += fmt::format("  [{}]", line.stage);
+  if (!line.stage.empty()) text += fmt::format("  [{}]", printable(line.stage));
   // A line as long as the terminal would wrap, and a wrapped line cannot be redrawn.
   text.resize(std::min(text.size(), static_cast<std::size_t>(std::max(columns - 1, 1))));
   return text;

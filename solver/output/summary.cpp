@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "base/printable.hpp"
 #include "output/atomic_file.hpp"
 #include "output/energy_terms.hpp"
 #include "output/quantity_text.hpp"
@@ -160,7 +161,7 @@ std::string summary_json(const Summary& summary) {
 }
 
 std::string summary_text(const Summary& summary) {
-  std::string text = fmt::format("{}: {}\n", summary.title.empty() ? "run" : summary.title, summary.status);
+  std::string text = fmt::format("{}: {}\n", summary.title.empty() ? "run" : printable(summary.title), summary.status);
   add_line(text, "simulated",
            fmt::format("{} in {} steps of {}", quantity_text(summary.simulated_time, "s"), count_text(summary.steps),
                        quantity_text(summary.time_step, "s")));

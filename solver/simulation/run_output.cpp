@@ -1,5 +1,6 @@
 #include "simulation/run_output.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -118,7 +119,9 @@ StatusLine RunOutput::status_line(bool paused) const {
   StatusLine line;
   const double left = end_ - clock().time;
   line.step = clock().steps;
-  line.steps_total = line.step + static_cast<std::int64_t>(std::llround(left / clock().dt));
+  // Where elements are crushed the step may shrink without end; a count beyond this cannot be told apart from it.
+  constexpr double kMostSteps = 1e18;
+  line.steps_total = line.step + static_cast<std::int64_t>(std::llround(std::min(left / clock().dt, kMostSteps)));
   line.time = clock().time;
   line.end = end_;
   line.share = (clock().time - start_time_) / (end_ - start_time_);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.hpp"
+#include "simulation/countable_steps.hpp"
+
 namespace breccia {
 namespace {
 
@@ -17,6 +20,13 @@ StageSteps::StageSteps(const case_::Case& input, const case_::Stage& stage, Part
     : StageSteps(input, stage, partition, StepLooks{}) {
   partition_.begin_stage(stage);
   partition_.domain().state.clock.dt = next_length();
+  demand_countable();
+}
+
+void StageSteps::demand_countable() const {
+  const Clock& clock = partition_.state().clock;
+  const double left = stage_.end - clock.time;
+  if (!are_countable(left, clock.dt)) throw InputError(uncountable_steps(input_, stage_, left, clock.dt, limit()));
 }
 
 double StageSteps::length(double allowed) const {

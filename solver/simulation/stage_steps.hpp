@@ -18,7 +18,8 @@ struct StepLooks {
 /// next, and into a stage, a step grows by half at most (domains/motion_limit.hpp), and after ten steps again.
 class StageSteps {
  public:
-  /// Begins the stage. Collective.  @pre input, stage and partition outlive this object
+  /// Begins the stage. Collective. Throws InputError where it would take more steps than can be counted.
+  /// @pre input, stage and partition outlive this object
   StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition);
   /// Goes on in a stage that has begun. @param looks  as they were
   StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition, const StepLooks& looks)
@@ -43,6 +44,8 @@ class StageSteps {
  private:
   /// What is allowed, shortened so that a whole number of steps ends with the stage, s.
   [[nodiscard]] double length(double allowed) const;
+  /// Refuses a stage of more steps than can be counted.
+  void demand_countable() const;
   /// The length that is allowed now, and when it is to be looked at again. Collective.
   [[nodiscard]] double next_length();
 

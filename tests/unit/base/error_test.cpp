@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 namespace breccia {
 namespace {
@@ -24,6 +26,20 @@ TEST(Problem, leaves_out_what_is_not_known) {
 
 TEST(Problem, does_not_print_a_line_number_without_a_file) {
   EXPECT_EQ((Problem{"", 7, "time.safety", "too large", "0..1", ""}.text()), "time.safety: too large; allowed: 0..1");
+}
+
+TEST(Problem, writes_control_characters_of_the_input_so_that_a_terminal_does_not_obey_them) {
+  const Problem p{"a\tb.toml", 1, "ti\nme\x1b[31m", "unknown", "", std::string("1 GPa\0", 6) + "\xc2\x9b" + "\u00b5"};
+  EXPECT_EQ(p.text(), "a\\tb.toml:1: ti\\nme\\x1b[31m: unknown; given: 1 GPa\\x00\\x9b\u00b5");
+}
+
+TEST(InputError, tells_the_first_fifty_problems_and_how_many_more_there_are) {
+  const std::vector<Problem> many(5000, Problem{"a", 1, "k", "wrong", "", ""});
+  const InputError e(many);
+  const std::string text = e.what();
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 50);
+  EXPECT_TRUE(text.ends_with("\nand 4950 more")) << text;
+  EXPECT_EQ(e.problems().size(), many.size());
 }
 
 TEST(InputError, tells_every_problem_on_its_own_line_in_order) {

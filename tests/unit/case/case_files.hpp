@@ -117,14 +117,14 @@ energy_mode_1 = "10 J/m2"
 energy_mode_2 = "30 N/m"
 energy_counts = "softening_branch"
 points_to_fail = 2
-softening = { kind = "exponential", a = 0.5, b = 1.9, c = 5, exponent = 4 }
+softening = { kind = "z_curve", a = 0.5, b = 1.9, c = 5 }
 [[joint]]
 between = ["glass", "frame"]
 penalty_factor = 50
 tensile_strength = "1 MPa"
 energy_mode_1 = "1 J/m2"
 friction = 0.5
-softening.kind = "linear"
+softening = { kind = "exponential", exponent = 4 }
 [[contact]]
 between = ["*", "*"]
 penalty = "7500 GPa"

@@ -50,6 +50,15 @@ TEST(Groups, ConstraintsAndGaugesTakeVolumesAndSurfaces) {
                     HasSubstr("output.gauges: the mesh has no volume or surface group \"nowhere\"")));
 }
 
+TEST(Groups, AConstraintOnANameOfAVolumeAndASurfaceIsRefusedAsNotClear) {
+  std::vector<std::string> both = surfaces;
+  both.push_back("glass");
+  const Case c = read_text(replaced(complete, "gauges = [\"support\"]", "gauges = [\"glass\"]"));
+  EXPECT_TRUE(check_groups(c, volumes, surfaces).empty());
+  EXPECT_THAT(text(check_groups(c, volumes, both)),
+              HasSubstr("output.gauges: a volume group and a surface group of the mesh have this name"));
+}
+
 TEST(Groups, AMeshWithoutSurfacesSaysSo) {
   EXPECT_THAT(text(check_groups(read_text(complete), volumes, {})), HasSubstr("the mesh has none"));
 }

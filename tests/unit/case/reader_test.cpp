@@ -116,14 +116,14 @@ TEST(Reader, JointLawsAreRead) {
   EXPECT_EQ(glass.energy_mode_2, 30);
   EXPECT_FALSE(glass.energy_of_whole_curve);
   EXPECT_EQ(glass.points_to_fail, 2);
-  EXPECT_EQ(glass.softening, Softening::exponential);
+  EXPECT_EQ(glass.softening, Softening::z_curve);
   EXPECT_EQ(glass.a, 0.5);
   EXPECT_EQ(glass.b, 1.9);
   EXPECT_EQ(glass.c, 5);
-  EXPECT_EQ(glass.exponent, 4);
 
   EXPECT_EQ(c.joints[1].groups, (std::array<std::string, 2>{"glass", "frame"}));
-  EXPECT_EQ(c.joints[1].softening, Softening::linear);
+  EXPECT_EQ(c.joints[1].softening, Softening::exponential);
+  EXPECT_EQ(c.joints[1].exponent, 4);
   EXPECT_EQ(c.joints[1].shear_strength, 1e6);
   EXPECT_EQ(c.joints[1].friction, 0.5);
 }

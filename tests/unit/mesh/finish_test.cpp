@@ -105,7 +105,16 @@ TEST(Finish, TurnsInvertedElementsOrRefusesThemWithTheirIds) {
     EXPECT_GT(geometry::tetra_volume(x[0], x[1], x[2], x[3]), 0);
   }
   EXPECT_THAT(refusal_of(mesh, {.repair_inverted = false}),
-              testing::AllOf(HasSubstr("by_hand.msh"), HasSubstr("inverted elements"), HasSubstr("502 (1 element)")));
+              testing::AllOf(HasSubstr("by_hand.msh"), HasSubstr("inverted elements"), HasSubstr("502 (1 element)"),
+                             HasSubstr("mesh.inverted = \"repair\"")));
+}
+
+TEST(Finish, RefusesCoordinatesAndEdgesThatCannotBeComputedWithAsSuch) {
+  for (const double scale : {1e200, 1e-200}) {
+    Mesh mesh = two_tetrahedra();
+    for (Vec3& x : mesh.nodes) x *= scale;
+    EXPECT_THAT(refusal_of(mesh, {}), HasSubstr("of a size or place that cannot be computed with")) << scale;
+  }
 }
 
 TEST(Finish, RefusesFlatElementsWithTheFirstTenIdsAndTheCount) {

@@ -174,6 +174,14 @@ TEST(Topology, RefusesThreeElementsOnOneFace) {
                              testing::HasSubstr("element 102")));
 }
 
+TEST(Topology, NamesTwoElementsOnTheSameFourNodesOnce) {
+  Mesh mesh = on_one_face(2);
+  mesh.elements[1] = mesh.elements[0];
+  const std::string message = message_of(mesh);
+  EXPECT_THAT(message, testing::HasSubstr("same side"));
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
 TEST(Topology, RefusesTwoElementsOnTheSameSideOfTheirFace) {
   Mesh mesh = on_one_face(3);
   mesh.elements.erase(mesh.elements.begin());

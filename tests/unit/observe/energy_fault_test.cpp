@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -27,6 +28,13 @@ TEST(EnergyFault, NamesTheGainBeforeTheResidualThatItIsPartOf) {
   budget.elastic = 20;
   budget.plastic = 10;
   EXPECT_EQ(key_of_fault(budget), "time.residual_limit") << "10 % have gone nowhere";
+}
+
+TEST(EnergyFault, RefusesSharesThatAreNoNumbersThoughTheResidualIsOne) {
+  EnergyBudget budget;
+  set_residual(0, 0, budget);  // 0 / 0
+  ASSERT_TRUE(std::isnan(budget.residual_relative));
+  EXPECT_EQ(energy_fault(budget, kResidualLimit, kGainLimit).what, "the energies are not finite");
 }
 
 TEST(EnergyFault, SeesAGainThatAFallingDissipationHides) {

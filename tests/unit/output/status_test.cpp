@@ -1,11 +1,15 @@
 #include "output/status_sink.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cstdlib>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <vector>
 
 #include "unit/output/temporary_folder.hpp"
 
@@ -198,6 +202,24 @@ TEST(ProgressNone, IsNeverDueAndSilent) {
   sink.status(example_line());
   sink.finish(ended("complete"));
   EXPECT_THAT(stream.str(), IsEmpty());
+}
+
+TEST(ProgressMode, IsALogUnderALauncherOfRanksThoughItGivesThemATerminal) {
+  const std::vector<const char*> launched{"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"};
+  for (const char* name : launched) ::unsetenv(name);
+  const int pair = ::posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_GE(pair, 0);
+  ASSERT_EQ(::grantpt(pair) + ::unlockpt(pair), 0);
+  const int terminal = ::open(::ptsname(pair), O_RDWR | O_NOCTTY);
+  ASSERT_GE(terminal, 0);
+  EXPECT_EQ(default_progress_mode(terminal), ProgressMode::bar);
+  for (const char* name : launched) {
+    ::setenv(name, "2", 1);
+    EXPECT_EQ(default_progress_mode(terminal), ProgressMode::log) << name;
+    ::unsetenv(name);
+  }
+  ::close(terminal);
+  ::close(pair);
 }
 
 }  // namespace
