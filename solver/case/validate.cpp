@@ -32,6 +32,14 @@ constexpr std::size_t most_pipelines = 31;  // and the live view: a mask of 32
 
 using Pair = std::array<std::string, 2>;
 
+constexpr double kRoundOff = 1e-9;
+
+std::string text_of(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
 Pair sorted(Pair p) {
   if (p[1] < p[0]) std::swap(p[0], p[1]);
   return p;
@@ -245,6 +253,9 @@ class Validator {
         problem(stage.origin, "end", "the stage would take more steps of the given time.step than can be counted",
                 "at most 1e15 steps: a time.step of at least " + in_seconds((stage.end - start) / most_steps),
                 "time.step = " + in_seconds(c_.time.step));
+      if (c_.time.step > 0 && stage.end > start && stage.end - start < (1 - kRoundOff) * c_.time.step)
+        problem(stage.origin, "end", "the stage is shorter than one time.step, " + text_of(c_.time.step) + " s",
+                "a time.step of at most " + text_of(stage.end - start) + " s, or \"auto\"", text_of(stage.end) + " s");
       if (stage.end != 0) start = stage.end;
       // An axis held twice in one group has no answer; axes of different groups that share nodes are seen with the
       // mesh.

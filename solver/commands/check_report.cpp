@@ -157,7 +157,7 @@ double seconds_a_step(const case_::Case& input, const Model& model, double dt, b
 void estimate_frames(const case_::Case& input, const Model& model, double start, RunEstimate& estimate) {
   constexpr double kElementBytes = 170, kFrameBytes = 27000;  // measured on glass_impact, block_wall and hertz_impact
   const double end = input.stages.back().end - start, interval = input.output.frame_interval;
-  estimate.frames = interval > 0 ? std::ceil(end / interval) + 1 : 1;
+  estimate.frames = interval > 0 ? std::min(std::ceil(end / interval), estimate.steps) + 1 : 1;
   estimate.disk =
       estimate.frames * (kFrameBytes + (input.output.elements ? kElementBytes * model.mesh.num_elements() : 0));
 }

@@ -47,6 +47,9 @@ void check_overrides(const std::vector<std::string>& overrides) {
   if (fs::is_regular_file(run, error)) return {run};
   std::vector<fs::path> files;
   for (const CheckpointEntry& entry : checkpoints_in(RunFolder{run}.checkpoints())) files.push_back(entry.file);
+  if (files.empty() && !checkpoints_in(run).empty())
+    throw refused(run.string(), "this is the folder of a run's checkpoints, not of the run",
+                  "the folder of the run, or " + checkpoints_in(run).front().file.string());
   if (files.empty())
     throw refused(run.string(), "there are no checkpoints of a run here",
                   "the folder of a run with checkpoints/step_*.h5, or one of these files");
@@ -97,8 +100,9 @@ int resume_command(const ResumeCommand& asked, const Communicator& world) {
   if (world.is_root()) watch.emplace();  // before memory is taken
   world.agree([&] {
     check_overrides(asked.overrides);
-    files = candidates(asked.run);
+    if (world.is_root()) files = candidates(asked.run);
   });
+  of_root(files, world);
   auto [from, file] = latest_sound(files, world);
   std::error_code error;
   const fs::path run = fs::is_directory(asked.run, error) ? asked.run : fs::absolute(file).parent_path().parent_path();

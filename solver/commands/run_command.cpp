@@ -32,6 +32,10 @@ void warn_of_remote_viewer(const case_::InSitu& insitu) {
              insitu.live->address);
 }
 
+void warn_of(const Advice& advice) {
+  for (const std::string& sentence : advice) fmt::print(stderr, "breccia: warning: {}\n", sentence);
+}
+
 /// Where the results come from, with hashes of all files that went in.
 Provenance provenance_of(const RunCommand& asked, const case_::Case& input, const std::optional<StartState>& start,
                          const Communicator& world) {
@@ -72,9 +76,15 @@ int run_command(const RunCommand& asked, const Communicator& world) {
     world.set_patience(input.domains.patience);
     root = asked.folder.empty() ? default_run_folder(input.file) : asked.folder;
     if (input.insitu.asked_for()) InSituPlugin();  // before anything is made: stays loaded
+  });
+  std::vector<ConstraintConflict> conflicts;
+  if (start) conflicts = conflicts_of(input, *start, world);
+  world.agree([&] {
     if (!world.is_root()) return;
     const bool announce = asked.progress == ProgressMode::log || asked.progress == ProgressMode::bar;
     if (start) {
+      refuse_contradictions(input, conflicts);
+      warn_of(overruled_constraints(conflicts));
       refuse_folder_of_state(root, *start);
       if (announce) fmt::print(stderr, "breccia: starting from {}\n", words_of(*start));
     } else {
@@ -83,8 +93,7 @@ int run_command(const RunCommand& asked, const Communicator& world) {
       give_up_if_interrupted();
       refuse_initial_overlaps(input, *model);
       refuse_contradictions(input, *model);
-      for (const std::string& sentence : unmeant_advice(input, *model))
-        fmt::print(stderr, "breccia: warning: {}\n", sentence);
+      warn_of(unmeant_advice(input, *model));
     }
     folder = prepare_run_folder(root, input.resolved, provenance_of(asked, input, start, world),
                                 asked.overwrite ? OldResults::overwrite : OldResults::refuse);

@@ -11,7 +11,6 @@
 
 #include "base/disjoint_sets.hpp"
 #include "base/error.hpp"
-#include "model/constraint_conflicts.hpp"
 #include "output/quantity_text.hpp"
 
 namespace breccia {
@@ -300,8 +299,16 @@ Advice long_intervals(const case_::Case& input) {
 }  // namespace
 
 Advice overruled_constraints(const case_::Case& input, const Model& model) {
+  return overruled_constraints(constraint_conflicts(input, model));
+}
+
+void refuse_contradictions(const case_::Case& input, const Model& model) {
+  refuse_contradictions(input, constraint_conflicts(input, model));
+}
+
+Advice overruled_constraints(const std::vector<ConstraintConflict>& conflicts) {
   Advice advice;
-  for (const ConstraintConflict& c : constraint_conflicts(input, model)) {
+  for (const ConstraintConflict& c : conflicts) {
     if (c.whole) continue;
     advice.push_back(fmt::format(
         "{} overrules {} along {} on {} of its {} nodes, which both name and which cannot follow both. If that is not "
@@ -311,9 +318,9 @@ Advice overruled_constraints(const case_::Case& input, const Model& model) {
   return advice;
 }
 
-void refuse_contradictions(const case_::Case& input, const Model& model) {
+void refuse_contradictions(const case_::Case& input, const std::vector<ConstraintConflict>& conflicts) {
   std::vector<Problem> problems;
-  for (const ConstraintConflict& c : constraint_conflicts(input, model)) {
+  for (const ConstraintConflict& c : conflicts) {
     if (!c.whole) continue;
     problems.push_back({input.file.string(), c.later->origin.line, c.later->origin.key,
                         fmt::format("contradicts {}: all its {} nodes are asked for another motion along {} here",

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <vector>
+
 #include "case/case.hpp"
 #include "commands/advice.hpp"
+#include "model/constraint_conflicts.hpp"
 #include "model/model.hpp"
 
 namespace breccia {
@@ -17,5 +20,9 @@ namespace breccia {
 /// Throws InputError with every constraint of which another leaves nothing along an axis.
 /// @param model  of the whole mesh; a bare one will do
 void refuse_contradictions(const case_::Case& input, const Model& model);
+
+/// Both, of what has been found already. @param conflicts  of the case
+[[nodiscard]] Advice overruled_constraints(const std::vector<ConstraintConflict>& conflicts);
+void refuse_contradictions(const case_::Case& input, const std::vector<ConstraintConflict>& conflicts);
 
 }  // namespace breccia

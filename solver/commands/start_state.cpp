@@ -12,6 +12,7 @@
 #include "case/validate.hpp"
 #include "case/validate_motion.hpp"
 #include "domains/piece_mesh.hpp"
+#include "model/parameters.hpp"
 #include "output/checkpoint_index.hpp"
 #include "output/quantity_text.hpp"
 #include "output/run_lock.hpp"
@@ -78,6 +79,13 @@ fs::path chosen(const fs::path& case_file, const case_::Start& start, const fs::
          choices.empty() ? "none can be read" : words_of(choices), given);
 }
 
+/// The folder above one, however that is written.
+fs::path run_of(const fs::path& checkpoints) {
+  std::error_code error;
+  const fs::path whole = fs::absolute(checkpoints, error).lexically_normal();
+  return whole.has_filename() ? whole.parent_path() : whole.parent_path().parent_path();
+}
+
 fs::path checkpoint_of(const fs::path& case_file, const case_::Start& start) {
   std::error_code error;
   if (!fs::exists(start.from, error))
@@ -91,6 +99,10 @@ fs::path checkpoint_of(const fs::path& case_file, const case_::Start& start) {
   }
   const fs::path folder = RunFolder{start.from}.checkpoints();
   const std::vector<CheckpointEntry> all = checkpoints_in(folder);
+  if (all.empty() && !checkpoints_in(start.from).empty())
+    refuse(case_file, start, "from", "this is the folder of a run's checkpoints, not of the run",
+           run_of(start.from).string() + ", or " + checkpoints_in(start.from).front().file.string(),
+           start.from.string());
   if (all.empty())
     refuse(case_file, start, "from", "there are no checkpoints of a run here",
            "the folder of a run with checkpoints/step_*.h5, or one of these files", start.from.string());
@@ -100,16 +112,6 @@ fs::path checkpoint_of(const fs::path& case_file, const case_::Start& start) {
            "start.at, start.step or one of its checkpoints, or this folder when that run has ended",
            start.from.string());
   return all.front().file;
-}
-
-/// A run that goes on writes and removes checkpoints, so that ranks that looked by themselves might choose differently.
-fs::path of_root(const fs::path& file, const Communicator& world) {
-  std::vector<std::byte> bytes;
-  for (const char c : file.native()) bytes.push_back(std::byte(c));
-  world.broadcast(bytes);
-  std::string name(bytes.size(), ' ');
-  std::transform(bytes.begin(), bytes.end(), name.begin(), [](std::byte b) { return static_cast<char>(b); });
-  return name;
 }
 
 /// What reading the checkpoint finds wrong belongs to the case that names it.
@@ -124,6 +126,32 @@ case_::ParentCase parent_of(const Checkpoint& checkpoint, const fs::path& file) 
   std::map<std::string, std::string> files;
   for (const Provenance::Input& input : inputs_in(checkpoint.provenance)) files[input.file] = input.sha256;
   return case_::parent_case(checkpoint.case_text, file, std::move(files));
+}
+
+/// Those of this rank's elements.
+std::vector<NamedNode> nodes_of_records(const Records& records, const WholeModel& whole,
+                                        const std::vector<Discretisation>& kinds, const std::string& group) {
+  const auto index_in = [&](const std::vector<std::string>& names) {
+    const auto found = std::find(names.begin(), names.end(), group);
+    return found == names.end() ? -1 : static_cast<Index>(found - names.begin());
+  };
+  std::vector<NamedNode> nodes;
+  const auto add = [&](const ElementRecord& element, unsigned corners) {
+    const bool own = kinds[static_cast<std::size_t>(element.group)] == Discretisation::own_nodes;
+    for (int c = 0; c < 4; ++c) {
+      if ((corners >> c & 1U) != 0)
+        nodes.push_back(named_node(own, element.id, c, element.vertex[static_cast<std::size_t>(c)]));
+    }
+  };
+  const Index volume = index_in(whole.volume_groups), surface = index_in(whole.surface_groups);
+  for (const ElementRecord& element : records.elements) {
+    if (element.group == volume) add(element, 15);
+  }
+  for (const CornerTag& tag : records.corners) {
+    const Index place = volume < 0 && tag.group == surface ? records.place_of(tag.element) : -1;
+    if (place >= 0) add(records.elements[static_cast<std::size_t>(place)], static_cast<unsigned>(tag.corners));
+  }
+  return nodes;
 }
 
 /// Stages count from the start of the first run.
@@ -142,6 +170,17 @@ void check_stages(const case_::Case& input, const Clock& clock) {
 
 }  // namespace
 
+void of_root(std::vector<fs::path>& files, const Communicator& world) {
+  std::string names;
+  for (const fs::path& file : files) names += file.native() + '\0';
+  const auto raw = std::as_bytes(std::span(names));
+  std::vector<std::byte> bytes(raw.begin(), raw.end());
+  world.broadcast(bytes);
+  names.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  files.clear();
+  for (std::size_t at = 0; at < names.size(); at = names.find('\0', at) + 1) files.emplace_back(names.c_str() + at);
+}
+
 std::optional<StartState> read_start_state(const fs::path& case_file, const std::vector<std::string>& overrides,
                                            const Communicator& world) {
   std::optional<case_::Start> start;
@@ -151,7 +190,9 @@ std::optional<StartState> read_start_state(const fs::path& case_file, const std:
     if (start && world.is_root()) state.file = checkpoint_of(case_file, *start);
   });
   if (!start) return std::nullopt;
-  state.file = of_root(state.file, world);
+  std::vector<fs::path> chosen{state.file};
+  of_root(chosen, world);
+  state.file = chosen.front();
   try {
     state.checkpoint = read_checkpoint(state.file, world);
   } catch (const InputError& error) {  // the same on all ranks
@@ -172,6 +213,20 @@ case_::Case read_case_of(const fs::path& case_file, const std::vector<std::strin
   if (!problems.empty()) throw InputError(std::move(problems));
   check_laws(input, whole);
   return input;
+}
+
+std::vector<ConstraintConflict> conflicts_of(const case_::Case& input, const StartState& start,
+                                             const Communicator& world) {
+  const WholeModel whole = unpack_whole(start.checkpoint.whole_model);
+  const std::vector<Discretisation> kinds = discretisations(input, whole.volume_groups);
+  NodesOfGroups nodes;
+  for (const std::string& group : groups_to_compare(input)) {
+    const std::vector<NamedNode> mine = nodes_of_records(start.checkpoint.mine, whole, kinds, group);
+    for (const auto& of_rank : world.all_gather(std::span(mine)))
+      nodes[group].insert(nodes[group].end(), of_rank.begin(), of_rank.end());
+    sort_nodes(nodes[group]);
+  }
+  return constraint_conflicts(input, nodes);
 }
 
 StartOptions start_options(const case_::Case& input, const StartState& start) {

@@ -7,6 +7,7 @@
 
 #include "case/case.hpp"
 #include "case/parent_case.hpp"
+#include "model/constraint_conflicts.hpp"
 #include "output/checkpoint.hpp"
 #include "output/run_folder.hpp"
 #include "parallel/communicator.hpp"
@@ -34,6 +35,10 @@ struct StartState {
                                        const std::vector<std::string>& overrides,
                                        const std::optional<StartState>& start);
 
+/// Constraints that ask for different motions of the same nodes of the state, as constraint_conflicts. Collective.
+[[nodiscard]] std::vector<ConstraintConflict> conflicts_of(const case_::Case& input, const StartState& start,
+                                                           const Communicator& world);
+
 /// For start_case.
 [[nodiscard]] StartOptions start_options(const case_::Case& input, const StartState& start);
 
@@ -49,6 +54,10 @@ void refuse_folder_of_state(const std::filesystem::path& results, const StartSta
 /// The parents of a run that goes on from a checkpoint: that one and its own.
 [[nodiscard]] std::vector<Provenance::Parent> with_parent(const std::filesystem::path& file,
                                                           const Checkpoint& checkpoint);
+
+/// The root's files, on all ranks: a run that goes on writes and removes checkpoints, so that ranks that looked by
+/// themselves might choose differently. Collective.
+void of_root(std::vector<std::filesystem::path>& files, const Communicator& world);
 
 /// Whose state it is: "the state of step 1200 at 2.4 s of FILE".
 [[nodiscard]] std::string words_of(const StartState& start);

@@ -107,10 +107,13 @@ void judge_motion_before_last(Domain& domain) {
   judge(domain, step, step < 0 ? motion.own : motion.own_before);  // before the first step all go on as they began
 }
 
-void check_motion(const Domain& domain) {
+namespace {
+
+/// @pre a node has exceeded the limit in one of the last two steps. Collective.
+[[noreturn]] void refuse_motion(const Domain& domain) {
   const StepMotion& motion = domain.state.signals.step_motion;
   const Clock& clock = domain.state.clock;
-  if (motion.exceeded_step < 0 || clock.steps < motion.exceeded_step + 2) return;
+  const double dt = motion.exceeded_step == clock.steps - 1 ? clock.dt_before : clock.dt_earlier;
   const Communicator& communicator = domain.exchange.communicator();
   const auto place = static_cast<std::size_t>(motion.exceeded_step % 2);
   const bool mine = motion.fastest_step[place] == motion.exceeded_step;
@@ -122,10 +125,27 @@ void check_motion(const Domain& domain) {
   const bool far = length > kFurthest * size;
   throw SimulationError(
       "step " + std::to_string(motion.exceeded_step) + ": " + name_of_node(node == kNone ? -1 : -node) + " moves by " +
-      number(length) + " m in one step, at " + number(length / clock.dt_earlier) + " m/s, " +
+      number(length) + " m in one step, at " + number(length / dt) + " m/s, " +
       (far ? "more than half the mean size of what may touch (" + number(size) + " m): contacts would be missed"
            : "much further than any node in the step before: contacts may be found too late") +
       "; lower time.safety (or time.step), or the penalties, or bring what is driven to its velocity gradually");
+}
+
+}  // namespace
+
+void check_motion(const Domain& domain) {
+  const StepMotion& motion = domain.state.signals.step_motion;
+  if (motion.exceeded_step < 0 || domain.state.clock.steps < motion.exceeded_step + 2) return;
+  refuse_motion(domain);
+}
+
+void check_last_motion(Domain& domain) {
+  const Clock& clock = domain.state.clock;
+  if (!domain.contact || clock.steps == 0) return;
+  const StepMotion& motion = domain.state.signals.step_motion;
+  const double last = domain.exchange.communicator().max(motion.own);
+  if (clock.steps - 1 > motion.known_step) judge(domain, clock.steps - 1, last);
+  if (motion.exceeded_step >= 0) refuse_motion(domain);
 }
 
 }  // namespace breccia

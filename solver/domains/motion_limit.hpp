@@ -38,4 +38,8 @@ void judge_motion_before_last(Domain& domain);
 /// Collective if it throws.
 void check_motion(const Domain& domain);
 
+/// After the last step of a run, which no other follows: judges it and the one before it. Collective. Throws likewise.
+/// @pre conclude() has been called
+void check_last_motion(Domain& domain);
+
 }  // namespace breccia

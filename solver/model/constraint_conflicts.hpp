@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "case/case.hpp"
@@ -16,6 +19,31 @@ struct ConstraintConflict {
   Index of_earlier = 0;
   bool whole = false;  ///< the later entry leaves nothing of the earlier one on this axis
 };
+
+/// A node of the discretised model, and that of the mesh from which it comes.
+struct NamedNode {
+  std::int64_t id;
+  std::int64_t mesh_node;
+  friend bool operator<(const NamedNode& a, const NamedNode& b) { return a.id < b.id; }
+};
+/// @param mesh_node  of the corner
+[[nodiscard]] inline NamedNode named_node(bool own_nodes, std::int64_t element, int corner, std::int64_t mesh_node) {
+  return {own_nodes ? 4 * element + corner : -1 - mesh_node, mesh_node};
+}
+
+/// Nodes of groups by name; by their ids ascending, each once.
+using NodesOfGroups = std::map<std::string, std::vector<NamedNode>>;
+
+/// Volume and surface groups of which two entries of a stage ask for different motions along an axis: only if they
+/// share nodes do these conflict.
+[[nodiscard]] std::vector<std::string> groups_to_compare(const case_::Case& input);
+
+/// Brings nodes of a group into order.
+void sort_nodes(std::vector<NamedNode>& nodes);
+
+/// As below, of a model that is known by its nodes only. @param nodes  of all groups_to_compare
+[[nodiscard]] std::vector<ConstraintConflict> constraint_conflicts(const case_::Case& input,
+                                                                   const NodesOfGroups& nodes);
 
 /// By stage, later entry, earlier entry, axis. Entries that ask for the same do not conflict. O(corners log corners)
 /// for each entry of a pair that could.

@@ -44,6 +44,15 @@ Problem no_law(const case_::Case& input, const std::vector<std::string>& names, 
           ""};
 }
 
+/// Joints can fail inside of a breakable group and where one ends, and at any interface that has a strength.
+bool can_fail(const case_::Case& input, const case_::Joint& entry) {
+  const auto breakable = [&](const case_::Material& m) {
+    return m.joints == case_::JointPlacement::breakable && (m.group == entry.groups[0] || m.group == entry.groups[1]);
+  };
+  return std::any_of(input.materials.begin(), input.materials.end(), breakable) ||
+         (entry.groups[0] != entry.groups[1] && entry.tensile_strength > 0);
+}
+
 }  // namespace
 
 std::optional<Problem> missing_joint_law(const case_::Case& input, const std::vector<std::string>& names,
@@ -74,15 +83,6 @@ void find_joint_groups(const case_::Case& input, Model& model) {
   });
   if (!problems.empty()) throw InputError(std::move(problems));
   for (std::size_t l = 0; l < count.size(); ++l) whole.joint_groups[l].size /= count[l];
-}
-
-/// Joints can fail inside of a breakable group and where one ends, and at any interface that has a strength.
-bool can_fail(const case_::Case& input, const case_::Joint& entry) {
-  const auto breakable = [&](const case_::Material& m) {
-    return m.joints == case_::JointPlacement::breakable && (m.group == entry.groups[0] || m.group == entry.groups[1]);
-  };
-  return std::any_of(input.materials.begin(), input.materials.end(), breakable) ||
-         (entry.groups[0] != entry.groups[1] && entry.tensile_strength > 0);
 }
 
 void take_joint_laws(const case_::Case& input, Model& model) {

@@ -23,6 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestRequest = 1 << 16;         // bytes; what is longer is cut
+constexpr std::size_t kLongestLine = 200;                // bytes; what is longer is no command, and told as far as this
+constexpr std::size_t kMostLines = 100;                  // of one request, each of which is answered; the rest is not
 constexpr auto kGlance = std::chrono::milliseconds(20);  // between two looks for an answer
 
 std::string trimmed(std::string_view text) {
@@ -40,6 +42,10 @@ std::string take_id(std::string& text) {
 }
 
 void set_interval(Command& command, const std::string& time) {
+  if (time.empty()) {
+    command.complaint = "frame_interval needs a simulated time; allowed: such as \"frame_interval 2 us\"; given: none";
+    return;
+  }
   try {
     command.value = case_::to_si(time, "s");
     if (std::isfinite(command.value) && command.value >= 0) {
@@ -56,8 +62,10 @@ void set_interval(Command& command, const std::string& time) {
 
 std::vector<std::string> lines_of(std::istream& stream) {
   std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) {
-    if (!trimmed(line).empty()) lines.push_back(trimmed(line));
+  for (std::string line; lines.size() < kMostLines && std::getline(stream, line);) {
+    line = trimmed(line);
+    if (line.size() > kLongestLine) line = line.substr(0, kLongestLine) + "...";
+    if (!line.empty()) lines.push_back(line);
   }
   return lines;
 }
@@ -142,7 +150,7 @@ Command parse_command(std::string_view line) {
   std::getline(words, rest);
   rest = trimmed(rest);
   using Kind = Command::Kind;
-  if (word == "frame_interval" && !rest.empty()) {
+  if (word == "frame_interval") {
     set_interval(command, rest);
     return command;
   }
@@ -162,12 +170,14 @@ Command parse_command(std::string_view line) {
 std::vector<std::string> ControlFile::take() {
   if (!pace_.due()) return {};
   pace_.done();
-  const fs::path taken = temporary_of(path_);
+  fs::path taken = temporary_of(path_);
+  if (num_left_ > 0) taken += std::to_string(num_left_);
   std::error_code error;
   fs::rename(path_, taken, error);  // what is written from now on is another file
   if (error) return {};
   std::istringstream text(content_of(taken));
   fs::remove(taken, error);
+  if (error) ++num_left_;  // a folder with something in it: nothing is renamed to that
   return lines_of(text);
 }
 

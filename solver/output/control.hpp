@@ -40,6 +40,7 @@ class ControlFile {
 
  private:
   std::filesystem::path path_;
+  int num_left_ = 0;  ///< of what was taken and could not be removed
   Pace pace_{std::chrono::milliseconds(200)};
 };
 

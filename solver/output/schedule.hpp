@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -37,7 +38,8 @@ class Schedule {
 
  private:
   [[nodiscard]] std::int64_t following(double time, double dt) const {
-    return static_cast<std::int64_t>(std::floor((time + 0.5 * dt) / interval_)) + 1;
+    constexpr double kMost = 9e18;  // of an interval so short that it is always due
+    return static_cast<std::int64_t>(std::min(kMost, std::floor((time + 0.5 * dt) / interval_))) + 1;
   }
   double interval_;
   std::int64_t least_steps_, free_step_ = 0;

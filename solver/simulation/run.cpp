@@ -1,6 +1,8 @@
 #include "simulation/run.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <thread>
@@ -9,6 +11,7 @@
 #include "base/error.hpp"
 #include "domains/corner_tags.hpp"
 #include "domains/model_fields.hpp"
+#include "domains/motion_limit.hpp"
 #include "domains/partition.hpp"
 #include "domains/piece_mesh.hpp"
 #include "simulation/insitu_watch.hpp"
@@ -64,6 +67,7 @@ class Runner {
       for (auto s = first_stage(); s < input_.stages.size() && status_ == "complete"; ++s) run_stage(s);
       if (checkpoints_) end_with_checkpoint();
       conclude(partition_.domain());
+      check_last_motion(partition_.domain());
       output_.write_frame();
       look_in_situ(true);
     } catch (const SimulationError& error) {
@@ -137,6 +141,7 @@ class Runner {
   void run_stage(std::size_t s) {
     StageSteps steps = begin_stage(s);
     output_.begin_stage(input_.stages[s]);
+    tell_of_step(steps);
     if (input_.time.step > 0 && !(from_ && s == first_stage())) {
       const std::string text = given_step_text(input_.time.step, steps.limit());
       if (!text.empty()) output_.tell_event("step", text, false);
@@ -145,6 +150,7 @@ class Runner {
     while (!steps.over() && status_ == "complete") {
       take_commands();
       steps.look();
+      tell_of_step(steps);
       const bool end = s + 1 == input_.stages.size() && steps.at_last();
       const bool last = end || stop_commanded_ || output_.steps_done() + 1 == input_.time.max_steps ||
                         clock().time + clock().dt > options_.until - 0.5 * clock().dt;
@@ -156,6 +162,11 @@ class Runner {
     steps_ = nullptr;
     // Behind the checkpoint: a run that goes on from it does not have this line.
     if (status_ != "complete" && sampled_without_line_) take_line(*sampled_without_line_);
+  }
+
+  void tell_of_step(StageSteps& steps) {
+    const std::string text = steps.take_warning();
+    if (!text.empty()) output_.tell_event("step", text, false);
   }
 
   [[nodiscard]] std::string status_now() const {
@@ -216,7 +227,10 @@ class Runner {
   /// Writes what can be written. @return  what went wrong, and the last state before it
   std::string end_with_fault(const std::string& fault) {
     complete_checkpoint();
-    std::string text = fault + (checkpoints_ ? words_of(output_.sound(), checkpoints_->folder(), communicator_) : "");
+    SoundState sound = output_.sound();
+    const std::int64_t jumped = partition_.state().signals.step_motion.exceeded_step;
+    if (jumped >= 0) sound.step = std::min(sound.step, jumped);
+    std::string text = fault + (checkpoints_ ? words_of(sound, checkpoints_->folder(), communicator_) : "");
     try {
       finish(text);
     } catch (const OutputError& error) {

@@ -79,6 +79,12 @@ void RunOutput::tell_start(bool insitu, const RunPosition* from) {
 void RunOutput::begin_stage(const case_::Stage& stage) {
   stage_name_ = stage.name;
   observer_.begin_stage(stage);
+  const double interval = input_.output.frame_interval;
+  if (interval > 0 && interval < clock().dt)
+    tell_event("frames",
+               "output.frame_interval = " + scientific(interval) + " s is shorter than a step, " +
+                   scientific(clock().dt) + " s: every step writes a frame",
+               false);
 }
 
 void RunOutput::take_line(double time, InSituWatch* insitu) {

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+
+#include "base/error.hpp"
+#include "model/time_step.hpp"
 
 #include "base/error.hpp"
 #include "simulation/countable_steps.hpp"
@@ -13,8 +17,46 @@ constexpr std::int64_t kStepsBetweenLooks = 100;
 constexpr std::int64_t kSoonest = 10;  // steps between looks where joints come apart, or the step is still to grow
 constexpr std::int64_t kTaken = 2;     // steps until contact has the faces of a joint that was released
 constexpr double kGrowth = 1.5;        // of the step at a look: motions of a step foretell those of the next
+constexpr double kMostTenths = 300;    // of the step at rest; what is shorter still is told as this
+
+/// How many times a step has come below a tenth of that at rest: 0 above a tenth, 1 above a hundredth, and so on.
+int tenths(double share) { return static_cast<int>(std::clamp(-std::log10(share), 0.0, kMostTenths)); }
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+/// The stable step in the places of the mesh, without contact, s. Collective. O(elements)
+double step_at_rest(const Partition& partition) {
+  const Model& model = partition.model();
+  return partition.communicator().min(TimeStep(model).limit(model.local.reference));
+}
+
+/// What lengthens the step again, by what limits it.
+const char* remedy_of(StepLimit limit) {
+  switch (limit) {
+    case StepLimit::contact:
+      return "lower contact.penalty there";
+    case StepLimit::joint:
+      return "lower joint.penalty_factor (or joint.penalty) there";
+    case StepLimit::element:
+      break;
+  }
+  return "the element is crushed or drawn out: lower the speeds and loads there, use larger elements, or a material "
+         "that breaks or yields";
+}
 
 }  // namespace
+
+StageSteps::StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition,
+                       const StepLooks& looks)
+    : input_(input),
+      stage_(stage),
+      partition_(partition),
+      looks_(looks),
+      at_rest_(input.time.step > 0 ? 0.0 : step_at_rest(partition)) {}
 
 StageSteps::StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition)
     : StageSteps(input, stage, partition, StepLooks{}) {
@@ -38,10 +80,28 @@ double StageSteps::next_length() {
   looks_ = {kStepsBetweenLooks, 0};
   if (input_.time.step > 0) return length(input_.time.step);
   const Clock& clock = partition_.state().clock;
-  const double stable = input_.time.safety * limit().step, most = kGrowth * clock.dt;
+  const StableStep now = limit();
+  judge(now);
+  const double stable = input_.time.safety * now.step, most = kGrowth * clock.dt;
   if (clock.steps == 0 || stable <= most) return length(stable);
   looks_.until = kSoonest;
   return length(most);
+}
+
+void StageSteps::judge(const StableStep& stable) {
+  const Clock& clock = partition_.state().clock;
+  const double share = stable.step / at_rest_;
+  const bool ends = share < kSmallestStep;
+  // Where a run begins `check` has told it.
+  const bool fell = clock.steps > 0 && tenths(share) > tenths(clock.dt / (input_.time.safety * at_rest_));
+  if (!ends && !fell) return;
+  const double rest = input_.stages.back().end - clock.time;
+  const std::string text = "step " + std::to_string(clock.steps) + ", time " + number(clock.time) +
+                           " s: the stable step has fallen to " + number(stable.step) + " s, " + number(100 * share) +
+                           " % of that of the model at rest, by " + limit_text(stable) + "; what is left would take " +
+                           number(rest / (input_.time.safety * stable.step)) + " steps; " + remedy_of(stable.limit);
+  if (ends) throw SimulationError(text + "; a time.step that the case gives is not looked at");
+  warning_ = text;
 }
 
 void StageSteps::fit_end() {

@@ -1,10 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <utility>
 
 #include "domains/partition.hpp"
 
 namespace breccia {
+
+/// Stable step over that of the model at rest, without contact, below which a run ends: what is left of it would take a
+/// thousand times as long as was foreseen. Stiff contact makes it 0.1; crushed elements keep a stiffness (j_min).
+inline constexpr double kSmallestStep = 1e-3;
 
 /// When the stable step is looked at.
 struct StepLooks {
@@ -15,15 +21,16 @@ struct StepLooks {
 /// The steps of one stage: how long they are, and when the stage is over. A stage is a whole number of equal steps, as
 /// long as is stable; every hundred steps the stable step is looked at again, since it shrinks when elements are
 /// crushed, and after ten where a joint has been released: its faces may meet others from then on. From one look to the
-/// next, and into a stage, a step grows by half at most (domains/motion_limit.hpp), and after ten steps again.
+/// next, and into a stage, a step grows by half at most (domains/motion_limit.hpp), and after ten steps again. A stable
+/// step that has fallen far below that of the model at rest is told at every tenth part, and refused in the end. A step
+/// that the case gives (time.step) is not looked at.
 class StageSteps {
  public:
   /// Begins the stage. Collective. Throws InputError where it would take more steps than can be counted.
   /// @pre input, stage and partition outlive this object
   StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition);
-  /// Goes on in a stage that has begun. @param looks  as they were
-  StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition, const StepLooks& looks)
-      : input_(input), stage_(stage), partition_(partition), looks_(looks) {}
+  /// Goes on in a stage that has begun. Collective. @param looks  as they were
+  StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition, const StepLooks& looks);
 
   [[nodiscard]] bool over() const {
     return !(partition_.state().clock.time < stage_.end - 0.5 * partition_.state().clock.dt);
@@ -35,8 +42,11 @@ class StageSteps {
     const Clock& clock = partition_.state().clock;
     return !(clock.time + clock.dt < stage_.end - 0.5 * clock.dt);
   }
-  /// Before every step: a new length if it is time to look and the limit has moved. Collective.
+  /// Before every step: a new length if it is time to look and the limit has moved. Collective. Throws SimulationError,
+  /// the same on all ranks, if the limit is below kSmallestStep.
   void look();
+  /// What the last look found worth telling, once: the step has come below another tenth part of that at rest.
+  [[nodiscard]] std::string take_warning() { return std::exchange(warning_, {}); }
   [[nodiscard]] const StepLooks& looks() const { return looks_; }
   /// Where the end of the stage has moved: steps that fit it. Collective.
   void fit_end();
@@ -48,11 +58,15 @@ class StageSteps {
   void demand_countable() const;
   /// The length that is allowed now, and when it is to be looked at again. Collective.
   [[nodiscard]] double next_length();
+  /// Notes a warning, or throws.
+  void judge(const StableStep& stable);
 
   const case_::Case& input_;
   const case_::Stage& stage_;
   Partition& partition_;
   StepLooks looks_;
+  double at_rest_ = 0;  ///< s, stable step of the model at rest; 0: not known, as the step is given
+  std::string warning_;
 };
 
 }  // namespace breccia

@@ -65,6 +65,48 @@ TEST_P(Fault, SaysThatThereIsNoCheckpointFromBeforeIt) {
   EXPECT_NE(failed.err.find("no checkpoint (checkpoint.steps or checkpoint.interval"), std::string::npos) << failed.err;
 }
 
+/// A bar of soft elements that share nodes, drawn out until they are thirty times as long.
+constexpr const char* kDrawnOut = R"([mesh.raster]
+cells = [3, 1, 1]
+cell_size = "10 mm"
+group = "bar"
+[[material]]
+group = "bar"
+young = "4 MPa"
+poisson = 0.3
+density = "2340 kg/m3"
+joints = "none"
+[[stage]]
+end = "200 ms"
+[[stage.constraint]]
+group = "bar.x0"
+fixed = "xyz"
+[[stage.constraint]]
+group = "bar.x1"
+velocity = { x = { ramp = { start = 0, end = "20 ms", to = "5 m/s" } } }
+)";
+
+TEST_P(Fault, WarnsOnceOfATimeStepThatFallsToATenth) {
+  const Outcome drawn = run("drawn", kDrawnOut);
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+  const std::string words = "the stable step has fallen to ";
+  const std::size_t first = drawn.err.find(words);
+  ASSERT_NE(first, std::string::npos) << drawn.err;
+  EXPECT_EQ(drawn.err.find(words, first + 1), std::string::npos) << drawn.err;
+  static const std::regex kSaid(R"(step \d+, time \S+ s: the stable step has fallen to \S+ s, \S+ % of that of the )"
+                                R"(model at rest, by element \d+; what is left would take \S+ steps; )");
+  EXPECT_TRUE(std::regex_search(drawn.err, kSaid)) << drawn.err;
+  EXPECT_NE(read_text(folder("drawn") / "status.jsonl").find(words), std::string::npos);
+}
+
+TEST_P(Fault, InTheLastStepOfARunIsOneToo) {
+  const Outcome failed = run("jumped", kSmallCase, "--set 'time.step=4 ms' --set 'sphere.radius=1 m'");
+  EXPECT_EQ(failed.exit_code, 3) << failed.err;
+  EXPECT_NE(failed.err.find("step 0: corner "), std::string::npos) << failed.err;
+  EXPECT_NE(failed.err.find("contacts would be missed"), std::string::npos) << failed.err;
+  EXPECT_NE(failed.err.find("no checkpoint"), std::string::npos) << "the last state is not sound: " << failed.err;
+}
+
 INSTANTIATE_TEST_SUITE_P(ranks, Fault, testing::Values(1, 2));
 
 TEST(Diff, NamesInputsByTheirPlaceBesideTheCase) {

@@ -236,11 +236,13 @@ TEST_F(Resume, RefusesEveryFlippedBit) {
 }
 
 TEST_F(Resume, RefusesWhatIsNoRunAndWhatWouldChangeResults) {
-  for (const auto& [arguments, message] : {std::pair{quoted("nowhere"), "there is no such run"},
-                                           {"'" + folder("").string() + "'", "there are no checkpoints of a run here"},
-                                           {case_, "this is no checkpoint of breccia"},
-                                           {quoted("whole") + " --set time.safety=0.1", "would change the results"},
-                                           {quoted("whole") + " --set 'stage[1].end=9'", "would change the results"}}) {
+  for (const auto& [arguments, message] :
+       {std::pair{quoted("nowhere"), "there is no such run"},
+        {"'" + folder("").string() + "'", "there are no checkpoints of a run here"},
+        {"'" + (folder("whole") / "checkpoints").string() + "'", "this is the folder of a run's checkpoints"},
+        {case_, "this is no checkpoint of breccia"},
+        {quoted("whole") + " --set time.safety=0.1", "would change the results"},
+        {quoted("whole") + " --set 'stage[1].end=9'", "would change the results"}}) {
     const Outcome refused = call("resume " + arguments);
     EXPECT_EQ(refused.exit_code, 2) << arguments;
     EXPECT_NE(refused.err.find(message), std::string::npos) << refused.err;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "end_to_end/program.hpp"
 #include "support/notched_beam.hpp"
@@ -220,6 +221,26 @@ TEST_F(Start, RefusesADisplacementThatJumpsAtTheTimeOfTheState) {
   run("smooth", pulled("ramp = { start = \"2 ms\", end = \"3 ms\", to = \"0.1 mm\" }"));
 }
 
+TEST_F(Start, RefusesConstraintsThatContradictEachOtherOnAnyNumberOfRanks) {
+  const auto held = [](const std::string& group, const std::string& axis) {
+    return "[[stage.constraint]]\ngroup = \"" + group + "\"\nvelocity = { " + axis + " = \"0.1 m/s\" }\n";
+  };
+  const std::string stage = started() + laws() + "[[stage]]\nend = \"3 ms\"\n" + held("box.x0", "x");
+  std::set<std::string> messages;
+  for (const int ranks : {1, 2, 3}) {
+    const Outcome refused = attempt("refused", stage + "[[stage.constraint]]\ngroup = \"box\"\nfixed = \"x\"\n", ranks);
+    EXPECT_EQ(refused.exit_code, 2) << refused.err;
+    const std::size_t at = refused.err.find("contradicts stage[0].constraint[0] (velocity, \"box.x0\", line ");
+    ASSERT_NE(at, std::string::npos) << refused.err;
+    messages.insert(refused.err.substr(at, refused.err.find('\n', at) - at));
+    const Outcome overruled = attempt("over" + std::to_string(ranks),
+                                      stage + "[[stage.constraint]]\ngroup = \"box.y0\"\nfixed = \"x\"\n", ranks);
+    EXPECT_EQ(overruled.exit_code, 0) << overruled.err;
+    EXPECT_NE(overruled.err.find("overrules stage[0].constraint[0]"), std::string::npos) << overruled.err;
+  }
+  EXPECT_EQ(messages.size(), 1U) << *messages.begin() << "\n" << *messages.rbegin();
+}
+
 TEST_F(Start, RefusesWhatDoesNotFitTheState) {
   const std::string no_contact = laws().substr(0, laws().find("[[contact]]"));
   for (const auto& [text, message] :
@@ -233,6 +254,7 @@ TEST_F(Start, RefusesWhatDoesNotFitTheState) {
         {started("nowhere") + laws() + kPush, "start.from: there is no such run"},
         {started("refused.toml") + laws() + kPush, "start.from: this is no checkpoint of breccia"},
         {started("parent/frames") + laws() + kPush, "start.from: there are no checkpoints of a run here"},
+        {started("parent/checkpoints") + laws() + kPush, "start.from: this is the folder of a run's checkpoints"},
         {"[start]\nat = \"1 ms\"\n" + laws() + kPush, "start.from: is missing"},
         {"start = 3\n" + laws() + kPush, "start"}}) {
     for (const int ranks : {1, 2}) {

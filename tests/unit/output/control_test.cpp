@@ -43,7 +43,7 @@ TEST(Command, OfAnIntervalHasSeconds) {
 }
 
 TEST(Command, ThatIsUnknownIsRefusedWithWhatIsAllowed) {
-  for (const char* line : {"dance", "pause now", "frame_interval", "", "id=3"}) {
+  for (const char* line : {"dance", "pause now", "frame_intervals", "", "id=3"}) {
     const Command command = parse_command(line);
     EXPECT_EQ(command.kind, Kind::refused) << line;
     EXPECT_THAT(command.complaint, HasSubstr("pause, resume, stop")) << line;
@@ -56,6 +56,7 @@ TEST(Command, WithAWrongIntervalSaysWhy) {
     EXPECT_EQ(command.kind, Kind::refused) << time;
     EXPECT_THAT(command.complaint, HasSubstr(time));
   }
+  EXPECT_THAT(parse_command("frame_interval id=3").complaint, HasSubstr("needs a simulated time"));
 }
 
 TEST(ControlFile, IsNotHeldUpByAPipeAFolderOrALink) {
@@ -72,6 +73,34 @@ TEST(ControlFile, IsNotHeldUpByAPipeAFolderOrALink) {
   std::this_thread::sleep_for(std::chrono::milliseconds(250));
   std::filesystem::create_directory(folder / "control");
   EXPECT_THAT(control.take(), IsEmpty());
+}
+
+TEST(ControlFile, TakesRequestsAfterAFolderThatCannotBeRemoved) {
+  const TemporaryFolder folder;
+  ControlFile control(folder / "control");
+  for (int i = 0; i < 2; ++i) {
+    std::filesystem::create_directory(folder / "control");
+    write(folder / "control/file", "stop\n");
+    EXPECT_THAT(control.take(), IsEmpty());
+    std::this_thread::sleep_for(std::chrono::milliseconds(250));
+  }
+  write(folder / "control", "stop\n");
+  EXPECT_THAT(control.take(), ElementsAre("stop"));
+}
+
+TEST(ControlFile, GivesNoMoreLinesThanARunCanAnswerAndNoneThatFillsItsStatus) {
+  const TemporaryFolder folder;
+  ControlFile control(folder / "control");
+  std::string many = std::string(10'000'000, 'a') + "\n";
+  write(folder / "control", many);
+  const std::vector<std::string> one = control.take();
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_LT(one.front().size(), 300U);
+  std::this_thread::sleep_for(std::chrono::milliseconds(250));
+  many.clear();
+  for (int i = 0; i < 10000; ++i) many += "pause\n";
+  write(folder / "control", many);
+  EXPECT_EQ(control.take().size(), 100U);
 }
 
 TEST(ControlFile, LosesNoneOfManyThatAskAtOnce) {

@@ -1,0 +1,77 @@
+#include "simulation/stage_steps.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include "base/error.hpp"
+#include "unit/observe/two_cubes.hpp"
+
+namespace breccia {
+namespace {
+
+using testing::HasSubstr;
+
+class StageStepsOfCubes : public testing::Test {
+ protected:
+  StageStepsOfCubes()
+      : input_(test::two_cubes()),
+        partition_(input_, {}, std::make_unique<Model>(build_model(input_))),
+        steps_(input_, input_.stages[0], partition_) {
+    partition_.domain().state.clock.steps = 1;  // what a run begins with is told by `check`
+  }
+
+  /// An own-node element drawn out along x: its step falls about as much.
+  void draw_out(GlobalId element, double stretch) {
+    Domain& domain = partition_.domain();
+    const Index slot = domain.model.local.slot_of_element[static_cast<std::size_t>(element)];
+    for (int corner = 0; corner < 4; ++corner) {
+      const Index node = domain.model.local.corner_node(slot, corner);
+      Vec3 x = load_node(domain.model.local.reference.data(), node);
+      x[0] *= stretch;
+      store_node(domain.state.nodes.position.data(), node, x);
+    }
+  }
+  /// Until the stable step is looked at.
+  void look() {
+    steps_.look();
+    while (steps_.looks().since > 0) steps_.look();
+  }
+
+  const case_::Case input_;
+  Partition partition_;
+  StageSteps steps_;
+};
+
+TEST_F(StageStepsOfCubes, SayNothingOfAStepThatIsThatOfTheModelAtRest) {
+  look();
+  EXPECT_EQ(steps_.take_warning(), "");
+  draw_out(7, 3);
+  look();
+  EXPECT_EQ(steps_.take_warning(), "");
+}
+
+TEST_F(StageStepsOfCubes, EndTheRunBelowAThousandthPart) {
+  draw_out(7, 20 / kSmallestStep);
+  try {
+    look();
+    FAIL() << "goes on";
+  } catch (const SimulationError& error) {
+    EXPECT_THAT(std::string(error.what()), HasSubstr("step 1, time 0 s: the stable step has fallen to "));
+    EXPECT_THAT(std::string(error.what()), HasSubstr(" by element 7; "));
+  }
+}
+
+TEST(StageStepsOfAGivenLength, AreNotLookedAt) {
+  case_::Case input = test::two_cubes("[time]\nstep = 1e-8\n");
+  Partition partition(input, {}, std::make_unique<Model>(build_model(input)));
+  StageSteps steps(input, input.stages[0], partition);
+  for (double& x : partition.domain().state.nodes.position) x *= 1e6;
+  for (int look = 0; look < 200; ++look) steps.look();
+  EXPECT_EQ(steps.take_warning(), "");
+}
+
+}  // namespace
+}  // namespace breccia
