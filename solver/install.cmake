@@ -54,5 +54,8 @@ if(TARGET breccia-gui)
   set(CPACK_DEBIAN_GUI_PACKAGE_NAME breccia-gui)
   set(CPACK_COMPONENT_GUI_DESCRIPTION "The desktop of Breccia: set up a case, run it on several cores, watch cracks and energies.")
   set(CPACK_DEBIAN_GUI_PACKAGE_DEPENDS "breccia (= ${PROJECT_VERSION}), paraview")
+  if(BRECCIA_GUI_QT STREQUAL "Qt6")  # icons; Qt 5 has this plugin in its library
+    string(APPEND CPACK_DEBIAN_GUI_PACKAGE_DEPENDS ", qt6-svg-plugins")
+  endif()
 endif()
 include(CPack)

@@ -60,7 +60,7 @@ class History {
   void add_line(const QByteArray& line);  ///< the first one names the columns
   void clear();
   [[nodiscard]] const QStringList& columns() const { return columns_; }
-  [[nodiscard]] int column(const QString& name) const { return columns_.indexOf(name); }
+  [[nodiscard]] int column(const QString& name) const { return static_cast<int>(columns_.indexOf(name)); }
   [[nodiscard]] int rows() const { return rows_; }
   /// @pre 0 <= column < number of columns
   [[nodiscard]] const std::vector<double>& values(int column) const {

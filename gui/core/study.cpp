@@ -211,7 +211,7 @@ QStringList find_studies(const QString& runs_folder, const QString& case_file) {
 }
 
 std::optional<double> StudyResult::value(const QString& column) const {
-  const int at = columns.indexOf(column);
+  const auto at = columns.indexOf(column);
   if (at < 0) return {};
   return values[static_cast<std::size_t>(at)];
 }

@@ -8,6 +8,7 @@ foreach(target Boost::boost Freetype::Freetype GLEW::GLEW LibXml2::LibXml2 NetCD
 endforeach()
 set(BRECCIA_VTK_MODULES ChartsCore CommonCore CommonDataModel FiltersCore FiltersGeometry FiltersSources GUISupportQt IOHDF IOImage InteractionStyle
   RenderingAnnotation RenderingContext2D RenderingContextOpenGL2 RenderingCore RenderingFreeType RenderingOpenGL2 RenderingUI ViewsContext2D)
+include(${CMAKE_CURRENT_LIST_DIR}/../../catalyst/find_paraview/python_modules.cmake)
 file(GLOB vtk_folders /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/paraview-*/vtk)
 find_package(VTK 9.2 REQUIRED COMPONENTS ${BRECCIA_VTK_MODULES} PATHS ${ParaView_DIR}/vtk ${vtk_folders} NO_DEFAULT_PATH)
 set(BRECCIA_QT Qt${VTK_QT_VERSION})

@@ -103,7 +103,7 @@ void LineChart::paintEvent(QPaintEvent*) {
     widest = std::max(widest, metrics.horizontalAdvance(line.name));
   }
   if (!(left <= right)) return;
-  if (!x_words_.isEmpty()) left = 0, right = x_words_.size() - 1;
+  if (!x_words_.isEmpty()) left = 0, right = static_cast<double>(x_words_.size() - 1);
   widen(left, right);
   widen(bottom, top);
   const double height_of_line = metrics.height(), legend = std::min(widest + 44.0, 0.45 * width());

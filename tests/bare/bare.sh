@@ -108,6 +108,10 @@ newcomer() {
   step configure "./run test --configure"
   grep -E '^(Need to get|[0-9]+ upgraded)' "$out/configure.log" || true
   grep -q "In-situ adaptor: with ParaView" "$out/configure.log" || fail "the in-situ adaptor would not be built; see $out/configure.log"
+  grep -q "Desktop: with Qt" "$out/configure.log" || fail "the desktop would not be built; see $out/configure.log"
+  grep -q "without its toolbar" "$out/configure.log" && fail "the toolbar in ParaView's window would not be built; see $out/configure.log"
+  grep -q "CMake Warning" "$out/configure.log" && fail "the configuration warns; see $out/configure.log"
+  [[ -n "$(find "$tree/usr/lib" -name libqsvgicon.so)" ]] || fail "Qt cannot draw the icons: its plugin for SVG is not installed"
   [[ $depth == full ]] || return 0
   step test "./run test"
   tail -n 12 "$out/test.log"

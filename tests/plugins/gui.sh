@@ -5,7 +5,7 @@ set -eu
 here=$(dirname "$0") scratch=$(mktemp -d)
 export BRECCIA_PICTURE_RUN="$1" BRECCIA_PICTURE_WINDOW="$scratch/done" HOME="$scratch" DISPLAY=:${BRECCIA_DISPLAY:-87}
 mkdir -p "$scratch/.config/ParaView"
-printf '[General]\nGeneralSettings.ShowWelcomeDialog=false\n' >"$scratch/.config/ParaView/ParaView5.11.0.ini"
+printf '[General]\nGeneralSettings.ShowWelcomeDialog=false\n' >"$scratch/.config/ParaView/ParaView$(pvpython --version | sed 's/.* //').ini"
 # As large as the window that ParaView opens without a window manager; on a smaller screen it is cut off.
 Xvfb "$DISPLAY" -screen 0 1152x762x24 -noreset -fbdir "$scratch" >/dev/null 2>&1 &
 screen=$!
