@@ -4,6 +4,7 @@
 
 #include "catalyst/animation.hpp"
 #include "catalyst/extract_pipeline.hpp"
+#include "catalyst/fatal_line.hpp"
 #include "catalyst/live_pipeline.hpp"
 #include "catalyst/messages.hpp"
 #include "catalyst/pipeline_choice.hpp"
@@ -24,6 +25,7 @@ Adaptor::Adaptor(const BrecciaConfig& config) : ranks_(config.communicator, conf
     std::string error;
     std::unique_ptr<Pipeline> work;
     try {
+      const FatalLine line(config.pipelines[i].name);
       work = made(config.pipelines[i], config);
     } catch (const std::exception& failure) {
       error = failure.what();
@@ -38,7 +40,10 @@ Adaptor::~Adaptor() { end_pipelines(); }
 
 void Adaptor::end_pipelines() {
   if (std::exchange(finished_, true)) return;
-  for (Named& pipeline : pipelines_) pipeline.work->finish();
+  for (Named& pipeline : pipelines_) {
+    const FatalLine line(pipeline.name);
+    pipeline.work->finish();
+  }
 }
 
 std::string Adaptor::finish() {
@@ -61,14 +66,15 @@ void Adaptor::start_display(const BrecciaConfig& config) {
       if (choice.kind != PipelineKind::script) continue;
       const ScriptNeeds needs = check_script(choice.file);
       script_channels_[static_cast<std::size_t>(i)] = needs.channels;
-      draws |= std::int64_t{needs.draws};
+      if (needs.draws) draws |= std::int64_t{bit(i)};
     } catch (const std::exception& failure) {
       error = failure.what();
     }
   }
   ranks_.throw_agreed(error);
   for (std::uint32_t& mask : script_channels_) mask = static_cast<std::uint32_t>(ranks_.from_root(std::int64_t{mask}));
-  if (ranks_.from_root(draws) != 0) display_ = std::make_unique<Display>(ranks_);
+  script_draws_ = static_cast<std::uint32_t>(ranks_.from_root(draws));
+  if (script_draws_ != 0) display_ = std::make_unique<Display>(ranks_);
 }
 
 CatalystBackend& Adaptor::backend() {
@@ -93,12 +99,15 @@ std::unique_ptr<Pipeline> Adaptor::made(const BrecciaPipeline& pipeline, const B
       break;
   }
   make_folder(folder);
-  const std::uint32_t channels = script_channels_[static_cast<std::size_t>(&pipeline - config.pipelines)];
+  const auto index = static_cast<std::size_t>(&pipeline - config.pipelines);
+  const Display* display = (script_draws_ >> index & 1U) != 0 ? display_.get() : nullptr;
   const python::About about{config.title, config.end, config.strength};
-  return backend().script({choice.name, choice.file, folder, channels, choice.parameters, about});
+  return backend().script(
+      {choice.name, choice.file, folder, script_channels_[index], choice.parameters, about, display});
 }
 
 std::uint32_t Adaptor::channels(int pipeline, std::int64_t step, double time) {
+  const FatalLine line(name(pipeline));
   return pipelines_.at(static_cast<std::size_t>(pipeline)).work->channels(step, time);
 }
 
@@ -133,6 +142,7 @@ std::uint32_t Adaptor::execute(std::uint32_t pipelines, const BrecciaInstant& in
 
 std::string Adaptor::failure_of(int pipeline, const Frame& frame, BrecciaRequests& requests) {
   std::string error;
+  const FatalLine line(name(pipeline));
   try {
     try {
       pipelines_[static_cast<std::size_t>(pipeline)].work->execute(frame, requests);
@@ -140,6 +150,8 @@ std::string Adaptor::failure_of(int pipeline, const Frame& frame, BrecciaRequest
       throw;
     } catch (const std::exception& failure) {
       error = failure.what();
+    } catch (...) {
+      error = "has thrown what is no exception of C++'s";
     }
     return ranks_.agree(error);
   } catch (const Abandoned& wait) {

@@ -65,6 +65,7 @@ class Adaptor {
   Ranks ranks_;
   FrameToVtk frames_;
   std::vector<std::uint32_t> script_channels_;  ///< by pipeline; of scripts
+  std::uint32_t script_draws_ = 0;              ///< mask of the pipelines that make pictures
   std::unique_ptr<Display> display_;
   std::unique_ptr<CatalystBackend> backend_;
   std::vector<Named> pipelines_;

@@ -15,6 +15,8 @@
 #include <vtkSMProxy.h>
 #include <vtkSMProxyIterator.h>
 
+#include <cerrno>
+#include <cstring>
 #include <utility>
 
 #include "catalyst/folders.hpp"
@@ -89,7 +91,9 @@ void empty_producers() {
 
 class ScriptPipeline final : public Pipeline {
  public:
-  ScriptPipeline(const Ranks& ranks, ScriptDescription description) : ranks_(ranks), is_(std::move(description)) {
+  ScriptPipeline(const Ranks& ranks, ScriptWatch& watch, ScriptDescription description)
+      : ranks_(ranks), watch_(watch), is_(std::move(description)) {
+    const ScriptWatch::Turn turn(watch_, is_.name);
     enter();
     const bool registered = script_->Initialize(is_.file.c_str());
     const std::string error = error_now();
@@ -100,6 +104,14 @@ class ScriptPipeline final : public Pipeline {
 
   std::uint32_t channels(std::int64_t step, double time) override {
     if (!pending_.empty()) return is_.channels;
+    const std::string why = ranks_.agree(reason_to_end());
+    if (why == kDropped) return 0;
+    if (!why.empty()) {  // executed once more, so that it is told
+      pending_ = why;
+      dropped_ = true;
+      return is_.channels;
+    }
+    const ScriptWatch::Turn turn(watch_, is_.name);
     const auto description = described(step, time);
     enter();
     const bool wanted = script_->RequestDataDescription(description) != 0;
@@ -118,6 +130,12 @@ class ScriptPipeline final : public Pipeline {
 
   void execute(const Frame& frame, BrecciaRequests& requests) override {
     if (!pending_.empty()) throw PipelineError(std::exchange(pending_, {}));
+    if (const std::string why = ranks_.agree(reason_to_end()); !why.empty()) {
+      dropped_ = true;
+      throw PipelineError(why);
+    }
+    ranks_.throw_agreed(no_space());
+    const ScriptWatch::Turn turn(watch_, is_.name);
     const auto description = described(frame.step, frame.time);
     UserData user_data;
     description->SetUserData(user_data.data());
@@ -134,6 +152,7 @@ class ScriptPipeline final : public Pipeline {
     script_->CoProcess(description);  // its result is also 0 when a trigger of the script is not met
     empty_producers();
     const std::string error = error_now();
+    dropped_ = dropped_ || watch_.interrupted();
     if (!error.empty()) throw PipelineError(error);
     user_data.add_to(requests);
   }
@@ -145,6 +164,8 @@ class ScriptPipeline final : public Pipeline {
   [[nodiscard]] bool draws() const override { return true; }
 
   void finish() override {
+    if (is_.display != nullptr && !ranks_.agree(is_.display->lost() ? "lost" : "").empty()) return;
+    const ScriptWatch::Turn turn(watch_, is_.name);
     enter();
     script_->Finalize();
     static_cast<void>(error_now());
@@ -152,6 +173,19 @@ class ScriptPipeline final : public Pipeline {
 
  private:
   void enter() const { python::enter(is_.name, is_.file, is_.folder, is_.parameters, is_.about); }
+
+  /// Why there is no sense in going on with it, on this rank; empty: there is.
+  [[nodiscard]] std::string reason_to_end() const {
+    if (dropped_) return kDropped;
+    return is_.display != nullptr && is_.display->lost() ? "the X display on which it draws has gone" : "";
+  }
+
+  /// VTK's writers do not bear a full disk well. Empty: there is space.
+  [[nodiscard]] std::string no_space() const {
+    std::error_code error;
+    const auto space = std::filesystem::space(is_.folder, error);
+    return error || space.available >= kLeastSpace ? std::string() : is_.folder.string() + ": " + std::strerror(ENOSPC);
+  }
 
   /// What Python raised or VTK reported since the last call.
   [[nodiscard]] static std::string error_now() {
@@ -169,11 +203,16 @@ class ScriptPipeline final : public Pipeline {
     return description;
   }
 
+  static constexpr const char* kDropped = "dropped";
+  static constexpr std::uintmax_t kLeastSpace = 1 << 20;  ///< bytes
+
   const Ranks& ranks_;
+  ScriptWatch& watch_;
   ScriptDescription is_;
   vtkNew<vtkCPPythonScriptV2Pipeline> script_;
   bool executed_ = false;
-  std::string pending_;  ///< what the script raised when it was asked for its channels
+  bool dropped_ = false;  ///< it has taken too long, or cannot draw any more
+  std::string pending_;   ///< what the script raised when it was asked for its channels
   std::int64_t written_before_ = 0;
 };
 
@@ -184,7 +223,8 @@ struct CatalystBackend::Session {
   vtkNew<vtkCPProcessor> processor;
 };
 
-CatalystBackend::CatalystBackend(const Ranks& ranks) : ranks_(ranks), session_(std::make_unique<Session>()) {
+CatalystBackend::CatalystBackend(const Ranks& ranks)
+    : ranks_(ranks), watch_(0.5 * ranks.patience()), session_(std::make_unique<Session>()) {
   static bool begun = false;
   if (std::exchange(begun, true))
     throw PipelineError("ParaView has been started in this process before; it cannot be started twice");
@@ -207,8 +247,8 @@ CatalystBackend::~CatalystBackend() {
 }
 
 std::unique_ptr<Pipeline> CatalystBackend::script(ScriptDescription description) {
-  python::start(data_folder() / "pipelines", data_folder() / "python", ranks_);
-  return std::make_unique<ScriptPipeline>(ranks_, std::move(description));
+  python::start(data_folder() / "pipelines", data_folder() / "python", ranks_, watch_);
+  return std::make_unique<ScriptPipeline>(ranks_, watch_, std::move(description));
 }
 
 const char* backend_description() {

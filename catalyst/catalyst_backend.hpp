@@ -5,9 +5,11 @@
 #include <memory>
 #include <string>
 
+#include "catalyst/display.hpp"
 #include "catalyst/pipeline.hpp"
 #include "catalyst/python_guard.hpp"
 #include "catalyst/ranks.hpp"
+#include "catalyst/script_watch.hpp"
 
 namespace breccia::insitu {
 
@@ -18,6 +20,7 @@ struct ScriptDescription {
   std::uint32_t channels = 0;    ///< mask of those that the script names; all of them may be asked for
   std::map<std::string, double> parameters;
   python::About about;
+  const Display* display = nullptr;  ///< on which it draws; null: it does not
 };
 
 /// ParaView Catalyst, started: needed by scripts and by the live link, not by the recordings. Once in a process:
@@ -39,6 +42,7 @@ class CatalystBackend {
  private:
   struct Session;
   const Ranks& ranks_;
+  ScriptWatch watch_;
   std::unique_ptr<Session> session_;
 };
 

@@ -91,39 +91,67 @@ std::string start_xvfb(pid_t& child) {
 
 }  // namespace
 
-bool display_opens() {
-  const char* name = std::getenv("DISPLAY");
-  if (name == nullptr || *name == '\0') return false;
-  ::Display* display = XOpenDisplay(nullptr);
-  if (display == nullptr) return false;
+namespace {
+
+/// A display that somebody has chosen for the pictures: where a graphics card is to draw.
+constexpr const char* kChosen = "BRECCIA_DISPLAY";
+
+/// "" when an X display can be drawn on; else what is wrong with it. ParaView ends the process where that is not so.
+std::string fault_of(const char* name) {
+  ::Display* display = XOpenDisplay(name);
+  if (display == nullptr) return "does not open";
+  int opcode = 0, event = 0, error = 0;
+  const bool has = XQueryExtension(display, "GLX", &opcode, &event, &error) != 0;
   XCloseDisplay(display);
-  return true;
+  return has ? "" : "has no GLX, without which nothing can be drawn";
 }
 
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+constexpr const char* kInstall = " and Xvfb is not installed (Debian: apt-get install xvfb)";
+
+/// Xlib's own ends the process.
+int take_error(::Display*, XErrorEvent*) { return 0; }
+int take_loss(::Display*) { return 0; }
+void go_on(::Display*, void*) {}
+
+}  // namespace
+
 std::string display_problem() {
-  if (is_on_path("Xvfb") || display_opens()) return {};
-  return "pictures need an X display: none opens and Xvfb is not installed (Debian: apt-get install xvfb)";
+  if (const std::string chosen = environment(kChosen); !chosen.empty()) {
+    const std::string fault = fault_of(chosen.c_str());
+    return fault.empty() ? "" : "pictures need an X display: " + chosen + ", of " + kChosen + ", " + fault;
+  }
+  if (is_on_path("Xvfb")) return {};
+  const std::string given = environment("DISPLAY");
+  if (given.empty()) return std::string("pictures need an X display: none opens") + kInstall;
+  const std::string fault = fault_of(given.c_str());
+  return fault.empty() ? "" : "pictures need an X display: " + given + " " + fault + kInstall;
+}
+
+void spare_process(void* display) {
+  if (display != nullptr) XSetIOErrorExitHandler(static_cast<::Display*>(display), &go_on, nullptr);
 }
 
 Display::Display(const Ranks& ranks) : ranks_(ranks) {
-  // A display on every rank of all machines, or our own on all of them: mixtures draw differently.
-  if (ranks.agree(display_opens() ? "" : "none").empty()) return;
-  std::string error;
-  std::string name;
-  if (ranks.is_first_of_machine()) {
-    try {
-      if (const std::string problem = display_problem(); !problem.empty()) throw PipelineError(problem);
-      name = start_xvfb(xvfb_);
-    } catch (const PipelineError& failure) {
-      error = failure.what();
-    }
+  ranks.throw_agreed(display_problem());
+  XSetErrorHandler(&take_error);
+  XSetIOErrorHandler(&take_loss);
+  // Our own on all ranks, or that of each: mixtures draw differently.
+  const std::string chosen = environment(kChosen);
+  if (!chosen.empty()) {
+    set(chosen);
+  } else if (ranks.agree(is_on_path("Xvfb") ? "" : "none").empty()) {
+    start_own();
   }
-  name = ranks.from_first_of_machine(name);
-  error = ranks.agree(error);
-  if (!error.empty()) {
-    if (xvfb_ > 0) stop(xvfb_);
-    throw PipelineError(error);
-  }
+  link_ = XOpenDisplay(nullptr);
+  spare_process(link_);
+}
+
+void Display::set(const std::string& name) {
   const char* old = std::getenv("DISPLAY");
   was_set_ = old != nullptr;
   old_ = was_set_ ? old : "";
@@ -131,7 +159,34 @@ Display::Display(const Ranks& ranks) : ranks_(ranks) {
   ::setenv("DISPLAY", name.c_str(), 1);
 }
 
+void Display::start_own() {
+  std::string error;
+  std::string name;
+  if (ranks_.is_first_of_machine()) {
+    try {
+      name = start_xvfb(xvfb_);
+    } catch (const PipelineError& failure) {
+      error = failure.what();
+    }
+  }
+  name = ranks_.from_first_of_machine(name);
+  error = ranks_.agree(error);
+  if (!error.empty()) {
+    if (xvfb_ > 0) stop(xvfb_);
+    throw PipelineError(error);
+  }
+  set(name);
+}
+
+bool Display::lost() const {
+  if (link_ == nullptr) return true;
+  pollfd link{ConnectionNumber(static_cast<::Display*>(link_)), POLLIN | POLLRDHUP, 0};
+  if (::poll(&link, 1, 0) <= 0) return false;
+  return (link.revents & (POLLHUP | POLLRDHUP | POLLERR | POLLNVAL)) != 0;
+}
+
 Display::~Display() {
+  if (link_ != nullptr) XCloseDisplay(static_cast<::Display*>(link_));
   if (replaced_ && was_set_) ::setenv("DISPLAY", old_.c_str(), 1);
   if (replaced_ && !was_set_) ::unsetenv("DISPLAY");
   if (!replaced_) return;

@@ -9,15 +9,16 @@
 
 namespace breccia::insitu {
 
-/// True when the X display that $DISPLAY names can be opened.
-[[nodiscard]] bool display_opens();
-
-/// "" when pictures can be made here: a display opens or Xvfb is installed; else what to do about it.
+/// "" when pictures can be made here: the display of $BRECCIA_DISPLAY can be drawn on, or, where that is not, Xvfb is
+/// installed or the one of $DISPLAY can be drawn on; else what to do about it.
 [[nodiscard]] std::string display_problem();
 
-/// A display for pictures, as long as it lives: the one that $DISPLAY names, or an Xvfb of our own, one a machine,
-/// started by the lowest rank there; it ends with this object and with the process that has started it, however that
-/// ends. Sets $DISPLAY meanwhile.
+/// The process goes on when the server of an open X display (a pointer of Xlib's) goes.
+void spare_process(void* display);
+
+/// A display for pictures, as long as it lives: the one that $BRECCIA_DISPLAY names; else an Xvfb of our own, one a
+/// machine, started by the lowest rank there, which ends with this object and with the process that has started it,
+/// however that ends; else the one of $DISPLAY. Sets $DISPLAY meanwhile. Errors of X end the process no more.
 class Display {
  public:
   /// Collective, as is its end. Throws PipelineError, on all ranks. @pre ranks outlives this
@@ -26,8 +27,15 @@ class Display {
   Display& operator=(const Display&) = delete;
   ~Display();
 
+  /// Whether its server has gone: ParaView must not be asked for a picture any more. On this rank.
+  [[nodiscard]] bool lost() const;
+
  private:
+  void set(const std::string& name);
+  void start_own();
+
   const Ranks& ranks_;
+  void* link_ = nullptr;  ///< of Xlib: tells when the server goes
   pid_t xvfb_ = 0;
   bool replaced_ = false;
   bool was_set_ = false;

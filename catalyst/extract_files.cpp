@@ -103,10 +103,9 @@ std::int64_t write_piece(vtkDataObject* object, const fs::path& file) {
   } else {
     writer = vtkSmartPointer<WithBase64Stream<vtkXMLUnstructuredGridWriter>>::New();
   }
-  // A piece that is there already may be listed: it stays until the new one is complete.
-  const fs::path temporary = file.parent_path() / ("." + file.filename().string() + ".tmp");
   writer->SetInputDataObject(object);
-  writer->SetFileName(temporary.c_str());
+  // As text first: VTK's own writing to a file that cannot grow has ended runs (a disk that is full).
+  writer->WriteToOutputStringOn();
   // Not appended: what is appended can be read no more by ParaView 5.11 with Debian's libexpat since its security
   // update 2.5.0-1+deb12u2, https://gitlab.kitware.com/vtk/vtk/-/issues/19258.
   writer->SetDataModeToBinary();
@@ -114,15 +113,9 @@ std::int64_t write_piece(vtkDataObject* object, const fs::path& file) {
   writer->SetCompressorTypeToLZ4();
   const bool written = writer->Write() == 1 && writer->GetErrorCode() == 0;
   const std::string errors = take_errors();
-  std::error_code error;
-  const auto size = fs::file_size(temporary, error);
-  if (written && errors.empty() && !error) fs::rename(temporary, file, error);
-  if (!written || !errors.empty() || error) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw PipelineError(file.string() + ": cannot be written: " + (errors.empty() ? error.message() : errors));
-  }
-  return static_cast<std::int64_t>(size);
+  if (!written || !errors.empty())
+    throw PipelineError(file.string() + ": cannot be written: " + (errors.empty() ? "VTK refuses" : errors));
+  return replace_file(file, writer->GetOutputString(), Sync::no);
 }
 
 std::string summary_text(vtkDataObject* object, const std::string& channel, std::int64_t step, int ranks) {

@@ -66,7 +66,6 @@ PipelineChoice choose(const BrecciaPipeline& pipeline) {
       const auto scripts = ready_scripts();
       if (std::find(scripts.begin(), scripts.end(), choice.name) == scripts.end())
         throw PipelineError(unknown(choice.name));
-      choice.ready = true;
       choice.file = data_folder() / "pipelines" / (choice.name + ".py");
     }
     choice.folder = choice.file.stem();

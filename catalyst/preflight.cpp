@@ -2,11 +2,14 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <numeric>
+#include <utility>
 
 #include "catalyst/display.hpp"
 #include "catalyst/pipeline.hpp"
@@ -32,6 +35,28 @@ std::string folder_problem(const char* folder) {
   return {};
 }
 
+/// Letters to change, add or leave out between two words.
+std::size_t distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t corner = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t changed = corner + (a[i - 1] == b[j - 1] ? 0 : 1);
+      corner = row[j];
+      row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+std::vector<std::string> nearest_first(const std::string& word, const std::set<std::string>& known) {
+  std::vector<std::string> words(known.begin(), known.end());
+  std::stable_sort(words.begin(), words.end(),
+                   [&](const std::string& a, const std::string& b) { return distance(word, a) < distance(word, b); });
+  return words;
+}
+
 void check_parameters(const PipelineChoice& choice, const std::set<std::string>& known,
                       std::vector<std::string>& problems) {
   for (const auto& [name, value] : choice.parameters) {
@@ -39,7 +64,7 @@ void check_parameters(const PipelineChoice& choice, const std::set<std::string>&
     std::string text = choice.name + ": knows no parameter '" + name + "'";
     if (known.empty()) text += ", it has none";
     const char* separator = "; allowed: ";
-    for (const std::string& other : known) {
+    for (const std::string& other : nearest_first(name, known)) {
       text += separator + other;
       separator = ", ";
     }
@@ -55,6 +80,10 @@ bool check_pipeline(const PipelineChoice& choice, const BrecciaConfig& config, s
     ScriptNeeds needs = check_script(choice.file);
     draws = needs.draws;
     known = std::move(needs.parameters);
+    if (needs.any_parameter) {
+      for (const auto& [name, value] : choice.parameters) known.insert(name);
+    }
+    for (const std::string& problem : needs.problems) problems.push_back(choice.name + ": " + problem);
   }
   if (choice.kind == PipelineKind::live) {
     if (config.live_host == nullptr || *config.live_host == '\0')
@@ -62,8 +91,7 @@ bool check_pipeline(const PipelineChoice& choice, const BrecciaConfig& config, s
     if (config.live_port < 1 || config.live_port > kLastPort)
       problems.push_back("live: the port must be 1 to 65535, it is " + std::to_string(config.live_port));
   }
-  // A user's script may compute the names of its parameters.
-  if (choice.kind != PipelineKind::script || choice.ready) check_parameters(choice, known, problems);
+  check_parameters(choice, known, problems);
   return draws;
 }
 

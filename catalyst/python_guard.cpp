@@ -6,6 +6,7 @@
 #include <vtkPythonInterpreter.h>
 #include <vtkSmartPyObject.h>
 
+#include "catalyst/display.hpp"
 #include "catalyst/messages.hpp"
 #include "catalyst/pipeline_error.hpp"
 #include "catalyst/whole_file.hpp"
@@ -14,6 +15,17 @@ namespace breccia::insitu::python {
 namespace {
 
 constexpr const char* kGuard = "breccia_guard";
+
+/// Of the scripts' turns.
+ScriptWatch* script_watch = nullptr;
+
+/// Waiting for others is no work of the script's.
+struct Waiting {
+  Waiting() { script_watch->restart(); }
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+  ~Waiting() { script_watch->restart(); }
+};
 
 /// What the wait for other ranks ended with, once it has ended in vain.
 std::string abandoned;
@@ -27,6 +39,7 @@ PyObject* agree(PyObject* ranks, PyObject* text) {
   }
   try {
     if (!abandoned.empty()) throw Abandoned(abandoned);
+    const Waiting waiting;
     return PyBool_FromLong(static_cast<const Ranks*>(PyCapsule_GetPointer(ranks, nullptr))->agree(mine).empty() ? 0
                                                                                                                 : 1);
   } catch (const Abandoned& error) {
@@ -36,6 +49,14 @@ PyObject* agree(PyObject* ranks, PyObject* text) {
   }
 }
 PyMethodDef agree_method{"agree", agree, METH_O, nullptr};
+
+/// Python's spare(address of an X display).
+PyObject* spare(PyObject*, PyObject* address) {
+  spare_process(PyLong_AsVoidPtr(address));
+  PyErr_Clear();
+  Py_RETURN_NONE;
+}
+PyMethodDef spare_method{"spare", spare, METH_O, nullptr};
 
 /// Type and message of the exception that Python has raised to us; it is cleared.
 std::string raised() {
@@ -67,7 +88,9 @@ vtkSmartPyObject call(const char* function, PyObject* arguments) {
 
 }  // namespace
 
-void start(const std::filesystem::path& pipelines, const std::filesystem::path& guard, const Ranks& ranks) {
+void start(const std::filesystem::path& pipelines, const std::filesystem::path& guard, const Ranks& ranks,
+           ScriptWatch& watch) {
+  script_watch = &watch;
   vtkPythonInterpreter::Initialize();
   // ParaView's Python takes its level of logging from VTK's when it is imported; it does not understand "off" and would
   // log all.
@@ -76,7 +99,8 @@ void start(const std::filesystem::path& pipelines, const std::filesystem::path& 
   vtkPythonInterpreter::PrependPythonPath(pipelines.c_str());
   vtkPythonInterpreter::PrependPythonPath(guard.c_str());
   const vtkSmartPyObject capsule(PyCapsule_New(const_cast<Ranks*>(&ranks), nullptr, nullptr));
-  call("install", Py_BuildValue("(N)", PyCFunction_New(&agree_method, capsule)));
+  call("install",
+       Py_BuildValue("(NN)", PyCFunction_New(&agree_method, capsule), PyCFunction_New(&spare_method, nullptr)));
   capture_messages();
 }
 

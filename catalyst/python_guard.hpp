@@ -5,6 +5,7 @@
 #include <string>
 
 #include "catalyst/ranks.hpp"
+#include "catalyst/script_watch.hpp"
 
 namespace breccia::insitu::python {
 
@@ -17,9 +18,10 @@ struct About {
 
 /// Starts Python in this process and puts python/breccia_guard.py between ParaView and the scripts: what a script
 /// raises is kept as one line instead of being printed, on all ranks when on any; SystemExit does not end the process.
-/// `pipelines` and `guard` are put on the search path of modules. Idempotent. Throws PipelineError. @pre ranks outlives
-/// all use of Python
-void start(const std::filesystem::path& pipelines, const std::filesystem::path& guard, const Ranks& ranks);
+/// `pipelines` and `guard` are put on the search path of modules. Idempotent. Throws PipelineError. @pre ranks and
+/// watch outlive all use of Python
+void start(const std::filesystem::path& pipelines, const std::filesystem::path& guard, const Ranks& ranks,
+           ScriptWatch& watch);
 
 /// Tells breccia_insitu.py which pipeline runs from now on. Throws PipelineError.
 void enter(const std::string& name, const std::filesystem::path& script, const std::filesystem::path& folder,

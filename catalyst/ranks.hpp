@@ -20,6 +20,7 @@ class Ranks {
 
   [[nodiscard]] int rank() const { return rank_; }
   [[nodiscard]] int size() const { return size_; }
+  [[nodiscard]] double patience() const { return patience_; }
   [[nodiscard]] bool is_root() const { return rank_ == 0; }
   /// MPI_COMM_NULL: without MPI.
   [[nodiscard]] MPI_Comm communicator() const { return communicator_; }

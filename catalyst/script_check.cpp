@@ -31,6 +31,8 @@ ScriptNeeds check_script(const std::filesystem::path& script) {
                                                                                      : text);
     if (word == "draws") needs.draws = true;
     if (word == "channel") needs.channels |= bit(channel_of(text));
+    if (word == "problem") needs.problems.push_back(text);
+    if (word == "any_parameter") needs.any_parameter = true;
     if (word == "parameter") needs.parameters.insert(text);
   }
   if (needs.channels == 0) needs.channels = kAllChannels;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace breccia::insitu {
 
@@ -12,6 +13,8 @@ struct ScriptNeeds {
   bool draws = false;
   std::uint32_t channels = 0;  ///< mask of the channels that it names; all when it names none
   std::set<std::string> parameters;
+  bool any_parameter = false;         ///< it computes names of parameters
+  std::vector<std::string> problems;  ///< sources and arrays that no run has, a line each
 };
 
 /// Reads a script, in a Python interpreter of its own (some 50 ms); no Python starts in this process. Not collective.

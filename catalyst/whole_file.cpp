@@ -64,7 +64,13 @@ std::int64_t replace_file(const std::filesystem::path& path, std::string_view co
 
 std::int64_t append_to_file(const std::filesystem::path& path, std::string_view content) {
   const Descriptor file(path, O_WRONLY | O_CREAT | O_APPEND);
-  write_all(path, file.value(), content);
+  const off_t before = ::lseek(file.value(), 0, SEEK_END);
+  try {
+    write_all(path, file.value(), content);
+  } catch (const PipelineError&) {
+    static_cast<void>(!::ftruncate(file.value(), before));  // part of a line would spoil the next one
+    throw;
+  }
   return static_cast<std::int64_t>(content.size());
 }
 

@@ -13,7 +13,7 @@ enum class Sync { yes, no };  ///< whether content is on the disk, for a crash o
 /// new content. Returns the bytes written. Throws PipelineError "path: what: reason"; then the temporary is gone.
 std::int64_t replace_file(const std::filesystem::path& path, std::string_view content, Sync sync = Sync::yes);
 
-/// Appends at the end of a file, which is made when it is not there. Throws PipelineError.
+/// Appends at the end of a file, which is made when it is not there. Throws PipelineError; then nothing is appended.
 std::int64_t append_to_file(const std::filesystem::path& path, std::string_view content);
 
 /// Content of a file; empty when there is none. Throws PipelineError when it cannot be read.

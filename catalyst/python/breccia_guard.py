@@ -14,15 +14,17 @@ import breccia_insitu
 _error = ""
 _script = ""
 _agree = None
+_spare = None
 
 
-def install(agree):
+def install(agree, spare):
     """Wraps the functions through which ParaView calls scripts. Once is enough, twice does no harm. agree(text) tells whether any rank
-    brings a text; it raises when others do not come."""
-    global _agree
+    brings a text; it raises when others do not come. spare(display) lets the process go on when the server of an X display, an address, has
+    gone."""
+    global _agree, _spare
     from paraview.catalyst import detail, v2_internals
 
-    _agree = agree
+    _agree, _spare = agree, spare
     if getattr(v2_internals, "breccia_guarded", False):
         return
     v2_internals.breccia_guarded = True
@@ -78,12 +80,29 @@ def _guarded(function):
             result = function(*arguments)
         except BaseException as error:  # SystemExit and KeyboardInterrupt too: the solver decides when to end
             text = _described(error)
+        _spare_windows()
         if _agree(text):
             _error = _error or text  # nothing where only another rank has something to tell
             raise ScriptFailed(_error)
         return result
 
     return call
+
+
+def _spare_windows():
+    """Xlib ends a process whose server has gone, unless it is told of each link otherwise; views make theirs when they are first drawn."""
+    from paraview import servermanager
+    from paraview.modules.vtkRemotingViews import vtkPVProcessWindow
+
+    if servermanager.ActiveConnection is None:
+        return
+    views = servermanager.ProxyManager().GetProxiesInGroup("views").values()
+    windows = [view.GetRenderWindow() for view in views if hasattr(view, "GetRenderWindow")]
+    if any(windows):
+        windows.append(vtkPVProcessWindow.GetRenderWindow())  # shares what the others draw with
+    for display in (window.GetGenericDisplayId() for window in windows if window is not None):
+        if display:
+            _spare(int(display.split("_")[1], 16))
 
 
 def _keep_unseen(kind, error, trace):

@@ -3,12 +3,15 @@
 usage: check_script.py SCRIPT PIPELINES CHANNEL...
 PIPELINES is a folder of modules that scripts may import. Prints lines of a word and a text:
   error what (file:line)     the script does not compile
+  problem what (file:line)   a source or an array that no run has
   draws                      it makes pictures, so it needs a display
   channel name               a channel that it names as a source
   parameter name             a parameter that it asks breccia_insitu for
+  any_parameter              it computes the names of parameters
 """
 
 import ast
+import difflib
 import importlib.util
 import os
 import re
@@ -17,6 +20,14 @@ import sys
 DRAWING_CALLS = {"GetActiveViewOrCreate", "GetRenderView", "Render", "RenderAllViews", "SaveAnimation", "SaveScreenshot", "Show"}
 DRAWING_VIEW = re.compile(r"Create\w*View")
 DRAWING_EXTRACTORS = {"PNG", "JPG", "CinemaVolumetricPNG", "RecolorableImage"}
+# Arrays of the cells; those of the history depend on the case.
+ELEMENT_ARRAYS = ("id", "body", "material", "rank", "fragment", "stress", "von_mises", "principal", "velocity", "displacement", "cost", "mass",
+                  "neighbour")
+JOINT_ARRAYS = ("id", "damage", "opening", "slip", "time_of_failure", "mode", "state", "broken", "energy")
+ARRAYS = {"elements": ELEMENT_ARRAYS, "surface": (*ELEMENT_ARRAYS, "face", "crack"), "joints": JOINT_ARRAYS, "fractures": JOINT_ARRAYS,
+          "contacts": ("id", "normal_force", "tangential_force", "force", "slip_velocity", "body", "other_body", "other_element"),
+          "domains": ("rank", "elements", "joints", "couples", "load")}
+NEAR = 0.7  # of difflib: vonmises is near von_mises, Result is near nothing
 
 
 def called(node):
@@ -74,16 +85,61 @@ def named_channels(tree, channels):
     return {channel_of(literal(name), channels) for name in names} - {None}
 
 
+def listed(name, known):
+    """What is allowed, the nearest first."""
+    near = difflib.get_close_matches(name, known, 1, 0.0)
+    return ", ".join(near + [other for other in known if other not in near])
+
+
+def wrong_sources(tree, channels):
+    """Sources that ought to be channels: producers, and readers whose name is near one. Text and line."""
+    for call in (node for node in ast.walk(tree) if isinstance(node, ast.Call)):
+        kind, keywords = called(call), {keyword.arg: keyword.value for keyword in call.keywords}
+        name = literal(keywords.get("registrationName"))
+        if name is None or channel_of(name, channels) or not (kind == "TrivialProducer" or kind.endswith("Reader")):
+            continue
+        if kind == "TrivialProducer" or difflib.get_close_matches(name.split(".")[0], channels, 1, NEAR):
+            yield f"the source '{name}' is no channel; allowed: {listed(name, channels)}", call.lineno
+
+
+def wrong_arrays(tree, used):
+    """Arrays asked for as ("CELLS", name) that no channel in use has and that the script does not make, where it is known what is meant."""
+    pairs = [node for node in ast.walk(tree) if isinstance(node, (ast.List, ast.Tuple)) and len(node.elts) == 2
+             and literal(node.elts[0]) == "CELLS" and literal(node.elts[1])]
+    texts = [literal(node) for node in ast.walk(tree) if literal(node)]
+    asked = [literal(pair.elts[1]) for pair in pairs]
+    known = list(dict.fromkeys(name for channel in used for name in ARRAYS.get(channel, ())))
+    for pair, name in zip(pairs, asked):
+        if name in known or texts.count(name) > asked.count(name):
+            continue
+        owners = [channel for channel, arrays in ARRAYS.items() if name in arrays]
+        if owners:
+            yield f"the array '{name}' is one of {', '.join(owners)}; the script uses {', '.join(used)}", pair.lineno
+        elif difflib.get_close_matches(name, known, 1, NEAR):
+            yield f"'{name}' is no array of {', '.join(used)}; allowed: {listed(name, known)}", pair.lineno
+
+
+def problems(trees, channels):
+    """Lines about sources and arrays of the script, the first tree."""
+    named = set().union(*(named_channels(tree, channels) for tree in trees))
+    used = [channel for channel in channels if channel in named] or list(channels)
+    return [*wrong_sources(trees[0], channels), *([] if "history" in named else wrong_arrays(trees[0], used))]
+
+
 def needs(script, pipelines, channels):
     """Lines as above, without their order."""
     found = set()
-    for tree in sources(script, [os.path.dirname(script), pipelines]):
+    trees = list(sources(script, [os.path.dirname(script), pipelines]))
+    found |= {f"problem {text} ({os.path.basename(script)}:{line})" for text, line in problems(trees, channels)}
+    for tree in trees:
         calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
         if any(draws(call) for call in calls):
             found.add("draws")
         found |= {f"channel {name}" for name in named_channels(tree, channels)}
         found |= {f"parameter {literal(call.args[0])}" for call in calls
                   if called(call) == "parameter" and call.args and literal(call.args[0])}
+        if any(called(call) == "parameter" and not (call.args and literal(call.args[0])) for call in calls):
+            found.add("any_parameter")
     return found
 
 

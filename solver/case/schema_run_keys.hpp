@@ -50,7 +50,7 @@ inline constexpr auto run_keys = std::to_array<Key>({
      .example = "2"},
     {.path = "domains.patience", .type = number, .unit = "s", .fallback = "300", .range = positive,
      .help = "Wall time that a rank waits for others before it says for whom, and where; after twice as long the "
-             "run ends.",
+             "run ends. A script in situ that takes so long is interrupted and switched off.",
      .example = "\"20 min\""},
 
     {.path = "checkpoint", .type = section,

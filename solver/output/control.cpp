@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <functional>
@@ -179,6 +180,13 @@ std::vector<std::string> ControlFile::take() {
   fs::remove(taken, error);
   if (error) ++num_left_;  // a folder with something in it: nothing is renamed to that
   return lines_of(text);
+}
+
+bool stop_waits(const fs::path& control_file) {
+  std::istringstream text(content_of(control_file));
+  const std::vector<std::string> lines = lines_of(text);
+  return std::any_of(lines.begin(), lines.end(),
+                     [](const std::string& line) { return parse_command(line).kind == Command::Kind::stop; });
 }
 
 std::string ask_run(const fs::path& run_folder, const std::string& command, double patience) {

@@ -44,6 +44,10 @@ class ControlFile {
   Pace pace_{std::chrono::milliseconds(200)};
 };
 
+/// Whether a "stop" waits in the file, by which the run would end if it read it. Takes nothing, never throws;
+/// for any thread.
+[[nodiscard]] bool stop_waits(const std::filesystem::path& control_file);
+
 /// Writes a command for the run in a folder and waits for the answer in its status.jsonl.
 /// @param patience  s, wall
 /// Throws OutputError when there is no such run, it has ended, it does not answer, or it refuses.

@@ -6,10 +6,15 @@
 #include "base/interruption.hpp"
 #include "case/live_address.hpp"
 #include "output/channels.hpp"
+#include "output/control.hpp"
+#include "output/run_folder.hpp"
 
 namespace breccia {
 
 namespace {
+
+/// The run's file for commands, which nobody reads while a live view holds the run.
+std::filesystem::path control_file;
 
 /// Of the stress at which something breaks where nothing does: of Young's modulus.
 constexpr double kPartOfYoung = 1e-4;
@@ -39,13 +44,14 @@ InSituConfig::InSituConfig(const case_::Case& input, const std::filesystem::path
   config_.communicator = communicator.fortran_handle();
   config_.rank = communicator.rank();
   config_.size = communicator.size();
-  config_.patience = 2 * communicator.patience();
+  config_.patience = 2 * input.domains.patience;
   config_.title = title_.c_str();
   config_.end = input.stages.empty() ? 0 : input.stages.back().end;
   config_.strength = strength_of(input);
   config_.folder = folder_.c_str();
   config_.live_host = live_host_.c_str();
-  config_.run_ends = [] { return std::int32_t{interruption != 0}; };
+  control_file = RunFolder{folder.parent_path()}.control();
+  config_.run_ends = [] { return std::int32_t{interruption != 0 || stop_waits(control_file)}; };
   config_.num_pipelines = static_cast<std::int32_t>(pipelines_.size());
   config_.pipelines = pipelines_.data();
 }

@@ -3,9 +3,13 @@
 #include <dirent.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +17,7 @@
 
 #include "catalyst/plugin.hpp"
 #include "catalyst/synthetic.hpp"
+#include "unit/output/file_size_limit.hpp"
 
 namespace breccia::test {
 namespace {
@@ -65,6 +70,39 @@ int children_called(const std::string& name) {
   return count;
 }
 
+/// An X server without GLX, as long as it lives.
+class PoorServer {
+ public:
+  /// @param file  gets the number of its display
+  explicit PoorServer(const std::filesystem::path& file) {
+    child_ = ::fork();
+    if (child_ == 0) {
+      ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+      static_cast<void>(!std::freopen(file.c_str(), "w", stdout));
+      ::execlp("Xvfb", "Xvfb", "-displayfd", "1", "-nolisten", "tcp", "-extension", "GLX", nullptr);
+      ::_exit(127);
+    }
+    std::string number;
+    for (int tenths = 0; number.empty() && tenths < 600; ++tenths) {
+      ::usleep(100000);
+      std::ifstream(file) >> number;
+    }
+    EXPECT_NE(number, "");
+    name_ = ":" + number;
+  }
+  PoorServer(const PoorServer&) = delete;
+  PoorServer& operator=(const PoorServer&) = delete;
+  ~PoorServer() {
+    ::kill(child_, SIGTERM);
+    ::waitpid(child_, nullptr, 0);
+  }
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+ private:
+  pid_t child_;
+  std::string name_;
+};
+
 TEST(Preflight, AcceptsWhatCanRun) {
   Config config(folder_of("fine"), kWithoutMpi, 0, 1);
   config.add("volume").add("history").add("live", 1U << BRECCIA_SURFACE).live(22222).add(script("exported.py"));
@@ -97,12 +135,34 @@ TEST(Preflight, NamesEveryProblemOnALineOfItsOwn) {
           "volume: writes into the same folder as the pipeline volume"));
 }
 
-TEST(Preflight, KnowsTheParametersOfItsOwnScriptsButNotThoseOfAUsers) {
+TEST(Preflight, KnowsTheParametersOfItsOwnScriptsAndOfAUsersTheNearestFirst) {
   Config config(folder_of("parameters"), kWithoutMpi, 0, 1);
   config.add("stress", {"widht"}, {640.0}).add(script("exported.py"), {"anything"}, {1.0});
-  EXPECT_THAT(preflight(config),
-              testing::AllOf(testing::StartsWith("stress: knows no parameter 'widht'; allowed: "),
-                             testing::HasSubstr("width"), testing::Not(testing::HasSubstr("exported"))));
+  config.add(script("count_cells.py"), {"factr"}, {1.0});
+  std::istringstream lines(preflight(config));
+  std::string line;
+  ASSERT_TRUE(std::getline(lines, line));
+  EXPECT_THAT(line, testing::StartsWith("stress: knows no parameter 'widht'; allowed: width, "));
+  ASSERT_TRUE(std::getline(lines, line));
+  EXPECT_EQ(line, script("exported.py") + ": knows no parameter 'anything', it has none");
+  ASSERT_TRUE(std::getline(lines, line));
+  EXPECT_EQ(line, script("count_cells.py") + ": knows no parameter 'factr'; allowed: factor");
+}
+
+TEST(Preflight, RefusesAScriptWhoseSourcesOrArraysAreMisspeltOrOfAnotherChannel) {
+  Config config(folder_of("misspelt"), kWithoutMpi, 0, 1);
+  std::istringstream lines(preflight(config.add(script("misspelt.py"))));
+  std::vector<std::string> problems;
+  for (std::string line; std::getline(lines, line);) problems.push_back(line);
+  const std::string begin = script("misspelt.py") + ": ";
+  EXPECT_THAT(
+      problems,
+      testing::UnorderedElementsAre(
+          testing::AllOf(testing::StartsWith(begin + "the source 'fractrues' is no channel; allowed: fractures, "),
+                         testing::EndsWith("(misspelt.py:7)")),
+          testing::AllOf(testing::StartsWith(begin + "'von_misses' is no array of surface; allowed: von_mises, "),
+                         testing::EndsWith("(misspelt.py:8)")),
+          begin + "the array 'opening' is one of joints, fractures; the script uses surface (misspelt.py:9)"));
 }
 
 TEST(Preflight, RefusesPicturesWhereThereIsNeitherDisplayNorXvfb) {
@@ -115,6 +175,31 @@ TEST(Preflight, RefusesPicturesWhereThereIsNeitherDisplayNorXvfb) {
   EXPECT_THAT(preflight(config),
               testing::AllOf(testing::StartsWith(script("draws_surface.py") + ": pictures need an X display"),
                              testing::HasSubstr("xvfb"), testing::Not(testing::HasSubstr("exported"))));
+}
+
+TEST(Preflight, RefusesADisplayOnWhichNothingCanBeDrawn) {
+  const auto folder = folder_of("no_glx");
+  Config config(folder, kWithoutMpi, 0, 1);
+  config.add(script("draws_surface.py"));
+  const std::string begin = script("draws_surface.py") + ": pictures need an X display: ";
+  std::string name;
+  {
+    const PoorServer server(folder / "number");
+    name = server.name();
+    {
+      const Environment chosen("BRECCIA_DISPLAY", name.c_str());
+      EXPECT_EQ(preflight(config),
+                begin + name + ", of BRECCIA_DISPLAY, has no GLX, without which nothing can be drawn");
+    }
+    const Environment given("DISPLAY", name.c_str());
+    EXPECT_EQ(preflight(config), "") << "Xvfb is installed";
+    const Environment no_xvfb("PATH", folder.c_str());
+    EXPECT_THAT(preflight(config), testing::StartsWith(begin + name +
+                                                       " has no GLX, without which nothing can be drawn "
+                                                       "and Xvfb is not installed"));
+  }
+  const Environment gone("BRECCIA_DISPLAY", name.c_str());
+  EXPECT_EQ(preflight(config), begin + name + ", of BRECCIA_DISPLAY, does not open");
 }
 
 TEST(Preflight, RefusesAProgramOfAnotherInterface) {
@@ -153,6 +238,29 @@ TEST(Extracts, ReportAFolderThatHasGoneAndGoOnWhenItIsBack) {
   EXPECT_THAT(index.str(), testing::AllOf(testing::HasSubstr("surface_000000001.pvtp"),
                                           testing::Not(testing::HasSubstr("surface_000000002.pvtp")),
                                           testing::HasSubstr("surface_000000003.pvtp")));
+}
+
+TEST(Extracts, TellOfAFullDiskAndGoOnWhenThereIsSpaceAgain) {
+  constexpr rlim_t kNothingFits = 100;  // bytes
+  const auto folder = folder_of("full");
+  SyntheticRun run(4, 0, 1);
+  Config config(folder, kWithoutMpi, 0, 1);
+  Adaptor adaptor(config.add("volume").add("surface").add("history").get());
+  const auto all = (1U << BRECCIA_ELEMENTS) | (1U << BRECCIA_SURFACE) | (1U << BRECCIA_HISTORY);
+  EXPECT_EQ(adaptor.execute(7, run.at(1, all)), 0U) << adaptor.text;
+  {
+    const FileSizeLimit full(kNothingFits);
+    EXPECT_EQ(adaptor.execute(7, run.at(2, all)), 7U) << adaptor.text;
+  }
+  EXPECT_EQ(std::count(adaptor.text.begin(), adaptor.text.end(), '\n'), 2) << adaptor.text;
+  for (const std::string name : {"elements", "surface"})
+    EXPECT_THAT(adaptor.text,
+                testing::ContainsRegex(name + "_000000002/.0000.vt[pu].tmp: cannot be written: File too large"));
+  EXPECT_EQ(adaptor.execute(7, run.at(3, all)), 0U) << adaptor.text;
+  std::ifstream history(folder / "history/history.csv");
+  std::vector<std::string> steps;
+  for (std::string line; std::getline(history, line);) steps.push_back(line.substr(0, line.find(',')));
+  EXPECT_EQ(steps, (std::vector<std::string>{"step", "1", "3"}));
 }
 
 TEST(Extracts, ContinueARecordingThatIsThereUpToTheirFirstStep) {

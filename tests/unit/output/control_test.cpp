@@ -135,6 +135,18 @@ TEST(ControlFile, OfAKilledRunIsNotWaitedFor) {
   }
 }
 
+TEST(ControlFile, TellsThatAStopWaitsAndLeavesItThere) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "control";
+  EXPECT_FALSE(stop_waits(file));
+  write(file, "pause\nstops\n");
+  EXPECT_FALSE(stop_waits(file));
+  write(file, "stop id=7\n");
+  EXPECT_TRUE(stop_waits(file));
+  EXPECT_THAT(ControlFile(file).take(), ElementsAre("pause", "stops", "stop id=7"));
+  EXPECT_FALSE(stop_waits(file));
+}
+
 TEST(ControlFile, GivesEveryLineOnce) {
   const TemporaryFolder folder;
   ControlFile control(folder / "control");
