@@ -16,7 +16,7 @@ CaseQueries::CaseQueries(const Document& document, QString program, QObject* par
   const auto join = [this, ended](SolverQuery& query, const QString& what) {
     connect(&query, &SolverQuery::answered, this, ended);
     connect(&query, &SolverQuery::failed, this, [this, ended, what](QString text, std::vector<Problem> problems) {
-      if (!draft_.isEmpty()) {  // its name says nothing to anybody
+      if (!draft_.isEmpty()) {  // the user knows the case by its own name
         text.replace(draft_, document_.file());
         for (Problem& p : problems)
           if (p.file == draft_.toStdString()) p.file = document_.file().toStdString();

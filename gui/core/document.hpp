@@ -55,7 +55,7 @@ class Document final : public QObject {
   void remove(const QString& path);
   /// @param lines  "key = value\n..." of the new [[list]] entry
   void add_entry(const QString& list, const QString& lines);
-  /// The whole text at once; steps that follow each other at neighbouring places while somebody types are one.
+  /// The whole text at once; steps that follow each other at neighbouring places while the user types are one.
   void set_text(const QByteArray& text);
 
   /// What the solver's reader says of the present text, with its words.

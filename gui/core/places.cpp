@@ -89,7 +89,8 @@ QString copy_template(const Template& chosen, const Places& places, QString* err
     return QFile::setPermissions(target, QFile::permissions(target) | QFile::WriteOwner);
   };
   bool good = copy(from.fileName(), "case.toml");
-  for (const QString& file : from.dir().entryList({"*.geo", "*.msh"}, QDir::Files)) good = copy(file, file) && good;
+  for (const QString& file : from.dir().entryList({"*.geo", "*.msh", "*.step", "*.brep", "*.stl"}, QDir::Files))
+    good = copy(file, file) && good;
   if (good) return QDir(folder).filePath("case.toml");
   *error = QCoreApplication::translate("templates", "the case cannot be copied into %1").arg(folder);
   return {};

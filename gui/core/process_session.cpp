@@ -95,7 +95,7 @@ QList<pid_t> members_in(const QList<QPair<pid_t, Entry>>& table, const Session& 
   QList<pid_t> found;
   if (session.leader <= 0) return found;
   for (const auto& [process, entry] : table) {
-    // A leader of that number which started at another time is somebody else's, and so is its session.
+    // A leader of that number which started at another time is another process, and so is its session.
     if (process == session.leader && entry.started != session.started) return {};
     if (entry.session == session.leader && entry.started >= session.started && runs(entry)) found.append(process);
   }

@@ -9,7 +9,7 @@
 #include <vector>
 
 /// Processes that outlive their starter: each run is the leader of a session of its own, and so everything that it
-/// starts (mpiexec, its ranks) can be counted and ended, whoever asks.
+/// starts (mpiexec, its ranks) can be counted and ended, by any process.
 namespace breccia::gui {
 
 struct Session {

@@ -36,7 +36,7 @@ struct RunCheckpoint {
 };
 
 /// Whole lines of a growing file; a line that is half written waits for its end. A call reads a few hundred lines or
-/// thousands, never a whole long file, so that whoever watches is not held up.
+/// thousands, never a whole long file, so that the window is not held up.
 class GrowingFile {
  public:
   /// @param tail  bytes before the end at which the first call begins, with the next whole line; < 0: at the start
@@ -82,7 +82,7 @@ class History {
 [[nodiscard]] std::vector<RunFrame> read_series(const QString& run_folder, const QString& part);
 /// Checkpoints of a run, latest first.
 [[nodiscard]] std::vector<RunCheckpoint> read_checkpoints(const QString& run_folder);
-/// Whether a process of this machine holds the folder of a run, whoever started it.
+/// Whether a process of this machine holds the folder of a run, wherever it was started.
 [[nodiscard]] bool is_held(const QString& run_folder);
 /// True for a folder that a run has written into.
 [[nodiscard]] bool is_run_folder(const QString& folder);

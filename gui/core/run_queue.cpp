@@ -27,16 +27,17 @@ QJsonObject json_of(const QueuedRun& run) {
   json["snapshot"] = run.snapshot;
   json["state"] = run.state;
   json["message"] = run.message;
+  if (run.stop_asked) json["stop_asked"] = true;
   return json;
 }
 
 QueuedRun run_of(const QJsonObject& json) {
-  return {record_of(json), json["words"].toString(), json["snapshot"].toString(), json["state"].toString(),
-          json["message"].toString()};
+  return {record_of(json),          json["words"].toString(),   json["snapshot"].toString(),
+          json["state"].toString(), json["message"].toString(), json["stop_asked"].toBool()};
 }
 
-/// The case as it is now, beside it, so that relative names hold. A case that nobody can write stays as it is and needs
-/// no copy: the result is empty.
+/// The case as it is now, beside it, so that relative names hold. A case in a folder that cannot be written stays as it
+/// is and needs no copy: the result is empty.
 QString keep_text(const RunWish& wish, QString* error) {
   const QDir folder(QFileInfo(wish.case_file).absolutePath());
   if (!QFileInfo(folder.path()).isWritable()) return {};
@@ -61,7 +62,7 @@ QueuedRun queued(const Launch& launch, const RunWish& wish, QString* error) {
   return run;
 }
 
-/// Copies of cases that nobody needs any more.
+/// Copies of cases that are no longer needed.
 void remove_snapshots(const std::vector<QueuedRun>& before, const std::vector<QueuedRun>& now) {
   const auto needed = [](const std::vector<QueuedRun>& runs, const QString& file) {
     return std::any_of(runs.begin(), runs.end(),
@@ -78,8 +79,9 @@ bool goes_on(const RunRecord& record) {
 
 void note_end(QueuedRun& run) {
   const RunOutcome outcome = outcome_of(run.record.folder);
-  run.state = outcome.state;
-  run.message = outcome.message;
+  const bool stopped = run.stop_asked && outcome.told.state.isEmpty();
+  run.state = stopped ? "stopped" : outcome.state;
+  run.message = stopped ? QString() : outcome.message;
 }
 
 int cores_in_use(const RunRegistry& registry) {
@@ -161,6 +163,13 @@ void RunQueue::remove(const QString& folder) const {
 void RunQueue::remove_ended() const {
   change([](QueueContents& contents) {
     std::erase_if(contents.runs, [](const QueuedRun& r) { return !r.waits() && !r.runs(); });
+  });
+}
+
+void RunQueue::note_stop(const QString& folder) const {
+  change([&](QueueContents& contents) {
+    for (QueuedRun& run : contents.runs)
+      if (run.record.folder == folder && run.runs()) run.stop_asked = true;
   });
 }
 

@@ -5,10 +5,10 @@
 #include "core/solver_run.hpp"
 
 /// Runs that wait for their turn. The queue is a file of the state folder; a process of its own, the worker, starts the
-/// runs, so that the windows may be closed meanwhile. Whoever changes the file holds its lock for that moment.
+/// runs, so that the windows may be closed meanwhile. A process that changes the file holds its lock for that moment.
 namespace breccia::gui {
 
-/// A run that somebody wants.
+/// A run that is asked for.
 struct RunWish {
   QString case_file, folder;  ///< of the results
   QByteArray text;            ///< of the case; what is edited later is not its matter
@@ -23,6 +23,7 @@ struct QueuedRun {
   QString snapshot;           ///< file that the command reads, taken away in the end; empty: the case itself
   QString state = "waiting";  ///< waiting, running, then as it ended: complete, stopped, failed, interrupted
   QString message;            ///< why it failed
+  bool stop_asked = false;    ///< by the user: one that ends before it has said anything has not failed
   [[nodiscard]] bool waits() const { return state == "waiting"; }
   [[nodiscard]] bool runs() const { return state == "running"; }
 };
@@ -47,18 +48,20 @@ class RunQueue {
   /// Moves one that waits past others that wait. @param by  < 0: earlier
   void move(const QString& folder, int by) const;
   void remove_ended() const;
+  /// Notes that the user has asked a run to stop; the asking itself is SolverRun's.
+  void note_stop(const QString& folder) const;
   void set_cores(int cores) const;
   void hold(bool on) const;
 
   /// One look: notes what has ended and starts, in their order, the runs for which cores are free; the first one starts
-  /// alone where it wants more than all. A run that cannot be started or fails is in nobody's way.
+  /// alone where it wants more than all. A run that cannot be started or fails does not hold up the others.
   /// @param registry  gets those that were started
-  /// @return whether anything runs, or will without somebody's help
+  /// @return whether anything runs, or will without a change from outside
   bool advance(const RunRegistry& registry) const;
 
   /// A worker is at it.
   [[nodiscard]] bool is_worked() const;
-  /// Nobody is at it, and there is something to do.
+  /// No worker is at it, and there is something to do.
   [[nodiscard]] bool wants_worker() const;
   /// Changes whenever the file does.
   [[nodiscard]] QByteArray mark() const;

@@ -28,7 +28,7 @@ void SolverQuery::cancel() {
   QProcess* process = process_;
   process_ = nullptr;
   process->disconnect(this);
-  // It is deleted when it has ended; nobody waits here.
+  // It is deleted when it has ended; nothing waits here.
   process->setParent(nullptr);
   connect(process, qOverload<int, QProcess::ExitStatus>(&QProcess::finished), process, &QObject::deleteLater);
   process->kill();

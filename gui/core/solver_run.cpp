@@ -149,6 +149,8 @@ QString SolverRun::state() const {
     if (stopping_.isValid()) return "stopping";
     return status_.state.isEmpty() ? QString("starting") : status_.over() ? QString("finishing") : status_.state;
   }
+  // One that was stopped before it said anything has not failed.
+  if (stopping_.isValid() && status_.state.isEmpty()) return "stopped";
   return state_after(status_);
 }
 
@@ -158,6 +160,11 @@ void SolverRun::read_history() {
   wants_history_ = true;
   if (!timer_.isActive()) timer_.start(kInterval);
   if (look_at_history()) emit history_grew();
+}
+
+bool SolverRun::read_more_history() {
+  if (look_at_history()) emit history_grew();
+  return history_file_.has_more();
 }
 
 bool SolverRun::look_at_status() {
@@ -218,8 +225,8 @@ void SolverRun::ask(const QByteArray& command) {
   send_requests();
 }
 
-/// The run takes the file away when it has read it. What somebody else has asked meanwhile is not written over: a link
-/// never replaces a file.
+/// The run takes the file away when it has read it. What another program has asked meanwhile is not written over: a
+/// link never replaces a file.
 void SolverRun::send_requests() {
   if (requests_.isEmpty()) return;
   const QDir folder(record_.folder);
@@ -236,7 +243,7 @@ void SolverRun::send_requests() {
 void SolverRun::stop() {
   if (!alive_ || stopping_.isValid()) return;
   stopping_.start();
-  // Before it has said anything there is nobody to read the request.
+  // Before it has said anything it does not read requests yet.
   if (status_.state.isEmpty()) {
     signal_session(record_.session, SIGTERM);
     terminated_ = true;

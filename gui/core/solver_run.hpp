@@ -38,7 +38,7 @@ struct RunOutcome {
 [[nodiscard]] RunOutcome outcome_of(const QString& folder);
 
 /// One run: a process of its own that does not need us, watched through its folder. It is looked at every
-/// `kInterval` while somebody holds this object; the run goes on without.
+/// `kInterval` while this object exists; the run goes on without.
 class SolverRun final : public QObject {
   Q_OBJECT
  public:
@@ -69,9 +69,11 @@ class SolverRun final : public QObject {
 
   [[nodiscard]] const RunRecord& record() const { return record_; }
   [[nodiscard]] const RunStatus& status() const { return status_; }
-  /// Empty until somebody has called read_history, since it may be long.
+  /// Empty until read_history is called, since it may be long.
   [[nodiscard]] const History& history() const { return history_; }
   void read_history();
+  /// Reads the next piece of it. Returns whether more is there.
+  bool read_more_history();
   [[nodiscard]] const std::vector<RunFrame>& frames() const { return frames_; }
   [[nodiscard]] const std::vector<RunCheckpoint>& checkpoints() const { return checkpoints_; }
   [[nodiscard]] bool alive() const { return alive_; }

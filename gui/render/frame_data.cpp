@@ -7,6 +7,7 @@
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
+#include <vtkSignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
@@ -137,11 +138,14 @@ class FaceWriter {
           points_->InsertNextPoint(at(elements_, 4 * c + kTetraFaces[static_cast<std::size_t>(side)][i]).data());
     const vtkIdType cell = triangles_->InsertNextCell(3, corners.data());
     skin_->GetCellData()->CopyData(elements_.GetCellData(), c, cell);
+    sides_->InsertNextValue(static_cast<signed char>(side));
   }
 
   [[nodiscard]] vtkSmartPointer<vtkPolyData> take() {
     skin_->SetPoints(points_);
     skin_->SetPolys(triangles_);
+    sides_->SetName("side");
+    skin_->GetCellData()->AddArray(sides_);
     return skin_;
   }
 
@@ -151,6 +155,7 @@ class FaceWriter {
   vtkSmartPointer<vtkPolyData> skin_ = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> points_;
   vtkNew<vtkCellArray> triangles_;
+  vtkNew<vtkSignedCharArray> sides_;
 };
 
 double squared_distance(const Point& a, const Point& b) {

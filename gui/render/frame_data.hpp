@@ -28,7 +28,8 @@ class Skin {
   /// @param rest  elements of any frame: it is moved back by the displacement. O(elements log elements)
   explicit Skin(vtkUnstructuredGrid& rest);
 
-  /// The faces as triangles with the arrays of their elements. @param elements  any frame of the same model
+  /// The faces as triangles with the arrays of their elements and, as "side", the face of the element.
+  /// @param elements  any frame of the same model
   [[nodiscard]] vtkSmartPointer<vtkPolyData> draw(vtkUnstructuredGrid& elements) const;
   [[nodiscard]] std::size_t num_outer() const { return outer_.size(); }
   [[nodiscard]] std::size_t num_inner() const { return inner_.size(); }

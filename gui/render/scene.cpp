@@ -91,6 +91,14 @@ Scene::Scene() {
   marked_->GetProperty()->SetAmbient(0.35);
   marked_->GetProperty()->EdgeVisibilityOn();
   marked_->VisibilityOff();
+  chosen_->SetMapper(chosen_mapper_);
+  chosen_->GetProperty()->SetColor(0.84, 0.37, 0);
+  chosen_->GetProperty()->SetAmbient(0.5);
+  chosen_->GetProperty()->EdgeVisibilityOn();
+  chosen_->VisibilityOff();
+  // They lie in the skin, and are drawn in front of it.
+  chosen_mapper_->SetResolveCoincidentTopologyToPolygonOffset();
+  chosen_mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(-1, -1);
   skin_->GetProperty()->SetInterpolationToFlat();
   skin_->GetProperty()->SetAmbient(0.25);
   skin_->GetProperty()->SetDiffuse(0.75);
@@ -122,9 +130,9 @@ Scene::Scene() {
   place_legend(*mode_legend_, 0.82, 0.05, 0.17, 0.35);
   caption_->SetPosition(10, 10);
   caption_->GetTextProperty()->SetFontSize(14);
-  for (vtkProp* prop :
-       {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(marked_),
-        static_cast<vtkProp*>(legend_), static_cast<vtkProp*>(mode_legend_), static_cast<vtkProp*>(caption_)})
+  for (vtkProp* prop : {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(marked_),
+                        static_cast<vtkProp*>(chosen_), static_cast<vtkProp*>(legend_),
+                        static_cast<vtkProp*>(mode_legend_), static_cast<vtkProp*>(caption_)})
     renderer_->AddViewProp(prop);
   clear();
   set_dark(false);
@@ -133,8 +141,8 @@ Scene::Scene() {
 void Scene::clear() {
   frame_ = {};
   mark(nullptr);
-  for (vtkProp* prop : {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(legend_),
-                        static_cast<vtkProp*>(mode_legend_)})
+  for (vtkProp* prop : {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(chosen_),
+                        static_cast<vtkProp*>(legend_), static_cast<vtkProp*>(mode_legend_)})
     prop->VisibilityOff();
 }
 
@@ -168,9 +176,51 @@ void Scene::set_colouring(Colouring colouring) {
   if (has_data()) colour();
 }
 
-void Scene::highlight(const std::string& group) {
-  highlighted_ = group;
+void Scene::set_surfaces(SurfaceGroups surfaces) {
+  surfaces_ = std::move(surfaces);
+  groups_of_face_.clear();
+  for (std::size_t g = 0; g < surfaces_.faces.size(); ++g)
+    for (const std::int64_t face : surfaces_.faces[g]) groups_of_face_[face].push_back(g);
+}
+
+void Scene::highlight(const std::vector<std::string>& groups) {
+  highlighted_ = {groups.begin(), groups.end()};
+  highlighted_.erase("");
   if (has_data()) colour();
+}
+
+/// Number of a face as in SurfaceGroups; -1: the frame does not tell.
+std::int64_t Scene::face_of(vtkIdType cell) const {
+  vtkDataArray* id = frame_.skin->GetCellData()->GetArray("id");
+  vtkDataArray* side = frame_.skin->GetCellData()->GetArray("side");
+  if (id == nullptr || side == nullptr || cell < 0 || cell >= id->GetNumberOfTuples()) return -1;
+  return 4 * static_cast<std::int64_t>(id->GetTuple1(cell)) + static_cast<std::int64_t>(side->GetTuple1(cell));
+}
+
+/// The faces of the surface groups that are highlighted, where the skin is drawn.
+void Scene::draw_chosen() {
+  std::set<std::int64_t> wanted;
+  for (std::size_t g = 0; g < surfaces_.names.size() && g < surfaces_.faces.size(); ++g)
+    if (highlighted_.count(surfaces_.names[g]) != 0)
+      wanted.insert(surfaces_.faces[g].begin(), surfaces_.faces[g].end());
+  chosen_->SetVisibility(!wanted.empty());
+  chosen_mapper_->SetInputData(nullptr);
+  if (wanted.empty()) return;
+  vtkPolyData* skin = skin_mapper_->GetInput();
+  vtkNew<vtkCellArray> triangles;
+  for (vtkIdType c = 0; c < skin->GetNumberOfCells(); ++c) {
+    if (wanted.count(face_of(c)) == 0) continue;
+    const std::array<vtkIdType, 3> corners{3 * c, 3 * c + 1, 3 * c + 2};  // each triangle has its own three points
+    triangles->InsertNextCell(3, corners.data());
+  }
+  vtkNew<vtkPolyData> faces;
+  faces->SetPoints(skin->GetPoints());
+  faces->SetPolys(triangles);
+  chosen_mapper_->SetInputData(faces);
+}
+
+vtkIdType Scene::num_chosen() const {
+  return chosen_->GetVisibility() != 0 ? chosen_mapper_->GetInput()->GetNumberOfPolys() : 0;
 }
 
 void Scene::set_explode(double share) {
@@ -197,7 +247,7 @@ vtkIdType Scene::num_marked() const {
 
 void Scene::set_opacity() { skin_->GetProperty()->SetOpacity(solid_ && marked_->GetVisibility() == 0 ? 1.0 : 0.15); }
 
-std::string Scene::group_at(double x, double y) const {
+Scene::Picked Scene::picked_at(double x, double y) const {
   vtkNew<vtkCellPicker> picker;
   picker->PickFromListOn();
   picker->AddPickList(skin_);
@@ -206,7 +256,12 @@ std::string Scene::group_at(double x, double y) const {
   vtkDataArray* groups = frame_.skin->GetCellData()->GetArray("material");
   if (groups == nullptr || picker->GetCellId() >= groups->GetNumberOfTuples()) return {};
   const auto group = static_cast<std::size_t>(groups->GetTuple1(picker->GetCellId()));
-  return group < groups_.size() ? groups_[group] : std::string();
+  Picked picked;
+  if (group < groups_.size()) picked.volume = groups_[group];
+  const auto face = groups_of_face_.find(face_of(picker->GetCellId()));
+  if (face == groups_of_face_.end()) return picked;
+  for (const std::size_t surface : face->second) picked.surfaces.push_back(surfaces_.names[surface]);
+  return picked;
 }
 
 void Scene::set_caption(const std::string& text) { caption_->SetInput(text.c_str()); }
@@ -295,6 +350,7 @@ void Scene::colour() {
       colour_by_value("principal", 0, 1e-6, "largest principal\nstress [MPa]");
       break;
   }
+  draw_chosen();
 }
 
 void Scene::colour_by_class(const char* array, const std::vector<std::string>& names, const char* title) {
@@ -310,13 +366,15 @@ void Scene::colour_by_class(const char* array, const std::vector<std::string>& n
   for (auto& [value, place] : seen) place = next++;
   for (vtkIdType c = 0; values != nullptr && c < values->GetNumberOfTuples(); ++c)
     shown->InsertNextValue(seen[static_cast<std::int64_t>(values->GetTuple1(c))]);
+  const bool dims = colouring_ == Colouring::group &&
+                    std::any_of(names.begin(), names.end(), [&](const auto& n) { return highlighted_.count(n) != 0; });
   colours_->ResetAnnotations();
   colours_->SetNumberOfTableValues(std::max<vtkIdType>(1, static_cast<vtkIdType>(seen.size())));
   for (const auto& [value, place] : seen) {
     Colour c = kClasses[static_cast<std::size_t>(place) % kClasses.size()];
     const auto index = static_cast<std::size_t>(value);
     const std::string name = index < names.size() ? names[index] : std::to_string(value);
-    if (!highlighted_.empty() && colouring_ == Colouring::group && name != highlighted_)
+    if (dims && highlighted_.count(name) == 0)
       for (double& part : c) part = 0.75 + 0.1 * part;
     colours_->SetTableValue(place, c[0], c[1], c[2]);
     if (seen.size() <= kMostNamed) colours_->SetAnnotation(vtkVariant(place), name);

@@ -10,7 +10,10 @@
 #include <vtkTextActor.h>
 
 #include <array>
+#include <cstdint>
+#include <set>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "render/frame_data.hpp"
@@ -22,6 +25,12 @@ enum class Colouring { group, body, fragment, rank, speed, von_mises, tension };
 
 /// The colourings with their names for people, units among them.
 [[nodiscard]] const std::vector<std::pair<Colouring, std::string>>& colourings();
+
+/// The surface groups of a mesh: what a pick finds and a row shows.
+struct SurfaceGroups {
+  std::vector<std::string> names;
+  std::vector<std::vector<std::int64_t>> faces;  ///< of each: 4 * id of the element + side
+};
 
 /// The 3D picture: skin of the bodies, damaged joints by mode, legend, title. Colours are told apart by a legend in
 /// words as well.
@@ -37,10 +46,19 @@ class Scene {
   [[nodiscard]] Colouring colouring() const { return colouring_; }
   /// Names of the volume groups in the order of the array "material".
   void set_groups(const std::vector<std::string>& names) { groups_ = names; }
-  /// The group that is shown bright while others are dim; empty: all alike.
-  void highlight(const std::string& group);
-  /// The group of what is seen at a pixel, from the lower left corner; empty: nothing is there.
-  [[nodiscard]] std::string group_at(double x, double y) const;
+  [[nodiscard]] const std::vector<std::string>& groups() const { return groups_; }
+  void set_surfaces(SurfaceGroups surfaces);
+  /// Volume groups that are shown bright while others are dim, and surface groups whose faces are marked; none: all
+  /// alike.
+  void highlight(const std::vector<std::string>& groups);
+  /// Faces that are marked as those of surface groups.
+  [[nodiscard]] vtkIdType num_chosen() const;
+  /// What is seen at a pixel, from the lower left corner.
+  struct Picked {
+    std::string volume;                 ///< its group; empty: nothing is there
+    std::vector<std::string> surfaces;  ///< groups that the face belongs to
+  };
+  [[nodiscard]] Picked picked_at(double x, double y) const;
   /// Keeps the range of colours of the present picture for those that follow, so that they can be compared.
   void hold_range(bool on) { hold_ = on; }
   /// How far parts of different ranks are moved apart: 0 not at all.
@@ -62,20 +80,24 @@ class Scene {
 
  private:
   void colour();
+  void draw_chosen();
+  [[nodiscard]] std::int64_t face_of(vtkIdType cell) const;
   void set_opacity();
   void colour_by_class(const char* array, const std::vector<std::string>& names, const char* title);
   void colour_by_value(const char* array, int component, double scale, const char* title);
   [[nodiscard]] vtkSmartPointer<vtkPolyData> exploded() const;
 
   vtkNew<vtkRenderer> renderer_;
-  vtkNew<vtkPolyDataMapper> skin_mapper_, broken_mapper_, marked_mapper_;
-  vtkNew<vtkActor> skin_, broken_, marked_;
+  vtkNew<vtkPolyDataMapper> skin_mapper_, broken_mapper_, marked_mapper_, chosen_mapper_;
+  vtkNew<vtkActor> skin_, broken_, marked_, chosen_;
   vtkNew<vtkLookupTable> colours_, mode_colours_;
   vtkNew<vtkScalarBarActor> legend_, mode_legend_;
   vtkNew<vtkTextActor> caption_;
   FrameData frame_;
   std::vector<std::string> groups_;
-  std::string highlighted_;
+  std::set<std::string> highlighted_;
+  SurfaceGroups surfaces_;
+  std::unordered_map<std::int64_t, std::vector<std::size_t>> groups_of_face_;
   Colouring colouring_ = Colouring::group;
   double explode_ = 0;
   std::array<double, 2> range_{0, 1};

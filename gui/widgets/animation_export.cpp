@@ -21,7 +21,7 @@ AnimationExport::AnimationExport(std::vector<RunFrame> frames, QString file, QOb
 }
 
 AnimationExport::~AnimationExport() {
-  process_.disconnect(this);  // a film that nobody waits for any more
+  process_.disconnect(this);  // a film that is no longer waited for
   process_.kill();
   process_.waitForFinished(1000);
 }

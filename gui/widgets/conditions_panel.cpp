@@ -20,12 +20,14 @@ ConditionsPanel::ConditionsPanel(QWidget* parent) : QWidget(parent), table_(new 
   setObjectName("conditions");
   table_->setObjectName("conditions_table");
   table_->setAccessibleName(tr("Loads and constraints"));
-  table_->setToolTip(tr("Loads and constraints by stage; Enter or a double click leads to the entry"));
+  table_->setToolTip(
+      tr("Loads and constraints by stage; those chosen (several with Ctrl or Shift) are shown in the view; Enter or a "
+         "double click leads to the entry"));
   table_->setColumnCount(5);
   table_->setHorizontalHeaderLabels({tr("stage"), tr("type"), tr("target"), tr("value"), tr("entry")});
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  table_->setSelectionMode(QAbstractItemView::SingleSelection);
+  table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   table_->setTabKeyNavigation(false);
   table_->verticalHeader()->hide();
   table_->horizontalHeader()->setStretchLastSection(true);
@@ -36,9 +38,13 @@ ConditionsPanel::ConditionsPanel(QWidget* parent) : QWidget(parent), table_(new 
   row->setContentsMargins(2, 2, 2, 2);
   row->addWidget(table_, 1);
   row->addWidget(chart_, 1);
-  connect(table_, &QTableWidget::currentCellChanged, this, [this](int now, int, int, int) {
-    show_curves();
-    if (now >= 0 && table_->hasFocus()) emit group_entered(conditions_[static_cast<std::size_t>(now)].target);
+  connect(table_, &QTableWidget::currentCellChanged, this, [this] { show_curves(); });
+  connect(table_, &QTableWidget::itemSelectionChanged, this, [this] {
+    if (!table_->hasFocus()) return;
+    QStringList groups;
+    for (const QModelIndex& chosen : table_->selectionModel()->selectedRows())
+      groups << conditions_[static_cast<std::size_t>(chosen.row())].target;
+    emit groups_chosen(groups);
   });
   connect(table_, &QTableWidget::cellActivated, this, [this](int now, int) {
     emit entry_wanted(QString(conditions_[static_cast<std::size_t>(now)].path));  // the list may change meanwhile
@@ -68,6 +74,18 @@ void ConditionsPanel::show_conditions(std::vector<Condition> conditions) {
 void ConditionsPanel::choose(const QString& path) {
   for (int row = 0; row < table_->rowCount(); ++row)
     if (conditions_[static_cast<std::size_t>(row)].path == path) table_->setCurrentCell(row, 0);
+}
+
+bool ConditionsPanel::choose_targets(const QStringList& groups) {
+  bool first = true;
+  for (int row = 0; row < table_->rowCount(); ++row) {
+    if (!groups.contains(conditions_[static_cast<std::size_t>(row)].target)) continue;
+    if (first) table_->setCurrentCell(row, 0, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+    table_->selectionModel()->select(table_->model()->index(row, 0),
+                                     QItemSelectionModel::Select | QItemSelectionModel::Rows);
+    first = false;
+  }
+  return !first;
 }
 
 void ConditionsPanel::show_curves() {

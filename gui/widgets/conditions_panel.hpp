@@ -15,11 +15,13 @@ class ConditionsPanel final : public QWidget {
   void show_conditions(std::vector<Condition> conditions);
   /// Takes the row of a path in hand, if there is one.
   void choose(const QString& path);
+  /// Chooses all conditions on one of these groups. False: there is none.
+  bool choose_targets(const QStringList& groups);
 
  signals:
   void entry_wanted(const QString& path);
-  /// The view shows what the condition in hand is about.
-  void group_entered(const QString& group);
+  /// The view shows what the chosen conditions are about.
+  void groups_chosen(const QStringList& groups);
 
  private:
   void show_curves();

@@ -67,7 +67,7 @@ MainWindow::MainWindow(Places places, QWidget* parent)
 
 MainWindow::~MainWindow() = default;
 
-bool MainWindow::busy() const { return queries_.busy() || loader_->busy(); }
+bool MainWindow::busy() const { return queries_.busy() || import_.busy() || loader_->busy(); }
 
 void MainWindow::make_panels() {
   start_ = new StartPage(places_);
@@ -223,6 +223,8 @@ void MainWindow::join_panels() {
     const QString name = QFileDialog::getOpenFileName(this, tr("Open a case"), places_.projects, tr("Cases (*.toml)"));
     if (!name.isEmpty()) open_path(name);
   });
+  join_import();
+  connect(start_, &StartPage::import_wanted, this, &MainWindow::import_geometry);
   connect(tree_, &CaseTree::selected, this, &MainWindow::stage_selected);
   connect(text_, &CaseText::line_entered, this, [this](int line) {
     const std::string path = document_.places().path_at_line(line);
@@ -232,7 +234,7 @@ void MainWindow::join_panels() {
   });
   connect(messages_, &ProblemsPanel::place_wanted, this, &MainWindow::go_to);
   const auto show_group = [this](const QString& group) {
-    view_->scene().highlight(group.toStdString());
+    view_->scene().highlight({group.toStdString()});
     view_->render();
   };
   connect(form_, &PropertyForm::group_entered, this, show_group);
@@ -241,9 +243,9 @@ void MainWindow::join_panels() {
   connect(contacts_, &ContactMatrix::group_entered, this, show_group);
   connect(quality_, &QualityPanel::elements_chosen, this, &MainWindow::show_elements);
   connect(conditions_, &ConditionsPanel::entry_wanted, this, show_entry);
-  connect(conditions_, &ConditionsPanel::group_entered, this, show_group);
+  connect(conditions_, &ConditionsPanel::groups_chosen, this, &MainWindow::show_groups);
   connect(form_, &PropertyForm::pick_wanted, view_, &View3D::set_picking);
-  connect(view_, &View3D::group_picked, this, &MainWindow::group_picked);
+  connect(view_, &View3D::picked, this, &MainWindow::picked);
   connect(run_panel_, &RunPanel::run_wanted, this, &MainWindow::start_run);
   connect(run_panel_, &RunPanel::queue_wanted, this, &MainWindow::queue_run);
   connect(run_panel_, &RunPanel::check_wanted, this, [this] { queries_.check(); });
@@ -273,6 +275,7 @@ void MainWindow::join_panels() {
   connect(queue_panel_, &QueuePanel::worker_wanted, this, &MainWindow::start_worker);
   connect(queue_panel_, &QueuePanel::run_chosen, this, &MainWindow::open_run);
   connect(queue_panel_, &QueuePanel::stop_wanted, this, [this](const QString& folder) {
+    queue_.note_stop(folder);  // whatever the run leaves behind, the list says how it ended
     for (SolverRun* run : runs_)
       if (run->record().folder == folder) run->stop();
   });

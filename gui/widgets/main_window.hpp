@@ -12,6 +12,7 @@
 #include "core/places.hpp"
 #include "core/study.hpp"
 #include "render/frame_data.hpp"
+#include "render/scene.hpp"
 
 class QAction;
 class QLabel;
@@ -86,9 +87,15 @@ class MainWindow final : public QMainWindow {
   void show_title();
   void show_extras(const QString& path);
   void show_joint_law();
-  void group_picked(const QString& group);
+  void picked(const Scene::Picked& what);
+  void show_groups(const QStringList& groups);
   void take_from_library();
   void add_to_library();
+
+  // main_window_import.cpp: a solid becomes a case
+  void import_geometry();
+  void join_import();
+  void take_geometry(const QJsonObject& mesh);
 
   // main_window_answers.cpp: what the solver says of the case
   void show_check(const QJsonObject& json);
@@ -124,7 +131,9 @@ class MainWindow final : public QMainWindow {
   void show_curves();
   void export_curves();
   void export_study();
-  void save_table(const QString& title, const QString& suggested, const QByteArray& text);
+  void write_curves();
+  [[nodiscard]] QString table_name(const QString& title, const QString& suggested);
+  void write_table(const QString& name, const QByteArray& text);
   void save_animation();
   void end_animation();
   void save_picture();
@@ -134,6 +143,8 @@ class MainWindow final : public QMainWindow {
   Places places_;
   Document document_;
   CaseQueries queries_;
+  SolverQuery import_;
+  QString imported_;  ///< file that import_ asks about
   RunRegistry registry_;
   RunQueue queue_;
   QStringList waiting_;  ///< folders of the runs that waited when the queue was last looked at
@@ -142,6 +153,7 @@ class MainWindow final : public QMainWindow {
   SolverRun* run_ = nullptr;  ///< the one that is shown
   FrameLoader* loader_;
   AnimationExport* animation_ = nullptr;
+  QString curves_file_;  ///< of the table that waits for the histories; empty: none
   QTimer validation_, preview_, law_;
   std::vector<Problem> problems_;
   std::vector<int> owner_;  ///< rank of each element of the preview

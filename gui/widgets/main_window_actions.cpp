@@ -40,6 +40,8 @@ void MainWindow::make_actions() {
       },
       true);
   add(
+      file, tr("&Import a geometry..."), QKeySequence("Ctrl+I"), [this] { import_geometry(); }, false);
+  add(
       file, tr("Open &results..."), {},
       [this] {
         const QString name = QFileDialog::getExistingDirectory(this, tr("Open the folder of a run"), places_.projects);

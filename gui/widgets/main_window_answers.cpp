@@ -23,6 +23,16 @@ std::vector<std::string> names_of(const QJsonArray& groups) {
   return names;
 }
 
+/// The surface groups of the answer of `mesh --json` with their faces.
+SurfaceGroups surfaces_of(const QJsonObject& json) {
+  SurfaceGroups surfaces{names_of(json["groups"].toObject()["surfaces"].toArray()), {}};
+  for (const QJsonValue& group : json["faces"].toArray()) {
+    std::vector<std::int64_t>& faces = surfaces.faces.emplace_back();
+    for (const QJsonValue& face : group.toArray()) faces.push_back(static_cast<std::int64_t>(face.toDouble()));
+  }
+  return surfaces;
+}
+
 }  // namespace
 
 void MainWindow::show_check(const QJsonObject& json) {
@@ -54,6 +64,7 @@ void MainWindow::show_mesh(const QJsonObject& json, const QString& elements_file
     for (const std::string& name : names_of(groups[kind].toArray())) words << QString::fromStdString(name);
   form_->set_groups(words);
   view_->scene().set_groups(names_of(groups["volumes"].toArray()));
+  view_->scene().set_surfaces(surfaces_of(json));
   mesh_words_->setText(tr("%1 elements, %2 nodes, %3 bodies")
                            .arg(json["elements"].toInt())
                            .arg(json["nodes"].toInt())

@@ -5,6 +5,7 @@
 #include <QInputDialog>
 #include <QJsonArray>
 #include <QMessageBox>
+#include <QStatusBar>
 #include <array>
 
 #include "core/value_text.hpp"
@@ -179,8 +180,9 @@ void MainWindow::stage_selected(int stage, const QString& path) {
     form_->show_section(path);
     form_->set_problems(problems_);
     // The group that the section is about lights up.
-    const QString name = shown_value(case_::key_of("material[].group"), document_.value(path + ".group"));
-    view_->scene().highlight(name.toStdString());
+    const QString key = document_.value(path + ".group").isEmpty() ? ".surface" : ".group";
+    const QString name = shown_value(case_::key_of("material[].group"), document_.value(path + key));
+    view_->scene().highlight({name.toStdString()});
     if (!name.isEmpty() && !showing_results_) view_->set_colouring(Colouring::group);
     view_->render();
     const bool domains = path == "domains";
@@ -238,8 +240,29 @@ void MainWindow::show_joint_law() {
                                                                : tr("This law has no curve: its joints cannot break."));
 }
 
-void MainWindow::group_picked(const QString& group) {
-  if (form_->take_pick(group) || showing_results_) return;
+void MainWindow::show_groups(const QStringList& groups) {
+  std::vector<std::string> names;
+  for (const QString& group : groups) names.push_back(group.toStdString());
+  view_->scene().highlight(names);
+  view_->render();
+}
+
+/// A click takes a group into the field that waits for one; else it leads to the conditions on the face where those are
+/// worked at, and to the material anywhere else.
+void MainWindow::picked(const Scene::Picked& what) {
+  const QString group = QString::fromStdString(what.volume);
+  QStringList surfaces;
+  for (const std::string& name : what.surfaces) surfaces << QString::fromStdString(name);
+  if (form_->take_pick(group, surfaces) || showing_results_) return;
+  const QString section = form_->section();
+  if (section.startsWith("stage[") || section.startsWith("initial_velocity[")) {
+    if (!conditions_->choose_targets(surfaces) && !conditions_->choose_targets({group})) {
+      statusBar()->showMessage(
+          tr("No load or constraint acts on %1").arg((surfaces + QStringList{group}).join(tr(" or "))), 5000);
+    }
+    show_groups(surfaces.isEmpty() ? QStringList{group} : surfaces);
+    return;
+  }
   const int count = document_.places().count("material");
   for (int i = 0; i < count; ++i) {
     const QString path = QString("material[%1]").arg(i);

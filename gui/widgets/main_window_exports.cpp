@@ -6,6 +6,8 @@
 #include <QSaveFile>
 #include <QStandardPaths>
 #include <QStatusBar>
+#include <algorithm>
+#include <utility>
 
 #include "widgets/animation_export.hpp"
 #include "widgets/frame_loader.hpp"
@@ -36,22 +38,41 @@ void MainWindow::show_curves() {
 }
 
 void MainWindow::export_curves() {
+  if (run_ == nullptr && compared_.empty()) return;
+  curves_file_ = table_name(tr("Export the curves as"), "curves.csv");
+  write_curves();
+}
+
+/// A long history is read in pieces: the table is written once all are whole, and the window lives meanwhile.
+void MainWindow::write_curves() {
+  if (curves_file_.isEmpty()) return;
+  std::vector<SolverRun*> all = compared_;
+  if (run_ != nullptr) {
+    all.erase(std::remove(all.begin(), all.end(), run_), all.end());
+    all.insert(all.begin(), run_);
+  }
+  bool more = false;
+  for (SolverRun* run : all) more = run->read_more_history() || more;
+  if (more) {
+    statusBar()->showMessage(tr("the histories are read..."), 2000);
+    QTimer::singleShot(0, this, &MainWindow::write_curves);
+    return;
+  }
   std::vector<std::pair<QString, const History*>> runs;
-  if (run_ != nullptr) runs.emplace_back(name_of(*run_), &run_->history());
-  for (const SolverRun* run : compared_)
-    if (run != run_) runs.emplace_back(name_of(*run), &run->history());
-  if (runs.empty()) return;
-  save_table(tr("Export the curves as"), "curves.csv", histories_csv(runs));
+  for (const SolverRun* run : all) runs.emplace_back(name_of(*run), &run->history());
+  write_table(std::exchange(curves_file_, {}), histories_csv(runs));
 }
 
 void MainWindow::export_study() {
   if (const std::optional<Study>& study = study_panel_->study(); study)
-    save_table(tr("Export the study as"), "study.csv", study_csv(*study, study_panel_->results()));
+    write_table(table_name(tr("Export the study as"), "study.csv"), study_csv(*study, study_panel_->results()));
 }
 
-void MainWindow::save_table(const QString& title, const QString& suggested, const QByteArray& text) {
-  const QString name =
-      QFileDialog::getSaveFileName(this, title, QDir(document_.folder()).filePath(suggested), tr("Tables (*.csv)"));
+QString MainWindow::table_name(const QString& title, const QString& suggested) {
+  return QFileDialog::getSaveFileName(this, title, QDir(document_.folder()).filePath(suggested), tr("Tables (*.csv)"));
+}
+
+void MainWindow::write_table(const QString& name, const QByteArray& text) {
   if (name.isEmpty()) return;
   QSaveFile file(name);
   if (!file.open(QIODevice::WriteOnly) || file.write(text) != text.size() || !file.commit())

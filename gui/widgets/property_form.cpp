@@ -114,7 +114,7 @@ void PropertyForm::add_picker(const QString& path, const QString& label, QHBoxLa
   pick->setFocusPolicy(Qt::StrongFocus);
   pick->setObjectName("pick:" + path);
   pick->setAccessibleName(tr("Pick: %1").arg(label));
-  pick->setToolTip(tr("Then click on a body in the 3D view; once more ends it"));
+  pick->setToolTip(tr("Then click on a face or a body in the 3D view; once more ends it"));
   connect(pick, &QToolButton::toggled, this, [this, path](bool on) {
     if (!on && picks_for_ != path) return;
     for (auto* other : findChildren<QToolButton*>())
@@ -125,9 +125,13 @@ void PropertyForm::add_picker(const QString& path, const QString& label, QHBoxLa
   cells.addWidget(pick);
 }
 
-bool PropertyForm::take_pick(const QString& group) {
+bool PropertyForm::take_pick(const QString& volume, const QStringList& surfaces) {
   const QString path = picks_for_;
   if (path.isEmpty() || !fields_.contains(path)) return false;
+  const bool only_surfaces = fields_[path].key->name() == "surface";
+  const bool either = path.startsWith("stage[");
+  if (only_surfaces && surfaces.isEmpty()) return true;  // goes on waiting
+  const QString group = either && !surfaces.isEmpty() ? surfaces.first() : volume;
   if (auto* pick = findChild<QToolButton*>("pick:" + path)) pick->setChecked(false);
   take_over(path, *fields_[path].key, group);
   emit group_entered(group);

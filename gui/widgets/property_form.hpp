@@ -26,8 +26,9 @@ class PropertyForm final : public QScrollArea {
   void set_problems(const std::vector<Problem>& problems);
   /// Words that a group field offers.
   void set_groups(const QStringList& groups);
-  /// Somebody has clicked on a group in the view. True: the field that waits for it has taken it.
-  bool take_pick(const QString& group);
+  /// A face was clicked on in the view. True: a field waits for it, and has taken the group that it can name: a surface
+  /// for loads and constraints, where the face is in one, else the volume.
+  bool take_pick(const QString& volume, const QStringList& surfaces);
   /// Puts the cursor into the field of a path, if it is here.
   void focus_field(const QString& path);
 

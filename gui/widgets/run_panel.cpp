@@ -156,7 +156,7 @@ QWidget* RunPanel::command_row(QLineEdit* line, const QString& name, const QStri
 
 void RunPanel::set_command(const QStringList& command, const QStringList& go_on) {
   const auto show = [](QLineEdit* line, const QStringList& words) {
-    if (line->text() == shell_line(words)) return;  // what somebody has selected stays selected
+    if (line->text() == shell_line(words)) return;  // what the user has selected stays selected
     line->setText(shell_line(words));
     line->setCursorPosition(0);
   };

@@ -55,6 +55,10 @@ StartPage::StartPage(const Places& places, QWidget* parent)
   open->setObjectName("open_case");
   open->setAccessibleName(tr("Open a case"));
   open->setToolTip(tr("Open a case file (Ctrl+O)"));
+  auto* import = new QPushButton(tr("&Import a geometry..."));
+  import->setObjectName("import_geometry");
+  import->setAccessibleName(tr("Import a geometry"));
+  import->setToolTip(tr("Makes a case of solids in a STEP, BREP or STL file (Ctrl+I)"));
   templates_->setViewMode(QListView::IconMode);
   templates_->setIconSize(kPicture);
   templates_->setGridSize(QSize(230, 190));
@@ -68,6 +72,7 @@ StartPage::StartPage(const Places& places, QWidget* parent)
   auto* column = new QVBoxLayout;
   column->addWidget(demo);
   column->addWidget(open);
+  column->addWidget(import);
   grid->addLayout(column, 0, 1);
   grid->addWidget(new QLabel(tr("<h3>New from a template</h3>")), 1, 0);
   grid->addWidget(templates_, 2, 0, 3, 1);
@@ -84,6 +89,7 @@ StartPage::StartPage(const Places& places, QWidget* parent)
   }
   connect(demo, &QPushButton::clicked, this, &StartPage::demo_wanted);
   connect(open, &QPushButton::clicked, this, &StartPage::open_wanted);
+  connect(import, &QPushButton::clicked, this, &StartPage::import_wanted);
   // One click or Enter; itemActivated alone would be a double click on some desktops.
   const auto chosen = [this](QListWidgetItem* item) { emit template_chosen(templates_->row(item)); };
   connect(templates_, &QListWidget::itemClicked, this, chosen);

@@ -19,6 +19,7 @@ class StartPage final : public QWidget {
   void run_chosen(const QString& folder);
   void demo_wanted();
   void open_wanted();
+  void import_wanted();
 
  private:
   const Places& places_;

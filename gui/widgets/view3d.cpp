@@ -26,7 +26,7 @@ View3D::View3D(QWidget* parent)
   window_->GetInteractor()->SetInteractorStyle(style);
   canvas_->setObjectName("canvas");
   canvas_->setAccessibleName(tr("3D view"));
-  canvas_->setToolTip(tr("Drag: turn; wheel: zoom; middle button: move; click: choose a group"));
+  canvas_->setToolTip(tr("Drag: turn; wheel: zoom; middle button: move; click: choose a face or a group"));
   canvas_->installEventFilter(this);
   canvas_->setFocusPolicy(Qt::StrongFocus);
   canvas_->setMinimumSize(320, 220);
@@ -97,15 +97,15 @@ bool View3D::eventFilter(QObject* watched, QEvent* event) {
   } else if (watched == canvas_ && event->type() == QEvent::MouseButtonRelease) {
     const auto* mouse = static_cast<QMouseEvent*>(event);
     if (mouse->button() == Qt::LeftButton && (mouse->pos() - pressed_).manhattanLength() <= kStill) {
-      if (const QString group = group_at(mouse->pos()); !group.isEmpty()) emit group_picked(group);
+      if (const Scene::Picked what = picked_at(mouse->pos()); !what.volume.empty()) emit picked(what);
     }
   }
   return QWidget::eventFilter(watched, event);
 }
 
-QString View3D::group_at(const QPoint& place) const {
+Scene::Picked View3D::picked_at(const QPoint& place) const {
   const double ratio = canvas_->devicePixelRatioF();
-  return QString::fromStdString(scene_.group_at(ratio * place.x(), ratio * (canvas_->height() - 1 - place.y())));
+  return scene_.picked_at(ratio * place.x(), ratio * (canvas_->height() - 1 - place.y()));
 }
 
 void View3D::set_picking(bool on) {

@@ -28,14 +28,14 @@ class View3D final : public QWidget {
   [[nodiscard]] QImage picture();
   /// Shows that a click is waited for.
   void set_picking(bool on);
-  /// The group at a place of the canvas; empty: none.
-  [[nodiscard]] QString group_at(const QPoint& place) const;
+  /// What is seen at a place of the canvas.
+  [[nodiscard]] Scene::Picked picked_at(const QPoint& place) const;
   /// Share of the pixels that differ from the background; for tests.
   [[nodiscard]] double drawn_share();
 
  signals:
-  /// Somebody has clicked on it, without dragging.
-  void group_picked(const QString& group);
+  /// It was clicked on, without dragging.
+  void picked(const Scene::Picked& what);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

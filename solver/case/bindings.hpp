@@ -46,6 +46,7 @@ void bind(A& a, MeshSource& mesh) {
   if (A::reads || !mesh.file.empty()) a.value("file", mesh.file);
   a.value("parameters", mesh.parameters);
   a.value("scale", mesh.scale);
+  a.value("size", mesh.size);
   a.value("glue", mesh.glue);
   a.choice("inverted", mesh.repair_inverted);
   a.value("time_limit", mesh.time_limit);

@@ -50,10 +50,11 @@ struct Raster {
 
 /// [mesh]
 struct MeshSource {
-  std::filesystem::path file;                ///< .geo or .msh, absolute; empty when a raster is asked for
+  std::filesystem::path file;                ///< of base/geometry_file.hpp, absolute; empty when a raster is asked for
   std::map<std::string, double> parameters;  ///< numbers handed to a .geo (DefineConstant), SI
   std::optional<Raster> raster;
   double scale = 1.0;           ///< file units to m
+  double size = 0;              ///< m, edge of the elements of a solid; 0: automatic
   bool glue = false;            ///< conforming interfaces between volumes are glued
   bool repair_inverted = true;  ///< swap two corners of negative elements; false refuses them
   double time_limit = 3600;     ///< s, wall, for reading a file

@@ -28,13 +28,20 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "mesh", .type = section, .required = true,
      .help = "Where the tetrahedra come from: a file or the raster generator.",
      .fixed_by_state = "elements and nodes are those of the state"},
-    {.path = "mesh.file", .type = path, .help = "Geometry (.geo) or mesh (.msh) of gmsh. Relative to the case file.",
+    {.path = "mesh.file", .type = path,
+     .help = "Geometry (.geo) or mesh (.msh) of gmsh, or solids as STEP (.step, .stp), BREP or STL. Relative to the "
+             "case file. Each volume and face of a solid is a group, named as in the STEP file, or volume_N and "
+             "surface_N.",
      .example = "\"geometry.geo\""},
     {.path = "mesh.parameters", .type = parameters, .fallback = "{}",
      .help = "Numbers handed to a .geo file, each in place of the DefineConstant of its name. In SI, or with a unit.",
      .example = "{ h = \"2.5 mm\", n = 3 }"},
     {.path = "mesh.scale", .type = number, .fallback = "1", .range = positive,
-     .help = "Metres a unit of length of the mesh file: 0.001 for a file in millimetres.", .example = "0.001"},
+     .help = "Metres a unit of length of the mesh file: 0.001 for a file in millimetres. A STEP file states its unit.",
+     .example = "0.001"},
+    {.path = "mesh.size", .type = number, .unit = "m", .fallback = "auto", .range = positive, .word = "auto",
+     .help = "Edge of the elements that a STEP, BREP or STL file is meshed with. auto: a tenth of the cube root of the "
+             "volume of its box.", .example = "\"2.5 mm\""},
     {.path = "mesh.glue", .type = boolean, .fallback = "false",
      .help = "Whether bodies that share a conforming interface are glued by joints there, or only touch.",
      .example = "true"},

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "base/geometry_file.hpp"
 #include "case/live_address.hpp"
 #include "case/nearest.hpp"
 #include "case/schema.hpp"
@@ -92,17 +93,23 @@ class Validator {
       problem(mesh.origin, "", "needs a source", "exactly one of file, raster");
     if (!mesh.file.empty()) {
       std::error_code error;
-      const std::string extension = mesh.file.extension().string();
+      const GeometryFile kind = geometry_file(mesh.file);
       if (std::filesystem::is_directory(mesh.file, error))
-        problem(mesh.origin, "file", "is a folder", "a .geo or .msh file", mesh.file.string());
+        problem(mesh.origin, "file", "is a folder", kGeometryFiles, mesh.file.string());
       else if (std::filesystem::exists(mesh.file, error) && !std::filesystem::is_regular_file(mesh.file, error))
-        problem(mesh.origin, "file", "is no ordinary file", "a .geo or .msh file", mesh.file.string());
+        problem(mesh.origin, "file", "is no ordinary file", kGeometryFiles, mesh.file.string());
       else if (needs_mesh_file_ && !std::filesystem::is_regular_file(mesh.file, error))
-        problem(mesh.origin, "file", "the file does not exist", "a .geo or .msh file", mesh.file.string());
-      else if (extension != ".geo" && extension != ".msh")
-        problem(mesh.origin, "file", "is no file of gmsh", "a .geo or .msh file", mesh.file.string());
-      if (extension == ".msh" && !mesh.parameters.empty())
-        problem(mesh.origin, "parameters", "a finished mesh takes no parameters", "parameters of a .geo file");
+        problem(mesh.origin, "file", "the file does not exist", kGeometryFiles, mesh.file.string());
+      else if (kind == GeometryFile::unknown)
+        problem(mesh.origin, "file", "is no file of gmsh and no solid that it reads", kGeometryFiles,
+                mesh.file.string());
+      if (kind != GeometryFile::script && kind != GeometryFile::unknown && !mesh.parameters.empty())
+        problem(mesh.origin, "parameters",
+                is_solid(kind) ? "a solid takes no parameters" : "a finished mesh takes no parameters",
+                "parameters of a .geo file");
+      if (!is_solid(kind) && kind != GeometryFile::unknown && mesh.size != 0)
+        problem(mesh.origin, "size", "only a solid is meshed with elements of a chosen size",
+                "size with STEP, BREP and STL; a .geo sets its own");
     }
     if (mesh.raster) raster(*mesh.raster);
   }
@@ -118,6 +125,8 @@ class Validator {
   }
 
   void raster(const Raster& raster) {
+    if (c_.mesh.size != 0 && c_.mesh.file.empty())
+      problem(c_.mesh.origin, "size", "the raster has its size in cell_size", "size with STEP, BREP and STL");
     if (!c_.mesh.parameters.empty() && c_.mesh.file.empty())
       problem(c_.mesh.origin, "parameters", "the raster takes no parameters", "parameters of a .geo file");
     if (raster.single_tetrahedra && (raster.cells != std::array{1, 1, 1} || raster.slit))

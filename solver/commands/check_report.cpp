@@ -15,6 +15,7 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "base/geometry_file.hpp"
 #include "base/printable.hpp"
 #include "contact/search_params.hpp"
 #include "domains/decomposition.hpp"
@@ -316,10 +317,23 @@ std::string domain_table(const case_::Case& input, const Model& model, int parts
   return text;
 }
 
+std::array<Vec3, 2> box_of(const Mesh& mesh) {
+  std::array<Vec3, 2> box{mesh.nodes.front(), mesh.nodes.front()};
+  for (const Vec3& node : mesh.nodes) box = {box[0].cwiseMin(node), box[1].cwiseMax(node)};
+  return box;
+}
+
 std::string mesh_report(const FinishedMesh& made) {
   const MeshReport& r = made.report;
   std::string text = fmt::format("{}: {} elements, {} nodes, {} {}\n", printable(made.mesh.source), r.elements, r.nodes,
                                  r.bodies, r.bodies == 1 ? "body" : "bodies");
+  const auto [lower, upper] = box_of(made.mesh);
+  const Vec3 size = upper - lower;
+  text += fmt::format("  box           {:.4g} x {:.4g} x {:.4g} m, from ({:.4g}, {:.4g}, {:.4g})\n", size.x(), size.y(),
+                      size.z(), lower.x(), lower.y(), lower.z());
+  const GeometryFile kind = geometry_file(made.mesh.source);
+  if (kind == GeometryFile::step) text += "  unit          the one that the file states, times mesh.scale\n";
+  if (states_no_unit(kind)) text += "  unit          the file states none: a length of 1 is mesh.scale metres\n";
   for (const MeshReport::Group& g : r.volume_groups)
     text += fmt::format("  volume  {:<20} {:>9} elements\n", printable(g.name), g.count);
   for (const MeshReport::Group& g : r.surface_groups)

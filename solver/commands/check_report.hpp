@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -13,7 +14,10 @@
 
 namespace breccia {
 
-/// Bodies, groups, repairs and quality of a mesh, for a terminal.
+/// Lowest and highest coordinates of a mesh, m. @pre it has nodes
+[[nodiscard]] std::array<Vec3, 2> box_of(const Mesh& mesh);
+
+/// Box, bodies, groups, repairs and quality of a mesh, for a terminal.
 [[nodiscard]] std::string mesh_report(const FinishedMesh& made);
 
 /// How a model is divided among ranks.

@@ -158,17 +158,28 @@ std::string joints_json(const Model& model) {
   return text_of({{"laws", laws}});
 }
 
-std::string mesh_json(const FinishedMesh& made) {
+std::string mesh_json(const FinishedMesh& made, const std::vector<std::vector<Topology::Face>>* faces) {
   const MeshReport& r = made.report;
+  const auto [lower, upper] = box_of(made.mesh);
   Json json{{"source", made.mesh.source},
             {"elements", r.elements},
             {"nodes", r.nodes},
             {"bodies", r.bodies},
+            {"box",
+             {{"lower", Json(std::array{lower.x(), lower.y(), lower.z()})},
+              {"upper", Json(std::array{upper.x(), upper.y(), upper.z()})}}},
             {"groups", groups(r)},
             {"inverted_repaired", r.inverted_repaired},
             {"duplicate_nodes", r.duplicate_nodes},
             {"quality", quality_bins(made.mesh)},
             {"report", mesh_report(made)}};
+  if (faces == nullptr) return text_of(json);
+  json["faces"] = Json::array();  // in the order of groups.surfaces
+  for (const std::vector<Topology::Face>& group : *faces) {
+    Json numbers = Json::array();
+    for (const Topology::Face& face : group) numbers.push_back(4 * std::int64_t{face.element} + face.face);
+    json["faces"].push_back(std::move(numbers));
+  }
   return text_of(json);
 }
 

@@ -24,8 +24,9 @@ namespace breccia {
 [[nodiscard]] std::string joints_json(const Model& model);
 
 /// Source, elements, nodes, bodies, volume and surface groups, repairs, the quality of every element in ten bins, and
-/// the report in words.
-[[nodiscard]] std::string mesh_json(const FinishedMesh& made);
+/// the report in words. @param faces  null, or those of each surface group, told as 4 * element + side below `faces`
+[[nodiscard]] std::string mesh_json(const FinishedMesh& made,
+                                    const std::vector<std::vector<Topology::Face>>* faces = nullptr);
 
 /// Every row of the table of keys: path, type, unit, default, required, lower, upper, choices, word, help, example,
 /// allowed in words.

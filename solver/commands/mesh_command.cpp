@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "base/geometry_file.hpp"
 #include "commands/check_report.hpp"
 #include "commands/json_report.hpp"
 #include "commands/start_state.hpp"
@@ -14,10 +15,26 @@
 namespace breccia {
 namespace {
 
+/// A geometry that has no case yet: meshed with all defaults.
+case_::Case case_of_geometry(const MeshCommand& asked) {
+  if (!asked.overrides.empty() || !asked.folder.empty())
+    throw InputError(Problem{asked.case_file.string(), 0, "", "is no case file: a geometry is meshed as it is",
+                             "neither --set nor -o, which need a case.toml with mesh.file", ""});
+  case_::Case input;
+  input.mesh.file = asked.case_file;
+  return input;
+}
+
 int mesh(const MeshCommand& asked) {
   const auto told = [&](const FinishedMesh& made) {
     fmt::print("{}", asked.json ? mesh_json(made) : mesh_report(made));
   };
+  if (is_solid(geometry_file(asked.case_file))) {
+    case_::Case input = case_of_geometry(asked);
+    input.mesh.trust = asked.trust_geometry;
+    told(read_mesh(input));
+    return 0;
+  }
   case_::Case input =
       read_case_of(asked.case_file, asked.overrides, read_start_state(asked.case_file, asked.overrides, {}));
   input.mesh.trust = asked.trust_geometry;
@@ -31,8 +48,12 @@ int mesh(const MeshCommand& asked) {
   const FrameParts elements{true, false, false};
   VtkhdfSink(asked.folder, elements)
       .frame(make_frame(rest, 0, elements, {find_fragments(rest), Balance().weights(rest)}));
+  if (asked.json) {
+    fmt::print("{}", mesh_json({model.mesh, model.mesh_report}, &model.topology.surface_groups));
+    return 0;
+  }
   told({model.mesh, model.mesh_report});
-  if (!asked.json) fmt::print("elements for ParaView in {}\n", asked.folder.string());
+  fmt::print("elements for ParaView in {}\n", asked.folder.string());
   return 0;
 }
 

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "base/disjoint_sets.hpp"
+#include "base/geometry_file.hpp"
+#include "commands/check_report.hpp"
 #include "mesh/node_parting.hpp"
 #include "mesh/tetrahedron.hpp"
 #include "model/parameters.hpp"
@@ -165,10 +167,24 @@ Advice silently_apart(const case_::Case& input, const Model& model) {
   return advice;
 }
 
+/// A file without a unit whose numbers look like millimetres.
+std::string unit_question(const case_::Case& input, const Model& model) {
+  constexpr double kLarge = 10;  // m; parts that break are drawn in mm or in m
+  if (!states_no_unit(geometry_file(input.mesh.file)) || input.mesh.scale != 1) return {};
+  const auto [lower, upper] = box_of(model.mesh);
+  const Vec3 size = upper - lower;
+  if (size.maxCoeff() <= kLarge) return {};
+  return fmt::format(
+      "The file {} states no unit, and the model is {:.4g} x {:.4g} x {:.4g} m large. If its lengths are millimetres, "
+      "set mesh.scale = 0.001.",
+      input.mesh.file.filename().string(), size.x(), size.y(), size.z());
+}
+
 }  // namespace
 
 Advice model_advice(const case_::Case& input, const Model& model) {
   Advice advice;
+  advise(advice, unit_question(input, model));
   const std::string bodies_meet = missing_contact(input, model);
   advise(advice, bodies_meet.empty() ? missing_contact_of_fragments(model) : bodies_meet);
   advise(advice, layer_advice(model));

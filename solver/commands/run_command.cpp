@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "base/geometry_file.hpp"
 #include "base/interruption.hpp"
 #include "case/live_address.hpp"
 #include "case/reader.hpp"
@@ -48,7 +49,7 @@ Provenance provenance_of(const RunCommand& asked, const case_::Case& input, cons
   }
   std::set<std::filesystem::path> files{asked.case_file};
   if (!input.mesh.file.empty()) files.insert(input.mesh.file);
-  if (input.mesh.file.extension() == ".geo") files.merge(scan_geo(input.mesh.file).files);
+  if (geometry_file(input.mesh.file) == GeometryFile::script) files.merge(scan_geo(input.mesh.file).files);
   for (const std::filesystem::path& file : files) provenance.inputs.push_back(input_file(file));
   return provenance;
 }

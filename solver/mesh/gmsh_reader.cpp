@@ -21,6 +21,8 @@
 
 #include "base/child_process.hpp"
 #include "base/error.hpp"
+#include "base/geometry_file.hpp"
+#include "mesh/gmsh_solids.hpp"
 #include "mesh/gmsh_source_check.hpp"
 #include "mesh/mesh_bytes.hpp"
 
@@ -136,8 +138,12 @@ void run_gmsh(const GmshSource& source, Step step) {
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
-/// @param script  that assigns the parameters; null for a mesh file
+/// @param script  that assigns the parameters; null for a mesh file or a solid
 void load(const GmshSource& source, const ParameterScript* script) {
+  if (is_solid(geometry_file(source.file))) {
+    run_gmsh(source, [&] { mesh_solids(source); });
+    return;
+  }
   if (script == nullptr) {
     run_gmsh(source, [&] { gmsh::open(source.file.string()); });
     return;

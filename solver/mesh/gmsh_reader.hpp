@@ -8,13 +8,14 @@
 
 namespace breccia {
 
-/// A mesh file, or a geometry script that gmsh meshes.
+/// A mesh file, or a geometry script or a solid that gmsh meshes.
 struct GmshSource {
-  std::filesystem::path file;  ///< .geo, or .msh of format 2.2 to 4.1, ASCII or binary
+  std::filesystem::path file;  ///< .geo, .msh of format 2.2 to 4.1, STEP, BREP or STL, ASCII or binary
   std::map<std::string, double>
       parameters;               ///< numbers set before the .geo runs: names it takes from DefineConstant, asks for
                                 ///< by Exists, or shows under a `Name "Group/label"`
-  double scale = 1.0;           ///< file units to m
+  double scale = 1.0;           ///< file units to m; beside the unit that a STEP file states
+  double size = 0;              ///< m, edge of the elements of a solid; 0: a tenth of the root of its box's volume
   bool glue = false;            ///< conforming interfaces between volumes are glued
   bool repair_inverted = true;  ///< swap two corners of negative elements; false refuses them
   bool trust = false;           ///< the script may run programs and write files, as in gmsh itself
@@ -28,15 +29,16 @@ struct GmshSource {
 /// left out and counted. Without any physical volume every volume becomes a group "volume_<tag>". Surface groups: the
 /// physical surfaces, unnamed ones as "surface_<tag>". Bodies: the volumes, by ascending tag. Element source ids are
 /// gmsh's. A .geo is meshed on one thread, from gmsh's fixed random seed: the same file and parameters give the same
-/// mesh.
+/// mesh; so is a solid, whose groups mesh/gmsh_solids.hpp tells. A STEP file states the unit of its lengths.
 ///
 /// gmsh works in a child process without the right to run, write or connect to anything (base/confinement.hpp), unless
 /// the source is trusted, and within the limits of time and memory: whatever a file does to it ends in an InputError.
 /// A file FILE.opt beside a mesh, which gmsh takes commands from, is refused unless the source is trusted.
 ///
 /// Throws InputError with all problems of the step that fails: file missing, unreadable or of another kind; parameters
-/// with a .msh, unknown to the .geo or not finite; errors gmsh reports, with file and line where it names them;
-/// elements other than linear tetrahedra and triangles; a volume in two physical volumes; two groups of one name; no
+/// of anything but a .geo, unknown to it or not finite; a size of anything but a solid; errors gmsh reports, with file
+/// and line where it names them; elements other than linear tetrahedra and triangles; a volume in two physical volumes;
+/// two groups of one name; no
 /// tetrahedra; those of finish_mesh; gmsh crashed, ended, passed a limit or tried what it may not.
 /// @pre this process does not have gmsh open itself
 [[nodiscard]] FinishedMesh read_gmsh(const GmshSource& source);

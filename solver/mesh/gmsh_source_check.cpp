@@ -3,15 +3,79 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <fstream>
+#include <iterator>
 #include <utility>
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/geometry_file.hpp"
 #include "mesh/geo_scan.hpp"
 
 namespace breccia {
 namespace {
+
+/// Whether the list of shapes of a BREP file is whole: OpenCASCADE looks for the end of one that is cut off for ever.
+bool has_all_shapes(std::ifstream& in) {
+  std::string word;
+  long wanted = -1, ended = 0;
+  while (in >> word) {
+    if (word == "TShapes") {
+      if (!(in >> wanted)) return false;
+      ended = 0;
+    } else if (word == "*" && ++ended == wanted) {
+      return true;
+    }
+  }
+  return wanted == 0;
+}
+
+/// A STEP file says where it ends.
+bool has_step_end(std::ifstream& in) {
+  constexpr std::streamoff kTail = 4096;  // blanks and a signature may follow the last word
+  in.clear();
+  in.seekg(0, std::ios::end);
+  const std::streamoff size = in.tellg();
+  in.seekg(std::max<std::streamoff>(0, size - kTail));
+  const std::string tail{std::istreambuf_iterator<char>(in), {}};
+  return tail.find("END-ISO-10303-21") != std::string::npos;
+}
+
+/// A solid begins as its kind does: of what it does not know gmsh says nothing, or takes it for a script.
+void demand_solid(const GmshSource& source, GeometryFile kind, std::ifstream& in) {
+  constexpr std::size_t kHead = 512;  // comments and blanks before the first word of a STEP or BREP file included
+  std::string head(kHead, '\0');
+  in.read(head.data(), kHead);
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  const auto refuse = [&](const std::string& what, const std::string& allowed) {
+    throw InputError(Problem{source.file.string(), 0, "mesh.file", what, allowed, ""});
+  };
+  const auto holds = [&](const char* word) { return head.find(word) != std::string::npos; };
+  if (kind == GeometryFile::step && !holds("ISO-10303-21"))
+    refuse("is no STEP file: it does not begin with ISO-10303-21", "");
+  if (kind == GeometryFile::step && !has_step_end(in))
+    refuse("is cut off: it does not end with END-ISO-10303-21", "a whole STEP file");
+  if (kind == GeometryFile::brep && !holds("DBRep_DrawableShape") && !holds("CASCADE Topology"))
+    refuse("is no BREP file: it does not begin with DBRep_DrawableShape or CASCADE Topology", "");
+  if (kind == GeometryFile::brep) {
+    in.clear();
+    in.seekg(0);
+    if (!has_all_shapes(in)) refuse("is cut off: shapes are missing at its end", "a whole BREP file");
+  }
+  if (kind != GeometryFile::stl || (head.starts_with("solid") && holds("facet"))) return;
+  // Binary: 80 bytes of any kind, the number of triangles, 50 bytes for each.
+  constexpr std::uint64_t kBefore = 84, kTriangle = 50;
+  std::uint32_t count = 0;
+  if (head.size() >= kBefore) std::memcpy(&count, head.data() + kBefore - sizeof(count), sizeof(count));
+  std::error_code ignored;
+  const std::uint64_t needed = kBefore + kTriangle * count, size = std::filesystem::file_size(source.file, ignored);
+  if (count == 0 || size < needed)
+    refuse("is no STL file, or it is cut off: " + std::to_string(size) + " bytes where " + std::to_string(count) +
+               " triangles need " + std::to_string(needed),
+           "text that begins with \"solid\" and has facets, or a whole binary file");
+}
 
 /// gmsh does not complain about a missing file, so files are looked at first.
 void demand_readable(const GmshSource& source) {
@@ -20,13 +84,13 @@ void demand_readable(const GmshSource& source) {
     throw InputError(Problem{file, 0, "mesh.file", what, allowed, given});
   };
   std::error_code ignored;
-  const auto extension = source.file.extension();
-  if (extension != ".geo" && extension != ".msh") {
-    refuse("is no kind of mesh file that can be read", ".geo, or .msh of format 2.2 to 4.1", extension.string());
+  const GeometryFile kind = geometry_file(source.file);
+  if (kind == GeometryFile::unknown) {
+    refuse("is no kind of mesh file that can be read", kGeometryFiles, source.file.extension().string());
   }
   if (!std::filesystem::exists(source.file, ignored)) refuse("the file does not exist", "", "");
-  if (std::filesystem::is_directory(source.file, ignored)) refuse("is a folder", "a .geo or .msh file", "");
-  if (!std::filesystem::is_regular_file(source.file, ignored)) refuse("is not a file", "a .geo or .msh file", "");
+  if (std::filesystem::is_directory(source.file, ignored)) refuse("is a folder", kGeometryFiles, "");
+  if (!std::filesystem::is_regular_file(source.file, ignored)) refuse("is not a file", kGeometryFiles, "");
   std::ifstream in(source.file, std::ios::binary);
   if (!in) refuse("the file cannot be read", "a file with read permission", "");
   if (in.peek() == std::ifstream::traits_type::eof()) refuse("the file is empty", "", "");
@@ -34,7 +98,8 @@ void demand_readable(const GmshSource& source) {
   if (!source.trust && std::filesystem::exists(options, ignored))
     refuse("gmsh takes commands from a file beside it, unseen by the case: " + options,
            "no such file; or --trust-geometry, if you know what is in it", "");
-  if (extension == ".geo") return;
+  if (kind == GeometryFile::script) return;
+  if (is_solid(kind)) return demand_solid(source, kind, in);
 
   std::string heading;
   double version = 0;
@@ -54,6 +119,12 @@ void demand_parameters(const GmshSource& source) {
   if (!is_script(source) && !source.parameters.empty()) {
     problems.push_back({file, 0, "mesh.parameters", "a mesh file takes no parameters", "parameters with a .geo only",
                         source.parameters.begin()->first});
+  }
+  if (source.size != 0 && !is_solid(geometry_file(source.file))) {
+    problems.push_back({file, 0, "mesh.size", "only a solid is meshed with elements of a chosen size",
+                        "mesh.size with STEP, BREP and STL; a .geo sets its own", std::to_string(source.size)});
+  } else if (!(std::isfinite(source.size) && source.size >= 0)) {
+    problems.push_back({file, 0, "mesh.size", "is no length", "finite, > 0", std::to_string(source.size)});
   }
   if (is_script(source)) {
     GeoScan scan = scan_geo(source.file);
@@ -80,7 +151,7 @@ void demand_parameters(const GmshSource& source) {
 
 }  // namespace
 
-bool is_script(const GmshSource& source) { return source.file.extension() == ".geo"; }
+bool is_script(const GmshSource& source) { return geometry_file(source.file) == GeometryFile::script; }
 
 bool is_identifier(const std::string& name) {
   const auto in_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };

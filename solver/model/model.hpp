@@ -94,7 +94,9 @@ struct Model {
 /// makes no sense.
 void check_laws(const case_::Case& input, const WholeModel& whole);
 
-/// The mesh alone, read or generated, with the case's groups checked against it.
+/// The mesh alone, read or generated; the case may lack all else.
+[[nodiscard]] FinishedMesh read_mesh(const case_::Case& input);
+/// The same, with the case's groups checked against it.
 [[nodiscard]] FinishedMesh build_mesh(const case_::Case& input);
 
 /// Links of the joints that the sweep evaluates.

@@ -29,6 +29,7 @@ GmshSource gmsh_source(const case_::MeshSource& asked) {
   source.file = asked.file;
   source.parameters = asked.parameters;
   source.scale = asked.scale;
+  source.size = asked.size;
   source.glue = asked.glue;
   source.repair_inverted = asked.repair_inverted;
   source.trust = asked.trust;
@@ -54,8 +55,12 @@ FinishedMesh raster_of(const case_::Case& input) {
 
 }  // namespace
 
+FinishedMesh read_mesh(const case_::Case& input) {
+  return input.mesh.raster ? raster_of(input) : read_gmsh(gmsh_source(input.mesh));
+}
+
 FinishedMesh build_mesh(const case_::Case& input) {
-  FinishedMesh made = input.mesh.raster ? raster_of(input) : read_gmsh(gmsh_source(input.mesh));
+  FinishedMesh made = read_mesh(input);
   std::vector<Problem> problems =
       case_::check_groups(input, made.mesh.volume_groups, made.mesh.surface_groups, made.mesh.num_bodies);
   if (!problems.empty()) throw InputError(std::move(problems));

@@ -291,6 +291,26 @@ const std::vector<Wrong>& wrongs() {
       {"geo_with_an_error", "[mesh.raster]", "[mesh]\nfile = \"broken.geo\"\n[ignored]", {"broken.geo"}},
       {"unknown_parameter", "[mesh.raster]", "[mesh]\nfile = \"good.geo\"\nparameters = { hh = 1 }\n[ignored]", {"hh"}},
       {"mesh_is_a_folder", "[mesh.raster]", "[mesh]\nfile = \"folder.msh\"\n[ignored]", {"folder.msh", "is a folder"}},
+      {"step_that_is_cut_off",
+       "[mesh.raster]",
+       "[mesh]\nfile = \"cut.step\"\n[ignored]",
+       {"cut.step", "does not end with END-ISO-10303-21"}},
+      {"stl_that_is_open",
+       "[mesh.raster]",
+       "[mesh]\nfile = \"open.stl\"\n[ignored]",
+       {"open.stl", "the surface is open: 3 edges belong to one triangle only"}},
+      {"solid_with_parameters",
+       "[mesh.raster]",
+       "[mesh]\nfile = \"open.stl\"\nparameters = { h = 1 }\n[ignored]",
+       {"mesh.parameters", "a solid takes no parameters"}},
+      {"script_with_a_size",
+       "[mesh.raster]",
+       "[mesh]\nfile = \"good.geo\"\nsize = 0.1\n[ignored]",
+       {"mesh.size", "a .geo sets its own"}},
+      {"size_that_is_negative",
+       "[mesh.raster]",
+       "[mesh]\nfile = \"open.stl\"\nsize = -1\n[ignored]",
+       {"mesh.size", "out of range"}},
       {"mesh_is_a_pipe", "[mesh.raster]", "[mesh]\nfile = \"pipe.geo\"\n[ignored]", {"pipe.geo"}},
       {"mesh_is_empty", "[mesh.raster]", "[mesh]\nfile = \"nothing.msh\"\n[ignored]", {"nothing.msh", "empty"}},
       {"mesh_is_cut_off", "[mesh.raster]", "[mesh]\nfile = \"cut.msh\"\n[ignored]", {"cut.msh"}},
@@ -361,6 +381,10 @@ void write_wrong_files(const Scratch& scratch) {
   scratch.write("infinite.msh", std::string(kHead) + "4 0 0 inf\n$EndNodes\n$Elements\n1\n" + tetra);
   scratch.write("holes.msh", std::string(kHead) + node + "$Elements\n1\n1 4 2 1 1 1 2 3 9\n$EndElements\n");
   scratch.write("count.msh", std::string(kHead) + node + "$Elements\n99999999\n" + tetra);
+  scratch.write("cut.step", "ISO-10303-21;\nHEADER;\n");
+  scratch.write("open.stl",
+                "solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                "endloop\nendfacet\nendsolid one\n");
   scratch.write("opted.geo", "Point(1) = {0, 0, 0};\n");
   scratch.write("opted.geo.opt", "SystemCall \"true\";\n");
   scratch.write("system.geo", "SystemCall \"true\";\n");

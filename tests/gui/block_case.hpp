@@ -51,6 +51,16 @@ inline QString written_case(const QTemporaryDir& scratch, const QByteArray& text
   return out.open(QIODevice::WriteOnly) && out.write(text) == text.size() ? name : QString();
 }
 
+/// A program that never says anything, as the solver while it reads a mesh.
+inline QString silent_program(const QTemporaryDir& scratch) {
+  const QString name = scratch.filePath("silent");
+  QFile out(name);
+  if (!out.open(QIODevice::WriteOnly)) return {};
+  out.write("#!/bin/sh\nexec sleep 600\n");
+  out.setPermissions(out.permissions() | QFile::ExeOwner);
+  return name;
+}
+
 /// Events are handled meanwhile.
 inline bool wait_until(const std::function<bool()>& ready, int ms) {
   QElapsedTimer timer;

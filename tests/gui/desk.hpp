@@ -10,6 +10,7 @@
 #include <QTest>
 #include <QTimer>
 #include <QTreeWidget>
+#include <algorithm>
 #include <memory>
 
 #include "gui/block_case.hpp"
@@ -115,7 +116,10 @@ struct Desk {
     auto* canvas = find<QWidget>("canvas");
     for (int y = 5; y < canvas->height(); y += 7)
       for (int x = 5; x < canvas->width(); x += 7)
-        if (window->view().group_at({x, y}) == group) return {x, y};
+        if (const Scene::Picked what = window->view().picked_at({x, y});
+            what.volume == group.toStdString() ||
+            std::count(what.surfaces.begin(), what.surfaces.end(), group.toStdString()) > 0)
+          return {x, y};
     throw std::runtime_error("not in sight: " + group.toStdString());
   }
 

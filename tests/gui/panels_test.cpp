@@ -61,6 +61,28 @@ TEST(Panels, AStudyIsQueuedFromATableAndEndsInOnePlotAndOneTable) {
   EXPECT_EQ(desk.find<QTableWidget>("study_table")->rowCount(), 6);
 }
 
+TEST(Panels, TheTableOfALongHistoryIsWholeThoughItIsExportedAtOnce) {
+  constexpr int kRows = 60000;
+  Desk desk;
+  const QString folder = desk.scratch.filePath("long");
+  QDir().mkpath(folder);
+  const auto write = [&](const QString& name, const QByteArray& text) {
+    QFile out(QDir(folder).filePath(name));
+    EXPECT_TRUE(out.open(QIODevice::WriteOnly) && out.write(text) == text.size());
+  };
+  QByteArray history = "step,time [s],kinetic [J]\n";
+  for (int i = 0; i < kRows; ++i) history += QByteArray::number(i) + "," + QByteArray(60, '1') + ",1\n";
+  write("provenance.json", R"({"program": "breccia"})");
+  write("history.csv", history);
+  desk.window->open_path(folder);
+  const QString table = desk.scratch.filePath("all.csv");
+  desk.click_and_name("export_curves", table);
+  ASSERT_TRUE(wait_until([&] { return QFileInfo::exists(table); }, kSolver));
+  QFile csv(table);
+  ASSERT_TRUE(csv.open(QIODevice::ReadOnly));
+  EXPECT_EQ(csv.readAll().count('\n'), kRows + 1);
+}
+
 TEST(Panels, AFunctionOfTimeIsDrawnBesideTheTableOfConditions) {
   Desk desk;
   desk.window->open_path(written_case(desk.scratch, block_case(2, "1 ms") + R"(gravity = [0, 0, "-9.81 m/s2"]
@@ -83,6 +105,48 @@ velocity = { x = { ramp = { to = "2 m/s", end = "400 us" } }, z = { linear = "-1
   ASSERT_TRUE(wait_until([&] { return chart->lines()[0].y.front() == 5; }, 5000));
   table->setCurrentCell(0, 0);
   EXPECT_EQ(chart->lines()[0].name, "gravity z");
+}
+
+TEST(Panels, AClickOnAFaceChoosesItsConditionsAndChosenConditionsShowTheirFaces) {
+  Desk desk;
+  desk.window->open_path(written_case(desk.scratch, block_case(2, "1 ms") + R"(
+[[stage.constraint]]
+group = "block.y0"
+fixed = "xyz"
+[[stage.pressure]]
+surface = "block.x1"
+value = "1 MPa"
+[[stage.pressure]]
+surface = "block.y1"
+value = "2 MPa"
+)"));
+  Scene& scene = desk.window->view().scene();
+  ASSERT_TRUE(wait_until([&] { return scene.has_data() && !desk.window->busy(); }, kSolver));
+  auto* table = desk.find<QTableWidget>("conditions_table");
+  auto* canvas = desk.find<QWidget>("canvas");
+  constexpr int kFaces = 2 * 2 * 4;  // triangles of a side of 2 x 2 cubes
+  desk.click_stage("constraint");
+  EXPECT_EQ(scene.num_chosen(), kFaces) << "the entry in hand";
+  QTest::mouseClick(canvas, Qt::LeftButton, {}, desk.place_of("block.x1"));
+  ASSERT_EQ(table->selectionModel()->selectedRows().size(), 1);
+  EXPECT_EQ(table->item(table->currentRow(), 2)->text(), "block.x1");
+  EXPECT_EQ(scene.num_chosen(), kFaces);
+
+  desk.show_tab("Conditions");
+  const auto click_row = [&](int row, Qt::KeyboardModifiers keys) {
+    QTest::mouseClick(table->viewport(), Qt::LeftButton, keys, table->visualItemRect(table->item(row, 1)).center());
+  };
+  click_row(1, {});
+  EXPECT_EQ(scene.num_chosen(), kFaces);
+  click_row(2, Qt::ControlModifier);
+  EXPECT_EQ(table->selectionModel()->selectedRows().size(), 2);
+  EXPECT_EQ(scene.num_chosen(), 2 * kFaces) << "several rows at once";
+  desk.picture("faces");
+
+  desk.click_stage("pressure");
+  desk.click("pick:stage[0].pressure[0].surface");
+  QTest::mouseClick(canvas, Qt::LeftButton, {}, desk.place_of("block.z1"));
+  EXPECT_EQ(desk.window->document().value("stage[0].pressure[0].surface"), "\"block.z1\"");
 }
 
 TEST(Panels, ABarOfTheHistogramShowsItsElements) {

@@ -49,7 +49,7 @@ TEST(Queue, RunsThatWereAddedStartInTheChosenOrderAndGoOnWhileNoWindowIsOpen) {
   desk.picture("queue");
   EXPECT_EQ(desk.find<QTableWidget>("runs")->rowCount(), 1);
 
-  desk.window->document().close();  // its edits are nobody's matter here
+  desk.window->document().close();  // its edits are not asked about here
   desk.window.reset();
   const RunQueue queue(desk.scratch.filePath("state"));
   EXPECT_TRUE(wait_until([&] { return !queue.is_worked(); }, kSolver));

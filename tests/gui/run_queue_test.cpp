@@ -49,7 +49,7 @@ struct Bench {
   }
 };
 
-TEST(RunQueue, RunsFollowEachOtherAndOneThatFailsIsInNobodysWay) {
+TEST(RunQueue, RunsFollowEachOtherAndOneThatFailsDoesNotHoldUpTheOthers) {
   const Bench bench;
   bench.queue.set_cores(1);
   RunWish refused = bench.wish("refused"), unwritable = bench.wish("unwritable");
@@ -73,6 +73,22 @@ TEST(RunQueue, RunsFollowEachOtherAndOneThatFailsIsInNobodysWay) {
   EXPECT_EQ(bench.snapshots(), 0);
   bench.queue.remove_ended();
   EXPECT_TRUE(bench.queue.load().runs.empty());
+}
+
+TEST(RunQueue, ARunThatIsStoppedBeforeItSaysAnythingIsStoppedAndHasNotFailed) {
+  const Bench bench;
+  bench.queue.set_cores(1);
+  EXPECT_EQ(bench.queue.add({test::silent_program(bench.scratch), ""}, {bench.wish("killed"), bench.wish("asked")}),
+            "");
+  ASSERT_TRUE(bench.look_until("killed running, asked waiting"));
+  bench.kill("killed");
+  ASSERT_TRUE(bench.look_until("killed failed, asked running")) << "killed from elsewhere";
+  bench.queue.note_stop(bench.scratch.filePath("runs/asked"));
+  bench.kill("asked");
+  ASSERT_TRUE(wait_until(
+      [&] { return !bench.queue.advance(bench.registry) && bench.states() == "killed failed, asked stopped"; }, 60000))
+      << bench.states().toStdString();
+  EXPECT_EQ(bench.queue.load().runs[1].message, QString());
 }
 
 TEST(RunQueue, AsManyRunsGoOnAtATimeAsCoresAreFreeAndTheFirstAloneIfItWantsMore) {
@@ -120,7 +136,7 @@ TEST(RunQueue, ARunReadsTheCaseAsItWasWhenItWasAdded) {
   EXPECT_EQ(bench.queue.load().runs[0].record.case_file, bench.file);
 }
 
-TEST(RunQueue, AWorkerGoesOnWithoutAnybodyAndIsTheOnlyOne) {
+TEST(RunQueue, AWorkerGoesOnWithoutAWindowAndIsTheOnlyOne) {
   const Bench bench;
   bench.queue.set_cores(1);
   bench.add({bench.wish("a"), bench.wish("b")});

@@ -51,6 +51,18 @@ TEST(SolverRun, ARunOnTwoRanksIsWatchedAndAStopLeavesNoProcess) {
   EXPECT_GT(run->history().rows(), 1);
 }
 
+TEST(SolverRun, ARunThatIsStoppedBeforeItSaysAnythingIsStoppedAndHasNotFailed) {
+  const QTemporaryDir scratch;
+  QString error;
+  const std::unique_ptr<SolverRun> run(SolverRun::start({test::silent_program(scratch), ""}, long_case(scratch),
+                                                        scratch.filePath("runs/one"), 1, &error, nullptr));
+  ASSERT_NE(run, nullptr) << error.toStdString();
+  EXPECT_EQ(run->state(), "starting");
+  run->stop();
+  ASSERT_TRUE(wait_until([&] { return !run->alive(); }, 30000));
+  EXPECT_EQ(run->state(), "stopped");
+}
+
 TEST(SolverRun, AStopEndsARunOfWhichARankHangs) {
   const QTemporaryDir scratch;
   const auto run = started(scratch, 2);

@@ -65,6 +65,20 @@ TEST(JsonReport, quality_of_the_mesh_counts_every_element_once) {
   EXPECT_EQ(sum, kElements);
 }
 
+TEST(JsonReport, faces_of_a_surface_group_are_told_by_element_and_side) {
+  const Model model = build_bare_model(case_::read_text(kCubes));
+  const Json json = Json::parse(mesh_json({model.mesh, model.mesh_report}, &model.topology.surface_groups));
+  const auto surfaces = json["groups"]["surfaces"];
+  ASSERT_EQ(json["faces"].size(), surfaces.size());
+  ASSERT_FALSE(surfaces.empty());
+  for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    EXPECT_EQ(json["faces"][s].size(), surfaces[s]["count"]);
+    for (const std::int64_t number : json["faces"][s])
+      EXPECT_TRUE(
+          model.topology.links[static_cast<std::size_t>(number / 4)][static_cast<std::size_t>(number % 4)].free());
+  }
+}
+
 TEST(JsonReport, every_key_of_the_schema_has_its_row) {
   const Json json = Json::parse(schema_json());
   ASSERT_EQ(json["keys"].size(), case_::schema().size());

@@ -246,9 +246,9 @@ TEST(GmshReader, RefusesFilesThatCannotBeRead) {
   GmshSource source;
   source.file = folder / "missing.geo";
   EXPECT_THAT(refusal_of(source), AllOf(HasSubstr("missing.geo"), HasSubstr("the file does not exist")));
-  source.file = test::write_file(folder / "part.step", "ISO-10303-21;");
+  source.file = test::write_file(folder / "part.obj", "ISO-10303-21;");
   EXPECT_THAT(refusal_of(source),
-              AllOf(HasSubstr("allowed: .geo, or .msh of format 2.2 to 4.1"), HasSubstr("given: .step")));
+              AllOf(HasSubstr("allowed: .geo, .msh of format 2.2 to 4.1, .step"), HasSubstr("given: .obj")));
   std::filesystem::create_directories(folder / "folder.msh");
   source.file = folder / "folder.msh";
   EXPECT_THAT(refusal_of(source), HasSubstr("is a folder"));

@@ -1,0 +1,89 @@
+#include "core/geometry_import.hpp"
+
+#include <QCoreApplication>
+#include <QDir>
+#include <QFile>
+#include <QFileInfo>
+#include <QJsonArray>
+#include <QSaveFile>
+#include <algorithm>
+
+#include "base/geometry_file.hpp"
+#include "core/material_library.hpp"
+#include "core/value_text.hpp"
+
+namespace breccia::gui {
+namespace {
+
+QString text(const char* words) { return QCoreApplication::translate("import", words); }
+
+/// What a new case begins with.
+LibraryMaterial first_material() {
+  constexpr const char* kName = "Concrete C30/37";
+  for (LibraryMaterial& material : shipped_materials())
+    if (material.name == kName) return material;
+  return {};
+}
+
+QString case_text(const QString& file, const QStringList& groups, double metres) {
+  const QFileInfo about(file);
+  const LibraryMaterial material = first_material();
+  QString out = "title = " + quoted(about.completeBaseName()) + "\n\n[mesh]\nfile = " + quoted(about.fileName()) + "\n";
+  if (metres != 1) out += "scale = " + QString::number(metres, 'g', 17) + "\n";
+  for (const QString& group : groups) {
+    out += "\n[[material]]                         # values of \"" + material.name +
+           "\" of the library: put in your own\n";
+    out += "group = " + quoted(group) + "\n";
+    for (const char* key : {"young", "poisson", "density"}) out += QString("%1 = %2\n").arg(key, material.value(key));
+    out += "joints = \"breakable\"\n";
+  }
+  for (const QString& group : groups) {
+    out += "\n[[joint]]\ngroup = " + quoted(group) + "\n";
+    for (const MaterialValue& v : material.values)
+      if (v.key.startsWith("joint.")) out += v.key.mid(6) + " = " + v.toml + "\n";
+  }
+  out += "\n[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = " + material.value("young") + "\nfriction = 0.4\n";
+  return out + "\n[[stage]]\nend = \"1 ms\"\n\n[output]\nframe_interval = \"20 us\"\n";
+}
+
+}  // namespace
+
+const std::vector<LengthUnit>& length_units() {
+  static const std::vector<LengthUnit> units{
+      {text("millimetre"), 0.001}, {text("metre"), 1}, {text("centimetre"), 0.01}, {text("inch"), 0.0254}};
+  return units;
+}
+
+QStringList solid_patterns() { return {"*.step", "*.stp", "*.STEP", "*.STP", "*.brep", "*.BREP", "*.stl", "*.STL"}; }
+
+bool needs_unit(const QString& file) { return states_no_unit(geometry_file(file.toStdString())); }
+
+std::array<double, 3> box_of_answer(const QJsonObject& mesh) {
+  const QJsonObject box = mesh["box"].toObject();
+  const QJsonArray lower = box["lower"].toArray(), upper = box["upper"].toArray();
+  return {upper[0].toDouble() - lower[0].toDouble(), upper[1].toDouble() - lower[1].toDouble(),
+          upper[2].toDouble() - lower[2].toDouble()};
+}
+
+QString import_solid(const QString& file, const QJsonObject& mesh, double metres, const Places& places,
+                     QString* error) {
+  const QFileInfo from(file);
+  const QDir projects(places.projects);
+  QString folder = projects.filePath(from.completeBaseName());
+  for (int i = 2; QFileInfo::exists(folder); ++i)
+    folder = projects.filePath(QString("%1-%2").arg(from.completeBaseName()).arg(i));
+  QStringList groups;
+  for (const QJsonValue& group : mesh["groups"].toObject()["volumes"].toArray())
+    groups << group.toObject()["name"].toString();
+  if (!QDir().mkpath(folder) || !QFile::copy(file, QDir(folder).filePath(from.fileName()))) {
+    *error = text("%1 cannot be copied into %2").arg(file, folder);
+    return {};
+  }
+  QSaveFile out(QDir(folder).filePath("case.toml"));
+  const QByteArray bytes = case_text(file, groups, metres).toUtf8();
+  if (out.open(QIODevice::WriteOnly) && out.write(bytes) == bytes.size() && out.commit()) return out.fileName();
+  *error = text("%1 cannot be written: %2").arg(out.fileName(), out.errorString());
+  return {};
+}
+
+}  // namespace breccia::gui

@@ -1,0 +1,97 @@
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <string>
+
+#include "end_to_end/program.hpp"
+
+namespace breccia::test {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kRoundOff = 1e-12;  // gmsh lays the corners out anew on its surfaces
+
+/// An STL of a beam of 60 x 20 x 10, drawn in millimetres.
+std::string beam() {
+  constexpr int kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  constexpr int kSize[3] = {60, 20, 10};
+  std::string text = "solid beam\n";
+  for (const auto& face : kFaces)
+    for (const int half : {0, 1}) {
+      text += "facet normal 0 0 0\nouter loop\n";
+      for (const int corner : {0, 1 + half, 2 + half}) {
+        text += "vertex";
+        for (int a = 0; a < 3; ++a) text += " " + std::to_string((face[corner] >> a & 1) != 0 ? kSize[a] : 0);
+        text += "\n";
+      }
+      text += "endloop\nendfacet\n";
+    }
+  return text + "endsolid beam\n";
+}
+
+const std::string kCase = R"(title = "beam"
+[mesh]
+file = "beam.stl"
+scale = 0.001
+size = "6 mm"
+[[material]]
+group = "beam"
+young = "40 GPa"
+poisson = 0.2
+density = 2400
+joints = "none"
+[[stage]]
+end = "2 us"
+[[stage.constraint]]
+group = "surface_1"
+fixed = "xyz"
+)";
+
+TEST(Solid, a_case_of_an_stl_is_checked_and_run_with_the_same_bits_on_two_ranks) {
+  const Scratch scratch;
+  scratch.write("beam.stl", beam());
+  const std::string file = scratch.write("case.toml", kCase);
+  const Outcome checked = call("check " + file);
+  EXPECT_EQ(checked.exit_code, 0) << checked.err;
+  for (const char* words : {"box           0.06 x 0.02 x 0.01 m", "a length of 1 is mesh.scale metres", "surface_6"})
+    EXPECT_NE(checked.out.find(words), std::string::npos) << words << " in\n" << checked.out;
+  std::array<json, 2> summary;
+  for (const int ranks : {1, 2}) {
+    const std::string folder = scratch.path("run" + std::to_string(ranks)).string();
+    const Outcome run = call_ranks(ranks, "run " + file + " --progress none -o '" + folder + "'");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    summary[static_cast<std::size_t>(ranks - 1)] = json::parse(read_text(folder + "/summary.json"));
+  }
+  EXPECT_EQ(summary[0]["state_hash"], summary[1]["state_hash"]);
+}
+
+TEST(Solid, whose_lengths_look_like_millimetres_taken_for_metres_is_asked_about) {
+  const Scratch scratch;
+  scratch.write("beam.stl", beam());
+  const std::string file = scratch.write("case.toml", kCase);
+  const Outcome checked = call("check " + file + " --set mesh.scale=1 --set mesh.size=6");
+  EXPECT_EQ(checked.exit_code, 0) << checked.err;
+  EXPECT_NE(checked.out.find("states no unit, and the model is 60 x 20 x 10 m large"), std::string::npos)
+      << checked.out;
+}
+
+TEST(Solid, without_a_case_is_meshed_and_its_groups_and_box_told) {
+  const Scratch scratch;
+  const std::string file = scratch.write("beam.stl", beam());
+  const Outcome outcome = call("mesh " + file + " --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json told = json::parse(outcome.out);
+  EXPECT_EQ(told["groups"]["volumes"][0]["name"], "beam");
+  EXPECT_EQ(told["groups"]["surfaces"].size(), 6U);
+  constexpr std::array<double, 3> kUpper{60, 20, 10};
+  for (std::size_t a = 0; a < kUpper.size(); ++a)
+    EXPECT_NEAR(told["box"]["upper"][a].get<double>(), kUpper[a], kRoundOff * kUpper[a]);
+  const Outcome refused = call("mesh " + file + " --set mesh.size=1");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("is no case file: a geometry is meshed as it is"), std::string::npos) << refused.err;
+}
+
+}  // namespace
+}  // namespace breccia::test
