@@ -93,7 +93,8 @@ void judge_motion(Domain& domain) {
   const Clock& clock = domain.state.clock;
   const Signals& signals = domain.state.signals;
   const std::int64_t step = signals.fastest_step;
-  if (step <= signals.step_motion.known_step) return;
+  // Before the first step a division may already have told what was known then: not yet how long that step is.
+  if (clock.steps > 0 && step <= signals.step_motion.known_step) return;
   const bool last = step == clock.steps - 1;
   const double length = signals.fastest * (clock.steps == 0 ? clock.dt : last ? clock.dt_before : clock.dt_earlier);
   judge(domain, step, length);

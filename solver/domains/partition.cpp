@@ -71,7 +71,10 @@ void Partition::start_divided() {
 void Partition::start_piece() {
   start_joints(*domain_);
   for (const InitialVelocity& initial : initial_velocities(input_, *model_)) add_velocity(*domain_, initial);
-  NodalState& nodes = domain_->state.nodes;
+  State& state = domain_->state;
+  domain_->exchange.finish_reduction(state.clock, state.signals);  // begun when nothing moved yet
+  domain_->exchange.begin_reduction(state.clock, state.signals);
+  NodalState& nodes = state.nodes;
   domain_->exchange.begin_gather(nodes.position, nodes.velocity);
   domain_->exchange.finish_gather();
   relax_overlaps();

@@ -47,8 +47,8 @@ template <class T>
 /// Squares of the openings at which the stiffness of each component was lost in an evaluation, m2: the opening at which
 /// the loss began times the one at which it ended. With these the loss 1/2 k (loss of the share) (square) is, on a
 /// straight path, the trapezoidal work less the change of the stored energy, and never negative on any path.
-/// It begins at the last opening where that lies before the opening at which damage grows: an evaluation that passes the
-/// peak has felt the force before it, no more.
+/// It begins at the last opening where that lies before the opening at which damage grows: an evaluation that passes
+/// the peak has felt the force before it, no more.
 template <class T>
 struct LossOpenings {
   T normal2, shear2;

@@ -99,6 +99,13 @@ TEST_P(Fault, WarnsOnceOfATimeStepThatFallsToATenth) {
   EXPECT_NE(read_text(folder("drawn") / "status.jsonl").find(words), std::string::npos);
 }
 
+TEST_P(Fault, IsNotWhatBodiesFlyWithFromTheStart) {
+  // Faster than waves: in the first step nodes move further than any may that were at rest before.
+  const Outcome flown =
+      run("flown", kSmallCase, "--set 'initial_velocity[0].random=[\"100 m/s\", \"120 m/s\"]' --set time.max_steps=4");
+  EXPECT_EQ(flown.exit_code, 0) << flown.err;
+}
+
 TEST_P(Fault, InTheLastStepOfARunIsOneToo) {
   const Outcome failed = run("jumped", kSmallCase, "--set 'time.step=4 ms' --set 'sphere.radius=1 m'");
   EXPECT_EQ(failed.exit_code, 3) << failed.err;
