@@ -47,8 +47,6 @@ template <class T>
 /// Squares of the openings at which the stiffness of each component was lost in an evaluation, m2: the opening at which
 /// the loss began times the one at which it ended. With these the loss 1/2 k (loss of the share) (square) is, on a
 /// straight path, the trapezoidal work less the change of the stored energy, and never negative on any path.
-/// It begins at the last opening where that lies before the opening at which damage grows: an evaluation that passes
-/// the peak has felt the force before it, no more.
 template <class T>
 struct LossOpenings {
   T normal2, shear2;
@@ -90,17 +88,6 @@ template <class T>
   }
 }
 
-/// A square of LossOpenings. A point that was closed begins where damage grows, and what it gains by opening is taken
-/// back apart (joint_point.hpp, damp); so does the parabolic rise (component_loss).
-/// @param square  of the opening at which damage begins to grow, times `end`;  @param last  opening before, m
-/// @param free  no friction takes part: with it, what the cohesion loses is not all that the forces do not feel
-template <class T>
-[[nodiscard]] inline T loss_square(const JointLawParams& law, const T& square, const T& last, const T& end,
-                                   const Mask<T>& free) {
-  if (!rises_linearly(law.rise)) return square;
-  return select(free && last >= 0.0, lesser(square, T(last * end)), square);
-}
-
 /// Takes the damage of an opening where it grows. The loss begins where, on the ray of the opening, the present damage
 /// was reached: at the share R_old/R of it, R_old = z/(1-d) (1 without damage), under pressure where k |delta_s| = c
 /// R_old + mu p; it ends at the opening, but no farther than where the damage is 1, (r - 1) Q = 1.
@@ -128,12 +115,8 @@ inline void grow_mixed_mode(const JointLawParams& law, const Components<T>& c, P
   const T begin_shear = select(
       c.pressure > zero, lesser(T((law.cohesion * old_reach + coulomb) / law.stiffness), c.shear), T(begin * c.shear));
   const T end = select(full, greater(lesser(T((1.0 + 1.0 / slope) / r), one), begin), one);
-  const T normal2_passed = begin * end * (c.open * c.open), shear2_passed = begin_shear * end * c.shear;
-  loss.normal2 =
-      select(grown, loss_square(law, normal2_passed, h.normal_opening, T(end * c.open), grown), loss.normal2);
-  loss.shear2 =
-      select(grown, loss_square(law, shear2_passed, h.shear_opening, T(end * c.shear), Mask<T>(c.pressure <= zero)),
-             loss.shear2);
+  loss.normal2 = select(grown, T(begin * end * (c.open * c.open)), loss.normal2);
+  loss.shear2 = select(grown, T(begin_shear * end * c.shear), loss.shear2);
   h.damage = select(full, one, select(partly, trial, h.damage));
   h.level = select(full, one, select(partly, level, h.level));
   h.strength_share = select(full, zero, select(partly, z, h.strength_share));
@@ -154,15 +137,12 @@ inline void grow_independent_peaks(const JointLawParams& law, const Components<T
   const T secant_n = law.tensile_strength / (law.stiffness * c.open);
   const Mask<T> falls_n = beyond_normal && secant_n < h.secant_normal;
   const T begin_n = greater(T(law.tensile_strength / (law.stiffness * h.secant_normal)), T(law.onset_normal));
-  const T end_n = lesser(c.open, T(law.onset_normal + law.width_normal));
-  loss.normal2 = select(falls_n, loss_square(law, T(begin_n * end_n), h.normal_opening, end_n, falls_n), loss.normal2);
+  loss.normal2 = select(falls_n, T(begin_n * lesser(c.open, T(law.onset_normal + law.width_normal))), loss.normal2);
   h.secant_normal = select(falls_n, secant_n, h.secant_normal);
   const T secant_s = law.cohesion / (law.stiffness * c.shear - coulomb);
   const Mask<T> falls_s = beyond_shear && secant_s < h.secant_shear;
   const T begin_s = lesser(greater(T((law.cohesion / h.secant_shear + coulomb) / law.stiffness), onset_shear), c.shear);
-  const T end_s = lesser(c.shear, T(onset_shear + law.width_shear));
-  loss.shear2 = select(
-      falls_s, loss_square(law, T(begin_s * end_s), h.shear_opening, end_s, Mask<T>(c.pressure <= zero)), loss.shear2);
+  loss.shear2 = select(falls_s, T(begin_s * lesser(c.shear, T(onset_shear + law.width_shear))), loss.shear2);
   h.secant_shear = select(falls_s, secant_s, h.secant_shear);
   const T beyond_n = select(beyond_normal, T((c.open - law.onset_normal) / law.width_normal), zero);
   const T beyond_s = select(beyond_shear, T((c.shear - onset_shear) / law.width_shear), zero);

@@ -117,10 +117,10 @@ Mesh two_groups_and_a_grain() {
 }
 
 TEST(friction, a_spring_that_lets_go_in_another_group_gives_back_what_it_held_under_its_own_law) {
-  constexpr double kPenalty = 1e6, kStep = 1e-3;
-  test::Scene scene(two_groups_and_a_grain(), {kPenalty, std::numeric_limits<double>::infinity(), 1, 1.0, 1});
+  constexpr double kSoft = 1e6, kStep = 1e-3;
+  test::Scene scene(two_groups_and_a_grain(), {kSoft, std::numeric_limits<double>::infinity(), 1, 1.0, 1});
   const Index grain = 1;
-  scene.params.laws[2 * 3 + 1].penalty = 10 * kPenalty;  // of the grain's points against the second group
+  scene.params.laws[2 * 3 + 1].penalty = 10 * kSoft;  // of the grain's points against the second group
   scene.couple([&](Index slot) { return scene.body(slot) == grain; },
                [&](Index slot) { return scene.body(slot) != grain; });
   scene.evaluate(kStep);

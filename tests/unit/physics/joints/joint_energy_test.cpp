@@ -281,26 +281,6 @@ TEST(JointEnergy, opening_from_pressure_within_a_step_takes_what_the_damage_take
   }
 }
 
-TEST(JointEnergy, an_evaluation_that_passes_the_peak_takes_what_the_force_before_it_and_after_it_give) {
-  constexpr double kRoundOff = 1e-9;
-  for (const JointLaw kind : {JointLaw::mixed_mode, JointLaw::independent_peaks}) {
-    for (const double angle : kAngles) {
-      for (const double short_of_the_peak : {0.0, 0.3, 0.9}) {
-        JointLawParams law = example_law();
-        law.law = kind;
-        law = prepared(law);
-        PointDriver point{law};
-        point.step(at_angle(angle, short_of_the_peak * law.onset_normal));
-        ASSERT_EQ(point.history.damage, 0.0);
-        point.step(at_angle(angle, 1.9 * law.onset_normal));
-        ASSERT_GT(point.history.damage, 0.0);
-        EXPECT_NEAR(point.work - point.history.stored, point.dissipated(), kRoundOff * kEnergy)
-            << angle << " degrees, from " << short_of_the_peak;
-      }
-    }
-  }
-}
-
 /// A mass held by a spring as stiff as the joint and by a damaged point, in central differences; J/m2 and kg/m2.
 struct Chatter {
   PointDriver point;
