@@ -89,13 +89,6 @@ std::string start_xvfb(pid_t& child) {
   throw PipelineError("Xvfb did not start");
 }
 
-}  // namespace
-
-namespace {
-
-/// A display that somebody has chosen for the pictures: where a graphics card is to draw.
-constexpr const char* kChosen = "BRECCIA_DISPLAY";
-
 /// "" when an X display can be drawn on; else what is wrong with it. ParaView ends the process where that is not so.
 std::string fault_of(const char* name) {
   ::Display* display = XOpenDisplay(name);
@@ -120,10 +113,11 @@ void go_on(::Display*, void*) {}
 
 }  // namespace
 
+// BRECCIA_DISPLAY: a display chosen for the pictures, where a graphics card is to draw.
 std::string display_problem() {
-  if (const std::string chosen = environment(kChosen); !chosen.empty()) {
+  if (const std::string chosen = environment("BRECCIA_DISPLAY"); !chosen.empty()) {
     const std::string fault = fault_of(chosen.c_str());
-    return fault.empty() ? "" : "pictures need an X display: " + chosen + ", of " + kChosen + ", " + fault;
+    return fault.empty() ? "" : "pictures need an X display: " + chosen + ", of BRECCIA_DISPLAY, " + fault;
   }
   if (is_on_path("Xvfb")) return {};
   const std::string given = environment("DISPLAY");
@@ -141,7 +135,7 @@ Display::Display(const Ranks& ranks) : ranks_(ranks) {
   XSetErrorHandler(&take_error);
   XSetIOErrorHandler(&take_loss);
   // Our own on all ranks, or that of each: mixtures draw differently.
-  const std::string chosen = environment(kChosen);
+  const std::string chosen = environment("BRECCIA_DISPLAY");
   if (!chosen.empty()) {
     set(chosen);
   } else if (ranks.agree(is_on_path("Xvfb") ? "" : "none").empty()) {

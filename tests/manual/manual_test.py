@@ -81,7 +81,7 @@ def option_tags(lines):
 
 def variables_read():
     """Names of BRECCIA_ variables that the code asks the environment for."""
-    asks = re.compile(r"""(?:getenv\(|environ\.get\(|environ\[)\s*["'](BRECCIA_\w+)""")
+    asks = re.compile(r"""(?:getenv\(|environ\.get\(|environ\[|\benvironment\()\s*["'](BRECCIA_\w+)""")
     files = [file for folder in ("solver", "catalyst") for ending in ("cpp", "hpp", "h", "py") for file in (SOURCE / folder).rglob(f"*.{ending}")]
     return {name for file in files for name in asks.findall(file.read_text(encoding="utf-8"))}
 
