@@ -122,6 +122,7 @@ struct FieldTable<CoupleRecord> {
       FieldRow{"spring", "m", kState, [](auto& r) -> auto& { return r.couple.spring; }},
       FieldRow{"friction", "N", kState, [](auto& r) -> auto& { return r.couple.friction; }},
       FieldRow{"force", "N", kState, [](auto& r) -> auto& { return r.couple.force; }},
+      FieldRow{"balance", "1", kState, [](auto& r) -> auto& { return r.couple.balance; }},
       FieldRow{"gained", "J", kState, [](auto& r) -> auto& { return r.couple.gained; }},
   };
 // clang-format on

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "physics/contact/contact_balance.hpp"
 #include "physics/contact/contact_field.hpp"
 #include "physics/contact/friction.hpp"
+#include "physics/contact/spherical_boundary.hpp"
 
 namespace breccia {
 
@@ -56,14 +57,13 @@ class Pass {
 
  private:
   void prepare_contactors();
-  void push_back_into_sphere();
   void touch_point(Index point);
   void drop_ambiguous();
   void find_histories(Index point);
   void take_over(std::size_t first, std::size_t last);
   void forget(const TouchingCouple& old, double lost = 0);
-  void take_back(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda,
-                 const Vec3& last_force, const Vec3& motion, double gained);
+  void end(const ContactPoint& point, const TouchingCouple& last, const Vec3& motion,
+           const std::array<double, 4>& lambda, TouchingCouple& h);
   [[nodiscard]] Vec3 relative_motion(const ContactPoint& point, Index slot, const std::array<double, 4>& lambda) const;
   [[nodiscard]] double first_offset(Index point, const Candidate& candidate) const;
   [[nodiscard]] static double follow(const ContactLaw& law, double scale, double length, const Candidate& candidate,
@@ -72,6 +72,7 @@ class Pass {
   void act(Index point, Candidate& candidate);
   [[nodiscard]] double press(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
                              const Candidate& candidate, TouchingCouple& h);
+  void balance(const ContactPoint& point, double length, const Vec3& motion, TouchingCouple& h) const;
   [[nodiscard]] Damping damp(const ContactLaw& law, const ContactPoint& point, const Vec3& motion,
                              const Candidate& candidate, const Vec3& gradient, double elastic) const;
   void distribute(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda, const Vec3& force);
@@ -91,10 +92,12 @@ class Pass {
   [[nodiscard]] const ContactLaw& law_of(Index point, Index contactor) const {
     return params_.law(group_of(local_, point_at(point).slot), group_of(local_, slot_of(contactor)));
   }
-  /// N/m, of the friction of a couple.
+  /// N/m, of a couple along its normal; times tangential_ratio of its friction.
+  [[nodiscard]] double stiffness(const ContactPoint& point, const TouchingCouple& h) const {
+    return point.weight * law_of(h.point, h.contactor).penalty / length_of(slot_of(h.contactor));
+  }
   [[nodiscard]] double spring_stiffness(const ContactPoint& point, const TouchingCouple& h) const {
-    const ContactLaw& law = law_of(h.point, h.contactor);
-    return law.tangential_ratio * point.weight * law.penalty / length_of(slot_of(h.contactor));
+    return law_of(h.point, h.contactor).tangential_ratio * stiffness(point, h);
   }
   /// J, by the normal law of a couple.
   [[nodiscard]] double normal_held(const ContactPoint& point, const TouchingCouple& h) const {
@@ -137,11 +140,9 @@ void Pass::run() {
   advance_field(contact_);
   contact_.touching_before.swap(contact_.touching);
   contact_.touching.clear();
-  contact_.boundary.clear();
-  contact_.taken_back.clear();
   work_.stored = work_.friction_stored = ExactSum{};
   work_.touching = 0;
-  if (params_.sphere) push_back_into_sphere();
+  spherical_boundary(params_, local_, state_, contact_, forces_, work_.stored);
   prepare_contactors();
 
   const std::vector<ContactCouple>& couples = contact_.couples;
@@ -166,28 +167,6 @@ void Pass::prepare_contactors() {
     const Index slot = slot_of(contact_.in_couples[i]);
     contact_.prepared[i] =
         prepare(load_corners(local_, state_.position.data(), slot), local_.volume[static_cast<std::size_t>(slot)]);
-  }
-}
-
-void Pass::push_back_into_sphere() {
-  const SphericalBoundary& sphere = *params_.sphere;
-  contact_.boundary_offset.resize(contact_.points.size(), std::numeric_limits<double>::infinity());
-  for (const Index index : contact_.order) {
-    const ContactPoint& point = point_at(index);
-    if (!contact_.evaluated(point.slot)) continue;
-    const Vec3 from_centre = at_point(rule_, point, state_.position.data()) - sphere.centre;
-    const double r = from_centre.norm();
-    // A point that comes into being outside, on a face freed by fracture, is not thrown back with energy from nowhere.
-    double& offset = contact_.boundary_offset[static_cast<std::size_t>(index)];
-    offset = std::min(offset, std::max(r - sphere.radius, 0.0));
-    const double beyond = r - sphere.radius - offset;
-    if (!(beyond > 0)) continue;
-    const double stiffness = point.weight * sphere.penalty / length_of(point.slot);
-    const Vec3 force = (-stiffness * beyond / r) * from_centre;
-    const std::array<double, 3>& shape = rule_.shape[static_cast<std::size_t>(point.k)];
-    for (std::size_t i = 0; i < 3; ++i) forces_.add(point.nodes[i], shape[i] * force);
-    account(point, work_.stored).add(0.5 * stiffness * beyond * beyond);
-    contact_.boundary.push_back({index, force});
   }
 }
 
@@ -288,16 +267,18 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   }
   // A contactor that was crushed while it was touched gives nothing back.
   if (crushed) return account(point, work_.dissipated).add(normal_held(point, old));
-  const double gained = old.gained + 0.5 * old.force.dot(motion) - held(point, old) + lost;
-  take_back(point, old.contactor, lambda, old.force, motion, gained);
+  TouchingCouple ended{.point = old.point, .contactor = old.contactor};
+  ended.gained = old.gained + 0.5 * old.force.dot(motion) - held(point, old) + lost;
+  end(point, old, motion, lambda, ended);
+  if (ended.force != Vec3::Zero()) contact_.touching.push_back(ended);
 }
 
-void Pass::take_back(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda,
-                     const Vec3& last_force, const Vec3& motion, double gained) {
-  const double work = last_force.dot(motion);
-  if (!(gained > 0) || !(work > 0)) return;
-  contact_.taken_back.push_back({point.slot, slot_of(contactor), -std::min(gained / work, 1.0) * last_force});
-  distribute(point, contactor, lambda, contact_.taken_back.back().force);
+/// The couple exerts no force by its law any more. @param h  read and written: force, gained
+void Pass::end(const ContactPoint& point, const TouchingCouple& last, const Vec3& motion,
+               const std::array<double, 4>& lambda, TouchingCouple& h) {
+  h.force = closing_force(h.gained, last.force, motion, last.d > 0, stiffness(point, h));
+  h.gained += 0.5 * h.force.dot(motion);
+  distribute(point, h.contactor, lambda, h.force);
 }
 
 /// Overlap that makes no force, m, of a couple seen for the first time.
@@ -362,6 +343,7 @@ void Pass::act(Index index, Candidate& candidate) {
   h.point = index;
   h.contactor = candidate.contactor;
   h.force = h.friction = Vec3::Zero();
+  h.balance = 0;
   const double lost = follow(law, point.weight * length, length, candidate, h);
   account(point, work_.dissipated).add(lost);
   if (!(candidate.g > 0)) {
@@ -373,11 +355,12 @@ void Pass::act(Index index, Candidate& candidate) {
     const double before = candidate.old >= 0 ? held(point, last) : 0.0;
     const double kept = press(law, point, length, motion, candidate, h);
     // What a couple holds that was there before anything moved has been put in.
-    if (candidate.old >= 0 || motion != Vec3::Zero())
+    if (candidate.old >= 0 || motion != Vec3::Zero()) {
       h.gained += 0.5 * (last.force + h.force).dot(motion) + kept - before + lost;
-    if (h.force != Vec3::Zero()) return;
-    take_back(point, candidate.contactor, candidate.lambda, last.force, motion, h.gained);
-    h.gained = 0;
+      balance(point, length, motion, h);
+    }
+    distribute(point, candidate.contactor, candidate.lambda, h.force);
+    if (h.force == Vec3::Zero()) end(point, last, motion, candidate.lambda, h);
   }
 }
 
@@ -407,8 +390,20 @@ double Pass::press(const ContactLaw& law, const ContactPoint& point, double leng
   }
   account(point, work_.stored).add(stored);
   if (h.d > 0 && local_.is_original(point.slot)) ++work_.touching;
-  distribute(point, candidate.contactor, candidate.lambda, h.force);
   return kept;
+}
+
+/// @param h  force by its law and what it has gained with it; both are changed
+void Pass::balance(const ContactPoint& point, double length, const Vec3& motion, TouchingCouple& h) const {
+  const Vec3 normal = h.force - h.friction;
+  const double work = normal.dot(motion);
+  if (work == 0) return;
+  const double out = work / normal.norm();
+  const bool leaves = out > h.d * length;  // in the next step, with the motion of this one
+  const double gained = h.gained + (leaves ? 0.5 * work - normal_held(point, h) : 0.0);
+  h.balance = balancing_share(gained, work, stiffness(point, h), out);
+  h.gained += 0.5 * h.balance * work;
+  h.force += h.balance * normal;
 }
 
 /// Its work is that of the mean of this and the last force over the motion; where that turns round there is none.
@@ -417,10 +412,10 @@ Damping Pass::damp(const ContactLaw& law, const ContactPoint& point, const Vec3&
   const double deeper = gradient.dot(motion);  // m, during the last step
   const double pressure = point.weight * normal_law::damped(law, elastic / point.weight, deeper / dt_);
   double before = 0;
-  if (candidate.old >= 0) {
+  if (candidate.old >= 0 && contact_.touching_before[static_cast<std::size_t>(candidate.old)].d > 0) {
     const TouchingCouple& old = contact_.touching_before[static_cast<std::size_t>(candidate.old)];
-    before =
-        (old.force - old.friction).norm() / gradient.norm() - point.weight * normal_law::stress(law, old.d, old.d_max);
+    before = (old.force - old.friction).norm() / ((1 + old.balance) * gradient.norm()) -
+             point.weight * normal_law::stress(law, old.d, old.d_max);
   }
   return {pressure, std::max(0.0, 0.5 * (before + pressure - elastic) * deeper)};
 }

@@ -34,11 +34,10 @@ struct ContactWork {
 /// vertex with the old one the history moves along. A new couple starts with offset = g if point and contactor share a
 /// mesh vertex or if fracture has just made it, else with 0, so that freeing a face makes no force.
 /// A new couple that is deeper at once than its point has moved takes the excess as its offset.
-/// A force that ends within a step has done its work to the end of the step, where the overlap ended on the way:
-/// 1/2 f . (motion) is more than was stored. So each couple counts the trapezoidal work beyond what it holds and
-/// dissipates since its force began, and when its force ends what it has gained is taken back: by a force against the
-/// last one, never larger, in one step. The work of the step after it is taken to be that of this one; what that leaves
-/// is part of the residual.
+/// Work and energy: each couple counts the work that its forces have done, as central differences do it, beyond what it
+/// took, holds and dissipates. A step in which the overlap begins or ends, or follows a curved law, leaves an error; a
+/// change of the normal force puts it right (contact_balance.hpp), before a force ends as far as that can be foreseen.
+/// A couple whose overlap has ended holds back what it has gained, with d = 0, until next to nothing is left.
 /// The first thing done is one step of the field's ramps. The offset of a couple follows a change of g that comes from
 /// the field alone, down to 0 at least: a field that rises exerts no force, one that sinks lets go of stored energy,
 /// which is accounted as dissipated.

@@ -19,11 +19,6 @@ std::array<ExactSum, 3> contact_force_on(const ContactState& contact, const Loca
     if (holds(slot)) add(t.force);
     if (holds(contact.contactors[static_cast<std::size_t>(t.contactor)])) add(-t.force);
   }
-  for (const TakenBack& t : contact.taken_back) {
-    if (!local.is_original(t.slot)) continue;
-    if (holds(t.slot)) add(t.force);
-    if (holds(t.contactor)) add(-t.force);
-  }
   return sum;
 }
 

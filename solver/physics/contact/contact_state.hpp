@@ -18,8 +18,9 @@ struct ContactCouple {
   bool operator==(const ContactCouple&) const = default;
 };
 
-/// A couple that touches, with its history. It lives exactly as long as the overlap: a point that slides into a
-/// neighbouring element takes it along, a point that leaves the body forgets it at once.
+/// A couple that touches, with its history. It lives as long as the overlap: a point that slides into a neighbouring
+/// element takes it along, a point that leaves the body forgets it. Only the force that holds back what the couple has
+/// gained lives on for some steps, with d = 0.
 struct TouchingCouple {
   Index point = 0;
   Index contactor = 0;
@@ -29,6 +30,7 @@ struct TouchingCouple {
   Vec3 spring{0, 0, 0};    ///< m, elongation of the friction spring
   Vec3 friction{0, 0, 0};  ///< N, tangential force on the point
   Vec3 force{0, 0, 0};     ///< N, whole force on the point
+  double balance = 0;      ///< share of its normal force by which the force was changed to balance the work of a step
   double gained = 0;       ///< J, work done since the force began beyond what it took and holds (contact_forces.hpp)
 };
 
@@ -47,12 +49,6 @@ struct FieldRamp {
 struct BoundaryForce {
   Index point;
   Vec3 force;  ///< N
-};
-
-/// Force that took back what a couple that has ended had gained: on the point's element, its reaction on the contactor.
-struct TakenBack {
-  Index slot, contactor;  ///< slots
-  Vec3 force;             ///< N
 };
 
 /// Everything about contact that changes in a run. Plain data.
@@ -76,7 +72,6 @@ struct ContactState {
   // History and forces of the last step.
   std::vector<TouchingCouple> touching;  ///< by (point id, contactor)
   std::vector<BoundaryForce> boundary;   ///< by point id
-  std::vector<TakenBack> taken_back;     ///< by point id
   std::vector<double> boundary_offset;  ///< (points) m outside the sphere without force: where the point was first seen
 
   // Scratch, worth keeping only for its storage.

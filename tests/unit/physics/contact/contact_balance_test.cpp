@@ -1,0 +1,82 @@
+#include "physics/contact/contact_balance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "press.hpp"
+
+/// A mass on a contact that begins and ends anywhere within a step.
+namespace breccia {
+namespace {
+
+using test::Press;
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity(), kPenalty = 1e6;  // Pa
+
+/// Energies of an impact as shares of the kinetic energy that it begins with.
+struct Impact {
+  double largest_loss = 0;  ///< at any time
+  double at_the_end = 0;    ///< gained
+};
+
+/// Central differences of a rigid mass with a step of 1 s, from a gap that is `phase` of the first way above the face.
+/// @param omega  rad/s, of the mass on the contact's stiffness; 2 is the limit of stability
+Impact impact(double omega, double phase, const ContactLaw& law) {
+  constexpr double speed = 1e-3;  // m/s
+  Press press(-phase * speed, law);
+  const double mass = Press::area() * kPenalty / press.scene.contact.body_length[0] / (omega * omega);
+  const double first = 0.5 * mass * speed * speed;
+  Impact found;
+  double v = -speed;
+  const auto steps = static_cast<int>(20 + 10 / omega);
+  for (int i = 0; i < steps; ++i) {
+    const double force = press.move(v), before = v;
+    v += force / mass;
+    const ContactWork& work = press.scene.work;
+    found.at_the_end = (0.5 * mass * v * before + work.stored.value() + work.dissipated.value()) / first - 1;
+    found.largest_loss = std::max(found.largest_loss, -found.at_the_end);
+  }
+  EXPECT_TRUE(press.scene.contact.touching.empty()) << "the contact has ended";
+  return found;
+}
+
+TEST(contact_balance, an_impact_returns_its_energy_wherever_in_a_step_it_begins_and_ends) {
+  // A force that begins with k d loses up to omega^2 / 4 of the energy at once; its own end may give that back, or not.
+  constexpr double kAtOnce = 0.14;  // of omega^2: half of that
+  constexpr double kGain = 1e-4, kLoss = 0.06;
+  const ContactLaw law{kPenalty, kInfinite, 1, 0, 1};
+  for (const double omega : {0.2, 0.5, 0.8, 1.1, 1.4}) {
+    for (double phase = 0.025; phase < 1; phase += 0.05) {
+      const Impact found = impact(omega, phase, law);
+      EXPECT_LT(found.largest_loss, kAtOnce * omega * omega) << omega << " " << phase;
+      EXPECT_LT(found.at_the_end, kGain) << omega << " " << phase;
+      EXPECT_GT(found.at_the_end, -kLoss) << omega << " " << phase;
+    }
+  }
+}
+
+TEST(contact_balance, adds_nothing_to_a_contact_at_rest_or_beyond_what_a_step_can_leave_over) {
+  constexpr double k = 100, out = 0.1, work = 2, most = kLargestError * k * out * out;
+  EXPECT_EQ(balancing_share(0, work, k, out), 0);
+  EXPECT_EQ(balancing_share(0.1, work, k, 0), 0);
+  EXPECT_EQ(balancing_share(1.01 * most, 10 * work, k, out), 0);
+  EXPECT_NEAR(balancing_share(0.5 * most, work, k, out), -0.5 * most / work, 1e-15);
+  EXPECT_EQ(balancing_share(0.99 * most, 0.1 * most, k, out), 0) << "no more than half of the force";
+}
+
+TEST(contact_balance, a_closing_force_pulls_no_more_than_was_pushed_and_only_where_energy_was_gained) {
+  const Vec3 pushed(0, 0, 4), up(0, 0, 0.1);
+  constexpr double k = 1e3;
+  EXPECT_EQ(closing_force(-0.1, pushed, up, true, k), Vec3(Vec3::Zero()));
+  EXPECT_EQ(closing_force(0.1, pushed, -up, true, k), Vec3(Vec3::Zero())) << "nothing is taken from a way in";
+  EXPECT_NEAR(closing_force(0.1, pushed, up, true, k)[2], -1, 1e-15) << "over two halves of a step";
+  EXPECT_NEAR(closing_force(1, pushed, up, true, k)[2], -4, 1e-15) << "never larger than the force before";
+  EXPECT_NEAR(closing_force(0.1, Vec3(0, 0, -2), up, false, k)[2], -1, 1e-15) << "one that pulls goes on";
+  EXPECT_EQ(closing_force(1e-5, pushed, up, true, k), Vec3(Vec3::Zero())) << "next to nothing is left over";
+}
+
+}  // namespace
+}  // namespace breccia
