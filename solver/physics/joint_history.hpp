@@ -25,9 +25,11 @@ struct JointPointHistory {
   T damage = 0.0;                   ///< mixed_mode: d; independent_peaks: D
   T level = 0.0;                    ///< D at which the damage grew last
   T strength_share = 1.0;           ///< z there
-  T normal_opening = 0.0;           ///< m, at the last evaluation, as the next three
+  T normal_opening = 0.0;           ///< m, at the last evaluation, as the next five
   T shear_opening = 0.0;            ///< m, length
   T viscous_traction = 0.0;         ///< Pa
+  T balance = 0.0;                  ///< Pa, traction that puts right what central differences gain or lose
+  T gained = 0.0;                   ///< J/m2, what it has not put right yet
   T stored = 0.0;                   ///< J/m2
   std::array<T, 2> slip{0.0, 0.0};  ///< m, s along the two tangents
   T friction_weight = 0.0;
@@ -45,6 +47,8 @@ template <class F, class... Points>
   f(JointNumber{"normal_opening", "m"}, points.normal_opening...);
   f(JointNumber{"shear_opening", "m"}, points.shear_opening...);
   f(JointNumber{"viscous_traction", "Pa"}, points.viscous_traction...);
+  f(JointNumber{"balance", "Pa"}, points.balance...);
+  f(JointNumber{"gained", "J/m2"}, points.gained...);
   f(JointNumber{"stored", "J/m2", all, true}, points.stored...);
   f(JointNumber{"slip_1", "m", friction}, points.slip[0]...);
   f(JointNumber{"slip_2", "m", friction}, points.slip[1]...);

@@ -104,7 +104,8 @@ inline void store_forces(const jp::Triple<Real>& force, JointRow (&rows)[3][3], 
 /// Nothing holds any more, or nothing that could act as the joint is open.
 inline Lanes is_released(const jp::Kinematics<Real>& k, const jp::Joint<Real>& joint) {
   Lanes broken = joint.failed > 0.0;
-  for (const jp::Point<Real>& p : joint.points) broken = broken && p.damage >= 1.0 && p.viscous_traction == 0.0;
+  for (const jp::Point<Real>& p : joint.points)
+    broken = broken && p.damage >= 1.0 && p.viscous_traction == 0.0 && p.balance == 0.0;
   return (broken && jp::open_everywhere(k)) || joint.hold <= 0.0;
 }
 

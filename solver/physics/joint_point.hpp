@@ -102,52 +102,62 @@ template <class T>
   return {select(slid, T(law.stiffness * mean * (length - limit)), zero), spring2};
 }
 
-/// Twice the energy, J/m2, that central differences gain where a point opens from pressure within a step: of what it
-/// stores now, less what it stored at `last` < 0, less the trapezoidal work on it. @param moved  from last to c.normal
+/// What central differences gain where a point opens from pressure within a step, and lose where it closes, J/m2: what
+/// it stores open, less what it stores closed, less the trapezoidal work on it between the two.
+/// @param open, closed  m, > 0 and < 0
 template <class T>
-[[nodiscard]] inline T gained_by_opening(const JointLawParams& law, const Components<T>& c,
-                                         const Remaining<T>& remaining, const PointState<T>& now, const T& moved,
-                                         const T& last) {
-  if (rises_linearly(law.rise)) {
-    const T lost_stiffness = law.stiffness * (1.0 - remaining.normal());
-    return -lost_stiffness * c.normal * last;
-  }
-  const T pressure = -law.stiffness * last;
-  return (pressure - now.normal) * moved + pressure * last + 2.0 * now.stored.open;
+[[nodiscard]] inline T gained_by_opening(const JointLawParams& law, const Remaining<T>& remaining, const T& open,
+                                         const T& closed) {
+  if (rises_linearly(law.rise)) return -0.5 * law.stiffness * (1.0 - remaining.normal()) * open * closed;
+  const ComponentState<T> now =
+      component_state(law, law.onset_normal, remaining.z, remaining.secant_normal, open, T(open * open));
+  const T pressed = law.stiffness * closed;
+  return now.stored - 0.5 * pressed * closed - 0.5 * (now.stiffness * open + pressed) * (open - closed);
 }
 
-/// Damping of a damaged point's normal opening.
+/// A damaged point is stiffer closed than open by d k, and central differences lose 1/2 d k |delta_n before| |delta_n|
+/// where it closes within a step, and gain as much where it opens; what damage takes on that way they do not feel at
+/// all. Nor is what the viscous traction gives back, where the motion turns round, less dissipated. Each point counts
+/// what it has gained so, and a traction takes it or gives it back, half in this step and half in the next one, taken
+/// to move as this one; what it does instead is counted again. It is no larger than such a step can leave over, as in
+/// contact/contact_balance.hpp. A point that chatters, to and fro from step to step, is given nothing, and all is taken
+/// at once: of a force that acts over a way and back nothing would be left.
+/// @param loss     J/m2, of normal stiffness, in this evaluation
+/// @param before   Pa, viscous traction of the last evaluation
+/// @param viscous  J/m2, work of the viscous traction in this one
 template <class T>
-struct Damping {
-  T traction;    // Pa
-  T dissipated;  // J/m2
-};
-
-/// A damaged point is stiffer closed than open by d k, and central differences lose energy, 1/2 d k |delta_n before|
-/// |delta_n|, where it closes within a step, and gain as much where it opens; what damage takes on that way they do not
-/// feel at all. Both are taken back by a pull whose work over the step is that: nothing is dissipated by it beyond what
-/// the law says, but for its work in the step that follows. A viscous traction c k' (delta_n - delta_n before), k' the
-/// present normal stiffness, damps what chatters so, and dissipates its trapezoidal work. Neither is there without
-/// viscosity. For the parabolic rise the gain is that of its own curve: what is stored now less what was, less the
-/// trapezoidal work on the point.
-/// @param now  normal traction and stored energy, friction and damping apart
-/// @param on  damaged before this evaluation;  @param damaged  after it;  @param loss  J/m2, of normal stiffness, in it
-template <class T>
-[[nodiscard]] inline Damping<T> damp(const JointLawParams& law, const Components<T>& c, const Remaining<T>& remaining,
-                                     const PointState<T>& now, const Mask<T>& on, const Mask<T>& damaged, const T& loss,
-                                     Point<T>& h) {
+inline void balance(const JointLawParams& law, const Components<T>& c, const Remaining<T>& remaining,
+                    const Mask<T>& damaged, const T& loss, const T& before, const T& viscous, Point<T>& h) {
+  constexpr double kLargestError = 0.125, kNothing = 1e-4;  // of k (motion)^2; of that
   const T zero = 0.0;
-  if (!(law.viscosity > 0)) return {zero, zero};
   const T moved = c.normal - h.normal_opening;
-  const Mask<T> is_open = c.normal > zero;
-  const T share = select(is_open, remaining.normal(), T(1.0));
+  const T left =
+      gained_by_opening(law, remaining, greater(c.normal, h.normal_opening), lesser(c.normal, h.normal_opening));
+  const Mask<T> crosses = damaged && c.normal * h.normal_opening < zero;
+  const T error = select(crosses, select(c.normal > zero, T(loss + left), T(-left)), zero);
+  const T gained = h.gained + error - lesser(viscous, zero) - 0.5 * h.balance * moved;
+  const Mask<T> goes_on = h.viscous_traction * before > zero;
+  const T most = kLargestError * law.stiffness * moved * moved;
+  const Mask<T> gives = goes_on && gained < -kNothing * most && gained >= -most, takes = gained > kNothing * most;
+  const T part = select(goes_on, T(1.0), T(2.0));
+  h.balance = select(damaged && (gives || takes), T(part * lesser(gained, most) / moved), zero);
+  h.gained = select(damaged, T(gained - 0.5 * h.balance * moved), zero);
+}
+
+/// A damaged point's viscous traction c k' (delta_n - delta_n before), k' the present normal stiffness: damps what
+/// chatters between open and closed.
+/// @param on  damaged before this evaluation
+/// @return    J/m2, its work as central differences do it; below 0 where the motion turns round
+template <class T>
+[[nodiscard]] inline T damp(const JointLawParams& law, const Components<T>& c, const Remaining<T>& remaining,
+                            const Mask<T>& on, Point<T>& h) {
+  const T zero = 0.0;
+  const T moved = c.normal - h.normal_opening;
+  const T share = select(c.normal > zero, remaining.normal(), T(1.0));
   const T viscous = select(on, T(law.viscosity * law.stiffness * share * moved), zero);
-  const Mask<T> opens = damaged && is_open && h.normal_opening < zero;
-  const T gain = gained_by_opening(law, c, remaining, now, moved, h.normal_opening);
-  const T pull = select(opens, T((2.0 * loss + gain) / moved), zero);
   const T work = 0.5 * (h.viscous_traction + viscous) * moved;
-  h.viscous_traction = viscous + pull;
-  return {h.viscous_traction, select(on, greater(work, zero), zero)};
+  h.viscous_traction = viscous;
+  return select(on, work, zero);
 }
 
 /// Contract: evaluate_point of joint_law.hpp.
@@ -189,9 +199,12 @@ template <class T>
           greater(T(shear_loss - 0.5 * law.stiffness * (before.shear() - remaining.shear()) * sliding.spring2), zero);
       h.friction_weight = select(damaged, weight, h.friction_weight);
     }
-    const Damping<T> damping = damp(law, c, remaining, now, damaged_before, h.damage > zero, normal_loss, h);
-    traction = plus(traction, times(damping.traction, frame.normal));
-    response.viscous = damping.dissipated;
+    if (law.viscosity > 0) {
+      const T viscous_traction = h.viscous_traction, viscous = damp(law, c, remaining, damaged_before, h);
+      balance(law, c, remaining, h.damage > zero, normal_loss, viscous_traction, viscous, h);
+      response.viscous = greater(viscous, zero);
+      traction = plus(traction, times(T(h.viscous_traction + h.balance), frame.normal));
+    }
     response.traction = select3<T>(damaged, traction, elastic_traction);
     response.mode_1 = select(damaged, normal_loss, zero);
     response.mode_2 = select(damaged, shear_loss, zero);
