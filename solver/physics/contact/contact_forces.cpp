@@ -347,8 +347,8 @@ void Pass::act(Index index, Candidate& candidate) {
   const double lost = follow(law, point.weight * length, length, candidate, h);
   account(point, work_.dissipated).add(lost);
   if (!(candidate.g > 0)) {
-    forget(last, lost);  // by the law and on the contactor that it had
     contact_.touching.pop_back();
+    forget(last, lost);  // by the law and on the contactor that it had
   } else if (h.d > 0 || last.force != Vec3::Zero()) {
     // Freshly broken surfaces are full of couples that lie together without force: nothing more to do for those.
     const Vec3 motion = relative_motion(point, slot, candidate.lambda);
