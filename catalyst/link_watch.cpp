@@ -4,9 +4,9 @@
 
 #include <cerrno>
 #include <charconv>
-#include <csignal>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 namespace breccia::insitu {
 namespace {
@@ -47,55 +47,30 @@ void shut_down(int port, const std::set<int>& before) {
 
 }  // namespace
 
-LinkWatch::LinkWatch(int port, std::function<bool()> run_ends) : port_(port), run_ends_(std::move(run_ends)) {
-  // Signals are for the run's own thread.
-  sigset_t all, old;
-  ::sigfillset(&all);
-  ::pthread_sigmask(SIG_SETMASK, &all, &old);
-  thread_ = std::thread([this] { watch(); });
-  ::pthread_sigmask(SIG_SETMASK, &old, nullptr);
-}
-
-LinkWatch::~LinkWatch() {
-  {
-    const std::lock_guard lock(mutex_);
-    leave_ = true;
-  }
-  changed_.notify_one();
-  thread_.join();
-}
+LinkWatch::LinkWatch(int port, std::function<bool()> run_ends)
+    : port_(port), run_ends_(std::move(run_ends)), thread_(kBetweenLooks, [this] { look(); }) {}
 
 void LinkWatch::begin(std::optional<std::chrono::milliseconds> limit) {
   std::set<int> before = tcp_sockets();
-  const std::lock_guard lock(mutex_);
-  before_ = std::move(before);
-  deadline_.reset();
-  if (limit) deadline_ = std::chrono::steady_clock::now() + *limit;
-  active_ = true;
-  cut_ = false;
-  changed_.notify_one();
+  thread_.begin([&] {
+    before_ = std::move(before);
+    deadline_.reset();
+    if (limit) deadline_ = std::chrono::steady_clock::now() + *limit;
+    cut_ = false;
+  });
 }
 
 bool LinkWatch::end() {
-  const std::lock_guard lock(mutex_);
-  active_ = false;
-  return cut_;
+  bool cut = false;
+  thread_.end([&] { cut = cut_; });
+  return cut;
 }
 
-void LinkWatch::watch() {
-  std::unique_lock lock(mutex_);
-  while (!leave_) {
-    if (!active_) {
-      changed_.wait(lock);
-      continue;
-    }
-    changed_.wait_for(lock, kBetweenLooks);
-    if (!active_ || leave_) continue;
-    const bool late = deadline_ && std::chrono::steady_clock::now() > *deadline_;
-    if (!late && !cut_ && !(!deadline_ && run_ends_())) continue;
-    cut_ = true;
-    shut_down(port_, before_);
-  }
+void LinkWatch::look() {
+  const bool late = deadline_ && std::chrono::steady_clock::now() > *deadline_;
+  if (!late && !cut_ && !(!deadline_ && run_ends_())) return;
+  cut_ = true;
+  shut_down(port_, before_);
 }
 
 }  // namespace breccia::insitu

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <set>
-#include <thread>
+
+#include "catalyst/watch_thread.hpp"
 
 namespace breccia::insitu {
 
@@ -20,7 +19,6 @@ class LinkWatch {
   LinkWatch(int port, std::function<bool()> run_ends);
   LinkWatch(const LinkWatch&) = delete;
   LinkWatch& operator=(const LinkWatch&) = delete;
-  ~LinkWatch();
 
   /// A call begins that may take so long; nothing: as long as the run does not end.
   void begin(std::optional<std::chrono::milliseconds> limit);
@@ -28,16 +26,14 @@ class LinkWatch {
   bool end();
 
  private:
-  void watch();
+  void look();
 
   int port_;
   std::function<bool()> run_ends_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  bool active_ = false, cut_ = false, leave_ = false;
+  bool cut_ = false;
   std::optional<std::chrono::steady_clock::time_point> deadline_;
   std::set<int> before_;  ///< sockets that were there when the call began
-  std::thread thread_;
+  WatchThread thread_;    ///< the last member: it reads the others
 };
 
 }  // namespace breccia::insitu

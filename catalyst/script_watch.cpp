@@ -5,8 +5,8 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <csignal>
 #include <cstdio>
+#include <thread>
 
 namespace breccia::insitu {
 namespace {
@@ -46,67 +46,44 @@ void ask_python() {
 }  // namespace
 
 ScriptWatch::ScriptWatch(double limit) : limit_(limit) {
-  if (limit <= 0.0) return;
-  // Signals are for the run's own thread.
-  sigset_t all, old;
-  ::sigfillset(&all);
-  ::pthread_sigmask(SIG_SETMASK, &all, &old);
-  thread_ = std::thread([this] { watch(); });
-  ::pthread_sigmask(SIG_SETMASK, &old, nullptr);
-}
-
-ScriptWatch::~ScriptWatch() {
-  {
-    const std::lock_guard lock(mutex_);
-    leave_ = true;
-  }
-  changed_.notify_one();
-  if (thread_.joinable()) thread_.join();
+  if (limit > 0.0) thread_.emplace(kBetweenLooks, [this] { look(); });
 }
 
 bool ScriptWatch::interrupted() const { return raised; }
 
 void ScriptWatch::begin(const std::string& pipeline) {
-  const std::lock_guard lock(mutex_);
   raised = false;
-  pipeline_ = pipeline;
-  began_ = std::chrono::steady_clock::now();
-  active_ = true;
-  changed_.notify_one();
+  if (!thread_) return;
+  thread_->begin([&] {
+    pipeline_ = pipeline;
+    began_ = std::chrono::steady_clock::now();
+  });
 }
 
 void ScriptWatch::restart() {
-  const std::lock_guard lock(mutex_);
-  began_ = std::chrono::steady_clock::now();
-  overdue = 0.0;
+  if (!thread_) return;
+  thread_->change([&] {
+    began_ = std::chrono::steady_clock::now();
+    overdue = 0.0;
+  });
 }
 
 void ScriptWatch::end() {
-  const std::lock_guard lock(mutex_);
-  active_ = false;
-  overdue = 0.0;
+  if (thread_) thread_->end([] { overdue = 0.0; });
 }
 
-void ScriptWatch::watch() {
-  std::unique_lock lock(mutex_);
-  while (!leave_) {
-    if (!active_) {
-      changed_.wait(lock);
-      continue;
-    }
-    changed_.wait_for(lock, kBetweenLooks);
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - began_;
-    if (!active_ || leave_ || taken < limit_) continue;
-    if (taken > kEnd * limit_) {
-      std::fprintf(stderr,
-                   "breccia: error: pipeline %s: has not come back for %.0f s and cannot be interrupted; the run ends "
-                   "here\n",
-                   pipeline_.c_str(), taken.count());
-      ::_exit(kFaultOfOurs);
-    }
-    overdue = limit_.count();
-    ask_python();
+void ScriptWatch::look() {
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - began_;
+  if (taken < limit_) return;
+  if (taken > kEnd * limit_) {
+    std::fprintf(stderr,
+                 "breccia: error: pipeline %s: has not come back for %.0f s and cannot be interrupted; the run ends "
+                 "here\n",
+                 pipeline_.c_str(), taken.count());
+    ::_exit(kFaultOfOurs);
   }
+  overdue = limit_.count();
+  ask_python();
 }
 
 }  // namespace breccia::insitu

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
+#include <optional>
 #include <string>
-#include <thread>
+
+#include "catalyst/watch_thread.hpp"
 
 namespace breccia::insitu {
 
@@ -17,7 +17,6 @@ class ScriptWatch {
   explicit ScriptWatch(double limit);
   ScriptWatch(const ScriptWatch&) = delete;
   ScriptWatch& operator=(const ScriptWatch&) = delete;
-  ~ScriptWatch();
 
   /// A script's turn, as long as it lives. @pre of the thread that has started Python
   class Turn {
@@ -40,15 +39,12 @@ class ScriptWatch {
  private:
   void begin(const std::string& pipeline);
   void end();
-  void watch();
+  void look();
 
   std::chrono::duration<double> limit_;
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  bool active_ = false, leave_ = false;
   std::string pipeline_;
   std::chrono::steady_clock::time_point began_;
-  std::thread thread_;
+  std::optional<WatchThread> thread_;  ///< none without a limit; the last member: it reads the others
 };
 
 }  // namespace breccia::insitu

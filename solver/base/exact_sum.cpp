@@ -9,6 +9,8 @@ namespace {
 
 /// Value of the lowest bit of the first limb.
 constexpr int kLowest = -1088;
+/// What a limb of 2^30 sums stays below.
+constexpr std::int64_t kLargestWord = std::int64_t{1} << 62;
 
 }  // namespace
 
@@ -17,6 +19,10 @@ void ExactSum::carry() {
   if (first_ > last_) return;
   const auto keeps_sign = [](std::int64_t limb) { return limb == static_cast<std::int32_t>(limb); };
   for (std::size_t k = first_; k < last_ || !keeps_sign(limbs_[k]); ++k) {
+    if (k + 1 == kLimbs) {  // more than doubles can add up to: words that no sum has given
+      *this = ExactSum(std::numeric_limits<double>::quiet_NaN());
+      return;
+    }
     limbs_[k + 1] += limbs_[k] >> 32;
     limbs_[k] &= 0xFFFFFFFF;
     last_ = std::max(last_, k + 1);
@@ -72,6 +78,8 @@ std::array<std::int64_t, ExactSum::kWords> ExactSum::words() const {
 }
 
 ExactSum ExactSum::from_words(std::span<const std::int64_t, kWords> words) {
+  const auto possible = [](std::int64_t word) { return -kLargestWord < word && word < kLargestWord; };
+  if (!std::all_of(words.begin(), words.end(), possible)) return ExactSum(std::numeric_limits<double>::quiet_NaN());
   ExactSum sum;
   std::copy(words.begin(), words.end() - 1, sum.limbs_.begin());
   sum.finite_ = words.back() == 0;

@@ -49,7 +49,7 @@ class ExactSum {
   /// The sum rounded to the nearest double, ties away from zero; NaN if a term was not finite.
   [[nodiscard]] double value() const;
 
-  /// As integers that ranks may add up, up to 2^30 of them, and back.
+  /// As integers that ranks may add up, up to 2^30 of them, and back; words that no sum has given make NaN.
   static constexpr std::size_t kWords = kLimbs + 1;
   [[nodiscard]] std::array<std::int64_t, kWords> words() const;
   [[nodiscard]] static ExactSum from_words(std::span<const std::int64_t, kWords> words);

@@ -62,7 +62,7 @@ class SectionReader {
   template <class T>
   void optional_section(std::string_view name, std::optional<T>& out) {
     if (const Node* node = table_.find(name); node != nullptr && node->is(Node::Kind::table))
-      section(name, [&](auto& s) { bind(s, out.emplace()); });
+      section(name, [&](auto& s) { bind(s, *(out = T{})); });
   }
 
   template <class T>

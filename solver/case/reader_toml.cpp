@@ -91,6 +91,8 @@ void refuse_deep_keys(std::string_view toml, const std::string& file) {
 
 }  // namespace
 
+Node::Node() = default;
+
 const Node* Node::find(std::string_view name) const {
   const auto it = std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.first == name; });
   return it == entries.end() ? nullptr : &it->second;

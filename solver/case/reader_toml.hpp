@@ -13,6 +13,8 @@ namespace breccia::case_ {
 struct Node {
   enum class Kind { boolean, integer, number, text, list, table, other };
 
+  Node();  // not here: of a class that lies within itself in a pair, clang 14 cannot make it
+
   Kind kind = Kind::table;
   bool boolean = false;
   std::int64_t integer = 0;

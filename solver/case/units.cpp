@@ -226,7 +226,7 @@ class UnitParser {
       if (written || negative) fail();
       return 1;
     }
-    if (error != std::errc() || std::abs(value) > largest_exponent) fail();
+    if (error != std::errc() || value < -largest_exponent || value > largest_exponent) fail();
     rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
     return value;
   }

@@ -4,11 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <set>
 #include <utility>
 
 #include "base/geometry_file.hpp"
+#include "base/number_text.hpp"
+#include "case/countable.hpp"
 #include "case/live_address.hpp"
 #include "case/nearest.hpp"
 #include "case/schema.hpp"
@@ -21,25 +22,13 @@ constexpr const char* every_group = "*";
 
 constexpr std::int64_t most_domains = 1000000;
 
-constexpr double most_steps = 1e15;  // of a stage: beyond them a step is lost in the digits of the time
-
-std::string in_seconds(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g s", value);
-  return text.data();
-}
-
 constexpr std::size_t most_pipelines = 31;  // and the live view: a mask of 32
 
 using Pair = std::array<std::string, 2>;
 
 constexpr double kRoundOff = 1e-9;
 
-std::string text_of(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
+std::string in_seconds(double value) { return number_text(value, 4) + " s"; }
 
 Pair sorted(Pair p) {
   if (p[1] < p[0]) std::swap(p[0], p[1]);
@@ -256,15 +245,15 @@ class Validator {
       if (!stage.name.empty() && !names.insert(stage.name).second)
         problem(stage.origin, "name", "another stage has this name", "different names", stage.name);
       if (stage.end != 0 && !(stage.end > start))
-        problem(stage.origin, "end", "the stage does not end after the one before", "> " + std::to_string(start) + " s",
-                std::to_string(stage.end) + " s");
-      if (c_.time.step > 0 && (stage.end - start) / c_.time.step > most_steps)
+        problem(stage.origin, "end", "the stage does not end after the one before", "> " + in_seconds(start),
+                in_seconds(stage.end));
+      if (c_.time.step > 0 && (stage.end - start) / c_.time.step > kMostSteps)
         problem(stage.origin, "end", "the stage would take more steps of the given time.step than can be counted",
-                "at most 1e15 steps: a time.step of at least " + in_seconds((stage.end - start) / most_steps),
+                kAtMostSteps + (": a time.step of at least " + in_seconds((stage.end - start) / kMostSteps)),
                 "time.step = " + in_seconds(c_.time.step));
       if (c_.time.step > 0 && stage.end > start && stage.end - start < (1 - kRoundOff) * c_.time.step)
-        problem(stage.origin, "end", "the stage is shorter than one time.step, " + text_of(c_.time.step) + " s",
-                "a time.step of at most " + text_of(stage.end - start) + " s, or \"auto\"", text_of(stage.end) + " s");
+        problem(stage.origin, "end", "the stage is shorter than one time.step, " + in_seconds(c_.time.step),
+                "a time.step of at most " + in_seconds(stage.end - start) + ", or \"auto\"", in_seconds(stage.end));
       if (stage.end != 0) start = stage.end;
       // An axis held twice in one group has no answer; axes of different groups that share nodes are seen with the
       // mesh.

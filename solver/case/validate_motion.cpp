@@ -1,19 +1,15 @@
 #include "case/validate_motion.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
+
+#include "base/number_text.hpp"
 
 namespace breccia::case_ {
 namespace {
 
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", value);
-  return text.data();
-}
+std::string number(double value) { return number_text(value, 4); }
 
 /// What the parts of a function amount to at a time, whatever their signs.
 double parts_of(const TimeFunction& f, double time) {

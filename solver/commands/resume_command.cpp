@@ -12,6 +12,7 @@
 #include "commands/oversubscription.hpp"
 #include "commands/run_sinks.hpp"
 #include "commands/start_state.hpp"
+#include "domains/possible_records.hpp"
 #include "output/checkpoint_writer.hpp"
 #include "output/insitu.hpp"
 #include "output/quantity_text.hpp"
@@ -61,7 +62,9 @@ std::pair<Checkpoint, fs::path> latest_sound(const std::vector<fs::path>& files,
   std::vector<Problem> problems;
   for (const fs::path& file : files) {
     try {
-      return {read_checkpoint(file, world), file};
+      Checkpoint checkpoint = read_checkpoint(file, world);
+      world.agree([&] { demand_possible(file, checkpoint.whole_model, checkpoint.mine); });
+      return {std::move(checkpoint), file};
     } catch (const InputError& error) {  // the same on all ranks
       if (world.is_root() && files.size() > 1) fmt::print(stderr, "breccia: warning: {}\n", error.what());
       for (const Problem& problem : error.problems()) problems.push_back(problem);
@@ -84,6 +87,9 @@ case_::Case case_of(const Checkpoint& from, const fs::path& file, std::vector<st
 /// Throws InputError where there is nothing to do.
 void check_there_is_more(const case_::Case& input, const Checkpoint& from, const fs::path& run, double until) {
   const Clock& clock = from.model.clock;
+  if (from.position.stage < 0 || from.position.stage >= std::ssize(input.stages))
+    throw refused(run.string(), "this checkpoint is damaged: its case has no such stage",
+                  fmt::format("0 to {}", input.stages.size() - 1), std::to_string(from.position.stage));
   if (until <= clock.time + 0.5 * clock.dt)
     throw refused(run.string(), "the run has come as far already",
                   "--until later than " + quantity_text(clock.time, "s"), quantity_text(until, "s"));
@@ -103,7 +109,9 @@ int resume_command(const ResumeCommand& asked, const Communicator& world) {
     if (world.is_root()) files = candidates(asked.run);
   });
   of_root(files, world);
-  auto [from, file] = latest_sound(files, world);
+  std::pair<Checkpoint, fs::path> found = latest_sound(files, world);
+  Checkpoint& from = found.first;
+  const fs::path& file = found.second;
   std::error_code error;
   const fs::path run = fs::is_directory(asked.run, error) ? asked.run : fs::absolute(file).parent_path().parent_path();
   case_::Case input;

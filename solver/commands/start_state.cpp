@@ -12,6 +12,7 @@
 #include "case/validate.hpp"
 #include "case/validate_motion.hpp"
 #include "domains/piece_mesh.hpp"
+#include "domains/possible_records.hpp"
 #include "model/parameters.hpp"
 #include "output/checkpoint_index.hpp"
 #include "output/quantity_text.hpp"
@@ -195,6 +196,7 @@ std::optional<StartState> read_start_state(const fs::path& case_file, const std:
   state.file = chosen.front();
   try {
     state.checkpoint = read_checkpoint(state.file, world);
+    world.agree([&] { demand_possible(state.file, state.checkpoint.whole_model, state.checkpoint.mine); });
   } catch (const InputError& error) {  // the same on all ranks
     refuse_start(case_file, *start, error);
   }

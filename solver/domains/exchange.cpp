@@ -38,7 +38,8 @@ std::vector<HaloNeighbour> halo_plan(const LocalMesh& local, const std::vector<S
   NodePlaces places(local);
   std::vector<HaloNeighbour> plan;
   for (const SharedSlots& slots : shared) {
-    HaloNeighbour& neighbour = plan.emplace_back(slots.rank);
+    HaloNeighbour& neighbour = plan.emplace_back();
+    neighbour.rank = slots.rank;
     neighbour.send = places.of(slots.send);
     neighbour.receive = places.of(slots.receive);
     neighbour.send_first = places.of(slots.send_position);
@@ -131,8 +132,9 @@ void Exchange::plan_near(const LocalMesh& local, std::span<const std::uint8_t> n
   std::vector<SharedSlots> wanted;
   std::vector<Communicator::ListOf<Index>> lists;
   for (const SharedSlots& shared : shared_) {
-    SharedSlots& ask = wanted.emplace_back(shared.rank);
-    std::vector<Index>& places = lists.emplace_back(shared.rank).entries;
+    SharedSlots& ask = wanted.emplace_back();
+    ask.rank = shared.rank;
+    std::vector<Index>& places = lists.emplace_back(Communicator::ListOf<Index>{shared.rank, {}}).entries;
     for (std::size_t i = 0; i < shared.receive.size(); ++i) {
       const Index slot = shared.receive[i], place = static_cast<Index>(i);
       if (near[at(slot)] == 0) continue;
@@ -197,7 +199,7 @@ std::vector<std::uint8_t> Exchange::receive_positions(const LocalMesh& local, co
   std::vector<Communicator::ListOf<MovedElement>> lists;
   for (const SharedSlots& shared : shared_) {
     const Extent& theirs = extents[static_cast<std::size_t>(shared.rank)][0];
-    std::vector<MovedElement>& moved = lists.emplace_back(shared.rank).entries;
+    std::vector<MovedElement>& moved = lists.emplace_back(Communicator::ListOf<MovedElement>{shared.rank, {}}).entries;
     for (std::size_t i = 0; i < shared.send.size(); ++i) {
       const detection::Corners corners = load_corners(local, position.data(), shared.send[i]);
       if (extent_of(corners).near(theirs, distance)) moved.push_back({static_cast<std::int64_t>(i), corners});

@@ -13,8 +13,7 @@ class Sums {
  public:
   void add(std::int64_t count) { words_.push_back(count); }
   void add(const ExactSum& part) {
-    const auto words = part.words();
-    words_.insert(words_.end(), words.begin(), words.end());
+    for (const std::int64_t word : part.words()) words_.push_back(word);
   }
   void sum(const Communicator& communicator) { communicator.sum(words_); }
   void take(std::int64_t& count) { count = words_[next_++]; }

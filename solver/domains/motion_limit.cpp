@@ -1,11 +1,11 @@
 #include "domains/motion_limit.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 
 namespace breccia {
 namespace {
@@ -30,11 +30,7 @@ std::string name_of_node(GlobalId node) {
   return "corner " + std::to_string(node % 4) + " of element " + std::to_string(node / 4);
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
+std::string number(double value) { return number_text(value, 4); }
 
 }  // namespace
 

@@ -112,7 +112,7 @@ std::vector<Index> element_order(const Mesh& mesh) {
   }
   constexpr double kCells = static_cast<double>(1u << kHilbertBits);
   // One cell size for all axes, a hair above extent / cells so that the highest centroid stays inside.
-  const double extent = std::max((highest - lowest).maxCoeff(), std::numeric_limits<double>::min());
+  const double extent = std::max((highest - lowest).maxCoeff(), kSmallest);
   const double cells_per_metre = (kCells - 1) / extent;
 
   struct Key {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include <Eigen/Geometry>
 
+#include "base/number_text.hpp"
 #include "physics/contact/patch_tree.hpp"
 
 namespace breccia {
@@ -176,18 +176,14 @@ std::string limit_text(const StableStep& step) {
 
 std::string given_step_text(double dt, const StableStep& step) {
   if (!(dt > step.step)) return {};
-  const auto digits = [](double value, int number) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.*g", number, value);
-    return std::string(text.data());
-  };
-  const std::string given = "time.step = " + digits(dt, 3) + " s is ";
+  const std::string given = "time.step = " + number_text(dt, 3) + " s is ";
   if (dt > step.joint_step) {
-    return given + digits(dt / step.joint_step, 2) + " times longer than the stable step of elements and joints, " +
-           digits(step.joint_step, 3) + " s (by iteration): the run will blow up. Leave it to \"auto\".";
+    return given + number_text(dt / step.joint_step, 2) +
+           " times longer than the stable step of elements and joints, " + number_text(step.joint_step, 3) +
+           " s (by iteration): the run will blow up. Leave it to \"auto\".";
   }
-  return given + digits(dt / step.step, 2) + " times longer than what " + limit_text(step) + " allows, " +
-         digits(step.step, 3) +
+  return given + number_text(dt / step.step, 2) + " times longer than what " + limit_text(step) + " allows, " +
+         number_text(step.step, 3) +
          " s: what is pressed together there may gain energy. Leave it to \"auto\", or lower the penalty.";
 }
 

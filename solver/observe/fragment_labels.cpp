@@ -30,7 +30,7 @@ constexpr GlobalId kNothingToTell = -1;
 std::vector<Meeting> meetings(const Domain& domain, const Fragments& fragments) {
   std::vector<Communicator::ListOf<GlobalId>> lists;
   for (const SharedSlots& shared : domain.exchange.shared()) {
-    std::vector<GlobalId>& labels = lists.emplace_back(shared.rank).entries;
+    std::vector<GlobalId>& labels = lists.emplace_back(Communicator::ListOf<GlobalId>{shared.rank, {}}).entries;
     for (const Index slot : shared.receive)
       labels.push_back(fragments.alone[at(slot)] != 0 ? kNothingToTell : fragments.of_slot[at(slot)]);
   }

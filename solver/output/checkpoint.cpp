@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <regex>
 #include <system_error>
 
@@ -18,21 +19,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const IndexedColumn& indexed(const std::map<std::string, const IndexedColumn*>& by_path, const CheckpointColumn& column,
-                             const fs::path& file) {
-  const auto found = by_path.find(column.path());
-  if (found == by_path.end())
-    refuse_checkpoint(file, "this checkpoint is of another version of breccia: it lacks " + column.path());
-  if (found->second->type != column.type || found->second->components != column.components)
-    refuse_checkpoint(file, "this checkpoint is of another version of breccia: " + column.path() + " has another form");
-  return *found->second;
-}
-
 /// One rank's part of a checkpoint: the columns of a piece, verified.
 class PieceReader {
  public:
   PieceReader(const fs::path& file, const CheckpointIndex& index) : file_(file) {
-    for (const IndexedColumn& column : index.columns) by_path_[column.path] = &column;
+    for (const IndexedColumn& column : index.columns) {
+      Stored& stored = stored_[column.path];
+      stored.column = &column;
+      stored.before.assign(column.rows.size(), 0);
+      std::exclusive_scan(column.rows.begin(), column.rows.end(), stored.before.begin(), std::uint64_t{0});
+    }
   }
 
   /// The records that a rank wrote.
@@ -45,7 +41,7 @@ class PieceReader {
       bool first = true;
       for (const CheckpointColumn& column : of_lists) {
         if (!column.of_list || column.group != list.name) continue;
-        const std::vector<std::uint64_t>& rows = indexed(by_path_, column, file_).rows;
+        const std::vector<std::uint64_t>& rows = indexed(column).column->rows;
         const std::size_t here = piece < rows.size() ? rows[piece] : 0;
         if (!first && here != length)
           refuse_checkpoint(file_, "this checkpoint is damaged: " + list.name + " has columns of two lengths");
@@ -69,13 +65,29 @@ class PieceReader {
   }
 
  private:
+  struct Stored {
+    const IndexedColumn* column = nullptr;
+    std::vector<std::uint64_t> before;  ///< (pieces) rows of the pieces before
+  };
+
+  const Stored& indexed(const CheckpointColumn& column) const {
+    const auto found = stored_.find(column.path());
+    if (found == stored_.end())
+      refuse_checkpoint(file_, "this checkpoint is of another version of breccia: it lacks " + column.path());
+    const IndexedColumn& stored = *found->second.column;
+    if (stored.type != column.type || stored.components != column.components)
+      refuse_checkpoint(file_,
+                        "this checkpoint is of another version of breccia: " + column.path() + " has another form");
+    return found->second;
+  }
+
   void read(const CheckpointColumn& column, std::size_t piece) const {
-    const IndexedColumn& stored = indexed(by_path_, column, file_);
+    const Stored& found = indexed(column);
+    const IndexedColumn& stored = *found.column;
     if (stored.zero || piece >= stored.rows.size()) return;
-    std::uint64_t before = 0;
-    for (std::size_t p = 0; p < piece; ++p) before += stored.rows[p];
     const std::uint64_t row = column.row_size();
-    const IndexedBytes place{stored.offset + before * row, stored.rows[piece] * row, stored.checksums[piece]};
+    const IndexedBytes place{stored.offset + found.before[piece] * row, stored.rows[piece] * row,
+                             stored.checksums[piece]};
     const std::vector<std::byte> bytes = read_verified(file_, place, column.path());
     if (!column.of_list && column.components > 1 && bytes.size() != row)
       refuse_checkpoint(file_, "this checkpoint is damaged: " + column.path());
@@ -83,7 +95,7 @@ class PieceReader {
   }
 
   fs::path file_;
-  std::map<std::string, const IndexedColumn*> by_path_;
+  std::map<std::string, Stored> stored_;
 };
 
 std::size_t num_pieces(const CheckpointIndex& index) {

@@ -13,7 +13,7 @@ namespace breccia {
 
 namespace {
 
-/// The run's file for commands, which nobody reads while a live view holds the run.
+/// The run's file for commands; nothing reads it while a live view holds the run.
 std::filesystem::path control_file;
 
 /// Of the stress at which something breaks where nothing does: of Young's modulus.

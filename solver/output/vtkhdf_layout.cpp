@@ -75,10 +75,10 @@ void add_cells(const GridView& grid, const Pieces& pieces, Columns& columns) {
   columns.add_made<std::int64_t>(
       "", "Connectivity", points, [](std::size_t i) { return static_cast<std::int64_t>(i); }, 1, a_point, true);
   columns.add_made<std::int64_t>(
-      "", "Offsets", cells + 1, [n](std::size_t i) { return static_cast<std::int64_t>(n * i); }, 1, pieces.rows(1, 1),
-      true);
+      "", "Offsets", cells + 1, [corners = n](std::size_t i) { return static_cast<std::int64_t>(corners * i); }, 1,
+      pieces.rows(1, 1), true);
   columns.add_made<std::uint8_t>(
-      "", "Types", cells, [vtk_type](std::size_t) { return vtk_type; }, 1, pieces.rows(1, 0), true);
+      "", "Types", cells, [type = vtk_type](std::size_t) { return type; }, 1, pieces.rows(1, 0), true);
 }
 
 void add_cell_arrays(const GridView& grid, const Pieces& pieces, Columns& columns) {

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <span>
 #include <string>
 
+#include "base/number_text.hpp"
 #include "domains/motion_limit.hpp"
 #include "physics/kick.hpp"
 #include "simulation/phases.hpp"
@@ -129,10 +129,8 @@ void check_finite(const SweepStatus& status, Domain& domain) {
     if (!is_finite(load_node(nodes.velocity.data(), node))) store_node(nodes.velocity.data(), node, Vec3::Zero());
   }
   const Clock& clock = domain.state.clock;
-  char time[32];
-  std::snprintf(time, sizeof time, "%.6g", clock.time);
-  domain.exchange.fail("step " + std::to_string(clock.steps) + ", time " + time + " s: a velocity is not finite" +
-                       place + "; " + remedy_of(domain));
+  domain.exchange.fail("step " + std::to_string(clock.steps) + ", time " + number_text(clock.time, 6) +
+                       " s: a velocity is not finite" + place + "; " + remedy_of(domain));
 }
 
 void note_status(const SweepStatus& status, Domain& domain) {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "domains/state_records.hpp"
 #include "observe/energy_sample.hpp"
 #include "output/run_folder.hpp"
@@ -24,11 +24,7 @@ Schedule history_schedule(const case_::Case& input, double length) {
   return interval > 0 ? Schedule(interval) : Schedule(length / 500, kStepsBetweenLines);
 }
 
-std::string scientific(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
+std::string scientific(double value) { return number_text(value, 6); }
 
 }  // namespace
 

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "model/time_step.hpp"
-
-#include "base/error.hpp"
 #include "simulation/countable_steps.hpp"
 
 namespace breccia {
@@ -22,11 +20,7 @@ constexpr double kMostTenths = 300;    // of the step at rest; what is shorter s
 /// How many times a step has come below a tenth of that at rest: 0 above a tenth, 1 above a hundredth, and so on.
 int tenths(double share) { return static_cast<int>(std::clamp(-std::log10(share), 0.0, kMostTenths)); }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
+std::string number(double value) { return number_text(value, 3); }
 
 /// The stable step in the places of the mesh, without contact, s. Collective. O(elements)
 double step_at_rest(const Partition& partition) {

@@ -17,7 +17,8 @@ struct Target {
 };
 
 /// Of the case file, of --set, of quantities, of geometry scripts (their scan), of the mesh that a child process sends,
-/// of the control file, of checkpoints: of the file, of its index and of its numbers under right checksums.
+/// of its numbers under a right checksum, of geometry of every kind before gmsh opens it, of the control file, of
+/// checkpoints: of the file, of its index and of its numbers under right checksums.
 [[nodiscard]] const std::vector<Target>& targets();
 
 }  // namespace breccia::fuzz

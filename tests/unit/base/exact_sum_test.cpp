@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -119,6 +120,18 @@ TEST(ExactSum, OfATermThatIsNotFiniteIsNotANumber) {
     sum.add(ExactSum(3.0));
     EXPECT_TRUE(std::isnan(sum.value())) << "forgotten when a sum that is finite was added";
   }
+}
+
+TEST(ExactSum, OfWordsThatNoSumGivesIsNotANumber) {
+  for (const std::int64_t word : {std::int64_t{1} << 40, -(std::int64_t{1} << 40),
+                                  std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::min()}) {
+    std::array<std::int64_t, ExactSum::kWords> words{};
+    words[ExactSum::kLimbs - 1] = word;  // its upper half belongs to a limb that is not there
+    EXPECT_TRUE(std::isnan(ExactSum::from_words(words).value())) << word;
+  }
+  std::array<std::int64_t, ExactSum::kWords> words{};
+  words.fill(std::numeric_limits<std::int64_t>::max());
+  EXPECT_TRUE(std::isnan(ExactSum::from_words(words).value()));
 }
 
 }  // namespace

@@ -434,8 +434,8 @@ INSTANTIATE_TEST_SUITE_P(
               {"initial_velocity[0].random: the greatest speed is below"}},
         Wrong{"stages_backwards",
               "end = \"1 ms\"",
-              "end = \"1 us\"",
-              {"stage[1].end: the stage does not end after the one before"}},
+              "end = \"1 ns\"",
+              {"stage[1].end: the stage does not end after the one before; allowed: > 0.0001 s; given: 1e-09 s"}},
         Wrong{
             "stage_name_twice", "name = \"rest\"", "name = \"impact\"", {"stage[1].name: another stage has this name"}},
         Wrong{"gauge_twice",

@@ -1,10 +1,13 @@
 #include "domains/piece_mesh.hpp"
 
+#include "base/error.hpp"
 #include "domains/mesh_records.hpp"
+#include "domains/possible_records.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "unit/state/sample_records.hpp"
 
@@ -102,6 +105,33 @@ TEST(WholeModel, ArrivesAsItWasSent) {
   EXPECT_EQ(there.joint_groups[1].size, 0.25);
   EXPECT_EQ(there.step_ratio, 1.75);
   EXPECT_EQ(there.body_length, whole.body_length);
+}
+
+TEST(Records, ThatPointBeyondTheirModelAreNotPossible) {
+  const Mesh mesh = cubes();
+  const Records sound = records_of(mesh, build_topology(mesh));
+  WholeModel whole = whole_of(mesh);
+  whole.num_elements = mesh.num_elements();
+  whole.joint_groups.push_back({0, 0, 1.0});
+  EXPECT_TRUE(are_possible(sound, whole));
+  EXPECT_NO_THROW(demand_possible("a.h5", pack(whole), sound));
+  const std::vector<std::function<void(Records&)>> faults{
+      [](Records& r) { r.elements[2].group = 1; },          [](Records& r) { r.elements[2].group = -1; },
+      [](Records& r) { r.elements[2].body = 1000; },        [](Records& r) { r.elements[2].vertex[1] = -7; },
+      [](Records& r) { r.elements[2].neighbour[3] = 999; }, [](Records& r) { r.elements[2].code[0] = 12; },
+      [](Records& r) { r.joints[1].joint.law = 1; },        [](Records& r) { r.joints[1].joint.face_a = 4; },
+      [](Records& r) { r.joints[1].other = -1; },           [](Records& r) { r.holds[1].axis = 3; },
+      [](Records& r) { r.holds[1].corner = -1; },           [](Records& r) { r.corners[1].group = 99; },
+      [](Records& r) { r.faces.push_back({0, 99, 0}); },    [](Records& r) { r.couples.push_back({0, 999, 0, {}}); }};
+  for (std::size_t f = 0; f < faults.size(); ++f) {
+    Records changed = sound;
+    faults[f](changed);
+    EXPECT_FALSE(are_possible(changed, whole)) << f;
+    EXPECT_THROW(demand_possible("a.h5", pack(whole), changed), InputError) << f;
+  }
+  std::vector<std::byte> cut = pack(whole);
+  cut.resize(cut.size() / 2);
+  EXPECT_THROW(demand_possible("a.h5", cut, sound), InputError);
 }
 
 }  // namespace

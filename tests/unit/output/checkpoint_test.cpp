@@ -1,14 +1,17 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <cstring>
 #include <fstream>
 #include <numeric>
+#include <span>
 #include <sstream>
 #include <string>
 
 #include "base/error.hpp"
 #include "output/checkpoint.hpp"
 #include "output/checkpoint_columns.hpp"
+#include "output/checkpoint_index.hpp"
 #include "output/checkpoint_writer.hpp"
 #include "unit/output/hdf5_reader.hpp"
 #include "unit/output/temporary_folder.hpp"
@@ -56,9 +59,44 @@ class CheckpointFile : public testing::Test {
     CheckpointWriter writer(file_, sample(), {}, {});
     writer.finish();
   }
+  std::string content() const {
+    std::ifstream stream(file_, std::ios::binary);
+    std::ostringstream all;
+    all << stream.rdbuf();
+    return all.str();
+  }
+  /// Puts another index behind the file, with the checksums that make it be read.
+  void write_with_index(CheckpointIndex index) {
+    constexpr std::size_t kRoom = 1 << 20;
+    std::string file = content();
+    index.size = file.size() + kRoom;
+    std::string text = index_text(index);
+    ASSERT_LE(text.size(), kRoom);
+    text.resize(kRoom, ' ');
+    const IndexedBytes place{file.size(), kRoom, checksum_of(std::as_bytes(std::span(text)))};
+    const std::vector<std::byte> header = header_bytes(place, index.size);
+    std::memcpy(file.data(), header.data(), header.size());
+    std::ofstream(file_, std::ios::binary) << file << text;
+  }
   test::TemporaryFolder folder_;
   std::filesystem::path file_;
 };
+
+TEST_F(CheckpointFile, WithAnIndexThatAsksForMoreWorkThanItHasBytesIsRefused) {
+  const CheckpointIndex sound = read_index(file_);
+  ASSERT_NO_FATAL_FAILURE(write_with_index(sound));
+  EXPECT_NO_THROW((void)read_checkpoint(file_, {}));
+  CheckpointIndex twice = sound;  // the same bytes as parts of the structure, again and again
+  twice.structure.assign(5000, {0, 0, checksum_of({})});
+  for (IndexedBytes& part : twice.structure) part.size = twice.size / 2;
+  ASSERT_NO_FATAL_FAILURE(write_with_index(twice));
+  EXPECT_THROW((void)read_index(file_), InputError);
+  CheckpointIndex many = sound;  // one column of more ranks than the others, each of which would be looked for
+  many.columns.back().rows.resize(10000, 0);
+  many.columns.back().checksums.resize(10000, checksum_of({}));
+  ASSERT_NO_FATAL_FAILURE(write_with_index(many));
+  EXPECT_THROW((void)read_index(file_), InputError);
+}
 
 TEST_F(CheckpointFile, GivesBackEveryBitOfWhatWasWritten) {
   Checkpoint before = sample(), after = read_checkpoint(file_, {});
@@ -78,13 +116,7 @@ TEST_F(CheckpointFile, IsReadByHdf5UnderTheNamesOfTheTables) {
 }
 
 TEST_F(CheckpointFile, IsRefusedWithAnyByteChanged) {
-  std::string text;
-  {
-    std::ifstream stream(file_, std::ios::binary);
-    std::ostringstream all;
-    all << stream.rdbuf();
-    text = all.str();
-  }
+  const std::string text = content();
   constexpr std::size_t kPlaces = 400;
   for (std::size_t i = 0; i < kPlaces; ++i) {
     std::string changed = text;

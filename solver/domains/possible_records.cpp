@@ -1,0 +1,71 @@
+#include "domains/possible_records.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <exception>
+
+#include "base/error.hpp"
+#include "domains/piece_mesh.hpp"
+
+namespace breccia {
+namespace {
+
+constexpr std::int64_t kFaces = 4, kCorners = 4, kAxes = 3;
+constexpr std::int64_t kCodes = 12;  // FaceLink::code
+
+bool within(std::int64_t index, std::int64_t size) { return 0 <= index && index < size; }
+
+template <class T>
+bool within(std::int64_t index, const std::vector<T>& list) {
+  return within(index, std::ssize(list));
+}
+
+template <class List, class Test>
+bool all(const List& list, Test test) {
+  return std::all_of(list.begin(), list.end(), test);
+}
+
+bool is_possible(const ElementRecord& r, const WholeModel& whole) {
+  return within(r.id, whole.num_elements) && within(r.group, whole.volume_groups) &&
+         within(r.body, whole.body_length) && all(r.vertex, [](GlobalId node) { return node >= 0; }) &&
+         all(r.neighbour, [&](GlobalId element) { return element < whole.num_elements; }) &&
+         all(r.code, [](std::int8_t code) { return within(code, kCodes); });
+}
+
+bool is_possible(const JointRecord& r, const WholeModel& whole) {
+  return within(r.other, whole.num_elements) && within(r.joint.face_a, kFaces) && within(r.joint.code, kCodes) &&
+         within(r.joint.law, whole.joint_groups);
+}
+
+}  // namespace
+
+bool are_possible(const Records& records, const WholeModel& whole) {
+  const auto is_pair = [&](const WholeModel::JointGroups& groups) {
+    return within(groups.a, whole.volume_groups) && within(groups.b, whole.volume_groups);
+  };
+  return all(whole.joint_groups, is_pair) &&
+         all(records.elements, [&](const ElementRecord& r) { return is_possible(r, whole); }) &&
+         all(records.joints, [&](const JointRecord& r) { return is_possible(r, whole); }) &&
+         all(records.released, [](const ReleasedRecord& r) { return within(r.joint.face_a, kFaces); }) &&
+         all(records.couples, [&](const CoupleRecord& r) { return within(r.contactor, whole.num_elements); }) &&
+         all(records.holds,
+             [](const HoldRecord& r) { return within(r.corner, kCorners) && within(r.axis, kAxes) && r.entry >= 0; }) &&
+         all(records.faces,
+             [&](const FaceTag& tag) { return within(tag.group, whole.surface_groups) && within(tag.face, kFaces); }) &&
+         all(records.corners, [&](const CornerTag& tag) { return within(tag.group, whole.surface_groups); });
+}
+
+void demand_possible(const std::filesystem::path& file, std::span<const std::byte> whole_model,
+                     const Records& records) {
+  bool possible = false;
+  try {
+    possible = are_possible(records, unpack_whole(whole_model));
+  } catch (const std::exception&) {  // the bytes end too early, or ask for more than there is
+  }
+  if (possible) return;
+  throw InputError(Problem{file.string(), 0, "checkpoint",
+                           "this checkpoint is damaged: its numbers point to what its model does not have",
+                           "a checkpoint that `breccia run` has written", ""});
+}
+
+}  // namespace breccia

@@ -1,0 +1,19 @@
+#include "base/number_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace breccia {
+namespace {
+
+TEST(NumberText, has_no_more_digits_than_asked_for_and_keeps_small_and_large_numbers) {
+  EXPECT_EQ(number_text(0.00015, 4), "0.00015");
+  EXPECT_EQ(number_text(1.23456e-9, 3), "1.23e-09");
+  EXPECT_EQ(number_text(12345.678, 2), "1.2e+04");
+  EXPECT_EQ(number_text(0.0, 4), "0");
+  EXPECT_EQ(number_text(-std::numeric_limits<double>::max(), 17), "-1.7976931348623157e+308");
+}
+
+}  // namespace
+}  // namespace breccia
