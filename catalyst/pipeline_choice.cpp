@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "catalyst/channel_names.hpp"
 #include "catalyst/folders.hpp"
-#include "catalyst/pipeline.hpp"
 
 namespace breccia::insitu {
 namespace {

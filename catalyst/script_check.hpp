@@ -4,6 +4,10 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <vector>
+
+#include "catalyst/insitu_abi.h"
+#include "catalyst/ranks.hpp"
 
 namespace breccia::insitu {
 
@@ -12,10 +16,20 @@ struct ScriptNeeds {
   bool draws = false;
   std::uint32_t channels = 0;  ///< mask of the channels that it names; all when it names none
   std::set<std::string> parameters;
+  std::string lacks;  ///< what the interpreter that has read it lacks to run it, and what to do; empty: nothing
 };
 
 /// Reads a script, in a Python interpreter of its own (some 50 ms); no Python starts in this process. Not collective.
 /// Throws PipelineError when it is missing, cannot be read or does not compile, and when there is no interpreter.
 [[nodiscard]] ScriptNeeds check_script(const std::filesystem::path& script);
+
+/// What the scripts among the pipelines of a run need.
+struct RunScripts {
+  std::vector<std::uint32_t> channels;  ///< masks by pipeline; 0: no script
+  bool draw = false;                    ///< any of them makes pictures
+};
+
+/// The first rank reads them for all: one file, one answer. Collective. Throws PipelineError, on all ranks.
+[[nodiscard]] RunScripts read_scripts(const Ranks& ranks, const BrecciaConfig& config);
 
 }  // namespace breccia::insitu
