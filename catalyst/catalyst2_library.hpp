@@ -10,9 +10,9 @@ namespace breccia::insitu {
 /// libcatalyst, opened. It is never closed: implementations do not survive being unloaded.
 class Catalyst2Library {
  public:
-  /// Opens the file that the environment's BRECCIA_LIBCATALYST names, else libcatalyst.so.3, where the loader finds it or
-  /// in and above the folders of CATALYST_IMPLEMENTATION_PATHS; no case names it, so that none can bring its own code. Starts nothing. Throws PipelineError
-  /// saying what to do when there is none, or it lacks a function.
+  /// Opens the file that the environment's BRECCIA_LIBCATALYST names, else libcatalyst.so.3, where the loader finds it
+  /// or in and above the folders of CATALYST_IMPLEMENTATION_PATHS; no case names it, so that none can bring its own
+  /// code. Starts nothing. Throws PipelineError saying what to do when there is none, or it lacks a function.
   Catalyst2Library();
 
   [[nodiscard]] const ConduitFunctions& functions() const { return functions_; }

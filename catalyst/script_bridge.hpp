@@ -18,8 +18,8 @@ struct BridgedScript {
   std::map<std::string, double> parameters;
 };
 
-/// The run as python/breccia_catalyst2.py, the first script that ParaView's implementation is given, sees it: whose turn
-/// it is, whether another rank has failed; and what that tells in return: what the script raised, and what it asks of
+/// The run as python/breccia_catalyst2.py sees it, the first script that ParaView's implementation is given: whose turn
+/// it is, whether another rank has failed; and what it tells in return: what the script raised, and what that asks of
 /// the solver. Catalyst 2 itself runs all scripts at every execution and keeps what they raise to itself. The script
 /// finds the functions by the address that it is given as its argument.
 class ScriptBridge {

@@ -63,6 +63,14 @@ def enter(path):
     breccia_guard.enter(script["name"], path, script["folder"], script["parameters"], script["about"])
 
 
+def step_trigger(options):
+    """Theirs by time step, whose name has a blank in newer ParaViews."""
+    names = options.GetProperty("GlobalTrigger").Available
+    options.GlobalTrigger = next(name for name in names if name.replace(" ", "") == "TimeStep")
+    options.GlobalTrigger.UseStartTimeStep = 1
+    return options.GlobalTrigger
+
+
 def gate(path):
     """ParaView passes a script over, its extractors and views too, while the trigger of its options does not fire."""
     triggers[path].StartTimeStep = 0 if path == turn() else NEVER
@@ -82,9 +90,7 @@ def read(function):
             failed[path] = breccia_guard.take_error() or "it failed on another rank"
             raise
         if hasattr(result, "options"):
-            result.options.GlobalTrigger = "Time Step"
-            triggers[path] = result.options.GlobalTrigger
-            triggers[path].UseStartTimeStep = 1
+            triggers[path] = step_trigger(result.options)
             gate(path)
         return result
 
