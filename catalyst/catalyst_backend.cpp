@@ -22,19 +22,11 @@
 #include "catalyst/folders.hpp"
 #include "catalyst/frame_to_vtk.hpp"
 #include "catalyst/messages.hpp"
+#include "catalyst/own_mpi.hpp"
 #include "catalyst/python_guard.hpp"
 
 namespace breccia::insitu {
 namespace {
-
-/// MPI for one rank, where the solver runs without.
-class OwnMpi {
- public:
-  OwnMpi() { MPI_Init(nullptr, nullptr); }
-  OwnMpi(const OwnMpi&) = delete;
-  OwnMpi& operator=(const OwnMpi&) = delete;
-  ~OwnMpi() { MPI_Finalize(); }
-};
 
 /// The requests as arrays of one value in the user data of a description.
 class UserData {
@@ -230,9 +222,7 @@ CatalystBackend::CatalystBackend(const Ranks& ranks)
     throw PipelineError("ParaView has been started in this process before; it cannot be started twice");
   MPI_Comm communicator = ranks.communicator();
   if (communicator == MPI_COMM_NULL) {
-    int started = 0;
-    MPI_Initialized(&started);
-    if (started == 0) session_->mpi = std::make_unique<OwnMpi>();
+    if (!OwnMpi::is_started()) session_->mpi = std::make_unique<OwnMpi>();
     communicator = MPI_COMM_SELF;
   }
   vtkMPICommunicatorOpaqueComm wrapped(&communicator);
