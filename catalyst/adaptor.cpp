@@ -17,6 +17,8 @@ namespace {
 
 constexpr std::uint32_t kLiveDefault = bit(BRECCIA_SURFACE) | bit(BRECCIA_FRACTURES) | bit(BRECCIA_DOMAINS);
 
+std::string label(const std::string& pipeline) { return "pipeline " + pipeline; }
+
 }  // namespace
 
 Adaptor::Adaptor(const BrecciaConfig& config) : ranks_(config.communicator, config.patience), folder_(config.folder) {
@@ -26,7 +28,7 @@ Adaptor::Adaptor(const BrecciaConfig& config) : ranks_(config.communicator, conf
     std::string error;
     std::unique_ptr<Pipeline> work;
     try {
-      const FatalLine line(config.pipelines[i].name);
+      const FatalLine line(label(config.pipelines[i].name));
       work = made(config.pipelines[i], config);
     } catch (const std::exception& failure) {
       error = failure.what();
@@ -42,7 +44,7 @@ Adaptor::~Adaptor() { end_pipelines(); }
 void Adaptor::end_pipelines() {
   if (std::exchange(finished_, true)) return;
   for (Named& pipeline : pipelines_) {
-    const FatalLine line(pipeline.name);
+    const FatalLine line(label(pipeline.name));
     pipeline.work->finish();
   }
 }
@@ -93,7 +95,7 @@ std::unique_ptr<Pipeline> Adaptor::made(const BrecciaPipeline& pipeline, const B
 }
 
 std::uint32_t Adaptor::channels(int pipeline, std::int64_t step, double time) {
-  const FatalLine line(name(pipeline));
+  const FatalLine line(label(name(pipeline)));
   return pipelines_.at(static_cast<std::size_t>(pipeline)).work->channels(step, time);
 }
 
@@ -131,7 +133,7 @@ std::uint32_t Adaptor::execute(std::uint32_t pipelines, const Frame& frame, Brec
   return execute_each(
       ranks_, pipelines, num_pipelines(), [this](int i) { return name(i); }, text,
       [&](int i) {
-        const FatalLine line(name(i));
+        const FatalLine line(label(name(i)));
         pipelines_[static_cast<std::size_t>(i)].work->execute(frame, requests);
       });
 }

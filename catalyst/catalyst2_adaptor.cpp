@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "catalyst/animation.hpp"
+#include "catalyst/fatal_line.hpp"
 #include "catalyst/folders.hpp"
 #include "catalyst/pipeline_loop.hpp"
 #include "catalyst/script_check.hpp"
@@ -12,9 +13,14 @@
 namespace breccia::insitu {
 namespace {
 
-/// What an implementation throws, as PipelineError; all else is passed on.
+const std::string kStart = "start of the in-situ pipelines", kEnd = "end of the in-situ pipelines";
+
+}  // namespace
+
 template <class Call>
-int status_of(Call&& call) {
+int Catalyst2Adaptor::status_of(const std::string& what, Call&& call) {
+  const TurnWatch::Turn turn(watch_, what);
+  const FatalLine line(what, implementation());
   try {
     return call();
   } catch (const std::exception& error) {
@@ -24,10 +30,12 @@ int status_of(Call&& call) {
   }
 }
 
-}  // namespace
+std::string Catalyst2Adaptor::implementation() const {
+  return "implementation '" + library_->implementation() + "' of Catalyst 2";
+}
 
 Catalyst2Adaptor::Catalyst2Adaptor(const BrecciaConfig& config)
-    : ranks_(config.communicator, config.patience), folder_(config.folder) {
+    : ranks_(config.communicator, config.patience), watch_(0.5 * ranks_.patience()), folder_(config.folder) {
   std::string error;
   try {
     library_.emplace();
@@ -41,7 +49,7 @@ Catalyst2Adaptor::Catalyst2Adaptor(const BrecciaConfig& config)
     std::vector<BridgedScript> scripts;
     for (const Named& pipeline : pipelines_)
       scripts.push_back({pipeline.choice.name, pipeline.choice.file, pipeline.folder, pipeline.choice.parameters});
-    bridge_ = std::make_unique<ScriptBridge>(ranks_, config, scripts);
+    bridge_ = std::make_unique<ScriptBridge>(ranks_, watch_, config, scripts);
     for (const Named& pipeline : pipelines_) first_channels_ |= pipeline.channels;
   }
   error.clear();
@@ -111,17 +119,17 @@ void Catalyst2Adaptor::initialize() {
     for (const auto& [name, value] : pipeline.choice.parameters) arguments.push_back(name + "=" + exact(value));
     tree.set((path + "/args").c_str(), arguments);
   }
-  const int status = status_of([&] { return library_->functions().initialize(tree.root()); });
-  const std::string what = "implementation '" + library_->implementation() + "' of Catalyst 2 ";
-  if (status != 0) throw PipelineError(what + "does not start: catalyst_initialize returns " + words_of_status(status));
+  const int status = status_of(kStart, [&] { return library_->functions().initialize(tree.root()); });
+  if (status != 0)
+    throw PipelineError(implementation() + " does not start: catalyst_initialize returns " + words_of_status(status));
   initialized_ = true;
   const ConduitTree about(library_->functions());
-  if (status_of([&] { return library_->functions().about(about.root()); }) != 0) return;
+  if (status_of(kStart, [&] { return library_->functions().about(about.root()); }) != 0) return;
   const char* const path = "catalyst/implementation";
   if (about.functions().has_path(about.root(), path) == 0) return;
   const std::string started = about.functions().path_as_text(about.root(), path);
   if (started != library_->implementation())
-    throw PipelineError(what + "was asked for and '" + started +
+    throw PipelineError(implementation() + " was asked for and '" + started +
                         "' started; is CATALYST_IMPLEMENTATION_PREFER_ENV set?");
 }
 
@@ -164,7 +172,7 @@ void Catalyst2Adaptor::run(const Named& pipeline, std::uint32_t mask, const Brec
   }
   ranks_.throw_agreed(error);  // or others would wait within the implementation
   if (bridge_) bridge_->set_turn(pipeline.choice.file);
-  call_execute(std::move(tree));
+  call_execute(std::move(tree), "pipeline " + pipeline.choice.name);
   if (bridge_) bridge_->take_result(requests);
 }
 
@@ -192,9 +200,9 @@ void Catalyst2Adaptor::fill_channels(const ConduitTree& tree, std::uint32_t mask
   }
 }
 
-void Catalyst2Adaptor::call_execute(std::unique_ptr<ConduitTree> tree) {
+void Catalyst2Adaptor::call_execute(std::unique_ptr<ConduitTree> tree, const std::string& what) {
   const std::unique_ptr<ConduitTree> before = std::exchange(last_, std::move(tree));
-  const int status = status_of([&] { return library_->functions().execute(last_->root()); });
+  const int status = status_of(what, [&] { return library_->functions().execute(last_->root()); });
   if (status != 0) throw PipelineError("catalyst_execute returns " + words_of_status(status));
 }
 
@@ -206,7 +214,7 @@ void Catalyst2Adaptor::forget_instant() {
   nothing.step = step_;
   nothing.time = time_;
   fill_channels(*tree, 0, nothing);
-  call_execute(std::move(tree));
+  call_execute(std::move(tree), kEnd);
 }
 
 void Catalyst2Adaptor::end() {
@@ -214,7 +222,7 @@ void Catalyst2Adaptor::end() {
   try {
     if (bridge_ && last_) forget_instant();
     const ConduitTree tree(library_->functions());
-    status_of([&] { return library_->functions().finalize(tree.root()); });
+    status_of(kEnd, [&] { return library_->functions().finalize(tree.root()); });
   } catch (const std::exception&) {
     // Nothing is left to do with what has failed to end.
   }

@@ -14,6 +14,7 @@
 #include "catalyst/pipeline_choice.hpp"
 #include "catalyst/ranks.hpp"
 #include "catalyst/script_bridge.hpp"
+#include "catalyst/turn_watch.hpp"
 
 namespace breccia::insitu {
 
@@ -53,10 +54,15 @@ class Catalyst2Adaptor {
   void run(const Named& pipeline, std::uint32_t mask, const BrecciaInstant& instant, BrecciaRequests& requests);
   void fill_channels(const ConduitTree& tree, std::uint32_t mask, const BrecciaInstant& instant);
   void forget_instant();
-  void call_execute(std::unique_ptr<ConduitTree> tree);
+  void call_execute(std::unique_ptr<ConduitTree> tree, const std::string& what);
+  /// What the implementation returns from a call that is watched. Throws PipelineError with what it throws.
+  template <class Call>
+  int status_of(const std::string& what, Call&& call);
+  [[nodiscard]] std::string implementation() const;
   void end();
 
   Ranks ranks_;
+  TurnWatch watch_;
   std::filesystem::path folder_;
   std::unique_ptr<OwnMpi> mpi_;
   std::optional<Catalyst2Library> library_;

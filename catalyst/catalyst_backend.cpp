@@ -85,7 +85,7 @@ class ScriptPipeline final : public Pipeline {
  public:
   ScriptPipeline(const Ranks& ranks, ScriptWatch& watch, ScriptDescription description)
       : ranks_(ranks), watch_(watch), is_(std::move(description)) {
-    const ScriptWatch::Turn turn(watch_, is_.name);
+    const ScriptWatch::Turn turn(watch_, "pipeline " + is_.name);
     enter();
     const bool registered = script_->Initialize(is_.file.c_str());
     const std::string error = error_now();
@@ -103,7 +103,7 @@ class ScriptPipeline final : public Pipeline {
       dropped_ = true;
       return is_.channels;
     }
-    const ScriptWatch::Turn turn(watch_, is_.name);
+    const ScriptWatch::Turn turn(watch_, "pipeline " + is_.name);
     const auto description = described(step, time);
     enter();
     const bool wanted = script_->RequestDataDescription(description) != 0;
@@ -127,7 +127,7 @@ class ScriptPipeline final : public Pipeline {
       throw PipelineError(why);
     }
     ranks_.throw_agreed(no_space());
-    const ScriptWatch::Turn turn(watch_, is_.name);
+    const ScriptWatch::Turn turn(watch_, "pipeline " + is_.name);
     const auto description = described(frame.step, frame.time);
     UserData user_data;
     description->SetUserData(user_data.data());
@@ -157,7 +157,7 @@ class ScriptPipeline final : public Pipeline {
 
   void finish() override {
     if (is_.display != nullptr && !ranks_.agree(is_.display->lost() ? "lost" : "").empty()) return;
-    const ScriptWatch::Turn turn(watch_, is_.name);
+    const ScriptWatch::Turn turn(watch_, "pipeline " + is_.name);
     enter();
     script_->Finalize();
     static_cast<void>(error_now());

@@ -43,8 +43,9 @@ struct ScriptBridge::Functions {
 
 ScriptBridge* ScriptBridge::active = nullptr;
 
-ScriptBridge::ScriptBridge(const Ranks& ranks, const BrecciaConfig& config, const std::vector<BridgedScript>& scripts)
-    : ranks_(ranks) {
+ScriptBridge::ScriptBridge(const Ranks& ranks, TurnWatch& watch, const BrecciaConfig& config,
+                           const std::vector<BridgedScript>& scripts)
+    : ranks_(ranks), watch_(watch) {
   const std::string about = "{\"title\": " + json_text(config.title == nullptr ? "" : config.title) +
                             ", \"end\": " + exact(config.end) + ", \"strength\": " + exact(config.strength) + "}";
   for (const BridgedScript& script : scripts) {
@@ -92,7 +93,10 @@ int ScriptBridge::agree(const char* text) {
   if (active == nullptr) return 0;
   try {
     if (!active->abandoned_.empty()) return 2;
-    return active->ranks_.agree(text).empty() ? 0 : 1;
+    active->watch_.restart();
+    const int answer = active->ranks_.agree(text).empty() ? 0 : 1;
+    active->watch_.restart();  // that was waiting for others
+    return answer;
   } catch (const Abandoned& wait) {
     active->abandoned_ = wait.what();
     return 2;

@@ -7,6 +7,7 @@
 
 #include "catalyst/insitu_abi.h"
 #include "catalyst/ranks.hpp"
+#include "catalyst/turn_watch.hpp"
 
 namespace breccia::insitu {
 
@@ -24,8 +25,9 @@ struct BridgedScript {
 /// finds the functions by the address that it is given as its argument.
 class ScriptBridge {
  public:
-  /// One a process at a time. @pre ranks outlives this
-  ScriptBridge(const Ranks& ranks, const BrecciaConfig& config, const std::vector<BridgedScript>& scripts);
+  /// One a process at a time. @pre ranks and watch outlive this
+  ScriptBridge(const Ranks& ranks, TurnWatch& watch, const BrecciaConfig& config,
+               const std::vector<BridgedScript>& scripts);
   ScriptBridge(const ScriptBridge&) = delete;
   ScriptBridge& operator=(const ScriptBridge&) = delete;
   ~ScriptBridge();
@@ -50,6 +52,7 @@ class ScriptBridge {
   static int request(const char* name, double value);
 
   const Ranks& ranks_;
+  TurnWatch& watch_;
   std::string scripts_;  ///< JSON
   std::string turn_;
   bool done_ = false;

@@ -2,18 +2,11 @@
 
 #include "catalyst/script_watch.hpp"
 
-#include <unistd.h>
-
 #include <atomic>
-#include <csignal>
-#include <cstdio>
+#include <thread>
 
 namespace breccia::insitu {
 namespace {
-
-constexpr auto kBetweenLooks = std::chrono::seconds(1);
-constexpr double kEnd = 3.0;     ///< times the limit: the program ends
-constexpr int kFaultOfOurs = 4;  ///< exit code
 
 /// s that the turn may take which is to be interrupted; 0: none is.
 std::atomic<double> overdue{0.0};
@@ -32,7 +25,8 @@ int interrupt(void*) {
 /// Asks Python to call interrupt() in the run's own thread. That thread keeps Python to itself unless another one asks
 /// for it, and looks at what is pending when it gets it back. Waits for as long as it does not come back to Python, so
 /// in a thread that nobody waits for; one at a time.
-void ask_python() {
+void ask_python(double limit) {
+  overdue = limit;
   static std::atomic<bool> asking{false};
   if (asking.exchange(true)) return;
   std::thread([] {
@@ -45,68 +39,9 @@ void ask_python() {
 
 }  // namespace
 
-ScriptWatch::ScriptWatch(double limit) : limit_(limit) {
-  if (limit <= 0.0) return;
-  // Signals are for the run's own thread.
-  sigset_t all, old;
-  ::sigfillset(&all);
-  ::pthread_sigmask(SIG_SETMASK, &all, &old);
-  thread_ = std::thread([this] { watch(); });
-  ::pthread_sigmask(SIG_SETMASK, &old, nullptr);
-}
+ScriptWatch::ScriptWatch(double limit)
+    : TurnWatch(limit, {.begin = [] { raised = false; }, .ask = &ask_python, .withdraw = [] { overdue = 0.0; }}) {}
 
-ScriptWatch::~ScriptWatch() {
-  {
-    const std::lock_guard lock(mutex_);
-    leave_ = true;
-  }
-  changed_.notify_one();
-  if (thread_.joinable()) thread_.join();
-}
-
-bool ScriptWatch::interrupted() const { return raised; }
-
-void ScriptWatch::begin(const std::string& pipeline) {
-  const std::lock_guard lock(mutex_);
-  raised = false;
-  pipeline_ = pipeline;
-  began_ = std::chrono::steady_clock::now();
-  active_ = true;
-  changed_.notify_one();
-}
-
-void ScriptWatch::restart() {
-  const std::lock_guard lock(mutex_);
-  began_ = std::chrono::steady_clock::now();
-  overdue = 0.0;
-}
-
-void ScriptWatch::end() {
-  const std::lock_guard lock(mutex_);
-  active_ = false;
-  overdue = 0.0;
-}
-
-void ScriptWatch::watch() {
-  std::unique_lock lock(mutex_);
-  while (!leave_) {
-    if (!active_) {
-      changed_.wait(lock);
-      continue;
-    }
-    changed_.wait_for(lock, kBetweenLooks);
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - began_;
-    if (!active_ || leave_ || taken < limit_) continue;
-    if (taken > kEnd * limit_) {
-      std::fprintf(stderr,
-                   "breccia: error: pipeline %s: has not come back for %.0f s and cannot be interrupted; the run ends "
-                   "here\n",
-                   pipeline_.c_str(), taken.count());
-      ::_exit(kFaultOfOurs);
-    }
-    overdue = limit_.count();
-    ask_python();
-  }
-}
+bool ScriptWatch::interrupted() { return raised; }
 
 }  // namespace breccia::insitu

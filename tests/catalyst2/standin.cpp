@@ -2,6 +2,7 @@
 
 #include "catalyst2/standin.hpp"
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -9,6 +10,7 @@
 #include <memory>
 #include <set>
 #include <stdexcept>
+#include <thread>
 
 #include "catalyst2/blueprint_check.hpp"
 
@@ -97,6 +99,8 @@ int told_status(const char* variable_name, int own) {
   if (!is_meant(variable_name)) return own;
   const std::string wish = variable(variable_name);
   if (wish == "throw") throw std::runtime_error("thrown on purpose");
+  if (wish == "abort") std::abort();
+  while (wish == "hang") std::this_thread::sleep_for(std::chrono::seconds(1));
   return std::atoi(wish.c_str());
 }
 

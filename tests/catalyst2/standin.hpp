@@ -22,7 +22,8 @@ using StandinTree = std::vector<StandinLeaf>;
 
 /// A libcatalyst of our own, without an implementation: keeps what it was given, and checks that meshes are such of the
 /// Conduit Mesh Blueprint, and that nodes live as long as an implementation may use them.
-/// Environment, for programs: STANDIN_FAIL_INITIALIZE, STANDIN_FAIL_EXECUTE: status to return, or "throw";
+/// Environment, for programs: STANDIN_FAIL_INITIALIZE, STANDIN_FAIL_EXECUTE: status to return, or "throw", "abort" or
+/// "hang";
 /// STANDIN_RANK: on that rank of Open MPI alone; STANDIN_ABOUT: name of the implementation that about tells;
 /// STANDIN_DUMP: folder in which a file a rank gets a line a cell: channel, step, and the bits of all values.
 struct Standin {
