@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "catalyst2/catalyst_run.hpp"
 #include "end_to_end/program.hpp"
 
 namespace breccia::test {
@@ -14,40 +14,10 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-const std::string kBackend = " --set insitu.backend=catalyst2 ";
 const std::string kChannels =
     " --set 'insitu.pipeline=[{name=\"volume\", every_steps=100, strict=true}, {name=\"fractures\", every_steps=100, "
     "strict=true}, {name=\"surface\", first_break=true, strict=true}, {name=\"history\", every_steps=100, "
     "strict=true}]' ";
-
-/// A run of the small case. @param more  NAME=VALUE ..., of its environment
-struct CatalystRun {
-  CatalystRun(int ranks, const std::string& arguments, const std::string& more = "") {
-    const std::string file = scratch.write("case.toml", kSmallCase);
-    dump = scratch.path("dump");
-    fs::create_directories(dump);
-    const std::string environment = std::string("BRECCIA_LIBCATALYST='") + BRECCIA_STANDIN +
-                                    "' CATALYST_IMPLEMENTATION_NAME=standin STANDIN_DUMP='" + dump.string() + "' " +
-                                    more;
-    const std::string line = "run " + file + " --progress none -o '" + folder().string() + "' " + arguments;
-    outcome = ranks > 1 ? call_ranks(ranks, line, environment) : call(line, environment);
-  }
-  [[nodiscard]] fs::path folder() const { return scratch.path("run"); }
-  [[nodiscard]] json summary() const { return json::parse(read_text(folder() / "summary.json")); }
-  /// Lines of the cells that all ranks were given, in the order of their bits.
-  [[nodiscard]] std::vector<std::string> cells() const {
-    std::vector<std::string> lines;
-    for (const auto& file : fs::directory_iterator(dump)) {
-      std::istringstream text(read_text(file.path()));
-      for (std::string line; std::getline(text, line);) lines.push_back(line);
-    }
-    std::sort(lines.begin(), lines.end());
-    return lines;
-  }
-  Scratch scratch;
-  fs::path dump;
-  Outcome outcome;
-};
 
 class Catalyst2 : public testing::TestWithParam<int> {};
 
@@ -131,6 +101,44 @@ TEST(Catalyst2Alone, stands_in_by_itself_where_the_adaptor_with_ParaView_is_miss
   EXPECT_NE(neither.outcome.err.find("/nowhere/libbreccia_catalyst.so"), std::string::npos) << neither.outcome.err;
   EXPECT_NE(neither.outcome.err.find("insitu.backend = \"catalyst2\""), std::string::npos) << neither.outcome.err;
 }
+
+TEST(Catalyst2Alone, finds_libcatalyst_and_the_implementation_by_the_folders_that_the_environment_names) {
+  const std::string beside = fs::path(BRECCIA_STANDIN).parent_path().string();
+  for (const std::string& folders : {beside + "/catalyst", "/nowhere:" + beside + "/catalyst"}) {
+    const CatalystRun run(1, kBackend + kChannels,
+                          "BRECCIA_LIBCATALYST= CATALYST_IMPLEMENTATION_PATHS='" + folders + "'");
+    EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+    EXPECT_FALSE(run.cells().empty());
+  }
+  const CatalystRun lost(1, kBackend + kChannels, "BRECCIA_LIBCATALYST= CATALYST_IMPLEMENTATION_PATHS=/nowhere");
+  EXPECT_EQ(lost.outcome.exit_code, 2);
+  EXPECT_NE(lost.outcome.err.find("/nowhere/libcatalyst.so.3"), std::string::npos) << lost.outcome.err;
+}
+
+TEST_P(Catalyst2, goes_on_with_a_run_that_was_stopped) {
+  const CatalystRun whole(1, kBackend + kChannels);
+  const CatalystRun run(GetParam(), kBackend + kChannels + "--set time.max_steps=250");
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  const std::size_t before = run.cells().size();
+  const Outcome resumed = run.resumed(GetParam(), "--set time.max_steps=0");
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(run.summary()["state_hash"], whole.summary()["state_hash"]);
+  EXPECT_GT(run.cells().size(), before) << "the back end was forgotten";
+  const std::vector<std::string> cells = run.cells(), all = whole.cells();
+  // The stop is an end, too, at which every pipeline is executed.
+  EXPECT_TRUE(std::includes(cells.begin(), cells.end(), all.begin(), all.end()));
+}
+
+#ifdef BRECCIA_HAS_PARAVIEW
+TEST(Catalyst2Alone, is_not_taken_where_the_adaptor_with_ParaView_can_be_loaded_and_nobody_asks_for_it) {
+  for (const std::string& asked : {"", "--set insitu.backend=auto", "--set insitu.backend=paraview"}) {
+    const CatalystRun run(1, kChannels + asked);
+    EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+    EXPECT_TRUE(run.cells().empty());
+    EXPECT_TRUE(fs::exists(run.folder() / "extracts/fractures/fractures.pvd"));
+  }
+}
+#endif
 
 TEST(Catalyst2Alone, info_tells_what_was_found_and_what_lacks) {
   const Outcome outcome = call("insitu info", std::string("BRECCIA_LIBCATALYST='") + BRECCIA_STANDIN +
