@@ -2,6 +2,7 @@
 
 #include "catalyst2/standin.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -68,7 +69,11 @@ void flatten(const Node& node, const std::string& path, StandinTree& tree) {
     tree.push_back(node.leaf);
     tree.back().path = path;
   }
-  for (const auto& child : node.children) flatten(*child, path.empty() ? child->name : path + "/" + child->name, tree);
+  for (const auto& child : node.children) {
+    std::string name = child->name;
+    std::replace(name.begin(), name.end(), '/', '|');  // a name, such as "momentum x [kg m/s]", is no path
+    flatten(*child, path.empty() ? name : path + "/" + name, tree);
+  }
 }
 
 StandinTree tree_of(const void* root) {
