@@ -8,6 +8,7 @@
 #include "catalyst/live_pipeline.hpp"
 #include "catalyst/messages.hpp"
 #include "catalyst/pipeline_choice.hpp"
+#include "catalyst/pipeline_loop.hpp"
 #include "catalyst/script_check.hpp"
 #include "catalyst/whole_file.hpp"
 
@@ -15,6 +16,8 @@ namespace breccia::insitu {
 namespace {
 
 constexpr std::uint32_t kLiveDefault = bit(BRECCIA_SURFACE) | bit(BRECCIA_FRACTURES) | bit(BRECCIA_DOMAINS);
+
+std::string label(const std::string& pipeline) { return "pipeline " + pipeline; }
 
 }  // namespace
 
@@ -25,7 +28,7 @@ Adaptor::Adaptor(const BrecciaConfig& config) : ranks_(config.communicator, conf
     std::string error;
     std::unique_ptr<Pipeline> work;
     try {
-      const FatalLine line(config.pipelines[i].name);
+      const FatalLine line(label(config.pipelines[i].name));
       work = made(config.pipelines[i], config);
     } catch (const std::exception& failure) {
       error = failure.what();
@@ -41,7 +44,7 @@ Adaptor::~Adaptor() { end_pipelines(); }
 void Adaptor::end_pipelines() {
   if (std::exchange(finished_, true)) return;
   for (Named& pipeline : pipelines_) {
-    const FatalLine line(pipeline.name);
+    const FatalLine line(label(pipeline.name));
     pipeline.work->finish();
   }
 }
@@ -56,24 +59,9 @@ std::string Adaptor::finish() {
 }
 
 void Adaptor::start_display(const BrecciaConfig& config) {
-  // The first rank reads the scripts for all: one file, one answer.
-  std::string error;
-  std::int64_t draws = 0;
-  script_channels_.assign(static_cast<std::size_t>(config.num_pipelines), 0);
-  for (std::int32_t i = 0; ranks_.is_root() && i < config.num_pipelines; ++i) {
-    try {
-      const PipelineChoice choice = choose(config.pipelines[i]);
-      if (choice.kind != PipelineKind::script) continue;
-      const ScriptNeeds needs = check_script(choice.file);
-      script_channels_[static_cast<std::size_t>(i)] = needs.channels;
-      if (needs.draws) draws |= std::int64_t{bit(i)};
-    } catch (const std::exception& failure) {
-      error = failure.what();
-    }
-  }
-  ranks_.throw_agreed(error);
-  for (std::uint32_t& mask : script_channels_) mask = static_cast<std::uint32_t>(ranks_.from_root(std::int64_t{mask}));
-  script_draws_ = static_cast<std::uint32_t>(ranks_.from_root(draws));
+  RunScripts scripts = read_scripts(ranks_, config);
+  script_channels_ = std::move(scripts.channels);
+  script_draws_ = scripts.draw;
   if (script_draws_ != 0) display_ = std::make_unique<Display>(ranks_);
 }
 
@@ -107,7 +95,7 @@ std::unique_ptr<Pipeline> Adaptor::made(const BrecciaPipeline& pipeline, const B
 }
 
 std::uint32_t Adaptor::channels(int pipeline, std::int64_t step, double time) {
-  const FatalLine line(name(pipeline));
+  const FatalLine line(label(name(pipeline)));
   return pipelines_.at(static_cast<std::size_t>(pipeline)).work->channels(step, time);
 }
 
@@ -140,36 +128,14 @@ std::uint32_t Adaptor::execute(std::uint32_t pipelines, const BrecciaInstant& in
   return failed;
 }
 
-std::string Adaptor::failure_of(int pipeline, const Frame& frame, BrecciaRequests& requests) {
-  std::string error;
-  const FatalLine line(name(pipeline));
-  try {
-    try {
-      pipelines_[static_cast<std::size_t>(pipeline)].work->execute(frame, requests);
-    } catch (const Abandoned&) {
-      throw;
-    } catch (const std::exception& failure) {
-      error = failure.what();
-    } catch (...) {
-      error = "has thrown what is no exception of C++'s";
-    }
-    return ranks_.agree(error);
-  } catch (const Abandoned& wait) {
-    throw Abandoned(name(pipeline) + ": " + wait.what());
-  }
-}
-
 std::uint32_t Adaptor::execute(std::uint32_t pipelines, const Frame& frame, BrecciaRequests& requests,
                                std::string& text) {
-  std::uint32_t failed = 0;
-  for (int i = 0; i < num_pipelines(); ++i) {
-    if ((pipelines & bit(i)) == 0) continue;
-    const std::string error = failure_of(i, frame, requests);
-    if (error.empty()) continue;
-    failed |= bit(i);
-    text += name(i) + ": " + one_line(error) + '\n';
-  }
-  return failed;
+  return execute_each(
+      ranks_, pipelines, num_pipelines(), [this](int i) { return name(i); }, text,
+      [&](int i) {
+        const FatalLine line(label(name(i)));
+        pipelines_[static_cast<std::size_t>(i)].work->execute(frame, requests);
+      });
 }
 
 }  // namespace breccia::insitu

@@ -59,8 +59,6 @@ class Adaptor {
   void start_display(const BrecciaConfig& config);
   [[nodiscard]] std::unique_ptr<Pipeline> made(const BrecciaPipeline& pipeline, const BrecciaConfig& config);
   CatalystBackend& backend();
-  /// What a pipeline's work fails of on any rank; empty: nothing. Throws Abandoned, with the pipeline's name.
-  [[nodiscard]] std::string failure_of(int pipeline, const Frame& frame, BrecciaRequests& requests);
 
   Ranks ranks_;
   FrameToVtk frames_;

@@ -22,19 +22,11 @@
 #include "catalyst/folders.hpp"
 #include "catalyst/frame_to_vtk.hpp"
 #include "catalyst/messages.hpp"
+#include "catalyst/own_mpi.hpp"
 #include "catalyst/python_guard.hpp"
 
 namespace breccia::insitu {
 namespace {
-
-/// MPI for one rank, where the solver runs without.
-class OwnMpi {
- public:
-  OwnMpi() { MPI_Init(nullptr, nullptr); }
-  OwnMpi(const OwnMpi&) = delete;
-  OwnMpi& operator=(const OwnMpi&) = delete;
-  ~OwnMpi() { MPI_Finalize(); }
-};
 
 /// The requests as arrays of one value in the user data of a description.
 class UserData {
@@ -93,7 +85,7 @@ class ScriptPipeline final : public Pipeline {
  public:
   ScriptPipeline(const Ranks& ranks, ScriptWatch& watch, ScriptDescription description)
       : ranks_(ranks), watch_(watch), is_(std::move(description)) {
-    const ScriptWatch::Turn turn(watch_, is_.name);
+    const ScriptWatch::Turn turn(watch_, "pipeline " + is_.name);
     enter();
     const bool registered = script_->Initialize(is_.file.c_str());
     const std::string error = error_now();
@@ -111,7 +103,7 @@ class ScriptPipeline final : public Pipeline {
       dropped_ = true;
       return is_.channels;
     }
-    const ScriptWatch::Turn turn(watch_, is_.name);
+    const ScriptWatch::Turn turn(watch_, "pipeline " + is_.name);
     const auto description = described(step, time);
     enter();
     const bool wanted = script_->RequestDataDescription(description) != 0;
@@ -135,7 +127,7 @@ class ScriptPipeline final : public Pipeline {
       throw PipelineError(why);
     }
     ranks_.throw_agreed(no_space());
-    const ScriptWatch::Turn turn(watch_, is_.name);
+    const ScriptWatch::Turn turn(watch_, "pipeline " + is_.name);
     const auto description = described(frame.step, frame.time);
     UserData user_data;
     description->SetUserData(user_data.data());
@@ -165,7 +157,7 @@ class ScriptPipeline final : public Pipeline {
 
   void finish() override {
     if (is_.display != nullptr && !ranks_.agree(is_.display->lost() ? "lost" : "").empty()) return;
-    const ScriptWatch::Turn turn(watch_, is_.name);
+    const ScriptWatch::Turn turn(watch_, "pipeline " + is_.name);
     enter();
     script_->Finalize();
     static_cast<void>(error_now());
@@ -230,9 +222,7 @@ CatalystBackend::CatalystBackend(const Ranks& ranks)
     throw PipelineError("ParaView has been started in this process before; it cannot be started twice");
   MPI_Comm communicator = ranks.communicator();
   if (communicator == MPI_COMM_NULL) {
-    int started = 0;
-    MPI_Initialized(&started);
-    if (started == 0) session_->mpi = std::make_unique<OwnMpi>();
+    if (!OwnMpi::is_started()) session_->mpi = std::make_unique<OwnMpi>();
     communicator = MPI_COMM_SELF;
   }
   vtkMPICommunicatorOpaqueComm wrapped(&communicator);

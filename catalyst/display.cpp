@@ -1,6 +1,5 @@
 #include "catalyst/display.hpp"
 
-#include <X11/Xlib.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
@@ -15,6 +14,7 @@
 
 #include "catalyst/child_process.hpp"
 #include "catalyst/pipeline_error.hpp"
+#include "catalyst/xlib.hpp"
 
 namespace breccia::insitu {
 namespace {
@@ -90,12 +90,12 @@ std::string start_xvfb(pid_t& child) {
 }
 
 /// "" when an X display can be drawn on; else what is wrong with it. ParaView ends the process where that is not so.
-std::string fault_of(const char* name) {
-  ::Display* display = XOpenDisplay(name);
+std::string fault_of(const Xlib& x, const char* name) {
+  void* const display = x.open_display(name);
   if (display == nullptr) return "does not open";
   int opcode = 0, event = 0, error = 0;
-  const bool has = XQueryExtension(display, "GLX", &opcode, &event, &error) != 0;
-  XCloseDisplay(display);
+  const bool has = x.query_extension(display, "GLX", &opcode, &event, &error) != 0;
+  x.close_display(display);
   return has ? "" : "has no GLX, without which nothing can be drawn";
 }
 
@@ -107,33 +107,36 @@ std::string environment(const char* name) {
 constexpr const char* kInstall = " and Xvfb is not installed (Debian: apt-get install xvfb)";
 
 /// Xlib's own ends the process.
-int take_error(::Display*, XErrorEvent*) { return 0; }
-int take_loss(::Display*) { return 0; }
-void go_on(::Display*, void*) {}
+int take_error(void*, void*) { return 0; }
+int take_loss(void*) { return 0; }
+void go_on(void*, void*) {}
 
 }  // namespace
 
 // BRECCIA_DISPLAY: a display chosen for the pictures, where a graphics card is to draw.
 std::string display_problem() {
+  const Xlib* const x = xlib();
+  if (x == nullptr) return "pictures need an X display: libX11.so.6 cannot be used (Debian: apt-get install libx11-6)";
   if (const std::string chosen = environment("BRECCIA_DISPLAY"); !chosen.empty()) {
-    const std::string fault = fault_of(chosen.c_str());
+    const std::string fault = fault_of(*x, chosen.c_str());
     return fault.empty() ? "" : "pictures need an X display: " + chosen + ", of BRECCIA_DISPLAY, " + fault;
   }
   if (is_on_path("Xvfb")) return {};
   const std::string given = environment("DISPLAY");
   if (given.empty()) return std::string("pictures need an X display: none opens") + kInstall;
-  const std::string fault = fault_of(given.c_str());
+  const std::string fault = fault_of(*x, given.c_str());
   return fault.empty() ? "" : "pictures need an X display: " + given + " " + fault + kInstall;
 }
 
 void spare_process(void* display) {
-  if (display != nullptr) XSetIOErrorExitHandler(static_cast<::Display*>(display), &go_on, nullptr);
+  if (display != nullptr && xlib() != nullptr) xlib()->set_io_error_exit_handler(display, &go_on, nullptr);
 }
 
 Display::Display(const Ranks& ranks) : ranks_(ranks) {
   ranks.throw_agreed(display_problem());
-  XSetErrorHandler(&take_error);
-  XSetIOErrorHandler(&take_loss);
+  const Xlib& x = *xlib();  // there is one, or there was a problem
+  x.set_error_handler(&take_error);
+  x.set_io_error_handler(&take_loss);
   // Our own on all ranks, or that of each: mixtures draw differently.
   const std::string chosen = environment("BRECCIA_DISPLAY");
   if (!chosen.empty()) {
@@ -141,7 +144,7 @@ Display::Display(const Ranks& ranks) : ranks_(ranks) {
   } else if (ranks.agree(is_on_path("Xvfb") ? "" : "none").empty()) {
     start_own();
   }
-  link_ = XOpenDisplay(nullptr);
+  link_ = x.open_display(nullptr);
   spare_process(link_);
 }
 
@@ -174,13 +177,13 @@ void Display::start_own() {
 
 bool Display::lost() const {
   if (link_ == nullptr) return true;
-  pollfd link{ConnectionNumber(static_cast<::Display*>(link_)), POLLIN | POLLRDHUP, 0};
+  pollfd link{xlib()->connection_number(link_), POLLIN | POLLRDHUP, 0};
   if (::poll(&link, 1, 0) <= 0) return false;
   return (link.revents & (POLLHUP | POLLRDHUP | POLLERR | POLLNVAL)) != 0;
 }
 
 Display::~Display() {
-  if (link_ != nullptr) XCloseDisplay(static_cast<::Display*>(link_));
+  if (link_ != nullptr) xlib()->close_display(link_);
   if (replaced_ && was_set_) ::setenv("DISPLAY", old_.c_str(), 1);
   if (replaced_ && !was_set_) ::unsetenv("DISPLAY");
   if (!replaced_) return;

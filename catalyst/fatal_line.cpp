@@ -38,9 +38,8 @@ void tell_and_end(int signal) {
 
 }  // namespace
 
-FatalLine::FatalLine(const std::string& pipeline) {
-  std::snprintf(line.data(), line.size(), "breccia: error: pipeline %s: ParaView has ended the run by ",
-                pipeline.c_str());
+FatalLine::FatalLine(const std::string& what, const std::string& who) {
+  std::snprintf(line.data(), line.size(), "breccia: error: %s: %s has ended the run by ", what.c_str(), who.c_str());
   struct sigaction action {};
   action.sa_handler = &tell_and_end;
   for (std::size_t i = 0; i < kSignals.size(); ++i) ::sigaction(kSignals[i], &action, &old_[i]);

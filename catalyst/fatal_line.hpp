@@ -6,11 +6,12 @@
 
 namespace breccia::insitu {
 
-/// While it lives, a fatal signal (an abort in VTK, memory that is not ours) leaves one line that names the pipeline,
-/// before it ends the process as it would have. One at a time.
+/// While it lives, a fatal signal (an abort in VTK, memory that is not ours) leaves one line that names the pipeline
+/// and who does its work, before it ends the process as it would have. One at a time.
 class FatalLine {
  public:
-  explicit FatalLine(const std::string& pipeline);
+  /// @param what  "pipeline stress"
+  explicit FatalLine(const std::string& what, const std::string& who = "ParaView");
   FatalLine(const FatalLine&) = delete;
   FatalLine& operator=(const FatalLine&) = delete;
   ~FatalLine();

@@ -16,21 +16,6 @@
 namespace breccia::insitu {
 namespace {
 
-int corners_of(std::int32_t cell) {
-  switch (cell) {
-    case BRECCIA_VERTEX:
-      return 1;
-    case BRECCIA_TRIANGLE:
-      return 3;
-    case BRECCIA_TETRAHEDRON:
-      return 4;
-    case BRECCIA_HEXAHEDRON:
-      return 8;
-    default:
-      throw PipelineError("unknown kind of cell " + std::to_string(cell));
-  }
-}
-
 bool is_unstructured(std::int32_t cell) { return cell == BRECCIA_TETRAHEDRON || cell == BRECCIA_HEXAHEDRON; }
 
 /// A VTK array over the values of another: nothing is copied, nothing will be freed.
@@ -75,13 +60,6 @@ vtkFieldData* attributes_of(vtkDataObject* object) {
 }
 
 }  // namespace
-
-int channel_of(const std::string& name) {
-  for (int channel = 0; channel < BRECCIA_NUM_CHANNELS; ++channel) {
-    if (name == kChannelNames[static_cast<std::size_t>(channel)]) return channel;
-  }
-  return -1;
-}
 
 void set_instant(vtkDataObject* object, std::int64_t step, double time) {
   vtkNew<vtkDoubleArray> times;

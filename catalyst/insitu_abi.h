@@ -2,8 +2,9 @@
 #define BRECCIA_CATALYST_INSITU_ABI_H
 
 /* What the solver and an in-situ adaptor know of each other: plain arrays and C functions, no VTK, no MPI type. The
- * solver opens the adaptor, libbreccia_catalyst.so, with dlopen when a run asks for it, and takes its functions from
- * breccia_insitu_api(). Another back end (Catalyst 2, Ascent, ...) is another library with the same function.
+ * solver opens the adaptor with dlopen when a run asks for it, and takes its functions from breccia_insitu_api().
+ * There are two, libraries with the same function: libbreccia_catalyst.so has ParaView linked, libbreccia_catalyst2.so
+ * hands the channels to whatever implementation of Catalyst 2 is there.
  *
  * All lengths in m, all quantities SI. Strings are UTF-8 and end with 0. Functions marked "collective" are called by
  * all ranks of the communicator, in the same order and with the same pipelines; data are those of the rank. No function
@@ -16,7 +17,7 @@
 extern "C" {
 #endif
 
-#define BRECCIA_INSITU_ABI_VERSION 4
+#define BRECCIA_INSITU_ABI_VERSION 5
 
 /* The channels: frozen names, in this order everywhere. A set of channels is a mask of bits 1 << channel. */
 enum {
@@ -113,6 +114,10 @@ typedef struct {
   int32_t abi_version;
   const char* description; /* "ParaView Catalyst 5.11.0" */
   const char* data_folder; /* absolute: pipelines/, and python/, the view of `breccia live` */
+
+  /* Whether the back end could start here. 0: it could; the text tells with what, a line each. Otherwise the text says
+   * what lacks. Not collective; starts nothing. */
+  int32_t (*find)(char* text, size_t size);
 
   /* Looks whether all pipelines could run: scripts can be read and compile, names are known, parameters are known to
    * the adaptor's own pipelines, images find a display (one is made when none is there and Xvfb is installed),

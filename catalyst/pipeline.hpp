@@ -7,18 +7,11 @@
 #include <cstdint>
 #include <string>
 
+#include "catalyst/channel_names.hpp"
 #include "catalyst/insitu_abi.h"
 #include "catalyst/pipeline_error.hpp"
 
 namespace breccia::insitu {
-
-constexpr std::array<const char*, BRECCIA_NUM_CHANNELS> kChannelNames = BRECCIA_CHANNEL_NAMES;
-
-constexpr std::uint32_t bit(int channel) { return std::uint32_t{1} << channel; }
-constexpr std::uint32_t kAllChannels = bit(BRECCIA_NUM_CHANNELS) - 1;
-
-/// Index of a channel's name, or -1.
-int channel_of(const std::string& name);
 
 /// An instant as VTK sees it: null where a channel was not asked for. A channel has the same arrays, by name, type and
 /// components, on all ranks; elements and domains are vtkUnstructuredGrid, history is vtkTable, the others vtkPolyData.

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "catalyst/channel_names.hpp"
 #include "catalyst/folders.hpp"
-#include "catalyst/pipeline.hpp"
 
 namespace breccia::insitu {
 namespace {
@@ -66,6 +66,7 @@ PipelineChoice choose(const BrecciaPipeline& pipeline) {
       const auto scripts = ready_scripts();
       if (std::find(scripts.begin(), scripts.end(), choice.name) == scripts.end())
         throw PipelineError(unknown(choice.name));
+      choice.ready = true;
       choice.file = data_folder() / "pipelines" / (choice.name + ".py");
     }
     choice.folder = choice.file.stem();

@@ -18,6 +18,7 @@ struct PipelineChoice {
   PipelineKind kind = PipelineKind::extract;
   int channel = 0;             ///< of an extract
   std::filesystem::path file;  ///< of a script
+  bool ready = false;          ///< a script of our own, catalyst/pipelines/NAME.py
   std::string folder;  ///< below the folder of the run: the channel, or the script's name without .py; empty: none
   std::uint32_t channels = 0;  ///< as given
   std::map<std::string, double> parameters;

@@ -6,9 +6,11 @@
 #include <cstring>
 #include <sstream>
 
+#include "catalyst/channel_names.hpp"
 #include "catalyst/child_process.hpp"
 #include "catalyst/folders.hpp"
-#include "catalyst/pipeline.hpp"
+#include "catalyst/pipeline_choice.hpp"
+#include "catalyst/pipeline_error.hpp"
 
 namespace breccia::insitu {
 
@@ -30,6 +32,7 @@ ScriptNeeds check_script(const std::filesystem::path& script) {
       throw PipelineError(text.find(script.filename().string()) == std::string::npos ? script.string() + ": " + text
                                                                                      : text);
     if (word == "draws") needs.draws = true;
+    if (word == "lacks") needs.lacks = text;
     if (word == "channel") needs.channels |= bit(channel_of(text));
     if (word == "problem") needs.problems.push_back(text);
     if (word == "any_parameter") needs.any_parameter = true;
@@ -37,6 +40,28 @@ ScriptNeeds check_script(const std::filesystem::path& script) {
   }
   if (needs.channels == 0) needs.channels = kAllChannels;
   return needs;
+}
+
+RunScripts read_scripts(const Ranks& ranks, const BrecciaConfig& config) {
+  RunScripts scripts;
+  scripts.channels.assign(static_cast<std::size_t>(config.num_pipelines), 0);
+  std::string error;
+  std::int64_t draw = 0;
+  for (std::int32_t i = 0; ranks.is_root() && i < config.num_pipelines; ++i) {
+    try {
+      const PipelineChoice choice = choose(config.pipelines[i]);
+      if (choice.kind != PipelineKind::script) continue;
+      const ScriptNeeds needs = check_script(choice.file);
+      scripts.channels[static_cast<std::size_t>(i)] = needs.channels;
+      if (needs.draws) draw |= std::int64_t{bit(i)};
+    } catch (const std::exception& failure) {
+      error = failure.what();
+    }
+  }
+  ranks.throw_agreed(error);
+  for (std::uint32_t& mask : scripts.channels) mask = static_cast<std::uint32_t>(ranks.from_root(std::int64_t{mask}));
+  scripts.draw = static_cast<std::uint32_t>(ranks.from_root(draw));
+  return scripts;
 }
 
 }  // namespace breccia::insitu

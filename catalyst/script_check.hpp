@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "catalyst/insitu_abi.h"
+#include "catalyst/ranks.hpp"
+
 namespace breccia::insitu {
 
 /// What a script needs, as far as its text tells; python/check_script.py says how that is found.
@@ -15,10 +18,20 @@ struct ScriptNeeds {
   std::set<std::string> parameters;
   bool any_parameter = false;         ///< it computes names of parameters
   std::vector<std::string> problems;  ///< sources and arrays that no run has, a line each
+  std::string lacks;  ///< what the interpreter that has read it lacks to run it, and what to do; empty: nothing
 };
 
 /// Reads a script, in a Python interpreter of its own (some 50 ms); no Python starts in this process. Not collective.
 /// Throws PipelineError when it is missing, cannot be read or does not compile, and when there is no interpreter.
 [[nodiscard]] ScriptNeeds check_script(const std::filesystem::path& script);
+
+/// What the scripts among the pipelines of a run need.
+struct RunScripts {
+  std::vector<std::uint32_t> channels;  ///< masks by pipeline; 0: no script
+  std::uint32_t draw = 0;               ///< mask of the pipelines that make pictures
+};
+
+/// The first rank reads them for all: one file, one answer. Collective. Throws PipelineError, on all ranks.
+[[nodiscard]] RunScripts read_scripts(const Ranks& ranks, const BrecciaConfig& config);
 
 }  // namespace breccia::insitu

@@ -11,9 +11,12 @@ install(FILES solver/manual/breccia.bash DESTINATION share/bash-completion/compl
 install(FILES README.md DESTINATION share/doc/breccia COMPONENT solver)
 install(FILES LICENSE DESTINATION share/doc/breccia RENAME copyright COMPONENT solver)
 
+# The adaptor for Catalyst 2 needs nothing that the program does not.
+install(TARGETS breccia_catalyst2 LIBRARY DESTINATION lib/breccia COMPONENT solver)
+install(DIRECTORY catalyst/pipelines catalyst/python DESTINATION share/breccia/catalyst COMPONENT solver FILES_MATCHING PATTERN "*.py")
+
 if(TARGET breccia_catalyst)
   install(TARGETS breccia_catalyst breccia_loopback LIBRARY DESTINATION lib/breccia COMPONENT insitu)
-  install(DIRECTORY catalyst/pipelines catalyst/python DESTINATION share/breccia/catalyst COMPONENT insitu FILES_MATCHING PATTERN "*.py")
   install(FILES LICENSE DESTINATION share/doc/breccia-insitu RENAME copyright COMPONENT insitu)
 endif()
 

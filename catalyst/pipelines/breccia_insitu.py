@@ -15,6 +15,7 @@ _name = ""
 _folder = os.environ.get("BRECCIA_INSITU_FOLDER", os.getcwd())
 _parameters = {}
 _about = {}
+_request = None
 
 REQUESTS = ("stop", "pause", "extract", "frame_interval")
 
@@ -59,10 +60,18 @@ def strength():
     return _about.get("strength", 0.0)
 
 
+def set_request(function):
+    """Called by the adaptor where requests are carried by function(name, value) instead of ParaView's data description."""
+    global _request
+    _request = function
+
+
 def request(info, **wishes):
     """Asks the solver to stop, pause or extract (1), or to change its frame_interval (s); `info` is that of catalyst_execute."""
-    data = info.dataDescription.GetUserData()
     for name, value in wishes.items():
         if name not in REQUESTS:
             raise ValueError(f"{name} cannot be requested; what can: {', '.join(REQUESTS)}")
-        data.GetArray(name).SetValue(0, value)
+        if _request is not None:
+            _request(name, value)
+        else:
+            info.dataDescription.GetUserData().GetArray(name).SetValue(0, value)

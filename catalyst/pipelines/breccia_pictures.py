@@ -14,6 +14,7 @@ import numpy
 from paraview.simple import (ColorBy, CreateExtractor, CreateRenderView, GetColorTransferFunction, GetScalarBar, Line, SetActiveView, Show, Text,
                              Threshold)
 from vtkmodules.vtkCommonCore import vtkDoubleArray
+from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkParallelCore import vtkCommunicator, vtkMultiProcessController
 
@@ -46,7 +47,11 @@ def largest(value):
 
 def data_of(producer):
     """The channel's data on this rank."""
-    return producer.GetClientSideObject().GetOutputDataObject(0)
+    data = producer.GetClientSideObject().GetOutputDataObject(0)
+    if not data.IsA("vtkPartitionedDataSet"):
+        return data
+    # Catalyst 2: a part for each domain of the rank, which is one.
+    return data.GetPartition(0) if data.GetNumberOfPartitions() > 0 and data.GetPartition(0) is not None else vtkUnstructuredGrid()
 
 
 def quantile_of(producer, array, part):

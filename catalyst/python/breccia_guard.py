@@ -100,7 +100,9 @@ def _spare_windows():
     windows = [view.GetRenderWindow() for view in views if hasattr(view, "GetRenderWindow")]
     if any(windows):
         windows.append(vtkPVProcessWindow.GetRenderWindow())  # shares what the others draw with
-    for display in (window.GetGenericDisplayId() for window in windows if window is not None):
+    # Of windows that draw without X, it is something else.
+    windows = [window for window in windows if window is not None and window.IsA("vtkXOpenGLRenderWindow")]
+    for display in (window.GetGenericDisplayId() for window in windows):
         if display:
             _spare(int(display.split("_")[1], 16))
 

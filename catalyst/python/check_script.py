@@ -4,6 +4,7 @@ usage: check_script.py SCRIPT PIPELINES CHANNEL...
 PIPELINES is a folder of modules that scripts may import. Prints lines of a word and a text:
   error what (file:line)     the script does not compile
   problem what (file:line)   a source or an array that no run has
+  lacks what                 this interpreter cannot run it; that of another ParaView may
   draws                      it makes pictures, so it needs a display
   channel name               a channel that it names as a source
   parameter name             a parameter that it asks breccia_insitu for
@@ -148,8 +149,7 @@ def main():
         sys.exit(__doc__)
     script, pipelines, channels = sys.argv[1], sys.argv[2], sys.argv[3:]
     if importlib.util.find_spec("paraview") is None:
-        print("error ParaView's Python module is missing (Debian: apt-get install python3-paraview)")
-        return
+        print("lacks ParaView's Python module is missing (Debian: apt-get install python3-paraview)")
     try:
         lines = sorted(needs(script, pipelines, channels))
     except SyntaxError as error:

@@ -299,6 +299,7 @@ void bind(A& a, InSitu& insitu) {
   a.value("max_overhead", insitu.max_overhead);
   a.value("least_instants", insitu.least_instants);
   a.choice("on_error", insitu.on_error);
+  a.choice("backend", insitu.backend);
   a.optional_section("live", insitu.live);
   a.list("pipeline", insitu.pipelines);
   std::vector<std::string> names;  // written as pipelines of their own

@@ -306,6 +306,7 @@ struct Live {
 };
 
 enum class OnError { warn, stop };
+enum class InSituBackend { automatic, paraview, catalyst2 };
 
 /// [insitu]
 struct InSitu {
@@ -314,6 +315,7 @@ struct InSitu {
   double max_overhead = 0.02;       ///< of the wall time
   std::int64_t least_instants = 0;  ///< of those of insitu.run
   OnError on_error = OnError::warn;
+  InSituBackend backend = InSituBackend::automatic;
   Origin origin;
   [[nodiscard]] bool asked_for() const { return !pipelines.empty() || live; }
   friend bool operator==(const InSitu&, const InSitu&) = default;

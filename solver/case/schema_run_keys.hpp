@@ -107,6 +107,13 @@ inline constexpr auto run_keys = std::to_array<Key>({
      .help = "What a pipeline's failure means: warn and switch it off after three failures, or end the run.",
      .example = "\"stop\""},
 
+    {.path = "insitu.backend", .type = choice, .fallback = "auto", .choices = "auto|paraview|catalyst2",
+     .help = "Who carries the pipelines out: paraview, the adaptor with ParaView linked; catalyst2, an implementation "
+             "of Catalyst 2 that is there at run time, such as that of a newer ParaView, for scripts; auto: paraview "
+             "where that adaptor can be loaded, else catalyst2 where libcatalyst and its implementation are found. "
+             "`breccia insitu info` tells what there is.",
+     .example = "\"catalyst2\""},
+
     {.path = "insitu.live", .type = section,
      .help = "A running ParaView sees the run: `breccia live`, or Catalyst > Connect there, before or during the run. "
              "`breccia run --live` adds this section."},

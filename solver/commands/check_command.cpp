@@ -16,7 +16,8 @@ int check(const CheckCommand& asked, int launched) {
   const std::optional<StartState> start = read_start_state(asked.case_file, asked.overrides, {});
   case_::Case input = read_case_of(asked.case_file, asked.overrides, start);
   input.mesh.trust = asked.trust_geometry;
-  if (input.insitu.asked_for()) preflight(input, std::filesystem::temp_directory_path(), InSituPlugin(), {});
+  if (input.insitu.asked_for())
+    preflight(input, std::filesystem::temp_directory_path(), InSituPlugin(input.insitu.backend), {});
   if (asked.ranks > 0) {
     const Model bare = build_bare_model(input);
     fmt::print("{}", asked.json ? domains_json(input, bare, asked.ranks) : domain_table(input, bare, asked.ranks));

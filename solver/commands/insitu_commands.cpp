@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 #include <optional>
+#include <utility>
 
 #include "commands/commands.hpp"
 #include "output/atomic_file.hpp"
@@ -34,7 +35,7 @@ int replay_command(const ReplayCommand& asked, const Communicator& world) {
     if (error) throw output_error(folder, "cannot create this folder", error.value());
   });
   std::optional<InSituPlugin> plugin;
-  world.agree([&] { plugin.emplace(); });
+  world.agree([&] { plugin.emplace(case_::InSituBackend::paraview); });
   const InSituConfig config(input, folder, world);
   const auto checked = [&](auto&& call) {
     std::int32_t result = 0;
@@ -52,8 +53,21 @@ int replay_command(const ReplayCommand& asked, const Communicator& world) {
 }
 
 int insitu_info_command() {
-  const InSituPlugin plugin;
-  fmt::print("{}\n{}\n", plugin.api().description, InSituPlugin::place().string());
+  bool usable = false;
+  std::optional<OutputError> first;
+  for (const auto& [name, backend] : {std::pair{"paraview", case_::InSituBackend::paraview},
+                                      std::pair{"catalyst2", case_::InSituBackend::catalyst2}}) {
+    try {
+      const InSituPlugin plugin(backend);
+      const std::string found = plugin.found();
+      fmt::print("{}: {}\n{}\n", name, found, InSituPlugin::place(backend).string());
+      usable = true;
+    } catch (const OutputError& error) {
+      fmt::print("{}: not usable: {}\n", name, error.what());
+      if (!first) first = error;
+    }
+  }
+  if (!usable) throw OutputError(*first);
   return 0;
 }
 

@@ -74,7 +74,7 @@ fs::path settings_folder(const std::string& paraview_version, const fs::path& ma
 /// ParaView's ports, and those of the MPI that it starts, are reached from this machine only. Throws OutputError when
 /// the library that does it is not there.
 void keep_on_this_machine() {
-  const fs::path library = InSituPlugin::place().parent_path() / "libbreccia_loopback.so";
+  const fs::path library = InSituPlugin::place(case_::InSituBackend::paraview).parent_path() / "libbreccia_loopback.so";
   if (!fs::exists(library)) throw output_error(library, "cannot be loaded into ParaView", ENOENT);
   prepend("LD_PRELOAD", library.string());
   for (const char* name : {"OMPI_MCA_oob_tcp_if_include", "PMIX_MCA_ptl_tcp_if_include"}) set(name, "lo");
@@ -114,7 +114,7 @@ int live_command(const LiveCommand& asked) {
   const std::string address = input.insitu.live ? input.insitu.live->address : case_::live_address;
   const int port = case_::host_and_port(address)->second;
   demand_free(port);
-  const InSituPlugin plugin;
+  const InSituPlugin plugin(case_::InSituBackend::paraview);
   const fs::path data = plugin.api().data_folder;
   const std::string description = plugin.api().description;
   describe(input, port);

@@ -124,7 +124,7 @@ int resume_command(const ResumeCommand& asked, const Communicator& world) {
     complete = is_complete(RunFolder{run}, from.model.clock.steps) && !options.extended;
     if (complete) return;
     check_there_is_more(input, from, run, asked.until);
-    if (input.insitu.asked_for()) InSituPlugin();
+    if (input.insitu.asked_for()) InSituPlugin(input.insitu.backend);
   });
   if (complete) {
     if (world.is_root())

@@ -76,7 +76,7 @@ int run_command(const RunCommand& asked, const Communicator& world) {
     input.mesh.trust = asked.trust_geometry;
     world.set_patience(input.domains.patience);
     root = asked.folder.empty() ? default_run_folder(input.file) : asked.folder;
-    if (input.insitu.asked_for()) InSituPlugin();  // before anything is made: stays loaded
+    if (input.insitu.asked_for()) InSituPlugin(input.insitu.backend);  // before anything is made: stays loaded
   });
   std::vector<ConstraintConflict> conflicts;
   if (start) conflicts = conflicts_of(input, *start, world);

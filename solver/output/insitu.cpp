@@ -36,7 +36,8 @@ void preflight(const case_::Case& input, const std::filesystem::path& folder, co
 
 InSitu::InSitu(const case_::Case& input, const std::filesystem::path& folder, const Communicator& communicator,
                Tell tell)
-    : communicator_(communicator),
+    : plugin_(input.insitu.backend),
+      communicator_(communicator),
       tell_(std::move(tell)),
       stop_on_error_(input.insitu.on_error == case_::OnError::stop),
       share_(input.insitu.max_overhead),

@@ -1,26 +1,33 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
+#include <string>
 
+#include "case/case.hpp"
 #include "catalyst/insitu_abi.h"
 
 namespace breccia {
 
-/// The in-situ adaptor as a library that is opened only when a run asks for it: what it brings along (ParaView, Python)
+/// An in-situ adaptor as a library that is opened only when a run asks for it: what it brings along (ParaView, Python)
 /// takes some 200 MB a process, which a plain run does not pay.
 class InSituPlugin {
  public:
-  /// Opens the adaptor. Throws OutputError saying what to install when it is missing, cannot be loaded or is of another
-  /// version.
-  InSituPlugin();
+  /// Opens the adaptor that a case asks for by insitu.backend. With "auto" that is the one with ParaView linked, or,
+  /// where that cannot be loaded, the one for Catalyst 2, if libcatalyst and its implementation are found. Throws
+  /// OutputError saying what to install when it is missing, cannot be loaded or is of another version.
+  explicit InSituPlugin(case_::InSituBackend backend);
   [[nodiscard]] const BrecciaInsituApi& api() const { return *api_; }
 
-  /// Where it is looked for: the environment's BRECCIA_CATALYST, or relative to the folder of the program:
-  /// ../lib/breccia where both are installed, ../catalyst where they were built.
-  [[nodiscard]] static std::filesystem::path place();
+  /// What it finds to work with, a line each. Throws OutputError with what lacks.
+  [[nodiscard]] std::string found() const;
+
+  /// Where it is looked for: the environment's BRECCIA_CATALYST or BRECCIA_CATALYST2, or relative to the folder of the
+  /// program: ../lib/breccia where both are installed, ../catalyst where they were built.
+  [[nodiscard]] static std::filesystem::path place(case_::InSituBackend backend);
 
  private:
+  void open(case_::InSituBackend backend);
+
   const BrecciaInsituApi* api_ = nullptr;  // never closed: VTK does not survive being unloaded
 };
 

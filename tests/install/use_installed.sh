@@ -30,6 +30,9 @@ if command -v pvbatch >/dev/null; then
   is_picture picture.png
 fi
 
+for file in lib/breccia/libbreccia_catalyst2.so share/breccia/catalyst/python/breccia_catalyst2.py; do
+  [[ -s $prefix/$file ]] || fail "the adaptor for Catalyst 2 is not whole, $file lacks"
+done
 if [[ -f $prefix/lib/breccia/libbreccia_catalyst.so ]]; then
   info=$(breccia insitu info)
   [[ $info == *"$prefix/lib/breccia/libbreccia_catalyst.so"* ]] || fail "another adaptor is used: $info"

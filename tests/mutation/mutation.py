@@ -51,7 +51,7 @@ def read_table():
 def test_programs(repository):
     """Names of the programs that the lists of tests/ build."""
     calls = {"breccia_test": "test_", "breccia_mpi_test": "mpi_", "breccia_catalyst_test": "catalyst_",
-             "breccia_catalyst_unit_test": "test_catalyst_"}
+             "breccia_catalyst_unit_test": "test_catalyst_", "add_executable": ""}
     programs = set()
     for file in (repository / "tests").rglob("CMakeLists.txt"):
         for call, name in re.findall(r"^\s*(\w+)\((?:NAME )?(\w+)", file.read_text(encoding="utf-8"), re.MULTILINE):

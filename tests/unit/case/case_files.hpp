@@ -201,6 +201,7 @@ gauges = ["support"]
 run = ["stress"]
 max_overhead = 0.1
 on_error = "stop"
+backend = "catalyst2"
 [insitu.live]
 address = "10.0.0.7:22333"
 remote = true

@@ -1,0 +1,62 @@
+#include "catalyst/catalyst2_preflight.hpp"
+
+#include "catalyst/catalyst2_library.hpp"
+#include "catalyst/pipeline_checks.hpp"
+#include "catalyst/pipeline_error.hpp"
+#include "catalyst/script_check.hpp"
+
+namespace breccia::insitu {
+namespace {
+
+constexpr const char* kOtherBackend = "the adaptor with ParaView linked, insitu.backend = \"paraview\"";
+
+/// What cannot work over Catalyst 2, whoever is behind it. Throws PipelineError.
+void demand_possible(const PipelineChoice& choice, bool is_paraview) {
+  switch (choice.kind) {
+    case PipelineKind::live:
+      throw PipelineError(std::string("the live link is not Catalyst 2's; it needs ") + kOtherBackend);
+    case PipelineKind::extract:
+    case PipelineKind::history:
+      if (is_paraview)
+        throw PipelineError(std::string("this recording is not made by ParaView's implementation of Catalyst 2; it "
+                                        "needs ") +
+                            kOtherBackend + ", or a script with an extractor for the channel");
+      return;
+    case PipelineKind::script:
+      if (choice.ready && !is_paraview)
+        throw PipelineError("is a script for ParaView, and CATALYST_IMPLEMENTATION_NAME names another implementation");
+  }
+}
+
+}  // namespace
+
+std::string found_catalyst2() {
+  const Catalyst2Library library;
+  return "libcatalyst " + library.file().string() + "\nimplementation '" + library.implementation() + "' " +
+         library.implementation_file().string();
+}
+
+std::vector<std::string> catalyst2_problems_of(const BrecciaConfig& config) {
+  bool is_paraview = true;
+  std::string missing;
+  try {
+    const Catalyst2Library library;
+    is_paraview = library.is_paraview();
+    static_cast<void>(library.implementation_file());
+  } catch (const PipelineError& error) {
+    missing = error.what();
+  }
+  std::vector<std::string> problems =
+      problems_of_pipelines(config, [&](const PipelineChoice& choice, std::vector<std::string>& found) {
+        if (missing.empty()) demand_possible(choice, is_paraview);  // else nobody knows whose it would be
+        if (choice.kind != PipelineKind::script) return check_parameters(choice, {}, found);
+        const ScriptNeeds needs = check_script(choice.file);
+        for (const std::string& problem : needs.problems) found.push_back(choice.name + ": " + problem);
+        // A user's script may compute the names of its parameters.
+        if (choice.ready) check_parameters(choice, needs.parameters, found);
+      });
+  if (!missing.empty()) problems.insert(problems.begin(), missing);
+  return problems;
+}
+
+}  // namespace breccia::insitu

@@ -1,0 +1,131 @@
+#include "catalyst/script_bridge.hpp"
+
+#include <cstdint>
+#include <string_view>
+#include <utility>
+
+#include "catalyst/display.hpp"
+#include "catalyst/pipeline_error.hpp"
+#include "catalyst/whole_file.hpp"
+
+namespace breccia::insitu {
+namespace {
+
+/// As text of JSON.
+std::string json_text(std::string_view text) {
+  static constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') result += '\\';
+    if (code < 0x20) {
+      result += "\\u00";
+      result += kDigits[code >> 4U];
+      result += kDigits[code & 15U];
+    } else {
+      result += c;
+    }
+  }
+  return result + "\"";
+}
+
+}  // namespace
+
+/// Known to breccia_catalyst2.py by their order.
+struct ScriptBridge::Functions {
+  const char* (*scripts)();
+  const char* (*turn)();
+  int (*agree)(const char* text);
+  void (*done)(const char* error);
+  int (*request)(const char* name, double value);
+  void (*spare)(void* display);
+};
+
+ScriptBridge* ScriptBridge::active = nullptr;
+
+ScriptBridge::ScriptBridge(const Ranks& ranks, TurnWatch& watch, const BrecciaConfig& config,
+                           const std::vector<BridgedScript>& scripts)
+    : ranks_(ranks), watch_(watch) {
+  const std::string about = "{\"title\": " + json_text(config.title == nullptr ? "" : config.title) +
+                            ", \"end\": " + exact(config.end) + ", \"strength\": " + exact(config.strength) + "}";
+  for (const BridgedScript& script : scripts) {
+    std::string parameters;
+    for (const auto& [name, value] : script.parameters)
+      parameters += (parameters.empty() ? "" : ", ") + json_text(name) + ": " + exact(value);
+    scripts_ += (scripts_.empty() ? "[" : ", ") + ("{\"name\": " + json_text(script.name)) +
+                ", \"script\": " + json_text(script.file.string()) +
+                ", \"folder\": " + json_text(script.folder.string()) + ", \"parameters\": {" + parameters +
+                "}, \"about\": " + about + "}";
+  }
+  scripts_ += scripts_.empty() ? "[]" : "]";
+  active = this;
+}
+
+ScriptBridge::~ScriptBridge() { active = nullptr; }
+
+std::string ScriptBridge::address() {
+  static const Functions functions{scripts, turn, agree, done, request, spare_process};
+  return std::to_string(reinterpret_cast<std::uintptr_t>(&functions));
+}
+
+void ScriptBridge::set_turn(const std::filesystem::path& script) {
+  done_ = false;
+  error_.clear();
+  requests_ = {};
+  turn_ = script.string();
+}
+
+void ScriptBridge::take_result(BrecciaRequests& requests) {
+  if (!abandoned_.empty()) throw Abandoned(abandoned_);
+  if (!error_.empty()) throw PipelineError(error_);
+  if (!done_) throw PipelineError("ParaView has not run the script; what it says of it stands above");
+  requests.stop |= requests_.stop;
+  requests.pause |= requests_.pause;
+  requests.extract |= requests_.extract;
+  if (requests_.frame_interval > 0) requests.frame_interval = requests_.frame_interval;
+}
+
+const char* ScriptBridge::scripts() { return active == nullptr ? "[]" : active->scripts_.c_str(); }
+const char* ScriptBridge::turn() { return active == nullptr ? "" : active->turn_.c_str(); }
+
+/// No exception may pass through Python: 2 is "others do not come".
+int ScriptBridge::agree(const char* text) {
+  if (active == nullptr) return 0;
+  try {
+    if (!active->abandoned_.empty()) return 2;
+    active->watch_.restart();
+    const int answer = active->ranks_.agree(text).empty() ? 0 : 1;
+    active->watch_.restart();  // that was waiting for others
+    return answer;
+  } catch (const Abandoned& wait) {
+    active->abandoned_ = wait.what();
+    return 2;
+  }
+}
+
+void ScriptBridge::done(const char* error) {
+  if (active == nullptr) return;
+  active->done_ = true;
+  if (active->error_.empty()) active->error_ = error;
+}
+
+int ScriptBridge::request(const char* name, double value) {
+  if (active == nullptr) return 0;
+  BrecciaRequests& requests = active->requests_;
+  const std::string_view what = name;
+  const auto flag = static_cast<std::int32_t>(value != 0.0);
+  if (what == "stop") {
+    requests.stop = flag;
+  } else if (what == "pause") {
+    requests.pause = flag;
+  } else if (what == "extract") {
+    requests.extract = flag;
+  } else if (what == "frame_interval") {
+    requests.frame_interval = value;
+  } else {
+    return 0;
+  }
+  return 1;
+}
+
+}  // namespace breccia::insitu

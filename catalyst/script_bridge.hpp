@@ -1,0 +1,63 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "catalyst/insitu_abi.h"
+#include "catalyst/ranks.hpp"
+#include "catalyst/turn_watch.hpp"
+
+namespace breccia::insitu {
+
+/// A script among the pipelines.
+struct BridgedScript {
+  std::string name;
+  std::filesystem::path file;
+  std::filesystem::path folder;  ///< of its files; exists
+  std::map<std::string, double> parameters;
+};
+
+/// The run as python/breccia_catalyst2.py sees it, the first script that ParaView's implementation is given: whose turn
+/// it is, whether another rank has failed; and what it tells in return: what the script raised, and what that asks of
+/// the solver. Catalyst 2 itself runs all scripts at every execution and keeps what they raise to itself. The script
+/// finds the functions by the address that it is given as its argument.
+class ScriptBridge {
+ public:
+  /// One a process at a time. @pre ranks and watch outlive this
+  ScriptBridge(const Ranks& ranks, TurnWatch& watch, const BrecciaConfig& config,
+               const std::vector<BridgedScript>& scripts);
+  ScriptBridge(const ScriptBridge&) = delete;
+  ScriptBridge& operator=(const ScriptBridge&) = delete;
+  ~ScriptBridge();
+
+  /// The address of the functions, as a decimal number.
+  [[nodiscard]] static std::string address();
+
+  /// The script that is to run in the next execution; empty: none.
+  void set_turn(const std::filesystem::path& script);
+
+  /// What the turn ended with: throws PipelineError with what the script raised, or when it was not run; Abandoned when
+  /// other ranks have not come in time. Adds what it asks for.
+  void take_result(BrecciaRequests& requests);
+
+ private:
+  struct Functions;
+  static ScriptBridge* active;
+  static const char* scripts();
+  static const char* turn();
+  static int agree(const char* text);
+  static void done(const char* error);
+  static int request(const char* name, double value);
+
+  const Ranks& ranks_;
+  TurnWatch& watch_;
+  std::string scripts_;  ///< JSON
+  std::string turn_;
+  bool done_ = false;
+  std::string error_, abandoned_;
+  BrecciaRequests requests_{};
+};
+
+}  // namespace breccia::insitu

@@ -1,0 +1,104 @@
+// What may go wrong with an implementation of Catalyst 2 in the shipped program: before a run it is refused in one
+// line, in its middle the run goes on, or ends with a line that names the pipeline.
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "catalyst2/catalyst_run.hpp"
+
+namespace breccia::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPipelines =
+    " --set 'insitu.pipeline=[{name=\"fractures\", every_steps=100, strict=true}, {name=\"surface\", every_steps=100, "
+    "strict=true}]' ";
+
+bool tells(const CatalystRun& run, const std::string& text) { return run.outcome.err.find(text) != std::string::npos; }
+
+/// Those that are not of the launcher of ranks.
+std::ptrdiff_t lines_of_the_program(const CatalystRun& run) {
+  std::istringstream text(run.outcome.err);
+  std::ptrdiff_t lines = 0;
+  for (std::string line; std::getline(text, line);) lines += line.find("insitu") != std::string::npos;
+  return lines;
+}
+
+/// One line, exit code 2, and nothing was given to the implementation.
+void expect_refused(const CatalystRun& run, const std::string& text) {
+  EXPECT_EQ(run.outcome.exit_code, 2);
+  EXPECT_TRUE(tells(run, text)) << run.outcome.err;
+  EXPECT_EQ(lines_of_the_program(run), 1) << run.outcome.err;
+  EXPECT_EQ(run.cells(), std::vector<std::string>{});
+  EXPECT_FALSE(fs::exists(run.folder() / "history.csv")) << "the run has begun";
+}
+
+class Catalyst2Faults : public testing::TestWithParam<int> {
+ protected:
+  /// An implementation that does so on the last rank in its first execution.
+  static std::string last_rank(const std::string& does) {
+    return "STANDIN_FAIL_EXECUTE=" + does + " STANDIN_RANK=" + std::to_string(GetParam() - 1);
+  }
+};
+
+TEST_P(Catalyst2Faults, an_implementation_that_fails_costs_the_run_its_pipelines_and_nothing_else) {
+  const CatalystRun plain(1, ""), run(GetParam(), kBackend + kPipelines, last_rank("throw"));
+  EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  EXPECT_EQ(run.summary()["state_hash"], plain.summary()["state_hash"]);
+  EXPECT_TRUE(tells(run, "pipeline fractures: thrown on purpose")) << run.outcome.err;
+  EXPECT_TRUE(tells(run, "switched off after 3 failures")) << run.outcome.err;
+}
+
+TEST_P(Catalyst2Faults, an_abort_within_an_implementation_leaves_a_line_that_names_the_pipeline_and_it) {
+  const CatalystRun run(GetParam(), kBackend + kPipelines, last_rank("abort"));
+  EXPECT_NE(run.outcome.exit_code, 0);
+  EXPECT_TRUE(tells(run,
+                    "breccia: error: pipeline fractures: implementation 'standin' of Catalyst 2 has ended the run by "
+                    "an abort (SIGABRT)\n"))
+      << run.outcome.err;
+}
+
+TEST_P(Catalyst2Faults, an_implementation_that_does_not_come_back_ends_the_run_with_a_line) {
+  const CatalystRun run(GetParam(), kBackend + kPipelines + "--set 'domains.patience=\"3 s\"'", last_rank("hang"));
+  EXPECT_EQ(run.outcome.exit_code, 4) << run.outcome.err;
+  EXPECT_TRUE(GetParam() == 1 ? tells(run, "pipeline fractures: has not come back for ")
+                              : tells(run, "pipeline fractures: rank 0 has waited "))
+      << run.outcome.err;
+}
+
+TEST_P(Catalyst2Faults, a_start_that_does_not_come_back_ends_the_run_with_a_line) {
+  const CatalystRun run(GetParam(), kBackend + kPipelines + "--set 'domains.patience=\"3 s\"'",
+                        "STANDIN_FAIL_INITIALIZE=hang");
+  EXPECT_EQ(run.outcome.exit_code, 4) << run.outcome.err;
+  EXPECT_TRUE(tells(run, "start of the in-situ pipelines: has not come back for ")) << run.outcome.err;
+}
+
+TEST_P(Catalyst2Faults, an_implementation_of_another_version_is_refused_before_the_run) {
+  const CatalystRun run(GetParam(), kBackend + kPipelines, "STANDIN_FAIL_INITIALIZE=6");
+  expect_refused(run,
+                 "implementation 'standin' of Catalyst 2 does not start: catalyst_initialize returns 6 (the "
+                 "implementation is of another version)");
+}
+
+TEST_P(Catalyst2Faults, another_implementation_than_that_asked_for_is_refused_before_the_run) {
+  const CatalystRun run(GetParam(), kBackend + kPipelines, "STANDIN_ABOUT=stub");
+  expect_refused(run, "implementation 'standin' of Catalyst 2 was asked for and 'stub' started");
+}
+
+TEST_P(Catalyst2Faults, a_missing_implementation_is_refused_before_the_run) {
+  const CatalystRun run(GetParam(), kBackend + kPipelines, "CATALYST_IMPLEMENTATION_NAME=nobody");
+  expect_refused(run, "has no implementation 'nobody'; looked for ");
+}
+
+TEST_P(Catalyst2Faults, a_library_that_is_no_libcatalyst_is_refused_before_the_run) {
+  const CatalystRun run(GetParam(), kBackend + kPipelines,
+                        std::string("BRECCIA_LIBCATALYST='") + BRECCIA_LACKING + "'");
+  expect_refused(run, "is no libcatalyst of version 2, it lacks catalyst_finalize, catalyst_about, ");
+}
+
+INSTANTIATE_TEST_SUITE_P(OfRanks, Catalyst2Faults, testing::Values(1, 2), testing::PrintToStringParamName());
+
+}  // namespace
+}  // namespace breccia::test
