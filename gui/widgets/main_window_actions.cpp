@@ -7,6 +7,7 @@
 
 #include "widgets/main_window.hpp"
 #include "widgets/problems_panel.hpp"
+#include "widgets/property_form.hpp"
 
 namespace breccia::gui {
 
@@ -65,9 +66,19 @@ void MainWindow::make_actions() {
       edit, tr("Next &problem"), Qt::Key_F8, [this] { messages_->next_problem(); }, false);
   QMenu* run = menuBar()->addMenu(tr("&Run"));
   add(
-      run, tr("&Mesh"), Qt::Key_F6, [this] { queries_.mesh(); }, true);
+      run, tr("&Mesh"), Qt::Key_F6,
+      [this] {
+        form_->take_typed();
+        queries_.mesh();
+      },
+      true);
   add(
-      run, tr("&Check"), Qt::Key_F7, [this] { queries_.check(); }, true);
+      run, tr("&Check"), Qt::Key_F7,
+      [this] {
+        form_->take_typed();
+        queries_.check();
+      },
+      true);
   run_action_ = add(
       run, tr("&Run"), Qt::Key_F5, [this] { start_run(); }, true);
   queue_action_ = add(

@@ -106,6 +106,7 @@ void MainWindow::offer_recovery() {
 }
 
 bool MainWindow::save() {
+  form_->take_typed();
   if (!document_.is_open()) return false;
   if (document_.changed_on_disk() &&
       QMessageBox::question(
@@ -119,6 +120,7 @@ bool MainWindow::save() {
 }
 
 void MainWindow::save_as() {
+  form_->take_typed();
   if (!document_.is_open()) return;
   const QString name =
       QFileDialog::getSaveFileName(this, tr("Save the case as"), document_.file(), tr("Cases (*.toml)"));
@@ -128,6 +130,7 @@ void MainWindow::save_as() {
 }
 
 bool MainWindow::may_leave_case() {
+  form_->take_typed();
   if (!document_.is_open() || !document_.modified()) return true;
   const auto answer = QMessageBox::question(this, tr("Breccia"), tr("Save the edits of %1?").arg(document_.file()),
                                             QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel);

@@ -5,6 +5,7 @@
 
 #include "widgets/main_window.hpp"
 #include "widgets/problems_panel.hpp"
+#include "widgets/property_form.hpp"
 #include "widgets/queue_panel.hpp"
 #include "widgets/run_panel.hpp"
 #include "widgets/study_panel.hpp"
@@ -12,6 +13,7 @@
 namespace breccia::gui {
 
 void MainWindow::queue_run() {
+  form_->take_typed();
   validate();
   if (!problems_.empty() || !document_.is_open()) {
     show_dock("dock_messages");

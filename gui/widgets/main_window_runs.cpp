@@ -15,6 +15,7 @@
 #include "widgets/frame_loader.hpp"
 #include "widgets/main_window.hpp"
 #include "widgets/plots_panel.hpp"
+#include "widgets/property_form.hpp"
 #include "widgets/queue_panel.hpp"
 #include "widgets/results_panel.hpp"
 #include "widgets/run_panel.hpp"
@@ -50,6 +51,7 @@ QStringList MainWindow::command_line() const {
 }
 
 void MainWindow::start_run() {
+  form_->take_typed();
   validate();
   if (!problems_.empty() || (document_.modified() && !save())) {
     show_dock("dock_messages");

@@ -183,6 +183,21 @@ void PropertyForm::take_over(const QString& path, const Key& key, const QString&
   }
 }
 
+void PropertyForm::take_typed() {
+  if (!document_.is_open()) return;
+  const QWidget* cursor = window()->focusWidget();
+  for (auto it = fields_.begin(); it != fields_.end(); ++it) {
+    const QWidget* editor = it->editor;
+    if (cursor == nullptr || (editor != cursor && !editor->isAncestorOf(cursor))) continue;
+    const auto* box = qobject_cast<const QComboBox*>(editor);
+    const auto* line = box != nullptr ? box->lineEdit() : qobject_cast<const QLineEdit*>(editor);
+    const Field field = *it;  // an edit may change the form
+    const QString path = it.key();
+    if (line != nullptr) take_over(path, *field.key, line->text());
+    return;
+  }
+}
+
 void PropertyForm::refresh() {
   for (auto it = fields_.begin(); it != fields_.end(); ++it) {
     const QString shown = shown_value(*it->key, document_.value(it.key()));

@@ -31,6 +31,8 @@ class PropertyForm final : public QScrollArea {
   bool take_pick(const QString& volume, const QStringList& surfaces);
   /// Puts the cursor into the field of a path, if it is here.
   void focus_field(const QString& path);
+  /// Takes over what stands in the field with the cursor: keys and buttons that act on the case leave no field.
+  void take_typed();
 
  signals:
   /// A field that names groups got one: the view shows it.

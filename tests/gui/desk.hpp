@@ -83,25 +83,37 @@ struct Desk {
 
   /// Types into a field and leaves it.
   void type(const QString& field, const QString& text) {
+    type_and_stay(field, text);
+    QTest::keyClick(find<QWidget>(field), Qt::Key_Tab);
+  }
+
+  /// Types into a field; the cursor stays there. A field takes over what was typed when it loses the focus, which only
+  /// an active window has, and without a window manager nothing gives it back to the window when a dialog has closed.
+  void type_and_stay(const QString& field, const QString& text) {
+    for (int i = 0; i < 50 && !window->isActiveWindow(); ++i) {
+      window->activateWindow();
+      QTest::qWait(20);
+    }
     auto* widget = find<QWidget>(field);
     widget->setFocus();
     QTest::keyClick(widget, Qt::Key_A, Qt::ControlModifier);
     QTest::keyClick(widget, Qt::Key_Delete);
     QTest::keyClicks(widget, text);
-    QTest::keyClick(widget, Qt::Key_Tab);
   }
 
-  /// Clicks a button that opens the dialog for files, and types a name there; again while the dialog stays, since it
-  /// takes no name before it has read the folder.
+  /// Clicks a button that opens the dialog for files, and types a name there; the key of return again while the dialog
+  /// stays, since it takes no name before it has read the folder.
   void click_and_name(const QString& button, const QString& file) {
     QTimer typing;
     QObject::connect(&typing, &QTimer::timeout, window.get(), [this, file] {
       auto* dialog = window->findChild<QFileDialog*>();
       if (dialog == nullptr) throw std::runtime_error("no dialog for files");
       auto* name = dialog->findChild<QLineEdit*>("fileNameEdit");
-      name->setFocus();
-      name->clear();
-      QTest::keyClicks(name, file);
+      if (name->text() != file) {
+        name->setFocus();
+        name->clear();
+        QTest::keyClicks(name, file);
+      }
       QTest::keyClick(name, Qt::Key_Return);
     });
     typing.start(500);

@@ -107,6 +107,18 @@ TEST(Forms, TextAndFormFollowEachOther) {
   EXPECT_FALSE(text->toPlainText().contains("13 GPa"));
 }
 
+TEST(Forms, WhatIsBeingTypedIsInTheFileThatTheKeyOfSaveWrites) {
+  Desk desk;
+  desk.window->open_path(written_case(desk.scratch, block_case(1, "1 ms")));
+  desk.click_stage("material: block");
+  desk.type_and_stay("field:material[0].young", "12 GPa");
+  QTest::keyClick(desk.find<QWidget>("field:material[0].young"), Qt::Key_S, Qt::ControlModifier);
+  QFile file(desk.scratch.filePath("case.toml"));
+  ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+  EXPECT_TRUE(file.readAll().contains("young = \"12 GPa\""));
+  EXPECT_FALSE(desk.window->document().modified());
+}
+
 TEST(Forms, AnEntryIsAddedAndRemoved) {
   Desk desk;
   desk.window->open_path(everything(desk.scratch));

@@ -31,16 +31,6 @@ QByteArray stl_box(int sides) {
   return text + "endsolid slab\n";
 }
 
-/// Without a window manager nothing gives the keys back to the window when a dialog has closed, and a field takes over
-/// what was typed when it loses the focus, which only an active window has.
-bool take_keys(const Desk& desk) {
-  const auto active = [&] {
-    desk.window->activateWindow();
-    return desk.window->isActiveWindow();
-  };
-  return wait_until(active, kSolver);
-}
-
 QString written(const Desk& desk, const QString& name, const QByteArray& text) {
   QFile out(desk.scratch.filePath(name));
   EXPECT_TRUE(out.open(QIODevice::WriteOnly) && out.write(text) == text.size());
@@ -73,7 +63,6 @@ TEST(Import, AnStlBecomesACaseInMillimetresWhichTheSolverMeshes) {
   EXPECT_EQ(desk.window->view().scene().groups(), std::vector<std::string>{"slab"});
   const auto coarse = desk.window->view().scene().num_faces();
   desk.click_stage("mesh");
-  ASSERT_TRUE(take_keys(desk));
   desk.type("field:mesh.size", "1.5 mm");
   ASSERT_EQ(document.value("mesh.size"), "\"1.5 mm\"");
   EXPECT_TRUE(wait_until([&] { return desk.window->view().scene().num_faces() > coarse; }, kSolver));
