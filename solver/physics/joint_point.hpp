@@ -102,39 +102,47 @@ template <class T>
   return {select(slid, T(law.stiffness * mean * (length - limit)), zero), spring2};
 }
 
-/// What central differences gain where a point opens from pressure within a step, and lose where it closes, J/m2: what
-/// it stores open, less what it stores closed, less the trapezoidal work on it between the two.
-/// @param open, closed  m, > 0 and < 0
+/// Normal traction, Pa, and what it holds, J/m2, at an opening.
 template <class T>
-[[nodiscard]] inline T gained_by_opening(const JointLawParams& law, const Remaining<T>& remaining, const T& open,
-                                         const T& closed) {
-  if (rises_linearly(law.rise)) return -0.5 * law.stiffness * (1.0 - remaining.normal()) * open * closed;
-  const ComponentState<T> now =
+struct NormalState {
+  T traction, stored;
+};
+
+template <class T>
+[[nodiscard]] inline NormalState<T> normal_state(const JointLawParams& law, const Remaining<T>& remaining,
+                                                 const T& opening) {
+  const T zero = 0.0;
+  const Mask<T> is_open = opening > zero;
+  const T open = greater(opening, zero), pressed = law.stiffness * opening;
+  const ComponentState<T> held =
       component_state(law, law.onset_normal, remaining.z, remaining.secant_normal, open, T(open * open));
-  const T pressed = law.stiffness * closed;
-  return now.stored - 0.5 * pressed * closed - 0.5 * (now.stiffness * open + pressed) * (open - closed);
+  return {select(is_open, T(held.stiffness * open), pressed), select(is_open, held.stored, T(0.5 * pressed * opening))};
 }
 
 /// A damaged point is stiffer closed than open by d k, and central differences lose 1/2 d k |delta_n before| |delta_n|
-/// where it closes within a step, and gain as much where it opens; what damage takes on that way they do not feel at
-/// all. Nor is what the viscous traction gives back, where the motion turns round, less dissipated. Each point counts
+/// where it closes within a step, and gain as much where it opens; of what damage takes on the way they feel what a
+/// straight line between both tractions takes. Nor is what the viscous traction gives back, where the motion turns round, less dissipated. Each point counts
 /// what it has gained so, and a traction takes it or gives it back, half in this step and half in the next one, taken
 /// to move as this one; what it does instead is counted again. It is no larger than such a step can leave over, as in
 /// contact/contact_balance.hpp. A point that chatters, to and fro from step to step, is given nothing, and all is taken
 /// at once: of a force that acts over a way and back nothing would be left.
+/// @param last     of the last evaluation, with the damage of then
+/// @param on       damaged before this evaluation;  @param damaged  after it
 /// @param loss     J/m2, of normal stiffness, in this evaluation
 /// @param before   Pa, viscous traction of the last evaluation
 /// @param viscous  J/m2, work of the viscous traction in this one
 template <class T>
 inline void balance(const JointLawParams& law, const Components<T>& c, const Remaining<T>& remaining,
-                    const Mask<T>& damaged, const T& loss, const T& before, const T& viscous, Point<T>& h) {
+                    const NormalState<T>& last, const Mask<T>& on, const Mask<T>& damaged, const T& loss,
+                    const T& before, const T& viscous, Point<T>& h) {
   constexpr double kLargestError = 0.125, kNothing = 1e-4;  // of k (motion)^2; of that
   const T zero = 0.0;
   const T moved = c.normal - h.normal_opening;
-  const T left =
-      gained_by_opening(law, remaining, greater(c.normal, h.normal_opening), lesser(c.normal, h.normal_opening));
-  const Mask<T> crosses = damaged && c.normal * h.normal_opening < zero;
-  const T error = select(crosses, select(c.normal > zero, T(loss + left), T(-left)), zero);
+  const NormalState<T> now = normal_state(law, remaining, c.normal);
+  // What an elastic point remembers of its opening is of an evaluation long ago, but for one under pressure.
+  const Mask<T> known = on || (damaged && c.normal > zero && h.normal_opening < zero);
+  const T work = 0.5 * (last.traction + now.traction) * moved;
+  const T error = select(known, T(loss + now.stored - last.stored - work), zero);
   const T gained = h.gained + error - lesser(viscous, zero) - 0.5 * h.balance * moved;
   const Mask<T> goes_on = h.viscous_traction * before > zero;
   const T most = kLargestError * law.stiffness * moved * moved;
@@ -201,7 +209,8 @@ template <class T>
     }
     if (law.viscosity > 0) {
       const T viscous_traction = h.viscous_traction, viscous = damp(law, c, remaining, damaged_before, h);
-      balance(law, c, remaining, h.damage > zero, normal_loss, viscous_traction, viscous, h);
+      const NormalState<T> last = normal_state(law, before, h.normal_opening);
+      balance(law, c, remaining, last, damaged_before, h.damage > zero, normal_loss, viscous_traction, viscous, h);
       response.viscous = greater(viscous, zero);
       traction = plus(traction, times(T(h.viscous_traction + h.balance), frame.normal));
     }
