@@ -121,11 +121,11 @@ template <class T>
 
 /// A damaged point is stiffer closed than open by d k, and central differences lose 1/2 d k |delta_n before| |delta_n|
 /// where it closes within a step, and gain as much where it opens; of what damage takes on the way they feel what a
-/// straight line between both tractions takes. Nor is what the viscous traction gives back, where the motion turns round, less dissipated. Each point counts
-/// what it has gained so, and a traction takes it or gives it back, half in this step and half in the next one, taken
-/// to move as this one; what it does instead is counted again. It is no larger than such a step can leave over, as in
-/// contact/contact_balance.hpp. A point that chatters, to and fro from step to step, is given nothing, and all is taken
-/// at once: of a force that acts over a way and back nothing would be left.
+/// straight line between both tractions takes. Nor is what the viscous traction gives back, where the motion turns
+/// round, less dissipated. Each point counts what it has gained so, and a traction takes it or gives it back, half in
+/// this step and half in the next one, taken to move as this one; what it does instead is counted again. It is no
+/// larger than such a step can leave over, as in contact/contact_balance.hpp. A point that chatters, to and fro from
+/// step to step, is given nothing, and all is taken at once: of a force that acts over a way and back nothing is left.
 /// @param last     of the last evaluation, with the damage of then
 /// @param on       damaged before this evaluation;  @param damaged  after it
 /// @param loss     J/m2, of normal stiffness, in this evaluation
@@ -146,7 +146,8 @@ inline void balance(const JointLawParams& law, const Components<T>& c, const Rem
   const T gained = h.gained + error - lesser(viscous, zero) - 0.5 * h.balance * moved;
   const Mask<T> goes_on = h.viscous_traction * before > zero;
   const T most = kLargestError * law.stiffness * moved * moved;
-  const Mask<T> gives = goes_on && gained < -kNothing * most && gained >= -most, takes = gained > kNothing * most;
+  const Mask<T> gives = goes_on && gained < -kNothing * most && gained >= -most;
+  const Mask<T> takes = most > zero && gained > kNothing * most;
   const T part = select(goes_on, T(1.0), T(2.0));
   h.balance = select(damaged && (gives || takes), T(part * lesser(gained, most) / moved), zero);
   h.gained = select(damaged, T(gained - 0.5 * h.balance * moved), zero);

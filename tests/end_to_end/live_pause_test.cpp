@@ -90,9 +90,10 @@ class HeldRun {
   }
   /// Whether it ends by itself.
   [[nodiscard]] bool ends() {
-    const bool ended = comes([&] { return run_ <= 0 || waitpid(run_, nullptr, WNOHANG) == run_; });
-    if (ended) run_ = 0;
-    return ended;
+    return comes([&] {
+      if (run_ > 0 && waitpid(run_, nullptr, WNOHANG) == run_) run_ = 0;
+      return run_ == 0;
+    });
   }
   [[nodiscard]] std::string status() const {
     return nlohmann::json::parse(read_text(folder() / "summary.json"))["status"].get<std::string>();

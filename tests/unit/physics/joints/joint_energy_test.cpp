@@ -285,6 +285,22 @@ TEST(JointEnergy, opening_from_pressure_within_a_step_takes_what_the_damage_take
   }
 }
 
+TEST(JointEnergy, a_point_that_has_gained_and_stands_still_is_left_alone) {
+  JointLawParams law = example_law();
+  law.viscosity = kJointViscosity;
+  law = prepared(law);
+  PointDriver point{law};
+  const double farthest = law.onset_normal + 0.5 * law.width_normal;
+  point.move_to(at_angle(0, farthest), 200);
+  point.history.gained = 10 * kEnergy;  // more than a step may take
+  point.step(at_angle(0, 0.9 * farthest));
+  ASSERT_NE(point.history.gained, 0.0);
+  const double gained = point.history.gained;
+  point.step(at_angle(0, 0.9 * farthest));
+  EXPECT_EQ(point.history.balance, 0.0);
+  EXPECT_EQ(point.history.gained, gained);
+}
+
 /// A mass held by a spring as stiff as the joint and by a damaged point, in central differences; J/m2 and kg/m2.
 struct Chatter {
   PointDriver point;
