@@ -48,7 +48,8 @@ std::vector<std::string> catalyst2_problems_of(const BrecciaConfig& config) {
   }
   std::vector<std::string> problems =
       problems_of_pipelines(config, [&](const PipelineChoice& choice, std::vector<std::string>& found) {
-        if (missing.empty()) demand_possible(choice, is_paraview);  // else nobody knows whose it would be
+        // Without libcatalyst it is not known whose implementation it would be.
+        if (missing.empty()) demand_possible(choice, is_paraview);
         if (choice.kind != PipelineKind::script) return check_parameters(choice, {}, found);
         const ScriptNeeds needs = check_script(choice.file);
         for (const std::string& problem : needs.problems) found.push_back(choice.name + ": " + problem);

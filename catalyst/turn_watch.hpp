@@ -8,7 +8,7 @@
 
 namespace breccia::insitu {
 
-/// How somebody's code can be asked to come back. Called with the watch's lock held; each may be null.
+/// How the code of a pipeline can be asked to return. Called with the watch's lock held; each may be null.
 struct Interruption {
   void (*begin)() = nullptr;            ///< a turn begins
   void (*ask)(double limit) = nullptr;  ///< it has taken more than the limit, s

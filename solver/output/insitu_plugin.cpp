@@ -70,7 +70,7 @@ InSituPlugin::InSituPlugin(InSituBackend backend) {
   try {
     open(InSituBackend::paraview);
   } catch (const OutputError&) {
-    // What lacks of Catalyst 2 is told only where somebody asks for it; mostly it is ParaView's adaptor that is wanted.
+    // What lacks of Catalyst 2 is told only where a case asks for it; mostly it is ParaView's adaptor that is wanted.
     try {
       open(InSituBackend::catalyst2);
       static_cast<void>(found());

@@ -3,6 +3,7 @@
 // The joint law of physics/joint_law.hpp at a point, over the number type (joint_lanes.hpp).
 
 #include "physics/joint_growth.hpp"
+#include "physics/work_error.hpp"
 
 namespace breccia::joint_point {
 
@@ -126,28 +127,26 @@ template <class T>
 /// this step and half in the next one, taken to move as this one; what it does instead is counted again. It is no
 /// larger than such a step can leave over, as in contact/contact_balance.hpp. A point that chatters, to and fro from
 /// step to step, is given nothing, and all is taken at once: of a force that acts over a way and back nothing is left.
-/// @param last     of the last evaluation, with the damage of then
+/// @param last, now  at the last evaluation with the damage of then; at this one
 /// @param on       damaged before this evaluation;  @param damaged  after it
 /// @param loss     J/m2, of normal stiffness, in this evaluation
 /// @param before   Pa, viscous traction of the last evaluation
 /// @param viscous  J/m2, work of the viscous traction in this one
 template <class T>
-inline void balance(const JointLawParams& law, const Components<T>& c, const Remaining<T>& remaining,
-                    const NormalState<T>& last, const Mask<T>& on, const Mask<T>& damaged, const T& loss,
+inline void balance(const JointLawParams& law, const Components<T>& c, const NormalState<T>& last,
+                    const NormalState<T>& now, const Mask<T>& on, const Mask<T>& damaged, const T& loss,
                     const T& before, const T& viscous, Point<T>& h) {
-  constexpr double kLargestError = 0.125, kNothing = 1e-4;  // of k (motion)^2; of that
   const T zero = 0.0;
   const T moved = c.normal - h.normal_opening;
-  const NormalState<T> now = normal_state(law, remaining, c.normal);
   // What an elastic point remembers of its opening is of an evaluation long ago, but for one under pressure.
   const Mask<T> known = on || (damaged && c.normal > zero && h.normal_opening < zero);
   const T work = 0.5 * (last.traction + now.traction) * moved;
   const T error = select(known, T(loss + now.stored - last.stored - work), zero);
   const T gained = h.gained + error - lesser(viscous, zero) - 0.5 * h.balance * moved;
   const Mask<T> goes_on = h.viscous_traction * before > zero;
-  const T most = kLargestError * law.stiffness * moved * moved;
-  const Mask<T> gives = goes_on && gained < -kNothing * most && gained >= -most;
-  const Mask<T> takes = most > zero && gained > kNothing * most;
+  const T most = kLargestWorkError * law.stiffness * moved * moved;
+  const Mask<T> gives = goes_on && gained < -kNegligibleWorkError * most && gained >= -most;
+  const Mask<T> takes = most > zero && gained > kNegligibleWorkError * most;
   const T part = select(goes_on, T(1.0), T(2.0));
   h.balance = select(damaged && (gives || takes), T(part * lesser(gained, most) / moved), zero);
   h.gained = select(damaged, T(gained - 0.5 * h.balance * moved), zero);
@@ -211,7 +210,8 @@ template <class T>
     if (law.viscosity > 0) {
       const T viscous_traction = h.viscous_traction, viscous = damp(law, c, remaining, damaged_before, h);
       const NormalState<T> last = normal_state(law, before, h.normal_opening);
-      balance(law, c, remaining, last, damaged_before, h.damage > zero, normal_loss, viscous_traction, viscous, h);
+      const NormalState<T> held{now.normal, now.stored.open + now.stored.pressed};
+      balance(law, c, last, held, damaged_before, h.damage > zero, normal_loss, viscous_traction, viscous, h);
       response.viscous = greater(viscous, zero);
       traction = plus(traction, times(T(h.viscous_traction + h.balance), frame.normal));
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/types.hpp"
+#include "physics/work_error.hpp"
 
 namespace breccia {
 
@@ -12,9 +13,6 @@ namespace breccia {
 /// for the steps in which the overlap begins or ends: of a motion D the force k d of an overlap d < D takes 1/2 k d D
 /// where 1/2 k d^2 is stored, so up to k D^2 / 8 is lost where it begins and gained where it ends.
 
-/// Largest energy that such a step leaves over, of k D^2.
-constexpr double kLargestError = 0.125;
-
 /// Share of the normal force to be added to it, -1/2 to 1/2, so that this step and the next one, taken to move as this
 /// one, give back what the couple has taken too much or take what it has gained. 0 where that is more than the steps
 /// at which an overlap begins or ends can have left over: such a force would be too large for the motion.
@@ -22,7 +20,7 @@ constexpr double kLargestError = 0.125;
 /// @param work    J, of the normal force over the motion; @param k  N/m; @param out  m, motion along the force
 [[nodiscard]] inline double balancing_share(double gained, double work, double k, double out) {
   constexpr double kLargestShare = 0.5;  // that of a force which begins at the very end of a step
-  if (!(std::abs(gained) <= kLargestError * k * out * out)) return 0;
+  if (!(std::abs(gained) <= kLargestWorkError * k * out * out)) return 0;
   const double share = -gained / work;
   return std::abs(share) <= kLargestShare ? share : 0.0;
 }
@@ -31,11 +29,10 @@ constexpr double kLargestError = 0.125;
 /// move as this one. None where there is next to nothing left, and never larger than the force before.
 /// @param last  N, force one step ago: of the law (`pushed`), or this function's
 [[nodiscard]] inline Vec3 closing_force(double gained, const Vec3& last, const Vec3& motion, bool pushed, double k) {
-  constexpr double kNothing = 1e-4;  // of the largest error
   const double work = last.dot(motion), against = pushed ? work : -work;
   if (!(against > 0)) return Vec3::Zero();
   const double along = work / last.norm();
-  if (!(gained > kNothing * kLargestError * k * along * along)) return Vec3::Zero();
+  if (!(gained > kNegligibleWorkError * kLargestWorkError * k * along * along)) return Vec3::Zero();
   return std::min(gained / against, 1.0) * (pushed ? Vec3(-last) : last);
 }
 

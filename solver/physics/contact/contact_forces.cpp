@@ -186,6 +186,11 @@ void Pass::touch_point(Index point) {
   if (candidates_.size() > 1) drop_ambiguous();
   find_histories(point);
   for (Candidate& candidate : candidates_) act(point, candidate);
+  // Couples that have just ended came first.
+  auto first = contact_.touching.end();
+  while (first != contact_.touching.begin() && std::prev(first)->point == point) --first;
+  std::sort(first, contact_.touching.end(),
+            [](const TouchingCouple& a, const TouchingCouple& b) { return a.contactor < b.contactor; });
 }
 
 /// A point on the border of neighbouring elements is inside all of them (kInside): the first one counts.

@@ -59,7 +59,7 @@ TEST(contact_balance, an_impact_returns_its_energy_wherever_in_a_step_it_begins_
 }
 
 TEST(contact_balance, adds_nothing_to_a_contact_at_rest_or_beyond_what_a_step_can_leave_over) {
-  constexpr double k = 100, out = 0.1, work = 2, most = kLargestError * k * out * out;
+  constexpr double k = 100, out = 0.1, work = 2, most = kLargestWorkError * k * out * out;
   EXPECT_EQ(balancing_share(0, work, k, out), 0);
   EXPECT_EQ(balancing_share(0.1, work, k, 0), 0);
   EXPECT_EQ(balancing_share(1.01 * most, 10 * work, k, out), 0);
