@@ -103,7 +103,7 @@ std::uint32_t LivePipeline::channels(std::int64_t, double) {
   const Clock::duration rest = kAttemptShare * (Clock::now() - begin);
   next_attempt_ = Clock::now() + (cut_ ? Clock::duration(kRestAfterSilence)
                                        : std::clamp<Clock::duration>(rest, kBetweenAttempts, kLongestRest));
-  static_cast<void>(take_errors());  // nobody listens: not an error
+  static_cast<void>(take_errors());  // no ParaView listens there: not an error
   return connected_ ? mask_ : 0;
 }
 

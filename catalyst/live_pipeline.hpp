@@ -27,7 +27,7 @@ namespace breccia::insitu {
 class LivePipeline final : public Pipeline {
  public:
   /// @pre a CatalystBackend lives as long as this
-  /// @param run_ends  whether somebody wants the run to end; asked on the first rank, by another thread
+  /// @param run_ends  whether the run has been asked to end; called on the first rank, by another thread
   LivePipeline(const Ranks& ranks, std::string host, int port, std::uint32_t channels, std::function<bool()> run_ends);
   ~LivePipeline() override;
 

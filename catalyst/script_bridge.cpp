@@ -1,35 +1,16 @@
 #include "catalyst/script_bridge.hpp"
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
 #include "catalyst/display.hpp"
 #include "catalyst/pipeline_error.hpp"
-#include "catalyst/whole_file.hpp"
 
 namespace breccia::insitu {
-namespace {
 
-/// As text of JSON.
-std::string json_text(std::string_view text) {
-  static constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string result = "\"";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') result += '\\';
-    if (code < 0x20) {
-      result += "\\u00";
-      result += kDigits[code >> 4U];
-      result += kDigits[code & 15U];
-    } else {
-      result += c;
-    }
-  }
-  return result + "\"";
-}
-
-}  // namespace
+using nlohmann::json;
 
 /// Known to breccia_catalyst2.py by their order.
 struct ScriptBridge::Functions {
@@ -46,18 +27,18 @@ ScriptBridge* ScriptBridge::active = nullptr;
 ScriptBridge::ScriptBridge(const Ranks& ranks, TurnWatch& watch, const BrecciaConfig& config,
                            const std::vector<BridgedScript>& scripts)
     : ranks_(ranks), watch_(watch) {
-  const std::string about = "{\"title\": " + json_text(config.title == nullptr ? "" : config.title) +
-                            ", \"end\": " + exact(config.end) + ", \"strength\": " + exact(config.strength) + "}";
+  const json about{
+      {"title", config.title == nullptr ? "" : config.title}, {"end", config.end}, {"strength", config.strength}};
+  json all = json::array();
   for (const BridgedScript& script : scripts) {
-    std::string parameters;
-    for (const auto& [name, value] : script.parameters)
-      parameters += (parameters.empty() ? "" : ", ") + json_text(name) + ": " + exact(value);
-    scripts_ += (scripts_.empty() ? "[" : ", ") + ("{\"name\": " + json_text(script.name)) +
-                ", \"script\": " + json_text(script.file.string()) +
-                ", \"folder\": " + json_text(script.folder.string()) + ", \"parameters\": {" + parameters +
-                "}, \"about\": " + about + "}";
+    all.push_back({{"name", script.name},
+                   {"script", script.file.string()},
+                   {"folder", script.folder.string()},
+                   {"parameters", json::object()},
+                   {"about", about}});
+    for (const auto& [name, value] : script.parameters) all.back()["parameters"][name] = value;
   }
-  scripts_ += scripts_.empty() ? "[]" : "]";
+  scripts_ = all.dump(-1, ' ', false, json::error_handler_t::replace);
   active = this;
 }
 

@@ -24,7 +24,7 @@ int interrupt(void*) {
 
 /// Asks Python to call interrupt() in the run's own thread. That thread keeps Python to itself unless another one asks
 /// for it, and looks at what is pending when it gets it back. Waits for as long as it does not come back to Python, so
-/// in a thread that nobody waits for; one at a time.
+/// in a thread of its own that is not joined; one at a time.
 void ask_python(double limit) {
   overdue = limit;
   static std::atomic<bool> asking{false};

@@ -1,7 +1,7 @@
 # script-version: 2.0
 """The first script that the adaptor for Catalyst 2 hands to ParaView's implementation; it draws nothing itself.
 
-That implementation runs all scripts at every execution, ends those that raise, and tells nobody. Loaded before the others, this one lets only
+That implementation runs all scripts at every execution, ends those that raise, and reports neither. Loaded before the others, this one lets only
 the script run whose turn it is, keeps what it raises as one line, on all ranks when on any, and carries its requests to the solver. Its one
 argument is the address of the functions through which it does so (script_bridge.cpp).
 """

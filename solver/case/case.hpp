@@ -249,7 +249,7 @@ struct Domains {
 };
 
 /// [checkpoint]: when the whole state is written so that the run can go on from there. Beside these times it is at the
-/// end of every stage and of the run, and when somebody asks.
+/// end of every stage and of the run, and on request.
 struct Checkpointing {
   std::int64_t steps = 0;      ///< between two; 0: not by steps
   double interval = 0;         ///< s, simulated; 0: not by simulated time

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "catalyst/plugin.hpp"
 #include "catalyst/synthetic.hpp"
@@ -47,7 +48,7 @@ TEST(Catalyst2Scripts, OfParaViewRunOneAtATimeAndSayWhatTheyFailOf) {
     EXPECT_EQ(leaf_of(given, "catalyst/scripts/uses_surface/args/1")->words, "width=640");
     const std::string address = leaf_of(given, "catalyst/scripts/breccia_bridge/args/0")->words;
     const Bridge& bridge = *reinterpret_cast<const Bridge*>(std::strtoull(address.c_str(), nullptr, 10));
-    EXPECT_NE(std::string(bridge.scripts()).find("\"parameters\": {\"width\": 640}"), std::string::npos)
+    EXPECT_EQ(nlohmann::json::parse(bridge.scripts())[0]["parameters"], (nlohmann::json{{"width", 640}}))
         << bridge.scripts();
 
     // All scripts are read at the first execution, which therefore has all their channels.

@@ -33,8 +33,8 @@ PROGRAM = set(MAY_INCLUDE)  # what main.cpp may include: everything
 # The C interface of the in-situ adaptor is the one header from outside solver/, for output alone.
 IN_SITU_HEADER = "catalyst/insitu_abi.h"
 
-# What catalyst/, the adaptor behind that interface, may include: itself, VTK and ParaView, MPI, Python (in VTK's wrapping) and X11.
-ADAPTOR = re.compile(r"(catalyst/\w+\.h(pp)?|vtk\w+\.h|mpi\.h|Python\.h|X11/\w+\.h)")
+# What catalyst/, the adaptor behind that interface, may include: itself, VTK and ParaView, MPI, Python (in VTK's wrapping), X11 and JSON.
+ADAPTOR = re.compile(r"(catalyst/\w+\.h(pp)?|vtk\w+\.h|mpi\.h|Python\.h|X11/\w+\.h|nlohmann/json\.hpp)")
 
 # What a folder of gui/ may include: its own headers and those it builds on, Qt (Q...), VTK (vtk...), and the solver's case and base.
 QT, VTK_HEADER, WIDGETS = r"Q(?!VTK)\w+", r"vtk\w+\.h", r"Q(Application|\w*(Widget|Dialog|Window|Box|Button|Label|View|Menu|Painter|Icon|Pixmap))"
@@ -121,7 +121,7 @@ def adaptor_problems(adaptor):
             # The interface is for programs in C too; other bare names are those of the C++ library.
             if match[1] == "<" and (re.fullmatch(r"\w+", match[2]) or match[2] in ("stddef.h", "stdint.h")):
                 continue
-            yield path, number, f"catalyst must not include {match[2]}; it may include its own headers, VTK, ParaView, MPI, Python and X11"
+            yield path, number, f"catalyst must not include {match[2]}; it may include its own headers, VTK, ParaView, MPI, Python, X11 and JSON"
 
 
 def gui_problems(gui):

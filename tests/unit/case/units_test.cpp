@@ -17,6 +17,8 @@ struct Good {
   double si;
 };
 
+void PrintTo(const Good& good, std::ostream* out) { *out << good.text; }
+
 class GoodQuantity : public testing::TestWithParam<Good> {};
 
 // Powers of ten act on the digits, so the values are the doubles one would write in SI, bit for bit.
@@ -48,6 +50,8 @@ struct Bad {
   const char* what;
   const char* allowed;
 };
+
+void PrintTo(const Bad& bad, std::ostream* out) { *out << bad.text; }
 
 class BadQuantity : public testing::TestWithParam<Bad> {};
 

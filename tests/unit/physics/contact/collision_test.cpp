@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <set>
@@ -50,6 +51,10 @@ class Collision {
   void step() {
     scene_.evaluate(step_);
     touched_ = touched_ || scene_.work.touching > 0;
+    const std::vector<TouchingCouple>& touching = scene_.contact.touching;
+    in_order_ = in_order_ && std::is_sorted(touching.begin(), touching.end(), [&](const auto& a, const auto& b) {
+                  return scene_.contact.before({a.point, a.contactor}, {b.point, b.contactor});
+                });
     compare_resultant();
     add_contact_work();
     add_element_forces();
@@ -94,6 +99,8 @@ class Collision {
   [[nodiscard]] double largest_force() const { return largest_force_; }
   [[nodiscard]] const test::Scene& scene() const { return scene_; }
   [[nodiscard]] bool touched() const { return touched_; }
+  /// Whether the touching couples have been in the order of their ids at all times.
+  [[nodiscard]] bool in_order() const { return in_order_; }
 
  private:
   void compare_resultant() {
@@ -147,7 +154,7 @@ class Collision {
   test::Scene scene_;
   Field<double> before_;
   ElasticParams params_ = make_elastic_params(BulkLaw::neo_hookean, kYoung, kPoisson, 0);
-  bool touched_ = false;
+  bool touched_ = false, in_order_ = true;
   double resultant_error_ = 0, largest_force_ = 0, contact_work_ = 0;
   std::vector<Vec3> last_;  // N, contact forces of the last step
 };
@@ -168,6 +175,7 @@ TEST(collision, of_elastic_cubes_keeps_momenta_to_round_off_and_energy_to_half_a
       for (int i = 0; i < kSteps; ++i) c.step();
       const Totals end = c.totals();
       ASSERT_TRUE(c.touched()) << "seed " << seed;
+      EXPECT_TRUE(c.in_order()) << points << " points, seed " << seed;
       ASSERT_EQ(c.scene().work.touching, 0) << "still in contact, seed " << seed;
       expect_momenta(start, end);
       EXPECT_NEAR((end.kinetic + c.elastic()) / start.kinetic, 1, kEnergy) << points << " points, seed " << seed;

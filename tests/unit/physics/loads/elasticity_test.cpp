@@ -36,7 +36,10 @@ Mat3 gradient_of_volume(std::mt19937& random, double j) {
 }
 
 class EveryLaw : public testing::TestWithParam<BulkLaw> {};
-INSTANTIATE_TEST_SUITE_P(Laws, EveryLaw, testing::Values(BulkLaw::neo_hookean, BulkLaw::green_st_venant));
+INSTANTIATE_TEST_SUITE_P(Laws, EveryLaw, testing::Values(BulkLaw::neo_hookean, BulkLaw::green_st_venant),
+                         [](const auto& law) {
+                           return law.param == BulkLaw::neo_hookean ? "neo_hookean" : "green_st_venant";
+                         });
 
 TEST_P(EveryLaw, HasNoStressUnderARigidRotation) {
   std::mt19937 random(1);

@@ -132,6 +132,12 @@ struct Kind {
   double viscosity, mass_damping, local_damping;
 };
 
+void PrintTo(const Kind& kind, std::ostream* out) {
+  *out << (kind.discretisation == Discretisation::own_nodes ? "own nodes" : "shared nodes")
+       << (kind.law == BulkLaw::neo_hookean ? ", neo-Hooke" : ", Green-St-Venant") << ", viscosity " << kind.viscosity
+       << ", mass damping " << kind.mass_damping << ", local damping " << kind.local_damping;
+}
+
 class Sweep : public testing::TestWithParam<Kind> {};
 INSTANTIATE_TEST_SUITE_P(Kinds, Sweep,
                          testing::Values(Kind{Discretisation::own_nodes, BulkLaw::neo_hookean, 0, 0, 0},
