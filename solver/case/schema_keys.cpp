@@ -174,8 +174,8 @@ constexpr auto model_keys = std::to_array<Key>({
      .range = positive, .help = "Greatest shear traction without normal pressure (cohesion).", .example = "\"20 MPa\""},
     {.path = "joint[].friction", .type = number, .fallback = "0", .range = not_negative,
      .help = "Coefficient of friction: slope of the Mohr-Coulomb strength, and friction of closed damaged joints. From "
-             "about 0.2 on what slides without any damping chatters and rubs too little, as contact.friction "
-             "tells: give the material a viscosity.",
+             "about 0.2 on what slides without damping vibrates and rubs too little, as contact.friction tells: give "
+             "the material the viscosity that check names.",
      .example = "0.6"},
     {.path = "joint[].friction_angle", .type = number, .unit = "rad",
      .range = angle,
@@ -223,9 +223,10 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "contact[].unloading_exponent", .type = number, .fallback = "1", .range = at_least_one,
      .help = "Exponent b of the unloading curve: 1 gives all energy back, more dissipates.", .example = "2"},
     {.path = "contact[].friction", .type = number, .fallback = "0", .range = not_negative,
-     .help = "Coefficient of Coulomb friction. From about 0.2 on bodies without any damping chatter while they slide: "
-             "plates of 10 GPa under 2 MPa rub with 0.24 in the mean for 0.3, with 0.58 for 0.8, at any time step. A "
-             "viscosity, mass_damping, or damping_ratio 0.5 with a tenth of the penalty gives 0.30.",
+     .help = "Coefficient of Coulomb friction. From about 0.2 on elastic bodies that slide without damping vibrate: "
+             "plates of 10 GPa under 2 MPa rub with 0.24 in the mean for 0.3, with 0.58 for 0.8, at any time step and "
+             "mesh. The viscosity that check names, mass_damping, or damping_ratio 0.5 with a tenth of the penalty "
+             "gives 0.30.",
      .example = "0.3"},
     {.path = "contact[].tangential_ratio", .type = number, .fallback = "1", .range = share,
      .help = "Tangential over normal contact stiffness.", .example = "0.8"},

@@ -75,7 +75,8 @@ TEST(Friction, where_nothing_damps_what_is_loaded_is_named_with_a_viscosity) {
   EXPECT_THAT(boxes(grown, as_it_is), AllOf(HasSubstr("Nothing damps stage 0"), HasSubstr("contact of * 0.3"),
                                             HasSubstr("material.viscosity of ")));
   EXPECT_EQ(boxes(grown, "contact[0].friction=0.1"), "");
-  EXPECT_EQ(boxes(grown, "material[0].viscosity=10 Pa s"), "");
+  EXPECT_THAT(boxes(grown, "material[0].viscosity=10 Pa s"), HasSubstr("Viscosity damps little in stage 0"));
+  EXPECT_EQ(boxes(grown, "material[0].viscosity=10 kPa s"), "");
   EXPECT_EQ(boxes(grown, "contact[0].damping_ratio=0.5"), "");
   EXPECT_EQ(boxes("", as_it_is), "") << "nothing is loaded";
   EXPECT_EQ(advice_on(cube(grown) + contact), "") << "one body that cannot break";
