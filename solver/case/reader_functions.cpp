@@ -44,6 +44,14 @@ Points sum(const Points& a, const Points& b) {
   return out;
 }
 
+// Sum of many, pair by pair and then pairs of pairs, so that N of them cost N log N.
+Points sum(std::vector<Points> parts) {
+  for (std::size_t step = 1; step < parts.size(); step *= 2) {
+    for (std::size_t i = 0; i + step < parts.size(); i += 2 * step) parts[i] = sum(parts[i], parts[i + step]);
+  }
+  return parts.empty() ? Points{} : std::move(parts.front());
+}
+
 }  // namespace
 
 void ValueReader::read(const Key& key, const Node& node, const std::string& path, TimeFunction& out) {
@@ -68,10 +76,12 @@ void ValueReader::function_table(const Key& key, const Node& table, const std::s
   if (table.entries.empty()) problem(table, path, "is an empty table", allowed_text(key), "");
   out.constant = function_part(key, table, path, "constant");
   out.linear = function_part(key, table, path, "linear");
-  if (const Node* points = table.find("table")) out.table = function_points(key, *points, path + ".table");
+  std::vector<Points> parts;
+  if (const Node* points = table.find("table")) parts.push_back(function_points(key, *points, path + ".table"));
   if (const Node* ramps = table.find("ramp"))
     for (const Node* ramp : function_tables(*ramps, path + ".ramp", "ramp[]"))
-      out.table = sum(out.table, function_ramp(key, *ramp, path + ".ramp"));
+      parts.push_back(function_ramp(key, *ramp, path + ".ramp"));
+  out.table = sum(std::move(parts));
   if (const Node* sines = table.find("sine"))
     for (const Node* sine : function_tables(*sines, path + ".sine", "sine[]"))
       out.sines.push_back({.amplitude = function_part(key, *sine, path + ".sine", "sine[].amplitude"),
