@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "mesh/geometry.hpp"
-#include "mesh/point_distance.hpp"
 #include "model/plane.hpp"
 
 namespace breccia {
@@ -31,7 +30,7 @@ std::vector<bool> nodes_between_groups(const Mesh& mesh) {
 Contactors choose_contactors(const std::vector<bool>& breakable, const Mesh& mesh, const Topology& topology,
                              int across) {
   Contactors result;
-  result.surface_distance = nodal_surface_distance(mesh, across < 0 ? topology : without_sides(mesh, topology, across));
+  result.surface = surface_depth(mesh, across < 0 ? topology : without_sides(mesh, topology, across));
   const std::vector<bool> between = nodes_between_groups(mesh);
   result.chosen.assign(at(mesh.num_elements()), 0);
   double volume = 0, number = 0;
@@ -39,7 +38,7 @@ Contactors choose_contactors(const std::vector<bool>& breakable, const Mesh& mes
     const auto& nodes = mesh.elements[at(e)];
     const bool exposed = breakable[at(mesh.element_group[at(e)])] ||
                          std::any_of(nodes.begin(), nodes.end(),
-                                     [&](Index n) { return result.surface_distance[at(n)] == 0 || between[at(n)]; });
+                                     [&](Index n) { return result.surface.on_surface[at(n)] != 0 || between[at(n)]; });
     if (!exposed) continue;
     result.chosen[at(e)] = 1;
     const auto x = geometry::corners_of(mesh, e);

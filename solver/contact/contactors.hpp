@@ -3,17 +3,16 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesh/mesh.hpp"
-#include "mesh/topology.hpp"
+#include "mesh/surface_depth.hpp"
 
 namespace breccia {
 
 /// Which elements of a whole model others may touch, and from what their overlap field is made.
 struct Contactors {
-  std::vector<std::uint8_t> chosen;      ///< (elements) 1: of a breakable group, or with a node on the free surface or
-                                         ///< on the border to another group
-  std::vector<double> surface_distance;  ///< (mesh nodes) m, mesh/point_distance.hpp
-  double size = 0;                       ///< m, mean: the edge of the regular tetrahedron of their mean volume
+  std::vector<std::uint8_t> chosen;  ///< (elements) 1: of a breakable group, or with a node on the free surface or
+                                     ///< on the border to another group
+  SurfaceDepth surface;
+  double size = 0;  ///< m, mean: the edge of the regular tetrahedron of their mean volume
 };
 
 /// @param breakable  (volume groups) inner faces may be freed;  @param across  axis of a plane model, whose sides are

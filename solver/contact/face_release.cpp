@@ -74,13 +74,20 @@ void FaceRelease::store_clusters() {
 void FaceRelease::free_corners_of(const Topology::Face& side) {
   const ContactModel& model = surface_.model();
   const CornerClusters& clusters = surface_.clusters();
+  freed_.clear();
   for (const int corner : kFaceCorners[at(side.face)]) {
     const Index cluster = clusters.cluster(side.element, corner);
     for (const Index id : clusters.corners_at(model.mesh.elements[at(side.element)][at(corner)])) {
-      if (clusters.cluster(id / 4, id % 4) != cluster) continue;
-      const Index contactor = contact_.contactor_of_slot[at(model.slot_of(id / 4))];
-      if (contactor >= 0) free_corner(model.params, model.local, contactor, id % 4, contact_);
+      if (clusters.cluster(id / 4, id % 4) == cluster) freed_.push_back(id);
     }
+  }
+  std::sort(freed_.begin(), freed_.end());
+  for (auto id = freed_.begin(); id != freed_.end();) {
+    const Index element = *id / 4;
+    unsigned set = 0;
+    for (; id != freed_.end() && *id / 4 == element; ++id) set |= 1U << (*id % 4);
+    const Index contactor = contact_.contactor_of_slot[at(model.slot_of(element))];
+    if (contactor >= 0) free_corners(model.params, contactor, set, contact_);
   }
 }
 

@@ -42,6 +42,7 @@ class FaceRelease {
   std::vector<Topology::Face> sides_;  ///< both of every face, sorted
   std::vector<Index> nodes_;           ///< of these faces, ascending
   std::vector<Index> old_clusters_;    ///< of the corners at these nodes, before the faces broke
+  std::vector<Index> freed_;           ///< corners, with the faces of one side
   std::vector<Index> changed_, contactors_;
   std::vector<ContactCouple> made_;
 };

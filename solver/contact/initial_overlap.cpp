@@ -200,7 +200,7 @@ void relax_initial_overlaps(const ContactParams& params, const LocalMesh& local,
     if (!inside(lambda)) continue;
     const double length = contact.body_length[at(local.slot_body[at(slot)])];
     const double overlap =
-        overlap_value(overlap_shape(params.field, local, slot, contact.field[at(couple.contactor)], length), lambda);
+        overlap_value(overlap_shape(params, local, slot, contact.field[at(couple.contactor)], length), lambda);
     if (overlap > 0) contact.touching.push_back({.point = point, .contactor = couple.contactor, .offset = overlap});
   }
 }

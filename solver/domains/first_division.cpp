@@ -26,10 +26,7 @@ class RestRecords {
     record.position = record.reference;
     if (!contactors_.chosen.empty() && contactors_.chosen[at(element)] != 0) {
       record.contactor = 1;
-      std::array<double, 4> distance{};
-      for (std::size_t c = 0; c < 4; ++c)
-        distance[c] = contactors_.surface_distance[at(bare_.mesh.elements[at(element)][c])];
-      record.field = field_at_rest(bare_.contact.field, distance, geometry::corners_of(bare_.mesh, element));
+      record.field = field_at_rest(bare_.contact.field, bare_.mesh, element, contactors_.surface);
     }
     append_tags(faces_, record.id, next_face_, records.faces);
     append_tags(bare_.corner_tags, record.id, next_corner_, records.corners);

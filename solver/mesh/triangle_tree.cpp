@@ -82,7 +82,8 @@ Index TriangleTree::build(Index first, Index count) {
   return self;
 }
 
-double TriangleTree::distance(const Vec3& point, double limit) const {
+double TriangleTree::distance(const Vec3& point, double limit,
+                              const std::function<bool(const Triangle&, double)>& counts) const {
   if (nodes_.empty()) return limit;
   double best2 = limit * limit;
   bool found = false;
@@ -96,7 +97,7 @@ double TriangleTree::distance(const Vec3& point, double limit) const {
     if (node.count > 0) {
       for (Index i = node.first; i < node.first + node.count; ++i) {
         const double d2 = squared_distance(point, triangles_[at(i)]);
-        if (d2 < best2) best2 = d2, found = true;
+        if (d2 < best2 && counts(triangles_[at(i)], std::sqrt(d2))) best2 = d2, found = true;
       }
       continue;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -24,7 +25,12 @@ class TriangleTree {
 
   /// Smallest distance to a triangle, m; `limit` where none is nearer than that. O(log n) where triangles are about as
   /// near as `limit`.
-  [[nodiscard]] double distance(const Vec3& point, double limit) const;
+  [[nodiscard]] double distance(const Vec3& point, double limit) const {
+    return distance(point, limit, [](const Triangle&, double) { return true; });
+  }
+  /// The same of those triangles for which counts(triangle, its distance, m) holds.
+  [[nodiscard]] double distance(const Vec3& point, double limit,
+                                const std::function<bool(const Triangle&, double)>& counts) const;
 
  private:
   struct Node {

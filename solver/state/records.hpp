@@ -31,7 +31,7 @@ struct ElementRecord {
   std::uint8_t released = 0;                                                 ///< a bit a face: freed by fracture
   std::uint8_t contactor = 0;                                                ///< 1: others may touch it
   std::array<std::array<double, 3>, 4> reference{}, position{}, velocity{};  ///< of the corners, m, m/s
-  FieldValues field{};                                                       ///< overlap field, m
+  FieldValues field{};                                                       ///< overlap field
   ElementNumbers numbers{};                                                  ///< state/element_fields.hpp
   std::array<double, 4> damping{};                                           ///< J so far, by corner
 };
@@ -53,7 +53,8 @@ struct FieldTable<ElementRecord> {
       FieldRow{"numbers", "as in element_fields.hpp", kState, [](auto& r) -> auto& { return r.numbers; }},
       FieldRow{"released_faces", "1", kState, [](auto& r) -> auto& { return r.released; }},
       FieldRow{"contactor", "1", kState, [](auto& r) -> auto& { return r.contactor; }},
-      FieldRow{"overlap_field", "m", kState, [](auto& r) -> auto& { return r.field; }},
+      FieldRow{"overlap_depth", "m", kState, [](auto& r) -> auto& { return r.field.depth; }},
+      FieldRow{"surface_corners", "1", kState, [](auto& r) -> auto& { return r.field.sets; }},
   };
 // clang-format on
 }
@@ -140,8 +141,7 @@ struct FieldTable<RampRecord> {
   static constexpr auto rows = std::tuple{
       FieldRow{"element", "1", kState, [](auto& r) -> auto& { return r.element; }},
       FieldRow{"remaining", "1", kState, [](auto& r) -> auto& { return r.ramp.remaining; }},
-      FieldRow{"before", "m", kState, [](auto& r) -> auto& { return r.ramp.before; }},
-      FieldRow{"target", "m", kState, [](auto& r) -> auto& { return r.ramp.target; }},
+      FieldRow{"before", "1", kState, [](auto& r) -> auto& { return r.ramp.before; }},
   };
 // clang-format on
 }

@@ -3,128 +3,129 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/geometry.hpp"
-
 namespace breccia {
 
 namespace {
 
-constexpr std::size_t kBubble = 4;
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// 1 / height over face a in the reference configuration = length of the gradient of lambda_a.
-std::array<double, 4> inverse_heights(const LocalMesh& local, Index slot) {
-  const double* m = local.gradient.data() + static_cast<std::size_t>(slot / kLanes) * 9 * kLanes + slot % kLanes;
+/// Heights of the corners above their opposite faces, at rest.
+std::array<double, 4> heights(const LocalMesh& local, Index slot) {
+  const double* m = local.gradient.data() + at(slot / kLanes) * 9 * kLanes + slot % kLanes;
   Vec3 sum = Vec3::Zero();
-  std::array<double, 4> inverse{};
+  std::array<double, 4> height{};
   for (std::size_t c = 0; c < 3; ++c) {
     const Vec3 row(m[8 * (3 * c)], m[8 * (3 * c + 1)], m[8 * (3 * c + 2)]);
-    inverse[c + 1] = row.norm();
+    height[c + 1] = 1 / row.norm();
     sum += row;
   }
-  inverse[0] = sum.norm();
-  return inverse;
-}
-
-double inradius(const LocalMesh& local, Index slot) {
-  return geometry::inradius(load_corners(local, local.reference.data(), slot));
-}
-
-bool all_on_surface(const FieldValues& values) {
-  return values[0] == 0 && values[1] == 0 && values[2] == 0 && values[3] == 0;
-}
-
-FieldRamp& ramp_of(ContactState& contact, Index contactor) {
-  const auto c = static_cast<std::size_t>(contactor);
-  Index& place = contact.ramp_of_contactor[c];
-  if (place < 0) {
-    place = static_cast<Index>(contact.ramps.size());
-    contact.ramps.push_back({contactor, {}, contact.field[c], contact.field[c]});
-  }
-  return contact.ramps[static_cast<std::size_t>(place)];
-}
-
-bool at_rest(const FieldRamp& ramp) {
-  return std::all_of(ramp.remaining.begin(), ramp.remaining.end(), [](Index n) { return n == 0; });
+  height[0] = 1 / sum.norm();
+  return height;
 }
 
 void drop_finished_ramps(ContactState& contact) {
   std::size_t kept = 0;
   for (const FieldRamp& ramp : contact.ramps) {
-    const bool done = at_rest(ramp);
-    contact.ramp_of_contactor[static_cast<std::size_t>(ramp.contactor)] = done ? -1 : static_cast<Index>(kept);
-    if (!done) contact.ramps[kept++] = ramp;
+    const bool done = std::all_of(ramp.remaining.begin(), ramp.remaining.end(), [](Index n) { return n == 0; });
+    contact.ramp_of_contactor[at(ramp.contactor)] = done ? -1 : static_cast<Index>(kept);
+    CornerSets& sets = contact.field[at(ramp.contactor)].sets;
+    if (done) {
+      sets = largest_sets(sets);
+    } else {
+      contact.ramps[kept++] = FieldRamp(ramp);
+    }
   }
   contact.ramps.resize(kept);
 }
 
-}  // namespace
-
-void build_field(const ContactParams& params, const LocalMesh& local, std::span<const double> surface_distance,
-                 ContactState& contact) {
-  contact.field.assign(contact.contactors.size(), FieldValues{});
-  contact.ramps.clear();
-  contact.ramp_of_contactor.assign(contact.contactors.size(), -1);
-  for (std::size_t c = 0; c < contact.contactors.size(); ++c) {
-    const Index slot = contact.contactors[c];
-    std::array<double, 4> distance{};
-    for (std::size_t a = 0; a < 4; ++a)
-      distance[a] = surface_distance[static_cast<std::size_t>(local.vertex[static_cast<std::size_t>(slot)][a])];
-    contact.field[c] = field_at_rest(params.field, distance, load_corners(local, local.reference.data(), slot));
+/// One function of an element on the surface. @param weight  of the set, 0 to 1
+std::array<double, 4> row_of(const FieldValues& values, const std::array<double, 4>& height, unsigned set,
+                             double weight) {
+  std::array<double, 4> row = values.depth;
+  for (std::size_t a = 0; a < 4; ++a) {
+    if ((set >> a & 1U) != 0) {
+      row[a] *= 1 - weight;
+    } else if ((set | 1U << a) == 15U) {
+      row[a] = std::min(row[a], height[a]);
+    }
   }
+  return row;
 }
 
-FieldValues field_at_rest(OverlapField field, const std::array<double, 4>& surface_distance,
-                          const std::array<Vec3, 4>& corners) {
-  if (field != OverlapField::body) return {};
-  FieldValues values{surface_distance[0], surface_distance[1], surface_distance[2], surface_distance[3], 0.0};
-  if (all_on_surface(values)) values[kBubble] = geometry::inradius(corners);
+OverlapShape body_shape(const ContactParams& params, const LocalMesh& local, Index slot, const FieldValues& values,
+                        const ComingSets* coming) {
+  OverlapShape shape;
+  const std::array<double, 4> height = heights(local, slot);
+  bool whole = false;  // a set that counts in full
+  for_each_set(values.sets, [&](unsigned set) {
+    const Index remaining = coming != nullptr ? (*coming)[set] : 0;
+    whole = whole || remaining == 0;
+    shape.add(row_of(values, height, set, 1 - static_cast<double>(remaining) / params.ramp_steps));
+  });
+  if (!whole) shape.add(values.depth);
+  return shape;
+}
+
+}  // namespace
+
+void build_field(const ContactParams& params, const Mesh& mesh, const LocalMesh& local, const SurfaceDepth& surface,
+                 ContactState& contact) {
+  contact.field.clear();
+  contact.ramps.clear();
+  contact.ramp_of_contactor.assign(contact.contactors.size(), -1);
+  for (const Index slot : contact.contactors)
+    contact.field.push_back(field_at_rest(params.field, mesh, local.mesh_element[at(slot)], surface));
+}
+
+FieldValues field_at_rest(OverlapField field, const Mesh& mesh, Index element, const SurfaceDepth& surface) {
+  FieldValues values;
+  if (field != OverlapField::body) return values;
+  for (std::size_t a = 0; a < 4; ++a) values.depth[a] = surface.depth[at(mesh.elements[at(element)][a])];
+  values.sets = surface.sets[at(element)];
   return values;
 }
 
-void free_corner(const ContactParams& params, const LocalMesh& local, Index contactor, int corner,
-                 ContactState& contact) {
+void free_corners(const ContactParams& params, Index contactor, unsigned set, ContactState& contact) {
   if (params.field != OverlapField::body) return;
-  const auto a = static_cast<std::size_t>(corner);
-  // The usual call is for a corner that lies on the surface already: leave without touching the list of ramps.
-  if (contact.field[static_cast<std::size_t>(contactor)][a] == 0) return;
-  FieldRamp& ramp = ramp_of(contact, contactor);
-  if (ramp.target[a] == 0) return;
-  ramp.target[a] = 0;
-  ramp.remaining[a] = params.ramp_steps;
-  if (!all_on_surface(ramp.target)) return;
-  ramp.target[kBubble] = inradius(local, contact.contactors[static_cast<std::size_t>(contactor)]);
-  ramp.remaining[kBubble] = params.ramp_steps;
+  CornerSets& sets = contact.field[at(contactor)].sets;
+  // The usual call is for corners that lie on the surface already: leave without touching the list of ramps.
+  if (covers(sets, set)) return;
+  sets |= 1 << set;
+  Index& place = contact.ramp_of_contactor[at(contactor)];
+  if (place < 0) {
+    place = static_cast<Index>(contact.ramps.size());
+    contact.ramps.push_back({contactor, {}, {}});
+  }
+  contact.ramps[at(place)].remaining[set] = params.ramp_steps;
 }
 
 void advance_field(ContactState& contact) {
   drop_finished_ramps(contact);
   for (FieldRamp& ramp : contact.ramps) {
-    FieldValues& now = contact.field[static_cast<std::size_t>(ramp.contactor)];
-    ramp.before = now;
-    for (std::size_t i = 0; i < now.size(); ++i) {
-      if (ramp.remaining[i] == 0) continue;
-      now[i] = ramp.remaining[i] == 1 ? ramp.target[i] : now[i] + (ramp.target[i] - now[i]) / ramp.remaining[i];
-      --ramp.remaining[i];
-    }
+    ramp.before = ramp.remaining;
+    for (Index& remaining : ramp.remaining) remaining = std::max(remaining - 1, 0);
   }
 }
 
-OverlapShape overlap_shape(OverlapField field, const LocalMesh& local, Index slot, const FieldValues& values,
-                           double length) {
+OverlapShape overlap_shape(const ContactParams& params, const LocalMesh& local, Index slot, const FieldValues& values,
+                           double length, const ComingSets* coming) {
+  if (params.field == OverlapField::body) return body_shape(params, local, slot, values, coming);
   OverlapShape shape;
-  switch (field) {
+  std::array<double, 4> face{};
+  switch (params.field) {
     case OverlapField::body:
-      shape.nodal = {values[0], values[1], values[2], values[3]};
-      shape.face.fill(4 * values[kBubble]);
       break;
     case OverlapField::tet_potential:
-      shape.face.fill(4 * length);
+      face.fill(4 * length);
       break;
-    case OverlapField::tet_distance: {
-      const std::array<double, 4> inverse = inverse_heights(local, slot);
-      for (std::size_t a = 0; a < 4; ++a) shape.face[a] = 1 / inverse[a];
+    case OverlapField::tet_distance:
+      face = heights(local, slot);
       break;
-    }
+  }
+  for (std::size_t a = 0; a < 4; ++a) {
+    std::array<double, 4> row{};
+    row[a] = face[a];
+    shape.add(row);
   }
   return shape;
 }

@@ -1,44 +1,44 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
+#include "mesh/surface_depth.hpp"
 #include "physics/contact/contact_params.hpp"
 #include "physics/contact/contact_state.hpp"
+#include "physics/contact/overlap.hpp"
 
 namespace breccia {
 
-/// The overlap field of a body: g = sum_a lambda_a Phi_a + 4 min(lambda) Phi_c.
+/// The overlap field of a body, made of the depths D_a of its nodes (mesh/surface_depth.hpp) and, of every element, of
+/// the sets S of its corners that lie on one face of the free surface:
 ///
-/// Phi of a corner is 0 on the free surface, elsewhere the distance of the mesh vertex to it, as
-/// mesh/point_distance.hpp gives it: exact in the first layer of elements; deeper inside only a size of the elements
-/// there, so that the field is not steep where a crack runs through the deep inside. Phi_c is the inradius of an
-/// element with all its corners on the surface, else 0; the bubble vanishes on faces, so g is continuous from element
-/// to element. For a lone tetrahedron g = 4 min(lambda) inradius.
+///   g = min_S sum_(a not in S) lambda_a D_a,   sum_a lambda_a D_a where the element has no corner on the surface
+///
+/// Each sum is the distance to the surface that S lies on, exactly so where that is flat and D_a the distance to it: in
+/// a wall one element thick, g is the distance to the nearer side. A face of an element that lies on the surface counts
+/// by its distance, D_a or the height above it if that is less. On a face between two elements g depends on the nodes
+/// of the face alone, so it is continuous. For a lone tetrahedron g is the distance to its nearest face.
+///
+/// Fracture adds sets: the corners of an element at the nodes of a freed face. A new set comes to count within
+/// ContactParams::ramp_steps steps: its own depths go from D_a to 0.
 ///
 /// H, the length that makes the overlap dimensionless, is the mean inradius of a body's elements.
 
-/// Fills `field` for the contactors in `contact.contactors`.
-/// @param surface_distance  (mesh vertices) m, 0 on the free surface
-/// O(num_slots).
-void build_field(const ContactParams& params, const LocalMesh& local, std::span<const double> surface_distance,
+/// Fills `field` for the contactors in `contact.contactors`. @param surface  of the model's mesh. O(num_slots).
+void build_field(const ContactParams& params, const Mesh& mesh, const LocalMesh& local, const SurfaceDepth& surface,
                  ContactState& contact);
 
-/// The same for one element. @param surface_distance  of its corners, m;  @param corners  m, reference
-[[nodiscard]] FieldValues field_at_rest(OverlapField field, const std::array<double, 4>& surface_distance,
-                                        const std::array<Vec3, 4>& corners);
+/// The same for one element of the mesh.
+[[nodiscard]] FieldValues field_at_rest(OverlapField field, const Mesh& mesh, Index element,
+                                        const SurfaceDepth& surface);
 
-/// The corner has come to lie on the free surface: its Phi goes to 0 within `ramp_steps` steps, and if it was the last
-/// inner corner the bubble rises to the inradius. Nothing happens for fields other than `body`, or when it lies there
-/// already.
-void free_corner(const ContactParams& params, const LocalMesh& local, Index contactor, int corner,
-                 ContactState& contact);
+/// The corners of a set (mesh/corner_sets.hpp) have come to lie on one face of the free surface. Nothing happens for
+/// fields other than `body`, or when they lie on one already.
+void free_corners(const ContactParams& params, Index contactor, unsigned set, ContactState& contact);
 
-/// One step of all ramps; what a value was is kept in FieldRamp::before until the next call. O(ramps).
+/// One step of all ramps; what they were is kept in FieldRamp::before until the next call. O(ramps).
 void advance_field(ContactState& contact);
 
-/// Coefficients of g for one element. @param length  H of its body, m
-[[nodiscard]] OverlapShape overlap_shape(OverlapField field, const LocalMesh& local, Index slot,
-                                         const FieldValues& values, double length);
+/// Coefficients of g for one element. @param length  H of its body, m;  @param coming  of a ramp, or null: none
+[[nodiscard]] OverlapShape overlap_shape(const ContactParams& params, const LocalMesh& local, Index slot,
+                                         const FieldValues& values, double length, const ComingSets* coming = nullptr);
 
 }  // namespace breccia

@@ -110,9 +110,15 @@ class Pass {
   [[nodiscard]] const PreparedTetra& prepared(Index contactor) const {
     return contact_.prepared[static_cast<std::size_t>(contact_.place[static_cast<std::size_t>(contactor)])];
   }
-  [[nodiscard]] OverlapShape shape_of(Index contactor, const FieldValues& values) const {
+  [[nodiscard]] OverlapShape shape_of(Index contactor, const ComingSets* coming) const {
     const Index slot = slot_of(contactor);
-    return overlap_shape(params_.field, local_, slot, values, length_of(slot));
+    const FieldValues& values = contact_.field[static_cast<std::size_t>(contactor)];
+    return overlap_shape(params_, local_, slot, values, length_of(slot), coming);
+  }
+  /// Null: the contactor's field rests.
+  [[nodiscard]] const FieldRamp* ramp_of(Index contactor) const {
+    const Index ramp = contact_.ramp_of_contactor[static_cast<std::size_t>(contactor)];
+    return ramp < 0 ? nullptr : &contact_.ramps[static_cast<std::size_t>(ramp)];
   }
   /// Where the work at a point is accounted: couples are computed wherever one side is at home, and accounted with
   /// their points.
@@ -172,13 +178,9 @@ void Pass::prepare_contactors() {
 
 void Pass::consider(Index contactor, const std::array<double, 4>& lambda) {
   Candidate candidate{contactor, lambda, 0, 0};
-  const FieldValues& now = contact_.field[static_cast<std::size_t>(contactor)];
-  candidate.g = candidate.g_before = overlap_value(shape_of(contactor, now), lambda);
-  const Index ramp = contact_.ramp_of_contactor[static_cast<std::size_t>(contactor)];
-  if (ramp >= 0) {
-    const FieldValues& before = contact_.ramps[static_cast<std::size_t>(ramp)].before;
-    candidate.g_before = overlap_value(shape_of(contactor, before), lambda);
-  }
+  const FieldRamp* ramp = ramp_of(contactor);
+  candidate.g = overlap_value(shape_of(contactor, ramp != nullptr ? &ramp->remaining : nullptr), lambda);
+  candidate.g_before = ramp != nullptr ? overlap_value(shape_of(contactor, &ramp->before), lambda) : candidate.g;
   if (candidate.g > 0 || candidate.g_before > 0) candidates_.push_back(candidate);
 }
 
@@ -372,8 +374,9 @@ void Pass::act(Index index, Candidate& candidate) {
 /// @return  J that the couple holds, and that friction and damping have dissipated
 double Pass::press(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
                    const Candidate& candidate, TouchingCouple& h) {
-  const FieldValues& values = contact_.field[static_cast<std::size_t>(candidate.contactor)];
-  const Overlap here = overlap(shape_of(candidate.contactor, values), prepared(candidate.contactor), candidate.lambda);
+  const FieldRamp* ramp = ramp_of(candidate.contactor);
+  const OverlapShape shape = shape_of(candidate.contactor, ramp != nullptr ? &ramp->remaining : nullptr);
+  const Overlap here = overlap(shape, prepared(candidate.contactor), candidate.lambda);
   Damping normal{point.weight * normal_law::stress(law, h.d, h.d_max), 0.0};
   if (law.damping > 0 && h.d > 0 && dt_ > 0 && here.gradient != Vec3::Zero())
     normal = damp(law, point, motion, candidate, here.gradient, normal.pressure);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "mesh/corner_sets.hpp"
 #include "physics/contact/contact_point.hpp"
 #include "physics/contact/overlap.hpp"
 
@@ -34,15 +35,21 @@ struct TouchingCouple {
   double gained = 0;       ///< J, work done since the force began beyond what it took and holds (contact_forces.hpp)
 };
 
-/// Overlap field of a contactor: Phi at its four corners, then Phi_c of its bubble; m.
-using FieldValues = std::array<double, 5>;
+/// Overlap field of a contactor (contact_field.hpp).
+struct FieldValues {
+  std::array<double, 4> depth{};  ///< m, at its corners, > 0
+  CornerSets sets = 0;            ///< corners on one face of the free surface
+  bool operator==(const FieldValues&) const = default;
+};
 
-/// A contactor whose field follows a new free surface: each value goes linearly to its target.
+/// Steps until a set of corners counts in full, by set; 0: it does, or is not there.
+using ComingSets = std::array<Index, kNumCornerSets>;
+
+/// A contactor whose field follows a new free surface: sets of corners come to count step by step.
 struct FieldRamp {
   Index contactor = 0;
-  std::array<Index, 5> remaining{};  ///< steps; 0: this value rests
-  FieldValues before{};              ///< one step ago
-  FieldValues target{};
+  ComingSets remaining{};
+  ComingSets before{};  ///< one step ago
 };
 
 /// Force of the spherical boundary on a point.

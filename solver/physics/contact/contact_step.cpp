@@ -107,42 +107,25 @@ class Surface {
     return nodes;
   }
 
-  /// G^2 of the field of an element that is touched through a face: next to that face, at rest.
+  /// G^2 of the field of an element that is touched through a face, which is or may become one of the free surface:
+  /// next to that face, at rest.
   [[nodiscard]] double steepness(Index slot, int face) const {
+    const LocalMesh& mesh = model_.mesh;
     const ContactState* state = model_.state;
     const Index contactor = state != nullptr ? state->contactor_of_slot[at(slot)] : -1;
-    const unsigned open = model_.faces.open[at(slot)];
-    const bool on_surface = (open & (open - 1)) != 0;  // two open faces have all four corners
-    FieldValues alone{};
-    alone[4] = on_surface || contactor < 0 ? inradius(slot) : 0.0;
-    double square = field_slope_squared(slot, face, alone);
-    if (contactor >= 0) square = std::max(square, field_slope_squared(slot, face, state->field[at(contactor)]));
-    return square;
+    FieldValues values;
+    values.depth.fill(std::numeric_limits<double>::max());  // where it is not known; the height is less
+    if (contactor >= 0) values = state->field[at(contactor)];
+    values.sets = 1 << (15 ^ 1 << face);
+    const double length = model_.body_length[at(mesh.slot_body[at(slot)])];
+    const OverlapShape shape = overlap_shape(model_.params, mesh, slot, values, length);
+    const auto corner = static_cast<std::size_t>(face);
+    const double per_height = face_at_rest(mesh, slot, face).area / (3.0 * mesh.volume[at(slot)]);
+    const double slope = shape.row[shape.rows == 1 ? 0 : corner][corner] * per_height;
+    return slope * slope;
   }
 
  private:
-  [[nodiscard]] double inradius(Index slot) const {
-    double surface = 0;
-    for (int f = 0; f < 4; ++f) surface += face_at_rest(model_.mesh, slot, f).area;
-    return 3.0 * model_.mesh.volume[at(slot)] / surface;
-  }
-
-  /// |grad g|^2 where lambda of the corner opposite to the face is the smallest.
-  [[nodiscard]] double field_slope_squared(Index slot, int face, const FieldValues& values) const {
-    const LocalMesh& mesh = model_.mesh;
-    const double length = model_.body_length[at(mesh.slot_body[at(slot)])];
-    OverlapShape shape = overlap_shape(model_.params.field, mesh, slot, values, length);
-    shape.nodal[static_cast<std::size_t>(face)] += shape.face[static_cast<std::size_t>(face)];
-    Vec3 slope = Vec3::Zero();
-    for (std::size_t c = 1; c < 4; ++c) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const double gradient = mesh.gradient[at(slot / kLanes) * 72 + (3 * (c - 1) + k) * kLanes + at(slot % kLanes)];
-        slope[static_cast<Eigen::Index>(k)] += (shape.nodal[c] - shape.nodal[0]) * gradient;
-      }
-    }
-    return slope.squaredNorm();
-  }
-
   /// Calls f(place, face's matrix, x_i's share of it) for the corners of open faces on shared nodes that are not held.
   template <class F>
   void for_each_shared_corner(F&& f) const {

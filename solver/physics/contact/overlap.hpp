@@ -6,6 +6,7 @@
 
 #include "base/types.hpp"
 #include "discretisation/local_mesh.hpp"
+#include "mesh/corner_sets.hpp"
 #include "physics/contact/contact_params.hpp"
 
 namespace breccia {
@@ -56,10 +57,11 @@ inline constexpr double kInside = 1e-9;
   return std::min(std::min(lambda[0], lambda[1]), std::min(lambda[2], lambda[3]));
 }
 
-/// g of one element is sum_a lambda_a nodal[a] + min_a (lambda_a face[a]); both in m.
+/// g of one element is the least of some linear functions sum_a row[a] lambda_a, m.
 struct OverlapShape {
-  std::array<double, 4> nodal{};
-  std::array<double, 4> face{};
+  std::array<std::array<double, 4>, kNumCornerSets> row;
+  std::size_t rows = 0;
+  void add(const std::array<double, 4>& function) { row[rows++] = function; }
 };
 
 /// Overlap and its gradient with respect to the point; that with respect to corner a is -lambda_a gradient.
@@ -68,25 +70,31 @@ struct Overlap {
   Vec3 gradient{0, 0, 0};  ///< -, points inwards
 };
 
-[[nodiscard]] inline double overlap_value(const OverlapShape& shape, const std::array<double, 4>& lambda) {
-  double g = 0, least = lambda[0] * shape.face[0];
-  for (std::size_t a = 0; a < 4; ++a) {
-    g += lambda[a] * shape.nodal[a];
-    least = std::min(least, lambda[a] * shape.face[a]);
+/// A function's value, m. @pre 0 <= k < rows
+[[nodiscard]] inline double row_value(const OverlapShape& shape, std::size_t k, const std::array<double, 4>& lambda) {
+  const std::array<double, 4>& row = shape.row[k];
+  return lambda[0] * row[0] + lambda[1] * row[1] + lambda[2] * row[2] + lambda[3] * row[3];
+}
+
+/// The function that is the least at lambda; of equal ones the first.
+[[nodiscard]] inline std::size_t least_row(const OverlapShape& shape, const std::array<double, 4>& lambda) {
+  std::size_t least = 0;
+  for (std::size_t k = 1; k < shape.rows; ++k) {
+    if (row_value(shape, k, lambda) < row_value(shape, least, lambda)) least = k;
   }
-  return g + least;
+  return least;
+}
+
+[[nodiscard]] inline double overlap_value(const OverlapShape& shape, const std::array<double, 4>& lambda) {
+  return row_value(shape, least_row(shape, lambda), lambda);
 }
 
 [[nodiscard]] inline Overlap overlap(const OverlapShape& shape, const PreparedTetra& tetra,
                                      const std::array<double, 4>& lambda) {
-  std::size_t nearest = 0;
-  for (std::size_t a = 1; a < 4; ++a) {
-    if (lambda[a] * shape.face[a] < lambda[nearest] * shape.face[nearest]) nearest = a;
-  }
-  std::array<double, 4> slope = shape.nodal;
-  slope[nearest] += shape.face[nearest];
+  const std::size_t least = least_row(shape, lambda);
+  const std::array<double, 4>& slope = shape.row[least];
   Overlap result;
-  result.g = overlap_value(shape, lambda);
+  result.g = row_value(shape, least, lambda);
   for (std::size_t c = 1; c < 4; ++c) {
     const std::array<double, 3>& row = tetra.gradient[c - 1];
     result.gradient += (slope[c] - slope[0]) * Vec3(row[0], row[1], row[2]);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 
 #include "scene.hpp"
@@ -13,65 +14,57 @@ using test::at;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kPenalty = 1e6, kRoundOff = 1e-12;
 
-TEST(overlap_field, is_zero_on_the_surface_and_carries_a_bubble_only_where_no_corner_is_inside) {
-  const test::Scene scene(test::joined(test::box({1, 1, 1}, 2.0), test::lone(test::regular_tetra(1.0))),
-                          {kPenalty, kInfinite, 1, 0, 1});
-  for (std::size_t c = 0; c < scene.contact.contactors.size(); ++c) {
-    const Index slot = scene.contact.contactors[c];
-    const FieldValues& values = scene.contact.field[c];
-    int inner = 0;
-    for (int a = 0; a < 4; ++a) {
-      const Vec3 x = load_node(scene.local.reference.data(), scene.local.corner_node(slot, a));
-      const bool centre = scene.body(slot) == 0 && (x - Vec3(1, 1, 1)).norm() < kRoundOff;
-      EXPECT_NEAR(values[at(a)], centre ? 1.0 : 0.0, kRoundOff);
-      inner += centre;
-    }
-    EXPECT_NEAR(values[4], inner == 0 ? 1 / std::sqrt(24.0) : 0.0, kRoundOff);
-  }
+TEST(overlap_field, of_a_lone_tetrahedron_is_made_of_its_heights_and_faces) {
+  const test::Scene scene(test::lone(test::regular_tetra(1.0)), {kPenalty, kInfinite, 1, 0, 1});
+  const FieldValues& values = scene.contact.field.at(0);
+  for (const double depth : values.depth) EXPECT_NEAR(depth, std::sqrt(2.0 / 3.0), kRoundOff);
+  EXPECT_EQ(values.sets, 1 << 7 | 1 << 11 | 1 << 13 | 1 << 14);
 }
 
-TEST(overlap_field, goes_to_its_target_linearly_and_then_rests) {
-  test::Scene scene(test::box({1, 1, 1}, 2.0), {kPenalty, kInfinite, 1, 0, 1});
-  scene.params.ramp_steps = 4;
-  int corner = 0;
-  while (scene.contact.field[0][at(corner)] == 0) ++corner;
-  free_corner(scene.params, scene.local, 0, corner, scene.contact);
-  const auto edges = [&](int a, int b) {
+/// The first element of a cube, whose last corner, the centre of the cube, has just been freed with two others.
+struct FreedCentre {
+  test::Scene scene{test::box({1, 1, 1}, 2.0), {kPenalty, kInfinite, 1, 0, 1}};
+  unsigned face = 0, set = 0;  ///< the corners on the surface; those of the new face
+  FreedCentre() {
+    scene.params.ramp_steps = 4;
     const auto x = load_corners(scene.local, scene.local.reference.data(), scene.contact.contactors[0]);
-    return Vec3(x[at(a)] - x[at(b)]);
-  };
-  double area = 0;
-  for (const auto& f : kFaceCorners) area += 0.5 * edges(f[1], f[0]).cross(edges(f[2], f[0])).norm();
-  const double inradius = 3 * scene.local.volume[at(scene.contact.contactors[0])] / area;
+    for (unsigned a = 0; a < 4; ++a) {
+      const bool centre = (x[a] - Vec3(1, 1, 1)).norm() < kRoundOff;
+      if (!centre) face |= 1U << a;
+      if (centre || std::popcount(set) < 2) set |= 1U << a;
+    }
+    if (std::popcount(set) == 2) set |= face & ~set & (~(face & ~set) + 1);
+  }
+  /// Overlap at the barycentric coordinates.
+  [[nodiscard]] double at_point(const std::array<double, 4>& lambda) const {
+    const Index slot = scene.contact.contactors[0], ramp = scene.contact.ramp_of_contactor[0];
+    return overlap_value(overlap_shape(scene.params, scene.local, slot, scene.contact.field[0], 1,
+                                       ramp < 0 ? nullptr : &scene.contact.ramps[at(ramp)].remaining),
+                         lambda);
+  }
+};
+
+TEST(overlap_field, comes_to_count_a_freed_face_step_by_step) {
+  FreedCentre freed;
+  test::Scene& scene = freed.scene;
+  std::array<double, 4> lambda{};  // the middle of the new face
+  for (unsigned a = 0; a < 4; ++a) lambda[a] = (freed.set >> a & 1U) != 0 ? 1.0 / 3.0 : 0.0;
+  const double before = freed.at_point(lambda);
+  ASSERT_NEAR(before, 1.0 / 3.0, kRoundOff) << "the centre of the cube lies 1 deep";
+  free_corners(scene.params, 0, freed.set, scene.contact);
+  // All depths of the row go to 0 alike, and it is the least as soon as it is less than that of the old face.
+  double depths = 0;
+  for (unsigned a = 0; a < 4; ++a) depths += lambda[a] * scene.contact.field[0].depth[a];
   for (int step = 1; step <= 6; ++step) {
+    // Every other freed face of the corners says so anew.
+    free_corners(scene.params, 0, freed.set, scene.contact);
+    free_corners(scene.params, 0, freed.set & ~freed.face, scene.contact);
     advance_field(scene.contact);
-    const double share = std::min(step, 4) / 4.0;
-    EXPECT_NEAR(scene.contact.field[0][at(corner)], 1 - share, kRoundOff);
-    EXPECT_NEAR(scene.contact.field[0][4], share * inradius, kRoundOff);
+    EXPECT_NEAR(freed.at_point(lambda), std::min(before, depths * (1 - std::min(step, 4) / 4.0)), kRoundOff);
   }
   EXPECT_TRUE(scene.contact.ramps.empty());
   EXPECT_EQ(scene.contact.ramp_of_contactor[0], -1);
-}
-
-TEST(overlap_field, of_a_corner_that_is_freed_again_goes_on_as_it_was) {
-  test::Scene scene(test::box({1, 1, 1}, 2.0), {kPenalty, kInfinite, 1, 0, 1});
-  scene.params.ramp_steps = 4;
-  int corner = 0;
-  while (scene.contact.field[0][at(corner)] == 0) ++corner;
-  // Every face of the corner that fracture frees says so anew.
-  for (int step = 1; step <= 4; ++step) {
-    free_corner(scene.params, scene.local, 0, corner, scene.contact);
-    const double bubble = step == 1 ? 0 : scene.contact.field[0][4];
-    advance_field(scene.contact);
-    EXPECT_NEAR(scene.contact.field[0][at(corner)], 1 - step / 4.0, kRoundOff) << "step " << step;
-    EXPECT_GT(scene.contact.field[0][4], bubble) << "step " << step;
-  }
-  EXPECT_EQ(scene.contact.field[0][at(corner)], 0);
-  const double risen = scene.contact.field[0][4];
-  free_corner(scene.params, scene.local, 0, corner, scene.contact);
-  advance_field(scene.contact);
-  EXPECT_EQ(scene.contact.field[0][4], risen);
-  EXPECT_TRUE(scene.contact.ramps.empty());
+  EXPECT_EQ(scene.contact.field[0].sets, 1 << freed.face | 1 << freed.set) << "what they cover is dropped";
 }
 
 /// A small tetrahedron whose base sits at a depth of 0.03 under the top of a body of 3 x 3 x 3 cubes.
@@ -87,54 +80,43 @@ struct Pressed {
   [[nodiscard]] double accounted() const { return scene.work.stored.value() + scene.work.dissipated.value(); }
 };
 
-/// Lets the field of every contactor touched go to `share` of its values within some steps.
-void scale_field(test::Scene& scene, double share, Index steps) {
+/// Frees the corner inside every contactor touched, and two others: its field sinks to next to nothing.
+void sink_field(test::Scene& scene, Index steps) {
+  constexpr double kLeft = 1e-3;  // m, of the depth
+  scene.params.ramp_steps = steps;
   for (const TouchingCouple& touching : scene.contact.touching) {
-    const auto c = at(touching.contactor);
-    FieldRamp ramp{
-        touching.contactor, {steps, steps, steps, steps, steps}, scene.contact.field[c], scene.contact.field[c]};
-    for (double& value : ramp.target) value *= share;
-    scene.contact.ramp_of_contactor[c] = static_cast<Index>(scene.contact.ramps.size());
-    scene.contact.ramps.push_back(ramp);
+    FieldValues& field = scene.contact.field[at(touching.contactor)];
+    const auto kept = static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(std::bit_width(
+        static_cast<unsigned>(field.sets)) - 1)));  // a corner on the surface: its depth counts for nothing yet
+    field.depth[kept] = kLeft;
+    free_corners(scene.params, touching.contactor, 15U ^ 1U << kept, scene.contact);
   }
 }
 
-TEST(overlap_field, that_sinks_under_a_resting_point_books_what_it_takes_from_the_stored_energy) {
+TEST(overlap_field, that_sinks_under_a_resting_point_accounts_what_it_takes_from_the_stored_energy) {
   for (const double b : {1.0, 2.0}) {
     Pressed pressed({kPenalty, kInfinite, b, 0, 1});
     test::Scene& scene = pressed.scene;
     scene.evaluate(1e-3);
-    const double stored = scene.work.stored.value(), accounted = pressed.accounted();
+    const double accounted = pressed.accounted();
+    double stored = scene.work.stored.value();
     ASSERT_GT(stored, 0);
-    scale_field(scene, 0.5, 10);
+    sink_field(scene, 10);
     for (int step = 0; step < 12; ++step) {
       scene.evaluate(1e-3);
       EXPECT_NEAR(pressed.accounted(), accounted, kRoundOff * accounted) << "no motion, no work";
-      // d falls by a twentieth of its first value in a step, the energy goes with d^(b+1).
-      const double share = 1 - 0.05 * std::min(step + 1, 10);
-      EXPECT_NEAR(scene.work.stored.value() / stored, std::pow(share, b + 1), kRoundOff);
+      EXPECT_LE(scene.work.stored.value(), stored);
+      stored = scene.work.stored.value();
     }
+    EXPECT_LT(stored, 0.9 * accounted);
   }
-}
-
-TEST(overlap_field, that_rises_under_a_resting_point_pushes_nobody) {
-  Pressed pressed({kPenalty, kInfinite, 2, 0, 1});
-  test::Scene& scene = pressed.scene;
-  scene.evaluate(1e-3);
-  const double force = scene.force_on(1)[2], stored = scene.work.stored.value(),
-               dissipated = scene.work.dissipated.value();
-  scale_field(scene, 2, 10);
-  for (int step = 0; step < 12; ++step) scene.evaluate(1e-3);
-  EXPECT_NEAR(scene.work.stored.value(), stored, kRoundOff * stored);
-  EXPECT_NEAR(scene.work.dissipated.value(), dissipated, kRoundOff * stored);
-  EXPECT_NEAR(scene.force_on(1)[2], 2 * force, kRoundOff * force) << "the same stress on a field twice as steep";
 }
 
 TEST(overlap_field, keeps_the_budget_closed_while_it_sinks_under_a_moving_point) {
   Pressed pressed({kPenalty, kInfinite, 1, 0, 1});
   test::Scene& scene = pressed.scene;
   scene.evaluate(1e-3);
-  scale_field(scene, 0.5, 400);
+  sink_field(scene, 400);
   const double start = pressed.accounted();
   double done = 0, before = scene.force_on(1)[2];
   constexpr double step = 1e-5;  // m; what the trapezoid rule leaves goes with it

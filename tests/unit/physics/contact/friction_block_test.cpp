@@ -133,8 +133,9 @@ TEST(friction, a_spring_that_lets_go_in_another_group_gives_back_what_it_held_un
   scene.set_velocity(grain, Vec3::Zero());
   scene.shift(grain, Vec3::Constant(0.3));
   const std::size_t second = test::at(scene.contact.contactor_of_slot[test::at(scene.local.slot_of_element[1])]);
-  scene.contact.ramps.push_back({static_cast<Index>(second), {1, 1, 1, 1, 1}, scene.contact.field[second], {}});
-  scene.contact.ramp_of_contactor[second] = 0;
+  scene.params.ramp_steps = 1;
+  scene.contact.field[second] = {{1, 1, 1, 0}, 0};
+  free_corners(scene.params, static_cast<Index>(second), 7, scene.contact);
   scene.evaluate(kStep);
   EXPECT_TRUE(scene.contact.touching.empty());
   constexpr double kRoundOff = 1e-12;

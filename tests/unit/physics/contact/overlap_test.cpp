@@ -23,7 +23,7 @@ double overlap_at(const test::Scene& scene, const Vec3& x) {
     const auto lambda = barycentric(tetra, x);
     if (!inside(lambda)) continue;
     const double length = scene.contact.body_length[at(scene.body(slot))];
-    return overlap_value(overlap_shape(scene.params.field, scene.local, slot, scene.contact.field[c], length), lambda);
+    return overlap_value(overlap_shape(scene.params, scene.local, slot, scene.contact.field[c], length), lambda);
   }
   return -1;
 }
@@ -70,20 +70,67 @@ TEST(overlap, of_a_body_is_the_depth_under_a_flat_face) {
   }
 }
 
+/// Direction in which a place in a body is pushed; 0 outside.
+Vec3 push_at(const test::Scene& scene, const Vec3& x) {
+  for (std::size_t c = 0; c < scene.contact.contactors.size(); ++c) {
+    const Index slot = scene.contact.contactors[c];
+    const PreparedTetra tetra =
+        prepare(load_corners(scene.local, scene.state.position.data(), slot), scene.local.volume[at(slot)]);
+    const auto lambda = barycentric(tetra, x);
+    if (!inside(lambda)) continue;
+    return -overlap(overlap_shape(scene.params, scene.local, slot, scene.contact.field[c], 1), tetra, lambda).gradient;
+  }
+  return Vec3::Zero();
+}
+
+TEST(overlap, of_a_wall_one_element_thick_is_the_distance_to_the_nearer_side_and_pushes_straight) {
+  constexpr int kBricks = 6;
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> jitter(-0.2, 0.2), place(1.5, kBricks - 1.5);
+  for (const double thickness : {0.2, 0.5, 0.9}) {
+    Mesh mesh = test::wall(kBricks, thickness);
+    for (Vec3& x : mesh.nodes) x += Vec3(jitter(random), jitter(random), 0);
+    const test::Scene scene(std::move(mesh), kLaw);
+    std::uniform_real_distribution<double> depth(0, thickness);
+    for (int i = 0; i < 200; ++i) {
+      const double z = depth(random);
+      const Vec3 x(place(random), place(random), z);
+      EXPECT_NEAR(overlap_at(scene, x), std::min(z, thickness - z), kRoundOff);
+      EXPECT_NEAR((push_at(scene, x) - Vec3(0, 0, z < thickness / 2 ? -1 : 1)).norm(), 0, kRoundOff) << x.transpose();
+    }
+  }
+}
+
+TEST(overlap, beside_the_edge_of_a_wall_one_element_thick_is_the_distance_to_the_nearest_of_its_sides) {
+  constexpr double kThickness = 0.5;
+  const test::Scene scene(test::wall(5, kThickness), kLaw);
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> place(1.5, 3.5), depth(0, 0.5), height(0, kThickness);
+  for (int i = 0; i < 200; ++i) {
+    const double x = depth(random), z = height(random);
+    EXPECT_NEAR(overlap_at(scene, {x, place(random), z}), std::min({x, z, kThickness - z}), kRoundOff);
+  }
+}
+
 TEST(overlap, of_a_body_is_continuous_across_its_elements) {
-  // An irregular body: corners between the elements are moved at random.
+  // Irregular bodies: corners between the elements are moved at random.
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> jitter(-0.1, 0.1), place(0.3, 1.7);
-  const test::Scene scene(
-      test::moved(test::box({2, 2, 2}, 1.0),
-                  [&](const Vec3& x) { return Vec3(x + Vec3(jitter(random), jitter(random), jitter(random))); }),
-      kLaw);
-  constexpr double step = 1e-6, steepest = 10;  // no height is below a tenth of the largest Phi
-  for (int line = 0; line < 5; ++line) {
-    Vec3 x(place(random), place(random), 0.2);
-    const Vec3 direction = Vec3(place(random) - 1, place(random) - 1, 1.5).normalized();
-    for (int i = 0; i < 400; ++i, x += 0.003 * direction) {
-      EXPECT_LT(std::abs(overlap_at(scene, x + step * direction) - overlap_at(scene, x)), steepest * step);
+  for (const Mesh& regular : {test::box({2, 2, 2}, 1.0), test::wall(2, 0.6)}) {
+    const test::Scene scene(
+        test::moved(regular,
+                    [&](const Vec3& x) { return Vec3(x + Vec3(jitter(random), jitter(random), jitter(random))); }),
+        kLaw);
+    const double top = regular.nodes.back()[2];
+    constexpr double step = 1e-6, steepest = 10;  // no height is below a tenth of the largest depth
+    for (int line = 0; line < 10; ++line) {
+      Vec3 x(place(random), place(random), 0.1 * top);
+      const Vec3 direction = Vec3(place(random) - 1, place(random) - 1, 0.7 * top).normalized();
+      for (int i = 0; i < 400; ++i, x += 0.003 * direction) {
+        const double here = overlap_at(scene, x), next = overlap_at(scene, x + step * direction);
+        if (here < 0 || next < 0) continue;  // outside
+        EXPECT_LT(std::abs(next - here), steepest * step) << x.transpose();
+      }
     }
   }
 }

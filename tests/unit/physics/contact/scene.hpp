@@ -45,6 +45,41 @@ inline Mesh lone(const std::array<Vec3, 4>& corners) {
   return mesh;
 }
 
+/// A wall of n x n bricks of 1 x 1 x `thickness` m, six tetrahedra each: every node lies on the surface.
+inline Mesh wall(int n, double thickness) {
+  Mesh mesh;
+  mesh.volume_groups = {"wall"};
+  mesh.num_bodies = 1;
+  for (int k = 0; k < 2; ++k) {
+    for (int j = 0; j <= n; ++j) {
+      for (int i = 0; i <= n; ++i) mesh.nodes.emplace_back(i, j, k * thickness);
+    }
+  }
+  const auto node = [&](int i, int j, int k) { return static_cast<Index>((k * (n + 1) + j) * (n + 1) + i); };
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      // Kuhn's division: along the axes from one corner to the opposite one, in every order.
+      for (const std::array<int, 3>& order :
+           {std::array{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {1, 0, 2}, {0, 2, 1}, {2, 1, 0}}) {
+        std::array<int, 3> at_corner{i, j, 0};
+        std::array<Index, 4> corners{node(i, j, 0)};
+        for (std::size_t c = 0; c < 3; ++c) {
+          ++at_corner[at(order[c])];
+          corners[c + 1] = node(at_corner[0], at_corner[1], at_corner[2]);
+        }
+        const auto x = [&](std::size_t c) { return mesh.nodes[at(corners[c])]; };
+        if ((x(1) - x(0)).cross(x(2) - x(0)).dot(x(3) - x(0)) < 0) std::swap(corners[2], corners[3]);
+        mesh.elements.push_back(corners);
+      }
+    }
+  }
+  mesh.element_group.assign(mesh.elements.size(), 0);
+  mesh.element_body = mesh.element_group;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    mesh.element_source_id.push_back(static_cast<std::int64_t>(e + 1));
+  return mesh;
+}
+
 /// Both meshes; groups and bodies of `b` come after those of `a`.
 inline Mesh joined(Mesh a, const Mesh& b) {
   const Index nodes = a.num_nodes(), groups = static_cast<Index>(a.volume_groups.size());
@@ -102,7 +137,7 @@ struct Scene {
     state.velocity.assign(local.reference.size(), 0.0);
     set_contactors(local, local.slot_of_element, contact);
     contact.body_length = mean_inradii(mesh);
-    build_field(params, local, nodal_surface_distance(mesh, topology), contact);
+    build_field(params, mesh, local, surface_depth(mesh, topology), contact);
     for (Index e = 0; e < mesh.num_elements(); ++e) {
       for (int f = 0; f < 4; ++f) {
         if (topology.links[at(e)][at(f)].free())

@@ -13,6 +13,7 @@ using test::at;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kPenalty = 1e6, kRoundOff = 1e-11;
 constexpr double kSize = 0.4;  // m, edge of the slider; cubes of the body have edge 1
+constexpr double kTop = 4;     // m, of the body
 
 /// The slider's base hangs at z = 4 - depth, its apex above: only the base's centroid lies in the body.
 struct Drag {
@@ -85,7 +86,8 @@ double largest_change_of_force(Drag& drag, double change, double step) {
   for (std::size_t c = 0; c < contact.contactors.size(); ++c) {
     const auto x = load_corners(drag.scene.local, drag.scene.state.position.data(), contact.contactors[c]);
     if (0.25 * (x[0] + x[1] + x[2] + x[3])[0] < 2.5) continue;
-    for (std::size_t a = 0; a < 4; ++a) contact.field[c][a] += change;
+    for (std::size_t a = 0; a < 4; ++a) contact.field[c].depth[a] = kTop - x[a][2] + change;
+    contact.field[c].sets = 0;
   }
   double before = drag.move({0, 0, 0})[2], largest = 0;
   for (int i = 0; i < 400; ++i) {

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "base/types.hpp"
+
+namespace breccia {
+
+/// Sets of the corners of an element: bit m stands for the set whose corners are the bits of m, m = 1 to 14.
+using CornerSets = Index;
+
+inline constexpr unsigned kNumCornerSets = 15;  ///< m is below
+
+/// Calls f(m) for every set, ascending.
+template <class F>
+void for_each_set(CornerSets sets, F&& f) {
+  for (unsigned m = 1; m < kNumCornerSets; ++m) {
+    if ((sets >> m & 1) != 0) f(m);
+  }
+}
+
+/// Whether some set has all corners of m.
+[[nodiscard]] inline bool covers(CornerSets sets, unsigned m) {
+  bool covered = false;
+  for_each_set(sets, [&](unsigned other) { covered = covered || (other & m) == m; });
+  return covered;
+}
+
+/// Those sets that no other one covers.
+[[nodiscard]] inline CornerSets largest_sets(CornerSets sets) {
+  CornerSets kept = 0;
+  for_each_set(sets, [&](unsigned m) {
+    if (!covers(sets & ~(1 << m), m)) kept |= 1 << m;
+  });
+  return kept;
+}
+
+}  // namespace breccia

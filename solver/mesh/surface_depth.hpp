@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/corner_sets.hpp"
+#include "mesh/mesh.hpp"
+#include "mesh/topology.hpp"
+
+namespace breccia {
+
+/// What a whole model at rest knows of its free surface: what the overlap field of contact is made of
+/// (physics/contact/contact_field.hpp).
+struct SurfaceDepth {
+  std::vector<std::uint8_t> on_surface;  ///< (mesh nodes) 1: a corner of a free face
+  std::vector<double> depth;             ///< (mesh nodes) m, > 0
+  std::vector<CornerSets> sets;          ///< (elements) corners on one free face, those that no other set covers
+};
+
+/// The depth of a node inside is its distance to the free surface (mesh/point_distance.hpp). That of a node on the
+/// surface is how much lies behind it: the least of its heights above opposite free faces of its elements, of its
+/// distances to free faces that it lies behind by half its distance at least (the other side of a wall, the far side of
+/// a ridge), and of its longest edge. O(n log n) in the free faces, throws nothing.
+/// @pre mesh is finished, topology belongs to it
+[[nodiscard]] SurfaceDepth surface_depth(const Mesh& mesh, const Topology& topology);
+
+}  // namespace breccia

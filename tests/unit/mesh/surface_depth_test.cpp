@@ -1,0 +1,96 @@
+#include "mesh/surface_depth.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "sample_meshes.hpp"
+
+namespace breccia {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+constexpr double kRoundOff = 1e-12;
+
+bool on_border(const Vec3& x, const Vec3& size) {
+  return (x.array() < kRoundOff).any() || (x.array() > size.array() - kRoundOff).any();
+}
+
+TEST(SurfaceDepth, NamesTheCornersOfAnElementThatLieOnOneFreeFace) {
+  const Vec3 size(3 * 1.0, 2 * 0.75, 2 * 1.25);
+  const Mesh box = test::raster_box({3, 2, 2}).mesh;
+  const Topology topology = build_topology(box);
+  const SurfaceDepth depth = surface_depth(box, topology);
+  for (Index e = 0; e < box.num_elements(); ++e) {
+    const CornerSets sets = depth.sets[at(e)];
+    unsigned seen = 0;
+    for_each_set(sets, [&](unsigned set) {
+      seen |= set;
+      // The corners lie on one side of the box.
+      std::array<bool, 6> on;
+      on.fill(true);
+      for (int c = 0; c < 4; ++c) {
+        if ((set >> c & 1U) == 0) continue;
+        const Vec3 x = test::node_of(box, e, c);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const auto k = static_cast<Eigen::Index>(axis);
+          on[axis] = on[axis] && x[k] < kRoundOff;
+          on[3 + axis] = on[3 + axis] && x[k] > size[k] - kRoundOff;
+        }
+      }
+      EXPECT_TRUE(std::any_of(on.begin(), on.end(), [](bool side) { return side; }))
+          << "element " << e << ", set " << set;
+      EXPECT_FALSE(covers(sets & ~(1 << set), set)) << "element " << e << ", set " << set;
+    });
+    for (int c = 0; c < 4; ++c) {
+      const Vec3 x = test::node_of(box, e, c);
+      EXPECT_EQ(seen >> c & 1U, on_border(x, size) ? 1U : 0U);
+      EXPECT_EQ(depth.on_surface[at(box.elements[at(e)][at(c)])], on_border(x, size) ? 1 : 0);
+      const unsigned face = 15U ^ 1U << c;
+      if (topology.links[at(e)][at(c)].free()) {
+        EXPECT_TRUE((sets >> face & 1) != 0) << "a face of its own";
+      }
+    }
+  }
+}
+
+TEST(SurfaceDepth, OfANodeOnTheSurfaceIsWhatLiesBehindIt) {
+  const Vec3 size(3 * 1.0, 2 * 0.75, 2 * 1.25);
+  const Mesh box = test::raster_box({3, 2, 2}).mesh;
+  const Topology topology = build_topology(box);
+  const SurfaceDepth depth = surface_depth(box, topology);
+  for (Index n = 0; n < box.num_nodes(); ++n) {
+    const Vec3& x = box.nodes[at(n)];
+    const double d = depth.depth[at(n)];
+    EXPECT_GT(d, 0);
+    if (!on_border(x, size)) continue;
+    // The distance to the nearest side of the box that it does not lie on, where that is not beyond its longest edge.
+    double nearest = std::numeric_limits<double>::max();
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double away : {x[axis], size[axis] - x[axis]}) {
+        if (away > kRoundOff) nearest = std::min(nearest, away);
+      }
+    }
+    EXPECT_LE(d, nearest + kRoundOff) << x.transpose();
+    EXPECT_TRUE(std::abs(d - nearest) < kRoundOff || d >= 0.75 - kRoundOff) << x.transpose() << ": " << d;
+  }
+}
+
+TEST(SurfaceDepth, OfNodesInsideIsTheirDistanceToTheSurface) {
+  const Mesh box = test::raster_box({1, 1, 1}).mesh;
+  const SurfaceDepth depth = surface_depth(box, build_topology(box));
+  int inside = 0;
+  for (Index n = 0; n < box.num_nodes(); ++n) {
+    if (depth.on_surface[at(n)] != 0) continue;
+    ++inside;
+    EXPECT_NEAR(depth.depth[at(n)], 0.375, kRoundOff) << "the centre of a box of 1 x 0.75 x 1.25";
+  }
+  EXPECT_EQ(inside, 1);
+}
+
+}  // namespace
+}  // namespace breccia
