@@ -29,6 +29,13 @@ namespace breccia::geometry {
   return 3 * tetra_volume(x[0], x[1], x[2], x[3]) / area;
 }
 
+/// Height of a corner above the opposite face, m.
+[[nodiscard]] inline double height(const std::array<Vec3, 4>& x, int corner) {
+  const auto& f = kFaceCorners[static_cast<std::size_t>(corner)];
+  const auto at = [&](std::size_t i) { return x[static_cast<std::size_t>(f[i])]; };
+  return 3 * tetra_volume(x[0], x[1], x[2], x[3]) / triangle_area(at(0), at(1), at(2));
+}
+
 /// Corners of an element, m.
 [[nodiscard]] inline std::array<Vec3, 4> corners_of(const Mesh& mesh, Index element) {
   const auto& e = mesh.elements[static_cast<std::size_t>(element)];

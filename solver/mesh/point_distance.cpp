@@ -25,13 +25,10 @@ std::vector<double> nodal_surface_distance(const Mesh& mesh, const Topology& top
   for (Index e = 0; e < mesh.num_elements(); ++e) {
     const auto& corners = mesh.elements[at(e)];
     const auto x = geometry::corners_of(mesh, e);
-    const double volume3 = 3.0 * geometry::tetra_volume(x[0], x[1], x[2], x[3]);
     const bool touches = std::any_of(corners.begin(), corners.end(), [&](Index n) { return on_surface[at(n)] != 0; });
     for (std::size_t c = 0; c < 4; ++c) {
-      const auto& f = kFaceCorners[c];
-      const double height = volume3 / geometry::triangle_area(x[at(f[0])], x[at(f[1])], x[at(f[2])]);
       double& bound = distance[at(corners[c])];
-      bound = std::min(bound, height);
+      bound = std::min(bound, geometry::height(x, static_cast<int>(c)));
       if (touches) near_surface[at(corners[c])] = 1;
     }
   }

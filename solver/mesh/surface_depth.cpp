@@ -58,14 +58,11 @@ std::vector<double> behind_nodes(const Mesh& mesh, const Topology& topology, con
     const auto& corners = mesh.elements[at(e)];
     if (std::none_of(corners.begin(), corners.end(), [&](Index n) { return on[at(n)] != 0; })) continue;
     const auto x = geometry::corners_of(mesh, e);
-    const double volume3 = 3.0 * geometry::tetra_volume(x[0], x[1], x[2], x[3]);
     for (std::size_t c = 0; c < 4; ++c) {
       for (std::size_t k = 0; k < 4; ++k)
         longest[at(corners[c])] = std::max(longest[at(corners[c])], (x[c] - x[k]).norm());
       if (!topology.links[at(e)][c].free()) continue;
-      const auto& f = kFaceCorners[c];
-      const double area = geometry::triangle_area(x[at(f[0])], x[at(f[1])], x[at(f[2])]);
-      height[at(corners[c])] = std::min(height[at(corners[c])], volume3 / area);
+      height[at(corners[c])] = std::min(height[at(corners[c])], geometry::height(x, static_cast<int>(c)));
     }
   }
   for (std::size_t n = 0; n < longest.size(); ++n) longest[n] = on[n] != 0 ? std::min(longest[n], height[n]) : 0.0;

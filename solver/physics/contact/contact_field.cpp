@@ -26,7 +26,10 @@ std::array<double, 4> heights(const LocalMesh& local, Index slot) {
 void drop_finished_ramps(ContactState& contact) {
   std::size_t kept = 0;
   for (const FieldRamp& ramp : contact.ramps) {
-    const bool done = std::all_of(ramp.remaining.begin(), ramp.remaining.end(), [](Index n) { return n == 0; });
+    const auto over = [](const auto& remaining) {
+      return std::all_of(remaining.begin(), remaining.end(), [](Index n) { return n == 0; });
+    };
+    const bool done = over(ramp.remaining) && over(ramp.depth_remaining);
     contact.ramp_of_contactor[at(ramp.contactor)] = done ? -1 : static_cast<Index>(kept);
     CornerSets& sets = contact.field[at(ramp.contactor)].sets;
     if (done) {
@@ -36,6 +39,16 @@ void drop_finished_ramps(ContactState& contact) {
     }
   }
   contact.ramps.resize(kept);
+}
+
+FieldRamp& ramp_of(Index contactor, ContactState& contact) {
+  Index& place = contact.ramp_of_contactor[at(contactor)];
+  if (place < 0) {
+    place = static_cast<Index>(contact.ramps.size());
+    const std::array<double, 4>& depth = contact.field[at(contactor)].depth;
+    contact.ramps.push_back({contactor, {}, {}, {}, depth, depth});
+  }
+  return contact.ramps[at(place)];
 }
 
 /// One function of an element on the surface. @param weight  of the set, 0 to 1
@@ -91,19 +104,32 @@ void free_corners(const ContactParams& params, Index contactor, unsigned set, Co
   // The usual call is for corners that lie on the surface already: leave without touching the list of ramps.
   if (covers(sets, set)) return;
   sets |= 1 << set;
-  Index& place = contact.ramp_of_contactor[at(contactor)];
-  if (place < 0) {
-    place = static_cast<Index>(contact.ramps.size());
-    contact.ramps.push_back({contactor, {}, {}});
-  }
-  contact.ramps[at(place)].remaining[set] = params.ramp_steps;
+  ramp_of(contactor, contact).remaining[set] = params.ramp_steps;
+}
+
+void lower_depth(const ContactParams& params, Index contactor, int corner, double depth, ContactState& contact) {
+  if (params.field != OverlapField::body) return;
+  const auto a = at(corner);
+  if (contact.field[at(contactor)].depth[a] <= depth) return;
+  FieldRamp& ramp = ramp_of(contactor, contact);
+  if (ramp.depth_target[a] <= depth) return;
+  ramp.depth_target[a] = depth;
+  ramp.depth_remaining[a] = params.ramp_steps;
 }
 
 void advance_field(ContactState& contact) {
   drop_finished_ramps(contact);
   for (FieldRamp& ramp : contact.ramps) {
+    std::array<double, 4>& depth = contact.field[at(ramp.contactor)].depth;
     ramp.before = ramp.remaining;
+    ramp.depth_before = depth;
     for (Index& remaining : ramp.remaining) remaining = std::max(remaining - 1, 0);
+    for (std::size_t a = 0; a < 4; ++a) {
+      Index& remaining = ramp.depth_remaining[a];
+      if (remaining == 0) continue;
+      depth[a] = remaining == 1 ? ramp.depth_target[a] : depth[a] + (ramp.depth_target[a] - depth[a]) / remaining;
+      --remaining;
+    }
   }
 }
 

@@ -18,7 +18,9 @@ namespace breccia {
 /// of the face alone, so it is continuous. For a lone tetrahedron g is the distance to its nearest face.
 ///
 /// Fracture adds sets: the corners of an element at the nodes of a freed face. A new set comes to count within
-/// ContactParams::ramp_steps steps: its own depths go from D_a to 0.
+/// ContactParams::ramp_steps steps: its own depths go from D_a to 0. What was deep inside is then near a surface, so the
+/// depths of the nodes of the face go down to the least height of their elements there, that g is not steep in
+/// fragments.
 ///
 /// H, the length that makes the overlap dimensionless, is the mean inradius of a body's elements.
 
@@ -33,6 +35,9 @@ void build_field(const ContactParams& params, const Mesh& mesh, const LocalMesh&
 /// The corners of a set (mesh/corner_sets.hpp) have come to lie on one face of the free surface. Nothing happens for
 /// fields other than `body`, or when they lie on one already.
 void free_corners(const ContactParams& params, Index contactor, unsigned set, ContactState& contact);
+
+/// The depth of a corner goes down to this one, m, if it is less. Nothing happens for fields other than `body`.
+void lower_depth(const ContactParams& params, Index contactor, int corner, double depth, ContactState& contact);
 
 /// One step of all ramps; what they were is kept in FieldRamp::before until the next call. O(ramps).
 void advance_field(ContactState& contact);

@@ -107,8 +107,8 @@ class Surface {
     return nodes;
   }
 
-  /// G^2 of the field of an element that is touched through a face, which is or may become one of the free surface:
-  /// next to that face, at rest.
+  /// G^2 of the field of an element that is touched through a face, which is or may become one of the free surface: the
+  /// largest of its functions at rest.
   [[nodiscard]] double steepness(Index slot, int face) const {
     const LocalMesh& mesh = model_.mesh;
     const ContactState* state = model_.state;
@@ -116,16 +116,32 @@ class Surface {
     FieldValues values;
     values.depth.fill(std::numeric_limits<double>::max());  // where it is not known; the height is less
     if (contactor >= 0) values = state->field[at(contactor)];
-    values.sets = 1 << (15 ^ 1 << face);
+    values.sets |= 1 << (15 ^ 1 << face);
     const double length = model_.body_length[at(mesh.slot_body[at(slot)])];
     const OverlapShape shape = overlap_shape(model_.params, mesh, slot, values, length);
-    const auto corner = static_cast<std::size_t>(face);
-    const double per_height = face_at_rest(mesh, slot, face).area / (3.0 * mesh.volume[at(slot)]);
-    const double slope = shape.row[shape.rows == 1 ? 0 : corner][corner] * per_height;
-    return slope * slope;
+    double square = 0;
+    for (std::size_t k = 0; k < shape.rows; ++k) {
+      // Of elements with a field of their own the face's function alone.
+      if (model_.params.field == OverlapField::body || k == static_cast<std::size_t>(face))
+        square = std::max(square, slope_squared(slot, shape.row[k]));
+    }
+    return square;
   }
 
  private:
+  /// |sum_a row[a] grad lambda_a|^2 at rest.
+  [[nodiscard]] double slope_squared(Index slot, const std::array<double, 4>& row) const {
+    const LocalMesh& mesh = model_.mesh;
+    Vec3 slope = Vec3::Zero();
+    for (std::size_t c = 1; c < 4; ++c) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double gradient = mesh.gradient[at(slot / kLanes) * 72 + (3 * (c - 1) + k) * kLanes + at(slot % kLanes)];
+        slope[static_cast<Eigen::Index>(k)] += (row[c] - row[0]) * gradient;
+      }
+    }
+    return slope.squaredNorm();
+  }
+
   /// Calls f(place, face's matrix, x_i's share of it) for the corners of open faces on shared nodes that are not held.
   template <class F>
   void for_each_shared_corner(F&& f) const {
