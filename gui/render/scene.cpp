@@ -39,6 +39,9 @@ constexpr std::array<Colour, 5> kRamp{{{0.267, 0.005, 0.329},
 
 constexpr const char* kShown = "shown";
 
+/// Faces that are still told apart by their edges, and quickly drawn with them.
+constexpr vtkIdType kMostWithEdges = 50000;
+
 void fill_ramp(vtkLookupTable& table) {
   constexpr int kSteps = 128;
   table.SetNumberOfTableValues(kSteps);
@@ -89,7 +92,6 @@ Scene::Scene() {
   marked_->SetMapper(marked_mapper_);
   marked_->GetProperty()->SetColor(0.84, 0.37, 0);
   marked_->GetProperty()->SetAmbient(0.35);
-  marked_->GetProperty()->EdgeVisibilityOn();
   marked_->VisibilityOff();
   chosen_->SetMapper(chosen_mapper_);
   chosen_->GetProperty()->SetColor(0.84, 0.37, 0);
@@ -237,6 +239,7 @@ void Scene::show_skin(bool on) {
 
 void Scene::mark(vtkPolyData* faces) {
   marked_mapper_->SetInputData(faces);
+  marked_->GetProperty()->SetEdgeVisibility(faces != nullptr && faces->GetNumberOfPolys() <= kMostWithEdges);
   marked_->SetVisibility(faces != nullptr);
   set_opacity();
 }

@@ -100,6 +100,7 @@ class MainWindow final : public QMainWindow {
   // main_window_answers.cpp: what the solver says of the case
   void show_check(const QJsonObject& json);
   void show_mesh(const QJsonObject& json, const QString& elements_file);
+  void load_mesh();
   void show_elements(vtkPolyData* faces, const QString& words);
   void show_division(const QJsonObject& json);
   void query_failed(const QString& what, const QString& text, const std::vector<Problem>& problems);
@@ -161,6 +162,7 @@ class MainWindow final : public QMainWindow {
   bool showing_results_ = false, run_when_checked_ = false;
   QJsonArray laws_;    ///< of joints, as last told
   QString mesh_text_;  ///< what the preview was made of
+  QString mesh_file_;  ///< its elements, while they have not been asked for; empty: they have
 
   StartPage* start_ = nullptr;
   CaseTree* tree_ = nullptr;

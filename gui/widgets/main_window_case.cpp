@@ -43,8 +43,11 @@ void MainWindow::show_start() {
 }
 
 void MainWindow::show_workspace() {
+  setAnimated(false);  // each step of it would draw the view anew
+  for (const char* name : kDocks) findChild<QWidget*>(name)->show();
+  show_dock(kDocks.back());
   centre_->setCurrentWidget(view_);
-  for (const char* name : kDocks) show_dock(name);
+  setAnimated(true);
 }
 
 void MainWindow::open_template(int number, bool run_it) {
@@ -78,6 +81,7 @@ void MainWindow::open_case(const QString& file) {
   preview_frame_ = {};
   owner_.clear();
   mesh_text_.clear();
+  mesh_file_.clear();
   laws_ = {};
   run_panel_->set_estimate(tr("Not checked yet."));
   messages_->set_advice({});
@@ -208,6 +212,8 @@ void MainWindow::stage_selected(int stage, const QString& path) {
     results_->set_frames(run_->frames());
     if (!results_->follows() && !run_->frames().empty())
       loader_->load(run_->frames().back().file, run_->frames().back().time);
+  } else if (!mesh_file_.isEmpty()) {
+    load_mesh();
   } else if (preview_frame_.skin != nullptr) {
     view_->show_frame(preview_frame_, tr("mesh at rest"));
   }

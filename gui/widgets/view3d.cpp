@@ -113,7 +113,17 @@ void View3D::set_picking(bool on) {
   if (on) canvas_->setFocus();
 }
 
-void View3D::render() { window_->Render(); }
+/// A call that waits comes before the window is painted, which takes long enough the first time.
+void View3D::render() {
+  if (will_render_) return;
+  will_render_ = true;
+  QMetaObject::invokeMethod(this, &View3D::render_now, Qt::QueuedConnection);
+}
+
+void View3D::render_now() {
+  will_render_ = false;
+  window_->Render();
+}
 
 void View3D::show_frame(const FrameData& frame, const QString& caption) {
   scene_.show(frame);
@@ -138,7 +148,7 @@ void View3D::set_dark(bool dark) {
 }
 
 QImage View3D::picture() {
-  render();
+  render_now();
   return canvas_->grabFramebuffer();
 }
 

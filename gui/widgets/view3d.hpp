@@ -23,7 +23,9 @@ class View3D final : public QWidget {
   void clear(const QString& caption);
   void set_colouring(Colouring colouring);
   void set_dark(bool dark);
+  /// Soon, once for all that is asked for meanwhile.
   void render();
+  void render_now();
   /// What is drawn now.
   [[nodiscard]] QImage picture();
   /// Shows that a click is waited for.
@@ -48,6 +50,7 @@ class View3D final : public QWidget {
   QCheckBox *edges_, *skin_;
   QSlider* explode_;
   QPoint pressed_;
+  bool will_render_ = false;
 };
 
 }  // namespace breccia::gui

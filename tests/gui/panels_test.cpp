@@ -171,11 +171,19 @@ TEST(Panels, ABarOfTheHistogramShowsItsElements) {
     if (counts[bar].toInt() > counts[fullest].toInt()) fullest = bar;
   QTest::mouseClick(bars, Qt::LeftButton, {}, bars->place_of(fullest).center().toPoint());
   Scene& scene = desk.window->view().scene();
-  EXPECT_EQ(scene.num_marked(), 4 * bars->bars().counts[static_cast<std::size_t>(fullest)]);
+  auto* panel = desk.find<QualityPanel>("quality");
+  // Seen are the faces that no two of the chosen elements share.
+  const auto shows = [&](int bar) {
+    const int count = bars->bars().counts[static_cast<std::size_t>(bar)];
+    return !panel->busy() && scene.num_marked() > 0 && scene.num_marked() <= 4 * count &&
+           desk.find<QLabel>("quality_words")->text().startsWith(QString("%1 elements").arg(count));
+  };
+  EXPECT_TRUE(wait_until([&] { return shows(fullest); }, kSolver));
   QTest::keyClick(bars, Qt::Key_Left);
-  EXPECT_EQ(scene.num_marked(), 4 * bars->bars().counts[static_cast<std::size_t>(fullest - 1)]);
+  EXPECT_TRUE(wait_until([&] { return shows(fullest - 1); }, kSolver));
   QTest::keyClick(bars, Qt::Key_Left);
   QTest::keyClick(bars, Qt::Key_Left);
+  EXPECT_TRUE(wait_until([&] { return shows(fullest - 3); }, kSolver));
   desk.picture("quality");
   QTest::keyClick(bars, Qt::Key_Escape);
   EXPECT_EQ(scene.num_marked(), 0);
