@@ -48,6 +48,12 @@ class Skin {
   std::vector<std::array<Face, 2>> inner_;  ///< two that rest on each other
 };
 
+/// The surface groups of a mesh: what a pick finds and a row shows.
+struct SurfaceGroups {
+  std::vector<std::string> names;
+  std::vector<std::vector<std::int64_t>> faces;  ///< of each: 4 * id of the element + side
+};
+
 /// One instant, ready to be drawn.
 struct FrameData {
   double time = 0;

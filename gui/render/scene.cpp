@@ -142,6 +142,7 @@ Scene::Scene() {
 
 void Scene::clear() {
   frame_ = {};
+  draw_loads();
   mark(nullptr);
   for (vtkProp* prop : {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(chosen_),
                         static_cast<vtkProp*>(legend_), static_cast<vtkProp*>(mode_legend_)})
@@ -161,6 +162,7 @@ void Scene::show(const FrameData& frame) {
   broken_->SetVisibility(broken);
   mode_legend_->SetVisibility(broken);
   if (broken) broken_mapper_->SetInputData(frame_.broken);
+  draw_loads();
   if (first) reset_camera();
 }
 
@@ -228,6 +230,7 @@ vtkIdType Scene::num_chosen() const {
 void Scene::set_explode(double share) {
   explode_ = share;
   if (has_data()) colour();
+  draw_loads();
 }
 
 void Scene::show_edges(bool on) { skin_->GetProperty()->SetEdgeVisibility(on); }
@@ -270,6 +273,8 @@ Scene::Picked Scene::picked_at(double x, double y) const {
 void Scene::set_caption(const std::string& text) { caption_->SetInput(text.c_str()); }
 
 void Scene::set_dark(bool dark) {
+  dark_ = dark;
+  draw_loads();
   const double low = dark ? 0.10 : 0.86, high = dark ? 0.20 : 0.98, ink = dark ? 0.92 : 0.1;
   renderer_->GradientBackgroundOn();
   renderer_->SetBackground(low, low, low + 0.02);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/case_queries.hpp"
+#include "core/conditions.hpp"
 #include "core/document.hpp"
 #include "core/material_library.hpp"
 #include "core/places.hpp"
@@ -89,6 +90,7 @@ class MainWindow final : public QMainWindow {
   void show_joint_law();
   void picked(const Scene::Picked& what);
   void show_groups(const QStringList& groups);
+  void show_loads();
   void take_from_library();
   void add_to_library();
 
@@ -160,9 +162,10 @@ class MainWindow final : public QMainWindow {
   std::vector<int> owner_;  ///< rank of each element of the preview
   FrameData preview_frame_;
   bool showing_results_ = false, run_when_checked_ = false;
-  QJsonArray laws_;    ///< of joints, as last told
-  QString mesh_text_;  ///< what the preview was made of
-  QString mesh_file_;  ///< its elements, while they have not been asked for; empty: they have
+  std::vector<Condition> loads_;  ///< of the case, as last read
+  QJsonArray laws_;               ///< of joints, as last told
+  QString mesh_text_;             ///< what the preview was made of
+  QString mesh_file_;             ///< its elements, while they have not been asked for; empty: they have
 
   StartPage* start_ = nullptr;
   CaseTree* tree_ = nullptr;

@@ -18,6 +18,7 @@ View3D::View3D(QWidget* parent)
       colour_(new QComboBox),
       edges_(new QCheckBox(tr("&Edges"))),
       skin_(new QCheckBox(tr("So&lid"))),
+      loads_(new QCheckBox(tr("Loads"))),
       explode_(new QSlider(Qt::Horizontal)) {
   window_->SetMultiSamples(0);
   canvas_->setRenderWindow(window_);
@@ -55,6 +56,16 @@ View3D::View3D(QWidget* parent)
     scene_.show_skin(on);
     render();
   });
+  loads_->setObjectName("loads");
+  loads_->setChecked(true);
+  loads_->setShortcut(QKeySequence("Ctrl+L"));
+  loads_->setAccessibleName(tr("Loads and constraints"));
+  loads_->setToolTip(
+      tr("Draw the conditions of the stage in hand: arrows for loads and motions, cones for what is held (Ctrl+L)"));
+  connect(loads_, &QCheckBox::toggled, this, [this](bool on) {
+    scene_.show_loads(on);
+    render();
+  });
   explode_->setObjectName("explode");
   explode_->setRange(0, 100);
   explode_->setMaximumWidth(120);
@@ -80,6 +91,7 @@ View3D::View3D(QWidget* parent)
   bar->addWidget(colour_);
   bar->addWidget(edges_);
   bar->addWidget(skin_);
+  bar->addWidget(loads_);
   bar->addWidget(new QLabel(tr("Explode")));
   bar->addWidget(explode_);
   bar->addStretch();
@@ -140,6 +152,11 @@ void View3D::clear(const QString& caption) {
 void View3D::set_colouring(Colouring colouring) {
   const int index = colour_->findData(static_cast<int>(colouring));
   if (index >= 0) colour_->setCurrentIndex(index);
+}
+
+void View3D::set_loads(std::vector<Load> loads) {
+  scene_.set_loads(std::move(loads));
+  render();
 }
 
 void View3D::set_dark(bool dark) {
