@@ -1,18 +1,15 @@
 #include "render/mesh_quality.hpp"
 
-#include <vtkCellArray.h>
-#include <vtkNew.h>
-#include <vtkPoints.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
-
-#include "render/frame_data.hpp"
 
 namespace breccia::gui {
 namespace {
 
 constexpr int kBars = 10;
+/// Values that differ by less than this share are one: coordinates may be written in single precision; bars reach that far to both sides of it.
+constexpr double kEqual = 1e-5, kAround = 0.05;
 using Vector = std::array<double, 3>;
 using Corners = std::array<Vector, 4>;
 
@@ -71,30 +68,19 @@ Corners corners_of(vtkUnstructuredGrid& grid, vtkIdType c) {
   return x;
 }
 
-}  // namespace
-
-MeshShapes measure_shapes(const std::string& file) { return measure_shapes(read_vtkhdf(file)); }
-
-MeshShapes measure_shapes(const vtkSmartPointer<vtkUnstructuredGrid>& elements) {
-  MeshShapes shapes;
-  shapes.elements = elements;
-  if (elements == nullptr) return shapes;
-  for (vtkIdType c = 0; c < elements->GetNumberOfCells(); ++c) {
-    const Corners x = corners_of(*elements, c), normals = face_normals(x);
-    shapes.values[0].push_back(radius_ratio(x, normals));
-    shapes.values[1].push_back(min_dihedral(normals));
-    shapes.values[2].push_back(mean_edge(x));
+double shape(const Corners& x, ShapeMeasure measure) {
+  switch (measure) {
+    case ShapeMeasure::radius_ratio:
+      return radius_ratio(x, face_normals(x));
+    case ShapeMeasure::min_dihedral:
+      return min_dihedral(face_normals(x));
+    case ShapeMeasure::mean_edge:
+      return mean_edge(x);
   }
-  return shapes;
+  return 0;
 }
 
-int Histogram::bar_of(double value) const {
-  if (!(width > 0)) return 0;
-  return std::clamp(static_cast<int>((value - low) / width), 0, static_cast<int>(counts.size()) - 1);
-}
-
-Histogram histogram_of(const MeshShapes& shapes, ShapeMeasure measure) {
-  const std::vector<double>& values = shapes.of(measure);
+Histogram histogram_of(const std::vector<double>& values, ShapeMeasure measure) {
   Histogram bars;
   if (values.empty()) return bars;
   double high = 1;
@@ -102,6 +88,10 @@ Histogram histogram_of(const MeshShapes& shapes, ShapeMeasure measure) {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     bars.low = *least;
     high = *most;
+    if (const double size = std::max(std::abs(bars.low), std::abs(high)); high - bars.low <= kEqual * size) {
+      bars.low -= kAround * size;  // they differ by rounding alone
+      high += kAround * size;
+    }
   }
   bars.counts.assign(kBars, 0);
   bars.width = (high - bars.low) / kBars;
@@ -109,26 +99,28 @@ Histogram histogram_of(const MeshShapes& shapes, ShapeMeasure measure) {
   return bars;
 }
 
-vtkSmartPointer<vtkPolyData> elements_of_bar(const MeshShapes& shapes, ShapeMeasure measure, int bar) {
-  const Histogram bars = histogram_of(shapes, measure);
-  const std::vector<double>& values = shapes.of(measure);
-  auto faces = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> triangles;
-  for (std::size_t e = 0; e < values.size(); ++e) {
-    if (bars.bar_of(values[e]) != bar) continue;
-    const Corners x = corners_of(*shapes.elements, static_cast<vtkIdType>(e));
-    std::array<vtkIdType, 4> own{};
-    for (std::size_t i = 0; i < 4; ++i) own[i] = points->InsertNextPoint(x[i].data());
-    for (const std::array<int, 3>& face : kTetraFaces) {
-      std::array<vtkIdType, 3> corners{};
-      for (std::size_t i = 0; i < 3; ++i) corners[i] = own[static_cast<std::size_t>(face[i])];
-      triangles->InsertNextCell(3, corners.data());
-    }
-  }
-  faces->SetPoints(points);
-  faces->SetPolys(triangles);
-  return faces;
+}  // namespace
+
+ElementValues measure_shapes(vtkUnstructuredGrid* elements, ShapeMeasure measure) {
+  ElementValues told;
+  told.counted_by = std::this_thread::get_id();
+  if (elements == nullptr) return told;
+  told.values.reserve(static_cast<std::size_t>(elements->GetNumberOfCells()));
+  for (vtkIdType c = 0; c < elements->GetNumberOfCells(); ++c)
+    told.values.push_back(shape(corners_of(*elements, c), measure));
+  told.bars = histogram_of(told.values, measure);
+  return told;
+}
+
+int Histogram::bar_of(double value) const {
+  if (!(width > 0)) return 0;
+  return std::clamp(static_cast<int>((value - low) / width), 0, static_cast<int>(counts.size()) - 1);
+}
+
+vtkSmartPointer<vtkPolyData> elements_of_bar(const FrameData& frame, const ElementValues& of, int bar) {
+  std::vector<bool> chosen(of.values.size());
+  for (std::size_t e = 0; e < chosen.size(); ++e) chosen[e] = of.bars.bar_of(of.values[e]) == bar;
+  return frame.faces->draw_part(*frame.elements, chosen);
 }
 
 }  // namespace breccia::gui

@@ -4,11 +4,12 @@
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <array>
-#include <string>
+#include <thread>
 #include <vector>
 
-/// Shapes of the elements of a mesh at rest, to be seen. VTK only.
+#include "render/frame_data.hpp"
+
+/// How well elements are shaped, and how often. VTK only; everything here may be called from any thread.
 namespace breccia::gui {
 
 enum class ShapeMeasure {
@@ -17,19 +18,6 @@ enum class ShapeMeasure {
   mean_edge      ///< mean of the six edges, mm
 };
 
-struct MeshShapes {
-  vtkSmartPointer<vtkUnstructuredGrid> elements;  ///< nullptr: the file cannot be read
-  /// By measure and element.
-  std::array<std::vector<double>, 3> values;
-  [[nodiscard]] const std::vector<double>& of(ShapeMeasure measure) const {
-    return values[static_cast<std::size_t>(measure)];
-  }
-};
-
-/// @param file  VTKHDF, four points an element. O(elements)
-[[nodiscard]] MeshShapes measure_shapes(const std::string& file);
-[[nodiscard]] MeshShapes measure_shapes(const vtkSmartPointer<vtkUnstructuredGrid>& elements);
-
 /// Bars of the same width. The radius ratio has those of the solver's report, from 0 to 1; others reach from the least
 /// value to the largest.
 struct Histogram {
@@ -37,9 +25,18 @@ struct Histogram {
   std::vector<int> counts;
   [[nodiscard]] int bar_of(double value) const;
 };
-[[nodiscard]] Histogram histogram_of(const MeshShapes& shapes, ShapeMeasure measure);
 
-/// All faces of the elements of one bar. O(elements)
-[[nodiscard]] vtkSmartPointer<vtkPolyData> elements_of_bar(const MeshShapes& shapes, ShapeMeasure measure, int bar);
+/// A number for each element of a frame, and their histogram.
+struct ElementValues {
+  std::vector<double> values;  ///< by row
+  Histogram bars;
+  std::thread::id counted_by;
+};
+
+/// @param elements  four points an element; nullptr: none. O(elements)
+[[nodiscard]] ElementValues measure_shapes(vtkUnstructuredGrid* elements, ShapeMeasure measure);
+
+/// What is seen of the elements of one bar. O(elements)
+[[nodiscard]] vtkSmartPointer<vtkPolyData> elements_of_bar(const FrameData& frame, const ElementValues& of, int bar);
 
 }  // namespace breccia::gui

@@ -67,7 +67,7 @@ MainWindow::MainWindow(Places places, QWidget* parent)
 
 MainWindow::~MainWindow() = default;
 
-bool MainWindow::busy() const { return queries_.busy() || import_.busy() || loader_->busy(); }
+bool MainWindow::busy() const { return queries_.busy() || import_.busy() || loader_->busy() || quality_->busy(); }
 
 void MainWindow::make_panels() {
   start_ = new StartPage(places_);

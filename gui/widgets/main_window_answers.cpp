@@ -1,5 +1,6 @@
 #include <QJsonArray>
 #include <QLabel>
+#include <utility>
 
 #include "widgets/animation_export.hpp"
 #include "widgets/domains_panel.hpp"
@@ -71,12 +72,16 @@ void MainWindow::show_mesh(const QJsonObject& json, const QString& elements_file
                            .arg(json["bodies"].toInt()));
   owner_.clear();
   preview_frame_ = {};
-  quality_->set_mesh(elements_file);
-  if (showing_results_) return;
+  quality_->set_mesh({});
+  mesh_file_ = elements_file;
+  if (!showing_results_) load_mesh();
+}
+
+void MainWindow::load_mesh() {
   if (animation_ != nullptr) animation_->give_up(tr("the view shows something else"));
   loader_->start_model();
   view_->clear({});
-  loader_->load(elements_file, 0);
+  loader_->load(std::exchange(mesh_file_, {}), 0);
 }
 
 /// Of a bar of the histogram: seen where the mesh at rest is.

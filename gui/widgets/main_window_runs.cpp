@@ -16,6 +16,7 @@
 #include "widgets/main_window.hpp"
 #include "widgets/plots_panel.hpp"
 #include "widgets/property_form.hpp"
+#include "widgets/quality_panel.hpp"
 #include "widgets/queue_panel.hpp"
 #include "widgets/results_panel.hpp"
 #include "widgets/run_panel.hpp"
@@ -199,6 +200,7 @@ void MainWindow::show_frame(const FrameData& frame) {
     preview_frame_ = frame;
     if (!owner_.empty()) set_ranks(*preview_frame_.skin, owner_);
     view_->show_frame(preview_frame_, tr("mesh at rest"));
+    quality_->set_mesh(preview_frame_);
     return;
   }
   view_->show_frame(frame, tr("time %1").arg(quantity_words(frame.time, "s")));

@@ -5,7 +5,6 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <QVBoxLayout>
-#include <QtConcurrent>
 #include <algorithm>
 
 namespace breccia::gui {
@@ -81,7 +80,12 @@ void HistogramView::keyPressEvent(QKeyEvent* event) {
 }
 
 QualityPanel::QualityPanel(QWidget* parent)
-    : QWidget(parent), measure_(new QComboBox), view_(new HistogramView), words_(new QLabel) {
+    : QWidget(parent),
+      measure_(new QComboBox),
+      view_(new HistogramView),
+      words_(new QLabel),
+      measuring_([this](const Values& values) { show_values(values); }),
+      collecting_([this](const vtkSmartPointer<vtkPolyData>& faces) { emit elements_chosen(faces, words_->text()); }) {
   setObjectName("quality");
   measure_->addItem(tr("radius ratio, 1 is regular"), static_cast<int>(ShapeMeasure::radius_ratio));
   measure_->addItem(tr("smallest dihedral angle [deg]"), static_cast<int>(ShapeMeasure::min_dihedral));
@@ -103,48 +107,44 @@ QualityPanel::QualityPanel(QWidget* parent)
   column->addStretch();
   row->addLayout(column, 1);
   row->addWidget(view_, 3);
-  connect(measure_, qOverload<int>(&QComboBox::currentIndexChanged), this, &QualityPanel::show_measure);
+  connect(measure_, qOverload<int>(&QComboBox::currentIndexChanged), this, &QualityPanel::measure_elements);
   connect(view_, &HistogramView::bar_chosen, this, &QualityPanel::choose);
-  connect(&reader_, &QFutureWatcher<MeshShapes>::finished, this, [this] {
-    if (!next_.isEmpty()) return set_mesh(QString(next_));
-    shapes_ = reader_.result();
-    show_measure();
+}
+
+void QualityPanel::set_mesh(const FrameData& mesh) {
+  mesh_ = mesh;
+  measure_elements();
+}
+
+void QualityPanel::measure_elements() {
+  const auto measure = static_cast<ShapeMeasure>(measure_->currentData().toInt());
+  measuring_.start([elements = mesh_.elements, measure]() -> Values {
+    return std::make_shared<const ElementValues>(measure_shapes(elements, measure));
   });
 }
 
-void QualityPanel::set_mesh(const QString& elements_file) {
-  next_.clear();
-  if (reader_.isRunning()) {
-    next_ = elements_file;
-    return;
-  }
-  const std::string file = elements_file.toStdString();
-  reader_.setFuture(QtConcurrent::run([file] { return measure_shapes(file); }));
-}
-
-ShapeMeasure QualityPanel::measure() const { return static_cast<ShapeMeasure>(measure_->currentData().toInt()); }
-
-void QualityPanel::show_measure() {
-  view_->show_bars(histogram_of(shapes_, measure()), measure_->currentText());
+void QualityPanel::show_values(const Values& values) {
+  values_ = values;
+  view_->show_bars(values_->bars, measure_->currentText());
   choose(-1);
 }
 
 void QualityPanel::choose(int bar) {
   const Histogram& bars = view_->bars();
-  if (bar < 0 || shapes_.elements == nullptr) {
-    words_->setText(tr("%1 elements").arg(shapes_.of(measure()).size()));
+  if (bar < 0 || values_ == nullptr || mesh_.elements == nullptr) {
+    collecting_.forget();
+    words_->setText(tr("%1 elements").arg(values_ == nullptr ? 0 : values_->values.size()));
     emit elements_chosen(nullptr, {});
     return;
   }
   const double low = bars.low + bars.width * bar;
-  const QString words = tr("%1 elements, %2: %3 to %4")
-                            .arg(bars.counts[static_cast<std::size_t>(bar)])
-                            .arg(measure_->currentText())
-                            .arg(low, 0, 'g', 3)
-                            .arg(low + bars.width, 0, 'g', 3);
-  words_->setText(words);
-  view_->setAccessibleDescription(words);
-  emit elements_chosen(elements_of_bar(shapes_, measure(), bar), words);
+  words_->setText(tr("%1 elements, %2: %3 to %4")
+                      .arg(bars.counts[static_cast<std::size_t>(bar)])
+                      .arg(measure_->currentText())
+                      .arg(low, 0, 'g', 3)
+                      .arg(low + bars.width, 0, 'g', 3));
+  view_->setAccessibleDescription(words_->text());
+  collecting_.start([mesh = mesh_, values = values_, bar] { return elements_of_bar(mesh, *values, bar); });
 }
 
 }  // namespace breccia::gui

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <QComboBox>
-#include <QFutureWatcher>
 #include <QLabel>
+#include <memory>
 
+#include "core/newest_task.hpp"
 #include "render/mesh_quality.hpp"
 
 namespace breccia::gui {
@@ -36,29 +37,35 @@ class HistogramView final : public QWidget {
   int chosen_ = -1;
 };
 
-/// How well the elements are shaped: a histogram whose bars show their elements in the view.
+/// How well the elements are shaped: a histogram whose bars show their elements in the view. Elements are measured and
+/// their faces found on another thread.
 class QualityPanel final : public QWidget {
   Q_OBJECT
  public:
   explicit QualityPanel(QWidget* parent = nullptr);
-  /// The mesh at rest, as the solver has written it; it is read on another thread.
-  void set_mesh(const QString& elements_file);
+  /// The mesh at rest; one without elements: there is none.
+  void set_mesh(const FrameData& mesh);
+  /// As told last; nullptr: nothing yet.
+  [[nodiscard]] const ElementValues* values() const { return values_.get(); }
+  [[nodiscard]] bool busy() const { return measuring_.busy() || collecting_.busy(); }
 
  signals:
   /// @param faces  nullptr: nothing is chosen any more;  @param words  about them
   void elements_chosen(vtkSmartPointer<vtkPolyData> faces, const QString& words);
 
  private:
-  void show_measure();
+  using Values = std::shared_ptr<const ElementValues>;
+  void measure_elements();
+  void show_values(const Values& values);
   void choose(int bar);
-  [[nodiscard]] ShapeMeasure measure() const;
 
   QComboBox* measure_;
   HistogramView* view_;
   QLabel* words_;
-  MeshShapes shapes_;
-  QFutureWatcher<MeshShapes> reader_;
-  QString next_;
+  FrameData mesh_;
+  Values values_;
+  NewestTask<Values> measuring_;
+  NewestTask<vtkSmartPointer<vtkPolyData>> collecting_;
 };
 
 }  // namespace breccia::gui

@@ -22,8 +22,12 @@ class View3D final : public QWidget {
   void show_frame(const FrameData& frame, const QString& caption);
   void clear(const QString& caption);
   void set_colouring(Colouring colouring);
+  /// Seen as glyphs where that is switched on.
+  void set_loads(std::vector<Load> loads);
   void set_dark(bool dark);
+  /// Soon, once for all that is asked for meanwhile.
   void render();
+  void render_now();
   /// What is drawn now.
   [[nodiscard]] QImage picture();
   /// Shows that a click is waited for.
@@ -45,9 +49,10 @@ class View3D final : public QWidget {
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   QVTKOpenGLNativeWidget* canvas_;
   QComboBox* colour_;
-  QCheckBox *edges_, *skin_;
+  QCheckBox *edges_, *skin_, *loads_;
   QSlider* explode_;
   QPoint pressed_;
+  bool will_render_ = false;
 };
 
 }  // namespace breccia::gui

@@ -5,8 +5,10 @@
 #include <QSpinBox>
 #include <QTableWidget>
 
+#include "core/case_outline.hpp"
 #include "core/study.hpp"
 #include "gui/desk.hpp"
+#include "widgets/case_tree.hpp"
 #include "widgets/line_chart.hpp"
 #include "widgets/quality_panel.hpp"
 
@@ -149,6 +151,48 @@ value = "2 MPa"
   EXPECT_EQ(desk.window->document().value("stage[0].pressure[0].surface"), "\"block.z1\"");
 }
 
+TEST(Panels, LoadsOfTheStageInHandAreSeenAsGlyphsWhichAKeyHides) {
+  Desk desk;
+  desk.window->resize(1500, 900);
+  desk.window->open_path(written_case(desk.scratch, block_case(3, "1 ms") + R"(gravity = [0, "-9.81 m/s2", 0]
+[[stage.constraint]]
+group = "block.y0"
+fixed = "xyz"
+[[stage.pressure]]
+surface = "block.z1"
+value = "1 MPa"
+[[stage]]
+end = "2 ms"
+[[stage.constraint]]
+group = "block.y1"
+velocity = { x = "2 m/s" }
+[[initial_velocity]]
+group = "block"
+velocity = [0, "-3 m/s", 0]
+)"));
+  Scene& scene = desk.window->view().scene();
+  ASSERT_TRUE(wait_until([&] { return scene.has_data() && !desk.window->busy(); }, kSolver));
+  desk.click_stage("material: block");
+  EXPECT_EQ(scene.num_glyphs(), 0);
+  desk.click_stage("constraint");
+  const int first = scene.num_glyphs();
+  EXPECT_GT(first, 50) << "gravity, what is fixed, the pressure, and what the first stage begins with";
+  desk.picture("glyphs");
+  QTest::keyClick(desk.window.get(), Qt::Key_L, Qt::ControlModifier);
+  EXPECT_TRUE(wait_until([&] { return scene.num_glyphs() == 0; }, 5000));
+  QTest::keyClick(desk.window.get(), Qt::Key_L, Qt::ControlModifier);
+  EXPECT_TRUE(wait_until([&] { return scene.num_glyphs() == first; }, 5000));
+  desk.window->document().set_value("stage[0].pressure[0].value", "\"-1 MPa\"");
+  desk.window->document().remove("stage[0].gravity");
+  EXPECT_TRUE(wait_until([&] { return scene.num_glyphs() == first - 1; }, 5000)) << "they follow the case";
+  desk.window->findChild<CaseTree*>()->select(stage_of("stage[1].constraint[0]"), "stage[1].constraint[0]");
+  EXPECT_GT(scene.num_glyphs(), 5);
+  EXPECT_LT(scene.num_glyphs(), 30) << "those of the second stage alone";
+  desk.window->set_dark(true);
+  desk.picture("glyphs_dark");
+  desk.window->set_dark(false);
+}
+
 TEST(Panels, ABarOfTheHistogramShowsItsElements) {
   Desk desk;
   desk.window->open_path(QString(BRECCIA_MESHES) + "/glass_impact/case_demo.toml");
@@ -171,11 +215,19 @@ TEST(Panels, ABarOfTheHistogramShowsItsElements) {
     if (counts[bar].toInt() > counts[fullest].toInt()) fullest = bar;
   QTest::mouseClick(bars, Qt::LeftButton, {}, bars->place_of(fullest).center().toPoint());
   Scene& scene = desk.window->view().scene();
-  EXPECT_EQ(scene.num_marked(), 4 * bars->bars().counts[static_cast<std::size_t>(fullest)]);
+  auto* panel = desk.find<QualityPanel>("quality");
+  // Seen are the faces that no two of the chosen elements share.
+  const auto shows = [&](int bar) {
+    const int count = bars->bars().counts[static_cast<std::size_t>(bar)];
+    return !panel->busy() && scene.num_marked() > 0 && scene.num_marked() <= 4 * count &&
+           desk.find<QLabel>("quality_words")->text().startsWith(QString("%1 elements").arg(count));
+  };
+  EXPECT_TRUE(wait_until([&] { return shows(fullest); }, kSolver));
   QTest::keyClick(bars, Qt::Key_Left);
-  EXPECT_EQ(scene.num_marked(), 4 * bars->bars().counts[static_cast<std::size_t>(fullest - 1)]);
+  EXPECT_TRUE(wait_until([&] { return shows(fullest - 1); }, kSolver));
   QTest::keyClick(bars, Qt::Key_Left);
   QTest::keyClick(bars, Qt::Key_Left);
+  EXPECT_TRUE(wait_until([&] { return shows(fullest - 3); }, kSolver));
   desk.picture("quality");
   QTest::keyClick(bars, Qt::Key_Escape);
   EXPECT_EQ(scene.num_marked(), 0);
