@@ -14,7 +14,7 @@ namespace breccia::gui {
 namespace {
 
 constexpr int kBars = 10;
-/// Values that differ by less than this share are one: coordinates may be written in single precision; bars reach that far to both sides of it.
+/// Share by which equal values may differ, written in single precision; how far the bars then reach to both sides.
 constexpr double kEqual = 1e-5, kBelow = 0.055, kAbove = 0.045;
 using Vector = std::array<double, 3>;
 using Corners = std::array<Vector, 4>;

@@ -38,7 +38,7 @@ class HistogramView final : public QWidget {
   int chosen_ = -1;
 };
 
-/// How well the elements of the frame in view are shaped, and how large what is coloured is: a histogram whose bars show
+/// How the elements of the frame in view are shaped, and how large what is coloured is: a histogram whose bars show
 /// their elements or joints in the view. Numbers and faces are worked out on another thread.
 class HistogramPanel final : public QWidget {
   Q_OBJECT
