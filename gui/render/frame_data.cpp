@@ -238,6 +238,7 @@ FrameData load_frame(const std::string& elements_file, const std::string& joints
   frame.skin = faces->draw(*elements);
   if (joints_file.empty()) return frame;
   if (const auto joints = read_vtkhdf(joints_file); joints != nullptr && joints->GetNumberOfCells() > 0) {
+    frame.joints = joints;
     frame.broken = cracks_of(*joints);
   }
   return frame;

@@ -61,6 +61,7 @@ struct FrameData {
   vtkSmartPointer<vtkPolyData> broken;            ///< triangles of the joints that carry damage
   std::shared_ptr<const Skin> faces;              ///< of this model, for the next frame
   vtkSmartPointer<vtkUnstructuredGrid> elements;  ///< all of them; only read once the frame is told
+  vtkSmartPointer<vtkUnstructuredGrid> joints;    ///< all that carry damage, as the elements; nullptr: none
 };
 
 /// @param joints_file  empty: none is there

@@ -180,14 +180,11 @@ LoadGlyphs draw_load(vtkPolyData& skin, const std::vector<std::string>& volumes,
     double reach = 0;  // of the box that way
     for (std::size_t a = 0; a < 3; ++a) reach += 0.5 * std::abs(along[a]) * (box[2 * a + 1] - box[2 * a]);
     const Vector end = centre - (reach + 0.2 * length) * along;
-    glyphs.place = end - 1.5 * length * along;
-    mesh.add_arrow(glyphs.place, end, 1);
-    glyphs.count = 1;
+    glyphs.places = {end - 1.5 * length * along};
+    mesh.add_arrow(glyphs.places[0], end, 1);
   } else {
-    for (const Seat& seat : spread(seats_of(skin, volumes, surfaces, load.group))) {
-      const Vector out = add_glyph(mesh, load, seat, length);
-      if (glyphs.count++ == 0) glyphs.place = out;
-    }
+    for (const Seat& seat : spread(seats_of(skin, volumes, surfaces, load.group)))
+      glyphs.places.push_back(add_glyph(mesh, load, seat, length));
   }
   glyphs.mesh = mesh.take();
   return glyphs;

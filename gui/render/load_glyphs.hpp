@@ -30,8 +30,9 @@ struct Load {
 
 struct LoadGlyphs {
   vtkSmartPointer<vtkPolyData> mesh;  ///< triangles
-  std::array<double, 3> place{};      ///< of the words
-  int count = 0;
+  /// Ends of the glyphs that are away from the model, of each: where its words may stand.
+  std::vector<std::array<double, 3>> places;
+  [[nodiscard]] int count() const { return static_cast<int>(places.size()); }
 };
 
 /// At most some dozens of glyphs, spread over the faces of the group; none: it is not seen.

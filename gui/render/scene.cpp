@@ -251,7 +251,12 @@ vtkIdType Scene::num_marked() const {
   return marked_->GetVisibility() != 0 ? marked_mapper_->GetInput()->GetNumberOfPolys() : 0;
 }
 
-void Scene::set_opacity() { skin_->GetProperty()->SetOpacity(solid_ && marked_->GetVisibility() == 0 ? 1.0 : 0.15); }
+void Scene::set_opacity() {
+  constexpr double kSeenThrough = 0.15;
+  const bool marks = marked_->GetVisibility() != 0;
+  skin_->GetProperty()->SetOpacity(solid_ && !marks ? 1.0 : kSeenThrough);
+  broken_->GetProperty()->SetOpacity(marks ? kSeenThrough : 1.0);
+}
 
 Scene::Picked Scene::picked_at(double x, double y) const {
   vtkNew<vtkCellPicker> picker;

@@ -35,8 +35,10 @@ void Scene::draw_loads() {
   if (!has_data() || !shows_loads_ || explode_ > 0) return;  // parts that are moved apart are not where loads act
   for (const Load& load : loads_) {
     const LoadGlyphs drawn = draw_load(*frame_.skin, groups_, surfaces_, load);
-    if (drawn.count == 0) continue;
-    num_glyphs_ += drawn.count;
+    if (drawn.count() == 0) continue;
+    num_glyphs_ += drawn.count();
+    // Loads of one group begin at the same face: the words of each stand at another one.
+    const std::array<double, 3>& place = drawn.places[words_.size() % drawn.places.size()];
     vtkNew<vtkPolyDataMapper> mapper;
     mapper->SetInputData(drawn.mesh);
     const auto& actor = glyphs_.emplace_back(vtkSmartPointer<vtkActor>::New());
@@ -48,7 +50,7 @@ void Scene::draw_loads() {
     const auto& words = words_.emplace_back(vtkSmartPointer<vtkTextActor>::New());
     words->SetInput(load.words.c_str());
     words->GetPositionCoordinate()->SetCoordinateSystemToWorld();  // drawn over the model, wherever it is
-    words->GetPositionCoordinate()->SetValue(drawn.place[0], drawn.place[1], drawn.place[2]);
+    words->GetPositionCoordinate()->SetValue(place[0], place[1], place[2]);
     words->PickableOff();
     vtkTextProperty* text = words->GetTextProperty();
     text->SetFontSize(13);

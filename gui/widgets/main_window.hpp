@@ -33,7 +33,7 @@ class JointPlot;
 class PlotsPanel;
 class ProblemsPanel;
 class PropertyForm;
-class QualityPanel;
+class HistogramPanel;
 class QueuePanel;
 class ResultsPanel;
 class RunPanel;
@@ -176,7 +176,7 @@ class MainWindow final : public QMainWindow {
   ProblemsPanel* messages_ = nullptr;
   RunPanel* run_panel_ = nullptr;
   RunsPanel* runs_panel_ = nullptr;
-  QualityPanel* quality_ = nullptr;
+  HistogramPanel* histogram_ = nullptr;
   QueuePanel* queue_panel_ = nullptr;
   StudyPanel* study_panel_ = nullptr;
   DomainsPanel* domains_ = nullptr;

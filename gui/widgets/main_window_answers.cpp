@@ -5,10 +5,10 @@
 #include "widgets/animation_export.hpp"
 #include "widgets/domains_panel.hpp"
 #include "widgets/frame_loader.hpp"
+#include "widgets/histogram_panel.hpp"
 #include "widgets/main_window.hpp"
 #include "widgets/problems_panel.hpp"
 #include "widgets/property_form.hpp"
-#include "widgets/quality_panel.hpp"
 #include "widgets/run_panel.hpp"
 #include "widgets/view3d.hpp"
 
@@ -72,7 +72,7 @@ void MainWindow::show_mesh(const QJsonObject& json, const QString& elements_file
                            .arg(json["bodies"].toInt()));
   owner_.clear();
   preview_frame_ = {};
-  quality_->set_mesh({});
+  if (!showing_results_) histogram_->set_frame({}, false);
   mesh_file_ = elements_file;
   if (!showing_results_) load_mesh();
 }
@@ -84,13 +84,8 @@ void MainWindow::load_mesh() {
   loader_->load(std::exchange(mesh_file_, {}), 0);
 }
 
-/// Of a bar of the histogram: seen where the mesh at rest is.
-void MainWindow::show_elements(vtkPolyData* faces, const QString& words) {
-  if (showing_results_) return;
-  view_->scene().mark(faces);
-  view_->scene().set_caption((faces == nullptr ? tr("mesh at rest") : words).toStdString());
-  view_->render();
-}
+/// Of a bar of the histogram.
+void MainWindow::show_elements(vtkPolyData* faces, const QString& words) { view_->mark(faces, words); }
 
 void MainWindow::show_division(const QJsonObject& json) {
   domains_->show_division(json);

@@ -17,6 +17,7 @@
 #include "widgets/conditions_panel.hpp"
 #include "widgets/domains_panel.hpp"
 #include "widgets/frame_loader.hpp"
+#include "widgets/histogram_panel.hpp"
 #include "widgets/joint_plot.hpp"
 #include "widgets/library_dialog.hpp"
 #include "widgets/main_window.hpp"
@@ -32,7 +33,7 @@ namespace {
 
 /// The last one is in front.
 constexpr std::array kDocks{"dock_stages", "dock_properties", "dock_plots",    "dock_text",
-                            "dock_runs",   "dock_queue",      "dock_study",    "dock_quality",
+                            "dock_runs",   "dock_queue",      "dock_study",    "dock_histogram",
                             "dock_law",    "dock_conditions", "dock_contacts", "dock_messages"};
 constexpr int kPreviewDelay = 1000;  // ms after the last edit
 
@@ -251,6 +252,7 @@ void MainWindow::stage_selected(int stage, const QString& path) {
     load_mesh();
   } else if (preview_frame_.skin != nullptr) {
     view_->show_frame(preview_frame_, tr("mesh at rest"));
+    histogram_->set_frame(preview_frame_, false);
   }
 }
 

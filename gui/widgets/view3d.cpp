@@ -40,6 +40,7 @@ View3D::View3D(QWidget* parent)
   connect(colour_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     scene_.set_colouring(static_cast<Colouring>(colour_->currentData().toInt()));
     render();
+    emit colouring_changed(scene_.colouring());
   });
   edges_->setObjectName("edges");
   edges_->setAccessibleName(tr("Edges of elements"));
@@ -139,12 +140,20 @@ void View3D::render_now() {
 
 void View3D::show_frame(const FrameData& frame, const QString& caption) {
   scene_.show(frame);
+  caption_ = caption;
   scene_.set_caption(caption.toStdString());
+  render();
+}
+
+void View3D::mark(vtkPolyData* faces, const QString& words) {
+  scene_.mark(faces);
+  scene_.set_caption((faces == nullptr ? caption_ : words).toStdString());
   render();
 }
 
 void View3D::clear(const QString& caption) {
   scene_.clear();
+  caption_ = caption;
   scene_.set_caption(caption.toStdString());
   render();
 }

@@ -22,6 +22,8 @@ class View3D final : public QWidget {
   void show_frame(const FrameData& frame, const QString& caption);
   void clear(const QString& caption);
   void set_colouring(Colouring colouring);
+  /// Draws these faces in front of all others, with words for them; nullptr: none, and the caption of the frame.
+  void mark(vtkPolyData* faces, const QString& words);
   /// Seen as glyphs where that is switched on.
   void set_loads(std::vector<Load> loads);
   void set_dark(bool dark);
@@ -40,6 +42,7 @@ class View3D final : public QWidget {
  signals:
   /// It was clicked on, without dragging.
   void picked(const Scene::Picked& what);
+  void colouring_changed(Colouring colouring);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -51,6 +54,7 @@ class View3D final : public QWidget {
   QComboBox* colour_;
   QCheckBox *edges_, *skin_, *loads_;
   QSlider* explode_;
+  QString caption_;  ///< of the frame
   QPoint pressed_;
   bool will_render_ = false;
 };

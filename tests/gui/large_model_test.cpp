@@ -14,7 +14,7 @@
 
 #include "gui/desk.hpp"
 #include "gui/timed_application.hpp"
-#include "widgets/quality_panel.hpp"
+#include "widgets/histogram_panel.hpp"
 
 namespace breccia::gui::test {
 namespace {
@@ -102,13 +102,13 @@ TEST(LargeModel, ElementsAreMeasuredAndThoseOfABarAndOfARankFoundBesideTheThread
   Desk desk;
   desk.window->resize(1600, 1000);
   desk.window->open_path(written_case(desk.scratch, block_case(kCells, "1 ms")));
-  auto* panel = desk.find<QualityPanel>("quality");
+  auto* panel = desk.find<HistogramPanel>("histogram");
   ASSERT_TRUE(
       wait_until([&] { return panel->values() != nullptr && panel->values()->values.size() == kElements; }, kSolver));
   EXPECT_NE(panel->values()->counted_by, std::this_thread::get_id());
-  desk.show_tab("Quality");
-  auto* bars = desk.find<HistogramView>("quality_bars");
-  auto* measure = desk.find<QComboBox>("quality_measure");
+  desk.show_tab("Histogram");
+  auto* bars = desk.find<HistogramView>("histogram_bars");
+  auto* measure = desk.find<QComboBox>("histogram_measure");
   Scene& scene = desk.window->view().scene();
   const Heartbeat heart(desk);
   TimedApplication::own().start();

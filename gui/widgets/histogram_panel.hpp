@@ -5,7 +5,8 @@
 #include <memory>
 
 #include "core/newest_task.hpp"
-#include "render/mesh_quality.hpp"
+#include "render/element_values.hpp"
+#include "render/scene.hpp"
 
 namespace breccia::gui {
 
@@ -37,14 +38,16 @@ class HistogramView final : public QWidget {
   int chosen_ = -1;
 };
 
-/// How well the elements are shaped: a histogram whose bars show their elements in the view. Elements are measured and
-/// their faces found on another thread.
-class QualityPanel final : public QWidget {
+/// How the elements of the frame in view are shaped, and how large what is coloured is: a histogram whose bars show
+/// their elements or joints in the view. Numbers and faces are worked out on another thread.
+class HistogramPanel final : public QWidget {
   Q_OBJECT
  public:
-  explicit QualityPanel(QWidget* parent = nullptr);
-  /// The mesh at rest; one without elements: there is none.
-  void set_mesh(const FrameData& mesh);
+  explicit HistogramPanel(QWidget* parent = nullptr);
+  /// One without elements: there is none. The bar that is chosen stays chosen where another frame of a run follows.
+  void set_frame(const FrameData& frame, bool follows);
+  /// The histogram is of what the view is coloured by.
+  void follow(Colouring colouring);
   /// As told last; nullptr: nothing yet.
   [[nodiscard]] const ElementValues* values() const { return values_.get(); }
   [[nodiscard]] bool busy() const { return measuring_.busy() || collecting_.busy(); }
@@ -58,11 +61,13 @@ class QualityPanel final : public QWidget {
   void measure_elements();
   void show_values(const Values& values);
   void choose(int bar);
+  [[nodiscard]] Measure measure() const { return static_cast<Measure>(measure_->currentData().toInt()); }
 
   QComboBox* measure_;
   HistogramView* view_;
   QLabel* words_;
-  FrameData mesh_;
+  FrameData frame_;
+  int keeps_ = -1;  ///< bar to choose again once the next frame is counted
   Values values_;
   NewestTask<Values> measuring_;
   NewestTask<vtkSmartPointer<vtkPolyData>> collecting_;
