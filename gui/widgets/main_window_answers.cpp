@@ -66,7 +66,8 @@ void MainWindow::show_mesh(const QJsonObject& json, const QString& elements_file
   form_->set_groups(words);
   view_->scene().set_groups(names_of(groups["volumes"].toArray()));
   view_->scene().set_surfaces(surfaces_of(json));
-  mesh_words_->setText(tr("%1 elements, %2 nodes, %3 bodies")
+  const bool one = json["bodies"].toInt() == 1;
+  mesh_words_->setText((one ? tr("%1 elements, %2 nodes, %3 body") : tr("%1 elements, %2 nodes, %3 bodies"))
                            .arg(json["elements"].toInt())
                            .arg(json["nodes"].toInt())
                            .arg(json["bodies"].toInt()));
