@@ -1,5 +1,6 @@
 #include "catalyst/adaptor.hpp"
 
+#include <optional>
 #include <utility>
 
 #include "catalyst/animation.hpp"
@@ -9,6 +10,7 @@
 #include "catalyst/messages.hpp"
 #include "catalyst/pipeline_choice.hpp"
 #include "catalyst/pipeline_loop.hpp"
+#include "catalyst/probe_pipeline.hpp"
 #include "catalyst/script_check.hpp"
 #include "catalyst/whole_file.hpp"
 
@@ -27,15 +29,20 @@ Adaptor::Adaptor(const BrecciaConfig& config) : ranks_(config.communicator, conf
   for (std::int32_t i = 0; i < config.num_pipelines; ++i) {
     std::string error;
     std::unique_ptr<Pipeline> work;
+    std::unique_ptr<Part> part;
     try {
       const FatalLine line(label(config.pipelines[i].name));
       work = made(config.pipelines[i], config);
+      const PipelineChoice choice = choose(config.pipelines[i]);
+      // Probes take what they need.
+      if (choice.kind != PipelineKind::probes && !choice.selection.is_all())
+        part = std::make_unique<Part>(choice.selection);
     } catch (const std::exception& failure) {
       error = failure.what();
     }
     error = ranks_.agree(error);
     if (!error.empty()) throw PipelineError(std::string(config.pipelines[i].name) + ": " + error);
-    pipelines_.push_back({config.pipelines[i].name, std::move(work)});
+    pipelines_.push_back({config.pipelines[i].name, std::move(work), std::move(part)});
   }
 }
 
@@ -78,9 +85,12 @@ std::unique_ptr<Pipeline> Adaptor::made(const BrecciaPipeline& pipeline, const B
       return std::make_unique<ExtractPipeline>(ranks_, choice.channel, folder);
     case PipelineKind::history:
       return std::make_unique<HistoryPipeline>(ranks_, folder);
+    case PipelineKind::probes:
+      return std::make_unique<ProbePipeline>(ranks_, choice.probes, choice.selection.fields, folder);
     case PipelineKind::live: {
       const std::uint32_t channels = choice.channels == 0 ? kLiveDefault : choice.channels & kAllChannels;
       return std::make_unique<LivePipeline>((backend(), ranks_), config.live_host, config.live_port, channels,
+                                            config.run,
                                             [ends = config.run_ends] { return ends != nullptr && ends() != 0; });
     }
     case PipelineKind::script:
@@ -111,14 +121,14 @@ std::string Adaptor::notices() {
 std::uint32_t Adaptor::execute(std::uint32_t pipelines, const BrecciaInstant& instant, BrecciaRequests& requests,
                                std::string& text) {
   std::string error;
-  Frame frame;
+  std::vector<Frame> frames;
   try {
-    frame = frames_.wrap(instant);
+    frames = frames_of(pipelines, instant);
   } catch (const std::exception& failure) {
     error = failure.what();
   }
   error = ranks_.agree(error);
-  if (error.empty()) return execute(pipelines, frame, requests, text);
+  if (error.empty()) return execute(pipelines, frames, requests, text);
   std::uint32_t failed = 0;
   for (int i = 0; i < num_pipelines(); ++i) {
     if ((pipelines & bit(i)) == 0) continue;
@@ -128,13 +138,31 @@ std::uint32_t Adaptor::execute(std::uint32_t pipelines, const BrecciaInstant& in
   return failed;
 }
 
+/// By pipeline.
+std::vector<Frame> Adaptor::frames_of(std::uint32_t pipelines, const BrecciaInstant& instant) {
+  std::vector<Frame> frames(pipelines_.size());
+  std::optional<Frame> whole;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    Part* const part = pipelines_[i].part.get();
+    if ((pipelines & bit(static_cast<int>(i))) == 0) continue;
+    if (part == nullptr && !whole) whole = frames_.wrap(instant);
+    frames[i] = part == nullptr ? *whole : part->frames.wrap(part->instant.of(instant));
+  }
+  return frames;
+}
+
 std::uint32_t Adaptor::execute(std::uint32_t pipelines, const Frame& frame, BrecciaRequests& requests,
+                               std::string& text) {
+  return execute(pipelines, std::vector<Frame>(pipelines_.size(), frame), requests, text);
+}
+
+std::uint32_t Adaptor::execute(std::uint32_t pipelines, const std::vector<Frame>& frames, BrecciaRequests& requests,
                                std::string& text) {
   return execute_each(
       ranks_, pipelines, num_pipelines(), [this](int i) { return name(i); }, text,
       [&](int i) {
         const FatalLine line(label(name(i)));
-        pipelines_[static_cast<std::size_t>(i)].work->execute(frame, requests);
+        pipelines_[static_cast<std::size_t>(i)].work->execute(frames[static_cast<std::size_t>(i)], requests);
       });
 }
 

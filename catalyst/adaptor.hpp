@@ -10,6 +10,7 @@
 #include "catalyst/frame_to_vtk.hpp"
 #include "catalyst/pipeline.hpp"
 #include "catalyst/ranks.hpp"
+#include "catalyst/selection.hpp"
 
 namespace breccia::insitu {
 
@@ -35,6 +36,7 @@ class Adaptor {
   /// Executes pipelines; those that fail on any rank are returned and add a line "name: what" to `text`.
   std::uint32_t execute(std::uint32_t pipelines, const BrecciaInstant& instant, BrecciaRequests& requests,
                         std::string& text);
+  /// The same on a frame, which all pipelines get whole.
   std::uint32_t execute(std::uint32_t pipelines, const Frame& frame, BrecciaRequests& requests, std::string& text);
 
   /// Lines of what there is to tell since the last call that is no failure; the same on all ranks.
@@ -50,11 +52,21 @@ class Adaptor {
   }
 
  private:
+  /// Of an instant, for a pipeline that does not get all.
+  struct Part {
+    explicit Part(const Selection& selection) : instant(selection) {}
+    SelectedInstant instant;
+    FrameToVtk frames;
+  };
   struct Named {
     std::string name;
     std::unique_ptr<Pipeline> work;
+    std::unique_ptr<Part> part;  ///< null: it gets all
   };
 
+  [[nodiscard]] std::vector<Frame> frames_of(std::uint32_t pipelines, const BrecciaInstant& instant);
+  std::uint32_t execute(std::uint32_t pipelines, const std::vector<Frame>& frames, BrecciaRequests& requests,
+                        std::string& text);
   void end_pipelines();
   void start_display(const BrecciaConfig& config);
   [[nodiscard]] std::unique_ptr<Pipeline> made(const BrecciaPipeline& pipeline, const BrecciaConfig& config);

@@ -72,6 +72,7 @@ void Catalyst2Adaptor::make_pipelines(const BrecciaConfig& config) {
       Named made;
       made.choice = choose(config.pipelines[i]);
       made.channels = bit(made.choice.channel);
+      if (!made.choice.selection.is_all()) made.part = std::make_unique<SelectedInstant>(made.choice.selection);
       if (made.choice.kind == PipelineKind::history) made.channels = bit(BRECCIA_HISTORY);
       if (made.choice.kind == PipelineKind::script) {
         made.channels = scripts.channels[static_cast<std::size_t>(i)];
@@ -116,7 +117,8 @@ void Catalyst2Adaptor::initialize() {
     const std::string path = "catalyst/scripts/" + pipeline.choice.folder;
     tree.set((path + "/filename").c_str(), pipeline.choice.file.string());
     std::vector<std::string> arguments{"folder=" + pipeline.folder.string()};
-    for (const auto& [name, value] : pipeline.choice.parameters) arguments.push_back(name + "=" + exact(value));
+    for (const auto& [name, value] : pipeline.choice.parameters)
+      arguments.push_back(name + "=" + (value.is_number() ? exact(value.number) : *value.text));
     tree.set((path + "/args").c_str(), arguments);
   }
   const int status = status_of(kStart, [&] { return library_->functions().initialize(tree.root()); });
@@ -143,7 +145,7 @@ std::uint32_t Catalyst2Adaptor::execute(std::uint32_t pipelines, const BrecciaIn
       ranks_, pipelines, static_cast<int>(pipelines_.size()),
       [this](int i) { return pipelines_[static_cast<std::size_t>(i)].choice.name; }, text,
       [&](int i) {
-        const Named& pipeline = pipelines_[static_cast<std::size_t>(i)];
+        Named& pipeline = pipelines_[static_cast<std::size_t>(i)];
         run(pipeline, pipeline.channels | std::exchange(first_channels_, 0), instant, requests);
       });
 }
@@ -160,13 +162,13 @@ std::unique_ptr<ConduitTree> Catalyst2Adaptor::started_tree(std::int64_t step, d
   return tree;
 }
 
-void Catalyst2Adaptor::run(const Named& pipeline, std::uint32_t mask, const BrecciaInstant& instant,
+void Catalyst2Adaptor::run(Named& pipeline, std::uint32_t mask, const BrecciaInstant& instant,
                            BrecciaRequests& requests) {
   std::string error;
   std::unique_ptr<ConduitTree> tree;
   try {
     tree = started_tree(instant.step, instant.time, pipeline.choice.name);
-    fill_channels(*tree, mask, instant);
+    fill_channels(*tree, mask, pipeline.part ? pipeline.part->of(instant) : instant);
   } catch (const std::exception& failure) {
     error = failure.what();
   }

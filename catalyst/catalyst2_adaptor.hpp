@@ -14,6 +14,7 @@
 #include "catalyst/pipeline_choice.hpp"
 #include "catalyst/ranks.hpp"
 #include "catalyst/script_bridge.hpp"
+#include "catalyst/selection.hpp"
 #include "catalyst/turn_watch.hpp"
 
 namespace breccia::insitu {
@@ -45,13 +46,14 @@ class Catalyst2Adaptor {
     std::filesystem::path folder;  ///< empty: it has none
     std::uint32_t channels = 0;
     std::int64_t written_before = 0;
+    std::unique_ptr<SelectedInstant> part;  ///< null: it gets all
   };
 
   void make_pipelines(const BrecciaConfig& config);
   void start_display(bool draws);
   void initialize();
   [[nodiscard]] std::unique_ptr<ConduitTree> started_tree(std::int64_t step, double time, const std::string& pipeline);
-  void run(const Named& pipeline, std::uint32_t mask, const BrecciaInstant& instant, BrecciaRequests& requests);
+  void run(Named& pipeline, std::uint32_t mask, const BrecciaInstant& instant, BrecciaRequests& requests);
   void fill_channels(const ConduitTree& tree, std::uint32_t mask, const BrecciaInstant& instant);
   void forget_instant();
   void call_execute(std::unique_ptr<ConduitTree> tree, const std::string& what);

@@ -12,7 +12,14 @@ constexpr const char* kOtherBackend = "the adaptor with ParaView linked, insitu.
 
 /// What cannot work over Catalyst 2, whoever is behind it. Throws PipelineError.
 void demand_possible(const PipelineChoice& choice, bool is_paraview) {
+  if (is_paraview && !choice.selection.fields.empty())
+    throw PipelineError(
+        std::string("ParaView's implementation of Catalyst 2 reads all scripts with the arrays of one of "
+                    "them, so that none can have fields of its own; that needs ") +
+        kOtherBackend);
   switch (choice.kind) {
+    case PipelineKind::probes:
+      throw PipelineError(std::string("samples are not made by Catalyst 2; that needs ") + kOtherBackend);
     case PipelineKind::live:
       throw PipelineError(std::string("the live link is not Catalyst 2's; it needs ") + kOtherBackend);
     case PipelineKind::extract:
@@ -51,10 +58,12 @@ std::vector<std::string> catalyst2_problems_of(const BrecciaConfig& config) {
         // Without libcatalyst it is not known whose implementation it would be.
         if (missing.empty()) demand_possible(choice, is_paraview);
         if (choice.kind != PipelineKind::script) return check_parameters(choice, {}, found);
-        const ScriptNeeds needs = check_script(choice.file);
+        ScriptNeeds needs = check_script(choice.file);
         for (const std::string& problem : needs.problems) found.push_back(choice.name + ": " + problem);
-        // A user's script may compute the names of its parameters.
-        if (choice.ready) check_parameters(choice, needs.parameters, found);
+        // A user's script may be told of parameters otherwise, and compute their names.
+        for (const auto& [name, value] : choice.parameters)
+          if (!choice.ready) needs.parameters.try_emplace(name);
+        check_parameters(choice, needs.parameters, found);
       });
   if (!missing.empty()) problems.insert(problems.begin(), missing);
   return problems;

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 
 #include "catalyst/display.hpp"
+#include "catalyst/parameter.hpp"
 #include "catalyst/pipeline.hpp"
 #include "catalyst/python_guard.hpp"
 #include "catalyst/ranks.hpp"
@@ -18,7 +18,7 @@ struct ScriptDescription {
   std::filesystem::path file;
   std::filesystem::path folder;  ///< where its extracts go; exists
   std::uint32_t channels = 0;    ///< mask of those that the script names; all of them may be asked for
-  std::map<std::string, double> parameters;
+  Parameters parameters;
   python::About about;
   const Display* display = nullptr;  ///< on which it draws; null: it does not
 };

@@ -4,8 +4,8 @@
 #include <vtkTable.h>
 
 #include <functional>
-#include <sstream>
 
+#include "catalyst/csv.hpp"
 #include "catalyst/whole_file.hpp"
 
 namespace breccia::insitu {
@@ -19,13 +19,6 @@ std::string error_of(const std::function<void()>& work) {
     return error.what();
   }
   return {};
-}
-
-std::string quoted(const std::string& field) {
-  if (field.find_first_of(",\"\n") == std::string::npos) return field;
-  std::string text = "\"";
-  for (const char c : field) text += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return text + '"';
 }
 
 std::string cell_text(vtkDataArray* array, vtkIdType row, int component) {
@@ -48,20 +41,6 @@ std::vector<std::string> csv_lines(vtkTable* table) {
     }
   }
   return lines;
-}
-
-/// What of an earlier recording stays when one begins at `step`: nothing when its header differs; rows start with their
-/// step.
-std::string rows_before(const std::string& content, const std::string& header, std::int64_t step) {
-  std::string kept;
-  std::istringstream stream(content);
-  std::string line;
-  if (!std::getline(stream, line) || line != header) return kept;
-  while (std::getline(stream, line) && !stream.eof()) {
-    std::int64_t of_line = 0;
-    if (std::istringstream(line) >> of_line && of_line < step) kept += line + '\n';
-  }
-  return kept;
 }
 
 }  // namespace

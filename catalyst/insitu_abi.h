@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-#define BRECCIA_INSITU_ABI_VERSION 5
+#define BRECCIA_INSITU_ABI_VERSION 6
 
 /* The channels: frozen names, in this order everywhere. A set of channels is a mask of bits 1 << channel. */
 enum {
@@ -71,14 +71,35 @@ typedef struct {
   const BrecciaGrid* channels[BRECCIA_NUM_CHANNELS]; /* NULL: not asked for by any pipeline of this call */
 } BrecciaInstant;
 
+/* A parameter of a pipeline, as it was written: a number or a text. A text that reads as a quantity ("30 MPa") is both.
+ */
+typedef struct {
+  const char* name;
+  const char* text; /* NULL: it was written as a number */
+  double number;    /* SI; NaN: the text reads as none */
+} BrecciaParameter;
+
+/* Points in space at which the pipeline "probes" records fields: at + i / (points - 1) along + j / (rows - 1) across;
+ * m. */
+typedef struct {
+  const char* name; /* of its file */
+  double at[3], along[3], across[3];
+  int32_t points, rows; /* at least 1 */
+} BrecciaProbe;
+
 /* A pipeline: one of the adaptor's own ("fractures", "stress", ...; "live" connects to ParaView) or a script by
  * absolute path. */
 typedef struct {
   const char* name;
   uint32_t channels; /* mask of what "live" publishes; 0: what the pipeline itself asks for */
   int32_t num_parameters;
-  const char* const* parameter_names;
-  const double* parameters;
+  const BrecciaParameter* parameters;
+  const double* region; /* lower and upper corner of a closed box, m: it gets the cells alone whose centre, the mean of
+                           their points, lies within; NULL: all. Rows of a table are no cells. */
+  int32_t num_fields;   /* 0: all */
+  const char* const* fields; /* the arrays alone that it gets, of all channels; those of a table it gets all */
+  int32_t num_probes;        /* of "probes" */
+  const BrecciaProbe* probes;
 } BrecciaPipeline;
 
 typedef struct {
@@ -92,6 +113,7 @@ typedef struct {
   double strength;    /* Pa, a stress at which something breaks in this case; 0: unknown. Where colours of stress end
                          as long as there is no more than that */
   const char* folder; /* absolute, exists: pipelines write here and nowhere else */
+  const char* run;    /* absolute: of the run, which takes commands there; a live view is told. "": it takes none */
   const char* live_host;
   int32_t live_port;
   int32_t (*run_ends)(void); /* whether somebody wants the run to end: a live view that pauses it is let go; on the

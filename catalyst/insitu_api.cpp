@@ -2,6 +2,7 @@
 
 #include "catalyst/adaptor.hpp"
 #include "catalyst/api_functions.hpp"
+#include "catalyst/pipeline_choice.hpp"
 #include "catalyst/preflight.hpp"
 #include "catalyst/replay.hpp"
 
@@ -14,6 +15,10 @@ struct ParaViewBackend {
   static std::string found() { return backend_description(); }
   static std::vector<std::string> problems_of(const BrecciaConfig& config) { return insitu::problems_of(config); }
   static std::string replay(const BrecciaConfig& config, const char* folder) {
+    for (std::int32_t i = 0; i < config.num_pipelines; ++i) {
+      if (!choose(config.pipelines[i]).selection.is_all())
+        throw PipelineError(std::string(config.pipelines[i].name) + ": a replay hands over all that was recorded");
+    }
     Adaptor adaptor(config);
     insitu::replay(adaptor, folder);
     return adaptor.finish();

@@ -3,6 +3,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataSetAttributes.h>
+#include <vtkFieldData.h>
 #include <vtkLiveInsituLink.h>
 #include <vtkNew.h>
 #include <vtkPVTrivialProducer.h>
@@ -35,7 +36,11 @@ constexpr auto kRestAfterSilence = std::chrono::minutes(1);
 /// The link joins what ranks send, but for tables, which get lost: rows become points.
 vtkSmartPointer<vtkDataObject> sendable(vtkDataObject* object) {
   auto* table = vtkTable::SafeDownCast(object);
-  if (table == nullptr) return object;
+  if (table == nullptr) {  // other pipelines have the object too
+    const auto copy = vtkSmartPointer<vtkDataObject>::Take(object->NewInstance());
+    copy->ShallowCopy(object);
+    return copy;
+  }
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> vertices;
@@ -47,15 +52,16 @@ vtkSmartPointer<vtkDataObject> sendable(vtkDataObject* object) {
   rows->SetPoints(points);
   rows->SetVerts(vertices);
   rows->GetCellData()->ShallowCopy(table->GetRowData());
-  rows->GetFieldData()->ShallowCopy(table->GetFieldData());
   return rows;
 }
 
 }  // namespace
 
 LivePipeline::LivePipeline(const Ranks& ranks, std::string host, int port, std::uint32_t channels,
-                           std::function<bool()> run_ends)
+                           const std::string& run, std::function<bool()> run_ends)
     : ranks_(ranks), mask_(channels), next_attempt_(Clock::now()) {
+  run_->SetName("run");
+  for (const char c : run) run_->InsertNextValue(static_cast<unsigned char>(c));
   session_ = vtkSmartPointer<vtkSMSession>::New();
   vtkProcessModule::GetProcessModule()->RegisterSession(session_);
   proxies_ = vtkSMProxyManager::GetProxyManager()->GetSessionProxyManager(session_);
@@ -111,7 +117,12 @@ void LivePipeline::publish(const Frame& frame) {
   for (std::size_t channel = 0; channel < sources_.size(); ++channel) {
     if (!sources_[channel]) continue;
     auto* producer = vtkPVTrivialProducer::SafeDownCast(sources_[channel]->GetClientSideObject());
-    producer->SetOutput(sendable(frame.channels[channel]), frame.time);
+    const auto data = sendable(frame.channels[channel]);
+    vtkNew<vtkFieldData> about;
+    about->ShallowCopy(frame.channels[channel]->GetFieldData());
+    about->AddArray(run_);
+    data->SetFieldData(about);
+    producer->SetOutput(data, frame.time);
     sources_[channel]->MarkModified(sources_[channel]);
     sources_[channel]->UpdatePipeline(frame.time);
   }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <vtkNew.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <array>
 #include <chrono>
@@ -27,8 +29,10 @@ namespace breccia::insitu {
 class LivePipeline final : public Pipeline {
  public:
   /// @pre a CatalystBackend lives as long as this
+  /// @param run  folder of the run, told in the field data of what is published: the array "run", its bytes
   /// @param run_ends  whether the run has been asked to end; called on the first rank, by another thread
-  LivePipeline(const Ranks& ranks, std::string host, int port, std::uint32_t channels, std::function<bool()> run_ends);
+  LivePipeline(const Ranks& ranks, std::string host, int port, std::uint32_t channels, const std::string& run,
+               std::function<bool()> run_ends);
   ~LivePipeline() override;
 
   std::uint32_t channels(std::int64_t step, double time) override;
@@ -45,6 +49,7 @@ class LivePipeline final : public Pipeline {
 
   const Ranks& ranks_;
   std::uint32_t mask_;
+  vtkNew<vtkUnsignedCharArray> run_;
   vtkSmartPointer<vtkSMSession> session_;  ///< of its own: sources of scripts are not seen live
   vtkSMSessionProxyManager* proxies_ = nullptr;
   std::array<vtkSmartPointer<vtkSMSourceProxy>, BRECCIA_NUM_CHANNELS> sources_;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "catalyst/pipeline_error.hpp"
+#include "catalyst/whole_file.hpp"
 
 namespace breccia::insitu {
 namespace {
@@ -45,8 +46,9 @@ std::size_t distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-std::vector<std::string> nearest_first(const std::string& word, const std::set<std::string>& known) {
-  std::vector<std::string> words(known.begin(), known.end());
+std::vector<std::string> nearest_first(const std::string& word, const KnownParameters& known) {
+  std::vector<std::string> words;
+  for (const auto& [name, kinds] : known) words.push_back(name);
   std::stable_sort(words.begin(), words.end(),
                    [&](const std::string& a, const std::string& b) { return distance(word, a) < distance(word, b); });
   return words;
@@ -54,10 +56,16 @@ std::vector<std::string> nearest_first(const std::string& word, const std::set<s
 
 }  // namespace
 
-void check_parameters(const PipelineChoice& choice, const std::set<std::string>& known,
-                      std::vector<std::string>& problems) {
+void check_parameters(const PipelineChoice& choice, const KnownParameters& known, std::vector<std::string>& problems) {
   for (const auto& [name, value] : choice.parameters) {
-    if (known.contains(name)) continue;
+    if (const auto asked = known.find(name); asked != known.end()) {
+      const std::string begin = choice.name + ": the parameter '" + name + "' is a ";
+      if (asked->second.contains(ParameterKind::text) && !value.text)
+        problems.push_back(begin + "text; given: " + exact(value.number));
+      if (asked->second.contains(ParameterKind::number) && !value.is_number())
+        problems.push_back(begin + "number, or a text with a unit; given: \"" + one_line(*value.text) + "\"");
+      continue;
+    }
     std::string text = choice.name + ": knows no parameter '" + name + "'";
     if (known.empty()) text += ", it has none";
     const char* separator = "; allowed: ";

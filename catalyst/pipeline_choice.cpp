@@ -10,6 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kProbes = "probes";
 constexpr const char* kModules = "breccia_";  ///< what scripts import is called so, and no script itself
 
 /// "volume" is the channel elements, other recordings are called like their channels; -1: no recording.
@@ -29,6 +30,17 @@ std::vector<std::string> ready_scripts() {
   return names;
 }
 
+Probe probe_of(const BrecciaProbe& given) {
+  Probe probe{
+      given.name, std::to_array(given.at), std::to_array(given.along), std::to_array(given.across), given.points,
+      given.rows};
+  // It becomes a file's name.
+  if (probe.name.empty() || probe.name.find_first_of("/.") != std::string::npos)
+    throw PipelineError("the probe's name '" + probe.name + "' is no name of a file");
+  if (probe.points < 1 || probe.rows < 1) throw PipelineError("the probe " + probe.name + " has no points");
+  return probe;
+}
+
 std::string unknown(const std::string& name) {
   std::string text = name + ": no pipeline has this name; allowed: ";
   for (const std::string& known : pipeline_names()) text += known + ", ";
@@ -41,6 +53,7 @@ std::vector<std::string> pipeline_names() {
   std::vector<std::string> names{"volume"};
   for (int channel = BRECCIA_ELEMENTS + 1; channel < BRECCIA_NUM_CHANNELS; ++channel)
     names.emplace_back(kChannelNames[static_cast<std::size_t>(channel)]);
+  names.emplace_back(kProbes);
   names.emplace_back("live");
   const auto scripts = ready_scripts();
   names.insert(names.end(), scripts.begin(), scripts.end());
@@ -51,10 +64,21 @@ PipelineChoice choose(const BrecciaPipeline& pipeline) {
   PipelineChoice choice;
   choice.name = pipeline.name;
   choice.channels = pipeline.channels;
-  for (std::int32_t i = 0; i < pipeline.num_parameters; ++i)
-    choice.parameters[pipeline.parameter_names[i]] = pipeline.parameters[i];
+  for (std::int32_t i = 0; i < pipeline.num_parameters; ++i) {
+    const BrecciaParameter& given = pipeline.parameters[i];
+    Parameter& parameter = choice.parameters[given.name];
+    parameter.number = given.number;
+    if (given.text != nullptr) parameter.text = given.text;
+  }
+  if (pipeline.region != nullptr) std::copy_n(pipeline.region, 6, choice.selection.region.emplace().begin());
+  choice.selection.fields.assign(pipeline.fields, pipeline.fields + pipeline.num_fields);
+  for (std::int32_t i = 0; i < pipeline.num_probes; ++i) choice.probes.push_back(probe_of(pipeline.probes[i]));
   if (choice.name == "live") {
     choice.kind = PipelineKind::live;
+  } else if (choice.name == kProbes) {
+    choice.kind = PipelineKind::probes;
+    choice.channel = BRECCIA_ELEMENTS;
+    choice.folder = kProbes;
   } else if (const int channel = recorded_channel(choice.name); channel >= 0) {
     choice.kind = channel == BRECCIA_HISTORY ? PipelineKind::history : PipelineKind::extract;
     choice.channel = channel;

@@ -1,16 +1,25 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "catalyst/insitu_abi.h"
+#include "catalyst/parameter.hpp"
+#include "catalyst/selection.hpp"
 
 namespace breccia::insitu {
 
-enum class PipelineKind { extract, history, script, live };
+enum class PipelineKind { extract, history, probes, script, live };
+
+/// See BrecciaProbe.
+struct Probe {
+  std::string name;
+  std::array<double, 3> at{}, along{}, across{};
+  int points = 1, rows = 1;
+};
 
 /// A pipeline of the configuration, as found.
 struct PipelineChoice {
@@ -21,7 +30,9 @@ struct PipelineChoice {
   bool ready = false;          ///< a script of our own, catalyst/pipelines/NAME.py
   std::string folder;  ///< below the folder of the run: the channel, or the script's name without .py; empty: none
   std::uint32_t channels = 0;  ///< as given
-  std::map<std::string, double> parameters;
+  Parameters parameters;
+  Selection selection;
+  std::vector<Probe> probes;
 };
 
 /// Names of the pipelines that need no path: those in C++, then those of catalyst/pipelines.

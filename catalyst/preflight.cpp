@@ -12,15 +12,15 @@ constexpr std::int32_t kLastPort = 65535;
 
 /// True when it makes pictures.
 bool check_pipeline(const PipelineChoice& choice, const BrecciaConfig& config, std::vector<std::string>& problems) {
-  std::set<std::string> known;
+  KnownParameters known;
   bool draws = false;
   if (choice.kind == PipelineKind::script) {
-    ScriptNeeds needs = check_script(choice.file);
+    ScriptNeeds needs = check_script(choice.file, choice.selection.fields);
     if (!needs.lacks.empty()) throw PipelineError(needs.lacks);
     draws = needs.draws;
     known = std::move(needs.parameters);
     if (needs.any_parameter) {
-      for (const auto& [name, value] : choice.parameters) known.insert(name);
+      for (const auto& [name, value] : choice.parameters) known.try_emplace(name);
     }
     for (const std::string& problem : needs.problems) problems.push_back(choice.name + ": " + problem);
   }

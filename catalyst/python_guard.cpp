@@ -105,12 +105,13 @@ void start(const std::filesystem::path& pipelines, const std::filesystem::path& 
 }
 
 void enter(const std::string& name, const std::filesystem::path& script, const std::filesystem::path& folder,
-           const std::map<std::string, double>& parameters, const About& about) {
+           const Parameters& parameters, const About& about) {
   const vtkPythonScopeGilEnsurer lock;
   PyObject* values = PyDict_New();
   for (const auto& [key, value] : parameters) {
-    const vtkSmartPyObject number(PyFloat_FromDouble(value));
-    PyDict_SetItemString(values, key.c_str(), number);
+    PyObject* number = value.is_number() ? PyFloat_FromDouble(value.number) : Py_BuildValue("");
+    const vtkSmartPyObject pair(Py_BuildValue("(Nz)", number, value.text ? value.text->c_str() : nullptr));
+    PyDict_SetItemString(values, key.c_str(), pair);
   }
   call("enter", Py_BuildValue("(sssN{sssdsd})", name.c_str(), script.c_str(), folder.c_str(), values, "title",
                               about.title.c_str(), "end", about.end, "strength", about.strength));

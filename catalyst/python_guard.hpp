@@ -1,9 +1,9 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 
+#include "catalyst/parameter.hpp"
 #include "catalyst/ranks.hpp"
 #include "catalyst/script_watch.hpp"
 
@@ -25,7 +25,7 @@ void start(const std::filesystem::path& pipelines, const std::filesystem::path& 
 
 /// Tells breccia_insitu.py which pipeline runs from now on. Throws PipelineError.
 void enter(const std::string& name, const std::filesystem::path& script, const std::filesystem::path& folder,
-           const std::map<std::string, double>& parameters, const About& about);
+           const Parameters& parameters, const About& about);
 
 /// What the script that runs raised since the last call: "TypeError: what (script.py:12)"; empty: nothing. Throws
 /// Abandoned when other ranks have not come out of it in time.

@@ -65,6 +65,23 @@ std::int64_t Ranks::from_root(std::int64_t value) const {
   return value;
 }
 
+void Ranks::least(std::vector<std::int64_t>& values) const {
+  if (size_ == 1) return;
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Iallreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_INT64_T, MPI_MIN, communicator_,
+                 &request);
+  wait(request, {});
+}
+
+void Ranks::sum_on_root(std::vector<double>& values) const {
+  if (size_ == 1) return;
+  const std::vector<double> mine = values;
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ireduce(mine.data(), values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM, 0, communicator_,
+              &request);
+  wait(request, {});
+}
+
 std::string Ranks::from_first_of_machine(const std::string& text) const { return broadcast(text, 0, machine_); }
 
 bool Ranks::is_first_of_machine() const {

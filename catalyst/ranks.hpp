@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace breccia::insitu {
 
@@ -32,6 +33,10 @@ class Ranks {
   void throw_agreed(const std::string& error) const;
   /// The first rank's values on all ranks.
   [[nodiscard]] std::int64_t from_root(std::int64_t value) const;
+  /// Each value is the least one of all ranks' at its place. Throws Abandoned, as agree does.
+  void least(std::vector<std::int64_t>& values) const;
+  /// On the first rank each value is the sum of all ranks' at its place. Throws Abandoned, as agree does.
+  void sum_on_root(std::vector<double>& values) const;
   /// Text of the lowest rank on the same machine as this one; `text` matters on that rank alone. See
   /// is_first_of_machine.
   [[nodiscard]] std::string from_first_of_machine(const std::string& text) const;

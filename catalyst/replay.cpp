@@ -136,10 +136,13 @@ void replay(Adaptor& adaptor, const fs::path& folder) {
   const Records records = agreed(ranks, [&] { return read_records(folder); });
   std::uint32_t recorded = 0;
   for (const auto& [step, instant] : records.instants) recorded |= instant.channels();
+  std::uint32_t failed = 0;
+  std::string failures;
   for (const auto& [step, instant] : records.instants) {
     std::uint32_t pipelines = 0;
     std::uint32_t channels = 0;
     for (int i = 0; i < adaptor.num_pipelines(); ++i) {
+      if ((failed & bit(i)) != 0) continue;
       const std::uint32_t wanted = adaptor.channels(i, step, instant.time);
       if ((wanted & ~recorded) != 0)
         throw PipelineError(adaptor.name(i) + ": needs " + names_of(wanted & ~recorded) + ", of which " +
@@ -152,9 +155,11 @@ void replay(Adaptor& adaptor, const fs::path& folder) {
     const Frame frame = agreed(ranks, [&, at = step] { return read_frame(records, at, channels, ranks); });
     BrecciaRequests requests{};
     std::string text;
-    if (adaptor.execute(pipelines, frame, requests, text) != 0)
-      throw PipelineError("step " + std::to_string(step) + ": " + one_line(text));
+    const std::uint32_t now = adaptor.execute(pipelines, frame, requests, text);
+    if (now != 0) failures += (failures.empty() ? "step " : "; step ") + std::to_string(step) + ": " + one_line(text);
+    failed |= now;
   }
+  if (failed != 0) throw PipelineError(failures);
 }
 
 }  // namespace breccia::insitu

@@ -36,7 +36,10 @@ ScriptBridge::ScriptBridge(const Ranks& ranks, TurnWatch& watch, const BrecciaCo
                    {"folder", script.folder.string()},
                    {"parameters", json::object()},
                    {"about", about}});
-    for (const auto& [name, value] : script.parameters) all.back()["parameters"][name] = value;
+    for (const auto& [name, value] : script.parameters) {
+      all.back()["parameters"][name] = {value.is_number() ? json(value.number) : json(nullptr),
+                                        value.text ? json(*value.text) : json(nullptr)};
+    }
   }
   scripts_ = all.dump(-1, ' ', false, json::error_handler_t::replace);
   active = this;

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "catalyst/insitu_abi.h"
+#include "catalyst/parameter.hpp"
 #include "catalyst/ranks.hpp"
 #include "catalyst/turn_watch.hpp"
 
@@ -16,7 +16,7 @@ struct BridgedScript {
   std::string name;
   std::filesystem::path file;
   std::filesystem::path folder;  ///< of its files; exists
-  std::map<std::string, double> parameters;
+  Parameters parameters;
 };
 
 /// The run as python/breccia_catalyst2.py sees it, the first script that ParaView's implementation is given: whose turn

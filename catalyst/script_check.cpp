@@ -14,13 +14,16 @@
 
 namespace breccia::insitu {
 
-ScriptNeeds check_script(const std::filesystem::path& script) {
+ScriptNeeds check_script(const std::filesystem::path& script, const std::vector<std::string>& fields) {
   if (script.extension() != ".py") throw PipelineError(script.string() + ": a script's name ends with .py");
   if (::access(script.c_str(), R_OK) != 0) throw PipelineError(script.string() + ": " + std::strerror(errno));
   const std::filesystem::path folder = data_folder();
   // -E -s: nothing of the user's Python environment matters; -B: no files are left behind.
   std::vector<std::string> command{
       BRECCIA_PYTHON, "-E", "-s", "-B", folder / "python/check_script.py", script.string(), folder / "pipelines"};
+  std::string listed;
+  for (const std::string& field : fields) listed += (listed.empty() ? "" : ",") + field;
+  command.push_back(listed);
   command.insert(command.end(), kChannelNames.begin(), kChannelNames.end());
   std::istringstream lines(output_of(command));
   ScriptNeeds needs;
@@ -36,7 +39,9 @@ ScriptNeeds check_script(const std::filesystem::path& script) {
     if (word == "channel") needs.channels |= bit(channel_of(text));
     if (word == "problem") needs.problems.push_back(text);
     if (word == "any_parameter") needs.any_parameter = true;
-    if (word == "parameter") needs.parameters.insert(text);
+    if (word == "parameter") needs.parameters[text].insert(ParameterKind::any);
+    if (word == "number") needs.parameters[text].insert(ParameterKind::number);
+    if (word == "text") needs.parameters[text].insert(ParameterKind::text);
   }
   if (needs.channels == 0) needs.channels = kAllChannels;
   return needs;

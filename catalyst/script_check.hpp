@@ -2,11 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "catalyst/insitu_abi.h"
+#include "catalyst/parameter.hpp"
 #include "catalyst/ranks.hpp"
 
 namespace breccia::insitu {
@@ -15,7 +15,7 @@ namespace breccia::insitu {
 struct ScriptNeeds {
   bool draws = false;
   std::uint32_t channels = 0;  ///< mask of the channels that it names; all when it names none
-  std::set<std::string> parameters;
+  KnownParameters parameters;
   bool any_parameter = false;         ///< it computes names of parameters
   std::vector<std::string> problems;  ///< sources and arrays that no run has, a line each
   std::string lacks;  ///< what the interpreter that has read it lacks to run it, and what to do; empty: nothing
@@ -23,7 +23,9 @@ struct ScriptNeeds {
 
 /// Reads a script, in a Python interpreter of its own (some 50 ms); no Python starts in this process. Not collective.
 /// Throws PipelineError when it is missing, cannot be read or does not compile, and when there is no interpreter.
-[[nodiscard]] ScriptNeeds check_script(const std::filesystem::path& script);
+/// @param fields  the only arrays that the script is handed; empty: all
+[[nodiscard]] ScriptNeeds check_script(const std::filesystem::path& script,
+                                       const std::vector<std::string>& fields = {});
 
 /// What the scripts among the pipelines of a run need.
 struct RunScripts {

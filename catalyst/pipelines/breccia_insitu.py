@@ -37,12 +37,23 @@ def folder():
 
 
 def parameter(name, default):
-    """A number from the pipeline's parameters in the case file, or the default; a whole number where the default is one.
+    """One of the pipeline's parameters in the case file, or the default. Where the default is a text it is the text, as it is written; else a
+    number, in SI, a whole one where the default is one.
 
-    Write the name as a literal: before a run it is checked which parameters a pipeline knows.
+    Write name and default as literals: before a run it is checked which parameters a pipeline knows, and of what kind.
     """
-    value = _parameters.get(name, default)
-    return int(round(value)) if isinstance(default, int) and not isinstance(default, bool) else value
+    if name not in _parameters:
+        return default
+    number, text = _parameters[name]  # a text that reads as a quantity is both
+    if isinstance(default, str):
+        if text is None:
+            raise TypeError(f"the parameter '{name}' is a text; given: {number:g}")
+        return text
+    if number is None:
+        if default is None:
+            return text
+        raise TypeError(f"the parameter '{name}' is a number, or a text with a unit; given: \"{text}\"")
+    return int(round(number)) if isinstance(default, int) and not isinstance(default, bool) else number
 
 
 def title():

@@ -271,7 +271,7 @@ class Picture:
 
     def say(self, info, *lines):
         """Case, subject, time, step and other lines, over the picture that is drawn next; empty lines are left out."""
-        title = breccia_insitu.title() or self._name
+        title = breccia_insitu.parameter("title", "") or breccia_insitu.title() or self._name
         most = int(1.6 * self.view.ViewSize[0] / (1.15 * self._size))
         self.stand(self._title, title if len(title) <= most else title[: most - 1] + "\u2026", 0.015, 1 - self._height(1.7))
         text = [self._subject, f"t = {quantity(info.time, 's')}, step {info.timestep:,}", *filter(None, lines)]

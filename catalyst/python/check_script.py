@@ -1,13 +1,15 @@
 """Reads a Catalyst script without running it and tells what it needs; run by the plain Python interpreter, before any ParaView.
 
-usage: check_script.py SCRIPT PIPELINES CHANNEL...
-PIPELINES is a folder of modules that scripts may import. Prints lines of a word and a text:
+usage: check_script.py SCRIPT PIPELINES FIELDS CHANNEL...
+PIPELINES is a folder of modules that scripts may import; FIELDS the only arrays that the script is handed, a,b,c, or nothing: all. Prints
+lines of a word and a text:
   error what (file:line)     the script does not compile
   problem what (file:line)   a source or an array that no run has
   lacks what                 this interpreter cannot run it; that of another ParaView may
   draws                      it makes pictures, so it needs a display
   channel name               a channel that it names as a source
   parameter name             a parameter that it asks breccia_insitu for
+  text name, number name     the same, where its default tells its kind
   any_parameter              it computes the names of parameters
 """
 
@@ -103,7 +105,17 @@ def wrong_sources(tree, channels):
             yield f"the source '{name}' is no channel; allowed: {listed(name, channels)}", call.lineno
 
 
-def wrong_arrays(tree, used):
+def kind_of(call):
+    """What a parameter is asked for as, told by its default: "text", "number", or "parameter" where that is computed or None."""
+    default = next((keyword.value for keyword in call.keywords if keyword.arg == "default"), call.args[1] if len(call.args) > 1 else None)
+    if isinstance(default, ast.UnaryOp):
+        default = default.operand
+    if isinstance(default, ast.JoinedStr) or literal(default) is not None:
+        return "text"
+    return "number" if isinstance(default, ast.Constant) and isinstance(default.value, (int, float)) else "parameter"
+
+
+def wrong_arrays(tree, used, fields):
     """Arrays asked for as ("CELLS", name) that no channel in use has and that the script does not make, where it is known what is meant."""
     pairs = [node for node in ast.walk(tree) if isinstance(node, (ast.List, ast.Tuple)) and len(node.elts) == 2
              and literal(node.elts[0]) == "CELLS" and literal(node.elts[1])]
@@ -111,6 +123,8 @@ def wrong_arrays(tree, used):
     asked = [literal(pair.elts[1]) for pair in pairs]
     known = list(dict.fromkeys(name for channel in used for name in ARRAYS.get(channel, ())))
     for pair, name in zip(pairs, asked):
+        if fields and name in known and name not in fields:
+            yield f"the array '{name}' is not handed over, it is not among the pipeline's fields: {', '.join(fields)}", pair.lineno
         if name in known or texts.count(name) > asked.count(name):
             continue
         owners = [channel for channel, arrays in ARRAYS.items() if name in arrays]
@@ -120,24 +134,24 @@ def wrong_arrays(tree, used):
             yield f"'{name}' is no array of {', '.join(used)}; allowed: {listed(name, known)}", pair.lineno
 
 
-def problems(trees, channels):
+def problems(trees, channels, fields):
     """Lines about sources and arrays of the script, the first tree."""
     named = set().union(*(named_channels(tree, channels) for tree in trees))
     used = [channel for channel in channels if channel in named] or list(channels)
-    return [*wrong_sources(trees[0], channels), *([] if "history" in named else wrong_arrays(trees[0], used))]
+    return [*wrong_sources(trees[0], channels), *([] if "history" in named else wrong_arrays(trees[0], used, fields))]
 
 
-def needs(script, pipelines, channels):
+def needs(script, pipelines, fields, channels):
     """Lines as above, without their order."""
     found = set()
     trees = list(sources(script, [os.path.dirname(script), pipelines]))
-    found |= {f"problem {text} ({os.path.basename(script)}:{line})" for text, line in problems(trees, channels)}
+    found |= {f"problem {text} ({os.path.basename(script)}:{line})" for text, line in problems(trees, channels, fields)}
     for tree in trees:
         calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
         if any(draws(call) for call in calls):
             found.add("draws")
         found |= {f"channel {name}" for name in named_channels(tree, channels)}
-        found |= {f"parameter {literal(call.args[0])}" for call in calls
+        found |= {f"{kind_of(call)} {literal(call.args[0])}" for call in calls
                   if called(call) == "parameter" and call.args and literal(call.args[0])}
         if any(called(call) == "parameter" and not (call.args and literal(call.args[0])) for call in calls):
             found.add("any_parameter")
@@ -145,13 +159,13 @@ def needs(script, pipelines, channels):
 
 
 def main():
-    if len(sys.argv) < 4:
+    if len(sys.argv) < 5:
         sys.exit(__doc__)
-    script, pipelines, channels = sys.argv[1], sys.argv[2], sys.argv[3:]
+    script, pipelines, fields, channels = sys.argv[1], sys.argv[2], [name for name in sys.argv[3].split(",") if name], sys.argv[4:]
     if importlib.util.find_spec("paraview") is None:
         print("lacks ParaView's Python module is missing (Debian: apt-get install python3-paraview)")
     try:
-        lines = sorted(needs(script, pipelines, channels))
+        lines = sorted(needs(script, pipelines, fields, channels))
     except SyntaxError as error:
         lines = [f"error {error.msg} ({os.path.basename(error.filename or script)}:{error.lineno})"]
     except (OSError, ValueError) as error:

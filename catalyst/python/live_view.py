@@ -2,19 +2,24 @@
 
 Listens on $BRECCIA_LIVE_PORT for a run with --live, takes its channels as they come, and shows the surface by stress, cracks by the time at
 which they opened, the boxes of the ranks, the run's time, and its energies. When the run ends the last picture stays; the next run that
-connects takes its place. $BRECCIA_LIVE_TITLE, _END (s) and _STRENGTH (Pa) tell of the run what the view cannot know.
+connects takes its place. $BRECCIA_LIVE_TITLE, _END (s) and _STRENGTH (Pa) tell of the run what the view cannot know, _PROGRAM is what steers it
+(live_steering.py).
 """
 
 import math
 import os
+import textwrap
+import time as clock
 
 from paraview import live
-from paraview.simple import (Calculator, ColorBy, CreateView, GetActiveViewOrCreate, GetAnimationScene, GetColorTransferFunction, GetLayout,
-                             GetScalarBar, Render, ResetCamera, SetActiveSource, SetActiveView, Show, Text, TrivialProducer)
+from paraview.simple import (Calculator, ColorBy, CreateView, GetActiveSource, GetActiveViewOrCreate, GetAnimationScene,
+                             GetColorTransferFunction, GetLayout, GetScalarBar, Render, ResetCamera, SetActiveSource, SetActiveView, Show, Text,
+                             Threshold, TrivialProducer)
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkObject
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkTable, vtkUnstructuredGrid
 
 import breccia_pictures as pictures
+import live_steering
 
 
 def told(name, default):
@@ -27,6 +32,8 @@ TITLE = told("TITLE", "")
 END = float(told("END", "0"))
 STRENGTH = float(told("STRENGTH", "0"))
 BETWEEN = 200  # ms, between two looks at the link
+TOLD = 15.0  # s that an answer of the run stands in the view
+WIDTH = 70  # letters of a line of it, beside the keys
 EMPTY = {"surface": vtkPolyData, "fractures": vtkPolyData, "domains": vtkUnstructuredGrid, "history": vtkPolyData}
 # Curves of the plot: columns of the history that are added, and colours.
 CURVES = {"kinetic": (("kinetic [J]",), (0.15, 0.35, 0.75)), "elastic": (("elastic [J]", "joint elastic [J]"), (0.30, 0.62, 0.35)),
@@ -102,7 +109,8 @@ class Bodies:
         self._words = self._text("")
         self._words.WindowLocation = "Upper Left Corner"
         self._placed = False
-        self._lines = ()
+        self._lines, self._told = (), ("", 0.0)
+        self._open = None
         self.say("waiting for a run: breccia run CASE.toml --live" + ("" if PORT == 22222 else f"=localhost:{PORT}"))
 
     def _text(self, text):
@@ -113,11 +121,18 @@ class Bodies:
 
     def say(self, *lines):
         self._lines = lines
-        self._source.Text = "\n".join(filter(None, (TITLE, *lines)))
+        self.add("")
 
     def add(self, line):
         """A further line, until others are said."""
-        self._source.Text = "\n".join(filter(None, (TITLE, *self._lines, line)))
+        told, until = self._told
+        self._source.Text = "\n".join(filter(None, (TITLE, *self._lines, line, told if clock.time() < until else "")))
+
+    def tell(self, line):
+        """A line that stands for a while, whatever else is said."""
+        self._told = textwrap.fill(line, WIDTH), clock.time() + TOLD
+        self.add("")
+        Render(self.view)
 
     def _put(self, name, data):
         self.sources[name].GetClientSideObject().SetOutput(data)
@@ -130,10 +145,10 @@ class Bodies:
         if not self._placed:
             if pictures.data_of(self.sources["surface"]).GetNumberOfCells() == 0:
                 return
-            self._placed = True
+            self._placed, active = True, GetActiveSource()
             self._build()
             self._place_camera()
-            SetActiveSource(None)
+            SetActiveSource(active)
         stresses, ages = self._tables
         self._stresses.include(pictures.quantile_of(self.sources["surface"], "von_mises", 0.99), time)
         pictures.table_range(stresses, 0.0, self._stresses.upper / self._size_of_stress)
@@ -150,12 +165,28 @@ class Bodies:
         unit, self._size_of_age = pictures.unit_of(self._ages.upper or 1e-6, "s")
         cracks = Calculator(registrationName="cracks", Input=self.sources["fractures"], AttributeType=1,
                             ResultArrayName=f"time of failure [{unit}]", Function=f"time_of_failure/{self._size_of_age!r}")
+        self._cracks = cracks
         self._tables = (self._coloured(stress, pictures.SEQUENTIAL, 0.56, "Surface"), self._coloured(cracks, pictures.AGES, 0.08, "Wireframe", 4.0))
         boxes = Show(self.sources["domains"], self.view)
         boxes.SetRepresentationType("Wireframe")
         boxes.ColorArrayName = ["POINTS", ""]
         boxes.DiffuseColor = boxes.AmbientColor = pictures.INK
         boxes.LineWidth = 2.0
+
+    def show_open_by(self, least):
+        """Of the cracks those that are open by more than so many metres; None: all."""
+        if not self._placed:
+            return
+        active = GetActiveSource()
+        if least is None:
+            self._cracks.Input = self.sources["fractures"]
+        else:
+            self._open = self._open or Threshold(registrationName="open cracks", Input=self.sources["fractures"], Scalars=["CELLS", "opening"])
+            self._open.ThresholdMethod = "Above Upper Threshold"
+            self._open.UpperThreshold = least
+            self._cracks.Input = self._open
+        SetActiveSource(active)
+        Render(self.view)
 
     def _place_camera(self):
         azimuth, elevation = math.radians(38.0), math.radians(32.0)
@@ -197,6 +228,7 @@ class Link:
 
     def __init__(self, bodies, plot):
         self._bodies, self._plot = bodies, plot
+        self.steering = live_steering.Steering(told("PROGRAM", ""), bodies.tell, bodies.show_open_by)
         self._listen()
 
     def _listen(self):
@@ -212,6 +244,7 @@ class Link:
         warns = vtkObject.GetGlobalWarningDisplay()
         vtkObject.GlobalWarningDisplayOff()  # a run that ends is no error
         try:
+            self.steering.look()
             self._look()
         finally:
             vtkObject.SetGlobalWarningDisplay(warns)
@@ -234,6 +267,9 @@ class Link:
         """Holds the run at its next update, or lets it go on."""
         if self.link.GetInsituProxyManager() is None:
             return
+        if self.steering.can_steer():
+            self.steering.ask("pause" if pause else "resume")
+            return
         live.PauseCatalyst(self.link, pause)
         self._pauses = pause
         self._bodies.add("the run pauses" if pause else "")
@@ -254,6 +290,7 @@ class Link:
     def _take(self, news):
         if not news:
             return
+        self.steering.folder = next(filter(None, map(live_steering.folder_of, news.values())), "")
         values = {name: next((data.GetFieldData().GetArray(name).GetTuple1(0) for data in news.values()
                               if data.GetFieldData().GetArray(name) is not None), 0.0) for name in ("TimeValue", "step")}
         SetActiveView(self._bodies.view)
@@ -275,7 +312,7 @@ def start():
     bodies = Bodies()
     link = Link(bodies, Plot(bodies.view))
     SetActiveView(bodies.view)
-    SetActiveSource(None)
+    SetActiveSource(link.steering.panel)
     Render(bodies.view)
     interactor = bodies.view.GetInteractor()
     interactor.AddObserver("TimerEvent", link.look)

@@ -63,7 +63,8 @@ const std::vector<WorkStage>& work_stages() {
       {text("Domains"), Kind::sections, {"domains"}},
       {text("Output and in situ"),
        Kind::sections,
-       {"output", "checkpoint", "insitu", "insitu.live", "insitu.pipeline[]"}},
+       {"output", "checkpoint", "insitu", "insitu.live", "insitu.live.region", "insitu.pipeline[]",
+        "insitu.pipeline[].region", "insitu.pipeline[].probe[]"}},
       {text("Run"), Kind::run, {}},
       {text("Results"), Kind::results, {}}};
   return stages;

@@ -2,6 +2,7 @@
 
 #include <QCoreApplication>
 #include <algorithm>
+#include <cmath>
 
 #include "case/reader.hpp"
 #include "core/value_text.hpp"
@@ -32,6 +33,25 @@ PlotLine curve(const QString& name, const TimeFunction& function, const Interval
   return line;
 }
 
+/// The values by axis at the time at which they are largest together.
+std::array<double, 3> largest_of(const std::array<TimeFunction, 3>& functions, const Interval& stage) {
+  std::array<double, 3> found{};
+  double most = 0;
+  std::vector<double> times;
+  for (int i = 0; i <= kSamples; ++i) times.push_back(stage.begin + (stage.end - stage.begin) * i / kSamples);
+  for (const TimeFunction& function : functions)
+    for (const TimeFunction::Point& p : function.table)
+      if (p.time > stage.begin && p.time < stage.end) times.push_back(p.time);
+  for (const double t : times) {
+    const std::array<double, 3> now{functions[0](t), functions[1](t), functions[2](t)};
+    const double size = std::hypot(now[0], now[1], now[2]);
+    if (size <= most) continue;
+    most = size;
+    found = now;
+  }
+  return found;
+}
+
 Condition constraint(const Document& document, const case_::Constraint& given, Condition row, const Interval& stage) {
   using enum case_::ConstraintKind;
   row.target = QString::fromStdString(given.group);
@@ -39,6 +59,8 @@ Condition constraint(const Document& document, const case_::Constraint& given, C
   row.type = text(key);
   row.value = shown(document, row.path + "." + key);
   row.unit = given.kind == velocity ? "m/s" : "m";
+  row.axes = given.axes;
+  if (given.kind != fixed) row.largest = largest_of(given.value, stage);
   if (given.kind == fixed) return row;
   for (std::size_t a = 0; a < 3; ++a)
     if (given.axes[a]) row.curves.push_back(curve(QString("%1 %2").arg(row.type, kAxes[a]), given.value[a], stage));
@@ -50,18 +72,28 @@ Condition pressure(const Document& document, const case_::Pressure& given, Condi
   row.type = text("pressure");
   row.value = shown(document, row.path + ".value");
   row.unit = "Pa";
+  row.largest = largest_of({given.value, TimeFunction(), TimeFunction()}, stage);
   row.curves = {curve(row.type, given.value, stage)};
   return row;
 }
 
-void add_stage(const Document& document, const case_::Stage& stage, const QString& path, const QString& name,
-               const Interval& time, std::vector<Condition>& rows) {
-  const auto begun = [&](const QString& own) { return Condition{own, name, {}, {}, {}, {}, {}}; };
+void add_stage(const Document& document, const case_::Stage& stage, int number, const Interval& time,
+               std::vector<Condition>& rows) {
+  const QString path = QString("stage[%1]").arg(number);
+  const QString name = stage.name.empty() ? QString::number(number + 1) : QString::fromStdString(stage.name);
+  const auto begun = [&](const QString& own) {
+    Condition row;
+    row.path = own;
+    row.stage = name;
+    row.number = number;
+    return row;
+  };
   if (std::any_of(stage.gravity.begin(), stage.gravity.end(), [](const TimeFunction& f) { return !f.is_zero(); })) {
     Condition row = begun(path);
     row.type = text("gravity");
     row.value = shown(document, path + ".gravity");
     row.unit = "m/s2";
+    row.largest = largest_of(stage.gravity, time);
     for (std::size_t a = 0; a < 3; ++a)
       if (!stage.gravity[a].is_zero())
         row.curves.push_back(curve(QString("%1 %2").arg(row.type, kAxes[a]), stage.gravity[a], time));
@@ -73,28 +105,32 @@ void add_stage(const Document& document, const case_::Stage& stage, const QStrin
     rows.push_back(pressure(document, stage.pressures[i], begun(path + QString(".pressure[%1]").arg(i)), time));
 }
 
+Condition initial_velocity(const Document& document, const case_::InitialVelocity& given, const QString& path) {
+  Condition row;
+  row.path = path;
+  row.type = text("initial velocity");
+  row.target = QString::fromStdString(given.group);
+  row.value = shown(document, path + ".velocity");
+  row.unit = "m/s";
+  for (std::size_t a = 0; a < 3; ++a) {
+    row.largest[a] = given.velocity[static_cast<Eigen::Index>(a)];
+    row.turns_by[a] = given.angular[static_cast<Eigen::Index>(a)];
+  }
+  return row;
+}
+
 }  // namespace
 
 std::vector<Condition> conditions_of(const Document& document) {
   std::vector<Condition> rows;
   try {
     const case_::Case input = case_::read_case_text(document.text().toStdString(), document.file().toStdString());
-    for (int i = 0; i < document.places().count("initial_velocity"); ++i) {
-      const QString path = QString("initial_velocity[%1]").arg(i);
-      rows.push_back({path,
-                      {},
-                      text("initial velocity"),
-                      shown(document, path + ".group"),
-                      shown(document, path + ".velocity"),
-                      "m/s",
-                      {}});
-    }
+    for (std::size_t i = 0; i < input.initial_velocities.size(); ++i)
+      rows.push_back(initial_velocity(document, input.initial_velocities[i], QString("initial_velocity[%1]").arg(i)));
     Interval time;
     for (std::size_t s = 0; s < input.stages.size(); ++s) {
-      const case_::Stage& stage = input.stages[s];
-      time = {time.end, stage.end};
-      const QString name = stage.name.empty() ? QString::number(s + 1) : QString::fromStdString(stage.name);
-      add_stage(document, stage, QString("stage[%1]").arg(s), name, time, rows);
+      time = {time.end, input.stages[s].end};
+      add_stage(document, input.stages[s], static_cast<int>(s), time, rows);
     }
   } catch (const InputError&) {
     return {};

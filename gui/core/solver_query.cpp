@@ -19,11 +19,12 @@ std::vector<Problem> problems_of(const QJsonObject& json) {
 
 }  // namespace
 
-SolverQuery::SolverQuery(QObject* parent) : QObject(parent) {}
+SolverQuery::SolverQuery(QObject* parent) : QObject(parent), reading_([this](const Answer& answer) { tell(answer); }) {}
 
 SolverQuery::~SolverQuery() { cancel(); }
 
 void SolverQuery::cancel() {
+  reading_.forget();
   if (process_ == nullptr) return;
   QProcess* process = process_;
   process_ = nullptr;
@@ -50,15 +51,21 @@ void SolverQuery::finish(QProcess* process) {
   if (process != process_) return;
   process_ = nullptr;
   process->deleteLater();
-  const QJsonObject json = QJsonDocument::fromJson(process->readAllStandardOutput()).object();
-  const bool good = process->exitStatus() == QProcess::NormalExit && process->exitCode() == 0 && !json.isEmpty();
-  if (good) {
-    emit answered(json);
+  const bool good = process->exitStatus() == QProcess::NormalExit && process->exitCode() == 0;
+  reading_.start([output = process->readAllStandardOutput(), errors = process->readAllStandardError(),
+                  fault = process->errorString(), good] {
+    const QJsonObject json = QJsonDocument::fromJson(output).object();
+    return Answer{json, good && !json.isEmpty(), QString::fromUtf8(errors).trimmed(), fault};
+  });
+}
+
+void SolverQuery::tell(const Answer& answer) {
+  if (answer.good) {
+    emit answered(answer.json);
     return;
   }
-  const std::vector<Problem> problems = problems_of(json);
-  QString text = QString::fromUtf8(process->readAllStandardError()).trimmed();
-  if (text.isEmpty()) text = process->errorString();
+  const std::vector<Problem> problems = problems_of(answer.json);
+  const QString text = answer.errors.isEmpty() ? answer.fault : answer.errors;
   emit failed(problems.empty() ? text : QString(), problems);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "core/newest_task.hpp"
 
 namespace breccia::gui {
 
@@ -19,7 +20,7 @@ class SolverQuery final : public QObject {
 
   void ask(const QString& program, const QStringList& arguments);
   void cancel();
-  [[nodiscard]] bool busy() const { return process_ != nullptr; }
+  [[nodiscard]] bool busy() const { return process_ != nullptr || reading_.busy(); }
 
  signals:
   void answered(const QJsonObject& json);
@@ -27,8 +28,15 @@ class SolverQuery final : public QObject {
   void failed(const QString& text, const std::vector<breccia::Problem>& problems);
 
  private:
+  struct Answer {
+    QJsonObject json;
+    bool good = false;
+    QString errors, fault;  ///< of the program; of the process
+  };
   void finish(QProcess* process);
+  void tell(const Answer& answer);
   QProcess* process_ = nullptr;
+  NewestTask<Answer> reading_;  ///< that of a large mesh takes longer than the window may wait
 };
 
 }  // namespace breccia::gui

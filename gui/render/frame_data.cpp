@@ -59,7 +59,8 @@ std::vector<std::int64_t> places_of(vtkUnstructuredGrid& grid, vtkDataArray* dis
   return place;
 }
 
-double value(vtkDataArray* array, vtkIdType i) { return array == nullptr ? 0.0 : array->GetTuple1(i); }
+/// Unlike GetTuple1 this may be called from several threads.
+double value(vtkDataArray* array, vtkIdType i) { return array == nullptr ? 0.0 : array->GetComponent(i, 0); }
 
 }  // namespace
 
@@ -84,7 +85,7 @@ Skin::Skin(vtkUnstructuredGrid& rest) {
   std::vector<Side> sides;
   sides.reserve(static_cast<std::size_t>(4 * rest.GetNumberOfCells()));
   for (vtkIdType c = 0; c < rest.GetNumberOfCells(); ++c) {
-    const std::int64_t element = id == nullptr ? c : static_cast<std::int64_t>(id->GetTuple1(c));
+    const std::int64_t element = id == nullptr ? c : static_cast<std::int64_t>(value(id, c));
     for (int f = 0; f < 4; ++f) {
       const auto place_of = [&](std::int8_t corner) { return place[static_cast<std::size_t>(4 * c + corner)]; };
       std::array<std::int8_t, 3> order{};
@@ -114,14 +115,14 @@ namespace {
 /// Triangles of element faces with the arrays of their elements.
 class FaceWriter {
  public:
-  explicit FaceWriter(vtkUnstructuredGrid& elements) : elements_(elements) {
+  FaceWriter(vtkUnstructuredGrid& elements, bool arrays) : elements_(elements), arrays_(arrays) {
     vtkDataArray* id = elements.GetCellData()->GetArray("id");
     for (vtkIdType c = 0; c < elements.GetNumberOfCells(); ++c) {
-      const auto own = static_cast<std::size_t>(id == nullptr ? static_cast<double>(c) : id->GetTuple1(c));
+      const auto own = static_cast<std::size_t>(id == nullptr ? static_cast<double>(c) : value(id, c));
       if (row_.size() <= own) row_.resize(own + 1, -1);
       row_[own] = c;
     }
-    skin_->GetCellData()->CopyAllocate(elements.GetCellData());
+    if (arrays_) skin_->GetCellData()->CopyAllocate(elements.GetCellData());
   }
 
   /// Its place in the frame; -1: the frame has no such element.
@@ -137,6 +138,7 @@ class FaceWriter {
       corners[i] =
           points_->InsertNextPoint(at(elements_, 4 * c + kTetraFaces[static_cast<std::size_t>(side)][i]).data());
     const vtkIdType cell = triangles_->InsertNextCell(3, corners.data());
+    if (!arrays_) return;
     skin_->GetCellData()->CopyData(elements_.GetCellData(), c, cell);
     sides_->InsertNextValue(static_cast<signed char>(side));
   }
@@ -144,6 +146,7 @@ class FaceWriter {
   [[nodiscard]] vtkSmartPointer<vtkPolyData> take() {
     skin_->SetPoints(points_);
     skin_->SetPolys(triangles_);
+    if (!arrays_) return skin_;
     sides_->SetName("side");
     skin_->GetCellData()->AddArray(sides_);
     return skin_;
@@ -151,6 +154,7 @@ class FaceWriter {
 
  private:
   vtkUnstructuredGrid& elements_;
+  bool arrays_;
   std::vector<vtkIdType> row_;
   vtkSmartPointer<vtkPolyData> skin_ = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> points_;
@@ -182,22 +186,40 @@ vtkSmartPointer<vtkPolyData> cracks_of(vtkUnstructuredGrid& joints) {
   return cracks;
 }
 
+/// Whether two faces that rest on each other are that no more. @param a, b  rows of their elements
+bool are_apart(vtkUnstructuredGrid& elements, vtkIdType a, const std::array<std::int8_t, 3>& in_a, vtkIdType b,
+               const std::array<std::int8_t, 3>& in_b) {
+  const double edge = squared_distance(at(elements, 4 * a + in_a[0]), at(elements, 4 * a + in_a[1]));
+  for (std::size_t i = 0; i < 3; ++i)
+    if (squared_distance(at(elements, 4 * a + in_a[i]), at(elements, 4 * b + in_b[i])) > kApart * kApart * edge)
+      return true;
+  return false;
+}
+
 }  // namespace
 
 vtkSmartPointer<vtkPolyData> Skin::draw(vtkUnstructuredGrid& elements) const {
-  FaceWriter writer(elements);
+  FaceWriter writer(elements, true);
   for (const Face& face : outer_) writer.add(writer.row(face.element), face.side);
   for (const auto& [a, b] : inner_) {
     const vtkIdType in_a = writer.row(a.element), in_b = writer.row(b.element);
-    if (in_a < 0 || in_b < 0) continue;
-    const auto corner = [&](vtkIdType c, const Face& face, std::size_t i) {
-      return at(elements, 4 * c + face.order[i]);
-    };
-    const double edge = squared_distance(corner(in_a, a, 0), corner(in_a, a, 1));
-    bool apart = false;
-    for (std::size_t i = 0; i < 3; ++i)
-      apart = apart || squared_distance(corner(in_a, a, i), corner(in_b, b, i)) > kApart * kApart * edge;
-    if (!apart) continue;
+    if (in_a < 0 || in_b < 0 || !are_apart(elements, in_a, a.order, in_b, b.order)) continue;
+    writer.add(in_a, a.side);
+    writer.add(in_b, b.side);
+  }
+  return writer.take();
+}
+
+vtkSmartPointer<vtkPolyData> Skin::draw_part(vtkUnstructuredGrid& elements, const std::vector<bool>& chosen) const {
+  FaceWriter writer(elements, false);
+  const auto row = [&](const Face& face) {
+    const vtkIdType found = writer.row(face.element);
+    return found >= 0 && chosen[static_cast<std::size_t>(found)] ? found : -1;
+  };
+  for (const Face& face : outer_) writer.add(row(face), face.side);
+  for (const auto& [a, b] : inner_) {
+    const vtkIdType in_a = row(a), in_b = row(b);
+    if (in_a >= 0 && in_b >= 0 && !are_apart(elements, in_a, a.order, in_b, b.order)) continue;
     writer.add(in_a, a.side);
     writer.add(in_b, b.side);
   }
@@ -212,9 +234,11 @@ FrameData load_frame(const std::string& elements_file, const std::string& joints
   if (elements == nullptr) return frame;
   if (faces == nullptr) faces = std::make_shared<Skin>(*elements);
   frame.faces = faces;
+  frame.elements = elements;
   frame.skin = faces->draw(*elements);
   if (joints_file.empty()) return frame;
   if (const auto joints = read_vtkhdf(joints_file); joints != nullptr && joints->GetNumberOfCells() > 0) {
+    frame.joints = joints;
     frame.broken = cracks_of(*joints);
   }
   return frame;

@@ -31,6 +31,10 @@ class Skin {
   /// The faces as triangles with the arrays of their elements and, as "side", the face of the element.
   /// @param elements  any frame of the same model
   [[nodiscard]] vtkSmartPointer<vtkPolyData> draw(vtkUnstructuredGrid& elements) const;
+  /// What is seen of a part alone: faces of the chosen elements but for those that two of them share. No arrays.
+  /// @param chosen  by row of the frame
+  [[nodiscard]] vtkSmartPointer<vtkPolyData> draw_part(vtkUnstructuredGrid& elements,
+                                                       const std::vector<bool>& chosen) const;
   [[nodiscard]] std::size_t num_outer() const { return outer_.size(); }
   [[nodiscard]] std::size_t num_inner() const { return inner_.size(); }
 
@@ -44,12 +48,20 @@ class Skin {
   std::vector<std::array<Face, 2>> inner_;  ///< two that rest on each other
 };
 
+/// The surface groups of a mesh: what a pick finds and a row shows.
+struct SurfaceGroups {
+  std::vector<std::string> names;
+  std::vector<std::vector<std::int64_t>> faces;  ///< of each: 4 * id of the element + side
+};
+
 /// One instant, ready to be drawn.
 struct FrameData {
   double time = 0;
-  vtkSmartPointer<vtkPolyData> skin;    ///< nullptr: could not be read
-  vtkSmartPointer<vtkPolyData> broken;  ///< triangles of the joints that carry damage
-  std::shared_ptr<const Skin> faces;    ///< of this model, for the next frame
+  vtkSmartPointer<vtkPolyData> skin;              ///< nullptr: could not be read
+  vtkSmartPointer<vtkPolyData> broken;            ///< triangles of the joints that carry damage
+  std::shared_ptr<const Skin> faces;              ///< of this model, for the next frame
+  vtkSmartPointer<vtkUnstructuredGrid> elements;  ///< all of them; only read once the frame is told
+  vtkSmartPointer<vtkUnstructuredGrid> joints;    ///< all that carry damage, as the elements; nullptr: none
 };
 
 /// @param joints_file  empty: none is there

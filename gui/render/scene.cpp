@@ -39,6 +39,9 @@ constexpr std::array<Colour, 5> kRamp{{{0.267, 0.005, 0.329},
 
 constexpr const char* kShown = "shown";
 
+/// Faces that are still told apart by their edges, and quickly drawn with them.
+constexpr vtkIdType kMostWithEdges = 50000;
+
 void fill_ramp(vtkLookupTable& table) {
   constexpr int kSteps = 128;
   table.SetNumberOfTableValues(kSteps);
@@ -89,7 +92,6 @@ Scene::Scene() {
   marked_->SetMapper(marked_mapper_);
   marked_->GetProperty()->SetColor(0.84, 0.37, 0);
   marked_->GetProperty()->SetAmbient(0.35);
-  marked_->GetProperty()->EdgeVisibilityOn();
   marked_->VisibilityOff();
   chosen_->SetMapper(chosen_mapper_);
   chosen_->GetProperty()->SetColor(0.84, 0.37, 0);
@@ -140,6 +142,7 @@ Scene::Scene() {
 
 void Scene::clear() {
   frame_ = {};
+  draw_loads();
   mark(nullptr);
   for (vtkProp* prop : {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(chosen_),
                         static_cast<vtkProp*>(legend_), static_cast<vtkProp*>(mode_legend_)})
@@ -159,6 +162,7 @@ void Scene::show(const FrameData& frame) {
   broken_->SetVisibility(broken);
   mode_legend_->SetVisibility(broken);
   if (broken) broken_mapper_->SetInputData(frame_.broken);
+  draw_loads();
   if (first) reset_camera();
 }
 
@@ -226,6 +230,7 @@ vtkIdType Scene::num_chosen() const {
 void Scene::set_explode(double share) {
   explode_ = share;
   if (has_data()) colour();
+  draw_loads();
 }
 
 void Scene::show_edges(bool on) { skin_->GetProperty()->SetEdgeVisibility(on); }
@@ -237,6 +242,7 @@ void Scene::show_skin(bool on) {
 
 void Scene::mark(vtkPolyData* faces) {
   marked_mapper_->SetInputData(faces);
+  marked_->GetProperty()->SetEdgeVisibility(faces != nullptr && faces->GetNumberOfPolys() <= kMostWithEdges);
   marked_->SetVisibility(faces != nullptr);
   set_opacity();
 }
@@ -245,7 +251,12 @@ vtkIdType Scene::num_marked() const {
   return marked_->GetVisibility() != 0 ? marked_mapper_->GetInput()->GetNumberOfPolys() : 0;
 }
 
-void Scene::set_opacity() { skin_->GetProperty()->SetOpacity(solid_ && marked_->GetVisibility() == 0 ? 1.0 : 0.15); }
+void Scene::set_opacity() {
+  constexpr double kSeenThrough = 0.15;
+  const bool marks = marked_->GetVisibility() != 0;
+  skin_->GetProperty()->SetOpacity(solid_ && !marks ? 1.0 : kSeenThrough);
+  broken_->GetProperty()->SetOpacity(marks ? kSeenThrough : 1.0);
+}
 
 Scene::Picked Scene::picked_at(double x, double y) const {
   vtkNew<vtkCellPicker> picker;
@@ -267,6 +278,8 @@ Scene::Picked Scene::picked_at(double x, double y) const {
 void Scene::set_caption(const std::string& text) { caption_->SetInput(text.c_str()); }
 
 void Scene::set_dark(bool dark) {
+  dark_ = dark;
+  draw_loads();
   const double low = dark ? 0.10 : 0.86, high = dark ? 0.20 : 0.98, ink = dark ? 0.92 : 0.1;
   renderer_->GradientBackgroundOn();
   renderer_->SetBackground(low, low, low + 0.02);

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "render/frame_data.hpp"
+#include "render/load_glyphs.hpp"
 
 namespace breccia::gui {
 
@@ -25,12 +26,6 @@ enum class Colouring { group, body, fragment, rank, speed, von_mises, tension };
 
 /// The colourings with their names for people, units among them.
 [[nodiscard]] const std::vector<std::pair<Colouring, std::string>>& colourings();
-
-/// The surface groups of a mesh: what a pick finds and a row shows.
-struct SurfaceGroups {
-  std::vector<std::string> names;
-  std::vector<std::vector<std::int64_t>> faces;  ///< of each: 4 * id of the element + side
-};
 
 /// The 3D picture: skin of the bodies, damaged joints by mode, legend, title. Colours are told apart by a legend in
 /// words as well.
@@ -66,6 +61,11 @@ class Scene {
   /// Draws these faces and looks through the others at them; nullptr: none.
   void mark(vtkPolyData* faces);
   [[nodiscard]] vtkIdType num_marked() const;
+  /// Loads and constraints as glyphs with their words, at the places of their groups.
+  void set_loads(std::vector<Load> loads);
+  void show_loads(bool on);
+  /// Glyphs that are drawn.
+  [[nodiscard]] int num_glyphs() const { return num_glyphs_; }
   void show_edges(bool on);
   void show_skin(bool on);
   void set_dark(bool dark);
@@ -81,6 +81,7 @@ class Scene {
  private:
   void colour();
   void draw_chosen();
+  void draw_loads();
   [[nodiscard]] std::int64_t face_of(vtkIdType cell) const;
   void set_opacity();
   void colour_by_class(const char* array, const std::vector<std::string>& names, const char* title);
@@ -98,10 +99,14 @@ class Scene {
   std::set<std::string> highlighted_;
   SurfaceGroups surfaces_;
   std::unordered_map<std::int64_t, std::vector<std::size_t>> groups_of_face_;
+  std::vector<Load> loads_;
+  std::vector<vtkSmartPointer<vtkActor>> glyphs_;
+  std::vector<vtkSmartPointer<vtkTextActor>> words_;
   Colouring colouring_ = Colouring::group;
   double explode_ = 0;
+  int num_glyphs_ = 0;
   std::array<double, 2> range_{0, 1};
-  bool hold_ = false, solid_ = true;
+  bool hold_ = false, solid_ = true, dark_ = false, shows_loads_ = true;
 };
 
 }  // namespace breccia::gui

@@ -21,12 +21,12 @@
 #include "widgets/contact_matrix.hpp"
 #include "widgets/domains_panel.hpp"
 #include "widgets/frame_loader.hpp"
+#include "widgets/histogram_panel.hpp"
 #include "widgets/joint_plot.hpp"
 #include "widgets/named_button.hpp"
 #include "widgets/plots_panel.hpp"
 #include "widgets/problems_panel.hpp"
 #include "widgets/property_form.hpp"
-#include "widgets/quality_panel.hpp"
 #include "widgets/queue_panel.hpp"
 #include "widgets/results_panel.hpp"
 #include "widgets/run_panel.hpp"
@@ -67,7 +67,7 @@ MainWindow::MainWindow(Places places, QWidget* parent)
 
 MainWindow::~MainWindow() = default;
 
-bool MainWindow::busy() const { return queries_.busy() || import_.busy() || loader_->busy(); }
+bool MainWindow::busy() const { return queries_.busy() || import_.busy() || loader_->busy() || histogram_->busy(); }
 
 void MainWindow::make_panels() {
   start_ = new StartPage(places_);
@@ -80,7 +80,7 @@ void MainWindow::make_panels() {
   joint_plot_ = new JointPlot;
   contacts_ = new ContactMatrix(document_);
   conditions_ = new ConditionsPanel;
-  quality_ = new QualityPanel;
+  histogram_ = new HistogramPanel;
   run_panel_ = new RunPanel;
   runs_panel_ = new RunsPanel;
   queue_panel_ = new QueuePanel(queue_);
@@ -161,12 +161,12 @@ void MainWindow::make_docks() {
   add_dock(runs_panel_, tr("Runs"), "dock_runs", Qt::BottomDockWidgetArea);
   add_dock(queue_panel_, tr("Queue"), "dock_queue", Qt::BottomDockWidgetArea);
   add_dock(study_panel_, tr("Study"), "dock_study", Qt::BottomDockWidgetArea);
-  add_dock(quality_, tr("Quality"), "dock_quality", Qt::BottomDockWidgetArea);
+  add_dock(histogram_, tr("Histogram"), "dock_histogram", Qt::BottomDockWidgetArea);
   add_dock(conditions_, tr("Conditions"), "dock_conditions", Qt::BottomDockWidgetArea);
   add_dock(contacts_, tr("Contacts"), "dock_contacts", Qt::BottomDockWidgetArea);
   add_dock(joint_plot_, tr("Joint law"), "dock_law", Qt::BottomDockWidgetArea);
   auto* first = findChild<QDockWidget*>("dock_messages");
-  for (const char* name : {"dock_plots", "dock_text", "dock_runs", "dock_queue", "dock_study", "dock_quality",
+  for (const char* name : {"dock_plots", "dock_text", "dock_runs", "dock_queue", "dock_study", "dock_histogram",
                            "dock_conditions", "dock_law", "dock_contacts"})
     tabifyDockWidget(first, findChild<QDockWidget*>(name));
   first->raise();
@@ -241,10 +241,11 @@ void MainWindow::join_panels() {
   const auto show_entry = [this](const QString& path) { tree_->select(stage_of(path.toStdString()), path); };
   connect(contacts_, &ContactMatrix::entry_wanted, this, show_entry);
   connect(contacts_, &ContactMatrix::group_entered, this, show_group);
-  connect(quality_, &QualityPanel::elements_chosen, this, &MainWindow::show_elements);
+  connect(histogram_, &HistogramPanel::elements_chosen, this, &MainWindow::show_elements);
   connect(conditions_, &ConditionsPanel::entry_wanted, this, show_entry);
   connect(conditions_, &ConditionsPanel::groups_chosen, this, &MainWindow::show_groups);
   connect(form_, &PropertyForm::pick_wanted, view_, &View3D::set_picking);
+  connect(view_, &View3D::colouring_changed, histogram_, &HistogramPanel::follow);
   connect(view_, &View3D::picked, this, &MainWindow::picked);
   connect(run_panel_, &RunPanel::run_wanted, this, &MainWindow::start_run);
   connect(run_panel_, &RunPanel::queue_wanted, this, &MainWindow::queue_run);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/case_queries.hpp"
+#include "core/conditions.hpp"
 #include "core/document.hpp"
 #include "core/material_library.hpp"
 #include "core/places.hpp"
@@ -32,7 +33,7 @@ class JointPlot;
 class PlotsPanel;
 class ProblemsPanel;
 class PropertyForm;
-class QualityPanel;
+class HistogramPanel;
 class QueuePanel;
 class ResultsPanel;
 class RunPanel;
@@ -89,6 +90,7 @@ class MainWindow final : public QMainWindow {
   void show_joint_law();
   void picked(const Scene::Picked& what);
   void show_groups(const QStringList& groups);
+  void show_loads();
   void take_from_library();
   void add_to_library();
 
@@ -100,6 +102,7 @@ class MainWindow final : public QMainWindow {
   // main_window_answers.cpp: what the solver says of the case
   void show_check(const QJsonObject& json);
   void show_mesh(const QJsonObject& json, const QString& elements_file);
+  void load_mesh();
   void show_elements(vtkPolyData* faces, const QString& words);
   void show_division(const QJsonObject& json);
   void query_failed(const QString& what, const QString& text, const std::vector<Problem>& problems);
@@ -159,8 +162,10 @@ class MainWindow final : public QMainWindow {
   std::vector<int> owner_;  ///< rank of each element of the preview
   FrameData preview_frame_;
   bool showing_results_ = false, run_when_checked_ = false;
-  QJsonArray laws_;    ///< of joints, as last told
-  QString mesh_text_;  ///< what the preview was made of
+  std::vector<Condition> loads_;  ///< of the case, as last read
+  QJsonArray laws_;               ///< of joints, as last told
+  QString mesh_text_;             ///< what the preview was made of
+  QString mesh_file_;             ///< its elements, while they have not been asked for; empty: they have
 
   StartPage* start_ = nullptr;
   CaseTree* tree_ = nullptr;
@@ -171,7 +176,7 @@ class MainWindow final : public QMainWindow {
   ProblemsPanel* messages_ = nullptr;
   RunPanel* run_panel_ = nullptr;
   RunsPanel* runs_panel_ = nullptr;
-  QualityPanel* quality_ = nullptr;
+  HistogramPanel* histogram_ = nullptr;
   QueuePanel* queue_panel_ = nullptr;
   StudyPanel* study_panel_ = nullptr;
   DomainsPanel* domains_ = nullptr;

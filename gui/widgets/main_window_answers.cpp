@@ -1,13 +1,14 @@
 #include <QJsonArray>
 #include <QLabel>
+#include <utility>
 
 #include "widgets/animation_export.hpp"
 #include "widgets/domains_panel.hpp"
 #include "widgets/frame_loader.hpp"
+#include "widgets/histogram_panel.hpp"
 #include "widgets/main_window.hpp"
 #include "widgets/problems_panel.hpp"
 #include "widgets/property_form.hpp"
-#include "widgets/quality_panel.hpp"
 #include "widgets/run_panel.hpp"
 #include "widgets/view3d.hpp"
 
@@ -65,27 +66,27 @@ void MainWindow::show_mesh(const QJsonObject& json, const QString& elements_file
   form_->set_groups(words);
   view_->scene().set_groups(names_of(groups["volumes"].toArray()));
   view_->scene().set_surfaces(surfaces_of(json));
-  mesh_words_->setText(tr("%1 elements, %2 nodes, %3 bodies")
+  const bool one = json["bodies"].toInt() == 1;
+  mesh_words_->setText((one ? tr("%1 elements, %2 nodes, %3 body") : tr("%1 elements, %2 nodes, %3 bodies"))
                            .arg(json["elements"].toInt())
                            .arg(json["nodes"].toInt())
                            .arg(json["bodies"].toInt()));
   owner_.clear();
   preview_frame_ = {};
-  quality_->set_mesh(elements_file);
-  if (showing_results_) return;
+  if (!showing_results_) histogram_->set_frame({}, false);
+  mesh_file_ = elements_file;
+  if (!showing_results_) load_mesh();
+}
+
+void MainWindow::load_mesh() {
   if (animation_ != nullptr) animation_->give_up(tr("the view shows something else"));
   loader_->start_model();
   view_->clear({});
-  loader_->load(elements_file, 0);
+  loader_->load(std::exchange(mesh_file_, {}), 0);
 }
 
-/// Of a bar of the histogram: seen where the mesh at rest is.
-void MainWindow::show_elements(vtkPolyData* faces, const QString& words) {
-  if (showing_results_) return;
-  view_->scene().mark(faces);
-  view_->scene().set_caption((faces == nullptr ? tr("mesh at rest") : words).toStdString());
-  view_->render();
-}
+/// Of a bar of the histogram.
+void MainWindow::show_elements(vtkPolyData* faces, const QString& words) { view_->mark(faces, words); }
 
 void MainWindow::show_division(const QJsonObject& json) {
   domains_->show_division(json);

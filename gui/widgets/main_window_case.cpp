@@ -1,4 +1,5 @@
 #include <QAction>
+#include <QCoreApplication>
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -7,6 +8,7 @@
 #include <QMessageBox>
 #include <QStatusBar>
 #include <array>
+#include <cmath>
 
 #include "core/value_text.hpp"
 #include "widgets/animation_export.hpp"
@@ -15,6 +17,7 @@
 #include "widgets/conditions_panel.hpp"
 #include "widgets/domains_panel.hpp"
 #include "widgets/frame_loader.hpp"
+#include "widgets/histogram_panel.hpp"
 #include "widgets/joint_plot.hpp"
 #include "widgets/library_dialog.hpp"
 #include "widgets/main_window.hpp"
@@ -30,9 +33,37 @@ namespace {
 
 /// The last one is in front.
 constexpr std::array kDocks{"dock_stages", "dock_properties", "dock_plots",    "dock_text",
-                            "dock_runs",   "dock_queue",      "dock_study",    "dock_quality",
+                            "dock_runs",   "dock_queue",      "dock_study",    "dock_histogram",
                             "dock_law",    "dock_conditions", "dock_contacts", "dock_messages"};
 constexpr int kPreviewDelay = 1000;  // ms after the last edit
+
+/// What a condition looks like, with words beside it.
+std::vector<Load> glyphs_of(const Condition& row) {
+  using Vector = std::array<double, 3>;
+  const auto size = [](const Vector& v) { return std::hypot(v[0], v[1], v[2]); };
+  const QString largest = row.type + " " + quantity_words(size(row.largest), row.unit);
+  Load load{LoadShape::arrow, row.target.toStdString(), row.largest, {}, largest.toStdString()};
+  if (row.unit == "Pa") {
+    load.shape = LoadShape::pressure;
+    load.words = (row.type + " " + quantity_words(row.largest[0], row.unit)).toStdString();
+  } else if (row.number < 0) {
+    load.shape = LoadShape::double_arrow;
+  } else if (!row.target.isEmpty() && !(size(row.largest) > 0)) {  // held, or moved by nothing
+    load.shape = LoadShape::support;
+    load.axes = row.axes;
+    load.words = (row.type + " " + row.value).toStdString();
+  }
+  std::vector<Load> loads{load};
+  if (row.number < 0 && size(row.turns_by) > 0) {
+    const QString words = QCoreApplication::translate("conditions", "turns by %1 about this axis");
+    loads.push_back({LoadShape::double_arrow,
+                     load.group,
+                     row.turns_by,
+                     {},
+                     words.arg(quantity_words(size(row.turns_by), "rad/s")).toStdString()});
+  }
+  return loads;
+}
 
 }  // namespace
 
@@ -43,8 +74,11 @@ void MainWindow::show_start() {
 }
 
 void MainWindow::show_workspace() {
+  setAnimated(false);  // each step of it would draw the view anew
+  for (const char* name : kDocks) findChild<QWidget*>(name)->show();
+  show_dock(kDocks.back());
   centre_->setCurrentWidget(view_);
-  for (const char* name : kDocks) show_dock(name);
+  setAnimated(true);
 }
 
 void MainWindow::open_template(int number, bool run_it) {
@@ -78,6 +112,7 @@ void MainWindow::open_case(const QString& file) {
   preview_frame_ = {};
   owner_.clear();
   mesh_text_.clear();
+  mesh_file_.clear();
   laws_ = {};
   run_panel_->set_estimate(tr("Not checked yet."));
   messages_->set_advice({});
@@ -162,7 +197,11 @@ void MainWindow::validate() {
   run_action_->setEnabled(problems_.empty());
   queue_action_->setEnabled(problems_.empty());
   run_action_->setText(run_words(static_cast<int>(problems_.size())));
-  if (problems_.empty()) conditions_->show_conditions(conditions_of(document_));
+  if (problems_.empty()) {
+    loads_ = conditions_of(document_);
+    conditions_->show_conditions(loads_);
+    show_loads();
+  }
   // The preview follows what the mesh is made of, and the groups, which materials name.
   QString source;
   for (const Place& place : document_.places().all())
@@ -198,6 +237,7 @@ void MainWindow::stage_selected(int stage, const QString& path) {
     if (problems_.empty() && !queries_.busy() && run_ == nullptr) queries_.check();
     if (run_ != nullptr) show_dock("dock_plots");
   }
+  show_loads();
   const bool results = run_ != nullptr && chosen.kind != Kind::sections;
   if (results == showing_results_) return;
   showing_results_ = results;
@@ -208,8 +248,11 @@ void MainWindow::stage_selected(int stage, const QString& path) {
     results_->set_frames(run_->frames());
     if (!results_->follows() && !run_->frames().empty())
       loader_->load(run_->frames().back().file, run_->frames().back().time);
+  } else if (!mesh_file_.isEmpty()) {
+    load_mesh();
   } else if (preview_frame_.skin != nullptr) {
     view_->show_frame(preview_frame_, tr("mesh at rest"));
+    histogram_->set_frame(preview_frame_, false);
   }
 }
 
@@ -248,6 +291,21 @@ void MainWindow::show_groups(const QStringList& groups) {
   for (const QString& group : groups) names.push_back(group.toStdString());
   view_->scene().highlight(names);
   view_->render();
+}
+
+/// Those of the stage in hand are seen while its form is.
+void MainWindow::show_loads() {
+  const QString path = form_->section();
+  std::vector<Load> seen;
+  const bool begins = path.startsWith("initial_velocity["), in_stage = path.startsWith("stage[");
+  const int stage = in_stage ? path.section('[', 1).section(']', 0, 0).toInt() : 0;
+  for (const Condition& row : loads_) {
+    const bool in_hand = row.number == stage || (row.number < 0 && stage == 0);
+    if ((!begins && !in_stage) || side_->currentIndex() != 0 || !in_hand) continue;
+    const std::vector<Load> own = glyphs_of(row);
+    seen.insert(seen.end(), own.begin(), own.end());
+  }
+  view_->set_loads(std::move(seen));
 }
 
 /// A click takes a group into the field that waits for one; else it leads to the conditions on the face where those are

@@ -13,6 +13,7 @@
 #include "widgets/case_tree.hpp"
 #include "widgets/domains_panel.hpp"
 #include "widgets/frame_loader.hpp"
+#include "widgets/histogram_panel.hpp"
 #include "widgets/main_window.hpp"
 #include "widgets/plots_panel.hpp"
 #include "widgets/property_form.hpp"
@@ -199,9 +200,11 @@ void MainWindow::show_frame(const FrameData& frame) {
     preview_frame_ = frame;
     if (!owner_.empty()) set_ranks(*preview_frame_.skin, owner_);
     view_->show_frame(preview_frame_, tr("mesh at rest"));
+    histogram_->set_frame(preview_frame_, false);
     return;
   }
   view_->show_frame(frame, tr("time %1").arg(quantity_words(frame.time, "s")));
+  histogram_->set_frame(frame, true);
   if (animation_ != nullptr) animation_->take(frame.time, view_->picture());
 }
 

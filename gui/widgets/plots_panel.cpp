@@ -42,12 +42,43 @@ void add_other(std::vector<Curve>& curves, const QString& run, const History& hi
 
 }  // namespace
 
-PlotsPanel::PlotsPanel(QWidget* parent) : QWidget(parent) {
+PlotsPanel::PlotsPanel(QWidget* parent)
+    : QWidget(parent),
+      energies_canvas_(canvas(energies_window_, energies_, tr("Energies [J] over time [us]"))),
+      breaking_canvas_(canvas(breaking_window_, breaking_, tr("Broken joints and fragments over time [us]"))) {
   setObjectName("plots");
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(2, 2, 2, 2);
-  row->addWidget(canvas(energies_window_, energies_, tr("Energies [J] over time [us]")));
-  row->addWidget(canvas(breaking_window_, breaking_, tr("Broken joints and fragments over time [us]")));
+  for (QWidget* chart : {energies_canvas_, breaking_canvas_}) {
+    row->addWidget(chart);
+    chart->hide();
+  }
+  unfolding_.setSingleShot(true);
+  connect(&unfolding_, &QTimer::timeout, this, &PlotsPanel::unfold);
+}
+
+/// It is in front: a panel behind another one is never painted.
+void PlotsPanel::paintEvent(QPaintEvent* event) {
+  QWidget::paintEvent(event);
+  if (stale_ || energies_canvas_->isHidden()) unfolding_.start(0);
+}
+
+/// OpenGL takes a tenth of a second to begin in each chart: one at a time, and only where they are seen.
+void PlotsPanel::unfold() {
+  for (QWidget* chart : {energies_canvas_, breaking_canvas_}) {
+    if (!chart->isHidden()) continue;
+    chart->show();
+    unfolding_.start(0);
+    return;
+  }
+  render();
+}
+
+void PlotsPanel::render() {
+  stale_ = energies_canvas_->isHidden() || breaking_canvas_->isHidden() || visibleRegion().isEmpty();
+  if (stale_) return;
+  energies_window_->Render();
+  breaking_window_->Render();
 }
 
 void PlotsPanel::show_history(const History& history, const std::vector<std::pair<QString, const History*>>& others) {
@@ -69,15 +100,13 @@ void PlotsPanel::show_history(const History& history, const std::vector<std::pai
     energies_.show(history.values(time), energies, "energy [J]");
     breaking_.show(history.values(time), breaking, "count");
   }
-  energies_window_->Render();
-  breaking_window_->Render();
+  render();
 }
 
 void PlotsPanel::set_dark(bool dark) {
   energies_.set_dark(dark);
   breaking_.set_dark(dark);
-  energies_window_->Render();
-  breaking_window_->Render();
+  render();
 }
 
 int PlotsPanel::num_curves() const { return static_cast<int>(energies_.num_curves() + breaking_.num_curves()); }

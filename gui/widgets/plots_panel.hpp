@@ -4,6 +4,7 @@
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
 
+#include <QTimer>
 #include <QWidget>
 
 #include "core/run_folder.hpp"
@@ -21,9 +22,18 @@ class PlotsPanel final : public QWidget {
   void set_dark(bool dark);
   [[nodiscard]] int num_curves() const;
 
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
  private:
+  void unfold();
+  void render();
+
   HistoryChart energies_, breaking_;
   vtkNew<vtkGenericOpenGLRenderWindow> energies_window_, breaking_window_;
+  QVTKOpenGLNativeWidget *energies_canvas_, *breaking_canvas_;
+  QTimer unfolding_;
+  bool stale_ = false;  ///< the charts have changed since they were drawn
 };
 
 }  // namespace breccia::gui

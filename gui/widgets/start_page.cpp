@@ -1,5 +1,6 @@
 #include "widgets/start_page.hpp"
 
+#include <QDir>
 #include <QFileInfo>
 #include <QGridLayout>
 #include <QLabel>
@@ -7,14 +8,18 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+/// What a static library holds has to be asked for, from outside of any namespace.
+static void take_pictures_of_templates() { Q_INIT_RESOURCE(templates); }
+
 namespace breccia::gui {
 namespace {
 
 constexpr QSize kPicture(200, 130);
 
-/// The picture of a template, or its first letters where it has none.
+/// The picture of a template that comes with the program, the one in its folder, or its title where it has none.
 QIcon icon_of(const Template& t) {
-  QPixmap picture(t.picture);
+  QPixmap picture(picture_of_template(t));
+  if (picture.isNull()) picture = QPixmap(t.picture);
   if (picture.isNull()) {
     picture = QPixmap(kPicture);
     picture.fill(QColor(96, 112, 128));
@@ -25,7 +30,7 @@ QIcon icon_of(const Template& t) {
     painter.setFont(font);
     painter.drawText(picture.rect().adjusted(8, 8, -8, -8), Qt::AlignCenter | Qt::TextWordWrap, t.title);
   }
-  return QIcon(picture.scaled(kPicture, Qt::KeepAspectRatio, Qt::SmoothTransformation));
+  return QIcon(picture);
 }
 
 QListWidget* list(const QString& name, const QString& accessible) {
@@ -37,6 +42,11 @@ QListWidget* list(const QString& name, const QString& accessible) {
 }
 
 }  // namespace
+
+QString picture_of_template(const Template& t) {
+  take_pictures_of_templates();
+  return ":/templates/" + QFileInfo(t.case_file).dir().dirName() + ".png";
+}
 
 StartPage::StartPage(const Places& places, QWidget* parent)
     : QWidget(parent),

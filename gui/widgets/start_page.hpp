@@ -6,6 +6,9 @@
 
 namespace breccia::gui {
 
+/// Its drawing on a clear ground, as a resource; not each template may have one.
+[[nodiscard]] QString picture_of_template(const Template& t);
+
 /// The first thing one sees: templates with pictures, recent cases, runs that were started here.
 class StartPage final : public QWidget {
   Q_OBJECT

@@ -18,6 +18,7 @@ View3D::View3D(QWidget* parent)
       colour_(new QComboBox),
       edges_(new QCheckBox(tr("&Edges"))),
       skin_(new QCheckBox(tr("So&lid"))),
+      loads_(new QCheckBox(tr("Loads"))),
       explode_(new QSlider(Qt::Horizontal)) {
   window_->SetMultiSamples(0);
   canvas_->setRenderWindow(window_);
@@ -39,6 +40,7 @@ View3D::View3D(QWidget* parent)
   connect(colour_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     scene_.set_colouring(static_cast<Colouring>(colour_->currentData().toInt()));
     render();
+    emit colouring_changed(scene_.colouring());
   });
   edges_->setObjectName("edges");
   edges_->setAccessibleName(tr("Edges of elements"));
@@ -53,6 +55,16 @@ View3D::View3D(QWidget* parent)
   skin_->setToolTip(tr("Draw the bodies solid; otherwise one looks through them at the broken joints"));
   connect(skin_, &QCheckBox::toggled, this, [this](bool on) {
     scene_.show_skin(on);
+    render();
+  });
+  loads_->setObjectName("loads");
+  loads_->setChecked(true);
+  loads_->setShortcut(QKeySequence("Ctrl+L"));
+  loads_->setAccessibleName(tr("Loads and constraints"));
+  loads_->setToolTip(
+      tr("Draw the conditions of the stage in hand: arrows for loads and motions, cones for what is held (Ctrl+L)"));
+  connect(loads_, &QCheckBox::toggled, this, [this](bool on) {
+    scene_.show_loads(on);
     render();
   });
   explode_->setObjectName("explode");
@@ -80,6 +92,7 @@ View3D::View3D(QWidget* parent)
   bar->addWidget(colour_);
   bar->addWidget(edges_);
   bar->addWidget(skin_);
+  bar->addWidget(loads_);
   bar->addWidget(new QLabel(tr("Explode")));
   bar->addWidget(explode_);
   bar->addStretch();
@@ -113,16 +126,34 @@ void View3D::set_picking(bool on) {
   if (on) canvas_->setFocus();
 }
 
-void View3D::render() { window_->Render(); }
+/// A call that waits comes before the window is painted, which takes long enough the first time.
+void View3D::render() {
+  if (will_render_) return;
+  will_render_ = true;
+  QMetaObject::invokeMethod(this, &View3D::render_now, Qt::QueuedConnection);
+}
+
+void View3D::render_now() {
+  will_render_ = false;
+  window_->Render();
+}
 
 void View3D::show_frame(const FrameData& frame, const QString& caption) {
   scene_.show(frame);
+  caption_ = caption;
   scene_.set_caption(caption.toStdString());
+  render();
+}
+
+void View3D::mark(vtkPolyData* faces, const QString& words) {
+  scene_.mark(faces);
+  scene_.set_caption((faces == nullptr ? caption_ : words).toStdString());
   render();
 }
 
 void View3D::clear(const QString& caption) {
   scene_.clear();
+  caption_ = caption;
   scene_.set_caption(caption.toStdString());
   render();
 }
@@ -132,13 +163,18 @@ void View3D::set_colouring(Colouring colouring) {
   if (index >= 0) colour_->setCurrentIndex(index);
 }
 
+void View3D::set_loads(std::vector<Load> loads) {
+  scene_.set_loads(std::move(loads));
+  render();
+}
+
 void View3D::set_dark(bool dark) {
   scene_.set_dark(dark);
   render();
 }
 
 QImage View3D::picture() {
-  render();
+  render_now();
   return canvas_->grabFramebuffer();
 }
 

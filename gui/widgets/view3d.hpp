@@ -22,8 +22,14 @@ class View3D final : public QWidget {
   void show_frame(const FrameData& frame, const QString& caption);
   void clear(const QString& caption);
   void set_colouring(Colouring colouring);
+  /// Draws these faces in front of all others, with words for them; nullptr: none, and the caption of the frame.
+  void mark(vtkPolyData* faces, const QString& words);
+  /// Seen as glyphs where that is switched on.
+  void set_loads(std::vector<Load> loads);
   void set_dark(bool dark);
+  /// Soon, once for all that is asked for meanwhile.
   void render();
+  void render_now();
   /// What is drawn now.
   [[nodiscard]] QImage picture();
   /// Shows that a click is waited for.
@@ -36,6 +42,7 @@ class View3D final : public QWidget {
  signals:
   /// It was clicked on, without dragging.
   void picked(const Scene::Picked& what);
+  void colouring_changed(Colouring colouring);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -45,9 +52,11 @@ class View3D final : public QWidget {
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   QVTKOpenGLNativeWidget* canvas_;
   QComboBox* colour_;
-  QCheckBox *edges_, *skin_;
+  QCheckBox *edges_, *skin_, *loads_;
   QSlider* explode_;
+  QString caption_;  ///< of the frame
   QPoint pressed_;
+  bool will_render_ = false;
 };
 
 }  // namespace breccia::gui

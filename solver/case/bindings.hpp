@@ -270,6 +270,24 @@ void bind(A& a, Output& output) {
 }
 
 template <class A>
+void bind(A& a, Region& region) {
+  a.origin(region.origin);
+  a.value("lower", region.lower);
+  a.value("upper", region.upper);
+}
+
+template <class A>
+void bind(A& a, Probe& probe) {
+  a.origin(probe.origin);
+  a.value("name", probe.name);
+  a.value("at", probe.at);
+  a.value("along", probe.along);
+  a.value("points", probe.points);
+  a.value("across", probe.across);
+  a.value("rows", probe.rows);
+}
+
+template <class A>
 void bind(A& a, Pipeline& pipeline) {
   a.origin(pipeline.origin);
   a.value("name", pipeline.name);
@@ -281,6 +299,9 @@ void bind(A& a, Pipeline& pipeline) {
   a.value("strict", pipeline.strict);
   a.value("least_instants", pipeline.least);
   a.value("parameters", pipeline.parameters);
+  a.value("fields", pipeline.fields);
+  a.optional_section("region", pipeline.region);
+  a.list("probe", pipeline.probes);
 }
 
 template <class A>
@@ -291,6 +312,8 @@ void bind(A& a, Live& live) {
   a.value("interval", live.interval);
   a.value("channels", live.channels);
   a.value("max_overhead", live.max_overhead);
+  a.value("fields", live.fields);
+  a.optional_section("region", live.region);
 }
 
 template <class A>

@@ -268,6 +268,32 @@ struct Output {
   friend bool operator==(const Output&, const Output&) = default;
 };
 
+/// A value of insitu.pipeline.parameters: as it is written, number or text. A text that reads as a quantity is both.
+struct Setting {
+  std::optional<double> number;  ///< SI
+  std::optional<std::string> text;
+  friend bool operator==(const Setting&, const Setting&) = default;
+};
+
+/// The closed box in which the centres of the cells lie that are handed to a pipeline, m.
+struct Region {
+  Vec3 lower{0, 0, 0};
+  Vec3 upper{0, 0, 0};
+  Origin origin;
+  friend bool operator==(const Region&, const Region&) = default;
+};
+
+/// [[insitu.pipeline.probe]]: points at + i / (points - 1) along + j / (rows - 1) across, at which fields are recorded.
+struct Probe {
+  std::string name;
+  Vec3 at{0, 0, 0};      ///< m, and so on
+  Vec3 along{0, 0, 0};   ///< of points, 0 for one point
+  Vec3 across{0, 0, 0};  ///< of rows, 0 for one row
+  int points = 1, rows = 1;
+  Origin origin;
+  friend bool operator==(const Probe&, const Probe&) = default;
+};
+
 /// [[insitu.pipeline]]: done with the state while the run goes on, whenever a trigger says so.
 struct Pipeline {
   std::string name;               ///< one of the adaptor's own, or a script: an absolute path
@@ -278,7 +304,10 @@ struct Pipeline {
   bool first_break = false;
   bool strict = false;     ///< whatever it costs
   std::int64_t least = 0;  ///< executions over the whole run, whatever they cost
-  std::map<std::string, double> parameters;
+  std::map<std::string, Setting> parameters;
+  std::optional<Region> region;
+  std::vector<std::string> fields;  ///< empty: all
+  std::vector<Probe> probes;        ///< of "probes" alone
   Origin origin;
   [[nodiscard]] bool has_trigger() const {
     return every_steps > 0 || every_time > 0 || every_wall > 0 || every_broken > 0 || first_break;
@@ -301,6 +330,8 @@ struct Live {
   double interval = 1;  ///< s, wall
   std::vector<std::string> channels;
   double max_overhead = 0.05;  ///< of the wall time
+  std::optional<Region> region;
+  std::vector<std::string> fields;  ///< empty: all
   Origin origin;
   friend bool operator==(const Live&, const Live&) = default;
 };

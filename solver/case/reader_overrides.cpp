@@ -45,8 +45,9 @@ class Setter {
 
  private:
   static bool takes_names(const Key& key) {
-    return key.type == ValueType::parameters || key.type == ValueType::axis_functions ||
-           key.type == ValueType::function || key.type == ValueType::function_vector;
+    return key.type == ValueType::parameters || key.type == ValueType::settings ||
+           key.type == ValueType::axis_functions || key.type == ValueType::function ||
+           key.type == ValueType::function_vector;
   }
 
   void problem(const std::string& what, const std::string& allowed) {

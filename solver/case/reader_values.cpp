@@ -199,6 +199,30 @@ void ValueReader::read(const Key& key, const Node& node, const std::string& path
   }
 }
 
+void ValueReader::read(const Key& key, const Node& node, const std::string& path, std::map<std::string, Setting>& out) {
+  if (!node.is(Node::Kind::table)) return wrong_type(key, node, path);
+  out.clear();
+  for (const auto& [name, value] : node.entries) {
+    const std::string own = path + "." + name;
+    Setting& setting = out[name];
+    if (!value.is(Node::Kind::text)) {
+      double given = 0;
+      if (number(key, value, own, given)) setting.number = given;
+      continue;
+    }
+    if (value.text.find('\0') != std::string::npos) {
+      problem(value, own, "holds a character 0", allowed_text(key), "");
+      continue;
+    }
+    setting.text = value.text;
+    try {
+      setting.number = parse_quantity(value.text).value;
+    } catch (const UnitError&) {
+      // a text, then
+    }
+  }
+}
+
 void ValueReader::read(const Key& key, const Node& node, const std::string& path, std::array<bool, 3>& axes) {
   if (!node.is(Node::Kind::text)) return wrong_type(key, node, path);
   std::array<bool, 3> found{};

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/time_function.hpp"
 #include "base/types.hpp"
+#include "case/case.hpp"
 #include "case/reader_toml.hpp"
 #include "case/schema.hpp"
 
@@ -38,6 +39,7 @@ class ValueReader {
   void read(const Key& key, const Node& node, const std::string& path, Vec3& out);
   void read(const Key& key, const Node& node, const std::string& path, std::array<int, 3>& out);
   void read(const Key& key, const Node& node, const std::string& path, std::map<std::string, double>& out);
+  void read(const Key& key, const Node& node, const std::string& path, std::map<std::string, Setting>& out);
   void read(const Key& key, const Node& node, const std::string& path, TimeFunction& out);
   void read(const Key& key, const Node& node, const std::string& path, std::array<TimeFunction, 3>& out);
   /// Letters of "xyz".

@@ -66,6 +66,8 @@ std::string type_words(const Key& key) {
       return "a table of functions of time, in " + std::string(key.unit) + ", for some of x, y, z";
     case ValueType::parameters:
       return "a table of numbers, or texts with units, under names of your choice";
+    case ValueType::settings:
+      return "a table of numbers, texts with units, or texts, under names of your choice";
     case ValueType::points:
       return "a list of points [time, value], times increasing";
   }

@@ -31,6 +31,7 @@ enum class ValueType {
   function_vector,   ///< three functions of time
   axis_functions,    ///< table with a function of time for some of x, y, z
   parameters,        ///< table of numbers under names of the user's choice
+  settings,          ///< table of numbers and texts under names of the user's choice
   points             ///< list of pairs [time, value]
 };
 

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "case/insitu_fields.hpp"
 #include "case/schema_ranges.hpp"
 
 /// The rows of the table of keys for how a case is run and what is written, and for functions of time.
@@ -132,15 +133,25 @@ inline constexpr auto run_keys = std::to_array<Key>({
      .range = {.lower = 0, .upper = 1, .lower_open = true},
      .help = "Share of the wall time that updates may take; they come more seldom when they would take more.",
      .example = "0.5"},
+    {.path = "insitu.live.fields", .type = text_list, .fallback = "[]", .choices = insitu_fields,
+     .help = "The only arrays that are offered; none: all. The view of `breccia live` colours by von_mises, "
+             "time_of_failure and rank.", .example = "[\"von_mises\", \"time_of_failure\", \"rank\"]"},
+    {.path = "insitu.live.region", .type = section,
+     .help = "A box: cells whose centre lies outside of it are not offered."},
+    {.path = "insitu.live.region.lower", .type = vector, .unit = "m", .required = true, .help = "Its lower corner.",
+     .example = "[0, 0, 0]"},
+    {.path = "insitu.live.region.upper", .type = vector, .unit = "m", .required = true, .help = "Its upper corner.",
+     .example = "[\"10 mm\", \"10 mm\", \"1 mm\"]"},
 
     {.path = "insitu.pipeline[]", .type = section_list,
      .help = "Something to be done with the state while the run goes on. It is done whenever one of its triggers says "
              "so; without any, up to 50 times over the simulated time."},
     {.path = "insitu.pipeline[].name", .type = text, .required = true,
-     .choices = "volume|joints|fractures|contacts|surface|domains|history|fracture_growth|stress|ranks|contact_forces",
-     .help = "volume, joints, fractures, contacts, surface, domains and history record data; fracture_growth, stress, "
-             "ranks and contact_forces draw pictures; a name that ends with .py is a script exported from ParaView, "
-             "relative to the case file.",
+     .choices = "volume|joints|fractures|contacts|surface|domains|history|probes|"
+                "fracture_growth|stress|ranks|contact_forces",
+     .help = "volume, joints, fractures, contacts, surface, domains and history record data; probes records fields "
+             "at points; fracture_growth, stress, ranks and contact_forces draw pictures; a name that ends with "
+             ".py is a script exported from ParaView, relative to the case file.",
      .example = "\"fractures\""},
     {.path = "insitu.pipeline[].every_steps", .type = integer, .fallback = "0", .range = steps,
      .help = "Trigger: every so many steps; 0: not by steps.", .example = "100"},
@@ -157,10 +168,36 @@ inline constexpr auto run_keys = std::to_array<Key>({
      .help = "Every trigger counts, whatever it costs.", .example = "true"},
     {.path = "insitu.pipeline[].least_instants", .type = integer, .fallback = "0", .range = steps,
      .help = "Executed at least so many times over the simulated time, whatever that costs.", .example = "20"},
-    {.path = "insitu.pipeline[].parameters", .type = parameters, .fallback = "{}",
-     .help = "Numbers handed to the pipeline, in SI or with a unit: width, height, azimuth, elevation, zoom, lower, "
-             "upper for pictures; any for scripts.",
-     .example = "{ width = 1280, azimuth = 30 }"},
+    {.path = "insitu.pipeline[].parameters", .type = settings, .fallback = "{}",
+     .help = "Handed to the pipeline: width, height, azimuth, elevation, zoom, lower, upper and title for pictures; "
+             "any numbers, in SI or with a unit, and texts for scripts. A script that asks for a text gets it as it is "
+             "written.",
+     .example = "{ width = 1280, title = \"plate\" }"},
+    {.path = "insitu.pipeline[].fields", .type = text_list, .fallback = "[]", .choices = insitu_fields,
+     .help = "The only arrays that recordings, probes and scripts of yours are handed; none: all.",
+     .example = "[\"id\", \"stress\"]"},
+    {.path = "insitu.pipeline[].region", .type = section,
+     .help = "A box: cells whose centre lies outside of it, as they stand at that time, are not handed over."},
+    {.path = "insitu.pipeline[].region.lower", .type = vector, .unit = "m", .required = true,
+     .help = "Its lower corner.", .example = "[0, 0, 0]"},
+    {.path = "insitu.pipeline[].region.upper", .type = vector, .unit = "m", .required = true,
+     .help = "Its upper corner.", .example = "[\"10 mm\", \"10 mm\", \"1 mm\"]"},
+    {.path = "insitu.pipeline[].probe[]", .type = section_list,
+     .help = "Where the pipeline probes records fields: at a point, along a line (along, points), or on a plane "
+             "(across and rows too). The points stand still in space; the values are those of the element that is "
+             "there."},
+    {.path = "insitu.pipeline[].probe[].name", .type = text, .required = true,
+     .help = "The file is extracts/probes/NAME.csv.", .example = "\"tip\""},
+    {.path = "insitu.pipeline[].probe[].at", .type = vector, .unit = "m", .required = true,
+     .help = "The point, or where the line begins, or a corner of the plane.", .example = "[0, 0, \"1 mm\"]"},
+    {.path = "insitu.pipeline[].probe[].along", .type = vector, .unit = "m", .fallback = "[0, 0, 0]",
+     .help = "From there to the last of the points.", .example = "[\"10 mm\", 0, 0]"},
+    {.path = "insitu.pipeline[].probe[].points", .type = integer, .fallback = "1", .range = at_most_10000_points,
+     .help = "So many points, both ends included.", .example = "11"},
+    {.path = "insitu.pipeline[].probe[].across", .type = vector, .unit = "m", .fallback = "[0, 0, 0]",
+     .help = "From the first row of points to the last one.", .example = "[0, \"10 mm\", 0]"},
+    {.path = "insitu.pipeline[].probe[].rows", .type = integer, .fallback = "1", .range = at_most_10000_points,
+     .help = "So many rows, the first and the last one included.", .example = "11"},
 
     {.path = "<function>", .type = notation,
      .help = "A function of time is a quantity, or a table of the keys below, which add up. Time counts from the start "

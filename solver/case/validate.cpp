@@ -10,9 +10,9 @@
 #include "base/geometry_file.hpp"
 #include "base/number_text.hpp"
 #include "case/countable.hpp"
-#include "case/live_address.hpp"
 #include "case/nearest.hpp"
 #include "case/schema.hpp"
+#include "case/validate_insitu.hpp"
 #include "case/validate_motion.hpp"
 
 namespace breccia::case_ {
@@ -21,8 +21,6 @@ namespace {
 constexpr const char* every_group = "*";
 
 constexpr std::int64_t most_domains = 1000000;
-
-constexpr std::size_t most_pipelines = 31;  // and the live view: a mask of 32
 
 using Pair = std::array<std::string, 2>;
 
@@ -50,7 +48,6 @@ class Validator {
     stages();
     gauges();
     domains();
-    insitu();
     return std::move(problems_);
   }
 
@@ -274,43 +271,6 @@ class Validator {
                 c_.output.gauges[i]);
   }
 
-  void insitu() {
-    for (const Pipeline& pipeline : c_.insitu.pipelines) this->pipeline(pipeline);
-    if (c_.insitu.pipelines.size() > most_pipelines)
-      problem(c_.insitu.origin, "", "asks for too many pipelines", "at most " + std::to_string(most_pipelines),
-              std::to_string(c_.insitu.pipelines.size()));
-    if (c_.insitu.live) live(*c_.insitu.live);
-  }
-
-  void pipeline(const Pipeline& pipeline) {
-    const Origin& origin = pipeline.origin.key.empty() ? c_.insitu.origin : pipeline.origin;
-    const std::string key = pipeline.origin.key.empty() ? "run" : "name";
-    if (is_script(pipeline.name)) {
-      std::error_code error;
-      if (!std::filesystem::is_regular_file(pipeline.name, error))
-        problem(origin, key, "the script does not exist", "a Python script exported from ParaView", pipeline.name);
-      return;
-    }
-    const std::vector<std::string> known = key_of("insitu.pipeline[].name").choice_list();
-    if (pipeline.name.empty() || std::find(known.begin(), known.end(), pipeline.name) != known.end()) return;
-    problem(origin, key, "no pipeline has this name",
-            joined(nearest_first(pipeline.name, known)) + ", or a script whose name ends with .py", pipeline.name);
-  }
-
-  void live(const Live& live) {
-    const std::vector<std::string> known = key_of("insitu.live.channels").choice_list();
-    if (live.channels.empty()) problem(live.origin, "channels", "names no channel", joined(known), "[]");
-    for (const std::string& channel : live.channels)
-      if (std::find(known.begin(), known.end(), channel) == known.end())
-        problem(live.origin, "channels", "there is no such channel", joined(nearest_first(channel, known)), channel);
-    const auto address = host_and_port(live.address);
-    if (!address)
-      problem(live.origin, "address", "is no address", "host:port, the port between 1 and 65535", live.address);
-    else if (!live.remote && !is_loopback(address->first))
-      problem(live.origin, "address", "is on another machine",
-              "localhost, 127.0.0.1 or ::1, or insitu.live.remote = true", live.address);
-  }
-
   const Case& c_;
   bool needs_mesh_file_;
   std::vector<Problem> problems_;
@@ -320,8 +280,8 @@ class Validator {
 
 std::vector<Problem> validate(const Case& c, bool needs_mesh_file) {
   std::vector<Problem> problems = Validator(c, needs_mesh_file).run();
-  const std::vector<Problem> motion = validate_motion(c);
-  problems.insert(problems.end(), motion.begin(), motion.end());
+  for (const std::vector<Problem>& more : {validate_insitu(c), validate_motion(c)})
+    problems.insert(problems.end(), more.begin(), more.end());
   return problems;
 }
 

@@ -42,6 +42,13 @@ std::string toml(const std::map<std::string, double>& x) {
   return "{" + joined(parts) + "}";
 }
 
+std::string toml(const std::map<std::string, Setting>& x) {
+  std::vector<std::string> parts;
+  for (const auto& [name, value] : x)
+    parts.push_back(toml_text(name) + " = " + (value.text ? toml(*value.text) : toml(value.number.value_or(0))));
+  return "{" + joined(parts) + "}";
+}
+
 std::string toml(const TimeFunction& f) {
   if (f.linear == 0 && f.sines.empty() && f.table.empty()) return toml(f.constant);
   std::vector<std::string> parts{"constant = " + toml(f.constant), "linear = " + toml(f.linear)};

@@ -51,6 +51,12 @@ void define_insitu(CLI::App& app, Arguments& a) {
       ->add_option("-o,--output", a.replay.folder,
                    "folder of what they write; default: replay in the folder of the run")
       ->check(some_name());
+  replay
+      ->add_option("-p,--parameter", a.replay.parameters,
+                   "NAME=VALUE, a parameter of the pipelines: a number, one with a unit, or a text; repeatable")
+      ->allow_extra_args(false)
+      ->take_all()
+      ->check(override_text());
 }
 
 void define_report(CLI::App& app, Arguments& a) {

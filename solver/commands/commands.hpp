@@ -51,9 +51,10 @@ struct LiveCommand {
 int live_command(const LiveCommand& asked);
 
 struct ReplayCommand {
-  std::filesystem::path run;           ///< folder of a run with recorded extracts
-  std::vector<std::string> pipelines;  ///< names, or scripts
-  std::filesystem::path folder;        ///< of what they write; empty: replay in the folder of the run
+  std::filesystem::path run;            ///< folder of a run with recorded extracts
+  std::vector<std::string> pipelines;   ///< names, or scripts
+  std::filesystem::path folder;         ///< of what they write; empty: replay in the folder of the run
+  std::vector<std::string> parameters;  ///< of all of them: NAME=VALUE
 };
 /// Collective over the world.
 int replay_command(const ReplayCommand& asked, const Communicator& world);

@@ -1,7 +1,11 @@
 #include <fmt/core.h>
+#include <map>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "case/units.hpp"
 #include "commands/commands.hpp"
 #include "output/atomic_file.hpp"
 #include "output/control.hpp"
@@ -19,14 +23,35 @@ int control_command(const ControlCommand& asked) {
   return 0;
 }
 
+namespace {
+
+/// NAME=VALUE: as a text, and as a number where it reads as one.
+std::map<std::string, case_::Setting> settings_of(const std::vector<std::string>& assignments) {
+  std::map<std::string, case_::Setting> settings;
+  for (const std::string& assignment : assignments) {
+    const std::size_t equals = assignment.find('=');
+    case_::Setting& setting = settings[assignment.substr(0, equals)];
+    setting.text = assignment.substr(equals + 1);
+    try {
+      setting.number = case_::parse_quantity(*setting.text).value;
+    } catch (const case_::UnitError&) {
+      // a text, then
+    }
+  }
+  return settings;
+}
+
+}  // namespace
+
 int replay_command(const ReplayCommand& asked, const Communicator& world) {
   const std::filesystem::path folder =
       std::filesystem::absolute(asked.folder.empty() ? asked.run / "replay" : asked.folder);
   case_::Case input;
   input.title = "replay of " + asked.run.string();
   for (const std::string& name : asked.pipelines) {
-    input.insitu.pipelines.emplace_back().name =
-        case_::is_script(name) ? std::filesystem::absolute(name).string() : name;
+    case_::Pipeline& pipeline = input.insitu.pipelines.emplace_back();
+    pipeline.name = case_::is_script(name) ? std::filesystem::absolute(name).string() : name;
+    pipeline.parameters = settings_of(asked.parameters);
   }
   world.agree([&] {
     if (!world.is_root()) return;

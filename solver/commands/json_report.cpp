@@ -87,6 +87,8 @@ const char* name_of(case_::ValueType type) {
       return "axis_functions";
     case parameters:
       return "parameters";
+    case settings:
+      return "settings";
     case points:
       break;
   }

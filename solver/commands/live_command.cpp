@@ -104,6 +104,8 @@ void describe(const case_::Case& input, int port) {
   set("BRECCIA_LIVE_PORT", std::to_string(port));
   set("BRECCIA_LIVE_TITLE", input.title);
   set("BRECCIA_LIVE_END", fmt::format("{:.17g}", config.get().end));
+  std::error_code error;
+  set("BRECCIA_LIVE_PROGRAM", fs::read_symlink("/proc/self/exe", error).string());
   set("BRECCIA_LIVE_STRENGTH", fmt::format("{:.17g}", config.get().strength));
 }
 

@@ -194,7 +194,7 @@ _breccia_candidates() {
   esac
   if [[ $cur != -* && ${command[*]} == explain ]]; then _breccia_offer < <(_breccia_keys); return; fi
   if [[ $cur != -* && ${command[*]} == 'insitu replay' ]]; then
-    _breccia_position ' -o --output '
+    _breccia_position ' -o --output -p --parameter '
     if ((position > 0)); then _breccia_offer < <(_breccia_pipelines); return; fi
   fi
 

@@ -24,14 +24,15 @@ std::optional<std::int64_t> step_of(const std::string& name) {
   return std::stoll(match[1].str());
 }
 
-/// Keeps the lines for which `stays` holds; a file that loses none is not touched.
+/// Keeps the lines for which `stays` holds, but for a last one without an end, in which a run was cut off; a file that
+/// loses none is not touched.
 void cut_lines(const fs::path& file, const std::function<bool(const std::string&, std::size_t)>& stays) {
   std::ifstream stream(file);
   std::string kept;
   bool all = true;
   std::size_t number = 0;
   for (std::string line; std::getline(stream, line); ++number) {
-    if (stays(line, number)) {
+    if (!stream.eof() && stays(line, number)) {
       kept += line + '\n';
     } else {
       all = false;
@@ -61,7 +62,8 @@ void cut_extracts_back(const fs::path& extracts, std::int64_t step) {
       entry.disable_recursion_pending();
     } else if (path.extension() == ".pvd") {
       lists.push_back(path);
-    } else if (path.filename() == "history.csv") {
+    } else if (path.filename() == "history.csv" ||
+               (path.extension() == ".csv" && path.parent_path().filename() == "probes")) {
       histories.push_back(path);
     }
   }

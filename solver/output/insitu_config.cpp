@@ -1,6 +1,7 @@
 #include "output/insitu_config.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <sstream>
 
 #include "base/interruption.hpp"
@@ -30,16 +31,10 @@ double strength_of(const case_::Case& input) {
 
 InSituConfig::InSituConfig(const case_::Case& input, const std::filesystem::path& folder,
                            const Communicator& communicator)
-    : insitu_(input.insitu), title_(input.title), folder_(folder.string()) {
-  parameters_.reserve(insitu_.pipelines.size());
+    : insitu_(input.insitu), title_(input.title), folder_(folder.string()), run_(folder.parent_path().string()) {
+  owned_.reserve(insitu_.pipelines.size() + 1);  // pointed into
   for (const case_::Pipeline& pipeline : insitu_.pipelines) add(pipeline);
-  if (insitu_.live) {
-    const auto address = case_::host_and_port(insitu_.live->address);
-    DEMAND(address.has_value(), insitu_.live->address);
-    live_host_ = address->first;
-    config_.live_port = address->second;
-    pipelines_.push_back({"live", channel_mask(insitu_.live->channels), 0, nullptr, nullptr});
-  }
+  if (insitu_.live) add_live(*insitu_.live);
   config_.abi_version = BRECCIA_INSITU_ABI_VERSION;
   config_.communicator = communicator.fortran_handle();
   config_.rank = communicator.rank();
@@ -49,6 +44,7 @@ InSituConfig::InSituConfig(const case_::Case& input, const std::filesystem::path
   config_.end = input.stages.empty() ? 0 : input.stages.back().end;
   config_.strength = strength_of(input);
   config_.folder = folder_.c_str();
+  config_.run = run_.c_str();
   config_.live_host = live_host_.c_str();
   control_file = RunFolder{folder.parent_path()}.control();
   config_.run_ends = [] { return std::int32_t{interruption != 0 || stop_waits(control_file)}; };
@@ -57,13 +53,50 @@ InSituConfig::InSituConfig(const case_::Case& input, const std::filesystem::path
 }
 
 void InSituConfig::add(const case_::Pipeline& pipeline) {
-  Parameters& p = parameters_.emplace_back();
+  Owned& own = owned_.emplace_back();
   for (const auto& [name, value] : pipeline.parameters) {
-    p.names.push_back(name.c_str());
-    p.values.push_back(value);
+    own.parameters.push_back({name.c_str(), value.text ? value.text->c_str() : nullptr,
+                              value.number.value_or(std::numeric_limits<double>::quiet_NaN())});
   }
-  pipelines_.push_back(
-      {pipeline.name.c_str(), 0, static_cast<std::int32_t>(p.names.size()), p.names.data(), p.values.data()});
+  for (const case_::Probe& probe : pipeline.probes) {
+    BrecciaProbe& made = own.probes.emplace_back(
+        BrecciaProbe{probe.name.c_str(), {}, {}, {}, std::int32_t{probe.points}, std::int32_t{probe.rows}});
+    Vec3::Map(made.at) = probe.at;
+    Vec3::Map(made.along) = probe.along;
+    Vec3::Map(made.across) = probe.across;
+  }
+  BrecciaPipeline made{};
+  made.name = pipeline.name.c_str();
+  made.num_parameters = static_cast<std::int32_t>(own.parameters.size());
+  made.parameters = own.parameters.data();
+  made.num_probes = static_cast<std::int32_t>(own.probes.size());
+  made.probes = own.probes.data();
+  select(made, own, pipeline.region, pipeline.fields);
+  pipelines_.push_back(made);
+}
+
+void InSituConfig::add_live(const case_::Live& live) {
+  const auto address = case_::host_and_port(live.address);
+  DEMAND(address.has_value(), live.address);
+  live_host_ = address->first;
+  config_.live_port = address->second;
+  BrecciaPipeline made{};
+  made.name = "live";
+  made.channels = channel_mask(live.channels);
+  select(made, owned_.emplace_back(), live.region, live.fields);
+  pipelines_.push_back(made);
+}
+
+void InSituConfig::select(BrecciaPipeline& made, Owned& owned, const std::optional<case_::Region>& region,
+                          const std::vector<std::string>& fields) {
+  if (region) {
+    Vec3::Map(owned.region.data()) = region->lower;
+    Vec3::Map(owned.region.data() + 3) = region->upper;
+    made.region = owned.region.data();
+  }
+  for (const std::string& field : fields) owned.fields.push_back(field.c_str());
+  made.num_fields = static_cast<std::int32_t>(owned.fields.size());
+  made.fields = owned.fields.data();
 }
 
 std::vector<Problem> insitu_problems(const std::filesystem::path& case_file, const std::string& lines) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,15 +24,22 @@ class InSituConfig {
   [[nodiscard]] const BrecciaConfig& get() const { return config_; }
 
  private:
-  struct Parameters {
-    std::vector<const char*> names;
-    std::vector<double> values;
+  /// What a pipeline points to.
+  struct Owned {
+    std::vector<BrecciaParameter> parameters;
+    std::array<double, 6> region{};
+    std::vector<const char*> fields;
+    std::vector<BrecciaProbe> probes;
   };
   void add(const case_::Pipeline& pipeline);
+  void add_live(const case_::Live& live);
+  /// The pipeline `made` with the cells and arrays that it gets.
+  void select(BrecciaPipeline& made, Owned& owned, const std::optional<case_::Region>& region,
+              const std::vector<std::string>& fields);
 
   case_::InSitu insitu_;
-  std::string title_, folder_, live_host_;
-  std::vector<Parameters> parameters_;
+  std::string title_, folder_, run_, live_host_;
+  std::vector<Owned> owned_;
   std::vector<BrecciaPipeline> pipelines_;
   BrecciaConfig config_{};
 };

@@ -8,6 +8,7 @@ import os
 import sys
 import time
 
+import live_steering
 import live_view
 from paraview.simple import Render, SaveScreenshot
 from vtkmodules.vtkIOImage import vtkPNGReader
@@ -84,5 +85,41 @@ SaveScreenshot(picture, bodies.view, ImageResolution=[640, 480])
 print("second", words().replace("\n", " | "), "coloured", "yes" if coloured_part(picture) > 0.02 else coloured_part(picture), file=log)
 SaveScreenshot(os.path.join(FOLDER, "plot.png"), plot.view, ImageResolution=[640, 480])
 print("curves", "coloured" if coloured_part(os.path.join(FOLDER, "plot.png")) > 0.001 else "not drawn", file=log)
+
+# The panel: what stands in the proxy when Apply has been pressed.
+steering, panel = link.steering, link.steering.panel.SMProxy
+
+
+def ask(name, value, answer):
+    panel.GetProperty(name).SetElement(0, value)
+    wait(answer, lambda: answer in words())
+    print("answered", answer, file=log)
+
+
+ask("Ask", live_steering.ASKED.index("stop"), "this view was not opened by `breccia live`")
+steering._program = os.environ["STEERING"]
+print("folder", steering.folder, file=log)
+ask("FrameInterval", "1 ms", "frame_interval 1 ms: done")
+ask("FrameInterval", "soon", "frame_interval")
+wait("a refusal", lambda: "asked to" not in words() and "frame_interval soon: " in words())
+print("refused", " ".join(words().split("frame_interval soon: ")[1].split()), file=log)
+ask("Ask", live_steering.ASKED.index("pause"), "pause: done")
+end = time.time() + 1.0
+wait("nothing", lambda: time.time() > end)  # what was under way still comes
+held, end = step(), time.time() + 1.0
+wait("nothing", lambda: time.time() > end)
+print("stood" if step() == held else "ran on", file=log)
+ask("Ask", live_steering.ASKED.index("resume"), "resume: done")
+wait("further steps", lambda: step() > held)
+ask("Ask", live_steering.ASKED.index("extract"), "extract: done")
+fractures = live_view.pictures.cells_of(bodies.sources["fractures"])
+ask("Opening", "far", "'far' is no length")
+panel.GetProperty("Opening").SetElement(0, "1000 m")
+wait("no cracks", lambda: live_view.pictures.cells_of(bodies._cracks) == 0)
+panel.GetProperty("Opening").SetElement(0, "")
+wait("all cracks", lambda: live_view.pictures.cells_of(bodies._cracks) >= fractures > 0)
+print("cracks by opening", file=log)
+ask("Ask", live_steering.ASKED.index("stop"), "asked to stop")
+wait("the end", lambda: "the run has ended" in words())
 print("ready with all", file=log)
 os._exit(0)

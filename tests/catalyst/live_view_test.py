@@ -207,7 +207,7 @@ class LiveView(unittest.TestCase):
         paths = ":".join(os.path.join(CATALYST, part) for part in ("python", "pipelines"))
         client = self.start(["pvpython", os.path.join(HERE, "live_view_client.py"), self.folder], "pvpython.log", DISPLAY=screen.name,
                             PYTHONPATH=paths, BRECCIA_LIVE_PORT=str(self.port), BRECCIA_LIVE_TITLE="two boxes", BRECCIA_LIVE_END="20",
-                            BRECCIA_LIVE_STRENGTH="5e3")
+                            BRECCIA_LIVE_STRENGTH="5e3", STEERING=PROGRAM)
 
         def told(line):
             if client.poll() not in (None, 0):
@@ -221,8 +221,9 @@ class LiveView(unittest.TestCase):
         self.stop(run, "one")
         self.wait("its end to be seen", lambda: told("ready for the next"), *logs)
         run = self.run_with_live("two", 1)
-        self.wait("the second run to be seen", lambda: told("ready with all"), *logs)
-        self.stop(run, "two")
+        self.wait("the second run to be seen and steered", lambda: told("ready with all"), *logs)
+        run.wait(PATIENCE)
+        self.assertIn("stopped", json.loads(self.text(os.path.join("two", "summary.json")))["status"])
 
         lines = self.text("client.log").splitlines()
         said = {line.split()[0]: line for line in lines if not line.startswith("ready")}
@@ -234,6 +235,13 @@ class LiveView(unittest.TestCase):
         self.assertIn("began again", lines)
         self.assertRegex(said["second"], r"broken joints, 1 rank .*coloured yes")
         self.assertEqual(said["curves"], "curves coloured")
+        self.assertEqual(said["folder"], "folder " + os.path.join(self.folder, "two"))
+        self.assertIn("answered frame_interval 1 ms: done", lines)
+        self.assertIn("soon", said["refused"])
+        self.assertIn("stood", lines)
+        for answer in ("pause: done", "resume: done", "extract: done", "this view was not opened by `breccia live`"):
+            self.assertIn("answered " + answer, lines)
+        self.assertIn("cracks by opening", lines)
 
     def test_the_window_shows_a_coloured_view_without_a_click_and_listens_for_this_machine_only(self):
         screen = Screen(self.folder)
@@ -258,7 +266,7 @@ class LiveView(unittest.TestCase):
             self.assertGreater(screen.coloured(*view), 0.02)
         self.assertIsNone(window.poll())
         settings = os.path.join(self.folder, ".config", "breccia", "ParaView")
-        self.assertEqual(sorted(os.listdir(os.path.join(settings, "Macros"))), ["Continue.py", "Pause.py"])
+        self.assertEqual(sorted(os.listdir(os.path.join(settings, "Macros"))), ["Continue.py", "Extract.py", "Pause.py", "Stop.py"])
         self.assertFalse(os.path.exists(os.path.join(self.folder, ".config", "ParaView")), "the user's own settings stay as they are")
 
     def assert_let_go_and_complete(self, name, before):

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -18,6 +19,12 @@ class Config {
   Config(std::string folder, int communicator, int rank, int size);
   Config& add(const std::string& pipeline, std::uint32_t channels = 0);
   Config& add(const std::string& pipeline, const std::vector<std::string>& names, const std::vector<double>& values);
+  /// A text that reads as no quantity, of the last pipeline.
+  Config& text(const std::string& name, const std::string& text);
+  /// Of the last pipeline.
+  Config& region(const std::array<double, 6>& corners);
+  Config& fields(const std::vector<std::string>& fields);
+  Config& probe(const BrecciaProbe& probe);
   Config& live(int port);
   /// Valid until the next call of a member.
   const BrecciaConfig& get();
@@ -25,10 +32,15 @@ class Config {
  private:
   struct Pipeline {
     std::string name;
-    std::uint32_t channels;
+    std::uint32_t channels = 0;
     std::vector<std::string> parameter_names;
     std::vector<double> parameters;
-    std::vector<const char*> pointers;
+    std::vector<std::string> texts;  ///< empty: it is a number
+    std::vector<double> region;
+    std::vector<std::string> fields;
+    std::vector<BrecciaProbe> probes;
+    std::vector<BrecciaParameter> parameter_views;
+    std::vector<const char*> field_views;
   };
   std::string folder_;
   std::vector<Pipeline> pipelines_;

@@ -146,7 +146,26 @@ TEST(Preflight, KnowsTheParametersOfItsOwnScriptsAndOfAUsersTheNearestFirst) {
   ASSERT_TRUE(std::getline(lines, line));
   EXPECT_EQ(line, script("exported.py") + ": knows no parameter 'anything', it has none");
   ASSERT_TRUE(std::getline(lines, line));
-  EXPECT_EQ(line, script("count_cells.py") + ": knows no parameter 'factr'; allowed: factor");
+  EXPECT_EQ(line, script("count_cells.py") + ": knows no parameter 'factr'; allowed: factor, label");
+}
+
+TEST(Preflight, RefusesANumberWhereAScriptAsksForATextAndTheOtherWayRound) {
+  Config config(folder_of("kinds"), kWithoutMpi, 0, 1);
+  config.add(script("count_cells.py"), {"label"}, {3.5}).text("factor", "wide");
+  EXPECT_EQ(preflight(config), script("count_cells.py") +
+                                   ": the parameter 'factor' is a number, or a text with a unit; given: \"wide\"\n" +
+                                   script("count_cells.py") + ": the parameter 'label' is a text; given: 3.5");
+  Config pictures(folder_of("pictures_of_kinds"), kWithoutMpi, 0, 1);
+  pictures.add("stress", {"width"}, {640}).text("title", "half open");
+  EXPECT_EQ(preflight(pictures), "");
+}
+
+TEST(Preflight, RefusesAScriptThatAsksForAnArrayThatItIsNotHanded) {
+  Config config(folder_of("not_handed"), kWithoutMpi, 0, 1);
+  config.add(script("exported.py")).fields({"id", "stress"});
+  EXPECT_THAT(preflight(config), testing::AllOf(testing::StartsWith(script("exported.py") + ": the array '"),
+                                                testing::HasSubstr("' is not handed over, it is not among the "
+                                                                   "pipeline's fields: id, stress (exported.py:")));
 }
 
 TEST(Preflight, RefusesAScriptWhoseSourcesOrArraysAreMisspeltOrOfAnotherChannel) {

@@ -24,7 +24,7 @@ TEST(Scripts, SeeTheChannelsOfTheirRankAndTheirParametersAndReachTheSolver) {
   const auto folder = fresh_folder("scripts");
   SyntheticRun run(3, world().rank, world().size);
   Config config(folder, world().communicator, world().rank, world().size);
-  config.add(std::string(BRECCIA_SCRIPTS) + "/count_cells.py", {"factor"}, {2.5});
+  config.add(std::string(BRECCIA_SCRIPTS) + "/count_cells.py", {"factor"}, {2.5}).text("label", "half open");
   std::string expected;
   {
     Adaptor adaptor(config.get());
@@ -38,7 +38,7 @@ TEST(Scripts, SeeTheChannelsOfTheirRankAndTheirParametersAndReachTheSolver) {
       EXPECT_EQ(adaptor.requests.frame_interval, step == 2 ? 2.5e-6 : 0.0);
       run.give_back();
       const auto share = run.share(BRECCIA_ELEMENTS, step);
-      expected += std::to_string(step) + " " + std::to_string(share.end - share.first) + " 2.5\n";
+      expected += std::to_string(step) + " " + std::to_string(share.end - share.first) + " 2.5 half open\n";
     }
     run.take_away();
   }
@@ -135,12 +135,18 @@ TEST(Scripts, InAReplayGetEachRecordedCellOnceWhateverTheNumberOfRanks) {
     const auto folder = records / "replayed";
     std::filesystem::create_directories(folder);
     Config config(folder, -1, 0, 1);
-    config.add(OpenScripts::script("count_cells.py")).add("volume").add("history");
+    config.add(OpenScripts::script("raises_with_elements.py"));  // the others go on
+    config.add(OpenScripts::script("count_cells.py"), {"factor"}, {3})
+        .text("label", "a b")
+        .add("volume")
+        .add("history");
     Text text;
-    EXPECT_EQ(plugin().replay(&config.get(), records.c_str(), text.text, sizeof text.text), 0) << text.string();
+    EXPECT_NE(plugin().replay(&config.get(), records.c_str(), text.text, sizeof text.text), 0);
+    EXPECT_EQ(text.string(), "step 2: " + OpenScripts::script("raises_with_elements.py") +
+                                 ": ValueError: enough (raises_with_elements.py:11)");
     const std::string cells = std::to_string(run.total(BRECCIA_ELEMENTS, 1));
     EXPECT_EQ(content(folder / "count_cells/rank_0.txt"),
-              "1 " + cells + " 1.0\n2 " + cells + " 1.0\n5 " + cells + " 1.0\n");
+              "1 " + cells + " 3.0 a b\n2 " + cells + " 3.0 a b\n5 " + cells + " 3.0 a b\n");
     EXPECT_EQ(content(folder / "history/history.csv"), content(records / "history/history.csv"));
     EXPECT_EQ(content(folder / "elements/elements.pvd"), content(records / "elements/elements.pvd"));
   }

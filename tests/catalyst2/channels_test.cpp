@@ -126,6 +126,29 @@ TEST(Catalyst2Channels, AreViewsOfTheSolversMemoryThatHoldEachCellOnceOverAllRan
   EXPECT_EQ(standin.live_nodes, 0);
 }
 
+TEST(Catalyst2Channels, OfABoxAndSomeFieldsHaveItsCellsAndThoseFields) {
+  const auto folder = fresh_folder("selected");
+  SyntheticRun run(4, world().rank, world().size, without_cells());
+  Standin& standin = fresh_standin();
+  Config config(folder, world().communicator, world().rank, world().size);
+  config.add("surface").region({-1, -1, -1, 9, 9, 0.5}).fields({"id", "stress"}).add("volume");
+  {
+    Adaptor adaptor(config.get());
+    ASSERT_TRUE(adaptor.is_open());
+    const std::string surface = "catalyst/channels/surface/data", volume = "catalyst/channels/elements/data";
+    const std::uint32_t both = 1U << BRECCIA_SURFACE | 1U << BRECCIA_ELEMENTS;
+    ASSERT_EQ(adaptor.execute(1, run.at(10, both)), 0) << adaptor.text;
+    EXPECT_EQ(names_below(standin.executed.back(), surface + "/fields"), (std::vector<std::string>{"id", "stress"}));
+    EXPECT_EQ(wrong_values(standin.executed.back(), surface, 10), 0);
+    EXPECT_EQ(sum(leaf_of(standin.executed.back(), surface + "/fields/id/values")->count), 16) << "the lowest cubes";
+    ASSERT_EQ(adaptor.execute(2, run.at(10, both)), 0) << adaptor.text;
+    EXPECT_GT(names_below(standin.executed.back(), volume + "/fields").size(), 2U);
+    EXPECT_EQ(sum(leaf_of(standin.executed.back(), volume + "/fields/id/values")->count),
+              run.total(BRECCIA_ELEMENTS, 10));
+    EXPECT_EQ(standin.problems, std::vector<std::string>{});
+  }
+}
+
 TEST(Catalyst2Channels, FailureOnAnyRankIsOnAllOfThem) {
   SyntheticRun run(2, world().rank, world().size);
   Standin& standin = fresh_standin();

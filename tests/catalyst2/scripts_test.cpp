@@ -34,7 +34,7 @@ TEST(Catalyst2Scripts, OfParaViewRunOneAtATimeAndSayWhatTheyFailOf) {
   SyntheticRun run(2, world().rank, world().size);
   const auto folder = fresh_folder("scripts");
   Config config(folder, world().communicator, world().rank, world().size);
-  config.add(kScript, {"width"}, {640}).add("stress");
+  config.add(kScript, {"width"}, {640}).text("caption", "half \"open\"").add("stress");
   {
     Adaptor adaptor(config.get());
     ASSERT_TRUE(adaptor.is_open());
@@ -45,10 +45,12 @@ TEST(Catalyst2Scripts, OfParaViewRunOneAtATimeAndSayWhatTheyFailOf) {
     EXPECT_EQ(leaf_of(given, "catalyst/scripts/uses_surface/filename")->words, kScript);
     EXPECT_EQ(leaf_of(given, "catalyst/scripts/uses_surface/args/0")->words,
               "folder=" + (folder / "uses_surface").string());
-    EXPECT_EQ(leaf_of(given, "catalyst/scripts/uses_surface/args/1")->words, "width=640");
+    EXPECT_EQ(leaf_of(given, "catalyst/scripts/uses_surface/args/1")->words, "caption=half \"open\"");
+    EXPECT_EQ(leaf_of(given, "catalyst/scripts/uses_surface/args/2")->words, "width=640");
     const std::string address = leaf_of(given, "catalyst/scripts/breccia_bridge/args/0")->words;
     const Bridge& bridge = *reinterpret_cast<const Bridge*>(std::strtoull(address.c_str(), nullptr, 10));
-    EXPECT_EQ(nlohmann::json::parse(bridge.scripts())[0]["parameters"], (nlohmann::json{{"width", 640}}))
+    EXPECT_EQ(nlohmann::json::parse(bridge.scripts())[0]["parameters"],
+              (nlohmann::json{{"caption", {nullptr, "half \"open\""}}, {"width", {640, nullptr}}}))
         << bridge.scripts();
 
     // All scripts are read at the first execution, which therefore has all their channels.
@@ -123,6 +125,14 @@ TEST(Catalyst2Preflight, SaysWhatCannotWorkAndWhatToDo) {
   expect(told("live", BRECCIA_STANDIN, "standin"),
          "live: the live link is not Catalyst 2's; it needs the adaptor with");
   expect(told("stress", BRECCIA_STANDIN, "standin"), "stress: is a script for ParaView");
+  expect(told("probes", BRECCIA_STANDIN, "standin"),
+         "probes: samples are not made by Catalyst 2; that needs the adaptor with");
+  name_catalyst(BRECCIA_STANDIN, "paraview");
+  Config fields = config_of(kScript);
+  expect(problems(fields.fields({"stress"})),
+         "uses_surface.py: ParaView's implementation of Catalyst 2 reads all scripts");
+  Config kinds = config_of("stress");
+  expect(problems(kinds.text("width", "wide")), "stress: the parameter 'width' is a number, or a text with a unit");
   const std::string misspelt =
       told(std::string(BRECCIA_CATALYST_SCRIPTS) + "/../../catalyst/scripts/misspelt.py", BRECCIA_STANDIN, "paraview");
   expect(misspelt, "misspelt.py: the source 'fractrues' is no channel; allowed: fractures, ");

@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "end_to_end/program.hpp"
@@ -158,6 +160,63 @@ TEST_P(InSitu, a_run_that_goes_on_has_the_extracts_of_one_that_was_never_stopped
   }
 }
 
+/// A line through both boxes and beyond them, a plane, and a point.
+const std::string kProbes =
+    "{name=\"probes\", every_time=\"0.3 ms\", strict=true, fields=[\"body\", \"velocity\", \"stress\"], probe=["
+    "{name=\"line\", at=[\"-5 mm\", \"7 mm\", \"4 mm\"], along=[\"60 mm\", 0, 0], points=25}, "
+    "{name=\"plane\", at=[0, 0, \"5 mm\"], along=[\"41 mm\", 0, 0], points=8, across=[0, \"20 mm\", 0], rows=5}, "
+    "{name=\"point\", at=[\"10 mm\", \"10 mm\", \"5 mm\"]}]}";
+
+TEST_P(InSitu, probes_record_the_same_on_any_number_of_ranks_and_once_when_a_run_goes_on) {
+  const std::string probes = "--set 'insitu.pipeline=[" + kProbes + "]' ";
+  const WatchedRun alone(1, probes), run(GetParam(), probes + "--set time.max_steps=300");
+  ASSERT_EQ(alone.outcome.exit_code, 0) << alone.outcome.err;
+  std::ofstream(run.folder() / "extracts/probes/line.csv", std::ios::app) << "301,0.0";  // where a run was killed
+  const Outcome resumed = call("resume '" + run.folder().string() + "' --progress none --set time.max_steps=0");
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  for (const std::string name : {"line", "plane", "point"}) {
+    const std::string file = "extracts/probes/" + name + ".csv";
+    std::istringstream lines(read_text(alone.folder() / file)), others(read_text(run.folder() / file));
+    std::set<std::string> expected, seen;
+    int number = 0;
+    for (std::string line; std::getline(lines, line);) expected.insert(line);
+    for (std::string line; std::getline(others, line); ++number) seen.insert(line);
+    EXPECT_EQ(number, static_cast<int>(seen.size())) << "a line stands twice in " << name;
+    // Where the run ended and went on there is an instant more.
+    EXPECT_TRUE(std::includes(seen.begin(), seen.end(), expected.begin(), expected.end())) << name;
+    const int points = name == "line" ? 25 : name == "plane" ? 40 : 1;
+    EXPECT_EQ((number - 1) % points, 0) << name;
+    EXPECT_GE(number - 1, 14 * points) << name;
+  }
+  const std::string line = read_text(alone.folder() / "extracts/probes/line.csv");
+  EXPECT_EQ(line.substr(0, line.find('\n')),
+            "step,time [s],row,point,x [m],y [m],z [m],element,body,velocity x,velocity y,velocity z,stress xx,stress "
+            "yy,stress zz,stress xy,stress yz,stress xz");
+  EXPECT_NE(line.find("\n0,0,0,0,-0.005,0.007,0.004,-1,,,,,,,,,,\n"), std::string::npos) << line.substr(0, 2000);
+}
+
+TEST_P(InSitu, a_box_and_some_fields_are_recorded_without_a_change_to_the_run) {
+  const WatchedRun plain(1, ""),
+      run(GetParam(),
+          "--set 'insitu.pipeline=[{name=\"volume\", every_time=\"2 ms\", strict=true, fields=[\"id\", \"mass\"], "
+          "region={lower=[0, 0, 0], upper=[\"10 mm\", 1, 1]}}, {name=\"surface\", every_time=\"2 ms\", strict=true}]'");
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  EXPECT_EQ(run.summary()["state_hash"], plain.summary()["state_hash"]);
+  const fs::path extracts = run.folder() / "extracts";
+  const std::string first = read_text(extracts / "elements/elements_000000000.pvtu");
+  EXPECT_NE(first.find("\"mass\""), std::string::npos) << first;
+  EXPECT_EQ(first.find("\"stress\""), std::string::npos) << first;
+  EXPECT_NE(read_text(extracts / "surface/surface_000000000.pvtp").find("\"stress\""), std::string::npos);
+  int cells = 0;
+  for (int rank = 0; rank < GetParam(); ++rank) {
+    const std::string piece = read_text(extracts / ("elements/elements_000000000/000" + std::to_string(rank) + ".vtu"));
+    const std::size_t at = piece.find("NumberOfCells=\"");
+    ASSERT_NE(at, std::string::npos);
+    cells += std::stoi(piece.substr(at + 15));
+  }
+  EXPECT_EQ(cells, 48) << "two of eight cubes of 24, whose centres lie in the box";
+}
+
 TEST_P(InSitu, a_script_that_fails_three_times_is_switched_off_and_the_run_goes_on) {
   const Scratch scratch;
   (void)scratch.write("always.py",
@@ -246,6 +305,13 @@ TEST(InSituAlone, check_refuses_what_a_run_would) {
   const Outcome outcome = call("check " + file + " --set 'insitu.pipeline=[{name=\"stress\", parameters={widht=3}}]'");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("stress: knows no parameter 'widht'; allowed: "), std::string::npos) << outcome.err;
+  const Outcome kinds =
+      call("check " + file + " --set 'insitu.pipeline=[{name=\"stress\", parameters={title=3, width=\"wide\"}}]'");
+  EXPECT_EQ(kinds.exit_code, 2);
+  EXPECT_NE(kinds.err.find("stress: the parameter 'title' is a text; given: 3"), std::string::npos) << kinds.err;
+  EXPECT_NE(kinds.err.find("stress: the parameter 'width' is a number, or a text with a unit; given: \"wide\""),
+            std::string::npos)
+      << kinds.err;
 }
 
 TEST(InSituAlone, a_live_view_that_leaves_the_machine_is_warned_of) {
@@ -301,6 +367,11 @@ TEST(InSituAlone, a_replay_draws_what_a_run_has_recorded) {
   const Outcome replay = call("insitu replay '" + run.folder().string() + "' " BRECCIA_SCRIPTS "/count_cells.py");
   EXPECT_EQ(replay.exit_code, 0) << replay.err;
   EXPECT_TRUE(fs::exists(run.folder() / "replay/count_cells/rank_0.txt"));
+  const Outcome again = call("insitu replay '" + run.folder().string() + "' " BRECCIA_SCRIPTS "/count_cells.py -o '" +
+                             run.scratch.path("again").string() + "' -p factor='2 mm' -p label='half open'");
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_NE(read_text(run.scratch.path("again") / "count_cells/rank_0.txt").find(" 0.002 half open\n"),
+            std::string::npos);
   const Outcome nothing = call("insitu replay '" + run.scratch.path("empty").string() + "' fractures");
   EXPECT_EQ(nothing.exit_code, 2);
 }

@@ -67,6 +67,24 @@ TEST(Conditions, CurvesAreTheFunctionsOverTheirStageWithTheCornersOfTables) {
     EXPECT_NEAR(pressure.y[i], 2e6 * std::sin(2 * M_PI * 5e4 * pressure.x[i]), 1e-3);
 }
 
+TEST(Conditions, TellTheirLargestValueByAxisAndWhichAxesTheyHold) {
+  const QTemporaryDir scratch;
+  Document document(scratch.filePath("state"));
+  ASSERT_EQ(document.open(test::written_case(scratch, test::block_case(2, "10 us") + kLoads)), QString());
+  const std::vector<Condition> rows = conditions_of(document);
+  ASSERT_EQ(rows.size(), 5U);
+  using Vector = std::array<double, 3>;
+  EXPECT_EQ(rows[0].number, -1);
+  EXPECT_EQ(rows[0].largest, (Vector{0, -3, 0}));
+  EXPECT_EQ(rows[1].largest, (Vector{0, 0, -9.81}));
+  EXPECT_EQ(rows[2].axes, (std::array<bool, 3>{true, true, false}));
+  EXPECT_EQ(rows[2].largest, Vector{});
+  EXPECT_EQ(rows[3].axes, (std::array<bool, 3>{false, false, true}));
+  EXPECT_EQ(rows[3].largest, (Vector{0, 0, 3})) << "the corner of its table";
+  EXPECT_EQ(rows[4].number, 1);
+  EXPECT_NEAR(std::abs(rows[4].largest[0]), 2e6, 1e3);
+}
+
 TEST(Conditions, OfACaseThatIsRefusedAreNone) {
   const QTemporaryDir scratch;
   Document document(scratch.filePath("state"));

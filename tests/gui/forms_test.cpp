@@ -190,7 +190,7 @@ TEST(Accessibility, EveryWidgetThatTakesTheFocusHasANameAndATooltipAndIsReachedB
     tree->setCurrentItem(*it);
     check();
   }
-  for (const char* panel : {"Plots", "Text", "Runs", "Queue", "Study", "Quality", "Conditions", "Contacts"}) {
+  for (const char* panel : {"Plots", "Text", "Runs", "Queue", "Study", "Histogram", "Conditions", "Contacts"}) {
     desk.show_tab(panel);
     check();
   }

@@ -85,6 +85,20 @@ TEST(Skin, ElementsAreKnownByTheirIdsInAnyOrder) {
   EXPECT_EQ(box[1], 1);
 }
 
+TEST(Skin, OfAPartTheFacesAreSeenThatNoTwoOfItsElementsShare) {
+  const auto whole = grid_of({{kLeft, 0, 0}, {kRight, 1, 0}});
+  const Skin skin(*whole);
+  EXPECT_EQ(skin.draw_part(*whole, {true, true})->GetNumberOfCells(), 6);
+  EXPECT_EQ(skin.draw_part(*whole, {false, true})->GetNumberOfCells(), 4);
+  EXPECT_EQ(skin.draw_part(*whole, {false, false})->GetNumberOfCells(), 0);
+  const auto apart = grid_of({{kRight, 1, 0, {0.5, 0, 0}}, {kLeft, 0, 0}});
+  EXPECT_EQ(skin.draw_part(*apart, {true, true})->GetNumberOfCells(), 8);
+  std::array<double, 6> box{};
+  const auto right = skin.draw_part(*apart, {true, false});
+  right->GetBounds(box.data());
+  EXPECT_EQ(box[0], 0.5) << "rows of the frame, not ids";
+}
+
 TEST(Skin, RanksAreThoseOfTheOwners) {
   const auto whole = grid_of({{kLeft, 0, 0}, {kRight, 1, 0}});
   const auto skin = Skin(*whole).draw(*whole);

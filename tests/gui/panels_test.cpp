@@ -2,13 +2,18 @@
 
 #include <QComboBox>
 #include <QLabel>
+#include <QProcess>
+#include <QSlider>
 #include <QSpinBox>
 #include <QTableWidget>
+#include <numeric>
 
+#include "core/case_outline.hpp"
 #include "core/study.hpp"
 #include "gui/desk.hpp"
+#include "widgets/case_tree.hpp"
+#include "widgets/histogram_panel.hpp"
 #include "widgets/line_chart.hpp"
-#include "widgets/quality_panel.hpp"
 
 namespace breccia::gui::test {
 namespace {
@@ -149,10 +154,98 @@ value = "2 MPa"
   EXPECT_EQ(desk.window->document().value("stage[0].pressure[0].surface"), "\"block.z1\"");
 }
 
+TEST(Panels, LoadsOfTheStageInHandAreSeenAsGlyphsWhichAKeyHides) {
+  Desk desk;
+  desk.window->resize(1500, 900);
+  desk.window->open_path(written_case(desk.scratch, block_case(3, "1 ms") + R"(gravity = [0, "-9.81 m/s2", 0]
+[[stage.constraint]]
+group = "block.y0"
+fixed = "xyz"
+[[stage.pressure]]
+surface = "block.z1"
+value = "1 MPa"
+[[stage]]
+end = "2 ms"
+[[stage.constraint]]
+group = "block.y1"
+velocity = { x = "2 m/s" }
+[[initial_velocity]]
+group = "block"
+velocity = [0, "-3 m/s", 0]
+)"));
+  Scene& scene = desk.window->view().scene();
+  ASSERT_TRUE(wait_until([&] { return scene.has_data() && !desk.window->busy(); }, kSolver));
+  desk.click_stage("material: block");
+  EXPECT_EQ(scene.num_glyphs(), 0);
+  desk.click_stage("constraint");
+  const int first = scene.num_glyphs();
+  EXPECT_GT(first, 50) << "gravity, what is fixed, the pressure, and what the first stage begins with";
+  desk.picture("glyphs");
+  QTest::keyClick(desk.window.get(), Qt::Key_L, Qt::ControlModifier);
+  EXPECT_TRUE(wait_until([&] { return scene.num_glyphs() == 0; }, 5000));
+  QTest::keyClick(desk.window.get(), Qt::Key_L, Qt::ControlModifier);
+  EXPECT_TRUE(wait_until([&] { return scene.num_glyphs() == first; }, 5000));
+  desk.window->document().set_value("stage[0].pressure[0].value", "\"-1 MPa\"");
+  desk.window->document().remove("stage[0].gravity");
+  EXPECT_TRUE(wait_until([&] { return scene.num_glyphs() == first - 1; }, 5000)) << "they follow the case";
+  desk.window->findChild<CaseTree*>()->select(stage_of("stage[1].constraint[0]"), "stage[1].constraint[0]");
+  EXPECT_GT(scene.num_glyphs(), 5);
+  EXPECT_LT(scene.num_glyphs(), 30) << "those of the second stage alone";
+  desk.window->set_dark(true);
+  desk.picture("glyphs_dark");
+  desk.window->set_dark(false);
+}
+
+TEST(Panels, AHistogramOfTheResultInViewShowsTheElementsAndJointsOfItsBars) {
+  Desk desk;
+  const QString file = written_case(desk.scratch, turning_case("200 us")), run = desk.scratch.filePath("run");
+  ASSERT_EQ(QProcess::execute(BRECCIA_PROGRAM, {"run", file, "-o", run}), 0);
+  desk.window->open_path(run);
+  auto* panel = desk.find<HistogramPanel>("histogram");
+  auto* bars = desk.find<HistogramView>("histogram_bars");
+  auto* measure = desk.find<QComboBox>("histogram_measure");
+  Scene& scene = desk.window->view().scene();
+  desk.window->view().set_colouring(Colouring::speed);
+  EXPECT_EQ(measure->currentText(), "speed [m/s]") << "what is coloured";
+  constexpr std::size_t kElements = 4 * 4 * 4 * 24;
+  const auto counted = [&](Measure of) {
+    return !desk.window->busy() && panel->values() != nullptr && panel->values()->measure == of &&
+           !panel->values()->values.empty();
+  };
+  ASSERT_TRUE(wait_until([&] { return scene.has_data() && counted(Measure::speed); }, kSolver));
+  const auto total = [&] { return std::accumulate(bars->bars().counts.begin(), bars->bars().counts.end(), 0U); };
+  EXPECT_EQ(total(), kElements);
+  const auto [low, high] = scene.range();
+  EXPECT_LE(bars->bars().low, low);
+  EXPECT_GE(bars->bars().low + bars->bars().width * static_cast<double>(bars->bars().counts.size()), high * (1 - 1e-9));
+
+  desk.show_tab("Histogram");
+  bars->setFocus();
+  QTest::keyClick(bars, Qt::Key_Home);
+  EXPECT_TRUE(wait_until([&] { return scene.num_marked() > 0; }, kSolver));
+  const auto marked = scene.num_marked();
+  EXPECT_LE(marked, 4 * bars->bars().counts[0]);
+  desk.picture("histogram");
+  auto* frame = desk.find<QSlider>("frame");
+  frame->setValue(frame->value() - 1);
+  QTest::keyClick(frame, Qt::Key_Left);
+  EXPECT_TRUE(wait_until([&] { return counted(Measure::speed) && bars->chosen() == 0; }, kSolver))
+      << "the bar stays chosen while one walks through the frames";
+
+  QTest::keyClick(frame, Qt::Key_End);
+  measure->setCurrentText("damage of damaged joints");
+  ASSERT_TRUE(wait_until([&] { return counted(Measure::damage); }, kSolver));
+  EXPECT_EQ(scene.num_marked(), 0);
+  EXPECT_GT(bars->bars().counts.back(), 0) << "what is broken is damaged whole";
+  bars->choose(static_cast<int>(bars->bars().counts.size()) - 1);
+  EXPECT_TRUE(wait_until([&] { return scene.num_marked() == bars->bars().counts.back(); }, kSolver))
+      << "a joint is a triangle";
+}
+
 TEST(Panels, ABarOfTheHistogramShowsItsElements) {
   Desk desk;
   desk.window->open_path(QString(BRECCIA_MESHES) + "/glass_impact/case_demo.toml");
-  auto* bars = desk.find<HistogramView>("quality_bars");
+  auto* bars = desk.find<HistogramView>("histogram_bars");
   ASSERT_TRUE(
       wait_until([&] { return desk.window->view().scene().has_data() && !bars->bars().counts.empty(); }, kSolver));
   SolverQuery query;
@@ -165,17 +258,25 @@ TEST(Panels, ABarOfTheHistogramShowsItsElements) {
   for (int bar = 0; bar < counts.size(); ++bar)
     EXPECT_NEAR(bars->bars().counts[static_cast<std::size_t>(bar)], counts[bar].toInt(), 2) << "those of the solver";
 
-  desk.show_tab("Quality");
+  desk.show_tab("Histogram");
   int fullest = 0;
   for (int bar = 0; bar < counts.size(); ++bar)
     if (counts[bar].toInt() > counts[fullest].toInt()) fullest = bar;
   QTest::mouseClick(bars, Qt::LeftButton, {}, bars->place_of(fullest).center().toPoint());
   Scene& scene = desk.window->view().scene();
-  EXPECT_EQ(scene.num_marked(), 4 * bars->bars().counts[static_cast<std::size_t>(fullest)]);
+  auto* panel = desk.find<HistogramPanel>("histogram");
+  // Seen are the faces that no two of the chosen elements share.
+  const auto shows = [&](int bar) {
+    const int count = bars->bars().counts[static_cast<std::size_t>(bar)];
+    return !panel->busy() && scene.num_marked() > 0 && scene.num_marked() <= 4 * count &&
+           desk.find<QLabel>("histogram_words")->text().startsWith(QString("%1 elements").arg(count));
+  };
+  EXPECT_TRUE(wait_until([&] { return shows(fullest); }, kSolver));
   QTest::keyClick(bars, Qt::Key_Left);
-  EXPECT_EQ(scene.num_marked(), 4 * bars->bars().counts[static_cast<std::size_t>(fullest - 1)]);
+  EXPECT_TRUE(wait_until([&] { return shows(fullest - 1); }, kSolver));
   QTest::keyClick(bars, Qt::Key_Left);
   QTest::keyClick(bars, Qt::Key_Left);
+  EXPECT_TRUE(wait_until([&] { return shows(fullest - 3); }, kSolver));
   desk.picture("quality");
   QTest::keyClick(bars, Qt::Key_Escape);
   EXPECT_EQ(scene.num_marked(), 0);

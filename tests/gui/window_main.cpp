@@ -2,16 +2,16 @@
 #include <gtest/gtest.h>
 #include <vtkLogger.h>
 
-#include <QApplication>
 #include <QSurfaceFormat>
 #include <clocale>
 
+#include "gui/timed_application.hpp"
 #include "widgets/theme.hpp"
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
-  const QApplication application(argc, argv);
+  const breccia::gui::test::TimedApplication application(argc, argv);
   std::setlocale(LC_NUMERIC, "C");
   breccia::gui::apply_theme(false);
   return RUN_ALL_TESTS();

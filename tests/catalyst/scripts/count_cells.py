@@ -14,6 +14,7 @@ def catalyst_execute(info):
     data = elements.GetClientSideObject().GetOutputDataObject(0)
     rank = vtkMultiProcessController.GetGlobalController().GetLocalProcessId()
     with open(f"{breccia_insitu.folder()}/rank_{rank}.txt", "a", encoding="utf-8") as file:
-        print(info.timestep, data.GetNumberOfCells(), breccia_insitu.parameter("factor", 1.0), file=file)
+        print(info.timestep, data.GetNumberOfCells(), breccia_insitu.parameter("factor", 1.0),
+              *breccia_insitu.parameter("label", "").split(), file=file)
     if info.timestep == 2:
         breccia_insitu.request(info, stop=1, frame_interval=2.5e-6)

@@ -208,6 +208,10 @@ remote = true
 interval = "500 ms"
 channels = ["surface"]
 max_overhead = 0.25
+fields = ["von_mises", "rank"]
+[insitu.live.region]
+lower = [0, 0, "-1 mm"]
+upper = ["10 mm", 0.5, 0]
 [[insitu.pipeline]]
 name = "fractures"
 every_steps = 100
@@ -216,7 +220,21 @@ every_wall = "30 s"
 every_broken = 50
 first_break = true
 strict = true
-parameters = { width = 640, zoom = 1.5 }
+parameters = { width = 640, zoom = 1.5, upper = "30 MPa", title = "half open" }
+fields = ["id", "opening"]
+region = { lower = [0, 0, 0], upper = ["10 mm", 0.5, 1] }
+[[insitu.pipeline]]
+name = "probes"
+[[insitu.pipeline.probe]]
+name = "tip"
+at = [0, 0, "1 mm"]
+[[insitu.pipeline.probe]]
+name = "across"
+at = [0, 0, 0]
+along = ["10 mm", 0, 0]
+points = 11
+across = [0, "20 mm", 0]
+rows = 21
 )";
 
 /// The text with its first occurrence of `from` replaced; a test that names a text not there fails.

@@ -243,6 +243,31 @@ TEST(Reader, ALiveViewIsOfferedAllThatIsDrawnUnlessToldOtherwise) {
   EXPECT_EQ(told.insitu.live.value().channels, std::vector<std::string>{"history"});
 }
 
+TEST(Reader, AParameterOfAPipelineIsANumberOrATextOrBothWhereATextReadsAsAQuantity) {
+  const Case c = read_text(minimal +
+                           "[[insitu.pipeline]]\nname = \"stress\"\n"
+                           "parameters = { width = 640, upper = \"30 MPa\", title = \"half open\", none = \"\" }\n");
+  const std::map<std::string, Setting>& parameters = c.insitu.pipelines.at(0).parameters;
+  EXPECT_EQ(parameters,
+            (std::map<std::string, Setting>{
+                {"width", {640, {}}}, {"upper", {3e7, "30 MPa"}}, {"title", {{}, "half open"}}, {"none", {{}, ""}}}));
+}
+
+TEST(Reader, APipelineIsHandedTheCellsOfABoxAndSomeFieldsAndHasProbes) {
+  const Case c = read_text(complete);
+  const Pipeline& fractures = c.insitu.pipelines.at(0);
+  EXPECT_EQ(fractures.fields, (std::vector<std::string>{"id", "opening"}));
+  EXPECT_EQ(fractures.region.value().upper, Vec3(0.01, 0.5, 1));
+  EXPECT_EQ(c.insitu.live.value().region.value().lower, Vec3(0, 0, -0.001));
+  const std::vector<Probe>& probes = c.insitu.pipelines.at(1).probes;
+  ASSERT_EQ(probes.size(), 2U);
+  EXPECT_EQ(probes[0].points, 1);
+  EXPECT_EQ(probes[0].at, Vec3(0, 0, 0.001));
+  EXPECT_EQ(probes[1].rows, 21);
+  EXPECT_EQ(probes[1].across, Vec3(0, 0.02, 0));
+  EXPECT_FALSE(read_text(minimal + "[insitu.live]\n").insitu.live->region);
+}
+
 TEST(Reader, SectionsRememberTheirLine) {
   const Case c = read_text(minimal);
   EXPECT_EQ(c.materials[0].origin.line, 3);

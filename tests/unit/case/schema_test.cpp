@@ -86,6 +86,9 @@ std::vector<Problem> problems_of(Key key, std::string_view written) {
     case ValueType::parameters:
       as(std::map<std::string, double>{});
       break;
+    case ValueType::settings:
+      as(std::map<std::string, Setting>{});
+      break;
     case ValueType::points: {
       Node table;
       table.entries.emplace_back("table", node);

@@ -1,30 +1,11 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "case_files.hpp"
+#include "wrong_case.hpp"
 
 namespace breccia::case_ {
 namespace {
 
-using testing::HasSubstr;
-
-/// A change that makes the complete case wrong, and what the message must say.
-struct Wrong {
-  const char* name;
-  const char* from;
-  const char* to;
-  std::vector<const char*> says;
-};
-
 class WrongCase : public testing::TestWithParam<Wrong> {};
 
-// One change is one fault: a second message would lead the user astray.
-TEST_P(WrongCase, IsRefusedWithOneMessageThatSaysWhy) {
-  const std::string message = message_of(replaced(complete, GetParam().from, GetParam().to));
-  for (const char* part : GetParam().says) EXPECT_THAT(message, HasSubstr(part));
-  EXPECT_THAT(message, HasSubstr("case.toml:"));
-  EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 0) << message;
-}
+TEST_P(WrongCase, IsRefusedWithOneMessageThatSaysWhy) { expect_one_message(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(
     Toml, WrongCase,
@@ -84,55 +65,6 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"margin_too_small", "margin = 2.5", "margin = 0.01", {"domains.margin: is out of range"}},
         Wrong{"missing_end", "end = \"1 ms\"\n", "", {"stage[1].end: is missing"}},
         Wrong{"missing_radius", "radius = \"2 m\"\n", "", {"sphere.radius: is missing"}}),
-    [](const auto& param_info) { return param_info.param.name; });
-
-INSTANTIATE_TEST_SUITE_P(
-    InSitu, WrongCase,
-    testing::Values(
-        Wrong{"no_such_pipeline",
-              "name = \"fractures\"",
-              "name = \"fracture\"",
-              {"insitu.pipeline[0].name: no pipeline has this name; allowed: fractures", "ends with .py"}},
-        Wrong{"no_such_pipeline_in_the_list",
-              "run = [\"stress\"]",
-              "run = [\"stres\"]",
-              {"insitu.run: no pipeline has this name; allowed: stress"}},
-        Wrong{"missing_script",
-              "name = \"fractures\"",
-              "name = \"mine.py\"",
-              {"insitu.pipeline[0].name: the script does not exist", "mine.py"}},
-        Wrong{"negative_steps",
-              "every_steps = 100",
-              "every_steps = -1",
-              {"insitu.pipeline[0].every_steps: is out of range"}},
-        Wrong{"no_overhead", "max_overhead = 0.1", "max_overhead = 0", {"insitu.max_overhead: is out of range"}},
-        Wrong{"unknown_way_with_errors",
-              "on_error = \"stop\"",
-              "on_error = \"stopp\"",
-              {"insitu.on_error: ", "did you mean \"stop\"?"}},
-        Wrong{"no_such_channel",
-              "channels = [\"surface\"]",
-              "channels = [\"skin\"]",
-              {"insitu.live.channels: there is no such channel"}},
-        Wrong{"no_channel",
-              "channels = [\"surface\"]",
-              "channels = []",
-              {"insitu.live.channels: names no channel; allowed: "}},
-        Wrong{"address_without_port",
-              "10.0.0.7:22333",
-              "10.0.0.7:",
-              {"insitu.live.address: is no address; allowed: host:port"}},
-        Wrong{"port_above_the_last", "10.0.0.7:22333", "10.0.0.7:65536", {"insitu.live.address: is no address"}},
-        Wrong{"port_too_large", "10.0.0.7:22333", "10.0.0.7:70000", {"insitu.live.address: is no address"}},
-        Wrong{"another_machine_by_accident",
-              "remote = true",
-              "remote = false",
-              {"insitu.live.address: is on another machine; allowed: localhost, 127.0.0.1 or ::1, or "
-               "insitu.live.remote = true"}},
-        Wrong{"unknown_trigger",
-              "every_steps = 100",
-              "every_step = 100",
-              {"insitu.pipeline[0].every_step: unknown key; did you mean \"every_steps\"?"}}),
     [](const auto& param_info) { return param_info.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(

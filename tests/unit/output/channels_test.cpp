@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <set>
+
+#include "case/insitu_fields.hpp"
+#include "case/schema.hpp"
 
 namespace breccia {
 namespace {
@@ -51,6 +55,27 @@ TEST(Channels, PointIntoTheFrame) {
   const BrecciaGrid& joints = *channels.instant().channels[BRECCIA_JOINTS];
   EXPECT_EQ(joints.points, frame.joints.points.data());
   EXPECT_EQ(array(joints, "time_of_failure").values, frame.joints.time_of_failure.data());
+}
+
+TEST(Channels, HaveTheFieldsThatACaseMayAskForAndNoOthers) {
+  Frame frame = example();
+  for (const char* name : {"plastic_shear", "compaction", "plastic_work"}) {  // of the only law that remembers
+    frame.elements.state.push_back({name, 1, {}});
+    frame.surface.cells.state.push_back({name, 1, {}});
+  }
+  const std::uint32_t all = (1U << BRECCIA_NUM_CHANNELS) - 1;
+  const Channels channels(frame, all, kColumns, {});
+  const std::vector<std::string> choices = case_::key_of("insitu.pipeline[].fields").choice_list();
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < BRECCIA_HISTORY; ++i) {
+    const BrecciaGrid& grid = *channels.instant().channels[i];
+    std::vector<std::string> names;
+    for (std::int32_t k = 0; k < grid.num_arrays; ++k) names.emplace_back(grid.arrays[k].name);
+    EXPECT_THAT(case_::fields_of_channel(kChannelNames[i]), testing::UnorderedElementsAreArray(names))
+        << kChannelNames[i];
+    seen.insert(names.begin(), names.end());
+  }
+  EXPECT_THAT(choices, testing::UnorderedElementsAreArray(seen));
 }
 
 TEST(Channels, OfFracturesHoldTheBrokenJoints) {

@@ -28,6 +28,9 @@ TEST(ExtractsCutBack, LoseWhatWasWrittenFromTheStepOnAndNothingElse) {
   write(pictures / "stress_000000999_left.png", "x");
   write(pictures / "notes_of_2026.txt", "x");
   write(history / "history.csv", "step,time\n120,1\n239,2\n240,3\n");
+  write(folder / "probes" / "tip.csv", "step,time\n120,1\n120,2\n240,3\n");
+  write(folder / "probes" / "torn.csv", "step,time\n120,1\n23");
+  write(folder / "script" / "own.csv", "999,1\n");
   cut_extracts_back(folder.path(), 240);
   EXPECT_EQ(test::content_of(fractures / "fractures.pvd"), head + first + foot);
   EXPECT_TRUE(fs::exists(fractures / "fractures_000000120.pvtp"));
@@ -39,6 +42,9 @@ TEST(ExtractsCutBack, LoseWhatWasWrittenFromTheStepOnAndNothingElse) {
   EXPECT_FALSE(fs::exists(pictures / "stress_000000999_left.png"));
   EXPECT_TRUE(fs::exists(pictures / "notes_of_2026.txt"));
   EXPECT_EQ(test::content_of(history / "history.csv"), "step,time\n120,1\n239,2\n");
+  EXPECT_EQ(test::content_of(folder / "probes" / "tip.csv"), "step,time\n120,1\n120,2\n");
+  EXPECT_EQ(test::content_of(folder / "probes" / "torn.csv"), "step,time\n120,1\n") << "a line that was cut off";
+  EXPECT_EQ(test::content_of(folder / "script" / "own.csv"), "999,1\n");
 }
 
 TEST(ExtractsCutBack, NeedNotBeThere) {

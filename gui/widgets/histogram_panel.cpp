@@ -1,11 +1,10 @@
-#include "widgets/quality_panel.hpp"
+#include "widgets/histogram_panel.hpp"
 
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QVBoxLayout>
-#include <QtConcurrent>
 #include <algorithm>
 
 namespace breccia::gui {
@@ -80,21 +79,27 @@ void HistogramView::keyPressEvent(QKeyEvent* event) {
   QWidget::keyPressEvent(event);
 }
 
-QualityPanel::QualityPanel(QWidget* parent)
-    : QWidget(parent), measure_(new QComboBox), view_(new HistogramView), words_(new QLabel) {
-  setObjectName("quality");
-  measure_->addItem(tr("radius ratio, 1 is regular"), static_cast<int>(ShapeMeasure::radius_ratio));
-  measure_->addItem(tr("smallest dihedral angle [deg]"), static_cast<int>(ShapeMeasure::min_dihedral));
-  measure_->addItem(tr("mean edge [mm]"), static_cast<int>(ShapeMeasure::mean_edge));
-  measure_->setObjectName("quality_measure");
-  measure_->setAccessibleName(tr("Measure of the elements"));
-  measure_->setToolTip(tr("What the bars count; flat elements (radius ratio near 0) make the step short"));
-  view_->setObjectName("quality_bars");
-  view_->setAccessibleName(tr("Histogram of the elements"));
+HistogramPanel::HistogramPanel(QWidget* parent)
+    : QWidget(parent),
+      measure_(new QComboBox),
+      view_(new HistogramView),
+      words_(new QLabel),
+      measuring_([this](const Values& values) { show_values(values); }),
+      collecting_([this](const vtkSmartPointer<vtkPolyData>& faces) { emit elements_chosen(faces, words_->text()); }) {
+  setObjectName("histogram");
+  for (const auto& [measure, name] : measures())
+    measure_->addItem(QString::fromStdString(name), static_cast<int>(measure));
+  measure_->setObjectName("histogram_measure");
+  measure_->setAccessibleName(tr("What the histogram is of"));
+  measure_->setToolTip(tr(
+      "What the bars count; flat elements (radius ratio near 0) make the step short; a result is taken over from what "
+      "the view is coloured by"));
+  view_->setObjectName("histogram_bars");
+  view_->setAccessibleName(tr("Histogram"));
   view_->setToolTip(
       tr("A click on a bar, or the arrow keys, show its elements in the 3D view; Escape shows all again"));
   words_->setWordWrap(true);
-  words_->setObjectName("quality_words");
+  words_->setObjectName("histogram_words");
   auto* row = new QHBoxLayout(this);
   auto* column = new QVBoxLayout;
   row->setContentsMargins(4, 4, 4, 4);
@@ -103,48 +108,62 @@ QualityPanel::QualityPanel(QWidget* parent)
   column->addStretch();
   row->addLayout(column, 1);
   row->addWidget(view_, 3);
-  connect(measure_, qOverload<int>(&QComboBox::currentIndexChanged), this, &QualityPanel::show_measure);
-  connect(view_, &HistogramView::bar_chosen, this, &QualityPanel::choose);
-  connect(&reader_, &QFutureWatcher<MeshShapes>::finished, this, [this] {
-    if (!next_.isEmpty()) return set_mesh(QString(next_));
-    shapes_ = reader_.result();
-    show_measure();
+  connect(measure_, qOverload<int>(&QComboBox::currentIndexChanged), this, &HistogramPanel::measure_elements);
+  connect(view_, &HistogramView::bar_chosen, this, &HistogramPanel::choose);
+}
+
+void HistogramPanel::set_frame(const FrameData& frame, bool follows) {
+  if (!follows) {
+    keeps_ = -1;
+  } else if (view_->chosen() >= 0) {
+    keeps_ = view_->chosen();
+  }
+  frame_ = frame;
+  measure_elements();
+}
+
+void HistogramPanel::follow(Colouring colouring) {
+  const Measure wanted = colouring == Colouring::speed       ? Measure::speed
+                         : colouring == Colouring::von_mises ? Measure::von_mises
+                         : colouring == Colouring::tension   ? Measure::tension
+                                                             : measure();
+  measure_->setCurrentIndex(measure_->findData(static_cast<int>(wanted)));
+}
+
+void HistogramPanel::measure_elements() {
+  measuring_.start([frame = frame_, measure = measure()]() -> Values {
+    return std::make_shared<const ElementValues>(values_of(frame, measure));
   });
 }
 
-void QualityPanel::set_mesh(const QString& elements_file) {
-  next_.clear();
-  if (reader_.isRunning()) {
-    next_ = elements_file;
-    return;
-  }
-  const std::string file = elements_file.toStdString();
-  reader_.setFuture(QtConcurrent::run([file] { return measure_shapes(file); }));
+void HistogramPanel::show_values(const Values& values) {
+  const bool same = values_ != nullptr && values_->measure == values->measure;
+  const int bar = same && !values->values.empty() ? keeps_ : -1;
+  values_ = values;
+  keeps_ = -1;
+  view_->show_bars(values_->bars, measure_->currentText());
+  view_->choose(bar);
 }
 
-ShapeMeasure QualityPanel::measure() const { return static_cast<ShapeMeasure>(measure_->currentData().toInt()); }
-
-void QualityPanel::show_measure() {
-  view_->show_bars(histogram_of(shapes_, measure()), measure_->currentText());
-  choose(-1);
-}
-
-void QualityPanel::choose(int bar) {
+void HistogramPanel::choose(int bar) {
+  keeps_ = -1;
   const Histogram& bars = view_->bars();
-  if (bar < 0 || shapes_.elements == nullptr) {
-    words_->setText(tr("%1 elements").arg(shapes_.of(measure()).size()));
+  const QString kind = values_ != nullptr && is_of_joints(values_->measure) ? tr("joints") : tr("elements");
+  if (bar < 0 || values_ == nullptr || values_->values.empty()) {
+    collecting_.forget();
+    words_->setText(tr("%1 %2").arg(values_ == nullptr ? 0 : values_->values.size()).arg(kind));
+    view_->setAccessibleDescription(words_->text());
     emit elements_chosen(nullptr, {});
     return;
   }
   const double low = bars.low + bars.width * bar;
-  const QString words = tr("%1 elements, %2: %3 to %4")
-                            .arg(bars.counts[static_cast<std::size_t>(bar)])
-                            .arg(measure_->currentText())
-                            .arg(low, 0, 'g', 3)
-                            .arg(low + bars.width, 0, 'g', 3);
-  words_->setText(words);
-  view_->setAccessibleDescription(words);
-  emit elements_chosen(elements_of_bar(shapes_, measure(), bar), words);
+  words_->setText(tr("%1 %2, %3: %4 to %5")
+                      .arg(bars.counts[static_cast<std::size_t>(bar)])
+                      .arg(kind, measure_->currentText())
+                      .arg(low, 0, 'g', 3)
+                      .arg(low + bars.width, 0, 'g', 3));
+  view_->setAccessibleDescription(words_->text());
+  collecting_.start([frame = frame_, values = values_, bar] { return faces_of_bar(frame, *values, bar); });
 }
 
 }  // namespace breccia::gui

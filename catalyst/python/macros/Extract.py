@@ -1,0 +1,3 @@
+import live_view
+
+live_view.link.steering.ask("extract")

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "render/frame_data.hpp"
+
+/// Loads and constraints as they are seen on a model at rest. VTK only.
+namespace breccia::gui {
+
+/// What a load looks like: shapes, not colours, tell them apart.
+enum class LoadShape {
+  arrow,         ///< with one head: prescribed motion, gravity
+  double_arrow,  ///< with two heads: initial velocity
+  pressure,      ///< arrows along the normals of the faces, onto them where it is positive
+  support        ///< cones that stand on the faces, one for each axis that is held
+};
+
+struct Load {
+  LoadShape shape = LoadShape::arrow;
+  std::string group;                  ///< volume or surface group; empty: the whole model
+  std::array<double, 3> direction{};  ///< of arrows, any length; of a pressure: its sign comes first
+  std::array<bool, 3> axes{};         ///< of a support
+  std::string words;                  ///< stands beside the glyphs
+};
+
+struct LoadGlyphs {
+  vtkSmartPointer<vtkPolyData> mesh;  ///< triangles
+  /// Ends of the glyphs that are away from the model, of each: where its words may stand.
+  std::vector<std::array<double, 3>> places;
+  [[nodiscard]] int count() const { return static_cast<int>(places.size()); }
+};
+
+/// At most some dozens of glyphs, spread over the faces of the group; none: it is not seen.
+/// @param skin     with the arrays "material", "id" and "side", each triangle with points of its own
+/// @param volumes  names of the volume groups in the order of "material"
+[[nodiscard]] LoadGlyphs draw_load(vtkPolyData& skin, const std::vector<std::string>& volumes,
+                                   const SurfaceGroups& surfaces, const Load& load);
+
+}  // namespace breccia::gui

@@ -1,0 +1,135 @@
+#include "wrong_case.hpp"
+
+namespace breccia::case_ {
+namespace {
+
+class WrongInSitu : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongInSitu, IsRefusedWithOneMessageThatSaysWhy) { expect_one_message(GetParam()); }
+
+TEST(WrongFields, OfAMemoryThatNoMaterialHasAreRefused) {
+  try {
+    static_cast<void>(read_text(minimal + "[insitu.live]\nfields = [\"rank\", \"compaction\"]\n"));
+    ADD_FAILURE() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("insitu.live.fields[1]: no material has a law that remembers this"));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    InSitu, WrongInSitu,
+    testing::Values(
+        Wrong{"no_such_pipeline",
+              "name = \"fractures\"",
+              "name = \"fracture\"",
+              {"insitu.pipeline[0].name: no pipeline has this name; allowed: fractures", "ends with .py"}},
+        Wrong{"no_such_pipeline_in_the_list",
+              "run = [\"stress\"]",
+              "run = [\"stres\"]",
+              {"insitu.run: no pipeline has this name; allowed: stress"}},
+        Wrong{"missing_script",
+              "name = \"fractures\"",
+              "name = \"mine.py\"",
+              {"insitu.pipeline[0].name: the script does not exist", "mine.py"}},
+        Wrong{"negative_steps",
+              "every_steps = 100",
+              "every_steps = -1",
+              {"insitu.pipeline[0].every_steps: is out of range"}},
+        Wrong{"no_overhead", "max_overhead = 0.1", "max_overhead = 0", {"insitu.max_overhead: is out of range"}},
+        Wrong{"unknown_way_with_errors",
+              "on_error = \"stop\"",
+              "on_error = \"stopp\"",
+              {"insitu.on_error: ", "did you mean \"stop\"?"}},
+        Wrong{"no_such_channel",
+              "channels = [\"surface\"]",
+              "channels = [\"skin\"]",
+              {"insitu.live.channels: there is no such channel"}},
+        Wrong{"no_channel",
+              "channels = [\"surface\"]",
+              "channels = []",
+              {"insitu.live.channels: names no channel; allowed: "}},
+        Wrong{"address_without_port",
+              "10.0.0.7:22333",
+              "10.0.0.7:",
+              {"insitu.live.address: is no address; allowed: host:port"}},
+        Wrong{"port_above_the_last", "10.0.0.7:22333", "10.0.0.7:65536", {"insitu.live.address: is no address"}},
+        Wrong{"port_too_large", "10.0.0.7:22333", "10.0.0.7:70000", {"insitu.live.address: is no address"}},
+        Wrong{"another_machine_by_accident",
+              "remote = true",
+              "remote = false",
+              {"insitu.live.address: is on another machine; allowed: localhost, 127.0.0.1 or ::1, or "
+               "insitu.live.remote = true"}},
+        Wrong{
+            "parameter_of_no_kind",
+            "zoom = 1.5",
+            "zoom = [1.5]",
+            {"insitu.pipeline[0].parameters.zoom: is a list; allowed: a table of numbers, texts with units, or texts"}},
+        Wrong{"parameter_beyond_any_number",
+              "zoom = 1.5",
+              "zoom = inf",
+              {"insitu.pipeline[0].parameters.zoom: is not finite"}},
+        Wrong{"parameter_that_ends_early",
+              "half open",
+              "half\\u0000open",
+              {"insitu.pipeline[0].parameters.title: holds a character 0"}},
+        Wrong{"no_such_field",
+              "\"opening\"]",
+              "\"openning\"]",
+              {"insitu.pipeline[0].fields[1]: there is no such field; allowed: opening, "}},
+        Wrong{"field_of_another_channel",
+              "\"opening\"]",
+              "\"stress\"]",
+              {"insitu.pipeline[0].fields[1]: there is no such field; allowed: state"}},
+        Wrong{"field_twice", "\"opening\"]", "\"id\"]", {"insitu.pipeline[0].fields[1]: the field stands twice"}},
+        Wrong{"fields_of_a_picture",
+              "name = \"fractures\"",
+              "name = \"stress\"",
+              {"insitu.pipeline[0].fields: pictures are handed the fields that they need; allowed: no fields"}},
+        Wrong{"fields_of_the_history",
+              "name = \"fractures\"",
+              "name = \"history\"",
+              {"insitu.pipeline[0].fields: the history has neither cells nor fixed columns"}},
+        Wrong{"region_turned_over",
+              "upper = [\"10 mm\", 0.5, 1]",
+              "upper = [\"10 mm\", 0, 1]",
+              {"insitu.pipeline[0].region.upper: is not beyond the lower corner along y; allowed: > 0 m; given: 0 m"}},
+        Wrong{"region_of_one_corner",
+              ", upper = [\"10 mm\", 0.5, 1]",
+              "",
+              {"insitu.pipeline[0].region.upper: is missing"}},
+        Wrong{"probes_of_a_recording",
+              "name = \"probes\"",
+              "name = \"surface\"",
+              {"insitu.pipeline[1].probe[0]: only the pipeline probes has probes; allowed: name = \"probes\""}},
+        Wrong{"probes_without_any",
+              "run = [\"stress\"]",
+              "run = [\"probes\"]",
+              {"insitu.run: has no probe; allowed: one or more [[insitu.pipeline.probe]]"}},
+        Wrong{"probe_that_is_no_file",
+              "name = \"tip\"",
+              "name = \"../tip\"",
+              {"insitu.pipeline[1].probe[0].name: is no name of a file; allowed: letters, digits, _ and -"}},
+        Wrong{"two_probes_of_one_name",
+              "name = \"tip\"",
+              "name = \"across\"",
+              {"insitu.pipeline[1].probe[1].name: another probe has this name"}},
+        Wrong{"line_of_one_point",
+              "points = 11",
+              "points = 1",
+              {"insitu.pipeline[1].probe[1].points: are needed with along; allowed: >= 2; given: 1"}},
+        Wrong{"rows_without_an_edge",
+              "across = [0, \"20 mm\", 0]",
+              "",
+              {"insitu.pipeline[1].probe[1].across: has no length, but there are 21 rows"}},
+        Wrong{"too_many_points",
+              "points = 11",
+              "points = 10000",
+              {"insitu.pipeline[1].probe[1].rows: there are too many points in all"}},
+        Wrong{"unknown_trigger",
+              "every_steps = 100",
+              "every_step = 100",
+              {"insitu.pipeline[0].every_step: unknown key; did you mean \"every_steps\"?"}}),
+    [](const auto& param_info) { return param_info.param.name; });
+
+}  // namespace
+}  // namespace breccia::case_
