@@ -86,14 +86,6 @@ bool has_points(const Model& model, Index group) {
   return false;
 }
 
-/// Whether points of any group feel the elements of this one.
-bool is_entered(const Model& model, Index group) {
-  for (std::size_t other = 0; other < model.mesh.volume_groups.size(); ++other) {
-    if (model.contact.law(static_cast<Index>(other), group).active()) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 std::string stiffness_report(const Model& model) {
@@ -119,39 +111,6 @@ std::string stiffness_report(const Model& model) {
         names[g], range, quantity_text(length[g], "m"), quantity_text(young, "Pa"));
   }
   return text;
-}
-
-Advice thin_body_advice(const Model& model) {
-  constexpr double kMost = 0.5;  // along edges of a thick body a few elements are like that, too
-  Advice advice;
-  if (!model.has_contact || model.contact.field != OverlapField::body) return advice;
-  std::vector<std::uint8_t> surface(model.mesh.nodes.size(), 0);
-  for_each_free_face(model, [&](Index, const std::array<Index, 3>& nodes, const Vec3&) {
-    for (const Index n : nodes) surface[at(n)] = 1;
-  });
-  struct Area {
-    double thin = 0, all = 0;  ///< m2
-    Index elements = 0, last = -1;
-  };
-  std::vector<Area> areas(model.mesh.volume_groups.size());
-  for_each_free_face(model, [&](Index e, const std::array<Index, 3>&, const Vec3& area) {
-    const auto& corners = model.mesh.elements[at(e)];
-    Area& group = areas[at(model.mesh.element_group[at(e)])];
-    group.all += area.norm();
-    if (!std::all_of(corners.begin(), corners.end(), [&](Index n) { return surface[at(n)] != 0; })) return;
-    group.thin += area.norm();
-    if (group.last != e) ++group.elements;
-    group.last = e;
-  });
-  for (std::size_t g = 0; g < areas.size(); ++g) {
-    if (!(areas[g].thin > kMost * areas[g].all) || !is_entered(model, static_cast<Index>(g))) continue;
-    advice.push_back(fmt::format(
-        "{} has one element through its thickness: {} of its elements have all four corners on the surface, and the "
-        "direction in which they push is off (up to 0.3 to 0.47 of the normal force sideways without friction). Two "
-        "elements through the thickness push straight.",
-        model.mesh.volume_groups[g], areas[g].elements));
-  }
-  return advice;
 }
 
 Advice late_contact_advice(const Model& model) {

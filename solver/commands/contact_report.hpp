@@ -16,8 +16,4 @@ namespace breccia {
 /// noticeably nearer before they feel each other. Edges and corners proper, flat surfaces: nothing. O(elements).
 [[nodiscard]] Advice late_contact_advice(const Model& model);
 
-/// Groups that others press on and most of whose free surface belongs to elements with all four corners on the surface:
-/// the overlap field is 0 on all their corners, and the direction of contact is off. O(elements).
-[[nodiscard]] Advice thin_body_advice(const Model& model);
-
 }  // namespace breccia

@@ -198,9 +198,7 @@ void relax_initial_overlaps(const ContactParams& params, const LocalMesh& local,
     const auto lambda =
         barycentric(prepare(corners[at(couple.contactor)], local.volume[at(slot)]), points[at(couple.point)]);
     if (!inside(lambda)) continue;
-    const double length = contact.body_length[at(local.slot_body[at(slot)])];
-    const double overlap =
-        overlap_value(overlap_shape(params, local, slot, contact.field[at(couple.contactor)], length), lambda);
+    const double overlap = overlap_value(overlap_shape(params, local, contact, couple.contactor), lambda);
     if (overlap > 0) contact.touching.push_back({.point = point, .contactor = couple.contactor, .offset = overlap});
   }
 }

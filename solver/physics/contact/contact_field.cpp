@@ -133,6 +133,18 @@ void advance_field(ContactState& contact) {
   }
 }
 
+OverlapShape overlap_shape(const ContactParams& params, const LocalMesh& local, const ContactState& contact,
+                           Index contactor, Instant instant) {
+  const Index slot = contact.contactors[at(contactor)], ramp = contact.ramp_of_contactor[at(contactor)];
+  const double length = contact.body_length[at(local.slot_body[at(slot)])];
+  FieldValues values = contact.field[at(contactor)];
+  if (ramp < 0) return overlap_shape(params, local, slot, values, length);
+  const FieldRamp& coming = contact.ramps[at(ramp)];
+  if (instant == Instant::now) return overlap_shape(params, local, slot, values, length, &coming.remaining);
+  values.depth = coming.depth_before;
+  return overlap_shape(params, local, slot, values, length, &coming.before);
+}
+
 OverlapShape overlap_shape(const ContactParams& params, const LocalMesh& local, Index slot, const FieldValues& values,
                            double length, const ComingSets* coming) {
   if (params.field == OverlapField::body) return body_shape(params, local, slot, values, coming);

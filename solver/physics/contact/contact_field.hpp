@@ -18,9 +18,8 @@ namespace breccia {
 /// of the face alone, so it is continuous. For a lone tetrahedron g is the distance to its nearest face.
 ///
 /// Fracture adds sets: the corners of an element at the nodes of a freed face. A new set comes to count within
-/// ContactParams::ramp_steps steps: its own depths go from D_a to 0. What was deep inside is then near a surface, so the
-/// depths of the nodes of the face go down to the least height of their elements there, that g is not steep in
-/// fragments.
+/// ContactParams::ramp_steps steps: its own depths go from D_a to 0. The depths of the nodes of the face go down to the
+/// least height of their elements there meanwhile, so that g is not steep in fragments of what lay deep inside.
 ///
 /// H, the length that makes the overlap dimensionless, is the mean inradius of a body's elements.
 
@@ -41,6 +40,12 @@ void lower_depth(const ContactParams& params, Index contactor, int corner, doubl
 
 /// One step of all ramps; what they were is kept in FieldRamp::before until the next call. O(ramps).
 void advance_field(ContactState& contact);
+
+enum class Instant { now, step_before };
+
+/// Coefficients of g for a contactor, its ramps included.
+[[nodiscard]] OverlapShape overlap_shape(const ContactParams& params, const LocalMesh& local,
+                                         const ContactState& contact, Index contactor, Instant instant = Instant::now);
 
 /// Coefficients of g for one element. @param length  H of its body, m;  @param coming  of a ramp, or null: none
 [[nodiscard]] OverlapShape overlap_shape(const ContactParams& params, const LocalMesh& local, Index slot,

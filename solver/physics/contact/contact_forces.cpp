@@ -12,7 +12,7 @@ namespace breccia {
 
 namespace {
 
-/// Slope that the overlap field does not exceed: 1 for distances, less than 2 for the bubble of all but slivers.
+/// Slope that the overlap field hardly exceeds: 1 where it is a distance.
 constexpr double kSteepest = 2.0;
 
 Index group_of(const LocalMesh& local, Index slot) {
@@ -110,22 +110,6 @@ class Pass {
   [[nodiscard]] const PreparedTetra& prepared(Index contactor) const {
     return contact_.prepared[static_cast<std::size_t>(contact_.place[static_cast<std::size_t>(contactor)])];
   }
-  [[nodiscard]] OverlapShape shape_of(Index contactor) const {
-    const FieldRamp* ramp = ramp_of(contactor);
-    const Index slot = slot_of(contactor);
-    return overlap_shape(params_, local_, slot, contact_.field[static_cast<std::size_t>(contactor)], length_of(slot),
-                         ramp != nullptr ? &ramp->remaining : nullptr);
-  }
-  [[nodiscard]] OverlapShape shape_before(const FieldRamp& ramp) const {
-    const Index slot = slot_of(ramp.contactor);
-    const FieldValues values{ramp.depth_before, contact_.field[static_cast<std::size_t>(ramp.contactor)].sets};
-    return overlap_shape(params_, local_, slot, values, length_of(slot), &ramp.before);
-  }
-  /// Null: the contactor's field rests.
-  [[nodiscard]] const FieldRamp* ramp_of(Index contactor) const {
-    const Index ramp = contact_.ramp_of_contactor[static_cast<std::size_t>(contactor)];
-    return ramp < 0 ? nullptr : &contact_.ramps[static_cast<std::size_t>(ramp)];
-  }
   /// Where the work at a point is accounted: couples are computed wherever one side is at home, and accounted with
   /// their points.
   [[nodiscard]] ExactSum& account(const ContactPoint& point, ExactSum& sum) {
@@ -184,9 +168,10 @@ void Pass::prepare_contactors() {
 
 void Pass::consider(Index contactor, const std::array<double, 4>& lambda) {
   Candidate candidate{contactor, lambda, 0, 0};
-  const FieldRamp* ramp = ramp_of(contactor);
-  candidate.g = overlap_value(shape_of(contactor), lambda);
-  candidate.g_before = ramp != nullptr ? overlap_value(shape_before(*ramp), lambda) : candidate.g;
+  candidate.g = candidate.g_before = overlap_value(overlap_shape(params_, local_, contact_, contactor), lambda);
+  if (contact_.ramp_of_contactor[static_cast<std::size_t>(contactor)] >= 0)
+    candidate.g_before =
+        overlap_value(overlap_shape(params_, local_, contact_, contactor, Instant::step_before), lambda);
   if (candidate.g > 0 || candidate.g_before > 0) candidates_.push_back(candidate);
 }
 
@@ -380,7 +365,8 @@ void Pass::act(Index index, Candidate& candidate) {
 /// @return  J that the couple holds, and that friction and damping have dissipated
 double Pass::press(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
                    const Candidate& candidate, TouchingCouple& h) {
-  const Overlap here = overlap(shape_of(candidate.contactor), prepared(candidate.contactor), candidate.lambda);
+  const Overlap here = overlap(overlap_shape(params_, local_, contact_, candidate.contactor),
+                               prepared(candidate.contactor), candidate.lambda);
   Damping normal{point.weight * normal_law::stress(law, h.d, h.d_max), 0.0};
   if (law.damping > 0 && h.d > 0 && dt_ > 0 && here.gradient != Vec3::Zero())
     normal = damp(law, point, motion, candidate, here.gradient, normal.pressure);

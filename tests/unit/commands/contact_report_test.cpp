@@ -53,27 +53,6 @@ TEST(LateContact, IsNoneForBoxes) {
                   .empty());
 }
 
-/// A plate of 2 mm. @param layers  of elements
-std::string plate(const std::string& layers) {
-  return "Rectangle(1) = {0, 0, 0, 0.02, 0.02};\nExtrude {0, 0, 0.002} { Surface{1}; Layers{" + layers +
-         "}; }\nPhysical Volume(\"plate\") = {1};\nMeshSize{:} = 0.002;\n";
-}
-
-TEST(ThinBodies, OfOneElementThroughTheThicknessAreNamed) {
-  const Advice advice = thin_body_advice(model_of(plate("1"), material("plate", "1 GPa")));
-  ASSERT_EQ(advice.size(), 1u);
-  EXPECT_THAT(advice[0], HasSubstr("plate has one element through its thickness: "));
-}
-
-TEST(ThinBodies, OfTwoElementsThroughTheThicknessAreNot) {
-  EXPECT_TRUE(thin_body_advice(model_of(plate("2"), material("plate", "1 GPa"))).empty());
-}
-
-TEST(ThinBodies, ArePlaneLayersOnlyWhereTheyAreThinWithinThePlane) {
-  const std::string plane = "[plane]\nkind = \"strain\"\n";
-  EXPECT_TRUE(thin_body_advice(model_of(plate("1"), material("plate", "1 GPa"), plane)).empty());
-}
-
 TEST(StiffnessReport, HasALineForEachGroupWithItsOwnModulus) {
   const std::string text = stiffness_report(
       model_of("Box(1) = {0, 0, 0, 1, 1, 1};\nBox(2) = {2, 0, 0, 1, 1, 1};\nPhysical Volume(\"soft\") = {1};\n"
