@@ -51,49 +51,61 @@ CornerSets sets_of(const std::array<Index, 4>& corners, const std::vector<FreeFa
   return largest_sets(sets);
 }
 
-/// Least height above an opposite free face, and longest edge, of the nodes on the surface; others: 0.
-std::vector<double> behind_nodes(const Mesh& mesh, const Topology& topology, const std::vector<std::uint8_t>& on) {
-  std::vector<double> longest(mesh.nodes.size(), 0.0), height(mesh.nodes.size(), std::numeric_limits<double>::max());
+/// Of a node's elements, m.
+struct Around {
+  double longest_edge = 0;
+  double least_height = std::numeric_limits<double>::max();  ///< of the node above the opposite faces
+  double above_free = std::numeric_limits<double>::max();    ///< the same above opposite free faces
+};
+
+std::vector<Around> around_nodes(const Mesh& mesh, const Topology& topology, const std::vector<std::uint8_t>& on) {
+  std::vector<Around> nodes(mesh.nodes.size());
   for (Index e = 0; e < mesh.num_elements(); ++e) {
     const auto& corners = mesh.elements[at(e)];
     if (std::none_of(corners.begin(), corners.end(), [&](Index n) { return on[at(n)] != 0; })) continue;
     const auto x = geometry::corners_of(mesh, e);
     for (std::size_t c = 0; c < 4; ++c) {
-      for (std::size_t k = 0; k < 4; ++k)
-        longest[at(corners[c])] = std::max(longest[at(corners[c])], (x[c] - x[k]).norm());
-      if (!topology.links[at(e)][c].free()) continue;
-      height[at(corners[c])] = std::min(height[at(corners[c])], geometry::height(x, static_cast<int>(c)));
+      Around& node = nodes[at(corners[c])];
+      const double height = geometry::height(x, static_cast<int>(c));
+      node.least_height = std::min(node.least_height, height);
+      if (topology.links[at(e)][c].free()) node.above_free = std::min(node.above_free, height);
+      for (const Vec3& other : x) node.longest_edge = std::max(node.longest_edge, (x[c] - other).norm());
     }
   }
-  for (std::size_t n = 0; n < longest.size(); ++n) longest[n] = on[n] != 0 ? std::min(longest[n], height[n]) : 0.0;
-  return longest;
+  return nodes;
+}
+
+/// What lies behind a node on the surface, m.
+double depth_behind(const Vec3& x, const Around& around, const TriangleTree& tree) {
+  constexpr double kBehind = 0.5;  // of the distance: a face seen at less than 30 degrees goes on beside the node
+  const double reach = std::min(around.longest_edge, around.above_free);
+  const double opposite = tree.distance(x, reach, [&](const Triangle& t, double distance) {
+    if (t[0] == x || t[1] == x || t[2] == x) return false;
+    const Vec3 across = (t[1] - t[0]).cross(t[2] - t[0]);
+    return (t[0] - x).dot(across) >= kBehind * distance * across.norm();
+  });
+  return opposite < around.longest_edge ? opposite : around.least_height;
 }
 
 }  // namespace
 
 SurfaceDepth surface_depth(const Mesh& mesh, const Topology& topology) {
-  constexpr double kBehind = 0.5;  // of the distance: a face seen at less than 30 degrees goes on beside the node
   SurfaceDepth result{std::vector<std::uint8_t>(mesh.nodes.size(), 0), nodal_surface_distance(mesh, topology), {}};
   const std::vector<FreeFace> faces = free_faces(mesh, topology);
   for (const FreeFace& face : faces) {
     for (const Index node : face) result.on_surface[at(node)] = 1;
   }
-  const FacesAtNodes around(mesh, faces);
+  const FacesAtNodes faces_at(mesh, faces);
   result.sets.reserve(mesh.elements.size());
-  for (const auto& corners : mesh.elements) result.sets.push_back(sets_of(corners, faces, around));
+  for (const auto& corners : mesh.elements) result.sets.push_back(sets_of(corners, faces, faces_at));
 
-  const std::vector<double> reach = behind_nodes(mesh, topology, result.on_surface);
+  const std::vector<Around> around = around_nodes(mesh, topology, result.on_surface);
   std::vector<Index> nodes;
   for (Index n = 0; n < mesh.num_nodes(); ++n) {
     if (result.on_surface[at(n)] != 0) nodes.push_back(n);
   }
   for_each_with_tree(mesh, faces, std::move(nodes), [&](Index node, const TriangleTree& tree) {
-    const Vec3& x = mesh.nodes[at(node)];
-    result.depth[at(node)] = tree.distance(x, reach[at(node)], [&](const Triangle& t, double distance) {
-      if (t[0] == x || t[1] == x || t[2] == x) return false;
-      const Vec3 across = (t[1] - t[0]).cross(t[2] - t[0]);
-      return (t[0] - x).dot(across) >= kBehind * distance * across.norm();
-    });
+    result.depth[at(node)] = depth_behind(mesh.nodes[at(node)], around[at(node)], tree);
   });
   return result;
 }

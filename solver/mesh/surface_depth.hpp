@@ -19,9 +19,10 @@ struct SurfaceDepth {
 };
 
 /// The depth of a node inside is its distance to the free surface (mesh/point_distance.hpp). That of a node on the
-/// surface is how much lies behind it: the least of its heights above opposite free faces of its elements, of its
+/// surface is how much lies behind it: the least of its heights above opposite free faces of its elements and of its
 /// distances to free faces that it lies behind by half its distance at least (the other side of a wall, the far side of
-/// a ridge), and of its longest edge. O(n log n) in the free faces, throws nothing.
+/// a ridge); where there is none of these nearer than its longest edge, the least of its heights.
+/// O(n log n) in the free faces, throws nothing.
 /// @pre mesh is finished, topology belongs to it
 [[nodiscard]] SurfaceDepth surface_depth(const Mesh& mesh, const Topology& topology);
 
