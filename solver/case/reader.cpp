@@ -8,6 +8,7 @@
 #include "case/parent_case.hpp"
 #include "case/reader_keys.hpp"
 #include "case/reader_overrides.hpp"
+#include "case/units.hpp"
 #include "case/validate.hpp"
 #include "case/writer.hpp"
 
@@ -240,6 +241,17 @@ Case read_case_text(std::string_view text, const std::filesystem::path& file, st
 
 Case read_case_tree(Node root, const std::filesystem::path& file, MeshFile mesh) {
   return case_of(std::move(root), file, {}, {mesh, nullptr});
+}
+
+Setting read_setting(const std::string& text) {
+  Setting setting;
+  setting.text = text;
+  try {
+    setting.number = parse_quantity(text).value;
+  } catch (const UnitError&) {
+    // it is no quantity
+  }
+  return setting;
 }
 
 }  // namespace breccia::case_

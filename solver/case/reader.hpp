@@ -38,4 +38,7 @@ enum class MeshFile { must_be_there, may_be_gone };
 /// The same of a tree.
 [[nodiscard]] Case read_case_tree(Node root, const std::filesystem::path& file, MeshFile mesh);
 
+/// A text as a parameter of a pipeline: a number as well where it reads as a quantity.
+[[nodiscard]] Setting read_setting(const std::string& text);
+
 }  // namespace breccia::case_

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "case/nearest.hpp"
+#include "case/reader.hpp"
 #include "case/units.hpp"
 
 namespace breccia::case_ {
@@ -214,12 +215,7 @@ void ValueReader::read(const Key& key, const Node& node, const std::string& path
       problem(value, own, "holds a character 0", allowed_text(key), "");
       continue;
     }
-    setting.text = value.text;
-    try {
-      setting.number = parse_quantity(value.text).value;
-    } catch (const UnitError&) {
-      // a text, then
-    }
+    setting = read_setting(value.text);
   }
 }
 

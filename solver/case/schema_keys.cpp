@@ -224,9 +224,8 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Exponent b of the unloading curve: 1 gives all energy back, more dissipates.", .example = "2"},
     {.path = "contact[].friction", .type = number, .fallback = "0", .range = not_negative,
      .help = "Coefficient of Coulomb friction. From about 0.2 on elastic bodies that slide without damping vibrate: "
-             "plates of 10 GPa under 2 MPa rub with 0.24 in the mean for 0.3, with 0.58 for 0.8, at any time step and "
-             "mesh. The viscosity that check names, mass_damping, or damping_ratio 0.5 with a tenth of the penalty "
-             "gives 0.30.",
+             "plates of 10 GPa under 2 MPa rub with 0.24 in the mean for 0.3, with 0.58 for 0.8, at any time step. A "
+             "viscosity (check names one), mass_damping, or damping_ratio 0.5 with a tenth of the penalty gives 0.30.",
      .example = "0.3"},
     {.path = "contact[].tangential_ratio", .type = number, .fallback = "1", .range = share,
      .help = "Tangential over normal contact stiffness.", .example = "0.8"},

@@ -11,6 +11,7 @@
 #include "base/number_text.hpp"
 #include "case/countable.hpp"
 #include "case/nearest.hpp"
+#include "case/problem_at.hpp"
 #include "case/schema.hpp"
 #include "case/validate_insitu.hpp"
 #include "case/validate_motion.hpp"
@@ -54,8 +55,7 @@ class Validator {
  private:
   void problem(const Origin& origin, const std::string& name, const std::string& what, const std::string& allowed = {},
                const std::string& given = {}) {
-    const std::string key = origin.key.empty() || name.empty() ? origin.key + name : origin.key + "." + name;
-    problems_.push_back({c_.file.string(), origin.line, key, what, allowed, given});
+    problems_.push_back(problem_at(c_, origin, name, what, allowed, given));
   }
 
   [[nodiscard]] const Material* material(const std::string& group) const {

@@ -9,6 +9,7 @@
 #include "case/insitu_fields.hpp"
 #include "case/live_address.hpp"
 #include "case/nearest.hpp"
+#include "case/problem_at.hpp"
 #include "case/schema.hpp"
 
 namespace breccia::case_ {
@@ -48,8 +49,7 @@ class InSituValidator {
  private:
   void problem(const Origin& origin, const std::string& name, const std::string& what, const std::string& allowed = {},
                const std::string& given = {}) {
-    const std::string key = origin.key.empty() || name.empty() ? origin.key + name : origin.key + "." + name;
-    problems_.push_back({c_.file.string(), origin.line, key, what, allowed, given});
+    problems_.push_back(problem_at(c_, origin, name, what, allowed, given));
   }
 
   void pipeline(const Pipeline& pipeline) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/number_text.hpp"
+#include "case/problem_at.hpp"
 
 namespace breccia::case_ {
 namespace {
@@ -54,8 +55,8 @@ class MotionLimits {
  private:
   void demand(const Origin& origin, const char* name, double magnitude, double most, const std::string& unit) {
     if (magnitude <= most) return;
-    problems_.push_back({c_.file.string(), origin.line, origin.key + "." + name, "is beyond what can be computed",
-                         "magnitudes up to " + number(most) + " " + unit, number(magnitude) + " " + unit});
+    problems_.push_back(problem_at(c_, origin, name, "is beyond what can be computed",
+                                   "magnitudes up to " + number(most) + " " + unit, number(magnitude) + " " + unit));
   }
 
   const Case& c_;
@@ -82,8 +83,8 @@ class PlaneCheck {
 
  private:
   void problem(const Origin& origin, const std::string& name, const std::string& allowed) {
-    problems_.push_back({c_.file.string(), origin.line, origin.key + (name.empty() ? "" : "." + name),
-                         "acts along " + name_ + ", the axis of this plane model", allowed, ""});
+    problems_.push_back(
+        problem_at(c_, origin, name, "acts along " + name_ + ", the axis of this plane model", allowed, ""));
   }
   void initial_velocity(const InitialVelocity& v) {
     const auto axis = static_cast<Eigen::Index>(axis_);

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "case/units.hpp"
+#include "case/reader.hpp"
 #include "commands/commands.hpp"
 #include "output/atomic_file.hpp"
 #include "output/control.hpp"
@@ -25,18 +25,12 @@ int control_command(const ControlCommand& asked) {
 
 namespace {
 
-/// NAME=VALUE: as a text, and as a number where it reads as one.
+/// Of NAME=VALUE.
 std::map<std::string, case_::Setting> settings_of(const std::vector<std::string>& assignments) {
   std::map<std::string, case_::Setting> settings;
   for (const std::string& assignment : assignments) {
     const std::size_t equals = assignment.find('=');
-    case_::Setting& setting = settings[assignment.substr(0, equals)];
-    setting.text = assignment.substr(equals + 1);
-    try {
-      setting.number = case_::parse_quantity(*setting.text).value;
-    } catch (const case_::UnitError&) {
-      // a text, then
-    }
+    settings[assignment.substr(0, equals)] = case_::read_setting(assignment.substr(equals + 1));
   }
   return settings;
 }

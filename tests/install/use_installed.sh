@@ -43,7 +43,7 @@ if [[ -f $prefix/lib/breccia/libbreccia_catalyst.so ]]; then
 
   # ParaView listens where `live` says, and ends with it.
   port=$((20000 + $$ % 10000))
-  timeout 120 xvfb-run -a breccia live "$case" --set "insitu.live.address=\"localhost:$port\"" >live.txt 2>&1 &
+  setsid timeout 120 xvfb-run -a breccia live "$case" --set "insitu.live.address=\"localhost:$port\"" >live.txt 2>&1 &
   for ((waited = 0; waited < 60; ++waited)); do
     grep -q "listens at port $port" live.txt && break
     sleep 1
@@ -51,7 +51,10 @@ if [[ -f $prefix/lib/breccia/libbreccia_catalyst.so ]]; then
   grep -q "listens at port $port" live.txt || fail "live did not say where ParaView listens: $(cat live.txt)"
   sleep 5
   kill -0 $! 2>/dev/null || fail "ParaView did not stay: $(cat live.txt)"
-  kill $!
+  # All of its session: a ParaView whose display goes away first may hang for ever.
+  kill -- -$!
+  sleep 2
+  kill -KILL -- -$! 2>/dev/null || true
   wait $! 2>/dev/null || true
 else
   breccia run "$case" -o insitu --insitu stress --progress none 2>message.txt && fail "pipelines without an adaptor"
