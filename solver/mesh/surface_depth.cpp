@@ -78,13 +78,15 @@ std::vector<Around> around_nodes(const Mesh& mesh, const Topology& topology, con
 /// What lies behind a node on the surface, m.
 double depth_behind(const Vec3& x, const Around& around, const TriangleTree& tree) {
   constexpr double kBehind = 0.5;  // of the distance: a face seen at less than 30 degrees goes on beside the node
-  const double reach = std::min(around.longest_edge, around.above_free);
+  constexpr double kRoundOff = 1e-9;  // an edge from side to side of a wall is as long as the wall is thick
+  const double longest = (1 + kRoundOff) * around.longest_edge;
+  const double reach = std::min(longest, around.above_free);
   const double opposite = tree.distance(x, reach, [&](const Triangle& t, double distance) {
     if (t[0] == x || t[1] == x || t[2] == x) return false;
     const Vec3 across = (t[1] - t[0]).cross(t[2] - t[0]);
     return (t[0] - x).dot(across) >= kBehind * distance * across.norm();
   });
-  return opposite < around.longest_edge ? opposite : around.least_height;
+  return opposite < longest ? opposite : around.least_height;
 }
 
 }  // namespace

@@ -124,7 +124,9 @@ TEST(InitialOverlap, that_is_relaxed_gives_no_energy_and_the_same_bits_on_any_nu
   }
 }
 
-/// A block on a slope, at rest first, friction 0.5. Returns its acceleration once it slides, m/s2.
+/// A block on a slope, at rest first, friction 0.5. Returns its acceleration once it slides, m/s2. The weight grows so
+/// slowly that what vibration it leaves takes less from the normal force than 26 degrees leave to friction, 2.5 %:
+/// nothing damps it, and the block would creep.
 double acceleration(double degrees, const std::string& floor_size) {
   const Scratch scratch;
   scratch.write("block.geo", R"(SetFactory("OpenCASCADE");
@@ -148,9 +150,9 @@ penalty = "2 MPa"
 friction = 0.5
 points_on = "first"
 [[stage]]
-end = 0.14
-gravity = [)" + ramp(9.81 * std::sin(angle), 0.03, 0.05) +
-                                      ", 0, " + ramp(-9.81 * std::cos(angle), 0, 0.03) + R"(]
+end = 0.19
+gravity = [)" + ramp(9.81 * std::sin(angle), 0.06, 0.1) +
+                                      ", 0, " + ramp(-9.81 * std::cos(angle), 0, 0.06) + R"(]
 [[stage.constraint]]
 group = "floor"
 fixed = "xyz"
@@ -168,7 +170,7 @@ gauges = ["block"]
   const auto at = [&](double time) {
     return static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), time) - t.begin());
   };
-  const std::size_t a = at(0.06), b = at(0.0995), c = t.size() - 1;
+  const std::size_t a = at(0.11), b = at(0.1495), c = t.size() - 1;
   return 2 * ((x[c] - x[b]) / (t[c] - t[b]) - (x[b] - x[a]) / (t[b] - t[a])) / (t[c] - t[a]);
 }
 
