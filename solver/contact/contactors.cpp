@@ -30,7 +30,7 @@ std::vector<bool> nodes_between_groups(const Mesh& mesh) {
 Contactors choose_contactors(const std::vector<bool>& breakable, const Mesh& mesh, const Topology& topology,
                              int across) {
   Contactors result;
-  result.surface = surface_depth(mesh, across < 0 ? topology : without_sides(mesh, topology, across));
+  result.surface = surface_depth(breakable, mesh, across < 0 ? topology : without_sides(mesh, topology, across));
   const std::vector<bool> between = nodes_between_groups(mesh);
   result.chosen.assign(at(mesh.num_elements()), 0);
   double volume = 0, number = 0;

@@ -1,12 +1,10 @@
 #include "contact/face_release.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <tuple>
 
 #include "detection/point_body/couple_test.hpp"
-#include "mesh/geometry.hpp"
 #include "physics/contact/contact_couples.hpp"
 #include "physics/contact/contact_field.hpp"
 
@@ -79,16 +77,8 @@ void FaceRelease::free_corners_of(const Topology::Face& side) {
   freed_.clear();
   for (const int corner : kFaceCorners[at(side.face)]) {
     const Index cluster = clusters.cluster(side.element, corner);
-    const auto first = static_cast<std::ptrdiff_t>(freed_.size());
-    double least = std::numeric_limits<double>::max();
     for (const Index id : clusters.corners_at(model.mesh.elements[at(side.element)][at(corner)])) {
-      if (clusters.cluster(id / 4, id % 4) != cluster) continue;
-      freed_.push_back(id);
-      least = std::min(least, geometry::height(geometry::corners_of(model.mesh, id / 4), id % 4));
-    }
-    for (auto id = freed_.begin() + first; id != freed_.end(); ++id) {
-      const Index contactor = contact_.contactor_of_slot[at(model.slot_of(*id / 4))];
-      if (contactor >= 0) lower_depth(model.params, contactor, *id % 4, least, contact_);
+      if (clusters.cluster(id / 4, id % 4) == cluster) freed_.push_back(id);
     }
   }
   std::sort(freed_.begin(), freed_.end());

@@ -51,25 +51,25 @@ CornerSets sets_of(const std::array<Index, 4>& corners, const std::vector<FreeFa
   return largest_sets(sets);
 }
 
-/// Of a node's elements, m.
+/// Of a node's elements.
 struct Around {
-  double longest_edge = 0;
-  double least_height = std::numeric_limits<double>::max();  ///< of the node above the opposite faces
-  double above_free = std::numeric_limits<double>::max();    ///< the same above opposite free faces
+  double longest_edge = 0;                                   ///< m
+  double least_height = std::numeric_limits<double>::max();  ///< m, of the node above the opposite faces
+  double above_free = std::numeric_limits<double>::max();    ///< m, the same above opposite free faces
+  bool breakable = false;                                    ///< any of them
 };
 
-std::vector<Around> around_nodes(const Mesh& mesh, const Topology& topology, const std::vector<std::uint8_t>& on) {
+std::vector<Around> around_nodes(const std::vector<bool>& breakable, const Mesh& mesh, const Topology& topology) {
   std::vector<Around> nodes(mesh.nodes.size());
   for (Index e = 0; e < mesh.num_elements(); ++e) {
-    const auto& corners = mesh.elements[at(e)];
-    if (std::none_of(corners.begin(), corners.end(), [&](Index n) { return on[at(n)] != 0; })) continue;
     const auto x = geometry::corners_of(mesh, e);
     for (std::size_t c = 0; c < 4; ++c) {
-      Around& node = nodes[at(corners[c])];
+      Around& node = nodes[at(mesh.elements[at(e)][c])];
       const double height = geometry::height(x, static_cast<int>(c));
       node.least_height = std::min(node.least_height, height);
       if (topology.links[at(e)][c].free()) node.above_free = std::min(node.above_free, height);
       for (const Vec3& other : x) node.longest_edge = std::max(node.longest_edge, (x[c] - other).norm());
+      node.breakable = node.breakable || breakable[at(mesh.element_group[at(e)])];
     }
   }
   return nodes;
@@ -77,7 +77,7 @@ std::vector<Around> around_nodes(const Mesh& mesh, const Topology& topology, con
 
 /// What lies behind a node on the surface, m.
 double depth_behind(const Vec3& x, const Around& around, const TriangleTree& tree) {
-  constexpr double kBehind = 0.5;  // of the distance: a face seen at less than 30 degrees goes on beside the node
+  constexpr double kBehind = 0.5;     // of the distance: a face seen at less than 30 degrees goes on beside the node
   constexpr double kRoundOff = 1e-9;  // an edge from side to side of a wall is as long as the wall is thick
   const double longest = (1 + kRoundOff) * around.longest_edge;
   const double reach = std::min(longest, around.above_free);
@@ -89,10 +89,25 @@ double depth_behind(const Vec3& x, const Around& around, const TriangleTree& tre
   return opposite < longest ? opposite : around.least_height;
 }
 
+/// Nodes of what cannot break.
+void set_distances(const Mesh& mesh, const Topology& topology, const std::vector<FreeFace>& faces,
+                   const std::vector<Around>& around, SurfaceDepth& result) {
+  const std::vector<double> distance = nodal_surface_distance(mesh, topology);
+  std::vector<Index> on_surface;
+  for (Index n = 0; n < mesh.num_nodes(); ++n) {
+    if (around[at(n)].breakable) continue;
+    if (result.on_surface[at(n)] != 0) on_surface.push_back(n);
+    result.depth[at(n)] = distance[at(n)];
+  }
+  for_each_with_tree(mesh, faces, std::move(on_surface), [&](Index node, const TriangleTree& tree) {
+    result.depth[at(node)] = depth_behind(mesh.nodes[at(node)], around[at(node)], tree);
+  });
+}
+
 }  // namespace
 
-SurfaceDepth surface_depth(const Mesh& mesh, const Topology& topology) {
-  SurfaceDepth result{std::vector<std::uint8_t>(mesh.nodes.size(), 0), nodal_surface_distance(mesh, topology), {}};
+SurfaceDepth surface_depth(const std::vector<bool>& breakable, const Mesh& mesh, const Topology& topology) {
+  SurfaceDepth result{std::vector<std::uint8_t>(mesh.nodes.size(), 0), {}, {}};
   const std::vector<FreeFace> faces = free_faces(mesh, topology);
   for (const FreeFace& face : faces) {
     for (const Index node : face) result.on_surface[at(node)] = 1;
@@ -101,14 +116,11 @@ SurfaceDepth surface_depth(const Mesh& mesh, const Topology& topology) {
   result.sets.reserve(mesh.elements.size());
   for (const auto& corners : mesh.elements) result.sets.push_back(sets_of(corners, faces, faces_at));
 
-  const std::vector<Around> around = around_nodes(mesh, topology, result.on_surface);
-  std::vector<Index> nodes;
-  for (Index n = 0; n < mesh.num_nodes(); ++n) {
-    if (result.on_surface[at(n)] != 0) nodes.push_back(n);
-  }
-  for_each_with_tree(mesh, faces, std::move(nodes), [&](Index node, const TriangleTree& tree) {
-    result.depth[at(node)] = depth_behind(mesh.nodes[at(node)], around[at(node)], tree);
-  });
+  const std::vector<Around> around = around_nodes(breakable, mesh, topology);
+  result.depth.reserve(around.size());
+  for (const Around& node : around) result.depth.push_back(node.least_height);
+  if (std::any_of(around.begin(), around.end(), [](const Around& node) { return !node.breakable; }))
+    set_distances(mesh, topology, faces, around, result);
   return result;
 }
 

@@ -142,9 +142,6 @@ struct FieldTable<RampRecord> {
       FieldRow{"element", "1", kState, [](auto& r) -> auto& { return r.element; }},
       FieldRow{"remaining", "1", kState, [](auto& r) -> auto& { return r.ramp.remaining; }},
       FieldRow{"before", "1", kState, [](auto& r) -> auto& { return r.ramp.before; }},
-      FieldRow{"depth_remaining", "1", kState, [](auto& r) -> auto& { return r.ramp.depth_remaining; }},
-      FieldRow{"depth_target", "m", kState, [](auto& r) -> auto& { return r.ramp.depth_target; }},
-      FieldRow{"depth_before", "m", kState, [](auto& r) -> auto& { return r.ramp.depth_before; }},
   };
 // clang-format on
 }

@@ -26,10 +26,7 @@ std::array<double, 4> heights(const LocalMesh& local, Index slot) {
 void drop_finished_ramps(ContactState& contact) {
   std::size_t kept = 0;
   for (const FieldRamp& ramp : contact.ramps) {
-    const auto over = [](const auto& remaining) {
-      return std::all_of(remaining.begin(), remaining.end(), [](Index n) { return n == 0; });
-    };
-    const bool done = over(ramp.remaining) && over(ramp.depth_remaining);
+    const bool done = std::all_of(ramp.remaining.begin(), ramp.remaining.end(), [](Index n) { return n == 0; });
     contact.ramp_of_contactor[at(ramp.contactor)] = done ? -1 : static_cast<Index>(kept);
     CornerSets& sets = contact.field[at(ramp.contactor)].sets;
     if (done) {
@@ -45,8 +42,7 @@ FieldRamp& ramp_of(Index contactor, ContactState& contact) {
   Index& place = contact.ramp_of_contactor[at(contactor)];
   if (place < 0) {
     place = static_cast<Index>(contact.ramps.size());
-    const std::array<double, 4>& depth = contact.field[at(contactor)].depth;
-    contact.ramps.push_back({contactor, {}, {}, {}, depth, depth});
+    contact.ramps.push_back({contactor, {}, {}});
   }
   return contact.ramps[at(place)];
 }
@@ -107,29 +103,11 @@ void free_corners(const ContactParams& params, Index contactor, unsigned set, Co
   ramp_of(contactor, contact).remaining[set] = params.ramp_steps;
 }
 
-void lower_depth(const ContactParams& params, Index contactor, int corner, double depth, ContactState& contact) {
-  if (params.field != OverlapField::body) return;
-  const auto a = at(corner);
-  if (contact.field[at(contactor)].depth[a] <= depth) return;
-  FieldRamp& ramp = ramp_of(contactor, contact);
-  if (ramp.depth_target[a] <= depth) return;
-  ramp.depth_target[a] = depth;
-  ramp.depth_remaining[a] = params.ramp_steps;
-}
-
 void advance_field(ContactState& contact) {
   drop_finished_ramps(contact);
   for (FieldRamp& ramp : contact.ramps) {
-    std::array<double, 4>& depth = contact.field[at(ramp.contactor)].depth;
     ramp.before = ramp.remaining;
-    ramp.depth_before = depth;
     for (Index& remaining : ramp.remaining) remaining = std::max(remaining - 1, 0);
-    for (std::size_t a = 0; a < 4; ++a) {
-      Index& remaining = ramp.depth_remaining[a];
-      if (remaining == 0) continue;
-      depth[a] = remaining == 1 ? ramp.depth_target[a] : depth[a] + (ramp.depth_target[a] - depth[a]) / remaining;
-      --remaining;
-    }
   }
 }
 
@@ -137,12 +115,11 @@ OverlapShape overlap_shape(const ContactParams& params, const LocalMesh& local, 
                            Index contactor, Instant instant) {
   const Index slot = contact.contactors[at(contactor)], ramp = contact.ramp_of_contactor[at(contactor)];
   const double length = contact.body_length[at(local.slot_body[at(slot)])];
-  FieldValues values = contact.field[at(contactor)];
+  const FieldValues& values = contact.field[at(contactor)];
   if (ramp < 0) return overlap_shape(params, local, slot, values, length);
   const FieldRamp& coming = contact.ramps[at(ramp)];
-  if (instant == Instant::now) return overlap_shape(params, local, slot, values, length, &coming.remaining);
-  values.depth = coming.depth_before;
-  return overlap_shape(params, local, slot, values, length, &coming.before);
+  return overlap_shape(params, local, slot, values, length,
+                       instant == Instant::now ? &coming.remaining : &coming.before);
 }
 
 OverlapShape overlap_shape(const ContactParams& params, const LocalMesh& local, Index slot, const FieldValues& values,

@@ -13,13 +13,14 @@ namespace breccia {
 ///   g = min_S sum_(a not in S) lambda_a D_a,   sum_a lambda_a D_a where the element has no corner on the surface
 ///
 /// Each sum is the distance to the surface that S lies on, exactly so where that is flat and D_a the distance to it: in
-/// a wall one element thick, g is the distance to the nearer side. A face of an element that lies on the surface counts
-/// by its distance, D_a or the height above it if that is less. On a face between two elements g depends on the nodes
-/// of the face alone, so it is continuous. For a lone tetrahedron g is the distance to its nearest face.
+/// a wall one element thick that cannot break, g is the distance to the nearer side. A face of an element that lies on
+/// the surface counts by its distance, D_a or the height above it if that is less. On a face between two elements g
+/// depends on the nodes of the face alone, so it is continuous. For a lone tetrahedron g is the distance to its nearest
+/// face.
 ///
 /// Fracture adds sets: the corners of an element at the nodes of a freed face. A new set comes to count within
-/// ContactParams::ramp_steps steps: its own depths go from D_a to 0. The depths of the nodes of the face go down to the
-/// least height of their elements there meanwhile, so that g is not steep in fragments of what lay deep inside.
+/// ContactParams::ramp_steps steps: its own depths go from D_a to 0. The D_a themselves stay, so in what can break they
+/// are such that g is not steep wherever a crack will run.
 ///
 /// H, the length that makes the overlap dimensionless, is the mean inradius of a body's elements.
 
@@ -34,9 +35,6 @@ void build_field(const ContactParams& params, const Mesh& mesh, const LocalMesh&
 /// The corners of a set (mesh/corner_sets.hpp) have come to lie on one face of the free surface. Nothing happens for
 /// fields other than `body`, or when they lie on one already.
 void free_corners(const ContactParams& params, Index contactor, unsigned set, ContactState& contact);
-
-/// The depth of a corner goes down to this one, m, if it is less. Nothing happens for fields other than `body`.
-void lower_depth(const ContactParams& params, Index contactor, int corner, double depth, ContactState& contact);
 
 /// One step of all ramps; what they were is kept in FieldRamp::before until the next call. O(ramps).
 void advance_field(ContactState& contact);

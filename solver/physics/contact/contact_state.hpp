@@ -45,13 +45,10 @@ struct FieldValues {
 /// Steps until a set of corners counts in full, by set; 0: it does, or is not there.
 using ComingSets = std::array<Index, kNumCornerSets>;
 
-/// A contactor whose field follows a new free surface: sets of corners come to count, and depths go to their targets,
-/// step by step. `before`: one step ago.
+/// A contactor whose field follows a new free surface: sets of corners come to count. `before`: one step ago.
 struct FieldRamp {
   Index contactor = 0;
   ComingSets remaining{}, before{};
-  std::array<Index, 4> depth_remaining{};                ///< steps
-  std::array<double, 4> depth_target{}, depth_before{};  ///< m
 };
 
 /// Force of the spherical boundary on a point.

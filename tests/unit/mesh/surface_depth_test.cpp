@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/geometry.hpp"
 #include "sample_meshes.hpp"
 
 namespace breccia {
@@ -15,6 +16,7 @@ namespace {
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 constexpr double kRoundOff = 1e-12;
+const std::vector<bool> kWhole{false};  ///< one group, which cannot break
 
 bool on_border(const Vec3& x, const Vec3& size) {
   return (x.array() < kRoundOff).any() || (x.array() > size.array() - kRoundOff).any();
@@ -24,7 +26,7 @@ TEST(SurfaceDepth, NamesTheCornersOfAnElementThatLieOnOneFreeFace) {
   const Vec3 size(3 * 1.0, 2 * 0.75, 2 * 1.25);
   const Mesh box = test::raster_box({3, 2, 2}).mesh;
   const Topology topology = build_topology(box);
-  const SurfaceDepth depth = surface_depth(box, topology);
+  const SurfaceDepth depth = surface_depth(kWhole, box, topology);
   for (Index e = 0; e < box.num_elements(); ++e) {
     const CornerSets sets = depth.sets[at(e)];
     unsigned seen = 0;
@@ -63,7 +65,7 @@ TEST(SurfaceDepth, OfANodeOnTheSurfaceIsWhatLiesBehindIt) {
   const Vec3 size(3 * 1.0, 2 * 0.75, 2 * 1.25);
   const Mesh box = test::raster_box({3, 2, 2}).mesh;
   const Topology topology = build_topology(box);
-  const SurfaceDepth depth = surface_depth(box, topology);
+  const SurfaceDepth depth = surface_depth(kWhole, box, topology);
   for (Index n = 0; n < box.num_nodes(); ++n) {
     const Vec3& x = box.nodes[at(n)];
     const double d = depth.depth[at(n)];
@@ -83,7 +85,7 @@ TEST(SurfaceDepth, OfANodeOnTheSurfaceIsWhatLiesBehindIt) {
 
 TEST(SurfaceDepth, OfNodesInsideIsTheirDistanceToTheSurface) {
   const Mesh box = test::raster_box({1, 1, 1}).mesh;
-  const SurfaceDepth depth = surface_depth(box, build_topology(box));
+  const SurfaceDepth depth = surface_depth(kWhole, box, build_topology(box));
   int inside = 0;
   for (Index n = 0; n < box.num_nodes(); ++n) {
     if (depth.on_surface[at(n)] != 0) continue;
@@ -91,6 +93,19 @@ TEST(SurfaceDepth, OfNodesInsideIsTheirDistanceToTheSurface) {
     EXPECT_NEAR(depth.depth[at(n)], 0.375, kRoundOff) << "the centre of a box of 1 x 0.75 x 1.25";
   }
   EXPECT_EQ(inside, 1);
+}
+
+TEST(SurfaceDepth, OfANodeOfWhatCanBreakIsItsLeastHeight) {
+  const Mesh box = test::raster_box({3, 2, 2}).mesh;
+  const SurfaceDepth depth = surface_depth({true}, box, build_topology(box));
+  std::vector<double> least(box.nodes.size(), std::numeric_limits<double>::max());
+  for (Index e = 0; e < box.num_elements(); ++e) {
+    for (int c = 0; c < 4; ++c) {
+      double& height = least[at(box.elements[at(e)][at(c)])];
+      height = std::min(height, geometry::height(geometry::corners_of(box, e), c));
+    }
+  }
+  EXPECT_EQ(depth.depth, least);
 }
 
 }  // namespace
