@@ -18,13 +18,13 @@ struct SurfaceDepth {
   std::vector<CornerSets> sets;          ///< (elements) corners on one free face, those that no other set covers
 };
 
-/// The depth of a node of what can break is the least of its heights in its elements: so far away at least, and not much
-/// farther, is any face that may become one of the surface.
+/// The depth of a node of what can break is the least of its heights in its elements: no face that may become one of
+/// the surface is nearer, nor much farther.
 ///
-/// Elsewhere the depth of a node inside is its distance to the free surface (mesh/point_distance.hpp). That of a node on
-/// the surface is how much lies behind it: the least of its heights above opposite free faces of its elements and of its
-/// distances to free faces that it lies behind by half its distance at least (the other side of a wall, the far side of
-/// a ridge); where there is none of these nearer than its longest edge, the least of its heights.
+/// Elsewhere the depth of a node inside is its distance to the free surface (mesh/point_distance.hpp). That of a node
+/// on the surface is how much lies behind it: the least of its heights above opposite free faces of its elements and of
+/// its distances to free faces that it lies behind by half its distance at least (the other side of a wall, the far
+/// side of a ridge); where there is none of these nearer than its longest edge, the least of its heights.
 /// O(n log n) in the free faces, throws nothing.
 /// @param breakable  (volume groups) inner faces may be freed
 /// @pre mesh is finished, topology belongs to it
