@@ -10,7 +10,7 @@ namespace breccia {
 
 /// Overlap g (m) of a point inside a contactor, from its barycentric coordinates lambda.
 enum class OverlapField {
-  body,           ///< sum lambda_a Phi_a + 4 min(lambda) Phi_c: continuous through a whole body (contact_field.hpp)
+  body,           ///< depth below the surface of a whole body, continuous through it (contact_field.hpp)
   tet_potential,  ///< 4 H min(lambda). Source: [Munjiza 2004]
   tet_distance    ///< distance to the nearest face of the undeformed tetrahedron
 };
