@@ -27,15 +27,13 @@ std::vector<Index> solids_of_nodes(const Mesh& mesh) {
 
 }  // namespace
 
-std::vector<FreeFace> free_faces(const Mesh& mesh, const Topology& topology,
-                                 std::span<const Topology::Face> also_free) {
+std::vector<FreeFace> free_faces(const Mesh& mesh, const Topology& topology) {
   std::vector<FreeFace> faces;
   const auto add = [&](Index element, std::size_t face) {
     const auto& corners = mesh.elements[at(element)];
     const auto& f = kFaceCorners[face];
     faces.push_back({corners[at(f[0])], corners[at(f[1])], corners[at(f[2])]});
   };
-  for (const Topology::Face& face : also_free) add(face.element, at(face.face));
   for (Index e = 0; e < mesh.num_elements(); ++e) {
     for (std::size_t f = 0; f < 4; ++f) {
       if (topology.links[at(e)][f].free()) add(e, f);

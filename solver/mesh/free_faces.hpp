@@ -14,9 +14,8 @@ namespace breccia {
 /// Nodes of a free face, seen from outside counter-clockwise.
 using FreeFace = std::array<Index, 3>;
 
-/// The faces without a neighbour and, in addition, the inner faces listed in `also_free`. O(elements).
-[[nodiscard]] std::vector<FreeFace> free_faces(const Mesh& mesh, const Topology& topology,
-                                               std::span<const Topology::Face> also_free = {});
+/// The faces without a neighbour. O(elements).
+[[nodiscard]] std::vector<FreeFace> free_faces(const Mesh& mesh, const Topology& topology);
 
 /// Calls f(node, tree) for each of the nodes, in any order, with the tree of all free faces of its solid: a body, or
 /// the bodies glued to it, whose elements share nodes. A tree is built only where a node asks for it.

@@ -13,9 +13,8 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-std::vector<double> nodal_surface_distance(const Mesh& mesh, const Topology& topology,
-                                           std::span<const Topology::Face> also_free) {
-  const std::vector<FreeFace> faces = free_faces(mesh, topology, also_free);
+std::vector<double> nodal_surface_distance(const Mesh& mesh, const Topology& topology) {
+  const std::vector<FreeFace> faces = free_faces(mesh, topology);
   std::vector<char> on_surface(mesh.nodes.size(), 0), near_surface(mesh.nodes.size(), 0);
   for (const FreeFace& face : faces) {
     for (const Index node : face) on_surface[at(node)] = 1;

@@ -208,7 +208,7 @@ def main():
     parser.add_argument("--work", type=pathlib.Path, default=pathlib.Path("longest_step"))
     parser.add_argument("--steps", type=int, default=20000)
     parser.add_argument("cases", nargs="*", metavar="CASE")
-    args = parser.parse_args()
+    args = parser.parse_intermixed_args()
     args.work.mkdir(parents=True, exist_ok=True)
     for name, text in GEO.items():
         (args.work / name).write_text(text)
