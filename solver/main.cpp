@@ -1,6 +1,7 @@
 #include <malloc.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -8,12 +9,14 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <system_error>
 
 #include "base/error.hpp"
 #include "base/interruption.hpp"
 #include "base/printable.hpp"
 #include "commands/command_line.hpp"
 #include "commands/environment.hpp"
+#include "output/atomic_file.hpp"
 #include "parallel/mpi_session.hpp"
 #include "simulation/run.hpp"
 #include "simulation/run_checkpoints.hpp"
@@ -82,6 +85,20 @@ int report(bool prints, const std::string& what, ExitCode exit_code) {
   return code(exit_code);
 }
 
+/// What was to be printed is lost: the disk behind standard output is full, say, or who reads it has gone, which needs
+/// no words. @param error  errno, 0 where it is not known
+int lost_words(int error) {
+  if (error == EPIPE) return exit_code_of(SIGPIPE);
+  return report(true, output_error("standard output", "cannot be written", error).what(), ExitCode::input);
+}
+
+/// Whether the words of a command that prints its result have left this process. A run's results stand in its folder.
+int with_words_told(int done) {
+  errno = 0;
+  const bool told = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  return told || done != 0 ? done : lost_words(errno);
+}
+
 /// Errors of the first three kinds are agreed upon: all ranks have the same one and one of them tells it. Others are of
 /// one rank, and the rest would wait for it for ever.
 int guarded(const CLI::App& app, Arguments& arguments, MpiSession& session, int argc, char** argv) {
@@ -89,7 +106,8 @@ int guarded(const CLI::App& app, Arguments& arguments, MpiSession& session, int 
   int ended = 0;
   try {
     check_environment();
-    const int done = dispatch(app, arguments, session.world(), argc, argv);
+    int done = dispatch(app, arguments, session.world(), argc, argv);
+    if (!app.got_subcommand("run") && !app.got_subcommand("resume")) done = with_words_told(done);
     return interruption != 0 && done == 0 ? exit_code_of(interruption) : done;
   } catch (const InputError& error) {
     const int refused = report(root, error.what(), ExitCode::input);
@@ -100,6 +118,9 @@ int guarded(const CLI::App& app, Arguments& arguments, MpiSession& session, int 
     ended = report(true, out_of_memory().text(), ExitCode::input);
   } catch (const std::filesystem::filesystem_error& error) {  // a file or folder that cannot be used
     ended = report(true, error.what(), ExitCode::input);
+  } catch (const std::system_error& error) {
+    ended =
+        std::ferror(stdout) != 0 ? lost_words(error.code().value()) : report(true, error.what(), ExitCode::internal);
   } catch (const std::exception& error) {
     ended = report(true, error.what(), ExitCode::internal);
   }
@@ -123,7 +144,7 @@ int main(int argc, char** argv) {
     const bool root = session.world().is_root();
     if (error.get_exit_code() != 0) return report(root, usage_problem(app, error), ExitCode::usage);
     if (root) app.exit(error);  // the help, or the version
-    return code(ExitCode::success);
+    return with_words_told(code(ExitCode::success));
   }
   const auto asked_for = [&](const char* command) { return app.got_subcommand(command); };
   const bool in_order = asked_for("run") || asked_for("resume") || asked_for("race");  // the others lose nothing

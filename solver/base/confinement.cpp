@@ -231,6 +231,7 @@ void say(const char* text) {
 /// Argument of the system call that was refused.
 const char* argument_of(const void* context, int index) {
   const auto* machine = static_cast<const ucontext_t*>(context);
+  // NOLINTBEGIN(performance-no-int-to-ptr): a register holds the address as a number
 #if defined(__x86_64__)
   return reinterpret_cast<const char*>(machine->uc_mcontext.gregs[index == 0 ? REG_RDI : REG_RSI]);
 #elif defined(__aarch64__)
@@ -239,6 +240,7 @@ const char* argument_of(const void* context, int index) {
   (void)machine, (void)index;
   return nullptr;
 #endif
+  // NOLINTEND(performance-no-int-to-ptr)
 }
 
 /// Tells what was tried and ends the process; calls nothing that a signal handler may not.

@@ -52,7 +52,11 @@ std::string groups_of(const Node& entry) {
 void collect(const Node& table, const std::string& identity, const std::string& key, const std::string& pattern,
              Values& values) {
   for (const auto& [name, node] : table.entries) {
-    const auto below = [&name = name](const std::string& path) { return path + (path.empty() ? "" : ".") + name; };
+    const auto below = [&name = name](std::string path) {
+      if (!path.empty()) path += '.';
+      path += name;
+      return path;
+    };
     if (is_table_list(node) && find_key(below(pattern) + "[]") != nullptr) {
       const bool by_groups = key.empty() && std::find(kByGroups.begin(), kByGroups.end(), name) != kByGroups.end();
       for (std::size_t i = 0; i < node.items.size(); ++i) {

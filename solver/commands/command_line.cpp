@@ -130,7 +130,7 @@ std::string usage_problem(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)) {
     what = "not expected: " + case_::joined(app.remaining(true), " ");
   } else if (error.get_name() == "ArgumentMismatch" && what.ends_with(lacking) && what.find(':') != std::string::npos) {
-    what = what.substr(0, what.find(':')) + ": the value is missing";
+    what.replace(what.find(':'), std::string::npos, ": the value is missing");
   }
   return printable(what) + "; `" + command + " --help` tells what is allowed";
 }

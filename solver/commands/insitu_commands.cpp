@@ -48,10 +48,7 @@ int replay_command(const ReplayCommand& asked, const Communicator& world) {
     pipeline.parameters = settings_of(asked.parameters);
   }
   world.agree([&] {
-    if (!world.is_root()) return;
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw output_error(folder, "cannot create this folder", error.value());
+    if (world.is_root()) create_folder(folder);
   });
   std::optional<InSituPlugin> plugin;
   world.agree([&] { plugin.emplace(case_::InSituBackend::paraview); });

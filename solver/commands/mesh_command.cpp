@@ -10,6 +10,7 @@
 #include "domains/balance.hpp"
 #include "observe/fragment_labels.hpp"
 #include "observe/frames.hpp"
+#include "output/atomic_file.hpp"
 #include "output/vtkhdf_sink.hpp"
 
 namespace breccia {
@@ -43,7 +44,7 @@ int mesh(const MeshCommand& asked) {
     return 0;
   }
   const Model model = build_model(input);
-  std::filesystem::create_directories(asked.folder);
+  create_folder(asked.folder);
   const Domain rest(model, search_params(input, model));
   const FrameParts elements{true, false, false};
   VtkhdfSink(asked.folder, elements)

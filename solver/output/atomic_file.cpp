@@ -63,6 +63,12 @@ OutputError output_error(const std::filesystem::path& path, const std::string& w
   return OutputError(problem);
 }
 
+void create_folder(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw output_error(path, "cannot create this folder", error.value());
+}
+
 std::filesystem::path temporary_of(const std::filesystem::path& path) {
   return path.parent_path() / ("." + path.filename().string() + ".tmp");
 }
@@ -114,7 +120,10 @@ LineFile::LineFile(std::filesystem::path path, std::size_t keep) : path_(std::mo
   const int fresh = keep == 0 ? O_TRUNC : 0;
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | fresh, kFileMode);
   if (descriptor_ < 0) throw output_error(path_, "cannot create this file", errno);
-  if (keep == 0) return;
+  if (keep == 0) {
+    reserve();
+    return;
+  }
   struct stat status {};
   int error = ::fstat(descriptor_, &status) == 0 ? 0 : errno;
   const bool too_short = error == 0 && static_cast<std::size_t>(status.st_size) < keep;
@@ -139,7 +148,11 @@ void LineFile::append_line(std::string_view line) {
     throw output_error(path_, "cannot append a line to this file", error);
   }
   size_ += whole.size();
-  // Room for the next lines, so that a run that ends because the disk is full can still say so. Not every system can.
+  reserve();
+}
+
+/// Room for the next lines, so that a run that ends because the disk is full can still say so. Not every system can.
+void LineFile::reserve() {
   if (size_ + kReserve / 2 > reserved_ &&
       ::fallocate(descriptor_, FALLOC_FL_KEEP_SIZE, static_cast<off_t>(size_), kReserve) == 0)
     reserved_ = size_ + kReserve;

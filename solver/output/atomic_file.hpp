@@ -15,6 +15,9 @@ namespace breccia {
 [[nodiscard]] OutputError output_error(const std::filesystem::path& path, const std::string& what,
                                        int error_number = 0);
 
+/// With all folders above it; one that stands already is fine. Throws OutputError.
+void create_folder(const std::filesystem::path& path);
+
 /// Replaces the whole file `path` at once: a reader, and a run killed at any instant, sees the old content or the new
 /// one, never a part. Writes `.name.tmp` in the same folder, syncs it to the disk, renames it and syncs the folder.
 /// @pre one writer a file at a time; `path` names a file in a folder that exists
@@ -57,6 +60,8 @@ class LineFile {
   [[nodiscard]] std::size_t size() const { return size_; }  ///< bytes of whole lines
 
  private:
+  void reserve();
+
   std::filesystem::path path_;
   int descriptor_ = -1;
   std::size_t size_ = 0;      ///< bytes of whole lines

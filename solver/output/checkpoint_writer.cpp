@@ -45,15 +45,33 @@ CheckpointWriter::CheckpointWriter(std::filesystem::path file, Checkpoint conten
       companions_(std::move(companions)),
       columns_(checkpoint_columns(content_)) {
   communicator_.set_phase("checkpoint");
-  lay_out();
-  sums_.resize(columns_.size());
-  thread_ = std::thread([this] { write_part(); });
+  try {
+    lay_out();
+    sums_.resize(columns_.size());
+    begin_writing();
+  } catch (...) {
+    remove_unfinished();  // what a full disk has taken of every checkpoint that failed would fill it for good
+    throw;
+  }
 }
 
 CheckpointWriter::~CheckpointWriter() {
   if (thread_.joinable()) thread_.join();
+  if (!published_) remove_unfinished();
+}
+
+/// Where no thread is to be had (a limit of processes or of memory) the steps wait for the whole of it.
+void CheckpointWriter::begin_writing() {
+  try {
+    thread_ = std::thread([this] { write_part(); });
+  } catch (const std::system_error&) {
+    write_part();
+  }
+}
+
+void CheckpointWriter::remove_unfinished() const {
   std::error_code ignored;
-  if (!published_ && communicator_.is_root()) std::filesystem::remove(temporary_of(file_), ignored);
+  if (communicator_.is_root()) std::filesystem::remove(temporary_of(file_), ignored);
 }
 
 /// Which rows are whose, which columns are worth a place, and where it is.
@@ -162,7 +180,7 @@ void CheckpointWriter::publish() {
 }
 
 void CheckpointWriter::finish() {
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
   communicator_.set_phase("end of a checkpoint");
   communicator_.agree([&] {
     if (failure_) throw OutputError(*failure_);

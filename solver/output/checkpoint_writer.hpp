@@ -42,9 +42,11 @@ class CheckpointWriter {
 
  private:
   void lay_out();
+  void begin_writing();
   void write_part();
   void gather_checksums();
   void publish();
+  void remove_unfinished() const;
 
   std::filesystem::path file_;
   Checkpoint content_;

@@ -65,7 +65,7 @@ std::vector<std::string> lines_of(std::istream& stream) {
   std::vector<std::string> lines;
   for (std::string line; lines.size() < kMostLines && std::getline(stream, line);) {
     line = trimmed(line);
-    if (line.size() > kLongestLine) line = line.substr(0, kLongestLine) + "...";
+    if (line.size() > kLongestLine) line.replace(kLongestLine, std::string::npos, "...");
     if (!line.empty()) lines.push_back(line);
   }
   return lines;

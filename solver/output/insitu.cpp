@@ -78,10 +78,7 @@ void InSitu::start_from(const Moment& first, std::int64_t broken) {
 
 void InSitu::open(const case_::Case& input, const std::filesystem::path& folder) {
   communicator_.agree([&] {
-    if (!communicator_.is_root()) return;
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw output_error(folder, "cannot create this folder", error.value());
+    if (communicator_.is_root()) create_folder(folder);
   });
   communicator_.agree([&] { preflight(input, folder, plugin_, communicator_); });
   const InSituConfig config(input, std::filesystem::absolute(folder), communicator_);

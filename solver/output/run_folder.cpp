@@ -48,12 +48,6 @@ std::vector<fs::path> results_in(const RunFolder& folder) {
   return results;
 }
 
-void create_folder(const fs::path& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error) throw output_error(path, "cannot create this folder", error.value());
-}
-
 /// Nothing but the lock of a run that never began.
 bool holds_nothing(const fs::path& folder) {
   std::error_code error;

@@ -61,13 +61,14 @@ void conclude(const char* status, bool failed) {
   const off_t size = ::lseek(file, 0, SEEK_END);
   const off_t from = size > static_cast<off_t>(kTail) ? size - static_cast<off_t>(kTail) : 0;
   const ssize_t got = ::pread(file, tail.data(), tail.size(), from);
-  if (got > 0) {
+  if (got >= 0) {
     std::string_view text(tail.data(), static_cast<std::size_t>(got));
-    const bool whole = text.back() == '\n';
+    const bool whole = text.empty() || text.back() == '\n';
     if (!whole) text = text.substr(0, text.rfind('\n') + 1);  // a line that was cut off says nothing
     const std::size_t last = text.rfind("{\"state\":");
     const std::string_view state = last == std::string_view::npos ? "" : text.substr(last, 24);
-    if (says(state, "\"running\"") || says(state, "\"paused\"")) {
+    // Without a line: it has not come to its first step.
+    if (state.empty() || says(state, "\"running\"") || says(state, "\"paused\"")) {
       const char* line = failed ? "{\"state\":\"failed\",\"message\":\"ended by an error, which was told on stderr\"}\n"
                                 : "{\"state\":\"interrupted\",\"message\":\"the process ended without a word: killed, "
                                   "or the machine stopped it\"}\n";

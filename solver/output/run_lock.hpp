@@ -26,8 +26,9 @@ class RunLock {
 [[nodiscard]] std::string holder_of(const std::filesystem::path& folder);
 
 /// A small process of its own session that outlives this one: when this one ends, it looks at the end of the run's
-/// status.jsonl. Where that still says "running" or "paused" it appends a line {"state": "interrupted", "message": ...}
-/// (or "failed" after an error that this process has told), so that a run that was killed does not look alive.
+/// status.jsonl. Where that still says "running" or "paused", or nothing yet, it appends a line
+/// {"state": "interrupted", "message": ...} (or "failed" after an error that this process has told), so that a run that
+/// was killed does not look alive.
 class RunWatch {
  public:
   /// Starts it, early: it keeps the memory that this process has now. Without processes to be had there is no watch.

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <fstream>
 #include <sstream>
-#include <system_error>
 #include <utility>
 
 #include "base/error.hpp"
@@ -83,12 +82,10 @@ void RunCheckpoints::begin(RunPosition position) {
   attempt([&] {
     const Communicator& communicator = partition_.communicator();
     communicator.agree([&] {
-      std::error_code error;
-      if (communicator.is_root()) std::filesystem::create_directories(folder_.checkpoints(), error);
-      if (error) throw output_error(folder_.checkpoints(), "cannot create this folder", error.value());
+      if (communicator.is_root()) create_folder(folder_.checkpoints());
     });
     position.checkpoints = times_.numbers();
-    Checkpoint now = content(std::move(position));
+    Checkpoint now = content(position);
     std::vector<std::filesystem::path> companions;
     if (communicator.is_root()) companions = {folder_.history(), folder_.status()};
     writer_ = std::make_unique<CheckpointWriter>(checkpoint_file(folder_.checkpoints(), begun_at_), std::move(now),
@@ -96,7 +93,7 @@ void RunCheckpoints::begin(RunPosition position) {
   });
 }
 
-Checkpoint RunCheckpoints::content(RunPosition position) const {
+Checkpoint RunCheckpoints::content(const RunPosition& position) const {
   Snapshot now = partition_.copy();
   Checkpoint checkpoint;
   checkpoint.model = whole_fields(partition_.communicator(), now.state.state);

@@ -53,7 +53,7 @@ class RunCheckpoints {
   [[nodiscard]] const CheckpointReport& report() const { return report_; }
 
  private:
-  [[nodiscard]] Checkpoint content(RunPosition position) const;
+  [[nodiscard]] Checkpoint content(const RunPosition& position) const;
   template <class Work>
   void attempt(Work&& work);
 

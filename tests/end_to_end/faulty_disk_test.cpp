@@ -138,28 +138,118 @@ INSTANTIATE_TEST_SUITE_P(ranks, SlowDisk, testing::Combine(testing::Values(1, 2)
                          [](const auto& tested) { return "On" + std::to_string(std::get<0>(tested.param)); });
 
 /// A real one, where this process may mount it.
-TEST(FullDisk, OfARunLeavesFramesThatAreWholeAndAFolderThatGoesOnElsewhere) {
-  const Scratch scratch;
-  const std::string file = scratch.write("case.toml", kSmallCase), disk = scratch.path("disk").string(),
-                    kept = scratch.path("kept").string();
-  fs::create_directories(disk);
-  const std::string namespace_with_disk = "unshare -m sh -c 'mount -t tmpfs -o size=2m none \"$0\" && \"$@\"; " +
-                                          ("code=$?; cp -a \"$0\" \"" + kept + "\"; exit $code' '") + disk + "'";
-  if (std::system(("unshare -m mount -t tmpfs -o size=2m none '" + disk + "' > /dev/null 2>&1").c_str()) != 0)
-    GTEST_SKIP() << "nothing can be mounted here";
-  const Outcome full = call("run " + file + " --progress none --set checkpoint.steps=30 --set checkpoint.keep=1 " +
-                                "--set 'output.frame_interval=\"0.05 ms\"' -o '" + disk + "/run'",
-                            namespace_with_disk);
+class FullDisk : public testing::TestWithParam<std::tuple<int, int>> {
+ protected:
+  FullDisk() : disk_(scratch_.path("disk").string()), kept_(scratch_.path("kept").string()) {
+    fs::create_directories(disk_);
+  }
+  [[nodiscard]] bool can_be_mounted() const {
+    return std::system(("unshare -m mount -t tmpfs -o size=1m none '" + disk_ + "' > /dev/null 2>&1").c_str()) == 0;
+  }
+  /// On a disk of so many KB, whose files stand in `kept_` afterwards: once the run's watch has had its say.
+  [[nodiscard]] Outcome call_on_disk(int ranks, int size, const std::string& arguments) const {
+    const std::string launcher = ranks == 1
+                                     ? ""
+                                     : "env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " BRECCIA_MPIEXEC
+                                       " --oversubscribe -n " +
+                                           std::to_string(ranks) + " ";
+    return call(arguments, "unshare -m sh -c 'mount -t tmpfs -o size=" + std::to_string(size) + "k none \"$0\" && " +
+                               launcher +
+                               "\"$@\"; code=$?; for look in $(seq 50); do tail -n 1 \"$0/run/status.jsonl\" " +
+                               "2>&1 | grep -qv running && break; sleep 0.1; done; cp -a \"$0\" \"" + kept_ +
+                               "\"; exit $code' '" + disk_ + "'");
+  }
+
+  Scratch scratch_;
+  std::string disk_, kept_;
+};
+
+TEST_P(FullDisk, OfARunLeavesFramesThatAreWholeAndAFolderThatGoesOnElsewhere) {
+  const auto [ranks, size] = GetParam();
+  if (!can_be_mounted()) GTEST_SKIP() << "nothing can be mounted here";
+  const std::string file = scratch_.write("case.toml", kSmallCase);
+  const Outcome full =
+      call_on_disk(ranks, size,
+                   "run " + file + " --progress none --set checkpoint.steps=30 --set checkpoint.keep=1 " +
+                       "--set 'output.frame_interval=\"0.05 ms\"' -o '" + disk_ + "/run'");
   EXPECT_EQ(full.exit_code, 2) << full.err;
   EXPECT_NE(full.err.find(std::strerror(ENOSPC)), std::string::npos) << full.err;
-  expect_whole_lines(kept + "/run");
-  expect_sound_frames(kept + "/run");
+  const std::string run = kept_ + "/run";
+  expect_whole_lines(run);
+  expect_sound_frames(run);
   std::string last;
-  std::ifstream status(kept + "/run/status.jsonl");
+  std::ifstream status(run + "/status.jsonl");
   for (std::string line; std::getline(status, line);) last = line;
-  EXPECT_EQ(json::parse(last).at("state"), "failed");
-  const Outcome resumed = call("resume '" + kept + "/run' --progress none");
+  EXPECT_EQ(json::parse(last, nullptr, false).value("state", ""), "failed") << "the last line: " << last;
+  const fs::path checkpoints = run + "/checkpoints";
+  std::size_t whole = 0;
+  if (fs::exists(checkpoints)) {
+    for (const auto& entry : fs::directory_iterator(checkpoints)) {
+      EXPECT_EQ(entry.path().extension(), ".h5") << "a part of a checkpoint takes room: " << entry.path();
+      ++whole;
+    }
+  }
+  if (whole == 0) return;
+  const Outcome resumed = call("resume '" + run + "' --progress none");
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+}
+
+// KB: for a part of the first frame, for frames without a checkpoint, for one checkpoint, for many frames.
+INSTANTIATE_TEST_SUITE_P(ranks, FullDisk, testing::Combine(testing::Values(1, 2), testing::Values(48, 320, 640, 2048)),
+                         [](const auto& tested) {
+                           return "WithRoomForKB" + std::to_string(std::get<1>(tested.param)) + "On" +
+                                  std::to_string(std::get<0>(tested.param));
+                         });
+
+class FullDiskOfACommand : public FullDisk {};
+
+TEST_P(FullDiskOfACommand, IsOneErrorThatNamesTheFile) {
+  if (!can_be_mounted()) GTEST_SKIP() << "nothing can be mounted here";
+  const std::string file = scratch_.write("case.toml", kSmallCase), run = scratch_.path("run").string();
+  ASSERT_EQ(call("run " + file + " --progress none --set time.max_steps=3 -o '" + run + "'").exit_code, 0);
+  const std::vector<std::string> commands{"mesh " + file + " -o '" + disk_ + "/mesh'",
+                                          "report '" + run + "' --no-pictures -o '" + disk_ + "/report.html'",
+                                          "resume '" + run + "' --progress none -o '" + disk_ + "/resumed'"};
+  for (const std::string& command : commands) {
+    fs::remove_all(kept_);
+    const Outcome full = call_on_disk(1, 16, command);
+    EXPECT_EQ(full.exit_code, 2) << command << ": " << full.err;
+    EXPECT_TRUE(full.err.starts_with("breccia: error: " + disk_)) << command << ": " << full.err;
+    EXPECT_NE(full.err.find(std::strerror(ENOSPC)), std::string::npos) << command << ": " << full.err;
+    EXPECT_FALSE(fs::exists(kept_ + "/report.html")) << "a part of a page";
+    EXPECT_FALSE(fs::exists(kept_ + "/mesh/elements_000000.vtkhdf")) << "a part of a frame";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(command, FullDiskOfACommand, testing::Values(std::tuple(1, 16)),
+                         [](const auto&) { return "OnOne"; });
+
+// --- What a command prints
+
+TEST(StandardOutput, ThatTakesNothingIsAnErrorOfTheCommandThatPrintsItsResultThere) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", kSmallCase);
+  const std::string to_full_disk = "sh -c '\"$@\" > /dev/full' sh";
+  for (const std::string& command : {"check " + file, "check --json " + file, "mesh " + file, std::string("explain"),
+                                     std::string("schema --json"), std::string("--help")}) {
+    const Outcome full = call(command, to_full_disk);
+    EXPECT_EQ(full.exit_code, 2) << command << ": " << full.err;
+    EXPECT_EQ(full.err, "breccia: error: standard output: cannot be written: No space left on device\n") << command;
+  }
+}
+
+TEST(StandardOutput, ThatNobodyReadsEndsACommandWithoutWords) {
+  const Outcome gone = call("explain", "bash -c '{ sleep 0.2; \"$@\"; echo \"code $?\" >&2; } | true' bash");
+  EXPECT_EQ(gone.err, "code 141\n") << "128 + SIGPIPE, as of any program";
+}
+
+TEST(StandardOutput, ThatTakesNothingIsNoErrorOfARunWhoseResultsStandInItsFolder) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", kSmallCase), run = scratch.path("run").string();
+  const Outcome full =
+      call("run " + file + " --set time.max_steps=30 -o '" + run + "'", "sh -c '\"$@\" > /dev/full' sh");
+  EXPECT_EQ(full.exit_code, 0) << full.err;
+  EXPECT_TRUE(json::parse(read_text(run + "/summary.json"), nullptr, false).is_object());
 }
 
 }  // namespace

@@ -118,6 +118,11 @@ TEST(LineFile, ReportsAFullDevice) {
               HasSubstr("/dev/full: cannot append a line to this file: No space left"));
 }
 
+TEST(Folder, ThatCannotBeMadeIsNamedWithTheReason) {
+  EXPECT_THAT(error_of([] { create_folder("/proc/none/at/all"); }),
+              HasSubstr("/proc/none/at/all: cannot create this folder: No such file or directory"));
+}
+
 TEST(LineFile, ReportsAPlaceWhereNoFileCanBeCreated) {
   EXPECT_THAT(error_of([] { LineFile file("/proc/no_file_here"); }), HasSubstr("/proc/no_file_here: cannot create"));
 }

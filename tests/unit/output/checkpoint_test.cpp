@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include <cstddef>
 #include <cstring>
@@ -7,12 +8,15 @@
 #include <span>
 #include <sstream>
 #include <string>
+#include <system_error>
+#include <thread>
 
 #include "base/error.hpp"
 #include "output/checkpoint.hpp"
 #include "output/checkpoint_columns.hpp"
 #include "output/checkpoint_index.hpp"
 #include "output/checkpoint_writer.hpp"
+#include "unit/output/file_size_limit.hpp"
 #include "unit/output/hdf5_reader.hpp"
 #include "unit/output/temporary_folder.hpp"
 #include "unit/state/sample_records.hpp"
@@ -142,6 +146,28 @@ TEST_F(CheckpointFile, AppearsOnlyWhenItIsFinished) {
   { const CheckpointWriter abandoned(later, sample(), {}, {}); }
   EXPECT_EQ(checkpoints_in(folder_.path()).size(), 1U);
   EXPECT_THROW(CheckpointWriter(folder_.path() / "none/step.h5", sample(), {}, {}), OutputError);
+}
+
+TEST_F(CheckpointFile, LeavesNothingWhereTheDiskIsFullFromItsFirstBytesOn) {
+  const auto later = checkpoint_file(folder_.path(), 13);
+  for (const rlim_t bytes : {0, 64, 2000}) {
+    const test::FileSizeLimit full(bytes);
+    EXPECT_THROW(CheckpointWriter(later, sample(), {}, {}).finish(), OutputError) << bytes;
+    EXPECT_EQ(test::names_in(folder_.path()).size(), 1U) << bytes << " bytes fit: only the file from before stays";
+  }
+}
+
+TEST_F(CheckpointFile, IsWrittenWhereNoThreadIsToBeHad) {
+  pthread_attr_t usual, larger_than_memory;
+  ASSERT_EQ(::pthread_getattr_default_np(&usual), 0);
+  ASSERT_EQ(::pthread_getattr_default_np(&larger_than_memory), 0);
+  ASSERT_EQ(::pthread_attr_setstacksize(&larger_than_memory, std::size_t{1} << 47), 0);
+  ASSERT_EQ(::pthread_setattr_default_np(&larger_than_memory), 0);
+  EXPECT_THROW(std::thread([] {}).join(), std::system_error) << "nothing is shown: there is a thread";
+  const auto later = checkpoint_file(folder_.path(), 13);
+  EXPECT_NO_THROW(CheckpointWriter(later, sample(), {}, {}).finish());
+  EXPECT_EQ(::pthread_setattr_default_np(&usual), 0);
+  EXPECT_NO_THROW((void)read_checkpoint(later, {}));
 }
 
 TEST_F(CheckpointFile, IsRemovedWhenEnoughLaterOnesAreThere) {

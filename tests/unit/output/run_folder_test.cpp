@@ -149,7 +149,7 @@ std::string status_after(const std::string& line, const std::function<void()>& e
     ::_exit(0);
   }
   ::waitpid(process, nullptr, 0);
-  const auto patience = std::chrono::steady_clock::now() + std::chrono::milliseconds(line.empty() ? 300 : 3000);
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::milliseconds(3000);
   while (content_of(RunFolder{place.path()}.status()) == line && std::chrono::steady_clock::now() < patience)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   return content_of(RunFolder{place.path()}.status()).substr(line.size());
@@ -168,6 +168,13 @@ TEST(RunWatchTest, TellsThatARunWasKilled) {
 TEST(RunWatchTest, TellsThatAnErrorEndedARun) {
   EXPECT_THAT(status_after("{\"state\":\"running\",\"step\":7}\n", [] { throw std::runtime_error("disk full"); }),
               testing::StartsWith("{\"state\":\"failed\""));
+}
+
+TEST(RunWatchTest, TellsWhatBecameOfARunThatHasNotComeToItsFirstStep) {
+  EXPECT_THAT(status_after("", [] { throw std::runtime_error("disk full"); }),
+              testing::StartsWith("{\"state\":\"failed\""));
+  EXPECT_THAT(status_after("{\"event\":\"resume\"}\n", [] { ::raise(SIGKILL); }),
+              testing::StartsWith("{\"state\":\"interrupted\""));
 }
 
 TEST(RunWatchTest, AddsNothingToARunThatHasEnded) {
