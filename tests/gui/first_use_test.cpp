@@ -184,7 +184,6 @@ TEST(FirstUse, FromATemplateToBreakingGlassAndItsResults) {
   EXPECT_EQ(frame->value(), 1);
   frame->setValue(frame->maximum());
   EXPECT_TRUE(wait_until([&] { return !desk.window->busy(); }, kSolver));
-  desk.picture("results_dark");
   desk.window->set_dark(false);
   desk.picture("results");
 

@@ -191,9 +191,6 @@ velocity = [0, "-3 m/s", 0]
   desk.window->findChild<CaseTree*>()->select(stage_of("stage[1].constraint[0]"), "stage[1].constraint[0]");
   EXPECT_GT(scene.num_glyphs(), 5);
   EXPECT_LT(scene.num_glyphs(), 30) << "those of the second stage alone";
-  desk.window->set_dark(true);
-  desk.picture("glyphs_dark");
-  desk.window->set_dark(false);
 }
 
 TEST(Panels, AHistogramOfTheResultInViewShowsTheElementsAndJointsOfItsBars) {
