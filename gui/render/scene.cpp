@@ -1,6 +1,5 @@
 #include "render/scene.hpp"
 
-#include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellPicker.h>
@@ -283,6 +282,7 @@ void Scene::set_caption(const std::string& text) { caption_->SetInput(text.c_str
 
 void Scene::set_dark(bool dark) {
   dark_ = dark;
+  if (has_data()) colour();  // what is dim is near the ground
   draw_loads();
   const double low = dark ? 0.10 : 0.86, high = dark ? 0.20 : 0.98, ink = dark ? 0.92 : 0.1;
   renderer_->GradientBackgroundOn();
@@ -293,16 +293,6 @@ void Scene::set_dark(bool dark) {
     text->SetColor(ink, ink, ink);
   class_legend_->set_text_colour(ink, ink, ink);
   mode_legend_->set_text_colour(ink, ink, ink);
-}
-
-void Scene::reset_camera() {
-  vtkCamera* camera = renderer_->GetActiveCamera();
-  camera->SetFocalPoint(0, 0, 0);
-  camera->SetPosition(0.9, 0.9, 1.4);
-  camera->SetViewUp(0, 1, 0);
-  camera->SetWindowCenter(0.18, 0);  // room for the legends
-  renderer_->ResetCamera();
-  camera->Zoom(1.15);
 }
 
 vtkSmartPointer<vtkPolyData> Scene::exploded() const {
@@ -393,7 +383,7 @@ void Scene::colour_by_class(const char* array, const std::vector<std::string>& n
     const auto index = static_cast<std::size_t>(value);
     const std::string name = index < names.size() ? names[index] : std::to_string(value);
     if (dims && highlighted_.count(name) == 0)
-      for (double& part : c) part = 0.75 + 0.1 * part;
+      for (double& part : c) part = (dark_ ? 0.25 : 0.75) + 0.1 * part;
     colours_->SetTableValue(place, c[0], c[1], c[2]);
     if (seen.size() > kMostNamed) continue;
     colours_->SetAnnotation(vtkVariant(place), name);
@@ -437,6 +427,7 @@ void Scene::colour_by_value(const char* array, int component, double scale, cons
   colours_->SetTableRange(low, high);
   legend_->SetTitle(title);
   legend_->SetNumberOfLabels(5);
+  legend_->SetLabelFormat("%.3g");
   legend_->VisibilityOn();
   class_legend_->VisibilityOff();
   skin->GetCellData()->AddArray(shown);

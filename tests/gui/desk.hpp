@@ -142,12 +142,9 @@ struct Desk {
     const QDir folder(qEnvironmentVariable("BRECCIA_SCREENSHOTS"));
     QTest::qWait(100);
     if (!qEnvironmentVariableIsSet("BRECCIA_SCREENSHOTS") || !folder.mkpath(".")) return;
-    // 256 colours: a third of the size.
     const auto save = [&](QWidget* widget, const QString& as) {
-      widget->grab()
-          .toImage()
-          .convertToFormat(QImage::Format_Indexed8, Qt::AvoidDither)
-          .save(folder.filePath(as + ".png"));
+      constexpr int kSmallest = 0;  // of a PNG, without loss
+      widget->grab().save(folder.filePath(as + ".png"), nullptr, kSmallest);
     };
     save(of == nullptr ? window.get() : of, name);
     if (of != nullptr || window->dark()) return;

@@ -42,5 +42,22 @@ TEST(Legend, NamesStandBesideTheirBoxesInAFirstPictureThatIsSeenThrough) {
   }
 }
 
+/// The lower corner of a cube used to be below the view.
+TEST(Legend, TheModelStandsWholeBesideIt) {
+  Desk desk;
+  desk.window->open_path(written_case(desk.scratch, block_case(3, "1 ms")));
+  View3D& view = desk.window->view();
+  ASSERT_TRUE(wait_until([&] { return view.scene().has_data(); }, kSolver));
+  const QImage image = view.picture();
+  const auto& row = view.scene().class_legend().rows().at(0);
+  const auto is_drawn = [&](int x, int y) { return image.pixel(x, y) != image.pixel(0, y); };
+  for (int x = 0; x < image.width(); ++x) {
+    EXPECT_FALSE(is_drawn(x, 0)) << x;
+    EXPECT_FALSE(is_drawn(x, image.height() - 1)) << x;
+  }
+  constexpr int kBeside = 3;  // pixels
+  for (int y = image.height() / 4; y < image.height(); ++y) EXPECT_FALSE(is_drawn(row.box[0] - kBeside, y)) << y;
+}
+
 }  // namespace
 }  // namespace breccia::gui::test
