@@ -116,6 +116,7 @@ Condition initial_velocity(const Document& document, const case_::InitialVelocit
     row.largest[a] = given.velocity[static_cast<Eigen::Index>(a)];
     row.turns_by[a] = given.angular[static_cast<Eigen::Index>(a)];
   }
+  row.random = given.random[1];
   return row;
 }
 

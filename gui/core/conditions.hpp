@@ -23,6 +23,7 @@ struct Condition {
   std::array<bool, 3> axes{};        ///< that are prescribed
   std::array<double, 3> largest{};   ///< value by axis where it is largest over the stage, SI; a pressure has one
   std::array<double, 3> turns_by{};  ///< rad/s, of an initial velocity
+  double random = 0;                 ///< greatest speed that is drawn for a body, m/s, of an initial velocity
 };
 
 /// All of them, stage by stage. Empty where the reader refuses the case.

@@ -30,31 +30,83 @@ Point at(vtkUnstructuredGrid& grid, vtkIdType point) {
   return p;
 }
 
-/// A number for every place at which corners rest; places closer than a millionth of the model are one.
-std::vector<std::int64_t> places_of(vtkUnstructuredGrid& grid, vtkDataArray* displacement) {
-  const vtkIdType cells = grid.GetNumberOfCells();
-  std::array<double, 6> box{};
-  grid.GetBounds(box.data());
-  const double size = std::max({box[1] - box[0], box[3] - box[2], box[5] - box[4], 1e-300});
-  const double grain = 1e-6 * size;
-  using Key = std::array<std::int64_t, 3>;
-  std::vector<std::pair<Key, std::int64_t>> keys(static_cast<std::size_t>(4 * cells));
-  for (vtkIdType c = 0; c < cells; ++c) {
+/// A place to begin at in a table of a power of two.
+std::size_t hashed(std::uint64_t key, std::size_t mask) {
+  key *= 0x9E3779B97F4A7C15ULL;  // spreads neighbours (2^64 over the golden section)
+  return static_cast<std::size_t>(key ^ (key >> 32U)) & mask;
+}
+
+/// Numbers keys in the order in which they come; a key that has come before has its number. The table grows with the
+/// number of different keys, of which there are few: what is asked for is in the cache.
+class Numbers {
+ public:
+  std::int64_t of(std::uint64_t key) {
+    std::size_t i = place_of(key);
+    if (slots_[i].number >= 0) return slots_[i].number;
+    if (2 * static_cast<std::size_t>(count_) >= slots_.size()) {
+      std::vector<Slot> old(2 * slots_.size());
+      old.swap(slots_);
+      for (const Slot& slot : old)
+        if (slot.number >= 0) slots_[place_of(slot.key)] = slot;
+      i = place_of(key);
+    }
+    slots_[i] = {key, count_};
+    return count_++;
+  }
+
+ private:
+  struct Slot {
+    std::uint64_t key = 0;
+    std::int64_t number = -1;
+  };
+  [[nodiscard]] std::size_t place_of(std::uint64_t key) const {
+    std::size_t i = hashed(key, slots_.size() - 1);
+    while (slots_[i].number >= 0 && slots_[i].key != key) i = (i + 1) & (slots_.size() - 1);
+    return i;
+  }
+
+  std::vector<Slot> slots_ = std::vector<Slot>(1024);
+  std::int64_t count_ = 0;
+};
+
+/// Where all corners rest.
+std::vector<Point> corners_at_rest(vtkUnstructuredGrid& grid, vtkDataArray* displacement) {
+  std::vector<Point> rest(static_cast<std::size_t>(4 * grid.GetNumberOfCells()));
+  for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c) {
     Point moved{};
-    if (displacement != nullptr) displacement->GetTuple(c, moved.data());
-    for (vtkIdType i = 0; i < 4; ++i) {
-      const Point p = at(grid, 4 * c + i);
-      Key key{};
-      for (std::size_t a = 0; a < 3; ++a) key[a] = std::llround((p[a] - moved[a]) / grain);
-      keys[static_cast<std::size_t>(4 * c + i)] = {key, 4 * c + i};
+    if (displacement != nullptr)
+      for (int a = 0; a < 3; ++a) moved[static_cast<std::size_t>(a)] = displacement->GetComponent(c, a);
+    for (vtkIdType i = 4 * c; i < 4 * c + 4; ++i) {
+      const Point p = at(grid, i);
+      for (std::size_t a = 0; a < 3; ++a) rest[static_cast<std::size_t>(i)][a] = p[a] - moved[a];
     }
   }
-  std::sort(keys.begin(), keys.end());
-  std::vector<std::int64_t> place(keys.size());
-  std::int64_t number = -1;
-  for (std::size_t k = 0; k < keys.size(); ++k) {
-    if (k == 0 || keys[k].first != keys[k - 1].first) ++number;
-    place[static_cast<std::size_t>(keys[k].second)] = number;
+  return rest;
+}
+
+/// A number for every place at which corners rest; places closer than a millionth of the model are one.
+std::vector<std::int64_t> places_of(vtkUnstructuredGrid& grid, vtkDataArray* displacement) {
+  constexpr double kGrains = 1e6;
+  constexpr unsigned kBits = 21;  // more than that many
+  const std::vector<Point> rest = corners_at_rest(grid, displacement);
+  constexpr double kFar = std::numeric_limits<double>::max();
+  Point low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};
+  for (const Point& p : rest)
+    for (std::size_t a = 0; a < 3; ++a) {
+      low[a] = std::min(low[a], p[a]);
+      high[a] = std::max(high[a], p[a]);
+    }
+  const double grain = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2], 1e-300}) / kGrains;
+  Numbers numbers;
+  std::vector<std::int64_t> place;
+  place.reserve(rest.size());
+  for (const Point& p : rest) {
+    std::uint64_t key = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double grains = (p[a] - low[a]) / grain;
+      key = key << kBits | (grains > 0 ? static_cast<std::uint64_t>(std::llround(std::min(grains, kGrains))) : 0);
+    }
+    place.push_back(numbers.of(key));
   }
   return place;
 }
@@ -84,6 +136,23 @@ Skin::Skin(vtkUnstructuredGrid& rest) {
   };
   std::vector<Side> sides;
   sides.reserve(static_cast<std::size_t>(4 * rest.GetNumberOfCells()));
+  inner_.reserve(sides.capacity() / 2);
+  std::vector<bool> is_inner(sides.capacity());
+  // Sides that wait for their other one, in a chain for each place: the first side, and the next one of each.
+  std::vector<std::int64_t> first(place.size(), -1), next(sides.capacity(), -1);
+  const auto find_other = [&](std::size_t own) {
+    const auto& key = sides[own].key;
+    std::int64_t* link = &first[static_cast<std::size_t>(key[1])];
+    for (; *link >= 0; link = &next[static_cast<std::size_t>(*link)]) {
+      const auto other = static_cast<std::size_t>(*link);
+      if (sides[other].key != key) continue;
+      inner_.push_back({sides[other].face, sides[own].face});
+      is_inner[other] = is_inner[own] = true;
+      *link = next[other];
+      return;
+    }
+    *link = static_cast<std::int64_t>(own);
+  };
   for (vtkIdType c = 0; c < rest.GetNumberOfCells(); ++c) {
     const std::int64_t element = id == nullptr ? c : static_cast<std::int64_t>(value(id, c));
     for (int f = 0; f < 4; ++f) {
@@ -95,19 +164,11 @@ Skin::Skin(vtkUnstructuredGrid& rest) {
       sides.push_back(
           {{static_cast<std::int64_t>(value(body, c)), place_of(order[0]), place_of(order[1]), place_of(order[2])},
            {element, f, order}});
+      find_other(sides.size() - 1);
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.key, a.face.element, a.face.side) < std::tie(b.key, b.face.element, b.face.side);
-  });
-  for (std::size_t i = 0; i < sides.size();) {
-    if (i + 1 < sides.size() && sides[i + 1].key == sides[i].key) {
-      inner_.push_back({sides[i].face, sides[i + 1].face});
-      i += 2;
-    } else {
-      outer_.push_back(sides[i++].face);
-    }
-  }
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    if (!is_inner[i]) outer_.push_back(sides[i].face);
 }
 
 namespace {
@@ -186,6 +247,16 @@ vtkSmartPointer<vtkPolyData> cracks_of(vtkUnstructuredGrid& joints) {
   return cracks;
 }
 
+/// Whether nothing has moved: then nothing is apart, as in a mesh that has just been opened.
+bool is_at_rest(vtkUnstructuredGrid& elements) {
+  vtkDataArray* displacement = elements.GetCellData()->GetArray("displacement");
+  if (displacement == nullptr) return false;
+  for (vtkIdType c = 0; c < displacement->GetNumberOfTuples(); ++c)
+    for (int a = 0; a < displacement->GetNumberOfComponents(); ++a)
+      if (displacement->GetComponent(c, a) != 0) return false;
+  return true;
+}
+
 /// Whether two faces that rest on each other are that no more. @param a, b  rows of their elements
 bool are_apart(vtkUnstructuredGrid& elements, vtkIdType a, const std::array<std::int8_t, 3>& in_a, vtkIdType b,
                const std::array<std::int8_t, 3>& in_b) {
@@ -201,6 +272,7 @@ bool are_apart(vtkUnstructuredGrid& elements, vtkIdType a, const std::array<std:
 vtkSmartPointer<vtkPolyData> Skin::draw(vtkUnstructuredGrid& elements) const {
   FaceWriter writer(elements, true);
   for (const Face& face : outer_) writer.add(writer.row(face.element), face.side);
+  if (is_at_rest(elements)) return writer.take();
   for (const auto& [a, b] : inner_) {
     const vtkIdType in_a = writer.row(a.element), in_b = writer.row(b.element);
     if (in_a < 0 || in_b < 0 || !are_apart(elements, in_a, a.order, in_b, b.order)) continue;

@@ -25,7 +25,7 @@ inline constexpr std::array<std::array<int, 3>, 4> kTetraFaces{{{1, 2, 3}, {0, 3
 /// their ids, since frames of several ranks have them in other orders.
 class Skin {
  public:
-  /// @param rest  elements of any frame: it is moved back by the displacement. O(elements log elements)
+  /// @param rest  elements of any frame: it is moved back by the displacement. O(elements)
   explicit Skin(vtkUnstructuredGrid& rest);
 
   /// The faces as triangles with the arrays of their elements and, as "side", the face of the element.

@@ -38,10 +38,18 @@ struct Seat {
   Vector centre{}, normal{};
 };
 
-Seat seat_of(vtkPolyData& skin, vtkIdType cell) {
+Seat seat_of(vtkPointSet& model, const std::array<vtkIdType, 3>& corners) {
   std::array<Vector, 3> x{};
-  for (vtkIdType i = 0; i < 3; ++i) skin.GetPoint(3 * cell + i, x[static_cast<std::size_t>(i)].data());
+  for (std::size_t i = 0; i < 3; ++i) model.GetPoint(corners[i], x[i].data());
   return {(1.0 / 3) * (x[0] + x[1] + x[2]), unit(cross(x[1] - x[0], x[2] - x[0]))};
+}
+
+/// 4 * id of the element + side, of a surface group; none: it is a volume.
+std::unordered_set<std::int64_t> faces_of(const SurfaceGroups& surfaces, const std::string& group) {
+  const auto surface =
+      static_cast<std::size_t>(std::find(surfaces.names.begin(), surfaces.names.end(), group) - surfaces.names.begin());
+  if (surface >= surfaces.faces.size()) return {};
+  return {surfaces.faces[surface].begin(), surfaces.faces[surface].end()};
 }
 
 /// The faces of a group that are seen.
@@ -52,19 +60,32 @@ std::vector<Seat> seats_of(vtkPolyData& skin, const std::vector<std::string>& vo
   vtkDataArray* side = skin.GetCellData()->GetArray("side");
   std::vector<Seat> seats;
   if (material == nullptr || id == nullptr || side == nullptr) return seats;
-  const auto surface = std::find(surfaces.names.begin(), surfaces.names.end(), group) - surfaces.names.begin();
-  std::unordered_set<std::int64_t> faces;
-  if (static_cast<std::size_t>(surface) < surfaces.faces.size()) {
-    const auto& own = surfaces.faces[static_cast<std::size_t>(surface)];
-    faces.insert(own.begin(), own.end());
-  }
+  const std::unordered_set<std::int64_t> faces = faces_of(surfaces, group);
   const auto volume = static_cast<double>(std::find(volumes.begin(), volumes.end(), group) - volumes.begin());
   for (vtkIdType c = 0; c < skin.GetNumberOfCells(); ++c) {
     const auto face =
         4 * static_cast<std::int64_t>(id->GetComponent(c, 0)) + static_cast<std::int64_t>(side->GetComponent(c, 0));
     if (!(std::abs(material->GetComponent(c, 0) - volume) < 0.5) && faces.count(face) == 0) continue;
-    seats.push_back(seat_of(skin, c));
+    seats.push_back(seat_of(skin, {3 * c, 3 * c + 1, 3 * c + 2}));
   }
+  return seats;
+}
+
+/// The faces of a surface group within the model.
+std::vector<Seat> inner_seats_of(vtkUnstructuredGrid& elements, const SurfaceGroups& surfaces,
+                                 const std::string& group) {
+  std::vector<Seat> seats;
+  vtkDataArray* id = elements.GetCellData()->GetArray("id");
+  const std::unordered_set<std::int64_t> faces = faces_of(surfaces, group);
+  if (id == nullptr || faces.empty()) return seats;
+  for (vtkIdType c = 0; c < elements.GetNumberOfCells(); ++c)
+    for (std::size_t side = 0; side < 4; ++side) {
+      if (faces.count(4 * static_cast<std::int64_t>(id->GetComponent(c, 0)) + static_cast<std::int64_t>(side)) == 0)
+        continue;
+      std::array<vtkIdType, 3> corners{};  // every element has its own points
+      for (std::size_t i = 0; i < 3; ++i) corners[i] = 4 * c + kTetraFaces[side][i];
+      seats.push_back(seat_of(elements, corners));
+    }
   return seats;
 }
 
@@ -138,8 +159,17 @@ class GlyphMesh {
   vtkNew<vtkCellArray> triangles_;
 };
 
+/// Directions that are spread evenly over the sphere, the same ones in every picture.
+Vector any_direction(std::size_t number) {
+  constexpr double kGoldenAngle = 2.399963229728653;
+  const double z = 1 - 2 * (static_cast<double>(number * 7 % kMostGlyphs) + 0.5) / kMostGlyphs,
+               r = std::sqrt(1 - z * z);
+  const double angle = kGoldenAngle * static_cast<double>(number);
+  return {r * std::cos(angle), r * std::sin(angle), z};
+}
+
 /// Draws the glyph of one seat. Returns the end that is away from the model.
-Vector add_glyph(GlyphMesh& mesh, const Load& load, const Seat& seat, double length) {
+Vector add_glyph(GlyphMesh& mesh, const Load& load, const Seat& seat, std::size_t number, double length) {
   if (load.shape == LoadShape::support) {
     for (std::size_t a = 0; a < 3; ++a) {
       if (!load.axes[a]) continue;
@@ -150,23 +180,25 @@ Vector add_glyph(GlyphMesh& mesh, const Load& load, const Seat& seat, double len
     return seat.centre + kSupport * length * seat.normal;
   }
   const bool pressure = load.shape == LoadShape::pressure;
-  const Vector along = pressure ? (load.direction[0] < 0 ? 1 : -1) * seat.normal : unit(load.direction);
+  const Vector along = pressure                          ? (load.direction[0] < 0 ? 1 : -1) * seat.normal
+                       : load.shape == LoadShape::random ? any_direction(number)
+                                                         : unit(load.direction);
   // An arrow is outside: onto the face, or away from it.
   const bool onto = dot(along, seat.normal) < 0;
   const Vector begin = onto ? seat.centre - length * along : seat.centre, end = begin + length * along;
-  mesh.add_arrow(begin, end, load.shape == LoadShape::double_arrow ? 2 : 1);
+  mesh.add_arrow(begin, end, load.shape == LoadShape::double_arrow || load.shape == LoadShape::random ? 2 : 1);
   return onto ? begin : end;
 }
 
 bool is_seen(const Load& load) {
   if (load.shape == LoadShape::support) return load.axes[0] || load.axes[1] || load.axes[2];
-  return dot(load.direction, load.direction) > 0;
+  return load.shape == LoadShape::random || dot(load.direction, load.direction) > 0;
 }
 
 }  // namespace
 
-LoadGlyphs draw_load(vtkPolyData& skin, const std::vector<std::string>& volumes, const SurfaceGroups& surfaces,
-                     const Load& load) {
+LoadGlyphs draw_load(vtkPolyData& skin, vtkUnstructuredGrid* elements, const std::vector<std::string>& volumes,
+                     const SurfaceGroups& surfaces, const Load& load) {
   LoadGlyphs glyphs;
   GlyphMesh mesh;
   const double diagonal = skin.GetLength(), length = kLength * diagonal;
@@ -183,8 +215,11 @@ LoadGlyphs draw_load(vtkPolyData& skin, const std::vector<std::string>& volumes,
     glyphs.places = {end - 1.5 * length * along};
     mesh.add_arrow(glyphs.places[0], end, 1);
   } else {
-    for (const Seat& seat : spread(seats_of(skin, volumes, surfaces, load.group)))
-      glyphs.places.push_back(add_glyph(mesh, load, seat, length));
+    std::vector<Seat> seats = seats_of(skin, volumes, surfaces, load.group);
+    glyphs.inner = seats.empty() && elements != nullptr;
+    if (glyphs.inner) seats = inner_seats_of(*elements, surfaces, load.group);
+    for (const Seat& seat : spread(seats))
+      glyphs.places.push_back(add_glyph(mesh, load, seat, glyphs.places.size(), length));
   }
   glyphs.mesh = mesh.take();
   return glyphs;

@@ -17,7 +17,8 @@ enum class LoadShape {
   arrow,         ///< with one head: prescribed motion, gravity
   double_arrow,  ///< with two heads: initial velocity
   pressure,      ///< arrows along the normals of the faces, onto them where it is positive
-  support        ///< cones that stand on the faces, one for each axis that is held
+  support,       ///< cones that stand on the faces, one for each axis that is held
+  random         ///< arrows with two heads that point anywhere: random velocities
 };
 
 struct Load {
@@ -32,13 +33,16 @@ struct LoadGlyphs {
   vtkSmartPointer<vtkPolyData> mesh;  ///< triangles
   /// Ends of the glyphs that are away from the model, of each: where its words may stand.
   std::vector<std::array<double, 3>> places;
+  bool inner = false;  ///< on faces within the model, as those of a slit: they are hidden by it
   [[nodiscard]] int count() const { return static_cast<int>(places.size()); }
 };
 
 /// At most some dozens of glyphs, spread over the faces of the group; none: it is not seen.
-/// @param skin     with the arrays "material", "id" and "side", each triangle with points of its own
-/// @param volumes  names of the volume groups in the order of "material"
-[[nodiscard]] LoadGlyphs draw_load(vtkPolyData& skin, const std::vector<std::string>& volumes,
-                                   const SurfaceGroups& surfaces, const Load& load);
+/// @param skin      with the arrays "material", "id" and "side", each triangle with points of its own
+/// @param elements  the model of that skin, where faces are found that the skin does not have; nullptr: unknown
+/// @param volumes   names of the volume groups in the order of "material"
+[[nodiscard]] LoadGlyphs draw_load(vtkPolyData& skin, vtkUnstructuredGrid* elements,
+                                   const std::vector<std::string>& volumes, const SurfaceGroups& surfaces,
+                                   const Load& load);
 
 }  // namespace breccia::gui

@@ -1,6 +1,5 @@
 #include "render/scene.hpp"
 
-#include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellPicker.h>
@@ -30,6 +29,7 @@ constexpr std::array<Colour, 8> kClasses{{{0.34, 0.71, 0.91},
                                           {0.6, 0.6, 0.6}}};
 /// Damaged joints by mode: 0 undamaged, 1 opening, 2 sliding, 3 mixed.
 constexpr std::array<Colour, 4> kModes{{{0.5, 0.5, 0.5}, {0.90, 0.12, 0.12}, {0.12, 0.30, 0.90}, {0.75, 0.15, 0.80}}};
+constexpr std::array<const char*, 4> kModeNames{"undamaged", "opening (I)", "sliding (II)", "mixed"};
 /// Dark blue to yellow, of even steps in lightness.
 constexpr std::array<Colour, 5> kRamp{{{0.267, 0.005, 0.329},
                                        {0.231, 0.318, 0.545},
@@ -63,9 +63,8 @@ void place_legend(vtkScalarBarActor& legend, double x, double y, double width, d
   legend.SetUnconstrainedFontSize(true);
   legend.GetTitleTextProperty()->SetFontSize(13);
   legend.GetLabelTextProperty()->SetFontSize(12);
-  legend.GetAnnotationTextProperty()->SetFontSize(12);
-  for (vtkTextProperty* text :
-       {legend.GetTitleTextProperty(), legend.GetLabelTextProperty(), legend.GetAnnotationTextProperty()}) {
+  legend.SetVerticalTitleSeparation(6);
+  for (vtkTextProperty* text : {legend.GetTitleTextProperty(), legend.GetLabelTextProperty()}) {
     text->SetBold(0);
     text->SetItalic(0);
     text->SetShadow(0);
@@ -111,9 +110,12 @@ Scene::Scene() {
   for (std::size_t i = 0; i < kModes.size(); ++i)
     mode_colours_->SetTableValue(static_cast<vtkIdType>(i), kModes[i][0], kModes[i][1], kModes[i][2]);
   mode_colours_->IndexedLookupOn();
-  const std::array<const char*, 4> names{"undamaged", "opening (I)", "sliding (II)", "mixed"};
-  for (std::size_t i = 0; i < names.size(); ++i)
-    mode_colours_->SetAnnotation(vtkVariant(static_cast<int>(i)), names[i]);
+  std::vector<ClassLegend::Class> modes;
+  for (std::size_t i = 0; i < kModes.size(); ++i) {
+    mode_colours_->SetAnnotation(vtkVariant(static_cast<int>(i)), kModeNames[i]);
+    modes.push_back({kModes[i], kModeNames[i]});
+  }
+  mode_legend_->set_classes("damaged joints", modes);
   broken_mapper_->SetLookupTable(mode_colours_);
   broken_mapper_->SetScalarModeToUseCellFieldData();
   broken_mapper_->SelectColorArray("mode");
@@ -126,15 +128,15 @@ Scene::Scene() {
   skin_mapper_->SelectColorArray(kShown);
   skin_mapper_->UseLookupTableScalarRangeOn();
   legend_->SetLookupTable(colours_);
-  mode_legend_->SetLookupTable(mode_colours_);
-  mode_legend_->SetTitle("damaged joints");
   place_legend(*legend_, 0.82, 0.45, 0.17, 0.5);
-  place_legend(*mode_legend_, 0.82, 0.05, 0.17, 0.35);
+  class_legend_->set_top(0.97);
+  mode_legend_->set_bottom(0.05);
   caption_->SetPosition(10, 10);
   caption_->GetTextProperty()->SetFontSize(14);
-  for (vtkProp* prop : {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(marked_),
-                        static_cast<vtkProp*>(chosen_), static_cast<vtkProp*>(legend_),
-                        static_cast<vtkProp*>(mode_legend_), static_cast<vtkProp*>(caption_)})
+  for (vtkProp* prop :
+       {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(marked_),
+        static_cast<vtkProp*>(chosen_), static_cast<vtkProp*>(legend_), static_cast<vtkProp*>(class_legend_),
+        static_cast<vtkProp*>(mode_legend_), static_cast<vtkProp*>(caption_)})
     renderer_->AddViewProp(prop);
   clear();
   set_dark(false);
@@ -144,8 +146,9 @@ void Scene::clear() {
   frame_ = {};
   draw_loads();
   mark(nullptr);
-  for (vtkProp* prop : {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(chosen_),
-                        static_cast<vtkProp*>(legend_), static_cast<vtkProp*>(mode_legend_)})
+  for (vtkProp* prop :
+       {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(chosen_),
+        static_cast<vtkProp*>(legend_), static_cast<vtkProp*>(class_legend_), static_cast<vtkProp*>(mode_legend_)})
     prop->VisibilityOff();
 }
 
@@ -279,26 +282,17 @@ void Scene::set_caption(const std::string& text) { caption_->SetInput(text.c_str
 
 void Scene::set_dark(bool dark) {
   dark_ = dark;
+  if (has_data()) colour();  // what is dim is near the ground
   draw_loads();
   const double low = dark ? 0.10 : 0.86, high = dark ? 0.20 : 0.98, ink = dark ? 0.92 : 0.1;
   renderer_->GradientBackgroundOn();
   renderer_->SetBackground(low, low, low + 0.02);
   renderer_->SetBackground2(high, high, high + 0.02);
   for (vtkTextProperty* text :
-       {legend_->GetTitleTextProperty(), legend_->GetLabelTextProperty(), legend_->GetAnnotationTextProperty(),
-        mode_legend_->GetTitleTextProperty(), mode_legend_->GetLabelTextProperty(),
-        mode_legend_->GetAnnotationTextProperty(), caption_->GetTextProperty()})
+       {legend_->GetTitleTextProperty(), legend_->GetLabelTextProperty(), caption_->GetTextProperty()})
     text->SetColor(ink, ink, ink);
-}
-
-void Scene::reset_camera() {
-  vtkCamera* camera = renderer_->GetActiveCamera();
-  camera->SetFocalPoint(0, 0, 0);
-  camera->SetPosition(0.9, 0.9, 1.4);
-  camera->SetViewUp(0, 1, 0);
-  camera->SetWindowCenter(0.18, 0);  // room for the legends
-  renderer_->ResetCamera();
-  camera->Zoom(1.15);
+  class_legend_->set_text_colour(ink, ink, ink);
+  mode_legend_->set_text_colour(ink, ink, ink);
 }
 
 vtkSmartPointer<vtkPolyData> Scene::exploded() const {
@@ -382,21 +376,25 @@ void Scene::colour_by_class(const char* array, const std::vector<std::string>& n
   const bool dims = colouring_ == Colouring::group &&
                     std::any_of(names.begin(), names.end(), [&](const auto& n) { return highlighted_.count(n) != 0; });
   colours_->ResetAnnotations();
+  std::vector<ClassLegend::Class> classes;
   colours_->SetNumberOfTableValues(std::max<vtkIdType>(1, static_cast<vtkIdType>(seen.size())));
   for (const auto& [value, place] : seen) {
     Colour c = kClasses[static_cast<std::size_t>(place) % kClasses.size()];
     const auto index = static_cast<std::size_t>(value);
     const std::string name = index < names.size() ? names[index] : std::to_string(value);
     if (dims && highlighted_.count(name) == 0)
-      for (double& part : c) part = 0.75 + 0.1 * part;
+      for (double& part : c) part = (dark_ ? 0.25 : 0.75) + 0.1 * part;
     colours_->SetTableValue(place, c[0], c[1], c[2]);
-    if (seen.size() <= kMostNamed) colours_->SetAnnotation(vtkVariant(place), name);
+    if (seen.size() > kMostNamed) continue;
+    colours_->SetAnnotation(vtkVariant(place), name);
+    classes.push_back({c, name});
   }
   colours_->SetTableRange(0, std::max(1.0, static_cast<double>(seen.size()) - 1));
   colours_->SetIndexedLookup(seen.size() <= kMostNamed);
   range_ = {0, static_cast<double>(seen.size()) - 1};
-  legend_->SetTitle(title);
-  legend_->SetVisibility(seen.size() <= kMostNamed);
+  class_legend_->set_classes(title, classes);
+  class_legend_->SetVisibility(!classes.empty());
+  legend_->VisibilityOff();
   skin->GetCellData()->AddArray(shown);
   skin_mapper_->SetInputData(skin);
 }
@@ -429,7 +427,9 @@ void Scene::colour_by_value(const char* array, int component, double scale, cons
   colours_->SetTableRange(low, high);
   legend_->SetTitle(title);
   legend_->SetNumberOfLabels(5);
+  legend_->SetLabelFormat("%.3g");
   legend_->VisibilityOn();
+  class_legend_->VisibilityOff();
   skin->GetCellData()->AddArray(shown);
   skin_mapper_->SetInputData(skin);
 }

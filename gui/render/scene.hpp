@@ -16,6 +16,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "render/class_legend.hpp"
 #include "render/frame_data.hpp"
 #include "render/load_glyphs.hpp"
 
@@ -75,6 +76,7 @@ class Scene {
   [[nodiscard]] bool has_data() const { return frame_.skin != nullptr; }
   [[nodiscard]] vtkIdType num_faces() const { return frame_.skin == nullptr ? 0 : frame_.skin->GetNumberOfCells(); }
   [[nodiscard]] vtkIdType num_broken() const;
+  [[nodiscard]] const ClassLegend& class_legend() const { return *class_legend_; }
   /// Range of what is coloured, for the legend.
   [[nodiscard]] std::array<double, 2> range() const { return range_; }
 
@@ -92,7 +94,8 @@ class Scene {
   vtkNew<vtkPolyDataMapper> skin_mapper_, broken_mapper_, marked_mapper_, chosen_mapper_;
   vtkNew<vtkActor> skin_, broken_, marked_, chosen_;
   vtkNew<vtkLookupTable> colours_, mode_colours_;
-  vtkNew<vtkScalarBarActor> legend_, mode_legend_;
+  vtkNew<vtkScalarBarActor> legend_;
+  vtkNew<ClassLegend> class_legend_, mode_legend_;
   vtkNew<vtkTextActor> caption_;
   FrameData frame_;
   std::vector<std::string> groups_;

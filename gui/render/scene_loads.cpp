@@ -12,7 +12,8 @@ namespace {
 using Colour = std::array<double, 3>;
 
 /// Of LoadShape.
-constexpr std::array<Colour, 4> kLoads{{{0.0, 0.45, 0.70}, {0.75, 0.25, 0.55}, {0.80, 0.30, 0.0}, {0.15, 0.45, 0.25}}};
+constexpr std::array<Colour, 5> kLoads{
+    {{0.0, 0.45, 0.70}, {0.75, 0.25, 0.55}, {0.80, 0.30, 0.0}, {0.15, 0.45, 0.25}, {0.75, 0.25, 0.55}}};
 
 }  // namespace
 
@@ -34,13 +35,18 @@ void Scene::draw_loads() {
   num_glyphs_ = 0;
   if (!has_data() || !shows_loads_ || explode_ > 0) return;  // parts that are moved apart are not where loads act
   for (const Load& load : loads_) {
-    const LoadGlyphs drawn = draw_load(*frame_.skin, groups_, surfaces_, load);
+    const LoadGlyphs drawn = draw_load(*frame_.skin, frame_.elements, groups_, surfaces_, load);
     if (drawn.count() == 0) continue;
     num_glyphs_ += drawn.count();
     // Loads of one group begin at the same face: the words of each stand at another one.
     const std::array<double, 3>& place = drawn.places[words_.size() % drawn.places.size()];
     vtkNew<vtkPolyDataMapper> mapper;
     mapper->SetInputData(drawn.mesh);
+    if (drawn.inner) {                     // in front of everything: otherwise the model hides them
+      constexpr double kInFront = -66000;  // units of the depth buffer's polygon offset, larger than all of it
+      mapper->SetResolveCoincidentTopologyToPolygonOffset();
+      mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(0, kInFront);
+    }
     const auto& actor = glyphs_.emplace_back(vtkSmartPointer<vtkActor>::New());
     actor->SetMapper(mapper);
     actor->PickableOff();

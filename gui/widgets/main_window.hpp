@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QAction>
 #include <QJsonArray>
 #include <QMainWindow>
 #include <QStackedWidget>
@@ -59,6 +60,7 @@ class MainWindow final : public QMainWindow {
   /// Offers what a session that was killed has left.
   void offer_recovery();
   void set_dark(bool dark);
+  [[nodiscard]] bool dark() const { return dark_->isChecked(); }
 
  protected:
   void closeEvent(QCloseEvent* event) override;

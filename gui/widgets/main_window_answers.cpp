@@ -95,7 +95,8 @@ void MainWindow::show_division(const QJsonObject& json) {
   if (preview_frame_.skin == nullptr || showing_results_) return;
   set_ranks(*preview_frame_.skin, owner_);
   view_->set_colouring(Colouring::rank);
-  view_->show_frame(preview_frame_, tr("coloured by the rank that would own each element"));
+  view_->show_frame(preview_frame_,
+                    tr("mesh at rest, as %1 ranks would share it").arg(json["domains"].toArray().size()));
 }
 
 void MainWindow::query_failed(const QString& what, const QString& text, const std::vector<Problem>& problems) {

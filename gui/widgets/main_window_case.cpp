@@ -54,6 +54,11 @@ std::vector<Load> glyphs_of(const Condition& row) {
     load.words = (row.type + " " + row.value).toStdString();
   }
   std::vector<Load> loads{load};
+  if (row.number < 0 && row.random > 0) {
+    const QString words = QCoreApplication::translate("conditions", "random velocities up to %1");
+    loads.push_back(
+        {LoadShape::random, load.group, {}, {}, words.arg(quantity_words(row.random, "m/s")).toStdString()});
+  }
   if (row.number < 0 && size(row.turns_by) > 0) {
     const QString words = QCoreApplication::translate("conditions", "turns by %1 about this axis");
     loads.push_back({LoadShape::double_arrow,

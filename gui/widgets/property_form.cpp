@@ -1,5 +1,6 @@
 #include "widgets/property_form.hpp"
 
+#include <QEvent>
 #include <QLineEdit>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
@@ -252,6 +253,17 @@ void PropertyForm::mark_problems() {
     it->editor->setToolTip(words.isEmpty() ? tooltip_of(*it->key)
                                            : "<b>" + words.toHtmlEscaped() + "</b><hr>" + tooltip_of(*it->key));
   }
+}
+
+/// A style sheet keeps the colours that it met: a field with a problem would stay light in a dark window.
+void PropertyForm::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::PaletteChange)
+    for (const Field& field : fields_) {
+      const QString style = field.editor->styleSheet();
+      field.editor->setStyleSheet({});
+      field.editor->setStyleSheet(style);
+    }
+  QScrollArea::changeEvent(event);
 }
 
 void PropertyForm::focus_field(const QString& path) {

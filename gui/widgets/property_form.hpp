@@ -40,6 +40,9 @@ class PropertyForm final : public QScrollArea {
   /// A field waits, or waits no more, for a click in the view.
   void pick_wanted(bool on);
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
   struct Field {
     const case_::Key* key = nullptr;

@@ -1,8 +1,11 @@
 #include "widgets/theme.hpp"
 
 #include <QApplication>
+#include <QPainter>
 #include <QPalette>
+#include <QProxyStyle>
 #include <QStyleFactory>
+#include <QStyleOption>
 #include <QToolTip>
 
 namespace breccia::gui {
@@ -31,12 +34,26 @@ QPalette palette_of(bool dark) {
   return p;
 }
 
+/// Fusion outlines boxes to tick by a darker shade of the window, which is not seen in a dark one.
+class OutlinedBoxes final : public QProxyStyle {
+ public:
+  OutlinedBoxes() : QProxyStyle(QStyleFactory::create("Fusion")) {}
+
+  void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
+                     const QWidget* widget) const override {
+    QProxyStyle::drawPrimitive(element, option, painter, widget);
+    if (element != PE_IndicatorCheckBox || option->palette.color(QPalette::Window).lightness() >= 128) return;
+    painter->setPen(option->palette.color(QPalette::PlaceholderText));
+    painter->drawRect(option->rect.adjusted(0, 0, -1, -1));
+  }
+};
+
 }  // namespace
 
 bool system_is_dark() { return QApplication::palette().color(QPalette::Window).lightness() < 128; }
 
 void apply_theme(bool dark) {
-  QApplication::setStyle(QStyleFactory::create("Fusion"));
+  QApplication::setStyle(new OutlinedBoxes);
   QApplication::setPalette(palette_of(dark));
   QToolTip::setPalette(palette_of(dark));
 }

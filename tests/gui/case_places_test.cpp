@@ -23,7 +23,7 @@ TEST(Templates, EachIsCopiedIntoAFolderOfItsOwnAndCanBeRead) {
   const QTemporaryDir scratch;
   const Places places = places_in(scratch);
   const std::vector<Template> list = templates(places);
-  ASSERT_EQ(list.size(), 9U);
+  ASSERT_EQ(list.size(), 12U);
   for (const Template& t : list) {
     QString error;
     const QString first = copy_template(t, places, &error), second = copy_template(t, places, &error);

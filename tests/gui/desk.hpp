@@ -4,6 +4,7 @@
 
 #include <QDir>
 #include <QFileDialog>
+#include <QImage>
 #include <QLineEdit>
 #include <QTabBar>
 #include <QTemporaryDir>
@@ -135,12 +136,23 @@ struct Desk {
     throw std::runtime_error("not in sight: " + group.toStdString());
   }
 
-  /// A picture of the window, kept where BRECCIA_SCREENSHOTS says.
+  /// A picture of the window, or of a dialog, in the colours of the moment; of the window in light colours also a dark
+  /// one, called after it. They are kept where BRECCIA_SCREENSHOTS says.
   void picture(const QString& name, QWidget* of = nullptr) {
-    const QString folder = qEnvironmentVariable("BRECCIA_SCREENSHOTS");
+    const QDir folder(qEnvironmentVariable("BRECCIA_SCREENSHOTS"));
     QTest::qWait(100);
-    if (!folder.isEmpty() && QDir().mkpath(folder))
-      (of == nullptr ? window.get() : of)->grab().save(QDir(folder).filePath(name + ".png"));
+    if (!qEnvironmentVariableIsSet("BRECCIA_SCREENSHOTS") || !folder.mkpath(".")) return;
+    const auto save = [&](QWidget* widget, const QString& as) {
+      constexpr int kSmallest = 0;  // of a PNG, without loss
+      widget->grab().save(folder.filePath(as + ".png"), nullptr, kSmallest);
+    };
+    save(of == nullptr ? window.get() : of, name);
+    if (of != nullptr || window->dark()) return;
+    window->set_dark(true);
+    QTest::qWait(300);
+    save(window.get(), name + "_dark");
+    window->set_dark(false);
+    QTest::qWait(100);
   }
 };
 

@@ -39,7 +39,7 @@ const std::vector<std::string> kVolumes{"wall", "tool"};
 const SurfaceGroups kSurfaces{{"edge"}, {{4 * 1 + 2, 4 * 2 + 2}}};
 
 LoadGlyphs drawn(const Load& load, int triangles = 5) {
-  return draw_load(*floor_of(triangles), kVolumes, kSurfaces, load);
+  return draw_load(*floor_of(triangles), nullptr, kVolumes, kSurfaces, load);
 }
 
 std::array<double, 6> box_of(const LoadGlyphs& glyphs) {
@@ -103,6 +103,39 @@ TEST(LoadGlyphs, OfTheWholeModelIsOneArrowBesideItThatPointsAtIt) {
   EXPECT_EQ(glyphs.count(), 1);
   EXPECT_GT(box_of(glyphs)[4], 0);
   EXPECT_GT(glyphs.places.at(0)[2], box_of(glyphs)[4]);
+}
+
+TEST(LoadGlyphs, OfRandomVelocitiesPointInManyDirections) {
+  const LoadGlyphs glyphs = drawn({LoadShape::random, "wall", {}, {}, {}}, 3000);
+  EXPECT_GT(glyphs.count(), 10);
+  EXPECT_FALSE(glyphs.inner);
+  int left = 0;
+  for (std::size_t i = 0; i < glyphs.places.size(); ++i) left += glyphs.places[i][1] < 0 ? 1 : 0;
+  EXPECT_GT(left, 0);
+  EXPECT_LT(left, glyphs.count());
+}
+
+/// The slit of a plate lies between elements of one body, so that the skin does not have its faces.
+TEST(LoadGlyphs, OfAFaceWithinTheModelStandOnItsElements) {
+  const auto element = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> points;
+  for (const std::array<double, 3>& x :
+       std::array<std::array<double, 3>, 4>{{{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, 3}}})
+    points->InsertNextPoint(x.data());
+  element->SetPoints(points);
+  const std::array<vtkIdType, 4> corners{0, 1, 2, 3};
+  element->InsertNextCell(10, 4, corners.data());
+  vtkNew<vtkIntArray> id;
+  id->SetName("id");
+  id->InsertNextValue(70);
+  element->GetCellData()->AddArray(id);
+  const SurfaceGroups slit{{"slit"}, {{4 * 70 + 3}}};  // the face in z = 0
+  const LoadGlyphs glyphs =
+      draw_load(*floor_of(5), element, kVolumes, slit, {LoadShape::pressure, "slit", {1, 0, 0}, {}, {}});
+  ASSERT_EQ(glyphs.count(), 1);
+  EXPECT_TRUE(glyphs.inner);
+  EXPECT_NEAR(glyphs.places[0][0], 1, 1e-6);
+  EXPECT_LT(glyphs.places[0][2], 0) << "it begins outside of the element, on which it presses";
 }
 
 }  // namespace

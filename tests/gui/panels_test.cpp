@@ -191,9 +191,36 @@ velocity = [0, "-3 m/s", 0]
   desk.window->findChild<CaseTree*>()->select(stage_of("stage[1].constraint[0]"), "stage[1].constraint[0]");
   EXPECT_GT(scene.num_glyphs(), 5);
   EXPECT_LT(scene.num_glyphs(), 30) << "those of the second stage alone";
-  desk.window->set_dark(true);
-  desk.picture("glyphs_dark");
-  desk.window->set_dark(false);
+}
+
+/// The faces of a slit lie between elements of one body, and random velocities have no direction: both were not seen.
+TEST(Panels, APressureInASlitAndRandomVelocitiesAreSeen) {
+  Desk desk;
+  desk.window->open_path(QString(BRECCIA_MESHES) + "/slit_plate/case_smoke.toml");
+  Scene& scene = desk.window->view().scene();
+  ASSERT_TRUE(wait_until([&] { return scene.has_data() && !desk.window->busy(); }, kSolver));
+  const auto drawn = [&] {
+    const QImage image = desk.window->view().picture();
+    int count = 0;  // pixels that are far more red than blue: the plate is blue
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x)
+        count += qRed(image.pixel(x, y)) > 2 * qBlue(image.pixel(x, y)) + 50 ? 1 : 0;
+    return count;
+  };
+  EXPECT_EQ(drawn(), 0);
+  desk.click_stage("pressure");
+  EXPECT_GT(scene.num_glyphs(), 3);
+  constexpr int kArrows = 100;
+  EXPECT_GT(drawn(), kArrows) << "in front of the plate, in which the slit is";
+  desk.picture("slit");
+  desk.window->document().close();
+  desk.window->open_path(written_case(desk.scratch, block_case(3, "1 ms") + R"([[initial_velocity]]
+group = "block"
+random = ["1 m/s", "5 m/s"]
+)"));
+  ASSERT_TRUE(wait_until([&] { return scene.has_data() && !desk.window->busy(); }, kSolver));
+  desk.click_stage("initial velocity");
+  EXPECT_GT(scene.num_glyphs(), 3);
 }
 
 TEST(Panels, AHistogramOfTheResultInViewShowsTheElementsAndJointsOfItsBars) {
