@@ -106,7 +106,9 @@ std::unique_ptr<Pipeline> Adaptor::made(const BrecciaPipeline& pipeline, const B
 
 std::uint32_t Adaptor::channels(int pipeline, std::int64_t step, double time) {
   const FatalLine line(label(name(pipeline)));
-  return pipelines_.at(static_cast<std::size_t>(pipeline)).work->channels(step, time);
+  const Named& asked = pipelines_.at(static_cast<std::size_t>(pipeline));
+  const std::uint32_t channels = asked.work->channels(step, time);
+  return channels != 0 && asked.part && asked.part->instant.has_points() ? channels | BRECCIA_POINT_VALUES : channels;
 }
 
 std::string Adaptor::notices() {
@@ -145,7 +147,7 @@ std::vector<Frame> Adaptor::frames_of(std::uint32_t pipelines, const BrecciaInst
   for (std::size_t i = 0; i < frames.size(); ++i) {
     Part* const part = pipelines_[i].part.get();
     if ((pipelines & bit(static_cast<int>(i))) == 0) continue;
-    if (part == nullptr && !whole) whole = frames_.wrap(instant);
+    if (part == nullptr && !whole) whole = frames_.wrap(whole_.of(instant));
     frames[i] = part == nullptr ? *whole : part->frames.wrap(part->instant.of(instant));
   }
   return frames;

@@ -73,6 +73,7 @@ class Adaptor {
   CatalystBackend& backend();
 
   Ranks ranks_;
+  SelectedInstant whole_{Selection{}};  ///< without the values at points that others have asked for
   FrameToVtk frames_;
   std::vector<std::uint32_t> script_channels_;  ///< by pipeline; of scripts
   std::uint32_t script_draws_ = 0;              ///< mask of the pipelines that make pictures
