@@ -6,6 +6,7 @@
 #include "catalyst/animation.hpp"
 #include "catalyst/extract_pipeline.hpp"
 #include "catalyst/fatal_line.hpp"
+#include "catalyst/first_rank_pipeline.hpp"
 #include "catalyst/live_pipeline.hpp"
 #include "catalyst/messages.hpp"
 #include "catalyst/pipeline_choice.hpp"
@@ -21,10 +22,25 @@ constexpr std::uint32_t kLiveDefault = bit(BRECCIA_SURFACE) | bit(BRECCIA_FRACTU
 
 std::string label(const std::string& pipeline) { return "pipeline " + pipeline; }
 
+/// Whether all that needs ParaView are pictures of our own: a user's script may count on all ranks, and the live link
+/// needs their data where they are.
+bool draws_own_pictures_alone(const BrecciaConfig& config) {
+  bool draws = false;
+  for (std::int32_t i = 0; i < config.num_pipelines; ++i) {
+    const PipelineChoice choice = choose(config.pipelines[i]);
+    if (choice.kind == PipelineKind::live || (choice.kind == PipelineKind::script && !choice.ready)) return false;
+    draws = draws || choice.kind == PipelineKind::script;
+  }
+  return draws;
+}
+
 }  // namespace
 
-Adaptor::Adaptor(const BrecciaConfig& config) : ranks_(config.communicator, config.patience), folder_(config.folder) {
+Adaptor::Adaptor(const BrecciaConfig& config, bool frames_of_others)
+    : ranks_(config.communicator, config.patience), folder_(config.folder) {
   capture_messages();
+  if (ranks_.size() > 1 && !frames_of_others && draws_own_pictures_alone(config))
+    alone_ = std::make_unique<Ranks>(-1, config.patience);
   start_display(config);
   for (std::int32_t i = 0; i < config.num_pipelines; ++i) {
     std::string error;
@@ -35,8 +51,10 @@ Adaptor::Adaptor(const BrecciaConfig& config) : ranks_(config.communicator, conf
       work = made(config.pipelines[i], config);
       const PipelineChoice choice = choose(config.pipelines[i]);
       // Probes take what they need.
-      if (choice.kind != PipelineKind::probes && !choice.selection.is_all())
+      const bool gathered = alone_ && choice.kind == PipelineKind::script;
+      if (gathered || (choice.kind != PipelineKind::probes && !choice.selection.is_all()))
         part = std::make_unique<Part>(choice.selection);
+      if (gathered) part->all = std::make_unique<GatheredInstant>(ranks_);
     } catch (const std::exception& failure) {
       error = failure.what();
     }
@@ -69,11 +87,19 @@ void Adaptor::start_display(const BrecciaConfig& config) {
   RunScripts scripts = read_scripts(ranks_, config);
   script_channels_ = std::move(scripts.channels);
   script_draws_ = scripts.draw;
-  if (script_draws_ != 0) display_ = std::make_unique<Display>(ranks_);
+  if (script_draws_ == 0) return;
+  std::string error;
+  try {
+    if (!alone_ || ranks_.is_root()) display_ = std::make_unique<Display>(alone_ ? *alone_ : ranks_);
+  } catch (const PipelineError& failure) {
+    if (!alone_) throw;
+    error = failure.what();
+  }
+  if (alone_) ranks_.throw_agreed(error);
 }
 
 CatalystBackend& Adaptor::backend() {
-  if (!backend_) backend_ = std::make_unique<CatalystBackend>(ranks_);
+  if (!backend_) backend_ = std::make_unique<CatalystBackend>(alone_ ? *alone_ : ranks_);
   return *backend_;
 }
 
@@ -96,17 +122,22 @@ std::unique_ptr<Pipeline> Adaptor::made(const BrecciaPipeline& pipeline, const B
     case PipelineKind::script:
       break;
   }
+  if (alone_ && !ranks_.is_root()) return std::make_unique<FirstRankPipeline>(ranks_, nullptr);
   make_folder(folder);
   const auto index = static_cast<std::size_t>(&pipeline - config.pipelines);
   const Display* display = (script_draws_ >> index & 1U) != 0 ? display_.get() : nullptr;
   const python::About about{config.title, config.end, config.strength};
-  return backend().script(
-      {choice.name, choice.file, folder, script_channels_[index], choice.parameters, about, display});
+  auto script =
+      backend().script({choice.name, choice.file, folder, script_channels_[index], choice.parameters, about, display});
+  if (alone_) return std::make_unique<FirstRankPipeline>(ranks_, std::move(script));
+  return script;
 }
 
 std::uint32_t Adaptor::channels(int pipeline, std::int64_t step, double time) {
   const FatalLine line(label(name(pipeline)));
-  return pipelines_.at(static_cast<std::size_t>(pipeline)).work->channels(step, time);
+  const Named& asked = pipelines_.at(static_cast<std::size_t>(pipeline));
+  const std::uint32_t channels = asked.work->channels(step, time);
+  return channels != 0 && asked.part && asked.part->instant.has_points() ? channels | BRECCIA_POINT_VALUES : channels;
 }
 
 std::string Adaptor::notices() {
@@ -145,8 +176,8 @@ std::vector<Frame> Adaptor::frames_of(std::uint32_t pipelines, const BrecciaInst
   for (std::size_t i = 0; i < frames.size(); ++i) {
     Part* const part = pipelines_[i].part.get();
     if ((pipelines & bit(static_cast<int>(i))) == 0) continue;
-    if (part == nullptr && !whole) whole = frames_.wrap(instant);
-    frames[i] = part == nullptr ? *whole : part->frames.wrap(part->instant.of(instant));
+    if (part == nullptr && !whole) whole = frames_.wrap(whole_.of(instant));
+    frames[i] = part == nullptr ? *whole : part->of(instant);
   }
   return frames;
 }

@@ -8,6 +8,7 @@
 #include "catalyst/catalyst_backend.hpp"
 #include "catalyst/display.hpp"
 #include "catalyst/frame_to_vtk.hpp"
+#include "catalyst/gathered_instant.hpp"
 #include "catalyst/pipeline.hpp"
 #include "catalyst/ranks.hpp"
 #include "catalyst/selection.hpp"
@@ -19,7 +20,8 @@ class Adaptor {
  public:
   /// Starts what the pipelines need and no more: ParaView for scripts and the live link, Python for scripts, a display
   /// for pictures. Throws PipelineError, on all ranks.
-  explicit Adaptor(const BrecciaConfig& config);
+  /// @param frames_of_others  frames come from elsewhere than the ranks' instants: all ranks work on their own
+  explicit Adaptor(const BrecciaConfig& config, bool frames_of_others = false);
   Adaptor(const Adaptor&) = delete;
   Adaptor& operator=(const Adaptor&) = delete;
   ~Adaptor();
@@ -52,10 +54,15 @@ class Adaptor {
   }
 
  private:
-  /// Of an instant, for a pipeline that does not get all.
+  /// Of an instant, for a pipeline that does not get all of this rank's, or all ranks'.
   struct Part {
     explicit Part(const Selection& selection) : instant(selection) {}
+    [[nodiscard]] Frame of(const BrecciaInstant& whole) {
+      const BrecciaInstant& selected = instant.of(whole);
+      return frames.wrap(all ? all->of(selected) : selected);
+    }
     SelectedInstant instant;
+    std::unique_ptr<GatheredInstant> all;  ///< null: this rank's
     FrameToVtk frames;
   };
   struct Named {
@@ -73,6 +80,10 @@ class Adaptor {
   CatalystBackend& backend();
 
   Ranks ranks_;
+  /// The first rank alone draws, where ParaView is needed for pictures of our own and nothing else: the others save its
+  /// memory. Null: all do.
+  std::unique_ptr<Ranks> alone_;
+  SelectedInstant whole_{Selection{}};  ///< without the values at points that others have asked for
   FrameToVtk frames_;
   std::vector<std::uint32_t> script_channels_;  ///< by pipeline; of scripts
   std::uint32_t script_draws_ = 0;              ///< mask of the pipelines that make pictures

@@ -17,6 +17,9 @@ void demand_possible(const PipelineChoice& choice, bool is_paraview) {
         std::string("ParaView's implementation of Catalyst 2 reads all scripts with the arrays of one of "
                     "them, so that none can have fields of its own; that needs ") +
         kOtherBackend);
+  if (!choice.selection.point_fields.empty())
+    throw PipelineError(std::string("values at points, point_data, are not handed to Catalyst 2; that needs ") +
+                        kOtherBackend);
   switch (choice.kind) {
     case PipelineKind::probes:
       throw PipelineError(std::string("samples are not made by Catalyst 2; that needs ") + kOtherBackend);

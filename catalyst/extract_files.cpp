@@ -5,6 +5,7 @@
 #include <vtkDataSet.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLDataElement.h>
@@ -59,6 +60,16 @@ vtkStandardNewMacro(Base64Stream)
       }
     }
     return result;
+  }
+
+  std::string array_lines(vtkDataSetAttributes * data) {
+    std::string text;
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i) {
+      vtkDataArray* array = data->GetArray(i);
+      text += std::string("      <PDataArray type=\"") + type_name(array) + "\" Name=\"" + escaped(array->GetName()) +
+              "\" NumberOfComponents=\"" + std::to_string(array->GetNumberOfComponents()) + "\"/>\n";
+    }
+    return text;
   }
 
   vtkSmartPointer<vtkXMLDataElement> parsed(const fs::path& file) {
@@ -123,16 +134,13 @@ std::string summary_text(vtkDataObject* object, const std::string& channel, std:
   std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + type +
                      "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
                      "compressor=\"vtkLZ4DataCompressor\">\n  <" +
-                     type + " GhostLevel=\"0\">\n    <PCellData>\n";
-  vtkCellData* data = vtkDataSet::SafeDownCast(object)->GetCellData();
-  for (int i = 0; i < data->GetNumberOfArrays(); ++i) {
-    vtkDataArray* array = data->GetArray(i);
-    text += std::string("      <PDataArray type=\"") + type_name(array) + "\" Name=\"" + escaped(array->GetName()) +
-            "\" NumberOfComponents=\"" + std::to_string(array->GetNumberOfComponents()) + "\"/>\n";
-  }
-  text +=
-      "    </PCellData>\n    <PPoints>\n      <PDataArray type=\"Float64\" Name=\"Points\" "
-      "NumberOfComponents=\"3\"/>\n    </PPoints>\n";
+                     type + " GhostLevel=\"0\">\n";
+  auto* const set = vtkDataSet::SafeDownCast(object);
+  if (set->GetPointData()->GetNumberOfArrays() > 0)
+    text += "    <PPointData>\n" + array_lines(set->GetPointData()) + "    </PPointData>\n";
+  text += "    <PCellData>\n" + array_lines(set->GetCellData()) +
+          "    </PCellData>\n    <PPoints>\n      <PDataArray type=\"Float64\" Name=\"Points\" "
+          "NumberOfComponents=\"3\"/>\n    </PPoints>\n";
   for (int rank = 0; rank < ranks; ++rank)
     text += "    <Piece Source=\"" + escaped(piece_name(object, channel, step, rank).string()) + "\"/>\n";
   return text + "  </" + type + ">\n</VTKFile>\n";

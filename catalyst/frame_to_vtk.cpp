@@ -4,6 +4,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkTable.h>
@@ -57,6 +58,16 @@ vtkSmartPointer<vtkPoints> points_of(const BrecciaGrid& grid) {
 vtkFieldData* attributes_of(vtkDataObject* object) {
   if (auto* table = vtkTable::SafeDownCast(object)) return table->GetRowData();
   return vtkDataSet::SafeDownCast(object)->GetCellData();
+}
+
+void add_empty_arrays(vtkFieldData* like, vtkFieldData* to) {
+  for (int i = 0; i < like->GetNumberOfArrays(); ++i) {
+    vtkAbstractArray* array = like->GetAbstractArray(i);
+    const auto empty = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
+    empty->SetName(array->GetName());
+    empty->SetNumberOfComponents(array->GetNumberOfComponents());
+    to->AddArray(empty);
+  }
 }
 
 }  // namespace
@@ -134,6 +145,9 @@ vtkSmartPointer<vtkDataObject> ChannelToVtk::wrap(const BrecciaGrid& grid, std::
   }
   for (std::int32_t i = 0; i < grid.num_arrays; ++i)
     attributes_of(object)->AddArray(wrapped(grid.arrays[i], grid.num_cells));
+  auto* const set = vtkDataSet::SafeDownCast(object);
+  for (std::int32_t i = 0; set != nullptr && i < grid.num_point_arrays; ++i)
+    set->GetPointData()->AddArray(wrapped(grid.point_arrays[i], grid.num_points));
   set_instant(object, step, time);
   return object;
 }
@@ -161,14 +175,9 @@ vtkSmartPointer<vtkDataObject> empty_like(vtkDataObject* object) {
     set->SetPoints(points);
   }
   if (auto* grid = vtkUnstructuredGrid::SafeDownCast(copy)) grid->Allocate(0);
-  vtkFieldData* attributes = attributes_of(object);
-  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i) {
-    vtkAbstractArray* array = attributes->GetAbstractArray(i);
-    const auto empty = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
-    empty->SetName(array->GetName());
-    empty->SetNumberOfComponents(array->GetNumberOfComponents());
-    attributes_of(copy)->AddArray(empty);
-  }
+  add_empty_arrays(attributes_of(object), attributes_of(copy));
+  if (auto* set = vtkDataSet::SafeDownCast(object))
+    add_empty_arrays(set->GetPointData(), vtkDataSet::SafeDownCast(copy)->GetPointData());
   copy->GetFieldData()->ShallowCopy(object->GetFieldData());
   return copy;
 }

@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-#define BRECCIA_INSITU_ABI_VERSION 6
+#define BRECCIA_INSITU_ABI_VERSION 7
 
 /* The channels: frozen names, in this order everywhere. A set of channels is a mask of bits 1 << channel. */
 enum {
@@ -33,6 +33,9 @@ enum {
 #define BRECCIA_CHANNEL_NAMES \
   { "elements", "joints", "fractures", "contacts", "surface", "domains", "history" }
 
+/* In a mask of channels: elements and surface with their values at points too, which cost more to make. */
+#define BRECCIA_POINT_VALUES (UINT32_C(1) << 16)
+
 enum { BRECCIA_F64 = 0, BRECCIA_I32, BRECCIA_I64 }; /* BrecciaArray.type */
 enum {
   BRECCIA_TABLE = 0,
@@ -42,12 +45,13 @@ enum {
   BRECCIA_HEXAHEDRON = 12
 }; /* BrecciaGrid.cell */
 
-/* Values of the cells of a grid (rows of a table), components of one after another: xyz; xx yy zz xy yz xz. */
+/* Values of the cells of a grid (rows of a table) or of its points, components of one after another: xyz; xx yy zz xy
+ * yz xz. */
 typedef struct {
   const char* name;
   int32_t type;
   int32_t components;
-  const void* values; /* (num_cells, components); may be NULL when there are no cells */
+  const void* values; /* (num_cells or num_points, components); may be NULL when there are none */
 } BrecciaArray;
 
 /* A channel on this rank: only what the rank owns, so that each cell is on exactly one rank. Also a rank without cells
@@ -61,6 +65,8 @@ typedef struct {
   uint64_t topology;      /* changes whenever num_points, num_cells or corners do */
   int32_t num_arrays;
   const BrecciaArray* arrays;
+  int32_t num_point_arrays; /* 0 where values at points were not asked for */
+  const BrecciaArray* point_arrays;
 } BrecciaGrid;
 
 /* An instant of the run. Pointers are valid until the call that gets them returns; the adaptor wraps them, copies
@@ -72,7 +78,7 @@ typedef struct {
 } BrecciaInstant;
 
 /* A parameter of a pipeline, as it was written: a number or a text. A text that reads as a quantity ("30 MPa") is both.
- */
+ * "point_data" is the adaptor's own: the names of values at points that the pipeline gets, separated by commas. */
 typedef struct {
   const char* name;
   const char* text; /* NULL: it was written as a number */
@@ -151,7 +157,8 @@ typedef struct {
   /* Starts the back end. NULL: failed, see text. Collective. */
   void* (*open)(const BrecciaConfig* config, char* text, size_t size);
 
-  /* Mask of the channels that a pipeline asks for now, 0: none, nothing to execute. Collective. */
+  /* Mask of the channels that a pipeline asks for now, and BRECCIA_POINT_VALUES; 0: none, nothing to execute.
+   * Collective. */
   uint32_t (*channels)(void* adaptor, int32_t pipeline, int64_t step, double time);
 
   /* Executes the pipelines of the mask on an instant that has all their channels. Returns the mask of those that failed

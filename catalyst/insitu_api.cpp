@@ -19,7 +19,7 @@ struct ParaViewBackend {
       if (!choose(config.pipelines[i]).selection.is_all())
         throw PipelineError(std::string(config.pipelines[i].name) + ": a replay hands over all that was recorded");
     }
-    Adaptor adaptor(config);
+    Adaptor adaptor(config, true);
     insitu::replay(adaptor, folder);
     return adaptor.finish();
   }

@@ -1,6 +1,8 @@
 #include "catalyst/pipeline_choice.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <sstream>
 
 #include "catalyst/channel_names.hpp"
 #include "catalyst/folders.hpp"
@@ -11,6 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kProbes = "probes";
+constexpr const char* kPointData = "point_data";
 constexpr const char* kModules = "breccia_";  ///< what scripts import is called so, and no script itself
 
 /// "volume" is the channel elements, other recordings are called like their channels; -1: no recording.
@@ -39,6 +42,31 @@ Probe probe_of(const BrecciaProbe& given) {
     throw PipelineError("the probe's name '" + probe.name + "' is no name of a file");
   if (probe.points < 1 || probe.rows < 1) throw PipelineError("the probe " + probe.name + " has no points");
   return probe;
+}
+
+/// Values that there are at points; those of bulk laws where a material has such.
+constexpr const char* kPointFields[] = {"displacement", "velocity",      "stress",     "von_mises",
+                                        "principal",    "plastic_shear", "compaction", "plastic_work"};
+
+/// The parameter point_data, "von_mises, velocity", becomes part of the selection.
+void take_point_data(PipelineChoice& choice) {
+  const auto found = choice.parameters.find(kPointData);
+  if (found == choice.parameters.end()) return;
+  if (!found->second.text)
+    throw PipelineError(std::string(kPointData) + " is a text, names of fields separated by commas");
+  std::string text = *found->second.text;
+  std::replace(text.begin(), text.end(), ',', ' ');
+  std::istringstream names(text);
+  for (std::string name; names >> name;) {
+    if (std::find(std::begin(kPointFields), std::end(kPointFields), name) == std::end(kPointFields)) {
+      std::string allowed;
+      for (const char* known : kPointFields) allowed += (allowed.empty() ? "" : ", ") + std::string(known);
+      throw PipelineError(std::string(kPointData) + " has no field '" + name + "'; allowed: " + allowed);
+    }
+    choice.selection.point_fields.push_back(name);
+  }
+  if (choice.selection.point_fields.empty()) throw PipelineError(std::string(kPointData) + " names no field");
+  choice.parameters.erase(found);
 }
 
 std::string unknown(const std::string& name) {
@@ -72,6 +100,7 @@ PipelineChoice choose(const BrecciaPipeline& pipeline) {
   }
   if (pipeline.region != nullptr) std::copy_n(pipeline.region, 6, choice.selection.region.emplace().begin());
   choice.selection.fields.assign(pipeline.fields, pipeline.fields + pipeline.num_fields);
+  take_point_data(choice);
   for (std::int32_t i = 0; i < pipeline.num_probes; ++i) choice.probes.push_back(probe_of(pipeline.probes[i]));
   if (choice.name == "live") {
     choice.kind = PipelineKind::live;
@@ -95,6 +124,11 @@ PipelineChoice choose(const BrecciaPipeline& pipeline) {
     }
     choice.folder = choice.file.stem();
   }
+  if (!choice.selection.point_fields.empty() &&
+      (choice.kind == PipelineKind::history || choice.kind == PipelineKind::probes ||
+       (choice.kind == PipelineKind::extract && choice.channel != BRECCIA_ELEMENTS &&
+        choice.channel != BRECCIA_SURFACE)))
+    throw PipelineError(std::string(kPointData) + ": only the channels elements and surface have values at points");
   return choice;
 }
 

@@ -15,7 +15,7 @@ bool check_pipeline(const PipelineChoice& choice, const BrecciaConfig& config, s
   KnownParameters known;
   bool draws = false;
   if (choice.kind == PipelineKind::script) {
-    ScriptNeeds needs = check_script(choice.file, choice.selection.fields);
+    ScriptNeeds needs = check_script(choice.file, choice.selection);
     if (!needs.lacks.empty()) throw PipelineError(needs.lacks);
     draws = needs.draws;
     known = std::move(needs.parameters);

@@ -65,6 +65,12 @@ std::int64_t Ranks::from_root(std::int64_t value) const {
   return value;
 }
 
+std::vector<std::int64_t> Ranks::gathered(std::int64_t value) const {
+  std::vector<std::int64_t> values(static_cast<std::size_t>(size_), value);
+  if (size_ > 1) MPI_Allgather(&value, 1, MPI_INT64_T, values.data(), 1, MPI_INT64_T, communicator_);
+  return values;
+}
+
 void Ranks::least(std::vector<std::int64_t>& values) const {
   if (size_ == 1) return;
   MPI_Request request = MPI_REQUEST_NULL;

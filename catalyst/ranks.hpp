@@ -33,6 +33,8 @@ class Ranks {
   void throw_agreed(const std::string& error) const;
   /// The first rank's values on all ranks.
   [[nodiscard]] std::int64_t from_root(std::int64_t value) const;
+  /// The values of all ranks, by rank.
+  [[nodiscard]] std::vector<std::int64_t> gathered(std::int64_t value) const;
   /// Each value is the least one of all ranks' at its place. Throws Abandoned, as agree does.
   void least(std::vector<std::int64_t>& values) const;
   /// On the first rank each value is the sum of all ranks' at its place. Throws Abandoned, as agree does.

@@ -143,7 +143,7 @@ void replay(Adaptor& adaptor, const fs::path& folder) {
     std::uint32_t channels = 0;
     for (int i = 0; i < adaptor.num_pipelines(); ++i) {
       if ((failed & bit(i)) != 0) continue;
-      const std::uint32_t wanted = adaptor.channels(i, step, instant.time);
+      const std::uint32_t wanted = adaptor.channels(i, step, instant.time) & kAllChannels;
       if ((wanted & ~recorded) != 0)
         throw PipelineError(adaptor.name(i) + ": needs " + names_of(wanted & ~recorded) + ", of which " +
                             folder.string() + " has no record; it has " + names_of(recorded));

@@ -14,16 +14,25 @@
 
 namespace breccia::insitu {
 
-ScriptNeeds check_script(const std::filesystem::path& script, const std::vector<std::string>& fields) {
+namespace {
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
+  return text;
+}
+
+}  // namespace
+
+ScriptNeeds check_script(const std::filesystem::path& script, const Selection& selection) {
   if (script.extension() != ".py") throw PipelineError(script.string() + ": a script's name ends with .py");
   if (::access(script.c_str(), R_OK) != 0) throw PipelineError(script.string() + ": " + std::strerror(errno));
   const std::filesystem::path folder = data_folder();
   // -E -s: nothing of the user's Python environment matters; -B: no files are left behind.
   std::vector<std::string> command{
       BRECCIA_PYTHON, "-E", "-s", "-B", folder / "python/check_script.py", script.string(), folder / "pipelines"};
-  std::string listed;
-  for (const std::string& field : fields) listed += (listed.empty() ? "" : ",") + field;
-  command.push_back(listed);
+  command.push_back(listed(selection.fields));
+  command.push_back(listed(selection.point_fields));
   command.insert(command.end(), kChannelNames.begin(), kChannelNames.end());
   std::istringstream lines(output_of(command));
   ScriptNeeds needs;

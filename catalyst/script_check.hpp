@@ -8,6 +8,7 @@
 #include "catalyst/insitu_abi.h"
 #include "catalyst/parameter.hpp"
 #include "catalyst/ranks.hpp"
+#include "catalyst/selection.hpp"
 
 namespace breccia::insitu {
 
@@ -23,9 +24,8 @@ struct ScriptNeeds {
 
 /// Reads a script, in a Python interpreter of its own (some 50 ms); no Python starts in this process. Not collective.
 /// Throws PipelineError when it is missing, cannot be read or does not compile, and when there is no interpreter.
-/// @param fields  the only arrays that the script is handed; empty: all
-[[nodiscard]] ScriptNeeds check_script(const std::filesystem::path& script,
-                                       const std::vector<std::string>& fields = {});
+/// @param selection  of what the script is handed
+[[nodiscard]] ScriptNeeds check_script(const std::filesystem::path& script, const Selection& selection = {});
 
 /// What the scripts among the pipelines of a run need.
 struct RunScripts {

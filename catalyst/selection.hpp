@@ -14,8 +14,10 @@ namespace breccia::insitu {
 struct Selection {
   std::optional<std::array<double, 6>> region;  ///< lower and upper corner, m: centres of cells lie within
   std::vector<std::string> fields;              ///< empty: all
+  std::vector<std::string> point_fields;        ///< values at points, of elements and surface; empty: none
 
-  [[nodiscard]] bool is_all() const { return !region && fields.empty(); }
+  /// Of the cells and their arrays all, and nothing at points.
+  [[nodiscard]] bool is_all() const { return !region && fields.empty() && point_fields.empty(); }
 };
 
 /// Instants as a pipeline with a selection gets them. Arrays are left out without copying; the cells of a region are
@@ -27,17 +29,20 @@ class SelectedInstant {
   SelectedInstant& operator=(const SelectedInstant&) = delete;
 
   /// Valid until the next call, and as long as what it is given. O(cells). Throws PipelineError on cells of no known
-  /// kind.
+  /// kind, and where elements or surface lack a value at points.
   [[nodiscard]] const BrecciaInstant& of(const BrecciaInstant& whole);
+  /// Whether values at points are asked for.
+  [[nodiscard]] bool has_points() const { return !selection_.point_fields.empty(); }
 
  private:
   struct Channel {
     BrecciaGrid grid{};
-    std::vector<BrecciaArray> arrays;
+    std::vector<BrecciaArray> arrays, point_arrays;
     std::vector<double> points;
-    std::vector<std::vector<std::byte>> values;  ///< by array
+    std::vector<std::vector<std::byte>> values, point_values;  ///< by array
   };
   void select_fields(Channel& channel) const;
+  void select_point_fields(Channel& channel, int index) const;
   void select_cells(Channel& channel) const;
 
   Selection selection_;

@@ -22,6 +22,7 @@ import breccia_insitu
 
 INK = [0.13, 0.14, 0.17]
 STONE = [0.82, 0.83, 0.85]
+STONES = [0.0, *STONE, 1.0, 0.60, 0.66, 0.76]  # of the first body and of the last: one stands out before the other
 FRACTURE = [0.25, 0.26, 0.30]
 # Position and red, green, blue, from weak to strong: light enough everywhere for dark cracks to stand out.
 SEQUENTIAL = [0.00, 0.93, 0.94, 0.95, 0.20, 0.72, 0.84, 0.91, 0.45, 0.45, 0.68, 0.82, 0.65, 0.98, 0.85, 0.55, 0.85, 0.95, 0.55, 0.35,
@@ -157,6 +158,7 @@ class Picture:
         self._copies, self._moved = copies, []
         self._size = max(9, self.view.ViewSize[1] // 38)  # of letters, pixels
         self._placed = False
+        self._bodies = None
         self._keys = []
         self._title = self.words("", 1.15, bold=True)
         self._lines = self.words("")
@@ -207,6 +209,15 @@ class Picture:
         shown.Ambient, shown.Diffuse = 0.3, 0.75
         self._in_copy(shown, copy)
         return shown
+
+    def bodies(self, surface):
+        """Shows bodies in a shade each, or two of the same attitude could not be told from each other."""
+        self._bodies = surface, self.coloured(surface, "body", STONES, None)
+
+    def _shade_bodies(self):
+        surface, table = self._bodies
+        last = largest(data_of(surface).GetCellData().GetArray("body").GetRange()[1] if data_of(surface).GetNumberOfCells() > 0 else 0.0)
+        table.RescaleTransferFunction(0.0, max(last, 1.0))
 
     def _in_copy(self, shown, copy):
         if copy > 0:
@@ -311,6 +322,8 @@ class Picture:
         if low[0] > high[0]:
             return  # nothing to see yet
         self._placed = True
+        if self._bodies is not None:
+            self._shade_bodies()
         azimuth = math.radians(breccia_insitu.parameter("azimuth", 38.0))
         elevation = math.radians(breccia_insitu.parameter("elevation", 32.0))
         towards = numpy.array([math.sin(azimuth) * math.cos(elevation), math.sin(elevation), math.cos(azimuth) * math.cos(elevation)])

@@ -20,7 +20,7 @@ inside, traces = (Calculator(Input=fractures, AttributeType="Cell Data", ResultA
                   for _ in range(2))
 
 picture = pictures.Picture("Cracks by the time at which they opened", ("from outside", "bodies opened"))
-picture.solid(surface, pictures.STONE)
+picture.bodies(surface)
 picture.opened(surface, copy=1)
 ages = picture.coloured(inside, AGE, pictures.AGES, AGE, copy=1)
 picture.coloured_lines(traces, AGE)

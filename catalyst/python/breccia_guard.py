@@ -9,6 +9,7 @@ import re
 import sys
 import traceback
 
+import breccia_extractors
 import breccia_insitu
 
 _error = ""
@@ -38,6 +39,7 @@ def install(agree, spare):
 
     v2_internals.import_and_validate = _guarded(import_into_folder)
     detail._transform_registration_name = _channel_of_source
+    breccia_extractors.install()
     for name in ("register_module", "do_request_data_description", "do_catalyst_initialize", "do_catalyst_execute",
                  "do_catalyst_finalize"):
         setattr(v2_internals, name, _guarded(getattr(v2_internals, name)))

@@ -1,8 +1,8 @@
 """Reads a Catalyst script without running it and tells what it needs; run by the plain Python interpreter, before any ParaView.
 
-usage: check_script.py SCRIPT PIPELINES FIELDS CHANNEL...
-PIPELINES is a folder of modules that scripts may import; FIELDS the only arrays that the script is handed, a,b,c, or nothing: all. Prints
-lines of a word and a text:
+usage: check_script.py SCRIPT PIPELINES FIELDS POINTS CHANNEL...
+PIPELINES is a folder of modules that scripts may import; FIELDS the only arrays that the script is handed, a,b,c, or nothing: all; POINTS those
+that it gets at points too, nothing: none. Prints lines of a word and a text:
   error what (file:line)     the script does not compile
   problem what (file:line)   a source or an array that no run has
   lacks what                 this interpreter cannot run it; that of another ParaView may
@@ -28,8 +28,10 @@ ELEMENT_ARRAYS = ("id", "body", "material", "rank", "fragment", "stress", "von_m
                   "neighbour")
 JOINT_ARRAYS = ("id", "damage", "opening", "slip", "time_of_failure", "mode", "state", "broken", "energy")
 ARRAYS = {"elements": ELEMENT_ARRAYS, "surface": (*ELEMENT_ARRAYS, "face", "crack"), "joints": JOINT_ARRAYS, "fractures": JOINT_ARRAYS,
-          "contacts": ("id", "normal_force", "tangential_force", "force", "slip_velocity", "body", "other_body", "other_element"),
+          "contacts": ("id", "point", "normal_force", "tangential_force", "force", "slip_velocity", "body", "other_body", "other_element"),
           "domains": ("rank", "elements", "joints", "couples", "load")}
+POINT_ARRAYS = ("displacement", "velocity", "stress", "von_mises", "principal", "plastic_shear", "compaction", "plastic_work")
+MAKES_POINT_ARRAYS = re.compile(r"CellData\w*|Resample\w*|Programmable\w*|Python\w*|Plot\w*|Probe\w*|Point\w*|Calculator|Gradient\w*|Append\w*")
 NEAR = 0.7  # of difflib: vonmises is near von_mises, Result is near nothing
 
 
@@ -134,18 +136,28 @@ def wrong_arrays(tree, used, fields):
             yield f"'{name}' is no array of {', '.join(used)}; allowed: {listed(name, known)}", pair.lineno
 
 
-def problems(trees, channels, fields):
+def missing_at_points(tree, points):
+    """Arrays asked for as ("POINTS", name) that a channel has at points only on demand, in a script that makes none itself."""
+    if any(MAKES_POINT_ARRAYS.fullmatch(called(node)) for node in ast.walk(tree) if isinstance(node, ast.Call)):
+        return
+    for pair in (node for node in ast.walk(tree) if isinstance(node, (ast.List, ast.Tuple)) and len(node.elts) == 2):
+        name = literal(pair.elts[1])
+        if literal(pair.elts[0]) == "POINTS" and name in POINT_ARRAYS and name not in points:
+            yield f"the array '{name}' is one of cells; at points too with parameters = {{ point_data = \"{', '.join([*points, name])}\" }}", pair.lineno
+
+
+def problems(trees, channels, fields, points):
     """Lines about sources and arrays of the script, the first tree."""
     named = set().union(*(named_channels(tree, channels) for tree in trees))
     used = [channel for channel in channels if channel in named] or list(channels)
-    return [*wrong_sources(trees[0], channels), *([] if "history" in named else wrong_arrays(trees[0], used, fields))]
+    return [*wrong_sources(trees[0], channels), *missing_at_points(trees[0], points), *([] if "history" in named else wrong_arrays(trees[0], used, fields))]
 
 
-def needs(script, pipelines, fields, channels):
+def needs(script, pipelines, fields, points, channels):
     """Lines as above, without their order."""
     found = set()
     trees = list(sources(script, [os.path.dirname(script), pipelines]))
-    found |= {f"problem {text} ({os.path.basename(script)}:{line})" for text, line in problems(trees, channels, fields)}
+    found |= {f"problem {text} ({os.path.basename(script)}:{line})" for text, line in problems(trees, channels, fields, points)}
     for tree in trees:
         calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
         if any(draws(call) for call in calls):
@@ -159,13 +171,14 @@ def needs(script, pipelines, fields, channels):
 
 
 def main():
-    if len(sys.argv) < 5:
+    if len(sys.argv) < 6:
         sys.exit(__doc__)
-    script, pipelines, fields, channels = sys.argv[1], sys.argv[2], [name for name in sys.argv[3].split(",") if name], sys.argv[4:]
+    script, pipelines, channels = sys.argv[1], sys.argv[2], sys.argv[5:]
+    fields, points = ([name for name in listed.split(",") if name] for listed in sys.argv[3:5])
     if importlib.util.find_spec("paraview") is None:
         print("lacks ParaView's Python module is missing (Debian: apt-get install python3-paraview)")
     try:
-        lines = sorted(needs(script, pipelines, fields, channels))
+        lines = sorted(needs(script, pipelines, fields, points, channels))
     except SyntaxError as error:
         lines = [f"error {error.msg} ({os.path.basename(error.filename or script)}:{error.lineno})"]
     except (OSError, ValueError) as error:

@@ -23,8 +23,9 @@ PANEL = """<ServerManagerConfiguration><ProxyGroup name="sources">
 </EnumerationDomain></IntVectorProperty>
 <StringVectorProperty name="FrameInterval" label="Frame interval" number_of_elements="1" default_values="">
 <Documentation>Simulated time between frames, such as 2 us; nothing: as it is.</Documentation></StringVectorProperty>
-<StringVectorProperty name="Opening" label="Cracks open by" number_of_elements="1" default_values="">
-<Documentation>The view shows cracks that are open by more, such as 0.5 um; nothing: all. The run does not change.</Documentation>
+<StringVectorProperty name="Opening" label="Show cracks open by" number_of_elements="1" default_values="">
+<Documentation>The view shows cracks that are open by more, such as 0.5 um; nothing: all. The run and its pipelines stay as they are: theirs stand in
+the case.</Documentation>
 </StringVectorProperty></SourceProxy></ProxyGroup></ServerManagerConfiguration>"""
 LENGTHS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
 
@@ -120,3 +121,4 @@ class Steering:
                 self._say(f"'{opening}' is no length; allowed: a number with one of {', '.join(LENGTHS)}")
             else:
                 self._show_open_by(least)
+                self._say(f"this view shows {'cracks open by more than ' + opening if opening else 'all cracks'}; the run and its pipelines stay as they are")

@@ -21,7 +21,8 @@ std::vector<std::string> fields_of_channel(std::string_view channel) {
   if (channel == "surface") return with(kElement, {"face", "crack"});
   if (channel == "joints" || channel == "fractures") return kJoint;
   if (channel == "contacts")
-    return {"id", "normal_force", "tangential_force", "force", "slip_velocity", "body", "other_body", "other_element"};
+    return {"id",   "point",      "normal_force", "tangential_force", "force", "slip_velocity",
+            "body", "other_body", "other_element"};
   if (channel == "domains") return {"rank", "elements", "joints", "couples", "load"};
   return {};
 }

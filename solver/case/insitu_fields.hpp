@@ -13,7 +13,7 @@ inline constexpr std::string_view insitu_fields =
     "id|body|material|rank|fragment|stress|von_mises|principal|velocity|displacement|cost|mass|neighbour|"
     "plastic_shear|compaction|plastic_work|face|crack|damage|mode|opening|slip|broken|time_of_failure|state|energy|"
     "normal_force|"
-    "tangential_force|force|slip_velocity|other_body|other_element|elements|joints|couples|load";
+    "tangential_force|force|slip_velocity|point|other_body|other_element|elements|joints|couples|load";
 
 /// Arrays of a channel in its own order, those of all bulk laws included; none of the history and of other words.
 [[nodiscard]] std::vector<std::string> fields_of_channel(std::string_view channel);

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <limits>
-#include <set>
+#include <string>
 #include <utility>
 
+#include "base/error.hpp"
 #include "mesh/tetrahedron.hpp"
+#include "observe/corner_values.hpp"
+#include "observe/free_faces.hpp"
+#include "observe/shown_memory.hpp"
 #include "physics/cauchy_stress.hpp"
 #include "physics/contact/overlap.hpp"
 
@@ -22,37 +26,11 @@ Vec3 centroid(const LocalMesh& local, const double* field, Index slot) {
   return 0.25 * sum;
 }
 
-/// A scalar that elements of some law remember.
-struct ShownNumber {
-  const char* name;
-  BulkLaw law;
-  std::size_t place;  ///< in the memory of the law
-};
-
-/// Of all laws in the model, alike on all ranks.
-std::vector<ShownNumber> shown_numbers(const Model& model) {
-  std::vector<ShownNumber> shown;
-  std::set<BulkLaw> seen;
-  for (const ElasticParams& params : model.elastic) {
-    if (!seen.insert(params.law).second) continue;
-    std::size_t place = 0;
-    for (const MemoryField& field : memory_fields(params.law)) {
-      if (field.components == 1) shown.push_back({field.name, params.law, place});
-      place += static_cast<std::size_t>(field.components);
-    }
-  }
-  return shown;
-}
-
 /// Adds what elements remember to a part of the frame whose elements are there, in the order of `slots`.
 void add_memory(const Domain& domain, const std::vector<Index>& slots, Frame::Elements& out) {
-  const MaterialMemory memory = material_memory(domain.state.elements);
   for (const ShownNumber& number : shown_numbers(domain.model)) {
     std::vector<double>& values = out.state.emplace_back(Frame::StateField{number.name, 1, {}}).values;
-    for (const Index slot : slots) {
-      const BulkLaw law = domain.model.elastic[at(domain.model.local.block_group[at(slot / kLanes)])].law;
-      values.push_back(law == number.law ? memory.of(slot)[number.place] : 0.0);
-    }
+    for (const Index slot : slots) values.push_back(number.of(domain, slot));
   }
 }
 
@@ -102,30 +80,9 @@ const FaceLink& link_of(const Model& model, Index slot, int face) {
   return model.topology.links[at(model.local.mesh_element[at(slot)])][at(face)];
 }
 
-/// Which faces of a rank's originals are free: those of the bodies' surfaces, and those that a failed joint has laid
-/// bare.
-class FreeFaces {
- public:
-  explicit FreeFaces(const Domain& domain) : domain_(domain), held_(at(domain.model.local.num_slots) * 4, 0) {
-    for (const ActiveJoint& joint : domain.state.joints.active) {
-      if (joint.state() == JointState::failed) continue;
-      held_[at(joint.slot_a) * 4 + at(joint.face_a)] = 1;
-      held_[at(joint.slot_b) * 4 + at(joint.code / 3)] = 1;
-    }
-  }
-  [[nodiscard]] bool operator()(Index slot, int face) const {
-    if (is_swept(domain_.model, domain_.derived, slot, face)) return false;  // nearly always
-    if (domain_.derived.joint_at(slot, face) < 0) return !link_of(domain_.model, slot, face).inner();
-    return held_[at(slot) * 4 + at(face)] == 0;
-  }
-
- private:
-  const Domain& domain_;
-  std::vector<std::uint8_t> held_;  ///< (slots, 4) 1: by an active joint
-};
-
-void add_surface(const Domain& domain, const Fragments& fragments, const std::vector<double>& cost,
-                 Frame::Surface& out) {
+/// @param places  out: (3 faces) of the faces' corners, 4 original + corner
+void add_surface(const Domain& domain, const Fragments& fragments, const std::vector<double>& cost, Frame::Surface& out,
+                 std::vector<std::size_t>& places) {
   const LocalMesh& local = domain.model.local;
   const FreeFaces free(domain);
   std::vector<Index> slots;
@@ -136,6 +93,7 @@ void add_surface(const Domain& domain, const Fragments& fragments, const std::ve
       if (!free(slot, face)) continue;
       for (const int corner : kFaceCorners[at(face)]) {
         append(out.cells.points, load_node(domain.state.nodes.position.data(), local.corner_node(slot, corner)));
+        places.push_back(4 * original + at(corner));
       }
       add_cell(domain, fragments, slot, out.cells);
       slots.push_back(slot);
@@ -253,23 +211,29 @@ Vec3 slip_velocity(const Domain& domain, const TouchingCouple& couple) {
   return relative - relative.dot(normal) / square * normal;
 }
 
+/// Ids of couples fit into 64 bits.
+constexpr GlobalId kMostElements = 600'000'000;
+
 void add_contacts(const Domain& domain, Frame::Contacts& out) {
   if (!domain.contact) return;
   const LocalMesh& local = domain.model.local;
   const ContactState& contact = domain.state.contact;
   const FaceRule& rule = face_rule(domain.model.contact.points_per_face);
   const double* x = domain.state.nodes.position.data();
+  const GlobalId elements = domain.model.whole.num_elements;
+  DEMAND(elements < kMostElements, std::to_string(elements));
   for (const TouchingCouple& couple : contact.touching) {
     const ContactPoint& point = contact.points[at(couple.point)];
     if (couple.force.squaredNorm() == 0.0 || !local.is_original(point.slot)) continue;
-    out.id.push_back(point.id);
+    const Index other = contact.contactors[at(couple.contactor)];
+    out.id.push_back(point.id * elements + local.element_of_slot[at(other)]);
+    out.point.push_back(point.id);
     append(out.points, at_point(rule, point, x));
     append(out.force, couple.force);
     append(out.normal_force, couple.force - couple.friction);
     append(out.tangential_force, couple.friction);
     append(out.slip_velocity, slip_velocity(domain, couple));
     out.body.push_back(local.slot_body[at(point.slot)]);
-    const Index other = contact.contactors[at(couple.contactor)];
     out.other_body.push_back(local.slot_body[at(other)]);
     out.other_element.push_back(local.element_of_slot[at(other)]);
   }
@@ -286,7 +250,13 @@ Frame make_frame(const Domain& domain, std::int64_t number, const FrameParts& pa
     add_elements(domain, labels.fragments, frame.elements);
     frame.elements.cost = labels.cost;
   }
-  if (parts.surface) add_surface(domain, labels.fragments, labels.cost, frame.surface);
+  std::vector<std::size_t> places;
+  if (parts.surface) add_surface(domain, labels.fragments, labels.cost, frame.surface, places);
+  if (parts.at_points) {
+    Frame::AtPoints values = corner_values(domain);
+    if (parts.surface) frame.surface.cells.at_points = picked(values, places);
+    if (parts.elements) frame.elements.at_points = std::move(values);
+  }
   if (parts.joints) add_joints(domain, frame.joints);
   if (parts.contacts) add_contacts(domain, frame.contacts);
   if (parts.domain) add_domain(domain, labels.load, frame.domain);

@@ -66,7 +66,8 @@ FrameParts parts_of(std::uint32_t channels) {
           .joints = has(channels, BRECCIA_JOINTS) || has(channels, BRECCIA_FRACTURES),
           .contacts = has(channels, BRECCIA_CONTACTS),
           .surface = has(channels, BRECCIA_SURFACE),
-          .domain = has(channels, BRECCIA_DOMAINS)};
+          .domain = has(channels, BRECCIA_DOMAINS),
+          .at_points = (channels & BRECCIA_POINT_VALUES) != 0};
 }
 
 Channels::Channels(const Frame& frame, std::uint32_t mask, const std::vector<std::string>& columns,
@@ -91,6 +92,9 @@ Channels::Channels(const Frame& frame, std::uint32_t mask, const std::vector<std
     add(BRECCIA_DOMAINS, BRECCIA_HEXAHEDRON, d.points, d.rank.size(), arrays_of(d));
   }
   if (has(mask, BRECCIA_HISTORY)) add_history(columns, row);
+  if ((mask & BRECCIA_POINT_VALUES) == 0) return;
+  if (has(mask, BRECCIA_ELEMENTS)) add_at_points(BRECCIA_ELEMENTS, frame.elements.at_points);
+  if (has(mask, BRECCIA_SURFACE)) add_at_points(BRECCIA_SURFACE, frame.surface.cells.at_points);
 }
 
 void Channels::add(int channel, int32_t cell, const std::vector<double>& points, std::size_t cells,
@@ -105,6 +109,13 @@ void Channels::add(int channel, int32_t cell, const std::vector<double>& points,
   c.grid.num_arrays = static_cast<std::int32_t>(c.arrays.size());
   c.grid.arrays = c.arrays.data();
   instant_.channels[channel] = &c.grid;
+}
+
+void Channels::add_at_points(int channel, const Frame::AtPoints& values) {
+  Channel& c = channels_[static_cast<std::size_t>(channel)];
+  c.point_arrays = arrays_of(values);
+  c.grid.num_point_arrays = static_cast<std::int32_t>(c.point_arrays.size());
+  c.grid.point_arrays = c.point_arrays.data();
 }
 
 void Channels::add_joints(int channel, const Frame::Joints& joints) {

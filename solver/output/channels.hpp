@@ -17,7 +17,7 @@ inline constexpr std::array<std::string_view, BRECCIA_NUM_CHANNELS> kChannelName
 /// Mask of the named channels. @pre all are known
 [[nodiscard]] std::uint32_t channel_mask(const std::vector<std::string>& names);
 
-/// The parts of a frame that a set of channels is made of.
+/// The parts of a frame that a set of channels is made of; values at points with BRECCIA_POINT_VALUES.
 [[nodiscard]] FrameParts parts_of(std::uint32_t channels);
 
 /// A frame as the channels of the in-situ interface: pointers into it, nothing copied but the broken joints, which are
@@ -35,11 +35,12 @@ class Channels {
 
  private:
   struct Channel {
-    std::vector<BrecciaArray> arrays;
+    std::vector<BrecciaArray> arrays, point_arrays;
     BrecciaGrid grid{};
   };
   void add(int channel, int32_t cell, const std::vector<double>& points, std::size_t cells,
            std::vector<BrecciaArray> arrays);
+  void add_at_points(int channel, const Frame::AtPoints& values);
   void add_joints(int channel, const Frame::Joints& joints);
   void add_history(const std::vector<std::string>& columns, const std::optional<std::vector<double>>& row);
 

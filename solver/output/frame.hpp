@@ -25,6 +25,17 @@ struct Frame {
     std::vector<double> values{};  ///< (num_elements, components)
   };
 
+  /// Values at the corners, in the order of the points, where they are asked for: displacement (m) and velocity (m/s)
+  /// of the element's own nodes; stress (Pa), what follows from it, and memory as means over the elements around the
+  /// corner that still hang together there, weighted by their mass.
+  struct AtPoints {
+    std::vector<double> displacement, velocity;  ///< (num_points, 3)
+    std::vector<double> stress;                  ///< (num_points, 6)
+    std::vector<double> von_mises;               ///< (num_points) of that stress
+    std::vector<double> principal;               ///< (num_points, 3) of that stress, descending
+    std::vector<StateField> state;
+  };
+
   struct Elements {
     std::vector<double> points;    ///< (4 num_elements, 3) corners: every element has its own
     std::vector<std::int64_t> id;  ///< (num_elements)
@@ -40,6 +51,7 @@ struct Frame {
     std::vector<std::int64_t> neighbour;  ///< (num_elements, 4) element that is or was held across the face opposite to
                                           ///< each corner, through a joint or shared nodes; -1: none
     std::vector<StateField> state;
+    AtPoints at_points;
   } elements;
 
   /// Triangles on the mid-surface of the joints that carry damage or have failed.
@@ -63,9 +75,11 @@ struct Frame {
 
   /// Contact points that carry a force.
   struct Contacts {
-    std::vector<std::int64_t> id;  ///< (num_contacts) of the contact point: 24 element + 6 face + number
-    std::vector<double> points;    ///< (num_contacts, 3)
-    std::vector<double> force;     ///< (num_contacts, 3) on the point's body, N
+    std::vector<std::int64_t> id;     ///< (num_contacts) of the couple: point * elements of the model + other_element
+    std::vector<std::int64_t> point;  ///< (num_contacts) the contact point: 24 element + 6 face + number; it may touch
+                                      ///< several elements
+    std::vector<double> points;       ///< (num_contacts, 3)
+    std::vector<double> force;        ///< (num_contacts, 3) on the point's body, N
     std::vector<double> normal_force, tangential_force;  ///< (num_contacts, 3) its parts, N
     std::vector<double> slip_velocity;                   ///< (num_contacts, 3) of the point over the other body, m/s
     std::vector<std::int32_t> body, other_body;
@@ -91,6 +105,7 @@ struct Frame {
 /// Which parts of a frame are asked for; the others stay empty.
 struct FrameParts {
   bool elements = true, joints = true, contacts = true, surface = false, domain = false;
+  bool at_points = false;  ///< values at the corners of elements and surface too
 };
 
 /// What a gauge reads of a group or a body. Forces and places are of t_n, velocities and momentum of t_n + dt/2. Means

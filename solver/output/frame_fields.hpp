@@ -32,6 +32,17 @@ void for_each_cell_array(const Frame::Elements& e, Visit&& visit) {
   for (const Frame::StateField& field : e.state) visit(field.name, field.values, field.components);
 }
 
+/// Values at points.
+template <class Visit>
+void for_each_array(const Frame::AtPoints& p, Visit&& visit) {
+  visit("displacement", p.displacement, 3);
+  visit("velocity", p.velocity, 3);
+  visit("stress", p.stress, 6);
+  visit("von_mises", p.von_mises, 1);
+  visit("principal", p.principal, 3);
+  for (const Frame::StateField& field : p.state) visit(field.name, field.values, field.components);
+}
+
 /// Calls visit(name, values, components) for every array of the elements, in the order of files and channels.
 template <class Visit>
 void for_each_array(const Frame::Elements& e, Visit&& visit) {
@@ -58,6 +69,7 @@ void for_each_array(J& j, Visit&& visit) {
 template <class Visit>
 void for_each_array(const Frame::Contacts& c, Visit&& visit) {
   visit("id", c.id, 1);
+  visit("point", c.point, 1);
   visit("normal_force", c.normal_force, 3);
   visit("tangential_force", c.tangential_force, 3);
   visit("force", c.force, 3);

@@ -160,6 +160,28 @@ TEST(Preflight, RefusesANumberWhereAScriptAsksForATextAndTheOtherWayRound) {
   EXPECT_EQ(preflight(pictures), "");
 }
 
+TEST(Preflight, RefusesPointDataThatThereIsNone) {
+  Config config(folder_of("point_data"), kWithoutMpi, 0, 1);
+  config.add("surface").text("point_data", "velocty");
+  config.add("volume").text("point_data", "stress, von_mises");
+  config.add("fractures").text("point_data", "stress");
+  config.add("domains", {"point_data"}, {3});
+  EXPECT_EQ(preflight(config),
+            "surface: point_data has no field 'velocty'; allowed: displacement, velocity, stress, von_mises, "
+            "principal, plastic_shear, compaction, plastic_work\n"
+            "fractures: point_data: only the channels elements and surface have values at points\n"
+            "domains: point_data is a text, names of fields separated by commas");
+}
+
+TEST(Preflight, RefusesAScriptThatAsksForValuesAtPointsWhereThePipelineDoesNot) {
+  Config config(folder_of("no_point_data"), kWithoutMpi, 0, 1);
+  config.add(script("contours.py"));
+  EXPECT_EQ(preflight(config), script("contours.py") +
+                                   ": the array 'von_mises' is one of cells; at points too with parameters = { "
+                                   "point_data = \"von_mises\" } (contours.py:6)");
+  EXPECT_EQ(preflight(config.text("point_data", "von_mises")), "");
+}
+
 TEST(Preflight, RefusesAScriptThatAsksForAnArrayThatItIsNotHanded) {
   Config config(folder_of("not_handed"), kWithoutMpi, 0, 1);
   config.add(script("exported.py")).fields({"id", "stress"});

@@ -6,6 +6,8 @@
 
 #include <cstring>
 
+#include "catalyst/pipeline_error.hpp"
+
 namespace breccia::insitu {
 namespace {
 
@@ -19,8 +21,8 @@ struct Example {
   std::vector<BrecciaArray> arrays{{"id", BRECCIA_I64, 1, id.data()},
                                    {"body", BRECCIA_I32, 1, body.data()},
                                    {"stress", BRECCIA_F64, 6, stress.data()}};
-  BrecciaGrid grid{BRECCIA_TRIANGLE, 4, points.data(), 2, corners.data(), 77, 3, arrays.data()};
-  BrecciaGrid table{BRECCIA_TABLE, 0, nullptr, 2, nullptr, 1, 3, arrays.data()};
+  BrecciaGrid grid{BRECCIA_TRIANGLE, 4, points.data(), 2, corners.data(), 77, 3, arrays.data(), 0, nullptr};
+  BrecciaGrid table{BRECCIA_TABLE, 0, nullptr, 2, nullptr, 1, 3, arrays.data(), 0, nullptr};
   BrecciaInstant instant{12, 0.5, {}};
   Example() {
     instant.channels[BRECCIA_SURFACE] = &grid;
@@ -37,7 +39,7 @@ T value(const BrecciaArray& array, std::size_t i) {
 
 TEST(SelectedInstant, OfFieldsHasThemAloneAndCopiesNothing) {
   Example example;
-  SelectedInstant part({{}, {"stress", "body"}});
+  SelectedInstant part(Selection{{}, {"stress", "body"}, {}});
   const BrecciaInstant& instant = part.of(example.instant);
   EXPECT_EQ(instant.step, 12);
   const BrecciaGrid& grid = *instant.channels[BRECCIA_SURFACE];
@@ -52,7 +54,7 @@ TEST(SelectedInstant, OfFieldsHasThemAloneAndCopiesNothing) {
 
 TEST(SelectedInstant, OfABoxHasTheCellsWhoseCentreLiesInItWithAllValues) {
   Example example;
-  SelectedInstant part({std::array<double, 6>{0.5, 0, -1, 1, 1, 1}, {}});
+  SelectedInstant part({std::array<double, 6>{0.5, 0, -1, 1, 1, 1}, {}, {}});
   const BrecciaGrid grid = *part.of(example.instant).channels[BRECCIA_SURFACE];
   ASSERT_EQ(grid.num_cells, 1);
   EXPECT_EQ(grid.num_points, 3);
@@ -73,8 +75,49 @@ TEST(SelectedInstant, OfABoxHasTheCellsWhoseCentreLiesInItWithAllValues) {
 TEST(SelectedInstant, OfABoxTakesNoCellWhoseCentreIsNoNumber) {
   Example example;
   example.points[0] = std::numeric_limits<double>::quiet_NaN();
-  SelectedInstant part({std::array<double, 6>{-9, -9, -9, 9, 9, 9}, {}});
+  SelectedInstant part({std::array<double, 6>{-9, -9, -9, 9, 9, 9}, {}, {}});
   EXPECT_EQ(part.of(example.instant).channels[BRECCIA_SURFACE]->num_cells, 1);
+}
+
+/// The same with two arrays at its four points.
+struct PointExample : Example {
+  std::vector<double> von_mises{10, 11, 12, 13}, velocity{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+  std::vector<BrecciaArray> at_points{{"von_mises", BRECCIA_F64, 1, von_mises.data()},
+                                      {"velocity", BRECCIA_F64, 3, velocity.data()}};
+  PointExample() {
+    grid.num_point_arrays = 2;
+    grid.point_arrays = at_points.data();
+  }
+};
+
+TEST(SelectedInstant, HasNoValuesAtPointsThatWereNotAskedFor) {
+  PointExample example;
+  SelectedInstant part{Selection{}};
+  EXPECT_EQ(part.of(example.instant).channels[BRECCIA_SURFACE]->num_point_arrays, 0);
+  SelectedInstant one(Selection{{}, {}, {"velocity"}});
+  const BrecciaGrid& grid = *one.of(example.instant).channels[BRECCIA_SURFACE];
+  ASSERT_EQ(grid.num_point_arrays, 1);
+  EXPECT_EQ(grid.point_arrays[0].values, example.velocity.data());
+  EXPECT_EQ(grid.num_arrays, 3);
+}
+
+TEST(SelectedInstant, OfABoxHasTheValuesAtThePointsOfItsCells) {
+  PointExample example;
+  SelectedInstant part(Selection{std::array<double, 6>{0.5, 0, -1, 1, 1, 1}, {}, {"velocity", "von_mises"}});
+  const BrecciaGrid& grid = *part.of(example.instant).channels[BRECCIA_SURFACE];
+  ASSERT_EQ(grid.num_point_arrays, 2);
+  for (std::size_t point = 0; point < 3; ++point) {
+    const auto from = static_cast<std::size_t>(example.corners[3 + point]);
+    EXPECT_EQ(value<double>(grid.point_arrays[1], point), example.von_mises[from]);
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(value<double>(grid.point_arrays[0], 3 * point + k), example.velocity[3 * from + k]);
+  }
+}
+
+TEST(SelectedInstant, RefusesValuesAtPointsThatTheRunDoesNotHave) {
+  PointExample example;
+  SelectedInstant part(Selection{{}, {}, {"compaction"}});
+  EXPECT_THROW(static_cast<void>(part.of(example.instant)), PipelineError);
 }
 
 }  // namespace

@@ -98,6 +98,12 @@ TEST_P(Catalyst2Faults, a_library_that_is_no_libcatalyst_is_refused_before_the_r
   expect_refused(run, "is no libcatalyst of version 2, it lacks catalyst_finalize, catalyst_about, ");
 }
 
+TEST_P(Catalyst2Faults, values_at_points_are_refused_before_the_run) {
+  const CatalystRun run(GetParam(),
+                        kBackend + "--set 'insitu.pipeline=[{name=\"surface\", parameters={point_data=\"stress\"}}]'");
+  expect_refused(run, "surface: values at points, point_data, are not handed to Catalyst 2");
+}
+
 INSTANTIATE_TEST_SUITE_P(OfRanks, Catalyst2Faults, testing::Values(1, 2), testing::PrintToStringParamName());
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -215,6 +216,69 @@ TEST_P(InSitu, a_box_and_some_fields_are_recorded_without_a_change_to_the_run) {
     cells += std::stoi(piece.substr(at + 15));
   }
   EXPECT_EQ(cells, 48) << "two of eight cubes of 24, whose centres lie in the box";
+}
+
+/// Lines of a file a rank, sorted.
+std::vector<std::string> lines_of_ranks(const fs::path& folder, const std::string& stem, int ranks) {
+  std::vector<std::string> lines;
+  for (int rank = 0; rank < ranks; ++rank) {
+    std::istringstream text(read_text(folder / (stem + "_" + std::to_string(rank) + ".txt")));
+    for (std::string line; std::getline(text, line);) lines.push_back(line);
+  }
+  std::sort(lines.begin(), lines.end());
+  return lines;
+}
+
+TEST_P(InSitu, values_at_points_give_contours_and_gradients_and_are_the_same_on_any_number_of_ranks) {
+  const std::string pipelines =
+      "--set 'insitu.pipeline=[{name=\"" BRECCIA_SCRIPTS
+      "/writes_point_data.py\", every_time=\"1 ms\", strict=true, "
+      "parameters={point_data=\"von_mises, stress, displacement\"}}, "
+      "{name=\"surface\", every_time=\"1 ms\", strict=true, parameters={point_data=\"velocity\"}}, "
+      "{name=\"volume\", every_time=\"1 ms\", strict=true}]' ";
+  const WatchedRun plain(1, ""), alone(1, pipelines), run(GetParam(), pipelines);
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  EXPECT_EQ(run.outcome.err, "");
+  EXPECT_EQ(run.summary()["state_hash"], plain.summary()["state_hash"]);
+  const fs::path own = "extracts/writes_point_data";
+  const std::vector<std::string> expected = lines_of_ranks(alone.folder() / own, "rank", 1),
+                                 lines = lines_of_ranks(run.folder() / own, "rank", GetParam());
+  EXPECT_EQ(lines, expected);
+  EXPECT_EQ(std::adjacent_find(lines.begin(), lines.end()), lines.end());
+  int most = 0;
+  for (const std::string& line : lines_of_ranks(run.folder() / own, "cells", GetParam())) {
+    std::istringstream words(line);
+    int cells = 0, arrays = 0;
+    words >> cells >> arrays;
+    EXPECT_EQ(arrays, 3) << "what it has asked for, and no more";
+    most = std::max(most, cells);
+  }
+  EXPECT_GT(most, 0);
+  const std::string surface = read_text(run.folder() / "extracts/surface/surface_000000000.pvtp");
+  EXPECT_NE(surface.find("<PPointData>\n      <PDataArray type=\"Float64\" Name=\"velocity\""), std::string::npos);
+  EXPECT_EQ(read_text(run.folder() / "extracts/elements/elements_000000000.pvtu").find("PPointData"),
+            std::string::npos);
+}
+
+TEST_P(InSitu, contacts_have_an_id_each_the_same_on_any_number_of_ranks) {
+  const std::string pipelines =
+      "--set 'insitu.pipeline=[{name=\"" BRECCIA_SCRIPTS "/writes_contacts.py\", every_time=\"20 us\", strict=true}]' ";
+  const WatchedRun alone(1, pipelines), run(GetParam(), pipelines);
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  const fs::path own = "extracts/writes_contacts";
+  const std::vector<std::string> lines = lines_of_ranks(run.folder() / own, "rank", GetParam());
+  EXPECT_EQ(lines, lines_of_ranks(alone.folder() / own, "rank", 1));
+  std::set<std::pair<std::string, std::string>> ids;
+  std::map<std::string, std::string> couples;  // by id
+  for (const std::string& line : lines) {
+    std::istringstream words(line);
+    std::string step, id, point, other;
+    words >> step >> id >> point >> other;
+    EXPECT_TRUE(ids.emplace(step, id).second) << line;
+    const auto [known, is_new] = couples.emplace(id, point + " " + other);
+    EXPECT_EQ(known->second, point + " " + other) << "an id means the same at all instants";
+  }
+  EXPECT_GT(ids.size(), 50U);
 }
 
 TEST_P(InSitu, a_script_that_fails_three_times_is_switched_off_and_the_run_goes_on) {

@@ -8,6 +8,7 @@
 #include "brecciaJoints.h"
 #include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
 #include "vtkNew.h"
@@ -39,8 +40,11 @@ std::vector<Touch> FindTouches(vtkDataObject* input, const breccia::Ranks& ranks
   std::string problem;
   try {
     const auto part = breccia::FindPart(input, "normal_force");
-    const auto point = breccia::Integers(part, "id"), other = breccia::Integers(part, "other_element"),
-               body = breccia::Integers(part, "body"), other_body = breccia::Integers(part, "other_body");
+    // Where there is no "point", in recordings of before, "id" was it.
+    const bool has_point = part != nullptr && part->GetCellData()->HasArray("point") != 0;
+    const auto point = breccia::Integers(part, has_point ? "point" : "id"),
+               other = breccia::Integers(part, "other_element"), body = breccia::Integers(part, "body"),
+               other_body = breccia::Integers(part, "other_body");
     const auto force = breccia::Numbers(part, "force", 3);
     for (std::size_t i = 0; i < point.size(); ++i) {
       mine.push_back({point[i],

@@ -115,5 +115,30 @@ TEST_F(TwoCubes, are_a_domain_with_a_box_around_it) {
   EXPECT_EQ(opposite, Vec3(2 * kCubeEdge, kCubeEdge, kCubeEdge));
 }
 
+class TouchingCubes : public testing::Test, protected test::CubesDomain {
+ protected:
+  TouchingCubes() : CubesDomain("[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"10 GPa\"\n") {}
+};
+
+TEST_F(TouchingCubes, show_a_contact_for_each_element_that_a_point_touches_with_an_id_of_its_own) {
+  ContactState& contact = domain.state.contact;
+  ASSERT_GE(contact.points.size(), 1U);
+  ASSERT_GE(contact.contactors.size(), 2U);
+  for (const Index contactor : {0, 1}) {
+    TouchingCouple couple{};
+    couple.point = 0;
+    couple.contactor = contactor;
+    couple.force = Vec3(1, 0, 0);
+    contact.touching.push_back(couple);
+  }
+  const FrameParts parts{.elements = false, .joints = false, .contacts = true, .surface = false, .domain = false};
+  const Frame frame = make_frame(domain, 0, parts, {find_fragments(domain), {}});
+  const Frame::Contacts& shown = frame.contacts;
+  ASSERT_EQ(shown.id.size(), 2U);
+  EXPECT_EQ(shown.point[0], shown.point[1]);
+  EXPECT_NE(shown.id[0], shown.id[1]);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(shown.id[i], 48 * shown.point[i] + shown.other_element[i]);
+}
+
 }  // namespace
 }  // namespace breccia

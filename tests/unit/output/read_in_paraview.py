@@ -19,7 +19,7 @@ ARRAYS = {
                  "principal": 3, "velocity": 3, "displacement": 3, "mass": 1, "neighbour": 4},
     "joints": {"id": 1, "damage": 1, "mode": 1, "opening": 1, "slip": 1, "broken": 1, "time_of_failure": 1, "state": 1,
                "energy": 1},
-    "contacts": {"id": 1, "force": 3, "normal_force": 3, "tangential_force": 3, "slip_velocity": 3, "body": 1,
+    "contacts": {"id": 1, "point": 1, "force": 3, "normal_force": 3, "tangential_force": 3, "slip_velocity": 3, "body": 1,
                  "other_body": 1, "other_element": 1},
 }
 failures = []

@@ -236,6 +236,7 @@ Frame SyntheticPlate::frame(std::int64_t number, double time) const {
       frame.contacts.slip_velocity.push_back(0.0);
     }
     frame.contacts.id.push_back(static_cast<std::int64_t>(frame.contacts.body.size()));
+    frame.contacts.point.push_back(24 * frame.contacts.id.back());
     frame.contacts.body.push_back(0);
     frame.contacts.other_body.push_back(1);
     frame.contacts.other_element.push_back(n - 1);
@@ -269,8 +270,8 @@ Frame piece_of(const Frame& whole, int number, int count) {
   cut_all(j.id.size(), j.points, j.damage, j.mode, j.opening, j.slip, j.broken, j.time_of_failure, j.state, j.energy,
           j.id);
   auto& c = piece.contacts;
-  cut_all(c.body.size(), c.id, c.points, c.force, c.normal_force, c.tangential_force, c.slip_velocity, c.other_body,
-          c.other_element, c.body);
+  cut_all(c.body.size(), c.id, c.point, c.points, c.force, c.normal_force, c.tangential_force, c.slip_velocity,
+          c.other_body, c.other_element, c.body);
   return piece;
 }
 

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "domains/domain.hpp"
+#include "output/frame.hpp"
+
+namespace breccia {
+
+/// Values at the corners of this rank's originals, ascending by id, four an element.
+///
+/// A mean is taken over the elements that meet at a vertex of the mesh and hang together there, from face to face
+/// through joints that have not failed, or by a node that they share: v_0 + sum m_i (v_i - v_0) / sum m_i, by ascending
+/// id. It is the same to the bit on any number of ranks, and what is uniform stays as it is. Where a joint has failed
+/// both sides have their own.
+/// O(originals) and, for what hangs together across ranks, one exchange forth and back. Collective.
+[[nodiscard]] Frame::AtPoints corner_values(const Domain& domain);
+
+/// The values at some of the places.
+[[nodiscard]] Frame::AtPoints picked(const Frame::AtPoints& values, const std::vector<std::size_t>& places);
+
+}  // namespace breccia

@@ -1,0 +1,27 @@
+#include "observe/free_faces.hpp"
+
+namespace breccia {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+FreeFaces::FreeFaces(const Domain& domain) : domain_(domain), held_(at(domain.model.local.num_slots) * 4, 0) {
+  for (const ActiveJoint& joint : domain.state.joints.active) {
+    if (joint.state() == JointState::failed) continue;
+    held_[at(joint.slot_a) * 4 + at(joint.face_a)] = 1;
+    held_[at(joint.slot_b) * 4 + at(joint.code / 3)] = 1;
+  }
+}
+
+bool FreeFaces::operator()(Index slot, int face) const {
+  if (is_swept(domain_.model, domain_.derived, slot, face)) return false;  // nearly always
+  if (domain_.derived.joint_at(slot, face) < 0) {
+    const Index element = domain_.model.local.mesh_element[at(slot)];
+    return !domain_.model.topology.links[at(element)][at(face)].inner();
+  }
+  return held_[at(slot) * 4 + at(face)] == 0;
+}
+
+}  // namespace breccia

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "domains/domain.hpp"
+
+namespace breccia {
+
+/// Which faces of a rank's originals are free: those of the bodies' surfaces, and those that a failed joint has laid
+/// bare. As the domain stands when this is made.
+class FreeFaces {
+ public:
+  explicit FreeFaces(const Domain& domain);
+  /// @pre slot is an original
+  [[nodiscard]] bool operator()(Index slot, int face) const;
+
+ private:
+  const Domain& domain_;
+  std::vector<std::uint8_t> held_;  ///< (slots, 4) 1: by an active joint
+};
+
+}  // namespace breccia
