@@ -44,7 +44,8 @@ Frame two_elements(std::int64_t number, double time) {
   e.mass = {1.0 / 3, 2.0 / 3};
   e.neighbour = {-1, 123456789012, -1, -1, 7, -1, -1, -1};
   frame.joints = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {42}, {0.75}, {3}, {1e-6}, {2e-6}, {1}, {0.375}, {2}, {0.5}};
-  frame.contacts = {{24}, {9, 8, 7}, {1, 2, 3}, {1, 2, 3}, {0, 0, 0}, {0, 0, 0}, {0}, {1}, {123456789012}};
+  frame.contacts = {{246913578036}, {24},      {9, 8, 7}, {1, 2, 3}, {1, 2, 3},
+                    {0, 0, 0},      {0, 0, 0}, {0},       {1},       {123456789012}};
   return frame;
 }
 
@@ -109,12 +110,13 @@ TEST(VtkhdfSinkTest, StoresJointsAsTrianglesAndContactsAsVerticesWithForces) {
   EXPECT_THAT(contacts.values("Types"), ElementsAre(1));
   EXPECT_THAT(contacts.values("Points"), ElementsAre(9, 8, 7));
   EXPECT_THAT(contacts.values("CellData/force"), ElementsAre(1, 2, 3));
-  EXPECT_THAT(contacts.values("CellData/id"), ElementsAre(24));
+  EXPECT_THAT(contacts.values("CellData/id"), ElementsAre(246913578036));
   EXPECT_THAT(contacts.values("CellData/normal_force"), ElementsAre(1, 2, 3));
   EXPECT_THAT(contacts.values("CellData/tangential_force"), ElementsAre(0, 0, 0));
   EXPECT_THAT(contacts.values("CellData/body"), ElementsAre(0));
   EXPECT_THAT(contacts.values("CellData/other_body"), ElementsAre(1));
   EXPECT_THAT(contacts.values("CellData/other_element"), ElementsAre(123456789012));
+  EXPECT_THAT(contacts.values("CellData/point"), ElementsAre(24));
 }
 
 TEST(VtkhdfSinkTest, StoresAFrameOfManyChunksUnchanged) {
