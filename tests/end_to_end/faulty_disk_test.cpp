@@ -207,9 +207,9 @@ TEST_P(FullDiskOfACommand, IsOneErrorThatNamesTheFile) {
   if (!can_be_mounted()) GTEST_SKIP() << "nothing can be mounted here";
   const std::string file = scratch_.write("case.toml", kSmallCase), run = scratch_.path("run").string();
   ASSERT_EQ(call("run " + file + " --progress none --set time.max_steps=3 -o '" + run + "'").exit_code, 0);
-  const std::vector<std::string> commands{"mesh " + file + " -o '" + disk_ + "/mesh'",
-                                          "report '" + run + "' --no-pictures -o '" + disk_ + "/report.html'",
-                                          "resume '" + run + "' --progress none -o '" + disk_ + "/resumed'"};
+  const std::vector<std::string> commands{
+      "mesh " + file + " -o '" + disk_ + "/mesh'", "report '" + run + "' --no-pictures -o '" + disk_ + "/report.html'",
+      "resume '" + run + "' --progress none --set time.max_steps=6 -o '" + disk_ + "/resumed'"};
   for (const std::string& command : commands) {
     fs::remove_all(kept_);
     const Outcome full = call_on_disk(1, 16, command);

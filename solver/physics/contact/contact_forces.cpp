@@ -14,6 +14,9 @@ namespace {
 
 /// Slope that the overlap field hardly exceeds: 1 where it is a distance.
 constexpr double kSteepest = 2.0;
+/// Share of its heights by which an element reaches beyond its faces for a point that was in it: joints open by less
+/// before they break.
+constexpr double kGap = 0.01;
 
 Index group_of(const LocalMesh& local, Index slot) {
   return local.block_group[static_cast<std::size_t>(slot / kLanes)];
@@ -57,6 +60,7 @@ class Pass {
 
  private:
   void prepare_contactors();
+  void bridge_gaps(Index point);
   void touch_point(Index point);
   void drop_ambiguous();
   void find_histories(Index point);
@@ -85,6 +89,10 @@ class Pass {
   }
   [[nodiscard]] Index body_of(Index contactor) const {
     return local_.slot_body[static_cast<std::size_t>(slot_of(contactor))];
+  }
+  /// Whether two contactors are of one body and share a vertex of its mesh.
+  [[nodiscard]] bool hangs_on(Index contactor, Index other) const {
+    return body_of(contactor) == body_of(other) && share_vertex(local_, slot_of(contactor), slot_of(other));
   }
   [[nodiscard]] double length_of(Index slot) const {
     return contact_.body_length[static_cast<std::size_t>(local_.slot_body[static_cast<std::size_t>(slot)])];
@@ -127,6 +135,7 @@ class Pass {
   ContactWork& work_;
   const FaceRule& rule_;
   std::vector<Candidate> candidates_;  ///< of the point at hand, ascending
+  std::vector<Candidate> beside_;      ///< the same of contactors that it lies just outside of
   std::vector<bool> taken_;            ///< old histories of the point at hand that live on
   std::size_t old_ = 0;                ///< first old history not yet looked at
   ExactSum ignored_;                   ///< what other ranks account
@@ -147,10 +156,16 @@ void Pass::run() {
     const Index point = couples[i].point;
     const Vec3 x = at_point(rule_, point_at(point), position);
     candidates_.clear();
+    beside_.clear();
     for (; i < couples.size() && couples[i].point == point; ++i) {
       const std::array<double, 4> lambda = barycentric(prepared(couples[i].contactor), x);
-      if (inside(lambda)) consider(couples[i].contactor, lambda);
+      if (inside(lambda)) {
+        consider(couples[i].contactor, lambda);
+      } else if (smallest(lambda) >= -kGap) {
+        beside_.push_back({couples[i].contactor, lambda, 0, 0});
+      }
     }
+    if (!beside_.empty()) bridge_gaps(point);
     if (!candidates_.empty()) touch_point(point);
   }
   for (; old_ < contact_.touching_before.size(); ++old_) forget(contact_.touching_before[old_]);
@@ -175,6 +190,26 @@ void Pass::consider(Index contactor, const std::array<double, 4>& lambda) {
   if (candidate.g > 0 || candidate.g_before > 0) candidates_.push_back(candidate);
 }
 
+/// A point that pressed on an element stays with it while joints open under the point and it is in no other element
+/// that the first one hangs on: the force would be gone in a step, and what it holds with it.
+void Pass::bridge_gaps(Index point) {
+  const std::vector<TouchingCouple>& old = contact_.touching_before;
+  const GlobalId id = contact_.id(point);
+  std::size_t k = old_;
+  while (k < old.size() && contact_.id(old[k].point) < id) ++k;
+  const std::size_t inside_one = candidates_.size();
+  for (; k < old.size() && old[k].point == point; ++k) {
+    const auto here = std::find_if(beside_.begin(), beside_.end(),
+                                   [&](const Candidate& c) { return c.contactor == old[k].contactor; });
+    if (here == beside_.end() || !(old[k].d > 0)) continue;
+    const bool goes_on = std::any_of(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(inside_one),
+                                     [&](const Candidate& c) { return hangs_on(c.contactor, here->contactor); });
+    if (!goes_on) consider(here->contactor, here->lambda);
+  }
+  std::sort(candidates_.begin(), candidates_.end(),
+            [](const Candidate& a, const Candidate& b) { return a.contactor < b.contactor; });
+}
+
 void Pass::touch_point(Index point) {
   if (candidates_.size() > 1) drop_ambiguous();
   find_histories(point);
@@ -194,9 +229,7 @@ void Pass::drop_ambiguous() {
     const bool counted = smallest(here.lambda) < kInside &&
                          std::any_of(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(kept),
                                      [&](const Candidate& c) {
-                                       return smallest(c.lambda) < kInside &&
-                                              body_of(c.contactor) == body_of(here.contactor) &&
-                                              share_vertex(local_, slot_of(c.contactor), slot_of(here.contactor));
+                                       return smallest(c.lambda) < kInside && hangs_on(c.contactor, here.contactor);
                                      });
     if (!counted) candidates_[kept++] = Candidate(here);
   }
@@ -226,9 +259,7 @@ void Pass::take_over(std::size_t first, std::size_t last) {
     }
   };
   assign([](Index from, Index to) { return from == to; });
-  assign([&](Index from, Index to) {
-    return body_of(from) == body_of(to) && share_vertex(local_, slot_of(from), slot_of(to));
-  });
+  assign([&](Index from, Index to) { return hangs_on(from, to); });
   for (std::size_t k = first; k < last; ++k) {
     if (!taken_[k - first]) forget(old[k]);
   }
