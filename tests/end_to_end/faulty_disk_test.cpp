@@ -134,7 +134,8 @@ TEST_P(SlowDisk, DelaysTheRunAndChangesNothing) {
   expect_same_as_undisturbed();
 }
 
-INSTANTIATE_TEST_SUITE_P(ranks, SlowDisk, testing::Combine(testing::Values(1, 2), testing::Values(DiskFault{"Slow"})),
+INSTANTIATE_TEST_SUITE_P(ranks, SlowDisk,
+                         testing::Combine(testing::Values(1, 2), testing::Values(DiskFault{"Slow", "", "", 0})),
                          [](const auto& tested) { return "On" + std::to_string(std::get<0>(tested.param)); });
 
 /// A real one, where this process may mount it.

@@ -274,8 +274,9 @@ Vec3 Pass::relative_motion(const ContactPoint& point, Index slot, const std::arr
   return dt_ * relative;
 }
 
-/// The overlap is gone. What the normal law had stored was given back as work; the spring lets go. The contactor may
-/// have left all couples with a search in this step, so it is prepared here. @param lost  J, by the normal law
+/// The overlap is gone. What the normal law had stored was given back as work, or is lost; the spring lets go. The
+/// contactor may have left all couples with a search in this step, so it is prepared here.
+/// @param lost  J, by the normal law
 void Pass::forget(const TouchingCouple& old, double lost) {
   if (!(old.d > 0) && old.force == Vec3::Zero()) return;
   const ContactPoint& point = point_at(old.point);
@@ -296,6 +297,12 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   }
   // A contactor that was crushed while it was touched gives nothing back.
   if (crushed) return account(point, work_.dissipated).add(normal_held(point, old));
+  if (overlap_value(overlap_shape(params_, local_, contact_, old.contactor), lambda) > 0) {
+    // The point has not left through the surface: a crack has opened under it, and what it held is gone.
+    const double cut_off = normal_held(point, old);
+    account(point, work_.dissipated).add(cut_off);
+    lost += cut_off;
+  }
   TouchingCouple ended{.point = old.point, .contactor = old.contactor};
   ended.gained = old.gained + 0.5 * old.force.dot(motion) - held(point, old) + lost;
   end(point, old, motion, lambda, ended);

@@ -17,7 +17,7 @@ namespace breccia {
 struct ContactWork {
   ExactSum stored;               ///< normal overlap and spherical boundary
   ExactSum friction_stored;      ///< tangential springs
-  ExactSum dissipated;           ///< normal law; also what a moving overlap field takes away
+  ExactSum dissipated;           ///< normal law; also what a moving overlap field or a crack under a point takes away
   ExactSum friction_dissipated;  ///< sliding
   std::int64_t touching = 0;     ///< couples that press on each other
 };
@@ -38,6 +38,8 @@ struct ContactWork {
 /// took, holds and dissipates. A step in which the overlap begins or ends, or follows a curved law, leaves an error; a
 /// change of the normal force puts it right (contact_balance.hpp), before a force ends as far as that can be foreseen.
 /// A couple whose overlap has ended holds back what it has gained, with d = 0, until next to nothing is left.
+/// A point that leaves its contactor other than through the surface, into a joint that opens, stays with it for a
+/// hundredth of its height; farther out the couple is cut off, and what it held is accounted as dissipated.
 /// The first thing done is one step of the field's ramps. The offset of a couple follows a change of g that comes from
 /// the field alone, down to 0 at least: a field that rises exerts no force, one that sinks lets go of stored energy,
 /// which is accounted as dissipated.
