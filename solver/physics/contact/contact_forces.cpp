@@ -5,141 +5,13 @@
 
 #include "physics/contact/contact_balance.hpp"
 #include "physics/contact/contact_field.hpp"
+#include "physics/contact/contact_pass.hpp"
 #include "physics/contact/friction.hpp"
 #include "physics/contact/spherical_boundary.hpp"
 
 namespace breccia {
 
-namespace {
-
-/// Slope that the overlap field hardly exceeds: 1 where it is a distance.
-constexpr double kSteepest = 2.0;
-/// Share of its heights by which an element reaches beyond its faces for a point that was in it: joints open by less
-/// before they break.
-constexpr double kGap = 0.01;
-
-Index group_of(const LocalMesh& local, Index slot) {
-  return local.block_group[static_cast<std::size_t>(slot / kLanes)];
-}
-
-bool share_vertex(const LocalMesh& local, Index slot, Index other) {
-  const std::array<Index, 4>& a = local.vertex[static_cast<std::size_t>(slot)];
-  const std::array<Index, 4>& b = local.vertex[static_cast<std::size_t>(other)];
-  return std::any_of(a.begin(), a.end(), [&](Index v) { return std::find(b.begin(), b.end(), v) != b.end(); });
-}
-
-/// A contactor that holds the point at hand.
-struct Candidate {
-  Index contactor;
-  std::array<double, 4> lambda;
-  double g;                 ///< m, now
-  double g_before;          ///< m, with the field of one step ago
-  std::ptrdiff_t old = -1;  ///< index of its history among those of the last step, -1: none
-};
-
-/// Normal force with damping over the slope of the overlap, N, and what the damping takes, J.
-struct Damping {
-  double pressure, dissipated;
-};
-
-/// One call of contact_forces.
-class Pass {
- public:
-  Pass(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt, ContactState& contact,
-       NodalForces& forces, ContactWork& work)
-      : params_(params),
-        local_(local),
-        state_(state),
-        dt_(dt),
-        contact_(contact),
-        forces_(forces),
-        work_(work),
-        rule_(face_rule(params.points_per_face)) {}
-
-  void run();
-
- private:
-  void prepare_contactors();
-  void bridge_gaps(Index point);
-  void touch_point(Index point);
-  void drop_ambiguous();
-  void find_histories(Index point);
-  void take_over(std::size_t first, std::size_t last);
-  void forget(const TouchingCouple& old, double lost = 0);
-  void end(const ContactPoint& point, const TouchingCouple& last, const Vec3& motion,
-           const std::array<double, 4>& lambda, TouchingCouple& h);
-  [[nodiscard]] Vec3 relative_motion(const ContactPoint& point, Index slot, const std::array<double, 4>& lambda) const;
-  [[nodiscard]] double first_offset(Index point, const Candidate& candidate) const;
-  [[nodiscard]] static double follow(const ContactLaw& law, double scale, double length, const Candidate& candidate,
-                                     TouchingCouple& h);
-  void keep_step(const ContactPoint& point, Index slot, double g_old, Candidate& candidate) const;
-  void act(Index point, Candidate& candidate);
-  [[nodiscard]] double press(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
-                             const Candidate& candidate, TouchingCouple& h);
-  void balance(const ContactPoint& point, double length, const Vec3& motion, TouchingCouple& h) const;
-  [[nodiscard]] Damping damp(const ContactLaw& law, const ContactPoint& point, const Vec3& motion,
-                             const Candidate& candidate, const Vec3& gradient, double elastic) const;
-  void distribute(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda, const Vec3& force);
-
-  [[nodiscard]] const ContactPoint& point_at(Index point) const {
-    return contact_.points[static_cast<std::size_t>(point)];
-  }
-  [[nodiscard]] Index slot_of(Index contactor) const {
-    return contact_.contactors[static_cast<std::size_t>(contactor)];
-  }
-  [[nodiscard]] Index body_of(Index contactor) const {
-    return local_.slot_body[static_cast<std::size_t>(slot_of(contactor))];
-  }
-  /// Whether two contactors are of one body and share a vertex of its mesh.
-  [[nodiscard]] bool hangs_on(Index contactor, Index other) const {
-    return body_of(contactor) == body_of(other) && share_vertex(local_, slot_of(contactor), slot_of(other));
-  }
-  [[nodiscard]] double length_of(Index slot) const {
-    return contact_.body_length[static_cast<std::size_t>(local_.slot_body[static_cast<std::size_t>(slot)])];
-  }
-  [[nodiscard]] const ContactLaw& law_of(Index point, Index contactor) const {
-    return params_.law(group_of(local_, point_at(point).slot), group_of(local_, slot_of(contactor)));
-  }
-  /// N/m, of a couple along its normal; times tangential_ratio of its friction.
-  [[nodiscard]] double stiffness(const ContactPoint& point, const TouchingCouple& h) const {
-    return point.weight * law_of(h.point, h.contactor).penalty / length_of(slot_of(h.contactor));
-  }
-  [[nodiscard]] double spring_stiffness(const ContactPoint& point, const TouchingCouple& h) const {
-    return law_of(h.point, h.contactor).tangential_ratio * stiffness(point, h);
-  }
-  /// J, by the normal law of a couple.
-  [[nodiscard]] double normal_held(const ContactPoint& point, const TouchingCouple& h) const {
-    const double scale = point.weight * length_of(slot_of(h.contactor));
-    return scale * normal_law::stored(law_of(h.point, h.contactor), h.d, h.d_max);
-  }
-  [[nodiscard]] double held(const ContactPoint& point, const TouchingCouple& h) const {
-    return normal_held(point, h) + 0.5 * spring_stiffness(point, h) * h.spring.squaredNorm();
-  }
-  [[nodiscard]] const PreparedTetra& prepared(Index contactor) const {
-    return contact_.prepared[static_cast<std::size_t>(contact_.place[static_cast<std::size_t>(contactor)])];
-  }
-  /// Where the work at a point is accounted: couples are computed wherever one side is at home, and accounted with
-  /// their points.
-  [[nodiscard]] ExactSum& account(const ContactPoint& point, ExactSum& sum) {
-    return local_.is_original(point.slot) ? sum : ignored_;
-  }
-  /// Adds the contactor to the candidates if its overlap is positive now or was so before the field moved.
-  void consider(Index contactor, const std::array<double, 4>& lambda);
-
-  const ContactParams& params_;
-  const LocalMesh& local_;
-  const NodalState& state_;
-  double dt_;
-  ContactState& contact_;
-  NodalForces& forces_;
-  ContactWork& work_;
-  const FaceRule& rule_;
-  std::vector<Candidate> candidates_;  ///< of the point at hand, ascending
-  std::vector<Candidate> beside_;      ///< the same of contactors that it lies just outside of
-  std::vector<bool> taken_;            ///< old histories of the point at hand that live on
-  std::size_t old_ = 0;                ///< first old history not yet looked at
-  ExactSum ignored_;                   ///< what other ranks account
-};
+namespace contact_pass {
 
 void Pass::run() {
   advance_field(contact_);
@@ -190,81 +62,6 @@ void Pass::consider(Index contactor, const std::array<double, 4>& lambda) {
   if (candidate.g > 0 || candidate.g_before > 0) candidates_.push_back(candidate);
 }
 
-/// A point that pressed on an element stays with it while joints open under the point and it is in no other element
-/// that the first one hangs on: the force would be gone in a step, and what it holds with it.
-void Pass::bridge_gaps(Index point) {
-  const std::vector<TouchingCouple>& old = contact_.touching_before;
-  const GlobalId id = contact_.id(point);
-  std::size_t k = old_;
-  while (k < old.size() && contact_.id(old[k].point) < id) ++k;
-  const std::size_t inside_one = candidates_.size();
-  for (; k < old.size() && old[k].point == point; ++k) {
-    const auto here = std::find_if(beside_.begin(), beside_.end(),
-                                   [&](const Candidate& c) { return c.contactor == old[k].contactor; });
-    if (here == beside_.end() || !(old[k].d > 0)) continue;
-    const bool goes_on = std::any_of(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(inside_one),
-                                     [&](const Candidate& c) { return hangs_on(c.contactor, here->contactor); });
-    if (!goes_on) consider(here->contactor, here->lambda);
-  }
-  std::sort(candidates_.begin(), candidates_.end(),
-            [](const Candidate& a, const Candidate& b) { return a.contactor < b.contactor; });
-}
-
-void Pass::touch_point(Index point) {
-  if (candidates_.size() > 1) drop_ambiguous();
-  find_histories(point);
-  for (Candidate& candidate : candidates_) act(point, candidate);
-  // Couples that have just ended came first.
-  auto first = contact_.touching.end();
-  while (first != contact_.touching.begin() && std::prev(first)->point == point) --first;
-  std::sort(first, contact_.touching.end(),
-            [](const TouchingCouple& a, const TouchingCouple& b) { return a.contactor < b.contactor; });
-}
-
-/// A point on the border of neighbouring elements is inside all of them (kInside): the first one counts.
-void Pass::drop_ambiguous() {
-  std::size_t kept = 1;
-  for (std::size_t i = 1; i < candidates_.size(); ++i) {
-    const Candidate& here = candidates_[i];
-    const bool counted = smallest(here.lambda) < kInside &&
-                         std::any_of(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(kept),
-                                     [&](const Candidate& c) {
-                                       return smallest(c.lambda) < kInside && hangs_on(c.contactor, here.contactor);
-                                     });
-    if (!counted) candidates_[kept++] = Candidate(here);
-  }
-  candidates_.resize(kept);
-}
-
-void Pass::find_histories(Index point) {
-  const std::vector<TouchingCouple>& old = contact_.touching_before;
-  const GlobalId id = contact_.id(point);
-  while (old_ < old.size() && contact_.id(old[old_].point) < id) forget(old[old_++]);
-  const std::size_t first = old_;
-  while (old_ < old.size() && old[old_].point == point) ++old_;
-  if (old_ > first) take_over(first, old_);
-}
-
-/// Old histories [first, last) go to the candidates: the same contactor first, then a neighbour in the same body.
-void Pass::take_over(std::size_t first, std::size_t last) {
-  const std::vector<TouchingCouple>& old = contact_.touching_before;
-  taken_.assign(last - first, false);
-  const auto assign = [&](auto&& belongs) {
-    for (Candidate& candidate : candidates_) {
-      for (std::size_t k = first; k < last && candidate.old < 0; ++k) {
-        if (taken_[k - first] || !belongs(old[k].contactor, candidate.contactor)) continue;
-        candidate.old = static_cast<std::ptrdiff_t>(k);
-        taken_[k - first] = true;
-      }
-    }
-  };
-  assign([](Index from, Index to) { return from == to; });
-  assign([&](Index from, Index to) { return hangs_on(from, to); });
-  for (std::size_t k = first; k < last; ++k) {
-    if (!taken_[k - first]) forget(old[k]);
-  }
-}
-
 /// Motion of the point relative to the contactor's material at lambda during the last step, m.
 Vec3 Pass::relative_motion(const ContactPoint& point, Index slot, const std::array<double, 4>& lambda) const {
   const double* v = state_.velocity.data();
@@ -272,65 +69,6 @@ Vec3 Pass::relative_motion(const ContactPoint& point, Index slot, const std::arr
   for (int a = 0; a < 4; ++a)
     relative -= lambda[static_cast<std::size_t>(a)] * load_node(v, local_.corner_node(slot, a));
   return dt_ * relative;
-}
-
-/// The overlap is gone. What the normal law had stored was given back as work, or is lost; the spring lets go. The
-/// contactor may have left all couples with a search in this step, so it is prepared here.
-/// @param lost  J, by the normal law
-void Pass::forget(const TouchingCouple& old, double lost) {
-  if (!(old.d > 0) && old.force == Vec3::Zero()) return;
-  const ContactPoint& point = point_at(old.point);
-  const Index slot = slot_of(old.contactor);
-  const PreparedTetra tetra =
-      prepare(load_corners(local_, state_.position.data(), slot), local_.volume[static_cast<std::size_t>(slot)]);
-  const bool crushed = inert(tetra);
-  std::array<double, 4> lambda{};
-  Vec3 motion = Vec3::Zero();
-  if (!crushed) {
-    lambda = barycentric(tetra, at_point(rule_, point, state_.position.data()));
-    motion = relative_motion(point, slot, lambda);
-  }
-  if (old.friction != Vec3::Zero()) {
-    const double released = released_by_friction(motion, spring_stiffness(point, old), old.spring);
-    account(point, work_.friction_dissipated).add(released);
-    lost += released;
-  }
-  // A contactor that was crushed while it was touched gives nothing back.
-  if (crushed) return account(point, work_.dissipated).add(normal_held(point, old));
-  if (overlap_value(overlap_shape(params_, local_, contact_, old.contactor), lambda) > 0) {
-    // The point has not left through the surface: a crack has opened under it, and what it held is gone.
-    const double cut_off = normal_held(point, old);
-    account(point, work_.dissipated).add(cut_off);
-    lost += cut_off;
-  }
-  TouchingCouple ended{.point = old.point, .contactor = old.contactor};
-  ended.gained = old.gained + 0.5 * old.force.dot(motion) - held(point, old) + lost;
-  end(point, old, motion, lambda, ended);
-  if (ended.force != Vec3::Zero()) contact_.touching.push_back(ended);
-}
-
-/// The couple exerts no force by its law any more. @param h  read and written: force, gained
-void Pass::end(const ContactPoint& point, const TouchingCouple& last, const Vec3& motion,
-               const std::array<double, 4>& lambda, TouchingCouple& h) {
-  h.force = closing_force(h.gained, last.force, motion, last.d > 0, stiffness(point, h));
-  h.gained += 0.5 * h.force.dot(motion);
-  distribute(point, h.contactor, lambda, h.force);
-}
-
-/// Overlap that makes no force, m, of a couple seen for the first time.
-double Pass::first_offset(Index point, const Candidate& candidate) const {
-  const ContactCouple couple{point, candidate.contactor};
-  const auto& fresh = contact_.fresh;
-  const bool is_fresh = !fresh.empty() && std::binary_search(fresh.begin(), fresh.end(), couple,
-                                                             [&](const ContactCouple& a, const ContactCouple& b) {
-                                                               return contact_.before(a, b);
-                                                             });
-  const Index slot = slot_of(candidate.contactor);
-  if (is_fresh || share_vertex(local_, point_at(point).slot, slot)) return std::max(candidate.g_before, 0.0);
-  // A point that comes through a gap between elements, an opened joint say, is deep inside at once: deeper than it
-  // moved.
-  const double moved = relative_motion(point_at(point), slot, candidate.lambda).norm();
-  return moved > 0 ? std::max(candidate.g_before - kSteepest * moved, 0.0) : 0.0;
 }
 
 /// The law follows the motion (field at rest), then the field (points at rest), so that the energy each of them moves
@@ -467,11 +205,11 @@ void Pass::distribute(const ContactPoint& point, Index contactor, const std::arr
   }
 }
 
-}  // namespace
+}  // namespace contact_pass
 
 void contact_forces(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt,
                     ContactState& contact, NodalForces& forces, ContactWork& work) {
-  Pass(params, local, state, dt, contact, forces, work).run();
+  contact_pass::Pass(params, local, state, dt, contact, forces, work).run();
 }
 
 }  // namespace breccia

@@ -1,0 +1,145 @@
+#include <algorithm>
+
+#include "physics/contact/contact_balance.hpp"
+#include "physics/contact/contact_field.hpp"
+#include "physics/contact/contact_pass.hpp"
+#include "physics/contact/friction.hpp"
+
+/// Which couple of this step goes on from which of the last one, and what is left of those that do not.
+namespace breccia::contact_pass {
+
+/// A point that pressed on an element stays with it while joints open under the point and it is in no other element
+/// that the first one hangs on: the force would be gone in a step, and what it holds with it.
+void Pass::bridge_gaps(Index point) {
+  const std::vector<TouchingCouple>& old = contact_.touching_before;
+  const GlobalId id = contact_.id(point);
+  std::size_t k = old_;
+  while (k < old.size() && contact_.id(old[k].point) < id) ++k;
+  const std::size_t inside_one = candidates_.size();
+  for (; k < old.size() && old[k].point == point; ++k) {
+    const auto here = std::find_if(beside_.begin(), beside_.end(),
+                                   [&](const Candidate& c) { return c.contactor == old[k].contactor; });
+    if (here == beside_.end() || !(old[k].d > 0)) continue;
+    const bool goes_on = std::any_of(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(inside_one),
+                                     [&](const Candidate& c) { return hangs_on(c.contactor, here->contactor); });
+    if (!goes_on) consider(here->contactor, here->lambda);
+  }
+  std::sort(candidates_.begin(), candidates_.end(),
+            [](const Candidate& a, const Candidate& b) { return a.contactor < b.contactor; });
+}
+
+void Pass::touch_point(Index point) {
+  if (candidates_.size() > 1) drop_ambiguous();
+  find_histories(point);
+  for (Candidate& candidate : candidates_) act(point, candidate);
+  // Couples that have just ended came first.
+  auto first = contact_.touching.end();
+  while (first != contact_.touching.begin() && std::prev(first)->point == point) --first;
+  std::sort(first, contact_.touching.end(),
+            [](const TouchingCouple& a, const TouchingCouple& b) { return a.contactor < b.contactor; });
+}
+
+/// A point on the border of neighbouring elements is inside all of them (kInside): the first one counts.
+void Pass::drop_ambiguous() {
+  std::size_t kept = 1;
+  for (std::size_t i = 1; i < candidates_.size(); ++i) {
+    const Candidate& here = candidates_[i];
+    const bool counted = smallest(here.lambda) < kInside &&
+                         std::any_of(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(kept),
+                                     [&](const Candidate& c) {
+                                       return smallest(c.lambda) < kInside && hangs_on(c.contactor, here.contactor);
+                                     });
+    if (!counted) candidates_[kept++] = Candidate(here);
+  }
+  candidates_.resize(kept);
+}
+
+void Pass::find_histories(Index point) {
+  const std::vector<TouchingCouple>& old = contact_.touching_before;
+  const GlobalId id = contact_.id(point);
+  while (old_ < old.size() && contact_.id(old[old_].point) < id) forget(old[old_++]);
+  const std::size_t first = old_;
+  while (old_ < old.size() && old[old_].point == point) ++old_;
+  if (old_ > first) take_over(first, old_);
+}
+
+/// Old histories [first, last) go to the candidates: the same contactor first, then a neighbour in the same body.
+void Pass::take_over(std::size_t first, std::size_t last) {
+  const std::vector<TouchingCouple>& old = contact_.touching_before;
+  taken_.assign(last - first, false);
+  const auto assign = [&](auto&& belongs) {
+    for (Candidate& candidate : candidates_) {
+      for (std::size_t k = first; k < last && candidate.old < 0; ++k) {
+        if (taken_[k - first] || !belongs(old[k].contactor, candidate.contactor)) continue;
+        candidate.old = static_cast<std::ptrdiff_t>(k);
+        taken_[k - first] = true;
+      }
+    }
+  };
+  assign([](Index from, Index to) { return from == to; });
+  assign([&](Index from, Index to) { return hangs_on(from, to); });
+  for (std::size_t k = first; k < last; ++k) {
+    if (!taken_[k - first]) forget(old[k]);
+  }
+}
+
+/// The overlap is gone. What the normal law had stored was given back as work, or is lost; the spring lets go. The
+/// contactor may have left all couples with a search in this step, so it is prepared here.
+/// @param lost  J, by the normal law
+void Pass::forget(const TouchingCouple& old, double lost) {
+  if (!(old.d > 0) && old.force == Vec3::Zero()) return;
+  const ContactPoint& point = point_at(old.point);
+  const Index slot = slot_of(old.contactor);
+  const PreparedTetra tetra =
+      prepare(load_corners(local_, state_.position.data(), slot), local_.volume[static_cast<std::size_t>(slot)]);
+  const bool crushed = inert(tetra);
+  std::array<double, 4> lambda{};
+  Vec3 motion = Vec3::Zero();
+  if (!crushed) {
+    lambda = barycentric(tetra, at_point(rule_, point, state_.position.data()));
+    motion = relative_motion(point, slot, lambda);
+  }
+  if (old.friction != Vec3::Zero()) {
+    const double released = released_by_friction(motion, spring_stiffness(point, old), old.spring);
+    account(point, work_.friction_dissipated).add(released);
+    lost += released;
+  }
+  // A contactor that was crushed while it was touched gives nothing back.
+  if (crushed) return account(point, work_.dissipated).add(normal_held(point, old));
+  if (overlap_value(overlap_shape(params_, local_, contact_, old.contactor), lambda) > 0) {
+    // The point has not left through the surface: a crack has opened under it, and what it held is gone.
+    const double cut_off = normal_held(point, old);
+    account(point, work_.dissipated).add(cut_off);
+    lost += cut_off;
+  }
+  TouchingCouple ended{.point = old.point, .contactor = old.contactor};
+  ended.gained = old.gained + 0.5 * old.force.dot(motion) - held(point, old) + lost;
+  end(point, old, motion, lambda, ended);
+  if (ended.force != Vec3::Zero()) contact_.touching.push_back(ended);
+}
+
+/// The couple exerts no force by its law any more. @param h  read and written: force, gained
+void Pass::end(const ContactPoint& point, const TouchingCouple& last, const Vec3& motion,
+               const std::array<double, 4>& lambda, TouchingCouple& h) {
+  h.force = closing_force(h.gained, last.force, motion, last.d > 0, stiffness(point, h));
+  h.gained += 0.5 * h.force.dot(motion);
+  distribute(point, h.contactor, lambda, h.force);
+}
+
+/// Overlap that makes no force, m, of a couple seen for the first time.
+double Pass::first_offset(Index point, const Candidate& candidate) const {
+  const ContactCouple couple{point, candidate.contactor};
+  const auto& fresh = contact_.fresh;
+  const bool is_fresh = !fresh.empty() && std::binary_search(fresh.begin(), fresh.end(), couple,
+                                                             [&](const ContactCouple& a, const ContactCouple& b) {
+                                                               return contact_.before(a, b);
+                                                             });
+  const Index slot = slot_of(candidate.contactor);
+  if (is_fresh || share_vertex(local_, point_at(point).slot, slot)) return std::max(candidate.g_before, 0.0);
+  // A point that comes through a gap between elements, an opened joint say, is deep inside at once: deeper than it
+  // moved.
+  const double moved = relative_motion(point_at(point), slot, candidate.lambda).norm();
+  return moved > 0 ? std::max(candidate.g_before - kSteepest * moved, 0.0) : 0.0;
+}
+
+}  // namespace breccia::contact_pass

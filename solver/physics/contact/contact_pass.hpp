@@ -1,0 +1,143 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "physics/contact/contact_forces.hpp"
+#include "physics/contact/contact_law.hpp"
+
+/// For contact_forces.cpp and contact_histories.cpp only.
+namespace breccia::contact_pass {
+
+/// Slope that the overlap field hardly exceeds: 1 where it is a distance.
+inline constexpr double kSteepest = 2.0;
+/// Share of its heights by which an element reaches beyond its faces for a point that was in it: joints open by less
+/// before they break.
+inline constexpr double kGap = 0.01;
+
+inline Index group_of(const LocalMesh& local, Index slot) {
+  return local.block_group[static_cast<std::size_t>(slot / kLanes)];
+}
+
+inline bool share_vertex(const LocalMesh& local, Index slot, Index other) {
+  const std::array<Index, 4>& a = local.vertex[static_cast<std::size_t>(slot)];
+  const std::array<Index, 4>& b = local.vertex[static_cast<std::size_t>(other)];
+  return std::any_of(a.begin(), a.end(), [&](Index v) { return std::find(b.begin(), b.end(), v) != b.end(); });
+}
+
+/// A contactor that holds the point at hand.
+struct Candidate {
+  Index contactor;
+  std::array<double, 4> lambda;
+  double g;                 ///< m, now
+  double g_before;          ///< m, with the field of one step ago
+  std::ptrdiff_t old = -1;  ///< index of its history among those of the last step, -1: none
+};
+
+/// Normal force with damping over the slope of the overlap, N, and what the damping takes, J.
+struct Damping {
+  double pressure, dissipated;
+};
+
+/// One call of contact_forces.
+class Pass {
+ public:
+  Pass(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt, ContactState& contact,
+       NodalForces& forces, ContactWork& work)
+      : params_(params),
+        local_(local),
+        state_(state),
+        dt_(dt),
+        contact_(contact),
+        forces_(forces),
+        work_(work),
+        rule_(face_rule(params.points_per_face)) {}
+
+  void run();
+
+ private:
+  void prepare_contactors();
+  void bridge_gaps(Index point);
+  void touch_point(Index point);
+  void drop_ambiguous();
+  void find_histories(Index point);
+  void take_over(std::size_t first, std::size_t last);
+  void forget(const TouchingCouple& old, double lost = 0);
+  void end(const ContactPoint& point, const TouchingCouple& last, const Vec3& motion,
+           const std::array<double, 4>& lambda, TouchingCouple& h);
+  [[nodiscard]] Vec3 relative_motion(const ContactPoint& point, Index slot, const std::array<double, 4>& lambda) const;
+  [[nodiscard]] double first_offset(Index point, const Candidate& candidate) const;
+  [[nodiscard]] static double follow(const ContactLaw& law, double scale, double length, const Candidate& candidate,
+                                     TouchingCouple& h);
+  void keep_step(const ContactPoint& point, Index slot, double g_old, Candidate& candidate) const;
+  void act(Index point, Candidate& candidate);
+  [[nodiscard]] double press(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
+                             const Candidate& candidate, TouchingCouple& h);
+  void balance(const ContactPoint& point, double length, const Vec3& motion, TouchingCouple& h) const;
+  [[nodiscard]] Damping damp(const ContactLaw& law, const ContactPoint& point, const Vec3& motion,
+                             const Candidate& candidate, const Vec3& gradient, double elastic) const;
+  void distribute(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda, const Vec3& force);
+
+  [[nodiscard]] const ContactPoint& point_at(Index point) const {
+    return contact_.points[static_cast<std::size_t>(point)];
+  }
+  [[nodiscard]] Index slot_of(Index contactor) const {
+    return contact_.contactors[static_cast<std::size_t>(contactor)];
+  }
+  [[nodiscard]] Index body_of(Index contactor) const {
+    return local_.slot_body[static_cast<std::size_t>(slot_of(contactor))];
+  }
+  /// Whether two contactors are of one body and share a vertex of its mesh.
+  [[nodiscard]] bool hangs_on(Index contactor, Index other) const {
+    return body_of(contactor) == body_of(other) && share_vertex(local_, slot_of(contactor), slot_of(other));
+  }
+  [[nodiscard]] double length_of(Index slot) const {
+    return contact_.body_length[static_cast<std::size_t>(local_.slot_body[static_cast<std::size_t>(slot)])];
+  }
+  [[nodiscard]] const ContactLaw& law_of(Index point, Index contactor) const {
+    return params_.law(group_of(local_, point_at(point).slot), group_of(local_, slot_of(contactor)));
+  }
+  /// N/m, of a couple along its normal; times tangential_ratio of its friction.
+  [[nodiscard]] double stiffness(const ContactPoint& point, const TouchingCouple& h) const {
+    return point.weight * law_of(h.point, h.contactor).penalty / length_of(slot_of(h.contactor));
+  }
+  [[nodiscard]] double spring_stiffness(const ContactPoint& point, const TouchingCouple& h) const {
+    return law_of(h.point, h.contactor).tangential_ratio * stiffness(point, h);
+  }
+  /// J, by the normal law of a couple.
+  [[nodiscard]] double normal_held(const ContactPoint& point, const TouchingCouple& h) const {
+    const double scale = point.weight * length_of(slot_of(h.contactor));
+    return scale * normal_law::stored(law_of(h.point, h.contactor), h.d, h.d_max);
+  }
+  [[nodiscard]] double held(const ContactPoint& point, const TouchingCouple& h) const {
+    return normal_held(point, h) + 0.5 * spring_stiffness(point, h) * h.spring.squaredNorm();
+  }
+  [[nodiscard]] const PreparedTetra& prepared(Index contactor) const {
+    return contact_.prepared[static_cast<std::size_t>(contact_.place[static_cast<std::size_t>(contactor)])];
+  }
+  /// Where the work at a point is accounted: couples are computed wherever one side is at home, and accounted with
+  /// their points.
+  [[nodiscard]] ExactSum& account(const ContactPoint& point, ExactSum& sum) {
+    return local_.is_original(point.slot) ? sum : ignored_;
+  }
+  /// Adds the contactor to the candidates if its overlap is positive now or was so before the field moved.
+  void consider(Index contactor, const std::array<double, 4>& lambda);
+
+  const ContactParams& params_;
+  const LocalMesh& local_;
+  const NodalState& state_;
+  double dt_;
+  ContactState& contact_;
+  NodalForces& forces_;
+  ContactWork& work_;
+  const FaceRule& rule_;
+  std::vector<Candidate> candidates_;  ///< of the point at hand, ascending
+  std::vector<Candidate> beside_;      ///< the same of contactors that it lies just outside of
+  std::vector<bool> taken_;            ///< old histories of the point at hand that live on
+  std::size_t old_ = 0;                ///< first old history not yet looked at
+  ExactSum ignored_;                   ///< what other ranks account
+};
+
+}  // namespace breccia::contact_pass
