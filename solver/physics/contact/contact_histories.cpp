@@ -106,12 +106,9 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   }
   // A contactor that was crushed while it was touched gives nothing back.
   if (crushed) return account(point, work_.dissipated).add(normal_held(point, old));
-  if (overlap_value(overlap_shape(params_, local_, contact_, old.contactor), lambda) > 0) {
-    // The point has not left through the surface: a crack has opened under it, and what it held is gone.
-    const double cut_off = normal_held(point, old);
-    account(point, work_.dissipated).add(cut_off);
-    lost += cut_off;
-  }
+  // A point that has not left through the surface: a crack has opened under it, and what the couple held is gone.
+  if (overlap_value(overlap_shape(params_, local_, contact_, old.contactor), lambda) > 0)
+    return account(point, work_.dissipated).add(normal_held(point, old));
   TouchingCouple ended{.point = old.point, .contactor = old.contactor};
   ended.gained = old.gained + 0.5 * old.force.dot(motion) - held(point, old) + lost;
   end(point, old, motion, lambda, ended);
