@@ -85,18 +85,19 @@ int report(bool prints, const std::string& what, ExitCode exit_code) {
   return code(exit_code);
 }
 
-/// What was to be printed is lost: the disk behind standard output is full, say, or who reads it has gone, which needs
-/// no words. @param error  errno, 0 where it is not known
-int lost_words(int error) {
+/// Standard output cannot be written: its disk is full, say. A pipe that nobody reads any more is no error to report.
+/// @param error  errno, 0 where it is not known
+int lost_output(int error) {
   if (error == EPIPE) return exit_code_of(SIGPIPE);
   return report(true, output_error("standard output", "cannot be written", error).what(), ExitCode::input);
 }
 
-/// Whether the words of a command that prints its result have left this process. A run's results stand in its folder.
-int with_words_told(int done) {
+/// Writes out what a command has printed, which is its result, unlike that of a run.
+/// @return  `done`, or the exit code where that fails
+int with_output_written(int done) {
   errno = 0;
-  const bool told = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-  return told || done != 0 ? done : lost_words(errno);
+  const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  return written || done != 0 ? done : lost_output(errno);
 }
 
 /// Errors of the first three kinds are agreed upon: all ranks have the same one and one of them tells it. Others are of
@@ -107,7 +108,7 @@ int guarded(const CLI::App& app, Arguments& arguments, MpiSession& session, int 
   try {
     check_environment();
     int done = dispatch(app, arguments, session.world(), argc, argv);
-    if (!app.got_subcommand("run") && !app.got_subcommand("resume")) done = with_words_told(done);
+    if (!app.got_subcommand("run") && !app.got_subcommand("resume")) done = with_output_written(done);
     return interruption != 0 && done == 0 ? exit_code_of(interruption) : done;
   } catch (const InputError& error) {
     const int refused = report(root, error.what(), ExitCode::input);
@@ -120,7 +121,7 @@ int guarded(const CLI::App& app, Arguments& arguments, MpiSession& session, int 
     ended = report(true, error.what(), ExitCode::input);
   } catch (const std::system_error& error) {
     ended =
-        std::ferror(stdout) != 0 ? lost_words(error.code().value()) : report(true, error.what(), ExitCode::internal);
+        std::ferror(stdout) != 0 ? lost_output(error.code().value()) : report(true, error.what(), ExitCode::internal);
   } catch (const std::exception& error) {
     ended = report(true, error.what(), ExitCode::internal);
   }
@@ -144,7 +145,7 @@ int main(int argc, char** argv) {
     const bool root = session.world().is_root();
     if (error.get_exit_code() != 0) return report(root, usage_problem(app, error), ExitCode::usage);
     if (root) app.exit(error);  // the help, or the version
-    return with_words_told(code(ExitCode::success));
+    return with_output_written(code(ExitCode::success));
   }
   const auto asked_for = [&](const char* command) { return app.got_subcommand(command); };
   const bool in_order = asked_for("run") || asked_for("resume") || asked_for("race");  // the others lose nothing

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <span>
 #include <utility>
 
+#include "base/disjoint_sets.hpp"
 #include "mesh/topology.hpp"
 #include "observe/free_faces.hpp"
 #include "observe/shown_memory.hpp"
@@ -72,42 +72,33 @@ std::vector<double> numbers_of(const Domain& domain, const std::vector<ShownNumb
   return numbers;
 }
 
-/// The corners at one vertex, by ascending element, in parts that hang together.
+/// The corners at one vertex, by ascending element, in connected parts.
 class Star {
  public:
-  explicit Star(std::span<const Corner* const> corners) : corners_(corners), parent_(corners.size()) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  explicit Star(std::span<const Corner* const> corners) : corners_(corners), parts_(corners.size()) {
     for (std::size_t i = 0; i < corners_.size(); ++i) {
-      for (const GlobalId other : corners_[i]->held) join_element(i, other);
-      if (corners_[i]->node >= kFirstSharedNode) join_node(i);
+      for (const GlobalId other : corners_[i]->held) join_element(static_cast<Index>(i), other);
+      if (corners_[i]->node >= kFirstSharedNode) join_node(static_cast<Index>(i));
     }
   }
   /// The lowest of the corner's part.
-  [[nodiscard]] std::size_t root(std::size_t i) const {
-    while (parent_[i] != i) i = parent_[i];
-    return i;
-  }
+  [[nodiscard]] std::size_t root(std::size_t i) { return at(parts_.root(static_cast<Index>(i))); }
 
  private:
-  void join(std::size_t i, std::size_t j) {
-    i = root(i);
-    j = root(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-  void join_element(std::size_t i, GlobalId element) {
+  void join_element(Index i, GlobalId element) {
     const auto found = std::lower_bound(corners_.begin(), corners_.end(), element,
                                         [](const Corner* corner, GlobalId id) { return corner->element < id; });
     if (found != corners_.end() && (*found)->element == element)
-      join(i, static_cast<std::size_t>(found - corners_.begin()));
+      parts_.join(i, static_cast<Index>(found - corners_.begin()));
   }
-  void join_node(std::size_t i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (corners_[j]->node == corners_[i]->node) return join(i, j);
+  void join_node(Index i) {
+    for (Index j = 0; j < i; ++j) {
+      if (corners_[at(j)]->node == corners_[at(i)]->node) return parts_.join(i, j);
     }
   }
 
   std::span<const Corner* const> corners_;
-  std::vector<std::size_t> parent_;
+  DisjointSets parts_;
 };
 
 /// Calls visit(part) for every part of every star, corners by ascending element.
@@ -122,7 +113,7 @@ void for_each_part(const std::vector<Corner>& corners, Visit&& visit) {
   for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
     while (end < sorted.size() && sorted[end]->vertex == sorted[begin]->vertex) ++end;
     const std::span star = std::span(sorted).subspan(begin, end - begin);
-    const Star parts{star};
+    Star parts{star};
     for (std::size_t root = 0; root < star.size(); ++root) {
       if (parts.root(root) != root) continue;
       part.clear();
@@ -148,10 +139,11 @@ void take_mean(const std::vector<const Corner*>& part, Row&& row, std::span<doub
   for (std::size_t k = 0; k < mean.size(); ++k) mean[k] = first[k] + mean[k] / mass;
 }
 
-/// Corners whose part goes on beyond this rank: each rank has sent its own to the one whose turn the vertex is.
-class Meeting {
+/// Corners whose part goes on beyond this rank. Vertices are distributed over the ranks by their ids; each rank sends
+/// its corners to those of their vertices, which return the means.
+class SharedParts {
  public:
-  Meeting(const Communicator& communicator, std::size_t width)
+  SharedParts(const Communicator& communicator, std::size_t width)
       : communicator_(communicator), width_(width), corners_(at(communicator.size())), rows_(corners_.size()) {
     for (std::size_t rank = 0; rank < corners_.size(); ++rank)
       corners_[rank].rank = rows_[rank].rank = static_cast<int>(rank);
@@ -171,7 +163,7 @@ class Meeting {
   }
 
  private:
-  /// Of the vertices whose turn is here, for those who have sent them.
+  /// Of the vertices of this rank, for those who have sent corners.
   [[nodiscard]] std::vector<Communicator::ListOf<double>> means_here() const {
     const auto came = communicator_.exchange(corners_);
     auto rows = communicator_.exchange(rows_);
@@ -209,20 +201,20 @@ std::vector<double> means_of(const Domain& domain, const std::vector<double>& nu
   const std::vector<Corner> corners = corners_of(domain);
   const auto row = [&](const Corner& corner) { return &numbers[static_cast<std::size_t>(corner.place) / 4 * width]; };
   std::vector<double> means(4 * numbers.size()), mean(width);
-  Meeting meeting(domain.exchange.communicator(), width);
+  SharedParts shared(domain.exchange.communicator(), width);
   for_each_part(corners, [&](const std::vector<const Corner*>& part) {
     const bool open = std::any_of(part.begin(), part.end(), [](const Corner* corner) { return corner->place < 0; });
     if (!open) take_mean(part, row, mean);
     for (const Corner* corner : part) {
       if (corner->place < 0) continue;
       if (open) {
-        meeting.add(*corner, row(*corner));
+        shared.add(*corner, row(*corner));
       } else {
         std::copy(mean.begin(), mean.end(), &means[static_cast<std::size_t>(corner->place) * width]);
       }
     }
   });
-  if (domain.exchange.communicator().size() > 1) meeting.take_means(means);
+  if (domain.exchange.communicator().size() > 1) shared.take_means(means);
   return means;
 }
 

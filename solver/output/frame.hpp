@@ -27,7 +27,7 @@ struct Frame {
 
   /// Values at the corners, in the order of the points, where they are asked for: displacement (m) and velocity (m/s)
   /// of the element's own nodes; stress (Pa), what follows from it, and memory as means over the elements around the
-  /// corner that still hang together there, weighted by their mass.
+  /// corner that are still connected there, weighted by their mass.
   struct AtPoints {
     std::vector<double> displacement, velocity;  ///< (num_points, 3)
     std::vector<double> stress;                  ///< (num_points, 6)

@@ -15,6 +15,16 @@ namespace breccia {
 /// Arrays that are computed with, not only looked at: files keep them in 64 bits.
 inline bool kept_in_64_bits(std::string_view name) { return name == "mass"; }
 
+/// Stress and motion, of cells and of points.
+template <class Values, class Visit>
+void for_each_stress_and_motion(const Values& v, Visit&& visit) {
+  visit("stress", v.stress, 6);
+  visit("von_mises", v.von_mises, 1);
+  visit("principal", v.principal, 3);
+  visit("velocity", v.velocity, 3);
+  visit("displacement", v.displacement, 3);
+}
+
 /// What elements and free faces have in common.
 template <class Visit>
 void for_each_cell_array(const Frame::Elements& e, Visit&& visit) {
@@ -23,11 +33,7 @@ void for_each_cell_array(const Frame::Elements& e, Visit&& visit) {
   visit("material", e.material, 1);
   visit("rank", e.rank, 1);
   visit("fragment", e.fragment, 1);
-  visit("stress", e.stress, 6);
-  visit("von_mises", e.von_mises, 1);
-  visit("principal", e.principal, 3);
-  visit("velocity", e.velocity, 3);
-  visit("displacement", e.displacement, 3);
+  for_each_stress_and_motion(e, visit);
   visit("cost", e.cost, 1);
   for (const Frame::StateField& field : e.state) visit(field.name, field.values, field.components);
 }
@@ -35,11 +41,7 @@ void for_each_cell_array(const Frame::Elements& e, Visit&& visit) {
 /// Values at points.
 template <class Visit>
 void for_each_array(const Frame::AtPoints& p, Visit&& visit) {
-  visit("displacement", p.displacement, 3);
-  visit("velocity", p.velocity, 3);
-  visit("stress", p.stress, 6);
-  visit("von_mises", p.von_mises, 1);
-  visit("principal", p.principal, 3);
+  for_each_stress_and_motion(p, visit);
   for (const Frame::StateField& field : p.state) visit(field.name, field.values, field.components);
 }
 

@@ -23,9 +23,11 @@ tidy() {
   local file=$1 mark=$clean/${1//\//_} said
   [[ -e $mark && -z $(find "$file" .clang-tidy solver \( -path "$file" -o -name '*.hpp' -o -name .clang-tidy \) -newer "$mark" -print -quit) ]] && return 0
   # Words of g++ that clang does not know are none of the source's faults.
-  said=$(clang-tidy -p "$build" --quiet --extra-arg=-Wno-unknown-warning-option "$file" 2>/dev/null) || true
-  if [[ -z $said ]]; then touch "$mark"; return 0; fi
-  echo "$said"
+  if said=$(clang-tidy -p "$build" --quiet --extra-arg=-Wno-unknown-warning-option "$file" 2>/dev/null) && [[ -z $said ]]; then
+    touch "$mark"
+    return 0
+  fi
+  echo "${said:-$file: clang-tidy failed on it}"
   return 1
 }
 export -f tidy

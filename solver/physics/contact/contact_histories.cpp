@@ -8,8 +8,8 @@
 /// Which couple of this step goes on from which of the last one, and what is left of those that do not.
 namespace breccia::contact_pass {
 
-/// A point that pressed on an element stays with it while joints open under the point and it is in no other element
-/// that the first one hangs on: the force would be gone in a step, and what it holds with it.
+/// A point that pressed on an element and is now in a joint that opens beside it, in none of its neighbours, keeps its
+/// couple: the force would end within a step, and with it the energy that the couple holds.
 void Pass::bridge_gaps(Index point) {
   const std::vector<TouchingCouple>& old = contact_.touching_before;
   const GlobalId id = contact_.id(point);
@@ -21,7 +21,7 @@ void Pass::bridge_gaps(Index point) {
                                    [&](const Candidate& c) { return c.contactor == old[k].contactor; });
     if (here == beside_.end() || !(old[k].d > 0)) continue;
     const bool goes_on = std::any_of(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(inside_one),
-                                     [&](const Candidate& c) { return hangs_on(c.contactor, here->contactor); });
+                                     [&](const Candidate& c) { return are_neighbours(c.contactor, here->contactor); });
     if (!goes_on) consider(here->contactor, here->lambda);
   }
   std::sort(candidates_.begin(), candidates_.end(),
@@ -44,11 +44,12 @@ void Pass::drop_ambiguous() {
   std::size_t kept = 1;
   for (std::size_t i = 1; i < candidates_.size(); ++i) {
     const Candidate& here = candidates_[i];
-    const bool counted = smallest(here.lambda) < kInside &&
-                         std::any_of(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(kept),
-                                     [&](const Candidate& c) {
-                                       return smallest(c.lambda) < kInside && hangs_on(c.contactor, here.contactor);
-                                     });
+    const bool counted =
+        smallest(here.lambda) < kInside &&
+        std::any_of(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(kept),
+                    [&](const Candidate& c) {
+                      return smallest(c.lambda) < kInside && are_neighbours(c.contactor, here.contactor);
+                    });
     if (!counted) candidates_[kept++] = Candidate(here);
   }
   candidates_.resize(kept);
@@ -77,7 +78,7 @@ void Pass::take_over(std::size_t first, std::size_t last) {
     }
   };
   assign([](Index from, Index to) { return from == to; });
-  assign([&](Index from, Index to) { return hangs_on(from, to); });
+  assign([&](Index from, Index to) { return are_neighbours(from, to); });
   for (std::size_t k = first; k < last; ++k) {
     if (!taken_[k - first]) forget(old[k]);
   }

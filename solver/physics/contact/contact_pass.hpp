@@ -13,8 +13,8 @@ namespace breccia::contact_pass {
 
 /// Slope that the overlap field hardly exceeds: 1 where it is a distance.
 inline constexpr double kSteepest = 2.0;
-/// Share of its heights by which an element reaches beyond its faces for a point that was in it: joints open by less
-/// before they break.
+/// Share of its heights by which an element reaches beyond its faces for a point that was in it. Joints break before
+/// they open so far: critical opening over height is 0.1 % in meshes/glass_impact, 0.4 % in block_wall, 0.8 % in disc.
 inline constexpr double kGap = 0.01;
 
 inline Index group_of(const LocalMesh& local, Index slot) {
@@ -90,7 +90,7 @@ class Pass {
     return local_.slot_body[static_cast<std::size_t>(slot_of(contactor))];
   }
   /// Whether two contactors are of one body and share a vertex of its mesh.
-  [[nodiscard]] bool hangs_on(Index contactor, Index other) const {
+  [[nodiscard]] bool are_neighbours(Index contactor, Index other) const {
     return body_of(contactor) == body_of(other) && share_vertex(local_, slot_of(contactor), slot_of(other));
   }
   [[nodiscard]] double length_of(Index slot) const {

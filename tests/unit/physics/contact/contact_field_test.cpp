@@ -86,8 +86,9 @@ void sink_field(test::Scene& scene, Index steps) {
   scene.params.ramp_steps = steps;
   for (const TouchingCouple& touching : scene.contact.touching) {
     FieldValues& field = scene.contact.field[at(touching.contactor)];
-    const auto kept = static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(std::bit_width(
-        static_cast<unsigned>(field.sets)) - 1)));  // a corner on the surface: its depth counts for nothing yet
+    const auto kept = static_cast<std::size_t>(
+        std::countr_zero(static_cast<unsigned>(std::bit_width(static_cast<unsigned>(field.sets)) -
+                                               1)));  // a corner on the surface: its depth counts for nothing yet
     field.depth[kept] = kLeft;
     free_corners(scene.params, touching.contactor, 15U ^ 1U << kept, scene.contact);
   }
@@ -161,6 +162,37 @@ TEST(couples_of_fracture, start_without_force_and_never_pull) {
   EXPECT_EQ(put(0.85), 0) << "drawn out: no pull";
   EXPECT_LT(scene.contact.touching.at(0).offset, offset) << "the offset follows the retreat";
   EXPECT_GT(put(1.0), pressed) << "and the force grows from there";
+}
+
+TEST(couples_of_fracture, outlast_a_joint_that_opens_beside_their_element_and_are_cut_off_farther_out) {
+  Pressed pressed({kPenalty, kInfinite, 1, 0, 1});
+  test::Scene& scene = pressed.scene;
+  scene.evaluate(1e-3);
+  ASSERT_EQ(scene.contact.touching.size(), 1u);
+  // The neighbours are out of reach, as if they had moved away.
+  const Index slot = scene.contact.contactors[at(scene.contact.touching[0].contactor)];
+  scene.couple([&](Index s) { return scene.body(s) == 1; }, [&](Index s) { return s == slot; });
+  const auto corners = load_corners(scene.local, scene.state.position.data(), slot);
+  const auto lambda = barycentric(
+      prepare(corners, scene.local.volume[at(slot)]),
+      at_point(face_rule(1), scene.contact.points[at(scene.contact.touching[0].point)], scene.state.position.data()));
+  // From one corner on the surface to another one: at the same depth through the face opposite to the first.
+  std::array<std::size_t, 2> on_surface{};
+  for (std::size_t a = 0, found = 0; a < 4 && found < 2; ++a) {
+    if (corners[a][2] > 3 - kRoundOff) on_surface[found++] = a;
+  }
+  const Vec3 way = corners[on_surface[1]] - corners[on_surface[0]];
+  const double force = scene.force_on(1)[2], stored = scene.work.stored.value();
+  ASSERT_GT(force, 0);
+  scene.shift(1, (lambda[on_surface[0]] + 0.005) * way);
+  scene.evaluate(1e-3);
+  EXPECT_NEAR(scene.force_on(1)[2], force, 1e-9 * force);
+  EXPECT_EQ(scene.work.dissipated.value(), 0);
+  scene.shift(1, 0.015 * way);
+  scene.evaluate(1e-3);
+  EXPECT_EQ(scene.force_on(1), Vec3(0, 0, 0));
+  EXPECT_EQ(scene.work.stored.value(), 0);
+  EXPECT_NEAR(scene.work.dissipated.value(), stored, 1e-9 * stored);
 }
 
 TEST(couples_of_fracture, are_fresh_for_one_evaluation_only) {

@@ -15,18 +15,19 @@ constexpr double kRoundOff = 1e-13;
 const ContactLaw kLaw{1e6, std::numeric_limits<double>::infinity(), 1, 0, 1};
 
 /// Overlap of a place with a whole body, by going through all its elements; -1 outside.
-double overlap_at(const test::Scene& scene, const Vec3& x) {
+Overlap overlap_of(const test::Scene& scene, const Vec3& x) {
   for (std::size_t c = 0; c < scene.contact.contactors.size(); ++c) {
     const Index slot = scene.contact.contactors[c];
     const PreparedTetra tetra =
         prepare(load_corners(scene.local, scene.state.position.data(), slot), scene.local.volume[at(slot)]);
     const auto lambda = barycentric(tetra, x);
     if (!inside(lambda)) continue;
-    const double length = scene.contact.body_length[at(scene.body(slot))];
-    return overlap_value(overlap_shape(scene.params, scene.local, slot, scene.contact.field[c], length), lambda);
+    return overlap(overlap_shape(scene.params, scene.local, scene.contact, static_cast<Index>(c)), tetra, lambda);
   }
-  return -1;
+  return {-1, Vec3::Zero()};
 }
+
+double overlap_at(const test::Scene& scene, const Vec3& x) { return overlap_of(scene, x).g; }
 
 TEST(overlap, of_a_lone_tetrahedron_is_four_times_the_smallest_barycentric_coordinate) {
   const test::Scene body(test::lone(test::regular_tetra(2.0)), kLaw);
@@ -71,17 +72,7 @@ TEST(overlap, of_a_body_is_the_depth_under_a_flat_face) {
 }
 
 /// Direction in which a place in a body is pushed; 0 outside.
-Vec3 push_at(const test::Scene& scene, const Vec3& x) {
-  for (std::size_t c = 0; c < scene.contact.contactors.size(); ++c) {
-    const Index slot = scene.contact.contactors[c];
-    const PreparedTetra tetra =
-        prepare(load_corners(scene.local, scene.state.position.data(), slot), scene.local.volume[at(slot)]);
-    const auto lambda = barycentric(tetra, x);
-    if (!inside(lambda)) continue;
-    return -overlap(overlap_shape(scene.params, scene.local, slot, scene.contact.field[c], 1), tetra, lambda).gradient;
-  }
-  return Vec3::Zero();
-}
+Vec3 push_at(const test::Scene& scene, const Vec3& x) { return -overlap_of(scene, x).gradient; }
 
 TEST(overlap, of_a_wall_one_element_thick_is_the_distance_to_the_nearer_side_and_pushes_straight) {
   constexpr int kBricks = 6;
