@@ -180,6 +180,17 @@ TEST(MaxSteps, is_the_number_of_steps_after_which_a_run_stops) {
   }
 }
 
+TEST(History, ends_with_the_last_step_of_a_run_whatever_its_interval) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", kSmallCase);
+  for (const std::string end : {"", " --set time.max_steps=7"}) {
+    const FinishedRun run(file + " --set output.history_interval=1" + end);
+    ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+    // A line is of the beginning of its step.
+    EXPECT_EQ(run.history.at("step"), std::vector<double>({0, run.summary.at("steps").get<double>() - 1})) << end;
+  }
+}
+
 TEST(MaxSteps, gives_the_last_line_also_where_the_model_would_be_divided_anew_then) {
   const Scratch scratch;
   const std::string settings = scratch.write("case.toml", kSmallCase) +
