@@ -4,6 +4,7 @@
 #include <chrono>
 #include <ctime>
 #include <filesystem>
+#include <iostream>
 #include <system_error>
 
 #include "base/error.hpp"
@@ -42,7 +43,7 @@ int report_command(const ReportCommand& asked) {
     figures = report::draw_run(asked.run, run.up, std::chrono::seconds(asked.time_limit));
   const std::string made = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   write_file_atomically(file, report::page_of(run, figures, made));
-  if (!asked.no_pictures && !figures.missing.empty()) fmt::print(stderr, "breccia: {}\n", figures.missing);
+  if (!asked.no_pictures && !figures.missing.empty()) std::cerr << "breccia: " << figures.missing << '\n';
   fmt::print("report in {}\n", file.string());
   return 0;
 }
