@@ -106,7 +106,7 @@ int guarded(const CLI::App& app, Arguments& arguments, MpiSession& session, int 
   const bool root = session.world().is_root();
   int ended = 0;
   try {
-    check_environment();
+    session.world().agree([] { check_environment(); });  // it need not be the same everywhere
     int done = dispatch(app, arguments, session.world(), argc, argv);
     if (!app.got_subcommand("run") && !app.got_subcommand("resume")) done = with_output_written(done);
     return interruption != 0 && done == 0 ? exit_code_of(interruption) : done;

@@ -1,6 +1,8 @@
 #include "commands/commands.hpp"
 
 #include <fmt/core.h>
+#include <filesystem>
+#include <system_error>
 
 #include "base/geometry_file.hpp"
 #include "commands/check_report.hpp"
@@ -11,6 +13,7 @@
 #include "observe/fragment_labels.hpp"
 #include "observe/frames.hpp"
 #include "output/atomic_file.hpp"
+#include "output/run_folder.hpp"
 #include "output/vtkhdf_sink.hpp"
 
 namespace breccia {
@@ -24,6 +27,16 @@ case_::Case case_of_geometry(const MeshCommand& asked) {
   case_::Case input;
   input.mesh.file = asked.case_file;
   return input;
+}
+
+/// The index of a mesh would take the place of that of the frames.
+void refuse_frames_of_run(const std::filesystem::path& folder) {
+  std::error_code error;
+  const std::filesystem::path place = std::filesystem::canonical(folder, error);
+  if (error) return;  // a new one
+  const RunFolder run{place.parent_path()};
+  if (std::filesystem::exists(run.provenance(), error) && place == run.frames())
+    throw OutputError(Problem{folder.string(), 0, "", "these are the frames of a run", "another folder (-o)", ""});
 }
 
 int mesh(const MeshCommand& asked) {
@@ -43,6 +56,7 @@ int mesh(const MeshCommand& asked) {
     told(build_mesh(input));
     return 0;
   }
+  refuse_frames_of_run(asked.folder);
   const Model model = build_model(input);
   create_folder(asked.folder);
   const Domain rest(model, search_params(input, model));

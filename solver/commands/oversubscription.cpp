@@ -2,8 +2,8 @@
 
 #include <unistd.h>
 
-#include <fmt/core.h>
 #include <cstdint>
+#include <iostream>
 #include <span>
 #include <string>
 #include <thread>
@@ -20,8 +20,8 @@ void warn_of_oversubscription(const Communicator& world) {
     here += std::string(other.begin(), other.end()) == host;
   const auto cores = static_cast<std::int64_t>(std::thread::hardware_concurrency());
   if (!world.is_root() || world.size() == 1 || here <= cores) return;
-  fmt::print(stderr, "breccia: warning: {} ranks share the {} cores of {}; more ranks than cores make a run slower\n",
-             here, cores, host);
+  std::cerr << "breccia: warning: " << here << " ranks share the " << cores << " cores of " << host
+            << "; more ranks than cores make a run slower\n";
 }
 
 }  // namespace breccia

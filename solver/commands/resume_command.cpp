@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <iostream>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -66,7 +67,7 @@ std::pair<Checkpoint, fs::path> latest_sound(const std::vector<fs::path>& files,
       world.agree([&] { demand_possible(file, checkpoint.whole_model, checkpoint.mine); });
       return {std::move(checkpoint), file};
     } catch (const InputError& error) {  // the same on all ranks
-      if (world.is_root() && files.size() > 1) fmt::print(stderr, "breccia: warning: {}\n", error.what());
+      if (world.is_root() && files.size() > 1) std::cerr << "breccia: warning: " << error.what() << '\n';
       for (const Problem& problem : error.problems()) problems.push_back(problem);
     }
   }

@@ -1,7 +1,6 @@
 #include "commands/commands.hpp"
 
-#include <fmt/core.h>
-#include <cstdio>
+#include <iostream>
 #include <optional>
 #include <set>
 
@@ -27,14 +26,12 @@ namespace {
 /// A live view that leaves the machine.
 void warn_of_remote_viewer(const case_::InSitu& insitu) {
   if (!insitu.live || case_::is_loopback(case_::host_and_port(insitu.live->address)->first)) return;
-  fmt::print(stderr,
-             "breccia: warning: the run is offered to {}, another machine; what is sent there is neither encrypted nor "
-             "checked\n",
-             insitu.live->address);
+  std::cerr << "breccia: warning: the run is offered to " << insitu.live->address
+            << ", another machine; what is sent there is neither encrypted nor checked\n";
 }
 
 void warn_of(const Advice& advice) {
-  for (const std::string& sentence : advice) fmt::print(stderr, "breccia: warning: {}\n", sentence);
+  for (const std::string& sentence : advice) std::cerr << "breccia: warning: " << sentence << '\n';
 }
 
 /// Where the results come from, with hashes of all files that went in.
@@ -87,9 +84,9 @@ int run_command(const RunCommand& asked, const Communicator& world) {
       refuse_contradictions(input, conflicts);
       warn_of(overruled_constraints(conflicts));
       refuse_folder_of_state(root, *start);
-      if (announce) fmt::print(stderr, "breccia: starting from {}\n", words_of(*start));
+      if (announce) std::cerr << "breccia: starting from " << words_of(*start) << '\n';
     } else {
-      if (announce) fmt::print(stderr, "breccia: reading the mesh and building the model\n");
+      if (announce) std::cerr << "breccia: reading the mesh and building the model\n";
       model = std::make_unique<Model>(world.size() > 1 ? build_bare_model(input) : build_model(input));
       give_up_if_interrupted();
       refuse_initial_overlaps(input, *model);
@@ -98,7 +95,7 @@ int run_command(const RunCommand& asked, const Communicator& world) {
     }
     folder = prepare_run_folder(root, input.resolved, provenance_of(asked, input, start, world),
                                 asked.overwrite ? OldResults::overwrite : OldResults::refuse);
-    if (announce) fmt::print(stderr, "breccia: dividing the model and preparing the first step\n");
+    if (announce) std::cerr << "breccia: dividing the model and preparing the first step\n";
   });
   warn_of_oversubscription(world);
   if (world.is_root()) warn_of_remote_viewer(input.insitu);

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kFlatShare = 1e-10;  // of the longest edge cubed: a height of 1e-9 edges, below any use
 constexpr double kSmallest = 1e-50, kLargest = 1e50;  // m, of edges and coordinates: far beyond any use
+constexpr double kRoundedStrain = 1e-5;               // rounding of positions over an edge: rock breaks at 1e-4
 constexpr std::size_t kIdsNamed = 10;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -46,7 +47,7 @@ void demand_sizes(const Mesh& mesh) {
 
 /// Elements can be computed with: their sixth powers, of volumes squared, are numbers.
 void demand_computable(const Mesh& mesh) {
-  std::vector<std::int64_t> bad, beyond;
+  std::vector<std::int64_t> bad, beyond, far;
   for (Index e = 0; e < mesh.num_elements(); ++e) {
     const auto& corners = mesh.elements[at(e)];
     if (!std::all_of(corners.begin(), corners.end(), [&](Index n) { return mesh.nodes[at(n)].allFinite(); })) {
@@ -60,11 +61,20 @@ void demand_computable(const Mesh& mesh) {
       longest = std::max(longest, (x[at(a)] - x[at(b)]).cwiseAbs().maxCoeff());  // a square may vanish
     }
     const bool tiny = longest > 0 && longest < kSmallest;  // of no length at all: a flat one, told as such
-    if (largest > kLargest || tiny) beyond.push_back(mesh.element_source_id[at(e)]);
+    const double rounding = largest * std::numeric_limits<double>::epsilon();
+    if (largest > kLargest || tiny)
+      beyond.push_back(mesh.element_source_id[at(e)]);
+    else if (rounding > kRoundedStrain * longest && longest > 0)
+      far.push_back(mesh.element_source_id[at(e)]);
   }
   if (!beyond.empty()) {
     throw InputError(Problem{mesh.source, 0, "mesh", "elements of a size or place that cannot be computed with",
                              "coordinates up to 1e50 m, edges of at least 1e-50 m", "element " + list_of(beyond)});
+  }
+  if (!far.empty()) {
+    throw InputError(Problem{mesh.source, 0, "mesh", "elements so far from the origin that their strains are round-off",
+                             "a mesh moved towards the origin: coordinates up to 4.5e10 edges",
+                             "element " + list_of(far)});
   }
   if (!bad.empty()) {
     throw InputError(Problem{mesh.source, 0, "mesh", "elements with a coordinate that is not finite", "finite numbers",

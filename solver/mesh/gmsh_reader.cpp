@@ -187,8 +187,14 @@ class ModelReader {
     mesh_.nodes.reserve(tags.size());
     for (std::size_t n = 0; n < tags.size(); ++n) {
       const double* x = &coordinates[3 * n];
-      if (!node_of_tag_.emplace(tags[n], mesh_.num_nodes()).second) continue;
-      mesh_.nodes.push_back(source_.scale * Vec3(x[0], x[1], x[2]));
+      const Vec3 place = source_.scale * Vec3(x[0], x[1], x[2]);
+      const auto [entry, fresh] = node_of_tag_.emplace(tags[n], mesh_.num_nodes());
+      if (fresh) {
+        mesh_.nodes.push_back(place);
+      } else if (mesh_.nodes[static_cast<std::size_t>(entry->second)] != place && problems_.empty()) {
+        refuse("node " + std::to_string(tags[n]), "stands twice, at different places",
+               "a number of its own for each node", "");
+      }
     }
   }
 

@@ -13,6 +13,7 @@
 #include "base/error.hpp"
 #include "base/geometry_file.hpp"
 #include "mesh/geo_scan.hpp"
+#include "mesh/msh_numbers.hpp"
 
 namespace breccia {
 namespace {
@@ -108,6 +109,8 @@ void demand_readable(const GmshSource& source) {
   if (!(version >= 2.2 && version <= 4.1)) {
     refuse("the mesh format is not supported", "2.2 to 4.1", std::to_string(version).substr(0, 3));
   }
+  if (std::vector<Problem> repeated = repeated_numbers(source.file); !repeated.empty())
+    throw InputError(std::move(repeated));
 }
 
 void demand_parameters(const GmshSource& source) {

@@ -58,7 +58,7 @@ RunFolder prepare_resumed_folder(const RunFolder& run, const fs::path& root, con
                                  const std::string& resolved_case, const Provenance& provenance) {
   std::error_code error;
   if (!fs::equivalent(run.root, root, error)) {
-    RunFolder folder = prepare_run_folder(root, resolved_case, provenance, OldResults::refuse);
+    RunFolder folder = prepare_run_folder(root, resolved_case, provenance, OldResults::keep);
     copy_lines(run.history(), folder.history());
     copy_lines(run.status(), folder.status());
     copy_folder(run.frames(), folder.frames());

@@ -127,9 +127,10 @@ RunFolder prepare_run_folder(const fs::path& root, const std::string& resolved_c
   }
   folder.lock = std::make_shared<const RunLock>(root);
   const std::vector<fs::path> results = results_in(folder);
-  if (!results.empty() && old_results == OldResults::refuse) {
+  if (!results.empty() && old_results != OldResults::overwrite) {
     refuse(root, "this folder holds the results of an earlier run",
-           "another folder (-o), or -f (--overwrite) to replace them");
+           old_results == OldResults::keep ? "another folder (-o)"
+                                           : "another folder (-o), or -f (--overwrite) to replace them");
   }
   for (const fs::path& path : results) {
     std::error_code error;

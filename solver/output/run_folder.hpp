@@ -67,7 +67,8 @@ struct RunFolder {
 /// `runs/<folder of the case>`, under the present folder.
 [[nodiscard]] std::filesystem::path default_run_folder(const std::filesystem::path& case_file);
 
-enum class OldResults { refuse, overwrite };
+/// keep: refused by a command that has no option to replace them.
+enum class OldResults { refuse, keep, overwrite };
 
 /// Makes `root` ready for a run: creates it and frames/, writes case.toml and provenance.json.
 /// A folder with other things in it is refused, and so is a run with results unless old_results is overwrite: then the

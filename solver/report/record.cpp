@@ -218,7 +218,8 @@ void read_case_of(const RunFolder& run, RunRecord& record) {
   }
   record.case_text = *text;
   try {
-    const case_::Case input = case_::read_case(run.case_file());
+    const case_::Case input =
+        case_::read_case_text(*text, run.case_file(), {}, case_::MeshFile::may_be_gone);  // nothing is read from it
     record.title = input.title;
     double gravity[3]{}, velocity[3]{};
     for (const case_::Stage& stage : input.stages) {
@@ -233,8 +234,10 @@ void read_case_of(const RunFolder& run, RunRecord& record) {
       record.up = down;
     else if (fastest != 0)
       record.up = fastest;
-  } catch (const InputError&) {
-    record.flaws.emplace_back("case.toml cannot be read by this version of breccia; it is shown as it is.");
+  } catch (const InputError& error) {
+    const Problem& first = error.problems().front();
+    record.flaws.push_back("case.toml is shown as it is: " + (first.key.empty() ? "" : first.key + ": ") + first.what +
+                           (first.given.empty() ? "" : ", " + first.given) + ".");
   }
 }
 

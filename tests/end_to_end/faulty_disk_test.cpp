@@ -253,5 +253,23 @@ TEST(StandardOutput, ThatTakesNothingIsNoErrorOfARunWhoseResultsStandInItsFolder
   EXPECT_TRUE(json::parse(read_text(run + "/summary.json"), nullptr, false).is_object());
 }
 
+TEST(StandardError, ThatTakesNothingEndsNoCommand) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", kSmallCase), run = scratch.path("run").string();
+  for (const std::string& to_nobody :
+       {std::string("sh -c '\"$@\" 2> /dev/full' sh"),
+        std::string("bash -c '{ sleep "
+                    "0.2; \"$@\"; echo $? > CODE; } 2>&1 | true; exit $(cat CODE)' bash")}) {
+    std::string shell = to_nobody;
+    for (std::size_t at = 0; (at = shell.find("CODE")) != std::string::npos;)
+      shell.replace(at, 4, scratch.path("code").string());
+    const std::string short_run = "run -f --progress log " + file + " --set time.max_steps=30 -o '" + run + "'";
+    EXPECT_EQ(call(short_run, shell).exit_code, 0) << shell;
+    EXPECT_EQ(json::parse(read_text(run + "/summary.json"), nullptr, false).value("steps", 0), 30);
+    EXPECT_EQ(call("resume --progress log '" + run + "' --set time.max_steps=40", shell).exit_code, 0) << shell;
+    EXPECT_EQ(json::parse(read_text(run + "/summary.json"), nullptr, false).value("steps", 0), 40);
+  }
+}
+
 }  // namespace
 }  // namespace breccia::test

@@ -269,5 +269,18 @@ TEST(Program, mesh_reports_and_writes_the_elements) {
   EXPECT_TRUE(std::filesystem::exists(scratch.path("mesh/elements.hdf.series")));
 }
 
+TEST(Program, a_mesh_does_not_take_the_place_of_the_frames_of_a_run) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", kSmallCase), run = scratch.path("run").string();
+  ASSERT_EQ(call("run " + file + " --set time.max_steps=10 -o '" + run + "'").exit_code, 0);
+  const std::string index = read_text(run + "/frames/elements.hdf.series");
+  for (const char* frames : {"/frames", "/frames/", "/checkpoints/../frames/."}) {
+    const Outcome outcome = call("mesh " + file + " -o '" + run + frames + "'");
+    EXPECT_EQ(outcome.exit_code, 2) << frames;
+    EXPECT_NE(outcome.err.find("these are the frames of a run"), std::string::npos) << outcome.err;
+  }
+  EXPECT_EQ(read_text(run + "/frames/elements.hdf.series"), index);
+}
+
 }  // namespace
 }  // namespace breccia::test

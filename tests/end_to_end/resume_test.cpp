@@ -142,6 +142,10 @@ TEST_F(Resume, GoesOnInAnotherFolderAndLeavesTheFirstAsItIs) {
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
   expect_same_as_undisturbed("second");
   EXPECT_EQ(read_text(folder("first") / "history.csv"), before);
+  const Outcome again = resume("first", 1, "-o " + quoted("second"));
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_NE(again.err.find("holds the results of an earlier run; allowed: another folder (-o)\n"), std::string::npos)
+      << "resume has no -f: " << again.err;
 }
 
 TEST_F(Resume, StopsWhereItIsToldAndGoesOnFromThere) {

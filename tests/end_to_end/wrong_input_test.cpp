@@ -103,6 +103,17 @@ TEST(WrongInputOfRanks, is_refused_with_one_message_by_two_of_them) {
   }
 }
 
+TEST(WrongInputOfRanks, is_refused_where_the_environment_of_one_of_them_is_wrong) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", kSmallCase), run = scratch.path("run").string();
+  const std::string arguments = "run " + file + " --set domains.patience=5 -o '" + run + "'";
+  const Outcome outcome = call_ranks(
+      1, arguments + " : -n 1 env BRECCIA_SIMD=sse9 '" BRECCIA_PROGRAM "' " + arguments + " --progress none");
+  EXPECT_EQ(outcome.exit_code, kInput) << outcome.err;
+  EXPECT_NE(outcome.err.find("BRECCIA_SIMD: is no instruction set"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(run));
+}
+
 TEST(WrongInputTable, holds_at_least_150_cases) { EXPECT_GE(wrongs().size(), 150u); }
 
 }  // namespace

@@ -260,6 +260,11 @@ def refusals():
         said = report(run, "-o", f"{scratch}/{name}", "--no-pictures", ends=2)
         expect("is no regular file" in said and said.count("\n") == 1, f"said: {said}")
     expect(stat.S_ISFIFO(os.stat(f"{scratch}/pipe").st_mode) and os.path.islink(f"{scratch}/to_nothing"), "nothing is replaced")
+    for name in ("history.csv", "case.toml", "summary.json"):
+        before = open(f"{run}/{name}", "rb").read()
+        said = report(run, "-o", f"{run}/{name}", "--no-pictures", ends=2)
+        expect("this file is no page" in said and said.count("\n") == 1, f"said: {said}")
+        expect(open(f"{run}/{name}", "rb").read() == before, f"{name} is kept")
     open(f"{scratch}/page.html", "w").close()
     os.symlink("page.html", f"{scratch}/to_page")
     report(run, "-o", f"{scratch}/to_page", "--no-pictures")

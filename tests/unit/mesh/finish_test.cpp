@@ -117,6 +117,17 @@ TEST(Finish, RefusesCoordinatesAndEdgesThatCannotBeComputedWithAsSuch) {
   }
 }
 
+TEST(Finish, RefusesElementsWhoseStrainsAreRoundOffWhereTheyLie) {
+  for (const double distance : {1e9, 1e12}) {  // of edges of about 1
+    Mesh mesh = two_tetrahedra();
+    for (Vec3& x : mesh.nodes) x.y() += distance;
+    if (distance < 1e10)
+      EXPECT_EQ(refusal_of(mesh, {}), "accepted");
+    else
+      EXPECT_THAT(refusal_of(mesh, {}), HasSubstr("so far from the origin that their strains are round-off"));
+  }
+}
+
 TEST(Finish, RefusesFlatElementsWithTheFirstTenIdsAndTheCount) {
   Mesh mesh;
   mesh.source = "flat.msh";

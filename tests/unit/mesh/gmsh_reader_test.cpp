@@ -349,11 +349,43 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"ZeroVolume", msh22(kOne + "72 4 2 1 1 1 3 2 5\n", 2, "1 1 0"), "elements of zero volume"},
         BadFile{"SecondOrder", msh22("71 11 2 1 5 1 2 3 4 5 6 1 2 3 4\n", 1),
                 "volume 5: holds elements of a kind that is not supported"},
+        BadFile{
+            "ElementsOfOneNumber", msh22(kOne + kOne + "72 4 2 1 1 1 3 2 5\n", 3),
+            "mesh.file: elements share a number: gmsh would keep one of them; allowed: a number of its own for each "
+            "of the 3 elements; given: elements 71, and 2 different numbers"},
+        BadFile{
+            "NodesOfOneNumber",
+            std::string(msh22(kOne, 1, "0 0 -1\n4 0 0 2")).replace(msh22(kOne, 1).find("6\n1 0 0 0"), 1, "7"),
+            "nodes share a number: gmsh would keep one of them; allowed: a number of its own for each of the 7 nodes"},
+        BadFile{"NodesOfOneNumberInFormat4",
+                "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n2 5 1 4\n3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 "
+                "1\n3 2 0 1\n4\n0 0 2\n$EndNodes\n$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n",
+                "node 4: stands twice, at different places"},
         BadFile{"Prism", msh22("71 6 2 1 5 1 2 3 4 5 6\n", 1), "given: 1 of Prism 6"},
         BadFile{"TwoGroups", msh22(kOne + "72 4 2 2 1 1 2 3 4\n", 2),
                 "volume 1: lies in two physical volumes; allowed: one a volume; given: \"volume_1\" and \"volume_2\""},
         BadFile{"StraySurface", msh22(kOne + "80 2 2 6 3 1 2 6\n", 2), "surface group \"surface_6\": holds triangles"}),
     [](const auto& run) { return run.param.name; });
+
+template <class... Parts>
+std::string bytes(Parts... parts) {
+  return (std::string(reinterpret_cast<const char*>(&parts), sizeof parts) + ...);
+}
+
+/// A binary .msh 2.2 of two tetrahedra, the numbers of one node and one element of which can be chosen.
+std::string binary_msh22(std::int32_t last_node, std::int32_t last_element) {
+  std::string nodes;
+  for (std::int32_t n = 1; n <= 4; ++n) nodes += bytes(n, n == 2 ? 1.0 : 0.0, n == 3 ? 1.0 : 0.0, n == 4 ? 1.0 : 0.0);
+  return "$MeshFormat\n2.2 1 8\n" + bytes(1) + "\n$EndMeshFormat\n$Nodes\n5\n" + nodes +
+         bytes(last_node, 0.0, 0.0, -1.0) + "\n$EndNodes\n$Elements\n2\n" + bytes(4, 2, 2, 1, 1, 1, 1, 2, 3, 4) +
+         bytes(last_element, 1, 1, 1, 3, 2, 5) + "\n$EndElements\n";
+}
+
+TEST(GmshReader, RefusesBinaryFilesInWhichNodesOrElementsShareANumber) {
+  EXPECT_EQ(refusal_of(mesh_file(binary_msh22(5, 2))), "accepted");
+  EXPECT_THAT(refusal_of(mesh_file(binary_msh22(5, 1))), HasSubstr("given: elements 1, and 1 different numbers"));
+  EXPECT_THAT(refusal_of(mesh_file(binary_msh22(4, 2))), HasSubstr("given: nodes 4, and 4 different numbers"));
+}
 
 TEST(GmshReader, RefusesTruncatedMeshFiles) {
   const auto folder = test::scratch_folder("reader_truncated");

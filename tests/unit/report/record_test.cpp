@@ -12,10 +12,12 @@
 namespace breccia::report {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 void write(const std::filesystem::path& file, const std::string& text) { std::ofstream(file) << text; }
 
@@ -77,6 +79,38 @@ TEST(RunRecords, HoldNumbersWordsAndPhasesOfTheSummary) {
   EXPECT_EQ(run.provenance.ranks, 2);
   ASSERT_EQ(run.provenance.inputs.size(), 1U);
   EXPECT_EQ(run.provenance.inputs[0].sha256, "00ff");
+}
+
+const std::string kCase = R"([mesh]
+file = "moved_away.geo"
+[[material]]
+group = "*"
+young = 1e9
+poisson = 0.2
+density = 2000
+joints = "none"
+[[stage]]
+end = 1
+gravity = [0, -9.81, 0]
+)";
+
+TEST(RunRecords, OfACaseWhoseGeometryHasMovedAreWhole) {
+  const test::TemporaryFolder folder;
+  write(folder / "history.csv", kHistory);
+  write(folder / "case.toml", "title = \"T\"\n" + kCase);
+  const RunRecord run = read_run(folder.path());
+  EXPECT_EQ(run.title, "T");
+  EXPECT_EQ(run.up, 'y');
+  EXPECT_THAT(run.flaws, Not(Contains(HasSubstr("case.toml"))));
+}
+
+TEST(RunRecords, OfACaseThatCannotBeReadSayWhy) {
+  const test::TemporaryFolder folder;
+  write(folder / "history.csv", kHistory);
+  write(folder / "case.toml", kCase + "[insitu]\nrun = [\"gone.py\"]\n");
+  EXPECT_THAT(read_run(folder.path()).flaws,
+              Contains(AllOf(HasSubstr("case.toml is shown as it is: insitu.run: the script does not exist"),
+                             HasSubstr("gone.py"))));
 }
 
 TEST(RunRecords, OfOtherFoldersAreRefused) {
