@@ -62,7 +62,11 @@ TEST(Panels, AStudyIsQueuedFromATableAndEndsInOnePlotAndOneTable) {
 
   desk.begin();  // another window finds it
   desk.window->open_path(desk.scratch.filePath("case.toml"));
-  EXPECT_EQ(desk.find<QComboBox>("studies")->count(), 1);
+  auto* studies = desk.find<QComboBox>("studies");
+  EXPECT_EQ(studies->count(), 1);
+  desk.show_tab("Study");
+  QTest::qWait(100);
+  EXPECT_LE(studies->minimumSizeHint().width(), studies->width()) << studies->currentText().toStdString();
   EXPECT_EQ(desk.find<QTableWidget>("study_table")->rowCount(), 6);
 }
 
