@@ -118,6 +118,7 @@ void MainWindow::open_case(const QString& file) {
   owner_.clear();
   mesh_text_.clear();
   mesh_file_.clear();
+  groups_.clear();
   laws_ = {};
   run_panel_->set_estimate(tr("Not checked yet."));
   messages_->set_advice({});
@@ -239,13 +240,14 @@ void MainWindow::stage_selected(int stage, const QString& path) {
   }
   if (chosen.kind == Kind::run) {
     show_commands();
-    if (problems_.empty() && !queries_.busy() && run_ == nullptr) queries_.check();
+    if (problems_.empty() && run_ == nullptr) queries_.check();
     if (run_ != nullptr) show_dock("dock_plots");
   }
   show_loads();
   const bool results = run_ != nullptr && chosen.kind != Kind::sections;
   if (results == showing_results_) return;
   showing_results_ = results;
+  name_groups();
   view_->scene().mark(nullptr);
   if (animation_ != nullptr) animation_->give_up(tr("the view shows something else"));
   loader_->start_model();
