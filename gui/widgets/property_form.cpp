@@ -206,7 +206,9 @@ void PropertyForm::refresh() {
     const QString shown = shown_value(*it->key, document_.value(it.key()));
     const QSignalBlocker quiet(it->editor);
     if (auto* line = qobject_cast<QLineEdit*>(it->editor)) {
-      if (line->text() != shown) line->setText(shown);
+      if (line->text() == shown) continue;
+      line->setText(shown);
+      if (!line->hasFocus()) line->setCursorPosition(0);  // of a long one the beginning is seen
     } else if (auto* box = qobject_cast<QComboBox*>(it->editor)) {
       if (box->isEditable()) {
         box->setEditText(shown);

@@ -109,6 +109,16 @@ TEST(Forms, TextAndFormFollowEachOther) {
   EXPECT_FALSE(text->toPlainText().contains("13 GPa"));
 }
 
+TEST(Forms, OfALongValueTheBeginningIsSeen) {
+  Desk desk;
+  desk.window->open_path(written_case(desk.scratch, block_case(1, "1 ms")));
+  const QString title(200, 'x');
+  desk.window->document().set_value("title", '"' + title + '"');
+  auto* line = desk.find<QLineEdit>("field:title");
+  EXPECT_EQ(line->text(), title);
+  EXPECT_EQ(line->cursorPosition(), 0);
+}
+
 TEST(Forms, WhatIsBeingTypedIsInTheFileThatTheKeyOfSaveWrites) {
   Desk desk;
   desk.window->open_path(written_case(desk.scratch, block_case(1, "1 ms")));
