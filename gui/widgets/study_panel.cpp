@@ -9,6 +9,7 @@
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 #include <QtConcurrent>
+#include <algorithm>
 
 #include "widgets/named_button.hpp"
 
@@ -18,6 +19,9 @@ namespace {
 constexpr int kLook = 2000;  // ms
 const QString kFirstColumn = "broken joints";
 constexpr int kWidestBox = 300;  // pixels
+
+/// Gives it room for its words. Qt does not work out the least width of a box anew when words are added.
+void fit(QComboBox& box) { box.setMinimumWidth(std::min(kWidestBox, box.sizeHint().width())); }
 
 /// When a study was started, which is what tells those of one case apart.
 QString words_of_study(const QString& folder) {
@@ -178,6 +182,7 @@ void StudyPanel::set_studies(const QStringList& folders) {
     studies_->addItem(words_of_study(folder), folder);
     studies_->setItemData(studies_->count() - 1, folder, Qt::ToolTipRole);
   }
+  fit(*studies_);
   show_study(folders.isEmpty() ? QString() : folders.front());
 }
 
@@ -210,6 +215,7 @@ void StudyPanel::take_results() {
     const QString chosen = column_->count() == 0 ? kFirstColumn : column_->currentText();
     column_->clear();
     column_->addItems(columns);
+    fit(*column_);
     column_->setCurrentIndex(std::max(0, static_cast<int>(columns.indexOf(chosen))));
   }
   show_table();

@@ -67,7 +67,7 @@ TEST(Panels, AStudyIsQueuedFromATableAndEndsInOnePlotAndOneTable) {
   EXPECT_EQ(studies->count(), 1);
   desk.show_tab("Study");
   QTest::qWait(100);
-  EXPECT_LE(studies->minimumSizeHint().width(), studies->width()) << studies->currentText().toStdString();
+  EXPECT_LE(studies->sizeHint().width(), studies->width()) << studies->currentText().toStdString();
   EXPECT_EQ(desk.find<QTableWidget>("study_table")->rowCount(), 6);
 }
 
