@@ -200,7 +200,7 @@ void MainWindow::validate() {
   text_->set_problems(problems_);
   messages_->set_problems(problems_);
   run_panel_->set_problems(static_cast<int>(problems_.size()));
-  run_action_->setEnabled(problems_.empty());
+  run_action_->setEnabled(problems_.empty() && (run_ == nullptr || !run_->alive()));
   queue_action_->setEnabled(problems_.empty());
   run_action_->setText(run_words(static_cast<int>(problems_.size())));
   if (problems_.empty()) {
@@ -208,7 +208,7 @@ void MainWindow::validate() {
     conditions_->show_conditions(loads_);
     show_loads();
   }
-  // The preview follows what the mesh is made of, and the groups, which materials name.
+  // The preview follows what the mesh is made of.
   QString source;
   for (const Place& place : document_.places().all())
     if (place.path.starts_with("mesh"))

@@ -1,3 +1,4 @@
+#include <QAction>
 #include <QApplication>
 #include <QDateTime>
 #include <QDir>
@@ -172,6 +173,7 @@ void MainWindow::run_changed() {
   show_commands();
   runs_panel_->show_runs(runs_);
   run_bar_->setVisible(run_ != nullptr && run_->alive());
+  run_action_->setEnabled(problems_.empty() && (run_ == nullptr || !run_->alive()));
   if (run_ == nullptr) {
     run_words_->clear();
     return;
