@@ -45,7 +45,8 @@ QString CaseQueries::draft(const QString& what) {
   if (!document_.modified()) return document_.file();
   draft_ = QDir(document_.folder()).filePath(QString(".breccia-draft-%1.toml").arg(::getpid()));
   QSaveFile file(draft_);
-  if (file.open(QIODevice::WriteOnly) && file.write(document_.text()) >= 0 && file.commit()) return draft_;
+  const QByteArray text = document_.text();
+  if (file.open(QIODevice::WriteOnly) && file.write(text) == text.size() && file.commit()) return draft_;
   emit failed(what,
               tr("%1 cannot be written (%2): save the case into a folder of your own").arg(draft_, file.errorString()),
               {});

@@ -122,36 +122,38 @@ QueueContents RunQueue::load() const {
   return contents;
 }
 
-void RunQueue::save(const QueueContents& contents) const {
+QString RunQueue::save(const QueueContents& contents) const {
   QJsonArray rows;
   for (const QueuedRun& run : contents.runs) rows.append(json_of(run));
+  const QByteArray text =
+      QJsonDocument(QJsonObject{{"cores", contents.cores}, {"held", contents.held}, {"runs", rows}}).toJson();
   QSaveFile out(file());
-  if (!out.open(QIODevice::WriteOnly)) return;
-  out.write(QJsonDocument(QJsonObject{{"cores", contents.cores}, {"held", contents.held}, {"runs", rows}}).toJson());
-  out.commit();
+  if (out.open(QIODevice::WriteOnly) && out.write(text) == text.size() && out.commit()) return {};
+  return QObject::tr("the queue %1 cannot be written: %2").arg(out.fileName(), out.errorString());
 }
 
 template <class Change>
-void RunQueue::change(const Change& what) const {
+QString RunQueue::change(const Change& what) const {
   QDir().mkpath(folder_);
   QLockFile alone(file() + ".lock");
-  (void)alone.tryLock(kPatience);
+  if (!alone.tryLock(kPatience)) return QObject::tr("the queue %1 cannot be locked").arg(file());
   QueueContents contents = load();
   const std::vector<QueuedRun> before = contents.runs;
   what(contents);
-  save(contents);
-  remove_snapshots(before, contents.runs);
+  QString error = save(contents);
+  if (error.isEmpty()) remove_snapshots(before, contents.runs);
+  return error;
 }
 
 QString RunQueue::add(const Launch& launch, const std::vector<RunWish>& wishes) const {
   QString error;
-  change([&](QueueContents& contents) {
+  const QString unsaved = change([&](QueueContents& contents) {
     std::vector<QueuedRun> more;
     for (const RunWish& wish : wishes)
       if (error.isEmpty()) more.push_back(queued(launch, wish, &error));
     if (error.isEmpty()) contents.runs.insert(contents.runs.end(), more.begin(), more.end());
   });
-  return error;
+  return error.isEmpty() ? unsaved : error;
 }
 
 void RunQueue::remove(const QString& folder) const {
@@ -211,13 +213,15 @@ bool RunQueue::advance(const RunRegistry& registry) const {
   const bool wanted = first != seen.runs.end() && !seen.held;
   int used = wanted ? cores_in_use(registry) : 0;
   const auto fits = [&](const QueuedRun& r) { return used == 0 || used + r.record.ranks <= seen.cores; };
-  bool busy = false;
+  bool busy = false, writable = true;
   const auto look = [&](QueueContents& contents) {
     for (QueuedRun& run : contents.runs)
       if (ended(run)) note_end(run);
     for (QueuedRun& run : contents.runs) {
       if (!run.waits() || contents.held) continue;
       if (!fits(run)) break;  // later ones do not overtake it
+      writable = save(contents).isEmpty();
+      if (!writable) return;
       QString error;
       if (SolverRun::launch(run.record, QFileInfo(run.record.case_file).absolutePath(), &error)) {
         run.state = "running";
@@ -232,8 +236,7 @@ bool RunQueue::advance(const RunRegistry& registry) const {
   };
   if (!news && !(wanted && fits(*first)))
     return wanted || std::any_of(seen.runs.begin(), seen.runs.end(), [](const QueuedRun& r) { return r.runs(); });
-  change(look);
-  return busy;
+  return change(look).isEmpty() && writable && busy;
 }
 
 int work_queue(const QString& state_folder) {

@@ -56,7 +56,8 @@ class RunQueue {
   /// One look: notes what has ended and starts, in their order, the runs for which cores are free; the first one starts
   /// alone where it wants more than all. A run that cannot be started or fails does not hold up the others.
   /// @param registry  gets those that were started
-  /// @return whether anything runs, or will without a change from outside
+  /// @return whether anything runs, or will without a change from outside; false where the file cannot be written, and
+  ///         then nothing is started, since the next look would start it again
   bool advance(const RunRegistry& registry) const;
 
   /// A worker is at it.
@@ -67,9 +68,10 @@ class RunQueue {
   [[nodiscard]] QByteArray mark() const;
 
  private:
+  /// Returns what went wrong, empty: nothing.
   template <class Change>
-  void change(const Change& what) const;
-  void save(const QueueContents& contents) const;
+  QString change(const Change& what) const;
+  [[nodiscard]] QString save(const QueueContents& contents) const;
   [[nodiscard]] QString file() const;
   [[nodiscard]] QString worker_lock() const;
   friend int work_queue(const QString& state_folder);

@@ -175,7 +175,8 @@ QString save_study(const Study& study) {
   QDir().mkpath(study.folder);
   QSaveFile file(QDir(study.folder).filePath("study.json"));
   const QJsonObject json{{"case", study.case_file}, {"ranks", study.ranks}, {"parameters", parameters}, {"runs", runs}};
-  if (!file.open(QIODevice::WriteOnly) || file.write(QJsonDocument(json).toJson()) < 0 || !file.commit())
+  const QByteArray text = QJsonDocument(json).toJson();
+  if (!file.open(QIODevice::WriteOnly) || file.write(text) != text.size() || !file.commit())
     return QObject::tr("%1 cannot be written: %2").arg(file.fileName(), file.errorString());
   return {};
 }

@@ -25,6 +25,7 @@ class ClassLegend : public vtkActor2D {
     std::string name;
   };
   void set_classes(const std::string& title, const std::vector<Class>& classes);
+  [[nodiscard]] const std::vector<Class>& classes() const { return classes_; }
   /// Where the upper edge is, or the lower one, as a share of the view.
   void set_top(double share) { top_ = share, hangs_ = true; }
   void set_bottom(double share) { top_ = share, hangs_ = false; }

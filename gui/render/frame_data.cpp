@@ -3,6 +3,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkDataArraySelection.h>
 #include <vtkHDFReader.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
@@ -29,6 +30,9 @@ Point at(vtkUnstructuredGrid& grid, vtkIdType point) {
   grid.GetPoint(point, p.data());
   return p;
 }
+
+/// Arrays of elements that nothing here is drawn or counted by: a third of what would be read.
+constexpr std::array<const char*, 4> kNotDrawn{"neighbour", "stress", "mass", "cost"};
 
 /// A place to begin at in a table of a power of two.
 std::size_t hashed(std::uint64_t key, std::size_t mask) {
@@ -122,6 +126,8 @@ vtkSmartPointer<vtkUnstructuredGrid> read_vtkhdf(const std::string& file) {
   vtkNew<vtkHDFReader> reader;
   if (reader->CanReadFile(file.c_str()) == 0) return nullptr;
   reader->SetFileName(file.c_str());
+  reader->UpdateInformation();
+  for (const char* name : kNotDrawn) reader->GetCellDataArraySelection()->DisableArray(name);
   reader->Update();
   return vtkUnstructuredGrid::SafeDownCast(reader->GetOutputDataObject(0));
 }

@@ -17,7 +17,7 @@ namespace breccia::gui {
 /// Corners of the face opposite to corner i, seen from outside in the same sense.
 inline constexpr std::array<std::array<int, 3>, 4> kTetraFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
-/// Reads a VTKHDF file of the solver. nullptr: it cannot be read.
+/// Reads what is drawn of a VTKHDF file of the solver. nullptr: it cannot be read.
 [[nodiscard]] vtkSmartPointer<vtkUnstructuredGrid> read_vtkhdf(const std::string& file);
 
 /// Faces of the elements that are seen. Which are inner ones is found once, from the state at rest: two faces of one

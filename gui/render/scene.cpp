@@ -183,6 +183,12 @@ void Scene::set_colouring(Colouring colouring) {
   if (has_data()) colour();
 }
 
+void Scene::set_groups(const std::vector<std::string>& names) {
+  if (groups_ == names) return;
+  groups_ = names;
+  if (has_data()) colour();
+}
+
 void Scene::set_surfaces(SurfaceGroups surfaces) {
   surfaces_ = std::move(surfaces);
   groups_of_face_.clear();

@@ -41,7 +41,7 @@ class Scene {
   void set_colouring(Colouring colouring);
   [[nodiscard]] Colouring colouring() const { return colouring_; }
   /// Names of the volume groups in the order of the array "material".
-  void set_groups(const std::vector<std::string>& names) { groups_ = names; }
+  void set_groups(const std::vector<std::string>& names);
   [[nodiscard]] const std::vector<std::string>& groups() const { return groups_; }
   void set_surfaces(SurfaceGroups surfaces);
   /// Volume groups that are shown bright while others are dim, and surface groups whose faces are marked; none: all

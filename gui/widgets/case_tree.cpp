@@ -3,11 +3,14 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QMenu>
+#include <QStyle>
 #include <QVBoxLayout>
+#include <algorithm>
 
 namespace breccia::gui {
 namespace {
 
+constexpr int kBesideName = 16;  // pixels: margins and frame
 constexpr int kPath = Qt::UserRole, kStage = Qt::UserRole + 1, kRemovable = Qt::UserRole + 2;
 
 bool inside(const std::string& key, const std::string& path) {
@@ -26,6 +29,10 @@ CaseTree::CaseTree(Document& document, QWidget* parent)
   tree_->setHeaderHidden(true);
   tree_->setColumnCount(1);
   column->addWidget(tree_);
+  int widest = 0;  // names of stages are seen whole; an entry may have any name
+  for (const WorkStage& stage : work_stages()) widest = std::max(widest, fontMetrics().horizontalAdvance(stage.name));
+  tree_->setMinimumWidth(widest + tree_->indentation() + style()->pixelMetric(QStyle::PM_ScrollBarExtent) +
+                         kBesideName);
   auto* row = new QHBoxLayout;
   add_->setText(tr("Add"));
   add_->setObjectName("add_entry");
@@ -67,6 +74,7 @@ void CaseTree::rebuild() {
       auto* line = new QTreeWidgetItem(row.depth == 0 ? item : entry, {row.label});
       if (row.depth == 0) entry = line;
       line->setData(0, kPath, row.path);
+      line->setToolTip(0, row.label);
       line->setData(0, kStage, s);
       line->setData(0, kRemovable, row.removable);
       int here = 0;

@@ -84,7 +84,7 @@ HistogramPanel::HistogramPanel(QWidget* parent)
       measure_(new QComboBox),
       view_(new HistogramView),
       words_(new QLabel),
-      measuring_([this](const Values& values) { show_values(values); }),
+      measuring_([this](const Counted& counted) { show_values(counted); }),
       collecting_([this](const vtkSmartPointer<vtkPolyData>& faces) { emit elements_chosen(faces, words_->text()); }) {
   setObjectName("histogram");
   for (const auto& [measure, name] : measures())
@@ -131,27 +131,28 @@ void HistogramPanel::follow(Colouring colouring) {
 }
 
 void HistogramPanel::measure_elements() {
-  measuring_.start([frame = frame_, measure = measure()]() -> Values {
-    return std::make_shared<const ElementValues>(values_of(frame, measure));
+  measuring_.start([frame = frame_, measure = measure()]() -> Counted {
+    return std::make_shared<const Counts>(Counts{frame, values_of(frame, measure)});
   });
 }
 
-void HistogramPanel::show_values(const Values& values) {
-  const bool same = values_ != nullptr && values_->measure == values->measure;
-  const int bar = same && !values->values.empty() ? keeps_ : -1;
-  values_ = values;
+void HistogramPanel::show_values(const Counted& counted) {
+  const bool same = values() != nullptr && values()->measure == counted->values.measure;
+  const int bar = same && !counted->values.values.empty() ? keeps_ : -1;
+  counted_ = counted;
   keeps_ = -1;
-  view_->show_bars(values_->bars, measure_->currentText());
+  view_->show_bars(counted->values.bars, measure_->currentText());
   view_->choose(bar);
 }
 
 void HistogramPanel::choose(int bar) {
   keeps_ = -1;
   const Histogram& bars = view_->bars();
-  const QString kind = values_ != nullptr && is_of_joints(values_->measure) ? tr("joints") : tr("elements");
-  if (bar < 0 || values_ == nullptr || values_->values.empty()) {
+  const ElementValues* told = values();
+  const QString kind = told != nullptr && is_of_joints(told->measure) ? tr("joints") : tr("elements");
+  if (bar < 0 || told == nullptr || told->values.empty()) {
     collecting_.forget();
-    words_->setText(tr("%1 %2").arg(values_ == nullptr ? 0 : values_->values.size()).arg(kind));
+    words_->setText(tr("%1 %2").arg(told == nullptr ? 0 : told->values.size()).arg(kind));
     view_->setAccessibleDescription(words_->text());
     emit elements_chosen(nullptr, {});
     return;
@@ -163,7 +164,7 @@ void HistogramPanel::choose(int bar) {
                       .arg(low, 0, 'g', 3)
                       .arg(low + bars.width, 0, 'g', 3));
   view_->setAccessibleDescription(words_->text());
-  collecting_.start([frame = frame_, values = values_, bar] { return faces_of_bar(frame, *values, bar); });
+  collecting_.start([counted = counted_, bar] { return faces_of_bar(counted->frame, counted->values, bar); });
 }
 
 }  // namespace breccia::gui

@@ -49,7 +49,7 @@ class HistogramPanel final : public QWidget {
   /// The histogram is of what the view is coloured by.
   void follow(Colouring colouring);
   /// As told last; nullptr: nothing yet.
-  [[nodiscard]] const ElementValues* values() const { return values_.get(); }
+  [[nodiscard]] const ElementValues* values() const { return counted_ == nullptr ? nullptr : &counted_->values; }
   [[nodiscard]] bool busy() const { return measuring_.busy() || collecting_.busy(); }
 
  signals:
@@ -57,9 +57,14 @@ class HistogramPanel final : public QWidget {
   void elements_chosen(vtkSmartPointer<vtkPolyData> faces, const QString& words);
 
  private:
-  using Values = std::shared_ptr<const ElementValues>;
+  /// A frame and its numbers: those that are asked for next may be of another frame.
+  struct Counts {
+    FrameData frame;
+    ElementValues values;
+  };
+  using Counted = std::shared_ptr<const Counts>;
   void measure_elements();
-  void show_values(const Values& values);
+  void show_values(const Counted& counted);
   void choose(int bar);
   [[nodiscard]] Measure measure() const { return static_cast<Measure>(measure_->currentData().toInt()); }
 
@@ -68,8 +73,8 @@ class HistogramPanel final : public QWidget {
   QLabel* words_;
   FrameData frame_;
   int keeps_ = -1;  ///< bar to choose again once the next frame is counted
-  Values values_;
-  NewestTask<Values> measuring_;
+  Counted counted_;
+  NewestTask<Counted> measuring_;
   NewestTask<vtkSmartPointer<vtkPolyData>> collecting_;
 };
 

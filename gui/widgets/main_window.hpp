@@ -104,6 +104,7 @@ class MainWindow final : public QMainWindow {
   // main_window_answers.cpp: what the solver says of the case
   void show_check(const QJsonObject& json);
   void show_mesh(const QJsonObject& json, const QString& elements_file);
+  void name_groups();
   void load_mesh();
   void show_elements(vtkPolyData* faces, const QString& words);
   void show_division(const QJsonObject& json);
@@ -122,7 +123,8 @@ class MainWindow final : public QMainWindow {
   void pause_or_resume();
   void show_commands();
   void take_run(SolverRun* run);
-  void open_run(const QString& folder);
+  void open_run(const QString& path);
+  [[nodiscard]] static QString case_of(const SolverRun& run);
   void find_runs();
   void watch(SolverRun* run);
   void run_changed();
@@ -164,10 +166,11 @@ class MainWindow final : public QMainWindow {
   std::vector<int> owner_;  ///< rank of each element of the preview
   FrameData preview_frame_;
   bool showing_results_ = false, run_when_checked_ = false;
-  std::vector<Condition> loads_;  ///< of the case, as last read
-  QJsonArray laws_;               ///< of joints, as last told
-  QString mesh_text_;             ///< what the preview was made of
-  QString mesh_file_;             ///< its elements, while they have not been asked for; empty: they have
+  std::vector<Condition> loads_;     ///< of the case, as last read
+  QJsonArray laws_;                  ///< of joints, as last told
+  QString mesh_text_;                ///< what the preview was made of
+  QString mesh_file_;                ///< its elements, until they have been read
+  std::vector<std::string> groups_;  ///< names of the volume groups of the preview
 
   StartPage* start_ = nullptr;
   CaseTree* tree_ = nullptr;

@@ -1,6 +1,7 @@
+#include <QDir>
+#include <QFile>
 #include <QJsonArray>
 #include <QLabel>
-#include <utility>
 
 #include "widgets/animation_export.hpp"
 #include "widgets/domains_panel.hpp"
@@ -64,7 +65,8 @@ void MainWindow::show_mesh(const QJsonObject& json, const QString& elements_file
   for (const char* kind : {"volumes", "surfaces"})
     for (const std::string& name : names_of(groups[kind].toArray())) words << QString::fromStdString(name);
   form_->set_groups(words);
-  view_->scene().set_groups(names_of(groups["volumes"].toArray()));
+  groups_ = names_of(groups["volumes"].toArray());
+  name_groups();
   view_->scene().set_surfaces(surfaces_of(json));
   const bool one = json["bodies"].toInt() == 1;
   mesh_words_->setText((one ? tr("%1 elements, %2 nodes, %3 body") : tr("%1 elements, %2 nodes, %3 bodies"))
@@ -78,11 +80,22 @@ void MainWindow::show_mesh(const QJsonObject& json, const QString& elements_file
   if (!showing_results_) load_mesh();
 }
 
+/// Frames number the groups: their names are those of the case in hand, if that is what the run that is shown began
+/// with.
+void MainWindow::name_groups() {
+  const auto is_of_case = [this] {
+    if (case_of(*run_) == document_.file()) return true;
+    QFile copy(QDir(run_->record().folder).filePath("case.toml"));
+    return copy.open(QIODevice::ReadOnly) && copy.readAll() == document_.text();
+  };
+  view_->scene().set_groups(!showing_results_ || is_of_case() ? groups_ : std::vector<std::string>());
+}
+
 void MainWindow::load_mesh() {
   if (animation_ != nullptr) animation_->give_up(tr("the view shows something else"));
   loader_->start_model();
   view_->clear({});
-  loader_->load(std::exchange(mesh_file_, {}), 0);
+  loader_->load(mesh_file_, 0);
 }
 
 /// Of a bar of the histogram.

@@ -118,6 +118,7 @@ void MainWindow::open_case(const QString& file) {
   owner_.clear();
   mesh_text_.clear();
   mesh_file_.clear();
+  groups_.clear();
   laws_ = {};
   run_panel_->set_estimate(tr("Not checked yet."));
   messages_->set_advice({});
@@ -199,7 +200,7 @@ void MainWindow::validate() {
   text_->set_problems(problems_);
   messages_->set_problems(problems_);
   run_panel_->set_problems(static_cast<int>(problems_.size()));
-  run_action_->setEnabled(problems_.empty());
+  run_action_->setEnabled(problems_.empty() && (run_ == nullptr || !run_->alive()));
   queue_action_->setEnabled(problems_.empty());
   run_action_->setText(run_words(static_cast<int>(problems_.size())));
   if (problems_.empty()) {
@@ -207,7 +208,7 @@ void MainWindow::validate() {
     conditions_->show_conditions(loads_);
     show_loads();
   }
-  // The preview follows what the mesh is made of, and the groups, which materials name.
+  // The preview follows what the mesh is made of.
   QString source;
   for (const Place& place : document_.places().all())
     if (place.path.starts_with("mesh"))
@@ -239,13 +240,14 @@ void MainWindow::stage_selected(int stage, const QString& path) {
   }
   if (chosen.kind == Kind::run) {
     show_commands();
-    if (problems_.empty() && !queries_.busy() && run_ == nullptr) queries_.check();
+    if (problems_.empty() && run_ == nullptr) queries_.check();
     if (run_ != nullptr) show_dock("dock_plots");
   }
   show_loads();
   const bool results = run_ != nullptr && chosen.kind != Kind::sections;
   if (results == showing_results_) return;
   showing_results_ = results;
+  name_groups();
   view_->scene().mark(nullptr);
   if (animation_ != nullptr) animation_->give_up(tr("the view shows something else"));
   loader_->start_model();

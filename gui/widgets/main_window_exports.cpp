@@ -34,7 +34,8 @@ void MainWindow::show_curves() {
   std::vector<std::pair<QString, const History*>> others;
   for (const SolverRun* run : compared_)
     if (run != run_) others.emplace_back(name_of(*run), &run->history());
-  plots_->show_history(run_ == nullptr ? History() : run_->history(), others);
+  static const History none;
+  plots_->show_history(run_ == nullptr ? none : run_->history(), others);
 }
 
 void MainWindow::export_curves() {

@@ -1,3 +1,4 @@
+#include <QAction>
 #include <QApplication>
 #include <QDateTime>
 #include <QDir>
@@ -124,7 +125,14 @@ void MainWindow::find_runs() {
   for (auto it = found.rbegin(); it != found.rend(); ++it) take_run(new SolverRun(*it, this));
 }
 
-void MainWindow::open_run(const QString& folder) {
+/// The case that a run was started from; of results that are only looked at, the copy beside them.
+QString MainWindow::case_of(const SolverRun& run) {
+  const RunRecord& record = run.record();
+  return record.case_file.isEmpty() ? QDir(record.folder).filePath("case.toml") : record.case_file;
+}
+
+void MainWindow::open_run(const QString& path) {
+  const QString folder = QDir::cleanPath(QFileInfo(path).absoluteFilePath());  // as runs that are watched are named
   if (!is_run_folder(folder)) {
     QMessageBox::warning(this, tr("Breccia"), tr("%1 is not the folder of a run.").arg(folder));
     return;
@@ -135,8 +143,7 @@ void MainWindow::open_run(const QString& folder) {
   if (chosen == nullptr) {
     take_run(chosen = new SolverRun({folder, {}, 1, {}, {}}, this));
   }
-  const QString file =
-      chosen->record().case_file.isEmpty() ? QDir(folder).filePath("case.toml") : chosen->record().case_file;
+  const QString file = case_of(*chosen);
   if (!document_.is_open() && QFileInfo::exists(file)) open_case(file);
   show_workspace();
   watch(chosen);
@@ -148,7 +155,9 @@ void MainWindow::watch(SolverRun* run) {
   if (animation_ != nullptr) end_animation();
   run_ = run;
   showing_results_ = run != nullptr;
+  name_groups();
   loader_->start_model();
+  histogram_->set_frame({}, false);
   if (run != nullptr) run->read_history();
   show_curves();
   results_->set_run(run == nullptr ? QString() : run->record().folder);
@@ -164,6 +173,7 @@ void MainWindow::run_changed() {
   show_commands();
   runs_panel_->show_runs(runs_);
   run_bar_->setVisible(run_ != nullptr && run_->alive());
+  run_action_->setEnabled(problems_.empty() && (run_ == nullptr || !run_->alive()));
   if (run_ == nullptr) {
     run_words_->clear();
     return;
@@ -197,6 +207,7 @@ void MainWindow::show_frame(const FrameData& frame) {
   }
   if (frame.skin == nullptr) return;
   if (!showing_results_) {
+    mesh_file_.clear();
     preview_frame_ = frame;
     if (!owner_.empty()) set_ranks(*preview_frame_.skin, owner_);
     view_->show_frame(preview_frame_, tr("mesh at rest"));

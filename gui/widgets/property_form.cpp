@@ -144,8 +144,6 @@ QWidget* PropertyForm::editor_of(const Key& key, const QString& path) {
   if (!words.isEmpty() || names_a_group(key)) {
     auto* box = new QComboBox;
     box->setEditable(names_a_group(key));
-    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    box->setMinimumContentsLength(8);
     if (names_a_group(key)) {
       box->addItems(groups_);
       connect(box->lineEdit(), &QLineEdit::editingFinished, this,
@@ -158,9 +156,13 @@ QWidget* PropertyForm::editor_of(const Key& key, const QString& path) {
       const QString fallback = shown_default(key);
       box->addItem(fallback.isEmpty() ? tr("(not given)") : tr("%1 (default)").arg(fallback), QString());
       for (const QString& word : words) box->addItem(word, word);
+      box->setMinimumWidth(box->sizeHint().width());
       connect(box, qOverload<int>(&QComboBox::activated), this,
               [this, box, path, &key] { take_over(path, key, box->currentData().toString()); });
     }
+    // Names of groups and words that are not allowed may be of any length: the form does not grow with them.
+    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    box->setMinimumContentsLength(8);
     return box;
   }
   auto* line = new QLineEdit;
@@ -204,7 +206,9 @@ void PropertyForm::refresh() {
     const QString shown = shown_value(*it->key, document_.value(it.key()));
     const QSignalBlocker quiet(it->editor);
     if (auto* line = qobject_cast<QLineEdit*>(it->editor)) {
-      if (line->text() != shown) line->setText(shown);
+      if (line->text() == shown) continue;
+      line->setText(shown);
+      if (!line->hasFocus()) line->setCursorPosition(0);  // of a long one the beginning is seen
     } else if (auto* box = qobject_cast<QComboBox*>(it->editor)) {
       if (box->isEditable()) {
         box->setEditText(shown);

@@ -30,8 +30,8 @@ QString duration_words(double seconds) {
 }
 
 QString quantity_words(double value, const QString& unit) {
-  static const std::array<std::pair<double, const char*>, 8> prefixes{
-      {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "u"}, {1e-9, "n"}, {1e-12, "p"}}};
+  static const std::array<std::pair<double, const char*>, 9> prefixes{
+      {{1e12, "T"}, {1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "u"}, {1e-9, "n"}, {1e-12, "p"}}};
   for (const auto& [factor, prefix] : prefixes)
     if (std::abs(value) >= 0.9995 * factor) return QString::number(value / factor, 'g', 3) + " " + prefix + unit;
   return QString::number(value, 'g', 3) + " " + unit;

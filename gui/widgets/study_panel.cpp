@@ -5,9 +5,11 @@
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QRegularExpression>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 #include <QtConcurrent>
+#include <algorithm>
 
 #include "widgets/named_button.hpp"
 
@@ -16,6 +18,21 @@ namespace {
 
 constexpr int kLook = 2000;  // ms
 const QString kFirstColumn = "broken joints";
+constexpr int kWidestBox = 300;  // pixels
+
+/// Gives it room for its words. Qt does not work out the least width of a box anew when words are added.
+void fit(QComboBox& box) { box.setMinimumWidth(std::min(kWidestBox, box.sizeHint().width())); }
+
+/// When a study was started, which is what tells those of one case apart.
+QString words_of_study(const QString& folder) {
+  static const QRegularExpression started(R"((\d{4})(\d\d)(\d\d)-(\d\d)(\d\d)(\d\d)(-\d+)?-study$)");
+  const QString name = QFileInfo(folder).fileName();
+  const QRegularExpressionMatch at = started.match(name);
+  if (!at.hasMatch()) return name;
+  return QString("%1-%2-%3 %4:%5:%6%7")
+      .arg(at.captured(1), at.captured(2), at.captured(3), at.captured(4), at.captured(5), at.captured(6),
+           at.captured(7));
+}
 
 }  // namespace
 
@@ -53,7 +70,7 @@ void StudyPanel::make_setup(QVBoxLayout& column) {
     keys_[i]->completer()->setCompletionMode(QCompleter::PopupCompletion);
     keys_[i]->completer()->setFilterMode(Qt::MatchContains);
     keys_[i]->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    keys_[i]->setMinimumContentsLength(14);
+    keys_[i]->setMinimumContentsLength(22);
     keys_[i]->setObjectName(QString("study_key_%1").arg(i + 1));
     keys_[i]->setAccessibleName(names[i]);
     keys_[i]->setToolTip(
@@ -86,12 +103,14 @@ void StudyPanel::make_results(QVBoxLayout& column) {
   studies_->setObjectName("studies");
   studies_->setAccessibleName(tr("Study"));
   studies_->setToolTip(tr("Studies of this case, the latest first"));
-  studies_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  studies_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  studies_->setMaximumWidth(kWidestBox);
   column_ = new QComboBox;
   column_->setObjectName("study_column");
   column_->setAccessibleName(tr("Result"));
   column_->setToolTip(tr("What is plotted and stands in the last column, with its unit, at the end of each run"));
-  column_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  column_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  column_->setMaximumWidth(kWidestBox);
   export_ = named_button(tr("Export CSV..."), "study_export", tr("All results of all runs as one table"));
   table_ = new QTableWidget;
   table_->setObjectName("study_table");
@@ -159,7 +178,11 @@ void StudyPanel::show_problems(const QStringList& problems) { words_->setText(pr
 void StudyPanel::set_studies(const QStringList& folders) {
   const QSignalBlocker quiet(studies_);
   studies_->clear();
-  for (const QString& folder : folders) studies_->addItem(QFileInfo(folder).fileName(), folder);
+  for (const QString& folder : folders) {
+    studies_->addItem(words_of_study(folder), folder);
+    studies_->setItemData(studies_->count() - 1, folder, Qt::ToolTipRole);
+  }
+  fit(*studies_);
   show_study(folders.isEmpty() ? QString() : folders.front());
 }
 
@@ -192,6 +215,7 @@ void StudyPanel::take_results() {
     const QString chosen = column_->count() == 0 ? kFirstColumn : column_->currentText();
     column_->clear();
     column_->addItems(columns);
+    fit(*column_);
     column_->setCurrentIndex(std::max(0, static_cast<int>(columns.indexOf(chosen))));
   }
   show_table();

@@ -2,12 +2,14 @@
 
 #include <QAbstractButton>
 #include <QAbstractScrollArea>
+#include <QComboBox>
 #include <QDirIterator>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMenu>
 #include <QPlainTextEdit>
 #include <QSet>
+#include <QStyleOptionComboBox>
 #include <QTableWidget>
 
 #include "case/schema.hpp"
@@ -107,6 +109,16 @@ TEST(Forms, TextAndFormFollowEachOther) {
   EXPECT_FALSE(text->toPlainText().contains("13 GPa"));
 }
 
+TEST(Forms, OfALongValueTheBeginningIsSeen) {
+  Desk desk;
+  desk.window->open_path(written_case(desk.scratch, block_case(1, "1 ms")));
+  const QString title(200, 'x');
+  desk.window->document().set_value("title", '"' + title + '"');
+  auto* line = desk.find<QLineEdit>("field:title");
+  EXPECT_EQ(line->text(), title);
+  EXPECT_EQ(line->cursorPosition(), 0);
+}
+
 TEST(Forms, WhatIsBeingTypedIsInTheFileThatTheKeyOfSaveWrites) {
   Desk desk;
   desk.window->open_path(written_case(desk.scratch, block_case(1, "1 ms")));
@@ -151,6 +163,53 @@ TEST(Forms, APairOfGroupsGetsItsContactFromTheMatrix) {
   EXPECT_TRUE(desk.window->document().problems().empty());
   EXPECT_TRUE(wait_until([&] { return desk.window->view().scene().has_data(); }, 60000));
   desk.picture("contacts");
+}
+
+/// Room for the text of a box to choose from, pixels.
+int room_for_text(const QComboBox& box) {
+  if (box.lineEdit() != nullptr) return box.lineEdit()->width();
+  QStyleOptionComboBox option;
+  option.initFrom(&box);
+  option.subControls = QStyle::SC_All;
+  return box.style()->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, &box).width();
+}
+
+/// Words of boxes in sight that would be cut if they were chosen.
+QStringList cut_words(const QWidget& window) {
+  QStringList cut;
+  for (const auto* box : window.findChildren<QComboBox*>()) {
+    if (!box->isVisible()) continue;
+    for (int i = 0; i < box->count(); ++i)
+      if (const int needed = box->fontMetrics().horizontalAdvance(box->itemText(i)); needed > room_for_text(*box))
+        cut << QString("%1 '%2' has %3 of %4")
+                   .arg(box->objectName(), box->itemText(i))
+                   .arg(room_for_text(*box))
+                   .arg(needed);
+  }
+  return cut;
+}
+
+TEST(Forms, EveryWordThatCanBeChosenIsSeenWholeInAWindowOf1280Pixels) {
+  Desk desk;
+  desk.window->resize(1280, 800);
+  desk.window->open_path(everything(desk.scratch));
+  auto* tree = desk.find<QTreeWidget>("stages");
+  for (int stage = 0; stage < tree->topLevelItemCount(); ++stage) {
+    const QTreeWidgetItem* item = tree->topLevelItem(stage);
+    EXPECT_LE(tree->fontMetrics().horizontalAdvance(work_stages()[static_cast<std::size_t>(stage)].name),
+              tree->visualItemRect(item).width())
+        << item->text(0).toStdString();
+  }
+  for (QTreeWidgetItemIterator it(tree); *it != nullptr; ++it) {
+    tree->setCurrentItem(*it);
+    QTest::qWait(1);
+    EXPECT_EQ(cut_words(*desk.window).join('\n').toStdString(), "") << (*it)->text(0).toStdString();
+  }
+  for (const char* panel : {"Study", "Histogram"}) {
+    desk.show_tab(panel);
+    QTest::qWait(1);
+    EXPECT_EQ(cut_words(*desk.window).join('\n').toStdString(), "") << panel;
+  }
 }
 
 /// What can get the focus by Tab and is no part inside another widget.

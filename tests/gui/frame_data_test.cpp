@@ -8,8 +8,11 @@
 #include <vtkNew.h>
 #include <vtkPoints.h>
 
+#include <QProcess>
 #include <algorithm>
 #include <array>
+
+#include "gui/block_case.hpp"
 
 namespace breccia::gui {
 namespace {
@@ -110,6 +113,22 @@ TEST(Skin, RanksAreThoseOfTheOwners) {
 
 TEST(LoadFrame, AFileThatCannotBeReadGivesNothing) {
   EXPECT_EQ(load_frame("/no/such/file.vtkhdf", "", 0, nullptr).skin, nullptr);
+}
+
+TEST(LoadFrame, WhatNothingIsDrawnByIsNotRead) {
+  const QTemporaryDir scratch;
+  const QString out = scratch.filePath("mesh");
+  ASSERT_EQ(QProcess::execute(BRECCIA_PROGRAM,
+                              {"mesh", test::written_case(scratch, test::block_case(1, "1 ms")), "--json", "-o", out}),
+            0);
+  const FrameData frame = load_frame((out + "/elements_000000.vtkhdf").toStdString(), "", 0, nullptr);
+  ASSERT_NE(frame.skin, nullptr);
+  EXPECT_EQ(frame.skin->GetNumberOfCells(), 24);
+  vtkCellData* arrays = frame.elements->GetCellData();
+  for (const char* name : {"neighbour", "stress", "mass", "cost"}) EXPECT_FALSE(arrays->HasArray(name)) << name;
+  for (const char* name :
+       {"id", "body", "material", "rank", "fragment", "von_mises", "principal", "velocity", "displacement"})
+    EXPECT_TRUE(arrays->HasArray(name)) << name;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "core/study.hpp"
 #include "gui/desk.hpp"
 #include "widgets/case_tree.hpp"
+#include "widgets/frame_loader.hpp"
 #include "widgets/histogram_panel.hpp"
 #include "widgets/line_chart.hpp"
 
@@ -62,7 +63,11 @@ TEST(Panels, AStudyIsQueuedFromATableAndEndsInOnePlotAndOneTable) {
 
   desk.begin();  // another window finds it
   desk.window->open_path(desk.scratch.filePath("case.toml"));
-  EXPECT_EQ(desk.find<QComboBox>("studies")->count(), 1);
+  auto* studies = desk.find<QComboBox>("studies");
+  EXPECT_EQ(studies->count(), 1);
+  desk.show_tab("Study");
+  QTest::qWait(100);
+  EXPECT_LE(studies->sizeHint().width(), studies->width()) << studies->currentText().toStdString();
   EXPECT_EQ(desk.find<QTableWidget>("study_table")->rowCount(), 6);
 }
 
@@ -267,6 +272,55 @@ TEST(Panels, AHistogramOfTheResultInViewShowsTheElementsAndJointsOfItsBars) {
   bars->choose(static_cast<int>(bars->bars().counts.size()) - 1);
   EXPECT_TRUE(wait_until([&] { return scene.num_marked() == bars->bars().counts.back(); }, kSolver))
       << "a joint is a triangle";
+}
+
+/// What the bar is of was looked for in the frame that was counted next, which may have nothing.
+TEST(Panels, ABarThatIsChosenWhileAnotherFrameIsCountedIsOfTheFrameWhoseBarsAreSeen) {
+  Desk desk;
+  desk.window->open_path(written_case(desk.scratch, block_case(2, "1 ms")));
+  auto* panel = desk.find<HistogramPanel>("histogram");
+  auto* bars = desk.find<HistogramView>("histogram_bars");
+  ASSERT_TRUE(wait_until([&] { return !desk.window->busy() && !bars->bars().counts.empty(); }, kSolver));
+  panel->set_frame({}, false);
+  bars->choose(0);
+  EXPECT_TRUE(wait_until([&] { return !panel->busy() && bars->bars().counts.empty(); }, kSolver));
+}
+
+TEST(Panels, APreviewThatWasLeftWhileItWasReadIsReadWhenOneComesBack) {
+  constexpr int kCells = 14;
+  Desk desk;
+  const QString file = written_case(desk.scratch, turning_case("100 us")), run = desk.scratch.filePath("run");
+  ASSERT_EQ(QProcess::execute(BRECCIA_PROGRAM, {"run", file, "-o", run}), 0);
+  desk.window->open_path(written_case(desk.scratch, block_case(kCells, "1 ms")));
+  ASSERT_TRUE(wait_until([&] { return desk.window->findChild<FrameLoader*>()->busy(); }, kSolver));
+  desk.window->open_path(run);
+  Scene& scene = desk.window->view().scene();
+  ASSERT_TRUE(wait_until([&] { return scene.has_data() && !desk.window->busy(); }, kSolver));
+  EXPECT_TRUE(scene.groups().empty()) << "the names of the groups are those of another case";
+  desk.click_stage("material: block");
+  EXPECT_TRUE(wait_until([&] { return scene.num_faces() == 6 * 4 * kCells * kCells; }, kSolver));
+  EXPECT_EQ(scene.groups(), std::vector<std::string>{"block"});
+}
+
+TEST(Panels, TheEstimateComesAlthoughTheMeshIsStillMadeWhenItIsAskedFor) {
+  Desk desk;
+  desk.window->open_path(written_case(desk.scratch, block_case(4, "1 ms")));
+  desk.click_stage("Run");
+  EXPECT_TRUE(wait_until([&] { return desk.find<QLabel>("estimate")->text().contains("stable step"); }, kSolver));
+}
+
+TEST(Panels, AFolderOfARunIsTheSameRunHoweverItIsWritten) {
+  Desk desk;
+  const QString file = written_case(desk.scratch, turning_case("100 us")), run = desk.scratch.filePath("run");
+  ASSERT_EQ(QProcess::execute(BRECCIA_PROGRAM, {"run", file, "-o", run}), 0);
+  for (const QString& written : {run, run + "/", desk.scratch.filePath("./run"), QDir().relativeFilePath(run)})
+    desk.window->open_path(written);
+  EXPECT_EQ(desk.find<QTableWidget>("runs")->rowCount(), 1);
+  Scene& scene = desk.window->view().scene();
+  ASSERT_TRUE(wait_until([&] { return scene.has_data() && !desk.window->busy(); }, kSolver));
+  EXPECT_EQ(scene.groups(), std::vector<std::string>{"block"});
+  ASSERT_EQ(scene.class_legend().classes().size(), 1U);
+  EXPECT_EQ(scene.class_legend().classes()[0].name, "block");
 }
 
 TEST(Panels, ABarOfTheHistogramShowsItsElements) {

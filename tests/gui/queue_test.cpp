@@ -62,6 +62,21 @@ TEST(Queue, RunsThatWereAddedStartInTheChosenOrderAndGoOnWhileNoWindowIsOpen) {
   EXPECT_EQ(table->rowCount(), 0);
 }
 
+TEST(Queue, TheKeyOfRunStartsNoSecondRunWhileTheOneThatIsShownGoesOn) {
+  Desk desk;
+  desk.window->open_path(written_case(desk.scratch, turning_case("10 s")));
+  desk.find<QSpinBox>("ranks")->setValue(1);
+  const auto press = [&] { QTest::keyClick(desk.window.get(), Qt::Key_F5); };
+  press();
+  press();
+  EXPECT_EQ(desk.find<QTableWidget>("runs")->rowCount(), 1);
+  ASSERT_NE(desk.window->run(), nullptr);
+  desk.window->run()->stop();
+  ASSERT_TRUE(wait_until([&] { return !desk.window->run()->alive(); }, kSolver));
+  press();
+  EXPECT_EQ(desk.find<QTableWidget>("runs")->rowCount(), 2) << "another one after it";
+}
+
 TEST(Queue, ARunOfItIsStoppedAndTheNextOneFollows) {
   Desk desk;
   desk.window->open_path(written_case(desk.scratch, turning_case("10 s")));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 
 #include <QDir>
 #include <QProcess>
@@ -48,6 +49,42 @@ struct Bench {
     return QDir(scratch.path()).entryList({".breccia-queued-*"}, QDir::Files | QDir::Hidden).size();
   }
 };
+
+/// No file can be written, as on a full disk.
+class FullDisk {
+ public:
+  FullDisk() : handler_(::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit none{0, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &none);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+  ~FullDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    ::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  void (*handler_)(int);
+  rlimit before_{};
+};
+
+TEST(RunQueue, ARunThatCannotBeWrittenIntoTheQueueIsToldAndNotStarted) {
+  const Bench bench;
+  QFile in_the_way(bench.state);
+  ASSERT_TRUE(in_the_way.open(QIODevice::WriteOnly));
+  EXPECT_TRUE(bench.queue.add(kLaunch, {bench.wish("one")}).contains(bench.state));
+  in_the_way.remove();
+  bench.add({bench.wish("one")});
+  {
+    const FullDisk full;
+    EXPECT_FALSE(bench.queue.advance(bench.registry)) << "the next look would start it again";
+  }
+  EXPECT_EQ(bench.states(), "one waiting");
+  EXPECT_FALSE(QFileInfo::exists(bench.scratch.filePath("runs/one.log")));
+  EXPECT_TRUE(bench.look_until("one complete"));
+}
 
 TEST(RunQueue, RunsFollowEachOtherAndOneThatFailsDoesNotHoldUpTheOthers) {
   const Bench bench;

@@ -136,6 +136,24 @@ for missing in ("rank", "cost"):
         simple.RankView(Input=b.producer(data)).UpdatePipeline()
     expect_told(f"no array {missing}", action, f"'{missing}'")
 
+def with_ids(part, ids):
+    array = b.numpy_to_vtk(ids, deep=1)
+    array.SetName("id")
+    part.GetCellData().AddArray(array)
+    return part
+
+
+# Ids of a file of another kind: below 0, and as far apart as they can be.
+def negative_joint(data=b.blocks(elements=box.elements(), joints=with_ids(box.joints(box.joint[:3]), b.np.array([-1, -2, -3])))):
+    simple.Fragments(Input=b.producer(data)).UpdatePipeline()
+expect_told("negative ids of joints", negative_joint, "'id' has the value -1")
+
+far = b.np.arange(len(box.mass), dtype=b.np.int64)
+far[0], far[-1] = b.np.iinfo(b.np.int64).min, b.np.iinfo(b.np.int64).max
+def far_apart(data=b.blocks(elements=with_ids(box.elements(), far), joints=box.joints(box.joint[:3]))):
+    simple.Fragments(Input=b.producer(data)).UpdatePipeline()
+b.expect("ERR" not in told(far_apart), "ids that are far apart")
+
 joints = box.joints(box.joint[:3])
 joints.GetCellData().RemoveArray("energy")
 def without_energy():

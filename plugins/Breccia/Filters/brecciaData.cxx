@@ -83,6 +83,11 @@ bool HasEmptyJoints(vtkDataObject* where) {
   return false;
 }
 
+/// Also of ids whose difference is no int64. @pre from <= to
+std::size_t Distance(vtkTypeInt64 from, vtkTypeInt64 to) {
+  return static_cast<std::size_t>(to) - static_cast<std::size_t>(from);
+}
+
 }  // namespace
 
 void Ranks::Largest(std::vector<double>& values) const {
@@ -205,6 +210,8 @@ Cracks FindCracks(vtkDataObject* input, vtkDataObject* joints, const Ranks& rank
     const std::vector<double> time = Numbers(cracks.grid, "time_of_failure"), corners = Corners(cracks.grid, 3);
     for (std::size_t i = 0; i < broken.size(); ++i) {
       if (broken[i] == 0) continue;
+      if (id[i] < 0)  // 4 element + face
+        throw BadInput("the cell array 'id' has the value " + std::to_string(id[i]) + "; ids of joints are 0 or more");
       cracks.cell.push_back(static_cast<vtkIdType>(i));
       cracks.id.push_back(id[i]);
       cracks.mode.push_back(mode[i]);
@@ -232,11 +239,9 @@ IdIndex::IdIndex(const std::vector<vtkTypeInt64>& ids) {
   if (ids.empty()) return;
   const auto [low, high] = std::minmax_element(ids.begin(), ids.end());
   first_ = *low;
-  const auto range = static_cast<std::size_t>(*high - *low) + 1;
-  if (range <= 8 * ids.size() + 1024) {
-    place_.assign(range, -1);
-    for (std::size_t i = 0; i < ids.size(); ++i)
-      place_[static_cast<std::size_t>(ids[i] - first_)] = static_cast<vtkIdType>(i);
+  if (const std::size_t last = Distance(first_, *high); last <= 8 * ids.size() + 1024) {
+    place_.assign(last + 1, -1);
+    for (std::size_t i = 0; i < ids.size(); ++i) place_[Distance(first_, ids[i])] = static_cast<vtkIdType>(i);
     return;
   }
   for (std::size_t i = 0; i < ids.size(); ++i) sorted_.emplace_back(ids[i], static_cast<vtkIdType>(i));
@@ -245,8 +250,7 @@ IdIndex::IdIndex(const std::vector<vtkTypeInt64>& ids) {
 
 vtkIdType IdIndex::Find(vtkTypeInt64 id) const {
   if (!place_.empty()) {
-    const vtkTypeInt64 at = id - first_;
-    return at >= 0 && at < static_cast<vtkTypeInt64>(place_.size()) ? place_[static_cast<std::size_t>(at)] : -1;
+    return id >= first_ && Distance(first_, id) < place_.size() ? place_[Distance(first_, id)] : -1;
   }
   const auto found = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair<vtkTypeInt64, vtkIdType>(id, -1));
   return found != sorted_.end() && found->first == id ? found->second : -1;
