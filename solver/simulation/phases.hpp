@@ -39,7 +39,8 @@ void move_nodes(bool sample, Domain& domain);
 /// Joints noted by the sweep join the active list.
 void activate_crossed_joints(Domain& domain);
 
-/// The energies at t_n: Domain::sample. Where a stage begins, what its change of the step moves counts as put in. @pre scratch.velocity_before is v_(n-1/2). Throws what any rank failed with.
+/// The energies at t_n: Domain::sample. Where a stage begins, what its change of the step moves counts as put in.
+/// @pre scratch.velocity_before is v_(n-1/2). Throws what any rank failed with.
 void sample_energies(Domain& domain);
 
 /// Joints that are as if nothing had happened return to the sweep, which evaluates them at lower cost.
