@@ -45,6 +45,11 @@ constexpr std::array kEnergies{&EnergyBudget::kinetic,          &EnergyBudget::e
 constexpr std::array kHeld{&EnergyBudget::kinetic, &EnergyBudget::elastic, &EnergyBudget::joint_elastic,
                            &EnergyBudget::contact_stored};
 
+/// s of kinetic_energy in physics/energy.hpp.
+double step_change(const Clock& clock) {
+  return clock.dt_before > 0 ? (clock.dt_before - clock.dt) / (clock.dt_before + clock.dt) : 0.0;
+}
+
 }  // namespace
 
 EnergySample energy_sample(const Field<double>& velocity_before, const Domain& domain) {
@@ -59,8 +64,7 @@ EnergySample energy_sample(const Field<double>& velocity_before, const Domain& d
   joints.viscous.add(sum_of(state.elements[kViscousWork], local.original));
   ExactSum contact = state.work.contact.stored;
   contact.add(state.work.contact.friction_stored);
-  const Clock& clock = state.clock;
-  const double change = clock.dt_before > 0 ? (clock.dt_before - clock.dt) / (clock.dt_before + clock.dt) : 0.0;
+  const double change = step_change(state.clock);
   const std::array parts{kinetic_energy(local, velocity_before.data(), state.nodes.velocity.data(), change),
                          elastic.total,
                          joints.stored,
@@ -81,6 +85,14 @@ EnergySample energy_sample(const Field<double>& velocity_before, const Domain& d
   sample.budget.external_work = terms.back();
   sample.worst_element = densest_element(elastic, domain);
   return sample;
+}
+
+double step_change_energy(const Field<double>& velocity_before, const Domain& domain) {
+  const double change = step_change(domain.state.clock);
+  if (change == 0) return 0.0;
+  const double* after = domain.state.nodes.velocity.data();
+  const std::array parts{step_change_energy(domain.model.local, velocity_before.data(), after, change)};
+  return totals(domain.exchange.communicator(), parts)[0];
 }
 
 double excess_energy(const EnergyBudget& budget) {

@@ -10,6 +10,10 @@ namespace breccia {
 /// The residual is not set. @param velocity_before  nodal field, v_(n-1/2). Collective, O(elements).
 [[nodiscard]] EnergySample energy_sample(const Field<double>& velocity_before, const Domain& domain);
 
+/// What the change of the step at t_n has moved the kinetic energy of the whole model by, J; when energy_sample is
+/// called. Collective, O(elements).
+[[nodiscard]] double step_change_energy(const Field<double>& velocity_before, const Domain& domain);
+
 /// Energy and dissipated energy beyond the external work, J: what the first sample leaves to the later ones.
 [[nodiscard]] double excess_energy(const EnergyBudget& budget);
 

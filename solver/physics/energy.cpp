@@ -55,6 +55,20 @@ ExactSum kinetic_energy(const LocalMesh& mesh, const double* velocity_before, co
   return sum;
 }
 
+ExactSum step_change_energy(const LocalMesh& mesh, const double* velocity_before, const double* velocity_after,
+                            double change) {
+  ExactSum sum;
+  for_each_carrier(mesh, [&](std::span<const Index> nodes) {
+    double energy = 0;
+    for (const Index n : nodes) {
+      const Vec3 kicked = load_node(velocity_after, n) - load_node(velocity_before, n);
+      energy += 0.5 * change * mesh.node_mass[static_cast<std::size_t>(n)] * kicked.squaredNorm();
+    }
+    sum.add(energy);
+  });
+  return sum;
+}
+
 ElasticEnergy elastic_energy(const LocalMesh& mesh, std::span<const ElasticParams> params_of_group,
                              const double* position, const MaterialMemory& memory) {
   ElasticEnergy energy;

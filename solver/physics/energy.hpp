@@ -26,6 +26,10 @@ namespace breccia {
 [[nodiscard]] ExactSum kinetic_energy(const LocalMesh& mesh, const double* velocity_before,
                                       const double* velocity_after, double change = 0);
 
+/// What a change of the step moves kinetic_energy by, J: s/2 sum of m |v_(n+1/2) - v_(n-1/2)|^2.
+[[nodiscard]] ExactSum step_change_energy(const LocalMesh& mesh, const double* velocity_before,
+                                          const double* velocity_after, double change);
+
 /// Strain energy of all elements whose law has one, J.
 struct ElasticEnergy {
   ExactSum total;

@@ -52,7 +52,12 @@ void sample_energies(Domain& domain) {
   const auto lap = domain.timer.measure(Phase::energy);
   domain.sample = energy_sample(domain.scratch.velocity_before, domain);
   double& first = domain.state.work.first_excess;
-  if (std::isnan(first)) first = excess_energy(domain.sample.budget);
+  if (std::isnan(first)) {
+    first = excess_energy(domain.sample.budget);
+  } else if (begins_stage(domain.state)) {
+    // Where a load sets in on a body at rest there is no energy yet but this.
+    first += step_change_energy(domain.scratch.velocity_before, domain);
+  }
   set_residual(first, domain.model.whole.energy_floor, domain.sample.budget);
 }
 

@@ -6,6 +6,11 @@ namespace breccia {
 
 // The phases of a step in their order (simulation/step.cpp). Each says what it reads and writes.
 
+/// Whether the step to come is the first of a stage whose loads and constraints follow on other ones.
+[[nodiscard]] inline bool begins_stage(const State& state) {
+  return state.clock.steps > 0 && state.clock.steps == state.signals.step_motion.stage_step;
+}
+
 /// What all ranks sent in the last step: state.signals. Throws what a rank has failed with.
 void receive_signals(Domain& domain);
 
@@ -34,7 +39,8 @@ void move_nodes(bool sample, Domain& domain);
 /// Joints noted by the sweep join the active list.
 void activate_crossed_joints(Domain& domain);
 
-/// The energies at t_n: Domain::sample. @pre scratch.velocity_before is v_(n-1/2). Throws what any rank failed with.
+/// The energies at t_n: Domain::sample. Where a stage begins, what its change of the step moves counts as put in.
+/// @pre scratch.velocity_before is v_(n-1/2). Throws what any rank failed with.
 void sample_energies(Domain& domain);
 
 /// Joints that are as if nothing had happened return to the sweep, which evaluates them at lower cost.

@@ -8,7 +8,8 @@ namespace breccia {
 
 void step(Domain& domain, const StepOptions& options) {
   receive_signals(domain);
-  const bool sample = options.sample || domain.state.signals.received.stop;  // the last step, for the summary
+  // The last step is sampled for the summary, the first of a stage for what its change of the step moves.
+  const bool sample = options.sample || domain.state.signals.received.stop || begins_stage(domain.state);
   update_couples(domain);  // a new search if one is due; contact takes the faces that came apart a step ago
   apply_loads(domain);
   joint_forces(domain);    // active joints, by ascending ids

@@ -137,6 +137,45 @@ TEST(Budget, holds_the_work_of_constraints_and_pressures_of_earlier_stages) {
   EXPECT_GT(work.back(), 0.5 * pulled) << "held, not taken back";
 }
 
+TEST(Budget, holds_what_a_stage_begins_with_on_a_body_at_rest_whose_step_changes_there) {
+  // Steps of 10/4 and 40/15 us: in the first one of the push nothing else has moved yet.
+  const std::string text = R"(title = "rests, then pushed or dragged"
+[mesh.raster]
+cells = [3, 1, 1]
+cell_size = "10 mm"
+group = "box"
+[[material]]
+group = "box"
+young = "1 GPa"
+poisson = 0
+density = "1000 kg/m3"
+joints = "none"
+[[stage]]
+name = "rest"
+end = "10 us"
+[[stage]]
+name = "load"
+end = "50 us"
+LOAD
+[time]
+step = "2.7 us"
+[output]
+history_interval = "10 us"
+)";
+  for (const char* load : {"[[stage.pressure]]\nsurface = \"box.x1\"\nvalue = \"10 kPa\"",
+                           "[[stage.constraint]]\ngroup = \"box.x1\"\nvelocity = { x = \"10 mm/s\" }"}) {
+    const Scratch scratch;
+    std::string with_load = text;
+    with_load.replace(with_load.find("LOAD"), 4, load);
+    const FinishedRun run(scratch.write("case.toml", with_load));
+    ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+    EXPECT_LT(run.largest("relative residual"), kResidual) << load;
+    EXPECT_GT(run.history.at("external work [J]").back(), 0);
+    const std::vector<double>& step = run.history.at("time step [s]");
+    EXPECT_GT(*std::max_element(step.begin(), step.end()), 1.05 * step.front()) << "the step changes";
+  }
+}
+
 TEST(Budget, holds_what_the_springs_of_friction_store) {
   // The right tetrahedron is pressed in by 0.5 mm and, from 2 ms on, moved along the face; friction makes it stick.
   const std::string motion =

@@ -71,6 +71,23 @@ Vec3 Pass::relative_motion(const ContactPoint& point, Index slot, const std::arr
   return dt_ * relative;
 }
 
+/// Rotation of the two elements of a couple in the mean during the last step, rad: half the curl of their motions.
+Vec3 Pass::mean_turn(Index target, Index contactor) const {
+  const auto curl = [&](Index slot, const PreparedTetra& tetra) {
+    Vec3 sum = Vec3::Zero();
+    if (inert(tetra)) return sum;
+    const std::array<Vec3, 4> v = load_corners(local_, state_.velocity.data(), slot);
+    for (std::size_t c = 1; c < 4; ++c) {
+      const std::array<double, 3>& row = tetra.gradient[c - 1];
+      sum += Vec3(row[0], row[1], row[2]).cross(v[c] - v[0]);
+    }
+    return sum;
+  };
+  const PreparedTetra tetra =
+      prepare(load_corners(local_, state_.position.data(), target), local_.volume[static_cast<std::size_t>(target)]);
+  return 0.25 * dt_ * (curl(target, tetra) + curl(slot_of(contactor), prepared(contactor)));
+}
+
 /// The law follows the motion (field at rest), then the field (points at rest), so that the energy each of them moves
 /// is known apart. @return  J dissipated
 double Pass::follow(const ContactLaw& law, double scale, double length, const Candidate& candidate, TouchingCouple& h) {
@@ -153,8 +170,10 @@ double Pass::press(const ContactLaw& law, const ContactPoint& point, double leng
   const double slope = here.gradient.norm();
   if (law.friction > 0 && law.tangential_ratio > 0 && slope > 0) {
     const double k = law.tangential_ratio * point.weight * law.penalty / length;
-    const FrictionStep friction =
-        friction_step(-here.gradient / slope, motion, k, law.friction * normal.pressure * slope, h.spring);
+    const Vec3 outward = -here.gradient / slope;
+    if (h.spring != Vec3::Zero())
+      turn_spring(outward, outward.dot(mean_turn(point.slot, candidate.contactor)), h.spring);
+    const FrictionStep friction = friction_step(outward, motion, k, law.friction * normal.pressure * slope, h.spring);
     const double spring = 0.5 * k * h.spring.squaredNorm();
     account(point, work_.friction_dissipated).add(friction.dissipated);
     account(point, work_.friction_stored).add(spring);

@@ -68,6 +68,7 @@ class Pass {
   void end(const ContactPoint& point, const TouchingCouple& last, const Vec3& motion,
            const std::array<double, 4>& lambda, TouchingCouple& h);
   [[nodiscard]] Vec3 relative_motion(const ContactPoint& point, Index slot, const std::array<double, 4>& lambda) const;
+  [[nodiscard]] Vec3 mean_turn(Index target, Index contactor) const;
   [[nodiscard]] double first_offset(Index point, const Candidate& candidate) const;
   [[nodiscard]] static double follow(const ContactLaw& law, double scale, double length, const Candidate& candidate,
                                      TouchingCouple& h);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <Eigen/Geometry>
+
 #include "base/types.hpp"
 
 namespace breccia {
@@ -42,6 +44,16 @@ struct FrictionStep {
     dissipated = std::max(0.0, 0.5 * k * (before + xi).dot(stretched - xi));
   }
   return {-k * xi, dissipated};
+}
+
+/// Turns a spring with the surfaces that it lies between, by an angle about their normal: what sticks to a body that
+/// spins about the normal is held as on one at rest. Cayley's form of the rotation keeps lengths; it turns by
+/// a - a^3/12 for an angle a.
+/// @param normal  unit vector;  @param angle  rad, of both surfaces in the mean during the step
+inline void turn_spring(const Vec3& normal, double angle, Vec3& xi) {
+  const Vec3 half = 0.5 * angle * normal;
+  const Vec3 across = half.cross(xi);
+  xi += 2.0 / (1.0 + half.squaredNorm()) * (across + half.cross(across));
 }
 
 /// Of a spring that lets go in a step, J, >= 0: the same with the limit 0. @param motion  as above, along the surface

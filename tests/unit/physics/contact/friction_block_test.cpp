@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
+
 #include "scene.hpp"
 
 /// A block that cannot turn (its nodes move together) on a plane: Coulomb's closed forms.
@@ -100,6 +102,34 @@ TEST(friction_block, slides_above_the_angle_of_friction_with_the_acceleration_le
   block.run(time);
   const double acceleration = kGravity * (std::sin(slope) - mu * std::cos(slope));
   EXPECT_NEAR(block.path()[0] / (0.5 * acceleration * time * time), 1, 0.01);
+}
+
+TEST(friction_block, that_sticks_to_a_turning_floor_is_held_as_on_one_at_rest) {
+  constexpr double kDepth = 1e-3, kPushed = 1e-4, kMu = 0.4, kStep = 1e-3;
+  test::Scene scene(test::joined(Block::floor(), Block::block()), {kPenalty, kInfinite, 1, kMu, 1});
+  scene.shift(1, {kPushed, 0, -kDepth});
+  scene.set_velocity(1, {kPushed / kStep, 0, -kDepth / kStep});
+  scene.evaluate(kStep);
+  const Vec3 held = scene.force_on(1);
+  ASSERT_LT(held[0], 0);
+  ASSERT_LT(-held[0], kMu * held[2]) << "sticks";
+
+  // Both turn about the z axis as one rigid body, by a right angle in all.
+  constexpr int kSteps = 200;
+  const double angle = 0.5 * std::acos(-1.0) / kSteps;
+  const Mat3 turn = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
+  for (int i = 0; i < kSteps; ++i) {
+    for (Index n = 0; n < scene.local.num_nodes; ++n) {
+      const Vec3 before = load_node(scene.state.position.data(), n), after = turn * before;
+      store_node(scene.state.position.data(), n, after);
+      store_node(scene.state.velocity.data(), n, (after - before) / kStep);
+    }
+    scene.evaluate(kStep);
+  }
+  const Vec3 expected(-held[1], held[0], held[2]);
+  const double tolerance = angle;  // a step's motion leads along its chord
+  EXPECT_NEAR((scene.force_on(1) - expected).norm(), 0, tolerance * std::abs(held[0]));
+  EXPECT_EQ(scene.work.friction_dissipated.value(), 0);
 }
 
 /// Two elements of one body and different groups, glued by their nodes, and a small body inside the first of them.

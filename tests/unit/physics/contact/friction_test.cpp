@@ -44,6 +44,17 @@ TEST(friction, the_spring_keeps_its_length_when_the_normal_turns) {
   EXPECT_NEAR((xi - 0.1 * Vec3(std::cos(angle), 0, -std::sin(angle))).norm(), 0, kRoundOff);
 }
 
+TEST(friction, turns_its_spring_with_the_surfaces_and_keeps_its_length) {
+  const Vec3 normal = Vec3(1, 2, -2) / 3, along = Vec3(2, 1, 2) / 3, across = normal.cross(along);
+  Vec3 xi = 0.1 * along;
+  constexpr int kSteps = 1000;
+  const double angle = std::acos(-1.0) / 3;
+  for (int i = 0; i < kSteps; ++i) turn_spring(normal, angle / kSteps, xi);
+  const double short_by = std::pow(angle / kSteps, 2);  // of the angle, by Cayley's form
+  EXPECT_NEAR((xi - 0.1 * (std::cos(angle) * along + std::sin(angle) * across)).norm(), 0, 0.1 * short_by);
+  EXPECT_NEAR(xi.norm(), 0.1, kSteps * kRoundOff);
+}
+
 TEST(friction, dissipates_the_slip_and_nothing_while_it_sticks) {
   constexpr double kStiffness = 1000, kLimit = 7;
   Vec3 xi = Vec3::Zero();
