@@ -195,6 +195,18 @@ TEST(Budget, holds_what_the_springs_of_friction_store) {
   EXPECT_NEAR(stored.back() / pressed, 1 + kShare, kSampling);
 }
 
+TEST(Budget, holds_all_that_damping_takes_where_every_step_is_sampled) {
+  const Scratch scratch;
+  const FinishedRun run(
+      scratch.write("case.toml", kSmallCase) +
+      " --set stage.fly.mass_damping=1000 --set output.history_interval=1e-7 --set stage.fly.end=1e-4");
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  const std::vector<double>&damped = run.history.at("damping [J]"), &kinetic = run.history.at("kinetic [J]");
+  constexpr double kLost = 0.1;  // at least, of the energy: 1 - exp(-0.2) where nothing drives
+  EXPECT_GT(damped.back(), kLost * kinetic.front());
+  EXPECT_LT(run.largest("relative residual"), kResidual);
+}
+
 TEST(NotFinite, names_the_element_where_it_began_and_leaves_numbers_that_can_be_shown) {
   const Scratch scratch;
   std::string alone = kSmallCase;  // with contact the run would end earlier: nodes move too far in a step

@@ -274,6 +274,14 @@ TEST_F(Resume, NeedsNoMoreThanTheLastCheckpointsWhichAreKept) {
   EXPECT_TRUE(checkpoints(folder("none")).empty());
 }
 
+TEST_F(Resume, HasEachCheckpointCountedOnce) {
+  // So far apart that each is finished long before the next one begins.
+  run_up_to(450, "seldom", 1, "--set checkpoint.steps=200");
+  const json counts = summary_of(folder("seldom")).at("checkpoints");
+  EXPECT_EQ(counts.at("written"), 3) << "and one at the end";
+  EXPECT_EQ(counts.at("failed"), 0);
+}
+
 TEST_F(Resume, LeavesNoLineTwiceAndNoneOut) {
   run_up_to(130, "lines", 2);
   EXPECT_EQ(resume("lines", 1).exit_code, 0);

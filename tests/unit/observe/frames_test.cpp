@@ -128,7 +128,8 @@ TEST_F(TouchingCubes, show_a_contact_for_each_element_that_a_point_touches_with_
     TouchingCouple couple{};
     couple.point = 0;
     couple.contactor = contactor;
-    couple.force = Vec3(1, 0, 0);
+    couple.force = Vec3(1, 0.5, 0);
+    couple.friction = Vec3(0, 0.5, 0);
     contact.touching.push_back(couple);
   }
   const FrameParts parts{.elements = false, .joints = false, .contacts = true, .surface = false, .domain = false};
@@ -138,6 +139,8 @@ TEST_F(TouchingCubes, show_a_contact_for_each_element_that_a_point_touches_with_
   EXPECT_EQ(shown.point[0], shown.point[1]);
   EXPECT_NE(shown.id[0], shown.id[1]);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(shown.id[i], 48 * shown.point[i] + shown.other_element[i]);
+  EXPECT_EQ(shown.normal_force, std::vector<double>({1, 0, 0, 1, 0, 0}));
+  EXPECT_EQ(shown.tangential_force, std::vector<double>({0, 0.5, 0, 0, 0.5, 0}));
 }
 
 }  // namespace

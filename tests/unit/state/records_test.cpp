@@ -122,6 +122,14 @@ TEST(Records, SentAwayAndMergedAgainAreComplete) {
   expect_equal(back, all);
 }
 
+TEST(Records, ThatArriveWhereThereAreNoneAreAllThere) {
+  const Mesh mesh = cubes();
+  const Records all = records_of(mesh, build_topology(mesh));
+  Records none;
+  merge(none, all);
+  expect_equal(none, all);
+}
+
 TEST(Records, RefuseBytesThatAreCutOff) {
   const Mesh mesh = cubes();
   const Records all = records_of(mesh, build_topology(mesh));
