@@ -262,6 +262,16 @@ NumberText number_at_start(std::string_view text) {
   return out;
 }
 
+/// Spaces that look like others, as text from a web page or a word processor has them: U+00A0, U+2009, U+202F.
+std::string with_plain_spaces(std::string_view text) {
+  std::string plain(text);
+  for (const std::string_view space : {"\u00a0", "\u2009", "\u202f"}) {
+    for (std::size_t at = plain.find(space); at != std::string::npos; at = plain.find(space, at))
+      plain.replace(at, space.size(), " ");
+  }
+  return plain;
+}
+
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
@@ -292,8 +302,9 @@ std::string name_of(const Dimension& dimension) {
   return out;
 }
 
-Quantity parse_quantity(std::string_view text) {
-  text = trimmed(text);
+Quantity parse_quantity(std::string_view given) {
+  const std::string spaced = with_plain_spaces(given);
+  std::string_view text = trimmed(spaced);
   if (text.starts_with('+')) text.remove_prefix(1);
   const NumberText number = number_at_start(text);
   if (number.length == 0) throw UnitError("does not begin with a number", "a number and a unit, e.g. \"26.6 GPa\"");

@@ -208,13 +208,16 @@ TEST(Program, that_is_killed_is_told_interrupted_and_leaves_its_folder_free) {
   EXPECT_EQ(call("run " + file + " -f --progress none --set time.max_steps=3 -o '" + run + "'").exit_code, 0);
 }
 
-TEST(Program, whose_terminal_is_closed_ends_as_if_asked_to) {
+TEST(Program, whose_terminal_is_closed_or_whose_time_is_up_ends_as_if_asked_to) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase), run = scratch.path("run").string();
-  EXPECT_EQ(call_interrupted("run " + file + " --progress none --set 'stage[0].end=100 s' -o '" + run + "'", SIGHUP,
-                             [&] { return !read_text(run + "/status.jsonl").empty(); }),
-            129);
-  EXPECT_NE(read_text(run + "/status.jsonl").find("{\"state\":\"stopped\""), std::string::npos);
+  for (const int signal : {SIGHUP, SIGUSR2, SIGXCPU}) {
+    std::filesystem::remove_all(run);
+    EXPECT_EQ(call_interrupted("run " + file + " --progress none --set 'stage[0].end=100 s' -o '" + run + "'", signal,
+                               [&] { return !read_text(run + "/status.jsonl").empty(); }),
+              128 + signal);
+    EXPECT_NE(read_text(run + "/status.jsonl").find("{\"state\":\"stopped\""), std::string::npos) << signal;
+  }
 }
 
 TEST(Program, check_advises_in_sentences) {

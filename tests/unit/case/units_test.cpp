@@ -40,7 +40,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Good{"2 mPa s", "Pa s", 0.002}, Good{"10 kHz", "1/s", 1e4}, Good{"10 1/s", "1/s", 10},
                     Good{"10 /s", "1/s", 10}, Good{"10/s", "1/s", 10}, Good{"5 %", "1", 0.05}, Good{"0.3", "1", 0.3},
                     Good{"0", "Pa", 0}, Good{"2 min", "s", 120}, Good{"3 h", "s", 10800}, Good{"1 bar", "Pa", 1e5},
-                    Good{"1 N/mm2", "Pa", 1e6}, Good{"  4   m  ", "m", 4}, Good{"180 deg", "rad", std::numbers::pi},
+                    Good{"1 N/mm2", "Pa", 1e6}, Good{"  4   m  ", "m", 4}, Good{"4\u00a0MPa", "Pa", 4e6},
+                    Good{"2\u202fPa\u2009s", "Pa s", 2}, Good{"180 deg", "rad", std::numbers::pi},
                     Good{"2 rad/s", "rad/s", 2}, Good{"1 dm3", "m3", 1e-3}, Good{"1 l", "m3", 1e-3},
                     Good{"3 mrad", "rad", 0.003}));
 
