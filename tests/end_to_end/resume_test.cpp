@@ -30,7 +30,8 @@ std::string eventful_case() {
   text.replace(text.find(output), output.size(),
                "[[stage]]\nname = \"push\"\nend = \"4 ms\"\nmass_damping = 20\ngravity = [0, 0, \"-9.81 m/s2\"]\n"
                "[[stage.pressure]]\nsurface = \"box.x1\"\nvalue = \"1 kPa\"\n"
-               "[[stage.constraint]]\ngroup = \"box.x0\"\nvelocity = { z = 0 }\n"
+               "[[stage.constraint]]\ngroup = \"box.x0\"\n"
+               "displacement = { z = { table = [[\"2 ms\", 0], [\"4 ms\", \"0.1 mm\"]] } }\n"
                "[time]\nsafety = 0.4\n[output]");
   return text;
 }
