@@ -46,7 +46,7 @@ struct Bench {
       if (run.words == name) signal_session(run.record.session, SIGKILL);
   }
   [[nodiscard]] int snapshots() const {
-    return QDir(scratch.path()).entryList({".breccia-queued-*"}, QDir::Files | QDir::Hidden).size();
+    return static_cast<int>(QDir(scratch.path()).entryList({".breccia-queued-*"}, QDir::Files | QDir::Hidden).size());
   }
 };
 
