@@ -29,8 +29,7 @@ int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 
 volatile std::sig_atomic_t reports_signals = 0;  // one rank does
 
-/// Ctrl-C, SIGTERM, a closed terminal and what queues send before they kill (SIGUSR2, SIGXCPU) end the run after the
-/// present step, with everything written; a second one kills.
+/// kEndingSignals end the run after the present step; a second one kills.
 void stop_handler(int signal) {
   interruption = signal;
   stop_requested = true;
@@ -151,7 +150,7 @@ int main(int argc, char** argv) {
   const bool in_order = asked_for("run") || asked_for("resume") || asked_for("race");  // the others lose nothing
   if (in_order) {
     reports_signals = session.world().is_root() ? 1 : 0;
-    for (const int s : {SIGINT, SIGTERM, SIGHUP, SIGUSR2, SIGXCPU}) std::signal(s, stop_handler);
+    for (const int s : kEndingSignals) std::signal(s, stop_handler);
     std::signal(SIGUSR1, checkpoint_handler);
   }
   std::signal(SIGPIPE, SIG_IGN);  // who reads the progress may go; the run goes on

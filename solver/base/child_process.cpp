@@ -108,8 +108,8 @@ void keep_descriptors(int report, int words) {
                         const std::function<void()>& prepare, const std::function<std::vector<std::byte>()>& work) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);
-  for (const int s : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL})
-    ::signal(s, SIG_DFL);
+  for (const int s : kEndingSignals) ::signal(s, SIG_DFL);
+  for (const int s : {SIGPIPE, SIGXFSZ, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL}) ::signal(s, SIG_DFL);
   keep_descriptors(report, words);
   constexpr int kReport = 3;
   limit(RLIMIT_CORE, 0);

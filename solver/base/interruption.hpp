@@ -1,13 +1,19 @@
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <csignal>
 #include <string>
 
 #include "base/error.hpp"
 
 namespace breccia {
 
-/// Number of the signal that asked this process to end (Ctrl-C, SIGTERM, a closed terminal); 0: none has.
+/// That end a run after the present step, with everything written: Ctrl-C, a polite kill, a closed terminal, and what
+/// queues send before they kill.
+inline constexpr std::array kEndingSignals{SIGINT, SIGTERM, SIGHUP, SIGUSR2, SIGXCPU};
+
+/// Number of the signal that asked this process to end; 0: none has.
 /// Set by a handler in main; long work that can be given up looks at it.
 inline std::atomic<int> interruption{0};
 

@@ -26,7 +26,7 @@ std::optional<std::int64_t> first_number(const std::string& line) {
   return error == std::errc{} ? std::optional(number) : std::nullopt;
 }
 
-/// A number at the begin of each line.
+/// The number at the beginning of each line.
 std::optional<Numbers> numbers_of_lines(std::ifstream& in, std::int64_t count) {
   Numbers numbers;
   std::string line;

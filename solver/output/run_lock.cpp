@@ -15,6 +15,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "base/interruption.hpp"
 #include "output/atomic_file.hpp"
 #include "output/run_folder.hpp"
 
@@ -81,7 +82,8 @@ void conclude(const char* status, bool failed) {
 
 [[noreturn]] void watch(int pipe) {
   ::setsid();
-  for (const int s : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGUSR1, SIGUSR2}) ::signal(s, SIG_IGN);
+  for (const int s : kEndingSignals) ::signal(s, SIG_IGN);
+  for (const int s : {SIGPIPE, SIGUSR1}) ::signal(s, SIG_IGN);
   ::dup2(pipe, 3);
   if (::syscall(SYS_close_range, 4U, ~0U, 0U) != 0) {
     for (int d = 4; d < 65536; ++d) ::close(d);

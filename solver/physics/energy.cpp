@@ -32,41 +32,40 @@ void for_each_carrier(const LocalMesh& mesh, Account&& account) {
   }
 }
 
-}  // namespace
-
-ExactSum kinetic_energy(const LocalMesh& mesh, const double* velocity_before, const double* velocity_after,
-                        double change) {
+/// Exact sum over carriers of what add(node, energy) adds to the energy of each.
+template <class Add>
+ExactSum sum_over_nodes(const LocalMesh& mesh, Add&& add) {
   ExactSum sum;
   for_each_carrier(mesh, [&](std::span<const Index> nodes) {
     double energy = 0;
-    for (const Index n : nodes) {
-      const std::size_t at = nodal(n, 0);
-      const double product = velocity_before[at] * velocity_after[at] +
-                             velocity_before[at + 8] * velocity_after[at + 8] +
-                             velocity_before[at + 16] * velocity_after[at + 16];
-      const double mass = mesh.node_mass[static_cast<std::size_t>(n)];
-      energy += 0.5 * mass * product;
-      if (change == 0) continue;
-      const Vec3 before = load_node(velocity_before, n), after = load_node(velocity_after, n);
-      energy += 0.5 * change * mass * (after - before).dot(after);
-    }
+    for (const Index n : nodes) add(n, energy);
     sum.add(energy);
   });
   return sum;
 }
 
+}  // namespace
+
+ExactSum kinetic_energy(const LocalMesh& mesh, const double* velocity_before, const double* velocity_after,
+                        double change) {
+  return sum_over_nodes(mesh, [&](Index n, double& energy) {
+    const std::size_t at = nodal(n, 0);
+    const double product = velocity_before[at] * velocity_after[at] + velocity_before[at + 8] * velocity_after[at + 8] +
+                           velocity_before[at + 16] * velocity_after[at + 16];
+    const double mass = mesh.node_mass[static_cast<std::size_t>(n)];
+    energy += 0.5 * mass * product;
+    if (change == 0) return;
+    const Vec3 before = load_node(velocity_before, n), after = load_node(velocity_after, n);
+    energy += 0.5 * change * mass * (after - before).dot(after);
+  });
+}
+
 ExactSum step_change_energy(const LocalMesh& mesh, const double* velocity_before, const double* velocity_after,
                             double change) {
-  ExactSum sum;
-  for_each_carrier(mesh, [&](std::span<const Index> nodes) {
-    double energy = 0;
-    for (const Index n : nodes) {
-      const Vec3 kicked = load_node(velocity_after, n) - load_node(velocity_before, n);
-      energy += 0.5 * change * mesh.node_mass[static_cast<std::size_t>(n)] * kicked.squaredNorm();
-    }
-    sum.add(energy);
+  return sum_over_nodes(mesh, [&](Index n, double& energy) {
+    const Vec3 kicked = load_node(velocity_after, n) - load_node(velocity_before, n);
+    energy += 0.5 * change * mesh.node_mass[static_cast<std::size_t>(n)] * kicked.squaredNorm();
   });
-  return sum;
 }
 
 ElasticEnergy elastic_energy(const LocalMesh& mesh, std::span<const ElasticParams> params_of_group,

@@ -13,6 +13,8 @@
 #include <iterator>
 #include <string>
 
+#include "base/interruption.hpp"
+
 namespace breccia {
 namespace {
 
@@ -42,6 +44,19 @@ TEST(ChildProcess, TellsHowItCrashed) {
   EXPECT_EQ(end.kind, ChildEnd::Kind::crashed);
   EXPECT_EQ(end.signal, SIGABRT);
   EXPECT_EQ(end.text, "the last words");
+}
+
+TEST(ChildProcess, IsEndedByEverySignalThatARunOnlyTakesNoteOf) {
+  for (const int signal : kEndingSignals) {
+    const auto before = std::signal(signal, [](int) {});
+    const ChildEnd end = end_of([signal]() -> std::vector<std::byte> {
+      std::raise(signal);
+      return {};
+    });
+    std::signal(signal, before);
+    EXPECT_EQ(end.kind, ChildEnd::Kind::crashed) << signal;
+    EXPECT_EQ(end.signal, signal);
+  }
 }
 
 TEST(ChildProcess, LeavingWithoutAResultIsACrash) {
