@@ -246,7 +246,7 @@ class Drawing:
         table, sieve = data_of(found, 1), data_of(found, 2)
         mass = column(table, "mass")
         part = {"count": int(table.GetNumberOfRows()), "mass": float(mass.sum()), **facts(sieve)}
-        names = [n for n in ("fragment", "elements", "mass", "volume", "diameter", "velocity", "spin", "elongation", "flatness",
+        names = [n for n in ("fragment", "body", "elements", "mass", "volume", "diameter", "velocity", "spin", "elongation", "flatness",
                              "sphericity") if table.GetRowData().GetArray(n) is not None]
         part["largest"] = rows(table, names, np.argsort(-mass, kind="stable"))
         if sieve.GetNumberOfRows() > 0:

@@ -19,20 +19,6 @@
 namespace breccia {
 namespace {
 
-std::vector<vtkDataSet*> Leaves(vtkDataObject* input) {
-  std::vector<vtkDataSet*> leaves;
-  if (auto* tree = vtkCompositeDataSet::SafeDownCast(input)) {
-    vtkSmartPointer<vtkCompositeDataIterator> it;
-    it.TakeReference(tree->NewIterator());
-    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem()) {
-      if (auto* leaf = vtkDataSet::SafeDownCast(it->GetCurrentDataObject())) leaves.push_back(leaf);
-    }
-  } else if (auto* set = vtkDataSet::SafeDownCast(input)) {
-    leaves.push_back(set);
-  }
-  return leaves;
-}
-
 vtkDataArray* ArrayOf(vtkDataSet* part, const char* name, int components) {
   if (!part || part->GetNumberOfCells() == 0) return nullptr;
   vtkDataArray* array = part->GetCellData()->GetArray(name);
@@ -115,6 +101,20 @@ std::vector<char> Ranks::GatherBytes(const char* mine, vtkIdType length) const {
   std::vector<char> all(static_cast<std::size_t>(total));
   if (total > 0) controller_->AllGatherV(mine, all.data(), length, lengths.data(), offsets.data());
   return all;
+}
+
+std::vector<vtkDataSet*> Leaves(vtkDataObject* input) {
+  std::vector<vtkDataSet*> leaves;
+  if (auto* tree = vtkCompositeDataSet::SafeDownCast(input)) {
+    vtkSmartPointer<vtkCompositeDataIterator> it;
+    it.TakeReference(tree->NewIterator());
+    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem()) {
+      if (auto* leaf = vtkDataSet::SafeDownCast(it->GetCurrentDataObject())) leaves.push_back(leaf);
+    }
+  } else if (auto* set = vtkDataSet::SafeDownCast(input)) {
+    leaves.push_back(set);
+  }
+  return leaves;
 }
 
 vtkSmartPointer<vtkDataSet> FindPart(vtkDataObject* input, const char* mark) {

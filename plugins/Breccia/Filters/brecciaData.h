@@ -53,6 +53,8 @@ class Ranks {
   vtkMultiProcessController* controller_;
 };
 
+/// The data sets in an input.
+std::vector<vtkDataSet*> Leaves(vtkDataObject* input);
 /// The data set of a run's part that this rank has: the leaf, or the leaves appended, of `input` whose cells have the
 /// array `mark`; null when there is none.
 vtkSmartPointer<vtkDataSet> FindPart(vtkDataObject* input, const char* mark);
