@@ -69,7 +69,9 @@ std::string gauge_chart(const RunRecord& run, const std::string& quantity_name, 
       chart.series.push_back({run.gauge_label(gauge), history.column("time [s]"), std::move(values)});
   }
   const std::string svg = svg_of(chart);
-  return svg.empty() ? svg : figure(svg, caption);
+  // A chart of one curve has no legend.
+  const std::string gauge = chart.series.size() == 1 ? " The gauge is " + chart.series.front().name + "." : "";
+  return svg.empty() ? svg : figure(svg, caption + gauge);
 }
 
 std::string phase_table(const RunRecord& run) {
