@@ -222,6 +222,8 @@ class Drawing:
         time = times[-1]
         self.run.UpdatePipeline(time)
         self.result["frames"], self.result["time"] = len(times), time
+        blocks = data_of(self.run)
+        self.channels = [blocks.GetMetaData(i).Get(blocks.NAME()) for i in range(blocks.GetNumberOfBlocks())]
         self.elements = ExtractBlock(registrationName="elements", Input=self.run, Selectors=["/Root/elements"])
         self.cracks = FractureSurface(registrationName="Fracture Surface", Input=self.run, Up=self.up.upper())
         self.times = times
@@ -301,6 +303,8 @@ class Drawing:
                       "root of their area, by their time.", body)
 
     def contacts(self):
+        if "contacts" not in self.channels:
+            return
         time = self.frame_at_most_of("contacts")
         found = ContactNetwork(registrationName="Contact Network", Input=self.run)
         found.UpdatePipeline(time)

@@ -130,6 +130,24 @@ vtkSmartPointer<vtkDataSet> FindPart(vtkDataObject* input, const char* mark) {
   return append->GetOutput();
 }
 
+bool LacksBlock(vtkDataObject* input, const char* name, const char* mark) {
+  auto* tree = vtkCompositeDataSet::SafeDownCast(input);
+  if (!tree) {
+    auto* set = vtkDataSet::SafeDownCast(input);
+    return set && !set->GetCellData()->HasArray(mark);
+  }
+  bool lacks = false;  // an input without any data set, as on a rank without a part, tells nothing
+  vtkSmartPointer<vtkCompositeDataIterator> it;
+  it.TakeReference(tree->NewIterator());
+  for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem()) {
+    auto* leaf = vtkDataSet::SafeDownCast(it->GetCurrentDataObject());
+    const char* its = it->HasCurrentMetaData() ? it->GetCurrentMetaData()->Get(vtkCompositeDataSet::NAME()) : nullptr;
+    if (!leaf || !its || std::string(its) == name || leaf->GetCellData()->HasArray(mark)) return false;
+    lacks = true;
+  }
+  return lacks;
+}
+
 std::string Describe(vtkDataObject* input) {
   std::string text;
   for (vtkDataSet* leaf : Leaves(input)) {

@@ -41,6 +41,13 @@ std::vector<Touch> FindTouches(vtkDataObject* input, const breccia::Ranks& ranks
   std::string problem;
   try {
     const auto part = breccia::FindPart(input, "normal_force");
+    if (!part && breccia::LacksBlock(input, "contacts", "normal_force")) {
+      throw breccia::BadInput(
+          "there is no block 'contacts' (vertices with the cell arrays 'normal_force', 'force', 'point', "
+          "'other_element'): the run has not recorded them (output.contacts), or a filter before this one has left "
+          "them out; there is: " +
+          breccia::Describe(input));
+    }
     // Where there is no "point", in recordings of before, "id" was it.
     const bool has_point = part != nullptr && part->GetCellData()->HasArray("point") != 0;
     const auto point = breccia::Integers(part, has_point ? "point" : "id"),

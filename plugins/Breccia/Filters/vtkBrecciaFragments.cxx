@@ -194,7 +194,8 @@ void vtkBrecciaFragments::Make(vtkDataObject* input, vtkDataObject* joints, vtkI
   std::vector<std::pair<double, double>> sizes;
   for (const Fragment& f : fragments) {
     if (this->OnlyBroken && f.cracked == 0) continue;
-    sizes.emplace_back(this->SieveMeasure == SPHERE ? f.Diameter() : f.SieveSize(), f.mass);
+    const double size = this->SieveMeasure == SPHERE ? f.Diameter() : f.SieveSize();
+    if (std::isfinite(size) && std::isfinite(f.mass)) sizes.emplace_back(size, f.mass);
   }
   vtkTable::GetData(outputs, 1)->Initialize();
   vtkTable::GetData(outputs, 2)->Initialize();
