@@ -222,6 +222,8 @@ class Drawing:
         time = times[-1]
         self.run.UpdatePipeline(time)
         self.result["frames"], self.result["time"] = len(times), time
+        blocks = data_of(self.run)
+        self.channels = [blocks.GetMetaData(i).Get(blocks.NAME()) for i in range(blocks.GetNumberOfBlocks())]
         self.elements = ExtractBlock(registrationName="elements", Input=self.run, Selectors=["/Root/elements"])
         self.cracks = FractureSurface(registrationName="Fracture Surface", Input=self.run, Up=self.up.upper())
         self.times = times
@@ -246,7 +248,7 @@ class Drawing:
         table, sieve = data_of(found, 1), data_of(found, 2)
         mass = column(table, "mass")
         part = {"count": int(table.GetNumberOfRows()), "mass": float(mass.sum()), **facts(sieve)}
-        names = [n for n in ("fragment", "elements", "mass", "volume", "diameter", "velocity", "spin", "elongation", "flatness",
+        names = [n for n in ("fragment", "body", "elements", "mass", "volume", "diameter", "velocity", "spin", "elongation", "flatness",
                              "sphericity") if table.GetRowData().GetArray(n) is not None]
         part["largest"] = rows(table, names, np.argsort(-mass, kind="stable"))
         if sieve.GetNumberOfRows() > 0:
@@ -301,6 +303,8 @@ class Drawing:
                       "root of their area, by their time.", body)
 
     def contacts(self):
+        if "contacts" not in self.channels:
+            return
         time = self.frame_at_most_of("contacts")
         found = ContactNetwork(registrationName="Contact Network", Input=self.run)
         found.UpdatePipeline(time)

@@ -1,9 +1,12 @@
 #include <arpa/inet.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <fmt/core.h>
 #include <array>
 #include <cerrno>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -11,6 +14,7 @@
 #include <sstream>
 #include <string>
 
+#include "base/error.hpp"
 #include "case/live_address.hpp"
 #include "case/reader.hpp"
 #include "commands/commands.hpp"
@@ -98,6 +102,33 @@ void demand_free(int port) {
                        "ParaView cannot listen there; insitu.live.address says where it does", why);
 }
 
+/// Whether an X server listens at a socket of this machine. @param abstract  a name without a file
+bool listens_at(const std::string& path, bool abstract) {
+  sockaddr_un place{};
+  place.sun_family = AF_UNIX;
+  const std::size_t begin = abstract ? 1 : 0;
+  if (begin + path.size() >= sizeof place.sun_path) return false;
+  path.copy(place.sun_path + begin, path.size());
+  const int client = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const auto length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + begin + path.size());
+  const bool listens = ::connect(client, reinterpret_cast<const sockaddr*>(&place), length) == 0;
+  ::close(client);
+  return listens;
+}
+
+/// Throws OutputError where ParaView's window would have no display, on which Qt aborts. Displays of other machines
+/// (ssh -X among them) are not tried.
+void demand_display() {
+  if (!variable("WAYLAND_DISPLAY").empty() || !variable("QT_QPA_PLATFORM").empty()) return;
+  const std::string display = variable("DISPLAY");
+  const bool is_local = display.starts_with(':');
+  const std::string path =
+      "/tmp/.X11-unix/X" + display.substr(is_local ? 1 : 0, display.find('.') - (is_local ? 1 : 0));
+  if (!display.empty() && (!is_local || listens_at(path, false) || listens_at(path, true))) return;
+  throw OutputError(Problem{"paraview", 0, "DISPLAY", "there is no display for its window",
+                            "one of a desktop or of ssh -X; or xvfb-run before the command", display});
+}
+
 /// What the view is told of the run.
 void describe(const case_::Case& input, int port) {
   const InSituConfig config(input, ".", {});
@@ -116,6 +147,7 @@ int live_command(const LiveCommand& asked) {
   const std::string address = input.insitu.live ? input.insitu.live->address : case_::live_address;
   const int port = case_::host_and_port(address)->second;
   demand_free(port);
+  demand_display();
   const InSituPlugin plugin(case_::InSituBackend::paraview);
   const fs::path data = plugin.api().data_folder;
   const std::string description = plugin.api().description;

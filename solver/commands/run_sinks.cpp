@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "output/bodies_sink.hpp"
 #include "output/history_sink.hpp"
 #include "output/summary.hpp"
 #include "output/vtkhdf_sink.hpp"
@@ -16,6 +17,7 @@ std::vector<std::unique_ptr<Sink>> run_sinks(const case_::Case& input, const Run
     const FrameParts parts{input.output.elements, input.output.joints, input.output.contacts};
     sinks.push_back(std::make_unique<VtkhdfSink>(folder.frames(), parts, world));
     if (!world.is_root()) return;
+    sinks.push_back(std::make_unique<BodiesSink>(folder.bodies()));
     sinks.push_back(std::make_unique<HistorySink>(folder.history()));
     sinks.push_back(std::make_unique<StatusSink>(folder.status()));
     sinks.push_back(std::make_unique<ProgressSink>(progress, std::cout, terminal_columns(fileno(stdout))));

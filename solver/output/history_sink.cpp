@@ -5,6 +5,7 @@
 #include <array>
 #include <iterator>
 
+#include "output/csv_field.hpp"
 #include "output/energy_terms.hpp"
 
 namespace breccia {
@@ -62,16 +63,6 @@ std::string words_of(std::string name) {
     if (c == '_') c = ' ';
   }
   return name;
-}
-
-std::string quoted(const std::string& field) {
-  if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
-  std::string text = "\"";
-  for (const char c : field) {
-    if (c == '"') text += '"';
-    text += (c == '\r' || c == '\n') ? ' ' : c;  // a line of the file is a row
-  }
-  return text + '"';
 }
 
 /// Hands out the numbers of a row in the order of the columns: counts as they are, vectors by component.
@@ -135,7 +126,7 @@ void HistorySink::start(const RunStart& run) {
   std::string header;
   for (const std::string& column : history_columns(run.gauges, run.insitu)) {
     if (!header.empty()) header += ',';
-    header += quoted(column);
+    header += csv_field(column);
   }
   file_.emplace(path_);
   file_->append_line(header);

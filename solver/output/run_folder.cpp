@@ -35,9 +35,10 @@ bool is_frame_file(const std::string& name) {
 std::vector<fs::path> results_in(const RunFolder& folder) {
   std::vector<fs::path> results;
   std::error_code error;
-  for (const fs::path& path : {folder.history(), folder.status(), folder.summary(), temporary_of(folder.summary()),
-                               folder.summary_text(), temporary_of(folder.summary_text()), folder.extracts(),
-                               folder.checkpoints(), folder.control(), temporary_of(folder.control())}) {
+  for (const fs::path& path :
+       {folder.history(), folder.bodies(), temporary_of(folder.bodies()), folder.status(), folder.summary(),
+        temporary_of(folder.summary()), folder.summary_text(), temporary_of(folder.summary_text()), folder.extracts(),
+        folder.checkpoints(), folder.control(), temporary_of(folder.control())}) {
     if (fs::exists(path, error)) results.push_back(path);
   }
   fs::directory_iterator entries(folder.frames(), error);

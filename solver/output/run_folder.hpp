@@ -56,6 +56,7 @@ struct RunFolder {
   [[nodiscard]] std::filesystem::path case_file() const { return root / "case.toml"; }
   [[nodiscard]] std::filesystem::path provenance() const { return root / "provenance.json"; }
   [[nodiscard]] std::filesystem::path history() const { return root / "history.csv"; }
+  [[nodiscard]] std::filesystem::path bodies() const { return root / "bodies.csv"; }
   [[nodiscard]] std::filesystem::path status() const { return root / "status.jsonl"; }
   [[nodiscard]] std::filesystem::path summary() const { return root / "summary.json"; }
   [[nodiscard]] std::filesystem::path summary_text() const { return root / "summary.txt"; }

@@ -18,6 +18,7 @@ struct RunStart {
   bool insitu = false;              ///< pipelines work while it goes on: HistoryRow::insitu_share
   std::optional<OutputMarks>
       marks{};  ///< the run goes on from a checkpoint: what is beyond these in its files is dropped
+  std::vector<std::string> bodies{};  ///< (bodies) what users call them; on the first rank
 };
 
 /// How far a run has come. SI.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -11,6 +12,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "case/groups.hpp"
 #include "case/reader.hpp"
 #include "output/run_lock.hpp"
 
@@ -91,6 +93,23 @@ void read_history(const RunFolder& run, RunRecord& record) {
   if (left_out > 0)
     record.flaws.push_back(fmt::format("history.csv: lines that are not whole are left out: {}.", left_out));
   if (record.history.rows() == 0) record.flaws.emplace_back("history.csv has no line yet.");
+}
+
+/// Names that are told for all bodies, in their order; else none.
+void read_bodies(const RunFolder& run, RunRecord& record) {
+  const std::optional<std::string> text = content_of(run.bodies());
+  if (!text) return;
+  bool cut = false;
+  const std::vector<std::string_view> lines = lines_of(*text, cut);
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::vector<std::string> cells = cells_of(lines[i]);
+    if (cells.size() != 2 || cells[0] != std::to_string(i - 1)) {
+      record.flaws.emplace_back("bodies.csv is no list of names of bodies and is left out.");
+      record.bodies.clear();
+      return;
+    }
+    record.bodies.push_back(cells[1]);
+  }
 }
 
 double number_in(const Json& object, const char* name) {
@@ -270,6 +289,21 @@ double RunRecord::number(const std::string& name) const {
   return found == numbers.end() ? kNone : found->second;
 }
 
+std::string RunRecord::body_name(double number) const {
+  constexpr double kMostBodies = 2147483647;  // their numbers have 32 bits
+  if (!(number >= 0 && number <= kMostBodies)) return {};
+  const auto body = static_cast<std::size_t>(number);
+  return body < bodies.size() ? bodies[body] : "body " + std::to_string(body);
+}
+
+std::string RunRecord::gauge_label(const std::string& gauge) const {
+  const std::int64_t body = case_::numbered_body(gauge);
+  const bool is_group = std::find(bodies.begin(), bodies.end(), gauge) != bodies.end();
+  if (body < 0 || is_group || static_cast<std::size_t>(body) >= bodies.size()) return gauge;
+  const std::string& name = bodies[static_cast<std::size_t>(body)];
+  return name.find(gauge) == std::string::npos ? name + " (" + gauge + ")" : name;
+}
+
 RunRecord read_run(const fs::path& folder) {
   const RunFolder run{folder};
   std::error_code error;
@@ -282,6 +316,7 @@ RunRecord read_run(const fs::path& folder) {
   read_case_of(run, record);
   read_status(run, record);
   settle_state(record);
+  read_bodies(run, record);
   read_history(run, record);
   const bool ended = record.state == "complete" || record.state == "stopped" || record.state == "failed";
   flatten(object_in(run.summary(), ended, record), "", record);

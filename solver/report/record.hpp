@@ -38,8 +38,9 @@ struct RunRecord {
   std::string message;  ///< with the state
   double end = 0;       ///< s, simulated: where the case ends; 0: unknown
   Provenance provenance;
-  std::string case_text;  ///< resolved
-  char up = 'z';          ///< axis against gravity, or of the fastest initial motion
+  std::string case_text;            ///< resolved
+  char up = 'z';                    ///< axis against gravity, or of the fastest initial motion
+  std::vector<std::string> bodies;  ///< their names by their numbers; empty in runs of before
   History history;
   std::vector<StatusPoint> status;
   std::vector<RunEvent> events;
@@ -48,6 +49,10 @@ struct RunRecord {
   std::vector<std::pair<std::string, double>> phases;  ///< s
   std::vector<std::string> flaws;                      ///< files that are missing or not whole
 
+  /// "body 12" where there is no name; empty for what is no number of a body.
+  [[nodiscard]] std::string body_name(double number) const;
+  /// What a gauge is called: one that is named by a body's number, "body 3", by the body's name as well.
+  [[nodiscard]] std::string gauge_label(const std::string& gauge) const;
   /// NaN when the summary does not say.
   [[nodiscard]] double number(const std::string& name) const;
 };

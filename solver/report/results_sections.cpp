@@ -189,14 +189,15 @@ std::string fragments(const RunRecord& run, const Figures& figures) {
                                   {"Swebrec: exponent", figures.fact("fragments", "swebrec_exponent"), ""},
                                   {"mass of all parts", figures.fact("fragments", "mass"), "kg"}});
   Table table{"The heaviest fragments at the last frame",
-              {"fragment", "elements", "mass", "volume", "diameter", "speed", "spin", "sphericity"},
+              {"fragment", "body", "elements", "mass", "volume", "diameter", "speed", "spin", "sphericity"},
               {}};
   for (const Row& row : table_of(figures, "fragments.largest"))
     table.rows.push_back(
-        {Cell::id(first_of(row, "fragment")), Cell::count(first_of(row, "elements")),
-         Cell::number_of(first_of(row, "mass"), "kg"), Cell::number_of(first_of(row, "volume"), "m3"),
-         Cell::number_of(first_of(row, "diameter"), "m"), Cell::number_of(length_of(row, "velocity"), "m/s"),
-         Cell::number_of(length_of(row, "spin"), "rad/s"), Cell::number_of(first_of(row, "sphericity"), "")});
+        {Cell::id(first_of(row, "fragment")), Cell::text(run.body_name(first_of(row, "body"))),
+         Cell::count(first_of(row, "elements")), Cell::number_of(first_of(row, "mass"), "kg"),
+         Cell::number_of(first_of(row, "volume"), "m3"), Cell::number_of(first_of(row, "diameter"), "m"),
+         Cell::number_of(length_of(row, "velocity"), "m/s"), Cell::number_of(length_of(row, "spin"), "rad/s"),
+         Cell::number_of(first_of(row, "sphericity"), "")});
   found += table.html();
   html += tables(found);
   if (!table.rows.empty())
@@ -258,7 +259,8 @@ std::string contacts(const RunRecord& run, const Figures& figures) {
   for (const Row& row : table_of(figures, "contacts.walls")) {
     const auto force = row.find("force");
     if (force == row.end() || force->second.size() != 3) continue;
-    table.rows.push_back({Cell::id(first_of(row, "body")), Cell::id(first_of(row, "other_body")),
+    table.rows.push_back({Cell::text(run.body_name(first_of(row, "body"))),
+                          Cell::text(run.body_name(first_of(row, "other_body"))),
                           Cell::number_of(length_of(row, "force"), "N"), Cell::number_of(force->second[0], "N"),
                           Cell::number_of(force->second[1], "N"), Cell::number_of(force->second[2], "N"),
                           Cell::count(first_of(row, "contacts"))});

@@ -59,16 +59,19 @@ std::vector<double> length_over_time(const History& history, const std::string& 
   return length;
 }
 
-std::string gauge_chart(const History& history, const std::string& quantity_name, const std::string& unit,
+std::string gauge_chart(const RunRecord& run, const std::string& quantity_name, const std::string& unit,
                         const char* caption) {
   Chart chart{quantity_name + " of gauges over time", "time", "s", quantity_name, unit, false, false, false, {}};
+  const History& history = run.history;
   for (const std::string& gauge : gauge_names(history)) {
     std::vector<double> values = length_over_time(history, gauge + " " + quantity_name, unit);
     if (std::any_of(values.begin(), values.end(), [](double v) { return v != 0; }))
-      chart.series.push_back({gauge, history.column("time [s]"), std::move(values)});
+      chart.series.push_back({run.gauge_label(gauge), history.column("time [s]"), std::move(values)});
   }
   const std::string svg = svg_of(chart);
-  return svg.empty() ? svg : figure(svg, caption);
+  // A chart of one curve has no legend.
+  const std::string gauge = chart.series.size() == 1 ? " The gauge is " + chart.series.front().name + "." : "";
+  return svg.empty() ? svg : figure(svg, caption + gauge);
 }
 
 std::string phase_table(const RunRecord& run) {
@@ -175,9 +178,9 @@ std::string pictures(const Figures& figures) {
 
 std::string gauges(const RunRecord& run) {
   const std::string html =
-      gauge_chart(run.history, "contact force", "N", "Length of the sum of contact forces on a gauge.") +
-      gauge_chart(run.history, "reaction", "N", "Length of the sum of reactions of prescribed motions on a gauge.") +
-      gauge_chart(run.history, "velocity", "m/s", "Speed of a gauge, mean by mass.");
+      gauge_chart(run, "contact force", "N", "Length of the sum of contact forces on a gauge.") +
+      gauge_chart(run, "reaction", "N", "Length of the sum of reactions of prescribed motions on a gauge.") +
+      gauge_chart(run, "velocity", "m/s", "Speed of a gauge, mean by mass.");
   return pair(html);
 }
 

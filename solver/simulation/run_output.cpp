@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "domains/state_records.hpp"
+#include "observe/body_names.hpp"
 #include "observe/energy_sample.hpp"
 #include "output/run_folder.hpp"
 #include "output/summary.hpp"
@@ -56,7 +57,8 @@ void RunOutput::tell_start(bool insitu, const RunPosition* from) {
                        partition_.whole().num_joints,
                        input_.output.gauges,
                        insitu,
-                       from != nullptr ? std::optional(from->marks) : std::nullopt};
+                       from != nullptr ? std::optional(from->marks) : std::nullopt,
+                       body_names(partition_.domain())};
   if (from != nullptr) {
     histories_ = Schedule::from_numbers(from->histories);
     frames_ = Schedule::from_numbers(from->frames);

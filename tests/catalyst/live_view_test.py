@@ -314,6 +314,15 @@ class LiveView(unittest.TestCase):
         self.assertEqual(told.returncode, 2)
         self.assertIn(f"port {self.port}: ParaView cannot listen there", told.stderr)
 
+    def test_a_window_without_a_display_is_refused_in_one_line(self):
+        for display in ("", ":4077", ":4077.0"):
+            environment = {name: value for name, value in self.environment.items() if name not in ("WAYLAND_DISPLAY", "QT_QPA_PLATFORM")}
+            told = subprocess.run([PROGRAM, "live", self.case, "--set", f"insitu.live.address='localhost:{self.port}'"],
+                                  env=dict(environment, DISPLAY=display), capture_output=True, text=True, timeout=PATIENCE)
+            self.assertEqual(told.returncode, 2, told.stderr)
+            self.assertIn("there is no display for its window", told.stderr)
+            self.assertEqual((told.stdout, told.stderr.count("\n")), ("", 1), told.stderr)
+
 
 class Loopback(unittest.TestCase):
     PROBE = """

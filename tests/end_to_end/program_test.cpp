@@ -55,8 +55,8 @@ TEST(Program, a_run_leaves_everything_it_promises) {
   EXPECT_GT(summary["broken_joints"].get<int>(), 0) << "the case is meant to break something";
   constexpr double kResidual = 1e-3;  // the limit for every case of the repository
   EXPECT_LT(summary["energy_residual_relative"].get<double>(), kResidual);
-  for (const char* file :
-       {"case.toml", "provenance.json", "history.csv", "status.jsonl", "summary.txt", "frames/elements.hdf.series"}) {
+  for (const char* file : {"case.toml", "provenance.json", "bodies.csv", "history.csv", "status.jsonl", "summary.txt",
+                           "frames/elements.hdf.series"}) {
     EXPECT_TRUE(std::filesystem::exists(scratch.path("run") / file)) << file;
   }
 }

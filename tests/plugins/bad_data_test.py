@@ -160,6 +160,31 @@ def without_energy():
     simple.CrackEvents(Input=b.producer(b.blocks(elements=box.elements(), joints=joints))).UpdatePipeline()
 expect_told("no energies", without_energy, "'energy'")
 
+def without_contacts():
+    reader = simple.BrecciaReader(FileName=run)
+    reader.UpdatePipelineInformation()
+    simple.ContactNetwork(Input=simple.Fragments(Input=reader), Joints=reader).UpdatePipeline(reader.TimestepValues[-1])
+expect_told("a filter before that leaves contacts out", without_contacts, "no block 'contacts'", "output.contacts")
+network = simple.ContactNetwork(Input=simple.BrecciaReader(FileName=run))
+b.expect("ERR" not in told(lambda: network.UpdatePipeline(0.0)), "contacts before any")
+
+# A number that is none spoils those of its fragment that depend on it, and nothing else.
+for value in (b.np.nan, b.np.inf):
+    box = b.Box((3, 1, 1))
+    apart = [j for j in box.joint if j // 4 // 6 != box.neighbour[j // 4, j % 4] // 6]
+    whole = simple.Fragments(Input=b.producer(b.blocks(elements=box.elements(), joints=box.joints(apart))))
+    whole.UpdatePipeline()
+    box.mass[7], box.velocity[13] = value, value
+    spoilt = simple.Fragments(Input=b.producer(b.blocks(elements=box.elements(), joints=box.joints(apart))))
+    b.expect(told(spoilt.UpdatePipeline) == "", f"messages of {value}")
+    good, bad = b.output(whole, 1), b.output(spoilt, 1)
+    b.expect(list(b.np.isnan(b.column(bad, "mass"))) == [False, True, False], f"masses {b.column(bad, 'mass')}")
+    b.expect(list(b.np.isnan(b.column(bad, "speed"))) == [False, True, True], f"speeds {b.column(bad, 'speed')}")
+    for name in ("mass", "centroid", "speed", "spin", "semi_axes", "volume"):
+        b.expect(b.np.array_equal(b.column(bad, name)[0], b.column(good, name)[0]), f"{name} of a fragment without {value}")
+    passing = b.column(b.output(spoilt, 2), "passing")  # of the two others
+    b.expect(len(passing) > 0 and passing[-1] == 1.0, f"the sieve curve is of those with a mass: {passing}")
+
 def sphere():
     simple.Fragments(Input=simple.Sphere()).UpdatePipeline()
 expect_told("a sphere", sphere, "no elements", "no cell array")

@@ -85,6 +85,12 @@ def column(table, name):
     return vtk_to_numpy(table.GetRowData().GetArray(name)) if table.GetNumberOfRows() else np.zeros(0)
 
 
+def words(table, name):
+    """A column of text."""
+    array = table.GetRowData().GetAbstractArray(name)
+    return [array.GetValue(i) for i in range(array.GetNumberOfValues())]
+
+
 def fact(data, name):
     return data.GetFieldData().GetArray(name).GetValue(0)
 

@@ -91,6 +91,25 @@ for entry in index:
         label = b.vtk_to_numpy(found.GetCellData().GetArray("fragment"))
         b.expect(np.array_equal(label, b.vtk_to_numpy(own.GetCellData().GetArray("fragment"))), f"labels at {entry['time']}")
 
+# Bodies by their names: those of the groups of the case.
+called = [row["name"] for row in csv.DictReader(open(f"{run}/bodies.csv"))]
+b.expect(called[0] == "glass" and "projectile" in called and sum(n.startswith("support (body ") for n in called) == 4, f"bodies {called}")
+network, touched = simple.ContactNetwork(Input=reader), 0
+for entry in index:
+    network.UpdatePipeline(entry["time"])
+    if RANK != 0:
+        continue
+    touching, walls = b.output(network, 1), b.output(network, 2)
+    touched += walls.GetNumberOfRows()
+    for table, number, name in ((touching, "body", "body_name"), (walls, "body", "body_name"), (walls, "other_body", "other_body_name")):
+        b.expect(b.words(table, name) == [called[int(i)] for i in b.column(table, number)], f"{name} {b.words(table, name)}")
+b.expect(touched > 0 or RANK != 0, "bodies touch")
+if RANK == 0:
+    table = b.output(fragments, 1)
+    b.expect(b.words(table, "body_name") == [called[i] for i in b.column(table, "body")], f"fragments of {b.words(table, 'body_name')}")
+    b.expect(len(set(b.words(table, "body_name"))) == len(called), f"fragments of {set(b.words(table, 'body_name'))}")
+
+
 def straight(x, y):
     slope, intercept = np.polyfit(x, y, 1)
     return slope, np.exp(-intercept / slope)

@@ -285,8 +285,14 @@ def paraview():
     for image in images:
         expect(base64.b64decode(image[1]["src"].split(",")[1]).startswith(b"\x89PNG"), "pictures are PNG")
         expect(len(image[1]["alt"]) > 20, "pictures are described")
+    names = [row["name"] for row in csv.DictReader(open(f"{run}/bodies.csv"))]
+    supports = [i for i, name in enumerate(names) if name.startswith("support")]
     table = shown.tables["The heaviest fragments at the last frame"]
-    heaviest = [row[2][1] for row in table[1:]]
+    expect({row[1][0][2] for row in table[1:]} == {"glass", "projectile"} | {f"support (body {i})" for i in supports},
+           f"bodies {[row[1][0][2] for row in table[1:]]}")
+    forces = shown.tables["Forces between bodies then"][1:]
+    expect(forces and all(cell[0][2] in names for row in forces for cell in row[:2]), f"forces {[r[0][0][2] for r in forces]}")
+    heaviest = [row[3][1] for row in table[1:]]
     expect(heaviest == sorted(heaviest, reverse=True) and len(heaviest) == min(10, summary["fragments"]), f"masses {heaviest}")
     joints = shown.values("At the last line of the history")["all"]
     area = shown.values("Fracture surface at the last frame")["area"]

@@ -19,20 +19,6 @@
 namespace breccia {
 namespace {
 
-std::vector<vtkDataSet*> Leaves(vtkDataObject* input) {
-  std::vector<vtkDataSet*> leaves;
-  if (auto* tree = vtkCompositeDataSet::SafeDownCast(input)) {
-    vtkSmartPointer<vtkCompositeDataIterator> it;
-    it.TakeReference(tree->NewIterator());
-    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem()) {
-      if (auto* leaf = vtkDataSet::SafeDownCast(it->GetCurrentDataObject())) leaves.push_back(leaf);
-    }
-  } else if (auto* set = vtkDataSet::SafeDownCast(input)) {
-    leaves.push_back(set);
-  }
-  return leaves;
-}
-
 vtkDataArray* ArrayOf(vtkDataSet* part, const char* name, int components) {
   if (!part || part->GetNumberOfCells() == 0) return nullptr;
   vtkDataArray* array = part->GetCellData()->GetArray(name);
@@ -117,6 +103,20 @@ std::vector<char> Ranks::GatherBytes(const char* mine, vtkIdType length) const {
   return all;
 }
 
+std::vector<vtkDataSet*> Leaves(vtkDataObject* input) {
+  std::vector<vtkDataSet*> leaves;
+  if (auto* tree = vtkCompositeDataSet::SafeDownCast(input)) {
+    vtkSmartPointer<vtkCompositeDataIterator> it;
+    it.TakeReference(tree->NewIterator());
+    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem()) {
+      if (auto* leaf = vtkDataSet::SafeDownCast(it->GetCurrentDataObject())) leaves.push_back(leaf);
+    }
+  } else if (auto* set = vtkDataSet::SafeDownCast(input)) {
+    leaves.push_back(set);
+  }
+  return leaves;
+}
+
 vtkSmartPointer<vtkDataSet> FindPart(vtkDataObject* input, const char* mark) {
   std::vector<vtkDataSet*> found;
   for (vtkDataSet* leaf : Leaves(input)) {
@@ -128,6 +128,24 @@ vtkSmartPointer<vtkDataSet> FindPart(vtkDataObject* input, const char* mark) {
   for (vtkDataSet* leaf : found) append->AddInputData(leaf);
   append->Update();
   return append->GetOutput();
+}
+
+bool LacksBlock(vtkDataObject* input, const char* name, const char* mark) {
+  auto* tree = vtkCompositeDataSet::SafeDownCast(input);
+  if (!tree) {
+    auto* set = vtkDataSet::SafeDownCast(input);
+    return set && !set->GetCellData()->HasArray(mark);
+  }
+  bool lacks = false;  // an input without any data set, as on a rank without a part, tells nothing
+  vtkSmartPointer<vtkCompositeDataIterator> it;
+  it.TakeReference(tree->NewIterator());
+  for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem()) {
+    auto* leaf = vtkDataSet::SafeDownCast(it->GetCurrentDataObject());
+    const char* its = it->HasCurrentMetaData() ? it->GetCurrentMetaData()->Get(vtkCompositeDataSet::NAME()) : nullptr;
+    if (!leaf || !its || std::string(its) == name || leaf->GetCellData()->HasArray(mark)) return false;
+    lacks = true;
+  }
+  return lacks;
 }
 
 std::string Describe(vtkDataObject* input) {

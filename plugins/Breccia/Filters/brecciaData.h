@@ -53,9 +53,14 @@ class Ranks {
   vtkMultiProcessController* controller_;
 };
 
+/// The data sets in an input.
+std::vector<vtkDataSet*> Leaves(vtkDataObject* input);
 /// The data set of a run's part that this rank has: the leaf, or the leaves appended, of `input` whose cells have the
 /// array `mark`; null when there is none.
 vtkSmartPointer<vtkDataSet> FindPart(vtkDataObject* input, const char* mark);
+/// True where every data set in the input is known for another one than a block: it has another name, or it is no part
+/// of a collection, and it has no cell array `mark`. Blocks without cells may lack their arrays.
+bool LacksBlock(vtkDataObject* input, const char* name, const char* mark);
 /// Names of the blocks and cell arrays in an input, for messages.
 std::string Describe(vtkDataObject* input);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "vtkMath.h"
 
@@ -13,7 +15,10 @@ __extension__ using Wide = __int128;
 
 std::size_t At(vtkIdType i) { return static_cast<std::size_t>(i); }
 
-/// Sums of `Width` kinds of numbers by fragment, exact but for the rounding of each term.
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// Sums of `Width` kinds of numbers by fragment, exact but for the rounding of each term. A term that is not finite
+/// makes its sum no number, and no other one.
 template <std::size_t Width>
 class Sums {
  public:
@@ -24,7 +29,9 @@ class Sums {
   Sums(const std::vector<vtkTypeInt64>& ids, const Ranks& ranks, Each&& of) {
     std::vector<double> largest(Width, 0.0);
     of([&](std::size_t, const Terms& terms) {
-      for (std::size_t k = 0; k < Width; ++k) largest[k] = std::max(largest[k], std::abs(terms[k]));
+      for (std::size_t k = 0; k < Width; ++k) {
+        if (std::isfinite(terms[k])) largest[k] = std::max(largest[k], std::abs(terms[k]));
+      }
     });
     ranks.Largest(largest);
     for (std::size_t k = 0; k < Width; ++k) exponent_[k] = largest[k] > 0 ? 90 - std::ilogb(largest[k]) : 0;
@@ -32,7 +39,11 @@ class Sums {
     for (std::size_t i = 0; i < ids.size(); ++i) rows[i].id = ids[i];
     of([&](std::size_t fragment, const Terms& terms) {
       for (std::size_t k = 0; k < Width; ++k) {
-        if (std::isfinite(terms[k])) rows[fragment].sum[k] += static_cast<Wide>(std::ldexp(terms[k], exponent_[k]));
+        if (std::isfinite(terms[k])) {
+          rows[fragment].sum[k] += static_cast<Wide>(std::ldexp(terms[k], exponent_[k]));
+        } else {
+          rows[fragment].not_finite |= 1U << k;
+        }
       }
     });
     rows_ = ranks.Gather(rows);
@@ -41,6 +52,7 @@ class Sums {
     for (std::size_t i = 1; i < rows_.size(); ++i) {
       if (rows_[i].id == rows_[last].id) {
         for (std::size_t k = 0; k < Width; ++k) rows_[last].sum[k] += rows_[i].sum[k];
+        rows_[last].not_finite |= rows_[i].not_finite;
       } else {
         rows_[++last] = rows_[i];
       }
@@ -51,8 +63,10 @@ class Sums {
   vtkTypeInt64 Id(std::size_t row) const { return rows_[row].id; }
   Terms Of(std::size_t row) const {
     Terms terms;
-    for (std::size_t k = 0; k < Width; ++k)
-      terms[k] = std::ldexp(static_cast<double>(rows_[row].sum[k]), -exponent_[k]);
+    for (std::size_t k = 0; k < Width; ++k) {
+      const bool finite = (rows_[row].not_finite >> k & 1U) == 0;
+      terms[k] = finite ? std::ldexp(static_cast<double>(rows_[row].sum[k]), -exponent_[k]) : kNone;
+    }
     return terms;
   }
 
@@ -60,7 +74,9 @@ class Sums {
   struct Row {
     vtkTypeInt64 id = 0;
     std::array<Wide, Width> sum{};
+    std::uint32_t not_finite = 0;  ///< bit k: of sum k
   };
+  static_assert(Width <= 32);
   std::array<int, Width> exponent_{};
   std::vector<Row> rows_;
 };
@@ -80,6 +96,11 @@ struct Tetra {
 
 /// Eigenvalues, largest first, and unit eigenvectors (rows) of the symmetric matrix xx yy zz xy yz xz.
 void Eigen(const std::array<double, 6>& m, Vec& values, std::array<Vec, 3>& vectors) {
+  if (!std::all_of(m.begin(), m.end(), [](double x) { return std::isfinite(x); })) {
+    values.fill(kNone);
+    vectors.fill(values);
+    return;
+  }
   double a[3][3] = {{m[0], m[3], m[5]}, {m[3], m[1], m[4]}, {m[5], m[4], m[2]}}, v[3][3];
   double *rows[3] = {a[0], a[1], a[2]}, *columns[3] = {v[0], v[1], v[2]};
   vtkMath::Jacobi(rows, values.data(), columns);
@@ -161,8 +182,8 @@ class Tabulator {
       f.elements = std::llround(s[3]);
       f.cracked = std::llround(s[4]);
       for (std::size_t k = 0; k < 3; ++k) {
-        f.centroid[k] = f.mass > 0 ? s[5 + k] / f.mass : 0;
-        f.velocity[k] = f.mass > 0 ? s[8 + k] / f.mass : 0;
+        f.centroid[k] = f.mass > 0 ? s[5 + k] / f.mass : 0 * f.mass;
+        f.velocity[k] = f.mass > 0 ? s[8 + k] / f.mass : 0 * f.mass;
       }
       fragments_.push_back(f);
     }
@@ -197,7 +218,7 @@ class Tabulator {
       Vec values;
       Eigen({s[9], s[10], s[11], s[12], s[13], s[14]}, values, f.axes);
       for (std::size_t k = 0; k < 3; ++k)
-        f.semi_axes[k] = f.volume > 0 ? std::sqrt(5 * std::max(values[k], 0.0) / f.volume) : 0;
+        f.semi_axes[k] = f.volume > 0 ? std::sqrt(5 * (values[k] < 0 ? 0.0 : values[k]) / f.volume) : 0 * f.volume;
     }
   }
 

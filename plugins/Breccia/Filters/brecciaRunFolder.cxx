@@ -189,4 +189,17 @@ HistoryColumns ReadHistory(const std::string& folder) {
   return history;
 }
 
+std::vector<std::string> ReadBodyNames(const std::string& folder) {
+  std::ifstream file(fs::path(folder) / "bodies.csv", std::ios::binary);
+  std::vector<std::string> names;
+  std::string line;
+  if (!std::getline(file, line) || Split(line) != std::vector<std::string>{"body", "name"}) return {};
+  while (std::getline(file, line)) {
+    const std::vector<std::string> cells = Split(line);
+    if (cells.size() != 2 || cells[0] != std::to_string(names.size())) return {};
+    names.push_back(cells[1]);
+  }
+  return names;
+}
+
 }  // namespace breccia

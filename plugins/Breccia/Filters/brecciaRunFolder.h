@@ -42,6 +42,10 @@ struct HistoryColumns {
 };
 HistoryColumns ReadHistory(const std::string& folder);
 
+/// Names of the bodies by their numbers, from bodies.csv. Empty where there is no such file, as in runs of before, or
+/// where it is no such table.
+std::vector<std::string> ReadBodyNames(const std::string& folder);
+
 }  // namespace breccia
 
 #endif

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "brecciaBodies.h"
 #include "brecciaFragmentTable.h"
 #include "brecciaJoints.h"
 #include "vtkBoundingBox.h"
@@ -40,6 +41,13 @@ std::vector<Touch> FindTouches(vtkDataObject* input, const breccia::Ranks& ranks
   std::string problem;
   try {
     const auto part = breccia::FindPart(input, "normal_force");
+    if (!part && breccia::LacksBlock(input, "contacts", "normal_force")) {
+      throw breccia::BadInput(
+          "there is no block 'contacts' (vertices with the cell arrays 'normal_force', 'force', 'point', "
+          "'other_element'): the run has not recorded them (output.contacts), or a filter before this one has left "
+          "them out; there is: " +
+          breccia::Describe(input));
+    }
     // Where there is no "point", in recordings of before, "id" was it.
     const bool has_point = part != nullptr && part->GetCellData()->HasArray("point") != 0;
     const auto point = breccia::Integers(part, has_point ? "point" : "id"),
@@ -140,7 +148,8 @@ void FillChains(const std::map<Pair, Link>& links, const std::map<vtkTypeInt64, 
   out->GetPointData()->SetActiveScalars("force");
 }
 
-void FillNodes(const std::map<Pair, Link>& links, vtkTable* table) {
+void FillNodes(const std::map<Pair, Link>& links, const std::map<vtkTypeInt64, vtkTypeInt64>& body_of,
+               const breccia::BodyNames& names, vtkTable* table) {
   struct Node {
     std::set<vtkTypeInt64> touches;
     Vector force{};
@@ -158,24 +167,28 @@ void FillNodes(const std::map<Pair, Link>& links, vtkTable* table) {
       sign = -1;
     }
   }
-  std::vector<vtkTypeInt64> id, number;
+  std::vector<vtkTypeInt64> id, body, number;
   std::vector<double> force, largest;
   double sum = 0;
   for (const auto& [fragment, node] : nodes) {
     id.push_back(fragment);
+    const auto found = body_of.find(fragment);
+    body.push_back(found == body_of.end() ? -1 : found->second);
     number.push_back(static_cast<vtkTypeInt64>(node.touches.size()));
     force.insert(force.end(), node.force.begin(), node.force.end());
     largest.push_back(node.largest);
     sum += static_cast<double>(node.touches.size());
   }
   breccia::AddColumn(table, "fragment", id);
+  breccia::AddColumn(table, "body", body);
+  breccia::AddBodyColumn(table, "body_name", names, body);
   breccia::AddColumn(table, "coordination_number", number);
   breccia::AddColumn(table, "force", force, 3);
   breccia::AddColumn(table, "largest_force", largest);
   breccia::AddFact(table, "mean_coordination_number", nodes.empty() ? 0 : sum / static_cast<double>(nodes.size()));
 }
 
-void FillWalls(const std::map<Pair, Link>& links, vtkTable* table) {
+void FillWalls(const std::map<Pair, Link>& links, const breccia::BodyNames& names, vtkTable* table) {
   std::vector<vtkTypeInt64> body, other;
   std::vector<double> force, contacts;
   for (const auto& [pair, link] : links) {
@@ -185,7 +198,9 @@ void FillWalls(const std::map<Pair, Link>& links, vtkTable* table) {
     contacts.push_back(link.contacts);
   }
   breccia::AddColumn(table, "body", body);
+  breccia::AddBodyColumn(table, "body_name", names, body);
   breccia::AddColumn(table, "other_body", other);
+  breccia::AddBodyColumn(table, "other_body_name", names, other);
   breccia::AddColumn(table, "force", force, 3);
   breccia::AddColumn(table, "contacts", contacts);
 }
@@ -202,6 +217,7 @@ void vtkBrecciaContactNetwork::Make(vtkDataObject* input, vtkDataObject* joints,
   const breccia::Connectivity parts = breccia::Connect(elements, cracks.id, ranks);
   const std::vector<breccia::Fragment> fragments = breccia::Tabulate(elements, parts, ranks);
   const std::map<vtkTypeInt64, vtkTypeInt64> fragment = FragmentsOf(touches, elements, parts, ranks);
+  const std::map<vtkTypeInt64, vtkTypeInt64> body_of = breccia::BodiesOfFragments(elements, parts.fragment, ranks);
   for (int port = 0; port < 3; ++port) vtkDataObject::GetData(outputs, port)->Initialize();
   if (!ranks.First()) return;
   std::map<vtkTypeInt64, Vector> centroid;
@@ -213,8 +229,9 @@ void vtkBrecciaContactNetwork::Make(vtkDataObject* input, vtkDataObject* joints,
     if (touch.body != touch.other_body) AddTo(walls, touch.body, touch.other_body, touch.force);
   }
   FillChains(chains, centroid, this->LargestRadius, vtkPolyData::GetData(outputs, 0));
-  FillNodes(chains, vtkTable::GetData(outputs, 1));
-  FillWalls(walls, vtkTable::GetData(outputs, 2));
+  const breccia::BodyNames names(input);
+  FillNodes(chains, body_of, names, vtkTable::GetData(outputs, 1));
+  FillWalls(walls, names, vtkTable::GetData(outputs, 2));
 }
 
 void vtkBrecciaContactNetwork::PrintSelf(ostream& os, vtkIndent indent) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "brecciaBodies.h"
 #include "brecciaFragmentTable.h"
 #include "brecciaSieve.h"
 #include "vtkCellData.h"
@@ -41,9 +43,13 @@ std::vector<double> Vectors(const std::vector<Fragment>& fragments, Of&& of) {
 
 double Speed(const Fragment& f) { return std::hypot(f.velocity[0], f.velocity[1], f.velocity[2]); }
 
-void FillTable(const std::vector<Fragment>& fragments, vtkTable* table) {
-  std::vector<vtkTypeInt64> id, elements, cracked;
+/// @param body_of  by fragment
+void FillTable(const std::vector<Fragment>& fragments, const std::map<vtkTypeInt64, vtkTypeInt64>& body_of,
+               const breccia::BodyNames& names, vtkTable* table) {
+  std::vector<vtkTypeInt64> id, body, elements, cracked;
   for (const Fragment& f : fragments) {
+    const auto found = body_of.find(f.id);
+    body.push_back(found == body_of.end() ? -1 : found->second);
     id.push_back(f.id);
     elements.push_back(f.elements);
     cracked.push_back(f.cracked);
@@ -53,6 +59,8 @@ void FillTable(const std::vector<Fragment>& fragments, vtkTable* table) {
   };
   const auto vector = [&](const char* name, auto&& of) { breccia::AddColumn(table, name, Vectors(fragments, of), 3); };
   breccia::AddColumn(table, "fragment", id);
+  breccia::AddColumn(table, "body", body);
+  breccia::AddBodyColumn(table, "body_name", names, body);
   breccia::AddColumn(table, "elements", elements);
   breccia::AddColumn(table, "cracked_faces", cracked);
   number("mass", [](const Fragment& f) { return f.mass; });
@@ -171,6 +179,7 @@ void vtkBrecciaFragments::Make(vtkDataObject* input, vtkDataObject* joints, vtkI
   const breccia::Cracks cracks = breccia::FindCracks(input, joints, ranks);
   const breccia::Connectivity parts = breccia::Connect(elements, cracks.id, ranks);
   std::vector<Fragment> fragments = breccia::Tabulate(elements, parts, ranks);
+  const std::map<vtkTypeInt64, vtkTypeInt64> body_of = breccia::BodiesOfFragments(elements, parts.fragment, ranks);
   std::vector<vtkTypeInt64> ids;
   for (const Fragment& f : fragments) ids.push_back(f.id);
   auto grid = Painted(elements, parts, fragments, breccia::IdIndex(ids));
@@ -185,11 +194,12 @@ void vtkBrecciaFragments::Make(vtkDataObject* input, vtkDataObject* joints, vtkI
   std::vector<std::pair<double, double>> sizes;
   for (const Fragment& f : fragments) {
     if (this->OnlyBroken && f.cracked == 0) continue;
-    sizes.emplace_back(this->SieveMeasure == SPHERE ? f.Diameter() : f.SieveSize(), f.mass);
+    const double size = this->SieveMeasure == SPHERE ? f.Diameter() : f.SieveSize();
+    if (std::isfinite(size) && std::isfinite(f.mass)) sizes.emplace_back(size, f.mass);
   }
   vtkTable::GetData(outputs, 1)->Initialize();
   vtkTable::GetData(outputs, 2)->Initialize();
-  FillTable(fragments, vtkTable::GetData(outputs, 1));
+  FillTable(fragments, body_of, breccia::BodyNames(input), vtkTable::GetData(outputs, 1));
   FillSieve(breccia::SieveOf(sizes), vtkTable::GetData(outputs, 2));
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "brecciaBodies.h"
 #include "brecciaData.h"
 #include "brecciaRunFolder.h"
 #include "vtkCallbackCommand.h"
@@ -108,6 +109,7 @@ int vtkBrecciaReader::RequestData(vtkInformation*, vtkInformationVector**, vtkIn
       if (!this->ChannelSelection->ArrayIsEnabled(channel.name.c_str())) continue;
       blocks->SetBlock(block, this->ReadFrame(channel.name, channel.At(time).path, piece, pieces));
       blocks->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), channel.name.c_str());
+      if (channel.name == "elements") breccia::AddBodyNames(blocks->GetBlock(block), breccia::ReadBodyNames(run.path));
       ++block;
     }
     blocks->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);

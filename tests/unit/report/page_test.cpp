@@ -57,6 +57,15 @@ TEST(Pages, OfARunWithoutFilesAreWhole) {
   EXPECT_FALSE(has(page, "nan"));
 }
 
+TEST(Pages, NameTheGaugeOfAChartOfOneCurve) {
+  RunRecord run;
+  run.bodies = {"plate"};
+  run.history.names = {"time [s]", "body 0 contact force x [N]", "body 0 contact force y [N]",
+                       "body 0 contact force z [N]"};
+  run.history.columns.assign(4, {1.0, 2.0});
+  EXPECT_TRUE(has(gauges(run), "The gauge is plate (body 0).")) << gauges(run);
+}
+
 TEST(Pages, WarnOfABudgetThatDoesNotClose) {
   RunRecord run = record_in("/runs/a", "complete");
   run.numbers["energy_residual_relative"] = 1e-3;

@@ -34,6 +34,35 @@ TEST(RunRecords, HoldTheNumbersOfTheHistory) {
   EXPECT_THAT(run.history.column("none"), IsEmpty());
 }
 
+TEST(RunRecords, NameBodiesAndTheGaugesThatGoByTheirNumbers) {
+  const test::TemporaryFolder folder;
+  write(folder / "history.csv", kHistory);
+  const RunRecord before = read_run(folder.path());
+  EXPECT_EQ(before.body_name(1), "body 1");
+  EXPECT_EQ(before.body_name(-1), "");
+  EXPECT_EQ(before.body_name(std::nan("")), "");
+  EXPECT_EQ(before.gauge_label("body 1"), "body 1");
+  write(folder / "bodies.csv", "body,name\n0,plate\n1,blocks (body 1)\n2,\"a, b\"\n3,body 0\n");
+  const RunRecord run = read_run(folder.path());
+  EXPECT_EQ(run.body_name(0), "plate");
+  EXPECT_EQ(run.body_name(2), "a, b");
+  EXPECT_EQ(run.body_name(7), "body 7");
+  EXPECT_EQ(run.gauge_label("plate"), "plate");
+  EXPECT_EQ(run.gauge_label("body 1"), "blocks (body 1)");
+  EXPECT_EQ(run.gauge_label("body 2"), "a, b (body 2)");
+  EXPECT_EQ(run.gauge_label("body 0"), "body 0") << "a group is called so";
+  EXPECT_EQ(run.gauge_label("body 9"), "body 9");
+}
+
+TEST(RunRecords, LeaveOutAListOfBodiesThatIsNoneAndSaySo) {
+  const test::TemporaryFolder folder;
+  write(folder / "history.csv", kHistory);
+  write(folder / "bodies.csv", "body,name\n0,plate\n2,ball\n");
+  const RunRecord run = read_run(folder.path());
+  EXPECT_THAT(run.bodies, IsEmpty());
+  EXPECT_THAT(run.flaws, Contains(HasSubstr("bodies.csv")));
+}
+
 TEST(RunRecords, LeaveOutLinesThatAreCutOffAndSaySo) {
   const test::TemporaryFolder folder;
   write(folder / "history.csv", std::string(kHistory) + "20,2e-6,0.0\n30,3e-");
