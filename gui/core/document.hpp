@@ -71,13 +71,16 @@ class Document final : public QObject {
   void changed();  ///< the text
   void renamed();  ///< the file
   void modification_changed(bool modified);
+  /// A snapshot was tried. @param error  empty: it is there; else another try follows
+  void snapshot_tried(const QString& error);
 
  private:
   friend class TextEdit;
   void apply(const TextChange& change);
   void push(const TextChange& change, const QString& words, bool merges = false);
   void start(const QString& file, const QByteArray& text);
-  void write_snapshot();
+  /// @return  whether all edits are kept
+  bool write_snapshot();
   void remove_snapshot();
   [[nodiscard]] QString snapshot_file() const;
 

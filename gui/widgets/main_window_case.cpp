@@ -78,6 +78,17 @@ void MainWindow::show_start() {
   for (const char* name : kDocks) findChild<QWidget*>(name)->hide();
 }
 
+void MainWindow::tell_trouble(const QString& what, const QString& words, const QString& error) {
+  const QString text = error.isEmpty() ? QString() : QString("%1: %2").arg(words, error);
+  if (!messages_->set_trouble(what, text) || text.isEmpty()) return;
+  statusBar()->showMessage(text, 15000);
+  if (document_.is_open()) show_dock("dock_messages");
+}
+
+void MainWindow::remember_file() {
+  tell_trouble("recent", tr("This case is not kept among the recent ones"), remember_case(places_, document_.file()));
+}
+
 void MainWindow::show_workspace() {
   setAnimated(false);  // each step of it would draw the view anew
   for (const char* name : kDocks) findChild<QWidget*>(name)->show();
@@ -112,7 +123,7 @@ void MainWindow::open_case(const QString& file) {
     QMessageBox::warning(this, tr("Breccia"), error);
     return;
   }
-  remember_case(places_, document_.file());
+  remember_file();
   watch(nullptr);
   preview_frame_ = {};
   owner_.clear();
@@ -121,6 +132,7 @@ void MainWindow::open_case(const QString& file) {
   groups_.clear();
   laws_ = {};
   run_panel_->set_estimate(tr("Not checked yet."));
+  estimated_.clear();
   messages_->set_advice({});
   view_->clear(tr("meshing..."));
   show_workspace();
@@ -128,10 +140,13 @@ void MainWindow::open_case(const QString& file) {
   stage_selected(tree_->stage(), tree_->path());
   validate();
   show_studies();
+  offer_recovery(document_.file());
 }
 
-void MainWindow::offer_recovery() {
+/// Of all cases; of one: what stands in its file is open.
+void MainWindow::offer_recovery(const QString& of) {
   for (const Recovery& recovery : Document::recoveries(places_.state)) {
+    if (!of.isEmpty() && recovery.file != of) continue;
     const auto answer = QMessageBox::question(
         this, tr("Unsaved edits"),
         tr("Breccia ended without saving its edits of\n%1\nTake them up again?").arg(recovery.file));
@@ -166,8 +181,12 @@ void MainWindow::save_as() {
   const QString name =
       QFileDialog::getSaveFileName(this, tr("Save the case as"), document_.file(), tr("Cases (*.toml)"));
   if (name.isEmpty()) return;
-  if (const QString error = document_.save_as(name); !error.isEmpty()) QMessageBox::warning(this, tr("Breccia"), error);
-  remember_case(places_, document_.file());
+  if (const QString error = document_.save_as(name); !error.isEmpty()) {
+    QMessageBox::warning(this, tr("Breccia"), error);
+    return;
+  }
+  remember_file();
+  validate();  // relative names start from another folder
 }
 
 bool MainWindow::may_leave_case() {
@@ -208,6 +227,7 @@ void MainWindow::validate() {
     conditions_->show_conditions(loads_);
     show_loads();
   }
+  if (side_->currentIndex() == 1 && !estimated_.isEmpty()) renew_estimate();
   // The preview follows what the mesh is made of.
   QString source;
   for (const Place& place : document_.places().all())
@@ -218,6 +238,22 @@ void MainWindow::validate() {
     mesh_text_ = source;
     preview_.start(first ? 0 : kPreviewDelay);
   }
+}
+
+void MainWindow::ask_estimate() {
+  estimate_.stop();
+  estimated_ = document_.text();
+  queries_.check();
+}
+
+/// Where it is of another text than that of the case.
+void MainWindow::renew_estimate() {
+  if (estimated_ == document_.text()) return;
+  if (!estimated_.isEmpty())
+    run_panel_->set_estimate(problems_.empty() ? tr("The case was edited: it is worked out anew...")
+                                               : tr("The case was edited, and has problems."));
+  if (!problems_.empty()) return estimate_.stop();
+  estimate_.start(estimated_.isEmpty() ? 0 : kPreviewDelay);
 }
 
 void MainWindow::stage_selected(int stage, const QString& path) {
@@ -240,7 +276,7 @@ void MainWindow::stage_selected(int stage, const QString& path) {
   }
   if (chosen.kind == Kind::run) {
     show_commands();
-    if (problems_.empty() && run_ == nullptr) queries_.check();
+    if (run_ == nullptr || !estimated_.isEmpty()) renew_estimate();
     if (run_ != nullptr) show_dock("dock_plots");
   }
   show_loads();
