@@ -43,7 +43,7 @@ CaseQueries::~CaseQueries() {
 }
 
 QString CaseQueries::draft(const QString& what) {
-  if (!document_.modified()) return document_.file();
+  if (!document_.modified() && document_.is_on_disk()) return document_.file();
   draft_ = QDir(document_.folder()).filePath(QString(".breccia-draft-%1.toml").arg(::getpid()));
   const QString error = written(draft_, document_.text());
   if (error.isEmpty()) return draft_;

@@ -107,6 +107,21 @@ bool Document::changed_on_disk() const {
   return open_ && in.open(QIODevice::ReadOnly) && in.readAll() != on_disk_;
 }
 
+bool Document::is_on_disk() const {
+  QFile in(file_);
+  return open_ && in.open(QIODevice::ReadOnly) && in.readAll() == on_disk_;
+}
+
+QString Document::reload() {
+  QFile in(file_);
+  if (!in.open(QIODevice::ReadOnly)) return tr("%1 cannot be read: %2").arg(file_, in.errorString());
+  on_disk_ = in.readAll();
+  push(difference(places_.text(), on_disk_.toStdString()), tr("take over the file"));
+  undo_.setClean();
+  remove_snapshot();
+  return {};
+}
+
 void Document::close() {
   remove_snapshot();
   open_ = false;

@@ -37,6 +37,10 @@ class Document final : public QObject {
   [[nodiscard]] QString save_as(const QString& file);
   /// Another program has written the file since it was read or saved here.
   [[nodiscard]] bool changed_on_disk() const;
+  /// The file is there and holds what was last read or written here.
+  [[nodiscard]] bool is_on_disk() const;
+  /// Takes over what another program has written, as an edit that can be undone. Returns what went wrong.
+  [[nodiscard]] QString reload();
   /// Ends the work on this case; the snapshot is removed.
   void close();
 

@@ -301,6 +301,11 @@ void MainWindow::join_panels() {
   connect(results_, &ResultsPanel::picture_wanted, this, &MainWindow::save_picture);
 }
 
+void MainWindow::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::ActivationChange && isActiveWindow()) look_at_disk();  // back from another program
+  QMainWindow::changeEvent(event);
+}
+
 void MainWindow::closeEvent(QCloseEvent* event) {
   if (!may_leave_case()) {
     event->ignore();

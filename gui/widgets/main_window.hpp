@@ -64,6 +64,7 @@ class MainWindow final : public QMainWindow {
 
  protected:
   void closeEvent(QCloseEvent* event) override;
+  void changeEvent(QEvent* event) override;
 
  private:
   // main_window.cpp: construction
@@ -88,6 +89,8 @@ class MainWindow final : public QMainWindow {
   void show_workspace();
   [[nodiscard]] bool save();
   void save_as();
+  void look_at_disk();
+  [[nodiscard]] bool agrees_with_disk();
   [[nodiscard]] bool may_leave_case();
   void case_changed();
   void validate();

@@ -124,6 +124,7 @@ void MainWindow::open_case(const QString& file) {
     return;
   }
   remember_file();
+  look_at_disk();
   watch(nullptr);
   preview_frame_ = {};
   owner_.clear();
@@ -171,6 +172,7 @@ bool MainWindow::save() {
           QMessageBox::Save | QMessageBox::Cancel, QMessageBox::Cancel) != QMessageBox::Save)
     return false;
   const QString error = document_.save();
+  look_at_disk();
   if (!error.isEmpty()) QMessageBox::warning(this, tr("Breccia"), error);
   return error.isEmpty();
 }
@@ -187,6 +189,30 @@ void MainWindow::save_as() {
   }
   remember_file();
   validate();  // relative names start from another folder
+}
+
+void MainWindow::look_at_disk() {
+  tell_trouble("disk", tr("Another program has changed or removed the case since it was opened here"),
+               document_.is_open() && !document_.is_on_disk() ? document_.file() : QString());
+}
+
+/// Whether what is run is what the window shows. A case with edits of its own is saved, which asks by itself.
+bool MainWindow::agrees_with_disk() {
+  if (!document_.is_open() || document_.modified() || document_.is_on_disk()) return true;
+  if (!QFileInfo::exists(document_.file())) return save();
+  QMessageBox box(QMessageBox::Question, tr("Breccia"),
+                  tr("Another program has changed\n%1\nsince it was opened.").arg(document_.file()),
+                  QMessageBox::Open | QMessageBox::Save | QMessageBox::Cancel, this);
+  box.button(QMessageBox::Open)->setText(tr("&Take that over"));
+  box.button(QMessageBox::Save)->setText(tr("&Write over it"));
+  box.setDefaultButton(QMessageBox::Cancel);
+  const int answer = box.exec();
+  QString error;
+  if (answer == QMessageBox::Open) error = document_.reload();
+  if (answer == QMessageBox::Save) error = document_.save();
+  if (!error.isEmpty()) QMessageBox::warning(this, tr("Breccia"), error);
+  look_at_disk();
+  return answer != QMessageBox::Cancel && error.isEmpty();
 }
 
 bool MainWindow::may_leave_case() {
@@ -228,6 +254,8 @@ void MainWindow::validate() {
     show_loads();
   }
   if (side_->currentIndex() == 1 && !estimated_.isEmpty()) renew_estimate();
+  if (!problems_.empty() && mesh_text_.isEmpty() && !showing_results_)
+    view_->clear(tr("no mesh yet: the case has problems, see the messages"));
   // The preview follows what the mesh is made of.
   QString source;
   for (const Place& place : document_.places().all())
@@ -235,6 +263,7 @@ void MainWindow::validate() {
       source += QString::fromStdString(place.path + "=" + std::string(document_.places().value(place.path)) + "\n");
   if (problems_.empty() && source != mesh_text_) {
     const bool first = mesh_text_.isEmpty();
+    if (first && !showing_results_) view_->clear(tr("meshing..."));
     mesh_text_ = source;
     preview_.start(first ? 0 : kPreviewDelay);
   }

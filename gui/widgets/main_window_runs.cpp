@@ -59,6 +59,7 @@ void MainWindow::remember_run(const RunRecord& record) {
 
 void MainWindow::start_run() {
   form_->take_typed();
+  if (!agrees_with_disk()) return;
   validate();
   if (!problems_.empty() || (document_.modified() && !save())) {
     show_dock("dock_messages");
