@@ -83,7 +83,8 @@ void QueuePanel::make_buttons(QHBoxLayout& row) {
     if (const QueuedRun* run = chosen(); run != nullptr) changed_with(queue_.remove(run->record.folder));
   });
   connect(stop_, &QPushButton::clicked, this, [this] {
-    if (const QueuedRun* run = chosen(); run != nullptr) emit stop_wanted(run->record.folder);
+    if (const QueuedRun* run = chosen(); run != nullptr)
+      emit stop_wanted(QString(run->record.folder));  // a copy: the list is read anew
   });
   connect(clear_, &QPushButton::clicked, this, [this] { changed_with(queue_.remove_ended()); });
   connect(cores_, qOverload<int>(&QSpinBox::valueChanged), this, [this](int n) { changed_with(queue_.set_cores(n)); });
