@@ -131,6 +131,8 @@ int guarded(const CLI::App& app, Arguments& arguments, MpiSession& session, int 
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (const std::string complaint = stack_problem(); !complaint.empty())  // MPI does not start then
+    return report(true, complaint, ExitCode::input);
   keep_freed_memory();
   MpiSession session(argc, argv);
   CLI::App app{"Breccia: combined finite-discrete element simulation of solids that break"};

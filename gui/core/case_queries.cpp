@@ -3,7 +3,8 @@
 #include <unistd.h>
 
 #include <QDir>
-#include <QSaveFile>
+
+#include "core/written_file.hpp"
 
 namespace breccia::gui {
 
@@ -42,14 +43,11 @@ CaseQueries::~CaseQueries() {
 }
 
 QString CaseQueries::draft(const QString& what) {
-  if (!document_.modified()) return document_.file();
+  if (!document_.modified() && document_.is_on_disk()) return document_.file();
   draft_ = QDir(document_.folder()).filePath(QString(".breccia-draft-%1.toml").arg(::getpid()));
-  QSaveFile file(draft_);
-  const QByteArray text = document_.text();
-  if (file.open(QIODevice::WriteOnly) && file.write(text) == text.size() && file.commit()) return draft_;
-  emit failed(what,
-              tr("%1 cannot be written (%2): save the case into a folder of your own").arg(draft_, file.errorString()),
-              {});
+  const QString error = written(draft_, document_.text());
+  if (error.isEmpty()) return draft_;
+  emit failed(what, tr("%1: save the case into a folder of your own").arg(error), {});
   return {};
 }
 

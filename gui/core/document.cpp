@@ -9,20 +9,13 @@
 #include <QFileInfo>
 #include <QJsonDocument>
 #include <QJsonObject>
-#include <QSaveFile>
 #include <QUndoCommand>
 
 #include "case/reader.hpp"
+#include "core/written_file.hpp"
 
 namespace breccia::gui {
 namespace {
-
-QString written(const QString& file, const QByteArray& bytes) {
-  QSaveFile out(file);
-  if (!out.open(QIODevice::WriteOnly) || out.write(bytes) != bytes.size() || !out.commit())
-    return Document::tr("%1 cannot be written: %2").arg(file, out.errorString());
-  return {};
-}
 
 bool is_alive(qint64 process) { return process > 0 && (::kill(static_cast<pid_t>(process), 0) == 0 || errno == EPERM); }
 
@@ -55,7 +48,7 @@ class TextEdit final : public QUndoCommand {
 Document::Document(QString state_folder, QObject* parent) : QObject(parent), state_folder_(std::move(state_folder)) {
   autosave_.setSingleShot(true);
   autosave_.setInterval(kAutosaveDelay);
-  connect(&autosave_, &QTimer::timeout, this, &Document::write_snapshot);
+  connect(&autosave_, &QTimer::timeout, this, [this] { write_snapshot(); });
   connect(&undo_, &QUndoStack::cleanChanged, this, [this](bool clean) { emit modification_changed(!clean); });
 }
 
@@ -83,8 +76,7 @@ void Document::recover(const Recovery& recovery) {
   QFile in(recovery.file);
   start(recovery.file, in.open(QIODevice::ReadOnly) ? in.readAll() : QByteArray());
   push(difference(places_.text(), recovery.text.toStdString()), tr("recover unsaved edits"));
-  write_snapshot();
-  QFile::remove(recovery.snapshot);
+  if (write_snapshot()) QFile::remove(recovery.snapshot);
   emit renamed();
   emit changed();
 }
@@ -113,6 +105,21 @@ QString Document::save_as(const QString& file) {
 bool Document::changed_on_disk() const {
   QFile in(file_);
   return open_ && in.open(QIODevice::ReadOnly) && in.readAll() != on_disk_;
+}
+
+bool Document::is_on_disk() const {
+  QFile in(file_);
+  return open_ && in.open(QIODevice::ReadOnly) && in.readAll() == on_disk_;
+}
+
+QString Document::reload() {
+  QFile in(file_);
+  if (!in.open(QIODevice::ReadOnly)) return tr("%1 cannot be read: %2").arg(file_, in.errorString());
+  on_disk_ = in.readAll();
+  push(difference(places_.text(), on_disk_.toStdString()), tr("take over the file"));
+  undo_.setClean();
+  remove_snapshot();
+  return {};
 }
 
 void Document::close() {
@@ -175,12 +182,19 @@ QString Document::snapshot_file() const {
   return QDir(state_folder_).filePath(QString("unsaved-%1-%2.json").arg(QString::fromLatin1(name)).arg(::getpid()));
 }
 
-void Document::write_snapshot() {
-  if (!open_ || !modified()) return;
-  QDir().mkpath(state_folder_);
+bool Document::write_snapshot() {
+  if (!open_) return true;
+  if (!modified()) {  // all edits were undone
+    remove_snapshot();
+    emit snapshot_tried({});
+    return true;
+  }
   const QJsonObject json{
       {"file", file_}, {"process", static_cast<qint64>(::getpid())}, {"text", QString::fromLatin1(text().toBase64())}};
-  (void)written(snapshot_file(), QJsonDocument(json).toJson(QJsonDocument::Compact));
+  const QString error = written(snapshot_file(), QJsonDocument(json).toJson(QJsonDocument::Compact));
+  if (!error.isEmpty()) autosave_.start();
+  emit snapshot_tried(error);
+  return error.isEmpty();
 }
 
 void Document::remove_snapshot() {

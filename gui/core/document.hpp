@@ -37,6 +37,10 @@ class Document final : public QObject {
   [[nodiscard]] QString save_as(const QString& file);
   /// Another program has written the file since it was read or saved here.
   [[nodiscard]] bool changed_on_disk() const;
+  /// The file is there and holds what was last read or written here.
+  [[nodiscard]] bool is_on_disk() const;
+  /// Takes over what another program has written, as an edit that can be undone. Returns what went wrong.
+  [[nodiscard]] QString reload();
   /// Ends the work on this case; the snapshot is removed.
   void close();
 
@@ -71,13 +75,16 @@ class Document final : public QObject {
   void changed();  ///< the text
   void renamed();  ///< the file
   void modification_changed(bool modified);
+  /// A snapshot was tried. @param error  empty: it is there; else another try follows
+  void snapshot_tried(const QString& error);
 
  private:
   friend class TextEdit;
   void apply(const TextChange& change);
   void push(const TextChange& change, const QString& words, bool merges = false);
   void start(const QString& file, const QByteArray& text);
-  void write_snapshot();
+  /// @return  whether all edits are kept
+  bool write_snapshot();
   void remove_snapshot();
   [[nodiscard]] QString snapshot_file() const;
 

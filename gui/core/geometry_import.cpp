@@ -5,12 +5,12 @@
 #include <QFile>
 #include <QFileInfo>
 #include <QJsonArray>
-#include <QSaveFile>
 #include <algorithm>
 
 #include "base/geometry_file.hpp"
 #include "core/material_library.hpp"
 #include "core/value_text.hpp"
+#include "core/written_file.hpp"
 
 namespace breccia::gui {
 namespace {
@@ -79,11 +79,9 @@ QString import_solid(const QString& file, const QJsonObject& mesh, double metres
     *error = text("%1 cannot be copied into %2").arg(file, folder);
     return {};
   }
-  QSaveFile out(QDir(folder).filePath("case.toml"));
-  const QByteArray bytes = case_text(file, groups, metres).toUtf8();
-  if (out.open(QIODevice::WriteOnly) && out.write(bytes) == bytes.size() && out.commit()) return out.fileName();
-  *error = text("%1 cannot be written: %2").arg(out.fileName(), out.errorString());
-  return {};
+  const QString name = QDir(folder).filePath("case.toml");
+  *error = written(name, case_text(file, groups, metres).toUtf8());
+  return error->isEmpty() ? name : QString();
 }
 
 }  // namespace breccia::gui

@@ -6,10 +6,10 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QRegularExpression>
-#include <QSaveFile>
 
 #include "core/shipped_materials.hpp"
 #include "core/value_text.hpp"
+#include "core/written_file.hpp"
 
 namespace breccia::gui {
 namespace {
@@ -100,12 +100,9 @@ QString UserLibrary::trouble() const {
 }
 
 QString UserLibrary::save(const std::vector<LibraryMaterial>& list) const {
-  QDir().mkpath(QFileInfo(file_).absolutePath());
-  QSaveFile file(file_);
   QByteArray text;
   for (const LibraryMaterial& material : list) text += text_of(material);
-  if (file.open(QIODevice::WriteOnly) && file.write(text) == text.size() && file.commit()) return {};
-  return Document::tr("%1 cannot be written: %2").arg(file_, file.errorString());
+  return written(file_, text);
 }
 
 QString UserLibrary::add(const LibraryMaterial& material) const {

@@ -6,8 +6,9 @@
 #include <QFileInfo>
 #include <QJsonArray>
 #include <QJsonDocument>
-#include <QSaveFile>
 #include <QStandardPaths>
+
+#include "core/written_file.hpp"
 
 namespace breccia::gui {
 namespace {
@@ -113,16 +114,12 @@ QStringList recent_cases(const Places& places) {
   return found;
 }
 
-void remember_case(const Places& places, const QString& file) {
+QString remember_case(const Places& places, const QString& file) {
   QStringList list = recent_cases(places);
   list.removeAll(file);
   list.prepend(file);
   while (list.size() > kMostRecent) list.removeLast();
-  QDir().mkpath(places.state);
-  QSaveFile out(recent_file(places));
-  if (!out.open(QIODevice::WriteOnly)) return;
-  out.write(QJsonDocument(QJsonArray::fromStringList(list)).toJson());
-  out.commit();
+  return written(recent_file(places), QJsonDocument(QJsonArray::fromStringList(list)).toJson());
 }
 
 }  // namespace breccia::gui

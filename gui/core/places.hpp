@@ -36,6 +36,7 @@ struct Places {
 
 /// Recent cases, newest first; those that are no more are left out.
 [[nodiscard]] QStringList recent_cases(const Places& places);
-void remember_case(const Places& places, const QString& file);
+/// Returns what went wrong, empty: nothing.
+[[nodiscard]] QString remember_case(const Places& places, const QString& file);
 
 }  // namespace breccia::gui

@@ -11,9 +11,10 @@
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QLockFile>
-#include <QSaveFile>
 #include <QThread>
 #include <algorithm>
+
+#include "core/written_file.hpp"
 
 namespace breccia::gui {
 namespace {
@@ -43,9 +44,7 @@ QString keep_text(const RunWish& wish, QString* error) {
   if (!QFileInfo(folder.path()).isWritable()) return {};
   const QByteArray hash = QCryptographicHash::hash(wish.text, QCryptographicHash::Sha1).toHex().left(12);
   const QString name = folder.filePath(QString(".breccia-queued-%1.toml").arg(QString::fromLatin1(hash)));
-  QSaveFile file(name);
-  if (!file.open(QIODevice::WriteOnly) || file.write(wish.text) != wish.text.size() || !file.commit())
-    *error = QObject::tr("%1 cannot be written: %2").arg(name, file.errorString());
+  *error = written(name, wish.text);
   return name;
 }
 
@@ -127,9 +126,7 @@ QString RunQueue::save(const QueueContents& contents) const {
   for (const QueuedRun& run : contents.runs) rows.append(json_of(run));
   const QByteArray text =
       QJsonDocument(QJsonObject{{"cores", contents.cores}, {"held", contents.held}, {"runs", rows}}).toJson();
-  QSaveFile out(file());
-  if (out.open(QIODevice::WriteOnly) && out.write(text) == text.size() && out.commit()) return {};
-  return QObject::tr("the queue %1 cannot be written: %2").arg(out.fileName(), out.errorString());
+  return written(file(), text);
 }
 
 template <class Change>
@@ -156,27 +153,27 @@ QString RunQueue::add(const Launch& launch, const std::vector<RunWish>& wishes) 
   return error.isEmpty() ? unsaved : error;
 }
 
-void RunQueue::remove(const QString& folder) const {
-  change([&](QueueContents& contents) {
+QString RunQueue::remove(const QString& folder) const {
+  return change([&](QueueContents& contents) {
     std::erase_if(contents.runs, [&](const QueuedRun& r) { return r.record.folder == folder && !r.runs(); });
   });
 }
 
-void RunQueue::remove_ended() const {
-  change([](QueueContents& contents) {
+QString RunQueue::remove_ended() const {
+  return change([](QueueContents& contents) {
     std::erase_if(contents.runs, [](const QueuedRun& r) { return !r.waits() && !r.runs(); });
   });
 }
 
-void RunQueue::note_stop(const QString& folder) const {
-  change([&](QueueContents& contents) {
+QString RunQueue::note_stop(const QString& folder) const {
+  return change([&](QueueContents& contents) {
     for (QueuedRun& run : contents.runs)
       if (run.record.folder == folder && run.runs()) run.stop_asked = true;
   });
 }
 
-void RunQueue::move(const QString& folder, int by) const {
-  change([&](QueueContents& contents) {
+QString RunQueue::move(const QString& folder, int by) const {
+  return change([&](QueueContents& contents) {
     std::vector<std::size_t> waiting;
     for (std::size_t i = 0; i < contents.runs.size(); ++i)
       if (contents.runs[i].waits()) waiting.push_back(i);
@@ -191,12 +188,12 @@ void RunQueue::move(const QString& folder, int by) const {
   });
 }
 
-void RunQueue::set_cores(int cores) const {
-  change([&](QueueContents& contents) { contents.cores = cores; });
+QString RunQueue::set_cores(int cores) const {
+  return change([&](QueueContents& contents) { contents.cores = cores; });
 }
 
-void RunQueue::hold(bool on) const {
-  change([&](QueueContents& contents) { contents.held = on; });
+QString RunQueue::hold(bool on) const {
+  return change([&](QueueContents& contents) { contents.held = on; });
 }
 
 bool RunQueue::wants_worker() const {

@@ -43,15 +43,16 @@ class RunQueue {
   [[nodiscard]] QueueContents load() const;
   /// Puts runs at the end. Returns what went wrong, empty: nothing.
   [[nodiscard]] QString add(const Launch& launch, const std::vector<RunWish>& wishes) const;
+  // What follows returns what went wrong, empty: nothing; then all is as it was.
   /// Takes a run that waits or has ended off the list; one that runs stays.
-  void remove(const QString& folder) const;
+  QString remove(const QString& folder) const;
   /// Moves one that waits past others that wait. @param by  < 0: earlier
-  void move(const QString& folder, int by) const;
-  void remove_ended() const;
+  QString move(const QString& folder, int by) const;
+  QString remove_ended() const;
   /// Notes that the user has asked a run to stop; the asking itself is SolverRun's.
-  void note_stop(const QString& folder) const;
-  void set_cores(int cores) const;
-  void hold(bool on) const;
+  QString note_stop(const QString& folder) const;
+  QString set_cores(int cores) const;
+  QString hold(bool on) const;
 
   /// One look: notes what has ended and starts, in their order, the runs for which cores are free; the first one starts
   /// alone where it wants more than all. A run that cannot be started or fails does not hold up the others.

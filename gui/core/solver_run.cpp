@@ -17,6 +17,8 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "core/written_file.hpp"
+
 namespace breccia::gui {
 namespace {
 
@@ -280,17 +282,14 @@ std::vector<RunRecord> RunRegistry::load() const {
   return found;
 }
 
-void RunRegistry::add(const RunRecord& record) const {
+QString RunRegistry::add(const RunRecord& record) const {
   QDir().mkpath(QFileInfo(file_).absolutePath());
   QLockFile alone(file_ + ".lock");  // two windows may start runs at once
   (void)alone.tryLock(1000);
   QJsonArray rows{json_of(record)};
   for (const RunRecord& other : load())
     if (other.folder != record.folder && rows.size() < kRemembered) rows.append(json_of(other));
-  QSaveFile file(file_);
-  if (!file.open(QIODevice::WriteOnly)) return;
-  file.write(QJsonDocument(rows).toJson());
-  file.commit();
+  return written(file_, QJsonDocument(rows).toJson());
 }
 
 QString shell_line(const QStringList& command) {

@@ -132,7 +132,8 @@ class RunRegistry {
   explicit RunRegistry(QString file) : file_(std::move(file)) {}
   [[nodiscard]] std::vector<RunRecord> load() const;
   /// Newest first; folders that are no more are left out.
-  void add(const RunRecord& record) const;
+  /// Returns what went wrong, empty: nothing.
+  QString add(const RunRecord& record) const;
 
  private:
   QString file_;

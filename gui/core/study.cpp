@@ -6,12 +6,12 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
-#include <QSaveFile>
 #include <algorithm>
 
 #include "case/reader.hpp"
 #include "case/units.hpp"
 #include "core/value_text.hpp"
+#include "core/written_file.hpp"
 
 namespace breccia::gui {
 namespace {
@@ -172,13 +172,8 @@ QString save_study(const Study& study) {
   for (const StudyRun& run : study.runs)
     runs.append(QJsonObject{{"folder", QDir(study.folder).relativeFilePath(run.folder)},
                             {"values", QJsonArray::fromStringList(run.values)}});
-  QDir().mkpath(study.folder);
-  QSaveFile file(QDir(study.folder).filePath("study.json"));
   const QJsonObject json{{"case", study.case_file}, {"ranks", study.ranks}, {"parameters", parameters}, {"runs", runs}};
-  const QByteArray text = QJsonDocument(json).toJson();
-  if (!file.open(QIODevice::WriteOnly) || file.write(text) != text.size() || !file.commit())
-    return QObject::tr("%1 cannot be written: %2").arg(file.fileName(), file.errorString());
-  return {};
+  return written(QDir(study.folder).filePath("study.json"), QJsonDocument(json).toJson());
 }
 
 std::optional<Study> load_study(const QString& folder) {

@@ -9,7 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_set>
+#include <unordered_map>
+#include <utility>
 
 namespace breccia::gui {
 namespace {
@@ -44,12 +45,14 @@ Seat seat_of(vtkPointSet& model, const std::array<vtkIdType, 3>& corners) {
   return {(1.0 / 3) * (x[0] + x[1] + x[2]), unit(cross(x[1] - x[0], x[2] - x[0]))};
 }
 
-/// 4 * id of the element + side, of a surface group; none: it is a volume.
-std::unordered_set<std::int64_t> faces_of(const SurfaceGroups& surfaces, const std::string& group) {
+/// 4 * id of the element + side, of a surface group, ascending; none: it is a volume.
+std::vector<std::int64_t> faces_of(const SurfaceGroups& surfaces, const std::string& group) {
   const auto surface =
       static_cast<std::size_t>(std::find(surfaces.names.begin(), surfaces.names.end(), group) - surfaces.names.begin());
   if (surface >= surfaces.faces.size()) return {};
-  return {surfaces.faces[surface].begin(), surfaces.faces[surface].end()};
+  std::vector<std::int64_t> faces = surfaces.faces[surface];
+  std::sort(faces.begin(), faces.end());
+  return faces;
 }
 
 /// The faces of a group that are seen.
@@ -60,37 +63,66 @@ std::vector<Seat> seats_of(vtkPolyData& skin, const std::vector<std::string>& vo
   vtkDataArray* side = skin.GetCellData()->GetArray("side");
   std::vector<Seat> seats;
   if (material == nullptr || id == nullptr || side == nullptr) return seats;
-  const std::unordered_set<std::int64_t> faces = faces_of(surfaces, group);
+  const std::vector<std::int64_t> faces = faces_of(surfaces, group);
   const auto volume = static_cast<double>(std::find(volumes.begin(), volumes.end(), group) - volumes.begin());
   for (vtkIdType c = 0; c < skin.GetNumberOfCells(); ++c) {
     const auto face =
         4 * static_cast<std::int64_t>(id->GetComponent(c, 0)) + static_cast<std::int64_t>(side->GetComponent(c, 0));
-    if (!(std::abs(material->GetComponent(c, 0) - volume) < 0.5) && faces.count(face) == 0) continue;
+    if (!(std::abs(material->GetComponent(c, 0) - volume) < 0.5) &&
+        !std::binary_search(faces.begin(), faces.end(), face))
+      continue;
     seats.push_back(seat_of(skin, {3 * c, 3 * c + 1, 3 * c + 2}));
   }
   return seats;
 }
+
+/// Rows of elements by their ids: mostly the id itself, but frames of several ranks have them in other orders.
+class RowOfElement {
+ public:
+  explicit RowOfElement(vtkDataArray& id) : id_(id) {}
+
+  /// @return  -1: there is no such element
+  [[nodiscard]] vtkIdType operator()(std::int64_t element) {
+    if (element >= 0 && element < id_.GetNumberOfTuples() && is_at(element, element)) return element;
+    if (rows_.empty())
+      for (vtkIdType row = 0; row < id_.GetNumberOfTuples(); ++row)
+        rows_.emplace(static_cast<std::int64_t>(id_.GetComponent(row, 0)), row);
+    const auto found = rows_.find(element);
+    return found == rows_.end() ? -1 : found->second;
+  }
+
+ private:
+  [[nodiscard]] bool is_at(vtkIdType row, std::int64_t element) const {
+    return static_cast<std::int64_t>(id_.GetComponent(row, 0)) == element;
+  }
+  vtkDataArray& id_;
+  std::unordered_map<std::int64_t, vtkIdType> rows_;
+};
 
 /// The faces of a surface group within the model.
 std::vector<Seat> inner_seats_of(vtkUnstructuredGrid& elements, const SurfaceGroups& surfaces,
                                  const std::string& group) {
   std::vector<Seat> seats;
   vtkDataArray* id = elements.GetCellData()->GetArray("id");
-  const std::unordered_set<std::int64_t> faces = faces_of(surfaces, group);
-  if (id == nullptr || faces.empty()) return seats;
-  for (vtkIdType c = 0; c < elements.GetNumberOfCells(); ++c)
-    for (std::size_t side = 0; side < 4; ++side) {
-      if (faces.count(4 * static_cast<std::int64_t>(id->GetComponent(c, 0)) + static_cast<std::int64_t>(side)) == 0)
-        continue;
-      std::array<vtkIdType, 3> corners{};  // every element has its own points
-      for (std::size_t i = 0; i < 3; ++i) corners[i] = 4 * c + kTetraFaces[side][i];
-      seats.push_back(seat_of(elements, corners));
-    }
+  if (id == nullptr) return seats;
+  RowOfElement row_of(*id);
+  for (const std::int64_t face : faces_of(surfaces, group)) {
+    const vtkIdType row = row_of(face / 4);
+    if (row < 0) continue;
+    std::array<vtkIdType, 3> corners{};  // every element has its own points
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = 4 * row + kTetraFaces[static_cast<std::size_t>(face % 4)][i];
+    seats.push_back(seat_of(elements, corners));
+  }
   return seats;
 }
 
-/// Some of them, each as far as can be from those taken before.
-std::vector<Seat> spread(const std::vector<Seat>& seats) {
+/// Some of them, each as far as can be from those taken before. Of very many every so-manieth is looked at.
+std::vector<Seat> spread(std::vector<Seat> seats) {
+  constexpr std::size_t kEnough = 4000;
+  if (const std::size_t each = seats.size() / kEnough; each > 1) {
+    for (std::size_t i = 0; i < kEnough; ++i) seats[i] = seats[i * each];
+    seats.resize(kEnough);
+  }
   std::vector<Seat> taken;
   if (seats.empty()) return taken;
   std::vector<double> distance(seats.size(), std::numeric_limits<double>::max());
@@ -218,7 +250,7 @@ LoadGlyphs draw_load(vtkPolyData& skin, vtkUnstructuredGrid* elements, const std
     std::vector<Seat> seats = seats_of(skin, volumes, surfaces, load.group);
     glyphs.inner = seats.empty() && elements != nullptr;
     if (glyphs.inner) seats = inner_seats_of(*elements, surfaces, load.group);
-    for (const Seat& seat : spread(seats))
+    for (const Seat& seat : spread(std::move(seats)))
       glyphs.places.push_back(add_glyph(mesh, load, seat, glyphs.places.size(), length));
   }
   glyphs.mesh = mesh.take();

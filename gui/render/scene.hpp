@@ -81,6 +81,7 @@ class Scene {
   [[nodiscard]] std::array<double, 2> range() const { return range_; }
 
  private:
+  static constexpr const char* kShown = "shown";  ///< array that the skin is coloured by
   void colour();
   void draw_chosen();
   void draw_loads();

@@ -34,7 +34,12 @@ void AnimationExport::begin() {
 }
 
 void AnimationExport::take(double time, const QImage& picture) {
-  if (next_ >= static_cast<int>(frames_.size()) || frames_[static_cast<std::size_t>(next_)].time != time) return;
+  if (next_ >= static_cast<int>(frames_.size())) return;
+  const RunFrame& wanted = frames_[static_cast<std::size_t>(next_)];
+  if (wanted.time != time) {  // another one was asked for meanwhile, in whose place this one was forgotten
+    emit frame_wanted(wanted.file, wanted.time);
+    return;
+  }
   if (!picture.save(pictures_.filePath(QString("%1.png").arg(next_, 6, 10, QChar('0'))))) {
     emit done(tr("%1 cannot be written").arg(pictures_.path()));
     return;
@@ -52,7 +57,7 @@ void AnimationExport::take(double time, const QImage& picture) {
 void AnimationExport::put_together() {
   emit progress(tr("animation: ffmpeg makes the film"));
   // Films want even numbers of pixels; yuv420p is what every player knows.
-  process_.start(program(), {"-y", "-loglevel", "error", "-framerate", QString::number(kRate), "-i",
+  process_.start(program(), {"-nostdin", "-y", "-loglevel", "error", "-framerate", QString::number(kRate), "-i",
                              pictures_.filePath("%06d.png"), "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt",
                              "yuv420p", file_});
 }

@@ -22,7 +22,8 @@ class AnimationExport final : public QObject {
   [[nodiscard]] static QString program();
 
   void begin();
-  /// A frame has been drawn; it is taken if it is the one that was asked for. @param time  of the frame, s
+  /// A frame has been drawn; it is taken if it is the one that was asked for, else that is asked for again.
+  /// @param time  of the frame, s
   void take(double time, const QImage& picture);
   /// No picture of the frame that was asked for will come.
   void give_up(const QString& why) { emit done(why); }

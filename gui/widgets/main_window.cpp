@@ -206,6 +206,9 @@ void MainWindow::join_panels() {
     show_joint_law();
   });
   connect(&document_, &Document::changed, this, &MainWindow::case_changed);
+  connect(&document_, &Document::snapshot_tried, this, [this](const QString& error) {
+    tell_trouble("snapshot", tr("Unsaved edits are not kept against a crash; save the case"), error);
+  });
   connect(&document_, &Document::renamed, this, &MainWindow::show_title);
   connect(&document_, &Document::modification_changed, this, &MainWindow::show_title);
   connect(&queries_, &CaseQueries::checked, this, &MainWindow::show_check);
@@ -249,7 +252,9 @@ void MainWindow::join_panels() {
   connect(view_, &View3D::picked, this, &MainWindow::picked);
   connect(run_panel_, &RunPanel::run_wanted, this, &MainWindow::start_run);
   connect(run_panel_, &RunPanel::queue_wanted, this, &MainWindow::queue_run);
-  connect(run_panel_, &RunPanel::check_wanted, this, [this] { queries_.check(); });
+  connect(run_panel_, &RunPanel::check_wanted, this, &MainWindow::ask_estimate);
+  estimate_.setSingleShot(true);
+  connect(&estimate_, &QTimer::timeout, this, &MainWindow::ask_estimate);
   connect(run_panel_, &RunPanel::stop_wanted, this, [this] {
     if (run_ != nullptr) run_->stop();
   });
@@ -273,10 +278,12 @@ void MainWindow::join_panels() {
     compare(others);
   });
   connect(queue_panel_, &QueuePanel::changed, this, &MainWindow::take_queue);
+  connect(queue_panel_, &QueuePanel::change_tried, this,
+          [this](const QString& error) { tell_trouble("queue", tr("The queue stays as it was"), error); });
   connect(queue_panel_, &QueuePanel::worker_wanted, this, &MainWindow::start_worker);
   connect(queue_panel_, &QueuePanel::run_chosen, this, &MainWindow::open_run);
   connect(queue_panel_, &QueuePanel::stop_wanted, this, [this](const QString& folder) {
-    queue_.note_stop(folder);  // whatever the run leaves behind, the list says how it ended
+    queue_panel_->changed_with(queue_.note_stop(folder));  // whatever the run leaves behind, the list says how it ended
     for (SolverRun* run : runs_)
       if (run->record().folder == folder) run->stop();
   });
@@ -292,6 +299,11 @@ void MainWindow::join_panels() {
   });
   connect(results_, &ResultsPanel::paraview_wanted, this, &MainWindow::open_paraview);
   connect(results_, &ResultsPanel::picture_wanted, this, &MainWindow::save_picture);
+}
+
+void MainWindow::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::ActivationChange && isActiveWindow()) look_at_disk();  // back from another program
+  QMainWindow::changeEvent(event);
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

@@ -57,13 +57,14 @@ class MainWindow final : public QMainWindow {
   [[nodiscard]] View3D& view() { return *view_; }
   [[nodiscard]] SolverRun* run() { return run_; }
   [[nodiscard]] bool busy() const;
-  /// Offers what a session that was killed has left.
-  void offer_recovery();
+  /// Offers what a session that was killed has left. @param of  a case, which is open; empty: any
+  void offer_recovery(const QString& of = {});
   void set_dark(bool dark);
   [[nodiscard]] bool dark() const { return dark_->isChecked(); }
 
  protected:
   void closeEvent(QCloseEvent* event) override;
+  void changeEvent(QEvent* event) override;
 
  private:
   // main_window.cpp: construction
@@ -77,11 +78,19 @@ class MainWindow final : public QMainWindow {
 
   // main_window_case.cpp: the case in hand
   void show_start();
+  /// Tells what cannot be kept, once and until it can. @param error  empty: it can
+  void tell_trouble(const QString& what, const QString& words, const QString& error);
+  void remember_run(const RunRecord& record);
+  void remember_file();
+  void ask_estimate();
+  void renew_estimate();
   void open_template(int number, bool run_it);
   void open_case(const QString& file);
   void show_workspace();
   [[nodiscard]] bool save();
   void save_as();
+  void look_at_disk();
+  [[nodiscard]] bool agrees_with_disk();
   [[nodiscard]] bool may_leave_case();
   void case_changed();
   void validate();
@@ -161,7 +170,8 @@ class MainWindow final : public QMainWindow {
   FrameLoader* loader_;
   AnimationExport* animation_ = nullptr;
   QString curves_file_;  ///< of the table that waits for the histories; empty: none
-  QTimer validation_, preview_, law_;
+  QTimer validation_, preview_, law_, estimate_;
+  QByteArray estimated_;  ///< text of the case that the estimate is of; empty: none was asked for
   std::vector<Problem> problems_;
   std::vector<int> owner_;  ///< rank of each element of the preview
   FrameData preview_frame_;

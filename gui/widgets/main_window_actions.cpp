@@ -76,7 +76,7 @@ void MainWindow::make_actions() {
       run, tr("&Check"), Qt::Key_F7,
       [this] {
         form_->take_typed();
-        queries_.check();
+        ask_estimate();
       },
       true);
   run_action_ = add(

@@ -116,6 +116,8 @@ void MainWindow::query_failed(const QString& what, const QString& text, const st
   if (!text.isEmpty()) messages_->add_message(tr("%1: %2").arg(what, text));
   for (const Problem& p : problems) messages_->add_message(tr("%1: %2").arg(what, QString::fromStdString(p.text())));
   if (what == tr("check")) run_panel_->set_estimate(tr("The check found problems; see the messages below."));
+  if (what == tr("mesh") && !showing_results_ && preview_frame_.skin == nullptr)
+    view_->clear(tr("no mesh: see the messages"));
   show_dock("dock_messages");
 }
 

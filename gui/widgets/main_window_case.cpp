@@ -78,6 +78,17 @@ void MainWindow::show_start() {
   for (const char* name : kDocks) findChild<QWidget*>(name)->hide();
 }
 
+void MainWindow::tell_trouble(const QString& what, const QString& words, const QString& error) {
+  const QString text = error.isEmpty() ? QString() : QString("%1: %2").arg(words, error);
+  if (!messages_->set_trouble(what, text) || text.isEmpty()) return;
+  statusBar()->showMessage(text, 15000);
+  if (document_.is_open()) show_dock("dock_messages");
+}
+
+void MainWindow::remember_file() {
+  tell_trouble("recent", tr("This case is not kept among the recent ones"), remember_case(places_, document_.file()));
+}
+
 void MainWindow::show_workspace() {
   setAnimated(false);  // each step of it would draw the view anew
   for (const char* name : kDocks) findChild<QWidget*>(name)->show();
@@ -112,7 +123,8 @@ void MainWindow::open_case(const QString& file) {
     QMessageBox::warning(this, tr("Breccia"), error);
     return;
   }
-  remember_case(places_, document_.file());
+  remember_file();
+  look_at_disk();
   watch(nullptr);
   preview_frame_ = {};
   owner_.clear();
@@ -121,6 +133,7 @@ void MainWindow::open_case(const QString& file) {
   groups_.clear();
   laws_ = {};
   run_panel_->set_estimate(tr("Not checked yet."));
+  estimated_.clear();
   messages_->set_advice({});
   view_->clear(tr("meshing..."));
   show_workspace();
@@ -128,10 +141,13 @@ void MainWindow::open_case(const QString& file) {
   stage_selected(tree_->stage(), tree_->path());
   validate();
   show_studies();
+  offer_recovery(document_.file());
 }
 
-void MainWindow::offer_recovery() {
+/// Of all cases; of one: what stands in its file is open.
+void MainWindow::offer_recovery(const QString& of) {
   for (const Recovery& recovery : Document::recoveries(places_.state)) {
+    if (!of.isEmpty() && recovery.file != of) continue;
     const auto answer = QMessageBox::question(
         this, tr("Unsaved edits"),
         tr("Breccia ended without saving its edits of\n%1\nTake them up again?").arg(recovery.file));
@@ -156,6 +172,7 @@ bool MainWindow::save() {
           QMessageBox::Save | QMessageBox::Cancel, QMessageBox::Cancel) != QMessageBox::Save)
     return false;
   const QString error = document_.save();
+  look_at_disk();
   if (!error.isEmpty()) QMessageBox::warning(this, tr("Breccia"), error);
   return error.isEmpty();
 }
@@ -166,8 +183,36 @@ void MainWindow::save_as() {
   const QString name =
       QFileDialog::getSaveFileName(this, tr("Save the case as"), document_.file(), tr("Cases (*.toml)"));
   if (name.isEmpty()) return;
-  if (const QString error = document_.save_as(name); !error.isEmpty()) QMessageBox::warning(this, tr("Breccia"), error);
-  remember_case(places_, document_.file());
+  if (const QString error = document_.save_as(name); !error.isEmpty()) {
+    QMessageBox::warning(this, tr("Breccia"), error);
+    return;
+  }
+  remember_file();
+  validate();  // relative names start from another folder
+}
+
+void MainWindow::look_at_disk() {
+  tell_trouble("disk", tr("Another program has changed or removed the case since it was opened here"),
+               document_.is_open() && !document_.is_on_disk() ? document_.file() : QString());
+}
+
+/// Whether what is run is what the window shows. A case with edits of its own is saved, which asks by itself.
+bool MainWindow::agrees_with_disk() {
+  if (!document_.is_open() || document_.modified() || document_.is_on_disk()) return true;
+  if (!QFileInfo::exists(document_.file())) return save();
+  QMessageBox box(QMessageBox::Question, tr("Breccia"),
+                  tr("Another program has changed\n%1\nsince it was opened.").arg(document_.file()),
+                  QMessageBox::Open | QMessageBox::Save | QMessageBox::Cancel, this);
+  box.button(QMessageBox::Open)->setText(tr("&Take that over"));
+  box.button(QMessageBox::Save)->setText(tr("&Write over it"));
+  box.setDefaultButton(QMessageBox::Cancel);
+  const int answer = box.exec();
+  QString error;
+  if (answer == QMessageBox::Open) error = document_.reload();
+  if (answer == QMessageBox::Save) error = document_.save();
+  if (!error.isEmpty()) QMessageBox::warning(this, tr("Breccia"), error);
+  look_at_disk();
+  return answer != QMessageBox::Cancel && error.isEmpty();
 }
 
 bool MainWindow::may_leave_case() {
@@ -208,6 +253,9 @@ void MainWindow::validate() {
     conditions_->show_conditions(loads_);
     show_loads();
   }
+  if (side_->currentIndex() == 1 && !estimated_.isEmpty()) renew_estimate();
+  if (!problems_.empty() && mesh_text_.isEmpty() && !showing_results_)
+    view_->clear(tr("no mesh yet: the case has problems, see the messages"));
   // The preview follows what the mesh is made of.
   QString source;
   for (const Place& place : document_.places().all())
@@ -215,9 +263,26 @@ void MainWindow::validate() {
       source += QString::fromStdString(place.path + "=" + std::string(document_.places().value(place.path)) + "\n");
   if (problems_.empty() && source != mesh_text_) {
     const bool first = mesh_text_.isEmpty();
+    if (first && !showing_results_) view_->clear(tr("meshing..."));
     mesh_text_ = source;
     preview_.start(first ? 0 : kPreviewDelay);
   }
+}
+
+void MainWindow::ask_estimate() {
+  estimate_.stop();
+  estimated_ = document_.text();
+  queries_.check();
+}
+
+/// Where it is of another text than that of the case.
+void MainWindow::renew_estimate() {
+  if (estimated_ == document_.text()) return;
+  if (!estimated_.isEmpty())
+    run_panel_->set_estimate(problems_.empty() ? tr("The case was edited: it is worked out anew...")
+                                               : tr("The case was edited, and has problems."));
+  if (!problems_.empty()) return estimate_.stop();
+  estimate_.start(estimated_.isEmpty() ? 0 : kPreviewDelay);
 }
 
 void MainWindow::stage_selected(int stage, const QString& path) {
@@ -240,7 +305,7 @@ void MainWindow::stage_selected(int stage, const QString& path) {
   }
   if (chosen.kind == Kind::run) {
     show_commands();
-    if (problems_.empty() && run_ == nullptr) queries_.check();
+    if (run_ == nullptr || !estimated_.isEmpty()) renew_estimate();
     if (run_ != nullptr) show_dock("dock_plots");
   }
   show_loads();

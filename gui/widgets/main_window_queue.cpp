@@ -14,6 +14,7 @@ namespace breccia::gui {
 
 void MainWindow::queue_run() {
   form_->take_typed();
+  if (!agrees_with_disk()) return;
   validate();
   if (!problems_.empty() || !document_.is_open()) {
     show_dock("dock_messages");

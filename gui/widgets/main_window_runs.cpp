@@ -52,8 +52,14 @@ QStringList MainWindow::command_line() const {
   return SolverRun::command_line(places_.launch, document_.file(), new_run_folder(), run_panel_->ranks());
 }
 
+void MainWindow::remember_run(const RunRecord& record) {
+  tell_trouble("runs", tr("The run goes on, but later windows will not list it (File > Open results)"),
+               registry_.add(record));
+}
+
 void MainWindow::start_run() {
   form_->take_typed();
+  if (!agrees_with_disk()) return;
   validate();
   if (!problems_.empty() || (document_.modified() && !save())) {
     show_dock("dock_messages");
@@ -66,7 +72,7 @@ void MainWindow::start_run() {
     QMessageBox::warning(this, tr("Breccia"), tr("The run could not be started: %1").arg(error));
     return;
   }
-  registry_.add(run->record());
+  remember_run(run->record());
   take_run(run);
   tree_->select(run_stage(), {});
   watch(run);
@@ -87,7 +93,7 @@ void MainWindow::go_on_with_run() {
     list->erase(std::remove(list->begin(), list->end(), ended), list->end());
   ended->disconnect(this);
   ended->deleteLater();
-  registry_.add(run->record());
+  remember_run(run->record());
   take_run(run);
   tree_->select(run_stage(), {});
   watch(run);

@@ -32,6 +32,10 @@ void ProblemsPanel::rebuild() {
     item->setData(kLine, p.line);
     item->setData(Qt::AccessibleTextRole, tr("Problem: %1").arg(words));
   }
+  for (const QString& words : troubles_) {
+    auto* item = new QListWidgetItem(style()->standardIcon(QStyle::SP_MessageBoxCritical), words, this);
+    item->setData(Qt::AccessibleTextRole, tr("Trouble: %1").arg(words));
+  }
   for (const QString& words : messages_)
     new QListWidgetItem(style()->standardIcon(QStyle::SP_MessageBoxWarning), words, this);
   for (const QString& words : advice_)
@@ -50,8 +54,16 @@ void ProblemsPanel::set_advice(const QStringList& advice) {
 }
 
 void ProblemsPanel::add_message(const QString& text) {
+  if (messages_.contains(text)) return;
   messages_ << text;
   rebuild();
+}
+
+bool ProblemsPanel::set_trouble(const QString& what, const QString& text) {
+  if (troubles_.value(what) == text) return false;
+  text.isEmpty() ? static_cast<void>(troubles_.remove(what)) : static_cast<void>(troubles_.insert(what, text));
+  rebuild();
+  return true;
 }
 
 void ProblemsPanel::next_problem() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QListWidget>
+#include <QMap>
 
 #include "base/error.hpp"
 
@@ -14,6 +15,9 @@ class ProblemsPanel final : public QListWidget {
   void set_problems(const std::vector<Problem>& problems);
   void set_advice(const QStringList& advice);
   void add_message(const QString& text);
+  /// What this program cannot do for the user, told until it can. @param text  empty: it can
+  /// @return  whether that is news
+  bool set_trouble(const QString& what, const QString& text);
   /// Goes to the next problem, round and round.
   void next_problem();
 
@@ -25,6 +29,7 @@ class ProblemsPanel final : public QListWidget {
   void go(QListWidgetItem* item);
   std::vector<Problem> problems_;
   QStringList advice_, messages_;
+  QMap<QString, QString> troubles_;
 };
 
 }  // namespace breccia::gui

@@ -79,19 +79,16 @@ void QueuePanel::make_buttons(QHBoxLayout& row) {
   row.addWidget(held_);
   connect(earlier_, &QPushButton::clicked, this, [this] { move(-1); });
   connect(later_, &QPushButton::clicked, this, [this] { move(1); });
-  connect(remove_, &QPushButton::clicked, this, [this] { act(&RunQueue::remove); });
+  connect(remove_, &QPushButton::clicked, this, [this] {
+    if (const QueuedRun* run = chosen(); run != nullptr) changed_with(queue_.remove(run->record.folder));
+  });
   connect(stop_, &QPushButton::clicked, this, [this] {
-    if (const QueuedRun* run = chosen(); run != nullptr) emit stop_wanted(run->record.folder);
+    if (const QueuedRun* run = chosen(); run != nullptr)
+      emit stop_wanted(QString(run->record.folder));  // a copy: the list is read anew
   });
-  connect(clear_, &QPushButton::clicked, this, [this] {
-    queue_.remove_ended();
-    look();
-  });
-  connect(cores_, qOverload<int>(&QSpinBox::valueChanged), this, [this](int n) { queue_.set_cores(n); });
-  connect(held_, &QCheckBox::toggled, this, [this](bool on) {
-    queue_.hold(on);
-    look();
-  });
+  connect(clear_, &QPushButton::clicked, this, [this] { changed_with(queue_.remove_ended()); });
+  connect(cores_, qOverload<int>(&QSpinBox::valueChanged), this, [this](int n) { changed_with(queue_.set_cores(n)); });
+  connect(held_, &QCheckBox::toggled, this, [this](bool on) { changed_with(queue_.hold(on)); });
 }
 
 const QueuedRun* QueuePanel::chosen() const {
@@ -100,8 +97,9 @@ const QueuedRun* QueuePanel::chosen() const {
                                                                    : nullptr;
 }
 
-void QueuePanel::act(void (RunQueue::*what)(const QString&) const) {
-  if (const QueuedRun* run = chosen(); run != nullptr) (queue_.*what)(QString(run->record.folder));
+void QueuePanel::changed_with(const QString& error) {
+  emit change_tried(error);
+  if (!error.isEmpty()) show_contents();
   look();
 }
 
@@ -109,8 +107,7 @@ void QueuePanel::move(int by) {
   const QueuedRun* run = chosen();
   if (run == nullptr) return;
   const QString folder = run->record.folder;
-  queue_.move(folder, by);
-  look();
+  changed_with(queue_.move(folder, by));
   for (int row = 0; row < table_->rowCount(); ++row)
     if (contents_.runs[static_cast<std::size_t>(row)].record.folder == folder) table_->setCurrentCell(row, 0);
 }

@@ -20,6 +20,8 @@ class QueuePanel final : public QWidget {
   explicit QueuePanel(const RunQueue& queue, QWidget* parent = nullptr);
   /// Reads the file if it has changed, and asks for a worker where one is missing.
   void look();
+  /// Shows the list as it is after a change was tried. @param error  empty: it was made
+  void changed_with(const QString& error);
   [[nodiscard]] const QueueContents& contents() const { return contents_; }
 
  signals:
@@ -27,6 +29,8 @@ class QueuePanel final : public QWidget {
   void worker_wanted();
   void run_chosen(const QString& folder);
   void stop_wanted(const QString& folder);
+  /// The list was to be changed. @param error  empty: it was
+  void change_tried(const QString& error);
 
  private:
   void make_table();
@@ -35,7 +39,6 @@ class QueuePanel final : public QWidget {
   void show_buttons();
   /// nullptr: no row is chosen.
   [[nodiscard]] const QueuedRun* chosen() const;
-  void act(void (RunQueue::*what)(const QString&) const);
   void move(int by);
 
   const RunQueue& queue_;

@@ -21,6 +21,7 @@ class View3D final : public QWidget {
   [[nodiscard]] Scene& scene() { return scene_; }
   void show_frame(const FrameData& frame, const QString& caption);
   void clear(const QString& caption);
+  [[nodiscard]] const QString& caption() const { return caption_; }
   void set_colouring(Colouring colouring);
   /// Draws these faces in front of all others, with words for them; nullptr: none, and the caption of the frame.
   void mark(vtkPolyData* faces, const QString& words);

@@ -21,7 +21,6 @@
 #include "domains/decomposition.hpp"
 #include "domains/global_step.hpp"
 #include "mesh/geometry.hpp"
-#include "mesh/quality.hpp"
 #include "model/parameters.hpp"
 #include "output/quantity_text.hpp"
 #include "output/summary.hpp"
@@ -323,7 +322,7 @@ std::array<Vec3, 2> box_of(const Mesh& mesh) {
   return box;
 }
 
-std::string mesh_report(const FinishedMesh& made) {
+std::string mesh_report(const FinishedMesh& made, const QualityReport& q) {
   const MeshReport& r = made.report;
   std::string text = fmt::format("{}: {} elements, {} nodes, {} {}\n", printable(made.mesh.source), r.elements, r.nodes,
                                  r.bodies, r.bodies == 1 ? "body" : "bodies");
@@ -346,7 +345,6 @@ std::string mesh_report(const FinishedMesh& made) {
   note(r.split_nodes, "nodes added where bodies that are not glued touch");
   note(r.duplicate_nodes, "nodes coincide with others: bodies there are not joined");
   note(r.ungrouped_elements, "tetrahedra outside every physical volume left out");
-  const QualityReport q = assess_quality(made.mesh);
   text += fmt::format("  edge          median {:.4g} m, from {:.4g} to {:.4g} m\n", q.mean_edge.median, q.mean_edge.min,
                       q.mean_edge.max);
   text += fmt::format("  radius ratio  median {:.3f}, 1 % below {:.3f}, worst {:.3f} (1 is regular)\n",
@@ -369,7 +367,7 @@ CheckReport full_report(const case_::Case& input, const Model& model, const Star
     report.text += fmt::format(
         "starts from {}; what is said of mesh, joints, contact and step is of the model at rest, before that run\n",
         from.words);
-  report.text += mesh_report({model.mesh, model.mesh_report});
+  report.text += mesh_report({model.mesh, model.mesh_report}, assess_quality(model.mesh));
   report.text += fmt::format("joints: {}\n", model.joints.size());
   for (std::size_t l = 0; l < model.joint_laws.size(); ++l)
     report.text += law_report(model, static_cast<Index>(l), report.advice);

@@ -9,6 +9,7 @@
 #include "commands/advice.hpp"
 #include "commands/step_report.hpp"
 #include "mesh/finish.hpp"
+#include "mesh/quality.hpp"
 #include "model/model.hpp"
 #include "parallel/domain_report.hpp"
 
@@ -18,7 +19,7 @@ namespace breccia {
 [[nodiscard]] std::array<Vec3, 2> box_of(const Mesh& mesh);
 
 /// Box, bodies, groups, repairs and quality of a mesh, for a terminal.
-[[nodiscard]] std::string mesh_report(const FinishedMesh& made);
+[[nodiscard]] std::string mesh_report(const FinishedMesh& made, const QualityReport& quality);
 
 /// How a model is divided among ranks.
 struct Division {

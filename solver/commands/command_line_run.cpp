@@ -132,6 +132,8 @@ void define_resume(CLI::App& app, Arguments& a) {
       ->allow_extra_args(false)
       ->take_all()
       ->check(override_text());
+  resume->add_flag("--without-insitu", a.resume.without_insitu,
+                   "leave out the [insitu] of the case: where a script or the adaptor is gone; results are the same");
   resume->add_option("--progress", a.progress, kProgressHelp)->check(progress_modes());
   resume->footer(kResumeFooter);
 }

@@ -29,6 +29,7 @@ struct ResumeCommand {
   std::filesystem::path folder;                            ///< of the results; empty: the run's own
   std::vector<std::string> overrides;                      ///< key=value
   double until = std::numeric_limits<double>::infinity();  ///< s, simulated
+  bool without_insitu = false;                             ///< pipelines and live view of the case are left out
   ProgressMode progress = ProgressMode::log;
   std::vector<std::string> command_line;
 };

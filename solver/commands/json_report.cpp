@@ -10,14 +10,11 @@
 #include "case/schema.hpp"
 #include "commands/check_report.hpp"
 #include "commands/joint_curves.hpp"
-#include "mesh/quality.hpp"
 
 namespace breccia {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr int kBins = 10;
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
@@ -28,18 +25,6 @@ Json groups(const MeshReport& report) {
     return out;
   };
   return {{"volumes", list(report.volume_groups)}, {"surfaces", list(report.surface_groups)}};
-}
-
-/// Elements by radius ratio: bin i counts those from i/10 to (i+1)/10.
-Json quality_bins(const Mesh& mesh) {
-  std::array<std::int64_t, kBins> bins{};
-  for (const auto& corners : mesh.elements) {
-    std::array<Vec3, 4> p;
-    for (std::size_t i = 0; i < 4; ++i) p[i] = mesh.nodes[static_cast<std::size_t>(corners[i])];
-    const double ratio = element_quality(p).radius_ratio;
-    ++bins[static_cast<std::size_t>(std::clamp(static_cast<int>(kBins * ratio), 0, kBins - 1))];
-  }
-  return bins;
 }
 
 Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
@@ -163,6 +148,7 @@ std::string joints_json(const Model& model) {
 std::string mesh_json(const FinishedMesh& made, const std::vector<std::vector<Topology::Face>>* faces) {
   const MeshReport& r = made.report;
   const auto [lower, upper] = box_of(made.mesh);
+  const QualityReport quality = assess_quality(made.mesh);
   Json json{{"source", made.mesh.source},
             {"elements", r.elements},
             {"nodes", r.nodes},
@@ -173,8 +159,8 @@ std::string mesh_json(const FinishedMesh& made, const std::vector<std::vector<To
             {"groups", groups(r)},
             {"inverted_repaired", r.inverted_repaired},
             {"duplicate_nodes", r.duplicate_nodes},
-            {"quality", quality_bins(made.mesh)},
-            {"report", mesh_report(made)}};
+            {"quality", quality.ratio_bins},
+            {"report", mesh_report(made, quality)}};
   if (faces == nullptr) return text_of(json);
   json["faces"] = Json::array();  // in the order of groups.surfaces
   for (const std::vector<Topology::Face>& group : *faces) {

@@ -41,7 +41,7 @@ void refuse_frames_of_run(const std::filesystem::path& folder) {
 
 int mesh(const MeshCommand& asked) {
   const auto told = [&](const FinishedMesh& made) {
-    fmt::print("{}", asked.json ? mesh_json(made) : mesh_report(made));
+    fmt::print("{}", asked.json ? mesh_json(made) : mesh_report(made, assess_quality(made.mesh)));
   };
   if (is_solid(geometry_file(asked.case_file))) {
     case_::Case input = case_of_geometry(asked);

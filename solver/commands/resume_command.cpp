@@ -34,6 +34,16 @@ InputError refused(const std::string& where, const std::string& what, const std:
   return InputError(Problem{where, 0, "resume", what, allowed, given});
 }
 
+/// Refusals for the sake of the pipelines, which change no result, name the way around them.
+std::vector<Problem> with_way_around(std::vector<Problem> problems) {
+  for (Problem& problem : problems) {
+    if (problem.key.starts_with("insitu"))
+      problem.allowed +=
+          (problem.allowed.empty() ? "" : "; or ") + std::string("--without-insitu, to go on without it");
+  }
+  return problems;
+}
+
 void check_overrides(const std::vector<std::string>& overrides) {
   for (const std::string& text : overrides) {
     const auto is_free = [&](std::string_view key) { return text.starts_with(key); };
@@ -101,7 +111,9 @@ void check_there_is_more(const case_::Case& input, const Checkpoint& from, const
 
 }  // namespace
 
-int resume_command(const ResumeCommand& asked, const Communicator& world) {
+namespace {
+
+int go_on(const ResumeCommand& asked, const Communicator& world) {
   std::vector<fs::path> files;
   std::optional<RunWatch> watch;
   if (world.is_root()) watch.emplace();  // before memory is taken
@@ -120,7 +132,9 @@ int resume_command(const ResumeCommand& asked, const Communicator& world) {
   bool complete = false;
   RunFolder folder{asked.folder.empty() ? run : asked.folder};
   world.agree([&] {
-    input = case_of(from, RunFolder{run}.case_file(), asked.overrides, asked.until, options);
+    std::vector<std::string> overrides = asked.overrides;
+    if (asked.without_insitu) overrides.emplace_back("insitu={}");
+    input = case_of(from, RunFolder{run}.case_file(), std::move(overrides), asked.until, options);
     world.set_patience(input.domains.patience);
     complete = is_complete(RunFolder{run}, from.model.clock.steps) && !options.extended;
     if (complete) return;
@@ -147,6 +161,16 @@ int resume_command(const ResumeCommand& asked, const Communicator& world) {
   const Summary summary = resume_case(input, std::move(from), options, sinks, world, folder);
   print_results(summary, folder, asked.progress, world);
   return 0;
+}
+
+}  // namespace
+
+int resume_command(const ResumeCommand& asked, const Communicator& world) {
+  try {
+    return go_on(asked, world);
+  } catch (const InputError& error) {  // the same on all ranks
+    throw InputError(with_way_around(error.problems()));
+  }
 }
 
 }  // namespace breccia

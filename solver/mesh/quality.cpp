@@ -18,13 +18,16 @@ Distribution distribution_of(std::vector<double> values) {
   double sum = 0;
   for (const double value : values) sum += value;
   const auto count = static_cast<double>(values.size());
-  std::sort(values.begin(), values.end());
+  auto sorted_to = values.begin();  // what is asked for ascends, and all before it is smaller
   const auto quantile = [&](double q) {
     const auto rank = static_cast<std::size_t>(std::max(1.0, std::ceil(q * count)));
-    return values[std::min(rank, values.size()) - 1];
+    const auto place = values.begin() + static_cast<std::ptrdiff_t>(std::min(rank, values.size()) - 1);
+    std::nth_element(sorted_to, place, values.end());
+    sorted_to = place;
+    return *place;
   };
-  return {values.front(), quantile(0.01), quantile(0.05), quantile(0.5),
-          quantile(0.95), quantile(0.99), values.back(),  sum / count};
+  return {quantile(0.0),  quantile(0.01), quantile(0.05), quantile(0.5),
+          quantile(0.95), quantile(0.99), quantile(1.0),  sum / count};
 }
 
 Distribution distribution_of(const std::vector<ElementQuality>& all, double ElementQuality::*figure) {
@@ -110,6 +113,8 @@ QualityReport assess_quality(const Mesh& mesh) {
     all[at(e)] = element_quality(geometry::corners_of(mesh, e));
     add(report.groups[at(mesh.element_group[at(e)])], all[at(e)]);
     add(report.bodies[at(mesh.element_body[at(e)])], all[at(e)]);
+    constexpr int bins = static_cast<int>(std::tuple_size_v<decltype(report.ratio_bins)>);
+    ++report.ratio_bins[at(std::clamp(static_cast<Index>(bins * all[at(e)].radius_ratio), 0, bins - 1))];
   }
   divide(report.groups);
   divide(report.bodies);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,7 @@ struct ElementSizes {
 
 struct QualityReport {
   Distribution volume, min_height, max_height, inradius, mean_edge, min_dihedral, max_dihedral, radius_ratio;
+  std::array<std::int64_t, 10> ratio_bins{};  ///< elements by radius_ratio: bin i counts those from i/10 to (i+1)/10
 
   struct Worst {
     Index element;

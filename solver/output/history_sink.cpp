@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <fstream>
 #include <iterator>
 
 #include "output/csv_field.hpp"
@@ -57,6 +58,8 @@ constexpr std::array<GaugeVector, 10> kGaugeVectors{{{"reaction", "N", &GaugeRea
 
 constexpr std::array<char, 3> kAxes{'x', 'y', 'z'};
 
+constexpr const char* kInSituShare = "in situ share of wall time";  // the last column
+
 /// Words of a table's name: "joint_elastic" is "joint elastic".
 std::string words_of(std::string name) {
   for (char& c : name) {
@@ -94,6 +97,13 @@ struct NumberText {
   [[nodiscard]] const char* comma() const { return text.empty() ? "" : ","; }
 };
 
+bool has_insitu_share(const std::filesystem::path& history) {
+  std::ifstream file(history);
+  std::string header;
+  std::getline(file, header);
+  return header.ends_with(kInSituShare);
+}
+
 }  // namespace
 
 std::vector<std::string> history_columns(const std::vector<std::string>& gauges, bool insitu) {
@@ -113,13 +123,14 @@ std::vector<std::string> history_columns(const std::vector<std::string>& gauges,
         columns.push_back(fmt::format("{} {} {} [{}]", gauge, vector.name, axis, vector.unit));
     }
   }
-  if (insitu) columns.emplace_back("in situ share of wall time");
+  if (insitu) columns.emplace_back(kInSituShare);
   return columns;
 }
 
 void HistorySink::start(const RunStart& run) {
   gauges_ = run.gauges.size();
   if (run.marks) {
+    insitu_before_ = !run.insitu && has_insitu_share(path_);
     file_.emplace(path_, static_cast<std::size_t>(run.marks->history_bytes));
     return;
   }
@@ -142,6 +153,7 @@ void HistorySink::history(const HistoryRow& row) {
   DEMAND(file_.has_value() && row.gauges.size() == gauges_, std::to_string(row.gauges.size()) + " gauge readings");
   std::string text;
   each_number(row, NumberText{text});
+  if (insitu_before_) NumberText{text}(0.0);
   file_->append_line(text);
 }
 

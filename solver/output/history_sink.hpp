@@ -36,6 +36,7 @@ class HistorySink final : public Sink {
   std::filesystem::path path_;
   std::optional<LineFile> file_;
   std::size_t gauges_ = 0;
+  bool insitu_before_ = false;  ///< lines so far have the share of pipelines, which the run goes on without
 };
 
 }  // namespace breccia

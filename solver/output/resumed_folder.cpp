@@ -1,5 +1,7 @@
 #include "output/resumed_folder.hpp"
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -45,6 +47,22 @@ void copy_lines(const fs::path& from, const fs::path& to) {
   if (error) throw output_error(to, "cannot copy this file of the run so far", error.value());
 }
 
+/// The lines that a run goes on from, as long as they were when the checkpoint was written. Looked at before anything
+/// is changed.
+void demand_lines(const fs::path& file, std::int64_t bytes, const Checkpoint& from) {
+  std::error_code error;
+  const bool there = fs::is_regular_file(file, error);
+  if (there && static_cast<std::int64_t>(fs::file_size(file, error)) >= bytes && !error) return;
+  Problem problem;
+  problem.file = file.string();
+  problem.what = there ? "this file has lost lines that were written before the checkpoint"
+                       : "this file is gone, with its lines from before the checkpoint";
+  problem.allowed = fmt::format(
+      "the file as the run left it; or, without it, a new run: a case with [start] from = this run, step = {}",
+      from.model.clock.steps);
+  throw OutputError(problem);
+}
+
 }  // namespace
 
 bool is_complete(const RunFolder& folder, std::int64_t steps) {
@@ -56,6 +74,8 @@ bool is_complete(const RunFolder& folder, std::int64_t steps) {
 
 RunFolder prepare_resumed_folder(const RunFolder& run, const fs::path& root, const Checkpoint& from,
                                  const std::string& resolved_case, const Provenance& provenance) {
+  demand_lines(run.history(), from.position.marks.history_bytes, from);
+  demand_lines(run.status(), from.position.marks.status_bytes, from);
   std::error_code error;
   if (!fs::equivalent(run.root, root, error)) {
     RunFolder folder = prepare_run_folder(root, resolved_case, provenance, OldResults::keep);

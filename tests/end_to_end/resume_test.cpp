@@ -6,6 +6,7 @@
 #include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -51,6 +52,12 @@ std::vector<fs::path> checkpoints(const fs::path& run) {
   for (const auto& entry : fs::directory_iterator(run / "checkpoints", error))
     if (entry.path().extension() == ".h5") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::set<fs::path> files_in(const fs::path& folder) {
+  std::set<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) files.insert(entry.path());
   return files;
 }
 
@@ -252,6 +259,47 @@ TEST_F(Resume, RefusesWhatIsNoRunAndWhatWouldChangeResults) {
     EXPECT_EQ(refused.exit_code, 2) << arguments;
     EXPECT_NE(refused.err.find(message), std::string::npos) << refused.err;
   }
+}
+
+TEST_F(Resume, RefusedForALostFileLeavesTheFolderAsItWas) {
+  for (const char* lost : {"history.csv", "status.jsonl"}) {
+    const std::string name = std::string("without_") + lost;
+    run_up_to(120, name);
+    fs::remove(folder(name) / lost);
+    const std::set<fs::path> before = files_in(folder(name));
+    for (const std::string& target : {std::string(), " -o " + quoted("target")}) {
+      const Outcome refused = resume(name, 1, target);
+      EXPECT_EQ(refused.exit_code, 2) << refused.err;
+      EXPECT_NE(refused.err.find("this file is gone"), std::string::npos) << refused.err;
+      EXPECT_NE(refused.err.find("[start] from"), std::string::npos) << "the way on: " << refused.err;
+      EXPECT_TRUE(files_in(folder(name)) == before) << name << target;
+      EXPECT_FALSE(fs::exists(folder("target")));
+    }
+  }
+}
+
+TEST_F(Resume, GoesOnWithoutPipelinesWhereTheirScriptIsGone) {
+  const std::string script = scratch_.path("script.py").string();
+  scratch_.write("script.py", "# nothing\n");
+  const std::string text = eventful_case() + "[[insitu.pipeline]]\nname = \"script.py\"\nevery_time = \"1 ms\"\n";
+  case_ = scratch_.write("with_script.toml", text);
+  const Outcome begun = call(
+      "run " + case_ + " --progress none --set checkpoint.steps=50 --set time.max_steps=120 -o " + quoted("scripted"));
+  if (begun.err.find("in-situ adaptor is not installed") != std::string::npos) GTEST_SKIP() << "no ParaView";
+  ASSERT_EQ(begun.exit_code, 0) << begun.err;
+  fs::remove(script);
+  const Outcome refused = resume("scripted");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("script.py"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("--without-insitu"), std::string::npos) << refused.err;
+  const Outcome resumed = resume("scripted", 1, "--without-insitu");
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(summary_of(folder("scripted")).at("state_hash"), summary_of(folder("whole")).at("state_hash"));
+  std::ifstream history(folder("scripted") / "history.csv");
+  std::string header;
+  std::getline(history, header);
+  for (std::string line; std::getline(history, line);)
+    ASSERT_EQ(std::count(line.begin(), line.end(), ','), std::count(header.begin(), header.end(), ',')) << line;
 }
 
 TEST_F(Resume, GoesOnAfterAPoliteKillFromTheStepInWhichItCame) {

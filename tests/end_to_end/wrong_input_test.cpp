@@ -114,6 +114,19 @@ TEST(WrongInputOfRanks, is_refused_where_the_environment_of_one_of_them_is_wrong
   EXPECT_FALSE(std::filesystem::exists(run));
 }
 
+TEST(WrongInputOfTheSystem, a_stack_limit_that_is_too_low_is_told_or_raised) {
+  const Scratch scratch;
+  const std::string file = scratch.write("case.toml", kSmallCase);
+  const std::string run = "run " + file + " --progress none -o '" + scratch.path("run").string() + "'";
+  const Outcome refused = call(run, "ulimit -s 64;");
+  EXPECT_EQ(refused.exit_code, kInput) << refused.err;
+  EXPECT_EQ(
+      refused.err,
+      "breccia: error: the limit of the stack (ulimit -s): is too low; allowed: at least 512 KiB; given: 64 KiB\n");
+  const Outcome raised = call(run, "ulimit -S -s 64;");
+  EXPECT_EQ(raised.exit_code, 0) << raised.err;
+}
+
 TEST(WrongInputTable, holds_at_least_150_cases) { EXPECT_GE(wrongs().size(), 150u); }
 
 }  // namespace

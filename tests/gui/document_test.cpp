@@ -165,6 +165,34 @@ TEST(Document, EditsThatAreTwoSecondsOldSurviveAKill) {
   EXPECT_TRUE(Document::recoveries(state).empty());
 }
 
+TEST(Document, EditsThatWereRecoveredStayInTheirSnapshotUntilTheyAreInAnother) {
+  const QTemporaryDir scratch;
+  const QString file = scratch.filePath("case.toml"), lost = scratch.filePath("lost.json");
+  for (const QString& name : {file, lost, scratch.filePath("state")}) {
+    QFile out(name);
+    ASSERT_TRUE(out.open(QIODevice::WriteOnly));
+  }
+  Document document(scratch.filePath("state"));  // a file stands in the place of its folder
+  QStringList errors;
+  QObject::connect(&document, &Document::snapshot_tried, [&](const QString& error) { errors << error; });
+  document.recover({lost, file, "title = \"a\"\n"});
+  EXPECT_TRUE(QFile::exists(lost));
+  ASSERT_EQ(errors.size(), 1);
+  EXPECT_TRUE(errors[0].contains("cannot be written")) << errors[0].toStdString();
+}
+
+TEST(Document, EditsThatAreUndoneLeaveNoSnapshot) {
+  const QTemporaryDir scratch;
+  Document document(scratch.filePath("state"));
+  ASSERT_EQ(document.open(QString(BRECCIA_MESHES) + "/block_wall/case.toml"), "");
+  document.set_value("material[0].young", "\"31 GPa\"");
+  let_events_run(Document::kAutosaveDelay + 300);
+  EXPECT_EQ(QDir(scratch.filePath("state")).entryList({"unsaved-*"}).size(), 1);
+  document.undo_stack().undo();
+  let_events_run(Document::kAutosaveDelay + 300);
+  EXPECT_TRUE(QDir(scratch.filePath("state")).entryList({"unsaved-*"}).isEmpty());
+}
+
 TEST(Document, ASavedCaseLeavesNoSnapshot) {
   const QTemporaryDir scratch;
   const QString file = scratch.filePath("case.toml");

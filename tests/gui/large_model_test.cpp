@@ -98,6 +98,57 @@ TEST(LargeModel, FourHundredThousandElementsOpenTurnAndAreEditedWhileTheWindowAn
   EXPECT_EQ(desk.find<QLineEdit>("field:material[0].young")->text(), "41 GPa");
 }
 
+TEST(LargeModel, LoadsAreDrawnWhileTheWindowAnswers) {
+  Desk desk;
+  desk.window->resize(1600, 1000);
+  const QByteArray loads = R"(gravity = [0, 0, -9.81]
+[[stage.pressure]]
+surface = "block.x1"
+value = "1 MPa"
+[[stage.constraint]]
+group = "block.x0"
+fixed = "xyz"
+[[initial_velocity]]
+group = "block"
+angular = [0, 0, 1]
+)";
+  desk.window->open_path(written_case(desk.scratch, block_case(kCells, "1 ms") + loads));
+  ASSERT_TRUE(wait_until([&] { return desk.window->view().scene().has_data() && !desk.window->busy(); }, kSolver));
+  const Scene& scene = desk.window->view().scene();
+  EXPECT_EQ(scene.num_glyphs(), 0);
+  const Heartbeat heart(desk);
+  TimedApplication::own().start();
+  desk.click_stage("initial velocity");
+  ASSERT_TRUE(wait_until([&] { return scene.num_glyphs() > 0; }, kSolver));
+  QTest::qWait(200);  // they are drawn
+  tell("loads", TimedApplication::own().stop());
+  std::printf("%d elements: %d glyphs, the window held up for %.0f ms at most\n", kElements, scene.num_glyphs(),
+              heart.longest());
+}
+
+TEST(LargeModel, ManySmallBodiesOpenWhileTheWindowAnswers) {
+  Desk desk;
+  desk.window->resize(1600, 1000);
+  const QByteArray one = block_case(1, "1 ms"), many = "boxes = [20, 20, 20]\ngap = [0.001, 0.001, 0.001]\ngroup =";
+  const QByteArray gravity =
+      "gravity = [0, 0, -9.81]\n[[initial_velocity]]\ngroup = \"block\"\nvelocity = [1, 0, 0]\n"
+      "[[contact]]\nbetween = [\"block\", \"block\"]\npenalty = \"40 GPa\"\n";
+  QByteArray text = one + gravity;
+  text.replace(text.indexOf("group ="), 7, many);
+  const Heartbeat heart(desk);
+  TimedApplication::own().start();
+  desk.window->open_path(written_case(desk.scratch, text));
+  ASSERT_TRUE(wait_until([&] { return desk.window->view().scene().has_data() && !desk.window->busy(); }, kSolver));
+  tell("opening", TimedApplication::own().stop(6));
+  TimedApplication::own().start();
+  desk.click_stage("initial velocity");
+  ASSERT_TRUE(wait_until([&] { return desk.window->view().scene().num_glyphs() > 0; }, kSolver));
+  QTest::qWait(200);
+  tell("loads", TimedApplication::own().stop(6));
+  std::printf("%lld faces of %d bodies: the window held up for %.0f ms at most\n",
+              static_cast<long long>(desk.window->view().scene().num_faces()), 20 * 20 * 20, heart.longest());
+}
+
 TEST(LargeModel, ElementsAreMeasuredAndThoseOfABarAndOfARankFoundBesideTheThreadOfTheWindow) {
   Desk desk;
   desk.window->resize(1600, 1000);

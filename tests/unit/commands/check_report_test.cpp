@@ -116,7 +116,7 @@ TEST(MeshReport, gives_angles_in_degrees) {
   source.cell_size = Vec3(1, 2, 3);
   const FinishedMesh made = make_raster(source);
   const QualityReport quality = assess_quality(made.mesh);
-  const std::string text = mesh_report(made);
+  const std::string text = mesh_report(made, assess_quality(made.mesh));
   constexpr double kDegree = std::numbers::pi / 180, kOneDecimal = 0.051;
   EXPECT_NEAR(number_after(text, "dihedral      "), quality.min_dihedral.min / kDegree, kOneDecimal);
   EXPECT_NEAR(number_after(text.substr(text.find("dihedral")), " to "), quality.max_dihedral.max / kDegree,
