@@ -151,7 +151,7 @@ void Pass::act(Index index, Candidate& candidate) {
       balance(point, length, motion, h);
     }
     distribute(point, candidate.contactor, candidate.lambda, h.force);
-    if (h.force == Vec3::Zero()) end(point, last, motion, candidate.lambda, 0, h);
+    if (h.force == Vec3::Zero()) end(point, last, motion, candidate.lambda, h);
   }
 }
 

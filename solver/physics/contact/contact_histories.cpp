@@ -108,18 +108,18 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   // A contactor that was crushed while it was touched gives nothing back.
   if (crushed) return account(point, work_.dissipated).add(normal_held(point, old));
   // A point that has not left through the surface: a crack has opened under it, and what the couple held is gone.
-  const double overlap = overlap_value(overlap_shape(params_, local_, contact_, old.contactor), lambda);
-  if (overlap > 0) return account(point, work_.dissipated).add(normal_held(point, old));
+  if (overlap_value(overlap_shape(params_, local_, contact_, old.contactor), lambda) > 0)
+    return account(point, work_.dissipated).add(normal_held(point, old));
   TouchingCouple ended{.point = old.point, .contactor = old.contactor};
   ended.gained = old.gained + 0.5 * old.force.dot(motion) - held(point, old) + lost;
-  end(point, old, motion, lambda, -overlap, ended);
+  end(point, old, motion, lambda, ended);
   if (ended.force != Vec3::Zero()) contact_.touching.push_back(ended);
 }
 
 /// The couple exerts no force by its law any more. @param h  read and written: force, gained
 void Pass::end(const ContactPoint& point, const TouchingCouple& last, const Vec3& motion,
-               const std::array<double, 4>& lambda, double gap, TouchingCouple& h) {
-  h.force = closing_force(h.gained, last.force, motion, gap, stiffness(point, h));
+               const std::array<double, 4>& lambda, TouchingCouple& h) {
+  h.force = closing_force(h.gained, last.force, motion, last.d > 0, stiffness(point, h));
   h.gained += 0.5 * h.force.dot(motion);
   distribute(point, h.contactor, lambda, h.force);
 }

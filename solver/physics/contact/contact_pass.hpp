@@ -66,7 +66,7 @@ class Pass {
   void take_over(std::size_t first, std::size_t last);
   void forget(const TouchingCouple& old, double lost = 0);
   void end(const ContactPoint& point, const TouchingCouple& last, const Vec3& motion,
-           const std::array<double, 4>& lambda, double gap, TouchingCouple& h);
+           const std::array<double, 4>& lambda, TouchingCouple& h);
   [[nodiscard]] Vec3 relative_motion(const ContactPoint& point, Index slot, const std::array<double, 4>& lambda) const;
   [[nodiscard]] Vec3 mean_turn(Index target, Index contactor) const;
   [[nodiscard]] double first_offset(Index point, const Candidate& candidate) const;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "press.hpp"
 
@@ -47,7 +46,7 @@ Impact impact(double omega, double phase, const ContactLaw& law) {
 TEST(contact_balance, an_impact_returns_its_energy_wherever_in_a_step_it_begins_and_ends) {
   // A force that begins with k d loses up to omega^2 / 4 of the energy at once; its own end may give that back, or not.
   constexpr double kAtOnce = 0.14;  // of omega^2: half of that
-  constexpr double kGain = 1e-4, kLoss = 1e-6;
+  constexpr double kGain = 1e-4, kLoss = 0.06;
   const ContactLaw law{kPenalty, kInfinite, 1, 0, 1};
   for (const double omega : {0.2, 0.5, 0.8, 1.1, 1.4}) {
     for (double phase = 0.025; phase < 1; phase += 0.05) {
@@ -56,30 +55,6 @@ TEST(contact_balance, an_impact_returns_its_energy_wherever_in_a_step_it_begins_
       EXPECT_LT(found.at_the_end, kGain) << omega << " " << phase;
       EXPECT_GT(found.at_the_end, -kLoss) << omega << " " << phase;
     }
-  }
-}
-
-/// Energies at the tops of the ways of a mass that falls back on the contact, over that with which it begins.
-std::vector<double> tops_of_bounces(double omega, int count) {
-  constexpr double speed = 1e-3, weight = 5e-5;  // m/s, m/s2: in the air for forty steps
-  Press press(-0.3 * speed, {kPenalty, kInfinite, 1, 0, 1});
-  const double mass = Press::area() * kPenalty / press.scene.contact.body_length[0] / (omega * omega);
-  std::vector<double> tops;
-  double v = -speed, height = 0;
-  while (tops.size() < static_cast<std::size_t>(count)) {
-    const double force = press.move(v), before = v;
-    height += v;
-    v += force / mass - weight;
-    if (before > 0 && v <= 0) tops.push_back((v * before + 2 * weight * height) / (speed * speed));
-  }
-  return tops;
-}
-
-TEST(contact_balance, a_mass_that_bounces_under_its_weight_goes_on_bouncing_as_high) {
-  constexpr double kKept = 1e-3;  // the weight changes the motion between the two halves of a closing force
-  for (const double omega : {0.5, 0.8, 1.1, 1.4}) {
-    const std::vector<double> tops = tops_of_bounces(omega, 100);
-    for (const double top : tops) EXPECT_NEAR(top / tops.front(), 1, kKept) << omega;
   }
 }
 
@@ -92,26 +67,15 @@ TEST(contact_balance, adds_nothing_to_a_contact_at_rest_or_beyond_what_a_step_ca
   EXPECT_EQ(balancing_share(0.99 * most, 0.1 * most, k, out), 0) << "no more than half of the force";
 }
 
-TEST(contact_balance, a_closing_force_takes_back_what_was_gained_and_is_no_larger_than_the_force_before) {
+TEST(contact_balance, a_closing_force_pulls_no_more_than_was_pushed_and_only_where_energy_was_gained) {
   const Vec3 pushed(0, 0, 4), up(0, 0, 0.1);
   constexpr double k = 1e3;
-  EXPECT_NEAR(closing_force(0.1, pushed, up, 0, k)[2], -1, 1e-15) << "over two halves of a step";
-  EXPECT_NEAR(closing_force(1, pushed, up, 0, k)[2], -4, 1e-15) << "never larger than the force before";
-  EXPECT_NEAR(closing_force(0.1, Vec3(0, 0, -2), up, 0, k)[2], -1, 1e-15) << "one that pulls goes on";
-  EXPECT_NEAR(closing_force(0.1, pushed, -up, 0, k)[2], 1, 1e-15) << "on the way in it pushes";
-  EXPECT_EQ(closing_force(1e-5, pushed, up, 0, k), Vec3(Vec3::Zero())) << "next to nothing is left over";
-  EXPECT_EQ(closing_force(0.1, pushed, Vec3(0.1, 0, 0), 0, k), Vec3(Vec3::Zero())) << "no motion along it";
-}
-
-TEST(contact_balance, a_closing_force_gives_back_what_was_lost_by_small_parts_and_nearby) {
-  const Vec3 pushed(0, 0, 400), up(0, 0, 0.1);
-  constexpr double k = 1e3, most = kLargestWorkError * k * 0.1 * 0.1;  // J, of this motion
-  EXPECT_NEAR(closing_force(-0.1 * most, pushed, up, 0, k)[2], 0.1 * most / 0.1, 1e-12) << "pushes on";
-  EXPECT_NEAR(closing_force(-5 * most, pushed, up, 0, k)[2], most / 0.1, 1e-12) << "no more than a step leaves over";
-  EXPECT_NEAR(closing_force(-0.1 * most, pushed, -up, 0, k)[2], -0.1 * most / 0.1, 1e-12) << "on the way in it pulls";
-  const double lost_within = std::sqrt(0.1 * most / (kLargestWorkError * k));  // m
-  EXPECT_NE(closing_force(-0.1 * most, pushed, up, 0.99 * kGivingReach * lost_within, k), Vec3(Vec3::Zero()));
-  EXPECT_EQ(closing_force(-0.1 * most, pushed, up, 1.01 * kGivingReach * lost_within, k), Vec3(Vec3::Zero()));
+  EXPECT_EQ(closing_force(-0.1, pushed, up, true, k), Vec3(Vec3::Zero()));
+  EXPECT_EQ(closing_force(0.1, pushed, -up, true, k), Vec3(Vec3::Zero())) << "nothing is taken from a way in";
+  EXPECT_NEAR(closing_force(0.1, pushed, up, true, k)[2], -1, 1e-15) << "over two halves of a step";
+  EXPECT_NEAR(closing_force(1, pushed, up, true, k)[2], -4, 1e-15) << "never larger than the force before";
+  EXPECT_NEAR(closing_force(0.1, Vec3(0, 0, -2), up, false, k)[2], -1, 1e-15) << "one that pulls goes on";
+  EXPECT_EQ(closing_force(1e-5, pushed, up, true, k), Vec3(Vec3::Zero())) << "next to nothing is left over";
 }
 
 }  // namespace
