@@ -41,7 +41,8 @@ class Scratch:
         for program in (PROGRAM, "meshes/breccia-picture"):  # as if they were installed
             (self.bin / Path(program).name).symlink_to(self.root / program)
         self.environment = {**os.environ, "PATH": f"{self.bin}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8",
-                            "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+                            "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+                            "QT_QPA_PLATFORM": "offscreen"}  # `breccia live` asks for a display, though the stub opens no window
         if len(os.sched_getaffinity(0)) < 2:  # the READMEs are written for two cores
             self.environment["OMPI_MCA_rmaps_base_oversubscribe"] = "1"
         self.going_on = None
