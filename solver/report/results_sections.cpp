@@ -83,7 +83,7 @@ double length_of(const Row& row, const std::string& name) {
   return std::sqrt(sum);
 }
 
-const std::vector<Row>& table_of(const Figures& figures, const std::string& name) {
+const std::vector<Row>& table_of(const Figures& figures, const char* name) {
   static const std::vector<Row> none;
   const auto found = figures.tables.find(name);
   return found == figures.tables.end() ? none : found->second;
