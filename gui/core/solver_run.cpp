@@ -234,7 +234,9 @@ void SolverRun::send_requests() {
   const QDir folder(record_.folder);
   const QString own = folder.filePath(QString(".control.gui.%1").arg(::getpid())), control = folder.filePath("control");
   QSaveFile file(own);
-  if (!file.open(QIODevice::WriteOnly) || file.write(requests_.join('\n') + "\n") < 0 || !file.commit()) return;
+  if (!file.open(QIODevice::WriteOnly) || file.write(requests_.join('\n') + "\n") < 0 || !file.flush() ||
+      !file.commit())
+    return;
   bool sent = ::link(QFile::encodeName(own).constData(), QFile::encodeName(control).constData()) == 0;
   if (!sent && errno != EEXIST)  // a file system without links
     sent = ::rename(QFile::encodeName(own).constData(), QFile::encodeName(control).constData()) == 0;

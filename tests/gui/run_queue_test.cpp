@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/resource.h>
 
 #include <QDir>
 #include <QProcess>
 
 #include "gui/block_case.hpp"
+#include "gui/full_disk.hpp"
 
 namespace breccia::gui {
 namespace {
@@ -50,26 +50,6 @@ struct Bench {
   }
 };
 
-/// No file can be written, as on a full disk.
-class FullDisk {
- public:
-  FullDisk() : handler_(::signal(SIGXFSZ, SIG_IGN)) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit none{0, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &none);
-  }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
-  ~FullDisk() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    ::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  void (*handler_)(int);
-  rlimit before_{};
-};
-
 TEST(RunQueue, ARunThatCannotBeWrittenIntoTheQueueIsToldAndNotStarted) {
   const Bench bench;
   QFile in_the_way(bench.state);
@@ -78,7 +58,7 @@ TEST(RunQueue, ARunThatCannotBeWrittenIntoTheQueueIsToldAndNotStarted) {
   in_the_way.remove();
   bench.add({bench.wish("one")});
   {
-    const FullDisk full;
+    const test::FullDisk full;
     EXPECT_FALSE(bench.queue.advance(bench.registry)) << "the next look would start it again";
   }
   EXPECT_EQ(bench.states(), "one waiting");
