@@ -10,23 +10,15 @@
 #include <array>
 #include <cmath>
 
+#include "render/vectors.hpp"
+
 namespace breccia::gui {
 namespace {
 
 constexpr int kBars = 10;
 /// Share by which equal values may differ, written in single precision; how far the bars then reach to both sides.
 constexpr double kEqual = 1e-5, kBelow = 0.055, kAbove = 0.045;
-using Vector = std::array<double, 3>;
 using Corners = std::array<Vector, 4>;
-
-Vector operator-(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vector operator+(const Vector& a, const Vector& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Vector operator*(double s, const Vector& a) { return {s * a[0], s * a[1], s * a[2]}; }
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double length(const Vector& a) { return std::sqrt(dot(a, a)); }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 /// Twice the area of each face, outwards where the element is positive.
 Corners face_normals(const Corners& x) {

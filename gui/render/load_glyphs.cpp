@@ -12,6 +12,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "render/vectors.hpp"
+
 namespace breccia::gui {
 namespace {
 
@@ -19,20 +21,6 @@ constexpr std::size_t kMostGlyphs = 24;
 /// Shares of the diagonal of the model, and of the length of a glyph.
 constexpr double kLength = 0.07, kShaft = 0.035, kHead = 0.1, kHeadLength = 0.35, kSupport = 0.5, kSupportWidth = 0.45;
 constexpr int kSides = 10;
-
-using Vector = std::array<double, 3>;
-
-Vector operator+(const Vector& a, const Vector& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Vector operator-(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vector operator*(double s, const Vector& a) { return {s * a[0], s * a[1], s * a[2]}; }
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vector unit(const Vector& a) {
-  const double size = std::sqrt(dot(a, a));
-  return size > 0 ? (1 / size) * a : Vector{};
-}
 
 /// A face where a glyph may stand.
 struct Seat {
