@@ -1,7 +1,5 @@
 #include "core/case_queries.hpp"
 
-#include <unistd.h>
-
 #include <QDir>
 
 #include "core/written_file.hpp"
@@ -44,7 +42,7 @@ CaseQueries::~CaseQueries() {
 
 QString CaseQueries::draft(const QString& what) {
   if (!document_.modified() && document_.is_on_disk()) return document_.file();
-  draft_ = QDir(document_.folder()).filePath(QString(".breccia-draft-%1.toml").arg(::getpid()));
+  draft_ = QDir(document_.folder()).filePath(own_name("draft") + ".toml");
   const QString error = written(draft_, document_.text());
   if (error.isEmpty()) return draft_;
   emit failed(what, tr("%1: save the case into a folder of your own").arg(error), {});

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <QDir>
 #include <QTemporaryDir>
 
 #include "core/document.hpp"
+#include "core/own_files.hpp"
 #include "core/solver_query.hpp"
 
 namespace breccia::gui {
@@ -37,7 +39,7 @@ class CaseQueries final : public QObject {
 
   const Document& document_;
   QString program_;
-  QTemporaryDir scratch_;
+  QTemporaryDir scratch_{QDir::temp().filePath(own_name("preview") + "-XXXXXX")};
   SolverQuery check_, mesh_, domains_, joints_;
   int meshes_ = 0;
   QString draft_;

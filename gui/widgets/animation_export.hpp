@@ -1,11 +1,13 @@
 #pragma once
 
+#include <QDir>
 #include <QImage>
 #include <QObject>
 #include <QProcess>
 #include <QTemporaryDir>
 #include <vector>
 
+#include "core/own_files.hpp"
 #include "core/run_folder.hpp"
 
 namespace breccia::gui {
@@ -39,7 +41,7 @@ class AnimationExport final : public QObject {
   void put_together();
   std::vector<RunFrame> frames_;
   QString file_;
-  QTemporaryDir pictures_;
+  QTemporaryDir pictures_{QDir::temp().filePath(own_name("film") + "-XXXXXX")};
   QProcess process_;
   int next_ = 0;
 };

@@ -3,8 +3,10 @@
 #include <QAction>
 #include <QApplication>
 #include <QCloseEvent>
+#include <QDir>
 #include <QDockWidget>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QLabel>
 #include <QMenuBar>
 #include <QMessageBox>
@@ -16,6 +18,7 @@
 #include <QVBoxLayout>
 
 #include "widgets/case_text.hpp"
+#include "core/own_files.hpp"
 #include "widgets/case_tree.hpp"
 #include "widgets/conditions_panel.hpp"
 #include "widgets/contact_matrix.hpp"
@@ -63,6 +66,8 @@ MainWindow::MainWindow(Places places, QWidget* parent)
   find_runs();
   queue_panel_->look();
   show_start();
+  remove_orphans(QDir::tempPath());
+  for (const QString& file : recent_cases(places_)) remove_orphans(QFileInfo(file).absolutePath());
 }
 
 MainWindow::~MainWindow() = default;

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/own_files.hpp"
 #include "core/value_text.hpp"
 #include "widgets/animation_export.hpp"
 #include "widgets/case_text.hpp"
@@ -123,6 +124,7 @@ void MainWindow::open_case(const QString& file) {
     QMessageBox::warning(this, tr("Breccia"), error);
     return;
   }
+  remove_orphans(document_.folder());
   remember_file();
   look_at_disk();
   watch(nullptr);
