@@ -7,6 +7,7 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QStandardPaths>
+#include <filesystem>
 
 #include "core/written_file.hpp"
 
@@ -88,20 +89,28 @@ QString copy_template(const Template& chosen, const Places& places, QString* err
   QDir to(places.projects);
   QString folder = to.filePath(name);
   for (int i = 2; QFileInfo::exists(folder); ++i) folder = to.filePath(QString("%1-%2").arg(name).arg(i));
-  if (!QDir().mkpath(folder)) {
-    *error = QCoreApplication::translate("templates", "the folder %1 cannot be made").arg(folder);
+  const bool had_projects = to.exists();
+  std::error_code why;
+  std::filesystem::create_directories(folder.toStdString(), why);
+  if (why) {
+    *error = QCoreApplication::translate("templates", "the folder %1 cannot be made: %2")
+                 .arg(folder, QString::fromLocal8Bit(why.message().c_str()));
     return {};
   }
+  error->clear();
   const auto copy = [&](const QString& file, const QString& as) {
-    const QString target = QDir(folder).filePath(as);
-    if (!QFile::copy(from.dir().filePath(file), target)) return false;
-    return QFile::setPermissions(target, QFile::permissions(target) | QFile::WriteOwner);
+    QFile source(from.dir().filePath(file));
+    if (!error->isEmpty()) return;
+    *error = source.open(QIODevice::ReadOnly) ? written(QDir(folder).filePath(as), source.readAll())
+                                              : QCoreApplication::translate("templates", "%1 cannot be read: %2")
+                                                    .arg(source.fileName(), source.errorString());
   };
-  bool good = copy(from.fileName(), "case.toml");
+  copy(from.fileName(), "case.toml");
   for (const QString& file : from.dir().entryList({"*.geo", "*.msh", "*.step", "*.brep", "*.stl"}, QDir::Files))
-    good = copy(file, file) && good;
-  if (good) return QDir(folder).filePath("case.toml");
-  *error = QCoreApplication::translate("templates", "the case cannot be copied into %1").arg(folder);
+    copy(file, file);
+  if (error->isEmpty()) return QDir(folder).filePath("case.toml");
+  QDir(folder).removeRecursively();
+  if (!had_projects) QDir().rmdir(places.projects);
   return {};
 }
 

@@ -3,12 +3,12 @@
 #include <QFileInfo>
 #include <QMessageBox>
 #include <QProcess>
-#include <QSaveFile>
 #include <QStandardPaths>
 #include <QStatusBar>
 #include <algorithm>
 #include <utility>
 
+#include "core/written_file.hpp"
 #include "widgets/animation_export.hpp"
 #include "widgets/frame_loader.hpp"
 #include "widgets/main_window.hpp"
@@ -75,9 +75,7 @@ QString MainWindow::table_name(const QString& title, const QString& suggested) {
 
 void MainWindow::write_table(const QString& name, const QByteArray& text) {
   if (name.isEmpty()) return;
-  QSaveFile file(name);
-  if (!file.open(QIODevice::WriteOnly) || file.write(text) != text.size() || !file.commit())
-    QMessageBox::warning(this, tr("Breccia"), tr("%1 cannot be written: %2").arg(name, file.errorString()));
+  if (const QString error = written(name, text); !error.isEmpty()) QMessageBox::warning(this, tr("Breccia"), error);
 }
 
 void MainWindow::save_animation() {

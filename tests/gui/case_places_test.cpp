@@ -7,6 +7,7 @@
 #include "case/reader.hpp"
 #include "core/case_outline.hpp"
 #include "core/places.hpp"
+#include "gui/full_disk.hpp"
 
 namespace breccia::gui {
 namespace {
@@ -42,7 +43,19 @@ TEST(Templates, AFolderThatCannotBeMadeIsTold) {
   places.projects = file.fileName();
   QString error;
   EXPECT_TRUE(copy_template(templates(places).front(), places, &error).isEmpty());
-  EXPECT_TRUE(error.contains(file.fileName()));
+  EXPECT_TRUE(error.contains(file.fileName()) && error.contains("Not a directory")) << error.toStdString();
+}
+
+TEST(Templates, OneThatFindsNoRoomIsToldWithItsReasonAndLeavesNothing) {
+  const QTemporaryDir scratch;
+  const Places places = places_in(scratch);
+  QString error;
+  {
+    const test::FullDisk full;
+    EXPECT_TRUE(copy_template(templates(places).front(), places, &error).isEmpty());
+  }
+  EXPECT_TRUE(error.contains(places.projects) && error.contains("File too large")) << error.toStdString();
+  EXPECT_FALSE(QFileInfo::exists(places.projects));
 }
 
 TEST(RecentCases, TheNewestIsFirstAndThoseThatAreGoneAreLeftOut) {
