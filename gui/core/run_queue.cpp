@@ -81,6 +81,8 @@ void note_end(QueuedRun& run) {
   const bool stopped = run.stop_asked && outcome.told.state.isEmpty();
   run.state = stopped ? "stopped" : outcome.state;
   run.message = stopped ? QString() : outcome.message;
+  if (run.state == "failed" && run.message.isEmpty())
+    run.message = QObject::tr("%1 ended before its first step without a word").arg(run.record.command.value(0));
 }
 
 int cores_in_use(const RunRegistry& registry) {

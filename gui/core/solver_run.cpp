@@ -122,6 +122,10 @@ bool SolverRun::launch(RunRecord& record, const QString& folder, QString* error)
     *error = QObject::tr("the folder %1 cannot be written").arg(parent_folder);
     return false;
   }
+  if (!QFileInfo(folder).isDir()) {  // the system would name the program instead
+    *error = QObject::tr("the folder %1 is not there").arg(folder);
+    return false;
+  }
   const auto session = start_session(record.command, folder, log_of(record.folder), environment_of_runs(), error);
   if (session) record.session = *session;
   return session.has_value();

@@ -2,7 +2,6 @@
 
 #include <QFileInfo>
 #include <QHeaderView>
-#include <QLabel>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 
@@ -26,7 +25,8 @@ QueuePanel::QueuePanel(const RunQueue& queue, QWidget* parent)
       remove_(named_button(tr("Re&move"), "queue_remove", tr("Take a run that waits or has ended off this list"))),
       clear_(named_button(tr("Clear en&ded"), "queue_clear", tr("Take all runs that have ended off this list"))),
       cores_(new QSpinBox),
-      held_(new QCheckBox(tr("&Hold"))) {
+      held_(new QCheckBox(tr("&Hold"))),
+      why_(new QLabel) {
   setObjectName("queue");
   make_table();
   auto* row = new QHBoxLayout;
@@ -34,6 +34,11 @@ QueuePanel::QueuePanel(const RunQueue& queue, QWidget* parent)
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(2, 2, 2, 2);
   column->addWidget(table_, 1);
+  why_->setObjectName("queue_why");
+  why_->setWordWrap(true);
+  why_->setTextFormat(Qt::PlainText);
+  why_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  column->addWidget(why_);
   column->addLayout(row);
   connect(&timer_, &QTimer::timeout, this, &QueuePanel::look);
   timer_.start(kLook);
@@ -55,7 +60,10 @@ void QueuePanel::make_table() {
   table_->setTabKeyNavigation(false);
   table_->verticalHeader()->hide();
   table_->horizontalHeader()->setStretchLastSection(true);
-  connect(table_, &QTableWidget::itemSelectionChanged, this, &QueuePanel::show_buttons);
+  connect(table_, &QTableWidget::itemSelectionChanged, this, [this] {
+    show_buttons();
+    show_why();
+  });
   connect(table_, &QTableWidget::cellActivated, this, [this] {
     if (const QueuedRun* run = chosen(); run != nullptr && !run->waits()) emit run_chosen(run->record.folder);
   });
@@ -142,6 +150,20 @@ void QueuePanel::show_contents() {
   }
   table_->resizeColumnsToContents();
   show_buttons();
+  show_why();
+}
+
+void QueuePanel::show_why() {
+  const QueuedRun* run = chosen();
+  for (const QueuedRun& r : contents_.runs)
+    if (chosen() == nullptr && !r.message.isEmpty()) run = &r;
+  why_->setVisible(run != nullptr && !run->message.isEmpty());
+  if (why_->isHidden()) return;
+  constexpr int kLines = 3;  // the tooltip has all of them
+  QStringList lines = run->message.split('\n', Qt::SkipEmptyParts);
+  if (lines.size() > kLines) lines = lines.mid(0, kLines - 1) << tr("...");
+  why_->setText(tr("%1 %2: %3").arg(run->words, run->state, lines.join('\n')));
+  why_->setToolTip(run->message);
 }
 
 void QueuePanel::show_buttons() {

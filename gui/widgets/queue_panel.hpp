@@ -3,6 +3,7 @@
 #include <QCheckBox>
 #include <QElapsedTimer>
 #include <QHBoxLayout>
+#include <QLabel>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QTableWidget>
@@ -37,6 +38,8 @@ class QueuePanel final : public QWidget {
   void make_buttons(QHBoxLayout& row);
   void show_contents();
   void show_buttons();
+  /// Why the chosen run failed; none is chosen: the last one that did.
+  void show_why();
   /// nullptr: no row is chosen.
   [[nodiscard]] const QueuedRun* chosen() const;
   void move(int by);
@@ -50,6 +53,7 @@ class QueuePanel final : public QWidget {
   QPushButton *earlier_, *later_, *stop_, *remove_, *clear_;
   QSpinBox* cores_;
   QCheckBox* held_;
+  QLabel* why_;
 };
 
 }  // namespace breccia::gui

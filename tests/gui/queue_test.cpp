@@ -2,6 +2,7 @@
 
 #include <QAbstractButton>
 #include <QCheckBox>
+#include <QLabel>
 #include <QSpinBox>
 #include <QTableWidget>
 
@@ -35,6 +36,7 @@ TEST(Queue, RunsThatWereAddedStartInTheChosenOrderAndGoOnWhileNoWindowIsOpen) {
   ASSERT_EQ(states(*table), (QStringList{"waiting", "waiting", "waiting"}));
   EXPECT_TRUE(desk.window->document().modified()) << "a run of what is edited needs no saving";
   const QString second = table->item(1, 4)->text(), third = table->item(2, 4)->text();
+  EXPECT_TRUE(desk.find<QLabel>("queue_why")->isHidden());
   table->setCurrentCell(2, 0);
   EXPECT_FALSE(desk.find<QAbstractButton>("queue_stop")->isEnabled());
   desk.click("queue_earlier");
@@ -60,6 +62,25 @@ TEST(Queue, RunsThatWereAddedStartInTheChosenOrderAndGoOnWhileNoWindowIsOpen) {
   EXPECT_FALSE(QFileInfo::exists(second));
   desk.click("queue_clear");
   EXPECT_EQ(table->rowCount(), 0);
+}
+
+TEST(Queue, ARunThatFailsToStartTellsWhyInTheWordsOfTheSolver) {
+  Desk desk;
+  const QString file = written_case(desk.scratch, turning_case("100 us"));
+  desk.window->open_path(file);
+  desk.click_stage("Run");
+  desk.show_tab("Queue");
+  const RunQueue queue(desk.scratch.filePath("state"));
+  ASSERT_EQ(
+      queue.add({BRECCIA_PROGRAM, BRECCIA_MPIEXEC},
+                {{file, desk.scratch.filePath("runs/bad"), turning_case("1 us"), 1, {"material[0].young=-1"}, {}}}),
+      QString());
+  auto* table = desk.find<QTableWidget>("queue_table");
+  ASSERT_TRUE(wait_until([&] { return states(*table) == QStringList{"failed"}; }, kSolver));
+  auto* why = desk.find<QLabel>("queue_why");
+  EXPECT_TRUE(why->isVisible());
+  EXPECT_TRUE(why->text().startsWith("bad failed: ") && why->text().contains("young")) << why->text().toStdString();
+  desk.picture("queue_failed");
 }
 
 TEST(Queue, TheKeyOfRunStartsNoSecondRunWhileTheOneThatIsShownGoesOn) {
