@@ -2,6 +2,7 @@
 
 #include <sys/stat.h>
 
+#include <QCryptographicHash>
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
@@ -145,6 +146,15 @@ bool is_held(const QString& run_folder) {
   for (const QByteArray& line : locks.readAll().split('\n'))
     if (line.contains(" FLOCK ") && line.contains(inode) && !line.contains("->")) return true;
   return false;
+}
+
+bool was_run_with_another(const QString& run_folder, const QByteArray& case_text) {
+  QFile file(QDir(run_folder).filePath("provenance.json"));
+  if (!file.open(QIODevice::ReadOnly)) return false;
+  // The first input of a run is its case.
+  const QString sum =
+      QJsonDocument::fromJson(file.readAll()).object()["inputs"].toArray()[0].toObject()["sha256"].toString();
+  return !sum.isEmpty() && sum != QCryptographicHash::hash(case_text, QCryptographicHash::Sha256).toHex();
 }
 
 bool is_run_folder(const QString& folder) {

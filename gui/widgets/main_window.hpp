@@ -131,6 +131,8 @@ class MainWindow final : public QMainWindow {
   void go_on_with_run();
   void pause_or_resume();
   void show_commands();
+  /// Whether the run that is shown is to go on though its case has been edited since. It may start a new one instead.
+  [[nodiscard]] bool resumes_as_it_was_run();
   void take_run(SolverRun* run);
   void open_run(const QString& path);
   [[nodiscard]] static QString case_of(const SolverRun& run);

@@ -6,6 +6,7 @@
 #include <QLabel>
 #include <QMessageBox>
 #include <QProgressBar>
+#include <QPushButton>
 #include <QStatusBar>
 #include <QSystemTrayIcon>
 #include <algorithm>
@@ -80,8 +81,27 @@ void MainWindow::start_run() {
   show_dock("dock_plots");
 }
 
+bool MainWindow::resumes_as_it_was_run() {
+  form_->take_typed();
+  const RunRecord& record = run_->record();
+  if (!document_.is_open() || record.case_file != document_.file() ||
+      !was_run_with_another(record.folder, document_.text()))
+    return true;
+  QMessageBox box(QMessageBox::Question, tr("Breccia"),
+                  tr("%1\nhas been edited since this run was started. What is resumed is the case as it was run, "
+                     "without these edits. A new run has them, and begins at the start.")
+                      .arg(document_.file()),
+                  QMessageBox::Yes | QMessageBox::No | QMessageBox::Cancel, this);
+  box.button(QMessageBox::Yes)->setText(tr("Resume as it was &run"));
+  box.button(QMessageBox::No)->setText(tr("Start a &new run"));
+  box.setDefaultButton(QMessageBox::Cancel);
+  const int answer = box.exec();
+  if (answer == QMessageBox::No) start_run();
+  return answer == QMessageBox::Yes;
+}
+
 void MainWindow::go_on_with_run() {
-  if (run_ == nullptr || !run_->can_go_on()) return;
+  if (run_ == nullptr || !run_->can_go_on() || !resumes_as_it_was_run()) return;
   QString error;
   SolverRun* ended = run_;
   SolverRun* run = SolverRun::go_on(places_.launch, ended->record(), run_panel_->ranks(), &error, this);
