@@ -66,8 +66,7 @@ MainWindow::MainWindow(Places places, QWidget* parent)
   find_runs();
   queue_panel_->look();
   show_start();
-  remove_orphans(QDir::tempPath());
-  for (const QString& file : recent_cases(places_)) remove_orphans(QFileInfo(file).absolutePath());
+  show_actions();
 }
 
 MainWindow::~MainWindow() = default;

@@ -73,6 +73,8 @@ class MainWindow final : public QMainWindow {
   void make_extras(QVBoxLayout& column);
   void make_actions();  // main_window_actions.cpp
   void join_panels();
+  /// Those that need a case or a run say so while there is none.
+  void show_actions();
   void add_dock(QWidget* widget, const QString& title, const QString& name, Qt::DockWidgetArea area);
   void show_dock(const QString& name);
 
@@ -129,10 +131,10 @@ class MainWindow final : public QMainWindow {
   // main_window_runs.cpp: runs and their results
   void start_run();
   void go_on_with_run();
-  void pause_or_resume();
-  void show_commands();
   /// Whether the run that is shown is to go on though its case has been edited since. It may start a new one instead.
   [[nodiscard]] bool resumes_as_it_was_run();
+  void pause_or_resume();
+  void show_commands();
   void take_run(SolverRun* run);
   void open_run(const QString& path);
   [[nodiscard]] static QString case_of(const SolverRun& run);
@@ -203,7 +205,8 @@ class MainWindow final : public QMainWindow {
   JointPlot* joint_plot_ = nullptr;
   ContactMatrix* contacts_ = nullptr;
   ConditionsPanel* conditions_ = nullptr;
-  QAction *dark_ = nullptr, *run_action_ = nullptr, *queue_action_ = nullptr;
+  std::vector<QAction*> needs_case_, needs_run_, needs_alive_;
+  QAction *dark_ = nullptr, *resume_action_ = nullptr, *run_action_ = nullptr, *queue_action_ = nullptr;
   QLabel *busy_ = nullptr, *mesh_words_ = nullptr, *run_words_ = nullptr;
   QProgressBar* run_bar_ = nullptr;
 };

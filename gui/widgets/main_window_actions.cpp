@@ -49,10 +49,10 @@ void MainWindow::make_actions() {
         if (!name.isEmpty()) open_path(name);
       },
       false);
-  add(
-      file, tr("&Save"), QKeySequence::Save, [this] { (void)save(); }, true);
-  add(
-      file, tr("Save &as..."), QKeySequence::SaveAs, [this] { save_as(); }, false);
+  needs_case_.push_back(add(
+      file, tr("&Save"), QKeySequence::Save, [this] { (void)save(); }, true));
+  needs_case_.push_back(add(
+      file, tr("Save &as..."), QKeySequence::SaveAs, [this] { save_as(); }, false));
   file->addSeparator();
   add(
       file, tr("&Quit"), QKeySequence::Quit, [this] { close(); }, false);
@@ -65,40 +65,40 @@ void MainWindow::make_actions() {
   add(
       edit, tr("Next &problem"), Qt::Key_F8, [this] { messages_->next_problem(); }, false);
   QMenu* run = menuBar()->addMenu(tr("&Run"));
-  add(
+  needs_case_.push_back(add(
       run, tr("&Mesh"), Qt::Key_F6,
       [this] {
         form_->take_typed();
         queries_.mesh();
       },
-      true);
-  add(
+      true));
+  needs_case_.push_back(add(
       run, tr("&Check"), Qt::Key_F7,
       [this] {
         form_->take_typed();
         ask_estimate();
       },
-      true);
+      true));
   run_action_ = add(
       run, tr("&Run"), Qt::Key_F5, [this] { start_run(); }, true);
   queue_action_ = add(
       run, tr("Add to the &queue"), QKeySequence("Ctrl+Shift+F5"), [this] { queue_run(); }, false);
-  add(
-      run, tr("&Pause or resume"), Qt::Key_F4, [this] { pause_or_resume(); }, false);
-  add(
+  needs_alive_.push_back(add(
+      run, tr("&Pause or resume"), Qt::Key_F4, [this] { pause_or_resume(); }, false));
+  needs_alive_.push_back(add(
       run, tr("Check&point"), QKeySequence("Shift+F4"),
       [this] {
         if (run_ != nullptr && run_->alive()) run_->checkpoint();
       },
-      false);
-  add(
+      false));
+  resume_action_ = add(
       run, tr("Resu&me from checkpoint"), QKeySequence("Ctrl+F5"), [this] { go_on_with_run(); }, false);
-  add(
+  needs_alive_.push_back(add(
       run, tr("&Stop"), QKeySequence("Shift+F5"),
       [this] {
         if (run_ != nullptr) run_->stop();
       },
-      true);
+      true));
   QMenu* view = menuBar()->addMenu(tr("&View"));
   for (QDockWidget* dock : findChildren<QDockWidget*>()) view->addAction(dock->toggleViewAction());
   view->addSeparator();
@@ -106,14 +106,14 @@ void MainWindow::make_actions() {
       view, tr("&Dark"), QKeySequence("Ctrl+D"), [this](bool on) { set_dark(on); }, true);
   dark_->setCheckable(true);
   QMenu* tools = menuBar()->addMenu(tr("&Tools"));
-  add(
-      tools, tr("Open in &ParaView"), {}, [this] { open_paraview(); }, false);
-  add(
-      tools, tr("Watch &live in ParaView"), {}, [this] { watch_live(); }, false);
-  add(
-      tools, tr("Export &curves..."), {}, [this] { export_curves(); }, false);
-  add(
-      tools, tr("Save &animation..."), {}, [this] { save_animation(); }, false);
+  needs_run_.push_back(add(
+      tools, tr("Open in &ParaView"), {}, [this] { open_paraview(); }, false));
+  needs_run_.push_back(add(
+      tools, tr("Watch &live in ParaView"), {}, [this] { watch_live(); }, false));
+  needs_run_.push_back(add(
+      tools, tr("Export &curves..."), {}, [this] { export_curves(); }, false));
+  needs_run_.push_back(add(
+      tools, tr("Save &animation..."), {}, [this] { save_animation(); }, false));
   add(
       tools, tr("Save p&icture..."), {}, [this] { save_picture(); }, false);
   QMenu* help = menuBar()->addMenu(tr("&Help"));
@@ -125,6 +125,26 @@ void MainWindow::make_actions() {
                               "<br>F5 run, F6 mesh, F7 check, F8 next problem, Ctrl+Z undo."));
       },
       false);
+  for (QAction* action : findChildren<QAction*>()) action->setProperty("tip", action->toolTip());
+}
+
+void MainWindow::show_actions() {
+  const auto set = [](QAction* action, bool on, const QString& why) {
+    action->setEnabled(on);
+    action->setToolTip(on ? action->property("tip").toString()
+                          : QString("%1: %2").arg(action->property("tip").toString(), why));
+  };
+  const bool open = document_.is_open(), alive = run_ != nullptr && run_->alive();
+  const QString no_case = tr("no case is open"), no_run = tr("no run is shown");
+  for (QAction* action : needs_case_) set(action, open, no_case);
+  for (QAction* action : needs_run_) set(action, run_ != nullptr, no_run);
+  for (QAction* action : needs_alive_) set(action, alive, tr("no run that goes on is shown"));
+  set(resume_action_, run_ != nullptr && run_->can_go_on(), tr("no run that has ended before its time is shown"));
+  const QString words = !open                ? no_case
+                        : !problems_.empty() ? tr("the case has problems; F8 goes to the next one")
+                                             : tr("the run that is shown goes on");
+  set(run_action_, open && problems_.empty() && !alive, words);
+  set(queue_action_, open && problems_.empty(), words);
 }
 
 }  // namespace breccia::gui

@@ -231,6 +231,7 @@ void MainWindow::show_title() {
                                      : tr("Breccia"));
   setWindowModified(document_.is_open() && document_.modified());
   show_commands();
+  show_actions();
 }
 
 void MainWindow::case_changed() {
@@ -247,8 +248,7 @@ void MainWindow::validate() {
   text_->set_problems(problems_);
   messages_->set_problems(problems_);
   run_panel_->set_problems(static_cast<int>(problems_.size()));
-  run_action_->setEnabled(problems_.empty() && (run_ == nullptr || !run_->alive()));
-  queue_action_->setEnabled(problems_.empty());
+  show_actions();
   run_action_->setText(run_words(static_cast<int>(problems_.size())));
   if (problems_.empty()) {
     loads_ = conditions_of(document_);

@@ -199,7 +199,7 @@ void MainWindow::run_changed() {
   show_commands();
   runs_panel_->show_runs(runs_);
   run_bar_->setVisible(run_ != nullptr && run_->alive());
-  run_action_->setEnabled(problems_.empty() && (run_ == nullptr || !run_->alive()));
+  show_actions();
   if (run_ == nullptr) {
     run_words_->clear();
     return;
