@@ -12,13 +12,14 @@
 #include <QMessageBox>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QScreen>
 #include <QScrollArea>
 #include <QStatusBar>
 #include <QToolBar>
 #include <QVBoxLayout>
 
-#include "widgets/case_text.hpp"
 #include "core/own_files.hpp"
+#include "widgets/case_text.hpp"
 #include "widgets/case_tree.hpp"
 #include "widgets/conditions_panel.hpp"
 #include "widgets/contact_matrix.hpp"
@@ -56,13 +57,17 @@ MainWindow::MainWindow(Places places, QWidget* parent)
       library_(places_.state + "/materials.toml"),
       loader_(new FrameLoader(this)) {
   setObjectName("main_window");
-  resize(1400, 900);
-  setMinimumSize(900, 600);
+  // The frame, which the system adds, has room as well.
+  const QSize room = QGuiApplication::primaryScreen()->availableGeometry().size() - QSize(8, 40);
+  resize(QSize(1400, 900).boundedTo(room));
+  setMinimumSize(QSize(900, 600).boundedTo(room));
   setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks);
   make_panels();
   make_docks();
   make_actions();
   join_panels();
+  remove_orphans(QDir::tempPath());
+  for (const QString& file : recent_cases(places_)) remove_orphans(QFileInfo(file).absolutePath());
   find_runs();
   queue_panel_->look();
   show_start();
