@@ -1,6 +1,8 @@
 #include "widgets/plots_panel.hpp"
 
 #include <QHBoxLayout>
+#include <QLabel>
+#include <QVBoxLayout>
 
 namespace breccia::gui {
 namespace {
@@ -47,8 +49,14 @@ PlotsPanel::PlotsPanel(QWidget* parent)
       energies_canvas_(canvas(energies_window_, energies_, tr("Energies [J] over time [us]"))),
       breaking_canvas_(canvas(breaking_window_, breaking_, tr("Broken joints and fragments over time [us]"))) {
   setObjectName("plots");
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(2, 2, 2, 2);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(2, 2, 2, 2);
+  no_data_ = new QLabel(tr("No data yet: curves appear with the first samples of a run."));
+  no_data_->setObjectName("no_data");
+  no_data_->setWordWrap(true);
+  auto* row = new QHBoxLayout;
+  column->addWidget(no_data_);
+  column->addLayout(row, 1);
   for (QWidget* chart : {energies_canvas_, breaking_canvas_}) {
     row->addWidget(chart);
     chart->hide();
@@ -100,6 +108,7 @@ void PlotsPanel::show_history(const History& history, const std::vector<std::pai
     energies_.show(history.values(time), energies, "energy [J]");
     breaking_.show(history.values(time), breaking, "count");
   }
+  no_data_->setVisible(num_curves() == 0);
   render();
 }
 

@@ -10,6 +10,8 @@
 #include "core/run_folder.hpp"
 #include "render/history_chart.hpp"
 
+class QLabel;
+
 namespace breccia::gui {
 
 /// Energies on the left, what breaks on the right, over simulated time.
@@ -32,6 +34,7 @@ class PlotsPanel final : public QWidget {
   HistoryChart energies_, breaking_;
   vtkNew<vtkGenericOpenGLRenderWindow> energies_window_, breaking_window_;
   QVTKOpenGLNativeWidget *energies_canvas_, *breaking_canvas_;
+  QLabel* no_data_ = nullptr;
   QTimer unfolding_;
   bool stale_ = false;  ///< the charts have changed since they were drawn
 };

@@ -33,8 +33,26 @@ QIcon icon_of(const Template& t) {
   return QIcon(picture);
 }
 
-QListWidget* list(const QString& name, const QString& accessible) {
-  auto* made = new QListWidget;
+/// Says what it will hold as long as it holds nothing.
+class HintedList final : public QListWidget {
+ public:
+  explicit HintedList(const QString& hint) : hint_(hint) { setAccessibleDescription(hint); }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override {
+    QListWidget::paintEvent(event);
+    if (count() > 0) return;
+    QPainter painter(viewport());
+    painter.setPen(palette().color(QPalette::Disabled, QPalette::Text));
+    painter.drawText(viewport()->rect().adjusted(8, 8, -8, -8), Qt::AlignTop | Qt::TextWordWrap, hint_);
+  }
+
+ private:
+  QString hint_;
+};
+
+QListWidget* list(const QString& name, const QString& accessible, const QString& hint) {
+  auto* made = new HintedList(hint);
   made->setObjectName(name);
   made->setAccessibleName(accessible);
   made->setToolTip(accessible);
@@ -51,9 +69,11 @@ QString picture_of_template(const Template& t) {
 StartPage::StartPage(const Places& places, QWidget* parent)
     : QWidget(parent),
       places_(places),
-      templates_(list("templates", tr("Templates: Enter or a click opens a copy"))),
-      recent_(list("recent", tr("Recent cases"))),
-      runs_(list("start_runs", tr("Runs started here"))) {
+      templates_(list("templates", tr("Templates: Enter or a click opens a copy"),
+                      tr("No template was found: the folder of shipped cases is missing."))),
+      recent_(list("recent", tr("Recent cases"), tr("None yet. Cases that are opened or saved here will be listed."))),
+      runs_(list("start_runs", tr("Runs started here"),
+                 tr("None yet. Runs that are started here will be listed, first of all those that go on."))) {
   auto* demo = new QPushButton(tr("&Show me: shatter the glass plate"));
   demo->setObjectName("demo");
   demo->setAccessibleName(tr("Show me: shatter the glass plate"));
