@@ -102,13 +102,7 @@ RunPanel::RunPanel(QWidget* parent)
   form->addRow(label, ranks_);
   column->addLayout(form);
   column->addWidget(warning_);
-  auto* head = new QHBoxLayout;
-  head->addWidget(new QLabel(tr("<b>Estimate</b>")), 1);
-  head->addWidget(check_);
-  column->addLayout(head);
-  column->addWidget(estimate_);
-  column->addWidget(new QLabel(tr("<b>Command line</b>")));
-  column->addWidget(command_row(command_, "command_line", tr("Command line")));
+  // A run that goes on is seen without scrolling; what was estimated before it stands below.
   auto* grid = new QGridLayout;
   grid->addWidget(run_, 0, 0);
   grid->addWidget(queue_, 0, 1);
@@ -124,6 +118,13 @@ RunPanel::RunPanel(QWidget* parent)
   go_on_row_ = command_row(go_on_command_, "go_on_command", tr("Command line that resumes the run"));
   column->addWidget(go_on_row_);
   column->addWidget(results_);
+  auto* head = new QHBoxLayout;
+  head->addWidget(new QLabel(tr("<b>Estimate</b>")), 1);
+  head->addWidget(check_);
+  column->addLayout(head);
+  column->addWidget(estimate_);
+  column->addWidget(new QLabel(tr("<b>Command line</b>")));
+  column->addWidget(command_row(command_, "command_line", tr("Command line")));
   column->addStretch();
   connect(run_, &QPushButton::clicked, this, &RunPanel::run_wanted);
   connect(queue_, &QPushButton::clicked, this, &RunPanel::queue_wanted);
