@@ -61,6 +61,13 @@ QByteArray content(const QString& name) {
   return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
 }
 
+/// The key of run, also after a dialog: without a window manager nothing gives the focus back to the window.
+void press(Desk& desk, Qt::KeyboardModifiers modifiers = {}) {
+  desk.window->activateWindow();
+  (void)QTest::qWaitForWindowActive(desk.window.get());
+  QTest::keyClick(desk.window.get(), Qt::Key_F5, modifiers);
+}
+
 bool completes(Desk& desk) {
   return desk.window->run() != nullptr &&
          wait_until([&] { return desk.window->run()->state() == "complete"; }, kSolver);
@@ -132,33 +139,33 @@ TEST(Trouble, ACaseThatAnotherProgramHasChangedIsNotRunUnasked) {
 TEST(Trouble, ARunWhoseCaseHasBeenEditedSinceIsNotResumedUnasked) {
   Desk desk;
   desk.window->open_path(written_case(desk.scratch, turning_case("10 s")));
-  QTest::keyClick(desk.window.get(), Qt::Key_F5);
+  press(desk);
   SolverRun* first = desk.window->run();
   ASSERT_NE(first, nullptr);
   ASSERT_TRUE(wait_until([&] { return first->state() == "running"; }, kSolver));
-  QTest::keyClick(desk.window.get(), Qt::Key_F5, Qt::ShiftModifier);
+  press(desk, Qt::ShiftModifier);
   ASSERT_TRUE(wait_until([&] { return first->can_go_on(); }, kSolver)) << first->failure().toStdString();
   desk.window->document().set_value("stage[0].end", "\"50 us\"");
   {
     const Answer no(QMessageBox::Cancel);
-    QTest::keyClick(desk.window.get(), Qt::Key_F5, Qt::ControlModifier);
+    press(desk, Qt::ControlModifier);
     EXPECT_EQ(no.words().filter("has been edited since").size(), 1);
     EXPECT_FALSE(desk.window->run()->alive());
   }
   desk.window->document().undo_stack().undo();
   {
     const Answer none(QMessageBox::Cancel);
-    QTest::keyClick(desk.window.get(), Qt::Key_F5, Qt::ControlModifier);
+    press(desk, Qt::ControlModifier);
     EXPECT_TRUE(none.words().empty()) << none.words().join("\n").toStdString();
     EXPECT_TRUE(desk.window->run()->alive());
   }
   ASSERT_TRUE(wait_until([&] { return desk.window->run()->state() == "running"; }, kSolver));
-  QTest::keyClick(desk.window.get(), Qt::Key_F5, Qt::ShiftModifier);
+  press(desk, Qt::ShiftModifier);
   ASSERT_TRUE(wait_until([&] { return desk.window->run()->can_go_on(); }, kSolver));
   desk.window->document().set_value("stage[0].end", "\"50 us\"");
   const QString folder = desk.window->run()->record().folder;
   const Answer anew(QMessageBox::No);
-  QTest::keyClick(desk.window.get(), Qt::Key_F5, Qt::ControlModifier);
+  press(desk, Qt::ControlModifier);
   ASSERT_TRUE(completes(desk));
   EXPECT_NE(desk.window->run()->record().folder, folder);
 }
