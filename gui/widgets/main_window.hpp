@@ -2,9 +2,11 @@
 
 #include <QAction>
 #include <QJsonArray>
+#include <QLockFile>
 #include <QMainWindow>
 #include <QStackedWidget>
 #include <QTimer>
+#include <memory>
 #include <vector>
 
 #include "core/case_queries.hpp"
@@ -92,6 +94,8 @@ class MainWindow final : public QMainWindow {
   [[nodiscard]] bool save();
   void save_as();
   void look_at_disk();
+  /// Tells whether another window has the case open.
+  void claim_case();
   [[nodiscard]] bool agrees_with_disk();
   [[nodiscard]] bool may_leave_case();
   void case_changed();
@@ -162,6 +166,8 @@ class MainWindow final : public QMainWindow {
 
   Places places_;
   Document document_;
+  std::unique_ptr<QLockFile> claim_;  ///< held while the case is open here
+  QString claimed_;                   ///< file of that lock; empty: none
   CaseQueries queries_;
   SolverQuery import_;
   QString imported_;  ///< file that import_ asks about

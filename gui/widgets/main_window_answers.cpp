@@ -1,3 +1,4 @@
+#include <QCryptographicHash>
 #include <QDir>
 #include <QFile>
 #include <QJsonArray>
@@ -36,6 +37,24 @@ SurfaceGroups surfaces_of(const QJsonObject& json) {
 }
 
 }  // namespace
+
+void MainWindow::claim_case() {
+  const QByteArray name =
+      QCryptographicHash::hash(document_.file().toUtf8(), QCryptographicHash::Sha1).toHex().left(16);
+  const QString lock = document_.is_open() ? QString("%1/open-%2.lock").arg(places_.state, QString(name)) : QString();
+  if (lock != claimed_) claim_ = lock.isEmpty() ? nullptr : std::make_unique<QLockFile>(lock);
+  claimed_ = lock;
+  QString other;
+  if (claim_ != nullptr && !claim_->isLocked()) {
+    claim_->setStaleLockTime(0);  // however long it is open; that of a process that is gone does not count
+    qint64 process = 0;
+    QString host, program;
+    if (!claim_->tryLock(0) && claim_->error() == QLockFile::LockFailedError &&
+        claim_->getLockInfo(&process, &host, &program))
+      other = tr("process %1 on %2 has %3 open").arg(process).arg(host, document_.file());
+  }
+  tell_trouble("elsewhere", tr("This case is open in another window as well, and what is saved last stays"), other);
+}
 
 void MainWindow::show_check(const QJsonObject& json) {
   const double seconds = json["seconds"].toDouble(), most = json["most_seconds"].toDouble();

@@ -194,6 +194,7 @@ void MainWindow::save_as() {
 }
 
 void MainWindow::look_at_disk() {
+  claim_case();
   tell_trouble("disk", tr("Another program has changed or removed the case since it was opened here"),
                document_.is_open() && !document_.is_on_disk() ? document_.file() : QString());
 }

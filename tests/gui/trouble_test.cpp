@@ -170,6 +170,25 @@ TEST(Trouble, ARunWhoseCaseHasBeenEditedSinceIsNotResumedUnasked) {
   EXPECT_NE(desk.window->run()->record().folder, folder);
 }
 
+TEST(Trouble, ACaseThatAnotherWindowHasOpenSaysSoUntilThatOneHasClosed) {
+  Desk desk;
+  const QString file = written_case(desk.scratch, turning_case("50 us"));
+  Places places;
+  places.launch = {BRECCIA_PROGRAM, BRECCIA_MPIEXEC};
+  places.desktop = BRECCIA_GUI;
+  places.meshes = BRECCIA_MESHES;
+  places.projects = desk.scratch.filePath("projects");
+  places.state = desk.scratch.filePath("state");
+  auto other = std::make_unique<MainWindow>(places);
+  other->open_path(file);
+  desk.window->open_path(file);
+  EXPECT_EQ(messages(desk).filter("open in another window").size(), 1) << messages(desk).join("\n").toStdString();
+  other->document().close();
+  other.reset();
+  desk.window->open_path(file);
+  EXPECT_TRUE(messages(desk).filter("open in another window").empty());
+}
+
 TEST(Trouble, ACaseWhoseFileIsGoneIsWrittenAgainBeforeItIsRun) {
   Desk desk;
   const QString file = written_case(desk.scratch, turning_case("50 us"));
