@@ -52,8 +52,17 @@ void HistogramView::paintEvent(QPaintEvent*) {
     painter.setPen(ink);
     const QRectF above(place.left() - 10, place.top() - line, place.width() + 20, line);
     painter.drawText(above, Qt::AlignCenter, QString::number(bars_.counts[static_cast<std::size_t>(bar)]));
-    painter.drawText(QRectF(place.left() - 2, height() - 2.2 * line, place.width() + 4, line), Qt::AlignCenter,
-                     QString::number(bars_.low + bars_.width * bar, 'g', 3));
+  }
+  // A bar reaches from one number to the next, which stand at its edges.
+  const auto bars = static_cast<int>(bars_.counts.size());
+  const double each = (width() - 20.0) / bars, foot = height() - 2.2 * line;
+  for (int edge = 0; edge <= bars; ++edge) {
+    const double x = 10 + each * edge;
+    painter.drawLine(QPointF(x, foot), QPointF(x, foot + 0.2 * line));
+    const QString words = QString::number(bars_.low + bars_.width * edge, 'g', 3);
+    const double wide = fontMetrics().horizontalAdvance(words);
+    painter.drawText(
+        QPointF(std::clamp(x - wide / 2, 0.0, width() - wide), foot + fontMetrics().ascent() + 0.15 * line), words);
   }
   painter.drawText(QRectF(0, height() - 1.15 * line, width(), line), Qt::AlignCenter, title_);
   if (hasFocus()) {
