@@ -73,6 +73,7 @@ void StudyPanel::make_setup(QVBoxLayout& column) {
     keys_[i]->setMinimumContentsLength(22);
     keys_[i]->setObjectName(QString("study_key_%1").arg(i + 1));
     keys_[i]->setAccessibleName(names[i]);
+    keys_[i]->lineEdit()->setAccessibleName(names[i]);  // which has the focus
     keys_[i]->setToolTip(
         tr("A key of the case such as material[0].young, a number of the geometry such as mesh.parameters.h, or ranks; "
            "empty: none"));
@@ -121,7 +122,12 @@ void StudyPanel::make_results(QVBoxLayout& column) {
   table_->setTabKeyNavigation(false);
   table_->verticalHeader()->hide();
   auto* row = new QHBoxLayout;
+  auto *study = new QLabel(tr("Study")), *result = new QLabel(tr("Result"));
+  study->setBuddy(studies_);
+  result->setBuddy(column_);
+  row->addWidget(study);
   row->addWidget(studies_, 2);
+  row->addWidget(result);
   row->addWidget(column_, 2);
   row->addWidget(export_);
   column.addLayout(row);
