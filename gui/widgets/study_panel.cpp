@@ -121,16 +121,15 @@ void StudyPanel::make_results(QVBoxLayout& column) {
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->setTabKeyNavigation(false);
   table_->verticalHeader()->hide();
+  // Two rows: in one the words of the plot beside it are cut at 1280 pixels.
+  auto* choice = new QFormLayout;
   auto* row = new QHBoxLayout;
-  auto *study = new QLabel(tr("Study")), *result = new QLabel(tr("Result"));
-  study->setBuddy(studies_);
-  result->setBuddy(column_);
-  row->addWidget(study);
-  row->addWidget(studies_, 2);
-  row->addWidget(result);
-  row->addWidget(column_, 2);
+  row->addWidget(column_, 1);
   row->addWidget(export_);
-  column.addLayout(row);
+  choice->addRow(tr("Study"), studies_);
+  choice->addRow(tr("Result"), row);
+  static_cast<QLabel*>(choice->labelForField(row))->setBuddy(column_);
+  column.addLayout(choice);
   column.addWidget(table_, 1);
   connect(studies_, qOverload<int>(&QComboBox::currentIndexChanged), this,
           [this] { show_study(studies_->currentData().toString()); });
