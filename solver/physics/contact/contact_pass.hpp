@@ -11,8 +11,6 @@
 /// For contact_forces.cpp and contact_histories.cpp only.
 namespace breccia::contact_pass {
 
-/// Slope that the overlap field hardly exceeds: 1 where it is a distance.
-inline constexpr double kSteepest = 2.0;
 /// Change of overlap over motion that is put down to the deformation and rotation of an element in one step.
 inline constexpr double kSameSlope = 1e-3;
 /// Share of its heights by which an element reaches beyond its faces for a point that was in it. Joints break before
