@@ -128,14 +128,15 @@ Vec3 Pass::gradient_before(const ContactPoint& point, Index contactor) const {
 
 /// The overlap is the least of several functions, and of other ones in the next element: where the point has passed from
 /// one to another, the mean of the two gradients times the motion is what the forces do work for. What the overlap has
-/// changed by beyond that is a change of field, not of place. Nothing is known of the motion if dt is 0.
+/// changed by beyond that is a change of field, not of place. Without motion the places have been given, not moved to.
 void Pass::keep_step(const ContactPoint& point, double length, const TouchingCouple& last, Candidate& candidate) const {
   const Vec3 motion = relative_motion(point, slot_of(candidate.contactor), candidate.lambda);
+  if (motion == Vec3::Zero()) return;
   const Vec3 gradient = overlap(overlap_shape(params_, local_, contact_, candidate.contactor, Instant::step_before),
                                 prepared(candidate.contactor), candidate.lambda)
                             .gradient;
   const double g_old = last.d * length + last.offset, along = gradient.dot(motion);
-  if (dt_ == 0 || std::abs(candidate.g_before - g_old - along) <= kSameSlope * motion.norm()) return;
+  if (std::abs(candidate.g_before - g_old - along) <= kSameSlope * motion.norm()) return;
   candidate.g_before = g_old + 0.5 * (along + gradient_before(point, last.contactor).dot(motion));
 }
 
