@@ -92,7 +92,7 @@ Vec3 Pass::mean_turn(Index target, Index contactor) const {
 /// is known apart. @return  J dissipated
 double Pass::follow(const ContactLaw& law, double scale, double length, const Candidate& candidate, TouchingCouple& h) {
   const auto go_to = [&](double g) {
-    h.offset = std::clamp(g, 0.0, h.offset);
+    h.offset = std::min(h.offset, std::max(g, 0.0));
     const double d = std::max(0.0, g - h.offset) / length;
     const double d_max = normal_law::largest(d, h.d_max);
     const double lost = std::max(0.0, normal_law::dissipated(law, d_max) - normal_law::dissipated(law, h.d_max));
@@ -127,17 +127,23 @@ Vec3 Pass::gradient_before(const ContactPoint& point, Index contactor) const {
 }
 
 /// The overlap is the least of several functions, and of other ones in the next element: where the point has passed from
-/// one to another, the mean of the two gradients times the motion is what the forces do work for. What the overlap has
-/// changed by beyond that is a change of field, not of place. Without motion the places have been given, not moved to.
-void Pass::keep_step(const ContactPoint& point, double length, const TouchingCouple& last, Candidate& candidate) const {
+/// one to another, the mean of the two gradients times the motion is what the forces do work for. The offset takes up
+/// what the overlap has changed by beyond that, as far as the turn of the gradient explains it; the rest is a change of
+/// field, not of place. Without motion the places have been given, not moved to.
+/// @param h  of the last step; changed: offset
+void Pass::keep_step(const ContactPoint& point, double length, TouchingCouple& h, Candidate& candidate) const {
   const Vec3 motion = relative_motion(point, slot_of(candidate.contactor), candidate.lambda);
   if (motion == Vec3::Zero()) return;
   const Vec3 gradient = overlap(overlap_shape(params_, local_, contact_, candidate.contactor, Instant::step_before),
                                 prepared(candidate.contactor), candidate.lambda)
                             .gradient;
-  const double g_old = last.d * length + last.offset, along = gradient.dot(motion);
-  if (std::abs(candidate.g_before - g_old - along) <= kSameSlope * motion.norm()) return;
-  candidate.g_before = g_old + 0.5 * (along + gradient_before(point, last.contactor).dot(motion));
+  const double change = candidate.g_before - (h.d * length + h.offset), along = gradient.dot(motion);
+  if (std::abs(change - along) <= kSameSlope * motion.norm()) return;
+  const double along_before = gradient_before(point, h.contactor).dot(motion);
+  const double beyond = change - 0.5 * (along + along_before), most = 0.5 * std::abs(along - along_before);
+  const double turned = std::clamp(beyond, -most, most);
+  h.offset += turned;
+  candidate.g_before -= beyond - turned;
 }
 
 void Pass::act(Index index, Candidate& candidate) {

@@ -73,7 +73,7 @@ class Pass {
   [[nodiscard]] static double follow(const ContactLaw& law, double scale, double length, const Candidate& candidate,
                                      TouchingCouple& h);
   [[nodiscard]] Vec3 gradient_before(const ContactPoint& point, Index contactor) const;
-  void keep_step(const ContactPoint& point, double length, const TouchingCouple& last, Candidate& candidate) const;
+  void keep_step(const ContactPoint& point, double length, TouchingCouple& h, Candidate& candidate) const;
   void act(Index point, Candidate& candidate);
   [[nodiscard]] double press(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
                              const Candidate& candidate, TouchingCouple& h);
