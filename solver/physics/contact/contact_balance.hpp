@@ -26,9 +26,9 @@ namespace breccia {
 }
 
 /// Force of a couple whose overlap has ended, N, never larger than the force before: takes back what it has gained, in
-/// this step and the next one, taken to move as this one. In no step more than twice what its own motion could have left
-/// over: a force that turned the motion round would give where it is to take. On the way out only, and none where there
-/// is next to nothing left. @param last  N, force one step ago: of the law (`pushed`), or this function's
+/// this step and the next one, taken to move as this one. In no step more than twice what its own motion could have
+/// left over: a force that turned the motion round would give where it is to take. On the way out only, and none where
+/// there is next to nothing left. @param last  N, force one step ago: of the law (`pushed`), or this function's
 [[nodiscard]] inline Vec3 closing_force(double gained, const Vec3& last, const Vec3& motion, bool pushed, double k) {
   const double work = last.dot(motion), against = pushed ? work : -work;
   if (!(against > 0)) return Vec3::Zero();

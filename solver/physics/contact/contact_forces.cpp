@@ -126,10 +126,10 @@ Vec3 Pass::gradient_before(const ContactPoint& point, Index contactor) const {
       .gradient;
 }
 
-/// The overlap is the least of several functions, and of other ones in the next element: where the point has passed from
-/// one to another, the mean of the two gradients times the motion is what the forces do work for. The offset takes up
-/// what the overlap has changed by beyond that, as far as the turn of the gradient explains it; the rest is a change of
-/// field, not of place. Without motion the places have been given, not moved to.
+/// The overlap is the least of several functions, and of other ones in the next element: where the point has passed
+/// from one to another, the mean of the two gradients times the motion is what the forces do work for. The offset takes
+/// up what the overlap has changed by beyond that, as far as the turn of the gradient explains it; the rest is a change
+/// of field, not of place. Without motion the places have been given, not moved to.
 /// @param h  of the last step; changed: offset
 void Pass::keep_step(const ContactPoint& point, double length, TouchingCouple& h, Candidate& candidate) const {
   const Vec3 motion = relative_motion(point, slot_of(candidate.contactor), candidate.lambda);
