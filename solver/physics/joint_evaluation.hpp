@@ -113,7 +113,8 @@ inline constexpr double kCrackOpening = 10;
 inline constexpr double kLostShape = 0.5;
 /// Share of the reference area below which a mid-surface has no normal to turn.
 inline constexpr double kFlat = 0.01;
-/// Evaluations in which a crack hands over what it still carries, pressure of closed points mostly: no force jumps.
+/// Evaluations in which a crack hands over what it still carries, pressure of closed points mostly: no force jumps. One
+/// whose openings grow beyond kLostShape earlier has handed over at twice that share.
 inline constexpr double kHandoverSteps = 64;
 
 /// Joints that are cracks by their opening.
@@ -135,6 +136,15 @@ template <class T>
   return damaged && crack;
 }
 
+/// The most that a crack still carries: 1 up to an opening of kLostShape, 0 from twice that on.
+template <class T>
+[[nodiscard]] inline T most_held(const Kinematics<T>& k) {
+  T largest2 = 0.0;
+  for (const Vector<T>& opening : k.opening) largest2 = greater(largest2, dot(opening, opening));
+  const T shape2 = (0.5 * kLostShape * kLostShape) * k.doubled_area;
+  return select(shape2 > 0.0, greater(T(2.0 - root(T(largest2 / shape2))), T(0.0)), T(0.0));
+}
+
 /// Evaluates the points and takes what they dissipate; returns the force on each corner of a.
 template <class T>
 [[nodiscard]] inline Triple<T> evaluate_points(const JointLawParams& law, const Kinematics<T>& k, Joint<T>& joint) {
@@ -144,7 +154,10 @@ template <class T>
     response[i] = evaluate(law, k.frame, point_opening(law, k.opening, i), failed, joint.points[i]);
   const T hold_before = joint.hold;
   const Mask<T> letting_go = is_crack(law, k, joint) || joint.hold < 1.0;
-  joint.hold = select(letting_go, greater(T(joint.hold - 1.0 / kHandoverSteps), T(0.0)), joint.hold);
+  if (any(letting_go)) {
+    const T next = lesser(T(joint.hold - 1.0 / kHandoverSteps), most_held(k));
+    joint.hold = select(letting_go, greater(next, T(0.0)), joint.hold);
+  }
   const T share = joint.area / 3.0, held = share * joint.hold, lost = share * (hold_before - joint.hold);
   for (const Response<T>& r : response) {
     joint.mode_1 += held * r.mode_1;

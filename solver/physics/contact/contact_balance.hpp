@@ -25,15 +25,16 @@ namespace breccia {
   return std::abs(share) <= kLargestShare ? share : 0.0;
 }
 
-/// Force of a couple whose overlap has ended, N: takes back what it has gained, in this step and the next one, taken to
-/// move as this one. None where there is next to nothing left, and never larger than the force before.
-/// @param last  N, force one step ago: of the law (`pushed`), or this function's
+/// Force of a couple whose overlap has ended, N, never larger than the force before: takes back what it has gained, in
+/// this step and the next one, taken to move as this one. In no step more than twice what its own motion could have
+/// left over: a force that turned the motion round would give where it is to take. On the way out only, and none where
+/// there is next to nothing left. @param last  N, force one step ago: of the law (`pushed`), or this function's
 [[nodiscard]] inline Vec3 closing_force(double gained, const Vec3& last, const Vec3& motion, bool pushed, double k) {
   const double work = last.dot(motion), against = pushed ? work : -work;
   if (!(against > 0)) return Vec3::Zero();
-  const double along = work / last.norm();
-  if (!(gained > kNegligibleWorkError * kLargestWorkError * k * along * along)) return Vec3::Zero();
-  return std::min(gained / against, 1.0) * (pushed ? Vec3(-last) : last);
+  const double along = work / last.norm(), left_over = kLargestWorkError * k * along * along;
+  if (!(gained > kNegligibleWorkError * left_over)) return Vec3::Zero();
+  return std::min(std::min(gained, 2 * left_over) / against, 1.0) * (pushed ? Vec3(-last) : last);
 }
 
 }  // namespace breccia

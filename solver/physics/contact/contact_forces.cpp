@@ -92,7 +92,7 @@ Vec3 Pass::mean_turn(Index target, Index contactor) const {
 /// is known apart. @return  J dissipated
 double Pass::follow(const ContactLaw& law, double scale, double length, const Candidate& candidate, TouchingCouple& h) {
   const auto go_to = [&](double g) {
-    h.offset = std::clamp(g, 0.0, h.offset);
+    h.offset = std::min(h.offset, std::max(g, 0.0));
     const double d = std::max(0.0, g - h.offset) / length;
     const double d_max = normal_law::largest(d, h.d_max);
     const double lost = std::max(0.0, normal_law::dissipated(law, d_max) - normal_law::dissipated(law, h.d_max));
@@ -111,11 +111,39 @@ double Pass::follow(const ContactLaw& law, double scale, double length, const Ca
   return lost + scale * std::max(0.0, stored - normal_law::stored(law, h.d, h.d_max));
 }
 
-/// A point that moves on into another element finds the field it leaves only while the two are bonded. What the overlap
-/// changes by more than the point has moved is a change of field, not of place.
-void Pass::keep_step(const ContactPoint& point, Index slot, double g_old, Candidate& candidate) const {
-  const double reach = kSteepest * relative_motion(point, slot, candidate.lambda).norm();
-  candidate.g_before = std::clamp(candidate.g_before, g_old - reach, g_old + reach);
+/// Gradient of the overlap where the point was one step ago.
+Vec3 Pass::gradient_before(const ContactPoint& point, Index contactor) const {
+  const Index slot = slot_of(contactor);
+  const double *x = state_.position.data(), *v = state_.velocity.data();
+  std::array<Vec3, 4> corners = load_corners(local_, x, slot);
+  const std::array<Vec3, 4> velocity = load_corners(local_, v, slot);
+  for (std::size_t a = 0; a < 4; ++a) corners[a] -= dt_ * velocity[a];
+  const PreparedTetra tetra = prepare(corners, local_.volume[static_cast<std::size_t>(slot)]);
+  if (inert(tetra)) return Vec3::Zero();
+  const Vec3 place = at_point(rule_, point, x) - dt_ * at_point(rule_, point, v);
+  return overlap(overlap_shape(params_, local_, contact_, contactor, Instant::step_before), tetra,
+                 barycentric(tetra, place))
+      .gradient;
+}
+
+/// The overlap is the least of several functions, and of other ones in the next element: where the point has passed
+/// from one to another, the mean of the two gradients times the motion is what the forces do work for. The offset takes
+/// up what the overlap has changed by beyond that, as far as the turn of the gradient explains it; the rest is a change
+/// of field, not of place. Without motion the places have been given, not moved to.
+/// @param h  of the last step; changed: offset
+void Pass::keep_step(const ContactPoint& point, double length, TouchingCouple& h, Candidate& candidate) const {
+  const Vec3 motion = relative_motion(point, slot_of(candidate.contactor), candidate.lambda);
+  if (motion == Vec3::Zero()) return;
+  const Vec3 gradient = overlap(overlap_shape(params_, local_, contact_, candidate.contactor, Instant::step_before),
+                                prepared(candidate.contactor), candidate.lambda)
+                            .gradient;
+  const double change = candidate.g_before - (h.d * length + h.offset), along = gradient.dot(motion);
+  if (std::abs(change - along) <= kSameSlope * motion.norm()) return;
+  const double along_before = gradient_before(point, h.contactor).dot(motion);
+  const double beyond = change - 0.5 * (along + along_before), most = 0.5 * std::abs(along - along_before);
+  const double turned = std::clamp(beyond, -most, most);
+  h.offset += turned;
+  candidate.g_before -= beyond - turned;
 }
 
 void Pass::act(Index index, Candidate& candidate) {
@@ -126,7 +154,8 @@ void Pass::act(Index index, Candidate& candidate) {
   TouchingCouple& h = contact_.touching.emplace_back();
   if (candidate.old >= 0) {
     h = contact_.touching_before[static_cast<std::size_t>(candidate.old)];
-    if (h.contactor != candidate.contactor) keep_step(point, slot, h.d * length + h.offset, candidate);
+    // Where the overlap stays below the offset there is no force before or after.
+    if (h.d > 0 || candidate.g_before > h.offset) keep_step(point, length, h, candidate);
   } else {
     h.offset = first_offset(index, candidate);
   }

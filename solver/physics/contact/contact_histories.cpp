@@ -119,7 +119,7 @@ void Pass::forget(const TouchingCouple& old, double lost) {
 /// The couple exerts no force by its law any more. @param h  read and written: force, gained
 void Pass::end(const ContactPoint& point, const TouchingCouple& last, const Vec3& motion,
                const std::array<double, 4>& lambda, TouchingCouple& h) {
-  h.force = closing_force(h.gained, last.force, motion, last.d > 0, stiffness(point, h));
+  h.force = closing_force(h.gained, last.force - last.friction, motion, last.d > 0, stiffness(point, h));
   h.gained += 0.5 * h.force.dot(motion);
   distribute(point, h.contactor, lambda, h.force);
 }
@@ -135,9 +135,13 @@ double Pass::first_offset(Index point, const Candidate& candidate) const {
   const Index slot = slot_of(candidate.contactor);
   if (is_fresh || share_vertex(local_, point_at(point).slot, slot)) return std::max(candidate.g_before, 0.0);
   // A point that comes through a gap between elements, an opened joint say, is deep inside at once: deeper than it
-  // moved.
-  const double moved = relative_motion(point_at(point), slot, candidate.lambda).norm();
-  return moved > 0 ? std::max(candidate.g_before - kSteepest * moved, 0.0) : 0.0;
+  // moved inwards.
+  const Vec3 motion = relative_motion(point_at(point), slot, candidate.lambda);
+  if (motion == Vec3::Zero()) return 0.0;
+  const Vec3 gradient = overlap(overlap_shape(params_, local_, contact_, candidate.contactor, Instant::step_before),
+                                prepared(candidate.contactor), candidate.lambda)
+                            .gradient;
+  return std::max(candidate.g_before - std::max(gradient.dot(motion), 0.0) - kSameSlope * motion.norm(), 0.0);
 }
 
 }  // namespace breccia::contact_pass

@@ -11,8 +11,8 @@
 /// For contact_forces.cpp and contact_histories.cpp only.
 namespace breccia::contact_pass {
 
-/// Slope that the overlap field hardly exceeds: 1 where it is a distance.
-inline constexpr double kSteepest = 2.0;
+/// Change of overlap over motion that is put down to the deformation and rotation of an element in one step.
+inline constexpr double kSameSlope = 1e-3;
 /// Share of its heights by which an element reaches beyond its faces for a point that was in it. Joints break before
 /// they open so far: critical opening over height is 0.1 % in meshes/glass_impact, 0.4 % in block_wall, 0.8 % in disc.
 inline constexpr double kGap = 0.01;
@@ -72,7 +72,8 @@ class Pass {
   [[nodiscard]] double first_offset(Index point, const Candidate& candidate) const;
   [[nodiscard]] static double follow(const ContactLaw& law, double scale, double length, const Candidate& candidate,
                                      TouchingCouple& h);
-  void keep_step(const ContactPoint& point, Index slot, double g_old, Candidate& candidate) const;
+  [[nodiscard]] Vec3 gradient_before(const ContactPoint& point, Index contactor) const;
+  void keep_step(const ContactPoint& point, double length, TouchingCouple& h, Candidate& candidate) const;
   void act(Index point, Candidate& candidate);
   [[nodiscard]] double press(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
                              const Candidate& candidate, TouchingCouple& h);

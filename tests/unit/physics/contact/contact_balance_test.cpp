@@ -76,6 +76,8 @@ TEST(contact_balance, a_closing_force_pulls_no_more_than_was_pushed_and_only_whe
   EXPECT_NEAR(closing_force(1, pushed, up, true, k)[2], -4, 1e-15) << "never larger than the force before";
   EXPECT_NEAR(closing_force(0.1, Vec3(0, 0, -2), up, false, k)[2], -1, 1e-15) << "one that pulls goes on";
   EXPECT_EQ(closing_force(1e-5, pushed, up, true, k), Vec3(Vec3::Zero())) << "next to nothing is left over";
+  constexpr double left_over = kLargestWorkError * k * 0.1 * 0.1;  // J, of this motion
+  EXPECT_NEAR(closing_force(1e3, 1e3 * pushed, up, true, k)[2], -2 * left_over / 0.1, 1e-12) << "turns no motion round";
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
+
 #include "physics/joint_forces.hpp"
 #include "unit/physics/joints/joint_pair.hpp"
 
@@ -201,6 +203,46 @@ TEST(JointFailure, of_a_joint_that_hinges_hands_it_over_bit_by_bit_whatever_its_
     // The closed points press with some 60 N: a sixty-fourth of that a step, and the softening of the open ones.
     EXPECT_LT(largest, 5.0);
     EXPECT_NEAR(work.done - pair.dissipated(), 0.0, 2e-3 * kEnergy * kArea);
+  }
+}
+
+/// Turns b about an axis in the plane of the faces: corner 0 goes through the face of a, the others open.
+void fold(JointPair& pair, double angle) {
+  const LocalMesh& local = pair.local;
+  const auto rest = [&](int i) { return load_node(local.reference.data(), pair.corner(true, i)); };
+  const Vec3 pivot = (2 * rest(0) + rest(1) + rest(2)) / 4, axis = (rest(2) - rest(1)).normalized();
+  const double sense = axis.cross(rest(0) - pivot)[0] > 0 ? -1 : 1;
+  const Mat3 turn = Eigen::AngleAxisd(sense * angle, axis).toRotationMatrix();
+  for (int c = 0; c < 4; ++c) {
+    const Index node = local.corner_node(pair.virgin.slot_b, c);
+    store_node(pair.position.data(), node, pivot + turn * (load_node(local.reference.data(), node) - pivot));
+  }
+}
+
+TEST(JointFailure, of_a_joint_that_folds_up_comes_before_its_faces_lie_back_to_back_however_fast) {
+  constexpr int kSteps = 40;  // fewer than those of a handover
+  for (const JointPoints points : {JointPoints::nodal, JointPoints::mid_edge}) {
+    JointLawParams law = rough();
+    law.points = points;
+    law.points_to_fail = 3;
+    JointPair pair(prepared(law));
+    int held = 0;
+    for (int step = 1; step <= kSteps && !pair.joints.empty(); ++step) {
+      const double angle = std::acos(-1.0) * step / kSteps;
+      fold(pair, angle);
+      pair.evaluate();
+      held += pair.joints.empty() ? 0 : 1;
+      Vec3 middle[3];
+      double open = 0;
+      for (int i = 0; i < 3; ++i) {
+        middle[i] = 0.5 * (pair.place(true, i) + pair.place(false, i));
+        open = std::max(open, (pair.place(false, i) - pair.place(true, i)).norm());
+      }
+      const double size = std::sqrt(0.5 * (middle[1] - middle[0]).cross(middle[2] - middle[0]).norm());
+      EXPECT_TRUE(open < size || pair.joints.empty()) << step;
+    }
+    EXPECT_GT(held, 0);
+    EXPECT_TRUE(pair.joints.empty());
   }
 }
 
