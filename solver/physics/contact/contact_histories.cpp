@@ -119,7 +119,7 @@ void Pass::forget(const TouchingCouple& old, double lost) {
 /// The couple exerts no force by its law any more. @param h  read and written: force, gained
 void Pass::end(const ContactPoint& point, const TouchingCouple& last, const Vec3& motion,
                const std::array<double, 4>& lambda, TouchingCouple& h) {
-  h.force = closing_force(h.gained, last.force - last.friction, motion, last.d > 0, stiffness(point, h));
+  h.force = closing_force(h.gained, last.force, motion, last.d > 0, stiffness(point, h));
   h.gained += 0.5 * h.force.dot(motion);
   distribute(point, h.contactor, lambda, h.force);
 }

@@ -27,7 +27,7 @@ struct TouchingCouple {
   Index contactor = 0;
   double d = 0;            ///< overlap over H, offset taken off
   double d_max = 0;        ///< largest d since the overlap began
-  double offset = 0;       ///< m, overlap without force: what was there when fracture made the couple
+  double offset = 0;       ///< m, overlap without force, or force before an overlap (contact_forces.hpp)
   Vec3 spring{0, 0, 0};    ///< m, elongation of the friction spring
   Vec3 friction{0, 0, 0};  ///< N, tangential force on the point
   Vec3 force{0, 0, 0};     ///< N, whole force on the point
