@@ -187,8 +187,8 @@ TEST(collision, at_half_of_the_stable_step_returns_what_contact_took_and_no_more
   constexpr double kLong = 10 * kStep;
   constexpr double kGain = 1e-3;  // nodes share the force of a point as it lies at the end of a step
   constexpr double kLoss = 0.03;  // points that leave over an edge, along another way than they came
-  // 0.015 where a force begins with all that the law gives at the end of the step, 0.0046 where points that come in over
-  // an edge may begin with more than they have done work for.
+  // 0.015 where a force begins with all that the law gives at the end of the step, 0.0046 where points that come in
+  // over an edge may begin with more than they have done work for.
   constexpr double kMeanLoss = 0.0065;
   for (const double friction : {0.0, 0.5}) {
     double sum = 0;
