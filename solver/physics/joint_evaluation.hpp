@@ -113,8 +113,8 @@ inline constexpr double kCrackOpening = 10;
 inline constexpr double kLostShape = 0.5;
 /// Share of the reference area below which a mid-surface has no normal to turn.
 inline constexpr double kFlat = 0.01;
-/// Evaluations in which a crack hands over what it still carries, pressure of closed points mostly: no force jumps. One
-/// whose openings grow beyond kLostShape earlier has handed over at twice that share.
+/// Evaluations in which a crack hands over what it still carries, pressure of closed points mostly: no force jumps. It
+/// is faster where the opening grows beyond kLostShape meanwhile (most_held).
 inline constexpr double kHandoverSteps = 64;
 
 /// Joints that are cracks by their opening.
@@ -136,7 +136,9 @@ template <class T>
   return damaged && crack;
 }
 
-/// The most that a crack still carries: 1 up to an opening of kLostShape, 0 from twice that on.
+/// Largest share of its forces that a crack still carries: 1 up to an opening of kLostShape times the size of its
+/// mid-surface, 0 from twice that on. Elements that fold about a hinge lie back to back within fewer steps than
+/// kHandoverSteps; the mid-surface then has no area, and its normal changes sign.
 template <class T>
 [[nodiscard]] inline T most_held(const Kinematics<T>& k) {
   T largest2 = 0.0;

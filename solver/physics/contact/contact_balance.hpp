@@ -25,10 +25,11 @@ namespace breccia {
   return std::abs(share) <= kLargestShare ? share : 0.0;
 }
 
-/// Force of a couple whose overlap has ended, N, never larger than the force before: takes back what it has gained, in
-/// this step and the next one, taken to move as this one. In no step more than twice what its own motion could have
-/// left over: a force that turned the motion round would give where it is to take. On the way out only, and none where
-/// there is next to nothing left. @param last  N, force one step ago: of the law (`pushed`), or this function's
+/// Force of a couple whose overlap has ended, N: takes back what the couple has gained, over this step and the next one,
+/// assuming that the next motion equals this one. None on the way in, or where there is next to nothing left. Never
+/// larger than the force before, and in a step at most twice what this motion could have left over: a larger force
+/// would reverse the motion and so add energy.
+/// @param last  N, force one step ago: of the law (`pushed`), or of this function
 [[nodiscard]] inline Vec3 closing_force(double gained, const Vec3& last, const Vec3& motion, bool pushed, double k) {
   const double work = last.dot(motion), against = pushed ? work : -work;
   if (!(against > 0)) return Vec3::Zero();

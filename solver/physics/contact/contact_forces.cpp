@@ -111,7 +111,12 @@ double Pass::follow(const ContactLaw& law, double scale, double length, const Ca
   return lost + scale * std::max(0.0, stored - normal_law::stored(law, h.d, h.d_max));
 }
 
-/// Gradient of the overlap where the point was one step ago.
+/// Gradient of the overlap by the field of one step ago.
+Vec3 Pass::gradient_at(Index contactor, const PreparedTetra& tetra, const std::array<double, 4>& lambda) const {
+  return overlap(overlap_shape(params_, local_, contact_, contactor, Instant::step_before), tetra, lambda).gradient;
+}
+
+/// The same where the point was one step ago.
 Vec3 Pass::gradient_before(const ContactPoint& point, Index contactor) const {
   const Index slot = slot_of(contactor);
   const double *x = state_.position.data(), *v = state_.velocity.data();
@@ -121,9 +126,7 @@ Vec3 Pass::gradient_before(const ContactPoint& point, Index contactor) const {
   const PreparedTetra tetra = prepare(corners, local_.volume[static_cast<std::size_t>(slot)]);
   if (inert(tetra)) return Vec3::Zero();
   const Vec3 place = at_point(rule_, point, x) - dt_ * at_point(rule_, point, v);
-  return overlap(overlap_shape(params_, local_, contact_, contactor, Instant::step_before), tetra,
-                 barycentric(tetra, place))
-      .gradient;
+  return gradient_at(contactor, tetra, barycentric(tetra, place));
 }
 
 /// The overlap is the least of several functions, and of other ones in the next element: where the point has passed
@@ -134,9 +137,7 @@ Vec3 Pass::gradient_before(const ContactPoint& point, Index contactor) const {
 void Pass::keep_step(const ContactPoint& point, double length, TouchingCouple& h, Candidate& candidate) const {
   const Vec3 motion = relative_motion(point, slot_of(candidate.contactor), candidate.lambda);
   if (motion == Vec3::Zero()) return;
-  const Vec3 gradient = overlap(overlap_shape(params_, local_, contact_, candidate.contactor, Instant::step_before),
-                                prepared(candidate.contactor), candidate.lambda)
-                            .gradient;
+  const Vec3 gradient = gradient_at(candidate.contactor, prepared(candidate.contactor), candidate.lambda);
   const double change = candidate.g_before - (h.d * length + h.offset), along = gradient.dot(motion);
   if (std::abs(change - along) <= kSameSlope * motion.norm()) return;
   const double along_before = gradient_before(point, h.contactor).dot(motion);

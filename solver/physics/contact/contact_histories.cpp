@@ -138,9 +138,7 @@ double Pass::first_offset(Index point, const Candidate& candidate) const {
   // moved inwards.
   const Vec3 motion = relative_motion(point_at(point), slot, candidate.lambda);
   if (motion == Vec3::Zero()) return 0.0;
-  const Vec3 gradient = overlap(overlap_shape(params_, local_, contact_, candidate.contactor, Instant::step_before),
-                                prepared(candidate.contactor), candidate.lambda)
-                            .gradient;
+  const Vec3 gradient = gradient_at(candidate.contactor, prepared(candidate.contactor), candidate.lambda);
   return std::max(candidate.g_before - std::max(gradient.dot(motion), 0.0) - kSameSlope * motion.norm(), 0.0);
 }
 

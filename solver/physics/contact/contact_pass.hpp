@@ -72,6 +72,8 @@ class Pass {
   [[nodiscard]] double first_offset(Index point, const Candidate& candidate) const;
   [[nodiscard]] static double follow(const ContactLaw& law, double scale, double length, const Candidate& candidate,
                                      TouchingCouple& h);
+  [[nodiscard]] Vec3 gradient_at(Index contactor, const PreparedTetra& tetra,
+                                 const std::array<double, 4>& lambda) const;
   [[nodiscard]] Vec3 gradient_before(const ContactPoint& point, Index contactor) const;
   void keep_step(const ContactPoint& point, double length, TouchingCouple& h, Candidate& candidate) const;
   void act(Index point, Candidate& candidate);
