@@ -25,7 +25,7 @@ namespace breccia {
   return std::abs(share) <= kLargestShare ? share : 0.0;
 }
 
-/// Force of a couple whose overlap has ended, N: takes back what the couple has gained, over this step and the next one,
+/// Force of a couple whose overlap has ended, N: takes back what it has gained, over this step and the next one,
 /// assuming that the next motion equals this one. None on the way in, or where there is next to nothing left. Never
 /// larger than the force before, and in a step at most twice what this motion could have left over: a larger force
 /// would reverse the motion and so add energy.
