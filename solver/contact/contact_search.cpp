@@ -26,6 +26,15 @@ ContactSearch::ContactSearch(const ContactSearchParams& search, const ContactMod
   sort_points(contact_);
 }
 
+/// On several ranks the motion is that of the step before the last; in that one nodes move twice as far at most, and by
+/// what was unforeseen.
+void ContactSearch::count_travel(const KnownMotion& motion) {
+  Travel& travel = contact_.travel;
+  travel.counted += motion.length;
+  travel.at_most = travel.counted;
+  if (!contact_.relevant.empty()) travel.at_most += 2 * motion.length + motion.unforeseen;
+}
+
 void ContactSearch::search(const NodalState& nodes, double step_length, std::span<const std::uint8_t> current) {
   search_.search(nodes, step_length, current, contact_.couples);
   kept_.replaced();
@@ -65,12 +74,17 @@ void ContactSearch::verify(const NodalState& nodes) const {
       if (!inside(barycentric(tetra, at_point(rule, contact_.points[at(p)], nodes.position.data())))) continue;
       if (!surface_.may_touch(p, contactor)) continue;
       if (!contact_.evaluated(contact_.points[at(p)].slot) && !contact_.evaluated(slot)) continue;
-      const bool known =
-          std::binary_search(contact_.couples.begin(), contact_.couples.end(), ContactCouple{p, contactor},
-                             [&](const ContactCouple& a, const ContactCouple& b) { return contact_.before(a, b); });
-      DEMAND(known, "contact point " + std::to_string(contact_.id(p)) + " of element " +
-                        std::to_string(contact_.id(p) / 24) + " touches element " +
-                        std::to_string(local.element_of_slot[at(slot)]) + " but they are no couple");
+      const ContactCouple couple{p, contactor};
+      const auto found =
+          std::lower_bound(contact_.couples.begin(), contact_.couples.end(), couple,
+                           [&](const ContactCouple& a, const ContactCouple& b) { return contact_.before(a, b); });
+      const auto what = [&] {
+        return "contact point " + std::to_string(contact_.id(p)) + " of element " +
+               std::to_string(contact_.id(p) / 24) + " touches element " +
+               std::to_string(local.element_of_slot[at(slot)]);
+      };
+      DEMAND(found != contact_.couples.end() && *found == couple, what() + " but they are no couple");
+      DEMAND(!(contact_.travel.at_most < found->apart_until), what() + " but their couple is held to be apart");
     }
   }
 }

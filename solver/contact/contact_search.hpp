@@ -33,6 +33,7 @@ class ContactSearch {
 
   /// CoupleSearch::due(). Collective.
   [[nodiscard]] bool due(const NodalState& nodes, const KnownMotion& motion, const Communicator& communicator) {
+    count_travel(motion);
     return search_.due(nodes, motion, communicator);
   }
   /// A full search; arguments as of CoupleSearch::search().
@@ -67,6 +68,7 @@ class ContactSearch {
   [[nodiscard]] const CoupleSearch& searches() const { return search_; }
 
  private:
+  void count_travel(const KnownMotion& motion);
   void restore_contactors(const Records& records);
   void restore_faces(const Records& records);
   void restore_offsets(const Records& records);

@@ -20,22 +20,23 @@ void Pass::run() {
   work_.stored = work_.friction_stored = ExactSum{};
   work_.touching = 0;
   spherical_boundary(params_, local_, state_, contact_, forces_, work_.stored);
-  prepare_contactors();
+  ++contact_.calls;
+  contact_.prepared.resize(contact_.in_couples.size());
+  contact_.prepared_in.resize(contact_.in_couples.size(), 0);
 
-  const std::vector<ContactCouple>& couples = contact_.couples;
+  std::vector<ContactCouple>& couples = contact_.couples;
   const double* position = state_.position.data();
   for (std::size_t i = 0; i < couples.size();) {
+    if (contact_.travel.at_most < couples[i].apart_until) {
+      ++i;
+      continue;
+    }
     const Index point = couples[i].point;
     const Vec3 x = at_point(rule_, point_at(point), position);
     candidates_.clear();
     beside_.clear();
     for (; i < couples.size() && couples[i].point == point; ++i) {
-      const std::array<double, 4> lambda = barycentric(prepared(couples[i].contactor), x);
-      if (inside(lambda)) {
-        consider(couples[i].contactor, lambda);
-      } else if (smallest(lambda) >= -kGap) {
-        beside_.push_back({couples[i].contactor, lambda, 0, 0});
-      }
+      if (!(contact_.travel.at_most < couples[i].apart_until)) look_at(couples[i], x);
     }
     if (!beside_.empty()) bridge_gaps(point);
     if (!candidates_.empty()) touch_point(point);
@@ -44,12 +45,28 @@ void Pass::run() {
   contact_.fresh.clear();
 }
 
-void Pass::prepare_contactors() {
-  contact_.prepared.resize(contact_.in_couples.size());
-  for (std::size_t i = 0; i < contact_.in_couples.size(); ++i) {
-    const Index slot = slot_of(contact_.in_couples[i]);
-    contact_.prepared[i] =
+/// Prepares the contactor where nobody has yet in this step.
+const PreparedTetra& Pass::prepare_contactor(Index contactor) {
+  const auto place = static_cast<std::size_t>(contact_.place[static_cast<std::size_t>(contactor)]);
+  if (contact_.prepared_in[place] != contact_.calls) {
+    contact_.prepared_in[place] = contact_.calls;
+    const Index slot = slot_of(contactor);
+    contact_.prepared[place] =
         prepare(load_corners(local_, state_.position.data(), slot), local_.volume[static_cast<std::size_t>(slot)]);
+  }
+  return contact_.prepared[place];
+}
+
+/// @param x  m, place of the couple's point
+void Pass::look_at(ContactCouple& couple, const Vec3& x) {
+  const PreparedTetra& tetra = prepare_contactor(couple.contactor);
+  const std::array<double, 4> lambda = barycentric(tetra, x);
+  if (inside(lambda)) {
+    consider(couple.contactor, lambda);
+  } else if (smallest(lambda) >= -kGap) {
+    beside_.push_back({couple.contactor, lambda, 0, 0});
+  } else if (!inert(tetra)) {
+    couple.apart_until = contact_.travel.counted + safe_travel(tetra, lambda, kGap);
   }
 }
 
@@ -140,6 +157,8 @@ void Pass::keep_step(const ContactPoint& point, double length, TouchingCouple& h
   const Vec3 gradient = gradient_at(candidate.contactor, prepared(candidate.contactor), candidate.lambda);
   const double change = candidate.g_before - (h.d * length + h.offset), along = gradient.dot(motion);
   if (std::abs(change - along) <= kSameSlope * motion.norm()) return;
+  // A couple that has ended may come back from outside, where its place was not kept.
+  if (!(h.d > 0) && h.offset == 0 && change < along) return;
   const double along_before = gradient_before(point, h.contactor).dot(motion);
   const double beyond = change - 0.5 * (along + along_before), most = 0.5 * std::abs(along - along_before);
   const double turned = std::clamp(beyond, -most, most);

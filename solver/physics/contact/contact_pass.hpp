@@ -58,7 +58,8 @@ class Pass {
   void run();
 
  private:
-  void prepare_contactors();
+  [[nodiscard]] const PreparedTetra& prepare_contactor(Index contactor);
+  void look_at(ContactCouple& couple, const Vec3& x);
   void bridge_gaps(Index point);
   void touch_point(Index point);
   void drop_ambiguous();
@@ -118,6 +119,7 @@ class Pass {
   [[nodiscard]] double held(const ContactPoint& point, const TouchingCouple& h) const {
     return normal_held(point, h) + 0.5 * spring_stiffness(point, h) * h.spring.squaredNorm();
   }
+  /// @pre the contactor has been looked at in this step
   [[nodiscard]] const PreparedTetra& prepared(Index contactor) const {
     return contact_.prepared[static_cast<std::size_t>(contact_.place[static_cast<std::size_t>(contactor)])];
   }

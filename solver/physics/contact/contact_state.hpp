@@ -3,6 +3,7 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "base/types.hpp"
@@ -16,7 +17,17 @@ namespace breccia {
 struct ContactCouple {
   Index point;      ///< index into ContactState::points
   Index contactor;  ///< index into ContactState::contactors
-  bool operator==(const ContactCouple&) const = default;
+  /// m: while Travel::at_most is less, the point is not in the contactor or so near that it could matter.
+  double apart_until = -std::numeric_limits<double>::infinity();
+  bool operator==(const ContactCouple& other) const { return point == other.point && contactor == other.contactor; }
+};
+
+/// Sum of the largest motions of any node in the steps so far, m. From one step to a later one no node moves further
+/// than from `counted` of the first to `at_most` of the later. As long as nobody counts it, couples are looked at in
+/// every step.
+struct Travel {
+  double counted = 0;                                        ///< what is known
+  double at_most = std::numeric_limits<double>::infinity();  ///< with what other ranks have yet to tell
 };
 
 /// A couple that touches, with its history. It lives as long as the overlap: a point that slides into a neighbouring
@@ -66,6 +77,7 @@ struct ContactState {
   std::vector<Index> contactor_of_slot;  ///< (num_slots) -1: none
   std::vector<double> body_length;       ///< (bodies) H, m
   std::vector<ContactCouple> couples;    ///< by (point id, contactor)
+  Travel travel;                         ///< up to the positions of now
   std::vector<ContactCouple> fresh;      ///< made by fracture since the last forces; by (point id, contactor)
 
   std::vector<std::uint8_t> relevant;  ///< (num_slots) 1: forces on it are evaluated on this rank; empty: on all
@@ -83,8 +95,10 @@ struct ContactState {
   // Scratch, worth keeping only for its storage.
   std::vector<TouchingCouple> touching_before;
   std::vector<PreparedTetra> prepared;
-  std::vector<Index> place;       ///< (contactors) index into `prepared`, -1: not in any couple
-  std::vector<Index> in_couples;  ///< (prepared) contactors that are in some couple
+  std::vector<std::uint64_t> prepared_in;  ///< (prepared) number of the call of contact_forces, from 1
+  std::uint64_t calls = 0;                 ///< of contact_forces
+  std::vector<Index> place;                ///< (contactors) index into `prepared`, -1: not in any couple
+  std::vector<Index> in_couples;           ///< (prepared) contactors that are in some couple
 
   [[nodiscard]] bool evaluated(Index slot) const {
     return relevant.empty() || relevant[static_cast<std::size_t>(slot)] != 0;

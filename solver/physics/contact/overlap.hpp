@@ -57,6 +57,21 @@ inline constexpr double kInside = 1e-9;
   return std::min(std::min(lambda[0], lambda[1]), std::min(lambda[2], lambda[3]));
 }
 
+/// How far all nodes may move before a point that is outside can come to within lambda >= -reach, m; 0 if it is there.
+/// What has lambda >= -reach is the hull of four corners, each of which moves by at most (1 + 6 reach) times as much as
+/// the nodes, and it lies on the other side of the plane lambda_k = -reach, k that of the smallest lambda.
+/// @pre the contactor is not inert
+[[nodiscard]] inline double safe_travel(const PreparedTetra& tetra, const std::array<double, 4>& lambda, double reach) {
+  const auto k = static_cast<std::size_t>(std::min_element(lambda.begin(), lambda.end()) - lambda.begin());
+  const auto component = [&](std::size_t i) {
+    const auto& g = tetra.gradient;
+    return k > 0 ? g[k - 1][i] : -(g[0][i] + g[1][i] + g[2][i]);
+  };
+  const double slope = Vec3(component(0), component(1), component(2)).norm();
+  constexpr double kRoundOff = 1.001;
+  return std::max(0.0, -lambda[k] - reach) / (slope * (2 + 6 * reach) * kRoundOff);
+}
+
 /// g of one element is the least of some linear functions sum_a row[a] lambda_a, m.
 struct OverlapShape {
   std::array<std::array<double, 4>, kNumCornerSets> row;

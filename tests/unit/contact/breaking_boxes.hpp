@@ -37,6 +37,8 @@ class OwnedContact : WithContactState, public ContactSearch {
   void forces(const NodalState& nodes, double dt, NodalForces& forces, ContactWork& work) {
     contact_forces(model_.params, model_.local, nodes, dt, state, forces, work);
   }
+  /// As if nothing were known of how far nodes have moved, in the next call of forces().
+  void look_at_all() { state.travel.at_most = std::numeric_limits<double>::infinity(); }
   [[nodiscard]] int num_searches() const { return num_searches_; }
   [[nodiscard]] double buffer() const { return searches().buffer(); }
 

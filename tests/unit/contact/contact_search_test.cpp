@@ -36,6 +36,47 @@ TEST(contact_search, never_misses_a_couple_that_touches_under_random_motion) {
   EXPECT_GT(search.num_searches(), 3);
 }
 
+TEST(contact_search, lets_forces_pass_over_couples_that_are_apart_and_changes_no_bit) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal(0, 3e-4);
+  const Mesh boxes = test::joined(test::box({2, 2, 2}, 0.5), test::box({2, 2, 2}, 0.5, {1.1, 0.3, 0.2}));
+  BreakingBoxes model(boxes);
+  model.search.buffer = 0.3;
+  model.search.verify = true;
+  OwnedContact passing = model.make(), looking = model.make();
+  NodalForces forces_of_passing(model.local.num_own_blocks(), model.local.num_nodes),
+      forces_of_looking = forces_of_passing;
+  ContactWork work_of_passing, work_of_looking;
+  const std::vector<FreedFace> faces = model.some_faces(random, 0.3);
+  std::size_t apart = 0, all = 0, touching = 0;
+  for (std::size_t i = 0; i < 60; ++i) {
+    double largest = 0;
+    for (Index n = 0; n < model.local.num_nodes; ++n) {
+      const Vec3 x = load_node(model.local.reference.data(), n);
+      const Vec3 by(normal(random) + (x[0] < 1.05 ? 4e-3 : -4e-3), normal(random), normal(random));
+      largest = std::max(largest, by.norm());
+      store_node(model.state.position.data(), n, load_node(model.state.position.data(), n) + by);
+      store_node(model.state.velocity.data(), n, by);
+    }
+    for (OwnedContact* search : {&passing, &looking}) {
+      search->update(model.state, largest, 1);
+      if (i < faces.size()) search->release_faces(std::span(faces).subspan(i, 1));
+    }
+    looking.look_at_all();
+    forces_of_passing.clear();
+    forces_of_looking.clear();
+    passing.forces(model.state, 1, forces_of_passing, work_of_passing);
+    looking.forces(model.state, 1, forces_of_looking, work_of_looking);
+    for (Index n = 0; n < model.local.num_nodes; ++n) ASSERT_EQ(forces_of_passing.get(n), forces_of_looking.get(n));
+    for (const ContactCouple& couple : passing.contact().couples)
+      apart += passing.contact().travel.at_most < couple.apart_until ? 1 : 0;
+    all += passing.contact().couples.size();
+    touching += passing.contact().touching.size();
+  }
+  EXPECT_GT(touching, 100U);
+  EXPECT_GT(apart, all / 2);
+}
+
 TEST(contact_search, that_is_told_a_speed_too_low_is_caught_by_verify) {
   BreakingBoxes model(test::joined(test::box({1, 1, 1}, 1.0), test::box({1, 1, 1}, 1.0, {1.5, 0, 0})));
   model.search.verify = true;

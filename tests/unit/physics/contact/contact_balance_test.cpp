@@ -80,5 +80,20 @@ TEST(contact_balance, a_closing_force_pulls_no_more_than_was_pushed_and_only_whe
   EXPECT_NEAR(closing_force(1e3, 1e3 * pushed, up, true, k)[2], -2 * left_over / 0.1, 1e-12) << "turns no motion round";
 }
 
+TEST(contact_balance, a_point_that_comes_back_while_its_closing_force_lasts_is_as_deep_as_it_lies) {
+  Press press(0, {kPenalty, kInfinite, 1, 0, 1});
+  press.move(-0.003);
+  press.move(0.005);
+  ASSERT_EQ(press.scene.contact.touching.size(), 1U);
+  ASSERT_EQ(press.scene.contact.touching.front().d, 0);
+  ASSERT_NE(press.scene.contact.touching.front().force, Vec3(Vec3::Zero())) << "no closing force";
+  press.move(-0.006);
+  ASSERT_EQ(press.scene.contact.touching.size(), 1U);
+  const TouchingCouple& couple = press.scene.contact.touching.front();
+  EXPECT_NEAR(couple.d_max * press.scene.contact.body_length[0], 0.004, 1e-9) << "not by all it has moved";
+  EXPECT_EQ(couple.d, couple.d_max);
+  EXPECT_EQ(press.dissipated(), 0) << "by an elastic law";
+}
+
 }  // namespace
 }  // namespace breccia

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "scene.hpp"
 
@@ -59,6 +61,41 @@ TEST(overlap, is_nothing_in_an_element_of_less_than_a_hundredth_of_its_volume) {
     EXPECT_EQ(inert(tetra), share < 0.01);
     EXPECT_EQ(inside(barycentric(tetra, 0.25 * (x[0] + x[1] + x[2] + x[3]))), share > 0.01);
   }
+}
+
+TEST(overlap, is_out_of_reach_for_as_far_as_safe_travel_tells) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  const auto vector = [&] { return Vec3(normal(random), normal(random), normal(random)); };
+  constexpr double kReach = 0.01;
+  int outside = 0;
+  double least_share = 1;
+  for (int trial = 0; trial < 2000; ++trial) {
+    std::array<Vec3, 4> x{vector(), vector(), vector(), vector()};
+    const Vec3 point = 1.5 * vector();
+    if ((x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) < 0) std::swap(x[2], x[3]);
+    const PreparedTetra tetra = prepare(x, 1e-3);
+    const auto lambda = barycentric(tetra, point);
+    const double safe = inert(tetra) ? 0.0 : safe_travel(tetra, lambda, kReach);
+    EXPECT_EQ(safe > 0, !inert(tetra) && smallest(lambda) < -kReach);
+    if (!(safe > 0)) continue;
+    ++outside;
+    for (int way = 0; way < 20; ++way) {
+      std::array<Vec3, 4> moved = x;
+      for (Vec3& corner : moved) corner += safe * vector().normalized();
+      EXPECT_FALSE(smallest(barycentric(prepare(moved, 0), point + safe * vector().normalized())) >= -kReach);
+    }
+    // The shortest way: face and point straight towards each other.
+    const auto k = static_cast<std::size_t>(std::min_element(lambda.begin(), lambda.end()) - lambda.begin());
+    const Vec3 a = x[(k + 1) % 4], outward = (x[(k + 2) % 4] - a).cross(x[(k + 3) % 4] - a).normalized();
+    const Vec3 towards = outward.dot(point - a) > 0 ? outward : Vec3(-outward);
+    for (Vec3& corner : x) corner += safe * towards;
+    const double left = barycentric(prepare(x, 0), point - safe * towards)[k];
+    EXPECT_LT(left, -kReach);
+    least_share = std::min(least_share, 1 - (left + kReach) / (lambda[k] + kReach));
+  }
+  EXPECT_GT(outside, 1000);
+  EXPECT_GT(least_share, 0.95) << "of the way that is safe";
 }
 
 TEST(overlap, of_a_body_is_the_depth_under_a_flat_face) {
