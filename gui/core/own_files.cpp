@@ -8,6 +8,7 @@
 #include <QFileInfo>
 #include <QRegularExpression>
 #include <QSysInfo>
+#include <QThreadPool>
 #include <cerrno>
 
 namespace breccia::gui {
@@ -16,7 +17,9 @@ QString own_name(const QString& kind) {
   return QString(".breccia-%1-%2-%3").arg(kind, QSysInfo::machineHostName()).arg(::getpid());
 }
 
-void remove_orphans(const QString& folder) {
+namespace {
+
+void remove_orphans_of(const QString& folder) {
   // After the number: six letters of a temporary folder, the ending of a draft, six letters while it is written.
   static const QRegularExpression form(
       R"(^\.breccia-(?:draft|preview|film)-(.+)-(\d+)(?:-\w{6})?(?:\.toml)?(?:\.\w{6})?$)");
@@ -35,6 +38,14 @@ void remove_orphans(const QString& folder) {
       QFile::remove(entry.absoluteFilePath());
     }
   }
+}
+
+}  // namespace
+
+void remove_orphans(const QStringList& folders) {
+  QThreadPool::globalInstance()->start([folders] {
+    for (const QString& folder : folders) remove_orphans_of(folder);
+  });
 }
 
 }  // namespace breccia::gui

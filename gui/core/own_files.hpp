@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QString>
+#include <QStringList>
 
 namespace breccia::gui {
 
@@ -9,8 +10,8 @@ namespace breccia::gui {
 /// @param kind  "draft", "preview", "film"
 [[nodiscard]] QString own_name(const QString& kind);
 
-/// Removes from a folder what processes of this user on this machine have left that are no more. Unsaved edits are
-/// kept elsewhere (`Document::recoveries`) and are not touched.
-void remove_orphans(const QString& folder);
+/// Removes from folders what processes of this user on this machine have left that are no more; on another thread, as
+/// folders may be slow to read. Unsaved edits are kept elsewhere (`Document::recoveries`) and are not touched.
+void remove_orphans(const QStringList& folders);
 
 }  // namespace breccia::gui

@@ -66,8 +66,10 @@ MainWindow::MainWindow(Places places, QWidget* parent)
   make_docks();
   make_actions();
   join_panels();
-  remove_orphans(QDir::tempPath());
-  for (const QString& file : recent_cases(places_)) remove_orphans(QFileInfo(file).absolutePath());
+  QStringList folders{QDir::tempPath()};
+  for (const QString& file : recent_cases(places_)) folders << QFileInfo(file).absolutePath();
+  folders.removeDuplicates();
+  remove_orphans(folders);
   find_runs();
   queue_panel_->look();
   show_start();

@@ -124,7 +124,7 @@ void MainWindow::open_case(const QString& file) {
     QMessageBox::warning(this, tr("Breccia"), error);
     return;
   }
-  remove_orphans(document_.folder());
+  remove_orphans({document_.folder()});
   remember_file();
   look_at_disk();
   watch(nullptr);

@@ -8,6 +8,7 @@
 #include <QFile>
 #include <QRegularExpression>
 #include <QTemporaryDir>
+#include <QThreadPool>
 
 namespace breccia::gui {
 namespace {
@@ -37,7 +38,8 @@ TEST(OwnFiles, WhatProcessesThatAreGoneHaveLeftIsRemovedAndNothingElse) {
     QFile file(folder.filePath(entry.contains(".toml") ? entry : entry + "/1/elements"));
     ASSERT_TRUE(file.open(QIODevice::WriteOnly));
   }
-  remove_orphans(scratch.path());
+  remove_orphans({scratch.path()});
+  QThreadPool::globalInstance()->waitForDone();
   QStringList left = folder.entryList(QDir::AllEntries | QDir::Hidden | QDir::NoDotAndDotDot), wanted = stay;
   left.sort();
   wanted.sort();
