@@ -88,8 +88,10 @@ SweepArgs sweep_args(bool sample, Domain& domain) {
   split_work(sample, stress, scratch.stress_late, args.stress_before, args.stress_after);
   // That of held nodes is corrected afterwards (account_held_damping): it waits always, so that the sums are the same
   // bits whether the energies are sampled or not.
-  split_work(sample || !state.constraints.empty(), state.damping_work, scratch.damping_late, args.damping_before,
-             args.damping_after);
+  scratch.damping_late.clear();
+  if (args.mass_damping > 0 || args.local_damping > 0)
+    split_work(sample || !state.constraints.empty(), state.damping_work, scratch.damping_late, args.damping_before,
+               args.damping_after);
   return args;
 }
 
@@ -214,10 +216,6 @@ void keep_held(const Domain& domain, std::vector<Vec3>& velocities) {
     velocities.push_back(load_node(domain.state.nodes.velocity.data(), node));
 }
 
-bool accounts_damping(const SweepArgs& args) {
-  return args.damping_after != nullptr && (args.mass_damping > 0 || args.local_damping > 0);
-}
-
 /// The sweep accounted the damping of held nodes with the velocities they would have had. Mass damping acts on their
 /// mean velocity as they are held, local damping not at all.
 void account_held_damping(const SweepArgs& args, Domain& domain) {
@@ -240,7 +238,7 @@ void constrain(const SweepArgs& args, Domain& domain) {
   State& state = domain.state;
   if (state.constraints.empty()) return;
   const auto lap = domain.timer.measure(Phase::loads);
-  const bool damped = accounts_damping(args);
+  const bool damped = args.damping_after != nullptr;
   if (damped) keep_held(domain, domain.scratch.held_free);
   state.constraints.apply(state.nodes, state.clock.time, state.clock.dt_before, state.clock.dt);
   if (damped) account_held_damping(args, domain);
@@ -270,7 +268,7 @@ void finish_motion(const SweepArgs& args, Domain& domain) {
 
 void move_nodes(bool sample, Domain& domain) {
   const SweepArgs args = sweep_args(sample, domain);
-  if (accounts_damping(args)) keep_held(domain, domain.scratch.held_before);
+  if (args.damping_after != nullptr) keep_held(domain, domain.scratch.held_before);
   domain.state.signals.max_speed = 0;
   if (domain.exchange.alone()) {
     sweep_all(args, domain);
