@@ -349,7 +349,8 @@ class Picture:
         self.view.CameraParallelScale = whole / 2
         self.view.CenterOfRotation = list(centre)
         for shown, copy in self._moved:
-            shown.Position = list(copy * step)
+            # ParaView 5.13 calls it otherwise than 5.11.
+            setattr(shown, "Translation" if "Translation" in shown.ListProperties() else "Position", list(copy * step))
         self._near = focus + 0.45 * distance * towards  # in front of everything
         self._axes = (right, up, whole, aspect)
         for i, name in enumerate(self._copies):

@@ -74,11 +74,15 @@ std::string Scratch::write(const std::string& name, const std::string& text) con
 namespace {
 
 /// As root, too, as in a container.
-std::string launch(int ranks, const std::string& arguments, const std::string& environment = "") {
+std::string launcher(std::size_t ranks) {
   return "exec env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 '" BRECCIA_MPIEXEC
          "' --oversubscribe -n " +
-         std::to_string(ranks) + (environment.empty() ? "" : " env " + environment) + " '" BRECCIA_PROGRAM "' " +
-         arguments;
+         std::to_string(ranks);
+}
+
+std::string launch(int ranks, const std::string& arguments, const std::string& environment = "") {
+  return launcher(static_cast<std::size_t>(ranks)) + (environment.empty() ? "" : " env " + environment) +
+         " '" BRECCIA_PROGRAM "' " + arguments;
 }
 
 Outcome outcome_of(const std::string& command) {
@@ -106,6 +110,17 @@ Outcome call(const std::string& arguments, const std::string& environment) {
 
 Outcome call_ranks(int ranks, const std::string& arguments, const std::string& environment) {
   return outcome_of(launch(ranks, arguments, environment));
+}
+
+Outcome call_each_rank(const std::vector<RankCall>& calls) {
+  const Scratch scratch;
+  std::ofstream script(scratch.path("ranks.sh"));
+  for (std::size_t rank = 0; rank < calls.size(); ++rank) {
+    script << "[ $OMPI_COMM_WORLD_RANK = " << rank << " ] && exec env " << calls[rank].environment
+           << " '" BRECCIA_PROGRAM "' " << calls[rank].arguments << '\n';
+  }
+  script.close();
+  return outcome_of(launcher(calls.size()) + " sh '" + scratch.path("ranks.sh").string() + "'");
 }
 
 pid_t start_ranks(int ranks, const std::string& arguments) {

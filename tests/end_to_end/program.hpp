@@ -20,6 +20,12 @@ Outcome call(const std::string& arguments, const std::string& environment = "");
 /// Likewise on several ranks, which may be more than there are cores. @pre compiled with BRECCIA_MPIEXEC
 /// @param environment  "NAME=value ...", of the ranks
 Outcome call_ranks(int ranks, const std::string& arguments, const std::string& environment = "");
+/// The same where each rank has arguments and environment of its own. Not by the colons of mpiexec, which crashes on
+/// them in Open MPI 5.0.7.
+struct RankCall {
+  std::string arguments, environment;
+};
+Outcome call_each_rank(const std::vector<RankCall>& calls);
 /// Starts the program on several ranks and does not wait for it. Returns the launcher, whose children the ranks are.
 pid_t start_ranks(int ranks, const std::string& arguments);
 

@@ -353,8 +353,8 @@ TEST_F(Start, TakesTheSameCheckpointOnRanksThatSeeDifferentOnes) {
   fs::remove(last);
   const std::string command = "run " + quoted("on_1.toml") + " --progress none -o " + quoted("on_2");
   fs::copy(folder("on_1.toml"), folder("other/on_1.toml"));
-  const Outcome outcome = call_ranks(1, command + " : -n 1 '" BRECCIA_PROGRAM "' " +
-                                            replaced(command, quoted("on_1.toml"), quoted("other/on_1.toml")));
+  const Outcome outcome =
+      call_each_rank({{command, ""}, {replaced(command, quoted("on_1.toml"), quoted("other/on_1.toml")), ""}});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   expect_same_state("on_2", "on_1");
 }

@@ -107,8 +107,7 @@ TEST(WrongInputOfRanks, is_refused_where_the_environment_of_one_of_them_is_wrong
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase), run = scratch.path("run").string();
   const std::string arguments = "run " + file + " --set domains.patience=5 -o '" + run + "'";
-  const Outcome outcome = call_ranks(
-      1, arguments + " : -n 1 env BRECCIA_SIMD=sse9 '" BRECCIA_PROGRAM "' " + arguments + " --progress none");
+  const Outcome outcome = call_each_rank({{arguments, ""}, {arguments + " --progress none", "BRECCIA_SIMD=sse9"}});
   EXPECT_EQ(outcome.exit_code, kInput) << outcome.err;
   EXPECT_NE(outcome.err.find("BRECCIA_SIMD: is no instruction set"), std::string::npos) << outcome.err;
   EXPECT_FALSE(std::filesystem::exists(run));
@@ -118,12 +117,12 @@ TEST(WrongInputOfTheSystem, a_stack_limit_that_is_too_low_is_told_or_raised) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   const std::string run = "run " + file + " --progress none -o '" + scratch.path("run").string() + "'";
-  const Outcome refused = call(run, "ulimit -s 64;");
+  const Outcome refused = call(run, "ulimit -s 256;");
   EXPECT_EQ(refused.exit_code, kInput) << refused.err;
   EXPECT_EQ(
       refused.err,
-      "breccia: error: the limit of the stack (ulimit -s): is too low; allowed: at least 512 KiB; given: 64 KiB\n");
-  const Outcome raised = call(run, "ulimit -S -s 64;");
+      "breccia: error: the limit of the stack (ulimit -s): is too low; allowed: at least 512 KiB; given: 256 KiB\n");
+  const Outcome raised = call(run, "ulimit -S -s 256;");
   EXPECT_EQ(raised.exit_code, 0) << raised.err;
 }
 

@@ -19,6 +19,7 @@ namespace breccia {
 namespace {
 
 using testing::AllOf;
+using testing::AnyOf;
 using testing::HasSubstr;
 
 constexpr const char* kBox =
@@ -48,6 +49,7 @@ struct Attack {
   const char* name;
   std::string statement;
   const char* said;
+  const char* or_said = said;  ///< by other versions of gmsh
 };
 
 void PrintTo(const Attack& attack, std::ostream* stream) { *stream << attack.name; }
@@ -63,7 +65,8 @@ TEST_P(MeshScripts, DoNothingButMakeAMesh) {
   GmshSource source;
   source.file = test::write_file(folder / "model.geo", kBox + statement + "\n");
   source.time_limit = 30;
-  EXPECT_THAT(refusal_of(source), AllOf(HasSubstr("model.geo"), HasSubstr(GetParam().said)));
+  EXPECT_THAT(refusal_of(source),
+              AllOf(HasSubstr("model.geo"), AnyOf(HasSubstr(GetParam().said), HasSubstr(GetParam().or_said))));
   EXPECT_EQ(names_in(folder), std::vector<std::string>{"model.geo"});
 }
 
@@ -73,7 +76,7 @@ const Attack kAttacks[] = {
     {"System", "System \"touch OUT\";", "run a program"},
     {"SystemOfAVariable", "c = \"touch OUT\";\nSystem Str(c);", "model.geo"},
     {"ExternalProcess", "Field[1] = ExternalProcess;\nField[1].CommandLine = \"touch OUT\";\nBackground Field = 1;",
-     "start a process"},
+     "start a process", "run a program"},
     {"PrintfIntoAFile", "Printf(\"x\") > \"OUT\";", "open a file for writing"},
     {"PrintfBehindAFile", "Printf(\"x\") >> \"OUT\";", "open a file for writing"},
     {"Save", "Mesh 3;\nSave \"OUT.msh\";", "open a file for writing"},
