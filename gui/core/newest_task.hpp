@@ -35,6 +35,7 @@ class NewestTask {
     if (watcher_.isRunning()) {
       next_ = std::move(work);
     } else {
+      next_.reset();  // what was under way may have ended without having been told yet
       watcher_.setFuture(QtConcurrent::run(std::move(work)));
     }
   }

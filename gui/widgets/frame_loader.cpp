@@ -34,6 +34,7 @@ void FrameLoader::load(const QString& elements_file, double time) {
   if (watcher_.isRunning() || telling_) {
     next_ = Wanted{elements_file, time};
   } else {
+    next_.reset();  // what is read may have ended without having been told yet
     begin({elements_file, time});
   }
 }

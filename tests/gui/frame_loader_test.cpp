@@ -5,6 +5,7 @@
 #include <QFile>
 #include <QImage>
 #include <QTemporaryDir>
+#include <QThread>
 #include <vector>
 
 #include "gui/block_case.hpp"
@@ -28,6 +29,17 @@ TEST(FrameLoader, OfThoseThatAreAskedForWhileOneIsReadTheLastIsReadNext) {
   Told told;
   for (const double time : {1.0, 2.0, 3.0}) told.loader.load("/no/elements_1.vtkhdf", time);
   EXPECT_TRUE(wait_until([&] { return told.times == std::vector<double>{1, 3}; }, kPatience));
+}
+
+/// The one that waited used to be read last of all when the one being read had just ended.
+TEST(FrameLoader, OneThatWaitedIsNotReadAfterOneThatWasAskedForLater) {
+  Told told;
+  told.loader.load("/no/elements_1.vtkhdf", 1);
+  told.loader.load("/no/elements_1.vtkhdf", 2);
+  while (told.loader.busy()) QThread::msleep(1);  // it has ended, which nobody has been told yet
+  told.loader.load("/no/elements_1.vtkhdf", 3);
+  EXPECT_TRUE(wait_until([&] { return !told.times.empty() && !told.loader.busy(); }, kPatience));
+  EXPECT_FALSE(wait_until([&] { return told.times.back() != 3; }, 200));
 }
 
 TEST(FrameLoader, AFrameOfAModelThatWasLeftIsNotTold) {
