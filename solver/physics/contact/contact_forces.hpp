@@ -45,10 +45,11 @@ struct ContactWork {
 /// The first thing done is one step of the field's ramps. The offset of a couple follows a change of g that comes from
 /// the field alone, down to 0 at least: a field that rises exerts no force, one that sinks lets go of stored energy,
 /// which is accounted as dissipated.
+/// Couples that are sure to be apart (ContactCouple::apart_until, ContactState::travel) are passed over: the same bits.
 ///
 /// @param state    position at t_n, velocity at t_(n-1/2)
 /// @param dt       s, from t_(n-1) to t_n
-/// @param contact  couples sorted; histories, field and scratch are written, `fresh` is emptied
+/// @param contact  couples sorted; apart_until, histories, field and scratch are written, `fresh` is emptied
 /// @param forces   added to, in the order (point id, contactor)
 /// @pre dt >= 0; couples hold every pair that touches. O(couples) + O(points) with a sphere. Throws nothing.
 void contact_forces(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt,
