@@ -1,6 +1,8 @@
 #include "contact/contact_search.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -27,10 +29,10 @@ ContactSearch::ContactSearch(const ContactSearchParams& search, const ContactMod
 }
 
 /// On several ranks the motion is that of the step before the last; in that one nodes move twice as far at most, and by
-/// what was unforeseen.
+/// what was unforeseen. Rounded up, so that after a long way the shortest steps count as well.
 void ContactSearch::count_travel(const KnownMotion& motion) {
   Travel& travel = contact_.travel;
-  travel.counted += motion.length;
+  travel.counted = std::nextafter(travel.counted + motion.length, std::numeric_limits<double>::infinity());
   travel.at_most = travel.counted;
   if (!contact_.relevant.empty()) travel.at_most += 2 * motion.length + motion.unforeseen;
 }
