@@ -111,21 +111,34 @@ def read(file):
     return points[order], {name: values[order] for name, values in arrays.items()}
 
 
-def point_numbers(points):
-    """The same number for points at the same place (to 1e-6 of an element's size)."""
-    size = np.median(np.ptp(points, axis=1).max(axis=1))
-    grid = np.rint((points.reshape(-1, 3) - points.min(axis=(0, 1))) / (1e-6 * size)).astype(np.int64)
-    order = np.lexsort(grid.T)
-    differs = np.any(np.diff(grid[order], axis=0) != 0, axis=1)
-    numbers = np.empty(len(grid), dtype=np.int64)
-    numbers[order] = np.concatenate(([0], np.cumsum(differs)))
-    return numbers.reshape(points.shape[:2])
+def point_numbers(points, neighbour, ids):
+    """The same number for corners that were one before anything broke: those of faces that elements share, each with the
+    nearest one across. Places alone would not tell, as a run that goes on from another one begins strained.
+    neighbour: (num_elements, 4) id of the element across the face opposite to a corner, negative: none"""
+    place = np.searchsorted(ids, neighbour)
+    element, opposite = np.nonzero((neighbour >= 0) & (place < len(ids)))
+    across = place[element, opposite]
+    numbers = np.arange(4 * len(points))
+    pairs = []
+    for step in (1, 2, 3):
+        corner = (opposite + step) % 4
+        distance = np.linalg.norm(points[across] - points[element, corner][:, None], axis=2)
+        pairs.append((4 * element + corner, 4 * across + distance.argmin(axis=1)))
+    one, other = (np.concatenate(side) for side in zip(*pairs))
+    while True:  # the lowest number spreads
+        lowest = np.minimum(numbers[one], numbers[other])
+        spread = numbers.copy()
+        np.minimum.at(spread, one, lowest)
+        np.minimum.at(spread, other, lowest)
+        spread = spread[spread]
+        if np.array_equal(spread, numbers):
+            return numbers.reshape(-1, 4)
+        numbers = spread
 
 
 def outer_faces(numbers, fragment):
     """(num_elements, 4) True for the faces that no other element of the same fragment shares.
-    numbers: of the elements' corners in the first frame. Every element has corners of its own, so whether two of them
-    share a face is asked there, where their corners still lie in the same places."""
+    numbers: of the elements' corners, see point_numbers."""
     corners = np.sort(numbers[:, FACES], axis=2).reshape(-1, 3)
     key = np.column_stack((corners, np.repeat(fragment, 4)))
     order = np.lexsort(key.T)
@@ -377,7 +390,7 @@ def build(arguments):
     shown = ~np.isin(arrays["body"], arguments.hide)
     if not shown.any():
         stop("every body is hidden")
-    numbers = point_numbers(reference)
+    numbers = point_numbers(reference, first["neighbour"], first["id"])
     whole = outer_faces(numbers, first["fragment"]) & shown[:, None]
     fracture = outer_faces(numbers, arrays["fragment"]) & shown[:, None] & ~whole
     elements, faces = np.nonzero(whole)
