@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace breccia::test {
@@ -118,6 +119,23 @@ Vec3 shift_of(int piece, const Vec3& centre, double time_share) {
   return 0.0008 * time_share * outwards * (1 + 0.5 * noise(piece, 3)) - Vec3(0, fall * (1.2 + noise(piece, 1)), 0);
 }
 
+/// The element across the face opposite to each corner, -1: none.
+std::vector<std::int64_t> neighbours_of(const std::vector<Element>& elements) {
+  std::vector<std::int64_t> neighbour(4 * elements.size(), -1);
+  std::map<std::pair<int, std::array<Lattice, 3>>, std::size_t> sides;  // those seen once so far
+  for (std::size_t side = 0; side < neighbour.size(); ++side) {
+    const Element& element = elements[side / 4];
+    std::array<Lattice, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = element.at[(side + 1 + i) % 4];
+    std::sort(corners.begin(), corners.end());
+    const auto [other, first] = sides.try_emplace({element.body, corners}, side);
+    if (first) continue;
+    neighbour[side] = static_cast<std::int64_t>(other->second / 4);
+    neighbour[other->second] = static_cast<std::int64_t>(side / 4);
+  }
+  return neighbour;
+}
+
 void derive_stress_fields(Frame::Elements& elements) {
   for (std::size_t e = 0; e < elements.id.size(); ++e) {
     const double* s = &elements.stress[6 * e];
@@ -158,6 +176,7 @@ Frame SyntheticPlate::frame(std::int64_t number, double time) const {
   frame.number = number;
   frame.time = time;
   frame.step = static_cast<std::int64_t>(std::lround(time / 1e-8));
+  frame.elements.neighbour = neighbours_of(elements);
   std::map<std::array<Lattice, 3>, std::pair<std::size_t, std::array<std::size_t, 3>>> open_faces;
   for (std::size_t e = 0; e < elements.size(); ++e) {
     const Element& element = elements[e];
@@ -172,7 +191,6 @@ Frame SyntheticPlate::frame(std::int64_t number, double time) const {
     out.material.push_back(element.body);
     out.rank.push_back(0);
     out.mass.push_back(kDensity / 6 * edge_product(element.x));
-    out.neighbour.insert(out.neighbour.end(), 4, -1);  // nothing that reads the plate looks across faces
     out.cost.push_back(1.0 + 0.5 * noise(static_cast<int>(e), 3));
     out.fragment.push_back(first[piece[e]]);
     const double radius = std::hypot(element.centre.x(), element.centre.z());
