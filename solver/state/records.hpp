@@ -125,6 +125,7 @@ struct FieldTable<CoupleRecord> {
       FieldRow{"force", "N", kState, [](auto& r) -> auto& { return r.couple.force; }},
       FieldRow{"balance", "1", kState, [](auto& r) -> auto& { return r.couple.balance; }},
       FieldRow{"gained", "J", kState, [](auto& r) -> auto& { return r.couple.gained; }},
+      FieldRow{"gained_before", "J", kState, [](auto& r) -> auto& { return r.couple.gained_before; }},
   };
 // clang-format on
 }

@@ -44,6 +44,23 @@ TEST(SlidingBlock, stops_where_friction_has_taken_its_energy) {
   EXPECT_LT(run.worst_residual(), 1e-3);
 }
 
+TEST(SlidingBlock, is_not_stopped_by_edges_of_a_coarse_floor) {
+  // Of those whose front has met points of the floor just above its lower edge.
+  struct Slide {
+    double speed, friction, block, floor;
+  };
+  constexpr double kGravity = 9.81, kTolerance = 0.02;
+  for (const Slide& s : {Slide{1.0, 0.7, 0.008, 0.04}, {1.0, 0.5, 0.008, 0.03}, {1.3, 0.7, 0.008, 0.05}}) {
+    const double way = s.speed * s.speed / (2 * s.friction * kGravity);
+    const auto quoted = [](double number) { return std::to_string(number); };
+    const Recording run = run_case_file(
+        "sliding_block/case.toml",
+        {"mesh.parameters.h=" + quoted(s.block), "mesh.parameters.floor_h=" + quoted(s.floor),
+         "contact[0].friction=" + quoted(s.friction), "initial_velocity.block.velocity=[" + quoted(s.speed) + ",0,0]"});
+    EXPECT_NEAR(run.rows.back().gauges[0].displacement[0] / way, 1.0, kTolerance) << s.speed << " m/s, " << s.friction;
+  }
+}
+
 TEST(ContactPair, returns_two_over_b_plus_one_of_what_it_took) {
   // Work goes in until the turn and comes out on the way back; sampled at the history interval.
   for (const auto& [file, returned] :

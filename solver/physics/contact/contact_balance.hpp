@@ -13,16 +13,24 @@ namespace breccia {
 /// for the steps in which the overlap begins or ends: of a motion D the force k d of an overlap d < D takes 1/2 k d D
 /// where 1/2 k d^2 is stored, so up to k D^2 / 8 is lost where it begins and gained where it ends.
 
-/// Share of the normal force to be added to it, -1/2 to 1/2, so that this step and the next one, taken to move as this
-/// one, give back what the couple has taken too much or take what it has gained. 0 where that is more than the steps
-/// at which an overlap begins or ends can have left over: such a force would be too large for the motion.
-/// @param gained  J, what the couple would have gained with the force as it is
-/// @param work    J, of the normal force over the motion; @param k  N/m; @param out  m, motion along the force
-[[nodiscard]] inline double balancing_share(double gained, double work, double k, double out) {
+/// Shares of the normal force to be added to it, -1/2 to 1/2 together.
+struct BalancingShares {
+  double own = 0;     ///< for this overlap
+  double before = 0;  ///< for earlier ones
+};
+
+/// With these shares this step and the next one, taken to move as this one, give back what the couple has taken too
+/// much or take what it has gained. None for this overlap where that is more than the steps at which an overlap begins
+/// or ends can have left over: such a force would be too large for the motion. Up to that limit, and step by step, what
+/// earlier overlaps have left is put right: contacts that last for a few steps end before they can do so themselves.
+/// @param gained  J, what the couple would have gained with the force as it is;  @param before  J, of earlier overlaps
+/// @param work    J, of the normal force over the motion, not 0; @param k  N/m; @param out  m, motion along the force
+[[nodiscard]] inline BalancingShares balancing_shares(double gained, double before, double work, double k, double out) {
   constexpr double kLargestShare = 0.5;  // that of a force which begins at the very end of a step
-  if (!(std::abs(gained) <= kLargestWorkError * k * out * out)) return 0;
-  const double share = -gained / work;
-  return std::abs(share) <= kLargestShare ? share : 0.0;
+  const double most = std::min(kLargestWorkError * k * out * out, kLargestShare * std::abs(work));
+  const double own = std::abs(gained) <= most ? gained : 0;
+  const double earlier = std::clamp(before, -most - own, most - own);
+  return {-own / work, -earlier / work};
 }
 
 /// Force of a couple whose overlap has ended, N: takes back what it has gained, over this step and the next one,

@@ -64,14 +64,14 @@ void Pass::look_at(ContactCouple& couple, const Vec3& x) {
   if (inside(lambda)) {
     consider(couple.contactor, lambda);
   } else if (smallest(lambda) >= -kGap) {
-    beside_.push_back({couple.contactor, lambda, 0, 0});
+    beside_.push_back({couple.contactor, lambda, 0, 0, 0});
   } else if (!inert(tetra)) {
     couple.apart_until = contact_.travel.counted + safe_travel(tetra, lambda, kGap);
   }
 }
 
 void Pass::consider(Index contactor, const std::array<double, 4>& lambda) {
-  Candidate candidate{contactor, lambda, 0, 0};
+  Candidate candidate{contactor, lambda, 0, 0, 0};
   candidate.g = candidate.g_before = overlap_value(overlap_shape(params_, local_, contact_, contactor), lambda);
   if (contact_.ramp_of_contactor[static_cast<std::size_t>(contactor)] >= 0)
     candidate.g_before =
@@ -177,8 +177,10 @@ void Pass::act(Index index, Candidate& candidate) {
     // Where the overlap stays below the offset there is no force before or after.
     if (h.d > 0 || candidate.g_before > h.offset) keep_step(point, length, h, candidate);
   } else {
-    h.offset = first_offset(index, candidate);
+    h = {.point = index, .contactor = candidate.contactor, .offset = first_offset(index, candidate)};
   }
+  h.gained_before += candidate.gained;
+  if (!(h.d > 0) && candidate.g_before > h.offset && comes_from_beside(point, candidate)) h.offset = candidate.g_before;
   const TouchingCouple last = h;
   h.point = index;
   h.contactor = candidate.contactor;
@@ -235,7 +237,7 @@ double Pass::press(const ContactLaw& law, const ContactPoint& point, double leng
   return kept;
 }
 
-/// @param h  force by its law and what it has gained with it; both are changed
+/// @param h  force by its law and what it has gained with it; changed
 void Pass::balance(const ContactPoint& point, double length, const Vec3& motion, TouchingCouple& h) const {
   const Vec3 normal = h.force - h.friction;
   const double work = normal.dot(motion);
@@ -243,8 +245,10 @@ void Pass::balance(const ContactPoint& point, double length, const Vec3& motion,
   const double out = work / normal.norm();
   const bool leaves = out > h.d * length;  // in the next step, with the motion of this one
   const double gained = h.gained + (leaves ? 0.5 * work - normal_held(point, h) : 0.0);
-  h.balance = balancing_share(gained, work, stiffness(point, h), out);
-  h.gained += 0.5 * h.balance * work;
+  const BalancingShares shares = balancing_shares(gained, h.gained_before, work, stiffness(point, h), out);
+  h.balance = shares.own + shares.before;
+  h.gained_before += shares.before * work;
+  h.gained += 0.5 * (shares.own - shares.before) * work;  // the next step counts the other halves
   h.force += h.balance * normal;
 }
 

@@ -33,11 +33,13 @@ struct ContactWork {
 /// TouchingCouple while it touches; when the point has moved to another contactor of the same body that shares a mesh
 /// vertex with the old one the history moves along. A new couple starts with offset = g if point and contactor share a
 /// mesh vertex or if fracture has just made it, else with 0, so that freeing a face makes no force.
-/// A new couple that is deeper at once than its point has moved inwards takes the excess as its offset.
+/// A new couple that is deeper at once than its point has moved inwards takes the excess as its offset. Where the
+/// nearest side does not look towards the face of the point no force begins: the offset grows with the overlap.
 /// Work and energy: each couple counts the work that its forces have done, as central differences do it, beyond what it
 /// took, holds and dissipates. A step in which the overlap begins or ends, or follows a curved law, leaves an error; a
 /// change of the normal force puts it right (contact_balance.hpp), before a force ends as far as that can be foreseen.
-/// A couple whose overlap has ended holds back what it has gained, with d = 0, until next to nothing is left. Where the
+/// A couple whose overlap has ended holds back what it has gained, with d = 0, until next to nothing is left; what is
+/// lost, and what that leaves, the next overlap of the point with the body puts right, if it comes soon. Where the
 /// gradient turns within a step, on the medial surface of a body or from element to element, the offset takes up what
 /// the overlap changes by beyond the mean of both gradients times the motion: it may then be below 0.
 /// A point that leaves its contactor other than through the surface, into a joint that opens, stays with it for a

@@ -64,14 +64,15 @@ void Pass::find_histories(Index point) {
   if (old_ > first) take_over(first, old_);
 }
 
-/// Old histories [first, last) go to the candidates: the same contactor first, then a neighbour in the same body.
+/// Old histories [first, last) go to the candidates: the same contactor first, then a neighbour in the same body. Of a
+/// couple that has ended, a candidate there gets what is left to put right.
 void Pass::take_over(std::size_t first, std::size_t last) {
   const std::vector<TouchingCouple>& old = contact_.touching_before;
   taken_.assign(last - first, false);
   const auto assign = [&](auto&& belongs) {
     for (Candidate& candidate : candidates_) {
       for (std::size_t k = first; k < last && candidate.old < 0; ++k) {
-        if (taken_[k - first] || !belongs(old[k].contactor, candidate.contactor)) continue;
+        if (taken_[k - first] || has_ended(old[k]) || !belongs(old[k].contactor, candidate.contactor)) continue;
         candidate.old = static_cast<std::ptrdiff_t>(k);
         taken_[k - first] = true;
       }
@@ -79,6 +80,15 @@ void Pass::take_over(std::size_t first, std::size_t last) {
   };
   assign([](Index from, Index to) { return from == to; });
   assign([&](Index from, Index to) { return are_neighbours(from, to); });
+  for (std::size_t k = first; k < last; ++k) {
+    if (taken_[k - first] || !has_ended(old[k])) continue;
+    const auto to = std::find_if(candidates_.begin(), candidates_.end(), [&](const Candidate& c) {
+      return c.contactor == old[k].contactor || are_neighbours(old[k].contactor, c.contactor);
+    });
+    if (to == candidates_.end()) continue;
+    to->gained += old[k].gained_before;
+    taken_[k - first] = true;
+  }
   for (std::size_t k = first; k < last; ++k) {
     if (!taken_[k - first]) forget(old[k]);
   }
@@ -88,16 +98,17 @@ void Pass::take_over(std::size_t first, std::size_t last) {
 /// contactor may have left all couples with a search in this step, so it is prepared here.
 /// @param lost  J, by the normal law
 void Pass::forget(const TouchingCouple& old, double lost) {
-  if (!(old.d > 0) && old.force == Vec3::Zero()) return;
+  if (!(old.d > 0) && old.force == Vec3::Zero() && old.gained_before == 0) return;
   const ContactPoint& point = point_at(old.point);
   const Index slot = slot_of(old.contactor);
-  const PreparedTetra tetra =
-      prepare(load_corners(local_, state_.position.data(), slot), local_.volume[static_cast<std::size_t>(slot)]);
+  const std::array<Vec3, 4> corners = load_corners(local_, state_.position.data(), slot);
+  const PreparedTetra tetra = prepare(corners, local_.volume[static_cast<std::size_t>(slot)]);
   const bool crushed = inert(tetra);
+  const Vec3 place = at_point(rule_, point, state_.position.data());
   std::array<double, 4> lambda{};
   Vec3 motion = Vec3::Zero();
   if (!crushed) {
-    lambda = barycentric(tetra, at_point(rule_, point, state_.position.data()));
+    lambda = barycentric(tetra, place);
     motion = relative_motion(point, slot, lambda);
   }
   if (old.friction != Vec3::Zero()) {
@@ -110,18 +121,43 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   // A point that has not left through the surface: a crack has opened under it, and what the couple held is gone.
   if (overlap_value(overlap_shape(params_, local_, contact_, old.contactor), lambda) > 0)
     return account(point, work_.dissipated).add(normal_held(point, old));
-  TouchingCouple ended{.point = old.point, .contactor = old.contactor};
+  TouchingCouple ended{.point = old.point, .contactor = old.contactor, .gained_before = old.gained_before};
   ended.gained = old.gained + 0.5 * old.force.dot(motion) - held(point, old) + lost;
   end(point, old, motion, lambda, ended);
-  if (ended.force != Vec3::Zero()) contact_.touching.push_back(ended);
+  if (ended.force != Vec3::Zero() || (ended.gained_before != 0 && is_near(lambda, corners, place)))
+    contact_.touching.push_back(ended);
 }
 
-/// The couple exerts no force by its law any more. @param h  read and written: force, gained
+/// Whether the point of a couple that has ended may soon touch again. Every search finds those that are so near, so all
+/// ranks that evaluate the point's next couple know of this one.
+bool Pass::is_near(const std::array<double, 4>& lambda, const std::array<Vec3, 4>& corners, const Vec3& place) const {
+  if (!(smallest(lambda) >= -kGap)) return false;
+  const Vec3 low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2].cwiseMin(corners[3]));
+  const Vec3 high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2].cwiseMax(corners[3]));
+  return (low - place).cwiseMax(place - high).maxCoeff() <= contact_.near;
+}
+
+/// The couple exerts no force by its law any more. @param h  read and written: force, gained, gained_before
 void Pass::end(const ContactPoint& point, const TouchingCouple& last, const Vec3& motion,
                const std::array<double, 4>& lambda, TouchingCouple& h) {
   h.force = closing_force(h.gained, last.force, motion, last.d > 0, stiffness(point, h));
   h.gained += 0.5 * h.force.dot(motion);
   distribute(point, h.contactor, lambda, h.force);
+  if (h.force != Vec3::Zero()) return;
+  h.gained_before += h.gained;
+  h.gained = 0;
+}
+
+/// Whether the nearest side of the surface does not look towards the face of the point: the front of a block, say, where
+/// a point of the floor comes in just above the lower edge. Pushed back there it would stop the block, which slides over
+/// it. Without motion the places have been given, not moved to.
+bool Pass::comes_from_beside(const ContactPoint& point, const Candidate& candidate) const {
+  if (relative_motion(point, slot_of(candidate.contactor), candidate.lambda) == Vec3::Zero()) return false;
+  const double* x = state_.position.data();
+  const Vec3 a = load_node(x, point.nodes[0]), b = load_node(x, point.nodes[1]), c = load_node(x, point.nodes[2]);
+  const Vec3 outward = (b - a).cross(c - a);
+  const Vec3 inward = gradient_at(candidate.contactor, prepared(candidate.contactor), candidate.lambda);
+  return outward.dot(inward) < kOpposed * outward.norm() * inward.norm();
 }
 
 /// Overlap that makes no force, m, of a couple seen for the first time.

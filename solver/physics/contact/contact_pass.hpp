@@ -17,6 +17,9 @@ inline constexpr double kSameSlope = 1e-3;
 /// they open so far: critical opening over height is 0.1 % in meshes/glass_impact, 0.4 % in block_wall, 0.8 % in disc.
 inline constexpr double kGap = 0.01;
 
+/// Two sides look towards each other where the cosine of the angle between their outward normals is at most -kOpposed.
+inline constexpr double kOpposed = 0.1;
+
 inline Index group_of(const LocalMesh& local, Index slot) {
   return local.block_group[static_cast<std::size_t>(slot / kLanes)];
 }
@@ -33,8 +36,14 @@ struct Candidate {
   std::array<double, 4> lambda;
   double g;                 ///< m, now
   double g_before;          ///< m, with the field of one step ago
+  double gained = 0;        ///< J, left to put right by couples of the point that have ended
   std::ptrdiff_t old = -1;  ///< index of its history among those of the last step, -1: none
 };
+
+/// Whether nothing is left of the couple but what its overlaps have gained or lost.
+inline bool has_ended(const TouchingCouple& couple) {
+  return !(couple.d > 0) && couple.offset == 0 && couple.force == Vec3::Zero();
+}
 
 /// Normal force with damping over the slope of the overlap, N, and what the damping takes, J.
 struct Damping {
@@ -66,10 +75,13 @@ class Pass {
   void find_histories(Index point);
   void take_over(std::size_t first, std::size_t last);
   void forget(const TouchingCouple& old, double lost = 0);
+  [[nodiscard]] bool is_near(const std::array<double, 4>& lambda, const std::array<Vec3, 4>& corners,
+                             const Vec3& place) const;
   void end(const ContactPoint& point, const TouchingCouple& last, const Vec3& motion,
            const std::array<double, 4>& lambda, TouchingCouple& h);
   [[nodiscard]] Vec3 relative_motion(const ContactPoint& point, Index slot, const std::array<double, 4>& lambda) const;
   [[nodiscard]] Vec3 mean_turn(Index target, Index contactor) const;
+  [[nodiscard]] bool comes_from_beside(const ContactPoint& point, const Candidate& candidate) const;
   [[nodiscard]] double first_offset(Index point, const Candidate& candidate) const;
   [[nodiscard]] static double follow(const ContactLaw& law, double scale, double length, const Candidate& candidate,
                                      TouchingCouple& h);

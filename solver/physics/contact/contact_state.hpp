@@ -31,19 +31,21 @@ struct Travel {
 };
 
 /// A couple that touches, with its history. It lives as long as the overlap: a point that slides into a neighbouring
-/// element takes it along, a point that leaves the body forgets it. Only the force that holds back what the couple has
-/// gained lives on for some steps, with d = 0.
+/// element takes it along, a point that leaves the body forgets it. Only what the couple has gained or lost lives on,
+/// with d = 0 and without offset: first the force that holds back gains, then, while the point stays near, what is left
+/// for its next overlap with the body to put right.
 struct TouchingCouple {
   Index point = 0;
   Index contactor = 0;
-  double d = 0;            ///< overlap over H, offset taken off
-  double d_max = 0;        ///< largest d since the overlap began
-  double offset = 0;       ///< m, overlap without force, or force before an overlap (contact_forces.hpp)
-  Vec3 spring{0, 0, 0};    ///< m, elongation of the friction spring
-  Vec3 friction{0, 0, 0};  ///< N, tangential force on the point
-  Vec3 force{0, 0, 0};     ///< N, whole force on the point
-  double balance = 0;      ///< share of its normal force by which the force was changed to balance the work of a step
-  double gained = 0;       ///< J, work done since the force began beyond what it took and holds (contact_forces.hpp)
+  double d = 0;              ///< overlap over H, offset taken off
+  double d_max = 0;          ///< largest d since the overlap began
+  double offset = 0;         ///< m, overlap without force, or force before an overlap (contact_forces.hpp)
+  Vec3 spring{0, 0, 0};      ///< m, elongation of the friction spring
+  Vec3 friction{0, 0, 0};    ///< N, tangential force on the point
+  Vec3 force{0, 0, 0};       ///< N, whole force on the point
+  double balance = 0;        ///< share of its normal force by which the force was changed to balance the work of a step
+  double gained = 0;         ///< J, work done since the force began beyond what it took and holds (contact_forces.hpp)
+  double gained_before = 0;  ///< J, the same of earlier overlaps, not yet put right
 };
 
 /// Overlap field of a contactor (contact_field.hpp).
@@ -76,9 +78,11 @@ struct ContactState {
   std::vector<Index> contactors;         ///< slots by ascending global element id
   std::vector<Index> contactor_of_slot;  ///< (num_slots) -1: none
   std::vector<double> body_length;       ///< (bodies) H, m
-  std::vector<ContactCouple> couples;    ///< by (point id, contactor)
-  Travel travel;                         ///< up to the positions of now
-  std::vector<ContactCouple> fresh;      ///< made by fracture since the last forces; by (point id, contactor)
+  /// m: every search finds the points that are so near to the box of a contactor.
+  double near = std::numeric_limits<double>::infinity();
+  std::vector<ContactCouple> couples;  ///< by (point id, contactor)
+  Travel travel;                       ///< up to the positions of now
+  std::vector<ContactCouple> fresh;    ///< made by fracture since the last forces; by (point id, contactor)
 
   std::vector<std::uint8_t> relevant;  ///< (num_slots) 1: forces on it are evaluated on this rank; empty: on all
 

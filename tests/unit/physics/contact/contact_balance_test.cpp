@@ -60,11 +60,53 @@ TEST(contact_balance, an_impact_returns_its_energy_wherever_in_a_step_it_begins_
 
 TEST(contact_balance, adds_nothing_to_a_contact_at_rest_or_beyond_what_a_step_can_leave_over) {
   constexpr double k = 100, out = 0.1, work = 2, most = kLargestWorkError * k * out * out;
-  EXPECT_EQ(balancing_share(0, work, k, out), 0);
-  EXPECT_EQ(balancing_share(0.1, work, k, 0), 0);
-  EXPECT_EQ(balancing_share(1.01 * most, 10 * work, k, out), 0);
-  EXPECT_NEAR(balancing_share(0.5 * most, work, k, out), -0.5 * most / work, 1e-15);
-  EXPECT_EQ(balancing_share(0.99 * most, 0.1 * most, k, out), 0) << "no more than half of the force";
+  EXPECT_EQ(balancing_shares(0, 0, work, k, out).own, 0);
+  EXPECT_EQ(balancing_shares(0.1, 0, work, k, 0).own, 0);
+  EXPECT_EQ(balancing_shares(1.01 * most, 0, 10 * work, k, out).own, 0);
+  EXPECT_NEAR(balancing_shares(0.5 * most, 0, work, k, out).own, -0.5 * most / work, 1e-15);
+  EXPECT_EQ(balancing_shares(0.99 * most, 0, 0.1 * most, k, out).own, 0) << "no more than half of the force";
+}
+
+TEST(contact_balance, puts_right_what_earlier_overlaps_left_as_far_as_one_step_can) {
+  constexpr double k = 100, out = 0.1, work = 2, most = kLargestWorkError * k * out * out;
+  for (const double left : {-0.4 * most, 0.4 * most})
+    EXPECT_NEAR(balancing_shares(0, left, work, k, out).before, -left / work, 1e-15);
+  EXPECT_NEAR(balancing_shares(0, -7 * most, work, k, out).before, most / work, 1e-15) << "the rest later";
+  EXPECT_NEAR(balancing_shares(0, 7 * most, -work, k, out).before, most / work, 1e-15) << "on the way in as well";
+  const BalancingShares both = balancing_shares(0.8 * most, 7 * most, work, k, out);
+  EXPECT_NEAR(both.own + both.before, -most / work, 1e-15) << "its own overlap comes first";
+  EXPECT_NEAR(balancing_shares(0, 7 * most, 0.1 * most, k, out).before, -0.5, 1e-15) << "half of the force at most";
+}
+
+/// Largest change of the energy of a mass that falls on a contact again and again with steps of 1 s, as a share of the
+/// energy of its motion. @param omega  rad/s, of the mass on the contact;  @param flight  s, from bounce to bounce
+double drift_of_bounces(double omega, double flight) {
+  constexpr double speed = 1e-4;  // m/s, with which it meets the contact
+  constexpr int kSteps = 3000;
+  const double gravity = 2 * speed / flight, fall = 0.25 * speed * flight;
+  Press press(-fall, {kPenalty, kInfinite, 1, 0, 1});
+  const double mass = Press::area() * kPenalty / press.scene.contact.body_length[0] / (omega * omega);
+  const double first = mass * gravity * fall;
+  double v = -0.5 * gravity, height = fall, drift = 0;
+  int touched = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double force = press.move(v), before = v;
+    height += v;
+    v += force / mass - gravity;
+    touched += press.scene.work.touching > 0 ? 1 : 0;
+    const double energy = 0.5 * mass * v * before + mass * gravity * height + press.scene.work.stored.value();
+    drift = std::max(drift, std::abs(energy / first - 1));
+  }
+  EXPECT_GT(touched, kSteps / 20) << "bounces";
+  EXPECT_LT(touched, kSteps - kSteps / 20) << "comes off";
+  return drift;
+}
+
+TEST(contact_balance, holds_the_energy_of_a_mass_that_bounces_hundreds_of_times_in_contacts_of_a_few_steps) {
+  // What one contact leaves over where it begins and where it ends, each kLargestWorkError k D^2 or omega^2 / 4 of the
+  // energy of the motion, and not the sum of all.
+  for (const auto& [omega, flight] : {std::pair{0.3, 7.3}, {0.5, 7.3}, {0.5, 11.7}})
+    EXPECT_LT(drift_of_bounces(omega, flight), 0.5 * omega * omega) << omega << " " << flight;
 }
 
 TEST(contact_balance, a_closing_force_pulls_no_more_than_was_pushed_and_only_where_energy_was_gained) {

@@ -59,6 +59,23 @@ TEST(sliding, a_point_that_is_deep_inside_at_once_starts_without_force) {
   EXPECT_LT(drag.move({0.005, 0, 0}).norm(), 0.11 * area() * kPenalty * 0.1 / drag.scene.contact.body_length[0]);
 }
 
+TEST(sliding, over_an_edge_is_not_pushed_back_by_the_side_that_the_point_comes_in_through) {
+  // The point looks down and comes in through the side x = 0, nearer to it at first than to the face on top.
+  constexpr double depth = 0.05, step = 0.005;
+  Drag drag({kPenalty, kInfinite, 1, 0, 1}, depth);
+  drag.scene.shift(1, {-1.2, 0, 0});
+  drag.move({0, 0, 0});
+  ASSERT_TRUE(drag.scene.contact.touching.empty()) << "outside";
+  const double full = area() * kPenalty * depth / drag.scene.contact.body_length[0];
+  constexpr double kSmall = step / depth;  // of the force at that depth: the nearest side changes within a step
+  for (double way = 0; way < 0.5; way += step)
+    ASSERT_NEAR(drag.move({step, 0, 0}).norm() / full, 0, kSmall) << "after " << way << " m";
+  ASSERT_FALSE(drag.scene.contact.touching.empty()) << "inside";
+  const Vec3 pressed = drag.move({0, 0, -0.2 * depth});
+  EXPECT_NEAR(pressed[2] / full, 0.2, kSmall) << "the face on top holds it";
+  EXPECT_NEAR(std::hypot(pressed[0], pressed[1]) / full, 0, kSmall);
+}
+
 TEST(sliding, hands_the_history_from_element_to_element) {
   // Pressed in to 0.1, lifted to 0.05, then dragged: the force must stay on the unloading curve all the way.
   Drag drag({kPenalty, kInfinite, 2, 0, 1}, 0.1);
