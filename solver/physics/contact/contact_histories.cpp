@@ -148,9 +148,9 @@ void Pass::end(const ContactPoint& point, const TouchingCouple& last, const Vec3
   h.gained = 0;
 }
 
-/// Whether the nearest side of the surface does not look towards the face of the point: the front of a block, say, where
-/// a point of the floor comes in just above the lower edge. Pushed back there it would stop the block, which slides over
-/// it. Without motion the places have been given, not moved to.
+/// Whether the nearest side of the surface does not look towards the face of the point: the front of a block, say,
+/// where a point of the floor comes in just above the lower edge. Pushed back there it would stop the block, which
+/// slides over it. Without motion the places have been given, not moved to.
 bool Pass::comes_from_beside(const ContactPoint& point, const Candidate& candidate) const {
   if (relative_motion(point, slot_of(candidate.contactor), candidate.lambda) == Vec3::Zero()) return false;
   const double* x = state_.position.data();
