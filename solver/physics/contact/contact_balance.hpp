@@ -33,6 +33,11 @@ struct BalancingShares {
   return {-own / work, -earlier / work};
 }
 
+/// Gap beyond which what a couple has left over is forgotten, over the motion within which a step can leave so much.
+/// Undamped platens on rock lose 17 % of the energy in 20,000 steps where all is forgotten at once, 4 % with 16, 1 %
+/// with 32, 0.06 % with 128, 0.03 % with 1000. What flies apart is soon farther away.
+inline constexpr double kRememberedGap = 1000;
+
 /// Force of a couple whose overlap has ended, N: takes back what it has gained, over this step and the next one,
 /// assuming that the next motion equals this one. None on the way in, or where there is next to nothing left. Never
 /// larger than the force before, and in a step at most twice what this motion could have left over: a larger force

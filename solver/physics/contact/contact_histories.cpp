@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "physics/contact/contact_balance.hpp"
 #include "physics/contact/contact_field.hpp"
@@ -12,11 +13,9 @@ namespace breccia::contact_pass {
 /// couple: the force would end within a step, and with it the energy that the couple holds.
 void Pass::bridge_gaps(Index point) {
   const std::vector<TouchingCouple>& old = contact_.touching_before;
-  const GlobalId id = contact_.id(point);
-  std::size_t k = old_;
-  while (k < old.size() && contact_.id(old[k].point) < id) ++k;
+  forget_before(point);
   const std::size_t inside_one = candidates_.size();
-  for (; k < old.size() && old[k].point == point; ++k) {
+  for (std::size_t k = old_; k < old.size() && old[k].point == point; ++k) {
     const auto here = std::find_if(beside_.begin(), beside_.end(),
                                    [&](const Candidate& c) { return c.contactor == old[k].contactor; });
     if (here == beside_.end() || !(old[k].d > 0)) continue;
@@ -55,10 +54,16 @@ void Pass::drop_ambiguous() {
   candidates_.resize(kept);
 }
 
-void Pass::find_histories(Index point) {
+/// Points come in ascending order: what is left of those before is over.
+void Pass::forget_before(Index point) {
   const std::vector<TouchingCouple>& old = contact_.touching_before;
   const GlobalId id = contact_.id(point);
   while (old_ < old.size() && contact_.id(old[old_].point) < id) forget(old[old_++]);
+}
+
+void Pass::find_histories(Index point) {
+  const std::vector<TouchingCouple>& old = contact_.touching_before;
+  forget_before(point);
   const std::size_t first = old_;
   while (old_ < old.size() && old[old_].point == point) ++old_;
   if (old_ > first) take_over(first, old_);
@@ -119,13 +124,15 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   // A contactor that was crushed while it was touched gives nothing back.
   if (crushed) return account(point, work_.dissipated).add(normal_held(point, old));
   // A point that has not left through the surface: a crack has opened under it, and what the couple held is gone.
-  if (overlap_value(overlap_shape(params_, local_, contact_, old.contactor), lambda) > 0)
-    return account(point, work_.dissipated).add(normal_held(point, old));
+  const double overlap = overlap_value(overlap_shape(params_, local_, contact_, old.contactor), lambda);
+  if (overlap > 0) return account(point, work_.dissipated).add(normal_held(point, old));
   TouchingCouple ended{.point = old.point, .contactor = old.contactor, .gained_before = old.gained_before};
   ended.gained = old.gained + 0.5 * old.force.dot(motion) - held(point, old) + lost;
   end(point, old, motion, lambda, ended);
-  if (ended.force != Vec3::Zero() || (ended.gained_before != 0 && is_near(lambda, corners, place)))
-    contact_.touching.push_back(ended);
+  const double remembered = overlap / kRememberedGap;  // m
+  const double least = kLargestWorkError * stiffness(point, ended) * remembered * remembered;
+  const bool matters = std::abs(ended.gained_before) > least;
+  if (ended.force != Vec3::Zero() || (matters && is_near(lambda, corners, place))) contact_.touching.push_back(ended);
 }
 
 /// Whether the point of a couple that has ended may soon touch again. Every search finds those that are so near, so all

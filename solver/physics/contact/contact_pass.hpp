@@ -72,6 +72,7 @@ class Pass {
   void bridge_gaps(Index point);
   void touch_point(Index point);
   void drop_ambiguous();
+  void forget_before(Index point);
   void find_histories(Index point);
   void take_over(std::size_t first, std::size_t last);
   void forget(const TouchingCouple& old, double lost = 0);
