@@ -104,21 +104,17 @@ struct Overlap {
   return row_value(shape, least_row(shape, lambda), lambda);
 }
 
-/// Gradient of a function with respect to the point, -. @pre 0 <= k < rows
-[[nodiscard]] inline Vec3 row_gradient(const OverlapShape& shape, std::size_t k, const PreparedTetra& tetra) {
-  const std::array<double, 4>& slope = shape.row[k];
-  Vec3 gradient = Vec3::Zero();
-  for (std::size_t c = 1; c < 4; ++c) {
-    const std::array<double, 3>& row = tetra.gradient[c - 1];
-    gradient += (slope[c] - slope[0]) * Vec3(row[0], row[1], row[2]);
-  }
-  return gradient;
-}
-
 [[nodiscard]] inline Overlap overlap(const OverlapShape& shape, const PreparedTetra& tetra,
                                      const std::array<double, 4>& lambda) {
   const std::size_t least = least_row(shape, lambda);
-  return {row_value(shape, least, lambda), row_gradient(shape, least, tetra)};
+  const std::array<double, 4>& slope = shape.row[least];
+  Overlap result;
+  result.g = row_value(shape, least, lambda);
+  for (std::size_t c = 1; c < 4; ++c) {
+    const std::array<double, 3>& row = tetra.gradient[c - 1];
+    result.gradient += (slope[c] - slope[0]) * Vec3(row[0], row[1], row[2]);
+  }
+  return result;
 }
 
 /// Corners of an element out of a nodal field.
