@@ -4,13 +4,15 @@
 #include <vtkOutputStream.h>
 #include <vtkSmartPointer.h>
 
+#include <array>
+#include <cstring>
 #include <string>
 #include <vector>
 
 namespace breccia::insitu {
 
-/// What vtkBase64OutputStream writes, but in one piece: that one hands every four characters to the stream by
-/// themselves, which took half of the time of a large file.
+/// What vtkBase64OutputStream writes, but in one piece, three bytes by two look-ups: that one makes and hands over every
+/// four characters by themselves, which took half of the time of a large file.
 class Base64Stream : public vtkOutputStream {
  public:
   vtkTypeMacro(Base64Stream, vtkOutputStream) static Base64Stream* New();
@@ -26,9 +28,16 @@ class Base64Stream : public vtkOutputStream {
   }
   int EndWriting() override {
     text_.resize((bytes_.size() + 2) / 3 * 4);
-    const auto length = vtkBase64Utilities::Encode(bytes_.data(), static_cast<unsigned long>(bytes_.size()),
-                                                   reinterpret_cast<unsigned char*>(text_.data()));
-    return WriteStream(text_.data(), length);
+    const std::size_t whole = bytes_.size() / 3 * 3;
+    char* to = text_.data();
+    for (const unsigned char* from = bytes_.data(); from != bytes_.data() + whole; from += 3, to += 4) {
+      std::memcpy(to, kPairs[std::size_t{from[0]} << 4 | from[1] >> 4].data(), 2);
+      std::memcpy(to + 2, kPairs[(from[1] & 15U) << 8 | from[2]].data(), 2);
+    }
+    // What is left, with its padding.
+    vtkBase64Utilities::Encode(bytes_.data() + whole, static_cast<unsigned long>(bytes_.size() - whole),
+                               reinterpret_cast<unsigned char*>(to));
+    return WriteStream(text_.data(), text_.size());
   }
 
  protected:
@@ -36,11 +45,20 @@ class Base64Stream : public vtkOutputStream {
   ~Base64Stream() override = default;
 
  private:
+  /// The two characters of every twelve bits.
+  static constexpr auto kPairs = [] {
+    constexpr char kAlphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::array<std::array<char, 2>, 4096> pairs{};
+    for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i] = {kAlphabet[i >> 6], kAlphabet[i & 63]};
+    return pairs;
+  }();
+
   std::vector<unsigned char> bytes_;
   std::string text_;
 };
 
-/// A writer of VTK's XML formats that uses it.
+/// A writer of VTK's XML formats that uses it, and leaves out each array's range: readers need none, and looking for them
+/// took a third of the time of a file.
 template <class Writer>
 class WithBase64Stream : public Writer {
  public:
@@ -54,6 +72,13 @@ class WithBase64Stream : public Writer {
   WithBase64Stream() {
     const auto stream = vtkSmartPointer<Base64Stream>::New();
     this->SetDataStream(stream);
+  }
+
+  void WriteArrayInline(vtkAbstractArray* array, vtkIndent indent, const char* name, int write_num_tuples) override {
+    this->WriteArrayHeader(array, indent, name, write_num_tuples, 0);
+    *this->Stream << ">\n";
+    this->WriteInlineData(array, indent.GetNextIndent());
+    this->WriteArrayFooter(*this->Stream, indent, array, 0);
   }
 };
 

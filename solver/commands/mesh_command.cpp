@@ -62,7 +62,7 @@ int mesh(const MeshCommand& asked) {
   const Domain rest(model, search_params(input, model));
   const FrameParts elements{true, false, false};
   VtkhdfSink(asked.folder, elements)
-      .frame(make_frame(rest, 0, elements, {find_fragments(rest), Balance().weights(rest)}));
+      .frame(make_frame(rest, 0, elements, {find_fragments(rest), {}, Balance().weights(rest)}));
   if (asked.json) {
     fmt::print("{}", mesh_json({model.mesh, model.mesh_report}, &model.topology.surface_groups));
     return 0;

@@ -93,9 +93,15 @@ const Fragments& FragmentWatch::look(const Domain& domain, std::int64_t decompos
   const std::int64_t broken = domain.exchange.communicator().sum(domain.state.joints.broken);
   if (broken == broken_ && decompositions == decompositions_) return fragments_;
   fragments_ = find_fragments(domain);
+  faces_.reset();
   broken_ = broken;
   decompositions_ = decompositions;
   return fragments_;
+}
+
+const std::vector<SurfaceFace>& FragmentWatch::free_faces(const Domain& domain) {
+  if (!faces_) faces_ = surface_faces(domain);
+  return *faces_;
 }
 
 }  // namespace breccia

@@ -8,7 +8,6 @@
 #include "base/error.hpp"
 #include "mesh/tetrahedron.hpp"
 #include "observe/corner_values.hpp"
-#include "observe/free_faces.hpp"
 #include "observe/shown_memory.hpp"
 #include "physics/cauchy_stress.hpp"
 #include "physics/contact/overlap.hpp"
@@ -76,33 +75,21 @@ void add_elements(const Domain& domain, const Fragments& fragments, Frame::Eleme
   add_memory(domain, slots, out);
 }
 
-const FaceLink& link_of(const Model& model, Index slot, int face) {
-  return model.topology.links[at(model.local.mesh_element[at(slot)])][at(face)];
-}
-
 /// @param places  out: (3 faces) of the faces' corners, 4 original + corner
-void add_surface(const Domain& domain, const Fragments& fragments, const std::vector<double>& cost, Frame::Surface& out,
+void add_surface(const Domain& domain, const FrameLabels& labels, Frame::Surface& out,
                  std::vector<std::size_t>& places) {
   const LocalMesh& local = domain.model.local;
-  const FreeFaces free(domain);
   std::vector<Index> slots;
-  std::size_t original = 0;
-  for (const Index slot : local.slot_of_element) {
-    if (!local.is_original(slot)) continue;
-    for (int face = 0; face < 4; ++face) {
-      if (!free(slot, face)) continue;
-      for (const int corner : kFaceCorners[at(face)]) {
-        append(out.cells.points, load_node(domain.state.nodes.position.data(), local.corner_node(slot, corner)));
-        places.push_back(4 * original + at(corner));
-      }
-      add_cell(domain, fragments, slot, out.cells);
-      slots.push_back(slot);
-      out.cells.cost.push_back(cost[original]);
-      out.face.push_back(face);
-      const bool broken_off = link_of(domain.model, slot, face).neighbour == FaceLink::kBeyond;
-      out.crack.push_back(broken_off || domain.derived.joint_at(slot, face) >= 0 ? 1 : 0);
+  for (const auto& [slot, original, face, crack] : labels.faces) {
+    for (const int corner : kFaceCorners[at(face)]) {
+      append(out.cells.points, load_node(domain.state.nodes.position.data(), local.corner_node(slot, corner)));
+      places.push_back(4 * at(original) + at(corner));
     }
-    ++original;
+    add_cell(domain, labels.fragments, slot, out.cells);
+    slots.push_back(slot);
+    out.cells.cost.push_back(labels.cost[at(original)]);
+    out.face.push_back(face);
+    out.crack.push_back(crack ? 1 : 0);
   }
   add_memory(domain, slots, out.cells);
 }
@@ -251,7 +238,7 @@ Frame make_frame(const Domain& domain, std::int64_t number, const FrameParts& pa
     frame.elements.cost = labels.cost;
   }
   std::vector<std::size_t> places;
-  if (parts.surface) add_surface(domain, labels.fragments, labels.cost, frame.surface, places);
+  if (parts.surface) add_surface(domain, labels, frame.surface, places);
   if (parts.at_points) {
     Frame::AtPoints values = corner_values(domain);
     if (parts.surface) frame.surface.cells.at_points = picked(values, places);

@@ -4,15 +4,17 @@
 
 #include "discretisation/fragments.hpp"
 #include "domains/domain.hpp"
+#include "observe/free_faces.hpp"
 #include "output/frame.hpp"
 
 namespace breccia {
 
 /// What a picture shows besides the domain's state.
 struct FrameLabels {
-  const Fragments& fragments;  ///< of the elements, for elements and surface
-  std::vector<double> cost;    ///< (originals) relative, ascending by id, for elements and surface
-  double load = 1;             ///< working time of this rank over that of the mean rank, for the domain
+  const Fragments& fragments;             ///< of the elements, for elements and surface
+  const std::vector<SurfaceFace>& faces;  ///< all free ones, for the surface
+  std::vector<double> cost;               ///< (originals) relative, ascending by id, for elements and surface
+  double load = 1;                        ///< working time of this rank over that of the mean rank, for the domain
 };
 
 /// A picture of this rank's originals at the domain's time; looks, changes nothing. Collective with values at points.

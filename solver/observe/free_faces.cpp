@@ -24,4 +24,24 @@ bool FreeFaces::operator()(Index slot, int face) const {
   return held_[at(slot) * 4 + at(face)] == 0;
 }
 
+std::vector<SurfaceFace> surface_faces(const Domain& domain) {
+  const Model& model = domain.model;
+  const auto link_of = [&](Index slot, int face) -> const FaceLink& {
+    return model.topology.links[at(model.local.mesh_element[at(slot)])][at(face)];
+  };
+  const FreeFaces free(domain);
+  std::vector<SurfaceFace> faces;
+  Index original = 0;
+  for (const Index slot : model.local.slot_of_element) {
+    if (!model.local.is_original(slot)) continue;
+    for (int face = 0; face < 4; ++face) {
+      if (!free(slot, face)) continue;
+      const bool broken_off = link_of(slot, face).neighbour == FaceLink::kBeyond;
+      faces.push_back({slot, original, face, broken_off || domain.derived.joint_at(slot, face) >= 0});
+    }
+    ++original;
+  }
+  return faces;
+}
+
 }  // namespace breccia

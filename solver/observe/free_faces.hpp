@@ -20,4 +20,15 @@ class FreeFaces {
   std::vector<std::uint8_t> held_;  ///< (slots, 4) 1: by an active joint
 };
 
+/// A free face of an original.
+struct SurfaceFace {
+  Index slot;
+  Index original;  ///< place of its element among the originals, ascending by id
+  std::int32_t face;
+  bool crack;  ///< laid bare by a joint that failed, not of the body's surface
+};
+
+/// All free faces of a rank's originals, ascending by element and face. O(elements + active joints)
+[[nodiscard]] std::vector<SurfaceFace> surface_faces(const Domain& domain);
+
 }  // namespace breccia

@@ -118,11 +118,13 @@ HistoryRow Observer::row(double time) {
 }
 
 Frame Observer::picture(std::int64_t number, const FrameParts& parts) {
-  static const Fragments none;
+  static const Fragments no_fragments;
+  static const std::vector<SurfaceFace> no_faces;
   const bool labelled = parts.elements || parts.surface;
   return make_frame(
       partition_.domain(), number, parts,
-      {labelled ? labels() : none, labelled ? partition_.costs() : std::vector<double>{}, partition_.load()});
+      {labelled ? labels() : no_fragments, parts.surface ? fragments_.free_faces(partition_.domain()) : no_faces,
+       labelled ? partition_.costs() : std::vector<double>{}, partition_.load()});
 }
 
 }  // namespace breccia

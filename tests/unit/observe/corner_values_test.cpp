@@ -24,7 +24,7 @@ class CornerValues : public testing::Test, protected test::CubesDomain {
   [[nodiscard]] Frame picture() const {
     const FrameParts parts{
         .elements = true, .joints = false, .contacts = false, .surface = true, .domain = false, .at_points = true};
-    return make_frame(domain, 0, parts, {find_fragments(domain), Balance().weights(domain)});
+    return make_frame(domain, 0, parts, {find_fragments(domain), surface_faces(domain), Balance().weights(domain)});
   }
   /// Every element pulled and sheared differently, by its place.
   void deform() {
@@ -136,7 +136,8 @@ TEST_F(CornerValues, of_the_surface_are_those_of_its_elements) {
 
 TEST_F(CornerValues, are_made_where_they_are_asked_for_alone) {
   const FrameParts parts{.elements = true, .joints = false, .contacts = false, .surface = true, .domain = false};
-  const Frame frame = make_frame(domain, 0, parts, {find_fragments(domain), Balance().weights(domain)});
+  const Frame frame =
+      make_frame(domain, 0, parts, {find_fragments(domain), surface_faces(domain), Balance().weights(domain)});
   EXPECT_TRUE(frame.elements.at_points.displacement.empty());
   EXPECT_TRUE(frame.surface.cells.at_points.displacement.empty());
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "simulation/step.hpp"
 #include "unit/observe/two_cubes.hpp"
 
@@ -19,6 +21,21 @@ TEST_F(FragmentLabels, ChangeWhenJointsHaveFailed) {
   const Fragments& now = watch.look(domain, 1);
   EXPECT_EQ(now.count, 2);
   EXPECT_EQ(now.of_slot, find_fragments(domain).of_slot);
+}
+
+TEST_F(FragmentLabels, ComeWithTheFreeFacesOfTheSameInstant) {
+  const auto cracks = [](const std::vector<SurfaceFace>& faces) {
+    return std::count_if(faces.begin(), faces.end(), [](const SurfaceFace& face) { return face.crack; });
+  };
+  FragmentWatch watch;
+  static_cast<void>(watch.look(domain, 1));
+  const std::size_t outside = watch.free_faces(domain).size();
+  EXPECT_EQ(cracks(watch.free_faces(domain)), 0);
+  break_joints(domain, faces_of_surface(model, "box.slit"));
+  step(domain);
+  static_cast<void>(watch.look(domain, 1));
+  EXPECT_EQ(cracks(watch.free_faces(domain)), 8) << "four faces, both sides";
+  EXPECT_EQ(watch.free_faces(domain).size(), outside + 8);
 }
 
 TEST_F(FragmentLabels, AreAlikeInACubeAndDifferInTheOther) {

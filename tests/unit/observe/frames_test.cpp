@@ -22,7 +22,7 @@ class TwoCubes : public testing::Test, protected test::CubesDomain {
  protected:
   [[nodiscard]] Frame picture() const {
     const FrameParts parts{.elements = true, .joints = true, .contacts = true, .surface = true, .domain = true};
-    return make_frame(domain, 0, parts, {find_fragments(domain), Balance().weights(domain)});
+    return make_frame(domain, 0, parts, {find_fragments(domain), surface_faces(domain), Balance().weights(domain)});
   }
 };
 
@@ -133,7 +133,7 @@ TEST_F(TouchingCubes, show_a_contact_for_each_element_that_a_point_touches_with_
     contact.touching.push_back(couple);
   }
   const FrameParts parts{.elements = false, .joints = false, .contacts = true, .surface = false, .domain = false};
-  const Frame frame = make_frame(domain, 0, parts, {find_fragments(domain), {}});
+  const Frame frame = make_frame(domain, 0, parts, {find_fragments(domain), {}, {}});
   const Frame::Contacts& shown = frame.contacts;
   ASSERT_EQ(shown.id.size(), 2U);
   EXPECT_EQ(shown.point[0], shown.point[1]);
