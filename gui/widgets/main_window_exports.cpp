@@ -1,3 +1,4 @@
+#include <QBuffer>
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -143,8 +144,11 @@ void MainWindow::open_paraview() {
 void MainWindow::save_picture() {
   const QString name = QFileDialog::getSaveFileName(this, tr("Save the picture as"),
                                                     document_.folder() + "/picture.png", tr("Pictures (*.png)"));
-  if (!name.isEmpty() && !view_->picture().save(name))
-    QMessageBox::warning(this, tr("Breccia"), tr("%1 cannot be written.").arg(name));
+  if (name.isEmpty()) return;
+  QBuffer png;
+  view_->picture().save(&png, "PNG");
+  if (const QString error = written(name, png.data()); !error.isEmpty())
+    QMessageBox::warning(this, tr("Breccia"), error);
 }
 
 }  // namespace breccia::gui

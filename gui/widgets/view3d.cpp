@@ -1,14 +1,16 @@
 #include "widgets/view3d.hpp"
+#include "widgets/folding_bar.hpp"
 
 #include <vtkInteractorStyleTrackballCamera.h>
 #include <vtkRenderWindowInteractor.h>
 
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QMouseEvent>
 #include <QPushButton>
 #include <QSet>
 #include <QVBoxLayout>
+
+#include "widgets/folding_bar.hpp"
 
 namespace breccia::gui {
 
@@ -69,6 +71,7 @@ View3D::View3D(QWidget* parent)
   });
   explode_->setObjectName("explode");
   explode_->setRange(0, 100);
+  explode_->setMinimumWidth(60);
   explode_->setMaximumWidth(120);
   explode_->setAccessibleName(tr("Explode"));
   explode_->setToolTip(tr("Moves the parts of different ranks away from each other"));
@@ -85,21 +88,19 @@ View3D::View3D(QWidget* parent)
     render();
   });
 
-  auto* bar = new QHBoxLayout;
+  auto* bar = new FoldingBar;
   auto* label = new QLabel(tr("&Colour by"));
   label->setBuddy(colour_);
-  bar->addWidget(label);
-  bar->addWidget(colour_);
-  bar->addWidget(edges_);
-  bar->addWidget(skin_);
-  bar->addWidget(loads_);
-  bar->addWidget(new QLabel(tr("Explode")));
-  bar->addWidget(explode_);
-  bar->addStretch();
-  bar->addWidget(fit);
+  for (QWidget* widget : {static_cast<QWidget*>(label), static_cast<QWidget*>(colour_), static_cast<QWidget*>(edges_),
+                          static_cast<QWidget*>(skin_), static_cast<QWidget*>(loads_)})
+    bar->row(0)->addWidget(widget);
+  bar->row(1)->addWidget(new QLabel(tr("Explode")));
+  bar->row(1)->addWidget(explode_);
+  bar->row(1)->addStretch();
+  bar->row(1)->addWidget(fit);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(2, 2, 2, 2);
-  column->addLayout(bar);
+  column->addWidget(bar);
   column->addWidget(canvas_, 1);
 }
 

@@ -12,6 +12,7 @@
 #include <QTimer>
 #include <QTreeWidget>
 #include <algorithm>
+#include <functional>
 #include <memory>
 
 #include "gui/block_case.hpp"
@@ -102,9 +103,14 @@ struct Desk {
     QTest::keyClicks(widget, text);
   }
 
-  /// Clicks a button that opens the dialog for files, and types a name there; the key of return again while the dialog
-  /// stays, since it takes no name before it has read the folder.
+  /// Clicks a button that opens the dialog for files, and types a name there.
   void click_and_name(const QString& button, const QString& file) {
+    name_in_dialog([&] { click(button); }, file);
+  }
+
+  /// Types a name into the dialog for files that `open` opens; the key of return again while the dialog stays, since it
+  /// takes no name before it has read the folder.
+  void name_in_dialog(const std::function<void()>& open, const QString& file) {
     QTimer typing;
     QObject::connect(&typing, &QTimer::timeout, window.get(), [this, file] {
       auto* dialog = window->findChild<QFileDialog*>();
@@ -118,7 +124,7 @@ struct Desk {
       QTest::keyClick(name, Qt::Key_Return);
     });
     typing.start(500);
-    click(button);
+    open();
     typing.stop();
     window->activateWindow();
     (void)QTest::qWaitForWindowActive(window.get());

@@ -2,6 +2,7 @@
 
 #include <QAbstractButton>
 #include <QLabel>
+#include <QSlider>
 #include <QTabBar>
 
 #include "gui/desk.hpp"
@@ -80,6 +81,25 @@ TEST(HighDpi, EveryStageAndPanelHasRoomForItsTextsAndTheViewIsDrawnAndPickedInPi
   QTest::mouseClick(canvas, Qt::LeftButton, {}, desk.place_of("block"));
   EXPECT_TRUE(desk.find<QWidget>("field:material[0].young")->isVisible());
   desk.picture("block" + suffix);
+}
+
+TEST(SmallScreen, EveryStageFitsAndItsSlidersCanBeMoved) {
+  constexpr QSize kScreen(1024, 700);
+  constexpr int kSlider = 60;  // pixels
+  Desk desk;
+  desk.window->open_path(QString(BRECCIA_MESHES) + "/block_wall/case_smoke.toml");
+  ASSERT_TRUE(wait_until([&] { return desk.window->view().scene().has_data() && !desk.window->busy(); }, kSolver));
+  desk.window->resize(kScreen);
+  for (const char* stage : {"mesh", "material: block", "domains", "Run", "Results"}) {
+    desk.click_stage(stage);
+    EXPECT_EQ(cut_for_good(*desk.window), "") << stage;
+    EXPECT_EQ(desk.window->size(), kScreen) << stage;
+    for (const auto* slider : desk.window->findChildren<QSlider*>()) {
+      if (!slider->isVisible()) continue;
+      EXPECT_GE(slider->width(), kSlider) << stage << ": " << slider->objectName().toStdString();
+    }
+  }
+  desk.picture("small_screen");
 }
 
 }  // namespace

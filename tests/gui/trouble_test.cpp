@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <QAbstractButton>
+#include <QAction>
 #include <QLabel>
 #include <QListWidget>
 #include <QMessageBox>
 
 #include "gui/desk.hpp"
+#include "gui/full_disk.hpp"
 
 namespace breccia::gui::test {
 namespace {
@@ -195,6 +197,36 @@ TEST(Trouble, ACaseWhoseFileIsGoneIsWrittenAgainBeforeItIsRun) {
   desk.window->open_path(file);
   ASSERT_TRUE(QFile::remove(file));
   QTest::keyClick(desk.window.get(), Qt::Key_F5);
+  ASSERT_TRUE(completes(desk));
+  EXPECT_EQ(content(file), turning_case("50 us"));
+}
+
+TEST(Trouble, AFullDiskIsToldWhereSomethingIsSavedAndNothingIsLost) {
+  Desk desk;
+  const QString file = written_case(desk.scratch, turning_case("100 us")), picture = desk.scratch.filePath("p.png");
+  desk.window->open_path(file);
+  ASSERT_TRUE(wait_until([&] { return desk.window->view().scene().has_data() && !desk.window->busy(); }, kSolver));
+  desk.window->document().set_value("stage[0].end", "\"50 us\"");
+  const auto save_picture = [&] {
+    for (QAction* action : desk.window->findChildren<QAction*>())
+      if (action->text() == "Save p&icture...") desk.name_in_dialog([&] { action->trigger(); }, picture);
+  };
+  {
+    const FullDisk full;
+    const Answer ok(QMessageBox::Ok);
+    press(desk);
+    EXPECT_EQ(ok.words().filter("File too large").size(), 1) << ok.words().join("\n").toStdString();
+    EXPECT_EQ(desk.window->run(), nullptr) << "runs a case that is not in its file";
+    save_picture();
+    EXPECT_EQ(ok.words().filter("p.png").size(), 1) << ok.words().join("\n").toStdString();
+  }
+  EXPECT_EQ(content(file), turning_case("100 us"));
+  EXPECT_FALSE(QFile::exists(picture));
+  EXPECT_TRUE(desk.window->document().modified());
+  EXPECT_EQ(desk.window->document().value("stage[0].end"), "\"50 us\"");
+  save_picture();
+  EXPECT_TRUE(content(picture).startsWith("\x89PNG"));
+  press(desk);
   ASSERT_TRUE(completes(desk));
   EXPECT_EQ(content(file), turning_case("50 us"));
 }
