@@ -24,6 +24,18 @@ void merge_few(std::vector<T>& many, const std::vector<T>& few, Before&& before)
   }
 }
 
+void group_by_point(ContactState& contact) {
+  contact.by_point.clear();
+  const std::vector<ContactCouple>& couples = contact.couples;
+  for (std::size_t i = 0; i < couples.size(); ++i) {
+    if (i == 0 || couples[i].point != couples[i - 1].point)
+      contact.by_point.push_back({static_cast<Index>(i), static_cast<Index>(i), couples[i].apart_until});
+    PointCouples& point = contact.by_point.back();
+    point.last = static_cast<Index>(i) + 1;
+    point.apart_until = std::min(point.apart_until, couples[i].apart_until);
+  }
+}
+
 }  // namespace
 
 void set_contactors(const LocalMesh& local, std::vector<Index> slots, ContactState& contact) {
@@ -57,6 +69,7 @@ void couples_replaced(ContactState& contact) {
     contact.place[c] = static_cast<Index>(contact.in_couples.size());
     contact.in_couples.push_back(static_cast<Index>(c));
   }
+  group_by_point(contact);
 }
 
 void add_fresh_couples(const std::vector<ContactCouple>& made, ContactState& contact) {
@@ -69,6 +82,7 @@ void add_fresh_couples(const std::vector<ContactCouple>& made, ContactState& con
     place = static_cast<Index>(contact.in_couples.size());
     contact.in_couples.push_back(couple.contactor);
   }
+  group_by_point(contact);
 }
 
 }  // namespace breccia

@@ -21,7 +21,7 @@ void sort_points(ContactState& contact);
 void couples_replaced(ContactState& contact);
 
 /// Merges couples made by fracture, which are not there yet, and lists them as fresh.
-/// @param made  sorted (ContactState::before), unique. O(n log(couples)) for n of them, and a move of the couples.
+/// @param made  sorted (ContactState::before), unique. O(couples), and O(n log(couples)) for n of them.
 void add_fresh_couples(const std::vector<ContactCouple>& made, ContactState& contact);
 
 }  // namespace breccia

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 
 #include "physics/contact/contact_balance.hpp"
 #include "physics/contact/contact_field.hpp"
@@ -24,25 +26,27 @@ void Pass::run() {
   contact_.prepared.resize(contact_.in_couples.size());
   contact_.prepared_in.resize(contact_.in_couples.size(), 0);
 
-  std::vector<ContactCouple>& couples = contact_.couples;
-  const double* position = state_.position.data();
-  for (std::size_t i = 0; i < couples.size();) {
-    if (contact_.travel.at_most < couples[i].apart_until) {
-      ++i;
-      continue;
-    }
-    const Index point = couples[i].point;
-    const Vec3 x = at_point(rule_, point_at(point), position);
-    candidates_.clear();
-    beside_.clear();
-    for (; i < couples.size() && couples[i].point == point; ++i) {
-      if (!(contact_.travel.at_most < couples[i].apart_until)) look_at(couples[i], x);
-    }
-    if (!beside_.empty()) bridge_gaps(point);
-    if (!candidates_.empty()) touch_point(point);
+  for (PointCouples& couples : contact_.by_point) {
+    if (!(contact_.travel.at_most < couples.apart_until)) look_around(couples);
   }
   for (; old_ < contact_.touching_before.size(); ++old_) forget(contact_.touching_before[old_]);
   contact_.fresh.clear();
+}
+
+/// Looks for what the point is in, and does what follows.
+void Pass::look_around(PointCouples& couples) {
+  const std::span<ContactCouple> all{contact_.couples.data() + couples.first, contact_.couples.data() + couples.last};
+  const Index point = all.front().point;
+  const Vec3 x = at_point(rule_, point_at(point), state_.position.data());
+  candidates_.clear();
+  beside_.clear();
+  for (ContactCouple& couple : all) {
+    if (!(contact_.travel.at_most < couple.apart_until)) look_at(couple, x);
+  }
+  if (!beside_.empty()) bridge_gaps(point);
+  if (!candidates_.empty()) touch_point(point);
+  couples.apart_until = std::numeric_limits<double>::infinity();
+  for (const ContactCouple& couple : all) couples.apart_until = std::min(couples.apart_until, couple.apart_until);
 }
 
 /// Prepares the contactor where nobody has yet in this step.
@@ -64,18 +68,27 @@ void Pass::look_at(ContactCouple& couple, const Vec3& x) {
   if (inside(lambda)) {
     consider(couple.contactor, lambda);
   } else if (smallest(lambda) >= -kGap) {
-    beside_.push_back({couple.contactor, lambda, 0, 0, 0});
+    beside_.push_back({&couple, lambda});
   } else if (!inert(tetra)) {
     couple.apart_until = contact_.travel.counted + safe_travel(tetra, lambda, kGap);
   }
 }
 
+const OverlapShape& Pass::shape_of(Index contactor, Instant instant) const {
+  if (contact_.ramp_of_contactor[static_cast<std::size_t>(contactor)] < 0) instant = Instant::now;
+  if (contactor != shape_of_ || instant != shape_at_) {
+    shape_ = overlap_shape(params_, local_, contact_, contactor, instant);
+    shape_of_ = contactor;
+    shape_at_ = instant;
+  }
+  return shape_;
+}
+
 void Pass::consider(Index contactor, const std::array<double, 4>& lambda) {
   Candidate candidate{contactor, lambda, 0, 0, 0};
-  candidate.g = candidate.g_before = overlap_value(overlap_shape(params_, local_, contact_, contactor), lambda);
+  candidate.g = candidate.g_before = overlap_value(shape_of(contactor), lambda);
   if (contact_.ramp_of_contactor[static_cast<std::size_t>(contactor)] >= 0)
-    candidate.g_before =
-        overlap_value(overlap_shape(params_, local_, contact_, contactor, Instant::step_before), lambda);
+    candidate.g_before = overlap_value(shape_of(contactor, Instant::step_before), lambda);
   if (candidate.g > 0 || candidate.g_before > 0) candidates_.push_back(candidate);
 }
 
@@ -130,7 +143,7 @@ double Pass::follow(const ContactLaw& law, double scale, double length, const Ca
 
 /// Gradient of the overlap by the field of one step ago.
 Vec3 Pass::gradient_at(Index contactor, const PreparedTetra& tetra, const std::array<double, 4>& lambda) const {
-  return overlap(overlap_shape(params_, local_, contact_, contactor, Instant::step_before), tetra, lambda).gradient;
+  return overlap(shape_of(contactor, Instant::step_before), tetra, lambda).gradient;
 }
 
 /// The same where the point was one step ago.
@@ -209,8 +222,7 @@ void Pass::act(Index index, Candidate& candidate) {
 /// @return  J that the couple holds, and that friction and damping have dissipated
 double Pass::press(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
                    const Candidate& candidate, TouchingCouple& h) {
-  const Overlap here = overlap(overlap_shape(params_, local_, contact_, candidate.contactor),
-                               prepared(candidate.contactor), candidate.lambda);
+  const Overlap here = overlap(shape_of(candidate.contactor), prepared(candidate.contactor), candidate.lambda);
   Damping normal{point.weight * normal_law::stress(law, h.d, h.d_max), 0.0};
   if (law.damping > 0 && h.d > 0 && dt_ > 0 && here.gradient != Vec3::Zero())
     normal = damp(law, point, motion, candidate, here.gradient, normal.pressure);

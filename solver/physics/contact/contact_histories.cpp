@@ -10,18 +10,24 @@
 namespace breccia::contact_pass {
 
 /// A point that pressed on an element and is now in a joint that opens beside it, in none of its neighbours, keeps its
-/// couple: the force would end within a step, and with it the energy that the couple holds.
+/// couple: the force would end within a step, and with it the energy that the couple holds. A point that did not press
+/// has to come in first.
 void Pass::bridge_gaps(Index point) {
   const std::vector<TouchingCouple>& old = contact_.touching_before;
   forget_before(point);
   const std::size_t inside_one = candidates_.size();
-  for (std::size_t k = old_; k < old.size() && old[k].point == point; ++k) {
-    const auto here = std::find_if(beside_.begin(), beside_.end(),
-                                   [&](const Candidate& c) { return c.contactor == old[k].contactor; });
-    if (here == beside_.end() || !(old[k].d > 0)) continue;
+  for (const Beside& here : beside_) {
+    const Index contactor = here.couple->contactor;
+    bool pressed = false;
+    for (std::size_t k = old_; k < old.size() && old[k].point == point; ++k)
+      pressed = pressed || (old[k].contactor == contactor && old[k].d > 0);
+    if (!pressed) {
+      here.couple->apart_until = contact_.travel.counted + safe_travel(prepared(contactor), here.lambda, kInside);
+      continue;
+    }
     const bool goes_on = std::any_of(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(inside_one),
-                                     [&](const Candidate& c) { return are_neighbours(c.contactor, here->contactor); });
-    if (!goes_on) consider(here->contactor, here->lambda);
+                                     [&](const Candidate& c) { return are_neighbours(c.contactor, contactor); });
+    if (!goes_on) consider(contactor, here.lambda);
   }
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return a.contactor < b.contactor; });
@@ -110,12 +116,10 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   const PreparedTetra tetra = prepare(corners, local_.volume[static_cast<std::size_t>(slot)]);
   const bool crushed = inert(tetra);
   const Vec3 place = at_point(rule_, point, state_.position.data());
-  std::array<double, 4> lambda{};
-  Vec3 motion = Vec3::Zero();
-  if (!crushed) {
-    lambda = barycentric(tetra, place);
-    motion = relative_motion(point, slot, lambda);
-  }
+  const std::array<double, 4> lambda = crushed ? std::array<double, 4>{} : barycentric(tetra, place);
+  // What earlier overlaps have gained is all there is.
+  const bool over = has_ended(old) && old.gained == 0 && old.spring == Vec3::Zero() && lost == 0;
+  const Vec3 motion = crushed || over ? Vec3(Vec3::Zero()) : relative_motion(point, slot, lambda);
   if (old.friction != Vec3::Zero()) {
     const double released = released_by_friction(motion, spring_stiffness(point, old), old.spring);
     account(point, work_.friction_dissipated).add(released);
@@ -124,11 +128,13 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   // A contactor that was crushed while it was touched gives nothing back.
   if (crushed) return account(point, work_.dissipated).add(normal_held(point, old));
   // A point that has not left through the surface: a crack has opened under it, and what the couple held is gone.
-  const double overlap = overlap_value(overlap_shape(params_, local_, contact_, old.contactor), lambda);
+  const double overlap = overlap_value(shape_of(old.contactor), lambda);
   if (overlap > 0) return account(point, work_.dissipated).add(normal_held(point, old));
   TouchingCouple ended{.point = old.point, .contactor = old.contactor, .gained_before = old.gained_before};
-  ended.gained = old.gained + 0.5 * old.force.dot(motion) - held(point, old) + lost;
-  end(point, old, motion, lambda, ended);
+  if (!over) {
+    ended.gained = old.gained + 0.5 * old.force.dot(motion) - held(point, old) + lost;
+    end(point, old, motion, lambda, ended);
+  }
   const double remembered = overlap / kRememberedGap;  // m
   const double least = kLargestWorkError * stiffness(point, ended) * remembered * remembered;
   const bool matters = std::abs(ended.gained_before) > least;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "physics/contact/contact_field.hpp"
 #include "physics/contact/contact_forces.hpp"
 #include "physics/contact/contact_law.hpp"
 
@@ -40,6 +41,12 @@ struct Candidate {
   std::ptrdiff_t old = -1;  ///< index of its history among those of the last step, -1: none
 };
 
+/// A couple of the point at hand that lies just outside of the contactor.
+struct Beside {
+  ContactCouple* couple;
+  std::array<double, 4> lambda;
+};
+
 /// Whether nothing is left of the couple but what its overlaps have gained or lost.
 inline bool has_ended(const TouchingCouple& couple) {
   return !(couple.d > 0) && couple.offset == 0 && couple.force == Vec3::Zero();
@@ -68,6 +75,7 @@ class Pass {
 
  private:
   [[nodiscard]] const PreparedTetra& prepare_contactor(Index contactor);
+  void look_around(PointCouples& couples);
   void look_at(ContactCouple& couple, const Vec3& x);
   void bridge_gaps(Index point);
   void touch_point(Index point);
@@ -141,6 +149,8 @@ class Pass {
   [[nodiscard]] ExactSum& account(const ContactPoint& point, ExactSum& sum) {
     return local_.is_original(point.slot) ? sum : ignored_;
   }
+  /// The overlap functions of a contactor, good until the next call.
+  [[nodiscard]] const OverlapShape& shape_of(Index contactor, Instant instant = Instant::now) const;
   /// Adds the contactor to the candidates if its overlap is positive now or was so before the field moved.
   void consider(Index contactor, const std::array<double, 4>& lambda);
 
@@ -153,10 +163,15 @@ class Pass {
   ContactWork& work_;
   const FaceRule& rule_;
   std::vector<Candidate> candidates_;  ///< of the point at hand, ascending
-  std::vector<Candidate> beside_;      ///< the same of contactors that it lies just outside of
+  std::vector<Beside> beside_;         ///< of the same point, ascending
   std::vector<bool> taken_;            ///< old histories of the point at hand that live on
   std::size_t old_ = 0;                ///< first old history not yet looked at
   ExactSum ignored_;                   ///< what other ranks account
+
+  // The last shape that was asked for: several questions about a couple follow each other.
+  mutable OverlapShape shape_;
+  mutable Index shape_of_ = -1;
+  mutable Instant shape_at_ = Instant::now;
 };
 
 }  // namespace breccia::contact_pass

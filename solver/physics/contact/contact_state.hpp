@@ -22,6 +22,13 @@ struct ContactCouple {
   bool operator==(const ContactCouple& other) const { return point == other.point && contactor == other.contactor; }
 };
 
+/// The couples of one point: [first, last) of ContactState::couples.
+struct PointCouples {
+  Index first, last;
+  /// m: the least of theirs.
+  double apart_until;
+};
+
 /// Sum of the largest motions of any node in the steps so far, m. From one step to a later one no node moves further
 /// than from `counted` of the first to `at_most` of the later. As long as nobody counts it, couples are looked at in
 /// every step.
@@ -81,6 +88,7 @@ struct ContactState {
   /// m: every search finds the points that are so near to the box of a contactor.
   double near = std::numeric_limits<double>::infinity();
   std::vector<ContactCouple> couples;  ///< by (point id, contactor)
+  std::vector<PointCouples> by_point;  ///< all of them
   Travel travel;                       ///< up to the positions of now
   std::vector<ContactCouple> fresh;    ///< made by fracture since the last forces; by (point id, contactor)
 

@@ -60,7 +60,8 @@ TEST(contact_search, lets_forces_pass_over_couples_that_are_apart_and_changes_no
     }
     for (OwnedContact* search : {&passing, &looking}) {
       search->update(model.state, largest, 1);
-      if (i < faces.size()) search->release_faces(std::span(faces).subspan(i, 1));
+      // Not in every step: what is known of points is made anew then.
+      if (i % 4 == 0 && i / 4 < faces.size()) search->release_faces(std::span(faces).subspan(i / 4, 1));
     }
     looking.look_at_all();
     forces_of_passing.clear();
