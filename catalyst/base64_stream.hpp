@@ -45,7 +45,7 @@ class Base64Stream : public vtkOutputStream {
   ~Base64Stream() override = default;
 
  private:
-  /// The two characters of every twelve bits.
+  /// The two characters that stand for each value of twelve bits.
   static constexpr auto kPairs = [] {
     constexpr char kAlphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::array<std::array<char, 2>, 4096> pairs{};

@@ -1,5 +1,4 @@
 #include "widgets/view3d.hpp"
-#include "widgets/folding_bar.hpp"
 
 #include <vtkInteractorStyleTrackballCamera.h>
 #include <vtkRenderWindowInteractor.h>
@@ -91,13 +90,16 @@ View3D::View3D(QWidget* parent)
   auto* bar = new FoldingBar;
   auto* label = new QLabel(tr("&Colour by"));
   label->setBuddy(colour_);
-  for (QWidget* widget : {static_cast<QWidget*>(label), static_cast<QWidget*>(colour_), static_cast<QWidget*>(edges_),
-                          static_cast<QWidget*>(skin_), static_cast<QWidget*>(loads_)})
-    bar->row(0)->addWidget(widget);
-  bar->row(1)->addWidget(new QLabel(tr("Explode")));
-  bar->row(1)->addWidget(explode_);
-  bar->row(1)->addStretch();
-  bar->row(1)->addWidget(fit);
+  QHBoxLayout *shown = bar->row(0), *seen_from = bar->row(1);
+  shown->addWidget(label);
+  shown->addWidget(colour_);
+  shown->addWidget(edges_);
+  shown->addWidget(skin_);
+  shown->addWidget(loads_);
+  seen_from->addWidget(new QLabel(tr("Explode")));
+  seen_from->addWidget(explode_);
+  seen_from->addStretch();
+  seen_from->addWidget(fit);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(2, 2, 2, 2);
   column->addWidget(bar);

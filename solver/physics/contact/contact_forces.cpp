@@ -27,14 +27,14 @@ void Pass::run() {
   contact_.prepared_in.resize(contact_.in_couples.size(), 0);
 
   for (PointCouples& couples : contact_.by_point) {
-    if (!(contact_.travel.at_most < couples.apart_until)) look_around(couples);
+    if (!(contact_.travel.at_most < couples.apart_until)) evaluate_point(couples);
   }
   for (; old_ < contact_.touching_before.size(); ++old_) forget(contact_.touching_before[old_]);
   contact_.fresh.clear();
 }
 
-/// Looks for what the point is in, and does what follows.
-void Pass::look_around(PointCouples& couples) {
+/// Finds the contactors that a point is in, and the forces between them.
+void Pass::evaluate_point(PointCouples& couples) {
   const std::span<ContactCouple> all{contact_.couples.data() + couples.first, contact_.couples.data() + couples.last};
   const Index point = all.front().point;
   const Vec3 x = at_point(rule_, point_at(point), state_.position.data());

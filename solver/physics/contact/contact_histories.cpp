@@ -11,7 +11,7 @@ namespace breccia::contact_pass {
 
 /// A point that pressed on an element and is now in a joint that opens beside it, in none of its neighbours, keeps its
 /// couple: the force would end within a step, and with it the energy that the couple holds. A point that did not press
-/// has to come in first.
+/// cannot matter to the element before it is inside.
 void Pass::bridge_gaps(Index point) {
   const std::vector<TouchingCouple>& old = contact_.touching_before;
   forget_before(point);
@@ -116,10 +116,12 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   const PreparedTetra tetra = prepare(corners, local_.volume[static_cast<std::size_t>(slot)]);
   const bool crushed = inert(tetra);
   const Vec3 place = at_point(rule_, point, state_.position.data());
-  const std::array<double, 4> lambda = crushed ? std::array<double, 4>{} : barycentric(tetra, place);
-  // What earlier overlaps have gained is all there is.
-  const bool over = has_ended(old) && old.gained == 0 && old.spring == Vec3::Zero() && lost == 0;
-  const Vec3 motion = crushed || over ? Vec3(Vec3::Zero()) : relative_motion(point, slot, lambda);
+  std::array<double, 4> lambda{};
+  Vec3 motion = Vec3::Zero();
+  if (!crushed) {
+    lambda = barycentric(tetra, place);
+    motion = relative_motion(point, slot, lambda);
+  }
   if (old.friction != Vec3::Zero()) {
     const double released = released_by_friction(motion, spring_stiffness(point, old), old.spring);
     account(point, work_.friction_dissipated).add(released);
@@ -131,10 +133,8 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   const double overlap = overlap_value(shape_of(old.contactor), lambda);
   if (overlap > 0) return account(point, work_.dissipated).add(normal_held(point, old));
   TouchingCouple ended{.point = old.point, .contactor = old.contactor, .gained_before = old.gained_before};
-  if (!over) {
-    ended.gained = old.gained + 0.5 * old.force.dot(motion) - held(point, old) + lost;
-    end(point, old, motion, lambda, ended);
-  }
+  ended.gained = old.gained + 0.5 * old.force.dot(motion) - held(point, old) + lost;
+  end(point, old, motion, lambda, ended);
   const double remembered = overlap / kRememberedGap;  // m
   const double least = kLargestWorkError * stiffness(point, ended) * remembered * remembered;
   const bool matters = std::abs(ended.gained_before) > least;

@@ -75,7 +75,7 @@ class Pass {
 
  private:
   [[nodiscard]] const PreparedTetra& prepare_contactor(Index contactor);
-  void look_around(PointCouples& couples);
+  void evaluate_point(PointCouples& couples);
   void look_at(ContactCouple& couple, const Vec3& x);
   void bridge_gaps(Index point);
   void touch_point(Index point);
@@ -149,7 +149,7 @@ class Pass {
   [[nodiscard]] ExactSum& account(const ContactPoint& point, ExactSum& sum) {
     return local_.is_original(point.slot) ? sum : ignored_;
   }
-  /// The overlap functions of a contactor, good until the next call.
+  /// The overlap functions of a contactor; valid until the next call.
   [[nodiscard]] const OverlapShape& shape_of(Index contactor, Instant instant = Instant::now) const;
   /// Adds the contactor to the candidates if its overlap is positive now or was so before the field moved.
   void consider(Index contactor, const std::array<double, 4>& lambda);
@@ -168,7 +168,7 @@ class Pass {
   std::size_t old_ = 0;                ///< first old history not yet looked at
   ExactSum ignored_;                   ///< what other ranks account
 
-  // The last shape that was asked for: several questions about a couple follow each other.
+  // The last result of shape_of: several calls for one couple follow each other.
   mutable OverlapShape shape_;
   mutable Index shape_of_ = -1;
   mutable Instant shape_at_ = Instant::now;

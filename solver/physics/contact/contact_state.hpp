@@ -25,8 +25,7 @@ struct ContactCouple {
 /// The couples of one point: [first, last) of ContactState::couples.
 struct PointCouples {
   Index first, last;
-  /// m: the least of theirs.
-  double apart_until;
+  double apart_until;  ///< m: the smallest of these couples
 };
 
 /// Sum of the largest motions of any node in the steps so far, m. From one step to a later one no node moves further
@@ -88,7 +87,7 @@ struct ContactState {
   /// m: every search finds the points that are so near to the box of a contactor.
   double near = std::numeric_limits<double>::infinity();
   std::vector<ContactCouple> couples;  ///< by (point id, contactor)
-  std::vector<PointCouples> by_point;  ///< all of them
+  std::vector<PointCouples> by_point;  ///< the same, point by point; made with them (contact_couples.hpp)
   Travel travel;                       ///< up to the positions of now
   std::vector<ContactCouple> fresh;    ///< made by fracture since the last forces; by (point id, contactor)
 

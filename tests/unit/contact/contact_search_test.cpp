@@ -60,7 +60,7 @@ TEST(contact_search, lets_forces_pass_over_couples_that_are_apart_and_changes_no
     }
     for (OwnedContact* search : {&passing, &looking}) {
       search->update(model.state, largest, 1);
-      // Not in every step: what is known of points is made anew then.
+      // Not in every step: new couples reset until when points are passed over.
       if (i % 4 == 0 && i / 4 < faces.size()) search->release_faces(std::span(faces).subspan(i / 4, 1));
     }
     looking.look_at_all();
