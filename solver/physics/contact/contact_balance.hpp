@@ -13,7 +13,14 @@ namespace breccia {
 /// for the steps in which the overlap begins or ends: of a motion D the force k d of an overlap d < D takes 1/2 k d D
 /// where 1/2 k d^2 is stored, so up to k D^2 / 8 is lost where it begins and gained where it ends.
 
-/// Shares of the normal force to be added to it, -1/2 to 1/2 together.
+/// Largest gain of a step in which the overlap d shrinks by D along an unloading curve of exponent b, as a share of
+/// k D^2 with k = sigma_p w / H: half the sum of both forces times D, less what the law gives back. 1/8 for b = 1; else
+/// bounded from above, by 5 % at most for b up to 20.
+[[nodiscard]] constexpr double largest_work_error(double exponent) {
+  return kLargestWorkError + (exponent - 1) * (1.0 / 16 + 1.0 / 160);
+}
+
+/// Shares of the normal force to be added to it; together at most half of the strongest force of the step.
 struct BalancingShares {
   double own = 0;     ///< for this overlap
   double before = 0;  ///< for earlier ones
@@ -24,10 +31,13 @@ struct BalancingShares {
 /// or ends can have left over: such a force would be too large for the motion. Up to that limit, and step by step, what
 /// earlier overlaps have left is put right: contacts that last for a few steps end before they can do so themselves.
 /// @param gained  J, what the couple would have gained with the force as it is;  @param before  J, of earlier overlaps
-/// @param work    J, of the normal force over the motion, not 0; @param k  N/m; @param out  m, motion along the force
-[[nodiscard]] inline BalancingShares balancing_shares(double gained, double before, double work, double k, double out) {
+/// @param work    J, of the normal force over the motion, not 0; @param strongest  J, the same of the stronger one of
+/// this force and the last; @param k  N/m, times largest_work_error / kLargestWorkError;
+/// @param out     m, motion along the force
+[[nodiscard]] inline BalancingShares balancing_shares(double gained, double before, double work, double strongest,
+                                                      double k, double out) {
   constexpr double kLargestShare = 0.5;  // that of a force which begins at the very end of a step
-  const double most = std::min(kLargestWorkError * k * out * out, kLargestShare * std::abs(work));
+  const double most = std::min(kLargestWorkError * k * out * out, kLargestShare * strongest);
   const double own = std::abs(gained) <= most ? gained : 0;
   const double earlier = std::clamp(before, -most - own, most - own);
   return {-own / work, -earlier / work};

@@ -31,7 +31,7 @@ Impact impact(double omega, double phase, const ContactLaw& law) {
   const double first = 0.5 * mass * speed * speed;
   Impact found;
   double v = -speed;
-  const auto steps = static_cast<int>(20 + 10 / omega);
+  const auto steps = static_cast<int>(20 + 10 / omega + (law.exponent > 1 ? 40 : 0));
   for (int i = 0; i < steps; ++i) {
     const double force = press.move(v), before = v;
     v += force / mass;
@@ -39,7 +39,7 @@ Impact impact(double omega, double phase, const ContactLaw& law) {
     found.at_the_end = (0.5 * mass * v * before + work.stored.value() + work.dissipated.value()) / first - 1;
     found.largest_loss = std::max(found.largest_loss, -found.at_the_end);
   }
-  EXPECT_TRUE(press.scene.contact.touching.empty()) << "the contact has ended";
+  EXPECT_EQ(press.scene.work.stored.value(), 0) << "the contact has ended";
   return found;
 }
 
@@ -58,24 +58,64 @@ TEST(contact_balance, an_impact_returns_its_energy_wherever_in_a_step_it_begins_
   }
 }
 
+TEST(contact_balance, an_impact_on_a_steep_unloading_curve_loses_what_the_law_takes) {
+  constexpr double kGain = 0.03, kGainOfManySteps = 1e-4;
+  for (const double exponent : {1.5, 2.0, 4.0, 6.0}) {
+    for (const double omega : {0.2, 0.5, 0.8, 1.1}) {
+      for (double phase = 0.025; phase < 1; phase += 0.05) {
+        const Impact found = impact(omega, phase, {kPenalty, kInfinite, exponent, 0, 1});
+        EXPECT_LT(found.at_the_end, omega < 0.5 ? kGainOfManySteps : kGain) << exponent << " " << omega << " " << phase;
+        EXPECT_GT(found.at_the_end, -kGain) << exponent << " " << omega << " " << phase;
+      }
+    }
+  }
+}
+
 TEST(contact_balance, adds_nothing_to_a_contact_at_rest_or_beyond_what_a_step_can_leave_over) {
   constexpr double k = 100, out = 0.1, work = 2, most = kLargestWorkError * k * out * out;
-  EXPECT_EQ(balancing_shares(0, 0, work, k, out).own, 0);
-  EXPECT_EQ(balancing_shares(0.1, 0, work, k, 0).own, 0);
-  EXPECT_EQ(balancing_shares(1.01 * most, 0, 10 * work, k, out).own, 0);
-  EXPECT_NEAR(balancing_shares(0.5 * most, 0, work, k, out).own, -0.5 * most / work, 1e-15);
-  EXPECT_EQ(balancing_shares(0.99 * most, 0, 0.1 * most, k, out).own, 0) << "no more than half of the force";
+  EXPECT_EQ(balancing_shares(0, 0, work, work, k, out).own, 0);
+  EXPECT_EQ(balancing_shares(0.1, 0, work, work, k, 0).own, 0);
+  EXPECT_EQ(balancing_shares(1.01 * most, 0, 10 * work, 10 * work, k, out).own, 0);
+  EXPECT_NEAR(balancing_shares(0.5 * most, 0, work, work, k, out).own, -0.5 * most / work, 1e-15);
+  EXPECT_EQ(balancing_shares(0.99 * most, 0, 0.1 * most, 0.1 * most, k, out).own, 0)
+      << "no more than half of the force";
+}
+
+TEST(contact_balance, of_a_steep_unloading_curve_may_take_half_of_the_force_before) {
+  constexpr double k = 100, out = 0.1, most = kLargestWorkError * k * out * out;
+  EXPECT_NEAR(balancing_shares(0.9 * most, 0, 1e-6 * most, 2 * most, k, out).own, -0.9e6, 1e-6);
+}
+
+/// The largest gain of a step out of an overlap, as a share of k D^2, found by trying.
+double gain_of_a_step_out(double exponent) {
+  const ContactLaw law{1, kInfinite, exponent, 0, 1};
+  double largest = 0;
+  for (double d = 0.01; d < 20; d += 0.01) {
+    const double left = std::max(0.0, d - 1);
+    const double work = 0.5 * (normal_law::stress(law, d, d) + normal_law::stress(law, left, d));
+    largest = std::max(largest, work - normal_law::stored(law, d, d) + normal_law::stored(law, left, d));
+  }
+  return largest;
+}
+
+TEST(contact_balance, knows_what_a_step_along_an_unloading_curve_can_leave_over) {
+  for (const double exponent : {1.0, 1.2, 2.0, 3.0, 4.0, 6.0, 10.0, 20.0}) {
+    EXPECT_GE(largest_work_error(exponent) * (1 + 1e-9), gain_of_a_step_out(exponent)) << exponent;
+    EXPECT_LT(largest_work_error(exponent), 1.06 * gain_of_a_step_out(exponent)) << exponent;
+  }
 }
 
 TEST(contact_balance, puts_right_what_earlier_overlaps_left_as_far_as_one_step_can) {
   constexpr double k = 100, out = 0.1, work = 2, most = kLargestWorkError * k * out * out;
   for (const double left : {-0.4 * most, 0.4 * most})
-    EXPECT_NEAR(balancing_shares(0, left, work, k, out).before, -left / work, 1e-15);
-  EXPECT_NEAR(balancing_shares(0, -7 * most, work, k, out).before, most / work, 1e-15) << "the rest later";
-  EXPECT_NEAR(balancing_shares(0, 7 * most, -work, k, out).before, most / work, 1e-15) << "on the way in as well";
-  const BalancingShares both = balancing_shares(0.8 * most, 7 * most, work, k, out);
+    EXPECT_NEAR(balancing_shares(0, left, work, work, k, out).before, -left / work, 1e-15);
+  EXPECT_NEAR(balancing_shares(0, -7 * most, work, work, k, out).before, most / work, 1e-15) << "the rest later";
+  EXPECT_NEAR(balancing_shares(0, 7 * most, -work, std::abs(-work), k, out).before, most / work, 1e-15)
+      << "on the way in as well";
+  const BalancingShares both = balancing_shares(0.8 * most, 7 * most, work, work, k, out);
   EXPECT_NEAR(both.own + both.before, -most / work, 1e-15) << "its own overlap comes first";
-  EXPECT_NEAR(balancing_shares(0, 7 * most, 0.1 * most, k, out).before, -0.5, 1e-15) << "half of the force at most";
+  EXPECT_NEAR(balancing_shares(0, 7 * most, 0.1 * most, 0.1 * most, k, out).before, -0.5, 1e-15)
+      << "half of the force at most";
 }
 
 /// Largest change of the energy of a mass that falls on a contact again and again with steps of 1 s, as a share of the
@@ -120,6 +160,20 @@ TEST(contact_balance, a_closing_force_pulls_no_more_than_was_pushed_and_only_whe
   EXPECT_EQ(closing_force(1e-5, pushed, up, true, k), Vec3(Vec3::Zero())) << "next to nothing is left over";
   constexpr double left_over = kLargestWorkError * k * 0.1 * 0.1;  // J, of this motion
   EXPECT_NEAR(closing_force(1e3, 1e3 * pushed, up, true, k)[2], -2 * left_over / 0.1, 1e-12) << "turns no motion round";
+}
+
+TEST(contact_balance, of_a_steep_unloading_curve_is_no_larger_on_the_way_in_than_of_a_line) {
+  // A larger share is a contact stiffer than the time step allows: the foot of a tower that stood on it gained energy.
+  Press press(0, {kPenalty, kInfinite, 6, 0, 1});
+  constexpr double motion = 0.004;  // m
+  press.move(-motion);
+  ASSERT_EQ(press.scene.contact.touching.size(), 1U);
+  press.scene.contact.touching.front().gained_before = 10;  // J, more than a step can take back
+  press.move(-motion);
+  const TouchingCouple& couple = press.scene.contact.touching.front();
+  const double depth = couple.d * press.scene.contact.body_length[0];
+  EXPECT_GT(couple.balance, 0) << "takes back what is left";
+  EXPECT_LT(couple.balance, (1 + 1e-9) * kLargestWorkError * motion / depth);
 }
 
 TEST(contact_balance, a_point_that_comes_back_while_its_closing_force_lasts_is_as_deep_as_it_lies) {
