@@ -23,7 +23,7 @@ QStringList states(const QTableWidget& table) {
 
 TEST(Queue, RunsThatWereAddedStartInTheChosenOrderAndGoOnWhileNoWindowIsOpen) {
   Desk desk;
-  desk.window->open_path(written_case(desk.scratch, turning_case("300 us")));
+  desk.window->open_path(written_case(desk.scratch, turning_case("600 us")));
   desk.click_stage("Run");
   desk.find<QSpinBox>("ranks")->setValue(1);
   desk.find<QSpinBox>("queue_cores")->setValue(1);
@@ -48,8 +48,8 @@ TEST(Queue, RunsThatWereAddedStartInTheChosenOrderAndGoOnWhileNoWindowIsOpen) {
   desk.find<QCheckBox>("queue_hold")->setChecked(false);
   ASSERT_TRUE(wait_until([&] { return states(*table) == QStringList({"running", "waiting"}); }, kSolver));
   EXPECT_TRUE(wait_until([&] { return desk.window->view().scene().has_data(); }, kSolver));
-  desk.picture("queue");
   EXPECT_EQ(desk.find<QTableWidget>("runs")->rowCount(), 1);
+  desk.picture("queue");
 
   desk.window->document().close();  // its edits are not asked about here
   desk.window.reset();
