@@ -8,6 +8,7 @@
 
 #include "gui/desk.hpp"
 #include "gui/full_disk.hpp"
+#include "gui/plain_user.hpp"
 
 namespace breccia::gui::test {
 namespace {
@@ -229,6 +230,33 @@ TEST(Trouble, AFullDiskIsToldWhereSomethingIsSavedAndNothingIsLost) {
   press(desk);
   ASSERT_TRUE(completes(desk));
   EXPECT_EQ(content(file), turning_case("50 us"));
+}
+
+TEST(Trouble, ACaseInAFolderThatIsOnlyReadRunsElsewhereAndItsEditsAreNotLost) {
+  Desk desk;
+  const QString folder = desk.scratch.filePath("colleague"), file = folder + "/case.toml";
+  ASSERT_TRUE(QDir().mkpath(folder));
+  write(file, turning_case("100 us"));
+  const QFile::Permissions read = QFile::ReadOwner | QFile::ExeOwner;
+  ASSERT_TRUE(QFile::setPermissions(file, QFile::ReadOwner) && QFile::setPermissions(folder, read));
+  const PlainUser user;
+  if (!user.holds()) GTEST_SKIP() << "permissions do not hold for this user";
+  desk.window->open_path(file);
+  press(desk);
+  ASSERT_TRUE(completes(desk));
+  EXPECT_TRUE(desk.window->run()->record().folder.startsWith(desk.scratch.filePath("projects")));
+  desk.window->document().set_value("stage[0].end", "\"50 us\"");
+  const QString before = desk.window->run()->record().folder;
+  {
+    const Answer ok(QMessageBox::Ok);
+    press(desk);
+    EXPECT_EQ(ok.words().filter("case.toml").size(), 1) << ok.words().join("\n").toStdString();
+    EXPECT_EQ(desk.window->run()->record().folder, before) << "runs a case that is not in its file";
+  }
+  EXPECT_TRUE(desk.window->document().modified());
+  EXPECT_EQ(content(file), turning_case("100 us"));
+  EXPECT_EQ(QDir(folder).entryList(QDir::Files), QStringList{"case.toml"}) << "nothing else is left there";
+  ASSERT_TRUE(QFile::setPermissions(folder, read | QFile::WriteOwner));
 }
 
 TEST(Trouble, AMeshThatCannotBeReadIsToldInTheViewAndIsDrawnOnceItCan) {
