@@ -175,7 +175,8 @@ bool MainWindow::save() {
     return false;
   const QString error = document_.save();
   look_at_disk();
-  if (!error.isEmpty()) QMessageBox::warning(this, tr("Breccia"), error);
+  if (!error.isEmpty())
+    QMessageBox::warning(this, tr("Breccia"), tr("%1\nFile > Save as... writes the case elsewhere.").arg(error));
   return error.isEmpty();
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/types.hpp"
 #include "physics/work_error.hpp"
@@ -13,14 +14,33 @@ namespace breccia {
 /// for the steps in which the overlap begins or ends: of a motion D the force k d of an overlap d < D takes 1/2 k d D
 /// where 1/2 k d^2 is stored, so up to k D^2 / 8 is lost where it begins and gained where it ends.
 
-/// Largest gain of a step in which the overlap d shrinks by D along an unloading curve of exponent b, as a share of
-/// k D^2 with k = sigma_p w / H: half the sum of both forces times D, less what the law gives back. 1/8 for b = 1; else
-/// bounded from above, by 5 % at most for b up to 20.
-[[nodiscard]] constexpr double largest_work_error(double exponent) {
-  return kLargestWorkError + (exponent - 1) * (1.0 / 16 + 1.0 / 160);
+/// Largest pull of a couple, N, after a motion D out of the overlap. Of twice the strength, what is pulled comes back
+/// faster than it left where steps are long, and such contacts gain energy.
+[[nodiscard]] constexpr double largest_pull(double k, double out) { return 2 * kLargestWorkError * k * out; }
+
+/// How much a force may be changed in a step of a motion D along it, J each.
+struct BalancingLimits {
+  double own = 0;   ///< beyond it what the couple has gained is not that of a step at which an overlap begins or ends
+  double give = 0;  ///< of work given back to the motion
+  double take = 0;  ///< taken from it
+};
+
+/// Of a line. Half of the force is that of one which begins at the very end of a step.
+/// @param work  J, of the normal force over the motion;  @param k  N/m
+[[nodiscard]] inline BalancingLimits balancing_limits(double work, double k, double out) {
+  const double most = std::min(kLargestWorkError * k * out * out, 0.5 * std::abs(work));
+  return {most, most, most};
 }
 
-/// Shares of the normal force to be added to it; together at most half of the strongest force of the step.
+/// On the way out along a steep unloading curve (b > 1), any step of which may leave next to no force of one that was
+/// large before: what that has gained is taken back by a pull. Not on the way in, where larger changes make the contact
+/// stiffer than the time step allows. @param work  J, > 0
+[[nodiscard]] inline BalancingLimits steep_limits(double work, double k, double out) {
+  return {std::numeric_limits<double>::infinity(), balancing_limits(work, k, out).give,
+          work + largest_pull(k, out) * out};
+}
+
+/// Shares of the normal force to be added to it.
 struct BalancingShares {
   double own = 0;     ///< for this overlap
   double before = 0;  ///< for earlier ones
@@ -31,15 +51,11 @@ struct BalancingShares {
 /// or ends can have left over: such a force would be too large for the motion. Up to that limit, and step by step, what
 /// earlier overlaps have left is put right: contacts that last for a few steps end before they can do so themselves.
 /// @param gained  J, what the couple would have gained with the force as it is;  @param before  J, of earlier overlaps
-/// @param work    J, of the normal force over the motion, not 0; @param strongest  J, the same of the stronger one of
-/// this force and the last; @param k  N/m, times largest_work_error / kLargestWorkError;
-/// @param out     m, motion along the force
-[[nodiscard]] inline BalancingShares balancing_shares(double gained, double before, double work, double strongest,
-                                                      double k, double out) {
-  constexpr double kLargestShare = 0.5;  // that of a force which begins at the very end of a step
-  const double most = std::min(kLargestWorkError * k * out * out, kLargestShare * strongest);
-  const double own = std::abs(gained) <= most ? gained : 0;
-  const double earlier = std::clamp(before, -most - own, most - own);
+/// @param work    J, of the normal force over the motion, not 0
+[[nodiscard]] inline BalancingShares balancing_shares(double gained, double before, double work,
+                                                      const BalancingLimits& limits) {
+  const double own = std::abs(gained) <= limits.own ? std::clamp(gained, -limits.give, limits.take) : 0;
+  const double earlier = std::clamp(before, -limits.give - own, limits.take - own);
   return {-own / work, -earlier / work};
 }
 
@@ -50,15 +66,14 @@ inline constexpr double kRememberedGap = 1000;
 
 /// Force of a couple whose overlap has ended, N: takes back what it has gained, over this step and the next one,
 /// assuming that the next motion equals this one. None on the way in, or where there is next to nothing left. Never
-/// larger than the force before, and in a step at most twice what this motion could have left over: a larger force
-/// would reverse the motion and so add energy.
+/// larger than the force before or than the largest pull.
 /// @param last  N, force one step ago: of the law (`pushed`), or of this function
 [[nodiscard]] inline Vec3 closing_force(double gained, const Vec3& last, const Vec3& motion, bool pushed, double k) {
   const double work = last.dot(motion), against = pushed ? work : -work;
   if (!(against > 0)) return Vec3::Zero();
-  const double along = work / last.norm(), left_over = kLargestWorkError * k * along * along;
-  if (!(gained > kNegligibleWorkError * left_over)) return Vec3::Zero();
-  return std::min(std::min(gained, 2 * left_over) / against, 1.0) * (pushed ? Vec3(-last) : last);
+  const double along = work / last.norm(), most = largest_pull(k, std::abs(along)) * std::abs(along);
+  if (!(gained > 0.5 * kNegligibleWorkError * most)) return Vec3::Zero();
+  return std::min(std::min(gained, most) / against, 1.0) * (pushed ? Vec3(-last) : last);
 }
 
 }  // namespace breccia

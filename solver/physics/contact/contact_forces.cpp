@@ -212,7 +212,7 @@ void Pass::act(Index index, Candidate& candidate) {
     // What a couple holds that was there before anything moved has been put in.
     if (candidate.old >= 0 || motion != Vec3::Zero()) {
       h.gained += 0.5 * (last.force + h.force).dot(motion) + kept - before + lost;
-      balance(point, length, motion, last, h);
+      balance(point, length, motion, h);
     }
     distribute(point, candidate.contactor, candidate.lambda, h.force);
     if (h.force == Vec3::Zero()) end(point, last, motion, candidate.lambda, h);
@@ -249,25 +249,18 @@ double Pass::press(const ContactLaw& law, const ContactPoint& point, double leng
   return kept;
 }
 
-/// A steep unloading curve may leave next to no force of one that was large a step ago: what that has gained is taken
-/// back by a pull of this step. Not so on the way in: shares as large make the contact stiffer than the time step
-/// allows, and a foot that stands on it gains energy.
 /// @param h  force by its law and what it has gained with it; changed
-void Pass::balance(const ContactPoint& point, double length, const Vec3& motion, const TouchingCouple& last,
-                   TouchingCouple& h) const {
-  constexpr double kNoForce = 1e-60;  // a smaller share cannot be made larger
+void Pass::balance(const ContactPoint& point, double length, const Vec3& motion, TouchingCouple& h) const {
+  constexpr double kNoForce = 1e-60;  // N, at the far end of a steep curve: no share of it makes a pull
   const Vec3 normal = h.force - h.friction;
   const double work = normal.dot(motion);
-  double strongest = std::abs(work), k = stiffness(point, h);
-  if (work > 0 && law_of(h.point, h.contactor).exponent > 1) {
-    strongest = std::max(strongest, std::abs((last.force - last.friction).dot(motion)));
-    k = balanced_stiffness(point, h);
-  }
-  if (!(std::abs(work) > kNoForce * strongest)) return;
-  const double out = work / normal.norm();
+  if (work == 0 || !(normal.norm() > kNoForce)) return;
+  const double out = work / normal.norm(), k = stiffness(point, h);
   const bool leaves = out > h.d * length;  // in the next step, with the motion of this one
   const double gained = h.gained + (leaves ? 0.5 * work - normal_held(point, h) : 0.0);
-  const BalancingShares shares = balancing_shares(gained, h.gained_before, work, strongest, k, out);
+  const bool steep = law_of(h.point, h.contactor).exponent > 1;
+  const BalancingLimits limits = steep && work > 0 ? steep_limits(work, k, out) : balancing_limits(work, k, out);
+  const BalancingShares shares = balancing_shares(gained, h.gained_before, work, limits);
   h.balance = shares.own + shares.before;
   h.gained_before += shares.before * work;
   h.gained += 0.5 * (shares.own - shares.before) * work;  // the next step counts the other halves
@@ -280,10 +273,12 @@ Damping Pass::damp(const ContactLaw& law, const ContactPoint& point, const Vec3&
   const double deeper = gradient.dot(motion);  // m, during the last step
   const double pressure = point.weight * normal_law::damped(law, elastic / point.weight, deeper / dt_);
   double before = 0;
-  if (candidate.old >= 0 && contact_.touching_before[static_cast<std::size_t>(candidate.old)].d > 0) {
+  if (candidate.old >= 0) {
     const TouchingCouple& old = contact_.touching_before[static_cast<std::size_t>(candidate.old)];
-    before = (old.force - old.friction).norm() / (std::abs(1 + old.balance) * gradient.norm()) -
-             point.weight * normal_law::stress(law, old.d, old.d_max);
+    const double share = std::abs(1 + old.balance);
+    if (old.d > 0 && share > 0)
+      before = (old.force - old.friction).norm() / (share * gradient.norm()) -
+               point.weight * normal_law::stress(law, old.d, old.d_max);
   }
   return {pressure, std::max(0.0, 0.5 * (before + pressure - elastic) * deeper)};
 }

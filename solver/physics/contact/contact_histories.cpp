@@ -136,7 +136,7 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   ended.gained = old.gained + 0.5 * old.force.dot(motion) - held(point, old) + lost;
   end(point, old, motion, lambda, ended);
   const double remembered = overlap / kRememberedGap;  // m
-  const double least = kLargestWorkError * balanced_stiffness(point, ended) * remembered * remembered;
+  const double least = kLargestWorkError * stiffness(point, ended) * remembered * remembered;
   const bool matters = std::abs(ended.gained_before) > least;
   if (ended.force != Vec3::Zero() || (matters && is_near(lambda, corners, place))) contact_.touching.push_back(ended);
 }
@@ -154,7 +154,7 @@ bool Pass::is_near(const std::array<double, 4>& lambda, const std::array<Vec3, 4
 void Pass::end(const ContactPoint& point, const TouchingCouple& last, const Vec3& motion,
                const std::array<double, 4>& lambda, TouchingCouple& h) {
   const bool pushed = last.d > 0 && last.balance > -1;
-  h.force = closing_force(h.gained, last.force, motion, pushed, balanced_stiffness(point, h));
+  h.force = closing_force(h.gained, last.force, motion, pushed, stiffness(point, h));
   h.gained += 0.5 * h.force.dot(motion);
   distribute(point, h.contactor, lambda, h.force);
   if (h.force != Vec3::Zero()) return;

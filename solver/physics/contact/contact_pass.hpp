@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "physics/contact/contact_balance.hpp"
 #include "physics/contact/contact_field.hpp"
 #include "physics/contact/contact_forces.hpp"
 #include "physics/contact/contact_law.hpp"
@@ -102,8 +101,7 @@ class Pass {
   void act(Index point, Candidate& candidate);
   [[nodiscard]] double press(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
                              const Candidate& candidate, TouchingCouple& h);
-  void balance(const ContactPoint& point, double length, const Vec3& motion, const TouchingCouple& last,
-               TouchingCouple& h) const;
+  void balance(const ContactPoint& point, double length, const Vec3& motion, TouchingCouple& h) const;
   [[nodiscard]] Damping damp(const ContactLaw& law, const ContactPoint& point, const Vec3& motion,
                              const Candidate& candidate, const Vec3& gradient, double elastic) const;
   void distribute(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda, const Vec3& force);
@@ -133,10 +131,6 @@ class Pass {
   }
   [[nodiscard]] double spring_stiffness(const ContactPoint& point, const TouchingCouple& h) const {
     return law_of(h.point, h.contactor).tangential_ratio * stiffness(point, h);
-  }
-  /// N/m, of the linear law whose steps leave as much work over as those of the couple.
-  [[nodiscard]] double balanced_stiffness(const ContactPoint& point, const TouchingCouple& h) const {
-    return largest_work_error(law_of(h.point, h.contactor).exponent) / kLargestWorkError * stiffness(point, h);
   }
   /// J, by the normal law of a couple.
   [[nodiscard]] double normal_held(const ContactPoint& point, const TouchingCouple& h) const {
