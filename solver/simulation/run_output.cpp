@@ -129,6 +129,10 @@ StatusLine RunOutput::status_line(bool paused) const {
   line.time = clock().time;
   line.end = end_;
   line.share = (clock().time - start_time_) / (end_ - start_time_);
+  if (const std::int64_t most = input_.time.max_steps; most > 0) {  // which ends the run if it comes first
+    line.steps_total = std::min(line.steps_total, start_step_ + most);
+    line.share = std::max(line.share, static_cast<double>(steps_done()) / static_cast<double>(most));
+  }
   line.wall_s = wall();
   line.element_steps_per_s =
       static_cast<double>(partition_.whole().num_elements) * static_cast<double>(steps_done()) / line.wall_s;

@@ -22,6 +22,7 @@ constexpr double kResidual = 1e-3;  // of the largest term: the limit for every 
 struct FinishedRun {
   Outcome outcome;
   json summary;
+  json status;                                         ///< last line of status.jsonl
   std::map<std::string, std::vector<double>> history;  ///< by column
 
   /// @param arguments  the case and settings
@@ -30,6 +31,8 @@ struct FinishedRun {
     outcome = call("run " + arguments + " --progress none -o '" + scratch.path("run").string() + "'");
     summary = json::parse(read_text(scratch.path("run/summary.json")));
     EXPECT_EQ(energy_fault(scratch.path("run/history.csv")), "") << arguments;
+    std::istringstream told(read_text(scratch.path("run/status.jsonl")));
+    for (std::string line; std::getline(told, line);) status = json::parse(line);
     std::istringstream lines(read_text(scratch.path("run/history.csv")));
     std::vector<std::string> names;
     for (std::string line; std::getline(lines, line);) {
@@ -228,6 +231,8 @@ TEST(MaxSteps, is_the_number_of_steps_after_which_a_run_stops) {
     EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
     EXPECT_EQ(run.summary.at("steps"), steps);
     EXPECT_EQ(run.summary.at("status"), "stopped: time.max_steps reached");
+    EXPECT_EQ(run.status.at("steps_total"), steps) << "what is told to be still to go";
+    EXPECT_EQ(run.status.at("share"), 1);
   }
 }
 
