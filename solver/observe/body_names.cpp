@@ -33,6 +33,7 @@ std::vector<std::string> body_names(const Domain& domain) {
   communicator.max(group_of);
   if (!communicator.is_root()) return {};
   std::vector<Index> groups;
+  groups.reserve(group_of.size());
   for (const double group : group_of) groups.push_back(static_cast<Index>(group));
   return body_names(groups, domain.model.mesh.volume_groups);
 }

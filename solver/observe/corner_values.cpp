@@ -105,6 +105,7 @@ class Star {
 template <class Visit>
 void for_each_part(const std::vector<Corner>& corners, Visit&& visit) {
   std::vector<const Corner*> sorted;
+  sorted.reserve(corners.size());
   for (const Corner& corner : corners) sorted.push_back(&corner);
   std::sort(sorted.begin(), sorted.end(), [](const Corner* a, const Corner* b) {
     return std::pair(a->vertex, a->element) < std::pair(b->vertex, b->element);

@@ -106,6 +106,7 @@ class Communicator {
   template <class T>
   static std::vector<std::vector<T>> lists_of(const std::vector<std::vector<std::byte>>& bytes) {
     std::vector<std::vector<T>> lists;
+    lists.reserve(bytes.size());
     for (const std::vector<std::byte>& part : bytes) lists.push_back(list_of<T>(part));
     return lists;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -62,10 +63,8 @@ bool RunCheckpoints::due() {
 /// Both the run and its files go on whatever becomes of a checkpoint.
 template <class Work>
 void RunCheckpoints::attempt(Work&& work) {
-  const auto started = Wall::now();
   try {
     work();
-    pause_ += seconds_since(started);
   } catch (const OutputError& error) {
     writer_.reset();
     ++report_.failed;
@@ -75,10 +74,10 @@ void RunCheckpoints::attempt(Work&& work) {
 
 void RunCheckpoints::begin(RunPosition position) {
   if (input_.checkpoint.keep == 0) return;
-  finish();
+  const auto started = Wall::now();
+  if (writer_) complete(started);
   last_ = Wall::now();
   begun_at_ = partition_.state().clock.steps;
-  pause_ = 0;
   attempt([&] {
     const Communicator& communicator = partition_.communicator();
     communicator.agree([&] {
@@ -91,6 +90,7 @@ void RunCheckpoints::begin(RunPosition position) {
     writer_ = std::make_unique<CheckpointWriter>(checkpoint_file(folder_.checkpoints(), begun_at_), std::move(now),
                                                  communicator, std::move(companions));
   });
+  pause_ = seconds_since(last_);
 }
 
 Checkpoint RunCheckpoints::content(const RunPosition& position) const {
@@ -113,17 +113,22 @@ Checkpoint RunCheckpoints::content(const RunPosition& position) const {
 /// A rank that has written signals it at the end of a step; all receive that in the next.
 void RunCheckpoints::look() {
   const State& state = partition_.state();
-  if (writer_ && state.clock.steps >= begun_at_ + 2 && !state.signals.received.writing) finish();
+  if (writer_ && state.clock.steps >= begun_at_ + 2 && !state.signals.received.writing) complete(Wall::now());
 }
 
 void RunCheckpoints::finish() {
-  if (!writer_) return;
+  if (writer_) complete(std::nullopt);
+}
+
+/// @param waiting  since when steps wait for it; none do at the end of a run
+void RunCheckpoints::complete(std::optional<Wall::time_point> waiting) {
   attempt([&] {
     writer_->finish();
     if (partition_.communicator().is_root())
       remove_old_checkpoints(folder_.checkpoints(), input_.checkpoint.keep, sound_step_);
   });
   if (!writer_) return;
+  if (waiting) pause_ += seconds_since(*waiting);
   ++report_.written;
   report_.pause_s += pause_;
   report_.longest_pause_s = std::max(report_.longest_pause_s, pause_);

@@ -54,6 +54,7 @@ class RunCheckpoints {
 
  private:
   [[nodiscard]] Checkpoint content(const RunPosition& position) const;
+  void complete(std::optional<std::chrono::steady_clock::time_point> waiting);
   template <class Work>
   void attempt(Work&& work);
 

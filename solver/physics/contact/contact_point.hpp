@@ -14,7 +14,7 @@ struct ContactPoint {
   GlobalId id = 0;  ///< 24 element + 6 face + k: the same on any number of ranks
   Index slot = 0;   ///< element it lies on
   std::int8_t face = 0;
-  std::int8_t k = 0;           ///< 0..points_per_face-1
+  std::uint8_t k = 0;          ///< 0..points_per_face-1
   std::array<Index, 3> nodes;  ///< of the face's corners
   double weight = 0;           ///< m2, share of the reference area
 };
