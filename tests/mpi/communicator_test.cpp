@@ -327,9 +327,9 @@ TEST(Waiting, PastThePatienceNamesRankAndPhaseThenFailsAndCanBeTakenUpAgain) {
       error = thrown.what();
     }
     const double waited = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    told = testing::internal::GetCapturedStderr();  // which would take the words of a failed test along
     EXPECT_GE(waited, 2 * kPatience);
-    EXPECT_LT(waited, 10 * kPatience) << "twice the patience, and some leave for a busy machine";
-    told = testing::internal::GetCapturedStderr();
+    EXPECT_LT(waited, usual) << "on a machine however busy";
     world().set_patience(usual);
     world().set_phase("");
     aside.barrier();
