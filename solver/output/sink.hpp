@@ -24,7 +24,7 @@ struct RunStart {
 /// How far a run has come. SI.
 struct StatusLine {
   std::int64_t step = 0;
-  std::int64_t steps_total = 0;    ///< expected, at the present step size
+  std::int64_t steps_total = 0;    ///< expected, at the present step size, or time.max_steps
   double time = 0;                 ///< s, simulated
   double end = 0;                  ///< s, simulated
   double share = 0;                ///< 0..1 of the run

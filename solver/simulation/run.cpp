@@ -288,7 +288,7 @@ class Runner {
 
   /// The answer comes when it is there.
   void write_checkpoint_for(const Command& command) {
-    checkpoints_->finish();  // another one
+    checkpoints_->finish(!paused_);  // one that began before
     wait_for_checkpoint_.push_back(command);
     checkpoints_->begin(position());
     if (paused_) checkpoints_->finish();

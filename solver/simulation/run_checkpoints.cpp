@@ -116,11 +116,11 @@ void RunCheckpoints::look() {
   if (writer_ && state.clock.steps >= begun_at_ + 2 && !state.signals.received.writing) complete(Wall::now());
 }
 
-void RunCheckpoints::finish() {
-  if (writer_) complete(std::nullopt);
+void RunCheckpoints::finish(bool steps_wait) {
+  if (writer_) complete(steps_wait ? std::optional(Wall::now()) : std::nullopt);
 }
 
-/// @param waiting  since when steps wait for it; none do at the end of a run
+/// @param waiting  since when steps wait for it; none do at the end of a run or in a pause
 void RunCheckpoints::complete(std::optional<Wall::time_point> waiting) {
   attempt([&] {
     writer_->finish();

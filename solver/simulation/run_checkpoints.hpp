@@ -39,8 +39,8 @@ class RunCheckpoints {
   void begin(RunPosition position);
   /// After every step: lets one appear that all ranks have written. Collective when there is one.
   void look();
-  /// Waits for the one that is being written. Collective.
-  void finish();
+  /// Waits for the one that is being written. Collective. @param steps_wait  steps are to follow: it counts as a pause
+  void finish(bool steps_wait = false);
   /// True where begin() was called for the present step already.
   [[nodiscard]] bool is_of_now() const { return begun_at_ == partition_.state().clock.steps; }
 

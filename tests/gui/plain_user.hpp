@@ -17,15 +17,15 @@ class PlainUser {
   PlainUser() {
     if (geteuid() != 0) return;
     bits_ = prctl(PR_GET_SECUREBITS);
-    holds_ = syscall(SYS_capget, &header_, kept_.data()) == 0 &&
-             prctl(PR_SET_SECUREBITS, bits_ | SECBIT_NO_SETUID_FIXUP | SECBIT_NOROOT) == 0;
+    bits_set_ = syscall(SYS_capget, &header_, kept_.data()) == 0 &&
+                prctl(PR_SET_SECUREBITS, bits_ | SECBIT_NO_SETUID_FIXUP | SECBIT_NOROOT) == 0;
     std::array<__user_cap_data_struct, 2> less = kept_;
     less[0].effective &= ~(CAP_TO_MASK(CAP_DAC_OVERRIDE) | CAP_TO_MASK(CAP_DAC_READ_SEARCH));
-    holds_ = holds_ && syscall(SYS_capset, &header_, less.data()) == 0;
+    holds_ = bits_set_ && syscall(SYS_capset, &header_, less.data()) == 0;
   }
   ~PlainUser() {
-    if (geteuid() != 0 || !holds_) return;
-    syscall(SYS_capset, &header_, kept_.data());
+    if (!bits_set_) return;
+    if (holds_) syscall(SYS_capset, &header_, kept_.data());
     prctl(PR_SET_SECUREBITS, bits_);
   }
   PlainUser(const PlainUser&) = delete;
@@ -38,6 +38,7 @@ class PlainUser {
   __user_cap_header_struct header_{_LINUX_CAPABILITY_VERSION_3, 0};
   std::array<__user_cap_data_struct, 2> kept_{};
   int bits_ = 0;
+  bool bits_set_ = false;
   bool holds_ = true;
 };
 

@@ -251,7 +251,7 @@ double Pass::press(const ContactLaw& law, const ContactPoint& point, double leng
 
 /// @param h  force by its law and what it has gained with it; changed
 void Pass::balance(const ContactPoint& point, double length, const Vec3& motion, TouchingCouple& h) const {
-  constexpr double kNoForce = 1e-60;  // N, at the far end of a steep curve: no share of it makes a pull
+  constexpr double kNoForce = 1e-60;  // N; a pull as a share of less, at the far end of a steep curve, may overflow
   const Vec3 normal = h.force - h.friction;
   const double work = normal.dot(motion);
   if (work == 0 || !(normal.norm() > kNoForce)) return;

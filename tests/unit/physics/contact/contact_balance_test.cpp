@@ -35,7 +35,8 @@ Impact impact(double omega, double phase, const ContactLaw& law) {
   const double first = 0.5 * mass * speed * speed;
   Impact found;
   double v = -speed;
-  const auto steps = static_cast<int>(20 + 10 / omega + (law.exponent > 1 ? 40 : 0));
+  const bool steep = law.exponent > 1;  // after such an overlap pulls go on for many steps
+  const auto steps = static_cast<int>(20 + 10 / omega + (steep ? 40 : 0));
   for (int i = 0; i < steps; ++i) {
     const double force = press.move(v), before = v;
     v += force / mass;
@@ -44,6 +45,7 @@ Impact impact(double omega, double phase, const ContactLaw& law) {
     found.largest_loss = std::max(found.largest_loss, -found.at_the_end);
   }
   EXPECT_EQ(press.scene.work.stored.value(), 0) << "the contact has ended";
+  if (!steep) EXPECT_TRUE(press.scene.contact.touching.empty());
   return found;
 }
 
@@ -63,16 +65,12 @@ TEST(contact_balance, an_impact_returns_its_energy_wherever_in_a_step_it_begins_
 }
 
 TEST(contact_balance, an_impact_on_a_steep_unloading_curve_loses_what_the_law_takes) {
-  constexpr double kGain = 0.03, kGainOfManySteps = 1e-4;
-  for (const double exponent : {1.5, 2.0, 4.0, 6.0}) {
-    for (const double omega : {0.2, 0.5, 0.8, 1.1}) {
-      for (double phase = 0.025; phase < 1; phase += 0.05) {
-        const Impact found = impact(omega, phase, {kPenalty, kInfinite, exponent, 0, 1});
-        EXPECT_LT(found.at_the_end, omega < 0.5 ? kGainOfManySteps : kGain) << exponent << " " << omega << " " << phase;
-        EXPECT_GT(found.at_the_end, -kGain) << exponent << " " << omega << " " << phase;
-      }
-    }
-  }
+  constexpr double kChange = 1e-4;  // of the energy; with steps of omega dt = 1.4 contacts of high exponents gain 12 %
+  for (const double exponent : {1.5, 2.0, 4.0, 6.0})
+    for (const double omega : {0.2, 0.5, 0.8, 1.1})
+      for (double phase = 0.025; phase < 1; phase += 0.05)
+        EXPECT_NEAR(impact(omega, phase, {kPenalty, kInfinite, exponent, 0, 1}).at_the_end, 0, kChange)
+            << exponent << " " << omega << " " << phase;
 }
 
 TEST(contact_balance, adds_nothing_to_a_contact_at_rest_or_beyond_what_a_step_can_leave_over) {
