@@ -122,6 +122,8 @@ struct FieldTable<CoupleRecord> {
       FieldRow{"offset", "m", kState, [](auto& r) -> auto& { return r.couple.offset; }},
       FieldRow{"spring", "m", kState, [](auto& r) -> auto& { return r.couple.spring; }},
       FieldRow{"friction", "N", kState, [](auto& r) -> auto& { return r.couple.friction; }},
+      FieldRow{"followed", "N", kState, [](auto& r) -> auto& { return r.couple.followed; }},
+      FieldRow{"delay", "s", kState, [](auto& r) -> auto& { return r.couple.delay; }},
       FieldRow{"force", "N", kState, [](auto& r) -> auto& { return r.couple.force; }},
       FieldRow{"balance", "1", kState, [](auto& r) -> auto& { return r.couple.balance; }},
       FieldRow{"gained", "J", kState, [](auto& r) -> auto& { return r.couple.gained; }},

@@ -236,7 +236,12 @@ double Pass::press(const ContactLaw& law, const ContactPoint& point, double leng
     const Vec3 outward = -here.gradient / slope;
     if (h.spring != Vec3::Zero())
       turn_spring(outward, outward.dot(mean_turn(point.slot, candidate.contactor)), h.spring);
-    const FrictionStep friction = friction_step(outward, motion, k, law.friction * normal.pressure * slope, h.spring);
+    if (h.d > 0) {
+      follow_normal_force(normal.pressure * slope, dt_, law.friction_delay * length, h.followed, h.delay);
+    } else {
+      h.followed = h.delay = 0;
+    }
+    const FrictionStep friction = friction_step(outward, motion, k, law.friction * h.followed, h.spring);
     const double spring = 0.5 * k * h.spring.squaredNorm();
     account(point, work_.friction_dissipated).add(friction.dissipated);
     account(point, work_.friction_stored).add(spring);

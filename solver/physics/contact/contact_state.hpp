@@ -48,6 +48,8 @@ struct TouchingCouple {
   double offset = 0;         ///< m, overlap without force, or force before an overlap (contact_forces.hpp)
   Vec3 spring{0, 0, 0};      ///< m, elongation of the friction spring
   Vec3 friction{0, 0, 0};    ///< N, tangential force on the point
+  double followed = 0;       ///< N, normal force that the limit of friction follows (friction.hpp)
+  double delay = 0;          ///< s, by which it is late
   Vec3 force{0, 0, 0};       ///< N, whole force on the point
   double balance = 0;        ///< share of its normal force by which the force was changed to balance the work of a step
   double gained = 0;         ///< J, work done since the force began beyond what it took and holds (contact_forces.hpp)

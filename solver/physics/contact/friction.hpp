@@ -46,6 +46,24 @@ struct FrictionStep {
   return {-k * xi, dissipated};
 }
 
+/// Part of the age of an overlap by which friction is late, until it is late by ContactLaw::friction_delay.
+inline constexpr double kDelayOfAge = 0.02;
+
+/// The normal force that the limit of friction follows, with a delay t that grows with the age of the overlap:
+///
+///   df/dt = (f_n - f) / t,  t = min(kDelayOfAge age, longest)
+///
+/// Elastic bodies that slide on each other are unstable for any coefficient where the limit follows the normal force at
+/// once: friction feeds vibrations, which take it away [Adams 1995]; where it follows over some crossings of an element
+/// by a wave they are not [Prakash and Clifton 1993; Ranjith and Rice 2001]. What presses for no longer than that rubs
+/// as by Coulomb's law.
+/// @param force  N, normal;  @param dt  s, >= 0;  @param longest  s, >= 0
+/// @param followed  N;  @param delay  s;  both 0 where an overlap begins; read and written
+inline void follow_normal_force(double force, double dt, double longest, double& followed, double& delay) {
+  delay = std::min(longest, delay + kDelayOfAge * dt);
+  followed = dt < delay ? followed + (force - followed) * (dt / delay) : force;
+}
+
 /// Turns a spring with the surfaces that it lies between, by an angle about their normal: what sticks to a body that
 /// spins about the normal is held as on one at rest. Cayley's form of the rotation keeps lengths; it turns by
 /// a - a^3/12 for an angle a.

@@ -90,6 +90,51 @@ TEST(friction, that_turns_without_sliding_dissipates_nothing) {
   }
 }
 
+TEST(friction, follows_a_normal_force_at_once_where_an_overlap_begins_and_later_with_a_delay) {
+  constexpr double kStep = 0.1, kLongest = 0.4;  // s
+  double followed = 0, delay = 0, age = 0;
+  follow_normal_force(7, 0, kLongest, followed, delay);
+  EXPECT_EQ(followed, 7) << "set down";
+  follow_normal_force(5, kStep, kLongest, followed, delay);
+  EXPECT_EQ(followed, 5);
+  for (age = kStep; age < 2 * kLongest / kDelayOfAge; age += kStep)
+    follow_normal_force(5, kStep, kLongest, followed, delay);
+  EXPECT_EQ(delay, kLongest);
+  EXPECT_NEAR(followed, 5, kRoundOff);
+  follow_normal_force(9, kStep, kLongest, followed, delay);
+  EXPECT_NEAR(followed, 5 + 4 * kStep / kLongest, kRoundOff);
+  double mean = 0;
+  constexpr int kPeriods = 400, kSteps = 8;
+  for (int i = 0; i < kPeriods * kSteps; ++i) {
+    follow_normal_force(9 + 6 * std::sin(2 * std::acos(-1.0) * i / kSteps), kStep, kLongest, followed, delay);
+    mean += followed / (kPeriods * kSteps);
+    if (i > kPeriods) EXPECT_LT(std::abs(followed - 9), 2.1) << "a third of the vibration";
+  }
+  EXPECT_NEAR(mean, 9, 0.01) << "all of the force";
+}
+
+TEST(friction, follows_at_once_where_no_delay_is_known) {
+  double followed = 3, delay = 0;
+  follow_normal_force(5, 0.1, 0, followed, delay);
+  EXPECT_EQ(followed, 5);
+}
+
+/// Impulse of friction over that of the normal force of a half wave, by the number of steps that it lasts.
+double rubbed_by_an_impact(int steps) {
+  double followed = 0, delay = 0, rubbed = 0, pressed = 0;
+  for (int i = 1; i < steps; ++i) {
+    const double force = std::sin(std::acos(-1.0) * i / steps);
+    follow_normal_force(force, 1.0, 1e9, followed, delay);
+    rubbed += followed;
+    pressed += force;
+  }
+  return rubbed / pressed;
+}
+
+TEST(friction, of_an_impact_is_that_of_coulombs_law_however_long_it_lasts) {
+  for (const int steps : {2, 5, 20, 100, 1000}) EXPECT_NEAR(rubbed_by_an_impact(steps), 1, 0.02) << steps;
+}
+
 TEST(friction, lets_go_of_what_the_spring_holds) {
   const Vec3 xi(0.1, 0, 0);
   EXPECT_NEAR(released_by_friction(Vec3::Zero(), 50, xi), 0.25, kRoundOff);
