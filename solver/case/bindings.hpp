@@ -144,6 +144,7 @@ void bind(A& a, Contact& contact) {
   a.value("plateau", contact.plateau);
   a.value("unloading_exponent", contact.unloading_exponent);
   a.value("friction", contact.friction);
+  a.value("friction_delay", contact.friction_delay);
   a.value("tangential_ratio", contact.tangential_ratio);
   a.value("damping_ratio", contact.damping_ratio);
   a.choice("points_on", contact.points_on);

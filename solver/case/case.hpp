@@ -139,6 +139,7 @@ struct Contact {
   double unloading_exponent = 1;                            ///< b >= 1
   double friction = 0;                                      ///< Coulomb mu
   double tangential_ratio = 1;                              ///< tangential over normal stiffness, 0..1
+  double friction_delay = 6;                                ///< longest, in crossings of the smaller body; 0: none
   double damping_ratio = 0;                                 ///< of critical damping of a surface layer, 0..1
   PointsOn points_on = PointsOn::both;                      ///< groups whose points are felt by the other
   InitialOverlap initial_overlap = InitialOverlap::refuse;  ///< bodies of the pair that overlap before the first step

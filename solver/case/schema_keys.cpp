@@ -173,9 +173,8 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "joint[].shear_strength", .type = number, .unit = "Pa", .fallback = "= tensile_strength",
      .range = positive, .help = "Greatest shear traction without normal pressure (cohesion).", .example = "\"20 MPa\""},
     {.path = "joint[].friction", .type = number, .fallback = "0", .range = not_negative,
-     .help = "Coefficient of friction: slope of the Mohr-Coulomb strength, and friction of closed damaged joints. From "
-             "about 0.2 on what slides without damping vibrates and rubs too little, as contact.friction tells: give "
-             "the material the viscosity that check names.",
+     .help = "Coefficient of friction: slope of the Mohr-Coulomb strength, and friction of closed damaged joints. "
+             "Broken ones rub by contact[].friction.",
      .example = "0.6"},
     {.path = "joint[].friction_angle", .type = number, .unit = "rad",
      .range = angle,
@@ -223,19 +222,21 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "contact[].unloading_exponent", .type = number, .fallback = "1", .range = at_least_one,
      .help = "Exponent b of the unloading curve: 1 gives all energy back, more dissipates.", .example = "2"},
     {.path = "contact[].friction", .type = number, .fallback = "0", .range = not_negative,
-     .help = "Coefficient of Coulomb friction. From about 0.2 on elastic bodies that slide without damping vibrate: "
-             "plates of 10 GPa under 2 MPa rub with 0.24 in the mean for 0.3, with 0.58 for 0.8, at any time step. A "
-             "viscosity (check names one), mass_damping, or damping_ratio 0.5 with a tenth of the penalty gives 0.30.",
-     .example = "0.3"},
+     .help = "Coefficient of Coulomb friction.", .example = "0.3"},
+    {.path = "contact[].friction_delay", .type = number, .fallback = "6", .range = not_negative,
+     .help = "Longest delay with which friction follows the normal force, in crossings of the smaller body by a wave "
+             "(Young's modulus or the penalty, whichever is smaller). It grows with the age of a contact: impacts rub "
+             "by Coulomb's law at once. 0: no delay; elastic bodies that slide then vibrate, lift off and rub too "
+             "little: driven plates with 0.21 to 0.27 for 0.3 and 0.28 to 0.42 for 0.6, with the delay 0.300 and "
+             "0.600. Beyond 0.8 they also need a viscosity (check names one).",
+     .example = "0"},
     {.path = "contact[].tangential_ratio", .type = number, .fallback = "1", .range = share,
      .help = "Tangential over normal contact stiffness.", .example = "0.8"},
     {.path = "contact[].damping_ratio", .type = number, .fallback = "0", .range = share,
      .help = "Damping of approach and retreat while bodies press on each other, as a share of the critical damping of "
              "a surface layer as thick as H. Accounted as dissipated by contact; shortens the time step by about that "
              "share. It damps bodies that bounce, hardly vibrations inside of them: a cube that falls flat on a floor "
-             "comes back with 1.000, 0.919, 0.781 and 0.480 of its speed for 0, 0.1, 0.3 and 1. It cures the creep of "
-             "bodies near their angle of friction only with a penalty of about a tenth of Young's modulus: on a slope "
-             "of 27 degrees that gave 0.0808 m/s2 for 0.083, but 0.345 with a penalty of Young's modulus.",
+             "comes back with 1.000, 0.919, 0.781 and 0.480 of its speed for 0, 0.1, 0.3 and 1.",
      .example = "0.2"},
     {.path = "contact[].points_on", .type = choice, .fallback = "both", .choices = "both|first",
      .help = "Whose contact points are felt by the other group: those of both, or of the group named first alone. A "

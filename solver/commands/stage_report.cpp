@@ -218,10 +218,8 @@ Advice sudden_load_advice(const case_::Case& input, const Model& model) {
     if (crossing > 0 && stage.end - start > kStatic * crossing) {
       advice.push_back(fmt::format(
           "Stage {} begins with {}, on bodies that are held, lie on others or are pressed on and that nothing damps: "
-          "they "
-          "vibrate with up to twice the static stress, and what lies on a slope near its angle of friction creeps. If "
-          "a slow load "
-          "is meant, let it grow over {} or more, {{ ramp = {{ start = {:g}, end = ..., to = ... }} }}, and damp: a "
+          "they vibrate with up to twice the static stress. If a slow load is meant, let it grow over {} or more, {{ "
+          "ramp = {{ start = {:g}, end = ..., to = ... }} }}, and damp: a "
           "material.viscosity of {}, or stage.local_damping; contact.damping_ratio = 0.2 damps what bounces.",
           words_of(input, stage), loads, quantity_text(kSlow * crossing, "s"), start,
           quantity_text(kViscosity * crossing * softest(model), "Pa s")));
@@ -256,21 +254,14 @@ struct RoughEntries {
 };
 
 RoughEntries rough_entries(const case_::Case& input) {
-  constexpr double kVibrates = 0.2;
+  constexpr double kSteady = 0.8, kSteadyAtOnce = 0.2;  // with and without a delay
   RoughEntries entries;
-  const auto add = [&](const char* what, const std::array<std::string, 2>& groups, double friction) {
-    if (friction < kVibrates) return;
-    entries.words += fmt::format("{}{} of {} {:g}", entries.words.empty() ? "" : ", ", what,
-                                 groups[0] == groups[1] ? groups[0] : groups[0] + " and " + groups[1], friction);
-    entries.largest = std::max(entries.largest, friction);
-  };
-  for (const case_::Contact& c : input.contacts) add("contact", c.groups, c.friction);
-  for (const case_::Joint& j : input.joints) {
-    const bool breaks = j.groups[0] != j.groups[1] ||
-                        std::any_of(input.materials.begin(), input.materials.end(), [&](const case_::Material& m) {
-                          return m.group == j.groups[0] && m.joints == case_::JointPlacement::breakable;
-                        });
-    if (breaks && j.tensile_strength > 0) add("joint", j.groups, j.friction);
+  for (const case_::Contact& c : input.contacts) {
+    if (c.friction <= (c.friction_delay > 0 ? kSteady : kSteadyAtOnce)) continue;
+    entries.words +=
+        fmt::format("{}{} {:g}", entries.words.empty() ? "" : ", ",
+                    c.groups[0] == c.groups[1] ? c.groups[0] : c.groups[0] + " and " + c.groups[1], c.friction);
+    entries.largest = std::max(entries.largest, c.friction);
   }
   return entries;
 }
@@ -286,9 +277,10 @@ Advice undamped_friction_advice(const case_::Case& input, const Model& model) {
   for (const case_::Stage& stage : input.stages) {
     if (!damped(input, stage, kAsTold * viscosity) && is_loaded(stage, start)) {
       return {fmt::format(
-          "{} stage {}, and there is friction (coefficients: {}): elastic bodies that slide vibrate unless they are "
-          "damped, rub up to 40 % too little, and creep near their angle of friction. If anything slides, damp: a "
-          "material.viscosity of {}, or a contact penalty of a tenth of Young's modulus with damping_ratio = 0.5.",
+          "{} stage {}, and there is friction (coefficients of contact: {}) with which elastic bodies that slide "
+          "vibrate "
+          "and rub up to 40 % too little; contact.friction_delay prevents that up to a coefficient of 0.8. If anything "
+          "slides, damp: a material.viscosity of {}.",
           damped(input, stage) ? "Viscosity damps little in" : "Nothing damps", words_of(input, stage), entries.words,
           quantity_text(viscosity, "Pa s"))};
     }

@@ -58,6 +58,7 @@ ContactSearch::ContactSearch(const ContactSearchParams& search, const Model& mod
       release_(surface_, search_, contact) {
   restore_contactors(records);
   contact_.body_length = model.whole.body_length;
+  contact_.body_extent = model.whole.body_extent;
   contact_.near = 0.5 * search_.smallest_buffer();
   surface_.add_free_points();
   restore_faces(records);

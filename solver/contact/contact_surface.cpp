@@ -59,6 +59,7 @@ double ContactSurface::choose_contactors(const ContactSearchParams& search) {
   }
   set_contactors(model_.local, std::move(slots), contact_);
   contact_.body_length = mean_inradii(model_.mesh);
+  contact_.body_extent = body_extents(model_.mesh);
   build_field(model_.params, model_.mesh, model_.local, contactors.surface, contact_);
   return contactors.size;
 }

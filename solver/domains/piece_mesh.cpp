@@ -20,6 +20,7 @@ std::vector<std::byte> pack(const WholeModel& whole) {
     bytes.put(groups.size);
   }
   bytes.put_list(whole.body_length);
+  bytes.put_list(whole.body_extent);
   bytes.put(static_cast<std::uint64_t>(whole.spin_centres.size()));
   for (const std::vector<Vec3>& centres : whole.spin_centres) {
     bytes.put(static_cast<std::uint64_t>(centres.size()));
@@ -48,6 +49,8 @@ WholeModel unpack_whole(std::span<const std::byte> packed) {
     groups.size = bytes.take<double>();
   }
   whole.body_length = bytes.take_list<double>();
+  whole.body_extent = bytes.take_list<double>();
+  DEMAND(whole.body_extent.size() == whole.body_length.size(), "two numbers of bodies");
   const auto lists = bytes.take<std::uint64_t>();
   DEMAND(lists <= bytes.left(), "lists of centres beyond the end");
   whole.spin_centres.resize(lists);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "mesh/geometry.hpp"
 #include "mesh/topology.hpp"
 
@@ -140,6 +142,17 @@ std::vector<double> mean_inradii(const Mesh& mesh) {
   }
   for (std::size_t b = 0; b < sum.size(); ++b) sum[b] /= std::max(count[b], 1.0);
   return sum;
+}
+
+std::vector<double> body_extents(const Mesh& mesh) {
+  std::vector<Eigen::AlignedBox3d> boxes(static_cast<std::size_t>(mesh.num_bodies));
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    const auto body = static_cast<std::size_t>(mesh.element_body[static_cast<std::size_t>(e)]);
+    for (const Vec3& corner : geometry::corners_of(mesh, e)) boxes[body].extend(corner);
+  }
+  std::vector<double> extents;
+  for (const Eigen::AlignedBox3d& box : boxes) extents.push_back(box.isEmpty() ? 0.0 : box.diagonal().norm());
+  return extents;
 }
 
 }  // namespace breccia

@@ -56,5 +56,7 @@ struct QualityReport {
 
 /// Mean inradius of the elements of every body, m; the elements in their order.
 [[nodiscard]] std::vector<double> mean_inradii(const Mesh& mesh);
+/// Diagonal of the box around every body, m.
+[[nodiscard]] std::vector<double> body_extents(const Mesh& mesh);
 
 }  // namespace breccia

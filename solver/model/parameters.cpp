@@ -137,10 +137,6 @@ bool carries_points(const case_::Contact& entry, const std::string& group, const
   return entry.points_on == case_::PointsOn::both || (fits(entry.groups[0], group) && fits(entry.groups[1], other));
 }
 
-/// Longest delay of friction, in crossings of H by a wave. Blocks of six lengths H an element that slide down a slope
-/// vibrate with 20, and do not with 30.
-constexpr double kCrossings = 45;
-
 ContactLaw contact_law(const case_::Contact& entry, const Pair& pair) {
   ContactLaw law;
   law.penalty = entry.penalty;
@@ -149,7 +145,8 @@ ContactLaw contact_law(const case_::Contact& entry, const Pair& pair) {
   law.friction = entry.friction;
   law.tangential_ratio = entry.tangential_ratio;
   law.damping = 2 * entry.damping_ratio * std::sqrt(entry.penalty * pair.density);
-  if (pair.density > 0) law.friction_delay = kCrossings * std::sqrt(pair.density / std::min(entry.penalty, pair.young));
+  if (pair.density > 0)
+    law.friction_delay = entry.friction_delay * std::sqrt(pair.density / std::min(entry.penalty, pair.young));
   return law;
 }
 

@@ -55,6 +55,7 @@ WholeModel whole_of(const case_::Case& input, const Mesh& mesh, const std::vecto
   whole.surface_groups = mesh.surface_groups;
   whole.num_elements = mesh.num_elements();
   whole.body_length = mean_inradii(mesh);
+  whole.body_extent = body_extents(mesh);
   whole.longest_edge = longest_edge(mesh);
   for (Index e = 0; e < mesh.num_elements(); ++e) {
     const auto x = geometry::corners_of(mesh, e);

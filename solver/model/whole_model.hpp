@@ -22,6 +22,7 @@ struct WholeModel {
   std::int64_t num_elements = 0, num_joints = 0;
   std::vector<JointGroups> joint_groups;
   std::vector<double> body_length;  ///< (bodies) H of contact, m: mean inradius of the elements
+  std::vector<double> body_extent;  ///< (bodies) m: diagonal of the box around it at rest
   double contactor_size = 0;        ///< m, mean size of the contactors
   double longest_edge = 0;          ///< m, of all elements, reference
   double energy_floor = 0;          ///< J, energies below are round-off

@@ -191,6 +191,7 @@ void Pass::act(Index index, Candidate& candidate) {
     if (h.d > 0 || candidate.g_before > h.offset) keep_step(point, length, h, candidate);
   } else {
     h = {.point = index, .contactor = candidate.contactor, .offset = first_offset(index, candidate)};
+    h.delayed = candidate.delayed;
   }
   h.gained_before += candidate.gained;
   if (!(h.d > 0) && candidate.g_before > h.offset && comes_from_beside(point, candidate)) h.offset = candidate.g_before;
@@ -201,6 +202,7 @@ void Pass::act(Index index, Candidate& candidate) {
   h.balance = 0;
   const double lost = follow(law, point.weight * length, length, candidate, h);
   account(point, work_.dissipated).add(lost);
+  if (!(h.d > 0)) forget_normal_force(dt_, h.delayed);
   if (!(candidate.g > 0)) {
     contact_.touching.pop_back();
     forget(last, lost);  // by the law and on the contactor that it had
@@ -236,12 +238,9 @@ double Pass::press(const ContactLaw& law, const ContactPoint& point, double leng
     const Vec3 outward = -here.gradient / slope;
     if (h.spring != Vec3::Zero())
       turn_spring(outward, outward.dot(mean_turn(point.slot, candidate.contactor)), h.spring);
-    if (h.d > 0) {
-      follow_normal_force(normal.pressure * slope, dt_, law.friction_delay * length, h.followed, h.delay);
-    } else {
-      h.followed = h.delay = 0;
-    }
-    const FrictionStep friction = friction_step(outward, motion, k, law.friction * h.followed, h.spring);
+    if (h.d > 0) follow_normal_force(normal.pressure * slope, dt_, longest_delay(h), h.delayed);
+    const double limit = h.d > 0 ? law.friction * h.delayed.force : 0.0;
+    const FrictionStep friction = friction_step(outward, motion, k, limit, h.spring);
     const double spring = 0.5 * k * h.spring.squaredNorm();
     account(point, work_.friction_dissipated).add(friction.dissipated);
     account(point, work_.friction_stored).add(spring);

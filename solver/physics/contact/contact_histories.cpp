@@ -76,7 +76,7 @@ void Pass::find_histories(Index point) {
 }
 
 /// Old histories [first, last) go to the candidates: the same contactor first, then a neighbour in the same body. Of a
-/// couple that has ended, a candidate there gets what is left to put right.
+/// couple that has ended, a candidate there gets what is left to put right and the delayed force.
 void Pass::take_over(std::size_t first, std::size_t last) {
   const std::vector<TouchingCouple>& old = contact_.touching_before;
   taken_.assign(last - first, false);
@@ -98,6 +98,7 @@ void Pass::take_over(std::size_t first, std::size_t last) {
     });
     if (to == candidates_.end()) continue;
     to->gained += old[k].gained_before;
+    if (old[k].delayed.age > to->delayed.age) to->delayed = old[k].delayed;
     taken_[k - first] = true;
   }
   for (std::size_t k = first; k < last; ++k) {
@@ -109,7 +110,7 @@ void Pass::take_over(std::size_t first, std::size_t last) {
 /// contactor may have left all couples with a search in this step, so it is prepared here.
 /// @param lost  J, by the normal law
 void Pass::forget(const TouchingCouple& old, double lost) {
-  if (!(old.d > 0) && old.force == Vec3::Zero() && old.gained_before == 0) return;
+  if (!(old.d > 0) && old.force == Vec3::Zero() && old.gained_before == 0 && old.delayed.age == 0) return;
   const ContactPoint& point = point_at(old.point);
   const Index slot = slot_of(old.contactor);
   const std::array<Vec3, 4> corners = load_corners(local_, state_.position.data(), slot);
@@ -132,12 +133,14 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   // A point that has not left through the surface: a crack has opened under it, and what the couple held is gone.
   const double overlap = overlap_value(shape_of(old.contactor), lambda);
   if (overlap > 0) return account(point, work_.dissipated).add(normal_held(point, old));
-  TouchingCouple ended{.point = old.point, .contactor = old.contactor, .gained_before = old.gained_before};
+  TouchingCouple ended{
+      .point = old.point, .contactor = old.contactor, .delayed = old.delayed, .gained_before = old.gained_before};
+  forget_normal_force(dt_, ended.delayed);
   ended.gained = old.gained + 0.5 * old.force.dot(motion) - held(point, old) + lost;
   end(point, old, motion, lambda, ended);
   const double remembered = overlap / kRememberedGap;  // m
   const double least = kLargestWorkError * stiffness(point, ended) * remembered * remembered;
-  const bool matters = std::abs(ended.gained_before) > least;
+  const bool matters = std::abs(ended.gained_before) > least || ended.delayed.age > 0;
   if (ended.force != Vec3::Zero() || (matters && is_near(lambda, corners, place))) contact_.touching.push_back(ended);
 }
 

@@ -14,7 +14,7 @@ struct ContactLaw {
   double friction = 0;                                       ///< Coulomb mu >= 0
   double tangential_ratio = 1;                               ///< tangential over normal stiffness, 0..1
   double damping = 0;                                        ///< Pa s/m, stress per speed of approach
-  double friction_delay = 0;                                 ///< s/m, longest delay of friction over H (friction.hpp)
+  double friction_delay = 0;                                 ///< s/m, longest, over the extent of the smaller body
 
   [[nodiscard]] bool active() const { return penalty > 0; }
 };

@@ -8,6 +8,7 @@
 #include "physics/contact/contact_field.hpp"
 #include "physics/contact/contact_forces.hpp"
 #include "physics/contact/contact_law.hpp"
+#include "physics/contact/friction.hpp"
 
 /// For contact_forces.cpp and contact_histories.cpp only.
 namespace breccia::contact_pass {
@@ -38,6 +39,7 @@ struct Candidate {
   double g;                 ///< m, now
   double g_before;          ///< m, with the field of one step ago
   double gained = 0;        ///< J, left to put right by couples of the point that have ended
+  DelayedForce delayed{};   ///< of the same
   std::ptrdiff_t old = -1;  ///< index of its history among those of the last step, -1: none
 };
 
@@ -47,7 +49,7 @@ struct Beside {
   std::array<double, 4> lambda;
 };
 
-/// Whether nothing is left of the couple but what its overlaps have gained or lost.
+/// Whether nothing is left of the couple but what its overlaps have gained or lost and its delayed normal force.
 inline bool has_ended(const TouchingCouple& couple) {
   return !(couple.d > 0) && couple.offset == 0 && couple.force == Vec3::Zero();
 }
@@ -121,6 +123,14 @@ class Pass {
   }
   [[nodiscard]] double length_of(Index slot) const {
     return contact_.body_length[static_cast<std::size_t>(local_.slot_body[static_cast<std::size_t>(slot)])];
+  }
+  /// s, of friction (friction.hpp)
+  [[nodiscard]] double longest_delay(const TouchingCouple& h) const {
+    const auto extent = [&](Index slot) {
+      return contact_.body_extent[static_cast<std::size_t>(local_.slot_body[static_cast<std::size_t>(slot)])];
+    };
+    const double least = std::min(extent(point_at(h.point).slot), extent(slot_of(h.contactor)));
+    return law_of(h.point, h.contactor).friction_delay * least;
   }
   [[nodiscard]] const ContactLaw& law_of(Index point, Index contactor) const {
     return params_.law(group_of(local_, point_at(point).slot), group_of(local_, slot_of(contactor)));

@@ -9,6 +9,7 @@
 #include "base/types.hpp"
 #include "mesh/corner_sets.hpp"
 #include "physics/contact/contact_point.hpp"
+#include "physics/contact/friction.hpp"
 #include "physics/contact/overlap.hpp"
 
 namespace breccia {
@@ -37,9 +38,9 @@ struct Travel {
 };
 
 /// A couple that touches, with its history. It lives as long as the overlap: a point that slides into a neighbouring
-/// element takes it along, a point that leaves the body forgets it. Only what the couple has gained or lost lives on,
-/// with d = 0 and without offset: first the force that holds back gains, then, while the point stays near, what is left
-/// for its next overlap with the body to put right.
+/// element takes it along, a point that leaves the body forgets it. Only what the couple has gained or lost and its
+/// delayed normal force live on, with d = 0 and without offset: first the force that holds back gains, then, while the
+/// point stays near, what is left for its next overlap with the body to put right or to go on from.
 struct TouchingCouple {
   Index point = 0;
   Index contactor = 0;
@@ -48,8 +49,7 @@ struct TouchingCouple {
   double offset = 0;         ///< m, overlap without force, or force before an overlap (contact_forces.hpp)
   Vec3 spring{0, 0, 0};      ///< m, elongation of the friction spring
   Vec3 friction{0, 0, 0};    ///< N, tangential force on the point
-  double followed = 0;       ///< N, normal force that the limit of friction follows (friction.hpp)
-  double delay = 0;          ///< s, by which it is late
+  DelayedForce delayed{};    ///< normal force that limits friction
   Vec3 force{0, 0, 0};       ///< N, whole force on the point
   double balance = 0;        ///< share of its normal force by which the force was changed to balance the work of a step
   double gained = 0;         ///< J, work done since the force began beyond what it took and holds (contact_forces.hpp)
@@ -86,6 +86,7 @@ struct ContactState {
   std::vector<Index> contactors;         ///< slots by ascending global element id
   std::vector<Index> contactor_of_slot;  ///< (num_slots) -1: none
   std::vector<double> body_length;       ///< (bodies) H, m
+  std::vector<double> body_extent;       ///< (bodies) m
   /// m: every search finds the points that are so near to the box of a contactor.
   double near = std::numeric_limits<double>::infinity();
   std::vector<ContactCouple> couples;  ///< by (point id, contactor)

@@ -46,22 +46,41 @@ struct FrictionStep {
   return {-k * xi, dissipated};
 }
 
-/// Part of the age of an overlap by which friction is late, until it is late by ContactLaw::friction_delay.
-inline constexpr double kDelayOfAge = 0.02;
+/// The normal force that limits friction, late.
+struct DelayedForce {
+  double force = 0;  ///< N
+  double age = 0;    ///< s, of the overlap, up to kSettledAge; falls while there is no overlap
+};
 
-/// The normal force that the limit of friction follows, with a delay t that grows with the age of the overlap:
+/// Age of an overlap from which on friction is latest, in longest delays. A half wave that presses for 0.3, 1 or 4 of
+/// them rubs 0.1, 0.5 or 1.9 % more than by Coulomb's law.
+inline constexpr double kSettledAge = 14;
+
+/// By which the age falls in a second without overlap, s: contacts that lift off again and again stay settled. A block
+/// that is set down at once on a slope of 26 degrees (friction 0.5) comes to rest within 0.1 mm with 0.3, creeps
+/// 0.4 mm with 3.
+inline constexpr double kFallOfAge = 0.3;
+
+/// One step of a force f that follows the normal force f_n with a delay that grows with the age a of the overlap:
 ///
-///   df/dt = (f_n - f) / t,  t = min(kDelayOfAge age, longest)
+///   df/dt = (f_n - f) / t,  t = longest min(1, (a / (kSettledAge longest))^2)
 ///
-/// Elastic bodies that slide on each other are unstable for any coefficient where the limit follows the normal force at
-/// once: friction feeds vibrations, which take it away [Adams 1995]; where it follows over some crossings of an element
-/// by a wave they are not [Prakash and Clifton 1993; Ranjith and Rice 2001]. What presses for no longer than that rubs
-/// as by Coulomb's law.
-/// @param force  N, normal;  @param dt  s, >= 0;  @param longest  s, >= 0
-/// @param followed  N;  @param delay  s;  both 0 where an overlap begins; read and written
-inline void follow_normal_force(double force, double dt, double longest, double& followed, double& delay) {
-  delay = std::min(longest, delay + kDelayOfAge * dt);
-  followed = dt < delay ? followed + (force - followed) * (dt / delay) : force;
+/// Elastic bodies that slide on each other are unstable where the limit of friction follows the normal force at once:
+/// friction feeds vibrations, which take it away [Adams 1995]. Where it follows over some crossings of the smaller body
+/// by a wave they are not [Prakash and Clifton 1993; Ranjith and Rice 2001]. Between overlaps f stays as it is, so that
+/// in the mean over all overlaps it is f_n.
+/// @param normal  N, f_n;  @param dt  s, >= 0;  @param longest  s, >= 0;  @param delayed  read and written
+inline void follow_normal_force(double normal, double dt, double longest, DelayedForce& delayed) {
+  delayed.age = std::min(delayed.age + dt, kSettledAge * longest);
+  const double settled = longest > 0 ? delayed.age / (kSettledAge * longest) : 0.0;
+  const double delay = longest * settled * settled;
+  delayed.force = dt < delay ? delayed.force + (normal - delayed.force) * (dt / delay) : normal;
+}
+
+/// One step without overlap.
+inline void forget_normal_force(double dt, DelayedForce& delayed) {
+  delayed.age -= kFallOfAge * dt;
+  if (!(delayed.age > 0)) delayed = {};
 }
 
 /// Turns a spring with the surfaces that it lies between, by an angle about their normal: what sticks to a body that

@@ -131,6 +131,7 @@ penalty = "7500 GPa"
 plateau = "60 MPa"
 unloading_exponent = 2
 friction = 0.3
+friction_delay = 20
 tangential_ratio = 0.8
 damping_ratio = 0.2
 points_on = "both"

@@ -145,6 +145,7 @@ TEST(Reader, ContactsAndTheSphereAreRead) {
   EXPECT_EQ(c.contacts[0].plateau, 60e6);
   EXPECT_EQ(c.contacts[0].unloading_exponent, 2);
   EXPECT_EQ(c.contacts[0].friction, 0.3);
+  EXPECT_EQ(c.contacts[0].friction_delay, 20);
   EXPECT_EQ(c.contacts[0].tangential_ratio, 0.8);
   EXPECT_EQ(c.contacts[0].damping_ratio, 0.2);
   EXPECT_EQ(c.contacts[0].points_on, PointsOn::both);

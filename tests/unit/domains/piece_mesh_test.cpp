@@ -25,6 +25,7 @@ WholeModel whole_of(const Mesh& mesh) {
   whole.volume_groups = mesh.volume_groups;
   whole.surface_groups = mesh.surface_groups;
   whole.body_length.assign(at(mesh.num_bodies), 1.0);
+  whole.body_extent.assign(at(mesh.num_bodies), 2.0);
   return whole;
 }
 
@@ -105,6 +106,7 @@ TEST(WholeModel, ArrivesAsItWasSent) {
   EXPECT_EQ(there.joint_groups[1].size, 0.25);
   EXPECT_EQ(there.step_ratio, 1.75);
   EXPECT_EQ(there.body_length, whole.body_length);
+  EXPECT_EQ(there.body_extent, whole.body_extent);
 }
 
 TEST(Records, ThatPointBeyondTheirModelAreNotPossible) {

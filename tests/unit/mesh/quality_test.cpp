@@ -108,5 +108,14 @@ TEST(QualityReport, RanksTheWorstElementsAndTheQuantilesAsASortDoes) {
   EXPECT_EQ(report.volume.max, *std::max_element(volumes.begin(), volumes.end()));
 }
 
+TEST(BodyExtents, AreTheDiagonalsOfTheirBoxes) {
+  Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 2}, {5, 0, 0}, {8, 0, 0}, {5, 4, 0}, {5, 0, 12}};
+  mesh.elements = {{0, 1, 2, 3}, {4, 5, 6, 7}};
+  mesh.element_body = {1, 0};
+  mesh.num_bodies = 3;
+  EXPECT_EQ(body_extents(mesh), (std::vector<double>{13, 3, 0})) << "no element: nothing";
+}
+
 }  // namespace
 }  // namespace breccia

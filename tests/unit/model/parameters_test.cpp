@@ -51,6 +51,18 @@ TEST(ContactParams, have_the_damping_of_a_layer_of_both_densities) {
   EXPECT_EQ(params.law(1, 1).damping, 0.0);
 }
 
+TEST(ContactParams, have_a_delay_of_friction_by_the_slower_one_of_body_and_penalty) {
+  const case_::Case stiff = two_boxes_case({"contact[0].friction_delay=20"}),
+                    soft = two_boxes_case({"contact[0].friction_delay=20", "contact[0].penalty=1e6"});
+  const case_::Material &left = stiff.materials[0], &right = stiff.materials[1];
+  const double density = left.density * right.density / (left.density + right.density);
+  const double young = std::min(left.young, right.young);
+  ASSERT_GT(stiff.contacts[0].penalty, young);
+  const std::vector<std::string> groups{left.group, right.group};
+  EXPECT_NEAR(contact_params(stiff, groups).law(0, 1).friction_delay / (20 * std::sqrt(density / young)), 1, 1e-12);
+  EXPECT_NEAR(contact_params(soft, groups).law(0, 1).friction_delay / (20 * std::sqrt(density / 1e6)), 1, 1e-12);
+}
+
 TEST(ContactParams, have_the_plateau_of_the_case_or_none) {
   const ContactParams params = contact_params(two_boxes_case(), {"left", "right"});
   EXPECT_EQ(params.law(0, 1).plateau, 60e6);

@@ -137,6 +137,7 @@ struct Scene {
     state.velocity.assign(local.reference.size(), 0.0);
     set_contactors(local, local.slot_of_element, contact);
     contact.body_length = mean_inradii(mesh);
+    contact.body_extent = body_extents(mesh);
     build_field(params, mesh, local, surface_depth(std::vector<bool>(groups), mesh, topology), contact);
     for (Index e = 0; e < mesh.num_elements(); ++e) {
       for (int f = 0; f < 4; ++f) {

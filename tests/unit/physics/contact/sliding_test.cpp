@@ -53,6 +53,51 @@ TEST(sliding, at_constant_depth_has_a_constant_normal_force_and_no_tangential_fo
   }
 }
 
+/// Friction 0.5, late by up to 10 s for each metre of the smaller body, that of the slider.
+Drag settled_drag(double depth) {
+  Drag drag({kPenalty, kInfinite, 1, 0.5, 1, 0, 10}, depth);
+  drag.move({0, 0, 0});
+  for (int i = 0; i < 100; ++i) drag.move({0.02, 0, 0});
+  return drag;
+}
+double longest_delay(const Drag& drag) { return 10 * drag.scene.contact.body_extent[1]; }
+double depth_of(const Drag& drag) { return drag.scene.contact.touching.front().d * drag.scene.contact.body_length[0]; }
+
+TEST(sliding, friction_follows_the_normal_force_late_by_crossings_of_the_smaller_body) {
+  Drag drag = settled_drag(0.02);
+  const Vec3 before = drag.move({0.02, 0, 0});
+  EXPECT_NEAR(-before[0] / before[2], 0.5, 0.01);
+  const Vec3 deeper = drag.move({0.02, 0, -0.02});
+  const double step = 1 / longest_delay(drag);
+  ASSERT_LT(step, 0.2);
+  EXPECT_NEAR(-deeper[0], 0.5 * (before[2] + step * (deeper[2] - before[2])), 0.01 * before[2]);
+}
+
+TEST(sliding, friction_goes_on_from_the_normal_force_before_a_short_lift) {
+  Drag drag = settled_drag(0.02);
+  const DelayedForce before = drag.scene.contact.touching.front().delayed;
+  const double depth = depth_of(drag);
+  drag.move({0, 0, depth + 0.002});
+  drag.move({0, 0, 0.001});
+  ASSERT_EQ(drag.scene.contact.touching.size(), 1U);
+  ASSERT_EQ(drag.scene.contact.touching.front().d, 0);
+  EXPECT_EQ(drag.scene.contact.touching.front().delayed.force, before.force);
+  EXPECT_NEAR(drag.scene.contact.touching.front().delayed.age, before.age - 2 * kFallOfAge, kRoundOff * before.age);
+  const double force = drag.move({0, 0, -2 * depth - 0.003})[2];
+  ASSERT_GT(force, 1.9 * before.force);
+  EXPECT_LT(drag.scene.contact.touching.front().delayed.force, 1.3 * before.force);
+}
+
+TEST(sliding, friction_forgets_the_normal_force_of_a_couple_that_lies_without_force) {
+  Drag drag = settled_drag(0.02);
+  const double age = drag.scene.contact.touching.front().delayed.age;
+  drag.scene.contact.touching.front().offset = 1;  // m
+  drag.move({0, 0, 0});
+  ASSERT_EQ(drag.scene.contact.touching.size(), 1U);
+  ASSERT_EQ(drag.scene.contact.touching.front().d, 0);
+  EXPECT_NEAR(drag.scene.contact.touching.front().delayed.age, age - kFallOfAge, kRoundOff * age);
+}
+
 TEST(sliding, a_point_that_is_deep_inside_at_once_starts_without_force) {
   // As through a gap that has opened between elements: it has not moved as far as it is deep.
   Drag drag({kPenalty, kInfinite, 1, 0, 1}, 0.1);
