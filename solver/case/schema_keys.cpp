@@ -228,7 +228,7 @@ constexpr auto model_keys = std::to_array<Key>({
              "(Young's modulus or the penalty, whichever is smaller). It grows with the age of a contact: impacts rub "
              "by Coulomb's law at once. 0: no delay; elastic bodies that slide then vibrate, lift off and rub too "
              "little: driven plates with 0.21 to 0.27 for 0.3 and 0.28 to 0.42 for 0.6, with the delay 0.300 and "
-             "0.600. Beyond 0.8 they also need a viscosity (check names one).",
+             "0.600. Beyond 0.6 they may also need a viscosity (check names one).",
      .example = "0"},
     {.path = "contact[].tangential_ratio", .type = number, .fallback = "1", .range = share,
      .help = "Tangential over normal contact stiffness.", .example = "0.8"},

@@ -16,15 +16,35 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// m, (groups) H of the finest body, 0: no element.
-std::vector<double> finest_lengths(const Model& model) {
-  std::vector<double> length(model.mesh.volume_groups.size(), 0.0);
+/// m, (groups) of its bodies: H of the finest one, and the extent of the largest one; 0: no element.
+struct GroupSizes {
+  std::vector<double> length, extent;
+};
+
+GroupSizes sizes_of(const Model& model) {
+  const std::vector<double> none(model.mesh.volume_groups.size(), 0.0);
+  GroupSizes sizes{none, none};
   for (Index e = 0; e < model.mesh.num_elements(); ++e) {
-    const double h = model.whole.body_length[at(model.mesh.element_body[at(e)])];
-    double& least = length[at(model.mesh.element_group[at(e)])];
+    const std::size_t body = at(model.mesh.element_body[at(e)]), group = at(model.mesh.element_group[at(e)]);
+    const double h = model.whole.body_length[body];
+    double& least = sizes.length[group];
     least = least > 0 ? std::min(least, h) : h;
+    sizes.extent[group] = std::max(sizes.extent[group], model.whole.body_extent[body]);
   }
-  return length;
+  return sizes;
+}
+
+/// s, by which friction on a group is late at most, 0: there is none. @param extent  m, (groups) of the largest body
+double longest_delay(const Model& model, std::size_t group, const std::vector<double>& extent) {
+  double longest = 0;
+  for (std::size_t other = 0; other < extent.size(); ++other) {
+    for (const ContactLaw& law : {model.contact.law(static_cast<Index>(group), static_cast<Index>(other)),
+                                  model.contact.law(static_cast<Index>(other), static_cast<Index>(group))}) {
+      if (law.active() && law.friction > 0)
+        longest = std::max(longest, law.friction_delay * std::min(extent[group], extent[other]));
+    }
+  }
+  return longest;
 }
 
 /// The surface around a node.
@@ -90,7 +110,7 @@ bool has_points(const Model& model, Index group) {
 
 std::string stiffness_report(const Model& model) {
   const auto& names = model.mesh.volume_groups;
-  const std::vector<double> length = finest_lengths(model);
+  const auto& [length, extent] = sizes_of(model);
   std::string text;
   for (std::size_t g = 0; g < names.size(); ++g) {
     double least = std::numeric_limits<double>::max(), most = 0;
@@ -109,6 +129,8 @@ std::string stiffness_report(const Model& model) {
         "contact of {}: stiffness penalty/H = {} Pa/m with H = {}; recommended penalty {}, E, or that "
         "of what it meets if softer\n",
         names[g], range, quantity_text(length[g], "m"), quantity_text(young, "Pa"));
+    if (const double delay = longest_delay(model, g, extent); delay > 0)
+      text += fmt::format("  friction follows the normal force with a delay of up to {}\n", quantity_text(delay, "s"));
   }
   return text;
 }

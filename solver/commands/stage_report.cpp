@@ -143,8 +143,9 @@ class Solids {
 constexpr double kViscosity = 0.005;
 
 /// Likewise, for a coefficient of friction 1. Elastic bodies that slide on each other without damping are unstable, the
-/// more so the larger the friction. With 0.05 two blocks of 15 mm slide evenly on meshes of 5 and 8 mm and rub at most
-/// 0.6 % too little, with coefficients of 0.3, 0.6 and 0.9; with 0.03 and 0.6 up to 5 % too little.
+/// more so the larger the friction. With 0.05, and without a delay of friction, two blocks of 15 mm slide evenly on
+/// meshes of 5 and 8 mm and rub at most 0.6 % too little, with coefficients of 0.3, 0.6 and 0.9; with 0.03 and 0.6 up
+/// to 5 % too little.
 constexpr double kSlidingViscosity = 0.05;
 /// Share of it that is enough: what was told is rounded.
 constexpr double kAsTold = 0.95;
@@ -254,7 +255,7 @@ struct RoughEntries {
 };
 
 RoughEntries rough_entries(const case_::Case& input) {
-  constexpr double kSteady = 0.8, kSteadyAtOnce = 0.2;  // with and without a delay
+  constexpr double kSteady = 0.6, kSteadyAtOnce = 0.2;  // with and without a delay
   RoughEntries entries;
   for (const case_::Contact& c : input.contacts) {
     if (c.friction <= (c.friction_delay > 0 ? kSteady : kSteadyAtOnce)) continue;
@@ -279,7 +280,7 @@ Advice undamped_friction_advice(const case_::Case& input, const Model& model) {
       return {fmt::format(
           "{} stage {}, and there is friction (coefficients of contact: {}) with which elastic bodies that slide "
           "vibrate "
-          "and rub up to 40 % too little; contact.friction_delay prevents that up to a coefficient of 0.8. If anything "
+          "and rub up to 40 % too little; contact.friction_delay prevents that up to a coefficient of 0.6. If anything "
           "slides, damp: a material.viscosity of {}.",
           damped(input, stage) ? "Viscosity damps little in" : "Nothing damps", words_of(input, stage), entries.words,
           quantity_text(viscosity, "Pa s"))};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -124,9 +125,8 @@ TEST(InitialOverlap, that_is_relaxed_gives_no_energy_and_the_same_bits_on_any_nu
   }
 }
 
-/// A block on a slope, at rest first, friction 0.5, 20 MPa. Returns its acceleration once it slides, m/s2. The weight
-/// grows so slowly that what vibration it leaves takes less from the normal force than 26 degrees leave to friction,
-/// 2.5 %: nothing damps it, and the block would creep.
+/// A block on a slope, at rest first, friction 0.5, 20 MPa. Returns its acceleration once it slides, m/s2. Nothing
+/// damps it; the weight grows slowly, as a block that is set down at once bounces and slips.
 double acceleration(double degrees, const std::string& floor_size, const std::string& penalty) {
   const Scratch scratch;
   scratch.write("block.geo", R"(SetFactory("OpenCASCADE");
@@ -193,6 +193,59 @@ TEST(Slope, less_steep_than_friction_holds_a_block) {
     for (const char* penalty : {"2 MPa", "20 MPa"})
       EXPECT_NEAR(acceleration(26, size, penalty) / 0.1082, 0.0, still) << "floor " << size << ", penalty " << penalty;
   }
+}
+
+/// A plate of 10 GPa on another one, pressed with 2 MPa and driven along it at its top, undamped. Returns the mean of
+/// its friction over that of the normal force once it slides.
+double rubbed(double friction, const std::string& delay) {
+  const Scratch scratch;
+  scratch.write("plates.geo", R"(SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 1e-9, 0.04, 0.015, 0.01};
+Box(2) = {-0.015, -0.0075, -0.015, 0.07, 0.03, 0.015};
+Physical Volume("upper") = {1};
+Physical Volume("lower") = {2};
+top() = Surface In BoundingBox{-1e-6, -1e-6, 0.0099, 0.041, 0.016, 0.0101};
+Physical Surface("top") = {top()};
+Mesh.MeshSizeMin = 0.005; Mesh.MeshSizeMax = 0.005;
+)");
+  const std::string file =
+      scratch.write("plates.toml", "title = \"plates\"\n[mesh]\nfile = \"plates.geo\"\n" + material("upper", "10 GPa") +
+                                       material("lower", "10 GPa") + R"([[contact]]
+between = ["upper", "lower"]
+penalty = "10 GPa"
+friction = )" + std::to_string(friction) +
+                                       "\nfriction_delay = " + delay + R"(
+points_on = "first"
+[[stage]]
+end = "4 ms"
+[[stage.pressure]]
+surface = "top"
+value = { ramp = { to = "2 MPa", end = "0.5 ms" } }
+[[stage.constraint]]
+group = "lower"
+fixed = "xyz"
+[[stage.constraint]]
+group = "top"
+velocity = { x = { ramp = { start = "0.5 ms", end = "1 ms", to = "0.5 m/s" } }, y = 0 }
+[output]
+frame_interval = 0
+history_interval = "5 us"
+gauges = ["upper"]
+)");
+  const std::string folder = scratch.path("run").string();
+  const Outcome outcome = call("run " + file + " --progress none -o '" + folder + "'");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto column = [&](const char* name) { return history_column(folder + "/history.csv", name); };
+  const std::vector<double> t = column("time [s]"), x = column("upper contact force x [N]"),
+                            z = column("upper contact force z [N]");
+  const auto slides = std::lower_bound(t.begin(), t.end(), 1.5e-3) - t.begin();
+  return -std::accumulate(x.begin() + slides, x.end(), 0.0) / std::accumulate(z.begin() + slides, z.end(), 0.0);
+}
+
+TEST(Plates, that_slide_undamped_rub_with_their_coefficient_where_friction_is_late) {
+  constexpr double kWithin = 0.002;
+  for (const double friction : {0.3, 0.6}) EXPECT_NEAR(rubbed(friction, "6"), friction, kWithin);
+  EXPECT_LT(rubbed(0.6, "0"), 0.5) << "they vibrate without a delay";
 }
 
 TEST(Cylinder, pressed_between_platens_is_felt_within_a_micrometre_where_faces_have_points_at_their_corners) {

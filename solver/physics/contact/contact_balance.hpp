@@ -14,8 +14,8 @@ namespace breccia {
 /// for the steps in which the overlap begins or ends: of a motion D the force k d of an overlap d < D takes 1/2 k d D
 /// where 1/2 k d^2 is stored, so up to k D^2 / 8 is lost where it begins and gained where it ends.
 
-/// Largest pull of a couple, N, after a motion D out of the overlap: k D / 4. With a pull of k D a mass comes back faster
-/// than it left where steps are long, and such contacts gain energy.
+/// Largest pull of a couple, N, after a motion D out of the overlap: k D / 4. With a pull of k D a mass comes back
+/// faster than it left where steps are long, and such contacts gain energy.
 [[nodiscard]] constexpr double largest_pull(double k, double out) { return 2 * kLargestWorkError * k * out; }
 
 /// How much a force may be changed in a step of a motion D along it, J each.
@@ -32,9 +32,9 @@ struct BalancingLimits {
   return {most, most, most};
 }
 
-/// While a couple unloads along a steep curve (b > 1), any step of which may leave next to no force of one that was large
-/// before: what that has gained is taken back by a pull. Not while it loads, where larger changes make the contact
-/// stiffer than the time step allows. @param work  J, > 0
+/// While a couple unloads along a steep curve (b > 1), any step of which may leave next to no force of one that was
+/// large before: what that has gained is taken back by a pull. Not while it loads, where larger changes make the
+/// contact stiffer than the time step allows. @param work  J, > 0
 [[nodiscard]] inline BalancingLimits steep_limits(double work, double k, double out) {
   return {std::numeric_limits<double>::infinity(), balancing_limits(work, k, out).give,
           work + largest_pull(k, out) * out};
@@ -65,8 +65,8 @@ struct BalancingShares {
 inline constexpr double kRememberedGap = 1000;
 
 /// Force of a couple whose overlap has ended, N: takes back what it has gained, over this step and the next one,
-/// assuming that the next motion equals this one. None while the gap closes, or where there is next to nothing left. Never
-/// larger than the force before or than the largest pull.
+/// assuming that the next motion equals this one. None while the gap closes, or where there is next to nothing left.
+/// Never larger than the force before or than the largest pull.
 /// @param last  N, force one step ago: of the law (`pushed`), or of this function
 [[nodiscard]] inline Vec3 closing_force(double gained, const Vec3& last, const Vec3& motion, bool pushed, double k) {
   const double work = last.dot(motion), against = pushed ? work : -work;

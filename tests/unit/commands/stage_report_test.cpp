@@ -75,7 +75,7 @@ TEST(Friction, where_nothing_damps_what_is_loaded_is_named_with_a_viscosity) {
   EXPECT_THAT(boxes(grown, rough),
               AllOf(HasSubstr("Nothing damps stage 0"), HasSubstr("coefficients of contact: * 0.9"),
                     HasSubstr("material.viscosity of ")));
-  EXPECT_EQ(boxes(grown, "contact[0].friction=0.8"), "");
+  EXPECT_EQ(boxes(grown, "contact[0].friction=0.6"), "");
   EXPECT_EQ(boxes("", rough), "") << "nothing is loaded";
   EXPECT_THAT(boxes(grown, "contact[0].friction_delay=0"), HasSubstr("* 0.3"));
   const auto at_once = [&](const std::string& entry) {
