@@ -12,8 +12,8 @@ mkdir -p "$folder"
 
 # sample NAME CASE RANKS: a run, unless it is there already.
 sample() {
-  grep -qs '"status": *"complete"' "$folder/$1/summary.json" && return
   echo "$folder/$1: $2 on $3 rank(s)"
+  grep -qs '"status": *"complete"' "$folder/$1/summary.json" && return
   if [ "$3" = 1 ]; then
     "$breccia" run "$root/meshes/$2" -f -o "$folder/$1" --progress none
   else

@@ -173,8 +173,10 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "joint[].shear_strength", .type = number, .unit = "Pa", .fallback = "= tensile_strength",
      .range = positive, .help = "Greatest shear traction without normal pressure (cohesion).", .example = "\"20 MPa\""},
     {.path = "joint[].friction", .type = number, .fallback = "0", .range = not_negative,
-     .help = "Coefficient of friction: slope of the Mohr-Coulomb strength, and friction of closed damaged joints. "
-             "Broken ones rub by contact[].friction.",
+     .help = "Coefficient of friction: slope of the Mohr-Coulomb strength, and friction of closed joints, damaged "
+             "or failed, until they have opened. It follows the normal traction at once: interfaces that slide "
+             "undamped vibrate and rub with 0.29 for 0.3, 0.55 to 0.57 for 0.6. The viscosity that check names cures "
+             "that.",
      .example = "0.6"},
     {.path = "joint[].friction_angle", .type = number, .unit = "rad",
      .range = angle,
@@ -227,7 +229,7 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Longest delay with which friction follows the normal force, in crossings of the smaller body by a wave "
              "(Young's modulus or the penalty, whichever is smaller). It grows with the age of a contact: impacts rub "
              "by Coulomb's law at once. 0: no delay; elastic bodies that slide then vibrate, lift off and rub too "
-             "little: driven plates with 0.21 to 0.27 for 0.3 and 0.28 to 0.42 for 0.6, with the delay 0.300 and "
+             "little: driven plates with 0.19 to 0.27 for 0.3 and 0.28 to 0.43 for 0.6, with the delay 0.300 and "
              "0.600. Beyond 0.6 they may also need a viscosity (check names one).",
      .example = "0"},
     {.path = "contact[].tangential_ratio", .type = number, .fallback = "1", .range = share,

@@ -257,12 +257,20 @@ struct RoughEntries {
 RoughEntries rough_entries(const case_::Case& input) {
   constexpr double kSteady = 0.6, kSteadyAtOnce = 0.2;  // with and without a delay
   RoughEntries entries;
-  for (const case_::Contact& c : input.contacts) {
-    if (c.friction <= (c.friction_delay > 0 ? kSteady : kSteadyAtOnce)) continue;
-    entries.words +=
-        fmt::format("{}{} {:g}", entries.words.empty() ? "" : ", ",
-                    c.groups[0] == c.groups[1] ? c.groups[0] : c.groups[0] + " and " + c.groups[1], c.friction);
-    entries.largest = std::max(entries.largest, c.friction);
+  const auto add = [&](const char* what, const std::array<std::string, 2>& groups, double friction, double steady) {
+    if (friction <= steady) return;
+    entries.words += fmt::format("{}{} of {} {:g}", entries.words.empty() ? "" : ", ", what,
+                                 groups[0] == groups[1] ? groups[0] : groups[0] + " and " + groups[1], friction);
+    entries.largest = std::max(entries.largest, friction);
+  };
+  for (const case_::Contact& c : input.contacts)
+    add("contact", c.groups, c.friction, c.friction_delay > 0 ? kSteady : kSteadyAtOnce);
+  for (const case_::Joint& j : input.joints) {
+    const bool breaks = j.groups[0] != j.groups[1] ||
+                        std::any_of(input.materials.begin(), input.materials.end(), [&](const case_::Material& m) {
+                          return m.group == j.groups[0] && m.joints == case_::JointPlacement::breakable;
+                        });
+    if (breaks && j.tensile_strength > 0) add("joint", j.groups, j.friction, kSteadyAtOnce);
   }
   return entries;
 }
@@ -278,10 +286,9 @@ Advice undamped_friction_advice(const case_::Case& input, const Model& model) {
   for (const case_::Stage& stage : input.stages) {
     if (!damped(input, stage, kAsTold * viscosity) && is_loaded(stage, start)) {
       return {fmt::format(
-          "{} stage {}, and there is friction (coefficients of contact: {}) with which elastic bodies that slide "
-          "vibrate "
-          "and rub up to 40 % too little; contact.friction_delay prevents that up to a coefficient of 0.6. If anything "
-          "slides, damp: a material.viscosity of {}.",
+          "{} stage {}, and there is friction (coefficients: {}) with which elastic bodies that slide vibrate and rub "
+          "too little; contact.friction_delay prevents that up to a coefficient of 0.6, joints have no delay. If "
+          "anything slides, damp: a material.viscosity of {}.",
           damped(input, stage) ? "Viscosity damps little in" : "Nothing damps", words_of(input, stage), entries.words,
           quantity_text(viscosity, "Pa s"))};
     }

@@ -26,7 +26,8 @@ struct ContactWork {
 ///
 ///   normal    f_p = -w sigma(d) grad g,  d = max(0, g - offset) / H,  the negative gradient of w H integral sigma dd
 ///             with damping normal_law::damped in place of sigma
-///   friction  friction.hpp with k = tangential_ratio w sigma_p / H, limit mu w sigma |grad g|
+///   friction  friction.hpp with k = tangential_ratio w sigma_p / H, limit mu f, where f follows w sigma |grad g| with
+///             a delay of up to friction_delay times the extent of the smaller body
 ///   target    + N_i f_p on the corners of its face;  contactor: - lambda_a f_p on its corners
 ///
 /// so linear and angular momentum hold to round-off for any direction of f_p. History: a couple keeps its

@@ -72,9 +72,8 @@ TEST(Friction, where_nothing_damps_what_is_loaded_is_named_with_a_viscosity) {
     return advice_on(cube(stage) + contact, {"mesh.raster.boxes=[1, 1, 2]", "mesh.raster.gap=1 mm", entry});
   };
   const std::string rough = "contact[0].friction=0.9";
-  EXPECT_THAT(boxes(grown, rough),
-              AllOf(HasSubstr("Nothing damps stage 0"), HasSubstr("coefficients of contact: * 0.9"),
-                    HasSubstr("material.viscosity of ")));
+  EXPECT_THAT(boxes(grown, rough), AllOf(HasSubstr("Nothing damps stage 0"), HasSubstr("contact of * 0.9"),
+                                         HasSubstr("material.viscosity of ")));
   EXPECT_EQ(boxes(grown, "contact[0].friction=0.6"), "");
   EXPECT_EQ(boxes("", rough), "") << "nothing is loaded";
   EXPECT_THAT(boxes(grown, "contact[0].friction_delay=0"), HasSubstr("* 0.3"));
@@ -87,6 +86,14 @@ TEST(Friction, where_nothing_damps_what_is_loaded_is_named_with_a_viscosity) {
   EXPECT_EQ(at_once("material[0].viscosity=10 kPa s"), "");
   EXPECT_EQ(at_once("contact[0].damping_ratio=0.5"), "");
   EXPECT_EQ(advice_on(cube(grown) + contact, {rough}), "") << "one body that cannot break";
+}
+
+TEST(Friction, of_joints_that_can_break_counts_as_well) {
+  const std::string joint =
+      "[[joint]]\ngroup = \"raster\"\ntensile_strength = 1e6\nenergy_mode_1 = 10\nfriction = 0.6\n";
+  const std::string drive = "[[stage.constraint]]\ngroup = \"raster.z1\"\nvelocity = { z = -0.01 }\n";
+  EXPECT_THAT(advice_on(cube("") + drive + joint, {"material[0].joints=breakable"}), HasSubstr("joint of raster 0.6"));
+  EXPECT_EQ(advice_on(cube("") + joint, {"material[0].joints=breakable"}), "");
 }
 
 TEST(Constraints, that_overrule_others_in_part_are_named_with_the_number_of_nodes) {
