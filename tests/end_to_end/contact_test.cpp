@@ -125,6 +125,14 @@ TEST(InitialOverlap, that_is_relaxed_gives_no_energy_and_the_same_bits_on_any_nu
   }
 }
 
+/// Runs a case in a folder of its own. @return  where its history is
+std::string history_of(const Scratch& scratch, const std::string& file) {
+  const std::string folder = scratch.path("run").string();
+  const Outcome outcome = call("run " + file + " --progress none -o '" + folder + "'");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  return folder + "/history.csv";
+}
+
 /// A block on a slope, at rest first, friction 0.5, 20 MPa. Returns its acceleration once it slides, m/s2. Nothing
 /// damps it; the weight grows slowly, as a block that is set down at once bounces and slips.
 double acceleration(double degrees, const std::string& floor_size, const std::string& penalty) {
@@ -161,11 +169,9 @@ frame_interval = 0
 history_interval = "1 ms"
 gauges = ["block"]
 )");
-  const std::string folder = scratch.path("run").string();
-  const Outcome outcome = call("run " + file + " --progress none -o '" + folder + "'");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  const std::vector<double> t = history_column(folder + "/history.csv", "time [s]");
-  const std::vector<double> x = history_column(folder + "/history.csv", "block displacement x [m]");
+  const std::string history = history_of(scratch, file);
+  const std::vector<double> t = history_column(history, "time [s]");
+  const std::vector<double> x = history_column(history, "block displacement x [m]");
   // Three places after the ramp: their second difference is free of small vibrations.
   const auto at = [&](double time) {
     return static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), time) - t.begin());
@@ -175,13 +181,13 @@ gauges = ["block"]
 }
 
 TEST(Slope, steeper_than_friction_accelerates_a_block_as_it_should_on_coarse_and_fine_floors) {
-  constexpr double two_percent = 0.02;
+  constexpr double kWithin = 0.005;  // twelve blocks: 0.04 % at most
   for (const double degrees : {27.0, 28.0, 30.0}) {
     const double angle = degrees * std::acos(-1.0) / 180;
     const double expected = 9.81 * (std::sin(angle) - 0.5 * std::cos(angle));
     for (const char* size : {"0.04", "0.01"}) {
       for (const char* penalty : {"2 MPa", "20 MPa"})
-        EXPECT_NEAR(acceleration(degrees, size, penalty) / expected, 1.0, two_percent)
+        EXPECT_NEAR(acceleration(degrees, size, penalty) / expected, 1.0, kWithin)
             << degrees << " degrees, floor " << size << ", penalty " << penalty;
     }
   }
@@ -232,10 +238,8 @@ frame_interval = 0
 history_interval = "5 us"
 gauges = ["upper"]
 )");
-  const std::string folder = scratch.path("run").string();
-  const Outcome outcome = call("run " + file + " --progress none -o '" + folder + "'");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto column = [&](const char* name) { return history_column(folder + "/history.csv", name); };
+  const std::string history = history_of(scratch, file);
+  const auto column = [&](const char* name) { return history_column(history, name); };
   const std::vector<double> t = column("time [s]"), x = column("upper contact force x [N]"),
                             z = column("upper contact force z [N]");
   const auto slides = std::lower_bound(t.begin(), t.end(), 1.5e-3) - t.begin();
@@ -243,7 +247,7 @@ gauges = ["upper"]
 }
 
 TEST(Plates, that_slide_undamped_rub_with_their_coefficient_where_friction_is_late) {
-  constexpr double kWithin = 0.002;
+  constexpr double kWithin = 0.002;  // measured: 0.3000 and 0.6000
   for (const double friction : {0.3, 0.6}) EXPECT_NEAR(rubbed(friction, "6"), friction, kWithin);
   EXPECT_LT(rubbed(0.6, "0"), 0.5) << "they vibrate without a delay";
 }
