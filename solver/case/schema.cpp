@@ -85,8 +85,8 @@ std::string_view last_part(std::string_view path) {
 std::string Range::text() const {
   const bool has_lower = lower != -std::numeric_limits<double>::infinity();
   const bool has_upper = upper != std::numeric_limits<double>::infinity();
-  const std::string low = std::string(lower_open ? "> " : ">= ") + short_number(lower);
-  const std::string high = std::string(upper_open ? "< " : "<= ") + short_number(upper);
+  std::string low = std::string(lower_open ? "> " : ">= ") + short_number(lower);
+  std::string high = std::string(upper_open ? "< " : "<= ") + short_number(upper);
   if (has_lower && has_upper) return low + " and " + high;
   if (has_lower) return low;
   return has_upper ? high : "";
@@ -158,7 +158,7 @@ std::string plain_path(std::string_view path) {
 }
 
 std::string header_of(const Key& section) {
-  const std::string name = plain_path(section.path);
+  std::string name = plain_path(section.path);
   if (section.path.starts_with('<')) return name;
   return section.type == ValueType::section_list ? "[[" + name + "]]" : "[" + name + "]";
 }

@@ -219,7 +219,9 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "contact[].plateau", .type = number, .unit = "Pa", .fallback = "0", .range = not_negative,
      .help = "Stress sigma that loading of the points of a face does not pass; 0: none. Flat faces of area A that both "
              "carry points press with up to 2 A sigma. Measured on two cubes: 1.9 A sigma, and 0.94 with points_on = "
-             "\"first\", as points near edges lie less deep.",
+             "\"first\", as points near edges lie less deep. It begins at an overlap of b/400 at least, b the "
+             "unloading_exponent, about b/2000 of an edge: a penalty above 400 plateau/b acts as that (check says so). "
+             "Steps that do not resolve the way to the plateau would let bodies sink and gain energy.",
      .example = "\"60 MPa\""},
     {.path = "contact[].unloading_exponent", .type = number, .fallback = "1", .range = at_least_one,
      .help = "Exponent b of the unloading curve: 1 gives all energy back, more dissipates.", .example = "2"},

@@ -30,6 +30,7 @@ std::string toml(const TimeFunction& f);
 template <class List>
 std::string toml_list(const List& list) {
   std::vector<std::string> parts;
+  parts.reserve(list.size());
   for (const auto& x : list) parts.push_back(toml(x));
   return "[" + joined(parts) + "]";
 }
@@ -38,12 +39,14 @@ std::string toml(const Vec3& x) { return toml_list(std::array{x.x(), x.y(), x.z(
 
 std::string toml(const std::map<std::string, double>& x) {
   std::vector<std::string> parts;
+  parts.reserve(x.size());
   for (const auto& [name, value] : x) parts.push_back(toml_text(name) + " = " + toml(value));
   return "{" + joined(parts) + "}";
 }
 
 std::string toml(const std::map<std::string, Setting>& x) {
   std::vector<std::string> parts;
+  parts.reserve(x.size());
   for (const auto& [name, value] : x)
     parts.push_back(toml_text(name) + " = " + (value.text ? toml(*value.text) : toml(value.number.value_or(0))));
   return "{" + joined(parts) + "}";

@@ -32,6 +32,7 @@ class Probe {
 /// Openings up to the peak and from there to the end.
 std::vector<double> openings(double peak, double end) {
   std::vector<double> out;
+  out.reserve(kRise + kSoftening + 1);
   for (int i = 0; i < kRise; ++i) out.push_back(peak * i / kRise);
   for (int i = 0; i <= kSoftening; ++i) out.push_back(peak + (end - peak) * i / kSoftening);
   return out;

@@ -59,7 +59,8 @@ std::string content(const fs::path& file) {
 fs::path settings_folder(const std::string& paraview_version, const fs::path& macros) {
   const std::string given = variable("XDG_CONFIG_HOME");
   const fs::path users = given.empty() ? fs::path(variable("HOME")) / ".config" : fs::path(given);
-  const fs::path ours = users / "breccia", folder = ours / "ParaView";
+  fs::path ours = users / "breccia";
+  const fs::path folder = ours / "ParaView";
   std::error_code error;
   if (!fs::exists(folder, error)) {
     fs::create_directories(folder, error);

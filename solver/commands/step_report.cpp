@@ -125,8 +125,8 @@ std::string contact_advice(const Model& model, const Start& start, const std::ve
   const ContactLaw& law = forth.active() ? forth : model.contact.law(against, group);
   const auto& names = model.mesh.volume_groups;
   return text + fmt::format(" (\"{}\" on \"{}\", element {}); a penalty of {:.2g} Pa instead of {:.3g} Pa would not.",
-                            names[index(group)], names[index(against)], step.element,
-                            factor * stiffest_slope(law) / law.exponent, law.penalty);
+                            names[index(group)], names[index(against)], step.element, factor * law.penalty,
+                            law.penalty);
 }
 
 /// Slivers are blamed for the step only where all other elements are known to allow a longer one.

@@ -100,6 +100,20 @@ Advice soft_penalties(const case_::Case& input, const Model& model) {
   return advice;
 }
 
+Advice lowered_penalties(const case_::Case& input) {
+  Advice advice;
+  for (const case_::Contact& entry : input.contacts) {
+    const double largest = largest_penalty(entry.plateau, entry.unloading_exponent);
+    if (!(entry.plateau > 0) || !(entry.penalty > largest)) continue;
+    advice.push_back(fmt::format(
+        "The contact penalty between \"{}\" and \"{}\" (line {}) acts as {}, not {}: so its plateau of {} begins at an "
+        "overlap of {:.2g} H. Within less the steps would not resolve it; bodies would chatter and sink.",
+        entry.groups[0], entry.groups[1], entry.origin.line, quantity_text(largest, "Pa"),
+        quantity_text(entry.penalty, "Pa"), quantity_text(entry.plateau, "Pa"), entry.plateau / largest));
+  }
+  return advice;
+}
+
 /// Axes along which an entry takes the initial velocity away from all of its group.
 std::string lost_axes(const case_::InitialVelocity& initial, const case_::Constraint& entry) {
   std::string axes;
@@ -168,6 +182,7 @@ Advice unmeant_advice(const case_::Case& input, const Model& model) {
   Advice advice;
   advise(advice, empty_sphere(model));
   advise(advice, no_contact_points(input, model));
+  append(advice, lowered_penalties(input));
   append(advice, soft_penalties(input, model));
   append(advice, lost_velocities(input));
   append(advice, pressures_on_what_is_held(input, model));

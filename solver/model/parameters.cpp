@@ -139,14 +139,14 @@ bool carries_points(const case_::Contact& entry, const std::string& group, const
 
 ContactLaw contact_law(const case_::Contact& entry, const Pair& pair) {
   ContactLaw law;
-  law.penalty = entry.penalty;
   law.plateau = entry.plateau > 0 ? entry.plateau : kInfinity;
   law.exponent = entry.unloading_exponent;
+  law.penalty = std::min(entry.penalty, largest_penalty(law.plateau, law.exponent));
   law.friction = entry.friction;
   law.tangential_ratio = entry.tangential_ratio;
-  law.damping = 2 * entry.damping_ratio * std::sqrt(entry.penalty * pair.density);
+  law.damping = 2 * entry.damping_ratio * std::sqrt(law.penalty * pair.density);
   if (pair.density > 0)
-    law.friction_delay = entry.friction_delay * std::sqrt(pair.density / std::min(entry.penalty, pair.young));
+    law.friction_delay = entry.friction_delay * std::sqrt(pair.density / std::min(law.penalty, pair.young));
   return law;
 }
 

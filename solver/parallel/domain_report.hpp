@@ -16,7 +16,7 @@ inline constexpr double kSecondsAnElement = 70e-9;
 /// kB, 49 us with 80 kB, 184 us with 800 kB: at most this and its bytes at this speed.
 inline constexpr double kSecondsAMessage = 10e-6;
 inline constexpr double kBytesASecond = 2.0e9;
-inline constexpr std::int64_t kBytesAProxy = 24 * 8;  ///< position and velocity of four nodes
+inline constexpr std::int64_t kBytesAProxy = std::int64_t{24} * 8;  ///< position and velocity of four nodes
 
 /// What a domain holds, computes and exchanges.
 struct DomainLoad {

@@ -2,8 +2,8 @@
 """The longest step that survives, against the one that the program chooses.
 
 For small models of every kind a bisection on time.step: a step survives when the run does its 20,000 steps (or comes
-to its end), is never stopped, breaks no joint (no load here does), and has created no energy: the residual of the
-budget is at most 2 % of the largest term.
+to its end), is never stopped, breaks no joint (no load here does, but for the tower that falls), and has created no
+energy: the residual of the budget is at most 2 % of the largest term.
 The program's step is what `breccia check` prints, at time.safety = 1.
 
     longest_step.py BRECCIA [--work FOLDER] [--steps N] [CASE ...]
@@ -119,7 +119,26 @@ Field[1].Radius = 0.002; Field[1].Thickness = 0.006; Field[1].VIn = 0.0008; Fiel
 Background Field = 1;
 Mesh.MeshSizeExtendFromBoundary = 0;
 ''',
+    "tower.geo": '''SetFactory("OpenCASCADE");
+n = 24;
+For i In {0:n}
+  z = 120*i/n; r = 27*Sqrt(1 + (z - 90)^2*((46/27)^2 - 1)/90^2);
+  Point(100 + i) = {r - 0.25, 0, z}; Point(200 + i) = {r + 0.25, 0, z};
+EndFor
+Spline(1) = {100:100 + n}; Spline(2) = {200:200 + n};
+Line(3) = {100, 200}; Line(4) = {100 + n, 200 + n};
+Curve Loop(1) = {3, 2, -4, -1}; Plane Surface(1) = {1};
+a() = Extrude{ {0, 0, 1}, {0, 0, 0}, Pi }{ Surface{1}; };
+b() = Extrude{ {0, 0, 1}, {0, 0, 0}, Pi }{ Surface{a(0)}; };
+Coherence;
+Physical Volume("tower") = Volume{:};
+Box(1000) = {-60, -60, -3.001, 120, 120, 3};
+Physical Volume("floor") = {1000};
+MeshSize{:} = 3; MeshSize{ PointsOf{ Volume{1000}; } } = 15;
+Mesh.MeshSizeMax = 15;
+''',
 }
+BREAKING = {"tower"}
 
 
 def glued(lower, upper, more):
@@ -153,6 +172,16 @@ def cases():
         + '[[contact]]\nbetween = ["lower", "upper"]\npenalty = "300 GPa"\n'
         '[[initial_velocity]]\ngroup = "upper"\nvelocity = [0, 0, "-1 m/s"]\n' + WEIGHT.replace("-9.81", '"-1000 m/s2"'),
     }
+    concrete = 'young = "35 GPa"\npoisson = 0.15\ndensity = 2400\n'
+    plateau = ('[[contact]]\nbetween = ["tower", "{}"]\npenalty = "1800 GPa"\nplateau = "{} MPa"\n'
+               'unloading_exponent = {}\nfriction = 0.6\n')
+    out["tower"] = ('[mesh]\nfile = "tower.geo"\n' + material("tower", concrete, "breakable")
+                    + material("floor", concrete, "none") + '[[joint]]\ngroup = "tower"\npenalty_factor = 10\n'
+                    'tensile_strength = "6.3 MPa"\nenergy_mode_1 = 147.5\nfriction = 0.6\n'
+                    + plateau.format("tower", 500, 6) + plateau.format("floor", 5, 4)
+                    + '[[initial_velocity]]\ngroup = "tower"\nvelocity = [0, 0, "-3 m/s"]\n'
+                    '[[stage]]\nname = "fall"\nend = "30 ms"\ngravity = [0, 0, -9.81]\n'
+                    '[[stage.constraint]]\ngroup = "floor"\nfixed = "xyz"\n')
     return {name: f'title = "{name}"\n' + text for name, text in out.items()}
 
 
@@ -173,7 +202,7 @@ class Tester:
         if run.returncode != 0:
             return False
         summary = json.loads((folder / "summary.json").read_text())
-        if summary["broken_joints"] > 0:
+        if summary["broken_joints"] > 0 and name not in BREAKING:
             return False
         energy = summary["energy"]
         terms = {k: v for k, v in energy.items() if k not in ("residual", "residual_relative")}

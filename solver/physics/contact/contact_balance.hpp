@@ -33,11 +33,13 @@ struct BalancingLimits {
 }
 
 /// While a couple unloads along a steep curve (b > 1), any step of which may leave next to no force of one that was
-/// large before: what that has gained is taken back by a pull. Not while it loads, where larger changes make the
-/// contact stiffer than the time step allows. @param work  J, > 0
-[[nodiscard]] inline BalancingLimits steep_limits(double work, double k, double out) {
+/// large before: what that has gained is taken back by a pull. Of the force itself no more is taken than its steepest
+/// slope b k could take within the motion: what has hardly begun to leave comes back within the next step, which has to
+/// be borne. Not while it loads, where larger changes make the contact stiffer than the time step allows.
+/// @param work  J, > 0;  @param exponent  b
+[[nodiscard]] inline BalancingLimits steep_limits(double work, double k, double exponent, double out) {
   return {std::numeric_limits<double>::infinity(), balancing_limits(work, k, out).give,
-          work + largest_pull(k, out) * out};
+          std::min(work, exponent * k * out * out) + largest_pull(k, out) * out};
 }
 
 /// Shares of the normal force to be added to it.

@@ -234,7 +234,7 @@ double Pass::press(const ContactLaw& law, const ContactPoint& point, double leng
   double kept = stored + normal.dissipated;
   const double slope = here.gradient.norm();
   if (law.friction > 0 && law.tangential_ratio > 0 && slope > 0) {
-    const double k = law.tangential_ratio * point.weight * law.penalty / length;
+    const double k = spring_stiffness(point, h);
     const Vec3 outward = -here.gradient / slope;
     if (h.spring != Vec3::Zero())
       turn_spring(outward, outward.dot(mean_turn(point.slot, candidate.contactor)), h.spring);
@@ -262,8 +262,9 @@ void Pass::balance(const ContactPoint& point, double length, const Vec3& motion,
   const double out = work / normal.norm(), k = stiffness(point, h);
   const bool leaves = out > h.d * length;  // in the next step, with the motion of this one
   const double gained = h.gained + (leaves ? 0.5 * work - normal_held(point, h) : 0.0);
-  const bool steep = law_of(h.point, h.contactor).exponent > 1;
-  const BalancingLimits limits = steep && work > 0 ? steep_limits(work, k, out) : balancing_limits(work, k, out);
+  const double exponent = law_of(h.point, h.contactor).exponent;
+  const BalancingLimits limits =
+      exponent > 1 && work > 0 ? steep_limits(work, k, exponent, out) : balancing_limits(work, k, out);
   const BalancingShares shares = balancing_shares(gained, h.gained_before, work, limits);
   h.balance = shares.own + shares.before;
   h.gained_before += shares.before * work;

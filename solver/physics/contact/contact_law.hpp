@@ -19,6 +19,15 @@ struct ContactLaw {
   [[nodiscard]] bool active() const { return penalty > 0; }
 };
 
+/// Least overlap over H at which a plateau begins, over b. Where a step does not resolve the way to the plateau a mass
+/// gets all of that force or none: it chatters, sinks under half of the plateau, and gains energy. With this the
+/// steepest slope of a law, of its unloading curve, is sigma_T / kLeastYield.
+inline constexpr double kLeastYield = 2.5e-3;
+/// Largest penalty of a law with this plateau and exponent, Pa: sigma_T / (b kLeastYield).
+[[nodiscard]] constexpr double largest_penalty(double plateau, double exponent) {
+  return plateau / (exponent * kLeastYield);
+}
+
 /// Normal law with a plateau and a steeper unloading curve. Source: [Schiava, ch. 8] with the state reduced to one
 /// number, the largest overlap d_max since the overlap began.
 ///

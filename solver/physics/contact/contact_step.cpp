@@ -332,9 +332,7 @@ std::vector<PatchTree::Box> grown_boxes(std::span<const Patch> patches, double t
 
 }  // namespace
 
-double stiffest_slope(const ContactLaw& law) {
-  return law.active() ? std::min(law.exponent * law.penalty, 2.0 * law.plateau / kChatter) : 0.0;
-}
+double stiffest_slope(const ContactLaw& law) { return law.exponent * law.penalty; }
 
 std::vector<ContactPatch> contact_patches(const ContactStepModel& model, const Field<double>& position,
                                           const Field<double>& velocity, double coarsening) {

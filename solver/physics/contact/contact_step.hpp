@@ -54,16 +54,7 @@ struct ContactStepModel {
   const ContactState* state = nullptr;  ///< the overlap field; null: as of elements on their own
 };
 
-/// Overlap over H in which a law with a plateau may chatter.
-inline constexpr double kChatter = 2e-3;
-
-/// Stiffest slope of the normal law that counts, Pa: min(b sigma_p, 2 sigma_T / kChatter).
-///
-/// Unloading begins with the slope b sigma_p. Beyond the plateau there is no more force, so that a mass m that passes
-/// it within a step gets at most the kick w sigma_T dt / m, and comes to rest in a chatter of the amplitude
-/// w sigma_T dt^2 / (2m), however many steps follow: d = kChatter for dt = 2 sqrt(m H / (w s)) with the second slope.
-/// Its energy is at most w H sigma_T kChatter a point. Measured in a collapse (meshes/cooling_tower/case_a.toml): after
-/// 0.57 s 4.4 % of the energy put in had been gained with 5e-3, 0.06 % with 2e-3, in steps that are 1.5 times shorter.
+/// Steepest slope of the normal law, where unloading begins, Pa: b sigma_p.
 [[nodiscard]] double stiffest_slope(const ContactLaw& law);
 
 /// Free faces of one body's group in one cell. What is merged is the largest of each number, on any rank.

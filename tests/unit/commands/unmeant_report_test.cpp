@@ -51,6 +51,15 @@ TEST(Unmeant, IsContactWithoutContactPoints) {
   EXPECT_EQ(advice_on(""), "");
 }
 
+TEST(Unmeant, IsAPenaltyThatIsLoweredForItsPlateau) {
+  EXPECT_THAT(advice_on("", {"contact[0].plateau=1 MPa", "contact[0].unloading_exponent=2"}),
+              AllOf(HasSubstr("between \"*\" and \"*\" (line "), HasSubstr("acts as 200 MPa, not 1 GPa"),
+                    HasSubstr("plateau of 1 MPa begins at an overlap of 0.005 H")));
+  EXPECT_EQ(
+      advice_on("", {"contact[0].plateau=1 MPa", "contact[0].penalty=200 MPa", "contact[0].unloading_exponent=2"}), "");
+  EXPECT_EQ(advice_on("", {"contact[0].unloading_exponent=2"}), "") << "no plateau";
+}
+
 TEST(Unmeant, IsAPenaltyTooSoftToStopWhatComesWithinAnElement) {
   EXPECT_THAT(advice_on(kFlying, {"contact[0].penalty=1 kPa"}),
               AllOf(HasSubstr("penalty of 1 kPa between \"rock\" and \"rock\" is too soft for 10 m/s"),

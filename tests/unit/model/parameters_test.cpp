@@ -65,8 +65,19 @@ TEST(ContactParams, have_a_delay_of_friction_by_the_slower_one_of_body_and_penal
 
 TEST(ContactParams, have_the_plateau_of_the_case_or_none) {
   const ContactParams params = contact_params(two_boxes_case(), {"left", "right"});
-  EXPECT_EQ(params.law(0, 1).plateau, 60e6);
+  EXPECT_EQ(params.law(0, 1).plateau, 4e9);
   EXPECT_TRUE(std::isinf(params.law(1, 1).plateau));
+}
+
+TEST(ContactParams, have_a_penalty_that_steps_resolve_up_to_the_plateau) {
+  const std::vector<std::string> low{"contact[0].plateau=60 MPa", "contact[0].unloading_exponent=4",
+                                     "contact[0].damping_ratio=0.2"};
+  const case_::Case input = two_boxes_case(low);
+  const ContactLaw law = contact_params(input, {"left", "right"}).law(0, 1);
+  EXPECT_DOUBLE_EQ(law.penalty, 60e6 / (4 * kLeastYield));
+  EXPECT_EQ(law.plateau, 60e6);
+  const double left = input.materials[0].density, right = input.materials[1].density;
+  EXPECT_NEAR(law.damping / (2 * 0.2 * std::sqrt(law.penalty * left * right / (left + right))), 1.0, 1e-12);
 }
 
 TEST(JointLawParams, of_an_unbreakable_group_have_no_strength_to_reach) {

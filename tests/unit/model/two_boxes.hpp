@@ -41,7 +41,7 @@ energy_mode_1 = "100 J/m2"
 [[contact]]
 between = ["left", "*"]
 penalty = "400 GPa"
-plateau = "60 MPa"
+plateau = "4 GPa"
 [[contact]]
 between = ["right", "right"]
 penalty = "300 GPa"
