@@ -168,7 +168,8 @@ constexpr auto model_keys = std::to_array<Key>({
      .example = "\"20 mm\""},
     {.path = "joint[].tensile_strength", .type = number, .unit = "Pa", .range = positive,
      .help = "Greatest normal traction. Needed where joints can fail. A crack of an unstructured mesh follows edges: "
-             "samples broke at 5 to 13 % more than this (13 % in tension, compression and a Brazilian disc).",
+             "samples broke at 5 to 20 % more than this (bars in tension 11 to 20 % by mesh, compression and a "
+             "Brazilian disc 13 %); less with a smaller shear strength: bars with both equal 7 to 11 %.",
      .example = "\"10 MPa\""},
     {.path = "joint[].shear_strength", .type = number, .unit = "Pa", .fallback = "= tensile_strength",
      .range = positive, .help = "Greatest shear traction without normal pressure (cohesion).", .example = "\"20 MPa\""},
@@ -214,7 +215,9 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Contact stress at overlap 1. The overlap is g/H, g in m, H the mean inradius of the elements of the body "
              "that is entered (a fifth of an edge), so the stiffness is penalty/H, Pa/m; `breccia check` prints both "
              "for every pair. Where flat faces meet and both carry points, both press: up to twice that stress. "
-             "Recommended: Young's modulus of the softer body; up to ten times it where overlaps must be small, for a "
+             "Recommended: Young's modulus of the softer body, a third of it where breakable bodies with unequal "
+             "meshes strike each other flat (points that hit first damage joints); up to ten times it where "
+             "overlaps must be small, for a "
              "time step up to three times shorter; of bodies that slide see friction.", .example = "\"7500 GPa\""},
     {.path = "contact[].plateau", .type = number, .unit = "Pa", .fallback = "0", .range = not_negative,
      .help = "Stress sigma that loading of the points of a face does not pass; 0: none. Flat faces of area A that both "
@@ -244,7 +247,8 @@ constexpr auto model_keys = std::to_array<Key>({
      .example = "0.2"},
     {.path = "contact[].points_on", .type = choice, .fallback = "both", .choices = "both|first",
      .help = "Whose contact points are felt by the other group: those of both, or of the group named first alone. A "
-             "floor is best named second: its points would catch the edges of what slides on it.",
+             "floor is best named second: its points would catch the edges of what slides on it, and those of platens "
+             "drive a narrower body between them out sideways where there is no friction.",
      .example = "\"first\""},
     {.path = "contact[].initial_overlap", .type = choice, .fallback = "refuse", .choices = "refuse|relax|accept",
      .help = "What to do with bodies that overlap before the first step: end with an error, take the overlap out as an "
@@ -255,7 +259,10 @@ constexpr auto model_keys = std::to_array<Key>({
      .fixed_by_state = "what the points touch is part of the state"},
     {.path = "contact_points.per_face", .type = integer, .fallback = "3", .choices = "1|3|4|6",
      .help = "Points a free face: 1, 3 and 6 lie inside of it; of 4 points three are its corners, so that edges and "
-             "corners of bodies are felt as soon as they touch.", .example = "4"},
+             "corners of bodies are felt as soon as they touch. With 3 a base is narrower by a sixth of an edge on "
+             "each side: a block of four elements that topples at 18.4 degrees does so at 16.8, with 4 points at "
+             "18.2.",
+     .example = "4"},
     {.path = "contact_points.field", .type = choice, .fallback = "body", .choices = "body|tet_potential|tet_distance",
      .help = "How overlap is measured: by a field continuous over a body, or by the published potential or distance of "
              "each tetrahedron.", .example = "\"tet_potential\""},

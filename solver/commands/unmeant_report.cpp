@@ -114,6 +114,34 @@ Advice lowered_penalties(const case_::Case& input) {
   return advice;
 }
 
+/// Something is driven while something else is held or driven as well.
+bool is_pressed(const case_::Case& input) {
+  return std::any_of(input.stages.begin(), input.stages.end(), [](const case_::Stage& stage) {
+    return std::any_of(stage.constraints.begin(), stage.constraints.end(), [&](const case_::Constraint& driven) {
+      return driven.kind != case_::ConstraintKind::fixed &&
+             std::any_of(stage.constraints.begin(), stage.constraints.end(),
+                         [&](const case_::Constraint& other) { return other.group != driven.group; });
+    });
+  });
+}
+
+/// Points of a wide face catch the rim of a narrower one: nothing but friction holds that.
+Advice pressed_without_friction(const case_::Case& input, const Model& model) {
+  constexpr std::size_t kBetweenTwo = 3;  // bodies
+  Advice advice;
+  if (model.whole.body_length.size() < kBetweenTwo || !is_pressed(input)) return advice;
+  for (const case_::Contact& entry : input.contacts) {
+    if (entry.friction > 0 || entry.points_on == case_::PointsOn::first) continue;
+    advice.push_back(fmt::format(
+        "Contact between \"{}\" and \"{}\" (line {}) has no friction and points on both sides: a body that is pressed "
+        "between wider flat ones drifts sideways and may be driven out. points_on = \"first\" with the narrower one "
+        "named "
+        "first, or a friction of 0.05, holds it.",
+        entry.groups[0], entry.groups[1], entry.origin.line));
+  }
+  return advice;
+}
+
 /// Axes along which an entry takes the initial velocity away from all of its group.
 std::string lost_axes(const case_::InitialVelocity& initial, const case_::Constraint& entry) {
   std::string axes;
@@ -184,6 +212,7 @@ Advice unmeant_advice(const case_::Case& input, const Model& model) {
   advise(advice, no_contact_points(input, model));
   append(advice, lowered_penalties(input));
   append(advice, soft_penalties(input, model));
+  append(advice, pressed_without_friction(input, model));
   append(advice, lost_velocities(input));
   append(advice, pressures_on_what_is_held(input, model));
   append(advice, overruled_constraints(input, model));

@@ -178,11 +178,11 @@ std::string given_step_text(double dt, const StableStep& step) {
   if (!(dt > step.step)) return {};
   const std::string given = "time.step = " + number_text(dt, 3) + " s is ";
   if (dt > step.joint_step) {
-    return given + number_text(dt / step.joint_step, 2) +
+    return given + number_text(dt / step.joint_step, 3) +
            " times longer than the stable step of elements and joints, " + number_text(step.joint_step, 3) +
            " s (by iteration): the run will blow up. Leave it to \"auto\".";
   }
-  return given + number_text(dt / step.step, 2) + " times longer than what " + limit_text(step) + " allows, " +
+  return given + number_text(dt / step.step, 3) + " times longer than what " + limit_text(step) + " allows, " +
          number_text(step.step, 3) +
          " s: what is pressed together there may gain energy. Leave it to \"auto\", or lower the penalty.";
 }

@@ -168,7 +168,8 @@ Corner stiffest_corner(const StepShare& share, double most, const ContactShare& 
 void name_limit(const StepModel& model, Index slot, const StepShare& share, const Corner& worst, int contact_face,
                 StableStep& result) {
   result.element = model.mesh.element_of_slot[static_cast<std::size_t>(slot)];
-  if (worst.contact >= worst.joint && worst.contact > worst.element) {
+  const double rest = worst.omega_squared - worst.contact;  // less than the sum of the bounds
+  if (worst.contact >= std::min(worst.joint, rest) && worst.contact > std::min(worst.element, rest)) {
     result.limit = StepLimit::contact;
     result.face = contact_face;
   } else if (worst.joint > worst.element) {

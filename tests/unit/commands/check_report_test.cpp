@@ -61,6 +61,17 @@ TEST(CheckReport, names_the_process_zone_of_the_more_cautious_estimate) {
   EXPECT_NEAR(number_after(report_of(kCubes), "process zone at least ") / zone, 1.0, kFourDigits);
 }
 
+TEST(CheckReport, warns_of_joints_that_soften_within_few_steps) {
+  const std::string words = "The joints of cubes soften within ", energy = "joint[0].energy_mode_1=2 J/m2",
+                    shear = "joint[0].energy_mode_2=100 J/m2";
+  const double steps = number_after(report_of(kCubes, {energy, shear}), words);
+  EXPECT_LT(steps, 10);
+  EXPECT_NEAR(number_after(report_of(kCubes, {energy, shear}), "A time.safety ") * steps, 10, 1);
+  const std::string safety = "time.safety=" + std::to_string(0.8 * steps / 11);
+  EXPECT_THAT(report_of(kCubes, {energy, shear, safety}), Not(HasSubstr(words)));
+  EXPECT_THAT(report_of(kCubes), Not(HasSubstr(words)));
+}
+
 TEST(CheckReport, advises_on_elements_from_a_third_of_the_process_zone_on) {
   const std::string report = report_of(kCubes);
   const double ratio = number_after(report, "mean joint edge ") / number_after(report, "process zone at least ");
