@@ -58,13 +58,17 @@ double area_per_volume(const Model& model, Index law) {
   return volume > 0 ? area / volume : 0.0;
 }
 
-std::size_t group_of_law(const Model& model, Index law) {
+/// Of one side of a law's joints, -1: there are none.
+Index group_of_law(const Model& model, Index law) {
   for (const ModelJoint& joint : model.joints) {
-    if (joint.law == law) return index(model.mesh.element_group[index(joint.face.a)]);
+    if (joint.law == law) return model.mesh.element_group[index(joint.face.a)];
   }
-  throw InternalError("a law without joints");
+  return -1;
 }
-ElasticParams params_of_law(const Model& model, Index law) { return model.elastic[group_of_law(model, law)]; }
+ElasticParams params_of_law(const Model& model, Index law) {
+  const Index group = group_of_law(model, law);
+  return group < 0 ? ElasticParams{} : model.elastic[index(group)];
+}
 
 /// m, below which the edges of a tenth of a law's joints are.
 double fine_edge(const Model& model, Index law) {
@@ -134,9 +138,9 @@ Advice sudden_softening(const Model& model, double dt) {
   Advice advice;
   for (std::size_t l = 0; l < model.joint_laws.size(); ++l) {
     const JointLawParams& law = model.joint_laws[l];
-    if (!law.breakable()) continue;
-    const std::size_t group = group_of_law(model, static_cast<Index>(l));
-    const double impedance = std::sqrt(young(model.elastic[group]) * model.density[group]);
+    const Index group = group_of_law(model, static_cast<Index>(l));
+    if (!law.breakable() || group < 0) continue;
+    const double impedance = std::sqrt(young(model.elastic[index(group)]) * model.density[index(group)]);
     const double steps = law.width_normal * impedance / (2 * law.tensile_strength * dt);
     if (steps >= kEnough) continue;
     advice.push_back(fmt::format(

@@ -125,7 +125,7 @@ bool is_pressed(const case_::Case& input) {
   });
 }
 
-/// Points of a wide face catch the rim of a narrower one: nothing but friction holds that.
+/// Points on both sides push along the normals of both deformed surfaces: what is between flat ones drifts.
 Advice pressed_without_friction(const case_::Case& input, const Model& model) {
   constexpr std::size_t kBetweenTwo = 3;  // bodies
   Advice advice;
@@ -135,8 +135,7 @@ Advice pressed_without_friction(const case_::Case& input, const Model& model) {
     advice.push_back(fmt::format(
         "Contact between \"{}\" and \"{}\" (line {}) has no friction and points on both sides: a body that is pressed "
         "between wider flat ones drifts sideways and may be driven out. points_on = \"first\" with the narrower one "
-        "named "
-        "first, or a friction of 0.05, holds it.",
+        "named first, or a friction of 0.05, holds it.",
         entry.groups[0], entry.groups[1], entry.origin.line));
   }
   return advice;
