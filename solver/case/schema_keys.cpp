@@ -260,8 +260,8 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "contact_points.per_face", .type = integer, .fallback = "3", .choices = "1|3|4|6",
      .help = "Points a free face: 1, 3 and 6 lie inside of it; of 4 points three are its corners, so that edges and "
              "corners of bodies are felt as soon as they touch. With 3 a base is narrower by a sixth of an edge on "
-             "each side: a block of four elements that topples at 18.4 degrees does so at 16.8, with 4 points at "
-             "18.2.",
+             "each side: a block of four elements that should topple at 18.4 degrees stands at 16.5 and topples at "
+             "17, with 4 points it stands at 18 and topples at 18.3.",
      .example = "4"},
     {.path = "contact_points.field", .type = choice, .fallback = "body", .choices = "body|tet_potential|tet_distance",
      .help = "How overlap is measured: by a field continuous over a body, or by the published potential or distance of "

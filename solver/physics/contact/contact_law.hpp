@@ -21,7 +21,8 @@ struct ContactLaw {
 
 /// Least overlap over H at which a plateau begins, over b. Where a step does not resolve the way to the plateau a mass
 /// gets all of that force or none: it chatters, sinks under half of the plateau, and gains energy. With this the
-/// steepest slope of a law, of its unloading curve, is sigma_T / kLeastYield.
+/// steepest slope of a law, of its unloading curve, is sigma_T / kLeastYield. With 1e-3 a tower that collapses
+/// (meshes/cooling_tower) breaks 1,580 joints within 0.6 s instead of 1,597, in steps 1.6 times shorter.
 inline constexpr double kLeastYield = 2.5e-3;
 /// Largest penalty of a law with this plateau and exponent, Pa: sigma_T / (b kLeastYield).
 [[nodiscard]] constexpr double largest_penalty(double plateau, double exponent) {

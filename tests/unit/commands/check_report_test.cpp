@@ -66,7 +66,7 @@ TEST(CheckReport, warns_of_joints_that_soften_within_few_steps) {
                     shear = "joint[0].energy_mode_2=100 J/m2";
   const double steps = number_after(report_of(kCubes, {energy, shear}), words);
   EXPECT_LT(steps, 10);
-  EXPECT_NEAR(number_after(report_of(kCubes, {energy, shear}), "A time.safety ") * steps, 10, 1);
+  EXPECT_NEAR(number_after(report_of(kCubes, {energy, shear}), "With a time.safety ") * steps, 10, 1);
   const std::string safety = "time.safety=" + std::to_string(0.8 * steps / 11);
   EXPECT_THAT(report_of(kCubes, {energy, shear, safety}), Not(HasSubstr(words)));
   EXPECT_THAT(report_of(kCubes), Not(HasSubstr(words)));
