@@ -118,15 +118,19 @@ std::string contact_advice(const Model& model, const Start& start, const std::ve
   std::string text = fmt::format("{} makes the step {:.2g} times shorter", when, step.joint_step / step.step);
   if (against < 0) {
     const double penalty = model.contact.sphere->penalty;
-    return text + fmt::format(" at the sphere; a penalty of {:.2g} Pa instead of {:.3g} Pa would not.",
-                              factor * penalty, penalty);
+    return text + fmt::format(
+                      " at the sphere; a penalty of {:.2g} Pa instead of {:.3g} Pa would not, but let points out "
+                      "{:.2g} times as far.",
+                      factor * penalty, penalty, 1 / factor);
   }
   const ContactLaw& forth = model.contact.law(group, against);
   const ContactLaw& law = forth.active() ? forth : model.contact.law(against, group);
   const auto& names = model.mesh.volume_groups;
-  return text + fmt::format(" (\"{}\" on \"{}\", element {}); a penalty of {:.2g} Pa instead of {:.3g} Pa would not.",
-                            names[index(group)], names[index(against)], step.element, factor * law.penalty,
-                            law.penalty);
+  return text + fmt::format(
+                    " (\"{}\" on \"{}\", element {}); a penalty of {:.2g} Pa instead of {:.3g} Pa would not, but let "
+                    "bodies {:.2g} times as deep into each other.",
+                    names[index(group)], names[index(against)], step.element, factor * law.penalty, law.penalty,
+                    1 / factor);
 }
 
 /// Slivers are blamed for the step only where all other elements are known to allow a longer one.

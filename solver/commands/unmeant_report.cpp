@@ -125,17 +125,17 @@ bool is_pressed(const case_::Case& input) {
   });
 }
 
-/// Points on both sides push along the normals of both deformed surfaces: what is between flat ones drifts.
+/// What is pressed between flat bodies without friction is in neutral equilibrium sideways.
 Advice pressed_without_friction(const case_::Case& input, const Model& model) {
   constexpr std::size_t kBetweenTwo = 3;  // bodies
   Advice advice;
   if (model.whole.body_length.size() < kBetweenTwo || !is_pressed(input)) return advice;
   for (const case_::Contact& entry : input.contacts) {
-    if (entry.friction > 0 || entry.points_on == case_::PointsOn::first) continue;
+    if (entry.friction > 0) continue;
     advice.push_back(fmt::format(
-        "Contact between \"{}\" and \"{}\" (line {}) has no friction and points on both sides: a body that is pressed "
-        "between wider flat ones drifts sideways and may be driven out. points_on = \"first\" with the narrower one "
-        "named first, or a friction of 0.05, holds it.",
+        "Contact between \"{}\" and \"{}\" (line {}) has no friction: nothing but the unevenness of the meshes holds a "
+        "body sideways that is pressed between wider flat ones; it may slide, and be driven out where they end. A "
+        "friction of 0.05 holds it.",
         entry.groups[0], entry.groups[1], entry.origin.line));
   }
   return advice;

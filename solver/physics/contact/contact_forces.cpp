@@ -146,33 +146,44 @@ Vec3 Pass::gradient_at(Index contactor, const PreparedTetra& tetra, const std::a
   return overlap(shape_of(contactor, Instant::step_before), tetra, lambda).gradient;
 }
 
-/// The same where the point was one step ago.
-Vec3 Pass::gradient_before(const ContactPoint& point, Index contactor) const {
+/// A contactor and the place of a point in it one step ago, by the field of then.
+Pass::Before Pass::one_step_ago(const ContactPoint& point, Index contactor) const {
   const Index slot = slot_of(contactor);
   const double *x = state_.position.data(), *v = state_.velocity.data();
   std::array<Vec3, 4> corners = load_corners(local_, x, slot);
   const std::array<Vec3, 4> velocity = load_corners(local_, v, slot);
   for (std::size_t a = 0; a < 4; ++a) corners[a] -= dt_ * velocity[a];
   const PreparedTetra tetra = prepare(corners, local_.volume[static_cast<std::size_t>(slot)]);
-  if (inert(tetra)) return Vec3::Zero();
-  const Vec3 place = at_point(rule_, point, x) - dt_ * at_point(rule_, point, v);
-  return gradient_at(contactor, tetra, barycentric(tetra, place));
+  return {tetra, barycentric(tetra, at_point(rule_, point, x) - dt_ * at_point(rule_, point, v))};
 }
 
 /// The overlap is the least of several functions, and of other ones in the next element: where the point has passed
 /// from one to another, the mean of the two gradients times the motion is what the forces do work for. The offset takes
 /// up what the overlap has changed by beyond that, as far as the turn of the gradient explains it; the rest is a change
-/// of field, not of place. Without motion the places have been given, not moved to.
-/// @param h  of the last step; changed: offset
+/// of field, not of place. Along one and the same function of an element there is nothing to take up: however fast that
+/// turns, the law has a potential, and the errors of single steps cancel. Without motion the places have been given,
+/// not moved to.
+/// @param h  of the last step; changed: offset, and of the candidate g_before and turn
 void Pass::keep_step(const ContactPoint& point, double length, TouchingCouple& h, Candidate& candidate) const {
   const Vec3 motion = relative_motion(point, slot_of(candidate.contactor), candidate.lambda);
   if (motion == Vec3::Zero()) return;
   const Vec3 gradient = gradient_at(candidate.contactor, prepared(candidate.contactor), candidate.lambda);
   const double change = candidate.g_before - (h.d * length + h.offset), along = gradient.dot(motion);
-  if (std::abs(change - along) <= kSameSlope * motion.norm()) return;
   // A couple that has ended may come back from outside, where its place was not kept.
-  if (!(h.d > 0) && h.offset == 0 && change < along) return;
-  const double along_before = gradient_before(point, h.contactor).dot(motion);
+  const bool was_kept = h.d > 0 || h.offset != 0;
+  if (!was_kept && change < along) return;
+  if (was_kept) candidate.turn = along - change;
+  if (std::abs(change - along) <= kSameSlope * motion.norm()) return;
+  const Before last = one_step_ago(point, h.contactor);
+  double along_before = 0;
+  if (!inert(last.tetra)) {
+    const OverlapShape& shape = shape_of(h.contactor, Instant::step_before);
+    const bool same =
+        h.contactor == candidate.contactor && least_row(shape, last.lambda) == least_row(shape, candidate.lambda);
+    if (was_kept && same) return;
+    along_before = overlap(shape, last.tetra, last.lambda).gradient.dot(motion);
+  }
+  candidate.turn = 0;
   const double beyond = change - 0.5 * (along + along_before), most = 0.5 * std::abs(along - along_before);
   const double turned = std::clamp(beyond, -most, most);
   h.offset += turned;
@@ -221,7 +232,8 @@ void Pass::act(Index index, Candidate& candidate) {
   }
 }
 
-/// @return  J that the couple holds, and that friction and damping have dissipated
+/// @return  J that the couple holds and that friction and damping have dissipated, with what the turn of the force
+/// makes of its work: it is no gain, since the law has a potential
 double Pass::press(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
                    const Candidate& candidate, TouchingCouple& h) {
   const Overlap here = overlap(shape_of(candidate.contactor), prepared(candidate.contactor), candidate.lambda);
@@ -249,6 +261,7 @@ double Pass::press(const ContactLaw& law, const ContactPoint& point, double leng
     kept += spring + friction.dissipated;
   }
   account(point, work_.stored).add(stored);
+  kept += 0.5 * normal.pressure * candidate.turn;
   if (h.d > 0 && local_.is_original(point.slot)) ++work_.touching;
   return kept;
 }
@@ -275,7 +288,7 @@ void Pass::balance(const ContactPoint& point, double length, const Vec3& motion,
 /// Its work is that of the mean of this and the last force over the motion; where that turns round there is none.
 Damping Pass::damp(const ContactLaw& law, const ContactPoint& point, const Vec3& motion, const Candidate& candidate,
                    const Vec3& gradient, double elastic) const {
-  const double deeper = gradient.dot(motion);  // m, during the last step
+  const double deeper = gradient.dot(motion) - candidate.turn;  // m, during the last step
   const double pressure = point.weight * normal_law::damped(law, elastic / point.weight, deeper / dt_);
   double before = 0;
   if (candidate.old >= 0) {

@@ -37,9 +37,10 @@ struct ContactWork {
 /// A new couple that is deeper at once than its point has moved inwards takes the excess as its offset. Where the
 /// nearest side does not look towards the face of the point no force begins: the offset grows with the overlap.
 /// Work and energy: each couple counts the work that its forces have done, as central differences do it, beyond what it
-/// took, holds and dissipates. A step in which the overlap begins or ends, or follows a curved law, leaves an error; a
-/// change of the normal force puts it right (contact_balance.hpp), before a force ends as far as that can be foreseen;
-/// where b > 1 the changed force may pull.
+/// took, holds and dissipates, but for what the turn of a surface makes of a step: along one function of an element the
+/// law has a potential, and such errors cancel. A step in which the overlap begins or ends, or follows a curved law,
+/// leaves an error; a change of the normal force puts it right (contact_balance.hpp), before a force ends as far as
+/// that can be foreseen; where b > 1 the changed force may pull.
 /// A couple whose overlap has ended holds back what it has gained, with d = 0, until next to nothing is left; what is
 /// lost, and what that leaves, the next overlap of the point with the body puts right, if it comes soon. Where the
 /// gradient turns within a step, on the medial surface of a body or from element to element, the offset takes up what

@@ -40,6 +40,7 @@ struct Candidate {
   double g_before;          ///< m, with the field of one step ago
   double gained = 0;        ///< J, left to put right by couples of the point that have ended
   DelayedForce delayed{};   ///< of the same
+  double turn = 0;          ///< m, gradient now times the last motion beyond what the overlap has changed by
   std::ptrdiff_t old = -1;  ///< index of its history among those of the last step, -1: none
 };
 
@@ -98,7 +99,11 @@ class Pass {
                                      TouchingCouple& h);
   [[nodiscard]] Vec3 gradient_at(Index contactor, const PreparedTetra& tetra,
                                  const std::array<double, 4>& lambda) const;
-  [[nodiscard]] Vec3 gradient_before(const ContactPoint& point, Index contactor) const;
+  struct Before {
+    PreparedTetra tetra;
+    std::array<double, 4> lambda;
+  };
+  [[nodiscard]] Before one_step_ago(const ContactPoint& point, Index contactor) const;
   void keep_step(const ContactPoint& point, double length, TouchingCouple& h, Candidate& candidate) const;
   void act(Index point, Candidate& candidate);
   [[nodiscard]] double press(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,

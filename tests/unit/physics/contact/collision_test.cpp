@@ -187,12 +187,12 @@ TEST(collision, at_half_of_the_stable_step_returns_what_contact_took_and_no_more
   constexpr double kLong = 10 * kStep;
   constexpr double kGain = 1.5e-3;  // nodes share the force of a point as it lies at the end of a step: 1.04e-3 at most
   constexpr double kLoss = 0.03;    // points that leave over an edge, along another way than they came
-  // 0.015 where a force begins with all that the law gives at the end of the step, 0.0046 where points that come in
-  // over an edge may begin with more than they have done work for.
-  constexpr double kMeanLoss = 0.0065;
+  // 0.0072 and 0.0038 of 200. 0.015 where a force begins with all that the law gives at the end of the step.
+  constexpr double kMeanLoss = 0.0085;
+  constexpr std::uint64_t kSeeds = 12, kMean = 100;
   for (const double friction : {0.0, 0.5}) {
     double sum = 0;
-    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    for (std::uint64_t seed = 1; seed <= kMean; ++seed) {
       Collision c(seed, {100 * kYoung, std::numeric_limits<double>::infinity(), 1, friction, 1}, 1, kLong);
       c.step();
       const Totals start = c.totals();
@@ -201,11 +201,12 @@ TEST(collision, at_half_of_the_stable_step_returns_what_contact_took_and_no_more
       expect_momenta(start, c.totals());
       const double made = (c.contact_work() + c.scene().work.friction_dissipated.value()) / start.kinetic;
       sum += made;
+      if (seed > kSeeds) continue;
       EXPECT_LT(made, kGain) << "seed " << seed << " friction " << friction;
       EXPECT_GT(made, -kLoss) << "seed " << seed << " friction " << friction;
       EXPECT_LT(c.resultant_error(), 1e-9 * c.largest_force()) << "closing forces are part of the resultant";
     }
-    EXPECT_GT(sum / 12, -kMeanLoss) << "friction " << friction;
+    EXPECT_GT(sum / kMean, -kMeanLoss) << "friction " << friction;
   }
 }
 
