@@ -201,13 +201,14 @@ std::string frames_line(const RunEstimate& estimate, Advice& advice) {
 }
 
 /// The estimate as a line.
-std::string run_time(const StepReport& step, const RunEstimate& estimate, double end) {
+std::string run_time(const StepReport& step, const RunEstimate& estimate, double end, bool has_contact) {
   std::string text =
       fmt::format("{:.0f} steps of {} to {}; about {} on this machine while little breaks", estimate.steps,
                   quantity_text(step.dt, "s"), quantity_text(end, "s"), quantity_text(estimate.seconds, "s"));
   if (estimate.breaks)
-    text += fmt::format(", {} where much does, up to {} where everything does at once",
-                        quantity_text(estimate.likely_seconds, "s"), quantity_text(estimate.most_seconds, "s"));
+    text += fmt::format(", {} where much does, up to {} where everything does at once{}",
+                        quantity_text(estimate.likely_seconds, "s"), quantity_text(estimate.most_seconds, "s"),
+                        has_contact ? " (a pile of debris that rubs on itself takes several times as long)" : "");
   return text + fmt::format(", memory {:.0f} MB\n", static_cast<double>(estimate.memory) / 1e6);
 }
 
@@ -409,7 +410,7 @@ CheckReport full_report(const case_::Case& input, const Model& model, const Star
   append(report.advice, stage_advice(input, model));
   report.step = step_report(input, model);
   report.estimate = estimate_run(input, model, report.step, from.time);
-  report.text += report.step.text + run_time(report.step, report.estimate, input.stages.back().end) +
+  report.text += report.step.text + run_time(report.step, report.estimate, input.stages.back().end, model.has_contact) +
                  frames_line(report.estimate, report.advice);
   append(report.advice, report.step.advice);
   append(report.advice, sudden_softening(model, report.step.dt));

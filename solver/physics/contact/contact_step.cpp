@@ -9,6 +9,7 @@
 
 #include "mesh/tetrahedron.hpp"
 #include "physics/contact/contact_field.hpp"
+#include "physics/contact/contact_meeting.hpp"
 #include "physics/contact/contact_point.hpp"
 #include "physics/contact/patch_tree.hpp"
 
@@ -272,27 +273,6 @@ bool may_meet(const ContactParams& params, const Patch& p, const Patch& q, doubl
   return gap_squared(p, q, Patch::box) <= reach * reach && apart(p, q);
 }
 
-/// omega_c^2 of a node of patch p against patch q. With damping the node's rate of decay gamma is made of the same
-/// terms as omega_c^2; a step that begins with the speed before it is stable up to 2/omega' with
-/// omega'/2 = gamma/4 + sqrt(gamma^2/16 + omega^2/4). Twice the gamma covers that the elements' own omega^2 adds up.
-double share_against(const ContactParams& params, double area_over_mass, double per_mass, const Patch& p,
-                     const Patch& q) {
-  const double areas = area_over_mass + q.largest[Patch::area_over_mass];
-  double sum = 0, decay = 0;
-  const auto add = [&](const Patch& points, const Patch& entered, double per_mass_of_entered) {
-    if (!(points.largest[Patch::weight] > 0)) return;
-    const ContactLaw& law = params.law(static_cast<Index>(points.group), static_cast<Index>(entered.group));
-    const double area = areas + points.largest[Patch::weight] * per_mass_of_entered;
-    sum += stiffest_slope(law) * entered.largest[Patch::per_length] * entered.largest[Patch::steepness] * area;
-    decay += law.damping * entered.largest[Patch::steepness] * area;
-  };
-  add(p, q, q.largest[Patch::per_mass]);
-  add(q, p, per_mass);
-  if (!(decay > 0)) return sum;
-  const double root = decay + std::sqrt(decay * decay + sum);
-  return root * root;
-}
-
 /// Whether any of a patch can be outside the sphere within `time`.
 bool may_pass(const SphericalBoundary& sphere, const Patch& p, double time) {
   double distance = 0, speed = 0;
@@ -390,18 +370,19 @@ std::vector<ContactShare> contact_shares(const ContactStepModel& model, const Fi
   const PatchTree tree(boxes);
   struct Near {
     bool found = false;
-    std::vector<std::int32_t> patches;
+    std::vector<Meeting> meetings;
   };
   std::vector<Near> near(patches.size());  // of those that originals here belong to
-  const auto near_of = [&](std::size_t p) -> const std::vector<std::int32_t>& {
+  const auto near_of = [&](std::size_t p) -> const std::vector<Meeting>& {
     if (!near[p].found) {
       near[p].found = true;
-      tree.query(boxes[p], [&](std::int32_t q) {
-        if (may_meet(model.params, patches[p], patches[static_cast<std::size_t>(q)], time))
-          near[p].patches.push_back(q);
+      tree.query(boxes[p], [&](std::int32_t place) {
+        const Patch& q = patches[static_cast<std::size_t>(place)];
+        if (may_meet(model.params, patches[p], q, time))
+          add_meeting(meeting(model.params, patches[p], q), near[p].meetings);
       });
     }
-    return near[p].patches;
+    return near[p].meetings;
   };
   for (Index s = 0; s < mesh.num_slots; ++s) {
     if (!mesh.is_original(s) || model.faces.open[at(s)] == 0) continue;
@@ -425,12 +406,8 @@ std::vector<ContactShare> contact_shares(const ContactStepModel& model, const Fi
         const double area = nodes.area_over_mass[static_cast<std::size_t>(c)];
         const double wall = at_sphere ? sphere->penalty * mine.largest[Patch::per_length] * area : 0.0;
         if (at_sphere) raise_corner(c, wall, -1);
-        for (const std::int32_t q : near_of(place)) {
-          const Patch& other = patches[static_cast<std::size_t>(q)];
-          const double per_mass = nodes.per_mass[static_cast<std::size_t>(c)];
-          raise_corner(c, wall + share_against(model.params, area, per_mass, mine, other),
-                       static_cast<Index>(other.group));
-        }
+        const double per_mass = nodes.per_mass[static_cast<std::size_t>(c)];
+        for (const Meeting& m : near_of(place)) raise_corner(c, wall + m.share(area, per_mass), m.against);
       }
     });
   }
