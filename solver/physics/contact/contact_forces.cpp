@@ -184,6 +184,10 @@ void Pass::keep_step(const ContactPoint& point, double length, TouchingCouple& h
     along_before = overlap(shape, last.tetra, last.lambda).gradient.dot(motion);
   }
   candidate.turn = 0;
+  if (!(h.d > 0)) {  // as a new couple: no force has done work for more than the motion inwards
+    h.offset = std::max(candidate.g_before - std::max(along, 0.0), 0.0);
+    return;
+  }
   const double beyond = change - 0.5 * (along + along_before), most = 0.5 * std::abs(along - along_before);
   const double turned = std::clamp(beyond, -most, most);
   h.offset += turned;
