@@ -171,7 +171,6 @@ void Pass::keep_step(const ContactPoint& point, double length, TouchingCouple& h
   const double change = candidate.g_before - (h.d * length + h.offset), along = gradient.dot(motion);
   // A couple that has ended may come back from outside, where its place was not kept.
   const bool was_kept = h.d > 0 || h.offset != 0;
-  if (!was_kept && change < along) return;
   if (was_kept) candidate.turn = along - change;
   if (std::abs(change - along) <= kSameSlope * motion.norm()) return;
   const Before last = one_step_ago(point, h.contactor);
