@@ -206,9 +206,10 @@ std::string run_time(const StepReport& step, const RunEstimate& estimate, double
       fmt::format("{:.0f} steps of {} to {}; about {} on this machine while little breaks", estimate.steps,
                   quantity_text(step.dt, "s"), quantity_text(end, "s"), quantity_text(estimate.seconds, "s"));
   if (estimate.breaks)
-    text += fmt::format(", {} where much does, up to {} where everything does at once{}",
-                        quantity_text(estimate.likely_seconds, "s"), quantity_text(estimate.most_seconds, "s"),
-                        has_contact ? " (a pile of debris that rubs on itself takes several times as long)" : "");
+    text += fmt::format(
+        ", {} where much does, up to {} where everything does at once{}", quantity_text(estimate.likely_seconds, "s"),
+        quantity_text(estimate.most_seconds, "s"),
+        has_contact ? " (not counted: contact among debris, with which it can be several times as long)" : "");
   return text + fmt::format(", memory {:.0f} MB\n", static_cast<double>(estimate.memory) / 1e6);
 }
 

@@ -37,12 +37,12 @@ struct RunEstimate {
   double seconds = 0;         ///< s, of one rank on this machine while little breaks
   double likely_seconds = 0;  ///< s, of a run in which much breaks: the mean of these two, since damage grows over the
                               ///< run; measured times of runs are 0.8 to 1.4 of it
-  double most_seconds = 0;    ///< s, if all joints that can break had done so from the start, without what debris does
-                              ///< to itself: a column that fell into a heap took 4 times as long
-  bool breaks = false;        ///< there are joints that can break
-  std::uint64_t memory = 0;   ///< bytes, largest so far of this process
-  double frames = 0;          ///< number
-  double disk = 0;            ///< bytes of the frames, compressed, as long as few joints break
+  double most_seconds = 0;  ///< s, if all joints that can break had done so from the start; contact among the debris is
+                            ///< not in it: a column that collapsed into a heap took 4 times as long
+  bool breaks = false;      ///< there are joints that can break
+  std::uint64_t memory = 0;  ///< bytes, largest so far of this process
+  double frames = 0;         ///< number
+  double disk = 0;           ///< bytes of the frames, compressed, as long as few joints break
 };
 
 /// The state that a case with [start] goes on from; the model of a report is that before the first step of all runs.

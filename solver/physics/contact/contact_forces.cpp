@@ -235,8 +235,8 @@ void Pass::act(Index index, Candidate& candidate) {
   }
 }
 
-/// @return  J that the couple holds and that friction and damping have dissipated, with what the turn of the force
-/// makes of its work: it is no gain, since the law has a potential
+/// @return  J that the couple holds and that friction and damping have dissipated, less the work of this step's force
+/// that comes from the rotation of its direction: no gain, since the law has a potential and such work cancels
 double Pass::press(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
                    const Candidate& candidate, TouchingCouple& h) {
   const Overlap here = overlap(shape_of(candidate.contactor), prepared(candidate.contactor), candidate.lambda);

@@ -8,8 +8,8 @@
 #include <Eigen/Eigenvalues>
 
 #include "mesh/tetrahedron.hpp"
+#include "physics/contact/contact_bound.hpp"
 #include "physics/contact/contact_field.hpp"
-#include "physics/contact/contact_meeting.hpp"
 #include "physics/contact/contact_point.hpp"
 #include "physics/contact/patch_tree.hpp"
 
@@ -370,19 +370,19 @@ std::vector<ContactShare> contact_shares(const ContactStepModel& model, const Fi
   const PatchTree tree(boxes);
   struct Near {
     bool found = false;
-    std::vector<Meeting> meetings;
+    std::vector<ContactBound> bounds;
   };
   std::vector<Near> near(patches.size());  // of those that originals here belong to
-  const auto near_of = [&](std::size_t p) -> const std::vector<Meeting>& {
+  const auto near_of = [&](std::size_t p) -> const std::vector<ContactBound>& {
     if (!near[p].found) {
       near[p].found = true;
       tree.query(boxes[p], [&](std::int32_t place) {
         const Patch& q = patches[static_cast<std::size_t>(place)];
         if (may_meet(model.params, patches[p], q, time))
-          add_meeting(meeting(model.params, patches[p], q), near[p].meetings);
+          add_bound(contact_bound(model.params, patches[p], q), near[p].bounds);
       });
     }
-    return near[p].meetings;
+    return near[p].bounds;
   };
   for (Index s = 0; s < mesh.num_slots; ++s) {
     if (!mesh.is_original(s) || model.faces.open[at(s)] == 0) continue;
@@ -407,7 +407,7 @@ std::vector<ContactShare> contact_shares(const ContactStepModel& model, const Fi
         const double wall = at_sphere ? sphere->penalty * mine.largest[Patch::per_length] * area : 0.0;
         if (at_sphere) raise_corner(c, wall, -1);
         const double per_mass = nodes.per_mass[static_cast<std::size_t>(c)];
-        for (const Meeting& m : near_of(place)) raise_corner(c, wall + m.share(area, per_mass), m.against);
+        for (const ContactBound& m : near_of(place)) raise_corner(c, wall + m.share(area, per_mass), m.against);
       }
     });
   }

@@ -29,7 +29,7 @@ namespace breccia {
 /// elastic. w: weight of a point, which may lie on one node of a smaller contactor; G: slope of the overlap field. Both
 /// directions, P on Q and Q on P, act at once. Nodes that are held in all directions weigh infinitely much.
 ///
-/// Damping adds to it (Meeting in contact_step.cpp).
+/// Damping adds to it (ContactBound in contact_step.cpp).
 ///
 /// Who can meet is decided part by part: free faces are put in cells of about `kCellSizes` face sizes at their present
 /// places, those of a body in a cell make a patch, and patches count against each other when their boxes come within

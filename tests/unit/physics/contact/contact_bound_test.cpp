@@ -1,4 +1,4 @@
-#include "physics/contact/contact_meeting.hpp"
+#include "physics/contact/contact_bound.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,26 +8,26 @@
 namespace breccia {
 namespace {
 
-TEST(contact_meeting, keeps_what_has_the_largest_share_of_any_node) {
+TEST(contact_bound, keeps_what_has_the_largest_share_of_any_node) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> number(0, 1);
   std::bernoulli_distribution damped(0.5);
   for (int round = 0; round < 50; ++round) {
-    std::vector<Meeting> all, kept;
+    std::vector<ContactBound> all, kept;
     for (Index i = 0; i < 60; ++i) {
-      Meeting m;
+      ContactBound m;
       m.sum = {number(random), number(random), number(random)};
       if (damped(random)) m.decay = {number(random), number(random), number(random)};
       m.against = i;
       all.push_back(m);
-      add_meeting(m, kept);
+      add_bound(m, kept);
     }
     EXPECT_LT(kept.size(), all.size());
     for (int node = 0; node < 20; ++node) {
       const double area = number(random), per_mass = number(random);
-      const auto largest = [&](const std::vector<Meeting>& meetings) {
+      const auto largest = [&](const std::vector<ContactBound>& bounds) {
         double share = 0;
-        for (const Meeting& m : meetings) share = std::max(share, m.share(area, per_mass));
+        for (const ContactBound& m : bounds) share = std::max(share, m.share(area, per_mass));
         return share;
       };
       EXPECT_EQ(largest(kept), largest(all));
@@ -35,13 +35,13 @@ TEST(contact_meeting, keeps_what_has_the_largest_share_of_any_node) {
   }
 }
 
-TEST(contact_meeting, of_equal_ones_the_first_is_kept) {
-  std::vector<Meeting> kept;
+TEST(contact_bound, of_equal_ones_the_first_is_kept) {
+  std::vector<ContactBound> kept;
   for (Index i = 0; i < 3; ++i) {
-    Meeting m;
+    ContactBound m;
     m.sum = {1, 2, 3};
     m.against = i;
-    add_meeting(m, kept);
+    add_bound(m, kept);
   }
   ASSERT_EQ(kept.size(), 1U);
   EXPECT_EQ(kept.front().against, 0);

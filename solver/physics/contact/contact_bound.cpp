@@ -1,13 +1,13 @@
-#include "physics/contact/contact_meeting.hpp"
+#include "physics/contact/contact_bound.hpp"
 
 #include <algorithm>
 
 namespace breccia {
 
-Meeting meeting(const ContactParams& params, const ContactPatch& p, const ContactPatch& q) {
-  Meeting m;
+ContactBound contact_bound(const ContactParams& params, const ContactPatch& p, const ContactPatch& q) {
+  ContactBound m;
   m.against = static_cast<Index>(q.group);
-  const auto add = [&](Meeting::Linear& to, double factor, double weight_of_p, double weight_of_q) {
+  const auto add = [&](ContactBound::Linear& to, double factor, double weight_of_p, double weight_of_q) {
     to.by_area += factor;
     to.by_per_mass += factor * weight_of_q;
     to.rest += factor * (q.largest[ContactPatch::area_over_mass] + weight_of_p * q.largest[ContactPatch::per_mass]);
@@ -25,10 +25,10 @@ Meeting meeting(const ContactParams& params, const ContactPatch& p, const Contac
   return m;
 }
 
-void add_meeting(const Meeting& made, std::vector<Meeting>& meetings) {
-  if (std::any_of(meetings.begin(), meetings.end(), [&](const Meeting& m) { return m.covers(made); })) return;
-  std::erase_if(meetings, [&](const Meeting& m) { return made.covers(m); });
-  meetings.push_back(made);
+void add_bound(const ContactBound& made, std::vector<ContactBound>& bounds) {
+  if (std::any_of(bounds.begin(), bounds.end(), [&](const ContactBound& m) { return m.dominates(made); })) return;
+  std::erase_if(bounds, [&](const ContactBound& m) { return made.dominates(m); });
+  bounds.push_back(made);
 }
 
 }  // namespace breccia

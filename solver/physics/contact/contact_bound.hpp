@@ -7,23 +7,25 @@
 
 namespace breccia {
 
-/// What a node of one patch has of meeting another, by its A_i/m_i and 1/m_i: a sum of stiffnesses, 1/s2, and of
-/// decays, 1/s, each linear in these.
-struct Meeting {
+/// Upper bound of what contact with another patch adds to omega^2 of a node of the first (contact_step.hpp): stiffness
+/// over mass, 1/s2, and a rate of decay, 1/s, each linear in the node's A_i/m_i and 1/m_i. For contact_step.cpp only.
+struct ContactBound {
   struct Linear {
     double by_area = 0, by_per_mass = 0, rest = 0;
     [[nodiscard]] double operator()(double area_over_mass, double per_mass) const {
       return by_area * area_over_mass + by_per_mass * per_mass + rest;
     }
-    [[nodiscard]] bool covers(const Linear& other) const {
+    [[nodiscard]] bool dominates(const Linear& other) const {
       return by_area >= other.by_area && by_per_mass >= other.by_per_mass && rest >= other.rest;
     }
   };
   Linear sum, decay;
   Index against = 0;  ///< group
 
-  /// Whether no node has more of the other one.
-  [[nodiscard]] bool covers(const Meeting& other) const { return sum.covers(other.sum) && decay.covers(other.decay); }
+  /// Whether this is at least as large as the other for every node.
+  [[nodiscard]] bool dominates(const ContactBound& other) const {
+    return sum.dominates(other.sum) && decay.dominates(other.decay);
+  }
 
   /// omega_c^2. With damping the node's rate of decay gamma is made of the same terms as omega_c^2; a step that begins
   /// with the speed before it is stable up to 2/omega' with omega'/2 = gamma/4 + sqrt(gamma^2/16 + omega^2/4). Twice
@@ -36,11 +38,11 @@ struct Meeting {
   }
 };
 
-/// Of the nodes of patch p with patch q.
-[[nodiscard]] Meeting meeting(const ContactParams& params, const ContactPatch& p, const ContactPatch& q);
+/// Of the nodes of patch p in contact with patch q.
+[[nodiscard]] ContactBound contact_bound(const ContactParams& params, const ContactPatch& p, const ContactPatch& q);
 
-/// Adds to those of a patch what none of them covers, and takes out what it covers: what is left has the largest share
-/// of any node. O(meetings)
-void add_meeting(const Meeting& made, std::vector<Meeting>& meetings);
+/// Keeps a list of bounds that do not dominate each other; for every node its largest share is that of all bounds ever
+/// added. Of equal ones the first stays. O(bounds)
+void add_bound(const ContactBound& made, std::vector<ContactBound>& bounds);
 
 }  // namespace breccia
