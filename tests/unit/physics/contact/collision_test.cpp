@@ -188,7 +188,7 @@ TEST(collision, at_half_of_the_stable_step_returns_what_contact_took_and_no_more
   constexpr double kGain = 1.5e-3;  // nodes share the force of a point as it lies at the end of a step: 1.04e-3 at most
   constexpr double kLoss = 0.03;    // points that leave over an edge, along another way than they came
   // The mean of 100 is 0.0073 without and 0.0043 with friction; 0.015 where a force begins with all that the law gives
-  // at the end of the step. One of them, with friction, gains 6.4e-3, so the limits above are those of the first twelve.
+  // at the end of the step. One of them, with friction, gains 6.4e-3: the limits above are those of the first twelve.
   constexpr double kMeanLoss = 0.0085, kGainOfAny = 8e-3;
   constexpr std::uint64_t kSeeds = 12, kMean = 100;
   for (const double friction : {0.0, 0.5}) {
