@@ -115,6 +115,7 @@ Condition initial_velocity(const Document& document, const case_::InitialVelocit
   for (std::size_t a = 0; a < 3; ++a) {
     row.largest[a] = given.velocity[static_cast<Eigen::Index>(a)];
     row.turns_by[a] = given.angular[static_cast<Eigen::Index>(a)];
+    row.stretches_by[a] = given.strain_rate[static_cast<Eigen::Index>(a)];
   }
   row.random = given.random[1];
   return row;

@@ -19,11 +19,12 @@ struct Condition {
   QString unit;    ///< of the curves
   /// Functions of time over their stage, s and SI; empty: it is none.
   std::vector<PlotLine> curves;
-  int number = -1;                   ///< of the stage, from 0; -1: before the first one
-  std::array<bool, 3> axes{};        ///< that are prescribed
-  std::array<double, 3> largest{};   ///< value by axis where it is largest over the stage, SI; a pressure has one
-  std::array<double, 3> turns_by{};  ///< rad/s, of an initial velocity
-  double random = 0;                 ///< greatest speed that is drawn for a body, m/s, of an initial velocity
+  int number = -1;                       ///< of the stage, from 0; -1: before the first one
+  std::array<bool, 3> axes{};            ///< that are prescribed
+  std::array<double, 3> largest{};       ///< value by axis where it is largest over the stage, SI; a pressure has one
+  std::array<double, 3> turns_by{};      ///< rad/s, of an initial velocity
+  std::array<double, 3> stretches_by{};  ///< 1/s, of an initial velocity
+  double random = 0;                     ///< greatest speed that is drawn for a body, m/s, of an initial velocity
 };
 
 /// All of them, stage by stage. Empty where the reader refuses the case.

@@ -7,6 +7,7 @@
 #include <QJsonArray>
 #include <QMessageBox>
 #include <QStatusBar>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -67,6 +68,16 @@ std::vector<Load> glyphs_of(const Condition& row) {
                      row.turns_by,
                      {},
                      words.arg(quantity_words(size(row.turns_by), "rad/s")).toStdString()});
+  }
+  if (row.number < 0 && size(row.stretches_by) > 0) {
+    const QString words = QCoreApplication::translate("conditions", "stretched at up to %1");
+    double most = 0;
+    for (const double rate : row.stretches_by) most = std::max(most, std::abs(rate));
+    loads.push_back({LoadShape::double_arrow,
+                     load.group,
+                     row.stretches_by,
+                     {},
+                     words.arg(quantity_words(most, "1/s")).toStdString()});
   }
   return loads;
 }

@@ -14,6 +14,7 @@ enum class Phase {
   contact,
   sweep,
   loads,
+  stable_step,
   energy,
   communication,
   decomposition,
@@ -25,7 +26,7 @@ enum class Phase {
 
 [[nodiscard]] constexpr std::string_view name_of(Phase phase) {
   constexpr std::array<std::string_view, static_cast<std::size_t>(Phase::count)> names{
-      "setup",  "joints",        "search",        "contact", "sweep",   "loads",
+      "setup",  "joints",        "search",        "contact", "sweep",   "loads",     "stable step",
       "energy", "communication", "decomposition", "output",  "in situ", "checkpoint"};
   return names[static_cast<std::size_t>(phase)];
 }

@@ -127,6 +127,9 @@ void bind(A& a, Joint& joint) {
   a.value("energy_mode_2", joint.energy_mode_2);
   a.choice("energy_counts", joint.energy_of_whole_curve);
   a.value("points_to_fail", joint.points_to_fail);
+  a.value("weibull_modulus", joint.weibull_modulus);
+  a.value("weibull_area", joint.weibull_area);
+  a.value("weibull_seed", joint.weibull_seed);
   a.section("softening", [&](auto& s) {
     s.choice("kind", joint.softening);
     s.value("a", joint.a);
@@ -177,6 +180,7 @@ void bind(A& a, InitialVelocity& initial) {
   a.value("random", initial.random);
   a.value("seed", initial.seed);
   a.value("angular", initial.angular);
+  a.value("strain_rate", initial.strain_rate);
 }
 
 template <class A>

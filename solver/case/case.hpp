@@ -123,6 +123,9 @@ struct Joint {
   double a = 0.63, b = 1.8, c = 6.0;  ///< z-curve
   double exponent = 5.0;              ///< exponential softening: z = (e^(-s D) - e^(-s)) / (1 - e^(-s))
   int points_to_fail = 3;
+  double weibull_modulus = 0;      ///< of strengths that scatter from joint to joint; 0: they do not
+  double weibull_area = 0;         ///< m2, of a joint whose mean strength is that above; 0: of every joint
+  std::uint64_t weibull_seed = 1;  ///< of the scatter
   Origin origin;
   friend bool operator==(const Joint&, const Joint&) = default;
 };
@@ -173,7 +176,8 @@ struct InitialVelocity {
   Vec3 velocity{0, 0, 0};              ///< m/s
   std::array<double, 2> random{0, 0};  ///< m/s; speed drawn uniformly in this range, direction uniform, by body; added
   std::uint64_t seed = 1;
-  Vec3 angular{0, 0, 0};  ///< rad/s about each body's centre of mass; added
+  Vec3 angular{0, 0, 0};      ///< rad/s about each body's centre of mass; added
+  Vec3 strain_rate{0, 0, 0};  ///< 1/s along the axes from each body's centre of mass; added
   Origin origin;
   friend bool operator==(const InitialVelocity&, const InitialVelocity&) = default;
 };

@@ -192,6 +192,22 @@ constexpr auto model_keys = std::to_array<Key>({
              "(published).", .example = "\"softening_branch\""},
     {.path = "joint[].points_to_fail", .type = integer, .fallback = "3", .range = {.lower = 1, .upper = 3},
      .help = "Points of full damage that make a joint broken.", .example = "2"},
+    {.path = "joint[].weibull_modulus", .type = number, .fallback = "none", .range = at_least_one, .word = "none",
+     .help = "Strengths scatter from joint to joint after Weibull, with this modulus, about the given ones as means; "
+             "both of a joint by one factor, energies not. Standard deviation 1.2/modulus of the mean: 5 for rock, 10 "
+             "to 20 for ceramics and concrete. none: all joints are equally strong, and an evenly loaded body breaks "
+             "everywhere at once.", .example = "10",
+     .fixed_by_state = "how strong each joint is against the mean is part of the state; the means may change"},
+    {.path = "joint[].weibull_area", .type = number, .unit = "m2", .fallback = "none", .range = areas,
+     .word = "none",
+     .help = "Area of the joints that have the given mean strengths; those of area A have (weibull_area/A)^(1/"
+             "weibull_modulus) times these, so that a finer mesh does not find weaker spots. none: the size of a joint "
+             "does not matter.", .example = "\"4 mm2\"",
+     .fixed_by_state = "how strong each joint is against the mean is part of the state; the means may change"},
+    {.path = "joint[].weibull_seed", .type = integer, .fallback = "1", .range = seed,
+     .help = "Another seed deals the strengths out in another way; the same gives the same on every machine.",
+     .example = "2",
+     .fixed_by_state = "how strong each joint is against the mean is part of the state; the means may change"},
 
     {.path = "joint[].softening", .type = section, .help = "Shape of the traction after the peak."},
     {.path = "joint[].softening.kind", .type = choice, .fallback = "z_curve", .choices = "z_curve|linear|exponential",
@@ -304,6 +320,10 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Rotation of each body about its centre of mass. Masses are lumped at the nodes: moments of inertia of a "
              "coarse body are above those of the solid, 12 to 30 % for a box of 1 x 2 x 3 cells.",
      .example = "[0, 0, \"90 deg/s\"]"},
+    {.path = "initial_velocity[].strain_rate", .type = vector, .unit = "1/s", .fallback = "[0, 0, 0]",
+     .help = "Stretching of each body along the axes: v_i = strain_rate_i (x_i - c_i), c its centre of mass. For bars "
+             "and rings that are torn at once along their length; a ring about z has the same rate along x and y.",
+     .example = "[\"1000 1/s\", \"1000 1/s\", 0]"},
 
     {.path = "stage[]", .type = section_list, .required = true,
      .help = "A part of the run with its own loads and constraints; it starts from the state in which the previous one "

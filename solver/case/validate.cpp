@@ -161,6 +161,15 @@ class Validator {
     if (j.softening != Softening::exponential && j.exponent != usual.exponent) refuse("exponent", "exponential");
   }
 
+  void scatter(const Joint& j) {
+    if (j.weibull_modulus > 0) return;
+    const Joint usual;
+    const std::string allowed = "a weibull_modulus as well";
+    if (j.weibull_area > 0) problem(j.origin, "weibull_area", "says nothing of strengths that do not scatter", allowed);
+    if (j.weibull_seed != usual.weibull_seed)
+      problem(j.origin, "weibull_seed", "says nothing of strengths that do not scatter", allowed);
+  }
+
   void joint(const Joint& j, std::set<Pair>& seen) {
     const bool inside = j.groups[0] == j.groups[1];
     if (inside) {
@@ -178,6 +187,7 @@ class Validator {
       problem(j.origin, "softening", "a + b of the z-curve is not above 1", "a + b > 1", std::to_string(j.a + j.b));
 
     softening_of_another_kind(j);
+    scatter(j);
     const auto breakable = [&](const std::string& group) {
       const Material* m = material(group);
       return m != nullptr && m->joints == JointPlacement::breakable;

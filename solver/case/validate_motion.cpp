@@ -22,10 +22,11 @@ double parts_of(const TimeFunction& f, double time) {
 }
 
 // Beyond any sense, and far below what makes an energy overflow: a unit forgotten, or an exponent too long.
-constexpr double kFastest = 3e8;        // m/s, that of light
-constexpr double kFastestTurn = 1e15;   // rad/s
-constexpr double kMostGravity = 1e20;   // m/s2
-constexpr double kMostPressure = 1e20;  // Pa
+constexpr double kFastest = 3e8;         // m/s, that of light
+constexpr double kFastestTurn = 1e15;    // rad/s
+constexpr double kFastestStrain = 1e15;  // 1/s
+constexpr double kMostGravity = 1e20;    // m/s2
+constexpr double kMostPressure = 1e20;   // Pa
 
 /// Speeds and loads that no run can bear.
 class MotionLimits {
@@ -37,6 +38,7 @@ class MotionLimits {
       demand(v.origin, "velocity", v.velocity.cwiseAbs().maxCoeff(), kFastest, "m/s");
       demand(v.origin, "random", std::max(std::abs(v.random[0]), std::abs(v.random[1])), kFastest, "m/s");
       demand(v.origin, "angular", v.angular.cwiseAbs().maxCoeff(), kFastestTurn, "rad/s");
+      demand(v.origin, "strain_rate", v.strain_rate.cwiseAbs().maxCoeff(), kFastestStrain, "1/s");
     }
     for (const Stage& stage : c_.stages) {
       for (const TimeFunction& f : stage.gravity)
@@ -89,6 +91,7 @@ class PlaneCheck {
   void initial_velocity(const InitialVelocity& v) {
     const auto axis = static_cast<Eigen::Index>(axis_);
     if (v.velocity[axis] != 0) problem(v.origin, "velocity", "none along " + name_);
+    if (v.strain_rate[axis] != 0) problem(v.origin, "strain_rate", "none along " + name_);
     if (v.random[1] > 0) problem(v.origin, "random", "no random velocity");
     Vec3 across = v.angular;
     across[axis] = 0;

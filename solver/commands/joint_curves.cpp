@@ -116,7 +116,7 @@ JointLawCurves joint_law_curves(const JointLawParams& law) {
 
 std::vector<JointLawCurves> joint_curves(const Model& model) {
   std::vector<JointLawCurves> all;
-  for (std::size_t i = 0; i < model.joint_laws.size(); ++i) {
+  for (std::size_t i = 0; i < model.joint_law_names.size(); ++i) {
     if (!model.joint_laws[i].breakable()) continue;
     all.push_back(joint_law_curves(model.joint_laws[i]));
     all.back().name = model.joint_law_names[i];

@@ -47,11 +47,12 @@ class Solids {
 std::string missing_contact_of_fragments(const Model& model) {
   if (model.has_contact) return {};
   std::string groups;
-  std::vector<bool> named(model.joint_laws.size(), false);
+  std::vector<bool> named(model.joint_law_names.size(), false);
   for (const ModelJoint& joint : model.joints) {
-    if (named[index(joint.law)] || !model.joint_laws[index(joint.law)].breakable()) continue;
-    named[index(joint.law)] = true;
-    groups += (groups.empty() ? "" : ", ") + model.joint_law_names[index(joint.law)];
+    const std::size_t pair = index(model.groups_of_joint_law[index(joint.law)]);
+    if (named[pair] || !model.joint_laws[pair].breakable()) continue;
+    named[pair] = true;
+    groups += (groups.empty() ? "" : ", ") + model.joint_law_names[pair];
   }
   if (groups.empty()) return {};
   return fmt::format(

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace breccia {
 namespace {
@@ -10,39 +12,102 @@ namespace {
 /// Cells grow where there are more open faces than this, so that the patches of all ranks stay few.
 constexpr double kMostFaces = 200'000;
 
-std::vector<ContactShare> shares_of_contact(const Communicator& communicator, const TimeStep& time_step,
-                                            const StepState& state, const ContactFaces& faces, double time) {
-  const Model& model = time_step.model();
-  const std::vector<std::uint8_t> held =
-      time_step.held_nodes(state.constraints != nullptr ? *state.constraints : std::vector<NodalConstraint>{});
-  const ContactStepModel contact{model.contact, model.local, model.whole.body_length, faces, held, state.contact};
-  std::int64_t open = 0;
-  for (Index s = 0; s < model.local.num_slots; ++s) {
-    if (model.local.is_original(s)) open += std::popcount(faces.open[static_cast<std::size_t>(s)]);
+/// Who may touch whom at present.
+class ContactLook {
+ public:
+  /// Collective. @param state  outlives this object
+  ContactLook(const Communicator& communicator, const TimeStep& time_step, const StepState& state)
+      : faces_(time_step.open_faces(state.clusters)),
+        held_(time_step.held_nodes(state.constraints != nullptr ? *state.constraints : std::vector<NodalConstraint>{})),
+        model_{time_step.model().contact,
+               time_step.model().local,
+               time_step.model().whole.body_length,
+               faces_,
+               held_,
+               state.contact} {
+    std::int64_t open = 0;
+    for (Index s = 0; s < model_.mesh.num_slots; ++s) {
+      if (model_.mesh.is_original(s)) open += std::popcount(faces_.open[static_cast<std::size_t>(s)]);
+    }
+    coarsening_ = std::max(1.0, std::cbrt(static_cast<double>(communicator.sum(open)) / kMostFaces));
+    patches_ = contact_patches(model_, state.position, state.velocity, coarsening_);
+    if (communicator.size() == 1) return;
+    for (const auto& some : communicator.all_gather(std::span<const ContactPatch>(patches_.list)))
+      of_all_.insert(of_all_.end(), some.begin(), some.end());
   }
-  const double coarsening = std::max(1.0, std::cbrt(static_cast<double>(communicator.sum(open)) / kMostFaces));
-  std::vector<ContactPatch> patches = contact_patches(contact, state.position, state.velocity, coarsening);
-  if (communicator.size() > 1) {
-    const auto of_ranks = communicator.all_gather(std::span<const ContactPatch>(patches));
-    patches.clear();
-    for (const std::vector<ContactPatch>& some : of_ranks) patches.insert(patches.end(), some.begin(), some.end());
-    merge(patches);
+  ContactLook(const ContactLook&) = delete;
+  ContactLook& operator=(const ContactLook&) = delete;
+
+  /// What contact within `time`, s, adds to all originals. Once.
+  [[nodiscard]] std::vector<ContactShare> all(double time) {
+    if (!of_all_.empty()) patches_.merge(std::move(of_all_));
+    return contact_shares(model_, patches_, time);
   }
-  return contact_shares(contact, state.position, coarsening, patches, time);
+  /// To originals that are asked for. Once.
+  [[nodiscard]] ContactShares one_by_one(double time) {
+    if (!of_all_.empty()) {
+      keep_nearby(patches_.list, coarsening_, time, of_all_);
+      patches_.merge(std::move(of_all_));
+    }
+    return {model_, patches_, time};
+  }
+  [[nodiscard]] const std::vector<std::uint8_t>& open() const { return faces_.open; }
+
+ private:
+  ContactFaces faces_;
+  std::vector<std::uint8_t> held_;
+  ContactStepModel model_;
+  double coarsening_ = 1;
+  ContactPatches patches_;
+  std::vector<ContactPatch> of_all_;  ///< patches of all ranks; none on one rank
+};
+
+/// Those without contact.
+StepParts elastic_parts(const Communicator& communicator, const TimeStep& time_step, const StepState& state) {
+  const StepModel model = time_step.step_model(state.memory);
+  StepParts parts{step_shares(model, state.position), 0.0, {}, {}};
+  parts.most = communicator.max(stiffest(model, parts.shares)) / (time_step.ratio() * time_step.ratio());
+  return parts;
 }
+
+/// s that `steps` of the true limit without contact take.
+double duration(const StepParts& parts, double steps) { return steps * 2.0 / std::sqrt(parts.most); }
 
 }  // namespace
 
 StepParts step_parts(const Communicator& communicator, const TimeStep& time_step, const StepState& state,
                      double steps) {
-  const StepModel model = time_step.step_model(state.memory);
-  StepParts parts{step_shares(model, state.position), 0.0, {}, {}};
-  parts.most = communicator.max(stiffest(model, parts.shares)) / (time_step.ratio() * time_step.ratio());
+  StepParts parts = elastic_parts(communicator, time_step, state);
   if (!time_step.model().has_contact) return parts;
-  ContactFaces faces = time_step.open_faces(state.clusters);
-  parts.contacts = shares_of_contact(communicator, time_step, state, faces, steps * 2.0 / std::sqrt(parts.most));
-  parts.open = std::move(faces.open);
+  ContactLook look(communicator, time_step, state);
+  parts.contacts = look.all(duration(parts, steps));
+  parts.open = look.open();
   return parts;
+}
+
+double global_step_length(const Communicator& communicator, const TimeStep& time_step, const StepState& state,
+                          double steps) {
+  const StepParts parts = elastic_parts(communicator, time_step, state);
+  if (!time_step.model().has_contact) {
+    const StableStep result = stable_step(time_step.step_model(), parts.shares, parts.most);
+    return communicator.min(result.step);
+  }
+  ContactLook look(communicator, time_step, state);
+  ContactShares contacts = look.one_by_one(duration(parts, steps));
+  const ElementSteps element_steps(time_step.step_model(), parts.most);
+  double shortest = std::numeric_limits<double>::infinity();
+  const LocalMesh& mesh = time_step.model().local;
+  for (Index s = 0; s < mesh.num_slots; ++s) {
+    if (!mesh.is_original(s)) continue;
+    const auto i = static_cast<std::size_t>(s);
+    const auto step_with = [&](const ContactShare& contact) {
+      return element_steps.of(parts.shares[i], contact, look.open()[i]);
+    };
+    ContactShare most;
+    most.omega_squared.fill(contacts.at_most(s));
+    if (step_with(most) < shortest) shortest = std::min(shortest, step_with(contacts.of(s)));
+  }
+  return communicator.min(shortest);
 }
 
 StableStep global_stable_step(const Communicator& communicator, const TimeStep& time_step, const StepState& state,

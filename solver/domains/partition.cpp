@@ -7,7 +7,6 @@
 #include "contact/initial_overlap.hpp"
 #include "contact/search_params.hpp"
 #include "domains/first_division.hpp"
-#include "domains/global_step.hpp"
 #include "domains/motion_limit.hpp"
 #include "domains/piece_mesh.hpp"
 #include "domains/state_records.hpp"
@@ -194,12 +193,21 @@ void Partition::begin_stage(const case_::Stage& stage) {
   domain_->state.signals.step_motion.stage_step = domain_->state.clock.steps;
 }
 
-StableStep Partition::stable_step(double steps) {
+StepState Partition::step_state() const {
   const State& state = domain_->state;
-  const StepState now{state.nodes.position,     state.nodes.velocity,
-                      domain_->contacts(),      domain_->contact ? &domain_->contact->clusters() : nullptr,
-                      &state.loads.constraints, material_memory(state.elements)};
-  return global_stable_step(communicator_, *time_step_, now, steps);
+  return {state.nodes.position,     state.nodes.velocity,
+          domain_->contacts(),      domain_->contact ? &domain_->contact->clusters() : nullptr,
+          &state.loads.constraints, material_memory(state.elements)};
+}
+
+StableStep Partition::stable_step(double steps) const {
+  const auto lap = domain_->timer.measure(Phase::stable_step);
+  return global_stable_step(communicator_, *time_step_, step_state(), steps);
+}
+
+double Partition::step_length(double steps) const {
+  const auto lap = domain_->timer.measure(Phase::stable_step);
+  return global_step_length(communicator_, *time_step_, step_state(), steps);
 }
 
 void Partition::keep_up() {

@@ -7,6 +7,7 @@
 #include "domains/balance.hpp"
 #include "domains/decomposition.hpp"
 #include "domains/domain.hpp"
+#include "domains/global_step.hpp"
 #include "model/time_step.hpp"
 
 namespace breccia {
@@ -62,7 +63,9 @@ class Partition {
   [[nodiscard]] Snapshot copy() const;
   /// Stable step of the whole model at present under the constraints of the stage. Collective.
   /// @param steps  of it until the next call
-  [[nodiscard]] StableStep stable_step(double steps);
+  [[nodiscard]] StableStep stable_step(double steps) const;
+  /// Its length alone, s, in less time. Collective.
+  [[nodiscard]] double step_length(double steps) const;
 
  private:
   void start_alone();
@@ -71,6 +74,7 @@ class Partition {
   void start_piece();
   void divide_again();
   [[nodiscard]] Snapshot opened() const;  ///< but for its state
+  [[nodiscard]] StepState step_state() const;
   [[nodiscard]] double first_motion() const;
   [[nodiscard]] double stretch() const;
   [[nodiscard]] RankOperations rank_operations() const;

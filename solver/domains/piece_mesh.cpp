@@ -18,11 +18,13 @@ std::vector<std::byte> pack(const WholeModel& whole) {
     bytes.put(groups.a);
     bytes.put(groups.b);
     bytes.put(groups.size);
+    bytes.put(groups.least_class);
+    bytes.put(groups.num_classes);
   }
   bytes.put_list(whole.body_length);
   bytes.put_list(whole.body_extent);
-  bytes.put(static_cast<std::uint64_t>(whole.spin_centres.size()));
-  for (const std::vector<Vec3>& centres : whole.spin_centres) {
+  bytes.put(static_cast<std::uint64_t>(whole.motion_centres.size()));
+  for (const std::vector<Vec3>& centres : whole.motion_centres) {
     bytes.put(static_cast<std::uint64_t>(centres.size()));
     for (const Vec3& centre : centres) {
       for (const double x : centre) bytes.put(x);
@@ -47,14 +49,16 @@ WholeModel unpack_whole(std::span<const std::byte> packed) {
     groups.a = bytes.take<Index>();
     groups.b = bytes.take<Index>();
     groups.size = bytes.take<double>();
+    groups.least_class = bytes.take<Index>();
+    groups.num_classes = bytes.take<Index>();
   }
   whole.body_length = bytes.take_list<double>();
   whole.body_extent = bytes.take_list<double>();
   DEMAND(whole.body_extent.size() == whole.body_length.size(), "two numbers of bodies");
   const auto lists = bytes.take<std::uint64_t>();
   DEMAND(lists <= bytes.left(), "lists of centres beyond the end");
-  whole.spin_centres.resize(lists);
-  for (std::vector<Vec3>& centres : whole.spin_centres) {
+  whole.motion_centres.resize(lists);
+  for (std::vector<Vec3>& centres : whole.motion_centres) {
     for (auto left = bytes.take<std::uint64_t>(); left > 0; --left) {
       Vec3& centre = centres.emplace_back();
       for (double& x : centre) x = bytes.take<double>();

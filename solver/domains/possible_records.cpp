@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <exception>
 
 #include "base/error.hpp"
 #include "domains/piece_mesh.hpp"
+#include "model/strength_scatter.hpp"
 
 namespace breccia {
 namespace {
@@ -34,14 +36,15 @@ bool is_possible(const ElementRecord& r, const WholeModel& whole) {
 
 bool is_possible(const JointRecord& r, const WholeModel& whole) {
   return within(r.other, whole.num_elements) && within(r.joint.face_a, kFaces) && within(r.joint.code, kCodes) &&
-         within(r.joint.law, whole.joint_groups);
+         within(r.joint.law, whole.num_joint_laws());
 }
 
 }  // namespace
 
 bool are_possible(const Records& records, const WholeModel& whole) {
   const auto is_pair = [&](const WholeModel::JointGroups& groups) {
-    return within(groups.a, whole.volume_groups) && within(groups.b, whole.volume_groups);
+    return within(groups.a, whole.volume_groups) && within(groups.b, whole.volume_groups) && groups.num_classes >= 0 &&
+           groups.num_classes <= 2 * kMostStrengthClasses + 1 && std::abs(groups.least_class) <= kMostStrengthClasses;
   };
   return all(whole.joint_groups, is_pair) &&
          all(records.elements, [&](const ElementRecord& r) { return is_possible(r, whole); }) &&

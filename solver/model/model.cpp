@@ -197,7 +197,7 @@ Model build_bare_model(const case_::Case& input) {
 
 Model build_model(const case_::Case& input) {
   Model model = build_bare_model(input);
-  take_joints(model);
+  take_joints(input, model);
   model.local = build_local_mesh(model.mesh, model.discretisation, model.density);
   return model;
 }
@@ -212,7 +212,7 @@ Model build_piece(const case_::Case& input, WholeModel whole, Mesh mesh, Topolog
   take_materials(input, model);
   take_contact(input, model);
   take_joint_laws(input, model);
-  take_joints(model);
+  take_joints(input, model);
   model.local = build_local_mesh(model.mesh, model.discretisation, model.density, original);
   return model;
 }

@@ -24,7 +24,7 @@ namespace breccia {
 /// A joint of the model: two faces that coincide in the reference mesh.
 struct ModelJoint {
   JointFace face;  ///< elements a < b, face of a, code, area, size
-  Index law = 0;   ///< index into Model::joint_laws
+  Index law = 0;   ///< index into Model::joint_laws: of its groups, or of its class of strength
 };
 
 /// Elements whose corners belong to a physical surface: with a face, or an edge or a point bonded to such a face.
@@ -50,9 +50,10 @@ struct Model {
   WholeModel whole;
   std::optional<PlaneModel> plane;
 
-  std::vector<JointLawParams> joint_laws;
-  std::vector<std::string> joint_law_names;  ///< "glass", "glass-steel": for reports
-  std::vector<double> joint_sizes;           ///< h of k = p/h by law, m
+  std::vector<JointLawParams> joint_laws;    ///< those of WholeModel::joint_groups, then those of their classes
+  std::vector<Index> groups_of_joint_law;    ///< (joint laws) index into WholeModel::joint_groups
+  std::vector<std::string> joint_law_names;  ///< (joint groups) "glass", "glass-steel": for reports
+  std::vector<double> joint_sizes;           ///< (joint groups) h of k = p/h, m
   std::vector<ModelJoint> joints;            ///< ascending (a, face) and so by id; without those broken from the start
   ContactParams contact;
   std::vector<Topology::Face> contact_faces;  ///< faces that carry points when restricted to surfaces
@@ -63,9 +64,8 @@ struct Model {
   MeshReport mesh_report;  ///< of the whole mesh, on the rank that has read it
 
   /// Id of a joint in the whole model.
-  [[nodiscard]] GlobalId joint_id(std::size_t joint) const {
-    return 4 * mesh.element_id(joints[joint].face.a) + joints[joint].face.face_a;
-  }
+  [[nodiscard]] GlobalId joint_id(const JointFace& face) const { return 4 * mesh.element_id(face.a) + face.face_a; }
+  [[nodiscard]] GlobalId joint_id(std::size_t joint) const { return joint_id(joints[joint].face); }
 };
 
 /// Reads or generates the mesh, checks the case's groups against it and builds the model.

@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "model/parameters.hpp"
+#include "model/strength_scatter.hpp"
 
 namespace breccia {
 namespace {
@@ -53,6 +55,42 @@ bool can_fail(const case_::Case& input, const case_::Joint& entry) {
          (entry.groups[0] != entry.groups[1] && entry.tensile_strength > 0);
 }
 
+bool scatters(const case_::Case& input, const case_::Joint& entry) {
+  return entry.weibull_modulus > 0 && can_fail(input, entry);
+}
+
+void include_class(WholeModel::JointGroups& groups, Index number) {
+  const Index end = groups.num_classes > 0 ? std::max(groups.least_class + groups.num_classes, number + 1) : number + 1;
+  groups.least_class = groups.num_classes > 0 ? std::min(groups.least_class, number) : number;
+  groups.num_classes = end - groups.least_class;
+}
+
+void add_law(const case_::Case& input, const case_::Joint& entry, double size, Model& model,
+             std::vector<Problem>& problems, const std::string& whose = "") {
+  JointLawParams params = joint_law_params(entry, size, !can_fail(input, entry));
+  if (const std::string problem = prepare(params); !problem.empty())
+    problems.push_back({input.file.string(), entry.origin.line, entry.origin.key, whose + problem, "", ""});
+  model.joint_laws.push_back(std::move(params));
+}
+
+/// The laws of all classes of strength. @param entries  of the joint groups
+void add_class_laws(const case_::Case& input, const std::vector<const case_::Joint*>& entries, Model& model,
+                    std::vector<Problem>& problems) {
+  for (std::size_t g = 0; g < entries.size(); ++g) {
+    const WholeModel::JointGroups& groups = model.whole.joint_groups[g];
+    const std::size_t known = problems.size();
+    for (Index c = 0; c < groups.num_classes && problems.size() == known; ++c) {
+      const double factor = strength_factor(groups.least_class + c);
+      case_::Joint entry = *entries[g];
+      entry.tensile_strength *= factor;
+      entry.shear_strength *= factor;
+      add_law(input, entry, model.joint_sizes[g], model, problems,
+              "of a joint of " + number_text(factor, 3) + " times the mean strength (weibull_modulus): ");
+      model.groups_of_joint_law.push_back(static_cast<Index>(g));
+    }
+  }
+}
+
 }  // namespace
 
 std::optional<Problem> missing_joint_law(const case_::Case& input, const std::vector<std::string>& names,
@@ -66,6 +104,7 @@ void find_joint_groups(const case_::Case& input, Model& model) {
   const std::vector<std::string>& names = model.mesh.volume_groups;
   WholeModel& whole = model.whole;
   std::map<Pair, std::size_t> known;  // to the place in joint_groups
+  std::vector<const case_::Joint*> entries;
   std::vector<double> count;
   std::vector<Problem> problems;
   for_each_joint_face(model.mesh, model.topology, [&](const JointFace& face) {
@@ -75,10 +114,14 @@ void find_joint_groups(const case_::Case& input, Model& model) {
     if (fresh) {
       whole.joint_groups.push_back({groups.first, groups.second, 0.0});
       count.push_back(0.0);
-      if (entry_for(input, names, groups) == nullptr) problems.push_back(no_law(input, names, groups));
+      entries.push_back(entry_for(input, names, groups));
+      if (entries.back() == nullptr) problems.push_back(no_law(input, names, groups));
     }
-    whole.joint_groups[place->second].size += face.size;
-    count[place->second] += 1.0;
+    const std::size_t g = place->second;
+    whole.joint_groups[g].size += face.size;
+    if (entries[g] != nullptr && scatters(input, *entries[g]))
+      include_class(whole.joint_groups[g], strength_class(*entries[g], model.joint_id(face), face.area));
+    count[g] += 1.0;
     ++whole.num_joints;
   });
   if (!problems.empty()) throw InputError(std::move(problems));
@@ -88,29 +131,44 @@ void find_joint_groups(const case_::Case& input, Model& model) {
 void take_joint_laws(const case_::Case& input, Model& model) {
   const std::vector<std::string>& names = model.mesh.volume_groups;
   std::vector<Problem> problems;
+  std::vector<const case_::Joint*> entries;
   for (const WholeModel::JointGroups& groups : model.whole.joint_groups) {
     const case_::Joint* entry = entry_for(input, names, {groups.a, groups.b});
     DEMAND(entry != nullptr, names[index(groups.a)] + " and " + names[index(groups.b)] + " have no joint law");
-    const bool unbreakable = !can_fail(input, *entry);
-    model.joint_sizes.push_back(entry->size > 0 ? entry->size : groups.size);
-    JointLawParams params = joint_law_params(*entry, model.joint_sizes.back(), unbreakable);
-    if (const std::string problem = prepare(params); !problem.empty())
-      problems.push_back({input.file.string(), entry->origin.line, entry->origin.key, problem, "", ""});
-    model.joint_laws.push_back(std::move(params));
     const std::string &first = names[index(groups.a)], &second = names[index(groups.b)];
     model.joint_law_names.push_back(first == second ? first : first + "-" + second);
+    model.joint_sizes.push_back(entry->size > 0 ? entry->size : groups.size);
+    add_law(input, *entry, model.joint_sizes.back(), model, problems);
+    model.groups_of_joint_law.push_back(static_cast<Index>(entries.size()));
+    entries.push_back(entry);
   }
+  if (problems.empty()) add_class_laws(input, entries, model, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
-void take_joints(Model& model) {
-  std::map<Pair, Index> law_of;
-  for (const WholeModel::JointGroups& groups : model.whole.joint_groups)
-    law_of.emplace(Pair{groups.a, groups.b}, static_cast<Index>(law_of.size()));
+void take_joints(const case_::Case& input, Model& model) {
+  struct PairLaw {
+    Index reference, first_of_class;  ///< laws
+    const WholeModel::JointGroups& groups;
+    const case_::Joint& entry;
+  };
+  std::map<Pair, PairLaw> law_of;
+  for (std::size_t g = 0; g < model.whole.joint_groups.size(); ++g) {
+    const WholeModel::JointGroups& groups = model.whole.joint_groups[g];
+    const Pair pair{groups.a, groups.b};
+    const case_::Joint& entry = *entry_for(input, model.mesh.volume_groups, pair);
+    law_of.emplace(pair, PairLaw{static_cast<Index>(g), model.whole.first_class_law(g), groups, entry});
+  }
+  const auto law_for = [&](const PairLaw& law, const JointFace& face) {
+    if (law.groups.num_classes == 0) return law.reference;
+    const Index place = strength_class(law.entry, model.joint_id(face), face.area) - law.groups.least_class;
+    DEMAND(0 <= place && place < law.groups.num_classes, "a joint of no class of strength");
+    return law.first_of_class + place;
+  };
   model.joints.reserve(2 * model.mesh.elements.size());
   for_each_joint_face(model.mesh, model.topology, [&](const JointFace& face) {
     const Pair groups = groups_of(model, face);
-    if (has_joint(model, groups)) model.joints.push_back({face, law_of.at(groups)});
+    if (has_joint(model, groups)) model.joints.push_back({face, law_for(law_of.at(groups), face)});
   });
 }
 

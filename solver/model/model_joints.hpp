@@ -22,6 +22,6 @@ void find_joint_groups(const case_::Case& input, Model& model);
 void take_joint_laws(const case_::Case& input, Model& model);
 
 /// Model::joints. O(elements).
-void take_joints(Model& model);
+void take_joints(const case_::Case& input, Model& model);
 
 }  // namespace breccia

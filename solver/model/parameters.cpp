@@ -238,7 +238,7 @@ std::vector<InitialVelocity> initial_velocities(const case_::Case& input, const 
   for (std::size_t i = 0; i < input.initial_velocities.size(); ++i) {
     const case_::InitialVelocity& entry = input.initial_velocities[i];
     velocities.push_back({group_index(model.mesh.volume_groups, entry.group), entry.velocity, entry.random, entry.seed,
-                          entry.angular, model.whole.spin_centres[i]});
+                          entry.angular, entry.strain_rate, model.whole.motion_centres[i]});
   }
   return velocities;
 }

@@ -64,10 +64,10 @@ WholeModel whole_of(const case_::Case& input, const Mesh& mesh, const std::vecto
         std::pow(std::max(kRoundOffStrain, strain), 2) * volume * lambda_2mu[at(mesh.element_group[at(e)])];
   }
   for (const case_::InitialVelocity& entry : input.initial_velocities) {
-    std::vector<Vec3>& centres = whole.spin_centres.emplace_back();
+    std::vector<Vec3>& centres = whole.motion_centres.emplace_back();
     const auto& groups = mesh.volume_groups;
     const auto group = std::find(groups.begin(), groups.end(), entry.group) - groups.begin();
-    if (entry.angular != Vec3::Zero())
+    if (entry.angular != Vec3::Zero() || entry.strain_rate != Vec3::Zero())
       centres = centres_of(mesh, static_cast<Index>(group), density[static_cast<std::size_t>(group)]);
   }
   return whole;

@@ -12,23 +12,35 @@ namespace breccia {
 
 /// What depends on the model as a whole, the same on every rank.
 struct WholeModel {
-  /// A pair of groups that joints hold together. Index = index of the law.
+  /// A pair of groups that joints hold together.
   struct JointGroups {
-    Index a, b;   ///< a <= b
-    double size;  ///< m, mean edge of their joints
+    Index a, b;             ///< a <= b
+    double size;            ///< m, mean edge of their joints
+    Index least_class = 0;  ///< of strength (strength_scatter.hpp) that any of them is in
+    Index num_classes = 0;  ///< from that one on; 0: all have the same strengths
   };
   std::string source;  ///< of the mesh, for messages
   std::vector<std::string> volume_groups, surface_groups;
   std::int64_t num_elements = 0, num_joints = 0;
-  std::vector<JointGroups> joint_groups;
-  std::vector<double> body_length;  ///< (bodies) H of contact, m: mean inradius of the elements
-  std::vector<double> body_extent;  ///< (bodies) m: diagonal of the box around it at rest
-  double contactor_size = 0;        ///< m, mean size of the contactors
-  double longest_edge = 0;          ///< m, of all elements, reference
-  double energy_floor = 0;          ///< J, energies below are round-off
-  double step_ratio = 0;            ///< of the true stable step to the bound at rest (time_step.hpp); 0: not found yet
-  /// (entries of initial_velocities) centres of mass, m, of what each body has in the entry's group; empty: no spin
-  std::vector<std::vector<Vec3>> spin_centres;
+  std::vector<JointGroups> joint_groups;  ///< pair g has the joint law g, of mean strengths
+  std::vector<double> body_length;        ///< (bodies) H of contact, m: mean inradius of the elements
+  std::vector<double> body_extent;        ///< (bodies) m: diagonal of the box around it at rest
+  double contactor_size = 0;              ///< m, mean size of the contactors
+  double longest_edge = 0;                ///< m, of all elements, reference
+  double energy_floor = 0;                ///< J, energies below are round-off
+  double step_ratio = 0;  ///< of the true stable step to the bound at rest (time_step.hpp); 0: not found yet
+  /// (entries of initial_velocities) centres of mass, m, of what each body has in the entry's group; empty: it
+  /// neither turns nor stretches them
+  std::vector<std::vector<Vec3>> motion_centres;
+
+  /// Joint laws in all: those of the pairs, then those of the classes of the first pair that has some, of the next, ...
+  [[nodiscard]] Index num_joint_laws() const { return first_class_law(joint_groups.size()); }
+  /// Law of the least class of pair `groups`.
+  [[nodiscard]] Index first_class_law(std::size_t groups) const {
+    auto law = static_cast<Index>(joint_groups.size());
+    for (std::size_t g = 0; g < groups; ++g) law += joint_groups[g].num_classes;
+    return law;
+  }
 };
 
 /// What the mesh alone tells of it: sizes, bodies and centres; nothing of joints, contact and the step.

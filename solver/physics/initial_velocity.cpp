@@ -53,8 +53,11 @@ void add_initial_velocity(const LocalMesh& mesh, const InitialVelocity& initial,
     if (b < 0) continue;
     Vec3 added = initial.uniform;
     if (random) added += random_velocity(initial.seed, static_cast<std::uint64_t>(b), initial.speed);
-    if (!initial.centre.empty())
-      added += initial.angular.cross(load_node(position.data(), n) - initial.centre[static_cast<std::size_t>(b)]);
+    if (!initial.centre.empty()) {
+      const Vec3 arm = load_node(position.data(), n) - initial.centre[static_cast<std::size_t>(b)];
+      added += initial.angular.cross(arm);
+      added += initial.strain_rate.cwiseProduct(arm);
+    }
     store_node(velocity.data(), n, load_node(velocity.data(), n) + added);
   }
 }

@@ -16,11 +16,12 @@ struct InitialVelocity {
   Vec3 uniform{0, 0, 0};              ///< m/s
   std::array<double, 2> speed{0, 0};  ///< m/s: range of a random velocity by body, added
   std::uint64_t seed = 1;
-  Vec3 angular{0, 0, 0};     ///< rad/s about `centre`, added
-  std::vector<Vec3> centre{};  ///< (bodies) m, centre of mass of the body's part in the group; empty: no spin
+  Vec3 angular{0, 0, 0};       ///< rad/s about `centre`, added
+  Vec3 strain_rate{0, 0, 0};   ///< 1/s along the axes from `centre`, added
+  std::vector<Vec3> centre{};  ///< (bodies) m, centre of mass of the body's part in the group; empty: neither of them
 };
 
-/// Adds uniform + random(body) + angular x (x - centre) to every node of the group, each node once. A node shared by
+/// Adds uniform + random(body) + angular x r + strain_rate * r, r = x - centre, * by components, to every node of the group, each node once. A node shared by
 /// two bodies of the group counts with the one of the element of lowest slot.
 /// @param position, velocity  nodal fields, m, m/s. O(nodes).
 void add_initial_velocity(const LocalMesh& mesh, const InitialVelocity& initial, const Field<double>& position,

@@ -231,26 +231,32 @@ double stiffest(const StepModel& model, std::span<const StepShare> shares) {
   return largest;
 }
 
+ElementSteps::ElementSteps(const StepModel& model, double most)
+    : most_(most), most_damping_(stiffest_ratio(model.params) > 0 ? stiffest_ratio(model.params) * most : 0.0) {}
+
+double ElementSteps::of(const StepShare& share, const ContactShare& contact, unsigned open) const {
+  return step_of(stiffest_corner(share, most_, contact, open).omega_squared, damping(share));
+}
+
 StableStep stable_step(const StepModel& model, std::span<const StepShare> shares, double most,
                        std::span<const ContactShare> contacts, std::span<const std::uint8_t> open) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   StableStep result{.step = kNever, .element_step = kNever, .joint_step = kNever};
-  // Viscosity damps at most in proportion to the stiffness, and so does the true limit.
-  const double ratio = stiffest_ratio(model.params), most_damping = ratio > 0 ? ratio * most : 0.0;
+  const ElementSteps element_steps(model, most);
+  const ContactShare no_contact;
   std::vector<double> steps;
   steps.reserve(shares.size());
   Index worst = -1;
   double bound_of_worst = 0;
-  const ContactShare none;
   const auto contact_of = [&](Index s) -> const ContactShare& {
-    return contacts.empty() ? none : contacts[static_cast<std::size_t>(s)];
+    return contacts.empty() ? no_contact : contacts[static_cast<std::size_t>(s)];
   };
   const auto open_of = [&](Index s) { return open.empty() ? 0U : unsigned{open[static_cast<std::size_t>(s)]}; };
   for (Index s = 0; s < model.mesh.num_slots; ++s) {
     const StepShare& mine = shares[static_cast<std::size_t>(s)];
     if (!model.mesh.is_original(s)) continue;
-    const double damping = std::min(mine.damping, most_damping), bound = mine.largest();
-    const double step = step_of(stiffest_corner(mine, most, contact_of(s), open_of(s)).omega_squared, damping);
+    const double damping = element_steps.damping(mine), bound = mine.largest();
+    const double step = element_steps.of(mine, contact_of(s), open_of(s));
     steps.push_back(step);
     result.element_step = std::min(result.element_step, step_of(std::min(mine.largest_element(), most), damping));
     result.joint_step = std::min(result.joint_step, step_of(std::min(bound, most), damping));

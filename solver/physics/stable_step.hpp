@@ -107,6 +107,20 @@ struct StepShare {
                                      std::span<const ContactShare> contacts = {},
                                      std::span<const std::uint8_t> open = {});
 
+/// The step of single elements, as stable_step finds it.
+class ElementSteps {
+ public:
+  /// @param most  as above
+  ElementSteps(const StepModel& model, double most);
+  /// s. @param open  bits of faces whose joints are gone
+  [[nodiscard]] double of(const StepShare& share, const ContactShare& contact, unsigned open) const;
+  /// 1/s: viscosity damps at most in proportion to the stiffness, and so does the true limit.
+  [[nodiscard]] double damping(const StepShare& share) const { return std::min(share.damping, most_damping_); }
+
+ private:
+  double most_, most_damping_;
+};
+
 /// The same without contact at these positions. O(elements).
 [[nodiscard]] StableStep stable_step(const StepModel& model, const Field<double>& position);
 

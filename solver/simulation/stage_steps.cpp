@@ -74,26 +74,27 @@ double StageSteps::next_length() {
   looks_ = {kStepsBetweenLooks, 0};
   if (input_.time.step > 0) return length(input_.time.step);
   const Clock& clock = partition_.state().clock;
-  const StableStep now = limit();
+  const double now = partition_.step_length(steps_to_look());
   judge(now);
-  const double stable = input_.time.safety * now.step, most = kGrowth * clock.dt;
+  const double stable = input_.time.safety * now, most = kGrowth * clock.dt;
   if (clock.steps == 0 || stable <= most) return length(stable);
   looks_.until = kSoonest;
   return length(most);
 }
 
-void StageSteps::judge(const StableStep& stable) {
+void StageSteps::judge(double stable) {
   const Clock& clock = partition_.state().clock;
-  const double share = stable.step / at_rest_;
+  const double share = stable / at_rest_;
   const bool ends = share < kSmallestStep;
   // Where a run begins `check` has told it.
   const bool fell = clock.steps > 0 && tenths(share) > tenths(clock.dt / (input_.time.safety * at_rest_));
   if (!ends && !fell) return;
   const double rest = input_.stages.back().end - clock.time;
+  const StableStep limiter = limit();
   const std::string text = "step " + std::to_string(clock.steps) + ", time " + number(clock.time) +
-                           " s: the stable step has fallen to " + number(stable.step) + " s, " + number(100 * share) +
-                           " % of that of the model at rest, by " + limit_text(stable) + "; what is left would take " +
-                           number(rest / (input_.time.safety * stable.step)) + " steps; " + remedy_of(stable.limit);
+                           " s: the stable step has fallen to " + number(stable) + " s, " + number(100 * share) +
+                           " % of that of the model at rest, by " + limit_text(limiter) + "; what is left would take " +
+                           number(rest / (input_.time.safety * stable)) + " steps; " + remedy_of(limiter.limit);
   if (ends) throw SimulationError(text + "; a time.step that the case gives is not looked at");
   warning_ = text;
 }
@@ -104,9 +105,11 @@ void StageSteps::fit_end() {
   looks_ = before;
 }
 
-StableStep StageSteps::limit() const {
-  return partition_.stable_step((input_.time.step > 0 ? 1.0 : input_.time.safety) * kStepsBetweenLooks);
+double StageSteps::steps_to_look() const {
+  return (input_.time.step > 0 ? 1.0 : input_.time.safety) * kStepsBetweenLooks;
 }
+
+StableStep StageSteps::limit() const { return partition_.stable_step(steps_to_look()); }
 
 void StageSteps::look() {
   if (partition_.state().signals.released)

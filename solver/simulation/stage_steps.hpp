@@ -58,8 +58,10 @@ class StageSteps {
   void demand_countable() const;
   /// The length that is allowed now, and when it is to be looked at again. Collective.
   [[nodiscard]] double next_length();
-  /// Notes a warning, or throws.
-  void judge(const StableStep& stable);
+  /// Stable steps to the next look.
+  [[nodiscard]] double steps_to_look() const;
+  /// Notes a warning, or throws. Collective. @param stable  step, s
+  void judge(double stable);
 
   const case_::Case& input_;
   const case_::Stage& stage_;

@@ -28,22 +28,23 @@ const std::string kPush =
     "[[stage.pressure]]\nsurface = \"box.x1\"\nvalue = \"1 kPa\"\n";
 const std::string kOutput = "[output]\nframe_interval = \"1 ms\"\nhistory_interval = \"100 us\"\n";
 
-/// Boxes that break, flow plastically, touch and rub; without stages and output.
-std::string model_text() {
-  const std::string text =
-      changed("poisson = 0.3",
-              "poisson = 0.3\nlaw = \"drucker_prager\"\nfriction_angle = \"30 deg\"\ndilation_angle = \"10 deg\"\n"
-              "cohesion = \"20 kPa\"\nhardening = \"100 kPa\"\nviscosity = 5");
-  return text.substr(0, text.find("[[stage]]"));
-}
-
-json json_of(const fs::path& file) { return json::parse(read_text(file), nullptr, false); }
-
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
+
+/// Boxes that break at strengths that scatter, flow plastically, touch and rub; without stages and output.
+std::string model_text() {
+  const std::string text = replaced(
+      changed("poisson = 0.3",
+              "poisson = 0.3\nlaw = \"drucker_prager\"\nfriction_angle = \"30 deg\"\ndilation_angle = \"10 deg\"\n"
+              "cohesion = \"20 kPa\"\nhardening = \"100 kPa\"\nviscosity = 5"),
+      "penalty_factor = 10", "penalty_factor = 10\nweibull_modulus = 8");
+  return text.substr(0, text.find("[[stage]]"));
+}
+
+json json_of(const fs::path& file) { return json::parse(read_text(file), nullptr, false); }
 
 class Start : public testing::Test {
  protected:
@@ -174,6 +175,9 @@ TEST_F(Start, RefusesEveryChangeThatTheStateDoesNotAllow) {
            {"joints = \"breakable\"", "joints = \"unbreakable\"", "material[0].joints", "who may touch whom"},
            {"penalty_factor = 10", "penalty_factor = 10\nlaw = \"independent_peaks\"", "joint[0].law", "damage"},
            {"penalty_factor = 10", "penalty_factor = 10\npoints = \"mid_edge\"", "joint[0].points", "damage"},
+           {"weibull_modulus = 8", "weibull_modulus = 9", "joint[0].weibull_modulus", "against the mean"},
+           {"weibull_modulus = 8", "weibull_modulus = 8\nweibull_seed = 2", "joint[0].weibull_seed",
+            "against the mean"},
            {"[\"1 m/s\", \"2 m/s\"]", "[\"1 m/s\", \"3 m/s\"]", "initial_velocity[0].random", "first run"},
            {"radius = \"26 mm\"", "radius = \"27 mm\"", "sphere.radius", "press on it"},
            {"[[stage]]", "[contact_points]\nper_face = 6\n[[stage]]", "contact_points.per_face", "points"},

@@ -110,6 +110,16 @@ TEST_F(PartitionOfCubes, HasTheStableStepOfTheWholeModel) {
   EXPECT_EQ(static_cast<double>(step.element), world().max(element)) << "and what limits it";
 }
 
+TEST_F(PartitionOfCubes, FindsTheLengthOfTheStableStepAloneAsWell) {
+  Partition partition = begun();
+  for (int looks = 0; looks < 5; ++looks) {
+    for (const double steps : {1.0, 100.0, 10000.0})
+      EXPECT_EQ(partition.step_length(steps), partition.stable_step(steps).step) << steps;
+    take_steps(partition, 80);
+  }
+  EXPECT_GT(world().sum(partition.state().joints.broken), 0);
+}
+
 TEST_F(PartitionOfCubes, TakesTheStepsOfARankThatIsAlone) {
   constexpr int kSteps = 400;
   Partition partition = begun();

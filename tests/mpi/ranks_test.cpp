@@ -113,6 +113,18 @@ TEST(Ranks, GiveTheSameBitsWhenTheModelIsDividedAgainAndAgain) {
   EXPECT_GT(boxes.on(3, "--set domains.margin=0.1 --set detection.verify=true").at("decompositions"), 5);
 }
 
+TEST(Ranks, GiveTheSameBitsWhereStrengthsScatter) {
+  const Scratch scratch;
+  const std::string law = "penalty_factor = 10";
+  SameBits boxes(scratch.write(
+      "case.toml", test::changed(law, law + "\nweibull_modulus = 4\nweibull_area = \"1 cm2\"\nweibull_seed = 3")));
+  EXPECT_GT(boxes.alone().at("broken_joints"), 0);
+  EXPECT_NE(boxes.alone().at("state_hash"),
+            SameBits(scratch.write("even.toml", test::kSmallCase)).alone().at("state_hash"));
+  for (const int ranks : {2, 3}) boxes.on(ranks);
+  boxes.on(2, "--set domains.margin=0.1");
+}
+
 TEST(Ranks, GiveTheSameBitsWhile64BoxesShatterInASphere) {
   SameBits boxes(mesh_case("bouncing_cubes/case_breaking.toml"));
   EXPECT_GT(boxes.alone().at("broken_joints"), 100);

@@ -25,8 +25,12 @@ ContactBound contact_bound(const ContactParams& params, const ContactPatch& p, c
   return m;
 }
 
+bool dominated(const ContactBound& bound, const std::vector<ContactBound>& bounds) {
+  return std::any_of(bounds.begin(), bounds.end(), [&](const ContactBound& m) { return m.dominates(bound); });
+}
+
 void add_bound(const ContactBound& made, std::vector<ContactBound>& bounds) {
-  if (std::any_of(bounds.begin(), bounds.end(), [&](const ContactBound& m) { return m.dominates(made); })) return;
+  if (dominated(made, bounds)) return;
   std::erase_if(bounds, [&](const ContactBound& m) { return made.dominates(m); });
   bounds.push_back(made);
 }

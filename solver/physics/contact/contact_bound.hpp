@@ -41,6 +41,9 @@ struct ContactBound {
 /// Of the nodes of patch p in contact with patch q.
 [[nodiscard]] ContactBound contact_bound(const ContactParams& params, const ContactPatch& p, const ContactPatch& q);
 
+/// Whether any of the list is at least as large as the bound for every node.
+[[nodiscard]] bool dominated(const ContactBound& bound, const std::vector<ContactBound>& bounds);
+
 /// Keeps a list of bounds that do not dominate each other; for every node its largest share is that of all bounds ever
 /// added. Of equal ones the first stays. O(bounds)
 void add_bound(const ContactBound& made, std::vector<ContactBound>& bounds);

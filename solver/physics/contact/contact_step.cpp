@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <memory>
+#include <unordered_map>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 
@@ -11,18 +13,12 @@
 #include "physics/contact/contact_bound.hpp"
 #include "physics/contact/contact_field.hpp"
 #include "physics/contact/contact_point.hpp"
-#include "physics/contact/patch_tree.hpp"
+#include "physics/contact/patches_nearby.hpp"
 
 namespace breccia {
 namespace {
 
 using Patch = ContactPatch;
-
-/// Patches come near each other by this share of their faces' size however slow they are.
-constexpr double kSizeMargin = 0.25;
-/// A body meets itself where faces have come so much closer together than they were at rest; turning alone can make
-/// the box around something larger by 1.73.
-constexpr double kFolded = 2.0;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -193,17 +189,23 @@ class Surface {
 };
 
 std::int64_t level_of(double edge) { return std::ilogb(edge); }
-double size_of(std::int64_t level) { return std::ldexp(1.0, static_cast<int>(level) + 1); }
 
-auto key_of(const Patch& p) { return std::tuple(p.level, p.group, p.body, p.cell[0], p.cell[1], p.cell[2]); }
-bool before(const Patch& p, const Patch& q) { return key_of(p) < key_of(q); }
-
-void raise(double& largest, double value) { largest = value > largest ? value : largest; }
+struct SameKey {
+  bool operator()(const Patch& p, const Patch& q) const { return p.key() == q.key(); }
+};
+struct KeyHash {
+  std::size_t operator()(const Patch& p) const {
+    std::uint64_t sum = 0;
+    for (const std::int64_t part : {p.level, p.group, p.body, p.cell[0], p.cell[1], p.cell[2]})
+      sum = (sum ^ static_cast<std::uint64_t>(part)) * 0x9e3779b97f4a7c15ULL + (sum >> 29);
+    return sum;
+  }
+};
 
 void take_vector(Patch& patch, std::size_t first, const Vec3& x) {
   for (std::size_t i = 0; i < 3; ++i) {
-    raise(patch.largest[first + i], -x[static_cast<Eigen::Index>(i)]);
-    raise(patch.largest[first + 3 + i], x[static_cast<Eigen::Index>(i)]);
+    patch.raise(first + i, -x[static_cast<Eigen::Index>(i)]);
+    patch.raise(first + 3 + i, x[static_cast<Eigen::Index>(i)]);
   }
 }
 
@@ -217,60 +219,11 @@ Patch patch_of(const LocalMesh& mesh, Index slot, int face, const Face& shape, c
   Vec3 sum = Vec3::Zero();
   for (const int c : kFaceCorners[static_cast<std::size_t>(face)])
     sum += load_node(position.data(), mesh.corner_node(slot, c));
-  const double edge = kCellSizes * coarsening * size_of(patch.level);
+  const double edge = kCellSizes * coarsening * patch.face_size();
   for (std::size_t i = 0; i < 3; ++i)
     patch.cell[i] = static_cast<std::int64_t>(std::floor(sum[static_cast<Eigen::Index>(i)] / (3.0 * edge)));
   patch.largest.fill(-std::numeric_limits<double>::infinity());
   return patch;
-}
-
-double low(const Patch& p, std::size_t first, std::size_t axis) { return -p.largest[first + axis]; }
-double high(const Patch& p, std::size_t first, std::size_t axis) { return p.largest[first + 3 + axis]; }
-
-/// Square of the distance of two boxes, m2.
-double gap_squared(const Patch& p, const Patch& q, std::size_t first) {
-  double square = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double gap = std::max({0.0, low(q, first, i) - high(p, first, i), low(p, first, i) - high(q, first, i)});
-    square += gap * gap;
-  }
-  return square;
-}
-
-double diagonal_of_both(const Patch& p, const Patch& q, std::size_t first) {
-  double square = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double length = std::max(high(p, first, i), high(q, first, i)) - std::min(low(p, first, i), low(q, first, i));
-    square += length * length;
-  }
-  return std::sqrt(square);
-}
-
-double relative_speed(const Patch& p, const Patch& q) {
-  double square = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double v = std::max(high(p, Patch::velocity, i) - low(q, Patch::velocity, i),
-                              high(q, Patch::velocity, i) - low(p, Patch::velocity, i));
-    square += v * v;
-  }
-  return std::sqrt(square);
-}
-
-/// Whether two patches belong to different bodies, or to parts of one that can meet.
-bool apart(const Patch& p, const Patch& q) {
-  if (p.body != q.body) return true;
-  if (p.largest[Patch::torn] > 0 || q.largest[Patch::torn] > 0) return true;
-  return diagonal_of_both(p, q, Patch::reference_box) > kFolded * diagonal_of_both(p, q, Patch::box);
-}
-
-bool may_meet(const ContactParams& params, const Patch& p, const Patch& q, double time) {
-  const auto felt = [&](const Patch& points, const Patch& other) {
-    return points.largest[Patch::weight] > 0 &&
-           params.law(static_cast<Index>(points.group), static_cast<Index>(other.group)).active();
-  };
-  if (!felt(p, q) && !felt(q, p)) return false;
-  const double reach = kSpeedMargin * relative_speed(p, q) * time + kSizeMargin * size_of(std::min(p.level, q.level));
-  return gap_squared(p, q, Patch::box) <= reach * reach && apart(p, q);
 }
 
 /// Whether any of a patch can be outside the sphere within `time`.
@@ -278,138 +231,152 @@ bool may_pass(const SphericalBoundary& sphere, const Patch& p, double time) {
   double distance = 0, speed = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const double centre = sphere.centre[static_cast<Eigen::Index>(i)];
-    const double d = std::max(high(p, Patch::box, i) - centre, centre - low(p, Patch::box, i));
-    const double v = std::max(high(p, Patch::velocity, i), -low(p, Patch::velocity, i));
+    const double d = std::max(p.high(Patch::box, i) - centre, centre - p.low(Patch::box, i));
+    const double v = std::max(p.high(Patch::velocity, i), -p.low(Patch::velocity, i));
     distance += d * d;
     speed += v * v;
   }
-  return std::sqrt(distance) + kSpeedMargin * std::sqrt(speed) * time + kSizeMargin * size_of(p.level) > sphere.radius;
-}
-
-/// Boxes that overlap where patches may meet: grown by their speeds against one that all share, and their size.
-std::vector<PatchTree::Box> grown_boxes(std::span<const Patch> patches, double time) {
-  Patch all = patches.front();
-  for (const Patch& p : patches) {
-    for (std::size_t k = Patch::velocity; k < Patch::velocity + 6; ++k) raise(all.largest[k], p.largest[k]);
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double middle = 0.5 * (low(all, Patch::velocity, i) + high(all, Patch::velocity, i));
-    all.largest[Patch::velocity + i] = -middle;
-    all.largest[Patch::velocity + 3 + i] = middle;
-  }
-  std::vector<PatchTree::Box> boxes;
-  boxes.reserve(patches.size());
-  for (const Patch& p : patches) {
-    const double grown = 1.001 * (kSpeedMargin * relative_speed(p, all) * time + kSizeMargin * size_of(p.level));
-    PatchTree::Box& box = boxes.emplace_back();
-    for (std::size_t i = 0; i < 3; ++i) {
-      box.low[i] = low(p, Patch::box, i) - grown;
-      box.high[i] = high(p, Patch::box, i) + grown;
-    }
-  }
-  return boxes;
+  return std::sqrt(distance) + kSpeedMargin * std::sqrt(speed) * time + kSizeMargin * p.face_size() > sphere.radius;
 }
 
 }  // namespace
 
 double stiffest_slope(const ContactLaw& law) { return law.exponent * law.penalty; }
 
-std::vector<ContactPatch> contact_patches(const ContactStepModel& model, const Field<double>& position,
-                                          const Field<double>& velocity, double coarsening) {
+ContactPatches contact_patches(const ContactStepModel& model, const Field<double>& position,
+                               const Field<double>& velocity, double coarsening) {
   const LocalMesh& mesh = model.mesh;
   const Surface surface(model);
   const FaceRule& rule = face_rule(model.params.points_per_face);
   const double largest_share = *std::max_element(rule.share.begin(), rule.share.begin() + rule.num_points);
-  std::vector<Patch> patches;
+  ContactPatches patches;
+  patches.place.assign(4 * at(mesh.num_slots), -1);
+  std::unordered_map<Patch, Index, KeyHash, SameKey> known;  // to the place in the list
   for (Index s = 0; s < mesh.num_slots; ++s) {
     if (!mesh.is_original(s) || model.faces.open[at(s)] == 0) continue;
     const Surface::Nodes nodes = surface.nodes_of(s);
     surface.for_each_open(s, [&](int face) {
       const Face shape = face_at_rest(mesh, s, face);
-      Patch& patch = patches.emplace_back(patch_of(mesh, s, face, shape, position, coarsening));
+      const Patch key = patch_of(mesh, s, face, shape, position, coarsening);
+      const auto [found, fresh] = known.emplace(key, static_cast<Index>(patches.list.size()));
+      if (fresh) patches.list.push_back(key);
+      patches.place[at(4 * s + face)] = found->second;
+      Patch& patch = patches.list[at(found->second)];
       for (const int c : kFaceCorners[static_cast<std::size_t>(face)]) {
         const Index node = mesh.corner_node(s, c);
         take_vector(patch, Patch::box, load_node(position.data(), node));
         take_vector(patch, Patch::reference_box, load_node(mesh.reference.data(), node));
         take_vector(patch, Patch::velocity, load_node(velocity.data(), node));
+        patch.raise(Patch::area_over_mass, nodes.area_over_mass[static_cast<std::size_t>(c)]);
+        patch.raise(Patch::per_mass, nodes.per_mass[static_cast<std::size_t>(c)]);
       }
-      for (const int c : kFaceCorners[static_cast<std::size_t>(face)]) {
-        raise(patch.largest[Patch::area_over_mass], nodes.area_over_mass[static_cast<std::size_t>(c)]);
-        raise(patch.largest[Patch::per_mass], nodes.per_mass[static_cast<std::size_t>(c)]);
-      }
-      patch.largest[Patch::steepness] = surface.steepness(s, face);
-      patch.largest[Patch::weight] = (model.faces.pointed[at(s)] >> face & 1) != 0 ? largest_share * shape.area : 0.0;
-      patch.largest[Patch::per_length] = 1.0 / model.body_length[at(mesh.slot_body[at(s)])];
-      patch.largest[Patch::torn] = (model.faces.torn[at(s)] >> face & 1) != 0 ? 1.0 : 0.0;
+      patch.raise(Patch::steepness, surface.steepness(s, face));
+      patch.raise(Patch::weight, (model.faces.pointed[at(s)] >> face & 1) != 0 ? largest_share * shape.area : 0.0);
+      patch.raise(Patch::per_length, 1.0 / model.body_length[at(mesh.slot_body[at(s)])]);
+      patch.raise(Patch::torn, (model.faces.torn[at(s)] >> face & 1) != 0 ? 1.0 : 0.0);
     });
   }
-  merge(patches);
+  patches.sort();
   return patches;
 }
 
-void merge(std::vector<ContactPatch>& patches) {
-  std::sort(patches.begin(), patches.end(), before);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < patches.size(); ++i) {
-    if (kept > 0 && key_of(patches[kept - 1]) == key_of(patches[i])) {
-      for (std::size_t k = 0; k < Patch::count; ++k) raise(patches[kept - 1].largest[k], patches[i].largest[k]);
-    } else {
-      patches[kept++] = Patch(patches[i]);
-    }
-  }
-  patches.resize(kept);
-}
+class ContactShares::Impl {
+ public:
+  Impl(const ContactStepModel& model, const ContactPatches& patches, double time)
+      : model_(model),
+        patches_(patches),
+        time_(time),
+        surface_(model),
+        nearby_(model.params, patches.list, time),
+        near_(patches.list.size()),
+        at_most_(patches.list.size(), kUnknown) {}
 
-std::vector<ContactShare> contact_shares(const ContactStepModel& model, const Field<double>& position,
-                                         double coarsening, std::span<const ContactPatch> patches, double time) {
-  const LocalMesh& mesh = model.mesh;
-  std::vector<ContactShare> shares(at(mesh.num_slots));
-  if (patches.empty()) return shares;
-  const Surface surface(model);
-  const std::vector<PatchTree::Box> boxes = grown_boxes(patches, time);
-  const PatchTree tree(boxes);
-  struct Near {
-    bool found = false;
-    std::vector<ContactBound> bounds;
-  };
-  std::vector<Near> near(patches.size());  // of those that originals here belong to
-  const auto near_of = [&](std::size_t p) -> const std::vector<ContactBound>& {
-    if (!near[p].found) {
-      near[p].found = true;
-      tree.query(boxes[p], [&](std::int32_t place) {
-        const Patch& q = patches[static_cast<std::size_t>(place)];
-        if (may_meet(model.params, patches[p], q, time))
-          add_bound(contact_bound(model.params, patches[p], q), near[p].bounds);
-      });
-    }
-    return near[p].bounds;
-  };
-  for (Index s = 0; s < mesh.num_slots; ++s) {
-    if (!mesh.is_original(s) || model.faces.open[at(s)] == 0) continue;
-    const Surface::Nodes nodes = surface.nodes_of(s);
-    surface.for_each_open(s, [&](int face) {
-      const Patch key = patch_of(mesh, s, face, face_at_rest(mesh, s, face), position, coarsening);
-      const auto place =
-          static_cast<std::size_t>(std::lower_bound(patches.begin(), patches.end(), key, before) - patches.begin());
-      const Patch& mine = patches[place];
-      ContactShare& share = shares[at(s)];
+  [[nodiscard]] ContactShare of(Index slot) {
+    ContactShare share;
+    if (model_.faces.open[at(slot)] == 0) return share;
+    const Surface::Nodes nodes = surface_.nodes_of(slot);
+    surface_.for_each_open(slot, [&](int face) {
       const auto raise_corner = [&](int corner, double omega_squared, Index against) {
         if (omega_squared > share.largest()) {
           share.face = face;
           share.against = against;
         }
-        raise(share.omega_squared[static_cast<std::size_t>(corner)], omega_squared);
+        double& largest = share.omega_squared[static_cast<std::size_t>(corner)];
+        largest = std::max(largest, omega_squared);
       };
-      const auto& sphere = model.params.sphere;
-      const bool at_sphere = sphere && mine.largest[Patch::weight] > 0 && may_pass(*sphere, mine, time);
+      const Index place = place_of(slot, face);
+      const bool at_sphere = meets_sphere(place);
       for (const int c : kFaceCorners[static_cast<std::size_t>(face)]) {
         const double area = nodes.area_over_mass[static_cast<std::size_t>(c)];
-        const double wall = at_sphere ? sphere->penalty * mine.largest[Patch::per_length] * area : 0.0;
+        const double wall = at_sphere ? wall_share(place, area) : 0.0;
         if (at_sphere) raise_corner(c, wall, -1);
         const double per_mass = nodes.per_mass[static_cast<std::size_t>(c)];
-        for (const ContactBound& m : near_of(place)) raise_corner(c, wall + m.share(area, per_mass), m.against);
+        for (const ContactBound& m : near(place)) raise_corner(c, wall + m.share(area, per_mass), m.against);
       }
     });
+    return share;
+  }
+
+  [[nodiscard]] double at_most(Index slot) {
+    double largest = 0;
+    surface_.for_each_open(slot,
+                           [&](int face) { largest = std::max(largest, at_most_of_patch(place_of(slot, face))); });
+    return largest;
+  }
+
+ private:
+  static constexpr double kUnknown = -1;
+
+  [[nodiscard]] Index place_of(Index slot, int face) const { return patches_.place[at(4 * slot + face)]; }
+  [[nodiscard]] const Patch& patch(Index place) const { return patches_.list[at(place)]; }
+  [[nodiscard]] bool meets_sphere(Index place) const {
+    const auto& sphere = model_.params.sphere;
+    return sphere && patch(place).largest[Patch::weight] > 0 && may_pass(*sphere, patch(place), time_);
+  }
+  [[nodiscard]] double wall_share(Index place, double area_over_mass) const {
+    return model_.params.sphere->penalty * patch(place).largest[Patch::per_length] * area_over_mass;
+  }
+  [[nodiscard]] const std::vector<ContactBound>& near(Index place) {
+    Near& near = near_[at(place)];
+    if (!near.found) near = {true, nearby_.bounds(at(place))};
+    return near.bounds;
+  }
+  [[nodiscard]] double at_most_of_patch(Index place) {
+    double& most = at_most_[at(place)];
+    if (most != kUnknown) return most;
+    const double area = patch(place).largest[Patch::area_over_mass], per_mass = patch(place).largest[Patch::per_mass];
+    const double wall = meets_sphere(place) ? wall_share(place, area) : 0.0;
+    most = wall;
+    for (const ContactBound& m : nearby_.bounds_anywhere(patch(place)))
+      most = std::max(most, wall + m.share(area, per_mass));
+    return most;
+  }
+
+  struct Near {
+    bool found = false;
+    std::vector<ContactBound> bounds;
+  };
+  const ContactStepModel& model_;
+  const ContactPatches& patches_;
+  double time_;
+  Surface surface_;
+  PatchesNearby nearby_;
+  std::vector<Near> near_;       ///< (patches) of those that have been asked for
+  std::vector<double> at_most_;  ///< (patches) 1/s2, or kUnknown
+};
+
+ContactShares::ContactShares(const ContactStepModel& model, const ContactPatches& patches, double time)
+    : impl_(patches.list.empty() ? nullptr : std::make_unique<Impl>(model, patches, time)) {}
+ContactShares::~ContactShares() = default;
+
+ContactShare ContactShares::of(Index slot) { return impl_ ? impl_->of(slot) : ContactShare{}; }
+double ContactShares::at_most(Index slot) { return impl_ ? impl_->at_most(slot) : 0.0; }
+
+std::vector<ContactShare> contact_shares(const ContactStepModel& model, const ContactPatches& patches, double time) {
+  ContactShares of_slots(model, patches, time);
+  std::vector<ContactShare> shares(at(model.mesh.num_slots));
+  for (Index s = 0; s < model.mesh.num_slots; ++s) {
+    if (model.mesh.is_original(s)) shares[at(s)] = of_slots.of(s);
   }
   return shares;
 }

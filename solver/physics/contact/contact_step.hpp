@@ -1,8 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "base/field.hpp"
@@ -75,25 +79,70 @@ struct ContactPatch {
   std::int64_t group = 0, body = 0;
   std::array<std::int64_t, 3> cell{};
   std::array<double, count> largest{};
+
+  /// Of the boxes and velocities: their numbers begin at `first`.
+  [[nodiscard]] double low(std::size_t first, std::size_t axis) const { return -largest[first + axis]; }
+  [[nodiscard]] double high(std::size_t first, std::size_t axis) const { return largest[first + 3 + axis]; }
+  /// Upper bound of the edges of its level, m.
+  [[nodiscard]] double face_size() const { return std::ldexp(1.0, static_cast<int>(level) + 1); }
+  void raise(std::size_t number, double value) { largest[number] = std::max(largest[number], value); }
+  void raise_all(const ContactPatch& other) {
+    for (std::size_t k = 0; k < count; ++k) raise(k, other.largest[k]);
+  }
+  [[nodiscard]] auto key() const { return std::tuple(level, group, body, cell[0], cell[1], cell[2]); }
 };
 
 /// Edges of a cell in largest face sizes of its level.
 inline constexpr double kCellSizes = 1.0;
 /// Relative speeds may grow by this factor until the next look.
 inline constexpr double kSpeedMargin = 2.0;
+/// Patches come near each other by this share of their faces' size however slow they are.
+inline constexpr double kSizeMargin = 0.25;
 
-/// Patches of the originals' open faces at present, merged, ascending. @param coarsening  >= 1: cells larger by it
-/// O(faces log faces).
-[[nodiscard]] std::vector<ContactPatch> contact_patches(const ContactStepModel& model, const Field<double>& position,
-                                                        const Field<double>& velocity, double coarsening);
+/// Patches of a model, or of the part of it that concerns a rank.
+struct ContactPatches {
+  std::vector<ContactPatch> list;  ///< ascending by key()
+  std::vector<Index> place;        ///< (4 num_slots) of open faces of originals: where in the list; -1: none
 
-/// Sorts patches of several ranks and merges those of one cell, group and body.
-void merge(std::vector<ContactPatch>& patches);
+  /// Brings the list into its order.
+  void sort();
+  /// With those of all ranks, this one's among them: merged with its own where they are parts of one.
+  void merge(std::vector<ContactPatch> of_all);
+};
+
+/// Those of the originals' open faces at present. @param coarsening  >= 1: cells larger by it. O(faces + patches log
+/// patches)
+[[nodiscard]] ContactPatches contact_patches(const ContactStepModel& model, const Field<double>& position,
+                                             const Field<double>& velocity, double coarsening);
+
+/// Keeps of the patches, or parts of patches, of all ranks those that patches of `mine` may meet within `time`, s, and
+/// all parts of each. O(patches)
+void keep_nearby(std::span<const ContactPatch> mine, double coarsening, double time, std::vector<ContactPatch>& of_all);
+
+/// What contact adds to the elements one by one, at one look.
+class ContactShares {
+ public:
+  /// @param patches  at the same positions; all that the originals may meet are among them
+  /// @param time     s, within which things may meet. All outlive this object. O(faces + patches log patches)
+  ContactShares(const ContactStepModel& model, const ContactPatches& patches, double time);
+  ~ContactShares();
+  ContactShares(const ContactShares&) = delete;
+  ContactShares& operator=(const ContactShares&) = delete;
+
+  /// omega_c^2 of an original; 0 where nothing can be met. O(log patches) for the first of its patch
+  [[nodiscard]] ContactShare of(Index slot);
+  /// No less than any corner of it has, 1/s2, found without looking who is near: as if it could meet everything.
+  /// O(groups) for the first of its patch
+  [[nodiscard]] double at_most(Index slot);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 /// omega_c^2 of the originals, by slot; 0 where nothing can be met within `time`, s.
-/// @param patches  of the whole model, merged, at the same positions and coarsening.  O((faces + patches) log patches)
-[[nodiscard]] std::vector<ContactShare> contact_shares(const ContactStepModel& model, const Field<double>& position,
-                                                       double coarsening, std::span<const ContactPatch> patches,
+/// @param patches  as for ContactShares
+[[nodiscard]] std::vector<ContactShare> contact_shares(const ContactStepModel& model, const ContactPatches& patches,
                                                        double time);
 
 }  // namespace breccia

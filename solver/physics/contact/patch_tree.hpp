@@ -26,7 +26,21 @@ class PatchTree {
   /// Calls visit(i) for every box i that overlaps this one, in an order that depends on the boxes alone.
   template <class F>
   void query(const Box& box, F&& visit) const {
-    if (!nodes_.empty()) descend(0, 0, order_.size(), box, visit);
+    query(
+        box, [](std::size_t) { return false; }, visit);
+  }
+  /// The same without the boxes below nodes n for which skip(n) holds when their turn comes.
+  template <class Skip, class F>
+  void query(const Box& box, Skip&& skip, F&& visit) const {
+    if (!nodes_.empty()) descend(0, 0, order_.size(), box, skip, visit);
+  }
+
+  /// (nodes) what is known of all boxes below each: join(value, value) of its halves, value_of(i) of single boxes.
+  template <class Value, class F, class Join>
+  [[nodiscard]] std::vector<Value> by_node(F&& value_of, Join&& join) const {
+    std::vector<Value> values(nodes_.size());
+    if (!nodes_.empty()) gather(0, 0, order_.size(), value_of, join, values);
+    return values;
   }
 
  private:
@@ -71,9 +85,23 @@ class PatchTree {
     build(middle, last);
   }
 
-  template <class F>
-  void descend(std::size_t node, std::size_t first, std::size_t last, const Box& box, F&& visit) const {
-    if (!overlap(nodes_[node].box, box)) return;
+  template <class Value, class F, class Join>
+  void gather(std::size_t node, std::size_t first, std::size_t last, F&& value_of, Join&& join,
+              std::vector<Value>& values) const {
+    if (nodes_[node].right < 0) {
+      values[node] = value_of(order_[first]);
+      for (std::size_t i = first + 1; i < last; ++i) values[node] = join(values[node], value_of(order_[i]));
+      return;
+    }
+    const std::size_t middle = (first + last) / 2, right = static_cast<std::size_t>(nodes_[node].right);
+    gather(node + 1, first, middle, value_of, join, values);
+    gather(right, middle, last, value_of, join, values);
+    values[node] = join(values[node + 1], values[right]);
+  }
+
+  template <class Skip, class F>
+  void descend(std::size_t node, std::size_t first, std::size_t last, const Box& box, Skip&& skip, F&& visit) const {
+    if (!overlap(nodes_[node].box, box) || skip(node)) return;
     if (nodes_[node].right < 0) {
       for (std::size_t i = first; i < last; ++i) {
         if (overlap(box_at(i), box)) visit(order_[i]);
@@ -81,8 +109,8 @@ class PatchTree {
       return;
     }
     const std::size_t middle = (first + last) / 2;
-    descend(node + 1, first, middle, box, visit);
-    descend(static_cast<std::size_t>(nodes_[node].right), middle, last, box, visit);
+    descend(node + 1, first, middle, box, skip, visit);
+    descend(static_cast<std::size_t>(nodes_[node].right), middle, last, box, skip, visit);
   }
 
   std::span<const Box> boxes_;

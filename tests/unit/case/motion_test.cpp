@@ -65,6 +65,7 @@ TEST(Plane, RefusesWhatActsAlongItsAxisAndNothingElse) {
            {velocity + "velocity = [0, 1, 0]\n", "initial_velocity[0].velocity: acts along y"},
            {velocity + "random = [0, 1]\n", "initial_velocity[0].random: acts along y"},
            {velocity + "angular = [1, 0, 0]\n", "initial_velocity[0].angular: acts along y"},
+           {velocity + "strain_rate = [1, 1, 0]\n", "initial_velocity[0].strain_rate: acts along y"},
            {sphere, "sphere: acts along y"},
        }) {
     EXPECT_THAT(message_of(plane("strain", wrong)), HasSubstr(key));

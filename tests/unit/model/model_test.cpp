@@ -153,13 +153,16 @@ TEST(MeshOfACase, has_the_scale_and_the_seed_of_the_case) {
   EXPECT_NE(nodes("mesh.raster.seed=1"), nodes("mesh.raster.seed=2"));
 }
 
-TEST(WholeModel, HasTheCentresOfMassOfWhatSpins) {
+TEST(WholeModel, HasTheCentresOfMassOfWhatSpinsOrIsStretched) {
   const Model model = build_model(test::two_boxes_case(
       {"mesh.glue=false"}, test::kTwoBoxesCase.substr(0, test::kTwoBoxesCase.find("[[joint]]\nbetween")) +
                                "[[initial_velocity]]\ngroup = \"right\"\nangular = [0, 0, \"3 rad/s\"]\n"
-                               "[[initial_velocity]]\ngroup = \"left\"\nvelocity = [1, 0, 0]\n[[stage]]\nend = 1\n"));
-  ASSERT_EQ(model.whole.spin_centres.size(), 2u);
-  EXPECT_TRUE(model.whole.spin_centres[1].empty()) << "it does not spin";
+                               "[[initial_velocity]]\ngroup = \"left\"\nvelocity = [1, 0, 0]\n"
+                               "[[initial_velocity]]\ngroup = \"right\"\nstrain_rate = [\"1 1/s\", 0, 0]\n"
+                               "[[stage]]\nend = 1\n"));
+  ASSERT_EQ(model.whole.motion_centres.size(), 3u);
+  EXPECT_TRUE(model.whole.motion_centres[1].empty()) << "it neither spins nor is it stretched";
+  EXPECT_EQ(model.whole.motion_centres[2], model.whole.motion_centres[0]);
   Vec3 centre = Vec3::Zero();
   double volume = 0;
   Index body = -1;
@@ -174,7 +177,7 @@ TEST(WholeModel, HasTheCentresOfMassOfWhatSpins) {
   }
   ASSERT_GE(body, 0);
   constexpr double kRounding = 1e-12;  // m
-  EXPECT_LT((model.whole.spin_centres[0][static_cast<std::size_t>(body)] - centre / volume).norm(), kRounding);
+  EXPECT_LT((model.whole.motion_centres[0][static_cast<std::size_t>(body)] - centre / volume).norm(), kRounding);
 }
 
 }  // namespace

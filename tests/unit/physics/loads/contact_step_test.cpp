@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "mesh/quality.hpp"
 #include "physics/contact/contact_field.hpp"
@@ -63,7 +65,7 @@ struct Scene {
 
   [[nodiscard]] std::vector<ContactShare> shares(double time = 0) const {
     const auto patches = contact_patches(step_model(), model.state.position, model.state.velocity, 1.0);
-    return contact_shares(step_model(), model.state.position, 1.0, patches, time);
+    return contact_shares(step_model(), patches, time);
   }
   [[nodiscard]] double largest(double time = 0) const {
     double most = 0;
@@ -210,23 +212,99 @@ TEST(ContactStep, IsTheSameBitsFromAnyPartsOfTheModel) {
   Scene whole(test::box({2, 2, 2}, 1.0, {2, 2, 2}, 0.05));
   for (Index b = 0; b < 8; ++b) whole.fly(b, {0.1 * b, -0.2 * b, 0.05 * b * b});
   const auto expected = whole.shares(0.3);
-  std::vector<ContactPatch> patches;
+  std::vector<ContactPatch> of_all;
   std::vector<Scene> parts;
+  std::vector<ContactPatches> patches;
   for (const GlobalId part : {0, 1, 2}) {
     Scene& mine = parts.emplace_back(whole);
     for (Index s = 0; s < mine.model.local.num_slots; ++s) {
       if (mine.model.local.element_of_slot[test::at(s)] % 3 != part) mine.model.local.original[test::at(s)] = 0;
     }
-    const auto some = contact_patches(mine.step_model(), mine.model.state.position, mine.model.state.velocity, 1.0);
-    patches.insert(patches.begin(), some.begin(), some.end());
+    patches.push_back(contact_patches(mine.step_model(), mine.model.state.position, mine.model.state.velocity, 1.0));
+    of_all.insert(of_all.begin(), patches.back().list.begin(), patches.back().list.end());
   }
-  merge(patches);
-  for (const Scene& mine : parts) {
-    const auto shares = contact_shares(mine.step_model(), mine.model.state.position, 1.0, patches, 0.3);
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    const Scene& mine = parts[part];
+    patches[part].merge(of_all);
+    const auto shares = contact_shares(mine.step_model(), patches[part], 0.3);
     for (Index s = 0; s < mine.model.local.num_slots; ++s) {
       if (!mine.model.local.is_original(s)) continue;
       EXPECT_EQ(shares[test::at(s)].omega_squared, expected[test::at(s)].omega_squared);
       EXPECT_EQ(shares[test::at(s)].face, expected[test::at(s)].face);
+    }
+  }
+}
+
+/// 27 boxes of uneven elements, which fly.
+Scene uneven_boxes() {
+  Scene scene(test::jittered(test::box({2, 2, 2}, 1.0, {3, 3, 3}, 0.2), 0.08, 4));
+  for (Index b = 0; b < 27; ++b) scene.fly(b, {0.1 * (b % 5), -0.2 * (b % 7), 0.05 * (b % 11)});
+  return scene;
+}
+
+ContactPatches patches_of(const Scene& scene) {
+  return contact_patches(scene.step_model(), scene.model.state.position, scene.model.state.velocity, 1.0);
+}
+
+TEST(ContactStep, IsTheLargestOfAllPairsOfBodies) {
+  const Scene scene = uneven_boxes();
+  const ContactPatches patches = patches_of(scene);
+  const auto all = scene.shares(0.3);
+  std::vector<std::array<double, 4>> largest(all.size());
+  int met = 0;
+  for (Index a = 0; a < 27; ++a) {
+    for (Index b = 0; b < 27; ++b) {
+      if (a == b) continue;
+      ContactPatches two = patches;
+      for (ContactPatch& p : two.list) {
+        if (p.body == a || p.body == b) continue;
+        p.largest[ContactPatch::box] -= 1e9;  // out of the way
+        p.largest[ContactPatch::box + 3] += 1e9;
+      }
+      ContactShares shares(scene.step_model(), two, 0.3);
+      for (Index s = 0; s < scene.model.local.num_slots; ++s) {
+        if (!scene.model.local.is_original(s) || scene.body_of(s) != a) continue;
+        const ContactShare share = shares.of(s);
+        met += share.largest() > 0 ? 1 : 0;
+        for (std::size_t c = 0; c < 4; ++c)
+          largest[test::at(s)][c] = std::max(largest[test::at(s)][c], share.omega_squared[c]);
+      }
+    }
+  }
+  EXPECT_GT(met, 1000);
+  for (std::size_t s = 0; s < all.size(); ++s) EXPECT_EQ(all[s].omega_squared, largest[s]);
+}
+
+TEST(ContactStep, IsNeverMoreThanWhatIsFoundWithoutLookingWhoIsNear) {
+  const Scene scene = uneven_boxes();
+  const ContactPatches patches = patches_of(scene);
+  ContactShares shares(scene.step_model(), patches, 0.3);
+  for (Index s = 0; s < scene.model.local.num_slots; ++s) {
+    if (scene.model.local.is_original(s)) EXPECT_LE(shares.of(s).largest(), shares.at_most(s));
+  }
+}
+
+TEST(ContactStep, OfOneBodyNeedsNoneThatItCannotReach) {
+  const Scene scene = uneven_boxes();
+  const ContactPatches patches = patches_of(scene);
+  for (const double time : {0.0, 0.3}) {
+    const auto all = scene.shares(time);
+    for (Index body = 0; body < 27; ++body) {
+      std::vector<ContactPatch> mine, nearby = patches.list;
+      std::copy_if(patches.list.begin(), patches.list.end(), std::back_inserter(mine),
+                   [&](const ContactPatch& p) { return p.body == body; });
+      keep_nearby(mine, 1.0, time, nearby);
+      ContactPatches some = patches;
+      // Places of other bodies' faces lead nowhere now; they are not asked for.
+      for (Index s = 0; s < scene.model.local.num_slots; ++s) {
+        if (scene.body_of(s) != body) std::fill_n(some.place.begin() + 4 * s, 4, -1);
+      }
+      some.merge(nearby);
+      ContactShares shares(scene.step_model(), some, time);
+      for (Index s = 0; s < scene.model.local.num_slots; ++s) {
+        if (scene.model.local.is_original(s) && scene.body_of(s) == body)
+          EXPECT_EQ(shares.of(s).omega_squared, all[test::at(s)].omega_squared);
+      }
     }
   }
 }

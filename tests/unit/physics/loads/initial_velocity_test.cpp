@@ -87,6 +87,23 @@ TEST(InitialVelocity, TurnsEveryBodyAboutItsCentreOfMass) {
   EXPECT_LT((difference(model.state.velocity) - omega.cross(difference(model.state.position))).norm(), 10 * kRounding);
 }
 
+TEST(InitialVelocity, StretchesEveryBodyFromItsCentre) {
+  Model model(test::jittered(test::box({1, 2, 1}, 1.0, {2, 1, 1}), 0.08, 4), Discretisation::own_nodes, 1000);
+  const Vec3 rate(3, -2, 0.5);
+  const std::vector<Vec3> centre{Vec3(0.4, 1, 0.5), Vec3(2.6, 0.9, 0.5)};
+  add_initial_velocity(model.local, {.strain_rate = rate, .centre = centre}, model.state.position,
+                       model.state.velocity);
+  for (Index s = 0; s < model.local.num_slots; ++s) {
+    if (model.local.element_of_slot[test::at(s)] < 0) continue;
+    for (int c = 0; c < 4; ++c) {
+      const Index n = model.local.corner_node(s, c);
+      const Vec3 arm = load_node(model.state.position.data(), n) - centre[test::at(model.local.slot_body[test::at(s)])];
+      const Vec3 expected(3 * arm.x(), -2 * arm.y(), 0.5 * arm.z());
+      EXPECT_LT((load_node(model.state.velocity.data(), n) - expected).norm(), kRounding);
+    }
+  }
+}
+
 TEST(InitialVelocity, AddsAndLeavesPaddingAndOtherGroupsAlone) {
   Model model(test::tetrahedron(), Discretisation::own_nodes, 1000);
   for (int twice = 0; twice < 2; ++twice) {

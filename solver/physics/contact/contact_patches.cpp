@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "physics/contact/contact_step.hpp"
+
+namespace breccia {
+namespace {
+
+using Patch = ContactPatch;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+bool before(const Patch& p, const Patch& q) { return p.key() < q.key(); }
+
+}  // namespace
+
+void ContactPatches::sort() {
+  std::vector<Index> order(list.size()), moved(order.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](Index i, Index k) { return before(list[at(i)], list[at(k)]); });
+  std::vector<Patch> sorted;
+  sorted.reserve(order.size());
+  for (const Index i : order) {
+    moved[at(i)] = static_cast<Index>(sorted.size());
+    sorted.push_back(list[at(i)]);
+  }
+  list = std::move(sorted);
+  for (Index& i : place) i = i < 0 ? -1 : moved[at(i)];
+}
+
+void ContactPatches::merge(std::vector<ContactPatch> of_all) {
+  std::sort(of_all.begin(), of_all.end(), before);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < of_all.size(); ++i) {
+    if (kept > 0 && of_all[kept - 1].key() == of_all[i].key())
+      of_all[kept - 1].raise_all(of_all[i]);
+    else
+      of_all[kept++] = Patch(of_all[i]);
+  }
+  of_all.resize(kept);
+  std::vector<Index> moved;
+  moved.reserve(list.size());
+  for (const Patch& mine : list)
+    moved.push_back(static_cast<Index>(std::lower_bound(of_all.begin(), of_all.end(), mine, before) - of_all.begin()));
+  for (Index& i : place) i = i < 0 ? -1 : moved[at(i)];
+  list = std::move(of_all);
+}
+
+void keep_nearby(std::span<const ContactPatch> mine, double coarsening, double time,
+                 std::vector<ContactPatch>& of_all) {
+  if (mine.empty()) {
+    of_all.clear();
+    return;
+  }
+  double fastest = 0, coarsest = 0;
+  for (const Patch& p : of_all) {
+    double square = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      square += std::pow(std::max(p.high(Patch::velocity, i), -p.low(Patch::velocity, i)), 2);
+    fastest = std::max(fastest, std::sqrt(square));
+    coarsest = std::max(coarsest, p.face_size());
+  }
+  // All parts of a patch lie in one cell, but for half a face on either side.
+  const double reach =
+      1.001 * (2 * kSpeedMargin * fastest * time + kSizeMargin * coarsest) + (kCellSizes * coarsening + 2) * coarsest;
+  Patch around = mine.front();
+  for (const Patch& p : mine) around.raise_all(p);
+  std::erase_if(of_all, [&](const Patch& p) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (p.low(Patch::box, i) > around.high(Patch::box, i) + reach) return true;
+      if (p.high(Patch::box, i) < around.low(Patch::box, i) - reach) return true;
+    }
+    return false;
+  });
+}
+
+}  // namespace breccia
