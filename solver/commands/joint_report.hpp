@@ -8,8 +8,9 @@
 /// What `check` says of joints.
 namespace breccia {
 
-/// A paragraph for each pair of groups that joints hold together: stiffness k, Pa/m, how much softer they make the body,
-/// and, where they can fail, the fracture process zone, m, against their edges and the strengths, Pa, that scatter.
+/// A paragraph for each pair of groups that joints hold together: stiffness k, Pa/m, how much softer they make the
+/// body, and, where they can fail, the fracture process zone, m, against their edges and the strengths, Pa, that
+/// scatter.
 /// @param advice  out: warnings are added
 [[nodiscard]] std::string joint_report(const Model& model, Advice& advice);
 

@@ -21,8 +21,8 @@ struct InitialVelocity {
   std::vector<Vec3> centre{};  ///< (bodies) m, centre of mass of the body's part in the group; empty: neither of them
 };
 
-/// Adds uniform + random(body) + angular x r + strain_rate * r, r = x - centre, * by components, to every node of the group, each node once. A node shared by
-/// two bodies of the group counts with the one of the element of lowest slot.
+/// Adds uniform + random(body) + angular x r + strain_rate * r, r = x - centre, * by components, to every node of the
+/// group, each node once. A node shared by two bodies of the group counts with the one of the element of lowest slot.
 /// @param position, velocity  nodal fields, m, m/s. O(nodes).
 void add_initial_velocity(const LocalMesh& mesh, const InitialVelocity& initial, const Field<double>& position,
                           Field<double>& velocity);

@@ -286,8 +286,8 @@ class ContactShares::Impl {
       : model_(model),
         patches_(patches),
         time_(time),
-        surface_(model),
-        nearby_(model.params, patches.list, time),
+        surface_(model_),
+        nearby_(model_.params, patches.list, time),
         near_(patches.list.size()),
         at_most_(patches.list.size(), kUnknown) {}
 
@@ -356,7 +356,7 @@ class ContactShares::Impl {
     bool found = false;
     std::vector<ContactBound> bounds;
   };
-  const ContactStepModel& model_;
+  ContactStepModel model_;
   const ContactPatches& patches_;
   double time_;
   Surface surface_;

@@ -123,7 +123,8 @@ void keep_nearby(std::span<const ContactPatch> mine, double coarsening, double t
 class ContactShares {
  public:
   /// @param patches  at the same positions; all that the originals may meet are among them
-  /// @param time     s, within which things may meet. All outlive this object. O(faces + patches log patches)
+  /// @param time     s, within which things may meet. The patches and what the model refers to outlive this object.
+  /// O(faces + patches log patches)
   ContactShares(const ContactStepModel& model, const ContactPatches& patches, double time);
   ~ContactShares();
   ContactShares(const ContactShares&) = delete;
