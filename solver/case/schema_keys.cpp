@@ -194,9 +194,9 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Points of full damage that make a joint broken.", .example = "2"},
     {.path = "joint[].weibull_modulus", .type = number, .fallback = "none", .range = at_least_one, .word = "none",
      .help = "Strengths scatter from joint to joint after Weibull, with this modulus, about the given ones as means; "
-             "both of a joint by one factor, energies not. Standard deviation 1.2/modulus of the mean: 5 for rock, 10 "
-             "to 20 for ceramics and concrete. none: all joints are equally strong, and an evenly loaded body breaks "
-             "everywhere at once.", .example = "10",
+             "both of a joint by one factor, energies not. The standard deviation is about 1.2/modulus of the mean. "
+             "none: all joints are equally strong, and an evenly loaded body of regular elements breaks everywhere at "
+             "once.", .example = "10",
      .fixed_by_state = "how strong each joint is against the mean is part of the state; the means may change"},
     {.path = "joint[].weibull_area", .type = number, .unit = "m2", .fallback = "none", .range = areas,
      .word = "none",
@@ -205,7 +205,7 @@ constexpr auto model_keys = std::to_array<Key>({
              "does not matter.", .example = "\"4 mm2\"",
      .fixed_by_state = "how strong each joint is against the mean is part of the state; the means may change"},
     {.path = "joint[].weibull_seed", .type = integer, .fallback = "1", .range = seed,
-     .help = "Another seed deals the strengths out in another way; the same gives the same on every machine.",
+     .help = "Another seed gives another sample of strengths; the same gives the same on every machine.",
      .example = "2",
      .fixed_by_state = "how strong each joint is against the mean is part of the state; the means may change"},
 

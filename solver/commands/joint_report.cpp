@@ -150,9 +150,8 @@ Advice sudden_softening(const Model& model, double dt) {
     if (steps >= kEnough) continue;
     advice.push_back(fmt::format(
         "The joints of {} soften within {:.2g} steps, too few to follow: of a glass bar 6 % of the energy was lost "
-        "with "
-        "3.8 steps, 1.3 % with 10, and damping took more than fracture (time.residual_limit ends a run that loses too "
-        "much). With a time.safety {:.2g} times smaller it is 10 steps.",
+        "with 3.8 steps, 1.3 % with 10, and damping took more than fracture (time.residual_limit ends a run that loses "
+        "too much). With a time.safety {:.2g} times smaller it is 10 steps.",
         model.joint_law_names[l], steps, kEnough / steps));
   }
   return advice;

@@ -62,7 +62,7 @@ class ContactLook {
   std::vector<ContactPatch> of_all_;  ///< patches of all ranks; none on one rank
 };
 
-/// Those without contact.
+/// Without those of contact.
 StepParts elastic_parts(const Communicator& communicator, const TimeStep& time_step, const StepState& state) {
   const StepModel model = time_step.step_model(state.memory);
   StepParts parts{step_shares(model, state.position), 0.0, {}, {}};

@@ -55,10 +55,6 @@ bool can_fail(const case_::Case& input, const case_::Joint& entry) {
          (entry.groups[0] != entry.groups[1] && entry.tensile_strength > 0);
 }
 
-bool scatters(const case_::Case& input, const case_::Joint& entry) {
-  return entry.weibull_modulus > 0 && can_fail(input, entry);
-}
-
 void include_class(WholeModel::JointGroups& groups, Index number) {
   const Index end = groups.num_classes > 0 ? std::max(groups.least_class + groups.num_classes, number + 1) : number + 1;
   groups.least_class = groups.num_classes > 0 ? std::min(groups.least_class, number) : number;
@@ -119,7 +115,7 @@ void find_joint_groups(const case_::Case& input, Model& model) {
     }
     const std::size_t g = place->second;
     whole.joint_groups[g].size += face.size;
-    if (entries[g] != nullptr && scatters(input, *entries[g]))
+    if (entries[g] != nullptr && entries[g]->weibull_modulus > 0)
       include_class(whole.joint_groups[g], strength_class(*entries[g], model.joint_id(face), face.area));
     count[g] += 1.0;
     ++whole.num_joints;
@@ -157,7 +153,8 @@ void take_joints(const case_::Case& input, Model& model) {
     const WholeModel::JointGroups& groups = model.whole.joint_groups[g];
     const Pair pair{groups.a, groups.b};
     const case_::Joint& entry = *entry_for(input, model.mesh.volume_groups, pair);
-    law_of.emplace(pair, PairLaw{static_cast<Index>(g), model.whole.first_class_law(g), groups, entry});
+    law_of.emplace(pair,
+                   PairLaw{static_cast<Index>(g), static_cast<Index>(model.whole.first_class_law(g)), groups, entry});
   }
   const auto law_for = [&](const PairLaw& law, const JointFace& face) {
     if (law.groups.num_classes == 0) return law.reference;

@@ -34,10 +34,10 @@ struct WholeModel {
   std::vector<std::vector<Vec3>> motion_centres;
 
   /// Joint laws in all: those of the pairs, then those of the classes of the first pair that has some, of the next, ...
-  [[nodiscard]] Index num_joint_laws() const { return first_class_law(joint_groups.size()); }
+  [[nodiscard]] std::int64_t num_joint_laws() const { return first_class_law(joint_groups.size()); }
   /// Law of the least class of pair `groups`.
-  [[nodiscard]] Index first_class_law(std::size_t groups) const {
-    auto law = static_cast<Index>(joint_groups.size());
+  [[nodiscard]] std::int64_t first_class_law(std::size_t groups) const {
+    auto law = static_cast<std::int64_t>(joint_groups.size());
     for (std::size_t g = 0; g < groups; ++g) law += joint_groups[g].num_classes;
     return law;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -190,14 +191,14 @@ class Surface {
 
 std::int64_t level_of(double edge) { return std::ilogb(edge); }
 
-struct SameKey {
-  bool operator()(const Patch& p, const Patch& q) const { return p.key() == q.key(); }
-};
+using Key = decltype(Patch().key());
 struct KeyHash {
-  std::size_t operator()(const Patch& p) const {
+  std::size_t operator()(const Key& key) const {
     std::uint64_t sum = 0;
-    for (const std::int64_t part : {p.level, p.group, p.body, p.cell[0], p.cell[1], p.cell[2]})
+    const auto add = [&](std::int64_t part) {
       sum = (sum ^ static_cast<std::uint64_t>(part)) * 0x9e3779b97f4a7c15ULL + (sum >> 29);
+    };
+    std::apply([&](auto... parts) { (add(parts), ...); }, key);
     return sum;
   }
 };
@@ -251,15 +252,15 @@ ContactPatches contact_patches(const ContactStepModel& model, const Field<double
   const double largest_share = *std::max_element(rule.share.begin(), rule.share.begin() + rule.num_points);
   ContactPatches patches;
   patches.place.assign(4 * at(mesh.num_slots), -1);
-  std::unordered_map<Patch, Index, KeyHash, SameKey> known;  // to the place in the list
+  std::unordered_map<Key, Index, KeyHash> known;  // to the place in the list
   for (Index s = 0; s < mesh.num_slots; ++s) {
     if (!mesh.is_original(s) || model.faces.open[at(s)] == 0) continue;
     const Surface::Nodes nodes = surface.nodes_of(s);
     surface.for_each_open(s, [&](int face) {
       const Face shape = face_at_rest(mesh, s, face);
-      const Patch key = patch_of(mesh, s, face, shape, position, coarsening);
-      const auto [found, fresh] = known.emplace(key, static_cast<Index>(patches.list.size()));
-      if (fresh) patches.list.push_back(key);
+      const Patch empty = patch_of(mesh, s, face, shape, position, coarsening);
+      const auto [found, fresh] = known.emplace(empty.key(), static_cast<Index>(patches.list.size()));
+      if (fresh) patches.list.push_back(empty);
       patches.place[at(4 * s + face)] = found->second;
       Patch& patch = patches.list[at(found->second)];
       for (const int c : kFaceCorners[static_cast<std::size_t>(face)]) {

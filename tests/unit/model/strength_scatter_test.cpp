@@ -69,7 +69,7 @@ TEST(StrengthScatter, FollowsWeibullInItsTails) {
   }
 }
 
-TEST(StrengthScatter, IsDealtOutByTheSeed) {
+TEST(StrengthScatter, IsAnotherSampleForAnotherSeed) {
   const case_::Joint first = scattered(5), second = scattered(5, 0, 2);
   const auto both = [&](auto&& f) { return moments_of(kMany, f).mean; };
   const double product = both([&](GlobalId id) { return (factor(first, id) - 1) * (factor(second, id) - 1); });
@@ -101,7 +101,7 @@ TEST(ModelWithScatter, HasTheLawOfItsClassForEveryJoint) {
   const Model model = build_model(scatters), even = build_model(input);
   ASSERT_EQ(model.joint_law_names, even.joint_law_names);
   EXPECT_EQ(model.joint_sizes, even.joint_sizes);
-  EXPECT_EQ(static_cast<Index>(model.joint_laws.size()), model.whole.num_joint_laws());
+  EXPECT_EQ(static_cast<std::int64_t>(model.joint_laws.size()), model.whole.num_joint_laws());
   ASSERT_EQ(model.joint_laws.size(), model.groups_of_joint_law.size());
   ASSERT_EQ(model.joints.size(), even.joints.size());
   std::size_t others = 0;
