@@ -32,25 +32,18 @@ class ContactLook {
     coarsening_ = std::max(1.0, std::cbrt(static_cast<double>(communicator.sum(open)) / kMostFaces));
     patches_ = contact_patches(model_, state.position, state.velocity, coarsening_);
     if (communicator.size() == 1) return;
+    std::vector<ContactPatch> of_all;
     for (const auto& some : communicator.all_gather(std::span<const ContactPatch>(patches_.list)))
-      of_all_.insert(of_all_.end(), some.begin(), some.end());
+      of_all.insert(of_all.end(), some.begin(), some.end());
+    patches_.merge(std::move(of_all));
   }
   ContactLook(const ContactLook&) = delete;
   ContactLook& operator=(const ContactLook&) = delete;
 
-  /// What contact within `time`, s, adds to all originals. Once.
-  [[nodiscard]] std::vector<ContactShare> all(double time) {
-    if (!of_all_.empty()) patches_.merge(std::move(of_all_));
-    return contact_shares(model_, patches_, time);
-  }
-  /// To originals that are asked for. Once.
-  [[nodiscard]] ContactShares one_by_one(double time) {
-    if (!of_all_.empty()) {
-      keep_nearby(patches_.list, coarsening_, time, of_all_);
-      patches_.merge(std::move(of_all_));
-    }
-    return {model_, patches_, time};
-  }
+  /// What contact within `time`, s, adds to all originals.
+  [[nodiscard]] std::vector<ContactShare> all(double time) const { return contact_shares(model_, patches_, time); }
+  /// To originals that are asked for.
+  [[nodiscard]] ContactShares one_by_one(double time) const { return {model_, patches_, time}; }
   [[nodiscard]] const std::vector<std::uint8_t>& open() const { return faces_.open; }
 
  private:
@@ -59,7 +52,6 @@ class ContactLook {
   ContactStepModel model_;
   double coarsening_ = 1;
   ContactPatches patches_;
-  std::vector<ContactPatch> of_all_;  ///< patches of all ranks; none on one rank
 };
 
 /// Without those of contact.
@@ -79,7 +71,7 @@ StepParts step_parts(const Communicator& communicator, const TimeStep& time_step
                      double steps) {
   StepParts parts = elastic_parts(communicator, time_step, state);
   if (!time_step.model().has_contact) return parts;
-  ContactLook look(communicator, time_step, state);
+  const ContactLook look(communicator, time_step, state);
   parts.contacts = look.all(duration(parts, steps));
   parts.open = look.open();
   return parts;
@@ -92,7 +84,7 @@ double global_step_length(const Communicator& communicator, const TimeStep& time
     const StableStep result = stable_step(time_step.step_model(), parts.shares, parts.most);
     return communicator.min(result.step);
   }
-  ContactLook look(communicator, time_step, state);
+  const ContactLook look(communicator, time_step, state);
   ContactShares contacts = look.one_by_one(duration(parts, steps));
   const ElementSteps element_steps(time_step.step_model(), parts.most);
   double shortest = std::numeric_limits<double>::infinity();

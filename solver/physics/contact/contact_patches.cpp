@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -45,34 +44,6 @@ void ContactPatches::merge(std::vector<ContactPatch> of_all) {
     moved.push_back(static_cast<Index>(std::lower_bound(of_all.begin(), of_all.end(), mine, before) - of_all.begin()));
   for (Index& i : place) i = i < 0 ? -1 : moved[at(i)];
   list = std::move(of_all);
-}
-
-void keep_nearby(std::span<const ContactPatch> mine, double coarsening, double time,
-                 std::vector<ContactPatch>& of_all) {
-  if (mine.empty()) {
-    of_all.clear();
-    return;
-  }
-  double fastest = 0, coarsest = 0;
-  for (const Patch& p : of_all) {
-    double square = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-      square += std::pow(std::max(p.high(Patch::velocity, i), -p.low(Patch::velocity, i)), 2);
-    fastest = std::max(fastest, std::sqrt(square));
-    coarsest = std::max(coarsest, p.face_size());
-  }
-  // All parts of a patch lie in one cell, but for half a face on either side.
-  const double reach =
-      1.001 * (2 * kSpeedMargin * fastest * time + kSizeMargin * coarsest) + (kCellSizes * coarsening + 2) * coarsest;
-  Patch around = mine.front();
-  for (const Patch& p : mine) around.raise_all(p);
-  std::erase_if(of_all, [&](const Patch& p) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (p.low(Patch::box, i) > around.high(Patch::box, i) + reach) return true;
-      if (p.high(Patch::box, i) < around.low(Patch::box, i) - reach) return true;
-    }
-    return false;
-  });
 }
 
 }  // namespace breccia

@@ -99,7 +99,7 @@ inline constexpr double kSpeedMargin = 2.0;
 /// Patches come near each other by this share of their faces' size however slow they are.
 inline constexpr double kSizeMargin = 0.25;
 
-/// Patches of a model, or of the part of it that concerns a rank.
+/// Patches of a rank, or of the whole model.
 struct ContactPatches {
   std::vector<ContactPatch> list;  ///< ascending by key()
   std::vector<Index> place;        ///< (4 num_slots) of open faces of originals: where in the list; -1: none
@@ -115,14 +115,10 @@ struct ContactPatches {
 [[nodiscard]] ContactPatches contact_patches(const ContactStepModel& model, const Field<double>& position,
                                              const Field<double>& velocity, double coarsening);
 
-/// Keeps of the patches, or parts of patches, of all ranks those that patches of `mine` may meet within `time`, s, and
-/// all parts of each. O(patches)
-void keep_nearby(std::span<const ContactPatch> mine, double coarsening, double time, std::vector<ContactPatch>& of_all);
-
 /// What contact adds to the elements one by one, at one look.
 class ContactShares {
  public:
-  /// @param patches  at the same positions; all that the originals may meet are among them
+  /// @param patches  of the whole model, merged, at the same positions
   /// @param time     s, within which things may meet. The patches and what the model refers to outlive this object.
   /// O(faces + patches log patches)
   ContactShares(const ContactStepModel& model, const ContactPatches& patches, double time);

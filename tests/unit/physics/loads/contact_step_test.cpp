@@ -284,31 +284,6 @@ TEST(ContactStep, IsNeverMoreThanWhatIsFoundWithoutLookingWhoIsNear) {
   }
 }
 
-TEST(ContactStep, OfOneBodyNeedsNoneThatItCannotReach) {
-  const Scene scene = uneven_boxes();
-  const ContactPatches patches = patches_of(scene);
-  for (const double time : {0.0, 0.3}) {
-    const auto all = scene.shares(time);
-    for (Index body = 0; body < 27; ++body) {
-      std::vector<ContactPatch> mine, nearby = patches.list;
-      std::copy_if(patches.list.begin(), patches.list.end(), std::back_inserter(mine),
-                   [&](const ContactPatch& p) { return p.body == body; });
-      keep_nearby(mine, 1.0, time, nearby);
-      ContactPatches some = patches;
-      // Places of other bodies' faces lead nowhere now; they are not asked for.
-      for (Index s = 0; s < scene.model.local.num_slots; ++s) {
-        if (scene.body_of(s) != body) std::fill_n(some.place.begin() + 4 * s, 4, -1);
-      }
-      some.merge(nearby);
-      ContactShares shares(scene.step_model(), some, time);
-      for (Index s = 0; s < scene.model.local.num_slots; ++s) {
-        if (scene.model.local.is_original(s) && scene.body_of(s) == body)
-          EXPECT_EQ(shares.of(s).omega_squared, all[test::at(s)].omega_squared);
-      }
-    }
-  }
-}
-
 TEST(ContactStep, GrowsWithTheSlopeOfUnloading) {
   ContactLaw law;
   EXPECT_EQ(stiffest_slope(law), 0.0);
