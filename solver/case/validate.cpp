@@ -195,13 +195,6 @@ class Validator {
     if (inside && material(j.groups[0]) != nullptr && material(j.groups[0])->joints == JointPlacement::none)
       problem(j.origin, "group", "the group has no joints",
               "joints = \"breakable\" or \"unbreakable\" in its [[material]]", j.groups[0]);
-    const auto shares_nodes = [&](const std::string& group) {
-      const Material* m = material(group);
-      return m != nullptr && m->joints == JointPlacement::none;
-    };
-    if (!inside && shares_nodes(j.groups[0]) && shares_nodes(j.groups[1]))
-      problem(j.origin, "between", "the elements of both groups share their nodes: no joints lie between them",
-              "joints = \"unbreakable\" or \"breakable\" in a [[material]] of the two", words(j.groups));
     const bool strong = !inside && (j.tensile_strength > 0 || j.shear_strength > 0 || j.energy_mode_1 > 0);
     if (!breakable(j.groups[0]) && !breakable(j.groups[1]) && !strong) return;
     const std::string why = "is missing: joints of " + words(j.groups) + " can fail";

@@ -13,6 +13,7 @@
 #include "case/validate_motion.hpp"
 #include "domains/piece_mesh.hpp"
 #include "domains/possible_records.hpp"
+#include "model/node_sets.hpp"
 #include "model/parameters.hpp"
 #include "output/checkpoint_index.hpp"
 #include "output/quantity_text.hpp"
@@ -138,10 +139,10 @@ std::vector<NamedNode> nodes_of_records(const Records& records, const WholeModel
   };
   std::vector<NamedNode> nodes;
   const auto add = [&](const ElementRecord& element, unsigned corners) {
-    const bool own = kinds[static_cast<std::size_t>(element.group)] == Discretisation::own_nodes;
+    const Index set = node_set(kinds, whole.node_sets, element.group);
     for (int c = 0; c < 4; ++c) {
       if ((corners >> c & 1U) != 0)
-        nodes.push_back(named_node(own, element.id, c, element.vertex[static_cast<std::size_t>(c)]));
+        nodes.push_back(named_node(set, element.id, c, element.vertex[static_cast<std::size_t>(c)]));
     }
   };
   const Index volume = index_in(whole.volume_groups), surface = index_in(whole.surface_groups);

@@ -50,26 +50,37 @@ void place_elements(LocalMesh& local, const Mesh& mesh, const std::vector<Discre
 }
 
 /// Gives the corners of shared-node elements local nodes, numbered by first use, those that originals touch first;
-/// padding gets four spare nodes a block. Returns the mesh node of every shared node, -1 for padding.
-std::vector<Index> number_shared_nodes(LocalMesh& local, const Mesh& mesh) {
-  std::vector<Index> local_of(mesh.nodes.size(), -1);
-  std::vector<Index> mesh_node_of;
+/// padding gets four spare nodes a block. Returns the ids of the shared nodes, -1 for padding.
+std::vector<GlobalId> number_shared_nodes(LocalMesh& local, const Mesh& mesh, const std::vector<Index>& node_sets) {
+  const auto set_of = [&](Index element) {
+    return node_sets.empty()
+               ? Index{0}
+               : node_sets[static_cast<std::size_t>(mesh.element_group[static_cast<std::size_t>(element)])];
+  };
+  const Index num_sets = node_sets.empty() ? 1 : 1 + *std::max_element(node_sets.begin(), node_sets.end());
+  std::vector<Index> local_of(mesh.nodes.size() * static_cast<std::size_t>(num_sets), -1);  // [set][node]
+  const auto known = [&](Index element, std::size_t corner) -> Index& {
+    return local_of[static_cast<std::size_t>(set_of(element)) * mesh.nodes.size() +
+                    static_cast<std::size_t>(mesh.elements[static_cast<std::size_t>(element)][corner])];
+  };
+  std::vector<GlobalId> ids;
   const Index first = local.num_own_nodes();
-  const auto fresh = [&](Index mesh_node) {
-    mesh_node_of.push_back(mesh_node);
-    return first + static_cast<Index>(mesh_node_of.size()) - 1;
+  const auto fresh = [&](GlobalId id) {
+    ids.push_back(id);
+    return first + static_cast<Index>(ids.size()) - 1;
   };
   const auto number = [&](bool originals) {
     for (Index s = local.num_own_slots; s < local.num_slots; ++s) {
       const Index e = local.mesh_element[static_cast<std::size_t>(s)];
       if (e < 0 || local.is_original(s) != originals) continue;
-      for (const Index node : mesh.elements[static_cast<std::size_t>(e)]) {
-        Index& known = local_of[static_cast<std::size_t>(node)];
-        if (known < 0) known = fresh(node);
+      for (std::size_t c = 0; c < 4; ++c) {
+        Index& node = known(e, c);
+        if (node < 0)
+          node = fresh(shared_node_id(set_of(e), mesh.node_id(mesh.elements[static_cast<std::size_t>(e)][c])));
       }
     }
-    while (mesh_node_of.size() % kLanes != 0) fresh(-1);
-    return first + static_cast<Index>(mesh_node_of.size());
+    while (ids.size() % kLanes != 0) fresh(-1);
+    return first + static_cast<Index>(ids.size());
   };
   local.num_moved_nodes = number(true);
   number(false);
@@ -77,14 +88,11 @@ std::vector<Index> number_shared_nodes(LocalMesh& local, const Mesh& mesh) {
   for (Index s = local.num_own_slots; s < local.num_slots; ++s) {
     const Index e = local.mesh_element[static_cast<std::size_t>(s)];
     auto& corners = local.shared_corners[static_cast<std::size_t>(s - local.num_own_slots)];
-    for (std::size_t c = 0; c < 4; ++c) {
-      corners[c] =
-          e < 0 ? fresh(-1) : local_of[static_cast<std::size_t>(mesh.elements[static_cast<std::size_t>(e)][c])];
-    }
+    for (std::size_t c = 0; c < 4; ++c) corners[c] = e < 0 ? fresh(-1) : known(e, c);
   }
-  while (mesh_node_of.size() % kLanes != 0) fresh(-1);
-  local.num_nodes = first + static_cast<Index>(mesh_node_of.size());
-  return mesh_node_of;
+  while (ids.size() % kLanes != 0) fresh(-1);
+  local.num_nodes = first + static_cast<Index>(ids.size());
+  return ids;
 }
 
 /// A node is counted by the rank that owns its lowest element.
@@ -138,11 +146,12 @@ void fill_element(LocalMesh& local, const Mesh& mesh, const std::vector<double>&
 }  // namespace
 
 LocalMesh build_local_mesh(const Mesh& mesh, const std::vector<Discretisation>& discretisation,
-                           const std::vector<double>& density, const std::vector<std::uint8_t>& original) {
+                           const std::vector<double>& density, const std::vector<std::uint8_t>& original,
+                           const std::vector<Index>& node_sets) {
   LocalMesh local;
   local.num_elements = mesh.num_elements();
   place_elements(local, mesh, discretisation, original);
-  const std::vector<Index> mesh_node_of = number_shared_nodes(local, mesh);
+  const std::vector<GlobalId> shared_ids = number_shared_nodes(local, mesh, node_sets);
 
   const auto slots = static_cast<std::size_t>(local.num_slots);
   const auto nodes = static_cast<std::size_t>(local.num_nodes);
@@ -162,11 +171,7 @@ LocalMesh build_local_mesh(const Mesh& mesh, const std::vector<Discretisation>& 
     const GlobalId e = local.element_of_slot[static_cast<std::size_t>(s)];
     for (int c = 0; c < 4 && e >= 0; ++c) local.node_id[static_cast<std::size_t>(own_corner_node(s, c))] = 4 * e + c;
   }
-  for (std::size_t n = 0; n < mesh_node_of.size(); ++n) {
-    if (mesh_node_of[n] < 0) continue;
-    local.node_id[static_cast<std::size_t>(local.num_own_nodes()) + n] =
-        kFirstSharedNode + mesh.node_id(mesh_node_of[n]);
-  }
+  std::copy(shared_ids.begin(), shared_ids.end(), local.node_id.begin() + local.num_own_nodes());
   count_nodes(local);
   return local;
 }

@@ -20,6 +20,13 @@ enum class Discretisation {
 /// Ids of shared nodes start here: above all ids of own nodes.
 inline constexpr GlobalId kFirstSharedNode = GlobalId{1} << 40;
 
+/// Id of a shared node. @param set  of the volume groups that share it (model/node_sets.hpp)
+[[nodiscard]] constexpr GlobalId shared_node_id(Index set, GlobalId mesh_node) {
+  return (1 + GlobalId{set}) * kFirstSharedNode + mesh_node;
+}
+/// Its node of the mesh.
+[[nodiscard]] constexpr GlobalId mesh_node_of(GlobalId shared_node) { return shared_node % kFirstSharedNode; }
+
 /// The discretised model on one rank: everything that stays as it is while nothing breaks. A rank holds originals,
 /// which are its own to move and to count, and proxies, elements of other ranks that its originals depend on.
 ///
@@ -47,7 +54,7 @@ struct LocalMesh {
   std::vector<Index> slot_body;       ///< (num_slots) body, -1 for padding
   std::vector<std::array<Index, 4>> shared_corners;  ///< (num_slots - num_own_slots) nodes of shared-node elements
   std::vector<GlobalId> node_id;                     ///< (num_nodes) 4 element + corner for own nodes,
-      ///< kFirstSharedNode + mesh node id for shared ones, -1 for padding
+      ///< shared_node_id for shared ones, -1 for padding
 
   Field<double> gradient;   ///< [block][9][8] D_m^-1 row-major, 1/m: F = sum_c (x_c - x_0) row c-1 of D_m^-1
   Field<double> volume;     ///< [block][8] reference volume, m3
@@ -72,9 +79,12 @@ struct LocalMesh {
 /// @param discretisation  (mesh.volume_groups)
 /// @param density         (mesh.volume_groups) kg/m3
 /// @param original        (mesh elements) 1: this rank's own; empty: all are
+/// @param node_sets       (mesh.volume_groups) those of shared nodes have them in common where the numbers, >= 0, are
+///                        the same; empty: all have
 /// @pre mesh satisfies its invariants (mesh/mesh.hpp)
 [[nodiscard]] LocalMesh build_local_mesh(const Mesh& mesh, const std::vector<Discretisation>& discretisation,
                                          const std::vector<double>& density,
-                                         const std::vector<std::uint8_t>& original = {});
+                                         const std::vector<std::uint8_t>& original = {},
+                                         const std::vector<Index>& node_sets = {});
 
 }  // namespace breccia

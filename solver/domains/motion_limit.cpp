@@ -26,7 +26,7 @@ bool exceeds(const Domain& domain, std::int64_t step, double motion, double befo
 
 std::string name_of_node(GlobalId node) {
   if (node < 0) return "a node";
-  if (node >= kFirstSharedNode) return "node " + std::to_string(node - kFirstSharedNode);
+  if (node >= kFirstSharedNode) return "node " + std::to_string(mesh_node_of(node));
   return "corner " + std::to_string(node % 4) + " of element " + std::to_string(node / 4);
 }
 

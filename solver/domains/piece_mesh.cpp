@@ -21,6 +21,7 @@ std::vector<std::byte> pack(const WholeModel& whole) {
     bytes.put(groups.least_class);
     bytes.put(groups.num_classes);
   }
+  bytes.put_list(whole.node_sets);
   bytes.put_list(whole.body_length);
   bytes.put_list(whole.body_extent);
   bytes.put(static_cast<std::uint64_t>(whole.motion_centres.size()));
@@ -52,6 +53,7 @@ WholeModel unpack_whole(std::span<const std::byte> packed) {
     groups.least_class = bytes.take<Index>();
     groups.num_classes = bytes.take<Index>();
   }
+  whole.node_sets = bytes.take_list<Index>();
   whole.body_length = bytes.take_list<double>();
   whole.body_extent = bytes.take_list<double>();
   DEMAND(whole.body_extent.size() == whole.body_length.size(), "two numbers of bodies");

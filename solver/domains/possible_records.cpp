@@ -46,7 +46,9 @@ bool are_possible(const Records& records, const WholeModel& whole) {
     return within(groups.a, whole.volume_groups) && within(groups.b, whole.volume_groups) && groups.num_classes >= 0 &&
            groups.num_classes <= 2 * kMostStrengthClasses + 1 && std::abs(groups.least_class) <= kMostStrengthClasses;
   };
-  return all(whole.joint_groups, is_pair) &&
+  const bool sets_fit = whole.node_sets.empty() || whole.node_sets.size() == whole.volume_groups.size();
+  return sets_fit && all(whole.node_sets, [&](Index set) { return within(set, whole.volume_groups); }) &&
+         all(whole.joint_groups, is_pair) &&
          all(records.elements, [&](const ElementRecord& r) { return is_possible(r, whole); }) &&
          all(records.joints, [&](const JointRecord& r) { return is_possible(r, whole); }) &&
          all(records.released, [](const ReleasedRecord& r) { return within(r.joint.face_a, kFaces); }) &&

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "model/node_sets.hpp"
+
 namespace breccia {
 namespace {
 
@@ -16,8 +18,8 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 std::vector<NamedNode> nodes_of(const Model& model, const std::string& group) {
   const Mesh& mesh = model.mesh;
   const auto node = [&](Index element, int corner) {
-    const bool own = model.discretisation[at(mesh.element_group[at(element)])] == Discretisation::own_nodes;
-    return named_node(own, element, corner, mesh.elements[at(element)][at(corner)]);
+    const Index set = node_set(model.discretisation, model.whole.node_sets, mesh.element_group[at(element)]);
+    return named_node(set, element, corner, mesh.elements[at(element)][at(corner)]);
   };
   std::vector<NamedNode> nodes;
   const auto volume = std::find(mesh.volume_groups.begin(), mesh.volume_groups.end(), group);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "case/case.hpp"
+#include "discretisation/local_mesh.hpp"
 #include "model/model.hpp"
 
 namespace breccia {
@@ -26,9 +27,9 @@ struct NamedNode {
   std::int64_t mesh_node;
   friend bool operator<(const NamedNode& a, const NamedNode& b) { return a.id < b.id; }
 };
-/// @param mesh_node  of the corner
-[[nodiscard]] inline NamedNode named_node(bool own_nodes, std::int64_t element, int corner, std::int64_t mesh_node) {
-  return {own_nodes ? 4 * element + corner : -1 - mesh_node, mesh_node};
+/// @param set  of the element's group (node_set of node_sets.hpp);  @param mesh_node  of the corner
+[[nodiscard]] inline NamedNode named_node(Index set, std::int64_t element, int corner, std::int64_t mesh_node) {
+  return {set < 0 ? 4 * element + corner : shared_node_id(set, mesh_node), mesh_node};
 }
 
 /// Nodes of groups by name; by their ids ascending, each once.

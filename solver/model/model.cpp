@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "model/model_joints.hpp"
+#include "model/node_sets.hpp"
 #include "model/parameters.hpp"
 
 namespace breccia {
@@ -64,8 +65,7 @@ void break_initial(const case_::Case& input, Model& model) {
     if (link.free()) continue;
     const Index group = model.mesh.element_group[index(element)];
     const Index other = model.mesh.element_group[index(link.neighbour)];
-    if (model.discretisation[index(group)] == Discretisation::shared_nodes &&
-        model.discretisation[index(other)] == Discretisation::shared_nodes) {
+    if (share_nodes(model.discretisation, model.whole.node_sets, group, other)) {
       throw InputError(Problem{input.file.string(), input.broken_origin.line, "joints.broken",
                                "a surface cuts through \"" + model.mesh.volume_groups[index(group)] +
                                    "\", whose elements share nodes: there are no joints to break",
@@ -144,6 +144,7 @@ void take_whole(const case_::Case& input, Model& model) {
   std::vector<double> lambda_2mu;
   for (const ElasticParams& p : model.elastic) lambda_2mu.push_back(p.lambda + 2 * p.mu);
   model.whole = whole_of(input, model.mesh, lambda_2mu, model.density);
+  model.whole.node_sets = node_sets(input, model.mesh, model.topology, model.discretisation);
 }
 
 }  // namespace
@@ -198,7 +199,7 @@ Model build_bare_model(const case_::Case& input) {
 Model build_model(const case_::Case& input) {
   Model model = build_bare_model(input);
   take_joints(input, model);
-  model.local = build_local_mesh(model.mesh, model.discretisation, model.density);
+  model.local = build_local_mesh(model.mesh, model.discretisation, model.density, {}, model.whole.node_sets);
   return model;
 }
 
@@ -213,7 +214,7 @@ Model build_piece(const case_::Case& input, WholeModel whole, Mesh mesh, Topolog
   take_contact(input, model);
   take_joint_laws(input, model);
   take_joints(input, model);
-  model.local = build_local_mesh(model.mesh, model.discretisation, model.density, original);
+  model.local = build_local_mesh(model.mesh, model.discretisation, model.density, original, model.whole.node_sets);
   return model;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "model/node_sets.hpp"
 #include "model/parameters.hpp"
 #include "model/strength_scatter.hpp"
 
@@ -21,8 +22,7 @@ Pair groups_of(const Model& model, const JointFace& face) {
 }
 
 bool has_joint(const Model& model, const Pair& groups) {
-  return model.discretisation[index(groups.first)] == Discretisation::own_nodes ||
-         model.discretisation[index(groups.second)] == Discretisation::own_nodes;
+  return !share_nodes(model.discretisation, model.whole.node_sets, groups.first, groups.second);
 }
 
 /// The case's entry for a pair of groups, null: none.

@@ -22,6 +22,7 @@ struct WholeModel {
   std::string source;  ///< of the mesh, for messages
   std::vector<std::string> volume_groups, surface_groups;
   std::int64_t num_elements = 0, num_joints = 0;
+  std::vector<Index> node_sets;           ///< (volume groups) of shared nodes (node_sets.hpp), or empty
   std::vector<JointGroups> joint_groups;  ///< pair g has the joint law g, of mean strengths
   std::vector<double> body_length;        ///< (bodies) H of contact, m: mean inradius of the elements
   std::vector<double> body_extent;        ///< (bodies) m: diagonal of the box around it at rest

@@ -1,0 +1,91 @@
+#include "model/node_sets.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "base/error.hpp"
+
+namespace breccia {
+namespace {
+
+using Pair = std::pair<Index, Index>;  ///< of groups, a < b
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+Index group_named(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<Index>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+bool shares(const std::vector<Discretisation>& kinds, Index group) {
+  return group < static_cast<Index>(kinds.size()) && kinds[at(group)] == Discretisation::shared_nodes;
+}
+
+/// Pairs of groups of shared nodes between which the case has joints, and the entry.
+std::vector<std::pair<Pair, const case_::Joint*>> parted_pairs(const case_::Case& input,
+                                                               const std::vector<std::string>& names,
+                                                               const std::vector<Discretisation>& kinds) {
+  std::vector<std::pair<Pair, const case_::Joint*>> pairs;
+  for (const case_::Joint& joint : input.joints) {
+    const Index a = group_named(names, joint.groups[0]), b = group_named(names, joint.groups[1]);
+    if (a != b && shares(kinds, a) && shares(kinds, b)) pairs.emplace_back(std::minmax(a, b), &joint);
+  }
+  return pairs;
+}
+
+/// Every pair of different groups of shared nodes that have a face in common.
+std::set<Pair> meeting_pairs(const Mesh& mesh, const Topology& topology, const std::vector<Discretisation>& kinds) {
+  std::set<Pair> pairs;
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    const Index group = mesh.element_group[at(e)];
+    if (!shares(kinds, group)) continue;
+    for (const FaceLink& link : topology.links[at(e)]) {
+      const Index other = link.inner() ? mesh.element_group[at(link.neighbour)] : group;
+      if (group < other && shares(kinds, other)) pairs.emplace(group, other);
+    }
+  }
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<Index> node_sets(const case_::Case& input, const Mesh& mesh, const Topology& topology,
+                             const std::vector<Discretisation>& kinds) {
+  const auto parted = parted_pairs(input, mesh.volume_groups, kinds);
+  if (parted.empty()) return {};
+  std::vector<Index> sets(kinds.size());
+  std::iota(sets.begin(), sets.end(), 0);
+  const std::set<Pair> meeting = meeting_pairs(mesh, topology, kinds);
+  for (const Pair& pair : meeting) {
+    const auto is_pair = [&](const auto& entry) { return entry.first == pair; };
+    if (std::any_of(parted.begin(), parted.end(), is_pair)) continue;
+    const auto [kept, gone] = std::minmax(sets[at(pair.first)], sets[at(pair.second)]);
+    std::replace(sets.begin(), sets.end(), Index{gone}, Index{kept});
+  }
+  std::vector<Problem> problems;
+  for (const auto& [pair, joint] : parted) {
+    if (!meeting.contains(pair) || sets[at(pair.first)] != sets[at(pair.second)]) continue;
+    problems.push_back({input.file.string(), joint->origin.line, joint->origin.key + ".between",
+                        "the elements of both groups share their nodes with another group that lies beside both, so "
+                        "that no joints can part the two",
+                        "a [[joint]] between one of them and that group as well, or joints = \"unbreakable\" in the "
+                        "[[material]] of one",
+                        "\"" + joint->groups[0] + "\" and \"" + joint->groups[1] + "\""});
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return sets;
+}
+
+Index node_set(const std::vector<Discretisation>& kinds, const std::vector<Index>& sets, Index group) {
+  if (!shares(kinds, group)) return -1;
+  return sets.empty() ? 0 : sets[at(group)];
+}
+
+bool share_nodes(const std::vector<Discretisation>& kinds, const std::vector<Index>& sets, Index group, Index other) {
+  const Index set = node_set(kinds, sets, group);
+  return set >= 0 && set == node_set(kinds, sets, other);
+}
+
+}  // namespace breccia
