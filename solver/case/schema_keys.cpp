@@ -145,8 +145,8 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "joint[].group", .type = text, .help = "Group whose inner joints follow this law. Give this or between.",
      .example = "\"glass\""},
     {.path = "joint[].between", .type = text_pair,
-     .help = "Two groups whose glued interface follows this law, also where both have joints = \"none\" inside. Give this "
-             "or group.",
+     .help = "Two groups whose glued interface follows this law, also where both have joints = \"none\" inside. Give "
+             "this or group.",
      .example = "[\"brick\", \"mortar\"]"},
     {.path = "joint[].law", .type = choice, .fallback = "mixed_mode", .choices = "mixed_mode|independent_peaks",
      .help = "mixed_mode: elliptic onset, its energy is exact in every mode mix. independent_peaks: each direction "

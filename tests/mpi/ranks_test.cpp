@@ -17,81 +17,15 @@
 #include <nlohmann/json.hpp>
 
 #include "end_to_end/program.hpp"
-#include "unit/output/hdf5_reader.hpp"
+#include "mpi/same_bits.hpp"
 
 /// The shipped program on several ranks against the same program on one.
 namespace breccia {
 namespace {
 
-using test::history_without_couples;
 using test::Outcome;
+using test::SameBits;
 using test::Scratch;
-
-/// By frame and joint: when it failed, state.
-using Failures = std::map<std::pair<std::string, double>, std::pair<double, double>>;
-
-Failures failures_in(const std::filesystem::path& frames) {
-  Failures failures;
-  for (const auto& file : std::filesystem::directory_iterator(frames)) {
-    const std::string name = file.path().filename();
-    if (name.find("joints_") != 0) continue;
-    const test::Hdf5Reader joints(file.path());
-    const std::vector<double> id = joints.values("CellData/id"), time = joints.values("CellData/time_of_failure"),
-                              state = joints.values("CellData/state");
-    for (std::size_t j = 0; j < id.size(); ++j) failures[{name, id[j]}] = {time.at(j), state.at(j)};
-  }
-  return failures;
-}
-
-/// What must not depend on the ranks.
-struct Result {
-  std::string hash, history;
-  nlohmann::json summary;
-  Failures failures;
-};
-
-Result result_of(const std::filesystem::path& folder) {
-  const auto summary = nlohmann::json::parse(test::read_text(folder / "summary.json"));
-  EXPECT_EQ(test::energy_fault(folder / "history.csv"), "");
-  return {summary.at("state_hash"), history_without_couples(folder / "history.csv"), summary,
-          failures_in(folder / "frames")};
-}
-
-/// Runs a case on 1 rank and in other ways, and compares.
-class SameBits {
- public:
-  explicit SameBits(std::string case_file) : case_file_(std::move(case_file)) {
-    const Outcome one = test::call("run --progress none -o " + folder("one") + " " + case_file_);
-    EXPECT_EQ(one.exit_code, 0) << one.err;
-    one_ = result_of(scratch_.path("one"));
-  }
-
-  /// Returns the summary. @param settings  of the case
-  nlohmann::json on(int ranks, const std::string& settings = "") {
-    const std::string name = "run" + std::to_string(++number_);
-    const Outcome outcome =
-        test::call_ranks(ranks, "run --progress none -o " + folder(name) + " " + case_file_ + " " + settings);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    if (outcome.exit_code != 0) return {};
-    const Result result = result_of(scratch_.path(name));
-    EXPECT_EQ(result.hash, one_.hash) << ranks << " ranks " << settings;
-    EXPECT_EQ(result.history, one_.history) << ranks << " ranks " << settings;
-    EXPECT_EQ(result.failures, one_.failures) << ranks << " ranks " << settings;
-    EXPECT_EQ(result.summary.at("ranks"), ranks);
-    return result.summary;
-  }
-  [[nodiscard]] const nlohmann::json& alone() const { return one_.summary; }
-  [[nodiscard]] const Failures& failures() const { return one_.failures; }
-  Scratch& scratch() { return scratch_; }
-
- private:
-  [[nodiscard]] std::string folder(const std::string& name) const { return "'" + scratch_.path(name).string() + "'"; }
-
-  Scratch scratch_;
-  std::string case_file_;
-  Result one_;
-  int number_ = 0;
-};
 
 std::string mesh_case(const std::string& name) { return "'" BRECCIA_MESHES "/" + name + "'"; }
 
@@ -123,73 +57,6 @@ TEST(Ranks, GiveTheSameBitsWhereStrengthsScatter) {
             SameBits(scratch.write("even.toml", test::kSmallCase)).alone().at("state_hash"));
   for (const int ranks : {2, 3}) boxes.on(ranks);
   boxes.on(2, "--set domains.margin=0.1");
-}
-
-/// Two bars of ordinary finite elements, bonded face to face but for a notch, are peeled off each other.
-const std::string kPeel = R"([mesh]
-file = "bars.geo"
-glue = true
-[[material]]
-group = "lower"
-young = "10 GPa"
-poisson = 0.2
-density = 1200
-joints = "none"
-[[material]]
-group = "upper"
-young = "10 GPa"
-poisson = 0.2
-density = 1200
-joints = "none"
-[[joint]]
-between = ["lower", "upper"]
-penalty_factor = 20
-tensile_strength = "5 MPa"
-energy_mode_1 = "10 J/m2"
-[[contact]]
-between = ["*", "*"]
-penalty = "10 GPa"
-[joints]
-broken = ["notch"]
-[[stage]]
-end = "1 ms"
-[[stage.constraint]]
-group = "end_upper"
-velocity = { y = { ramp = { to = "1 m/s", end = "0.2 ms" } } }
-[[stage.constraint]]
-group = "end_lower"
-velocity = { y = { ramp = { to = "-1 m/s", end = "0.2 ms" } } }
-[output]
-history_interval = "20 us"
-)";
-
-const std::string kBars = R"(SetFactory("OpenCASCADE");
-Box(1) = {0, -0.003, 0, 0.006, 0.003, 0.003};
-Box(2) = {0.006, -0.003, 0, 0.018, 0.003, 0.003};
-Box(3) = {0, 0, 0, 0.006, 0.003, 0.003};
-Box(4) = {0.006, 0, 0, 0.018, 0.003, 0.003};
-BooleanFragments{ Volume{1:4}; Delete; }{}
-MeshSize{:} = 0.0015;
-Physical Volume("lower") = {1, 2};
-Physical Volume("upper") = {3, 4};
-e = 1e-5;
-Physical Surface("notch") = Surface In BoundingBox {-e, -e, -e, 0.006 + e, e, 0.003 + e};
-Physical Surface("end_lower") = Surface In BoundingBox {-e, -0.003 - e, -e, e, e, 0.003 + e};
-Physical Surface("end_upper") = Surface In BoundingBox {-e, -e, -e, e, 0.003 + e, 0.003 + e};
-)";
-
-TEST(Ranks, GiveTheSameBitsWhileABondOfBodiesWithoutJointsIsPeeled) {
-  const Scratch scratch;
-  scratch.write("bars.geo", kBars);
-  SameBits bars(scratch.write("case.toml", kPeel));
-  EXPECT_EQ(bars.alone().at("broken_joints"), bars.alone().at("joints"));
-  EXPECT_EQ(bars.alone().at("fragments"), 2);
-  const nlohmann::json& energy = bars.alone().at("energy");
-  const double bonded = 0.018 * 0.003, of_opening = 10;  // m2, J/m2
-  EXPECT_NEAR(energy.at("joint_mode_1").get<double>() + energy.at("joint_mode_2").get<double>(), bonded * of_opening,
-              0.02 * bonded * of_opening);
-  for (const int ranks : {2, 3}) bars.on(ranks);
-  bars.on(4, "--set domains.kind=grid --set domains.n=[1,2,2] --set domains.margin=0.2");
 }
 
 TEST(Ranks, GiveTheSameBitsWhile64BoxesShatterInASphere) {
