@@ -22,6 +22,7 @@
 #include "domains/decomposition.hpp"
 #include "domains/global_step.hpp"
 #include "mesh/geometry.hpp"
+#include "model/node_sets.hpp"
 #include "model/parameters.hpp"
 #include "output/quantity_text.hpp"
 #include "output/summary.hpp"
@@ -188,10 +189,11 @@ Division divide_model(const case_::Case& input, const Model& model, int parts) {
   const double share = static_cast<double>(centroids.size()) / parts;
   const std::vector<Vec3> places = places_of_fragments(centroids, neighbours, share, reach.distance());
   const std::vector<int> owner = assign_domains(alone, spec, parts, places, weight, edge);
-  std::vector<std::uint8_t> own_nodes;
-  for (const Discretisation d : model.discretisation) own_nodes.push_back(d == Discretisation::own_nodes ? 1 : 0);
+  std::vector<Index> sets;
+  for (Index group = 0; group < static_cast<Index>(model.discretisation.size()); ++group)
+    sets.push_back(node_set(model.discretisation, model.whole.node_sets, group));
   return {spec.kind == DomainKind::rcb ? "rcb" : fmt::format("grid of {} x {} x {}", spec.n[0], spec.n[1], spec.n[2]),
-          report_domains(mesh, model.topology, own_nodes, owner, parts, reach.distance()), owner};
+          report_domains(mesh, model.topology, sets, owner, parts, reach.distance()), owner};
 }
 
 std::string domain_line(const case_::Case& input, const Model& model, int parts) {

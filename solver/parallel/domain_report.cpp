@@ -71,9 +71,9 @@ class NearDomains {
 
 class Counter {
  public:
-  Counter(const Mesh& mesh, const Topology& topology, std::span<const std::uint8_t> own_nodes,
-          std::span<const int> owner, int parts)
-      : mesh_(mesh), topology_(topology), own_nodes_(own_nodes), owner_(owner), from_(at(parts)) {
+  Counter(const Mesh& mesh, const Topology& topology, std::span<const Index> node_sets, std::span<const int> owner,
+          int parts)
+      : mesh_(mesh), topology_(topology), node_sets_(node_sets), owner_(owner), from_(at(parts)) {
     report_.domains.resize(at(parts));
   }
 
@@ -86,20 +86,29 @@ class Counter {
   }
 
  private:
-  [[nodiscard]] bool has_own_nodes(std::size_t e) const { return own_nodes_[at(mesh_.element_group[e])] != 0; }
+  [[nodiscard]] Index node_set(std::size_t e) const { return node_sets_[at(mesh_.element_group[e])]; }
+  [[nodiscard]] bool has_own_nodes(std::size_t e) const { return node_set(e) < 0; }
+  [[nodiscard]] bool share_nodes(std::size_t e, std::size_t other) const {
+    return !has_own_nodes(e) && node_set(e) == node_set(other);
+  }
+
+  /// Place of an element's node in first_.
+  [[nodiscard]] std::size_t shared_node(std::size_t e, Index node) const {
+    return at(node_set(e)) * mesh_.nodes.size() + at(node);
+  }
 
   /// Domains whose bodies without joints meet at a node.
   void find_sharers() {
-    const bool any = std::find(own_nodes_.begin(), own_nodes_.end(), std::uint8_t{0}) != own_nodes_.end();
-    if (!any) return;
-    first_.assign(mesh_.nodes.size(), -1);
+    const auto last = std::max_element(node_sets_.begin(), node_sets_.end());
+    if (last == node_sets_.end() || *last < 0) return;
+    first_.assign(mesh_.nodes.size() * at(*last + 1), -1);
     for (std::size_t e = 0; e < owner_.size(); ++e) {
       if (has_own_nodes(e)) continue;
       for (const Index node : mesh_.elements[e]) {
-        int& first = first_[at(node)];
+        int& first = first_[shared_node(e, node)];
         if (first < 0) first = owner_[e];
         if (first == owner_[e]) continue;
-        std::vector<int>& others = others_[node];
+        std::vector<int>& others = others_[shared_node(e, node)];
         if (std::find(others.begin(), others.end(), owner_[e]) == others.end()) others.push_back(owner_[e]);
       }
     }
@@ -112,7 +121,7 @@ class Counter {
     for (const FaceLink& link : topology_.links[e]) {
       if (!link.inner()) continue;
       const std::size_t other = at(link.neighbour);
-      const bool joint = has_own_nodes(e) || has_own_nodes(other), cut = owner_[other] != owner_[e];
+      const bool joint = !share_nodes(e, other), cut = owner_[other] != owner_[e];
       own.joints += joint && e < other;
       own.shared += joint && cut;
       own.cut_faces += cut;
@@ -120,9 +129,10 @@ class Counter {
     }
     if (!has_own_nodes(e)) {
       for (const Index node : mesh_.elements[e]) {
-        const auto others = others_.find(node);
+        const std::size_t shared = shared_node(e, node);
+        const auto others = others_.find(shared);
         if (others == others_.end()) continue;
-        if (first_[at(node)] != owner_[e]) take(first_[at(node)]);
+        if (first_[shared] != owner_[e]) take(first_[shared]);
         for (const int domain : others->second) {
           if (domain != owner_[e]) take(domain);
         }
@@ -180,18 +190,18 @@ class Counter {
 
   const Mesh& mesh_;
   const Topology& topology_;
-  std::span<const std::uint8_t> own_nodes_;
+  std::span<const Index> node_sets_;
   std::span<const int> owner_;
-  std::vector<int> first_;                    ///< (nodes) a domain with the node, -1: none
-  std::map<Index, std::vector<int>> others_;  ///< further ones
-  std::vector<std::vector<int>> from_;        ///< (domains) whom it gathers from
-  std::vector<int> takers_;                   ///< of the present element
+  std::vector<int> first_;                          ///< [set][node] a domain with the shared node, -1: none
+  std::map<std::size_t, std::vector<int>> others_;  ///< by place in first_, further ones
+  std::vector<std::vector<int>> from_;              ///< (domains) whom it gathers from
+  std::vector<int> takers_;                         ///< of the present element
   DomainReport report_;
 };
 
 }  // namespace
 
-DomainReport report_domains(const Mesh& mesh, const Topology& topology, std::span<const std::uint8_t> own_nodes,
+DomainReport report_domains(const Mesh& mesh, const Topology& topology, std::span<const Index> node_sets,
                             std::span<const int> owner, int parts, double reach) {
   return Counter(mesh, topology, own_nodes, owner, parts).run(reach);
 }

@@ -45,12 +45,11 @@ struct DomainReport {
 /// without joints (kBytesAProxy is then an upper bound: a shared node goes once). It is held if its box is within
 /// `reach` of the box around the originals. step = kSecondsAnElement elements + kSecondsAMessage neighbours + bytes /
 /// kBytesASecond: joints on a cut are computed on both sides, but so they are in the sweep of one rank.
-/// @param own_nodes  (volume groups) 1: every element has its own nodes and joints to its neighbours; 0: elements share
-/// nodes
+/// @param node_sets  (volume groups) -1: every element has its own nodes and joints to its neighbours; else elements
+/// share nodes, with those of other groups of the same number, and have joints to the others
 /// @param owner      (elements) 0..parts-1;  @param reach  m
 /// @pre mesh and topology are the whole model's. O(elements), 40 bytes a node and 60 a cut face; throws nothing.
-[[nodiscard]] DomainReport report_domains(const Mesh& mesh, const Topology& topology,
-                                          std::span<const std::uint8_t> own_nodes, std::span<const int> owner,
-                                          int parts, double reach);
+[[nodiscard]] DomainReport report_domains(const Mesh& mesh, const Topology& topology, std::span<const Index> node_sets,
+                                          std::span<const int> owner, int parts, double reach);
 
 }  // namespace breccia

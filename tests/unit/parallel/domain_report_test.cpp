@@ -10,7 +10,7 @@
 namespace breccia {
 namespace {
 
-constexpr std::uint8_t kJoints = 1, kNone = 0;
+constexpr Index kJoints = -1, kNone = 0;
 
 Mesh block(std::array<int, 3> cells) {
   RasterSource source;
@@ -71,7 +71,7 @@ std::vector<DomainLoad> brute_force(const Mesh& mesh, bool joints, const std::ve
   return loads;
 }
 
-class ReportOfScatteredDomains : public testing::TestWithParam<std::uint8_t> {};
+class ReportOfScatteredDomains : public testing::TestWithParam<Index> {};
 
 TEST_P(ReportOfScatteredDomains, CountsWhatAllAgainstAllCounts) {
   const Mesh mesh = block({3, 2, 2});
@@ -86,8 +86,8 @@ TEST_P(ReportOfScatteredDomains, CountsWhatAllAgainstAllCounts) {
   }
   const double reach = 0.3;
   const auto expected = brute_force(mesh, GetParam() == kJoints, owner, kParts, reach);
-  const std::vector<std::uint8_t> own_nodes(mesh.volume_groups.size(), GetParam());
-  const DomainReport report = report_domains(mesh, build_topology(mesh), own_nodes, owner, kParts, reach);
+  const std::vector<Index> node_sets(mesh.volume_groups.size(), GetParam());
+  const DomainReport report = report_domains(mesh, build_topology(mesh), node_sets, owner, kParts, reach);
   ASSERT_EQ(report.domains.size(), expected.size());
   for (std::size_t d = 0; d < expected.size(); ++d) {
     EXPECT_EQ(report.domains[d].elements, expected[d].elements) << d;
@@ -113,8 +113,7 @@ TEST(DomainReport, OfTwoCubesIsThatOfAHandCalculation) {
     for (const Index node : corners) x += mesh.nodes[at(node)][0];
     owner.push_back(x / 4 > 1 ? 1 : 0);
   }
-  const DomainReport report =
-      report_domains(mesh, build_topology(mesh), std::vector<std::uint8_t>{kJoints}, owner, 2, 0.0);
+  const DomainReport report = report_domains(mesh, build_topology(mesh), std::vector<Index>{kJoints}, owner, 2, 0.0);
   EXPECT_EQ(report.domains[0].joints + report.domains[1].joints, 36 + 36 + 4);
   for (const DomainLoad& load : report.domains) {
     EXPECT_EQ(load.elements, 24);
@@ -129,12 +128,28 @@ TEST(DomainReport, OfTwoCubesIsThatOfAHandCalculation) {
   EXPECT_DOUBLE_EQ(report.efficiency, 24 * kSecondsAnElement / step);
 }
 
+TEST(DomainReport, OfTwoBondedCubesWithoutJointsInsideHasThoseOfTheBond) {
+  Mesh mesh = block({2, 1, 1});
+  mesh.volume_groups = {"left", "right"};
+  std::vector<int> owner;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    double x = 0;
+    for (const Index node : mesh.elements[e]) x += mesh.nodes[at(node)][0];
+    mesh.element_group[e] = owner.emplace_back(x / 4 > 1 ? 1 : 0);
+  }
+  const DomainReport report = report_domains(mesh, build_topology(mesh), std::vector<Index>{0, 1}, owner, 2, 0.0);
+  EXPECT_EQ(report.domains[0].joints + report.domains[1].joints, 4);
+  for (const DomainLoad& load : report.domains) {
+    EXPECT_EQ(load.shared, 4);
+    EXPECT_EQ(load.gathered, 4);
+  }
+}
+
 TEST(DomainReport, OfUnequalDomainsNamesTheLargestOverTheMean) {
   const Mesh mesh = block({2, 1, 1});
   std::vector<int> owner(mesh.elements.size(), 0);
   for (std::size_t e = 0; e < 12; ++e) owner[e] = 2;  // 36, 0 and 12 of 48 elements
-  const DomainReport report =
-      report_domains(mesh, build_topology(mesh), std::vector<std::uint8_t>{kJoints}, owner, 3, 1.0);
+  const DomainReport report = report_domains(mesh, build_topology(mesh), std::vector<Index>{kJoints}, owner, 3, 1.0);
   EXPECT_DOUBLE_EQ(report.imbalance, 36.0 / 16.0);
   EXPECT_EQ(report.domains[1].elements + report.domains[1].held + report.domains[1].neighbours, 0);
 }
