@@ -203,7 +203,7 @@ class Counter {
 
 DomainReport report_domains(const Mesh& mesh, const Topology& topology, std::span<const Index> node_sets,
                             std::span<const int> owner, int parts, double reach) {
-  return Counter(mesh, topology, own_nodes, owner, parts).run(reach);
+  return Counter(mesh, topology, node_sets, owner, parts).run(reach);
 }
 
 }  // namespace breccia
