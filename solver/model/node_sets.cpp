@@ -6,8 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "base/error.hpp"
-
 namespace breccia {
 namespace {
 
@@ -49,6 +47,16 @@ std::set<Pair> meeting_pairs(const Mesh& mesh, const Topology& topology, const s
   return pairs;
 }
 
+Problem cannot_part(const case_::Case& input, const case_::Joint& joint, const std::string& what,
+                    const std::string& allowed) {
+  return {input.file.string(),
+          joint.origin.line,
+          joint.origin.key + ".between",
+          what,
+          allowed,
+          "\"" + joint.groups[0] + "\" and \"" + joint.groups[1] + "\""};
+}
+
 }  // namespace
 
 std::vector<Index> node_sets(const case_::Case& input, const Mesh& mesh, const Topology& topology,
@@ -67,15 +75,27 @@ std::vector<Index> node_sets(const case_::Case& input, const Mesh& mesh, const T
   std::vector<Problem> problems;
   for (const auto& [pair, joint] : parted) {
     if (!meeting.contains(pair) || sets[at(pair.first)] != sets[at(pair.second)]) continue;
-    problems.push_back({input.file.string(), joint->origin.line, joint->origin.key + ".between",
-                        "the elements of both groups share their nodes with another group that lies beside both, so "
-                        "that no joints can part the two",
-                        "a [[joint]] between one of them and that group as well, or joints = \"unbreakable\" in the "
-                        "[[material]] of one",
-                        "\"" + joint->groups[0] + "\" and \"" + joint->groups[1] + "\""});
+    problems.push_back(cannot_part(input, *joint,
+                                   "the elements of both groups share their nodes with another group that lies beside "
+                                   "both, so that no joints can part the two",
+                                   "a [[joint]] between one of them and that group as well, or joints = "
+                                   "\"unbreakable\" in the [[material]] of one"));
   }
   if (!problems.empty()) throw InputError(std::move(problems));
   return sets;
+}
+
+std::vector<Problem> joints_in_vain(const case_::Case& input, const std::vector<std::string>& names,
+                                    const std::vector<Discretisation>& kinds, const std::vector<Index>& sets) {
+  std::vector<Problem> problems;
+  for (const auto& [pair, joint] : parted_pairs(input, names, kinds)) {
+    if (!share_nodes(kinds, sets, pair.first, pair.second)) continue;
+    problems.push_back(cannot_part(input, *joint,
+                                   "the elements of both groups share their nodes in the state that this case starts "
+                                   "from: no joints can part them any more",
+                                   "no [[joint]] between them, or a run from the beginning"));
+  }
+  return problems;
 }
 
 Index node_set(const std::vector<Discretisation>& kinds, const std::vector<Index>& sets, Index group) {

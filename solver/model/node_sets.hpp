@@ -1,7 +1,9 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "case/case.hpp"
 #include "discretisation/local_mesh.hpp"
 #include "mesh/topology.hpp"
@@ -15,6 +17,12 @@ namespace breccia {
 /// from one to the other. O(elements)
 [[nodiscard]] std::vector<Index> node_sets(const case_::Case& input, const Mesh& mesh, const Topology& topology,
                                            const std::vector<Discretisation>& kinds);
+
+/// Every [[joint]] of a case between groups that share nodes all the same, in the state from which it starts.
+/// @param names  of the groups;  @param sets  of the state
+[[nodiscard]] std::vector<Problem> joints_in_vain(const case_::Case& input, const std::vector<std::string>& names,
+                                                  const std::vector<Discretisation>& kinds,
+                                                  const std::vector<Index>& sets);
 
 /// Number of a group's set, -1: its elements have nodes of their own. @param sets  as above
 [[nodiscard]] Index node_set(const std::vector<Discretisation>& kinds, const std::vector<Index>& sets, Index group);

@@ -35,11 +35,29 @@ std::string interface(const std::string& groups) {
   return "[[joint]]\nbetween = [" + groups + "]\ntensile_strength = \"1 MPa\"\nenergy_mode_1 = \"100 J/m2\"\n";
 }
 
-Model model_of(const std::string& geometry, const std::string& tables) {
-  const case_::CaseFolder folder;
+/// Of a geometry that the folder holds when the model is built.
+case_::Case case_of(const std::string& tables, const std::string& geometry = test::kTwoBoxes) {
+  static const case_::CaseFolder folder;
   folder.write("geometry.geo", geometry);
   const std::string text = "[mesh]\nfile = \"geometry.geo\"\nglue = true\n" + tables + "[[stage]]\nend = \"1 ms\"\n";
-  return build_model(case_::read_case(folder.write("case.toml", text), {}));
+  return case_::read_case(folder.write("case.toml", text), {});
+}
+
+Model model_of(const std::string& geometry, const std::string& tables) {
+  return build_model(case_of(tables, geometry));
+}
+
+/// @param call  throws InputError. Its one problem.
+template <class Call>
+Problem only_problem(Call&& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().size(), 1u);
+    return error.problems().front();
+  }
+  ADD_FAILURE() << "nothing was refused";
+  return {};
 }
 
 std::set<GlobalId> node_ids(const LocalMesh& local) {
@@ -87,14 +105,21 @@ TEST(NodeSets, AreSharedAcrossInterfacesThatHaveNoLaw) {
 }
 
 TEST(NodeSets, AreRefusedWhereAThirdGroupHoldsBothSidesTogether) {
-  try {
-    model_of(kThreeBoxes, kTwoMaterials + material("top") + interface("\"left\", \"right\""));
-    FAIL() << "left and right both share nodes with top";
-  } catch (const InputError& error) {
-    ASSERT_EQ(error.problems().size(), 1u);
-    EXPECT_EQ(error.problems()[0].key, "joint[0].between");
-    EXPECT_THAT(error.what(), testing::HasSubstr("share their nodes with another group that lies beside both"));
-  }
+  const std::string tables = kTwoMaterials + material("top") + interface("\"left\", \"right\"");
+  const Problem problem = only_problem([&] { return model_of(kThreeBoxes, tables); });
+  EXPECT_EQ(problem.key, "joint[0].between");
+  EXPECT_THAT(problem.what, testing::HasSubstr("share their nodes with another group that lies beside both"));
+}
+
+TEST(NodeSets, OfAStateCannotBePartedByTheCaseThatStartsFromIt) {
+  const WholeModel shared = model_of(test::kTwoBoxes, kTwoMaterials).whole;
+  const std::string bonded = kTwoMaterials + interface("\"left\", \"right\"");
+  const WholeModel parted = model_of(test::kTwoBoxes, bonded).whole;
+  const case_::Case input = case_of(bonded);
+  EXPECT_NO_THROW(check_laws(input, parted));
+  const Problem problem = only_problem([&] { check_laws(input, shared); });
+  EXPECT_EQ(problem.key, "joint[0].between");
+  EXPECT_THAT(problem.what, testing::HasSubstr("in the state that this case starts from"));
 }
 
 }  // namespace
