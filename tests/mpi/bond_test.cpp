@@ -70,7 +70,7 @@ TEST(Ranks, GiveTheSameBitsWhileABondOfBodiesWithoutJointsIsPeeled) {
   EXPECT_NEAR(energy.at("joint_mode_1").get<double>() + energy.at("joint_mode_2").get<double>(), bonded * of_opening,
               0.02 * bonded * of_opening);
   for (const int ranks : {2, 3}) bars.on(ranks);
-  bars.on(4, "--set domains.kind=grid --set domains.n=[1,2,2] --set domains.margin=0.2");
+  bars.on(4, "--set domains.kind=grid --set domains.n=[2,2,1] --set domains.margin=0.2");
 }
 
 }  // namespace
