@@ -66,9 +66,10 @@ TEST(Ranks, GiveTheSameBitsWhileABondOfBodiesWithoutJointsIsPeeled) {
   EXPECT_EQ(bars.alone().at("broken_joints"), bars.alone().at("joints"));
   EXPECT_EQ(bars.alone().at("fragments"), 2);
   const nlohmann::json& energy = bars.alone().at("energy");
-  const double bonded = 0.018 * 0.003, of_opening = 10;  // m2, J/m2
-  EXPECT_NEAR(energy.at("joint_mode_1").get<double>() + energy.at("joint_mode_2").get<double>(), bonded * of_opening,
-              0.02 * bonded * of_opening);
+  const double needed = 0.018 * 0.003 * 10;  // J: bonded area times fracture energy, in any mix of modes
+  constexpr double kSteps = 1e-4;            // the law is exact, but for steps of finite length: 5e-6 was found
+  EXPECT_NEAR(energy.at("joint_mode_1").get<double>() + energy.at("joint_mode_2").get<double>(), needed,
+              kSteps * needed);
   for (const int ranks : {2, 3}) bars.on(ranks);
   bars.on(4, "--set domains.kind=grid --set domains.n=[2,2,1] --set domains.margin=0.2");
 }
