@@ -171,7 +171,7 @@ void check_laws(const case_::Case& input, const WholeModel& whole) {
   model.mesh.volume_groups = whole.volume_groups;
   model.whole = whole;
   std::vector<Problem> problems =
-      joints_in_vain(input, whole.volume_groups, discretisations(input, whole.volume_groups), whole.node_sets);
+      joints_without_effect(input, whole.volume_groups, discretisations(input, whole.volume_groups), whole.node_sets);
   for (const WholeModel::JointGroups& groups : whole.joint_groups) {
     if (auto problem = missing_joint_law(input, whole.volume_groups, groups)) problems.push_back(std::move(*problem));
   }

@@ -85,8 +85,8 @@ std::vector<Index> node_sets(const case_::Case& input, const Mesh& mesh, const T
   return sets;
 }
 
-std::vector<Problem> joints_in_vain(const case_::Case& input, const std::vector<std::string>& names,
-                                    const std::vector<Discretisation>& kinds, const std::vector<Index>& sets) {
+std::vector<Problem> joints_without_effect(const case_::Case& input, const std::vector<std::string>& names,
+                                           const std::vector<Discretisation>& kinds, const std::vector<Index>& sets) {
   std::vector<Problem> problems;
   for (const auto& [pair, joint] : parted_pairs(input, names, kinds)) {
     if (!share_nodes(kinds, sets, pair.first, pair.second)) continue;

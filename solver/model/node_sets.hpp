@@ -20,9 +20,10 @@ namespace breccia {
 
 /// Every [[joint]] of a case between groups that share nodes all the same, in the state from which it starts.
 /// @param names  of the groups;  @param sets  of the state
-[[nodiscard]] std::vector<Problem> joints_in_vain(const case_::Case& input, const std::vector<std::string>& names,
-                                                  const std::vector<Discretisation>& kinds,
-                                                  const std::vector<Index>& sets);
+[[nodiscard]] std::vector<Problem> joints_without_effect(const case_::Case& input,
+                                                         const std::vector<std::string>& names,
+                                                         const std::vector<Discretisation>& kinds,
+                                                         const std::vector<Index>& sets);
 
 /// Number of a group's set, -1: its elements have nodes of their own. @param sets  as above
 [[nodiscard]] Index node_set(const std::vector<Discretisation>& kinds, const std::vector<Index>& sets, Index group);
