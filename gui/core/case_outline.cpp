@@ -58,7 +58,7 @@ const std::vector<WorkStage>& work_stages() {
       {text("Contacts"), Kind::sections, {"contact[]", "contact_points", "sphere", "detection"}},
       {text("Loads and constraints"),
        Kind::sections,
-       {"initial_velocity[]", "stage[]", "stage[].constraint[]", "stage[].pressure[]"}},
+       {"initial_velocity[]", "stage[]", "stage[].constraint[]", "stage[].pressure[]", "stage[].traction[]"}},
       {text("Time"), Kind::sections, {"time"}},
       {text("Domains"), Kind::sections, {"domains"}},
       {text("Output and in situ"),

@@ -70,10 +70,28 @@ Condition constraint(const Document& document, const case_::Constraint& given, C
 Condition pressure(const Document& document, const case_::Pressure& given, Condition row, const Interval& stage) {
   row.target = QString::fromStdString(given.surface);
   row.type = text("pressure");
+  row.follows = true;
   row.value = shown(document, row.path + ".value");
   row.unit = "Pa";
   row.largest = largest_of({given.value, TimeFunction(), TimeFunction()}, stage);
   row.curves = {curve(row.type, given.value, stage)};
+  return row;
+}
+
+/// What acts along x, y and z. @param functions  by axis
+void add_by_axis(const std::array<TimeFunction, 3>& functions, const Interval& stage, Condition& row) {
+  row.largest = largest_of(functions, stage);
+  for (std::size_t a = 0; a < 3; ++a)
+    if (!functions[a].is_zero())
+      row.curves.push_back(curve(QString("%1 %2").arg(row.type, kAxes[a]), functions[a], stage));
+}
+
+Condition traction(const Document& document, const case_::Traction& given, Condition row, const Interval& stage) {
+  row.target = QString::fromStdString(given.surface);
+  row.type = text("traction");
+  row.value = shown(document, row.path + ".value");
+  row.unit = "Pa";
+  add_by_axis(given.value, stage, row);
   return row;
 }
 
@@ -93,16 +111,22 @@ void add_stage(const Document& document, const case_::Stage& stage, int number, 
     row.type = text("gravity");
     row.value = shown(document, path + ".gravity");
     row.unit = "m/s2";
-    row.largest = largest_of(stage.gravity, time);
-    for (std::size_t a = 0; a < 3; ++a)
-      if (!stage.gravity[a].is_zero())
-        row.curves.push_back(curve(QString("%1 %2").arg(row.type, kAxes[a]), stage.gravity[a], time));
+    add_by_axis(stage.gravity, time, row);
     rows.push_back(std::move(row));
   }
   for (std::size_t i = 0; i < stage.constraints.size(); ++i)
     rows.push_back(constraint(document, stage.constraints[i], begun(path + QString(".constraint[%1]").arg(i)), time));
   for (std::size_t i = 0; i < stage.pressures.size(); ++i)
     rows.push_back(pressure(document, stage.pressures[i], begun(path + QString(".pressure[%1]").arg(i)), time));
+  for (std::size_t i = 0; i < stage.tractions.size(); ++i)
+    rows.push_back(traction(document, stage.tractions[i], begun(path + QString(".traction[%1]").arg(i)), time));
+  for (const std::string& surface : stage.absorbing) {
+    Condition row = begun(path);
+    row.type = text("absorbing");
+    row.target = QString::fromStdString(surface);
+    row.value = shown(document, path + ".absorbing");
+    rows.push_back(std::move(row));
+  }
 }
 
 Condition initial_velocity(const Document& document, const case_::InitialVelocity& given, const QString& path) {

@@ -13,13 +13,14 @@ namespace breccia::gui {
 struct Condition {
   QString path;    ///< "stage[0].constraint[1]"
   QString stage;   ///< name, or its number from 1; empty: before the first one
-  QString type;    ///< "gravity", "fixed", "velocity", "displacement", "pressure", "initial velocity"
+  QString type;    ///< "gravity", "fixed", "velocity", "displacement", "pressure", "traction", "absorbing", "initial velocity"
   QString target;  ///< group or surface; empty: everything
   QString value;   ///< as it stands in the case
   QString unit;    ///< of the curves
   /// Functions of time over their stage, s and SI; empty: it is none.
   std::vector<PlotLine> curves;
   int number = -1;                       ///< of the stage, from 0; -1: before the first one
+  bool follows = false;                  ///< a pressure, which acts along the normals of its faces
   std::array<bool, 3> axes{};            ///< that are prescribed
   std::array<double, 3> largest{};       ///< value by axis where it is largest over the stage, SI; a pressure has one
   std::array<double, 3> turns_by{};      ///< rad/s, of an initial velocity

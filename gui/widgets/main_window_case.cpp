@@ -45,7 +45,7 @@ std::vector<Load> glyphs_of(const Condition& row) {
   const auto size = [](const Vector& v) { return std::hypot(v[0], v[1], v[2]); };
   const QString largest = row.type + " " + quantity_words(size(row.largest), row.unit);
   Load load{LoadShape::arrow, row.target.toStdString(), row.largest, {}, largest.toStdString()};
-  if (row.unit == "Pa") {
+  if (row.follows) {
     load.shape = LoadShape::pressure;
     load.words = (row.type + " " + quantity_words(row.largest[0], row.unit)).toStdString();
   } else if (row.number < 0) {

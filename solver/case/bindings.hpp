@@ -215,6 +215,13 @@ void bind(A& a, Pressure& pressure) {
 }
 
 template <class A>
+void bind(A& a, Traction& traction) {
+  a.origin(traction.origin);
+  a.value("surface", traction.surface);
+  a.value("value", traction.value);
+}
+
+template <class A>
 void bind(A& a, Stage& stage) {
   a.origin(stage.origin);
   a.value("name", stage.name);
@@ -223,8 +230,10 @@ void bind(A& a, Stage& stage) {
   a.value("mass_damping", stage.mass_damping);
   a.value("local_damping", stage.local_damping);
   a.value("broken", stage.broken_surfaces);
+  a.value("absorbing", stage.absorbing);
   a.list("constraint", stage.constraints);
   a.list("pressure", stage.pressures);
+  a.list("traction", stage.tractions);
 }
 
 template <class A>

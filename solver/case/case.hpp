@@ -203,6 +203,14 @@ struct Pressure {
   friend bool operator==(const Pressure&, const Pressure&) = default;
 };
 
+/// [[stage.traction]]: force an area at rest, in a direction that stays. Both sides of an inner surface are loaded alike.
+struct Traction {
+  std::string surface;
+  std::array<TimeFunction, 3> value;  ///< Pa
+  Origin origin;
+  friend bool operator==(const Traction&, const Traction&) = default;
+};
+
 /// [[stage]]
 struct Stage {
   std::string name;
@@ -210,6 +218,8 @@ struct Stage {
   std::array<TimeFunction, 3> gravity;  ///< m/s2
   std::vector<Constraint> constraints;
   std::vector<Pressure> pressures;
+  std::vector<Traction> tractions;
+  std::vector<std::string> absorbing;  ///< surfaces behind which the material goes on
   double mass_damping = 0;                   ///< 1/s, alpha of f = -alpha m v
   double local_damping = 0;                  ///< 0..1, share of the unbalanced force, against the velocity
   std::vector<std::string> broken_surfaces;  ///< surfaces whose joints are broken when the stage starts

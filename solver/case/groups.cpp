@@ -61,8 +61,10 @@ class GroupChecker {
 
 void check_stage(const Stage& stage, GroupChecker& checker) {
   for (const std::string& group : stage.broken_surfaces) checker.surface(stage.origin, "broken", group);
+  for (const std::string& group : stage.absorbing) checker.surface(stage.origin, "absorbing", group);
   for (const Constraint& k : stage.constraints) checker.either(k.origin, "group", k.group);
   for (const Pressure& p : stage.pressures) checker.surface(p.origin, "surface", p.surface);
+  for (const Traction& t : stage.tractions) checker.surface(t.origin, "surface", t.surface);
 }
 
 }  // namespace

@@ -258,8 +258,9 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Tangential over normal contact stiffness.", .example = "0.8"},
     {.path = "contact[].damping_ratio", .type = number, .fallback = "0", .range = share,
      .help = "Damping of approach and retreat while bodies press on each other, as a share of the critical damping of "
-             "a surface layer as thick as H. Accounted as dissipated by contact; shortens the time step by about that "
-             "share. It damps bodies that bounce, hardly vibrations inside of them: a cube that falls flat on a floor "
+             "a surface layer as thick as H. Accounted as dissipated by contact. It shortens the time step, the more the "
+             "smaller the elements are beside H: 0.1 by a fifth to two thirds, 1 to a fifth or a tenth (check tells). "
+             "It damps bodies that bounce, hardly vibrations inside of them: a cube that falls flat on a floor "
              "comes back with 1.000, 0.919, 0.781 and 0.480 of its speed for 0, 0.1, 0.3 and 1.",
      .example = "0.2"},
     {.path = "contact[].points_on", .type = choice, .fallback = "both", .choices = "both|first",
@@ -339,10 +340,18 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Factor alpha of the damping force -alpha m v.", .example = "\"10 1/s\""},
     {.path = "stage[].local_damping", .type = number, .fallback = "0",
      .range = {.lower = 0, .upper = 1, .upper_open = true},
-     .help = "Damping against the velocity, as a share of the unbalanced force; finds a state of rest quickly.",
+     .help = "Damping against the velocity, as a share beta of the unbalanced force on each node: 0.3 to 0.8 find a "
+             "state of rest quickly. The step is shorter by sqrt(1 + beta). Not where something is to move: a body falls "
+             "with 1 - beta of its acceleration, and one that slides on a joint or a rough surface creeps or stops, "
+             "since its vibrations are damped at the cost of what drives it.",
      .example = "0.5"},
     {.path = "stage[].broken", .type = text_list, .fallback = "[]",
      .help = "Surfaces whose joints are broken when the stage starts.", .example = "[\"front\"]"},
+    {.path = "stage[].absorbing", .type = text_list, .fallback = "[]",
+     .help = "Free surfaces behind which the material goes on: waves leave through them (tractions rho c_p v along the "
+             "normal, rho c_s v across it). The forces with which constraints of the stage before held their nodes go "
+             "on, so what was at rest stays there. Not with mass_damping or local_damping.",
+     .example = "[\"far\", \"bottom\"]"},
 
     {.path = "stage[].constraint[]", .type = section_list,
      .help = "Imposed motion of the nodes of a group: one of fixed, velocity and displacement. Axes not named stay "
@@ -364,6 +373,14 @@ constexpr auto model_keys = std::to_array<Key>({
      .example = "\"slit\""},
     {.path = "stage[].pressure[].value", .type = function, .unit = "Pa", .required = true,
      .help = "Function of time; positive pushes into the body.", .example = "{ linear = \"20 GPa/s\" }"},
+
+    {.path = "stage[].traction[]", .type = section_list,
+     .help = "Force on a surface for each unit of its area at rest, in a direction that stays when the faces turn; both "
+             "sides of an inner surface are loaded alike."},
+    {.path = "stage[].traction[].surface", .type = text, .required = true, .help = "Physical surface group.",
+     .example = "\"crest\""},
+    {.path = "stage[].traction[].value", .type = function_vector, .unit = "Pa", .required = true,
+     .help = "Along x, y and z, functions of time.", .example = "[\"1 MPa\", 0, \"-2 MPa\"]"},
 
     {.path = "time", .type = section, .help = "Time steps and what stops a run early."},
     {.path = "time.step", .type = number, .unit = "s", .fallback = "auto", .range = positive, .word = "auto",

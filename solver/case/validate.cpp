@@ -254,6 +254,11 @@ class Validator {
       if (c_.time.step > 0 && stage.end > start && stage.end - start < (1 - kRoundOff) * c_.time.step)
         problem(stage.origin, "end", "the stage is shorter than one time.step, " + in_seconds(c_.time.step),
                 "a time.step of at most " + in_seconds(stage.end - start) + ", or \"auto\"", in_seconds(stage.end));
+      if (!stage.absorbing.empty() && (stage.mass_damping > 0 || stage.local_damping > 0))
+        problem(stage.origin, "absorbing",
+                "stands beside " + std::string(stage.mass_damping > 0 ? "mass_damping" : "local_damping") +
+                    ", which damps the waves that are to leave",
+                "one of them; material.viscosity may damp as well", "");
       if (stage.end != 0) start = stage.end;
       // An axis held twice in one group has no answer; axes of different groups that share nodes are seen with the
       // mesh.

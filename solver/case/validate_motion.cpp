@@ -50,6 +50,10 @@ class MotionLimits {
       }
       for (const Pressure& pressure : stage.pressures)
         demand(pressure.origin, "value", parts_of(pressure.value, stage.end), kMostPressure, "Pa");
+      for (const Traction& traction : stage.tractions) {
+        for (const TimeFunction& f : traction.value)
+          demand(traction.origin, "value", parts_of(f, stage.end), kMostPressure, "Pa");
+      }
     }
     return std::move(problems_);
   }
@@ -78,6 +82,9 @@ class PlaneCheck {
     for (const Stage& stage : c_.stages) {
       if (!stage.gravity[axis_].is_zero()) problem(stage.origin, "gravity", "none along " + name_);
       for (const Constraint& constraint : stage.constraints) this->constraint(constraint);
+      for (const Traction& traction : stage.tractions) {
+        if (!traction.value[axis_].is_zero()) problem(traction.origin, "value", "none along " + name_);
+      }
     }
     if (c_.sphere) problem(c_.sphere->origin, "", "no [sphere]");
     return std::move(problems_);

@@ -43,7 +43,7 @@ struct Solid {
   double edge = std::numeric_limits<double>::max();   ///< m, H of its finest body
   bool held = false;                                  ///< somewhere, in the stage
   bool whole = false;                                 ///< all of it is held along all axes
-  bool pressed = false;                               ///< a pressure of the stage acts on it
+  bool pressed = false;                               ///< a pressure or traction of the stage acts on it
 
   [[nodiscard]] double size() const { return (high - low).norm(); }
 };
@@ -73,7 +73,7 @@ class Solids {
 
   Solid& of(Index element) { return all_[at(sets_.root(model_.mesh.element_body[at(element)]))]; }
 
-  /// Which of them the constraints of a stage hold, and its pressures press on.
+  /// Which of them the constraints of a stage hold, and its pressures and tractions act on.
   void hold(const case_::Stage& stage) {
     for (Solid& solid : all_) solid.held = solid.whole = solid.pressed = false;
     for (const case_::Constraint& entry : stage.constraints) {
@@ -85,6 +85,8 @@ class Solids {
     }
     for (const case_::Pressure& pressure : stage.pressures)
       for_each_element(pressure.surface, [&](Index e, bool) { of(e).pressed = true; });
+    for (const case_::Traction& traction : stage.tractions)
+      for_each_element(traction.surface, [&](Index e, bool) { of(e).pressed = true; });
   }
 
   /// The largest crossing time of a wave, s.
@@ -161,9 +163,9 @@ bool damped(const case_::Case& input, const case_::Stage& stage, double viscosit
          any(input.contacts, &case_::Contact::damping_ratio, 0);
 }
 
-Vec3 gravity_at(const case_::Stage& stage, double time) {
-  return {stage.gravity[0](time), stage.gravity[1](time), stage.gravity[2](time)};
-}
+Vec3 value_at(const std::array<TimeFunction, 3>& f, double time) { return {f[0](time), f[1](time), f[2](time)}; }
+
+Vec3 gravity_at(const case_::Stage& stage, double time) { return value_at(stage.gravity, time); }
 
 /// The pressure that a stage puts on a surface at a time, Pa.
 double pressure_at(const case_::Stage* stage, const std::string& surface, double time) {
@@ -171,6 +173,16 @@ double pressure_at(const case_::Stage* stage, const std::string& surface, double
   if (stage == nullptr) return sum;
   for (const case_::Pressure& p : stage->pressures) {
     if (p.surface == surface) sum += p.value(time);
+  }
+  return sum;
+}
+
+/// Likewise its traction.
+Vec3 traction_at(const case_::Stage* stage, const std::string& surface, double time) {
+  Vec3 sum = Vec3::Zero();
+  if (stage == nullptr) return sum;
+  for (const case_::Traction& t : stage->tractions) {
+    if (t.surface == surface) sum += value_at(t.value, time);
   }
   return sum;
 }
@@ -186,6 +198,12 @@ std::string sudden_loads(const case_::Stage& stage, const case_::Stage* before, 
     const double jump = pressure_at(&stage, p.surface, start) - pressure_at(before, p.surface, start);
     if (std::abs(jump) <= kMuch * std::max(std::abs(p.value(start)), std::abs(p.value(stage.end)))) continue;
     loads += fmt::format("{}the pressure on \"{}\" ({} at once)", loads.empty() ? "" : " and ", p.surface,
+                         quantity_text(jump, "Pa"));
+  }
+  for (const case_::Traction& t : stage.tractions) {
+    const double jump = (traction_at(&stage, t.surface, start) - traction_at(before, t.surface, start)).norm();
+    if (jump <= kMuch * std::max(value_at(t.value, start).norm(), value_at(t.value, stage.end).norm())) continue;
+    loads += fmt::format("{}the traction on \"{}\" ({} at once)", loads.empty() ? "" : " and ", t.surface,
                          quantity_text(jump, "Pa"));
   }
   return loads;
@@ -240,6 +258,9 @@ bool is_loaded(const case_::Stage& stage, double start) {
     if (std::any_of(stage.gravity.begin(), stage.gravity.end(), acts)) return true;
     for (const case_::Pressure& p : stage.pressures) {
       if (acts(p.value)) return true;
+    }
+    for (const case_::Traction& t : stage.tractions) {
+      if (std::any_of(t.value.begin(), t.value.end(), acts)) return true;
     }
     for (const case_::Constraint& c : stage.constraints) {
       if (c.kind != case_::ConstraintKind::fixed && std::any_of(c.value.begin(), c.value.end(), acts)) return true;
@@ -297,6 +318,23 @@ Advice undamped_friction_advice(const case_::Case& input, const Model& model) {
   return {};
 }
 
+/// Local damping in the last stage, where what slides should go on sliding; before others it finds a state of rest.
+std::string damped_sliding_advice(const case_::Case& input, const Model& model) {
+  const case_::Stage& last = input.stages.back();
+  const bool breaks = std::any_of(model.breakable.begin(), model.breakable.end(), [](bool b) { return b; });
+  const auto rubs = [](const auto& entries) {
+    return std::any_of(entries.begin(), entries.end(), [](const auto& entry) { return entry.friction > 0; });
+  };
+  if (!(last.local_damping > 0) || (model.mesh.num_bodies < 2 && !breaks)) return {};
+  if (!rubs(input.contacts) && !(breaks && rubs(input.joints))) return {};
+  return fmt::format(
+      "Stage {}, the last one, has a local_damping of {:g}: with friction it slows down or stops what slides, even "
+      "with "
+      "0.02, and falling bodies fall with {:g} of their acceleration. To judge what moves, leave it out there and damp "
+      "with material.viscosity.",
+      words_of(input, last), last.local_damping, 1 - last.local_damping);
+}
+
 /// Intervals at which nothing happens before the run is over.
 Advice long_intervals(const case_::Case& input) {
   const double end = input.stages.back().end;
@@ -351,6 +389,7 @@ void refuse_contradictions(const case_::Case& input, const std::vector<Constrain
 Advice stage_advice(const case_::Case& input, const Model& model) {
   Advice advice = sudden_load_advice(input, model);
   append(advice, undamped_friction_advice(input, model));
+  advise(advice, damped_sliding_advice(input, model));
   append(advice, long_intervals(input));
   return advice;
 }

@@ -33,30 +33,31 @@ class Start {
   Start(const case_::Case& input, const Model& model)
       : input_(input), model_(model), time_step_(model), domain_(model, search_params(input, model)) {
     for (const InitialVelocity& initial : initial_velocities(input, model)) add_velocity(domain_, initial);
-    if (!input.stages.empty()) constraints_ = stage_loads(input.stages.front(), model).constraints;
-    parts_ = step_parts(Communicator(), time_step_, state(), kLook * input.time.safety);
+    if (!input.stages.empty()) loads_ = stage_loads(input.stages.front(), model);
+    parts_ = step_parts(Communicator(), time_step_, state(domain_.state.nodes.velocity), kLook * input.time.safety);
     now_ = step_with(parts_.contacts);
   }
 
   [[nodiscard]] const StableStep& now() const { return now_; }
   [[nodiscard]] const StepParts& parts() const { return parts_; }
-  [[nodiscard]] const TimeStep& time_step() const { return time_step_; }
+  [[nodiscard]] StepModel model_now() const { return step_model(time_step_, state(domain_.state.nodes.velocity)); }
 
-  /// With what bodies can come to meet until the end at the speeds they have.
+  /// With what bodies can come to meet until the end at the speeds they have or gravity gives them.
   [[nodiscard]] StepParts until_the_end() const {
     const double free_step = 2.0 / std::sqrt(parts_.most);
-    return step_parts(Communicator(), time_step_, state(), input_.stages.back().end / free_step);
+    const Field<double> velocity = velocity_with_gravity();
+    return step_parts(Communicator(), time_step_, state(velocity), input_.stages.back().end / free_step);
   }
 
   [[nodiscard]] StableStep step_with(const std::vector<ContactShare>& contacts) const {
-    return stable_step(time_step_.step_model(), parts_.shares, parts_.most, contacts, parts_.open);
+    return stable_step(model_now(), parts_.shares, parts_.most, contacts, parts_.open);
   }
 
   /// s, as it is now but for the viscosity.
   [[nodiscard]] double step_without_viscosity() const {
     std::vector<StepShare> shares = parts_.shares;
     for (StepShare& share : shares) share.damping = 0;
-    return stable_step(time_step_.step_model(), shares, parts_.most, parts_.contacts, parts_.open).step;
+    return stable_step(model_now(), shares, parts_.most, parts_.contacts, parts_.open).step;
   }
 
   /// With every joint of breakable groups gone and its faces meeting.
@@ -70,24 +71,51 @@ class Start {
     }
     std::vector<Index> changed;
     clusters.break_faces(faces, changed);
-    StepState state = this->state();
+    StepState state = this->state(domain_.state.nodes.velocity);
     state.clusters = &clusters;
     const StepParts parts = step_parts(Communicator(), time_step_, state, kLook * input_.time.safety);
-    return stable_step(time_step_.step_model(), parts.shares, parts.most, parts.contacts, parts.open);
+    return stable_step(model_now(), parts.shares, parts.most, parts.contacts, parts.open);
   }
 
  private:
-  [[nodiscard]] StepState state() const {
-    const NodalState& nodes = domain_.state.nodes;
-    return {nodes.position, nodes.velocity, domain_.contacts(),
-            domain_.contact ? &domain_.contact->clusters() : nullptr, &constraints_};
+  /// Velocities with what gravity adds until the end to nodes that the first stage does not hold, m/s.
+  [[nodiscard]] Field<double> velocity_with_gravity() const {
+    constexpr int kTimes = 16;  // of a stage
+    Vec3 gained = Vec3::Zero();
+    double start = 0;
+    for (const case_::Stage& stage : input_.stages) {
+      const double part = (stage.end - start) / kTimes;
+      for (int i = 0; i < kTimes; ++i) {
+        for (std::size_t a = 0; a < 3; ++a)
+          gained[static_cast<Eigen::Index>(a)] += part * stage.gravity[a](start + (i + 0.5) * part);
+      }
+      start = stage.end;
+    }
+    Field<double> velocity = domain_.state.nodes.velocity;
+    std::vector<std::array<bool, 3>> held(index(model_.local.num_nodes));
+    const Constraints constraints(loads_.constraints, model_.local, domain_.state.nodes);
+    for (std::size_t i = 0; i < constraints.nodes().size(); ++i)
+      held[index(constraints.nodes()[i])] = constraints.held_axes()[i];
+    for (Index node = 0; node < model_.local.num_nodes; ++node) {
+      for (int a = 0; a < 3; ++a) {
+        if (!held[index(node)][static_cast<std::size_t>(a)]) velocity[nodal(node, a)] += gained[a];
+      }
+    }
+    return velocity;
+  }
+
+  [[nodiscard]] StepState state(const Field<double>& velocity) const {
+    return {domain_.state.nodes.position, velocity,
+            domain_.contacts(),           domain_.contact ? &domain_.contact->clusters() : nullptr,
+            &loads_.constraints,          {},
+            loads_.local_damping};
   }
 
   const case_::Case& input_;
   const Model& model_;
   TimeStep time_step_;
   Domain domain_;
-  std::vector<NodalConstraint> constraints_;
+  StageLoads loads_;  ///< of the first stage
   StepParts parts_;
   StableStep now_;
 };
@@ -144,7 +172,7 @@ std::string sliver_advice(const Model& model, const Start& start) {
   if (slivers.empty()) return {};
   std::vector<StepShare> others = start.parts().shares;
   for (const Index slot : slivers) others[index(slot)] = {};
-  const double without = 2.0 / std::sqrt(stiffest(start.time_step().step_model(), others));
+  const double without = 2.0 / std::sqrt(stiffest(start.model_now(), others));
   if (!(without > kSliverCost * start.now().step)) return {};
   return fmt::format(
       "{} slivers (radius ratio below {}), the worst element {}, set the time step: without them it would be at "

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "commands/stage_report.hpp"
+#include "commands/surface_report.hpp"
 #include "mesh/geometry.hpp"
 #include "output/quantity_text.hpp"
 
@@ -190,15 +191,17 @@ bool wholly_held(const case_::Stage& stage, const Model& model, const std::strin
   return false;
 }
 
-Advice pressures_on_what_is_held(const case_::Case& input, const Model& model) {
+Advice loads_on_what_is_held(const case_::Case& input, const Model& model) {
   Advice advice;
   for (const case_::Stage& stage : input.stages) {
-    for (const case_::Pressure& pressure : stage.pressures) {
-      if (!wholly_held(stage, model, pressure.surface)) continue;
+    const auto judge = [&](const auto& load) {
+      if (!wholly_held(stage, model, load.surface)) return;
       advice.push_back(
           fmt::format("{} (line {}) moves nothing: the motion of all nodes of \"{}\" is prescribed along x, y and z.",
-                      pressure.origin.key, pressure.origin.line, pressure.surface));
-    }
+                      load.origin.key, load.origin.line, load.surface));
+    };
+    for (const case_::Pressure& pressure : stage.pressures) judge(pressure);
+    for (const case_::Traction& traction : stage.tractions) judge(traction);
   }
   return advice;
 }
@@ -213,7 +216,8 @@ Advice unmeant_advice(const case_::Case& input, const Model& model) {
   append(advice, soft_penalties(input, model));
   append(advice, pressed_without_friction(input, model));
   append(advice, lost_velocities(input));
-  append(advice, pressures_on_what_is_held(input, model));
+  append(advice, loads_on_what_is_held(input, model));
+  append(advice, surface_advice(input, model));
   append(advice, overruled_constraints(input, model));
   return advice;
 }

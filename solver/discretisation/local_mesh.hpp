@@ -69,6 +69,10 @@ struct LocalMesh {
   [[nodiscard]] Index num_own_blocks() const { return num_own_slots / kLanes; }
   [[nodiscard]] Index num_own_nodes() const { return 4 * num_own_slots; }
   [[nodiscard]] bool is_original(Index slot) const { return original[static_cast<std::size_t>(slot)] != 0; }
+  /// Whether this rank computes the motion of a node.
+  [[nodiscard]] bool is_moved(Index node) const {
+    return node < 4 * num_own_originals || (node >= num_own_nodes() && node < num_moved_nodes);
+  }
   [[nodiscard]] Index corner_node(Index slot, int corner) const {
     return slot < num_own_slots
                ? own_corner_node(slot, corner)

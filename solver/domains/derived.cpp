@@ -77,10 +77,13 @@ ActiveJoint new_active_joint(const Model& model, std::size_t index) {
   return active;
 }
 
-void plan_sweep_order(const Model& model, const std::vector<NodalConstraint>& constraints,
-                      const std::vector<std::uint8_t>& sent, Derived& derived) {
+void plan_sweep_order(const Model& model, const StageLoads& loads, const std::vector<std::uint8_t>& sent,
+                      Derived& derived) {
   std::vector<std::uint8_t> first = sent;
-  for (const NodalConstraint& entry : constraints) {
+  for (const AbsorbingFace& face : loads.absorbing) {
+    if (face.face.slot < model.local.num_own_slots) first[at(face.face.slot / kLanes)] = 1;
+  }
+  for (const NodalConstraint& entry : loads.constraints) {
     for (const Index node : entry.nodes) {
       if (node < model.local.num_own_nodes()) first[at(node / (4 * kLanes))] = 1;
     }

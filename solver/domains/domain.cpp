@@ -28,6 +28,14 @@ void start_state(const Model& model, State& state) {
   if (memory) state.elements.allocate(kMaterialMemory, local.num_slots);
 }
 
+/// Of the present stage but for gravity, J.
+ExactSum work_of_loads(const State& state) {
+  ExactSum sum = state.constraints.work();
+  sum.add(state.absorbing.work());
+  for (const SurfaceLoad& load : state.loads.surfaces) sum.add(load.work());
+  return sum;
+}
+
 }  // namespace
 
 Domain::Domain(const Model& of, const ContactSearchParams& search) : model(of), derived(derive(of)), scratch(of.local) {
@@ -69,7 +77,7 @@ void Domain::plan_exchange() {
     contact->mark_coupled(moving);
   }
   exchange.plan_near(model.local, near, moving);
-  plan_sweep_order(model, state.loads.constraints, exchange.sent_blocks(), derived);
+  plan_sweep_order(model, state.loads, exchange.sent_blocks(), derived);
 }
 
 void start_joints(Domain& domain) {
@@ -89,18 +97,39 @@ void add_velocity(Domain& domain, const InitialVelocity& initial) {
   domain.state.signals.max_speed = fastest_node(domain).speed;
 }
 
+std::vector<NodeForce> held_forces(const Domain& domain) {
+  const State& state = domain.state;
+  if (state.clock.steps == state.held_before) return state.held;
+  std::vector<NodeForce> forces = state.constraints.reactions();
+  const std::vector<NodeForce> supports = state.absorbing.supports();
+  forces.insert(forces.end(), supports.begin(), supports.end());
+  std::stable_sort(forces.begin(), forces.end(),
+                   [](const NodeForce& a, const NodeForce& b) { return a.node < b.node; });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    if (kept > 0 && forces[kept - 1].node == forces[i].node)
+      forces[kept - 1].force += forces[i].force;
+    else
+      forces[kept++] = forces[i];
+  }
+  forces.resize(kept);
+  return forces;
+}
+
 void begin_stage(Domain& domain, StageLoads loads, double dt) {
   State& state = domain.state;
-  for (const PressureLoad& p : state.loads.pressures) state.work.past_loads.add(p.work());
-  state.work.past_loads.add(state.constraints.work());
+  state.held = held_forces(domain);
+  state.held_before = state.clock.steps;
+  state.work.past_loads.add(work_of_loads(state));
   state.loads = std::move(loads);
   state.constraints = Constraints(state.loads.constraints, domain.model.local, state.nodes, state.loads.mass_damping,
                                   state.loads.local_damping);
-  if (state.loads.mass_damping > 0 || state.loads.local_damping > 0)
+  state.absorbing = AbsorbingBoundary(state.loads.absorbing, domain.model.local, state.constraints, state.held);
+  if (state.loads.mass_damping > 0 || state.loads.local_damping > 0 || !state.loads.absorbing.empty())
     state.damping_work.resize(at(domain.model.local.num_nodes));
   state.clock.dt = dt;
   if (!domain.exchange.alone())
-    plan_sweep_order(domain.model, state.loads.constraints, domain.exchange.sent_blocks(), domain.derived);
+    plan_sweep_order(domain.model, state.loads, domain.exchange.sent_blocks(), domain.derived);
 }
 
 void break_joints(Domain& domain, std::span<const LoadedFace> faces) {
@@ -141,9 +170,8 @@ void activate_joints(const Model& model, std::vector<std::size_t>& crossed, Stat
 ExactSum external_work(const Domain& domain) {
   const State& state = domain.state;
   ExactSum sum = state.work.past_loads;
-  sum.add(state.constraints.work());
+  sum.add(work_of_loads(state));
   sum.add(state.work.gravity.work(domain.model.local, state.nodes.position));
-  for (const PressureLoad& p : state.loads.pressures) sum.add(p.work());
   return sum;
 }
 
@@ -157,8 +185,7 @@ State closed_fields(const Domain& domain) {
   const State& state = domain.state;
   State closed;
   copy_model_fields(state, closed);
-  for (const PressureLoad& p : state.loads.pressures) closed.work.past_loads.add(p.work());
-  closed.work.past_loads.add(state.constraints.work());
+  closed.work.past_loads.add(work_of_loads(state));
   closed.work.gravity = state.work.gravity;  // with its anchor, which is no row of the table
   closed.work.gravity.close(domain.model.local, state.nodes.position);
   closed.counters.messages = domain.messages();

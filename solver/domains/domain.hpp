@@ -87,6 +87,10 @@ void add_velocity(Domain& domain, const InitialVelocity& initial);
 /// From now on these loads act and steps have length dt, s. Displacements count from the present positions.
 void begin_stage(Domain& domain, StageLoads loads, double dt);
 
+/// Forces on nodes that this rank moves, by constraints and by what supports absorbing boundaries, in the last step;
+/// ascending nodes.
+[[nodiscard]] std::vector<NodeForce> held_forces(const Domain& domain);
+
 /// Takes the joints on these faces away; what they store is accounted as dissipated in mode I. Joints broken already
 /// stay so.
 void break_joints(Domain& domain, std::span<const LoadedFace> faces);

@@ -56,7 +56,7 @@ class ContactLook {
 
 /// Without those of contact.
 StepParts elastic_parts(const Communicator& communicator, const TimeStep& time_step, const StepState& state) {
-  const StepModel model = time_step.step_model(state.memory);
+  const StepModel model = step_model(time_step, state);
   StepParts parts{step_shares(model, state.position), 0.0, {}, {}};
   parts.most = communicator.max(stiffest(model, parts.shares)) / (time_step.ratio() * time_step.ratio());
   return parts;
@@ -66,6 +66,12 @@ StepParts elastic_parts(const Communicator& communicator, const TimeStep& time_s
 double duration(const StepParts& parts, double steps) { return steps * 2.0 / std::sqrt(parts.most); }
 
 }  // namespace
+
+StepModel step_model(const TimeStep& time_step, const StepState& state) {
+  StepModel model = time_step.step_model(state.memory);
+  model.local_damping = state.local_damping;
+  return model;
+}
 
 StepParts step_parts(const Communicator& communicator, const TimeStep& time_step, const StepState& state,
                      double steps) {
@@ -81,12 +87,12 @@ double global_step_length(const Communicator& communicator, const TimeStep& time
                           double steps) {
   const StepParts parts = elastic_parts(communicator, time_step, state);
   if (!time_step.model().has_contact) {
-    const StableStep result = stable_step(time_step.step_model(), parts.shares, parts.most);
+    const StableStep result = stable_step(step_model(time_step, state), parts.shares, parts.most);
     return communicator.min(result.step);
   }
   const ContactLook look(communicator, time_step, state);
   ContactShares contacts = look.one_by_one(duration(parts, steps));
-  const ElementSteps element_steps(time_step.step_model(), parts.most);
+  const ElementSteps element_steps(step_model(time_step, state), parts.most);
   double shortest = std::numeric_limits<double>::infinity();
   const LocalMesh& mesh = time_step.model().local;
   for (Index s = 0; s < mesh.num_slots; ++s) {
@@ -105,7 +111,7 @@ double global_step_length(const Communicator& communicator, const TimeStep& time
 StableStep global_stable_step(const Communicator& communicator, const TimeStep& time_step, const StepState& state,
                               double steps) {
   const StepParts parts = step_parts(communicator, time_step, state, steps);
-  StableStep result = stable_step(time_step.step_model(), parts.shares, parts.most, parts.contacts, parts.open);
+  StableStep result = stable_step(step_model(time_step, state), parts.shares, parts.most, parts.contacts, parts.open);
   result.element_step = communicator.min(result.element_step);
   result.joint_step = communicator.min(result.joint_step);
   struct Limiter {

@@ -13,6 +13,7 @@ struct StepState {
   const CornerClusters* clusters = nullptr;                   ///< of contact; null: nothing has broken
   const std::vector<NodalConstraint>* constraints = nullptr;  ///< of the stage; null: none
   MaterialMemory memory{};                                    ///< of laws with memory
+  double local_damping = 0;                                   ///< of the stage
 };
 
 /// What a step is found from.
@@ -22,6 +23,8 @@ struct StepParts {
   std::vector<ContactShare> contacts;  ///< (num_slots), or none
   std::vector<std::uint8_t> open;      ///< (num_slots) bits of faces that have nothing across them, or none
 };
+
+[[nodiscard]] StepModel step_model(const TimeStep& time_step, const StepState& state);
 
 /// @param steps  of the true limit without contact, for which bodies may come nearer before the next call
 /// Collective.

@@ -197,7 +197,8 @@ StepState Partition::step_state() const {
   const State& state = domain_->state;
   return {state.nodes.position,     state.nodes.velocity,
           domain_->contacts(),      domain_->contact ? &domain_->contact->clusters() : nullptr,
-          &state.loads.constraints, material_memory(state.elements)};
+          &state.loads.constraints, material_memory(state.elements),
+          state.loads.local_damping};
 }
 
 StableStep Partition::stable_step(double steps) const {

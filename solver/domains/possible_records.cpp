@@ -55,6 +55,7 @@ bool are_possible(const Records& records, const WholeModel& whole) {
          all(records.couples, [&](const CoupleRecord& r) { return within(r.contactor, whole.num_elements); }) &&
          all(records.holds,
              [](const HoldRecord& r) { return within(r.corner, kCorners) && within(r.axis, kAxes) && r.entry >= 0; }) &&
+         all(records.held, [](const HeldRecord& r) { return within(r.corner, kCorners); }) &&
          all(records.faces,
              [&](const FaceTag& tag) { return within(tag.group, whole.surface_groups) && within(tag.face, kFaces); }) &&
          all(records.corners, [&](const CornerTag& tag) { return within(tag.group, whole.surface_groups); });

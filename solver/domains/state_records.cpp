@@ -56,6 +56,27 @@ class ElementCollector {
   std::vector<Constraints::Anchor> anchors_;  ///< ascending nodes
 };
 
+/// Forces that hold the corners of elements.
+class HeldCollector {
+ public:
+  explicit HeldCollector(const Domain& domain) : local_(domain.model.local), forces_(held_forces(domain)) {}
+
+  /// A shared node is remembered by each of its elements.
+  void add(Index element, GlobalId id, std::vector<HeldRecord>& held) const {
+    for (int c = 0; c < 4; ++c) {
+      const Index node = local_.corner_node(local_.slot_of_element[at(element)], c);
+      const auto force = std::lower_bound(forces_.begin(), forces_.end(), node,
+                                          [](const NodeForce& f, Index n) { return f.node < n; });
+      if (force == forces_.end() || force->node != node) continue;
+      held.push_back({id, static_cast<std::int8_t>(c), array_of(force->force)});
+    }
+  }
+
+ private:
+  const LocalMesh& local_;
+  std::vector<NodeForce> forces_;  ///< ascending nodes
+};
+
 /// Calls visit(record) for the joints of this rank's originals that the sweep does not look after.
 template <class Visit>
 void for_each_joint_record(const Domain& domain, Visit&& visit) {
@@ -74,13 +95,16 @@ Records records_of(const Domain& domain) {
   const Model& model = domain.model;
   Records records;
   const ElementCollector collector(domain);
+  const HeldCollector held(domain);
   const std::vector<FaceTag> faces = face_tags(model.mesh, model.topology);
   std::size_t next_face = 0, next_corner = 0;
   records.elements.reserve(at(model.mesh.num_elements()));
   for (Index e = 0; e < model.mesh.num_elements(); ++e) {
     if (!model.local.is_original(model.local.slot_of_element[at(e)])) continue;
     const ElementRecord record = collector.record(e, records);
+    const std::size_t untagged = records.faces.size();
     append_tags(faces, record.id, next_face, records.faces);
+    if (records.faces.size() > untagged) held.add(e, record.id, records.held);  // others are on no absorbing surface
     append_tags(model.corner_tags, record.id, next_corner, records.corners);
     records.elements.push_back(record);
   }
@@ -113,6 +137,19 @@ void restore_elements(const Records& records, const LocalMesh& local, State& sta
     }
   }
   state.nodes.next_position = state.nodes.position;
+}
+
+void restore_held(const Records& records, const LocalMesh& local, State& state) {
+  for (const HeldRecord& record : records.held) {
+    const Index slot = local.slot_of_element[at(records.place_of(record.element))];
+    const Index node = local.corner_node(slot, record.corner);
+    if (local.is_moved(node)) state.held.push_back({node, vector_of(record.force)});
+  }
+  const auto before = [](const NodeForce& a, const NodeForce& b) { return a.node < b.node; };
+  std::stable_sort(state.held.begin(), state.held.end(), before);
+  const auto same = [](const NodeForce& a, const NodeForce& b) { return a.node == b.node; };
+  state.held.erase(std::unique(state.held.begin(), state.held.end(), same), state.held.end());
+  state.held_before = state.clock.steps;
 }
 
 void restore_active(const Records& records, const Model& model, JointSet& joints, Derived& derived) {
@@ -152,6 +189,7 @@ void restore_active(const Records& records, const Model& model, JointSet& joints
 
 void restore(const Records& records, const Model& model, State& state, Derived& derived) {
   restore_elements(records, model.local, state);
+  restore_held(records, model.local, state);
   restore_active(records, model, state.joints, derived);
 }
 

@@ -284,13 +284,26 @@ std::vector<LoadedFace> faces_of_surface(const Model& model, const std::string& 
   return faces;
 }
 
+/// The faces of a surface with the impedances of their material.
+void add_absorbing(const Model& model, const std::string& surface, std::vector<AbsorbingFace>& faces) {
+  for (const LoadedFace& face : faces_of_surface(model, surface)) {
+    const auto group = static_cast<std::size_t>(model.local.block_group[static_cast<std::size_t>(face.slot / kLanes)]);
+    const ElasticParams& p = model.elastic[group];
+    const double density = model.density[group];
+    faces.push_back({face, std::sqrt(density * (p.lambda + 2 * p.mu)), std::sqrt(density * p.mu)});
+  }
+}
+
 StageLoads stage_loads(const case_::Stage& stage, const Model& model) {
   StageLoads loads;
   loads.gravity = stage.gravity;
   loads.mass_damping = stage.mass_damping;
   loads.local_damping = stage.local_damping;
   for (const case_::Pressure& entry : stage.pressures)
-    loads.pressures.emplace_back(faces_of_surface(model, entry.surface), entry.value);
+    loads.surfaces.emplace_back(faces_of_surface(model, entry.surface), entry.value);
+  for (const case_::Traction& entry : stage.tractions)
+    loads.surfaces.emplace_back(faces_of_surface(model, entry.surface), entry.value);
+  for (const std::string& surface : stage.absorbing) add_absorbing(model, surface, loads.absorbing);
   for (const case_::Constraint& entry : stage.constraints) {
     NodalConstraint constraint;
     constraint.nodes = nodes_of_group(model, entry.group);

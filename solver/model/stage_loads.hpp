@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/time_function.hpp"
+#include "physics/absorbing.hpp"
 #include "physics/constraints.hpp"
 #include "physics/loads.hpp"
 
@@ -11,8 +12,9 @@ namespace breccia {
 
 /// What acts on the model during one stage.
 struct StageLoads {
-  std::vector<PressureLoad> pressures;
+  std::vector<SurfaceLoad> surfaces;
   std::vector<NodalConstraint> constraints;
+  std::vector<AbsorbingFace> absorbing;
   std::array<TimeFunction, 3> gravity;  ///< m/s2
   double mass_damping = 0;              ///< 1/s
   double local_damping = 0;             ///< share of the unbalanced force

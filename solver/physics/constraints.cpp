@@ -151,6 +151,25 @@ std::array<ExactSum, 3> Constraints::reaction_on(std::span<const Index> nodes) c
   return sum;
 }
 
+std::vector<NodeForce> Constraints::reactions() const {
+  std::vector<NodeForce> forces;
+  for (const Index node : nodes_) {
+    if (mesh_->is_moved(node)) forces.push_back({node, Vec3::Zero()});
+  }
+  for (const Entry& entry : entries_) {
+    for (const Hold& hold : entry.holds) {
+      auto force = forces.begin();
+      for (std::size_t k = 0; k < hold.nodes.size(); ++k) {
+        if (!mesh_->is_moved(hold.nodes[k])) continue;
+        while (force->node != hold.nodes[k]) ++force;
+        force->force[hold.axis] = reaction_of(hold, k);
+      }
+    }
+  }
+  std::erase_if(forces, [](const NodeForce& f) { return f.force == Vec3::Zero(); });
+  return forces;
+}
+
 std::vector<Constraints::Anchor> Constraints::anchors() const {
   std::vector<Anchor> anchors;
   for (std::size_t e = 0; e < entries_.size(); ++e) {

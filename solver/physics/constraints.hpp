@@ -28,6 +28,12 @@ struct NodalConstraint {
   std::array<TimeFunction, 3> value;  ///< of time since the start of the run
 };
 
+/// A force on a node, N.
+struct NodeForce {
+  Index node;
+  Vec3 force;
+};
+
 /// The constraints of a stage. Where entries overlap, the later one rules that axis of the node; a node named twice
 /// counts once.
 ///
@@ -63,6 +69,8 @@ class Constraints {
   [[nodiscard]] std::array<ExactSum, 3> reaction(std::size_t entry) const;
   /// The same of all entries on some nodes. @param nodes  ascending. O(constrained nodes log nodes)
   [[nodiscard]] std::array<ExactSum, 3> reaction_on(std::span<const Index> nodes) const;
+  /// Of all entries on each node that this rank moves, ascending nodes; those without a force are left out.
+  [[nodiscard]] std::vector<NodeForce> reactions() const;
   /// What an entry remembers of one axis of a node.
   struct Anchor {
     std::size_t entry;

@@ -9,9 +9,11 @@
 #include "mesh/topology.hpp"
 
 namespace breccia {
-namespace {
 
-/// The three nodes of a face, counter-clockwise seen from outside.
+bool comes_before(const LoadedFace& a, const LoadedFace& b) {
+  return std::tuple(a.slot, a.face) < std::tuple(b.slot, b.face);
+}
+
 std::array<Index, 3> face_nodes(const LocalMesh& mesh, const LoadedFace& loaded) {
   std::array<Index, 3> nodes{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -20,20 +22,39 @@ std::array<Index, 3> face_nodes(const LocalMesh& mesh, const LoadedFace& loaded)
   return nodes;
 }
 
+Vec3 doubled_area(const Field<double>& place, const std::array<Index, 3>& nodes) {
+  const Vec3 x0 = load_node(place.data(), nodes[0]);
+  const Vec3 a = load_node(place.data(), nodes[1]) - x0;
+  const Vec3 b = load_node(place.data(), nodes[2]) - x0;
+  return a.cross(b);
+}
+
+namespace {
+
+void sort_unique_faces(std::vector<LoadedFace>& faces) {
+  std::sort(faces.begin(), faces.end(), comes_before);
+  const auto end = std::unique(faces.begin(), faces.end(), [](const LoadedFace& a, const LoadedFace& b) {
+    return !comes_before(a, b);  // of two in order
+  });
+  faces.erase(end, faces.end());
+}
+
 }  // namespace
 
-PressureLoad::PressureLoad(std::vector<LoadedFace> faces, TimeFunction pressure)
-    : faces_(std::move(faces)), pressure_(std::move(pressure)) {
-  const auto key = [](const LoadedFace& f) { return std::tuple(f.slot, f.face); };
-  std::sort(faces_.begin(), faces_.end(), [&](const LoadedFace& a, const LoadedFace& b) { return key(a) < key(b); });
-  const auto end = std::unique(faces_.begin(), faces_.end(),
-                               [&](const LoadedFace& a, const LoadedFace& b) { return key(a) == key(b); });
-  faces_.erase(end, faces_.end());
+SurfaceLoad::SurfaceLoad(std::vector<LoadedFace> faces, TimeFunction pressure)
+    : faces_(std::move(faces)), follows_(true), pressure_(std::move(pressure)) {
+  sort_unique_faces(faces_);
+  corner_force_.assign(faces_.size(), Vec3::Zero());
+}
+
+SurfaceLoad::SurfaceLoad(std::vector<LoadedFace> faces, std::array<TimeFunction, 3> traction)
+    : faces_(std::move(faces)), follows_(false), traction_(std::move(traction)) {
+  sort_unique_faces(faces_);
   corner_force_.assign(faces_.size(), Vec3::Zero());
 }
 
 template <class Account>
-void PressureLoad::for_each_power(const LocalMesh& mesh, const Field<double>& velocity, Account&& account) const {
+void SurfaceLoad::for_each_power(const LocalMesh& mesh, const Field<double>& velocity, Account&& account) const {
   for (std::size_t k = 0; k < faces_.size(); ++k) {
     if (!mesh.is_original(faces_[k].slot)) continue;
     Vec3 v = Vec3::Zero();
@@ -42,25 +63,25 @@ void PressureLoad::for_each_power(const LocalMesh& mesh, const Field<double>& ve
   }
 }
 
-void PressureLoad::apply(const LocalMesh& mesh, const NodalState& state, double time, double dt_before,
-                         NodalForces& forces) {
-  const double factor = -pressure_(time) / 6.0;  // area vector = half the cross product, a third to each corner
+void SurfaceLoad::apply(const LocalMesh& mesh, const NodalState& state, double time, double dt_before,
+                        NodalForces& forces) {
+  // Of twice the area a sixth to each corner.
+  const double factor = -pressure_(time) / 6.0;
+  const Vec3 fixed = Vec3(traction_[0](time), traction_[1](time), traction_[2](time)) / 6.0;
   for (std::size_t k = 0; k < faces_.size(); ++k) {
     const auto nodes = face_nodes(mesh, faces_[k]);
-    const Vec3 x0 = load_node(state.position.data(), nodes[0]);
-    const Vec3 a = load_node(state.position.data(), nodes[1]) - x0;
-    const Vec3 b = load_node(state.position.data(), nodes[2]) - x0;
-    corner_force_[k] = factor * a.cross(b);
+    corner_force_[k] = follows_ ? Vec3(factor * doubled_area(state.position, nodes))
+                                : Vec3(doubled_area(mesh.reference, nodes).norm() * fixed);
     for (const Index node : nodes) forces.add(node, corner_force_[k]);
   }
   for_each_power(mesh, state.velocity, [&](double power) { work_.add_before(power, dt_before); });
 }
 
-void PressureLoad::account_after(const LocalMesh& mesh, const NodalState& state, double dt_after) {
+void SurfaceLoad::account_after(const LocalMesh& mesh, const NodalState& state, double dt_after) {
   for_each_power(mesh, state.velocity, [&](double power) { work_.add_after(power, dt_after); });
 }
 
-Vec3 PressureLoad::resultant() const {
+Vec3 SurfaceLoad::resultant() const {
   Vec3 sum = Vec3::Zero();
   for (const Vec3& f : corner_force_) sum += 3.0 * f;
   return sum;

@@ -19,15 +19,24 @@ struct LoadedFace {
   int face;  ///< 0..3, the face opposite to that corner
 };
 
-/// Pressure that follows its faces: each corner of a face gets f = -p(t) A / 3, A the current outward area vector;
-/// positive pressure pushes into the body.
+/// By slot and face.
+[[nodiscard]] bool comes_before(const LoadedFace& a, const LoadedFace& b);
+/// The three nodes of a face, counter-clockwise seen from outside.
+[[nodiscard]] std::array<Index, 3> face_nodes(const LocalMesh& mesh, const LoadedFace& face);
+/// Twice the outward area vector of a face, m2. @param place  nodal field, m
+[[nodiscard]] Vec3 doubled_area(const Field<double>& place, const std::array<Index, 3>& nodes);
+
+/// Load on faces, a third of each on every corner: pressure p, which follows its faces, f = -p(t) A / 3, A the present
+/// outward area vector (positive pushes into the body); or traction t, which does not, f = t(t) |A0| / 3, A0 at rest.
 ///
 /// In a step: `apply` before the sweep, `account_after` once velocities belong to t_(n+1/2) and constraints have had
 /// their say. O(faces) each, no allocation.
-class PressureLoad {
+class SurfaceLoad {
  public:
-  /// Faces are sorted by (slot, face) and named once: the order in which forces are summed.
-  PressureLoad(std::vector<LoadedFace> faces, TimeFunction pressure);
+  /// Faces are sorted by (slot, face) and named once: the order in which forces are summed. @param pressure  Pa
+  SurfaceLoad(std::vector<LoadedFace> faces, TimeFunction pressure);
+  /// @param traction  Pa, by axis
+  SurfaceLoad(std::vector<LoadedFace> faces, std::array<TimeFunction, 3> traction);
 
   /// Adds the forces at t_n and accounts their work over the step that ended there.
   /// @param state      position at t_n, velocity at t_(n-1/2)
@@ -49,7 +58,9 @@ class PressureLoad {
 
   std::vector<LoadedFace> faces_;
   std::vector<Vec3> corner_force_;  ///< (faces) N, at t_n
+  bool follows_;                    ///< a pressure
   TimeFunction pressure_;
+  std::array<TimeFunction, 3> traction_;
   WorkSum work_;
 };
 

@@ -232,7 +232,13 @@ double stiffest(const StepModel& model, std::span<const StepShare> shares) {
 }
 
 ElementSteps::ElementSteps(const StepModel& model, double most)
-    : most_(most), most_damping_(stiffest_ratio(model.params) > 0 ? stiffest_ratio(model.params) * most : 0.0) {}
+    : most_(most),
+      most_damping_(stiffest_ratio(model.params) > 0 ? stiffest_ratio(model.params) * most : 0.0),
+      forces_(1.0 + model.local_damping) {}
+
+double ElementSteps::step_of(double omega_squared, double damping) const {
+  return breccia::step_of(forces_ * omega_squared, forces_ * damping);
+}
 
 double ElementSteps::of(const StepShare& share, const ContactShare& contact, unsigned open) const {
   return step_of(stiffest_corner(share, most_, contact, open).omega_squared, damping(share));
@@ -258,8 +264,9 @@ StableStep stable_step(const StepModel& model, std::span<const StepShare> shares
     const double damping = element_steps.damping(mine), bound = mine.largest();
     const double step = element_steps.of(mine, contact_of(s), open_of(s));
     steps.push_back(step);
-    result.element_step = std::min(result.element_step, step_of(std::min(mine.largest_element(), most), damping));
-    result.joint_step = std::min(result.joint_step, step_of(std::min(bound, most), damping));
+    result.element_step =
+        std::min(result.element_step, element_steps.step_of(std::min(mine.largest_element(), most), damping));
+    result.joint_step = std::min(result.joint_step, element_steps.step_of(std::min(bound, most), damping));
     // Where the true limit makes many alike, the worst is the one with the highest bound.
     if (step < result.step || (step == result.step && bound > bound_of_worst)) {
       result.step = step;

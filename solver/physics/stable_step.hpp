@@ -34,6 +34,7 @@ struct StepModel {
   std::span<const ElasticParams> params;   ///< (volume groups)
   std::span<const double> density;         ///< (volume groups) kg/m3
   MaterialMemory memory{};
+  double local_damping = 0;  ///< beta
 };
 
 enum class StepLimit { element, joint, contact };
@@ -92,6 +93,8 @@ struct StepShare {
 ///   shared all elements around a node count
 /// - contact: contact/contact_step.hpp
 ///
+/// Local damping makes every force that slows a node down 1 + beta times as large, and so omega^2 and c.
+///
 /// @param position  nodal field, m.  (num_slots), zeros on padding. O(elements).
 [[nodiscard]] std::vector<StepShare> step_shares(const StepModel& model, const Field<double>& position);
 
@@ -114,11 +117,14 @@ class ElementSteps {
   ElementSteps(const StepModel& model, double most);
   /// s. @param open  bits of faces whose joints are gone
   [[nodiscard]] double of(const StepShare& share, const ContactShare& contact, unsigned open) const;
+  /// s. @param omega_squared, damping  1/s2 and 1/s, without local damping
+  [[nodiscard]] double step_of(double omega_squared, double damping) const;
   /// 1/s: viscosity damps at most in proportion to the stiffness, and so does the true limit.
   [[nodiscard]] double damping(const StepShare& share) const { return std::min(share.damping, most_damping_); }
 
  private:
   double most_, most_damping_;
+  double forces_;  ///< 1 + beta
 };
 
 /// The same without contact at these positions. O(elements).

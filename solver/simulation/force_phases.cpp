@@ -12,7 +12,7 @@ void apply_loads(Domain& domain) {
   StepScratch& scratch = domain.scratch;
   const LocalMesh& local = domain.model.local;
   scratch.forces.clear();
-  for (PressureLoad& p : state.loads.pressures)
+  for (SurfaceLoad& p : state.loads.surfaces)
     p.apply(local, state.nodes, state.clock.time, state.clock.dt_before, scratch.forces);
   for (std::size_t i = 0; i < 3; ++i) scratch.gravity[i] = state.loads.gravity[i](state.clock.time);
   state.work.gravity.advance(local, state.nodes, Vec3(scratch.gravity[0], scratch.gravity[1], scratch.gravity[2]),
@@ -76,8 +76,9 @@ void return_elastic_joints(Domain& domain) {
 void account_late_work(Domain& domain) {
   const auto lap = domain.timer.measure(Phase::loads);
   State& state = domain.state;
-  for (PressureLoad& p : state.loads.pressures) p.account_after(domain.model.local, state.nodes, state.clock.dt);
+  for (SurfaceLoad& p : state.loads.surfaces) p.account_after(domain.model.local, state.nodes, state.clock.dt);
   state.constraints.account_after(state.clock.dt);
+  state.absorbing.account_after(state.nodes.velocity, state.clock.dt);
   const auto merge = [](Field<double>& work, const Field<double>& late) {
     for (std::size_t i = 0; i < late.size(); ++i) work[i] += late[i];
   };

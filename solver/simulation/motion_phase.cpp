@@ -89,7 +89,7 @@ SweepArgs sweep_args(bool sample, Domain& domain) {
   // That of held nodes is corrected afterwards (account_held_damping): it waits always, so that the sums are the same
   // bits whether the energies are sampled or not.
   scratch.damping_late.clear();
-  if (args.mass_damping > 0 || args.local_damping > 0)
+  if (args.mass_damping > 0 || args.local_damping > 0 || !state.absorbing.empty())
     split_work(sample || !state.constraints.empty(), state.damping_work, scratch.damping_late, args.damping_before,
                args.damping_after);
   return args;
@@ -116,8 +116,9 @@ std::string remedy_of(const Domain& domain) {
   if (domain.state.counters.crushed > 0)
     return "elements have been crushed or turned inside out: lower speeds and loads, use larger elements there, or "
            "lower time.safety (or time.step)";
-  if (!domain.state.loads.pressures.empty())
-    return "a pressure drives what it has torn off on and on: end it or lower it, or lower time.safety (or time.step)";
+  if (!domain.state.loads.surfaces.empty())
+    return "a pressure or traction drives what it has torn off on and on: end it or lower it, or lower time.safety (or "
+           "time.step)";
   return "the time step is too long for what happens there: lower time.safety (or time.step), or the penalties";
 }
 
@@ -234,6 +235,13 @@ void account_held_damping(const SweepArgs& args, Domain& domain) {
   }
 }
 
+void absorb(const SweepArgs& args, Domain& domain) {
+  State& state = domain.state;
+  if (state.absorbing.empty()) return;
+  const auto lap = domain.timer.measure(Phase::loads);
+  state.absorbing.apply(state.nodes, state.clock.dt_before, state.clock.dt, args.damping_before, args.damping_after);
+}
+
 void constrain(const SweepArgs& args, Domain& domain) {
   State& state = domain.state;
   if (state.constraints.empty()) return;
@@ -269,12 +277,15 @@ void finish_motion(const SweepArgs& args, Domain& domain) {
 void move_nodes(bool sample, Domain& domain) {
   const SweepArgs args = sweep_args(sample, domain);
   if (args.damping_after != nullptr) keep_held(domain, domain.scratch.held_before);
+  domain.state.absorbing.begin(domain.state.nodes.velocity);
   domain.state.signals.max_speed = 0;
   if (domain.exchange.alone()) {
     sweep_all(args, domain);
+    absorb(args, domain);
     constrain(args, domain);
   } else {
     sweep_ahead(args, domain);
+    absorb(args, domain);
     constrain(args, domain);
     stand_still_if_failed(domain);
     send_proxies(domain);

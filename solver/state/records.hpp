@@ -189,6 +189,25 @@ struct FieldTable<HoldRecord> {
 }
 ;
 
+/// A force that constraints and absorbing boundaries put on a corner in the last step. Part of the state only where an
+/// absorbing boundary goes on with it, which the motion tells.
+struct HeldRecord {
+  GlobalId element = 0;
+  std::int8_t corner = 0;
+  std::array<double, 3> force{};
+};
+template <>
+struct FieldTable<HeldRecord> {
+  // clang-format off
+  static constexpr auto rows = std::tuple{
+      FieldRow{"element", "1", kNotHashed, [](auto& r) -> auto& { return r.element; }},
+      FieldRow{"corner", "1", kNotHashed, [](auto& r) -> auto& { return r.corner; }},
+      FieldRow{"force", "N", kNotHashed, [](auto& r) -> auto& { return r.force; }},
+  };
+// clang-format on
+}
+;
+
 /// A face on a physical surface.
 struct FaceTag {
   GlobalId element = 0;
@@ -228,6 +247,7 @@ struct Records {
   std::vector<RampRecord> ramps;
   std::vector<OffsetRecord> offsets;
   std::vector<HoldRecord> holds;
+  std::vector<HeldRecord> held;
   std::vector<FaceTag> faces;
   std::vector<CornerTag> corners;
 
@@ -243,6 +263,7 @@ inline constexpr std::tuple kRecordLists{std::pair{"element", &Records::elements
                                          std::pair{"field_ramp", &Records::ramps},
                                          std::pair{"boundary_offset", &Records::offsets},
                                          std::pair{"hold", &Records::holds},
+                                         std::pair{"held_force", &Records::held},
                                          std::pair{"surface_face", &Records::faces},
                                          std::pair{"surface_corner", &Records::corners}};
 

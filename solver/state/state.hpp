@@ -72,7 +72,7 @@ struct JointSet {
 
 /// Work done up to now, J: this rank's part of exact sums, so that totals do not depend on who holds what.
 struct AccountedWork {
-  ExactSum past_loads;  ///< by pressures and constraints of earlier stages
+  ExactSum past_loads;  ///< by loads, constraints and supports of earlier stages
   GravityWork gravity;
   JointWork joints;
   ContactWork contact;
@@ -97,6 +97,10 @@ struct State {
   ContactState contact;
   StageLoads loads;  ///< of the present stage, with their work and the anchors of displacements
   Constraints constraints;
+  AbsorbingBoundary absorbing;
+  std::vector<NodeForce> held;   ///< forces that constraints and absorbing boundaries put on nodes in the last step
+                                 ///< before these, ascending nodes
+  std::int64_t held_before = 0;  ///< the step that was to come then
   AccountedWork work;
   Counters counters;
   Signals signals;

@@ -17,7 +17,7 @@ struct Applied {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
 };
 
-Applied apply(PressureLoad& load, const Model& model, double time) {
+Applied apply(SurfaceLoad& load, const Model& model, double time) {
   NodalForces forces(model.local.num_own_blocks(), model.local.num_nodes);
   load.apply(model.local, model.state, time, 0.0, forces);
   Applied sum;
@@ -47,7 +47,7 @@ TEST_P(Pressure, OnAClosedSurfaceHasNoResultantAndNoMoment) {
   Model model(test::jittered(test::box({2, 1, 3}), 0.05, 3), GetParam(), 1000);
   model.map_positions(
       [](const Vec3& x) { return Vec3(1.3 * x[0] + 0.2 * x[1] * x[2], x[1] - 0.3 * x[2], x[2] + 0.1 * x[0]); });
-  PressureLoad load(model.free_faces(), test::in_time(2.0));
+  SurfaceLoad load(model.free_faces(), test::in_time(2.0));
   const Applied sum = apply(load, model, 0.0);
   EXPECT_LT(sum.force.norm(), 22 * 2 * kRounding);
   EXPECT_LT(sum.moment.norm(), 22 * 2 * 5 * kRounding);
@@ -55,7 +55,7 @@ TEST_P(Pressure, OnAClosedSurfaceHasNoResultantAndNoMoment) {
 
 TEST_P(Pressure, PushesAgainstTheOutwardNormalWithPressureTimesArea) {
   const Model model(test::box({2, 3, 4}, 0.5), GetParam(), 1000);
-  PressureLoad load(group_faces(model, "raster.z1"), test::in_time(3.0, 2.0));
+  SurfaceLoad load(group_faces(model, "raster.z1"), test::in_time(3.0, 2.0));
   const Applied sum = apply(load, model, 0.5);  // 4 Pa on 1.0 x 1.5 m2
   EXPECT_LT((sum.force - Vec3(0, 0, -6)).norm(), 6 * kRounding);
   EXPECT_LT((load.resultant() - sum.force).norm(), 6 * kRounding);
@@ -65,7 +65,7 @@ TEST_P(Pressure, TurnsWithTheBody) {
   Model model(test::box({2, 3, 4}, 0.5), GetParam(), 1000);
   const Mat3 rotation = some_rotation();
   model.map_positions([&](const Vec3& x) { return Vec3(rotation * x + Vec3(4, 5, 6)); });
-  PressureLoad load(group_faces(model, "raster.x0"), test::in_time(2.0));
+  SurfaceLoad load(group_faces(model, "raster.x0"), test::in_time(2.0));
   EXPECT_LT((apply(load, model, 0.0).force - rotation * Vec3(2.0 * 3.0, 0, 0)).norm(), 60 * kRounding);
 }
 
@@ -73,8 +73,21 @@ TEST_P(Pressure, ActsOnceOnAFaceNamedTwice) {
   const Model model(test::box({1, 1, 1}), GetParam(), 1000);
   std::vector<LoadedFace> faces = group_faces(model, "raster.y1");
   faces.insert(faces.end(), faces.rbegin(), faces.rend());
-  PressureLoad load(faces, test::in_time(2.0));
+  SurfaceLoad load(faces, test::in_time(2.0));
   EXPECT_LT((apply(load, model, 0.0).force - Vec3(0, -2, 0)).norm(), kRounding);
+}
+
+using Traction = Pressure;
+INSTANTIATE_TEST_SUITE_P(Discretisations, Traction,
+                         testing::Values(Discretisation::own_nodes, Discretisation::shared_nodes));
+
+TEST_P(Traction, KeepsItsDirectionAndTheAreaAtRest) {
+  Model model(test::box({2, 3, 4}, 0.5), GetParam(), 1000);
+  const Mat3 rotation = some_rotation();
+  model.map_positions([&](const Vec3& x) { return Vec3(2.0 * rotation * x + Vec3(4, 5, 6)); });
+  SurfaceLoad load(group_faces(model, "raster.x0"),
+                   std::array{test::in_time(2.0), test::in_time(0.0), test::in_time(-1.0, 4.0)});
+  EXPECT_LT((apply(load, model, 0.5).force - 3.0 * Vec3(2, 0, 1)).norm(), 60 * kRounding);
 }
 
 TEST(PressureWork, OnABodyThatBreathesIsMinusPressureTimesChangeOfVolume) {
@@ -85,7 +98,7 @@ TEST(PressureWork, OnABodyThatBreathesIsMinusPressureTimesChangeOfVolume) {
   for (const Index n : model.real_nodes()) {
     store_node(model.state.velocity.data(), n, kRate * load_node(model.state.position.data(), n));
   }
-  PressureLoad load(model.free_faces(), test::in_time(kPressure));
+  SurfaceLoad load(model.free_faces(), test::in_time(kPressure));
   NodalForces forces(model.local.num_own_blocks(), model.local.num_nodes);
   load.apply(model.local, model.state, 0.0, kStep, forces);
   const double half = -kPressure * 3.0 * kRate * kStep / 2.0;
@@ -99,7 +112,7 @@ TEST(PressureWork, OnElementsOfAnotherRankIsLeftToThatRank) {
   for (const Index n : model.real_nodes())
     store_node(model.state.velocity.data(), n, load_node(model.state.position.data(), n));
   std::fill(model.local.original.begin(), model.local.original.end(), std::uint8_t{0});
-  PressureLoad load(model.free_faces(), test::in_time(2.0));
+  SurfaceLoad load(model.free_faces(), test::in_time(2.0));
   NodalForces forces(model.local.num_own_blocks(), model.local.num_nodes);
   load.apply(model.local, model.state, 0.0, 0.1, forces);
   load.account_after(model.local, model.state, 0.1);

@@ -83,7 +83,7 @@ class DrivenBody {
 
   Model model_;
   ElasticParams params_ = make_elastic_params(BulkLaw::neo_hookean, 1e6, 0.25, 50.0);
-  PressureLoad pressure_;
+  SurfaceLoad pressure_;
   GravityWork gravity_;
   Constraints constraints_;
   WorkSum internal_;

@@ -1,0 +1,82 @@
+#include "commands/surface_report.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace breccia {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// Faces of a surface by what is across them.
+struct Faces {
+  std::int64_t free = 0, joined = 0;
+  std::int64_t shared = 0;  ///< elements on both sides with the same nodes
+  [[nodiscard]] std::int64_t all() const { return free + joined + shared; }
+};
+
+bool have_joints(const Model& model, Index group, Index other) {
+  const auto [a, b] = std::minmax(group, other);
+  return std::any_of(model.whole.joint_groups.begin(), model.whole.joint_groups.end(),
+                     [&, a = a, b = b](const WholeModel::JointGroups& pair) { return pair.a == a && pair.b == b; });
+}
+
+Faces faces_of(const Model& model, const std::string& surface) {
+  const Mesh& mesh = model.mesh;
+  Faces faces;
+  for (std::size_t s = 0; s < mesh.surface_groups.size(); ++s) {
+    if (mesh.surface_groups[s] != surface) continue;
+    for (const Topology::Face& face : model.topology.surface_groups[s]) {
+      const FaceLink& link = model.topology.links[at(face.element)][at(face.face)];
+      if (!link.inner())
+        ++faces.free;
+      else if (have_joints(model, mesh.element_group[at(face.element)], mesh.element_group[at(link.neighbour)]))
+        ++faces.joined;
+      else
+        ++faces.shared;
+    }
+  }
+  return faces;
+}
+
+std::string words_of(const case_::Origin& origin, const char* key) {
+  return fmt::format("{}{} (line {})", origin.key, key, origin.line);
+}
+
+}  // namespace
+
+Advice surface_advice(const case_::Case& input, const Model& model) {
+  Advice advice;
+  for (const case_::Stage& stage : input.stages) {
+    for (const std::string& surface : stage.broken_surfaces) {
+      if (faces_of(model, surface).joined > 0) continue;
+      advice.push_back(
+          fmt::format("{} breaks nothing on \"{}\": none of its faces has a joint (material.joints, or a [[joint]] "
+                      "between the groups on its two sides).",
+                      words_of(stage.origin, ".broken"), surface));
+    }
+    for (const case_::Pressure& pressure : stage.pressures) {
+      const Faces faces = faces_of(model, pressure.surface);
+      if (faces.shared == 0) continue;
+      advice.push_back(fmt::format(
+          "{} does nothing on {} of the {} faces of \"{}\": there are elements on both sides that share their nodes, "
+          "on "
+          "which the pressures of the two sides cancel. Joints there (a [[joint]] between the groups of the two sides) "
+          "can open under it.",
+          words_of(pressure.origin, ""), faces.shared, faces.all(), pressure.surface));
+    }
+    for (const std::string& surface : stage.absorbing) {
+      const Faces faces = faces_of(model, surface);
+      if (faces.free == faces.all()) continue;
+      advice.push_back(fmt::format(
+          "{} slows down what is within the model: {} of the {} faces of \"{}\" have elements on both sides. "
+          "A boundary that absorbs waves is a free surface.",
+          words_of(stage.origin, ".absorbing"), faces.all() - faces.free, faces.all(), surface));
+    }
+  }
+  return advice;
+}
+
+}  // namespace breccia

@@ -1,0 +1,96 @@
+#include "physics/absorbing.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "physics/kick.hpp"
+
+namespace breccia {
+namespace {
+
+/// What a face adds to each of its corners, N s/m.
+Mat3 impedance_of(const AbsorbingFace& face, const LocalMesh& mesh) {
+  const Vec3 doubled = doubled_area(mesh.reference, face_nodes(mesh, face.face));
+  const double size = doubled.norm();
+  const Mat3 along = doubled * doubled.transpose() / (size * size);
+  return size / 6.0 * (face.normal * along + face.tangent * (Mat3::Identity() - along));
+}
+
+}  // namespace
+
+AbsorbingBoundary::AbsorbingBoundary(std::vector<AbsorbingFace> faces, const LocalMesh& mesh, const Constraints& held,
+                                     std::span<const NodeForce> before)
+    : mesh_(&mesh) {
+  std::sort(faces.begin(), faces.end(),
+            [](const AbsorbingFace& a, const AbsorbingFace& b) { return comes_before(a.face, b.face); });
+  std::map<Index, Mat3> sums;
+  const LoadedFace* last = nullptr;
+  for (const AbsorbingFace& face : faces) {
+    const bool again = last != nullptr && !comes_before(*last, face.face);
+    last = &face.face;
+    if (again) continue;
+    const Mat3 impedance = impedance_of(face, mesh);
+    for (const Index node : face_nodes(mesh, face.face)) {
+      if (!mesh.is_moved(node)) continue;
+      const auto [sum, fresh] = sums.emplace(node, impedance);
+      if (!fresh) sum->second += impedance;
+    }
+  }
+  const std::vector<Index>& held_nodes = held.nodes();
+  for (const auto& [node, impedance] : sums) {
+    Vec3 free = Vec3::Ones();
+    const auto found = std::lower_bound(held_nodes.begin(), held_nodes.end(), node);
+    if (found != held_nodes.end() && *found == node) {
+      const auto& axes = held.held_axes()[static_cast<std::size_t>(found - held_nodes.begin())];
+      for (std::size_t a = 0; a < 3; ++a) free[static_cast<Eigen::Index>(a)] = axes[a] ? 0.0 : 1.0;
+    }
+    Node& entry = nodes_.emplace_back(Node{node, free.asDiagonal() * impedance * free.asDiagonal()});
+    const auto force =
+        std::lower_bound(before.begin(), before.end(), node, [](const NodeForce& f, Index n) { return f.node < n; });
+    if (force != before.end() && force->node == node) entry.support = free.cwiseProduct(force->force);
+  }
+}
+
+void AbsorbingBoundary::begin(const Field<double>& velocity) {
+  for (Node& entry : nodes_) entry.velocity = load_node(velocity.data(), entry.node);
+}
+
+void AbsorbingBoundary::apply(NodalState& state, double dt_before, double dt, double* damping_before,
+                              double* damping_after) {
+  const double kick = kick_length(dt_before, dt);
+  for (const Node& entry : nodes_) {
+    const auto at = static_cast<std::size_t>(entry.node);
+    const double mass = mesh_->node_mass[at];
+    const Vec3 free = load_node(state.velocity.data(), entry.node), &before = entry.velocity;
+    const Mat3 half = 0.5 * kick * entry.impedance;
+    const Mat3 sum = mass * Mat3::Identity() + half;
+    const Vec3 after = sum.inverse() * (mass * free + kick * entry.support - half * before);
+    const Vec3 force = 0.5 * (entry.impedance * (before + after));  // against the motion
+    damping_before[at] += (kick - 0.5 * dt) * force.dot(before);
+    damping_after[at] += 0.5 * dt * force.dot(after);
+    if (mesh_->counted[at] != 0) work_.add_before(entry.support.dot(before), dt_before);
+    store_node(state.velocity.data(), entry.node, after);
+    store_node(state.next_position.data(), entry.node, load_node(state.position.data(), entry.node) + dt * after);
+  }
+}
+
+void AbsorbingBoundary::account_after(const Field<double>& velocity, double dt) {
+  for (const Node& entry : nodes_) {
+    if (mesh_->counted[static_cast<std::size_t>(entry.node)] != 0)
+      work_.add_after(entry.support.dot(load_node(velocity.data(), entry.node)), dt);
+  }
+}
+
+std::vector<NodeForce> AbsorbingBoundary::supports() const {
+  std::vector<NodeForce> forces;
+  for (const Node& entry : nodes_) {
+    if (entry.support != Vec3::Zero()) forces.push_back({entry.node, entry.support});
+  }
+  return forces;
+}
+
+}  // namespace breccia
