@@ -236,6 +236,10 @@ def time_text(seconds):
     return "0" if seconds == 0 else f"{seconds / 1e-9:.4g} ns"
 
 
+def counted(number, what):
+    return f"{number:,} {what}" + ("" if number == 1 else "s")
+
+
 def label(text, height, x, y, bold=False):
     actor = vtkTextActor()
     actor.SetInput(text)
@@ -359,7 +363,7 @@ def build(arguments):
         surface.GetProperty().SetOpacity(0.35)
     broken = add_joints(renderer, arguments, time, table, line, 3 * tall / arguments.pixels[1])
     fragments = len(np.unique(arrays["fragment"][shown]))
-    texts = (f"t = {time_text(time)}", f"{fragments:,} fragments", f"{broken:,} broken joints")
+    texts = (f"t = {time_text(time)}", counted(fragments, "fragment"), counted(broken, "broken joint"))
     for i, text in enumerate(texts):
         renderer.AddViewProp(label(text, height, 0.03, 0.945 - 0.036 * i, bold=i == 0))
     renderer.ResetCameraClippingRange()

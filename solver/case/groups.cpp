@@ -10,6 +10,8 @@
 namespace breccia::case_ {
 namespace {
 
+constexpr const char* kEveryGroup = "*";
+
 class GroupChecker {
  public:
   GroupChecker(const Case& c, std::span<const std::string> volumes, std::span<const std::string> surfaces)
@@ -35,7 +37,12 @@ class GroupChecker {
   }
   void gauge(const Origin& origin, const std::string& name, std::int64_t num_bodies) {
     const std::int64_t body = numbered_body(name);
-    if (body < 0 || std::find(both_.begin(), both_.end(), name) != both_.end()) {
+    const bool is_group = std::find(both_.begin(), both_.end(), name) != both_.end();
+    if (is_group && 0 <= body && body < num_bodies) {
+      add({file_, origin.line, origin.key + ".gauges",
+           "a group of the mesh has the name by which a gauge calls a body: which is meant is not clear",
+           "another name for the group, or another gauge", name});
+    } else if (body < 0 || is_group) {
       either(origin, "gauges", name);
     } else if (body >= num_bodies) {
       add({file_, origin.line, origin.key + ".gauges", "the mesh has no such body",
@@ -85,11 +92,16 @@ std::vector<Problem> check_groups(const Case& c, std::span<const std::string> vo
     checker.volume(m.origin, "group", m.group);
     with_material.insert(m.group);
   }
-  for (const std::string& group : volume_groups)
+  for (const std::string& group : volume_groups) {
+    if (group == kEveryGroup)
+      checker.add({c.file.string(), c.mesh.origin.line, "mesh",
+                   "a volume group of the mesh has the name that stands for every group in [[contact]]",
+                   "another name for the group", group});
     if (!with_material.contains(group))
       checker.add({c.file.string(), c.mesh.origin.line, "material",
                    "the volume group \"" + group + "\" of the mesh has no material",
                    "a [[material]] for every volume group", group});
+  }
   // Joints, contacts and initial velocities name groups with a material, which has been checked above.
   for (const std::string& group : c.contact_points.surfaces)
     checker.surface(c.contact_points.origin, "surfaces", group);

@@ -23,12 +23,13 @@ double parts_of(const TimeFunction& f, double time) {
 
 // Beyond any sense, and far below what makes an energy overflow: a unit forgotten, or an exponent too long.
 constexpr double kFastest = 3e8;         // m/s, that of light
+constexpr double kFurthest = 1e10;       // m
 constexpr double kFastestTurn = 1e15;    // rad/s
 constexpr double kFastestStrain = 1e15;  // 1/s
 constexpr double kMostGravity = 1e20;    // m/s2
 constexpr double kMostPressure = 1e20;   // Pa
 
-/// Speeds and loads that no run can bear.
+/// Speeds, displacements and loads that no run can bear.
 class MotionLimits {
  public:
   explicit MotionLimits(const Case& c) : c_(c) {}
@@ -44,9 +45,11 @@ class MotionLimits {
       for (const TimeFunction& f : stage.gravity)
         demand(stage.origin, "gravity", parts_of(f, stage.end), kMostGravity, "m/s2");
       for (const Constraint& constraint : stage.constraints) {
-        if (constraint.kind != ConstraintKind::velocity) continue;
+        if (constraint.kind == ConstraintKind::fixed) continue;
+        const bool velocity = constraint.kind == ConstraintKind::velocity;
         for (const TimeFunction& f : constraint.value)
-          demand(constraint.origin, "velocity", parts_of(f, stage.end), kFastest, "m/s");
+          demand(constraint.origin, velocity ? "velocity" : "displacement", parts_of(f, stage.end),
+                 velocity ? kFastest : kFurthest, velocity ? "m/s" : "m");
       }
       for (const Pressure& pressure : stage.pressures)
         demand(pressure.origin, "value", parts_of(pressure.value, stage.end), kMostPressure, "Pa");

@@ -24,6 +24,7 @@
 #include "mesh/geometry.hpp"
 #include "model/node_sets.hpp"
 #include "model/parameters.hpp"
+#include "model/surfaces_to_break.hpp"
 #include "output/quantity_text.hpp"
 #include "output/summary.hpp"
 #include "parallel/domain_report.hpp"
@@ -276,6 +277,7 @@ std::string mesh_report(const FinishedMesh& made, const QualityReport& q) {
 
 CheckReport full_report(const case_::Case& input, const Model& model, const StartedFrom& from) {
   refuse_contradictions(input, model);
+  refuse_what_cannot_break(input, joints_on(model, surfaces_to_break(input)));
   CheckReport report;
   report.text = fmt::format("{}\n", printable(input.title));
   if (!from.words.empty())

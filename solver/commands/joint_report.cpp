@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace breccia {
@@ -22,6 +23,11 @@ double young(const ElasticParams& p) { return p.mu * (3 * p.lambda + 2 * p.mu) /
 /// Index into WholeModel::joint_groups.
 std::size_t groups_of(const Model& model, const ModelJoint& joint) {
   return index(model.groups_of_joint_law[index(joint.law)]);
+}
+
+/// Indices of the groups of both sides.
+std::pair<std::size_t, std::size_t> groups_beside(const Model& model, const ModelJoint& joint) {
+  return {index(model.mesh.element_group[index(joint.face.a)]), index(model.mesh.element_group[index(joint.face.b)])};
 }
 
 /// Area of the joints of a pair of groups over the volume of these, 1/m.
@@ -64,8 +70,33 @@ double fine_edge(const Model& model, std::size_t groups) {
   return *tenth;
 }
 
-/// Element size against the process zone, m. @param h, fine  edges: mean, and of the finest tenth
-std::string zone_advice(const std::string& name, double zone, double h, double fine) {
+/// Whether the joints of a pair lie on planes between two groups neither of which can break inside.
+bool path_is_given(const Model& model, std::size_t groups) {
+  std::vector<bool> breaks_inside(model.mesh.volume_groups.size(), false);
+  for (const ModelJoint& joint : model.joints) {
+    const auto [a, b] = groups_beside(model, joint);
+    if (a == b && model.joint_laws[index(joint.law)].breakable()) breaks_inside[a] = true;
+  }
+  return std::all_of(model.joints.begin(), model.joints.end(), [&](const ModelJoint& joint) {
+    const auto [a, b] = groups_beside(model, joint);
+    return groups_of(model, joint) != groups || (a != b && !breaks_inside[a] && !breaks_inside[b]);
+  });
+}
+
+/// Least length of the fracture process zone of a pair, m: the lesser of two estimates.
+double process_zone(const Model& model, std::size_t groups) {
+  const JointLawParams& law = model.joint_laws[groups];
+  const double length = young(params_of(model, groups)) * law.width_normal / law.tensile_strength;
+  return std::min(length / 4, std::numbers::pi * length / 32);
+}
+
+/// What an advised refinement must not exceed: beyond it no mesh or step can be computed.
+constexpr double kWorthRefining = 20;
+
+/// Element size against the process zone, m.
+/// @param h, fine  edges: mean, and of the finest tenth
+/// @param given    the joints lie on planes alone: see path_is_given
+std::string zone_advice(const std::string& name, double zone, double h, double fine, bool given) {
   constexpr double kWanted = 1.0 / 3, kGraded = 0.7;
   if (h <= kWanted * zone) return {};
   const std::string elements = fmt::format("The elements of {} (edge {:.3g} m)", name, h);
@@ -75,17 +106,34 @@ std::string zone_advice(const std::string& name, double zone, double h, double f
         "m): trust fracture in that part alone.",
         elements, zone, fine);
   }
+  if (h > kWorthRefining * zone) {
+    return fmt::format(
+        "{} are far larger than its fracture process zone, which no practicable mesh resolves: how these joints break "
+        "depends on the mesh. It is of no concern where a group was made soft for an excavation; else look at young, "
+        "tensile_strength and energy_mode_1.",
+        elements);
+  }
   const std::string finest = fine < kGraded * h ? fmt::format(", in the finest tenth {:.2g}", fine / zone) : "";
   if (h > zone) {
     return fmt::format(
-        "{} are larger than its fracture process zone (h_max = {:.3g} m{}): the load at fracture and the crack paths "
-        "depend on the mesh. Refine by {:.2g}, or take the results as qualitative.",
-        elements, zone, finest.empty() ? "" : finest + " of it", h / zone);
+        "{} are larger than its fracture process zone (h_max = {:.3g} m{}): the load at fracture and the {} depend on "
+        "the mesh. Refine by {:.2g}, or take the results as qualitative.",
+        elements, zone, finest.empty() ? "" : finest + " of it", given ? "speed of the crack" : "crack paths",
+        h / zone);
+  }
+  const std::string ratio = fmt::format("{} are {:.2g} of its fracture process zone ({:.3g} m){}: above a third",
+                                        elements, h / zone, zone, finest);
+  const double refinement = h / (kWanted * zone);
+  if (given) {
+    return fmt::format(
+        "{} the load at fracture and the speed of the crack depend on the mesh; its path is given, between two groups "
+        "that cannot break. Refine by {:.2g} where load and speed matter.",
+        ratio, refinement);
   }
   return fmt::format(
-      "{} are {:.2g} of its fracture process zone ({:.3g} m){}: crack paths still depend on the mesh, branching was "
-      "lost at 0.4 and found at 0.3. Refine by {:.2g} where cracks are to branch or turn.",
-      elements, h / zone, zone, finest, h / (kWanted * zone));
+      "{} crack paths and branching depend on the mesh. Refine by {:.2g} where cracks are to branch or turn; a fine "
+      "mesh alone does not make a crack branch, that takes enough load as well.",
+      ratio, refinement);
 }
 
 /// Strengths that scatter, of the joints of a pair; empty: they do not.
@@ -118,13 +166,11 @@ std::string law_report(const Model& model, std::size_t l, Advice& advice) {
         name, 100 * softness, softness / kSoftness));
   }
   if (!law.breakable()) return text;
-  const double zone = std::min(modulus * law.width_normal / (4 * law.tensile_strength),
-                               std::numbers::pi * modulus * law.width_normal / (32 * law.tensile_strength));
-  const double fine = fine_edge(model, l);
+  const double zone = process_zone(model, l), fine = fine_edge(model, l);
   text += fmt::format("  fracture process zone at least {:.4g} m; mean joint edge {:.4g} m, a tenth below {:.4g} m\n",
                       zone, h, fine);
   text += scatter_report(model, l);
-  advise(advice, zone_advice(name, zone, h, fine));
+  advise(advice, zone_advice(name, zone, h, fine, path_is_given(model, l)));
   return text;
 }
 
@@ -148,6 +194,8 @@ Advice sudden_softening(const Model& model, double dt) {
     const double impedance = std::sqrt(young(model.elastic[index(group)]) * model.density[index(group)]);
     const double steps = law.width_normal * impedance / (2 * law.tensile_strength * dt);
     if (steps >= kEnough) continue;
+    // joint_report says that nothing resolves these.
+    if (kEnough / steps > kWorthRefining && model.joint_sizes[l] > kWorthRefining * process_zone(model, l)) continue;
     advice.push_back(fmt::format(
         "The joints of {} soften within {:.2g} steps, too few to follow: of a glass bar 6 % of the energy was lost "
         "with 3.8 steps, 1.3 % with 10, and damping took more than fracture (time.residual_limit ends a run that loses "

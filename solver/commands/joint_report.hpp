@@ -15,7 +15,8 @@ namespace breccia {
 [[nodiscard]] std::string joint_report(const Model& model, Advice& advice);
 
 /// Joints that open fully within few steps: once one has begun to soften both sides of the crack leave with f_t/(rho c)
-/// each, so that it takes D_n rho c / (2 f_t). @param dt  the step, s
+/// each, so that it takes D_n rho c / (2 f_t). Not where no step resolves it, which joint_report tells.
+/// @param dt  the step, s
 [[nodiscard]] Advice sudden_softening(const Model& model, double dt);
 
 }  // namespace breccia

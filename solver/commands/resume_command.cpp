@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "case/reader.hpp"
+#include "case/schema.hpp"
 #include "commands/commands.hpp"
 #include "commands/oversubscription.hpp"
 #include "commands/run_sinks.hpp"
@@ -84,23 +85,36 @@ std::pair<Checkpoint, fs::path> latest_sound(const std::vector<fs::path>& files,
   throw InputError(std::move(problems));
 }
 
+/// What the case would refuse as the end of a stage is the fault of the option.
+void check_later_end(double until) {
+  const case_::Range& allowed = case_::key_of("stage[].end").range;
+  if (!allowed.contains(until))
+    throw refused("--until", "is out of range", "a time in s " + allowed.text(), quantity_text(until, "s"));
+}
+
 /// The case of the checkpoint, with a later end if that is asked for.
 case_::Case case_of(const Checkpoint& from, const fs::path& file, std::vector<std::string> overrides, double until,
                     ResumeOptions& options) {
   case_::Case input = case_::read_case_text(from.case_text, file, overrides, case_::MeshFile::may_be_gone);
   options.until = until;
   if (until <= input.stages.back().end || !std::isfinite(until)) return input;
+  check_later_end(until);
   overrides.push_back(fmt::format("stage[{}].end={:.17g}", input.stages.size() - 1, until));
   options.extended = true;
   return case_::read_case_text(from.case_text, file, overrides, case_::MeshFile::may_be_gone);
 }
 
-/// Throws InputError where there is nothing to do.
-void check_there_is_more(const case_::Case& input, const Checkpoint& from, const fs::path& run, double until) {
-  const Clock& clock = from.model.clock;
+/// Throws InputError where the checkpoint is in no stage of its case, or holds nodes by what the stage does not have.
+void check_stage(const case_::Case& input, const Checkpoint& from, const fs::path& file, const fs::path& run) {
   if (from.position.stage < 0 || from.position.stage >= std::ssize(input.stages))
     throw refused(run.string(), "this checkpoint is damaged: its case has no such stage",
                   fmt::format("0 to {}", input.stages.size() - 1), std::to_string(from.position.stage));
+  demand_constraints(file, from.mine, input, input.stages[static_cast<std::size_t>(from.position.stage)]);
+}
+
+/// Throws InputError where there is nothing to do.
+void check_there_is_more(const case_::Case& input, const Checkpoint& from, const fs::path& run, double until) {
+  const Clock& clock = from.model.clock;
   if (until <= clock.time + 0.5 * clock.dt)
     throw refused(run.string(), "the run has come as far already",
                   "--until later than " + quantity_text(clock.time, "s"), quantity_text(until, "s"));
@@ -138,6 +152,7 @@ int go_on(const ResumeCommand& asked, const Communicator& world) {
     world.set_patience(input.domains.patience);
     complete = is_complete(RunFolder{run}, from.model.clock.steps) && !options.extended;
     if (complete) return;
+    check_stage(input, from, file, run);
     check_there_is_more(input, from, run, asked.until);
     if (input.insitu.asked_for()) InSituPlugin(input.insitu.backend);
   });

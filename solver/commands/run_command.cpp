@@ -15,6 +15,7 @@
 #include "commands/start_state.hpp"
 #include "commands/unmeant_report.hpp"
 #include "mesh/geo_scan.hpp"
+#include "model/surfaces_to_break.hpp"
 #include "output/insitu.hpp"
 #include "output/run_folder.hpp"
 #include "output/run_lock.hpp"
@@ -91,6 +92,7 @@ int run_command(const RunCommand& asked, const Communicator& world) {
       give_up_if_interrupted();
       refuse_initial_overlaps(input, *model);
       refuse_contradictions(input, *model);
+      refuse_what_cannot_break(input, joints_on(*model, surfaces_to_break(input)));
       warn_of(unmeant_advice(input, *model));
     }
     folder = prepare_run_folder(root, input.resolved, provenance_of(asked, input, start, world),

@@ -15,6 +15,7 @@
 #include "domains/possible_records.hpp"
 #include "model/node_sets.hpp"
 #include "model/parameters.hpp"
+#include "model/surfaces_to_break.hpp"
 #include "output/checkpoint_index.hpp"
 #include "output/quantity_text.hpp"
 #include "output/run_lock.hpp"
@@ -238,7 +239,8 @@ StartOptions start_options(const case_::Case& input, const StartState& start) {
     options.words +=
         "; under other laws than there, so the energy that it holds counts as put in, and the residual "
         "from here";
-  const std::vector<std::string> before = surfaces_to_break(start.parent.input), now = surfaces_to_break(input);
+  const std::vector<std::string> before = unpack_whole(start.checkpoint.whole_model).cut,
+                                 now = surfaces_to_break(input);
   std::set<std::string> all(before.begin(), before.end());
   all.insert(now.begin(), now.end());
   if (all.size() > before.size()) options.cut.assign(all.begin(), all.end());

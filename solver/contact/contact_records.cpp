@@ -59,7 +59,7 @@ ContactSearch::ContactSearch(const ContactSearchParams& search, const Model& mod
   restore_contactors(records);
   contact_.body_length = model.whole.body_length;
   contact_.body_extent = model.whole.body_extent;
-  contact_.near = 0.5 * search_.smallest_buffer();
+  contact_.near = search_.always_found();
   surface_.add_free_points();
   restore_faces(records);
   sort_points(contact_);

@@ -24,6 +24,7 @@ ContactSearch::ContactSearch(const ContactSearchParams& search, const ContactMod
       search_(search, surface_, contact, surface_.choose_contactors(search)),
       kept_(contact),
       release_(surface_, search_, contact) {
+  contact_.near = search_.always_found();
   surface_.add_free_points();
   sort_points(contact_);
 }

@@ -16,7 +16,7 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 double largest_buffer(double asked, double contactor_size) {
-  return asked > 0 ? asked : kLargestBuffer * contactor_size;
+  return asked > 0 ? std::max(asked, kSmallestBuffer * contactor_size) : kLargestBuffer * contactor_size;
 }
 
 CoupleSearch::CoupleSearch(const ContactSearchParams& search, const ContactSurface& surface,
@@ -44,6 +44,8 @@ double CoupleSearch::used_up(const NodalState& nodes, const Communicator& commun
   const double moved = relative_displacement(surface_.model().local, nodes.position, reference_, communicator);
   return std::min(1.0, moved / (0.5 * buffer_));
 }
+
+double CoupleSearch::always_found() const { return 0.5 * kSmallestBuffer * size_; }
 
 double CoupleSearch::buffer_for(double step_length) const {
   const double largest = largest_buffer(asked_buffer_, size_);

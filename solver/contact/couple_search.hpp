@@ -51,9 +51,10 @@ class CoupleSearch {
   [[nodiscard]] double reach(double step_length) const { return kContactorReach * buffer_for(step_length); }
 
   [[nodiscard]] bool searched() const { return searched_; }
-  [[nodiscard]] double buffer() const { return buffer_; }                 ///< m, of the last search
-  [[nodiscard]] double smallest_buffer() const { return buffer_for(0); }  ///< m, of any search
-  [[nodiscard]] double contactor_size() const { return size_; }           ///< m, mean
+  [[nodiscard]] double buffer() const { return buffer_; }  ///< m, of the last search
+  /// m: every search, with whatever buffer, finds the points that are so near to the box of a contactor.
+  [[nodiscard]] double always_found() const;
+  [[nodiscard]] double contactor_size() const { return size_; }  ///< m, mean
   /// Share, 0..1, of what nodes may move after the last search that they have moved. @pre searched(). Collective.
   [[nodiscard]] double used_up(const NodalState& nodes, const Communicator& communicator) const;
 

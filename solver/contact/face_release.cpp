@@ -41,16 +41,16 @@ std::vector<ContactCouple>& FaceRelease::release(std::span<const FreedFace> face
   return made_;
 }
 
-/// Both sides of every face that is not free yet, each once.
+/// Both sides of every face that is not free yet, as far as this rank has them, each once.
 void FaceRelease::collect_sides(std::span<const FreedFace> faces) {
   const ContactModel& model = surface_.model();
   sides_.clear();
   for (const FreedFace& freed : faces) {
     const Index element = model.local.mesh_element[at(freed.slot)];
     const FaceLink& link = model.topology.links[at(element)][at(freed.face)];
-    if (!link.inner() || surface_.clusters().broken(element, freed.face)) continue;
+    if (link.free() || surface_.clusters().broken(element, freed.face)) continue;
     sides_.push_back({element, freed.face});
-    sides_.push_back({link.neighbour, link.face()});
+    if (link.inner()) sides_.push_back({link.neighbour, link.face()});
   }
   sort_unique(sides_, [](const Topology::Face& f) { return std::tuple(f.element, f.face); });
 }

@@ -80,14 +80,13 @@ ActiveJoint new_active_joint(const Model& model, std::size_t index) {
 void plan_sweep_order(const Model& model, const StageLoads& loads, const std::vector<std::uint8_t>& sent,
                       Derived& derived) {
   std::vector<std::uint8_t> first = sent;
-  for (const AbsorbingFace& face : loads.absorbing) {
-    if (face.face.slot < model.local.num_own_slots) first[at(face.face.slot / kLanes)] = 1;
-  }
-  for (const NodalConstraint& entry : loads.constraints) {
-    for (const Index node : entry.nodes) {
+  const auto mark = [&](const std::vector<Index>& nodes) {
+    for (const Index node : nodes) {
       if (node < model.local.num_own_nodes()) first[at(node / (4 * kLanes))] = 1;
     }
-  }
+  };
+  mark(loads.absorbing.nodes);
+  for (const NodalConstraint& entry : loads.constraints) mark(entry.nodes);
   derived.ahead.clear();
   derived.rest.clear();
   const Index end = model.local.num_own_originals / kLanes;

@@ -28,6 +28,13 @@ void start_state(const Model& model, State& state) {
   if (memory) state.elements.allocate(kMaterialMemory, local.num_slots);
 }
 
+/// What a viscosity has dissipated that an earlier run had and this one has not goes on counting.
+void keep_earlier_work(const Records& records, const LocalMesh& local, State& state) {
+  const auto done = [](const ElementRecord& record) { return record.numbers[first_number(kViscousWork)] != 0; };
+  if (state.elements[kViscousWork].empty() && std::any_of(records.elements.begin(), records.elements.end(), done))
+    state.elements.allocate(kViscousWork, local.num_slots);
+}
+
 /// Of the present stage but for gravity, J.
 ExactSum work_of_loads(const State& state) {
   ExactSum sum = state.constraints.work();
@@ -50,6 +57,7 @@ Domain::Domain(const Model& of, const ContactSearchParams& search, const Records
     : model(of), derived(derive(of)), timer(from.timer), sample(from.sample), scratch(of.local) {
   start_state(model, state);
   copy_model_fields(from.state, state);
+  keep_earlier_work(records, model.local, state);
   restore(records, model, state, derived);
   state.work.gravity.set_anchor(model.local, state.nodes.position);
   if (model.has_contact) contact = std::make_unique<ContactSearch>(search, model, records, state.contact);
@@ -93,7 +101,9 @@ void start_joints(Domain& domain) {
 }
 
 void add_velocity(Domain& domain, const InitialVelocity& initial) {
-  add_initial_velocity(domain.model.local, initial, domain.state.nodes.position, domain.state.nodes.velocity);
+  const Model& model = domain.model;
+  add_initial_velocity(model.local, initial, domain.state.nodes.position, domain.state.nodes.velocity,
+                       mass_share(model.local, model.density, initial.group));
   domain.state.signals.max_speed = fastest_node(domain).speed;
 }
 

@@ -11,6 +11,7 @@
 #include "domains/piece_mesh.hpp"
 #include "domains/state_records.hpp"
 #include "model/parameters.hpp"
+#include "model/surfaces_to_break.hpp"
 #include "parallel/totals.hpp"
 
 namespace breccia {
@@ -184,6 +185,13 @@ void Partition::build(const Piece& piece, WholeModel whole, Continuation from) {
   }
   anchor_ = domain_->state.nodes.position;
   moved_.restart();
+}
+
+void Partition::refuse_what_cannot_break() const {
+  std::vector<SurfaceJoints> joints = joints_on(*model_, surfaces_to_break(input_));
+  for (SurfaceJoints& of_surface : joints)
+    of_surface = {communicator_.sum(of_surface.breakable), communicator_.sum(of_surface.unbreakable)};
+  breccia::refuse_what_cannot_break(input_, joints);
 }
 
 void Partition::begin_stage(const case_::Stage& stage) {

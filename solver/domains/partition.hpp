@@ -44,6 +44,8 @@ class Partition {
   [[nodiscard]] const Communicator& communicator() const { return communicator_; }
   [[nodiscard]] std::int64_t decompositions() const { return decompositions_; }  ///< so far, the first included
 
+  /// Throws InputError on all ranks where a stage of the case is to break what has no breakable joints. Collective.
+  void refuse_what_cannot_break() const;
   /// Breaks the stage's surfaces and lets its loads act; the step's length stays. Collective.
   void begin_stage(const case_::Stage& stage);
   [[nodiscard]] std::vector<double> costs() const {

@@ -32,7 +32,7 @@ std::vector<std::byte> pack(const WholeModel& whole) {
     }
   }
   bytes.put_text(whole.source);
-  for (const auto* names : {&whole.volume_groups, &whole.surface_groups}) {
+  for (const auto* names : {&whole.volume_groups, &whole.surface_groups, &whole.cut}) {
     bytes.put(static_cast<std::uint64_t>(names->size()));
     for (const std::string& name : *names) bytes.put_text(name);
   }
@@ -67,7 +67,7 @@ WholeModel unpack_whole(std::span<const std::byte> packed) {
     }
   }
   whole.source = bytes.take_text();
-  for (auto* names : {&whole.volume_groups, &whole.surface_groups}) {
+  for (auto* names : {&whole.volume_groups, &whole.surface_groups, &whole.cut}) {
     for (auto left = bytes.take<std::uint64_t>(); left > 0; --left) names->push_back(bytes.take_text());
   }
   DEMAND(bytes.left() == 0, std::to_string(bytes.left()) + " bytes too many");

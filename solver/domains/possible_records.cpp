@@ -4,16 +4,20 @@
 #include <cstdint>
 #include <cstdlib>
 #include <exception>
+#include <optional>
+#include <string>
 
 #include "base/error.hpp"
 #include "domains/piece_mesh.hpp"
+#include "model/plane.hpp"
 #include "model/strength_scatter.hpp"
 
 namespace breccia {
 namespace {
 
 constexpr std::int64_t kFaces = 4, kCorners = 4, kAxes = 3;
-constexpr std::int64_t kCodes = 12;  // FaceLink::code
+constexpr std::int64_t kCodes = 12;            // FaceLink::code
+constexpr std::int64_t kPointsAnElement = 24;  // ContactPoint::id
 
 bool within(std::int64_t index, std::int64_t size) { return 0 <= index && index < size; }
 
@@ -39,6 +43,22 @@ bool is_possible(const JointRecord& r, const WholeModel& whole) {
          within(r.joint.law, whole.num_joint_laws());
 }
 
+bool is_possible(const RampRecord& r, const Records& records) {
+  const Index place = records.place_of(r.element);
+  const auto not_negative = [](Index steps) { return steps >= 0; };
+  return place >= 0 && records.elements[static_cast<std::size_t>(place)].contactor != 0 &&
+         all(r.ramp.remaining, not_negative) && all(r.ramp.before, not_negative);
+}
+
+bool is_possible(const OffsetRecord& r, const Records& records) {
+  return records.place_of(r.element) >= 0 && r.point / kPointsAnElement == r.element && r.point >= 0;
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
+  throw InputError(Problem{file.string(), 0, "checkpoint", "this checkpoint is damaged: " + what,
+                           "a checkpoint that `breccia run` has written", ""});
+}
+
 }  // namespace
 
 bool are_possible(const Records& records, const WholeModel& whole) {
@@ -53,6 +73,8 @@ bool are_possible(const Records& records, const WholeModel& whole) {
          all(records.joints, [&](const JointRecord& r) { return is_possible(r, whole); }) &&
          all(records.released, [](const ReleasedRecord& r) { return within(r.joint.face_a, kFaces); }) &&
          all(records.couples, [&](const CoupleRecord& r) { return within(r.contactor, whole.num_elements); }) &&
+         all(records.ramps, [&](const RampRecord& r) { return is_possible(r, records); }) &&
+         all(records.offsets, [&](const OffsetRecord& r) { return is_possible(r, records); }) &&
          all(records.holds,
              [](const HoldRecord& r) { return within(r.corner, kCorners) && within(r.axis, kAxes) && r.entry >= 0; }) &&
          all(records.held, [](const HeldRecord& r) { return within(r.corner, kCorners); }) &&
@@ -68,10 +90,16 @@ void demand_possible(const std::filesystem::path& file, std::span<const std::byt
     possible = are_possible(records, unpack_whole(whole_model));
   } catch (const std::exception&) {  // the bytes end too early, or ask for more than there is
   }
-  if (possible) return;
-  throw InputError(Problem{file.string(), 0, "checkpoint",
-                           "this checkpoint is damaged: its numbers point to what its model does not have",
-                           "a checkpoint that `breccia run` has written", ""});
+  if (!possible) refuse(file, "its numbers point to what its model does not have");
+}
+
+void demand_constraints(const std::filesystem::path& file, const Records& records, const case_::Case& input,
+                        const case_::Stage& stage) {
+  const std::optional<PlaneModel> plane = plane_model(input);
+  const std::int64_t across = plane && plane->strain ? 1 : 0;  // as stage_loads holds the nodes of plane strain
+  const std::int64_t number = std::ssize(stage.constraints) + across;
+  if (all(records.holds, [&](const HoldRecord& r) { return within(r.entry, number); })) return;
+  refuse(file, "it holds nodes by a constraint that its stage does not have");
 }
 
 }  // namespace breccia

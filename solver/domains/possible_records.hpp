@@ -4,18 +4,26 @@
 #include <filesystem>
 #include <span>
 
+#include "case/case.hpp"
 #include "model/whole_model.hpp"
 #include "state/records.hpp"
 
 namespace breccia {
 
 /// Whether every index of the records points to something that the model has: elements, groups, bodies, joint laws,
-/// faces, corners and axes. O(records).
+/// faces, corners and axes; ramps belong to contactors and offsets to points of their elements, all among the records.
+/// Entries of constraints are only known to be no less than 0: demand_constraints. O(records log records).
 [[nodiscard]] bool are_possible(const Records& records, const WholeModel& whole);
 
 /// What the checksums of a checkpoint do not tell: that it was a run that wrote it. Throws InputError that names the
 /// file: the bytes of the model are not whole, or an index points beyond it.
 /// @param whole_model  pack(WholeModel), domains/piece_mesh.hpp
 void demand_possible(const std::filesystem::path& file, std::span<const std::byte> whole_model, const Records& records);
+
+/// What the case of a checkpoint tells besides: every hold is of a constraint of the stage. Throws InputError that names
+/// the file. O(holds).
+/// @param stage  of the case, in which the checkpoint was written
+void demand_constraints(const std::filesystem::path& file, const Records& records, const case_::Case& input,
+                        const case_::Stage& stage);
 
 }  // namespace breccia

@@ -102,10 +102,10 @@ Records records_of(const Domain& domain) {
   for (Index e = 0; e < model.mesh.num_elements(); ++e) {
     if (!model.local.is_original(model.local.slot_of_element[at(e)])) continue;
     const ElementRecord record = collector.record(e, records);
-    const std::size_t untagged = records.faces.size();
     append_tags(faces, record.id, next_face, records.faces);
-    if (records.faces.size() > untagged) held.add(e, record.id, records.held);  // others are on no absorbing surface
+    const std::size_t untagged = records.corners.size();
     append_tags(model.corner_tags, record.id, next_corner, records.corners);
+    if (records.corners.size() > untagged) held.add(e, record.id, records.held);  // others are on no absorbing surface
     records.elements.push_back(record);
   }
   for_each_joint_record(domain, [&](const auto& record) {

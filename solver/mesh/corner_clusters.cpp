@@ -49,9 +49,9 @@ void CornerClusters::break_faces(std::span<const Topology::Face> faces, std::vec
   nodes_.clear();
   for (const auto& [element, face] : faces) {
     const FaceLink& link = topology_->links[at(element)][at(face)];
-    if (!link.inner() || broken(element, face)) continue;
+    if (link.free() || broken(element, face)) continue;
     broken_[at(element)] |= static_cast<std::uint8_t>(1u << face);
-    broken_[at(link.neighbour)] |= static_cast<std::uint8_t>(1u << link.face());
+    if (link.inner()) broken_[at(link.neighbour)] |= static_cast<std::uint8_t>(1u << link.face());
     for (const int corner : kFaceCorners[at(face)]) nodes_.push_back(mesh_->elements[at(element)][at(corner)]);
   }
   std::sort(nodes_.begin(), nodes_.end());

@@ -21,8 +21,10 @@ namespace breccia {
 /// What is wrong with a surface whose triangles are no face of any element, and what is allowed.
 inline constexpr const char* kStrayTriangles = "holds triangles that are no face of any element";
 inline constexpr const char* kFacesOfVolumes =
-    "faces of meshed physical volumes; a line that ends inside an extruded surface leaves no such faces: cut the "
-    "surface in two along the line and on from its tip to the border, away from the expected crack, and set mesh.glue";
+    "faces of meshed physical volumes; triangles are none where a line ends inside an extruded surface (cut the "
+    "surface in two along the line and on from its tip to the border, away from the expected crack, and set "
+    "mesh.glue), or where two surfaces with a common edge are extruded by two Extrude commands, each of which makes "
+    "the face between them (extrude both in one command)";
 
 /// Throws InputError, one problem a surface group, when a surface triangle is no face of any element.
 void demand_surfaces_are_faces(const Mesh& mesh);

@@ -10,6 +10,7 @@
 #include "model/model_joints.hpp"
 #include "model/node_sets.hpp"
 #include "model/parameters.hpp"
+#include "model/surfaces_to_break.hpp"
 
 namespace breccia {
 namespace {
@@ -149,13 +150,6 @@ void take_whole(const case_::Case& input, Model& model) {
 
 }  // namespace
 
-std::vector<std::string> surfaces_to_break(const case_::Case& input) {
-  std::set<std::string> surfaces;
-  for (const case_::Stage& stage : input.stages)
-    surfaces.insert(stage.broken_surfaces.begin(), stage.broken_surfaces.end());
-  return {surfaces.begin(), surfaces.end()};
-}
-
 std::vector<CornerTag> tag_corners(const std::vector<std::string>& cut, const Mesh& mesh, const Topology& topology) {
   SurfaceCorners corners(cut, mesh, topology);
   std::vector<CornerTag> tags;
@@ -191,7 +185,8 @@ Model build_bare_model(const case_::Case& input) {
   take_whole(input, model);
   take_contact(input, model);
   break_initial(input, model);
-  model.corner_tags = tag_corners(surfaces_to_break(input), model.mesh, model.topology);
+  model.whole.cut = surfaces_to_break(input);
+  model.corner_tags = tag_corners(model.whole.cut, model.mesh, model.topology);
   find_joint_groups(input, model);
   take_joint_laws(input, model);
   return model;

@@ -87,8 +87,6 @@ struct Model {
 /// faces that no stage breaks. @param cut  surfaces that stages break;  by (element, group). O(elements x surfaces).
 [[nodiscard]] std::vector<CornerTag> tag_corners(const std::vector<std::string>& cut, const Mesh& mesh,
                                                  const Topology& topology);
-/// Surfaces that stages break, in the order of the alphabet.
-[[nodiscard]] std::vector<std::string> surfaces_to_break(const case_::Case& input);
 
 /// Whether a case has laws for a model that is there already. Throws InputError with every joint law that is missing or
 /// makes no sense.

@@ -284,13 +284,15 @@ std::vector<LoadedFace> faces_of_surface(const Model& model, const std::string& 
   return faces;
 }
 
-/// The faces of a surface with the impedances of their material.
-void add_absorbing(const Model& model, const std::string& surface, std::vector<AbsorbingFace>& faces) {
+/// The faces of a surface with the impedances of their material, and its nodes.
+void add_absorbing(const Model& model, const std::string& surface, AbsorbingSurfaces& absorbing) {
+  const std::vector<Index> nodes = nodes_of_group(model, surface);
+  absorbing.nodes.insert(absorbing.nodes.end(), nodes.begin(), nodes.end());
   for (const LoadedFace& face : faces_of_surface(model, surface)) {
     const auto group = static_cast<std::size_t>(model.local.block_group[static_cast<std::size_t>(face.slot / kLanes)]);
     const ElasticParams& p = model.elastic[group];
     const double density = model.density[group];
-    faces.push_back({face, std::sqrt(density * (p.lambda + 2 * p.mu)), std::sqrt(density * p.mu)});
+    absorbing.faces.push_back({face, std::sqrt(density * (p.lambda + 2 * p.mu)), std::sqrt(density * p.mu)});
   }
 }
 

@@ -14,7 +14,7 @@ namespace breccia {
 struct StageLoads {
   std::vector<SurfaceLoad> surfaces;
   std::vector<NodalConstraint> constraints;
-  std::vector<AbsorbingFace> absorbing;
+  AbsorbingSurfaces absorbing;
   std::array<TimeFunction, 3> gravity;  ///< m/s2
   double mass_damping = 0;              ///< 1/s
   double local_damping = 0;             ///< share of the unbalanced force

@@ -47,6 +47,13 @@ std::vector<Vec3> centres_of(const Mesh& mesh, Index group, double density) {
 
 }  // namespace
 
+Index WholeModel::pair_of(Index group, Index other) const {
+  const Index low = std::min(group, other), high = std::max(group, other);
+  const auto found = std::find_if(joint_groups.begin(), joint_groups.end(),
+                                  [&](const JointGroups& pair) { return pair.a == low && pair.b == high; });
+  return found == joint_groups.end() ? -1 : static_cast<Index>(found - joint_groups.begin());
+}
+
 WholeModel whole_of(const case_::Case& input, const Mesh& mesh, const std::vector<double>& lambda_2mu,
                     const std::vector<double>& density) {
   WholeModel whole;

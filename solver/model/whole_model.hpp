@@ -19,7 +19,8 @@ struct WholeModel {
     Index least_class = 0;  ///< of strength (strength_scatter.hpp) that any of them is in
     Index num_classes = 0;  ///< from that one on; 0: all have the same strengths
   };
-  std::string source;  ///< of the mesh, for messages
+  std::string source;            ///< of the mesh, for messages
+  std::vector<std::string> cut;  ///< surfaces that stages break, of all runs up to this one; ascending
   std::vector<std::string> volume_groups, surface_groups;
   std::int64_t num_elements = 0, num_joints = 0;
   std::vector<Index> node_sets;           ///< (volume groups) of shared nodes (node_sets.hpp), or empty
@@ -34,6 +35,8 @@ struct WholeModel {
   /// neither turns nor stretches them
   std::vector<std::vector<Vec3>> motion_centres;
 
+  /// The pair of two groups, as an index; -1: no joints hold them together.
+  [[nodiscard]] Index pair_of(Index group, Index other) const;
   /// Joint laws in all: those of the pairs, then those of the classes of the first pair that has some, of the next, ...
   [[nodiscard]] std::int64_t num_joint_laws() const { return first_class_law(joint_groups.size()); }
   /// Law of the least class of pair `groups`.

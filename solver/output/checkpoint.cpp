@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <regex>
@@ -104,6 +105,15 @@ std::size_t num_pieces(const CheckpointIndex& index) {
   return pieces;
 }
 
+/// Whether a run can have come here: times are numbers, the next step has a length, and steps can be counted further.
+bool are_possible(const Clock& clock, const RunPosition& position) {
+  constexpr std::int64_t kMostSteps = 1'000'000'000'000'000'000;  // the name of a checkpoint has no more digits
+  const auto not_negative = [](double time) { return std::isfinite(time) && time >= 0; };
+  return not_negative(clock.time) && not_negative(clock.dt) && clock.dt > 0 && not_negative(clock.dt_before) &&
+         not_negative(clock.dt_earlier) && 0 <= clock.steps && clock.steps < kMostSteps &&
+         not_negative(position.start_time) && 0 <= position.start_step && position.start_step <= clock.steps;
+}
+
 /// Whether every list ascends by element and names only elements of the checkpoint.
 bool belong_together(const Records& records) {
   const auto before = [](const ElementRecord& a, const ElementRecord& b) { return a.id < b.id; };
@@ -171,6 +181,8 @@ Checkpoint read_checkpoint(const fs::path& file, const Communicator& communicato
     const CheckpointIndex index = read_index(file);
     const PieceReader reader(file, index);
     reader.read_whole(checkpoint);
+    if (!are_possible(checkpoint.model.clock, checkpoint.position))
+      refuse_checkpoint(file, "this checkpoint is damaged: no run has come to its time and step");
     const std::size_t pieces = num_pieces(index);
     for (auto p = static_cast<std::size_t>(communicator.rank()); p < pieces;
          p += static_cast<std::size_t>(communicator.size())) {

@@ -13,7 +13,7 @@ namespace breccia {
 namespace {
 
 /// What a face adds to each of its corners, N s/m.
-Mat3 impedance_of(const AbsorbingFace& face, const LocalMesh& mesh) {
+Mat3 impedance_of(const AbsorbingSurfaces::Part& face, const LocalMesh& mesh) {
   const Vec3 doubled = doubled_area(mesh.reference, face_nodes(mesh, face.face));
   const double size = doubled.norm();
   const Mat3 along = doubled * doubled.transpose() / (size * size);
@@ -22,22 +22,22 @@ Mat3 impedance_of(const AbsorbingFace& face, const LocalMesh& mesh) {
 
 }  // namespace
 
-AbsorbingBoundary::AbsorbingBoundary(std::vector<AbsorbingFace> faces, const LocalMesh& mesh, const Constraints& held,
+AbsorbingBoundary::AbsorbingBoundary(const AbsorbingSurfaces& surfaces, const LocalMesh& mesh, const Constraints& held,
                                      std::span<const NodeForce> before)
     : mesh_(&mesh) {
-  std::sort(faces.begin(), faces.end(),
-            [](const AbsorbingFace& a, const AbsorbingFace& b) { return comes_before(a.face, b.face); });
+  std::vector<AbsorbingSurfaces::Part> parts = surfaces.faces;
+  const auto comes_first = [](const auto& a, const auto& b) { return comes_before(a.face, b.face); };
+  std::sort(parts.begin(), parts.end(), comes_first);
+  const auto same = [&](const auto& a, const auto& b) { return !comes_first(a, b); };  // of two in order
+  parts.erase(std::unique(parts.begin(), parts.end(), same), parts.end());
   std::map<Index, Mat3> sums;
-  const LoadedFace* last = nullptr;
-  for (const AbsorbingFace& face : faces) {
-    const bool again = last != nullptr && !comes_before(*last, face.face);
-    last = &face.face;
-    if (again) continue;
-    const Mat3 impedance = impedance_of(face, mesh);
-    for (const Index node : face_nodes(mesh, face.face)) {
-      if (!mesh.is_moved(node)) continue;
-      const auto [sum, fresh] = sums.emplace(node, impedance);
-      if (!fresh) sum->second += impedance;
+  for (const Index node : surfaces.nodes) {
+    if (mesh.is_moved(node)) sums.emplace(node, Mat3::Zero());
+  }
+  for (const AbsorbingSurfaces::Part& part : parts) {
+    const Mat3 impedance = impedance_of(part, mesh);
+    for (const Index node : face_nodes(mesh, part.face)) {
+      if (mesh.is_moved(node)) sums.emplace(node, Mat3::Zero()).first->second += impedance;
     }
   }
   const std::vector<Index>& held_nodes = held.nodes();

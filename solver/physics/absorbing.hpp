@@ -13,11 +13,17 @@
 
 namespace breccia {
 
-/// A face behind which the material goes on.
-struct AbsorbingFace {
-  LoadedFace face;
-  double normal = 0;   ///< rho c_p, Pa s/m
-  double tangent = 0;  ///< rho c_s, Pa s/m
+/// Surfaces behind which the material goes on.
+struct AbsorbingSurfaces {
+  struct Part {
+    LoadedFace face;
+    double normal = 0;   ///< rho c_p, Pa s/m
+    double tangent = 0;  ///< rho c_s, Pa s/m
+  };
+  std::vector<Part> faces;
+  std::vector<Index> nodes;  ///< of the surfaces: those of the faces, and others of the same places
+
+  [[nodiscard]] bool empty() const { return faces.empty(); }
 };
 
 /// Viscous boundary (Lysmer and Kuhlemeyer 1969): on each face the traction
@@ -36,7 +42,7 @@ class AbsorbingBoundary {
   /// @param held  axes that constraints hold are theirs alone
   /// @param before  forces that have held nodes so far, ascending nodes
   /// @pre mesh outlives this object
-  AbsorbingBoundary(std::vector<AbsorbingFace> faces, const LocalMesh& mesh, const Constraints& held,
+  AbsorbingBoundary(const AbsorbingSurfaces& surfaces, const LocalMesh& mesh, const Constraints& held,
                     std::span<const NodeForce> before);
 
   void begin(const Field<double>& velocity);

@@ -186,6 +186,7 @@ std::vector<Constraints::Anchor> Constraints::anchors() const {
 
 void Constraints::restore(std::span<const Anchor> anchors) {
   for (const Anchor& anchor : anchors) {
+    if (anchor.entry >= entries_.size()) continue;
     for (Hold& hold : entries_[anchor.entry].holds) {
       if (hold.axis != anchor.axis) continue;
       const auto found = std::lower_bound(hold.nodes.begin(), hold.nodes.end(), anchor.node);

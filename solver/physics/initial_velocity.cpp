@@ -44,8 +44,31 @@ Vec3 random_velocity(std::uint64_t seed, std::uint64_t body, const std::array<do
   return length / std::sqrt(square) * direction;
 }
 
+std::vector<double> mass_share(const LocalMesh& mesh, const std::vector<double>& density, Index group) {
+  const auto size = static_cast<std::size_t>(mesh.num_nodes);
+  std::vector<double> all(size, 0.0), mine(size, 0.0), share(size, 1.0);
+  for (Index s = mesh.num_own_slots; s < mesh.num_slots; ++s) {
+    const auto i = static_cast<std::size_t>(s);
+    if (mesh.element_of_slot[i] < 0) continue;
+    const Index of = mesh.block_group[i / kLanes];
+    const double mass = density[static_cast<std::size_t>(of)] * mesh.volume[i];
+    for (int c = 0; c < 4; ++c) {
+      const auto node = static_cast<std::size_t>(mesh.corner_node(s, c));
+      all[node] += mass;
+      if (of == group) mine[node] += mass;
+    }
+  }
+  bool several = false;
+  for (std::size_t n = 0; n < size; ++n) {
+    if (!(mine[n] > 0) || mine[n] == all[n]) continue;
+    share[n] = mine[n] / all[n];
+    several = true;
+  }
+  return several ? share : std::vector<double>{};
+}
+
 void add_initial_velocity(const LocalMesh& mesh, const InitialVelocity& initial, const Field<double>& position,
-                          Field<double>& velocity) {
+                          Field<double>& velocity, const std::vector<double>& share) {
   const std::vector<Index> body = bodies_of_nodes(mesh, initial.group);
   const bool random = initial.speed[0] != 0 || initial.speed[1] != 0;
   for (Index n = 0; n < mesh.num_nodes; ++n) {
@@ -58,6 +81,7 @@ void add_initial_velocity(const LocalMesh& mesh, const InitialVelocity& initial,
       added += initial.angular.cross(arm);
       added += initial.strain_rate.cwiseProduct(arm);
     }
+    if (!share.empty()) added *= share[static_cast<std::size_t>(n)];
     store_node(velocity.data(), n, load_node(velocity.data(), n) + added);
   }
 }

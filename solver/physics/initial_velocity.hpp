@@ -21,11 +21,17 @@ struct InitialVelocity {
   std::vector<Vec3> centre{};  ///< (bodies) m, centre of mass of the body's part in the group; empty: neither of them
 };
 
+/// Share of a group in the mass of nodes that groups share, (num_nodes); empty: no other group has nodes of its own.
+/// @param density  (volume groups) kg/m3. O(elements that share nodes).
+[[nodiscard]] std::vector<double> mass_share(const LocalMesh& mesh, const std::vector<double>& density, Index group);
+
 /// Adds uniform + random(body) + angular x r + strain_rate * r, r = x - centre, * by components, to every node of the
 /// group, each node once. A node shared by two bodies of the group counts with the one of the element of lowest slot.
+/// A node shared by several groups gets the mean of their velocities by mass: what keeps its momentum.
+/// @param share  as mass_share has it
 /// @param position, velocity  nodal fields, m, m/s. O(nodes).
 void add_initial_velocity(const LocalMesh& mesh, const InitialVelocity& initial, const Field<double>& position,
-                          Field<double>& velocity);
+                          Field<double>& velocity, const std::vector<double>& share = {});
 
 /// Velocity of length uniform in [speed[0], speed[1]] and direction uniform over the sphere, m/s. Depends on (seed,
 /// body) alone, not on how many bodies there are, and uses integer arithmetic, + - * / and sqrt only: the same on every

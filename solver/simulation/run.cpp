@@ -50,6 +50,7 @@ class Runner {
          const std::vector<std::unique_ptr<Sink>>& sinks, const Communicator& communicator, const RunFolder& folder)
       : Runner(input, sinks, communicator, &folder,
                [&] { return Partition(input, communicator, start_of(input, communicator, options, from)); }) {
+    partition_.refuse_what_cannot_break();
     output_.start_from(from.position);
     start_words_ = options.words;
   }
@@ -120,7 +121,10 @@ class Runner {
     Snapshot snapshot = snapshot_of(input, communicator, from);
     snapshot.stage = 0;
     snapshot.in_stage = false;
-    if (!options.cut.empty()) tag_corners_anew(communicator, snapshot.whole, options.cut, snapshot.mine);
+    if (!options.cut.empty()) {
+      tag_corners_anew(communicator, snapshot.whole, options.cut, snapshot.mine);
+      snapshot.whole.cut = options.cut;
+    }
     if (!options.new_laws) return snapshot;
     snapshot.whole.step_ratio = 0;
     snapshot.state.state.work.first_excess = std::numeric_limits<double>::quiet_NaN();

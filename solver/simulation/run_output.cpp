@@ -69,6 +69,7 @@ void RunOutput::tell_start(bool insitu, const RunPosition* from) {
     start_time_ = from->start_time;
     start_step_ = from->start_step;
     resumed_at_ = clock().steps;
+    within_stage_ = true;
     sound_.step = clock().steps - 1;  // whether the run goes well from here on is not known yet
   }
   sink_group_.tell([&](Sink& sink) { sink.start(start); });
@@ -77,12 +78,18 @@ void RunOutput::tell_start(bool insitu, const RunPosition* from) {
 void RunOutput::begin_stage(const case_::Stage& stage) {
   stage_name_ = stage.name;
   observer_.begin_stage(stage);
+  tell_of_frame_interval(std::exchange(within_stage_, false));
+}
+
+void RunOutput::tell_of_frame_interval(bool told_before) {
   const double interval = input_.output.frame_interval;
-  if (interval > 0 && interval < clock().dt)
-    tell_event("frames",
-               "output.frame_interval = " + scientific(interval) + " s is shorter than a step, " +
-                   scientific(clock().dt) + " s: every step writes a frame",
-               false);
+  if (frames_told_ || interval <= 0 || interval >= clock().dt) return;
+  frames_told_ = true;
+  if (told_before) return;
+  tell_event("frames",
+             "output.frame_interval = " + scientific(interval) + " s is shorter than a step, " +
+                 scientific(clock().dt) + " s: every step writes a frame",
+             false);
 }
 
 void RunOutput::take_line(double time, InSituWatch* insitu) {

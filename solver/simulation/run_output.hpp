@@ -62,6 +62,8 @@ class RunOutput {
   [[nodiscard]] Observer& observer() { return observer_; }
 
  private:
+  /// Says once a run that frames are asked for more often than there are steps. @param told_before  if so, it has been
+  void tell_of_frame_interval(bool told_before);
   [[nodiscard]] double wall() const;
   [[nodiscard]] StatusLine status_line(bool paused) const;
   [[nodiscard]] Summary summary_of(const std::string& status);
@@ -79,6 +81,8 @@ class RunOutput {
   std::string stage_name_;
   std::int64_t frame_number_ = 0, last_fragments_ = 0, last_broken_ = 0;
   std::int64_t resumed_at_ = -1;  ///< step; -1: begun here
+  bool within_stage_ = false;     ///< the run goes on in a stage that has begun before
+  bool frames_told_ = false;      ///< tell_of_frame_interval has had reason to
   SoundState sound_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };

@@ -32,6 +32,13 @@ inline constexpr std::size_t kNumElementNumbers = [] {
   return sum;
 }();
 
+/// Where the numbers of a field begin among all of an element.
+[[nodiscard]] constexpr std::size_t first_number(ElementFieldId id) {
+  std::size_t first = 0;
+  for (std::size_t earlier = 0; earlier < id; ++earlier) first += kElementFields[earlier].components;
+  return first;
+}
+
 /// All of them for one element, in the order of the table.
 using ElementNumbers = std::array<double, kNumElementNumbers>;
 

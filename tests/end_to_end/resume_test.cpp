@@ -254,7 +254,9 @@ TEST_F(Resume, RefusesWhatIsNoRunAndWhatWouldChangeResults) {
         {"'" + (folder("whole") / "checkpoints").string() + "'", "this is the folder of a run's checkpoints"},
         {case_, "this is no checkpoint of breccia"},
         {quoted("whole") + " --set time.safety=0.1", "would change the results"},
-        {quoted("whole") + " --set 'stage[1].end=9'", "would change the results"}}) {
+        {quoted("whole") + " --set 'stage[1].end=9'", "would change the results"},
+        {quoted("whole") + " --until 1e300",
+         "--until: resume: is out of range; allowed: a time in s > 0 and <= 1e+10"}}) {
     const Outcome refused = call("resume " + arguments);
     EXPECT_EQ(refused.exit_code, 2) << arguments;
     EXPECT_NE(refused.err.find(message), std::string::npos) << refused.err;

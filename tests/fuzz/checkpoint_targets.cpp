@@ -40,6 +40,7 @@ const Sample& sample() {
     Checkpoint checkpoint;
     const Mesh mesh = test::cubes();
     checkpoint.mine = test::records_of(mesh, build_topology(mesh));
+    checkpoint.model.clock.dt = 1e-6;
     checkpoint.whole_model = {std::byte{1}, std::byte{0}, std::byte{255}};
     checkpoint.case_text = "title = \"a case\"\n";
     checkpoint.provenance = "{}";

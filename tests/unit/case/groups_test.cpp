@@ -59,6 +59,26 @@ TEST(Groups, AConstraintOnANameOfAVolumeAndASurfaceIsRefusedAsNotClear) {
               HasSubstr("output.gauges: a volume group and a surface group of the mesh have this name"));
 }
 
+TEST(Groups, AVolumeNamedAsEveryGroupIsRefused) {
+  std::vector<std::string> starred = volumes;
+  starred.push_back("*");
+  const Case c = read_text(complete +
+                           "[[material]]\ngroup = \"*\"\nyoung = 1e9\npoisson = 0.2\ndensity = 1\n"
+                           "joints = \"none\"\n");
+  EXPECT_THAT(text(check_groups(c, starred, surfaces)),
+              HasSubstr("mesh: a volume group of the mesh has the name that stands for every group in [[contact]]"));
+}
+
+TEST(Groups, AGaugeOnANameOfAGroupAndABodyIsRefusedAsNotClear) {
+  const Case c = read_text(replaced(complete, "gauges = [\"support\"]", "gauges = [\"body 1\"]"));
+  std::vector<std::string> with_body = surfaces;
+  with_body.push_back("body 1");
+  EXPECT_TRUE(check_groups(c, volumes, surfaces, 2).empty());
+  EXPECT_TRUE(check_groups(c, volumes, with_body, 1).empty()) << "there is no such body";
+  EXPECT_THAT(text(check_groups(c, volumes, with_body, 2)),
+              HasSubstr("output.gauges: a group of the mesh has the name by which a gauge calls a body"));
+}
+
 TEST(Groups, AMeshWithoutSurfacesSaysSo) {
   EXPECT_THAT(text(check_groups(read_text(complete), volumes, {})), HasSubstr("the mesh has none"));
 }

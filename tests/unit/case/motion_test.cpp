@@ -48,6 +48,16 @@ TEST(Displacement, OfACaseThatStartsFromAStateIsJudgedAtTheTimeOfTheState) {
   EXPECT_THAT(jumps_at(c, c.stages[0], 0), IsEmpty());
 }
 
+TEST(Displacement, ThatNoRunCanComputeIsRefused) {
+  EXPECT_EQ(message_of(pulled("{ linear = \"1e12 m/s\" }", "0")), "") << "1e9 m at the end of the stage";
+  for (const char* far : {"{ linear = \"1e200 m/s\" }", "{ table = [[0, 0], [\"1 ms\", -2e10]] }",
+                          "{ sine = { amplitude = 2e10, frequency = 3 } }"}) {
+    EXPECT_THAT(message_of(pulled(far, "0")),
+                AllOf(HasSubstr("stage[0].constraint[0].displacement: is beyond what can be computed"),
+                      HasSubstr("magnitudes up to 1e+10 m")));
+  }
+}
+
 std::string plane(const std::string& kind, const std::string& more) {
   return minimal + more + "[plane]\nkind = \"" + kind + "\"\naxis = \"y\"\n";
 }

@@ -18,6 +18,7 @@
 namespace breccia {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -78,9 +79,52 @@ TEST(CheckReport, advises_on_elements_from_a_third_of_the_process_zone_on) {
   const auto at_ratio = [&](double wanted) {
     return report_of(kCubes, {"joint[0].energy_mode_1=" + std::to_string(100 * ratio / wanted) + " J/m2"});
   };
-  EXPECT_THAT(at_ratio(1.2), HasSubstr("are larger than its fracture process zone"));
-  EXPECT_THAT(at_ratio(0.4), HasSubstr("are 0.4 of its fracture process zone"));
+  EXPECT_THAT(at_ratio(1.2), AllOf(HasSubstr("are larger than its fracture process zone"), HasSubstr("crack paths")));
+  EXPECT_THAT(at_ratio(0.4), AllOf(HasSubstr("are 0.4 of its fracture process zone"), HasSubstr("branching")));
   EXPECT_THAT(at_ratio(0.3), Not(HasSubstr("of its fracture process zone (")));
+}
+
+/// Two boxes of one cell, glued at x = 10 mm. @param upper  joints inside of the second
+std::string glued_report(const case_::CaseFolder& folder, const std::string& upper, double energy) {
+  folder.write(
+      "two.geo",
+      "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 0.01, 0.01, 0.01};\n"
+      "Box(2) = {0.01, 0, 0, 0.01, 0.01, 0.01};\nCoherence;\nMeshSize{:} = 0.01;\nPhysical Volume(\"lower\") = {1};\n"
+      "Physical Volume(\"upper\") = {2};\n");
+  const auto material = [](const std::string& group, const std::string& joints) {
+    return "[[material]]\ngroup = \"" + group + "\"\nyoung = \"40 GPa\"\npoisson = 0.2\ndensity = 2400\njoints = \"" +
+           joints + "\"\n";
+  };
+  const auto joint = [&](const std::string& of) {
+    return "[[joint]]\n" + of +
+           "\npenalty_factor = 10\ntensile_strength = \"5 MPa\"\nenergy_mode_1 = " + std::to_string(energy) + "\n";
+  };
+  std::string text = "[mesh]\nfile = \"two.geo\"\nglue = true\n" + material("lower", "none") +
+                     material("upper", upper) + joint("between = [\"lower\", \"upper\"]");
+  if (upper == "breakable") text += joint("group = \"upper\"");
+  const case_::Case input = case_::read_case(folder.write("case.toml", text + "[[stage]]\nend = \"1 us\"\n"));
+  return check_report(input, build_model(input));
+}
+
+TEST(CheckReport, speaks_of_load_and_speed_but_of_no_path_where_joints_lie_on_a_plane_alone) {
+  const case_::CaseFolder folder;
+  const std::string words = "The elements of lower-upper", zone = "process zone at least ", edge = "mean joint edge ";
+  const std::string report = glued_report(folder, "none", 100);
+  const double ratio = number_after(report, edge) / number_after(report, zone);
+  for (const double wanted : {0.5, 2.0}) {
+    const std::string plane = glued_report(folder, "none", 100 * ratio / wanted);
+    EXPECT_THAT(plane, AllOf(HasSubstr(words), HasSubstr("speed of the crack depend")));
+    EXPECT_THAT(plane, AllOf(Not(HasSubstr("paths")), Not(HasSubstr("branch"))));
+    EXPECT_THAT(glued_report(folder, "breakable", 100 * ratio / wanted), AllOf(HasSubstr(words), HasSubstr("paths")));
+  }
+}
+
+TEST(CheckReport, advises_no_refinement_or_step_beyond_what_can_be_computed) {
+  // As a core that is made soft for an excavation.
+  const std::string report =
+      report_of(kCubes, {"material[0].young=4 MPa", "joint[0].penalty_factor=1000", "joint[0].shear_strength=5 MPa"});
+  EXPECT_THAT(report, AllOf(HasSubstr("which no practicable mesh resolves"), HasSubstr("excavation")));
+  EXPECT_THAT(report, AllOf(Not(HasSubstr("Refine by")), Not(HasSubstr("soften within"))));
 }
 
 TEST(CheckReport, tells_that_the_finest_part_alone_of_a_graded_mesh_is_fine_enough) {

@@ -136,5 +136,47 @@ TEST(Records, ThatPointBeyondTheirModelAreNotPossible) {
   EXPECT_THROW(demand_possible("a.h5", cut, sound), InputError);
 }
 
+TEST(Records, OfContactAreNotPossibleWithoutTheirContactorsAndPoints) {
+  const Mesh mesh = cubes();
+  Records sound = records_of(mesh, build_topology(mesh));
+  WholeModel whole = whole_of(mesh);
+  whole.num_elements = mesh.num_elements();
+  whole.joint_groups.push_back({0, 0, 1.0});
+  sound.elements[2].contactor = 1;
+  sound.ramps.push_back({2, {}});
+  sound.ramps[0].ramp.remaining[3] = 7;
+  sound.offsets = {{5, 24 * 5, 0.5}, {5, 24 * 5 + 23, 0.5}};
+  EXPECT_TRUE(are_possible(sound, whole));
+  const std::vector<std::function<void(Records&)>> faults{
+      [](Records& r) { r.elements[2].contactor = 0; },       [](Records& r) { r.ramps[0].element = 999; },
+      [](Records& r) { r.ramps[0].ramp.remaining[3] = -1; }, [](Records& r) { r.ramps[0].ramp.before[0] = -9; },
+      [](Records& r) { r.offsets[0].point = 24 * 5 - 1; },   [](Records& r) { r.offsets[1].point = 24 * 6; },
+      [](Records& r) { r.offsets[0].point = -1; },           [](Records& r) { r.offsets[0] = {999, 24 * 999, 0.5}; }};
+  for (std::size_t f = 0; f < faults.size(); ++f) {
+    Records changed = sound;
+    faults[f](changed);
+    EXPECT_FALSE(are_possible(changed, whole)) << f;
+  }
+}
+
+TEST(Records, MayHoldNodesByTheConstraintsOfTheirStageAlone) {
+  case_::Case input;
+  case_::Stage stage;
+  stage.constraints.resize(2);
+  Records records;
+  const auto held_by = [&](Index entry) {
+    records.holds = {{0, 0, 0, 0, 0.0, 0.0}, {0, entry, 0, 0, 0.0, 0.0}};
+    demand_constraints("a.h5", records, input, stage);
+  };
+  EXPECT_NO_THROW(held_by(1));
+  for (const Index entry : {-1, 2, 1000000}) EXPECT_THROW(held_by(entry), InputError) << entry;
+  input.plane.emplace();
+  input.plane->kind = case_::PlaneKind::stress;
+  EXPECT_THROW(held_by(2), InputError);
+  input.plane->kind = case_::PlaneKind::strain;  // holds all nodes across, behind the constraints of the stage
+  EXPECT_NO_THROW(held_by(2));
+  EXPECT_THROW(held_by(3), InputError);
+}
+
 }  // namespace
 }  // namespace breccia

@@ -309,6 +309,14 @@ INSTANTIATE_TEST_SUITE_P(
                   "Physical Surface(\"notch\") = Surface In BoundingBox {-0.1,-0.1,-0.1,1.1,0.1,0.6};\n"
                   "MeshSize{:} = 0.5;\n",
                   "cut the surface in two along the line and on from its tip to the border"},
+        BadScript{"InterfaceThatIsExtrudedTwice",
+                  "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0,-1,0,2,1};\nRectangle(2) = {0,0,0,2,1};\n"
+                  "BooleanFragments{ Surface{1,2}; Delete; }{ }\na[] = Extrude {0,0,0.5} { Surface{1}; Layers{1}; };\n"
+                  "b[] = Extrude {0,0,0.5} { Surface{2}; Layers{1}; };\nPhysical Volume(\"lower\") = {a[1]};\n"
+                  "Physical Volume(\"upper\") = {b[1]};\n"
+                  "Physical Surface(\"mid\") = Surface In BoundingBox {-0.1,-0.1,-0.1,2.1,0.1,0.6};\n"
+                  "MeshSize{:} = 0.5;\n",
+                  "extruded by two Extrude commands"},
         BadScript{"OpenShell",
                   "Point(1)={0,0,0,.5};Point(2)={1,0,0,.5};Point(3)={0,1,0,.5};Point(4)={0,0,1,.5};\n"
                   "Line(1)={1,2};Line(2)={2,3};Line(3)={3,1};Line(4)={1,4};Line(5)={2,4};Line(6)={3,4};\n"

@@ -4,12 +4,16 @@
 #include <cstddef>
 #include <cstring>
 #include <fstream>
+#include <functional>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <sstream>
 #include <string>
 #include <system_error>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "base/error.hpp"
 #include "output/checkpoint.hpp"
@@ -42,6 +46,7 @@ Checkpoint sample() {
   };
   for_each_field(checkpoint.model, fill);
   for_each_field(checkpoint.position, fill);
+  checkpoint.position.start_step = checkpoint.model.clock.steps - 1;
   checkpoint.whole_model = {std::byte{1}, std::byte{0}, std::byte{255}};
   checkpoint.case_text = "title = \"a case\"\n";
   checkpoint.provenance = "{}";
@@ -100,6 +105,33 @@ TEST_F(CheckpointFile, WithAnIndexThatAsksForMoreWorkThanItHasBytesIsRefused) {
   many.columns.back().checksums.resize(10000, checksum_of({}));
   ASSERT_NO_FATAL_FAILURE(write_with_index(many));
   EXPECT_THROW((void)read_index(file_), InputError);
+}
+
+TEST_F(CheckpointFile, OfATimeOrStepThatNoRunComesToIsRefused) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
+  const std::vector<std::function<void(Checkpoint&)>> faults{
+      [](Checkpoint& c) { c.model.clock.time = -1; },
+      [](Checkpoint& c) { c.model.clock.time = kNan; },
+      [](Checkpoint& c) { c.model.clock.dt = 0; },
+      [](Checkpoint& c) { c.model.clock.dt = kInfinity; },
+      [](Checkpoint& c) { c.model.clock.dt_before = -1e-9; },
+      [](Checkpoint& c) { c.model.clock.dt_earlier = kNan; },
+      [](Checkpoint& c) { c.model.clock.steps = -7; },
+      [](Checkpoint& c) { c.model.clock.steps = std::numeric_limits<std::int64_t>::max(); },
+      [](Checkpoint& c) { c.position.start_time = -1; },
+      [](Checkpoint& c) { c.position.start_step = c.model.clock.steps + 1; },
+      [](Checkpoint& c) { c.position.start_step = std::numeric_limits<std::int64_t>::min(); }};
+  for (std::size_t f = 0; f < faults.size(); ++f) {
+    Checkpoint changed = sample();
+    faults[f](changed);
+    CheckpointWriter(file_, std::move(changed), {}, {}).finish();
+    try {
+      (void)read_checkpoint(file_, {});
+      ADD_FAILURE() << f;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("this checkpoint is damaged"), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST_F(CheckpointFile, GivesBackEveryBitOfWhatWasWritten) {

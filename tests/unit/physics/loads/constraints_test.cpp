@@ -172,7 +172,8 @@ TEST(Constraints, GoOnFromWhatTheyRememberedBeforeADivision) {
   NodalState elsewhere = model.state;
   Constraints after(entries, model.local, elsewhere);
   std::vector<Constraints::Anchor> anchors = before.anchors();
-  anchors.push_back({0, other, 0, 77.0, 0.0});  // of a node that is not held here
+  anchors.push_back({0, other, 0, 77.0, 0.0});       // of a node that is not held here
+  anchors.push_back({1000000, node, 0, 77.0, 0.0});  // of no entry
   after.restore(anchors);
   before.apply(model.state, 0.25, 0.25, 0.25);
   after.apply(elsewhere, 0.25, 0.25, 0.25);
