@@ -109,11 +109,13 @@ class PlaneCheck {
   }
   void constraint(const Constraint& constraint) {
     if (!constraint.axes[axis_]) return;
-    if (constraint.kind != ConstraintKind::fixed)
+    const bool holds = constraint.kind == ConstraintKind::fixed || constraint.value[axis_].is_zero();
+    if (!holds)
       problem(constraint.origin, constraint.kind == ConstraintKind::velocity ? "velocity" : "displacement",
               "none along " + name_);
     else if (!strain_)
-      problem(constraint.origin, "fixed", "the other axes: under plane stress nothing holds the sides");
+      problem(constraint.origin, constraint.kind == ConstraintKind::fixed ? "fixed" : "",
+              "the other axes: under plane stress nothing holds the sides");
   }
 
   const Case& c_;

@@ -89,6 +89,7 @@ TEST(Plane, RefusesWhatActsAlongItsAxisAndNothingElse) {
 
 TEST(Plane, MayBeHeldAlongItsAxisUnderStrainAlone) {
   EXPECT_EQ(message_of(plane("strain", constraint("fixed = \"xyz\""))), "");
+  EXPECT_EQ(message_of(plane("strain", constraint("velocity = { x = 1, y = 0 }"))), "");
   EXPECT_THAT(message_of(plane("stress", constraint("fixed = \"xyz\""))),
               HasSubstr("stage[0].constraint[0].fixed: acts along y"));
 }

@@ -104,6 +104,37 @@ TEST(InitialVelocity, StretchesEveryBodyFromItsCentre) {
   }
 }
 
+TEST(InitialVelocity, OfNodesThatGroupsShareIsTheMeanByMass) {
+  Mesh mesh = test::jittered(test::box({4, 1, 1}), 0.05, 4);
+  mesh.volume_groups = {"left", "right"};
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    Vec3 centre = Vec3::Zero();
+    for (const Index node : mesh.elements[test::at(e)]) centre += 0.25 * mesh.nodes[test::at(node)];
+    mesh.element_group[test::at(e)] = centre.x() < 2 ? 0 : 1;
+  }
+  const std::vector<double> density{1000, 3000};
+  Model model(std::move(mesh), Discretisation::shared_nodes, 1000);
+  model.local = build_local_mesh(model.mesh, {Discretisation::shared_nodes, Discretisation::shared_nodes}, density);
+  const auto start = [&](const Vec3& left, const Vec3& right) {
+    std::fill(model.state.velocity.begin(), model.state.velocity.end(), 0.0);
+    for (const Index group : {0, 1})
+      add_initial_velocity(model.local, {.group = group, .uniform = group == 0 ? left : right}, model.state.position,
+                           model.state.velocity, mass_share(model.local, density, group));
+    return test::value_of(momentum(model.local, model.state.position.data(), model.state.velocity.data()).linear);
+  };
+  model.state.position = model.local.reference;
+  model.state.velocity.assign(model.local.reference.size(), 0.0);
+  double mass[2] = {0, 0};
+  for (Index s = 0; s < model.local.num_slots; ++s) {
+    const Index group = model.local.block_group[test::at(s / kLanes)];
+    mass[group] += density[test::at(group)] * model.local.volume[test::at(s)];
+  }
+  EXPECT_LT((start(Vec3(1, 0, 0), Vec3(0, -2, 0)) - Vec3(mass[0], -2 * mass[1], 0)).norm(), 1e4 * kRounding);
+  start(Vec3(3, 0, 0), Vec3(3, 0, 0));
+  for (const Index node : model.real_nodes())
+    EXPECT_LT((load_node(model.state.velocity.data(), node) - Vec3(3, 0, 0)).norm(), 10 * kRounding);
+}
+
 TEST(InitialVelocity, AddsAndLeavesPaddingAndOtherGroupsAlone) {
   Model model(test::tetrahedron(), Discretisation::own_nodes, 1000);
   for (int twice = 0; twice < 2; ++twice) {

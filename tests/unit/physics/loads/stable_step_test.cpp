@@ -244,6 +244,31 @@ double growth(const Eigen::MatrixXd& k, const Eigen::MatrixXd& c, double dt) {
   return Eigen::EigenSolver<Eigen::MatrixXd>(step, false).eigenvalues().cwiseAbs().maxCoeff();
 }
 
+/// Of an undamped oscillator under central differences with local damping: the amplitude after many steps.
+double amplitude_after(double omega, double beta, double dt) {
+  double x = 1, v = 0, most = 0;
+  for (int n = 0; n < 4000 && std::abs(x) < 1e10; ++n) {
+    const double force = -omega * omega * x;
+    v += dt * (force - beta * std::abs(force) * (v > 0 ? 1 : v < 0 ? -1 : 0));
+    x += dt * v;
+    if (n >= 3900) most = std::max(most, std::abs(x));
+  }
+  return std::max(most, std::abs(x));
+}
+
+TEST(StableStep, AllowsForLocalDampingWhichMakesForcesThatSlowDownLarger) {
+  const Problem problem(test::tetrahedron(), Discretisation::own_nodes);
+  const double undamped = bound(problem), omega = 2.0 / undamped;
+  for (const double beta : {0.3, 0.7, 0.95}) {
+    StepModel model = problem.step_model();
+    model.local_damping = beta;
+    const double step = stable_step(model, problem.model.state.position).step;
+    EXPECT_NEAR(step, undamped / std::sqrt(1 + beta), 1e-12 * undamped);
+    EXPECT_LT(amplitude_after(omega, beta, 0.99 * step), 1.0) << beta;
+    EXPECT_GT(amplitude_after(omega, beta, 1.01 * step), 1.0) << beta;
+  }
+}
+
 TEST(StableStep, KeepsAViscousBodyStableWhereTheUndampedStepWouldNot) {
   // Rigid motions are double eigenvalues 1: finite differences split them by the root of their noise.
   constexpr double kRigid = 1e-3;

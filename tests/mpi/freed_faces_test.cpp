@@ -1,0 +1,54 @@
+#include <gtest/gtest.h>
+#include <string>
+
+#include "mpi/same_bits.hpp"
+
+namespace breccia {
+namespace {
+
+/// Boxes that break fly apart, so that elements once joined come to be in pieces far from each other.
+const std::string kApart = R"([mesh.raster]
+cells = 1
+cell_size = "10 mm"
+boxes = 2
+gap = "0.1 mm"
+[[material]]
+group = "raster"
+young = "100 MPa"
+poisson = 0
+density = 1000
+[[joint]]
+group = "raster"
+penalty_factor = 10
+tensile_strength = "30 kPa"
+energy_mode_1 = "1 J/m2"
+[[contact]]
+between = ["*", "*"]
+penalty = "100 MPa"
+[[initial_velocity]]
+group = "raster"
+random = ["5 m/s", "30 m/s"]
+seed = 18
+strain_rate = [1000, 1000, 1000]
+[[stage]]
+end = "4 ms"
+[domains]
+margin = 0.1
+)";
+
+TEST(Ranks, KeepFacesFreeWhenWhatWasBehindThemIsFarAway) {
+  const test::Scratch scratch;
+  test::SameBits boxes(scratch.write("case.toml", kApart));
+  EXPECT_GT(boxes.alone().at("fragments"), 20);
+  for (const int ranks : {2, 3}) boxes.on(ranks);
+}
+
+/// Contacts that have ended are remembered by the same rule whatever the buffer of the search.
+TEST(Ranks, RememberEndedContactsAlikeWithASmallBuffer) {
+  const std::string less = "--set detection.buffer=1e-6 --set time.max_steps=3000";
+  test::SameBits block("'" BRECCIA_MESHES "/sliding_block/case_smoke.toml' " + less);
+  for (const int ranks : {2, 3}) block.on(ranks, less);
+}
+
+}  // namespace
+}  // namespace breccia
