@@ -203,7 +203,7 @@ struct Pressure {
   friend bool operator==(const Pressure&, const Pressure&) = default;
 };
 
-/// [[stage.traction]]: force an area at rest, in a direction that stays. Both sides of an inner surface are loaded alike.
+/// [[stage.traction]]: force an area at rest, in a direction that stays. Both sides of an inner surface are loaded.
 struct Traction {
   std::string surface;
   std::array<TimeFunction, 3> value;  ///< Pa

@@ -259,9 +259,9 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Tangential over normal contact stiffness.", .example = "0.8"},
     {.path = "contact[].damping_ratio", .type = number, .fallback = "0", .range = share,
      .help = "Damping of approach and retreat while bodies press on each other, as a share of the critical damping of "
-             "a surface layer as thick as H. Accounted as dissipated by contact. It shortens the time step, the more the "
-             "smaller the elements are beside H: 0.1 by a fifth to two thirds, 1 to a fifth or a tenth (check tells). "
-             "It damps bodies that bounce, hardly vibrations inside of them: a cube that falls flat on a floor "
+             "a surface layer as thick as H. Accounted as dissipated by contact. It shortens the time step, the more "
+             "the smaller the elements are beside H: 0.1 by a fifth to two thirds, 1 to a fifth or a tenth (check "
+             "tells). It damps bodies that bounce, hardly vibrations inside of them: a cube that falls flat on a floor "
              "comes back with 1.000, 0.919, 0.781 and 0.480 of its speed for 0, 0.1, 0.3 and 1.",
      .example = "0.2"},
     {.path = "contact[].points_on", .type = choice, .fallback = "both", .choices = "both|first",
@@ -342,9 +342,9 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "stage[].local_damping", .type = number, .fallback = "0",
      .range = {.lower = 0, .upper = 1, .upper_open = true},
      .help = "Damping against the velocity, as a share beta of the unbalanced force on each node: 0.3 to 0.8 find a "
-             "state of rest quickly. The step is shorter by sqrt(1 + beta). Not where something is to move: a body falls "
-             "with 1 - beta of its acceleration, and one that slides on a joint or a rough surface creeps or stops, "
-             "since its vibrations are damped at the cost of what drives it.",
+             "state of rest quickly. The step is shorter by sqrt(1 + beta). Not where something is to move: a body "
+             "falls with 1 - beta of its acceleration, and one that slides on a joint or a rough surface creeps or "
+             "stops, since its vibrations are damped at the cost of what drives it.",
      .example = "0.5"},
     {.path = "stage[].broken", .type = text_list, .fallback = "[]",
      .help = "Surfaces whose joints are broken when the stage starts.", .example = "[\"front\"]"},
@@ -376,8 +376,8 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Function of time; positive pushes into the body.", .example = "{ linear = \"20 GPa/s\" }"},
 
     {.path = "stage[].traction[]", .type = section_list,
-     .help = "Force on a surface for each unit of its area at rest, in a direction that stays when the faces turn; both "
-             "sides of an inner surface are loaded alike."},
+     .help = "Force on a surface for each unit of its area at rest, in a direction that stays when the faces turn; "
+             "both sides of an inner surface are loaded alike."},
     {.path = "stage[].traction[].surface", .type = text, .required = true, .help = "Physical surface group.",
      .example = "\"crest\""},
     {.path = "stage[].traction[].value", .type = function_vector, .unit = "Pa", .required = true,

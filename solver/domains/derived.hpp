@@ -44,7 +44,8 @@ struct Derived {
 [[nodiscard]] ActiveJoint new_active_joint(const Model& model, std::size_t index);
 
 /// Which blocks are swept ahead of the others on one of several ranks: those with elements that are sent, and those
-/// with nodes of constraints and absorbing boundaries, which are applied in one go. Shared nodes are all moved with them.
+/// with nodes of constraints and absorbing boundaries, which are applied in one go. Shared nodes are all moved with
+/// them.
 /// @param sent  (own-node blocks) 1: with an element that another rank waits for
 void plan_sweep_order(const Model& model, const StageLoads& loads, const std::vector<std::uint8_t>& sent,
                       Derived& derived);

@@ -30,12 +30,13 @@ struct AbsorbingSurfaces {
 ///
 ///   t = -(rho c_p n n^T + rho c_s (I - n n^T)) v,
 ///
-/// n its normal at rest, a third of its area to each corner. Waves along n leave without reflection, others with little.
-/// The force of a node is -C (v(n-1/2) + v(n+1/2)) / 2, C the sum over its faces, so that the boundary sets no limit to
-/// the step. Where nodes were held before, the forces that held them go on (`supports`): a body at rest stays at rest.
+/// n its normal at rest, a third of its area to each corner. Waves along n leave without reflection, others with a
+/// little. The force of a node is -C (v(n-1/2) + v(n+1/2)) / 2, C the sum over its faces, so that the boundary sets no
+/// limit to the step. Where nodes were held before, the forces that held them go on (`supports`): a body at rest stays
+/// at rest.
 ///
-/// In a step: `begin` before the sweep, `apply` right after it, before constraints, `account_after` when the works up to
-/// t_n have been read. O(nodes of the boundary), no allocation, throws nothing.
+/// In a step: `begin` before the sweep, `apply` right after it, before constraints, `account_after` when the works up
+/// to t_n have been read. O(nodes of the boundary), no allocation, throws nothing.
 class AbsorbingBoundary {
  public:
   AbsorbingBoundary() = default;

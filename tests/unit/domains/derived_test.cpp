@@ -51,7 +51,9 @@ TEST(SweepOrder, HasEveryBlockOnceAndFirstThoseThatAreSentOrHeld) {
   sent[1] = 1;
   NodalConstraint held;
   held.nodes = {own_corner_node(3 * kLanes + 2, 1)};
-  plan_sweep_order(model, {held}, sent, derived);
+  StageLoads loads;
+  loads.constraints = {held};
+  plan_sweep_order(model, loads, sent, derived);
   std::vector<int> times(sent.size(), 0);
   for (const auto* runs : {&derived.ahead, &derived.rest}) {
     for (const BlockRun& run : *runs) {
