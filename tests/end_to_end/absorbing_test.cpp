@@ -76,7 +76,7 @@ TEST(Absorbing, APulseLeavesABarThroughItsEnd) {
 
 /// A block settles on a foot that is held, and then rests on it without being held.
 const std::string kBlock = R"([mesh.raster]
-cells = [3, 3, 5]
+cells = [2, 2, 4]
 cell_size = "50 mm"
 group = "block"
 [[material]]
@@ -93,7 +93,7 @@ gauges = ["block"]
 const std::string kJoints = "[[joint]]\ngroup = \"block\"\n";
 const std::string kSettle = R"([[stage]]
 name = "settle"
-end = "20 ms"
+end = "10 ms"
 gravity = [0, 0, -9.81]
 local_damping = 0.3
 [[stage.constraint]]
@@ -102,7 +102,7 @@ fixed = "xyz"
 )";
 const std::string kRest = R"([[stage]]
 name = "rest"
-end = "40 ms"
+end = "20 ms"
 gravity = [0, 0, -9.81]
 absorbing = ["block.z0"]
 )";
@@ -118,13 +118,13 @@ INSTANTIATE_TEST_SUITE_P(Joints, Supported, testing::Values("none", "unbreakable
 
 /// What is missing of the force that held the block, as a share of its weight: its foot gives way with rho c_p A v.
 double missing(const std::filesystem::path& folder) {
-  constexpr double kImpedance = 2500 * 2108 * 0.15 * 0.15;      // N s/m
-  constexpr double kWeight = 2500 * 0.15 * 0.15 * 0.25 * 9.81;  // N
+  constexpr double kImpedance = 2500 * 2108 * 0.1 * 0.1;     // N s/m
+  constexpr double kWeight = 2500 * 0.1 * 0.1 * 0.2 * 9.81;  // N
   const auto time = history_column(folder / "history.csv", "time [s]");
   const auto velocity = history_column(folder / "history.csv", "block velocity z [m/s]");
   double most = 0;
   for (std::size_t i = 0; i < time.size(); ++i)
-    if (time[i] > 0.025) most = std::max(most, std::abs(velocity[i]));
+    if (time[i] > 0.0125) most = std::max(most, std::abs(velocity[i]));
   return kImpedance * most / kWeight;
 }
 
@@ -132,10 +132,13 @@ TEST_P(Supported, ABlockRestsOnWhereItWasHeld) {
   const Scratch scratch;
   const std::string file = scratch.write("whole.toml", block(GetParam()) + kSettle + kRest);
   constexpr double kUnsettled = 0.01;  // what the first stage has left
-  const auto whole = run(scratch, file, "whole", "--set checkpoint.interval=30e-3 --set checkpoint.keep=9");
+  const auto whole = run(scratch, file, "whole", "--set checkpoint.interval=15e-3 --set checkpoint.keep=9");
   EXPECT_LT(missing(scratch.path("whole")), kUnsettled);
 
-  for (const auto& checkpoint : checkpoints(scratch.path("whole"))) {
+  std::vector<std::filesystem::path> written = checkpoints(scratch.path("whole"));
+  ASSERT_GE(written.size(), 3U);  // where the first stage ends, in the second one, and at its end
+  written.pop_back();
+  for (const auto& checkpoint : written) {
     const test::Outcome resumed = test::call_ranks(
         2, "resume --progress none " + quoted(checkpoint) + " -o " + quoted(scratch.path(checkpoint.stem())));
     ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
@@ -161,7 +164,7 @@ TEST(Absorbing, StandsNotBesideDampingOfTheWaves) {
   text.insert(text.find("absorbing"), "mass_damping = 5\n");
   const test::Outcome outcome = call("check " + scratch.write("bar.toml", text));
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("stage[0].absorbing stands beside mass_damping"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("stage[0].absorbing: stands beside mass_damping"), std::string::npos) << outcome.err;
 }
 
 }  // namespace
