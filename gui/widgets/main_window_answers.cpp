@@ -66,7 +66,8 @@ void MainWindow::show_check(const QJsonObject& json) {
           .arg(quantity_words(json["stable_step"].toDouble(), "s"), quantity_words(json["step"].toDouble(), "s"))
           .arg(json["steps"].toDouble(), 0, 'f', 0)
           .arg(quantity_words(json["end"].toDouble(), "s"), duration_words(seconds));
-  if (most > seconds) words += tr(" while little breaks, up to %1 where everything does").arg(duration_words(most));
+  if (most > seconds)
+    words += tr(" while little breaks or meets, up to %1 where everything does").arg(duration_words(most));
   words += tr("<br>memory %1, about %3 on disk for %2 frames, more where joints break")
                .arg(quantity_words(json["memory"].toDouble(), "B"))
                .arg(json["frames"].toDouble(), 0, 'f', 0)

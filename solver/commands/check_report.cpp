@@ -89,6 +89,9 @@ std::string run_time(const StepReport& step, const RunEstimate& estimate, double
   std::string text =
       fmt::format("{:.0f} steps of {} to {}; about {} on this machine while little breaks", estimate.steps,
                   quantity_text(step.dt, "s"), quantity_text(end, "s"), quantity_text(estimate.seconds, "s"));
+  if (estimate.meets)
+    text += fmt::format(" and no bodies meet, {} if they had met from the start",
+                        quantity_text(estimate.most_seconds, "s"));
   if (estimate.breaks)
     text += fmt::format(
         ", {} where much does, up to {} where everything does at once{}", quantity_text(estimate.likely_seconds, "s"),
@@ -157,9 +160,11 @@ RunEstimate estimate_run(const case_::Case& input, const Model& model, const Ste
   estimate.most_seconds = estimate.seconds;
   estimate.breaks = std::any_of(model.joint_laws.begin(), model.joint_laws.end(),
                                 [](const JointLawParams& law) { return law.breakable(); });
-  if (estimate.breaks) {
-    const double dt = input.time.step > 0 ? step.dt : std::min(step.dt, input.time.safety * step.broken);
-    const double most = std::ceil(end / dt) * seconds_a_step(input, model, kShort * std::min(dt, step.limit), true);
+  const double dt = input.time.step > 0 ? step.dt : std::min(step.dt, input.time.safety * step.broken);
+  estimate.meets = !estimate.breaks && dt < 0.99 * step.dt;
+  if (estimate.breaks || estimate.meets) {
+    const double most =
+        std::ceil(end / dt) * seconds_a_step(input, model, kShort * std::min(dt, step.limit), estimate.breaks);
     estimate.most_seconds = std::max(most, estimate.seconds);
   }
   estimate.likely_seconds = 0.5 * (estimate.seconds + estimate.most_seconds);

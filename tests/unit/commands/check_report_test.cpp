@@ -146,6 +146,38 @@ TEST(CheckReport, tells_that_the_finest_part_alone_of_a_graded_mesh_is_fine_enou
   EXPECT_THAT(graded(std::to_string(2.5 * fine / zone) + " J/m2"), HasSubstr("in the finest tenth 0.4"));
 }
 
+TEST(CheckReport, counts_bodies_that_gravity_makes_meet) {
+  const std::string fall = R"([mesh.raster]
+cell_size = "10 mm"
+boxes = [1, 1, 2]
+gap = "20 mm"
+group = "rock"
+[[material]]
+group = "rock"
+young = "1 GPa"
+poisson = 0.2
+density = 1000
+joints = "none"
+[[contact]]
+between = ["*", "*"]
+penalty = "10 GPa"
+[[stage]]
+end = "0.1 s"
+[[stage.constraint]]
+group = "rock.z0"
+fixed = "xyz"
+)";
+  const auto resting = case_::read_text(fall), falling = case_::read_text(fall, {"stage[0].gravity=[0, 0, -9.81]"});
+  const auto estimate = [](const case_::Case& input) {
+    const Model model = build_model(input);
+    return estimate_run(input, model, step_report(input, model));
+  };
+  EXPECT_FALSE(estimate(resting).meets);
+  EXPECT_TRUE(estimate(falling).meets);
+  EXPECT_THAT(report_of(fall, {"stage[0].gravity=[0, 0, -9.81]"}),
+              AllOf(HasSubstr("once bodies meet that are on their way"), HasSubstr("and no bodies meet")));
+}
+
 TEST(CheckReport, warns_of_a_time_step_beyond_the_stable_one_and_of_no_other) {
   const Model model = build_model(case_::read_text(kCubes));
   const double limit = TimeStep(model).limit(model.local.reference);

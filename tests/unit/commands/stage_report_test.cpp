@@ -30,6 +30,11 @@ TEST(SuddenLoads, on_an_undamped_body_that_is_held_are_worth_a_ramp) {
               HasSubstr("begins with the pressure on \"raster.z1\" (1 MPa at once)"));
 }
 
+TEST(SuddenLoads, of_traction_are_known_as_well) {
+  const std::string traction = "[[stage.traction]]\nsurface = \"raster.z1\"\nvalue = [0, \"3 MPa\", \"4 MPa\"]\n";
+  EXPECT_THAT(advice_on(cube(traction)), HasSubstr("begins with the traction on \"raster.z1\" (5 MPa at once)"));
+}
+
 TEST(SuddenLoads, that_grow_or_are_damped_or_meet_a_free_or_a_rigid_body_or_are_a_pulse_are_not) {
   EXPECT_EQ(advice_on(cube("gravity = [0, 0, { ramp = { to = -9.81, end = \"0.5 ms\" } }]\n")), "");
   EXPECT_EQ(advice_on(cube(kGravity + "local_damping = 0.3\n")), "");
@@ -94,6 +99,17 @@ TEST(Friction, of_joints_that_can_break_counts_as_well) {
   const std::string drive = "[[stage.constraint]]\ngroup = \"raster.z1\"\nvelocity = { z = -0.01 }\n";
   EXPECT_THAT(advice_on(cube("") + drive + joint, {"material[0].joints=breakable"}), HasSubstr("joint of raster 0.6"));
   EXPECT_EQ(advice_on(cube("") + joint, {"material[0].joints=breakable"}), "");
+}
+
+TEST(Friction, in_a_last_stage_with_local_damping_stops_what_should_slide) {
+  const std::string contact = "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"75 GPa\"\nfriction = 0.3\n";
+  const std::vector<std::string> two{"mesh.raster.boxes=[1, 1, 2]", "mesh.raster.gap=[0, 0, \"1 mm\"]"};
+  const std::string damped = cube("local_damping = 0.3\n") + contact;
+  EXPECT_THAT(advice_on(damped, two), HasSubstr("has a local_damping of 0.3: with friction it slows down or stops"));
+  EXPECT_EQ(advice_on(damped + "[[stage]]\nend = \"2 ms\"\n", two), "") << "before, it finds a state of rest";
+  std::vector<std::string> smooth = two;
+  smooth.push_back("contact[0].friction=0");
+  EXPECT_EQ(advice_on(damped, smooth), "");
 }
 
 TEST(Constraints, that_overrule_others_in_part_are_named_with_the_number_of_nodes) {

@@ -72,8 +72,7 @@ TEST(Unmeant, IsPressingWithoutFriction) {
   const std::string driven = "[[stage.constraint]]\ngroup = \"rock.z1\"\nvelocity = { z = -1 }\n";
   const std::string pressed = "[[stage.constraint]]\ngroup = \"rock.z0\"\nfixed = \"z\"\n" + driven;
   const std::string three = "mesh.raster.boxes=[1, 1, 3]";
-  EXPECT_THAT(advice_on(pressed, {three}),
-              AllOf(HasSubstr("has no friction"), HasSubstr("(line ")));
+  EXPECT_THAT(advice_on(pressed, {three}), AllOf(HasSubstr("has no friction"), HasSubstr("(line ")));
   EXPECT_EQ(advice_on(pressed, {three, "contact[0].friction=0.05"}), "");
   EXPECT_EQ(advice_on(driven, {three}), "") << "nothing is held";
   EXPECT_EQ(advice_on(pressed), "") << "nothing is between the two";
@@ -94,6 +93,43 @@ TEST(Unmeant, IsAPressureOnABodyThatIsWhollyHeld) {
   EXPECT_THAT(advice_on(kHeld + "fixed = \"xyz\"\n" + pressure), HasSubstr("stage[0].pressure[0] (line "));
   EXPECT_EQ(advice_on(kHeld + "fixed = \"xy\"\n" + pressure), "");
   EXPECT_EQ(advice_on("[[stage.constraint]]\ngroup = \"rock.z0\"\nfixed = \"xyz\"\n" + pressure), "");
+}
+
+/// Two cubes side by side that share the nodes of the surface "middle".
+const std::string kTwins = R"(SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 1};
+Box(2) = {1, 0, 0, 1, 1, 1};
+v() = BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; };
+Physical Volume("left") = {1};
+Physical Volume("right") = {2};
+Physical Surface("middle") = Surface In BoundingBox{0.9, -1, -1, 1.1, 2, 2};
+Physical Surface("end") = Surface In BoundingBox{1.9, -1, -1, 2.1, 2, 2};
+MeshSize{:} = 1;
+)";
+std::string twins(const case_::CaseFolder& folder, const std::string& stage) {
+  folder.write("twins.geo", kTwins);
+  std::string text = "[mesh]\nfile = \"twins.geo\"\nglue = true\n";
+  for (const char* group : {"left", "right"})
+    text += std::string("[[material]]\ngroup = \"") + group +
+            "\"\nyoung = \"1 GPa\"\npoisson = 0.2\ndensity = 1000\njoints = \"none\"\n";
+  const case_::Case input = case_::read_case(folder.write("case.toml", text + "[[stage]]\nend = 1\n" + stage));
+  return as_list(unmeant_advice(input, build_bare_model(input)));
+}
+
+TEST(Unmeant, IsAPressureBetweenElementsThatShareTheirNodes) {
+  const case_::CaseFolder folder;
+  const auto pressed = [](const std::string& surface) {
+    return "[[stage.pressure]]\nsurface = \"" + surface + "\"\nvalue = \"1 MPa\"\n";
+  };
+  EXPECT_THAT(twins(folder, pressed("middle")),
+              AllOf(HasSubstr("does nothing on 4 of the 4 faces of \"middle\""), HasSubstr("cancel")));
+  EXPECT_EQ(twins(folder, pressed("end")), "");
+}
+
+TEST(Unmeant, IsAnAbsorbingBoundaryWithinTheModel) {
+  const case_::CaseFolder folder;
+  EXPECT_THAT(twins(folder, "absorbing = [\"middle\"]\n"), HasSubstr("4 of the 4 faces of \"middle\""));
+  EXPECT_EQ(twins(folder, "absorbing = [\"end\"]\n"), "");
 }
 
 TEST(Unmeant, IsAnEntryThatOverrulesAnotherInPart) {

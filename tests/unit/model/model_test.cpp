@@ -8,6 +8,7 @@
 
 #include "mesh/geometry.hpp"
 #include "model/parameters.hpp"
+#include "model/surfaces_to_break.hpp"
 #include "support/notched_beam.hpp"
 #include "unit/model/two_boxes.hpp"
 
@@ -48,6 +49,31 @@ TEST(Model, has_no_joint_and_no_link_from_either_side_where_it_is_broken_from_th
   case_::Case whole = input;
   whole.broken_surfaces.clear();
   EXPECT_EQ(model.joints.size() + slit.size() / 2, build_model(whole).joints.size());
+}
+
+TEST(SurfacesToBreak, have_breakable_joints_or_are_refused) {
+  const auto stage = [](const std::string& surface, const std::string& joints) {
+    std::string text = kRaster;
+    text.replace(text.find("broken = [\"raster.slit\"]\n"), 25, "");
+    text.replace(text.find("density"), 0, "joints = \"" + joints + "\"\n");
+    return case_::read_text(text + "broken = [\"" + surface + "\"]\n");
+  };
+  const auto message = [&](const std::string& surface, const std::string& joints) -> std::string {
+    const case_::Case input = stage(surface, joints);
+    const std::vector<SurfaceJoints> counts = joints_on(build_bare_model(input), surfaces_to_break(input));
+    try {
+      refuse_what_cannot_break(input, counts);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message("raster.slit", "breakable"), "");
+  EXPECT_NE(message("raster.slit", "unbreakable").find("\"raster.slit\" has joints that cannot break"),
+            std::string::npos);
+  EXPECT_NE(message("raster.slit", "none").find("stage[0].broken: the surface \"raster.slit\" has no joints"),
+            std::string::npos);
+  EXPECT_NE(message("raster.x0", "breakable").find("has no joints to break"), std::string::npos) << "the outside";
 }
 
 TEST(Model, has_for_each_law_the_mean_edge_of_its_joints) {
