@@ -55,7 +55,7 @@ StageSteps::StageSteps(const case_::Case& input, const case_::Stage& stage, Part
 StageSteps::StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition)
     : StageSteps(input, stage, partition, StepLooks{}) {
   partition_.begin_stage(stage);
-  partition_.domain().state.clock.dt = next_length();
+  partition_.domain().state.clock.dt = length(allowed());
   demand_countable();
 }
 
@@ -70,16 +70,16 @@ double StageSteps::length(double allowed) const {
   return left / std::max(1.0, std::ceil(left / allowed * (1.0 - 1e-9)));
 }
 
-double StageSteps::next_length() {
+double StageSteps::allowed() {
   looks_ = {kStepsBetweenLooks, 0};
-  if (input_.time.step > 0) return length(input_.time.step);
+  if (input_.time.step > 0) return input_.time.step;
   const Clock& clock = partition_.state().clock;
   const double now = partition_.step_length(steps_to_look());
   judge(now);
   const double stable = input_.time.safety * now, most = kGrowth * clock.dt;
-  if (clock.steps == 0 || stable <= most) return length(stable);
+  if (clock.steps == 0 || stable <= most) return stable;
   looks_.until = kSoonest;
-  return length(most);
+  return most;
 }
 
 void StageSteps::judge(double stable) {
@@ -101,7 +101,7 @@ void StageSteps::judge(double stable) {
 
 void StageSteps::fit_end() {
   const StepLooks before = looks_;
-  partition_.domain().state.clock.dt = next_length();
+  partition_.domain().state.clock.dt = length(allowed());
   looks_ = before;
 }
 
@@ -116,9 +116,9 @@ void StageSteps::look() {
     looks_.until = std::min(looks_.until, std::max(kTaken, kSoonest - looks_.since));
   ++looks_.since;
   if (--looks_.until != 0 || input_.time.step > 0) return;
-  const double dt = next_length(), now = partition_.state().clock.dt;
-  // By more than 1 % down or 20 % up: a length that is kept leaves the limit a margin.
-  if (dt < 0.99 * now || dt > 1.2 * now) partition_.domain().state.clock.dt = dt;
+  const double most = allowed(), now = partition_.state().clock.dt;
+  // By more than 1 % down or 20 % up: a length that is kept leaves the limit a margin, and fits the end of the stage.
+  if (most < 0.99 * now || length(most) > 1.2 * now) partition_.domain().state.clock.dt = length(most);
 }
 
 }  // namespace breccia

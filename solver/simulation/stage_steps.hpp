@@ -52,12 +52,12 @@ class StageSteps {
   void fit_end();
 
  private:
-  /// What is allowed, shortened so that a whole number of steps ends with the stage, s.
+  /// An allowed length, shortened so that a whole number of steps ends with the stage, s.
   [[nodiscard]] double length(double allowed) const;
   /// Refuses a stage of more steps than can be counted.
   void demand_countable() const;
-  /// The length that is allowed now, and when it is to be looked at again. Collective.
-  [[nodiscard]] double next_length();
+  /// The length that is allowed now, s, and when it is to be looked at again. Collective.
+  [[nodiscard]] double allowed();
   /// Stable steps to the next look.
   [[nodiscard]] double steps_to_look() const;
   /// Notes a warning, or throws. Collective. @param stable  step, s

@@ -64,6 +64,17 @@ TEST_F(StageStepsOfCubes, EndTheRunBelowAThousandthPart) {
   }
 }
 
+TEST_F(StageStepsOfCubes, AreNotHalvedAtTheEndOfTheirStageByALimitThatHardlyMoves) {
+  Clock& clock = partition_.domain().state.clock;
+  const double step = 1.005 * input_.time.safety * steps_.limit().step;
+  for (const int left : {1, 2, 3}) {
+    clock.dt = step;
+    clock.time = input_.stages[0].end - left * step;
+    look();
+    EXPECT_EQ(clock.dt, step) << left;
+  }
+}
+
 TEST(StageStepsOfAGivenLength, AreNotLookedAt) {
   case_::Case input = test::two_cubes("[time]\nstep = 1e-8\n");
   Partition partition(input, {}, std::make_unique<Model>(build_model(input)));
