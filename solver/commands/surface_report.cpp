@@ -30,6 +30,8 @@ Faces faces_of(const Model& model, const std::string& surface) {
         ++faces.shared;
     }
   }
+  faces.joined /= 2;  // an inner surface lists both sides
+  faces.shared /= 2;
   return faces;
 }
 
