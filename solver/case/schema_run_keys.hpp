@@ -22,7 +22,8 @@ inline constexpr auto run_keys = std::to_array<Key>({
              "the fastest where sizes differ or the order in memory is poor; or all against all.", .example = "\"ms\""},
     {.path = "detection.buffer", .type = number, .unit = "m", .fallback = "auto", .range = positive, .word = "auto",
      .help = "Distance by which boxes are enlarged, so that a search lasts several steps. auto: a share of the element "
-             "size.", .example = "\"0.5 mm\""},
+             "size. Less than a tenth of the mean size of what can be touched acts as that tenth.",
+     .example = "\"0.5 mm\""},
     {.path = "detection.cell", .type = number, .unit = "m", .fallback = "auto", .range = positive, .word = "auto",
      .help = "Edge of a cell of ms, ms_slices and sorted_grid; the others have none. auto: from buffer and element "
              "size.", .example = "\"5 mm\""},

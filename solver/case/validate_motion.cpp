@@ -109,13 +109,13 @@ class PlaneCheck {
   }
   void constraint(const Constraint& constraint) {
     if (!constraint.axes[axis_]) return;
-    const bool holds = constraint.kind == ConstraintKind::fixed || constraint.value[axis_].is_zero();
-    if (!holds)
-      problem(constraint.origin, constraint.kind == ConstraintKind::velocity ? "velocity" : "displacement",
-              "none along " + name_);
+    const char* key = constraint.kind == ConstraintKind::fixed      ? "fixed"
+                      : constraint.kind == ConstraintKind::velocity ? "velocity"
+                                                                    : "displacement";
+    if (constraint.kind != ConstraintKind::fixed && !constraint.value[axis_].is_zero())
+      problem(constraint.origin, key, "none along " + name_);
     else if (!strain_)
-      problem(constraint.origin, constraint.kind == ConstraintKind::fixed ? "fixed" : "",
-              "the other axes: under plane stress nothing holds the sides");
+      problem(constraint.origin, key, "the other axes: under plane stress nothing holds the sides");
   }
 
   const Case& c_;

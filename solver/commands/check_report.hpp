@@ -37,9 +37,9 @@ struct RunEstimate {
   double seconds = 0;         ///< s, of one rank on this machine while little breaks
   double likely_seconds = 0;  ///< s, of a run in which much breaks: the mean of these two, since damage grows over the
                               ///< run; measured times of runs are 0.8 to 1.4 of it
-  double most_seconds = 0;    ///< s, if all joints that can break had done so, and bodies had met, from the start;
-      ///< contact among the debris is not in it: a column that collapsed into a heap took 4 times
-      ///< as long
+  /// s, if all joints that can break had done so, and bodies had met, from the start; contact among the debris is not
+  /// in it: a column that collapsed into a heap took 4 times as long
+  double most_seconds = 0;
   bool breaks = false;       ///< there are joints that can break
   bool meets = false;        ///< there are none, and bodies that come to meet make the step shorter
   std::uint64_t memory = 0;  ///< bytes, largest so far of this process

@@ -90,7 +90,7 @@ double process_zone(const Model& model, std::size_t groups) {
   return std::min(length / 4, std::numbers::pi * length / 32);
 }
 
-/// What an advised refinement must not exceed: beyond it no mesh or step can be computed.
+/// Finer elements or shorter steps than this are not advised: elements would be 8,000 times as many.
 constexpr double kWorthRefining = 20;
 
 /// Element size against the process zone, m.

@@ -16,6 +16,12 @@ std::string fault_of(const SurfaceJoints& joints) {
   return joints.breakable == 0 ? "has no joints to break" : "";
 }
 
+/// Elements of a bare model, originals of a piece: each is on one rank.
+bool is_counted(const Model& model, Index element) {
+  const std::vector<Index>& slots = model.local.slot_of_element;
+  return slots.empty() || model.local.is_original(slots[at(element)]);
+}
+
 }  // namespace
 
 std::vector<std::string> surfaces_to_break(const case_::Case& input) {
@@ -32,7 +38,10 @@ std::vector<SurfaceJoints> joints_on(const Model& model, std::span<const std::st
     for (std::size_t g = 0; g < model.mesh.surface_groups.size(); ++g) {
       if (model.mesh.surface_groups[g] != surface) continue;
       for (const Topology::Face& face : model.topology.surface_groups[g]) {
+        if (!is_counted(model, face.element)) continue;
         const FaceLink& link = model.topology.links[at(face.element)][at(face.face)];
+        // A piece has the neighbours of its originals, but for what has come apart from them.
+        if (link.neighbour == FaceLink::kBeyond) ++count.breakable;
         if (!link.inner()) continue;
         const Index pair = model.whole.pair_of(model.mesh.element_group[at(face.element)],
                                                model.mesh.element_group[at(link.neighbour)]);

@@ -18,7 +18,7 @@ struct SurfaceJoints {
   std::int64_t breakable = 0, unbreakable = 0;
 };
 
-/// Those of the model, which may be a bare one or a piece, of each surface. O(faces of the surfaces).
+/// Those of the model, which may be bare, or of a piece's originals, of each surface. O(faces of the surfaces).
 [[nodiscard]] std::vector<SurfaceJoints> joints_on(const Model& model, std::span<const std::string> surfaces);
 
 /// Throws InputError with every stage.broken that names a surface without joints, or with unbreakable ones.

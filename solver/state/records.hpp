@@ -189,8 +189,8 @@ struct FieldTable<HoldRecord> {
 }
 ;
 
-/// A force that constraints and absorbing boundaries put on a corner in the last step. Part of the state only where an
-/// absorbing boundary goes on with it, which the motion tells.
+/// A force that constraints and absorbing boundaries put on a corner in the last step. Not hashed: it matters only
+/// where an absorbing boundary of the next stage takes it over, and then velocities depend on it.
 struct HeldRecord {
   GlobalId element = 0;
   std::int8_t corner = 0;
