@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "contact/contact_search.hpp"
 #include "physics/contact/contact_couples.hpp"
+#include "physics/contact/contact_point.hpp"
 
 /// The part of ContactSearch that stores its state in records and restores it from them.
 namespace breccia {
@@ -12,9 +13,6 @@ namespace breccia {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-/// Points have the id 24 element + 6 face + k.
-constexpr GlobalId kPointsAnElement = 24;
 
 /// The entries of a list that belong to an element.
 template <class T>

@@ -11,13 +11,13 @@
 #include "domains/piece_mesh.hpp"
 #include "model/plane.hpp"
 #include "model/strength_scatter.hpp"
+#include "physics/contact/contact_point.hpp"
 
 namespace breccia {
 namespace {
 
 constexpr std::int64_t kFaces = 4, kCorners = 4, kAxes = 3;
 constexpr std::int64_t kCodes = 12;            // FaceLink::code
-constexpr std::int64_t kPointsAnElement = 24;  // ContactPoint::id
 
 bool within(std::int64_t index, std::int64_t size) { return 0 <= index && index < size; }
 

@@ -53,4 +53,10 @@ struct Mesh {
   }
 };
 
+/// Index of a group by its name; -1: there is none. @param names  volume or surface groups of a mesh
+[[nodiscard]] inline Index group_index(const std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? -1 : static_cast<Index>(found - names.begin());
+}
+
 }  // namespace breccia

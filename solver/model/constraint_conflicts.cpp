@@ -22,17 +22,14 @@ std::vector<NamedNode> nodes_of(const Model& model, const std::string& group) {
     return named_node(set, element, corner, mesh.elements[at(element)][at(corner)]);
   };
   std::vector<NamedNode> nodes;
-  const auto volume = std::find(mesh.volume_groups.begin(), mesh.volume_groups.end(), group);
-  if (volume != mesh.volume_groups.end()) {
-    const auto index = static_cast<Index>(volume - mesh.volume_groups.begin());
+  if (const Index volume = group_index(mesh.volume_groups, group); volume >= 0) {
     for (Index e = 0; e < mesh.num_elements(); ++e) {
-      for (int c = 0; c < 4 && mesh.element_group[at(e)] == index; ++c) nodes.push_back(node(e, c));
+      for (int c = 0; c < 4 && mesh.element_group[at(e)] == volume; ++c) nodes.push_back(node(e, c));
     }
   } else {
-    const auto surface = std::find(mesh.surface_groups.begin(), mesh.surface_groups.end(), group);
-    const auto index = static_cast<Index>(surface - mesh.surface_groups.begin());
+    const Index surface = group_index(mesh.surface_groups, group);
     for (const CornerTag& tag : model.corner_tags) {
-      for (int c = 0; c < 4 && tag.group == index; ++c) {
+      for (int c = 0; c < 4 && tag.group == surface; ++c) {
         if ((tag.corners >> c & 1) != 0) nodes.push_back(node(static_cast<Index>(tag.element), c));
       }
     }

@@ -20,10 +20,6 @@ std::size_t index(T i) {
   return static_cast<std::size_t>(i);
 }
 
-Index group_named(const std::vector<std::string>& names, const std::string& name) {
-  return static_cast<Index>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
 void take_materials(const case_::Case& input, Model& model) {
   const std::size_t groups = model.mesh.volume_groups.size();
   model.elastic.resize(groups);
@@ -31,7 +27,7 @@ void take_materials(const case_::Case& input, Model& model) {
   model.discretisation = discretisations(input, model.mesh.volume_groups);
   model.breakable.resize(groups);
   for (const case_::Material& material : input.materials) {
-    const std::size_t g = index(group_named(model.mesh.volume_groups, material.group));
+    const std::size_t g = index(group_index(model.mesh.volume_groups, material.group));
     model.elastic[g] = elastic_params(material);
     model.density[g] = material.density;
     model.breakable[g] = material.joints == case_::JointPlacement::breakable;
@@ -39,7 +35,7 @@ void take_materials(const case_::Case& input, Model& model) {
   for (const case_::Joint& interface : input.joints) {
     if (interface.groups[0] == interface.groups[1] || !(interface.tensile_strength > 0)) continue;
     for (const std::string& group : interface.groups)
-      model.breakable[index(group_named(model.mesh.volume_groups, group))] = true;
+      model.breakable[index(group_index(model.mesh.volume_groups, group))] = true;
   }
 }
 
@@ -48,7 +44,7 @@ std::vector<std::pair<Index, int>> faces_of(const std::vector<std::string>& surf
                                             const Topology& topology) {
   std::vector<std::pair<Index, int>> faces;
   for (const std::string& name : surfaces) {
-    for (const Topology::Face& f : topology.surface_groups[index(group_named(mesh.surface_groups, name))]) {
+    for (const Topology::Face& f : topology.surface_groups[index(group_index(mesh.surface_groups, name))]) {
       faces.emplace_back(f.element, f.face);
       const FaceLink& link = topology.links[index(f.element)][index(f.face)];
       if (link.inner()) faces.emplace_back(link.neighbour, link.face());
@@ -84,7 +80,7 @@ void take_contact(const case_::Case& input, Model& model) {
                                                       [](const ContactLaw& law) { return law.active(); });
   model.contact_everywhere = input.contact_points.everywhere;
   for (const std::string& name : input.contact_points.surfaces) {
-    const auto& faces = model.topology.surface_groups[index(group_named(model.mesh.surface_groups, name))];
+    const auto& faces = model.topology.surface_groups[index(group_index(model.mesh.surface_groups, name))];
     model.contact_faces.insert(model.contact_faces.end(), faces.begin(), faces.end());
   }
 }

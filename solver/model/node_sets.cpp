@@ -13,12 +13,8 @@ using Pair = std::pair<Index, Index>;  ///< of groups, a < b
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-Index group_named(const std::vector<std::string>& names, const std::string& name) {
-  return static_cast<Index>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
 bool shares(const std::vector<Discretisation>& kinds, Index group) {
-  return group < static_cast<Index>(kinds.size()) && kinds[at(group)] == Discretisation::shared_nodes;
+  return group >= 0 && kinds[at(group)] == Discretisation::shared_nodes;
 }
 
 /// Pairs of groups of shared nodes between which the case has joints, and the entry.
@@ -27,7 +23,7 @@ std::vector<std::pair<Pair, const case_::Joint*>> parted_pairs(const case_::Case
                                                                const std::vector<Discretisation>& kinds) {
   std::vector<std::pair<Pair, const case_::Joint*>> pairs;
   for (const case_::Joint& joint : input.joints) {
-    const Index a = group_named(names, joint.groups[0]), b = group_named(names, joint.groups[1]);
+    const Index a = group_index(names, joint.groups[0]), b = group_index(names, joint.groups[1]);
     if (a != b && shares(kinds, a) && shares(kinds, b)) pairs.emplace_back(std::minmax(a, b), &joint);
   }
   return pairs;

@@ -11,11 +11,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Index group_index(const std::vector<std::string>& names, const std::string& name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  return found == names.end() ? -1 : static_cast<Index>(found - names.begin());
-}
-
 SofteningShape shape_of(case_::Softening softening) {
   switch (softening) {
     case case_::Softening::linear:

@@ -72,10 +72,9 @@ WholeModel whole_of(const case_::Case& input, const Mesh& mesh, const std::vecto
   }
   for (const case_::InitialVelocity& entry : input.initial_velocities) {
     std::vector<Vec3>& centres = whole.motion_centres.emplace_back();
-    const auto& groups = mesh.volume_groups;
-    const auto group = std::find(groups.begin(), groups.end(), entry.group) - groups.begin();
+    const Index group = group_index(mesh.volume_groups, entry.group);
     if (entry.angular != Vec3::Zero() || entry.strain_rate != Vec3::Zero())
-      centres = centres_of(mesh, static_cast<Index>(group), density[static_cast<std::size_t>(group)]);
+      centres = centres_of(mesh, group, density[at(group)]);
   }
   return whole;
 }

@@ -83,7 +83,7 @@ void append_points(const FaceRule& rule, const LocalMesh& local, Index slot, int
     x[i] = load_node(local.reference.data(), point.nodes[i]);
   }
   const double area = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
-  const GlobalId first = 24 * local.element_of_slot[static_cast<std::size_t>(slot)] + 6 * face;
+  const GlobalId first = kPointsAnElement * local.element_of_slot[static_cast<std::size_t>(slot)] + kPointsAFace * face;
   for (int k = 0; k < rule.num_points; ++k) {
     point.k = static_cast<std::uint8_t>(k);
     point.id = first + k;

@@ -9,9 +9,12 @@
 
 namespace breccia {
 
+/// Ids kept for the contact points of an element, and of each of its faces.
+inline constexpr GlobalId kPointsAnElement = 24, kPointsAFace = 6;
+
 /// Target: an integration point on a free face.
 struct ContactPoint {
-  GlobalId id = 0;  ///< 24 element + 6 face + k: the same on any number of ranks
+  GlobalId id = 0;  ///< kPointsAnElement element + kPointsAFace face + k: the same on any number of ranks
   Index slot = 0;   ///< element it lies on
   std::int8_t face = 0;
   std::uint8_t k = 0;          ///< 0..points_per_face-1
