@@ -85,10 +85,14 @@ class PieceReader {
   void read(const CheckpointColumn& column, std::size_t piece) const {
     const Stored& found = indexed(column);
     const IndexedColumn& stored = *found.column;
-    if (stored.zero || piece >= stored.rows.size()) return;
-    const std::uint64_t row = column.row_size();
-    const IndexedBytes place{stored.offset + found.before[piece] * row, stored.rows[piece] * row,
-                             stored.checksums[piece]};
+    if (piece >= stored.rows.size()) return;
+    const std::uint64_t row = column.row_size(), size = stored.rows[piece] * row;
+    if (stored.zero) {  // written over what records begin with, which need not be 0
+      if (!column.of_list) refuse_checkpoint(file_, "this checkpoint is damaged: " + column.path());
+      if (size > 0) column.unpack(std::vector<std::byte>(size), 0);
+      return;
+    }
+    const IndexedBytes place{stored.offset + found.before[piece] * row, size, stored.checksums[piece]};
     const std::vector<std::byte> bytes = read_verified(file_, place, column.path());
     if (!column.of_list && column.components > 1 && bytes.size() != row)
       refuse_checkpoint(file_, "this checkpoint is damaged: " + column.path());

@@ -122,6 +122,10 @@ void RunOutput::write_frame() {
   sink_group_.tell([&](Sink& sink) { sink.frame(frame); });
 }
 
+std::int64_t RunOutput::broken_joints() const {
+  return partition_.communicator().sum(partition_.state().joints.broken);
+}
+
 double RunOutput::wall() const {
   return wall_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
 }
@@ -171,7 +175,7 @@ Summary RunOutput::summary_of(const std::string& status) {
   summary.message_bytes = partition_.communicator().sum(partition_.domain().bytes());
   summary.elements = partition_.whole().num_elements;
   summary.joints = partition_.whole().num_joints;
-  summary.broken_joints = last_broken_ = partition_.communicator().sum(partition_.state().joints.broken);
+  summary.broken_joints = last_broken_ = broken_joints();
   summary.fragments = observer_.num_fragments();
   summary.searches = partition_.communicator().max(partition_.state().counters.searches);
   summary.inverted_elements = partition_.communicator().sum(partition_.state().counters.crushed);
@@ -199,7 +203,7 @@ RunPosition RunOutput::position() const {
   position.frames = frames_.numbers();
   position.frame_number = frame_number_;
   position.fragments = last_fragments_;
-  position.broken_joints = last_broken_;
+  position.broken_joints = broken_joints();
   position.wall = wall();
   position.start_time = start_time_;
   position.start_step = start_step_;

@@ -50,7 +50,7 @@ class RunOutput {
   }
   Summary finish(const std::string& status, std::vector<PipelineReport> insitu, const CheckpointReport& checkpoints,
                  bool paused);
-  /// Where the output is.
+  /// Where the output is. Collective.
   [[nodiscard]] RunPosition position() const;
 
   /// Steps of this run, without those of the run whose state it started from.
@@ -64,6 +64,7 @@ class RunOutput {
  private:
   /// Says once a run that frames are asked for more often than there are steps. @param told_before  if so, it has been
   void tell_of_frame_interval(bool told_before);
+  [[nodiscard]] std::int64_t broken_joints() const;  ///< of the whole model, now; collective
   [[nodiscard]] double wall() const;
   [[nodiscard]] StatusLine status_line(bool paused) const;
   [[nodiscard]] Summary summary_of(const std::string& status);

@@ -66,7 +66,7 @@ void Pass::look_at(ContactCouple& couple, const Vec3& x) {
   const PreparedTetra& tetra = prepare_contactor(couple.contactor);
   const std::array<double, 4> lambda = barycentric(tetra, x);
   if (inside(lambda)) {
-    consider(couple.contactor, lambda);
+    consider(point_at(couple.point), couple.contactor, lambda);
   } else if (smallest(lambda) >= -kGap) {
     beside_.push_back({&couple, lambda});
   } else if (!inert(tetra)) {
@@ -84,11 +84,27 @@ const OverlapShape& Pass::shape_of(Index contactor, Instant instant) const {
   return shape_;
 }
 
-void Pass::consider(Index contactor, const std::array<double, 4>& lambda) {
-  Candidate candidate{contactor, lambda, 0, 0, 0};
-  candidate.g = candidate.g_before = overlap_value(shape_of(contactor), lambda);
+Vec3 Pass::outward_of(const ContactPoint& point, double dt) const {
+  std::array<Vec3, 3> corner;
+  for (std::size_t i = 0; i < 3; ++i) {
+    corner[i] = load_node(state_.position.data(), point.nodes[i]);
+    if (dt > 0) corner[i] -= dt * load_node(state_.velocity.data(), point.nodes[i]);
+  }
+  return (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+}
+
+Candidate Pass::candidate_of(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda) const {
+  const OverlapShape& shape = shape_of(contactor);
+  const OverlapRows rows = shape.rows > 1 ? rows_for(outward_of(point), shape, prepared(contactor)) : kAllRows;
+  Candidate candidate{contactor, lambda, rows, 0, 0};
+  candidate.g = candidate.g_before = overlap_value(shape, lambda, rows);
   if (contact_.ramp_of_contactor[static_cast<std::size_t>(contactor)] >= 0)
-    candidate.g_before = overlap_value(shape_of(contactor, Instant::step_before), lambda);
+    candidate.g_before = overlap_value(shape_of(contactor, Instant::step_before), lambda, rows);
+  return candidate;
+}
+
+void Pass::consider(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda) {
+  const Candidate candidate = candidate_of(point, contactor, lambda);
   if (candidate.g > 0 || candidate.g_before > 0) candidates_.push_back(candidate);
 }
 
@@ -141,12 +157,12 @@ double Pass::follow(const ContactLaw& law, double scale, double length, const Ca
   return lost + scale * std::max(0.0, stored - normal_law::stored(law, h.d, h.d_max));
 }
 
-/// Gradient of the overlap by the field of one step ago.
-Vec3 Pass::gradient_at(Index contactor, const PreparedTetra& tetra, const std::array<double, 4>& lambda) const {
-  return overlap(shape_of(contactor, Instant::step_before), tetra, lambda).gradient;
+Vec3 Pass::gradient_before(const Candidate& candidate) const {
+  const OverlapShape& shape = shape_of(candidate.contactor, Instant::step_before);
+  return overlap(shape, prepared(candidate.contactor), candidate.lambda, candidate.rows).gradient;
 }
 
-/// A contactor and the place of a point in it one step ago, by the field of then.
+/// A contactor, the place of a point in it and what counts for it one step ago, by the field of then.
 Pass::Before Pass::one_step_ago(const ContactPoint& point, Index contactor) const {
   const Index slot = slot_of(contactor);
   const double *x = state_.position.data(), *v = state_.velocity.data();
@@ -154,7 +170,9 @@ Pass::Before Pass::one_step_ago(const ContactPoint& point, Index contactor) cons
   const std::array<Vec3, 4> velocity = load_corners(local_, v, slot);
   for (std::size_t a = 0; a < 4; ++a) corners[a] -= dt_ * velocity[a];
   const PreparedTetra tetra = prepare(corners, local_.volume[static_cast<std::size_t>(slot)]);
-  return {tetra, barycentric(tetra, at_point(rule_, point, x) - dt_ * at_point(rule_, point, v))};
+  const OverlapShape& shape = shape_of(contactor, Instant::step_before);
+  return {tetra, barycentric(tetra, at_point(rule_, point, x) - dt_ * at_point(rule_, point, v)),
+          inert(tetra) ? kAllRows : rows_for(outward_of(point, dt_), shape, tetra)};
 }
 
 /// The overlap is the least of several functions, and of other ones in the next element: where the point has passed
@@ -167,7 +185,7 @@ Pass::Before Pass::one_step_ago(const ContactPoint& point, Index contactor) cons
 void Pass::keep_step(const ContactPoint& point, double length, TouchingCouple& h, Candidate& candidate) const {
   const Vec3 motion = relative_motion(point, slot_of(candidate.contactor), candidate.lambda);
   if (motion == Vec3::Zero()) return;
-  const Vec3 gradient = gradient_at(candidate.contactor, prepared(candidate.contactor), candidate.lambda);
+  const Vec3 gradient = gradient_before(candidate);
   const double change = candidate.g_before - (h.d * length + h.offset), along = gradient.dot(motion);
   // A couple that has ended may come back from outside, where its place was not kept.
   const bool was_kept = h.d > 0 || h.offset != 0;
@@ -177,10 +195,10 @@ void Pass::keep_step(const ContactPoint& point, double length, TouchingCouple& h
   double along_before = 0;
   if (!inert(last.tetra)) {
     const OverlapShape& shape = shape_of(h.contactor, Instant::step_before);
-    const bool same =
-        h.contactor == candidate.contactor && least_row(shape, last.lambda) == least_row(shape, candidate.lambda);
+    const bool same = h.contactor == candidate.contactor && least_row(shape, last.lambda, last.rows) ==
+                                                                least_row(shape, candidate.lambda, candidate.rows);
     if (was_kept && same) return;
-    along_before = overlap(shape, last.tetra, last.lambda).gradient.dot(motion);
+    along_before = overlap(shape, last.tetra, last.lambda, last.rows).gradient.dot(motion);
   }
   candidate.turn = 0;
   if (!(h.d > 0)) {  // as a new couple: no force has done work for more than the motion inwards
@@ -239,7 +257,8 @@ void Pass::act(Index index, Candidate& candidate) {
 /// that comes from the rotation of its direction: no gain, since the law has a potential and such work cancels
 double Pass::press(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
                    const Candidate& candidate, TouchingCouple& h) {
-  const Overlap here = overlap(shape_of(candidate.contactor), prepared(candidate.contactor), candidate.lambda);
+  const Overlap here =
+      overlap(shape_of(candidate.contactor), prepared(candidate.contactor), candidate.lambda, candidate.rows);
   Damping normal{point.weight * normal_law::stress(law, h.d, h.d_max), 0.0};
   if (law.damping > 0 && h.d > 0 && dt_ > 0 && here.gradient != Vec3::Zero())
     normal = damp(law, point, motion, candidate, here.gradient, normal.pressure);

@@ -11,26 +11,57 @@ namespace breccia::contact_pass {
 
 /// A point that pressed on an element and is now in a joint that opens beside it, in none of its neighbours, keeps its
 /// couple: the force would end within a step, and with it the energy that the couple holds. A point that did not press
-/// cannot matter to the element before it is inside.
+/// cannot matter to the element before it is inside, unless that takes it over from a neighbour.
 void Pass::bridge_gaps(Index point) {
   const std::vector<TouchingCouple>& old = contact_.touching_before;
   forget_before(point);
   const std::size_t inside_one = candidates_.size();
-  for (const Beside& here : beside_) {
+  for (Beside& here : beside_) {
     const Index contactor = here.couple->contactor;
     bool pressed = false;
     for (std::size_t k = old_; k < old.size() && old[k].point == point; ++k)
       pressed = pressed || (old[k].contactor == contactor && old[k].d > 0);
+    here.under_facing_side = lies_under_facing_side(point_at(point), here);
     if (!pressed) {
+      if (here.under_facing_side) continue;
       here.couple->apart_until = contact_.travel.counted + safe_travel(prepared(contactor), here.lambda, kInside);
       continue;
     }
     const bool goes_on = std::any_of(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(inside_one),
                                      [&](const Candidate& c) { return are_neighbours(c.contactor, contactor); });
-    if (!goes_on) consider(contactor, here.lambda);
+    if (!goes_on) consider(point_at(point), contactor, here.lambda);
   }
+  prefer_facing_sides(point_at(point), inside_one);
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return a.contactor < b.contactor; });
+  // Two that share the place of the point may have been taken over by one.
+  const auto last = std::unique(candidates_.begin(), candidates_.end(),
+                                [](const Candidate& a, const Candidate& b) { return a.contactor == b.contactor; });
+  candidates_.erase(last, candidates_.end());
+}
+
+bool Pass::lies_under_facing_side(const ContactPoint& point, const Beside& here) const {
+  if (params_.field != OverlapField::body) return false;
+  const OverlapShape& shape = shape_of(here.couple->contactor);
+  const OverlapRows rows = rows_facing(shape, prepared(here.couple->contactor), outward_of(point));
+  return rows != 0 && overlap_value(shape, here.lambda, rows) > 0;
+}
+
+/// Just beside an edge a point may be in an element that has only the other side of the edge: the nearest neighbour
+/// with a side that the point's face looks at takes it over, as if it reached so far.
+/// @param inside  number of candidates that the point is in, which come first
+void Pass::prefer_facing_sides(const ContactPoint& point, std::size_t inside) {
+  for (std::size_t i = 0; i < inside; ++i) {
+    const Index contactor = candidates_[i].contactor;
+    const Beside* nearest = nullptr;
+    for (const Beside& here : beside_) {
+      if (here.under_facing_side && are_neighbours(here.couple->contactor, contactor) &&
+          (nearest == nullptr || smallest(here.lambda) > smallest(nearest->lambda)))
+        nearest = &here;
+    }
+    if (nearest == nullptr || rows_facing(shape_of(contactor), prepared(contactor), outward_of(point)) != 0) continue;
+    candidates_[i] = candidate_of(point, nearest->couple->contactor, nearest->lambda);
+  }
 }
 
 void Pass::touch_point(Index point) {
@@ -131,7 +162,8 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   // A contactor that was crushed while it was touched gives nothing back.
   if (crushed) return account(point, work_.dissipated).add(normal_held(point, old));
   // A point that has not left through the surface: a crack has opened under it, and what the couple held is gone.
-  const double overlap = overlap_value(shape_of(old.contactor), lambda);
+  const OverlapShape& shape = shape_of(old.contactor);
+  const double overlap = overlap_value(shape, lambda, rows_for(outward_of(point), shape, tetra));
   if (overlap > 0) return account(point, work_.dissipated).add(normal_held(point, old));
   TouchingCouple ended{
       .point = old.point, .contactor = old.contactor, .delayed = old.delayed, .gained_before = old.gained_before};
@@ -165,15 +197,12 @@ void Pass::end(const ContactPoint& point, const TouchingCouple& last, const Vec3
   h.gained = 0;
 }
 
-/// Whether the nearest side of the surface does not look towards the face of the point: the front of a block, say,
-/// where a point of the floor comes in just above the lower edge. Pushed back there it would stop the block, which
+/// Whether no side of the surface looks towards the face of the point: the front of a block, say, where a point of the
+/// floor comes into an element that does not reach down to the lower edge. Pushed back there it would stop the block, which
 /// slides over it. Without motion the places have been given, not moved to.
 bool Pass::comes_from_beside(const ContactPoint& point, const Candidate& candidate) const {
   if (relative_motion(point, slot_of(candidate.contactor), candidate.lambda) == Vec3::Zero()) return false;
-  const double* x = state_.position.data();
-  const Vec3 a = load_node(x, point.nodes[0]), b = load_node(x, point.nodes[1]), c = load_node(x, point.nodes[2]);
-  const Vec3 outward = (b - a).cross(c - a);
-  const Vec3 inward = gradient_at(candidate.contactor, prepared(candidate.contactor), candidate.lambda);
+  const Vec3 outward = outward_of(point), inward = gradient_before(candidate);
   return outward.dot(inward) < kOpposed * outward.norm() * inward.norm();
 }
 
@@ -191,7 +220,7 @@ double Pass::first_offset(Index point, const Candidate& candidate) const {
   // moved inwards.
   const Vec3 motion = relative_motion(point_at(point), slot, candidate.lambda);
   if (motion == Vec3::Zero()) return 0.0;
-  const Vec3 gradient = gradient_at(candidate.contactor, prepared(candidate.contactor), candidate.lambda);
+  const Vec3 gradient = gradient_before(candidate);
   return std::max(candidate.g_before - std::max(gradient.dot(motion), 0.0) - kSameSlope * motion.norm(), 0.0);
 }
 

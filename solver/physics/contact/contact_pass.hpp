@@ -19,9 +19,6 @@ inline constexpr double kSameSlope = 1e-3;
 /// they open so far: critical opening over height is 0.1 % in meshes/glass_impact, 0.4 % in block_wall, 0.8 % in disc.
 inline constexpr double kGap = 0.01;
 
-/// Two sides look towards each other where the cosine of the angle between their outward normals is at most -kOpposed.
-inline constexpr double kOpposed = 0.1;
-
 inline Index group_of(const LocalMesh& local, Index slot) {
   return local.block_group[static_cast<std::size_t>(slot / kLanes)];
 }
@@ -36,6 +33,7 @@ inline bool share_vertex(const LocalMesh& local, Index slot, Index other) {
 struct Candidate {
   Index contactor;
   std::array<double, 4> lambda;
+  OverlapRows rows;         ///< of the contactor that count for the point
   double g;                 ///< m, now
   double g_before;          ///< m, with the field of one step ago
   double gained = 0;        ///< J, left to put right by couples of the point that have ended
@@ -48,6 +46,7 @@ struct Candidate {
 struct Beside {
   ContactCouple* couple;
   std::array<double, 4> lambda;
+  bool under_facing_side = false;  ///< of the contactor, were it larger
 };
 
 /// Whether nothing is left of the couple but what its overlaps have gained or lost and its delayed normal force.
@@ -81,6 +80,8 @@ class Pass {
   void evaluate_point(PointCouples& couples);
   void look_at(ContactCouple& couple, const Vec3& x);
   void bridge_gaps(Index point);
+  void prefer_facing_sides(const ContactPoint& point, std::size_t inside);
+  [[nodiscard]] bool lies_under_facing_side(const ContactPoint& point, const Beside& here) const;
   void touch_point(Index point);
   void drop_ambiguous();
   void forget_before(Index point);
@@ -97,11 +98,12 @@ class Pass {
   [[nodiscard]] double first_offset(Index point, const Candidate& candidate) const;
   [[nodiscard]] static double follow(const ContactLaw& law, double scale, double length, const Candidate& candidate,
                                      TouchingCouple& h);
-  [[nodiscard]] Vec3 gradient_at(Index contactor, const PreparedTetra& tetra,
-                                 const std::array<double, 4>& lambda) const;
+  /// Gradient of the overlap by the field of one step ago.
+  [[nodiscard]] Vec3 gradient_before(const Candidate& candidate) const;
   struct Before {
     PreparedTetra tetra;
     std::array<double, 4> lambda;
+    OverlapRows rows;
   };
   [[nodiscard]] Before one_step_ago(const ContactPoint& point, Index contactor) const;
   void keep_step(const ContactPoint& point, double length, TouchingCouple& h, Candidate& candidate) const;
@@ -166,8 +168,20 @@ class Pass {
   }
   /// The overlap functions of a contactor; valid until the next call.
   [[nodiscard]] const OverlapShape& shape_of(Index contactor, Instant instant = Instant::now) const;
-  /// Adds the contactor to the candidates if its overlap is positive now or was so before the field moved.
-  void consider(Index contactor, const std::array<double, 4>& lambda);
+  /// Which of them count for a point on the face with this normal: those whose side looks towards it, through which it
+  /// enters the body, also just beside an edge, where another side is nearer; all where there is none, or where the
+  /// contactor's overlap is not that of its body.
+  [[nodiscard]] OverlapRows rows_for(const Vec3& outward, const OverlapShape& shape, const PreparedTetra& tetra) const {
+    if (params_.field != OverlapField::body || shape.rows < 2) return kAllRows;
+    const OverlapRows facing = rows_facing(shape, tetra, outward);
+    return facing != 0 ? facing : kAllRows;
+  }
+  /// Normal of a point's face, outwards, not of length 1. @param dt  s, by which the nodes are taken back
+  [[nodiscard]] Vec3 outward_of(const ContactPoint& point, double dt = 0) const;
+  [[nodiscard]] Candidate candidate_of(const ContactPoint& point, Index contactor,
+                                       const std::array<double, 4>& lambda) const;
+  /// Adds the contactor to the candidates of a point if its overlap is positive now or was so before the field moved.
+  void consider(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda);
 
   const ContactParams& params_;
   const LocalMesh& local_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <limits>
 
 #include "base/types.hpp"
@@ -91,30 +93,55 @@ struct Overlap {
   return lambda[0] * row[0] + lambda[1] * row[1] + lambda[2] * row[2] + lambda[3] * row[3];
 }
 
-/// The function that is the least at lambda; of equal ones the first.
-[[nodiscard]] inline std::size_t least_row(const OverlapShape& shape, const std::array<double, 4>& lambda) {
-  std::size_t least = 0;
-  for (std::size_t k = 1; k < shape.rows; ++k) {
-    if (row_value(shape, k, lambda) < row_value(shape, least, lambda)) least = k;
+/// The gradient of one with respect to the point, which is inwards. @pre 0 <= k < rows
+[[nodiscard]] inline Vec3 row_gradient(const OverlapShape& shape, std::size_t k, const PreparedTetra& tetra) {
+  const std::array<double, 4>& slope = shape.row[k];
+  Vec3 gradient = Vec3::Zero();
+  for (std::size_t c = 1; c < 4; ++c) {
+    const std::array<double, 3>& row = tetra.gradient[c - 1];
+    gradient += (slope[c] - slope[0]) * Vec3(row[0], row[1], row[2]);
+  }
+  return gradient;
+}
+
+/// Some of an element's functions: bit k for the k-th.
+using OverlapRows = std::uint32_t;
+inline constexpr OverlapRows kAllRows = ~OverlapRows{0};
+
+/// Two sides look towards each other where the cosine of the angle between their outward normals is at most -kOpposed.
+inline constexpr double kOpposed = 0.1;
+
+/// The functions whose side of the surface looks towards a face.
+/// @param outward  normal of the face, of any length
+[[nodiscard]] inline OverlapRows rows_facing(const OverlapShape& shape, const PreparedTetra& tetra,
+                                             const Vec3& outward) {
+  OverlapRows facing = 0;
+  for (std::size_t k = 0; k < shape.rows; ++k) {
+    const Vec3 inward = row_gradient(shape, k, tetra);
+    if (outward.dot(inward) >= kOpposed * outward.norm() * inward.norm()) facing |= OverlapRows{1} << k;
+  }
+  return facing;
+}
+
+/// The function that is the least at lambda, of those in `rows`; of equal ones the first.
+[[nodiscard]] inline std::size_t least_row(const OverlapShape& shape, const std::array<double, 4>& lambda,
+                                           OverlapRows rows = kAllRows) {
+  auto least = static_cast<std::size_t>(std::countr_zero(rows));
+  for (std::size_t k = least + 1; k < shape.rows; ++k) {
+    if ((rows >> k & 1U) != 0 && row_value(shape, k, lambda) < row_value(shape, least, lambda)) least = k;
   }
   return least;
 }
 
-[[nodiscard]] inline double overlap_value(const OverlapShape& shape, const std::array<double, 4>& lambda) {
-  return row_value(shape, least_row(shape, lambda), lambda);
+[[nodiscard]] inline double overlap_value(const OverlapShape& shape, const std::array<double, 4>& lambda,
+                                          OverlapRows rows = kAllRows) {
+  return row_value(shape, least_row(shape, lambda, rows), lambda);
 }
 
 [[nodiscard]] inline Overlap overlap(const OverlapShape& shape, const PreparedTetra& tetra,
-                                     const std::array<double, 4>& lambda) {
-  const std::size_t least = least_row(shape, lambda);
-  const std::array<double, 4>& slope = shape.row[least];
-  Overlap result;
-  result.g = row_value(shape, least, lambda);
-  for (std::size_t c = 1; c < 4; ++c) {
-    const std::array<double, 3>& row = tetra.gradient[c - 1];
-    result.gradient += (slope[c] - slope[0]) * Vec3(row[0], row[1], row[2]);
-  }
-  return result;
+                                     const std::array<double, 4>& lambda, OverlapRows rows = kAllRows) {
+  const std::size_t least = least_row(shape, lambda, rows);
+  return {row_value(shape, least, lambda), row_gradient(shape, least, tetra)};
 }
 
 /// Corners of an element out of a nodal field.

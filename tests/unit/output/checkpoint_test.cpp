@@ -141,6 +141,21 @@ TEST_F(CheckpointFile, GivesBackEveryBitOfWhatWasWritten) {
   EXPECT_EQ(after.case_text, before.case_text);
 }
 
+TEST_F(CheckpointFile, GivesBackNumbersThatAreAllZeroWhereRecordsBeginWithOthers) {
+  Checkpoint before = sample();
+  const std::vector<NamedLength> lists = lengths_of_lists(before.mine);
+  lengthen_lists(before.mine, std::vector<std::size_t>(lists.size(), 2));
+  for (const CheckpointColumn& column : checkpoint_columns(before)) {
+    if (!column.of_list || column.group == "element") continue;
+    column.unpack(std::vector<std::byte>(column.rows * column.row_size()), 0);
+  }
+  ASSERT_EQ(before.mine.joints[0].joint.time_of_failure, 0) << "a joint that has not failed has another number";
+  CheckpointWriter writer(file_, before, {}, {});
+  writer.finish();
+  Checkpoint after = read_checkpoint(file_, {});
+  EXPECT_EQ(all_bytes(after), all_bytes(before));
+}
+
 TEST_F(CheckpointFile, IsReadByHdf5UnderTheNamesOfTheTables) {
   const Checkpoint before = sample();
   const test::Hdf5Reader reader(file_, "checkpoint");

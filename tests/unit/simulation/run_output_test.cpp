@@ -53,5 +53,12 @@ TEST_F(RunOutputOfCubes, SaysOnceARunThatEveryStepWritesAFrame) {
   EXPECT_EQ(events_of_run(2, nullptr), 0);
 }
 
+TEST_F(RunOutputOfCubes, GoesOnFromTheJointsThatAreBrokenNotFromTheLastLineOfTheHistory) {
+  RunOutput output(input_, sinks_, partition_);
+  output.tell_start(false, nullptr);
+  partition_.domain().state.joints.broken = 7;
+  EXPECT_EQ(output.position().broken_joints, 7);
+}
+
 }  // namespace
 }  // namespace breccia
