@@ -46,16 +46,20 @@ double area_per_volume(const Model& model, std::size_t groups) {
   return volume > 0 ? area / volume : 0.0;
 }
 
-/// Of one side of the joints of a pair, -1: there are none.
-Index one_group(const Model& model, std::size_t groups) {
+/// Both sides of the joints of a pair.
+struct Sides {
+  Index softer = -1;           ///< group of the smaller Young's modulus; -1: there are no such joints
+  double softer_young = 0;     ///< Pa, its modulus
+  double interface_young = 0;  ///< Pa, 2 / (1/E_a + 1/E_b): what a crack between both releases energy by
+};
+Sides sides_of(const Model& model, std::size_t groups) {
   for (const ModelJoint& joint : model.joints) {
-    if (groups_of(model, joint) == groups) return model.mesh.element_group[index(joint.face.a)];
+    if (groups_of(model, joint) != groups) continue;
+    const auto [a, b] = groups_beside(model, joint);
+    const double young_a = young(model.elastic[a]), young_b = young(model.elastic[b]);
+    return {static_cast<Index>(young_b < young_a ? b : a), std::min(young_a, young_b), 2 / (1 / young_a + 1 / young_b)};
   }
-  return -1;
-}
-ElasticParams params_of(const Model& model, std::size_t groups) {
-  const Index group = one_group(model, groups);
-  return group < 0 ? ElasticParams{} : model.elastic[index(group)];
+  return {};
 }
 
 /// m, below which the edges of a tenth of a pair's joints are.
@@ -86,9 +90,12 @@ bool path_is_given(const Model& model, std::size_t groups) {
 /// Least length of the fracture process zone of a pair, m: the lesser of two estimates.
 double process_zone(const Model& model, std::size_t groups) {
   const JointLawParams& law = model.joint_laws[groups];
-  const double length = young(params_of(model, groups)) * law.width_normal / law.tensile_strength;
+  const double length = sides_of(model, groups).interface_young * law.width_normal / law.tensile_strength;
   return std::min(length / 4, std::numbers::pi * length / 32);
 }
+
+/// Elements are of different sizes where the finest tenth is below this share of the mean.
+constexpr double kGraded = 0.7;
 
 /// Finer elements or shorter steps than this are not advised: elements would be 8,000 times as many.
 constexpr double kWorthRefining = 20;
@@ -97,7 +104,7 @@ constexpr double kWorthRefining = 20;
 /// @param h, fine  edges: mean, and of the finest tenth
 /// @param given    the joints lie on planes alone: see path_is_given
 std::string zone_advice(const std::string& name, double zone, double h, double fine, bool given) {
-  constexpr double kWanted = 1.0 / 3, kGraded = 0.7;
+  constexpr double kWanted = 1.0 / 3, kClearlyLarger = 1.1;
   if (h <= kWanted * zone) return {};
   const std::string elements = fmt::format("The elements of {} (edge {:.3g} m)", name, h);
   if (fine < kGraded * h && fine <= kWanted * zone) {
@@ -109,20 +116,21 @@ std::string zone_advice(const std::string& name, double zone, double h, double f
   if (h > kWorthRefining * zone) {
     return fmt::format(
         "{} are far larger than its fracture process zone, which no practicable mesh resolves: how these joints break "
-        "depends on the mesh. It is of no concern where a group was made soft for an excavation; else look at young, "
-        "tensile_strength and energy_mode_1.",
+        "depends on the mesh. It is of no concern where a group was made soft for an excavation, or in a thin soft "
+        "layer; else look at young, tensile_strength and energy_mode_1.",
         elements);
   }
   const std::string finest = fine < kGraded * h ? fmt::format(", in the finest tenth {:.2g}", fine / zone) : "";
-  if (h > zone) {
+  if (h > kClearlyLarger * zone) {
     return fmt::format(
         "{} are larger than its fracture process zone (h_max = {:.3g} m{}): the load at fracture and the {} depend on "
         "the mesh. Refine by {:.2g}, or take the results as qualitative.",
         elements, zone, finest.empty() ? "" : finest + " of it", given ? "speed of the crack" : "crack paths",
         h / zone);
   }
-  const std::string ratio = fmt::format("{} are {:.2g} of its fracture process zone ({:.3g} m){}: above a third",
-                                        elements, h / zone, zone, finest);
+  const std::string share = h < 0.95 * zone ? fmt::format("{:.2g} of", h / zone) : "as large as";
+  const std::string ratio =
+      fmt::format("{} are {} its fracture process zone ({:.3g} m){}: above a third", elements, share, zone, finest);
   const double refinement = h / (kWanted * zone);
   if (given) {
     return fmt::format(
@@ -153,20 +161,25 @@ std::string scatter_report(const Model& model, std::size_t groups) {
 /// The joints of a pair of groups: penalty, softness, process zone; warnings are added to `advice`.
 std::string law_report(const Model& model, std::size_t l, Advice& advice) {
   const JointLawParams& law = model.joint_laws[l];
-  const double h = model.joint_sizes[l], modulus = young(params_of(model, l));
-  const double softness = modulus * area_per_volume(model, l) / (3 * law.stiffness);
+  const double h = model.joint_sizes[l], fine = fine_edge(model, l);
+  const double softness = sides_of(model, l).softer_young * area_per_volume(model, l) / (3 * law.stiffness);
+  // Joints of one k lie the closer the finer the elements are.
+  const bool graded = fine > 0 && fine < kGraded * h;
+  const double softest = graded ? softness * h / fine : softness;
   const std::string& name = model.joint_law_names[l];
   std::string text =
-      fmt::format("joints of {}: k = p/h = {:.4g} Pa/m with h = {:.4g} m; they make the body {:.2g} % softer\n", name,
-                  law.stiffness, h, 100 * softness);
-  if (softness > kWorthRaising * kSoftness) {
+      fmt::format("joints of {}: k = p/h = {:.4g} Pa/m with h = {:.4g} m; they make the body {:.2g} % softer{}\n", name,
+                  law.stiffness, h, 100 * softness,
+                  graded ? fmt::format(", {:.2g} % where a tenth of them is finest", 100 * softest) : "");
+  if (softest > kWorthRaising * kSoftness) {
     advice.push_back(fmt::format(
-        "The joints of {} make it {:.1f} % softer. For 5 % raise joint.penalty (or joint.penalty_factor, whichever the "
-        "case has) by a factor of {:.2g}; the time step falls with its root.",
-        name, 100 * softness, softness / kSoftness));
+        "The joints of {} make it {:.1f} % softer{}. For 5 % raise joint.penalty (or joint.penalty_factor, whichever "
+        "the case has) by a factor of {:.2g}{}; the time step falls with its root.",
+        name, 100 * softest, graded ? " where it is meshed finest" : "", softest / kSoftness,
+        graded ? ", or give joint.size the edges of that part" : ""));
   }
   if (!law.breakable()) return text;
-  const double zone = process_zone(model, l), fine = fine_edge(model, l);
+  const double zone = process_zone(model, l);
   text += fmt::format("  fracture process zone at least {:.4g} m; mean joint edge {:.4g} m, a tenth below {:.4g} m\n",
                       zone, h, fine);
   text += scatter_report(model, l);
@@ -189,7 +202,7 @@ Advice sudden_softening(const Model& model, double dt) {
   Advice advice;
   for (std::size_t l = 0; l < model.joint_law_names.size(); ++l) {
     const JointLawParams& law = model.joint_laws[l];
-    const Index group = one_group(model, l);
+    const Index group = sides_of(model, l).softer;
     if (!law.breakable() || group < 0) continue;
     const double impedance = std::sqrt(young(model.elastic[index(group)]) * model.density[index(group)]);
     const double steps = law.width_normal * impedance / (2 * law.tensile_strength * dt);

@@ -17,7 +17,7 @@ namespace breccia {
 namespace {
 
 constexpr std::int64_t kFaces = 4, kCorners = 4, kAxes = 3;
-constexpr std::int64_t kCodes = 12;            // FaceLink::code
+constexpr std::int64_t kCodes = 12;  // FaceLink::code
 
 bool within(std::int64_t index, std::int64_t size) { return 0 <= index && index < size; }
 

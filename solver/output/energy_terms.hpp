@@ -27,7 +27,7 @@ inline constexpr std::array<EnergyTerm, 14> kEnergyTerms{{
     {"plastic", "plastic work", &EnergyBudget::plastic},
     {"viscous", "viscous", &EnergyBudget::viscous},
     {"damping", "damping", &EnergyBudget::damping},
-    {"external_work", "initial + external work", &EnergyBudget::external_work},
+    {"external_work", "external work", &EnergyBudget::external_work},
     {"residual", "residual, unaccounted", &EnergyBudget::residual},
 }};
 

@@ -195,8 +195,8 @@ void Pass::keep_step(const ContactPoint& point, double length, TouchingCouple& h
   double along_before = 0;
   if (!inert(last.tetra)) {
     const OverlapShape& shape = shape_of(h.contactor, Instant::step_before);
-    const bool same = h.contactor == candidate.contactor && least_row(shape, last.lambda, last.rows) ==
-                                                                least_row(shape, candidate.lambda, candidate.rows);
+    const bool same = h.contactor == candidate.contactor &&
+                      least_row(shape, last.lambda, last.rows) == least_row(shape, candidate.lambda, candidate.rows);
     if (was_kept && same) return;
     along_before = overlap(shape, last.tetra, last.lambda, last.rows).gradient.dot(motion);
   }

@@ -161,10 +161,14 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   }
   // A contactor that was crushed while it was touched gives nothing back.
   if (crushed) return account(point, work_.dissipated).add(normal_held(point, old));
-  // A point that has not left through the surface: a crack has opened under it, and what the couple held is gone.
+  // A point that has not left through the side that it pressed on: over an edge, or a crack has opened under it. What
+  // the couple held is gone, but for the work of its force over half of the way out.
   const OverlapShape& shape = shape_of(old.contactor);
   const double overlap = overlap_value(shape, lambda, rows_for(outward_of(point), shape, tetra));
-  if (overlap > 0) return account(point, work_.dissipated).add(normal_held(point, old));
+  if (overlap > 0) {
+    const double held_still = normal_held(point, old) - 0.5 * (old.force - old.friction).dot(motion);
+    return account(point, work_.dissipated).add(std::max(held_still, 0.0));
+  }
   TouchingCouple ended{
       .point = old.point, .contactor = old.contactor, .delayed = old.delayed, .gained_before = old.gained_before};
   forget_normal_force(dt_, ended.delayed);
@@ -198,8 +202,8 @@ void Pass::end(const ContactPoint& point, const TouchingCouple& last, const Vec3
 }
 
 /// Whether no side of the surface looks towards the face of the point: the front of a block, say, where a point of the
-/// floor comes into an element that does not reach down to the lower edge. Pushed back there it would stop the block, which
-/// slides over it. Without motion the places have been given, not moved to.
+/// floor comes into an element that does not reach down to the lower edge. Pushed back there it would stop the block,
+/// which slides over it. Without motion the places have been given, not moved to.
 bool Pass::comes_from_beside(const ContactPoint& point, const Candidate& candidate) const {
   if (relative_motion(point, slot_of(candidate.contactor), candidate.lambda) == Vec3::Zero()) return false;
   const Vec3 outward = outward_of(point), inward = gradient_before(candidate);

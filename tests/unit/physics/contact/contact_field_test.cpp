@@ -67,11 +67,15 @@ TEST(overlap_field, comes_to_count_a_freed_face_step_by_step) {
   EXPECT_EQ(scene.contact.field[0].sets, 1 << freed.face | 1 << freed.set) << "what they cover is dropped";
 }
 
-/// A small tetrahedron whose base sits at a depth of 0.03 under the top of a body of 3 x 3 x 3 cubes.
+/// A small tetrahedron whose base sits at a depth of 0.03 under the top of a body of 3 x 3 x 3 cubes, which lean over,
+/// so that faces across the top look at the base as well.
 struct Pressed {
   test::Scene scene;
   explicit Pressed(const ContactLaw& law)
-      : scene(test::joined(test::box({3, 3, 3}, 1.0),
+      : scene(test::joined(test::moved(test::box({3, 3, 3}, 1.0),
+                                       [](const Vec3& x) {
+                                         return Vec3(x[0] - 0.5 * (x[2] - 3), x[1] - 0.5 * (x[2] - 3), x[2]);
+                                       }),
                            test::moved(test::lone(test::regular_tetra(0.2)),
                                        [](const Vec3& x) { return Vec3(x[2] + 1.4, x[1] + 1.3, 2.97 - x[0]); })),
               law) {
@@ -80,15 +84,35 @@ struct Pressed {
   [[nodiscard]] double accounted() const { return scene.work.stored.value() + scene.work.dissipated.value(); }
 };
 
+/// The corner of a contactor, of some, opposite to which lies the face that looks up the most.
+std::size_t opposite_to_top(const test::Scene& scene, Index contactor, unsigned corners) {
+  const Index slot = scene.contact.contactors[at(contactor)];
+  const PreparedTetra tetra =
+      prepare(load_corners(scene.local, scene.state.position.data(), slot), scene.local.volume[at(slot)]);
+  std::size_t found = 0;
+  double least = 1;
+  for (std::size_t a = 0; a < 4; ++a) {
+    OverlapShape lambda;  // the function lambda_a
+    lambda.add({});
+    lambda.row[0][a] = 1;
+    const double up = row_gradient(lambda, 0, tetra).normalized()[2];
+    if ((corners >> a & 1U) != 0 && up < least) {
+      least = up;
+      found = a;
+    }
+  }
+  return found;
+}
+
 /// Frees the corner inside every contactor touched, and two others: its field sinks to next to nothing.
 void sink_field(test::Scene& scene, Index steps) {
   constexpr double kLeft = 1e-3;  // m, of the depth
   scene.params.ramp_steps = steps;
   for (const TouchingCouple& touching : scene.contact.touching) {
     FieldValues& field = scene.contact.field[at(touching.contactor)];
-    const auto kept = static_cast<std::size_t>(
-        std::countr_zero(static_cast<unsigned>(std::bit_width(static_cast<unsigned>(field.sets)) -
-                                               1)));  // a corner on the surface: its depth counts for nothing yet
+    const auto surface = static_cast<unsigned>(std::bit_width(static_cast<unsigned>(field.sets)) - 1);
+    // A corner on the surface: its depth counts for nothing yet.
+    const std::size_t kept = opposite_to_top(scene, touching.contactor, surface);
     field.depth[kept] = kLeft;
     free_corners(scene.params, touching.contactor, 15U ^ 1U << kept, scene.contact);
   }
