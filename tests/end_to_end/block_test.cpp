@@ -32,11 +32,10 @@ Physical Volume("upper") = {2};
 MeshSize{:} = 0.2;
 Mesh.Algorithm = 5;
 )");
-  const std::string file =
-      scratch.write("blocks.toml", "title = \"blocks\"\n[mesh]\nfile = \"blocks.geo\"\nparameters = { dx = \"" +
-                                       beside + "\" }\n[plane]\nkind = \"strain\"\n" + material("lower", "2 GPa") +
-                                       material("upper", "2 GPa") +
-                                       R"([[contact]]
+  const std::string file = scratch.write(
+      "blocks.toml", "title = \"blocks\"\n[mesh]\nfile = \"blocks.geo\"\nparameters = { dx = \"" + beside +
+                         "\" }\n[plane]\nkind = \"strain\"\n" + material("lower") + material("upper") +
+                         R"([[contact]]
 between = ["*", "*"]
 penalty = "50 MPa"
 friction = 0.8
