@@ -195,10 +195,15 @@ void relax_initial_overlaps(const ContactParams& params, const LocalMesh& local,
     if (local.slot_body[at(own)] == local.slot_body[at(slot)] || !params.law(group, other).active() ||
         params.initial_overlap(group, other) != InitialOverlap::relax)
       continue;
-    const auto lambda =
-        barycentric(prepare(corners[at(couple.contactor)], local.volume[at(slot)]), points[at(couple.point)]);
+    const PreparedTetra tetra = prepare(corners[at(couple.contactor)], local.volume[at(slot)]);
+    const auto lambda = barycentric(tetra, points[at(couple.point)]);
     if (!inside(lambda)) continue;
-    const double overlap = overlap_value(overlap_shape(params, local, contact, couple.contactor), lambda);
+    const OverlapShape shape = overlap_shape(params, local, contact, couple.contactor);
+    const std::array<Index, 3>& face = contact.points[at(point)].nodes;
+    const Vec3 corner = load_node(position.data(), face[0]);
+    const Vec3 outward =
+        (load_node(position.data(), face[1]) - corner).cross(load_node(position.data(), face[2]) - corner);
+    const double overlap = overlap_value(shape, lambda, rows_for(params.field, shape, tetra, outward));
     if (overlap > 0) contact.touching.push_back({.point = point, .contactor = couple.contactor, .offset = overlap});
   }
 }

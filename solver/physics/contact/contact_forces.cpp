@@ -184,7 +184,11 @@ Pass::Before Pass::one_step_ago(const ContactPoint& point, Index contactor) cons
 /// @param h  of the last step; changed: offset, and of the candidate g_before and turn
 void Pass::keep_step(const ContactPoint& point, double length, TouchingCouple& h, Candidate& candidate) const {
   const Vec3 motion = relative_motion(point, slot_of(candidate.contactor), candidate.lambda);
-  if (motion == Vec3::Zero()) return;
+  if (motion == Vec3::Zero()) {
+    if (h.contactor != candidate.contactor)
+      h.offset = candidate.g_before - h.d * length;  // as by an edge: the same force
+    return;
+  }
   const Vec3 gradient = gradient_before(candidate);
   const double change = candidate.g_before - (h.d * length + h.offset), along = gradient.dot(motion);
   // A couple that has ended may come back from outside, where its place was not kept.

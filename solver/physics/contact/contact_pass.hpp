@@ -168,13 +168,9 @@ class Pass {
   }
   /// The overlap functions of a contactor; valid until the next call.
   [[nodiscard]] const OverlapShape& shape_of(Index contactor, Instant instant = Instant::now) const;
-  /// Which of them count for a point on the face with this normal: those whose side looks towards it, through which it
-  /// enters the body, also just beside an edge, where another side is nearer; all where there is none, or where the
-  /// contactor's overlap is not that of its body.
+  /// Which of them count for a point on a face (overlap.hpp).
   [[nodiscard]] OverlapRows rows_for(const Vec3& outward, const OverlapShape& shape, const PreparedTetra& tetra) const {
-    if (params_.field != OverlapField::body || shape.rows < 2) return kAllRows;
-    const OverlapRows facing = rows_facing(shape, tetra, outward);
-    return facing != 0 ? facing : kAllRows;
+    return breccia::rows_for(params_.field, shape, tetra, outward);
   }
   /// Normal of a point's face, outwards, not of length 1. @param dt  s, by which the nodes are taken back
   [[nodiscard]] Vec3 outward_of(const ContactPoint& point, double dt = 0) const;

@@ -123,6 +123,16 @@ inline constexpr double kOpposed = 0.1;
   return facing;
 }
 
+/// Which functions count for a point on a face: those whose side looks towards it, through which the point enters the
+/// body, also just beside an edge, where another side is nearer; all where there is none, or where the overlap is not
+/// that of a body. @param outward  as above
+[[nodiscard]] inline OverlapRows rows_for(OverlapField field, const OverlapShape& shape, const PreparedTetra& tetra,
+                                          const Vec3& outward) {
+  if (field != OverlapField::body || shape.rows < 2) return kAllRows;
+  const OverlapRows facing = rows_facing(shape, tetra, outward);
+  return facing != 0 ? facing : kAllRows;
+}
+
 /// The function that is the least at lambda, of those in `rows`; of equal ones the first.
 [[nodiscard]] inline std::size_t least_row(const OverlapShape& shape, const std::array<double, 4>& lambda,
                                            OverlapRows rows = kAllRows) {
