@@ -8,6 +8,7 @@
 #include "widgets/main_window.hpp"
 #include "widgets/problems_panel.hpp"
 #include "widgets/property_form.hpp"
+#include "widgets/view3d.hpp"
 
 namespace breccia::gui {
 
@@ -105,6 +106,7 @@ void MainWindow::make_actions() {
   dark_ = add(
       view, tr("&Dark"), QKeySequence("Ctrl+D"), [this](bool on) { set_dark(on); }, true);
   dark_->setCheckable(true);
+  view->addMenu(view_->look_menu());
   QMenu* tools = menuBar()->addMenu(tr("&Tools"));
   needs_run_.push_back(add(
       tools, tr("Open in &ParaView"), {}, [this] { open_paraview(); }, false));
