@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMostGlyphs = 24;
 /// Shares of the diagonal of the model, and of the length of a glyph.
-constexpr double kLength = 0.07, kSupport = 0.5, kSupportWidth = 0.45, kFoot = 0.16, kRod = 0.05, kApart = 0.8;
+constexpr double kLength = 0.07, kSupport = 0.5, kSupportWidth = 0.45, kFoot = 0.16, kRod = 0.05, kApart = 0.4;
 
 /// A face where a glyph may stand.
 struct Seat {

@@ -3,6 +3,7 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QSignalBlocker>
+#include <algorithm>
 
 namespace breccia::gui {
 ConditionsPanel::ConditionsPanel(QWidget* parent) : QWidget(parent), table_(new QTableWidget), chart_(new LineChart) {
@@ -55,7 +56,9 @@ void ConditionsPanel::show_conditions(std::vector<Condition> conditions) {
       table_->item(row, column)->setToolTip(cells[column]);
     }
   }
-  for (const int column : {0, 1, 2}) table_->resizeColumnToContents(column);
+  for (const int column : {0, 1, 2, 3}) table_->resizeColumnToContents(column);
+  constexpr int kValue = 3, kWidest = 260;  // the column, and pixels: tables of a function are long
+  table_->setColumnWidth(kValue, std::min(table_->columnWidth(kValue), kWidest));
   table_->setCurrentCell(std::min(std::max(current, 0), table_->rowCount() - 1), 0);
   show_curves();
 }

@@ -66,9 +66,11 @@ ResultsPanel::ResultsPanel(QWidget* parent)
   row->addWidget(back_);
   row->addWidget(slider_, 1);
   row->addWidget(forward_);
-  row->addWidget(play_);
   column->addLayout(row);
-  column->addWidget(time_);
+  auto* below = new QHBoxLayout;
+  below->addWidget(time_, 1);
+  below->addWidget(play_);
+  column->addLayout(below);
   column->addWidget(paraview_);
   column->addWidget(picture_);
   column->addWidget(animation_);
