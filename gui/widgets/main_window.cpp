@@ -28,6 +28,7 @@
 #include "widgets/histogram_panel.hpp"
 #include "widgets/joint_plot.hpp"
 #include "widgets/named_button.hpp"
+#include "widgets/paraview_results.hpp"
 #include "widgets/plots_panel.hpp"
 #include "widgets/problems_panel.hpp"
 #include "widgets/property_form.hpp"
@@ -55,7 +56,8 @@ MainWindow::MainWindow(Places places, QWidget* parent)
       registry_(places_.state + "/runs.json"),
       queue_(places_.state),
       library_(places_.state + "/materials.toml"),
-      loader_(new FrameLoader(this)) {
+      loader_(new FrameLoader(this)),
+      paraview_(new ParaViewResults(this)) {
   setObjectName("main_window");
   // The frame, which the system adds, has room as well.
   const QSize room = QGuiApplication::primaryScreen()->availableGeometry().size() - QSize(8, 40);
@@ -229,6 +231,7 @@ void MainWindow::join_panels() {
   connect(&queries_, &CaseQueries::busy_changed, this,
           [this] { busy_->setText(queries_.busy() ? tr("the solver is asked...") : QString()); });
   connect(loader_, &FrameLoader::loaded, this, &MainWindow::show_frame);
+  connect(loader_, &FrameLoader::loaded, results_, &ResultsPanel::frame_shown);
   connect(start_, &StartPage::template_chosen, this, [this](int n) { open_template(n, false); });
   connect(start_, &StartPage::demo_wanted, this, [this] { open_template(0, true); });
   connect(start_, &StartPage::case_chosen, this, &MainWindow::open_path);
@@ -309,6 +312,9 @@ void MainWindow::join_panels() {
     loader_->load(frame.file, frame.time);
   });
   connect(results_, &ResultsPanel::paraview_wanted, this, &MainWindow::open_paraview);
+  connect(paraview_, &ParaViewResults::failed, this, [this](const QString& error) {
+    QMessageBox::warning(this, tr("Breccia"), tr("ParaView could not be started: %1").arg(error));
+  });
   connect(results_, &ResultsPanel::picture_wanted, this, &MainWindow::save_picture);
 }
 

@@ -33,6 +33,7 @@ class ContactMatrix;
 class DomainsPanel;
 class FrameLoader;
 class JointPlot;
+class ParaViewResults;
 class PlotsPanel;
 class ProblemsPanel;
 class PropertyForm;
@@ -158,6 +159,7 @@ class MainWindow final : public QMainWindow {
   void write_curves();
   [[nodiscard]] QString table_name(const QString& title, const QString& suggested);
   void write_table(const QString& name, const QByteArray& text);
+  [[nodiscard]] QString film_name();
   void save_animation();
   void end_animation();
   void save_picture();
@@ -178,6 +180,7 @@ class MainWindow final : public QMainWindow {
   std::vector<SolverRun*> runs_, compared_;
   SolverRun* run_ = nullptr;  ///< the one that is shown
   FrameLoader* loader_;
+  ParaViewResults* paraview_;
   AnimationExport* animation_ = nullptr;
   QString curves_file_;  ///< of the table that waits for the histories; empty: none
   QTimer validation_, preview_, law_, estimate_;

@@ -9,13 +9,13 @@
 #include <QStatusBar>
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "core/own_files.hpp"
 #include "core/value_text.hpp"
 #include "widgets/animation_export.hpp"
 #include "widgets/case_text.hpp"
 #include "widgets/case_tree.hpp"
+#include "widgets/condition_glyphs.hpp"
 #include "widgets/conditions_panel.hpp"
 #include "widgets/domains_panel.hpp"
 #include "widgets/frame_loader.hpp"
@@ -38,49 +38,6 @@ constexpr std::array kDocks{"dock_stages", "dock_properties", "dock_plots",    "
                             "dock_runs",   "dock_queue",      "dock_study",    "dock_histogram",
                             "dock_law",    "dock_conditions", "dock_contacts", "dock_messages"};
 constexpr int kPreviewDelay = 1000;  // ms after the last edit
-
-/// What a condition looks like, with words beside it.
-std::vector<Load> glyphs_of(const Condition& row) {
-  using Vector = std::array<double, 3>;
-  const auto size = [](const Vector& v) { return std::hypot(v[0], v[1], v[2]); };
-  const QString largest = row.type + " " + quantity_words(size(row.largest), row.unit);
-  Load load{LoadShape::arrow, row.target.toStdString(), row.largest, {}, largest.toStdString()};
-  if (row.follows) {
-    load.shape = LoadShape::pressure;
-    load.words = (row.type + " " + quantity_words(row.largest[0], row.unit)).toStdString();
-  } else if (row.number < 0) {
-    load.shape = LoadShape::double_arrow;
-  } else if (!row.target.isEmpty() && !(size(row.largest) > 0)) {  // held, or moved by nothing
-    load.shape = LoadShape::support;
-    load.axes = row.axes;
-    load.words = (row.type + " " + row.value).toStdString();
-  }
-  std::vector<Load> loads{load};
-  if (row.number < 0 && row.random > 0) {
-    const QString words = QCoreApplication::translate("conditions", "random velocities up to %1");
-    loads.push_back(
-        {LoadShape::random, load.group, {}, {}, words.arg(quantity_words(row.random, "m/s")).toStdString()});
-  }
-  if (row.number < 0 && size(row.turns_by) > 0) {
-    const QString words = QCoreApplication::translate("conditions", "turns by %1 about this axis");
-    loads.push_back({LoadShape::double_arrow,
-                     load.group,
-                     row.turns_by,
-                     {},
-                     words.arg(quantity_words(size(row.turns_by), "rad/s")).toStdString()});
-  }
-  if (row.number < 0 && size(row.stretches_by) > 0) {
-    const QString words = QCoreApplication::translate("conditions", "stretched at up to %1");
-    double most = 0;
-    for (const double rate : row.stretches_by) most = std::max(most, std::abs(rate));
-    loads.push_back({LoadShape::double_arrow,
-                     load.group,
-                     row.stretches_by,
-                     {},
-                     words.arg(quantity_words(most, "1/s")).toStdString()});
-  }
-  return loads;
-}
 
 }  // namespace
 
@@ -266,6 +223,7 @@ void MainWindow::validate() {
   if (problems_.empty()) {
     loads_ = conditions_of(document_);
     conditions_->show_conditions(loads_);
+    view_->scene().set_up(up_of(document_, loads_));
     show_loads();
   }
   if (side_->currentIndex() == 1 && !estimated_.isEmpty()) renew_estimate();
