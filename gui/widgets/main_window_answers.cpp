@@ -36,11 +36,17 @@ SurfaceGroups surfaces_of(const QJsonObject& json) {
   return surfaces;
 }
 
-/// What is wrong in the geometry is wrong with the key that names it.
-void place_at_mesh_file(Problem& p, const Document& document) {
-  if (!p.key.empty() || p.file.empty() || p.file == document.file().toStdString()) return;
-  const Place* place = document.places().find("mesh.file");
-  if (place != nullptr) p = {document.file().toStdString(), place->line, "mesh.file", p.text(), {}, {}};
+/// A problem in the geometry is one of the key that the solver names, else of the one that names the file.
+void place_in_case(Problem& p, const Document& document) {
+  const std::string own = document.file().toStdString();
+  if (p.file.empty() || p.file == own) return;
+  const std::string key = p.key.empty() ? "mesh.file" : p.key;
+  const Place* place = document.places().find(key);
+  if (place == nullptr) return;
+  p.what = p.file + (p.line > 0 ? ":" + std::to_string(p.line) : std::string()) + ": " + p.what;
+  p.key = key;
+  p.file = own;
+  p.line = place->line;
 }
 
 }  // namespace
@@ -152,7 +158,7 @@ void MainWindow::query_failed(const QString& what, const QString& text, const st
   QStringList words{text};
   std::vector<Problem> placed;
   for (Problem p : problems) {
-    place_at_mesh_file(p, document_);
+    place_in_case(p, document_);
     p.key.empty() ? static_cast<void>(words << QString::fromStdString(p.text())) : placed.push_back(p);
   }
   words.removeAll({});

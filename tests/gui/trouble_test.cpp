@@ -250,7 +250,7 @@ TEST(Trouble, AMeshThatCannotBeReadIsToldInTheViewAndIsDrawnOnceItCan) {
   write(desk.scratch.filePath("broken.geo"), "Box(1) = {;\n");
   desk.window->document().set_value("mesh.file", "\"broken.geo\"");
   ASSERT_TRUE(wait_until([&] { return view.caption().startsWith("no mesh:"); }, kSolver)) << "it is said to be meshed";
-  EXPECT_FALSE(messages(desk).filter("broken.geo").empty());
+  EXPECT_FALSE(messages(desk).filter("broken.geo").empty()) << messages(desk).join("\n").toStdString();
   ASSERT_TRUE(QFile::copy(QString(BRECCIA_MESHES) + "/block_wall/geometry.geo", desk.scratch.filePath("geometry.geo")));
   desk.window->document().set_value("mesh.file", "\"geometry.geo\"");
   EXPECT_TRUE(wait_until([&] { return view.scene().has_data(); }, kSolver));
