@@ -62,7 +62,9 @@ void MainWindow::make_actions() {
   QAction* undo = document_.undo_stack().createUndoAction(this, tr("&Undo"));
   undo->setShortcut(QKeySequence::Undo);
   QAction* redo = document_.undo_stack().createRedoAction(this, tr("&Redo"));
-  redo->setShortcut(QKeySequence::Redo);
+  QList<QKeySequence> redo_keys = QKeySequence::keyBindings(QKeySequence::Redo);
+  if (const QKeySequence other("Ctrl+Y"); !redo_keys.contains(other)) redo_keys << other;
+  redo->setShortcuts(redo_keys);
   edit->addActions({undo, redo});
   add(
       edit, tr("Next &problem"), Qt::Key_F8, [this] { messages_->next_problem(); }, false);
@@ -71,7 +73,7 @@ void MainWindow::make_actions() {
       run, tr("&Mesh"), Qt::Key_F6,
       [this] {
         form_->take_typed();
-        queries_.mesh();
+        ask_mesh();
       },
       true));
   needs_case_.push_back(add(

@@ -19,11 +19,11 @@ ResultsPanel::ResultsPanel(QWidget* parent)
       run_(new QLabel(tr("No run is open."))),
       time_(new QLabel),
       slider_(new QSlider(Qt::Horizontal)),
-      follow_(new QCheckBox(tr("&Follow the newest frame"))),
+      follow_(new QCheckBox(tr("F&ollow the newest frame"))),
       back_(new QPushButton("◀")),
       forward_(new QPushButton("▶")),
       play_(named_button(tr("Pla&y"), "play", tr("Show the frames one after the other; from the last one, all (F9)"))),
-      paraview_(new QPushButton(tr("Open in Para&View"))),
+      paraview_(new QPushButton(tr("Open in ParaVie&w"))),
       picture_(new QPushButton(tr("Save p&icture..."))),
       curves_(new QPushButton(tr("Export &curves..."))),
       animation_(new QPushButton(tr("Save &animation..."))) {
