@@ -111,15 +111,14 @@ std::vector<QString> lists_of(const WorkStage& stage, const TomlPlaces& places) 
   return lists;
 }
 
-QString lines_of_new_entry(const QString& list) {
-  const std::string pattern = case_::pattern_of(list.toStdString()) + "[]";
-  QString lines;
-  for (const case_::Key* key : keys_in(pattern)) {
-    const bool names = key->name() == "group" && pattern == "joint[]";
-    if (key->required || names)
-      lines += QString::fromStdString(std::string(key->name()) + " = " + std::string(key->example)) + "\n";
-  }
-  return lines;
+QString words_of(const QString& path, const TomlPlaces& places) {
+  const auto end = path.lastIndexOf(']') + 1;  // of the entry
+  const QString entry = path.left(end), rest = plain(path.mid(end).toStdString()).replace('.', ' ').trimmed();
+  if (entry.isEmpty()) return rest;
+  const QString title = title_of(entry.toStdString(), places);
+  QString words = plain(leaf_of(entry.toStdString()));
+  words = words.left(words.indexOf('[')) + (title.isEmpty() ? QString() : ": " + title);
+  return rest.isEmpty() ? words : QCoreApplication::translate("stages", "%1 of %2").arg(rest, words);
 }
 
 int stage_of(const std::string& path) {

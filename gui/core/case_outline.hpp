@@ -33,8 +33,8 @@ struct OutlineRow {
 /// Lists to which an entry can be added in a stage: "material", "stage[0].constraint".
 [[nodiscard]] std::vector<QString> lists_of(const WorkStage& stage, const TomlPlaces& places);
 
-/// Lines of a new entry: its required keys with the examples of the table of keys.
-[[nodiscard]] QString lines_of_new_entry(const QString& list);
+/// What a path names, for people: "softening c of joint: glass" for "joint[0].softening.c".
+[[nodiscard]] QString words_of(const QString& path, const TomlPlaces& places);
 
 /// The stage that a path belongs to.
 [[nodiscard]] int stage_of(const std::string& path);

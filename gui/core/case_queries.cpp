@@ -14,14 +14,15 @@ CaseQueries::CaseQueries(const Document& document, QString program, QObject* par
   };
   const auto join = [this, ended](SolverQuery& query, const QString& what) {
     connect(&query, &SolverQuery::answered, this, ended);
-    connect(&query, &SolverQuery::failed, this, [this, ended, what](QString text, std::vector<Problem> problems) {
+    const SolverQuery* own = &query;
+    connect(own, &SolverQuery::failed, this, [this, ended, what, own](QString text, std::vector<Problem> problems) {
       if (!draft_.isEmpty()) {  // the user knows the case by its own name
         text.replace(draft_, document_.file());
         for (Problem& p : problems)
           if (p.file == draft_.toStdString()) p.file = document_.file().toStdString();
       }
       ended();
-      emit failed(what, text, problems);
+      emit failed(what, text, problems, asked_.value(own));
     });
   };
   join(check_, tr("check"));
@@ -45,32 +46,28 @@ QString CaseQueries::draft(const QString& what) {
   draft_ = QDir(document_.folder()).filePath(own_name("draft") + ".toml");
   const QString error = written(draft_, document_.text());
   if (error.isEmpty()) return draft_;
-  emit failed(what, tr("%1: save the case into a folder of your own").arg(error), {});
+  emit failed(what, tr("%1: save the case into a folder of your own").arg(error), {}, {});
   return {};
 }
 
-void CaseQueries::check() {
-  if (const QString file = draft(tr("check")); !file.isEmpty()) check_.ask(program_, {"check", file, "--json"});
+void CaseQueries::ask(SolverQuery& query, const QString& what, const QString& command, const QStringList& options) {
+  asked_[&query] = document_.text();
+  if (const QString file = draft(what); !file.isEmpty()) query.ask(program_, QStringList{command, file} + options);
   emit busy_changed();
 }
+
+void CaseQueries::check() { ask(check_, tr("check"), "check", {"--json"}); }
 
 void CaseQueries::mesh() {
   const QString folder = scratch_.filePath(QString::number(++meshes_));
   QDir(scratch_.filePath(QString::number(meshes_ - 2))).removeRecursively();
-  if (const QString file = draft(tr("mesh")); !file.isEmpty())
-    mesh_.ask(program_, {"mesh", file, "--json", "-o", folder});
-  emit busy_changed();
+  ask(mesh_, tr("mesh"), "mesh", {"--json", "-o", folder});
 }
 
-void CaseQueries::joints() {
-  if (const QString file = draft(tr("joints")); !file.isEmpty()) joints_.ask(program_, {"check", file, "--joints"});
-  emit busy_changed();
-}
+void CaseQueries::joints() { ask(joints_, tr("joints"), "check", {"--joints"}); }
 
 void CaseQueries::domains(int ranks) {
-  if (const QString file = draft(tr("domains")); !file.isEmpty())
-    domains_.ask(program_, {"check", file, "--json", "--ranks", QString::number(ranks)});
-  emit busy_changed();
+  ask(domains_, tr("domains"), "check", {"--json", "--ranks", QString::number(ranks)});
 }
 
 }  // namespace breccia::gui

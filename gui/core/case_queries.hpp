@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QDir>
+#include <QMap>
 #include <QTemporaryDir>
 
 #include "core/document.hpp"
@@ -31,9 +32,13 @@ class CaseQueries final : public QObject {
   void meshed(const QJsonObject& json, const QString& elements_file);
   void divided(const QJsonObject& json);
   void joints_told(const QJsonObject& json);
-  void failed(const QString& what, const QString& text, const std::vector<breccia::Problem>& problems);
+  /// @param asked  text of the case that was asked about, which may have been edited since
+  void failed(const QString& what, const QString& text, const std::vector<breccia::Problem>& problems,
+              const QByteArray& asked);
 
  private:
+  /// Asks with a command line of which the file that the command reads is the second word.
+  void ask(SolverQuery& query, const QString& what, const QString& command, const QStringList& options);
   /// The file that a command reads. Empty: it could not be written, told by `failed`.
   [[nodiscard]] QString draft(const QString& what);
 
@@ -41,6 +46,7 @@ class CaseQueries final : public QObject {
   QString program_;
   QTemporaryDir scratch_{QDir::temp().filePath(own_name("preview") + "-XXXXXX")};
   SolverQuery check_, mesh_, domains_, joints_;
+  QMap<const SolverQuery*, QByteArray> asked_;  ///< text of the case when each was asked
   int meshes_ = 0;
   QString draft_;
 };

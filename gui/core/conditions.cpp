@@ -111,6 +111,7 @@ void add_stage(const Document& document, const case_::Stage& stage, int number, 
     row.type = text("gravity");
     row.value = shown(document, path + ".gravity");
     row.unit = "m/s2";
+    row.is_gravity = true;
     add_by_axis(stage.gravity, time, row);
     rows.push_back(std::move(row));
   }
@@ -123,10 +124,21 @@ void add_stage(const Document& document, const case_::Stage& stage, int number, 
   for (const std::string& surface : stage.absorbing) {
     Condition row = begun(path);
     row.type = text("absorbing");
+    row.absorbs = true;
     row.target = QString::fromStdString(surface);
     row.value = shown(document, path + ".absorbing");
     rows.push_back(std::move(row));
   }
+}
+
+/// The parts that are given, each but the velocity of all points alike with its name.
+QString parts_of_velocity(const Document& document, const QString& path) {
+  const std::array<std::pair<const char*, const char*>, 4> parts{
+      {{"velocity", "%1"}, {"random", "random %1"}, {"angular", "spin %1"}, {"strain_rate", "strain rate %1"}}};
+  QStringList given;
+  for (const auto& [key, words] : parts)
+    if (const QString value = shown(document, path + "." + key); !value.isEmpty()) given << text(words).arg(value);
+  return given.join("; ");
 }
 
 Condition initial_velocity(const Document& document, const case_::InitialVelocity& given, const QString& path) {
@@ -134,7 +146,7 @@ Condition initial_velocity(const Document& document, const case_::InitialVelocit
   row.path = path;
   row.type = text("initial velocity");
   row.target = QString::fromStdString(given.group);
-  row.value = shown(document, path + ".velocity");
+  row.value = parts_of_velocity(document, path);
   row.unit = "m/s";
   for (std::size_t a = 0; a < 3; ++a) {
     row.largest[a] = given.velocity[static_cast<Eigen::Index>(a)];

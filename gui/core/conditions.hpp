@@ -11,8 +11,8 @@ namespace breccia::gui {
 
 /// A load or constraint of the case.
 struct Condition {
-  QString path;    ///< "stage[0].constraint[1]"
-  QString stage;   ///< name, or its number from 1; empty: before the first one
+  QString path;   ///< "stage[0].constraint[1]"
+  QString stage;  ///< name, or its number from 1; empty: before the first one
   /// "gravity", "fixed", "velocity", "displacement", "pressure", "traction", "absorbing", "initial velocity"
   QString type;
   QString target;  ///< group or surface; empty: everything
@@ -20,7 +20,9 @@ struct Condition {
   QString unit;    ///< of the curves
   /// Functions of time over their stage, s and SI; empty: it is none.
   std::vector<PlotLine> curves;
-  int number = -1;                       ///< of the stage, from 0; -1: before the first one
+  int number = -1;  ///< of the stage, from 0; -1: before the first one
+  bool is_gravity = false;
+  bool absorbs = false;                  ///< a boundary that waves leave through
   bool follows = false;                  ///< a pressure, which acts along the normals of its faces
   std::array<bool, 3> axes{};            ///< that are prescribed
   std::array<double, 3> largest{};       ///< value by axis where it is largest over the stage, SI; a pressure has one

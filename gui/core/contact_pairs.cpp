@@ -44,14 +44,10 @@ QString give_own_contact(Document& document, const QString& a, const QString& b)
   const QString now = contact_of(document, a, b, &own);
   if (own) return now;
   QString lines = "between = [" + quoted(a) + ", " + quoted(b) + "]\n";
-  if (now.isEmpty()) {
-    for (const QString& line : lines_of_new_entry("contact").split('\n'))
-      if (!line.isEmpty() && !line.startsWith("between")) lines += line + "\n";
-  } else {
+  if (!now.isEmpty())
     for (const std::string& key : document.places().names_below(now.toStdString()))
       if (key != "between")
         lines += QString::fromStdString(key) + " = " + document.value(now + "." + QString::fromStdString(key)) + "\n";
-  }
   document.add_entry("contact", lines);
   return contact_of(document, a, b, &own);
 }

@@ -1,6 +1,5 @@
 #include "core/document.hpp"
 
-#include <signal.h>
 #include <unistd.h>
 
 #include <QCryptographicHash>
@@ -12,12 +11,20 @@
 #include <QUndoCommand>
 
 #include "case/reader.hpp"
+#include "case/validate.hpp"
+#include "core/case_outline.hpp"
+#include "core/process_session.hpp"
 #include "core/written_file.hpp"
 
 namespace breccia::gui {
 namespace {
 
-bool is_alive(qint64 process) { return process > 0 && (::kill(static_cast<pid_t>(process), 0) == 0 || errno == EPERM); }
+/// Whether the process that wrote a snapshot still runs. Its number alone does not tell: after a restart of the machine
+/// another process may have it.
+bool writer_runs(const QJsonObject& snapshot) {
+  const std::optional<qint64> start = start_of_process(static_cast<pid_t>(snapshot["process"].toDouble()));
+  return start && (!snapshot.contains("started") || *start == static_cast<qint64>(snapshot["started"].toDouble()));
+}
 
 }  // namespace
 
@@ -138,13 +145,15 @@ QString Document::value(const QString& path) const {
 }
 
 void Document::set_value(const QString& path, const QString& toml) {
-  push(places_.set(path.toStdString(), toml.toStdString()), tr("set %1").arg(path));
+  push(places_.set(path.toStdString(), toml.toStdString()), tr("set %1").arg(words_of(path, places_)));
 }
 
-void Document::remove(const QString& path) { push(places_.remove(path.toStdString()), tr("remove %1").arg(path)); }
+void Document::remove(const QString& path) {
+  push(places_.remove(path.toStdString()), tr("remove %1").arg(words_of(path, places_)));
+}
 
 void Document::add_entry(const QString& list, const QString& lines) {
-  push(places_.add_entry(list.toStdString(), lines.toStdString()), tr("add to %1").arg(list));
+  push(places_.add_entry(list.toStdString(), lines.toStdString()), tr("add %1").arg(words_of(list, places_)));
 }
 
 void Document::set_text(const QByteArray& text) {
@@ -161,9 +170,10 @@ void Document::apply(const TextChange& change) {
   emit changed();
 }
 
-std::vector<Problem> Document::problems() const {
+std::vector<Problem> Document::problems(const std::optional<MeshGroups>& mesh) const {
   try {
-    (void)case_::read_case_text(places_.text(), file_.toStdString());
+    const case_::Case read = case_::read_case_text(places_.text(), file_.toStdString());
+    if (mesh) return case_::check_groups(read, mesh->volumes, mesh->surfaces, mesh->num_bodies);
   } catch (const InputError& error) {
     return error.problems();
   }
@@ -189,8 +199,10 @@ bool Document::write_snapshot() {
     emit snapshot_tried({});
     return true;
   }
-  const QJsonObject json{
-      {"file", file_}, {"process", static_cast<qint64>(::getpid())}, {"text", QString::fromLatin1(text().toBase64())}};
+  const QJsonObject json{{"file", file_},
+                         {"process", static_cast<qint64>(::getpid())},
+                         {"started", start_of_process(::getpid()).value_or(0)},
+                         {"text", QString::fromLatin1(text().toBase64())}};
   const QString error = written(snapshot_file(), QJsonDocument(json).toJson(QJsonDocument::Compact));
   if (!error.isEmpty()) autosave_.start();
   emit snapshot_tried(error);
@@ -209,7 +221,7 @@ std::vector<Recovery> Document::recoveries(const QString& state_folder) {
     QFile in(folder.filePath(name));
     if (!in.open(QIODevice::ReadOnly)) continue;
     const QJsonObject json = QJsonDocument::fromJson(in.readAll()).object();
-    if (json.isEmpty() || is_alive(static_cast<qint64>(json["process"].toDouble()))) continue;
+    if (json.isEmpty() || writer_runs(json)) continue;
     found.push_back(
         {folder.filePath(name), json["file"].toString(), QByteArray::fromBase64(json["text"].toString().toLatin1())});
   }

@@ -19,6 +19,12 @@ struct Recovery {
   QByteArray text;
 };
 
+/// What the names of groups in a case may stand for.
+struct MeshGroups {
+  std::vector<std::string> volumes, surfaces;
+  int num_bodies = 0;
+};
+
 /// A case that is being edited. Its text is the truth, kept byte for byte; an edit replaces one piece of it and can be
 /// undone. A snapshot of unsaved edits is in the state folder at most `kAutosaveDelay` after an edit.
 class Document final : public QObject {
@@ -62,8 +68,9 @@ class Document final : public QObject {
   /// The whole text at once; steps that follow each other at neighbouring places while the user types are one.
   void set_text(const QByteArray& text);
 
-  /// What the solver's reader says of the present text, with its words.
-  [[nodiscard]] std::vector<Problem> problems() const;
+  /// What the solver's reader says of the present text, with its words. Where that is nothing and the mesh is known:
+  /// what it says of the names of groups.
+  [[nodiscard]] std::vector<Problem> problems(const std::optional<MeshGroups>& mesh = {}) const;
   /// True when the text, as it is shown, gives back the same bytes: UTF-8, one kind of line ends.
   [[nodiscard]] bool editable_as_text() const;
 

@@ -34,6 +34,8 @@ std::optional<Entry> entry_of(pid_t process) {
   return Entry{rest[kState].at(0), rest[kSession].toInt(), rest[kStarted].toLongLong()};
 }
 
+bool runs(const Entry& entry) { return entry.state != 'Z' && entry.state != 'X'; }
+
 std::vector<char*> pointers(std::vector<std::string>& strings) {
   std::vector<char*> out;
   for (std::string& s : strings) out.push_back(s.data());
@@ -75,9 +77,12 @@ std::optional<Session> start_session(const QStringList& command, const QString& 
   return Session{process, entry ? entry->started : 0};
 }
 
-namespace {
+std::optional<qint64> start_of_process(pid_t process) {
+  const std::optional<Entry> entry = process > 0 ? entry_of(process) : std::nullopt;
+  return entry && runs(*entry) ? std::optional<qint64>(entry->started) : std::nullopt;
+}
 
-bool runs(const Entry& entry) { return entry.state != 'Z' && entry.state != 'X'; }
+namespace {
 
 /// Every process of the machine.
 QList<QPair<pid_t, Entry>> process_table() {

@@ -17,6 +17,10 @@ struct Session {
   qint64 started = 0;  ///< of the leader, ticks since boot: tells it from a later process of the same number
 };
 
+/// When a process started, ticks since boot. Nothing: there is none of this number, or it has ended and only its parent
+/// has not heard of it yet.
+[[nodiscard]] std::optional<qint64> start_of_process(pid_t process);
+
 /// Starts a program in a new session, its output at the end of a file. @param error  out: what went wrong
 [[nodiscard]] std::optional<Session> start_session(const QStringList& command, const QString& folder,
                                                    const QString& output_file, const QStringList& environment,

@@ -162,4 +162,13 @@ bool is_run_folder(const QString& folder) {
   return file.open(QIODevice::ReadOnly) && QJsonDocument::fromJson(file.readAll()).object()["program"] == "breccia";
 }
 
+QString newest_run_beside(const QString& case_file) {
+  const QFileInfo file(case_file);
+  const QDir runs(file.dir().filePath("runs"));
+  const QRegularExpression own("^" + QRegularExpression::escape(file.completeBaseName()) + R"(-\d{8}-\d{6}(-\d+)?$)");
+  for (const QString& name : runs.entryList(QDir::Dirs | QDir::NoDotAndDotDot, QDir::Name | QDir::Reversed))
+    if (own.match(name).hasMatch() && is_run_folder(runs.filePath(name))) return runs.absoluteFilePath(name);
+  return {};
+}
+
 }  // namespace breccia::gui

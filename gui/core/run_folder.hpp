@@ -88,5 +88,8 @@ class History {
 [[nodiscard]] bool was_run_with_another(const QString& run_folder, const QByteArray& case_text);
 /// True for a folder that a run has written into.
 [[nodiscard]] bool is_run_folder(const QString& folder);
+/// The latest run of a case in the folder "runs" beside it, by the times in the names that runs are given here. Empty:
+/// there is none.
+[[nodiscard]] QString newest_run_beside(const QString& case_file);
 
 }  // namespace breccia::gui

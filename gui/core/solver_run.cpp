@@ -45,7 +45,7 @@ QStringList launcher_words(const Launch& launch, int ranks) {
 
 /// Runs the command of a record, and watches it.
 SolverRun* launch_watched(RunRecord record, const QString& folder, QString* error, QObject* parent) {
-  return SolverRun::launch(record, folder, error) ? new SolverRun(std::move(record), parent) : nullptr;
+  return SolverRun::launch(record, folder, error) ? new SolverRun(std::move(record), parent, true) : nullptr;
 }
 
 /// Of a run that is no more. @param told  the last it has said
@@ -96,7 +96,7 @@ RunOutcome outcome_of(const QString& folder) {
   return {told, state, state == "failed" || state == "interrupted" ? last_words(told, folder) : QString()};
 }
 
-SolverRun::SolverRun(RunRecord record, QObject* parent)
+SolverRun::SolverRun(RunRecord record, QObject* parent, bool is_new)
     : QObject(parent),
       record_(std::move(record)),
       status_file_(QDir(record_.folder).filePath("status.jsonl"), kStatusTail),
@@ -104,6 +104,7 @@ SolverRun::SolverRun(RunRecord record, QObject* parent)
   connect(&timer_, &QTimer::timeout, this, &SolverRun::look);
   timer_.start(kInterval);
   look();
+  told_end_ = !is_new && !alive_;
 }
 
 QStringList SolverRun::command_line(const Launch& launch, const QString& case_file, const QString& folder, int ranks) {
@@ -153,6 +154,7 @@ SolverRun* SolverRun::go_on(const Launch& launch, const RunRecord& ended, int ra
 QString SolverRun::state() const {
   if (alive_) {
     if (stopping_.isValid()) return "stopping";
+    if (!awaited_.isEmpty() && !status_.over()) return awaited_ == "paused" ? "pausing" : "resuming";
     return status_.state.isEmpty() ? QString("starting") : status_.over() ? QString("finishing") : status_.state;
   }
   // One that was stopped before it said anything has not failed.
@@ -175,7 +177,11 @@ bool SolverRun::read_more_history() {
 
 bool SolverRun::look_at_status() {
   bool news = false;
-  for (const QByteArray& line : status_file_.news()) news = read_status(line, status_) || news;
+  for (const QByteArray& line : status_file_.news()) {
+    if (!read_status(line, status_)) continue;
+    news = true;
+    if (status_.state == awaited_) awaited_.clear();
+  }
   return news;
 }
 
@@ -229,6 +235,12 @@ void SolverRun::look() {
 void SolverRun::ask(const QByteArray& command) {
   requests_.append(command);
   send_requests();
+}
+
+void SolverRun::ask_for(const QByteArray& command, const QString& state) {
+  awaited_ = status_.state == state ? QString() : state;
+  ask(command);
+  emit status_changed();
 }
 
 /// The run takes the file away when it has read it. What another program has asked meanwhile is not written over: a

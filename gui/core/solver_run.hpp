@@ -49,7 +49,8 @@ class SolverRun final : public QObject {
   };
 
   /// Finds a run again, or only its results when it has ended.
-  explicit SolverRun(RunRecord record, QObject* parent = nullptr);
+  /// @param is_new  it has just been started: its end is told even if it has ended already
+  explicit SolverRun(RunRecord record, QObject* parent = nullptr, bool is_new = false);
 
   /// The command line of a run, as it is shown and started.
   [[nodiscard]] static QStringList command_line(const Launch& launch, const QString& case_file, const QString& folder,
@@ -77,15 +78,15 @@ class SolverRun final : public QObject {
   [[nodiscard]] const std::vector<RunFrame>& frames() const { return frames_; }
   [[nodiscard]] const std::vector<RunCheckpoint>& checkpoints() const { return checkpoints_; }
   [[nodiscard]] bool alive() const { return alive_; }
-  /// starting, running, paused, stopping, finishing, complete, stopped, failed, interrupted
+  /// starting, running, pausing, paused, resuming, stopping, finishing, complete, stopped, failed, interrupted
   [[nodiscard]] QString state() const;
   /// It has ended before its time and left a checkpoint.
   [[nodiscard]] bool can_go_on() const { return !alive_ && state() != "complete" && !checkpoints_.empty(); }
   /// Why it failed, in the solver's words.
   [[nodiscard]] QString failure() const;
 
-  void pause() { ask("pause"); }
-  void resume() { ask("resume"); }
+  void pause() { ask_for("pause", "paused"); }
+  void resume() { ask_for("resume", "running"); }
   void checkpoint() { ask("checkpoint"); }
   /// Asks the run to end after the present step; then SIGTERM; then SIGKILL to every process of its session. A run that
   /// was started elsewhere, in a terminal, is only asked: its session has other processes.
@@ -98,10 +99,13 @@ class SolverRun final : public QObject {
   void status_changed();
   void history_grew();
   void frames_changed();
+  /// While it was watched: one that had ended before is silent.
   void ended();
 
  private:
   void ask(const QByteArray& command);
+  /// @param state  that the run says it is in when it has done so
+  void ask_for(const QByteArray& command, const QString& state);
   void send_requests();
   void go_on_stopping();
   void look_at_frames();
@@ -116,6 +120,7 @@ class SolverRun final : public QObject {
   GrowingFile status_file_, history_file_;
   QByteArray series_mark_;  ///< time and size of the index of frames
   QList<QByteArray> requests_;
+  QString awaited_;  ///< state that was asked for and that the run has not told yet; empty: none
   QTimer timer_;
   QElapsedTimer stopping_;
   Patience patience_;

@@ -18,7 +18,7 @@ namespace {
 
 /// Pixels of a screen of 72 dots an inch, of which texts are sized in points.
 constexpr int kTitleSize = 13, kNameSize = 12;
-constexpr double kRow = 20, kBox = 14, kGap = 6, kMargin = 10;
+constexpr double kRow = 20, kBox = 14, kGap = 6, kMargin = 10, kPad = 4;
 constexpr std::size_t kLongest = 28;  // characters of a name
 
 std::string shortened(const std::string& name) {
@@ -62,8 +62,9 @@ void ClassLegend::set_classes(const std::string& title, const std::vector<Class>
   Modified();
 }
 
-void ClassLegend::set_text_colour(double red, double green, double blue) {
-  ink_ = {red, green, blue};
+void ClassLegend::set_colours(double ink, double ground) {
+  ink_ = {ink, ink, ink};
+  plate_.set_grey(ground);
   title_->GetTextProperty()->SetColor(ink_.data());
   for (const auto& text : names_) text->GetTextProperty()->SetColor(ink_.data());
 }
@@ -84,6 +85,10 @@ void ClassLegend::place(vtkViewport& viewport) {
   const double box_x = std::floor(name_x - kGap * scale - box);
   const double top = hangs_ ? top_ * size[1] : top_ * size[1] + row * (rows + 1);
   title_->SetPosition(right, top - 0.8 * row);
+  std::array<double, 2> title{};
+  title_->GetSize(&viewport, title.data());
+  const double pad = kPad * scale;
+  plate_.place(std::min(box_x, right - title[0]) - pad, top - row * (rows + 1) - pad, right + pad, top + pad);
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> quads;
   vtkNew<vtkUnsignedCharArray> colours;
@@ -110,7 +115,7 @@ void ClassLegend::place(vtkViewport& viewport) {
 int ClassLegend::RenderOverlay(vtkViewport* viewport) {
   if (classes_.empty()) return 0;
   place(*viewport);
-  int drawn = box_actor_->RenderOverlay(viewport);
+  int drawn = plate_.actor()->RenderOverlay(viewport) + box_actor_->RenderOverlay(viewport);
   // A text is laid out before it is drawn over the others.
   for (const auto& text : names_) drawn += text->RenderOpaqueGeometry(viewport) + text->RenderOverlay(viewport);
   return drawn + title_->RenderOpaqueGeometry(viewport) + title_->RenderOverlay(viewport);
@@ -118,6 +123,7 @@ int ClassLegend::RenderOverlay(vtkViewport* viewport) {
 
 void ClassLegend::ReleaseGraphicsResources(vtkWindow* window) {
   title_->ReleaseGraphicsResources(window);
+  plate_.actor()->ReleaseGraphicsResources(window);
   box_actor_->ReleaseGraphicsResources(window);
   for (const auto& text : names_) text->ReleaseGraphicsResources(window);
   vtkActor2D::ReleaseGraphicsResources(window);

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "render/plate.hpp"
+
 namespace breccia::gui {
 
 /// A legend at the right of the view: a box of its colour and a name for each class, below a title. It measures its
@@ -29,7 +31,8 @@ class ClassLegend : public vtkActor2D {
   /// Where the upper edge is, or the lower one, as a share of the view.
   void set_top(double share) { top_ = share, hangs_ = true; }
   void set_bottom(double share) { top_ = share, hangs_ = false; }
-  void set_text_colour(double red, double green, double blue);
+  /// Grey of the words and of the plate behind them, 0 to 1.
+  void set_colours(double ink, double ground);
 
   int RenderOverlay(vtkViewport* viewport) override;
   int RenderOpaqueGeometry(vtkViewport*) override { return 0; }
@@ -54,6 +57,7 @@ class ClassLegend : public vtkActor2D {
  private:
   void place(vtkViewport& viewport);
 
+  Plate plate_;
   vtkNew<vtkTextActor> title_;
   vtkNew<vtkPolyData> boxes_;
   vtkNew<vtkActor2D> box_actor_;

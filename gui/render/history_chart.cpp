@@ -6,39 +6,70 @@
 #include <vtkContextActor.h>
 #include <vtkDoubleArray.h>
 #include <vtkPen.h>
-#include <vtkPlot.h>
-#include <vtkPlotLine.h>
+#include <vtkPlotPoints.h>
 #include <vtkTable.h>
 #include <vtkTextProperty.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <set>
+
+#include "render/prefixed_unit.hpp"
 
 namespace breccia::gui {
 namespace {
 
-struct Look {
-  std::array<unsigned char, 3> colour;
-  int pen;  // so that curves are told apart without colour
-};
+using Colour = std::array<unsigned char, 3>;
 
-constexpr std::array<Look, 8> kLooks{{{{0, 114, 178}, vtkPen::SOLID_LINE},
-                                      {{213, 94, 0}, vtkPen::SOLID_LINE},
-                                      {{0, 158, 115}, vtkPen::SOLID_LINE},
-                                      {{204, 121, 167}, vtkPen::SOLID_LINE},
-                                      {{230, 159, 0}, vtkPen::DASH_LINE},
-                                      {{86, 180, 233}, vtkPen::DASH_LINE},
-                                      {{140, 140, 140}, vtkPen::DASH_LINE},
-                                      {{200, 30, 30}, vtkPen::DOT_LINE}}};
+constexpr std::array<Colour, 8> kColours{{{0, 114, 178},
+                                          {213, 94, 0},
+                                          {0, 158, 115},
+                                          {204, 121, 167},
+                                          {230, 159, 0},
+                                          {86, 180, 233},
+                                          {140, 140, 140},
+                                          {200, 30, 30}}};
+/// So that curves are told apart without colour.
+constexpr std::array kPens{vtkPen::SOLID_LINE, vtkPen::DASH_LINE, vtkPen::DASH_DOT_LINE, vtkPen::DOT_LINE};
+/// Of the runs that are compared with.
+constexpr std::array kMarks{vtkPlotPoints::CIRCLE, vtkPlotPoints::SQUARE, vtkPlotPoints::DIAMOND, vtkPlotPoints::CROSS,
+                            vtkPlotPoints::PLUS};
 
-vtkSmartPointer<vtkDoubleArray> column(const std::string& name, const std::vector<double>& values, double scale) {
+const Colour& colour_of(int look) { return kColours[static_cast<std::size_t>(look) % kColours.size()]; }
+
+/// Quantities of one colour have other dashes, as have those that follow each other.
+int pen_of(int look) {
+  const auto n = static_cast<std::size_t>(look);
+  return kPens[(n + n / kColours.size()) % kPens.size()];
+}
+
+/// @param each  so many rows are left out between those that are taken, less one
+vtkSmartPointer<vtkDoubleArray> column(const std::string& name, const std::vector<double>& values, double size,
+                                       std::size_t each = 1) {
   auto array = vtkSmartPointer<vtkDoubleArray>::New();
   array->SetName(name.c_str());
-  for (const double x : values) array->InsertNextValue(scale * x);
+  for (std::size_t i = 0; i < values.size(); i += each) array->InsertNextValue(values[i] / size);
   return array;
 }
 
+double largest(const std::vector<double>& values) {
+  double found = 0;
+  for (const double x : values)
+    if (std::isfinite(x)) found = std::max(found, std::abs(x));
+  return found;
+}
+
+bool is_drawn(const Curve& curve, const std::vector<double>& time) {
+  return curve.values.size() == time.size() && time.size() >= 2;  // a line needs two points
+}
+
 }  // namespace
+
+/// Units in which numbers are shown, in SI.
+struct HistoryChart::Scale {
+  double time = 1, value = 1;
+};
 
 HistoryChart::HistoryChart() {
   vtkNew<vtkContextActor> actor;
@@ -51,29 +82,60 @@ HistoryChart::HistoryChart() {
   chart_->GetLegend()->SetHorizontalAlignment(vtkChartLegend::RIGHT);
   chart_->GetLegend()->SetVerticalAlignment(vtkChartLegend::TOP);
   chart_->SetBorders(20, 20, 16, 10);  // at the right: half of the last label
-  chart_->GetAxis(vtkAxis::BOTTOM)->SetTitle("time [us]");
   set_dark(false);
 }
 
-void HistoryChart::show(const std::vector<double>& time, const std::vector<Curve>& curves,
-                        const std::string& value_axis) {
-  constexpr double kMicro = 1e6;
+void HistoryChart::add_line(const Curve& curve, const std::vector<double>& time, const Scale& scale) {
+  constexpr float kOwn = 2, kOther = 1;  // pixels
+  vtkNew<vtkTable> table;
+  table->AddColumn(column("time", time, scale.time));
+  table->AddColumn(column(curve.name, curve.values, scale.value));
+  vtkPlot* line = chart_->AddPlot(vtkChart::LINE);
+  line->SetInputData(table, 0, 1);
+  const Colour& colour = colour_of(curve.look);
+  line->SetColor(colour[0], colour[1], colour[2], 255);
+  line->GetPen()->SetLineType(pen_of(curve.look));
+  line->SetWidth(curve.other == 0 ? kOwn : kOther);
+  line->SetLegendVisibility(curve.other == 0);
+}
+
+/// A few points of the curve of another run: marks on all of them would hide it.
+/// @param is_named  it brings the name of its run into the legend
+void HistoryChart::add_marks(const Curve& curve, const std::vector<double>& time, const Scale& scale, bool is_named) {
+  constexpr std::size_t kMarksOfACurve = 12;
+  const std::size_t each = std::max<std::size_t>(1, time.size() / kMarksOfACurve);
+  vtkNew<vtkTable> table;
+  table->AddColumn(column("time", time, scale.time, each));
+  table->AddColumn(column(curve.run, curve.values, scale.value, each));
+  auto* marks = vtkPlotPoints::SafeDownCast(chart_->AddPlot(vtkChart::POINTS));
+  marks->SetInputData(table, 0, 1);
+  const Colour& colour = colour_of(curve.look);
+  marks->SetColor(colour[0], colour[1], colour[2], 255);
+  marks->SetMarkerStyle(kMarks[static_cast<std::size_t>(curve.other - 1) % kMarks.size()]);
+  marks->SetMarkerSize(8);
+  marks->SetLegendVisibility(is_named);
+}
+
+void HistoryChart::show(const std::vector<double>& time, const std::vector<Curve>& curves, const std::string& quantity,
+                        const std::string& unit) {
   chart_->ClearPlots();
-  chart_->GetAxis(vtkAxis::LEFT)->SetTitle(value_axis);
-  if (time.size() < 2) return;  // a line needs two points
-  std::size_t number = 0;
+  num_curves_ = 0;
+  double end = 0, most = 0;
+  for (const Curve& curve : curves) {
+    end = std::max(end, largest(curve.time.empty() ? time : curve.time));
+    most = std::max(most, largest(curve.values));
+  }
+  const PrefixedUnit of_time = prefixed_unit(end, "s"), of_values = prefixed_unit(most, unit);
+  const Scale scale{of_time.size, of_values.size};
+  chart_->GetAxis(vtkAxis::BOTTOM)->SetTitle("time [" + of_time.name + "]");
+  chart_->GetAxis(vtkAxis::LEFT)->SetTitle(unit.empty() ? quantity : quantity + " [" + of_values.name + "]");
+  std::set<int> named;
   for (const Curve& curve : curves) {
     const std::vector<double>& own = curve.time.empty() ? time : curve.time;
-    if (curve.values.size() != own.size() || own.size() < 2) continue;
-    vtkNew<vtkTable> table;
-    table->AddColumn(column("time", own, kMicro));
-    table->AddColumn(column(curve.name, curve.values, 1));
-    vtkPlot* line = chart_->AddPlot(vtkChart::LINE);
-    line->SetInputData(table, 0, 1);
-    const Look& look = kLooks[number++ % kLooks.size()];
-    line->SetColor(look.colour[0], look.colour[1], look.colour[2], 255);
-    line->GetPen()->SetLineType(curve.time.empty() ? look.pen : vtkPen::DASH_DOT_LINE);
-    line->SetWidth(2);
+    if (!is_drawn(curve, own)) continue;
+    add_line(curve, own, scale);
+    if (curve.other > 0) add_marks(curve, own, scale, named.insert(curve.other).second);
+    ++num_curves_;
   }
   chart_->RecalculateBounds();
 }

@@ -15,6 +15,9 @@ namespace breccia::gui {
 struct Curve {
   std::string name;
   std::vector<double> values;
+  int look = 0;                   ///< of its quantity: colour and dash, the same in every picture
+  int other = 0;                  ///< number of the run that it is of, told by marks; 0: the run in view
+  std::string run = {};           ///< its name, which stands in the legend once; empty: the run in view
   std::vector<double> time = {};  ///< s, its own; empty: that of the others
 };
 
@@ -23,15 +26,21 @@ class HistoryChart {
  public:
   HistoryChart();
   [[nodiscard]] vtkRenderer* renderer() { return renderer_; }
-  /// Replaces all curves. @param time  s
-  void show(const std::vector<double>& time, const std::vector<Curve>& curves, const std::string& value_axis);
+  /// Replaces all curves. @param time  s;  @param quantity, unit  of the values, which are shown with a prefix
+  void show(const std::vector<double>& time, const std::vector<Curve>& curves, const std::string& quantity,
+            const std::string& unit);
   void set_dark(bool dark);
-  [[nodiscard]] vtkIdType num_curves() const { return chart_->GetNumberOfPlots(); }
+  [[nodiscard]] std::size_t num_curves() const { return num_curves_; }
 
  private:
+  struct Scale;
+  void add_line(const Curve& curve, const std::vector<double>& time, const Scale& scale);
+  void add_marks(const Curve& curve, const std::vector<double>& time, const Scale& scale, bool is_named);
+
   vtkNew<vtkRenderer> renderer_;
   vtkSmartPointer<vtkContextScene> scene_;
   vtkNew<vtkChartXY> chart_;
+  std::size_t num_curves_ = 0;
 };
 
 }  // namespace breccia::gui

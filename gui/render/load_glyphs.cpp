@@ -1,36 +1,35 @@
 #include "render/load_glyphs.hpp"
 
-#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
-#include <vtkNew.h>
-#include <vtkPoints.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <unordered_map>
 #include <utility>
 
-#include "render/vectors.hpp"
+#include "render/body_centres.hpp"
+#include "render/glyph_mesh.hpp"
 
 namespace breccia::gui {
 namespace {
 
 constexpr std::size_t kMostGlyphs = 24;
 /// Shares of the diagonal of the model, and of the length of a glyph.
-constexpr double kLength = 0.07, kShaft = 0.035, kHead = 0.1, kHeadLength = 0.35, kSupport = 0.5, kSupportWidth = 0.45;
-constexpr int kSides = 10;
+constexpr double kLength = 0.07, kSupport = 0.5, kSupportWidth = 0.45, kFoot = 0.16, kRod = 0.05, kApart = 0.4;
 
 /// A face where a glyph may stand.
 struct Seat {
   Vector centre{}, normal{};
+  int body = -1;
 };
 
 Seat seat_of(vtkPointSet& model, const std::array<vtkIdType, 3>& corners) {
   std::array<Vector, 3> x{};
   for (std::size_t i = 0; i < 3; ++i) model.GetPoint(corners[i], x[i].data());
-  return {(1.0 / 3) * (x[0] + x[1] + x[2]), unit(cross(x[1] - x[0], x[2] - x[0]))};
+  return {(1.0 / 3) * (x[0] + x[1] + x[2]), unit(cross(x[1] - x[0], x[2] - x[0])), -1};
 }
 
 /// 4 * id of the element + side, of a surface group, ascending; none: it is a volume.
@@ -43,16 +42,22 @@ std::vector<std::int64_t> faces_of(const SurfaceGroups& surfaces, const std::str
   return faces;
 }
 
+/// Its number as in the array "material"; that of no group where it is none.
+int index_of(const std::vector<std::string>& volumes, const std::string& group) {
+  return static_cast<int>(std::find(volumes.begin(), volumes.end(), group) - volumes.begin());
+}
+
 /// The faces of a group that are seen.
 std::vector<Seat> seats_of(vtkPolyData& skin, const std::vector<std::string>& volumes, const SurfaceGroups& surfaces,
                            const std::string& group) {
   vtkDataArray* material = skin.GetCellData()->GetArray("material");
   vtkDataArray* id = skin.GetCellData()->GetArray("id");
   vtkDataArray* side = skin.GetCellData()->GetArray("side");
+  vtkDataArray* body = skin.GetCellData()->GetArray("body");
   std::vector<Seat> seats;
   if (material == nullptr || id == nullptr || side == nullptr) return seats;
   const std::vector<std::int64_t> faces = faces_of(surfaces, group);
-  const auto volume = static_cast<double>(std::find(volumes.begin(), volumes.end(), group) - volumes.begin());
+  const double volume = index_of(volumes, group);
   for (vtkIdType c = 0; c < skin.GetNumberOfCells(); ++c) {
     const auto face =
         4 * static_cast<std::int64_t>(id->GetComponent(c, 0)) + static_cast<std::int64_t>(side->GetComponent(c, 0));
@@ -60,6 +65,7 @@ std::vector<Seat> seats_of(vtkPolyData& skin, const std::vector<std::string>& vo
         !std::binary_search(faces.begin(), faces.end(), face))
       continue;
     seats.push_back(seat_of(skin, {3 * c, 3 * c + 1, 3 * c + 2}));
+    if (body != nullptr) seats.back().body = static_cast<int>(body->GetComponent(c, 0));
   }
   return seats;
 }
@@ -105,7 +111,8 @@ std::vector<Seat> inner_seats_of(vtkUnstructuredGrid& elements, const SurfaceGro
 }
 
 /// Some of them, each as far as can be from those taken before. Of very many every so-manieth is looked at.
-std::vector<Seat> spread(std::vector<Seat> seats) {
+/// @param apart  no two are nearer to each other: arrows that overlap are a chain of heads
+std::vector<Seat> spread(std::vector<Seat> seats, double apart) {
   constexpr std::size_t kEnough = 4000;
   if (const std::size_t each = seats.size() / kEnough; each > 1) {
     for (std::size_t i = 0; i < kEnough; ++i) seats[i] = seats[i * each];
@@ -115,7 +122,7 @@ std::vector<Seat> spread(std::vector<Seat> seats) {
   if (seats.empty()) return taken;
   std::vector<double> distance(seats.size(), std::numeric_limits<double>::max());
   std::size_t next = 0;
-  while (taken.size() < kMostGlyphs && distance[next] > 0) {
+  while (taken.size() < kMostGlyphs && distance[next] > apart * apart) {
     taken.push_back(seats[next]);
     const Vector centre = seats[next].centre;
     for (std::size_t i = 0; i < seats.size(); ++i) {
@@ -126,58 +133,6 @@ std::vector<Seat> spread(std::vector<Seat> seats) {
   }
   return taken;
 }
-
-/// Cones and rods of triangles.
-class GlyphMesh {
- public:
-  /// A frustum between two places. @param from, to  radii
-  void add(const Vector& begin, const Vector& end, double from, double to) {
-    const Vector along = unit(end - begin);
-    const Vector across = unit(cross(along, std::abs(along[0]) < 0.8 ? Vector{1, 0, 0} : Vector{0, 1, 0}));
-    const Vector third = cross(along, across);
-    std::array<std::array<vtkIdType, kSides>, 2> ring{};
-    for (int k = 0; k < kSides; ++k) {
-      const double angle = 2 * M_PI * k / kSides;
-      const Vector out = std::cos(angle) * across + std::sin(angle) * third;
-      ring[0][static_cast<std::size_t>(k)] = points_->InsertNextPoint((begin + from * out).data());
-      ring[1][static_cast<std::size_t>(k)] = points_->InsertNextPoint((end + to * out).data());
-    }
-    const std::array<vtkIdType, 2> middle{points_->InsertNextPoint(begin.data()), points_->InsertNextPoint(end.data())};
-    for (std::size_t k = 0; k < kSides; ++k) {
-      const std::size_t n = (k + 1) % kSides;
-      triangle(ring[0][k], ring[0][n], ring[1][n]);
-      triangle(ring[0][k], ring[1][n], ring[1][k]);
-      triangle(middle[0], ring[0][n], ring[0][k]);
-      triangle(middle[1], ring[1][k], ring[1][n]);
-    }
-  }
-
-  void add_arrow(const Vector& begin, const Vector& end, int heads) {
-    const Vector way = end - begin;
-    const double length = std::sqrt(dot(way, way));
-    add(begin, end - kHeadLength * way, kShaft * length, kShaft * length);
-    for (int head = 0; head < heads; ++head) {
-      const Vector tip = end - (0.8 * kHeadLength * head) * way;
-      add(tip - kHeadLength * way, tip, kHead * length, 0);
-    }
-  }
-
-  [[nodiscard]] vtkSmartPointer<vtkPolyData> take() {
-    auto mesh = vtkSmartPointer<vtkPolyData>::New();
-    mesh->SetPoints(points_);
-    mesh->SetPolys(triangles_);
-    return mesh;
-  }
-
- private:
-  void triangle(vtkIdType a, vtkIdType b, vtkIdType c) {
-    const std::array<vtkIdType, 3> corners{a, b, c};
-    triangles_->InsertNextCell(3, corners.data());
-  }
-
-  vtkNew<vtkPoints> points_;
-  vtkNew<vtkCellArray> triangles_;
-};
 
 /// Directions that are spread evenly over the sphere, the same ones in every picture.
 Vector any_direction(std::size_t number) {
@@ -190,6 +145,12 @@ Vector any_direction(std::size_t number) {
 
 /// Draws the glyph of one seat. Returns the end that is away from the model.
 Vector add_glyph(GlyphMesh& mesh, const Load& load, const Seat& seat, std::size_t number, double length) {
+  if (load.shape == LoadShape::absorbing) {
+    for (int wave = 1; wave <= 3; ++wave)
+      mesh.add_disc(seat.centre + (0.25 * wave * length) * seat.normal, seat.normal, (0.4 - 0.1 * wave) * length,
+                    kRod * length);
+    return seat.centre + length * seat.normal;
+  }
   if (load.shape == LoadShape::support) {
     for (std::size_t a = 0; a < 3; ++a) {
       if (!load.axes[a]) continue;
@@ -212,7 +173,64 @@ Vector add_glyph(GlyphMesh& mesh, const Load& load, const Seat& seat, std::size_
 
 bool is_seen(const Load& load) {
   if (load.shape == LoadShape::support) return load.axes[0] || load.axes[1] || load.axes[2];
-  return load.shape == LoadShape::random || dot(load.direction, load.direction) > 0;
+  return load.shape == LoadShape::random || load.shape == LoadShape::absorbing ||
+         dot(load.direction, load.direction) > 0;
+}
+
+/// v_i = rate_i (x_i - c_i) at a face, c the centre of the body's part in the group.
+Vector stretching_at(const Seat& seat, const Vector& rate, const BodyCentres& centres) {
+  const auto centre = centres.find(seat.body);
+  if (centre == centres.end()) return {};
+  const Vector arm = seat.centre - centre->second;
+  return {rate[0] * arm[0], rate[1] * arm[1], rate[2] * arm[2]};
+}
+
+/// Arrows whose lengths compare as the velocities do, none where it is next to nothing.
+void add_stretching(GlyphMesh& mesh, LoadGlyphs& glyphs, const Load& load, const std::vector<Seat>& seats,
+                    const BodyCentres& centres, double longest) {
+  constexpr double kLeast = 0.1;  // of the longest
+  double fastest = 0;
+  for (const Seat& seat : seats) fastest = std::max(fastest, length(stretching_at(seat, load.direction, centres)));
+  for (const Seat& seat : seats) {
+    const Vector velocity = stretching_at(seat, load.direction, centres);
+    if (!(length(velocity) > kLeast * fastest)) continue;
+    const Vector way = (longest / fastest) * velocity;
+    const bool onto = dot(way, seat.normal) < 0;  // an arrow is outside
+    const Vector begin = onto ? seat.centre - way : seat.centre, end = begin + way;
+    mesh.add_arrow(begin, end, 1);
+    mesh.add_disc(begin, unit(way), kFoot * longest, kRod * longest);
+    glyphs.places.push_back(onto ? begin : end);
+  }
+}
+
+/// An arc about each body, wide enough to be outside of it, and its axis, which sticks out at both ends.
+void add_spins(GlyphMesh& mesh, LoadGlyphs& glyphs, const Load& load, const std::vector<Seat>& seats,
+               const BodyCentres& centres, double size) {
+  struct Reach {
+    double across = 0, low = 0, high = 0;
+  };
+  const Vector axis = unit(load.direction);
+  std::map<int, Reach> reaches;
+  for (const Seat& seat : seats) {
+    const auto centre = centres.find(seat.body);
+    if (centre == centres.end()) continue;
+    const Vector arm = seat.centre - centre->second;
+    const double along = dot(arm, axis);
+    Reach& reach = reaches[seat.body];
+    reach.across = std::max(reach.across, length(arm - along * axis));
+    reach.low = std::min(reach.low, along);
+    reach.high = std::max(reach.high, along);
+  }
+  std::vector<Seat> middles;
+  for (const auto& [body, reach] : reaches) middles.push_back({centres.at(body), axis, body});
+  constexpr double kWidth = 0.06, kRoom = 0.3, kCorners = 1.15;  // reaches are those of the middles of faces
+  const double width = kWidth * size;
+  for (const Seat& middle : spread(std::move(middles), 0)) {
+    const Reach& reach = reaches.at(middle.body);
+    const Vector foot = middle.centre + (reach.low - 0.5 * size) * axis;
+    mesh.add(foot, middle.centre + (reach.high + 0.5 * size) * axis, width, width);
+    glyphs.places.push_back(mesh.add_turn(middle.centre, axis, kCorners * reach.across + kRoom * size, width));
+  }
 }
 
 }  // namespace
@@ -238,8 +256,16 @@ LoadGlyphs draw_load(vtkPolyData& skin, vtkUnstructuredGrid* elements, const std
     std::vector<Seat> seats = seats_of(skin, volumes, surfaces, load.group);
     glyphs.inner = seats.empty() && elements != nullptr;
     if (glyphs.inner) seats = inner_seats_of(*elements, surfaces, load.group);
-    for (const Seat& seat : spread(std::move(seats)))
-      glyphs.places.push_back(add_glyph(mesh, load, seat, glyphs.places.size(), length));
+    const BodyCentres centres = load.shape == LoadShape::stretch || load.shape == LoadShape::spin
+                                    ? centres_of(elements, index_of(volumes, load.group))
+                                    : BodyCentres();
+    if (load.shape == LoadShape::spin) {
+      add_spins(mesh, glyphs, load, seats, centres, length);
+    } else if (seats = spread(std::move(seats), kApart * length); load.shape == LoadShape::stretch) {
+      add_stretching(mesh, glyphs, load, seats, centres, length);
+    } else {
+      for (const Seat& seat : seats) glyphs.places.push_back(add_glyph(mesh, load, seat, glyphs.places.size(), length));
+    }
   }
   glyphs.mesh = mesh.take();
   return glyphs;

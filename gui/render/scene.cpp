@@ -1,11 +1,11 @@
 #include "render/scene.hpp"
 
+#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellPicker.h>
 #include <vtkProperty.h>
 #include <vtkTextProperty.h>
-#include <vtkVariant.h>
 
 #include <algorithm>
 #include <map>
@@ -13,27 +13,8 @@
 namespace breccia::gui {
 namespace {
 
-using Colour = std::array<double, 3>;
-
-/// Damaged joints by mode: 0 undamaged, 1 opening, 2 sliding, 3 mixed.
-constexpr std::array<Colour, 4> kModes{{{0.5, 0.5, 0.5}, {0.90, 0.12, 0.12}, {0.12, 0.30, 0.90}, {0.75, 0.15, 0.80}}};
-constexpr std::array<const char*, 4> kModeNames{"undamaged", "opening (I)", "sliding (II)", "mixed"};
 /// Faces that are still told apart by their edges, and quickly drawn with them.
 constexpr vtkIdType kMostWithEdges = 50000;
-
-void place_legend(vtkScalarBarActor& legend, double x, double y, double width, double height) {
-  legend.SetPosition(x, y);
-  legend.SetPosition2(width, height);
-  legend.SetUnconstrainedFontSize(true);
-  legend.GetTitleTextProperty()->SetFontSize(13);
-  legend.GetLabelTextProperty()->SetFontSize(12);
-  legend.SetVerticalTitleSeparation(6);
-  for (vtkTextProperty* text : {legend.GetTitleTextProperty(), legend.GetLabelTextProperty()}) {
-    text->SetBold(0);
-    text->SetItalic(0);
-    text->SetShadow(0);
-  }
-}
 
 }  // namespace
 
@@ -70,19 +51,8 @@ Scene::Scene() {
   skin_->GetProperty()->SetEdgeColor(0.25, 0.25, 0.3);
   broken_->GetProperty()->SetAmbient(0.5);
   broken_->GetProperty()->SetDiffuse(0.5);
-  mode_colours_->SetNumberOfTableValues(static_cast<vtkIdType>(kModes.size()));
-  for (std::size_t i = 0; i < kModes.size(); ++i)
-    mode_colours_->SetTableValue(static_cast<vtkIdType>(i), kModes[i][0], kModes[i][1], kModes[i][2]);
-  mode_colours_->IndexedLookupOn();
-  std::vector<ClassLegend::Class> modes;
-  for (std::size_t i = 0; i < kModes.size(); ++i) {
-    mode_colours_->SetAnnotation(vtkVariant(static_cast<int>(i)), kModeNames[i]);
-    modes.push_back({kModes[i], kModeNames[i]});
-  }
-  mode_legend_->set_classes("damaged joints", modes);
-  broken_mapper_->SetLookupTable(mode_colours_);
+  style_legends();
   broken_mapper_->SetScalarModeToUseCellFieldData();
-  broken_mapper_->SelectColorArray("mode");
   broken_mapper_->UseLookupTableScalarRangeOn();
   // Cracks lie in the faces of the skin: they are drawn in front.
   broken_mapper_->SetResolveCoincidentTopologyToPolygonOffset();
@@ -91,28 +61,48 @@ Scene::Scene() {
   skin_mapper_->SetScalarModeToUseCellFieldData();
   skin_mapper_->SelectColorArray(kShown);
   skin_mapper_->UseLookupTableScalarRangeOn();
-  legend_->SetLookupTable(colours_);
-  place_legend(*legend_, 0.82, 0.45, 0.17, 0.5);
-  class_legend_->set_top(0.97);
-  mode_legend_->set_bottom(0.05);
-  caption_->SetPosition(10, 10);
   caption_->GetTextProperty()->SetFontSize(14);
+  caption_->GetTextProperty()->SetBackgroundOpacity(kPlateOpacity);
   for (vtkProp* prop :
        {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(marked_),
-        static_cast<vtkProp*>(chosen_), static_cast<vtkProp*>(legend_), static_cast<vtkProp*>(class_legend_),
-        static_cast<vtkProp*>(mode_legend_), static_cast<vtkProp*>(caption_)})
+        static_cast<vtkProp*>(chosen_), static_cast<vtkProp*>(legend_), static_cast<vtkProp*>(time_legend_),
+        static_cast<vtkProp*>(class_legend_), static_cast<vtkProp*>(mode_legend_), static_cast<vtkProp*>(caption_),
+        static_cast<vtkProp*>(scale_bar_)})
     renderer_->AddViewProp(prop);
+  vtkNew<vtkCallbackCommand> begin;
+  begin->SetClientData(this);
+  begin->SetCallback(
+      [](vtkObject*, unsigned long, void* scene, void*) { static_cast<Scene*>(scene)->begin_picture(); });
+  begins_ = renderer_->AddObserver(vtkCommand::StartEvent, begin);
   clear();
   set_dark(false);
 }
+
+Scene::~Scene() { renderer_->RemoveObserver(begins_); }
+
+/// What depends on the camera and on the size of the view.
+void Scene::begin_picture() {
+  constexpr double kEdge = 6, kLine = 24;  // pixels of a screen of 72 dots an inch
+  const double scale = renderer_->GetVTKWindow()->GetDPI() / 72.0;
+  const bool axes = shows_axes_ && has_data();
+  const double left = axes ? AxesCorner::kSize : kEdge;
+  axes_.show(axes);
+  scale_bar_->SetVisibility(axes);
+  scale_bar_->set_place(left, kEdge + kLine);
+  caption_->SetPosition((left + kEdge) * scale, kEdge * scale);
+  axes_.follow(*renderer_);
+  words_.place();
+}
+
+void Scene::show_axes(bool on) { shows_axes_ = on; }
 
 void Scene::clear() {
   frame_ = {};
   draw_loads();
   mark(nullptr);
-  for (vtkProp* prop :
-       {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(chosen_),
-        static_cast<vtkProp*>(legend_), static_cast<vtkProp*>(class_legend_), static_cast<vtkProp*>(mode_legend_)})
+  for (vtkProp* prop : {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(chosen_),
+                        static_cast<vtkProp*>(legend_), static_cast<vtkProp*>(time_legend_),
+                        static_cast<vtkProp*>(class_legend_), static_cast<vtkProp*>(mode_legend_)})
     prop->VisibilityOff();
 }
 
@@ -125,10 +115,7 @@ void Scene::show(const FrameData& frame) {
   }
   skin_->VisibilityOn();
   colour();
-  const bool broken = frame_.broken != nullptr;
-  broken_->SetVisibility(broken);
-  mode_legend_->SetVisibility(broken);
-  if (broken) broken_mapper_->SetInputData(frame_.broken);
+  draw_joints();
   draw_loads();
   if (first) reset_camera();
 }
@@ -251,21 +238,6 @@ Scene::Picked Scene::picked_at(double x, double y) const {
 }
 
 void Scene::set_caption(const std::string& text) { caption_->SetInput(text.c_str()); }
-
-void Scene::set_dark(bool dark) {
-  dark_ = dark;
-  if (has_data()) colour();  // what is dim is near the ground
-  draw_loads();
-  const double low = dark ? 0.10 : 0.86, high = dark ? 0.20 : 0.98, ink = dark ? 0.92 : 0.1;
-  renderer_->GradientBackgroundOn();
-  renderer_->SetBackground(low, low, low + 0.02);
-  renderer_->SetBackground2(high, high, high + 0.02);
-  for (vtkTextProperty* text :
-       {legend_->GetTitleTextProperty(), legend_->GetLabelTextProperty(), caption_->GetTextProperty()})
-    text->SetColor(ink, ink, ink);
-  class_legend_->set_text_colour(ink, ink, ink);
-  mode_legend_->set_text_colour(ink, ink, ink);
-}
 
 vtkSmartPointer<vtkPolyData> Scene::exploded() const {
   auto out = vtkSmartPointer<vtkPolyData>::New();

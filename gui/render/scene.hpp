@@ -16,14 +16,23 @@
 #include <unordered_map>
 #include <vector>
 
+#include "render/axes_corner.hpp"
 #include "render/class_legend.hpp"
 #include "render/frame_data.hpp"
 #include "render/load_glyphs.hpp"
+#include "render/load_words.hpp"
+#include "render/scale_bar.hpp"
 
 namespace breccia::gui {
 
 /// What the colour of the skin means.
 enum class Colouring { group, body, fragment, rank, speed, von_mises, tension };
+
+/// What the colour of the damaged joints means.
+enum class JointColouring { mode, time_of_failure };
+
+/// From where the model is looked at: a corner above it, or along an axis.
+enum class LookFrom { corner, plus_x, minus_x, plus_y, minus_y, plus_z, minus_z };
 
 /// The colourings with their names for people, units among them.
 [[nodiscard]] const std::vector<std::pair<Colouring, std::string>>& colourings();
@@ -33,13 +42,19 @@ enum class Colouring { group, body, fragment, rank, speed, von_mises, tension };
 class Scene {
  public:
   Scene();
+  ~Scene();
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
 
   [[nodiscard]] vtkRenderer* renderer() { return renderer_; }
+  /// Of the axes, for the layer above.
+  [[nodiscard]] vtkRenderer* axes_renderer() { return axes_.renderer(); }
 
   void show(const FrameData& frame);
   void clear();
   void set_colouring(Colouring colouring);
   [[nodiscard]] Colouring colouring() const { return colouring_; }
+  void set_joint_colouring(JointColouring colouring);
   /// Names of the volume groups in the order of the array "material".
   void set_groups(const std::vector<std::string>& names);
   [[nodiscard]] const std::vector<std::string>& groups() const { return groups_; }
@@ -71,12 +86,22 @@ class Scene {
   void show_skin(bool on);
   void set_dark(bool dark);
   void set_caption(const std::string& text);
-  /// Looks at everything from a corner.
-  void reset_camera();
+  /// The direction that is drawn upwards, of length one along an axis, from the next look on.
+  void set_up(const std::array<double, 3>& up) { up_ = up; }
+  [[nodiscard]] const std::array<double, 3>& up() const { return up_; }
+  /// Looks at everything from there.
+  void look_from(LookFrom where);
+  void reset_camera() { look_from(LookFrom::corner); }
+  /// The axes in the corner and the scale bar.
+  void show_axes(bool on);
   [[nodiscard]] bool has_data() const { return frame_.skin != nullptr; }
   [[nodiscard]] vtkIdType num_faces() const { return frame_.skin == nullptr ? 0 : frame_.skin->GetNumberOfCells(); }
   [[nodiscard]] vtkIdType num_broken() const;
   [[nodiscard]] const ClassLegend& class_legend() const { return *class_legend_; }
+  [[nodiscard]] const ScaleBar& scale_bar() const { return *scale_bar_; }
+  [[nodiscard]] const LoadWords& load_words() const { return words_; }
+  /// Range of the times of failure that the joints are coloured by, s; { 0, 0 }: by something else, or none has failed.
+  [[nodiscard]] std::array<double, 2> failure_range() const { return failure_range_; }
   /// Range of what is coloured, for the legend.
   [[nodiscard]] std::array<double, 2> range() const { return range_; }
 
@@ -85,6 +110,11 @@ class Scene {
   void colour();
   void draw_chosen();
   void draw_loads();
+  void draw_joints();
+  void begin_picture();
+  void colour_joints_by_time();
+  void style_legends();
+  void fit_beside(double middle);
   [[nodiscard]] std::int64_t face_of(vtkIdType cell) const;
   void set_opacity();
   void colour_by_class(const char* array, const std::vector<std::string>& names, const char* title);
@@ -94,10 +124,13 @@ class Scene {
   vtkNew<vtkRenderer> renderer_;
   vtkNew<vtkPolyDataMapper> skin_mapper_, broken_mapper_, marked_mapper_, chosen_mapper_;
   vtkNew<vtkActor> skin_, broken_, marked_, chosen_;
-  vtkNew<vtkLookupTable> colours_, mode_colours_;
-  vtkNew<vtkScalarBarActor> legend_;
+  vtkNew<vtkLookupTable> colours_, mode_colours_, time_colours_;
+  vtkNew<vtkScalarBarActor> legend_, time_legend_;
   vtkNew<ClassLegend> class_legend_, mode_legend_;
   vtkNew<vtkTextActor> caption_;
+  vtkNew<ScaleBar> scale_bar_;
+  AxesCorner axes_;
+  unsigned long begins_ = 0;  ///< observer of pictures that begin
   FrameData frame_;
   std::vector<std::string> groups_;
   std::set<std::string> highlighted_;
@@ -105,12 +138,15 @@ class Scene {
   std::unordered_map<std::int64_t, std::vector<std::size_t>> groups_of_face_;
   std::vector<Load> loads_;
   std::vector<vtkSmartPointer<vtkActor>> glyphs_;
-  std::vector<vtkSmartPointer<vtkTextActor>> words_;
+  LoadWords words_{*renderer_};
   Colouring colouring_ = Colouring::group;
+  JointColouring joint_colouring_ = JointColouring::mode;
+  std::array<double, 3> up_{0, 1, 0};
+  std::array<double, 2> failure_range_{0, 0};
   double explode_ = 0;
   int num_glyphs_ = 0;
   std::array<double, 2> range_{0, 1};
-  bool hold_ = false, solid_ = true, dark_ = false, shows_loads_ = true;
+  bool hold_ = false, solid_ = true, dark_ = false, shows_loads_ = true, shows_axes_ = true;
 };
 
 }  // namespace breccia::gui

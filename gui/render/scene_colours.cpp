@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "render/ramp.hpp"
 #include "render/scene.hpp"
 
 // What the colours of the skin tell.
@@ -25,27 +26,6 @@ constexpr std::array<Colour, 8> kClasses{{{0.34, 0.71, 0.91},
                                           {0.0, 0.45, 0.70},
                                           {0.84, 0.37, 0.0},
                                           {0.6, 0.6, 0.6}}};
-/// Dark blue to yellow, of even steps in lightness.
-constexpr std::array<Colour, 5> kRamp{{{0.267, 0.005, 0.329},
-                                       {0.231, 0.318, 0.545},
-                                       {0.129, 0.567, 0.551},
-                                       {0.369, 0.789, 0.383},
-                                       {0.993, 0.906, 0.144}}};
-
-void fill_ramp(vtkLookupTable& table) {
-  constexpr int kSteps = 128;
-  table.SetNumberOfTableValues(kSteps);
-  for (int i = 0; i < kSteps; ++i) {
-    const double x = (kRamp.size() - 1.0) * i / (kSteps - 1);
-    const auto k = std::min(static_cast<std::size_t>(x), kRamp.size() - 2);
-    const double w = x - static_cast<double>(k);
-    Colour c{};
-    for (std::size_t a = 0; a < 3; ++a) c[a] = (1 - w) * kRamp[k][a] + w * kRamp[k + 1][a];
-    table.SetTableValue(i, c[0], c[1], c[2]);
-  }
-  table.SetAnnotations(nullptr, nullptr);
-  table.IndexedLookupOff();
-}
 
 }  // namespace
 
@@ -153,8 +133,6 @@ void Scene::colour_by_value(const char* array, int component, double scale, cons
   fill_ramp(*colours_);
   colours_->SetTableRange(low, high);
   legend_->SetTitle(title);
-  legend_->SetNumberOfLabels(5);
-  legend_->SetLabelFormat("%.3g");
   legend_->VisibilityOn();
   class_legend_->VisibilityOff();
   skin->GetCellData()->AddArray(shown);

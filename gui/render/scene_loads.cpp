@@ -1,6 +1,5 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkTextProperty.h>
 
 #include "render/scene.hpp"
 
@@ -12,8 +11,14 @@ namespace {
 using Colour = std::array<double, 3>;
 
 /// Of LoadShape.
-constexpr std::array<Colour, 5> kLoads{
-    {{0.0, 0.45, 0.70}, {0.75, 0.25, 0.55}, {0.80, 0.30, 0.0}, {0.15, 0.45, 0.25}, {0.75, 0.25, 0.55}}};
+constexpr std::array<Colour, kNumLoadShapes> kLoads{{{0.0, 0.45, 0.70},
+                                                     {0.75, 0.25, 0.55},
+                                                     {0.80, 0.30, 0.0},
+                                                     {0.15, 0.45, 0.25},
+                                                     {0.75, 0.25, 0.55},
+                                                     {0.55, 0.42, 0.0},
+                                                     {0.42, 0.25, 0.75},
+                                                     {0.25, 0.45, 0.50}}};
 
 }  // namespace
 
@@ -29,17 +34,14 @@ void Scene::show_loads(bool on) {
 
 void Scene::draw_loads() {
   for (const auto& actor : glyphs_) renderer_->RemoveViewProp(actor);
-  for (const auto& actor : words_) renderer_->RemoveViewProp(actor);
   glyphs_.clear();
   words_.clear();
   num_glyphs_ = 0;
   if (!has_data() || !shows_loads_ || explode_ > 0) return;  // parts that are moved apart are not where loads act
   for (const Load& load : loads_) {
-    const LoadGlyphs drawn = draw_load(*frame_.skin, frame_.elements, groups_, surfaces_, load);
+    LoadGlyphs drawn = draw_load(*frame_.skin, frame_.elements, groups_, surfaces_, load);
     if (drawn.count() == 0) continue;
     num_glyphs_ += drawn.count();
-    // Loads of one group begin at the same face: the words of each stand at another one.
-    const std::array<double, 3>& place = drawn.places[words_.size() % drawn.places.size()];
     vtkNew<vtkPolyDataMapper> mapper;
     mapper->SetInputData(drawn.mesh);
     if (drawn.inner) {                     // in front of everything: otherwise the model hides them
@@ -53,18 +55,8 @@ void Scene::draw_loads() {
     const Colour& c = kLoads[static_cast<std::size_t>(load.shape)];
     actor->GetProperty()->SetColor(c[0], c[1], c[2]);
     actor->GetProperty()->SetAmbient(0.4);
-    const auto& words = words_.emplace_back(vtkSmartPointer<vtkTextActor>::New());
-    words->SetInput(load.words.c_str());
-    words->GetPositionCoordinate()->SetCoordinateSystemToWorld();  // drawn over the model, wherever it is
-    words->GetPositionCoordinate()->SetValue(place[0], place[1], place[2]);
-    words->PickableOff();
-    vtkTextProperty* text = words->GetTextProperty();
-    text->SetFontSize(13);
-    text->SetColor(dark_ ? 1 : 0, dark_ ? 1 : 0, dark_ ? 1 : 0);
-    text->SetBackgroundColor(dark_ ? 0.15 : 1, dark_ ? 0.15 : 1, dark_ ? 0.17 : 1);
-    text->SetBackgroundOpacity(0.75);
     renderer_->AddViewProp(actor);
-    renderer_->AddViewProp(words);
+    words_.add(load.words, std::move(drawn.places));
   }
 }
 

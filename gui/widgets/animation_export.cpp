@@ -1,5 +1,6 @@
 #include "widgets/animation_export.hpp"
 
+#include <QFileInfo>
 #include <QStandardPaths>
 
 namespace breccia::gui {
@@ -28,6 +29,15 @@ AnimationExport::~AnimationExport() {
 
 QString AnimationExport::program() { return QStandardPaths::findExecutable("ffmpeg"); }
 
+bool AnimationExport::keeps_pictures() const { return file_.endsWith(".png", Qt::CaseInsensitive); }
+
+QString AnimationExport::picture_file(int number) const {
+  const QString digits = number < 0 ? QString("%06d") : QString("%1").arg(number, 6, 10, QChar('0'));
+  const QFileInfo kept(file_);
+  return keeps_pictures() ? kept.dir().filePath(kept.completeBaseName() + "_" + digits + ".png")
+                          : pictures_.filePath(digits + ".png");
+}
+
 void AnimationExport::begin() {
   next_ = 0;
   emit frame_wanted(frames_.front().file, frames_.front().time);
@@ -40,14 +50,14 @@ void AnimationExport::take(double time, const QImage& picture) {
     emit frame_wanted(wanted.file, wanted.time);
     return;
   }
-  if (!picture.save(pictures_.filePath(QString("%1.png").arg(next_, 6, 10, QChar('0'))))) {
-    emit done(tr("%1 cannot be written").arg(pictures_.path()));
+  if (const QString name = picture_file(next_); !picture.save(name)) {
+    emit done(tr("%1 cannot be written").arg(name));
     return;
   }
   ++next_;
   emit progress(tr("animation: picture %1 of %2").arg(next_).arg(frames_.size()));
   if (next_ == static_cast<int>(frames_.size())) {
-    put_together();
+    keeps_pictures() ? emit done({}) : put_together();
     return;
   }
   const RunFrame& frame = frames_[static_cast<std::size_t>(next_)];
@@ -58,8 +68,7 @@ void AnimationExport::put_together() {
   emit progress(tr("animation: ffmpeg makes the film"));
   // Films want even numbers of pixels; yuv420p is what every player knows.
   process_.start(program(), {"-nostdin", "-y", "-loglevel", "error", "-framerate", QString::number(kRate), "-i",
-                             pictures_.filePath("%06d.png"), "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt",
-                             "yuv420p", file_});
+                             picture_file(-1), "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", file_});
 }
 
 }  // namespace breccia::gui

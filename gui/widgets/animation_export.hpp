@@ -13,11 +13,11 @@
 namespace breccia::gui {
 
 /// Makes a film of pictures that are shown one after the other: asks for each frame, takes its picture, and lets ffmpeg
-/// put them together in a process of its own.
+/// put them together in a process of its own; or keeps the pictures, numbered, which needs no ffmpeg.
 class AnimationExport final : public QObject {
   Q_OBJECT
  public:
-  /// @param file  .mp4
+  /// @param file  NAME.mp4: the film; NAME.png: NAME_000000.png and so on
   AnimationExport(std::vector<RunFrame> frames, QString file, QObject* parent = nullptr);
   ~AnimationExport() override;
   /// The program that makes films; empty: it is not here.
@@ -39,6 +39,9 @@ class AnimationExport final : public QObject {
 
  private:
   void put_together();
+  [[nodiscard]] bool keeps_pictures() const;
+  /// @param number  from 0; < 0: the pattern by which ffmpeg counts
+  [[nodiscard]] QString picture_file(int number) const;
   std::vector<RunFrame> frames_;
   QString file_;
   QTemporaryDir pictures_{QDir::temp().filePath(own_name("film") + "-XXXXXX")};

@@ -29,6 +29,7 @@ CaseTree::CaseTree(Document& document, QWidget* parent)
   tree_->setHeaderHidden(true);
   tree_->setColumnCount(1);
   column->addWidget(tree_);
+  setFocusProxy(tree_);
   int widest = 0;  // names of stages are seen whole; an entry may have any name
   for (const WorkStage& stage : work_stages()) widest = std::max(widest, fontMetrics().horizontalAdvance(stage.name));
   tree_->setMinimumWidth(widest + tree_->indentation() + style()->pixelMetric(QStyle::PM_ScrollBarExtent) +
@@ -112,7 +113,7 @@ void CaseTree::fill_menu() {
   add_->menu()->clear();
   for (const QString& list : lists_of(work_stages()[static_cast<std::size_t>(stage_)], document_.places()))
     add_->menu()->addAction(list, this, [this, list] {
-      document_.add_entry(list, lines_of_new_entry(list));
+      document_.add_entry(list, lines_of_new_entry(list, document_.places(), groups_));
       select(stage_, list + QString("[%1]").arg(document_.places().count(list.toStdString()) - 1));
     });
 }

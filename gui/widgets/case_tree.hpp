@@ -5,6 +5,7 @@
 #include <QTreeWidget>
 
 #include "core/case_outline.hpp"
+#include "core/group_names.hpp"
 
 namespace breccia::gui {
 
@@ -18,6 +19,8 @@ class CaseTree final : public QWidget {
   [[nodiscard]] const QString& path() const { return path_; }
   void select(int stage, const QString& path);
   void set_problems(const std::vector<Problem>& problems);
+  /// Those of the mesh, which new entries are about.
+  void set_groups(const std::optional<MeshGroups>& groups) { groups_ = groups; }
 
  signals:
   void selected(int stage, const QString& path);
@@ -32,6 +35,7 @@ class CaseTree final : public QWidget {
   QToolButton* add_;
   QPushButton* remove_;
   std::vector<Problem> problems_;
+  std::optional<MeshGroups> groups_;
   int stage_ = 0;
   QString path_;
   bool building_ = false;

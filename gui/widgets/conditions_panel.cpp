@@ -3,19 +3,9 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QSignalBlocker>
+#include <algorithm>
 
 namespace breccia::gui {
-namespace {
-
-/// A unit in which a time has few digits before the point.
-std::pair<double, QString> unit_of_time(double seconds) {
-  if (seconds >= 1) return {1, "s"};
-  if (seconds >= 1e-3) return {1e3, "ms"};
-  return {1e6, "us"};
-}
-
-}  // namespace
-
 ConditionsPanel::ConditionsPanel(QWidget* parent) : QWidget(parent), table_(new QTableWidget), chart_(new LineChart) {
   setObjectName("conditions");
   table_->setObjectName("conditions_table");
@@ -33,7 +23,7 @@ ConditionsPanel::ConditionsPanel(QWidget* parent) : QWidget(parent), table_(new 
   table_->horizontalHeader()->setStretchLastSection(true);
   chart_->setObjectName("load_chart");
   chart_->setAccessibleName(tr("Functions of time"));
-  chart_->setToolTip(tr("The value of the condition in hand over its stage, in SI units, as the solver reads it"));
+  chart_->setToolTip(tr("The value of the condition in hand over its stage, as the solver reads it"));
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(2, 2, 2, 2);
   row->addWidget(table_, 1);
@@ -66,7 +56,9 @@ void ConditionsPanel::show_conditions(std::vector<Condition> conditions) {
       table_->item(row, column)->setToolTip(cells[column]);
     }
   }
-  for (const int column : {0, 1, 2}) table_->resizeColumnToContents(column);
+  for (const int column : {0, 1, 2, 3}) table_->resizeColumnToContents(column);
+  constexpr int kValue = 3, kWidest = 260;  // the column, and pixels: tables of a function are long
+  table_->setColumnWidth(kValue, std::min(table_->columnWidth(kValue), kWidest));
   table_->setCurrentCell(std::min(std::max(current, 0), table_->rowCount() - 1), 0);
   show_curves();
 }
@@ -92,11 +84,7 @@ void ConditionsPanel::show_curves() {
   const int row = table_->currentRow();
   if (row < 0 || row >= static_cast<int>(conditions_.size())) return chart_->show_lines({}, {}, {});
   const Condition& chosen = conditions_[static_cast<std::size_t>(row)];
-  std::vector<PlotLine> lines = chosen.curves;
-  const auto [scale, unit] = unit_of_time(lines.empty() ? 1 : lines.front().x.back());
-  for (PlotLine& line : lines)
-    for (double& t : line.x) t *= scale;
-  chart_->show_lines(std::move(lines), tr("time [%1]").arg(unit), QString("%1 [%2]").arg(chosen.type, chosen.unit));
+  chart_->show_lines(chosen.curves, tr("time [s]"), QString("%1 [%2]").arg(chosen.type, chosen.unit));
 }
 
 }  // namespace breccia::gui

@@ -1,10 +1,12 @@
 #include "widgets/line_chart.hpp"
 
 #include <QPainterPath>
+#include <QRegularExpression>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "render/prefixed_unit.hpp"
 #include "widgets/chart_frame.hpp"
 
 namespace breccia::gui {
@@ -46,6 +48,21 @@ void widen(double& low, double& high) {
   high += room;
 }
 
+/// Puts values into a unit in which they are short. @return  the title with that unit
+QString scaled(const QString& title, std::vector<PlotLine>& lines, std::vector<double> PlotLine::*values) {
+  static const QRegularExpression pattern(R"(^(.*) \[([^\[\]]+)\]$)");
+  const auto match = pattern.match(title);
+  if (!match.hasMatch()) return title;
+  double largest = 0;
+  for (const PlotLine& line : lines)
+    for (const double v : line.*values)
+      if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
+  const PrefixedUnit unit = prefixed_unit(largest, match.captured(2).toStdString());
+  for (PlotLine& line : lines)
+    for (double& v : line.*values) v /= unit.size;
+  return QString("%1 [%2]").arg(match.captured(1), QString::fromStdString(unit.name));
+}
+
 }  // namespace
 
 LineChart::LineChart(QWidget* parent) : QWidget(parent) {}
@@ -53,12 +70,13 @@ LineChart::LineChart(QWidget* parent) : QWidget(parent) {}
 void LineChart::show_lines(std::vector<PlotLine> lines, const QString& x_title, const QString& y_title,
                            const QStringList& x_words) {
   lines_ = std::move(lines);
-  x_title_ = x_title;
-  y_title_ = y_title;
+  shown_ = lines_;
+  x_title_ = x_words.isEmpty() ? scaled(x_title, shown_, &PlotLine::x) : x_title;
+  y_title_ = scaled(y_title, shown_, &PlotLine::y);
   x_words_ = x_words;
   QStringList names;
   for (const PlotLine& line : lines_) names << line.name;
-  setAccessibleDescription(tr("%1 over %2: %3").arg(y_title, x_title, names.join(", ")));
+  setAccessibleDescription(tr("%1 over %2: %3").arg(y_title_, x_title_, names.join(", ")));
   update();
 }
 
@@ -97,7 +115,7 @@ void LineChart::paintEvent(QPaintEvent*) {
   font.setPointSizeF(0.85 * font.pointSizeF());
   painter.setFont(font);
   const QFontMetrics metrics(font);
-  for (const PlotLine& line : lines_) {
+  for (const PlotLine& line : shown_) {
     for (const double x : line.x) left = std::min(left, x), right = std::max(right, x);
     for (const double y : line.y) bottom = std::min(bottom, y), top = std::max(top, y);
     widest = std::max(widest, metrics.horizontalAdvance(line.name));
@@ -111,7 +129,7 @@ void LineChart::paintEvent(QPaintEvent*) {
   if (box.width() < 20 || box.height() < 20) return;
   const ChartFrame frame{box, left, right, bottom, top};
   paint_axes(painter, frame, palette(), x_title_, y_title_, x_words_);
-  for (std::size_t i = 0; i < lines_.size(); ++i) paint_line(painter, frame, lines_[i], static_cast<int>(i));
+  for (std::size_t i = 0; i < shown_.size(); ++i) paint_line(painter, frame, shown_[i], static_cast<int>(i));
   paint_legend(painter, QRectF(box.right() + 12, box.top(), legend, height() - box.top()));
 }
 

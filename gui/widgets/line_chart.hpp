@@ -15,12 +15,16 @@ class LineChart final : public QWidget {
   Q_OBJECT
  public:
   explicit LineChart(QWidget* parent = nullptr);
-  /// @param x_title, y_title  "name [unit]";  @param x_words  what stands at 0, 1, 2...; empty: numbers
+  /// Numbers on the axes get a prefix of their unit with which they are short.
+  /// @param x_title, y_title  "name [unit]", of SI;  @param x_words  what stands at 0, 1, 2...; empty: numbers
   void show_lines(std::vector<PlotLine> lines, const QString& x_title, const QString& y_title,
                   const QStringList& x_words = {});
   [[nodiscard]] QSize sizeHint() const override { return {420, 200}; }
   [[nodiscard]] QSize minimumSizeHint() const override { return {240, 120}; }
   [[nodiscard]] const std::vector<PlotLine>& lines() const { return lines_; }
+  /// As they stand at the axes: "pressure [MPa]".
+  [[nodiscard]] const QString& x_title() const { return x_title_; }
+  [[nodiscard]] const QString& y_title() const { return y_title_; }
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -29,7 +33,7 @@ class LineChart final : public QWidget {
   void paint_line(QPainter& painter, const ChartFrame& frame, const PlotLine& line, int number) const;
   void paint_legend(QPainter& painter, const QRectF& box) const;
 
-  std::vector<PlotLine> lines_;
+  std::vector<PlotLine> lines_, shown_;  ///< as given, and in the units of the axes
   QString x_title_, y_title_;
   QStringList x_words_;
 };

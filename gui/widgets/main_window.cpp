@@ -17,6 +17,8 @@
 #include <QStatusBar>
 #include <QToolBar>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <array>
 
 #include "core/own_files.hpp"
 #include "widgets/case_text.hpp"
@@ -28,6 +30,7 @@
 #include "widgets/histogram_panel.hpp"
 #include "widgets/joint_plot.hpp"
 #include "widgets/named_button.hpp"
+#include "widgets/paraview_results.hpp"
 #include "widgets/plots_panel.hpp"
 #include "widgets/problems_panel.hpp"
 #include "widgets/property_form.hpp"
@@ -44,6 +47,22 @@ namespace breccia::gui {
 namespace {
 
 constexpr int kValidationDelay = 150, kLawDelay = 500;  // ms after the last edit
+constexpr int kBetweenWords = 16;                       // pixels in the status bar
+
+/// The dock in which a widget stands, if it does in one.
+const QDockWidget* dock_of(const QWidget& widget) {
+  for (const QWidget* up = &widget; up != nullptr; up = up->parentWidget())
+    if (const auto* dock = qobject_cast<const QDockWidget*>(up)) return dock;
+  return nullptr;
+}
+
+/// Qt calls a dock behind others visible, though it lies outside of the window.
+bool takes_tab(const QWidget& widget) {
+  if ((widget.focusPolicy() & Qt::TabFocus) == 0 || widget.focusProxy() != nullptr) return false;
+  if (!widget.isVisible() || !widget.isEnabled()) return false;
+  const QDockWidget* dock = dock_of(widget);
+  return dock == nullptr || !dock->visibleRegion().isEmpty();
+}
 
 }  // namespace
 
@@ -55,7 +74,8 @@ MainWindow::MainWindow(Places places, QWidget* parent)
       registry_(places_.state + "/runs.json"),
       queue_(places_.state),
       library_(places_.state + "/materials.toml"),
-      loader_(new FrameLoader(this)) {
+      loader_(new FrameLoader(this)),
+      paraview_(new ParaViewResults(this)) {
   setObjectName("main_window");
   // The frame, which the system adds, has room as well.
   const QSize room = QGuiApplication::primaryScreen()->availableGeometry().size() - QSize(8, 40);
@@ -76,7 +96,8 @@ MainWindow::MainWindow(Places places, QWidget* parent)
   show_actions();
 }
 
-MainWindow::~MainWindow() = default;
+/// Children that are hidden hand the cursor on, and a field that loses it asks the document, which must still be there.
+MainWindow::~MainWindow() { hide(); }
 
 bool MainWindow::busy() const { return queries_.busy() || import_.busy() || loader_->busy() || histogram_->busy(); }
 
@@ -122,6 +143,7 @@ void MainWindow::make_panels() {
     side_->addWidget(area);
   }
   busy_ = new QLabel;
+  busy_->setIndent(kBetweenWords);
   mesh_words_ = new QLabel;
   run_words_ = new QLabel;
   run_bar_ = new QProgressBar;
@@ -145,7 +167,7 @@ void MainWindow::make_extras(QVBoxLayout& column) {
     row->addWidget(button);
     return button;
   };
-  connect(add(tr("From the &library..."), "from_library",
+  connect(add(tr("From the li&brary..."), "from_library",
               tr("Values of rocks, concretes, glasses, ceramics, metals and ice, each with its source")),
           &QPushButton::clicked, this, &MainWindow::take_from_library);
   connect(add(tr("Into &my library..."), "into_library", tr("Keeps the values of this material for other cases")),
@@ -193,6 +215,10 @@ void MainWindow::show_dock(const QString& name) {
   }
 }
 
+void MainWindow::offer_dock(const QString& name) {
+  if (!text_->hasFocus()) show_dock(name);
+}
+
 void MainWindow::set_dark(bool dark) {
   apply_theme(dark);
   dark_->setChecked(dark);
@@ -206,16 +232,15 @@ void MainWindow::join_panels() {
   validation_.setInterval(kValidationDelay);
   preview_.setSingleShot(true);
   connect(&validation_, &QTimer::timeout, this, &MainWindow::validate);
-  connect(&preview_, &QTimer::timeout, this, [this] { queries_.mesh(); });
+  connect(&preview_, &QTimer::timeout, this, &MainWindow::ask_mesh);
   law_.setSingleShot(true);
   law_.setInterval(kLawDelay);
   connect(&law_, &QTimer::timeout, this, [this] {
-    if (problems_.empty() && form_->section().startsWith("joint[")) queries_.joints();
+    if (!problems_.empty() || !form_->section().startsWith("joint[")) return;
+    laws_asked_ = document_.text();
+    queries_.joints();
   });
-  connect(&queries_, &CaseQueries::joints_told, this, [this](const QJsonObject& json) {
-    laws_ = json["laws"].toArray();
-    show_joint_law();
-  });
+  connect(&queries_, &CaseQueries::joints_told, this, &MainWindow::show_laws);
   connect(&document_, &Document::changed, this, &MainWindow::case_changed);
   connect(&document_, &Document::snapshot_tried, this, [this](const QString& error) {
     tell_trouble("snapshot", tr("Unsaved edits are not kept against a crash; save the case"), error);
@@ -229,6 +254,7 @@ void MainWindow::join_panels() {
   connect(&queries_, &CaseQueries::busy_changed, this,
           [this] { busy_->setText(queries_.busy() ? tr("the solver is asked...") : QString()); });
   connect(loader_, &FrameLoader::loaded, this, &MainWindow::show_frame);
+  connect(loader_, &FrameLoader::loaded, results_, &ResultsPanel::frame_shown);
   connect(start_, &StartPage::template_chosen, this, [this](int n) { open_template(n, false); });
   connect(start_, &StartPage::demo_wanted, this, [this] { open_template(0, true); });
   connect(start_, &StartPage::case_chosen, this, &MainWindow::open_path);
@@ -304,16 +330,52 @@ void MainWindow::join_panels() {
   connect(results_, &ResultsPanel::curves_wanted, this, &MainWindow::export_curves);
   connect(results_, &ResultsPanel::animation_wanted, this, &MainWindow::save_animation);
   connect(results_, &ResultsPanel::frame_wanted, this, [this](int n) {
-    if (run_ == nullptr || n >= static_cast<int>(run_->frames().size())) return;
+    // A stage of the case shows the mesh at rest, whatever the run writes meanwhile.
+    if (!showing_results_ || run_ == nullptr || n >= static_cast<int>(run_->frames().size())) return;
     const RunFrame& frame = run_->frames()[static_cast<std::size_t>(n)];
     loader_->load(frame.file, frame.time);
   });
   connect(results_, &ResultsPanel::paraview_wanted, this, &MainWindow::open_paraview);
+  connect(paraview_, &ParaViewResults::failed, this, [this](const QString& error) {
+    QMessageBox::warning(this, tr("Breccia"), tr("ParaView could not be started: %1").arg(error));
+  });
   connect(results_, &ResultsPanel::picture_wanted, this, &MainWindow::save_picture);
 }
 
+/// By regions of the window; in each of them in the order in which its widgets were made.
+std::vector<QWidget*> MainWindow::tab_order() const {
+  enum Region { stages, properties, centre, others, docks, count };
+  const auto region_of = [this](const QWidget& widget) {
+    const QDockWidget* dock = dock_of(widget);
+    if (dock == nullptr) return centre_->isAncestorOf(&widget) ? centre : others;
+    return dock->objectName() == "dock_stages" ? stages : dock->objectName() == "dock_properties" ? properties : docks;
+  };
+  std::array<std::vector<QWidget*>, count> regions;
+  for (QWidget* w = nextInFocusChain(); w != this; w = w->nextInFocusChain())
+    if (w->window() == this && takes_tab(*w)) regions[region_of(*w)].push_back(w);
+  std::vector<QWidget*> order;
+  for (const std::vector<QWidget*>& region : regions) order.insert(order.end(), region.begin(), region.end());
+  return order;
+}
+
+bool MainWindow::focusNextPrevChild(bool next) {
+  const std::vector<QWidget*> order = tab_order();
+  if (order.empty()) return false;
+  const auto place_of = [&](QWidget* w) { return std::find(order.begin(), order.end(), w); };
+  QWidget* now = focusWidget();  // a part of a widget, as the line of a box, counts as that widget
+  while (now != nullptr && place_of(now) == order.end()) now = now->parentWidget();
+  const std::size_t n = order.size();
+  std::size_t at = next ? 0 : n - 1;
+  if (now != nullptr) at = (static_cast<std::size_t>(place_of(now) - order.begin()) + (next ? 1 : n - 1)) % n;
+  order[at]->setFocus(next ? Qt::TabFocusReason : Qt::BacktabFocusReason);
+  return true;
+}
+
 void MainWindow::changeEvent(QEvent* event) {
-  if (event->type() == QEvent::ActivationChange && isActiveWindow()) look_at_disk();  // back from another program
+  if (event->type() == QEvent::ActivationChange && isActiveWindow()) {  // back from another program
+    look_at_disk();
+    if (!told_.empty()) ask_estimate();  // which may have mended the geometry
+  }
   QMainWindow::changeEvent(event);
 }
 

@@ -7,6 +7,7 @@
 #include <QStackedWidget>
 #include <QTimer>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/case_queries.hpp"
@@ -14,6 +15,7 @@
 #include "core/document.hpp"
 #include "core/material_library.hpp"
 #include "core/places.hpp"
+#include "core/solver_problems.hpp"
 #include "core/study.hpp"
 #include "render/frame_data.hpp"
 #include "render/scene.hpp"
@@ -33,6 +35,7 @@ class ContactMatrix;
 class DomainsPanel;
 class FrameLoader;
 class JointPlot;
+class ParaViewResults;
 class PlotsPanel;
 class ProblemsPanel;
 class PropertyForm;
@@ -67,6 +70,9 @@ class MainWindow final : public QMainWindow {
  protected:
   void closeEvent(QCloseEvent* event) override;
   void changeEvent(QEvent* event) override;
+  /// The key of Tab goes from the stages to the form, the view and the panel in front, never into one behind it, where
+  /// nothing is seen of what is typed.
+  bool focusNextPrevChild(bool next) override;
 
  private:
   // main_window.cpp: construction
@@ -79,37 +85,51 @@ class MainWindow final : public QMainWindow {
   void show_actions();
   void add_dock(QWidget* widget, const QString& title, const QString& name, Qt::DockWidgetArea area);
   void show_dock(const QString& name);
+  /// The same, but never away from the text that is being typed.
+  void offer_dock(const QString& name);
+  [[nodiscard]] std::vector<QWidget*> tab_order() const;
 
   // main_window_case.cpp: the case in hand
   void show_start();
-  /// Tells what cannot be kept, once and until it can. @param error  empty: it can
-  void tell_trouble(const QString& what, const QString& words, const QString& error);
   void remember_run(const RunRecord& record);
-  void remember_file();
   void ask_estimate();
   void renew_estimate();
   void open_template(int number, bool run_it);
   void open_case(const QString& file);
   void show_workspace();
+  void case_changed();
+  void validate();
+  /// What depends on the mesh: names of groups, and what the solver's commands have found.
+  void add_problems_of_mesh();
+  /// What the mesh of the case is made of.
+  [[nodiscard]] QString mesh_source() const;
+  void ask_mesh();
+  void stage_selected(int stage, const QString& path);
+  void go_to(const QString& key, int line);
+  void show_title();
+  void show_extras(const QString& path);
+  void show_joint_law();
+  /// Why there is no curve of the law in hand.
+  [[nodiscard]] QString no_law_words() const;
+  void picked(const Scene::Picked& what);
+  void show_groups(const QStringList& groups);
+  void show_loads();
+  void take_from_library();
+  void add_to_library();
+
+  // main_window_file.cpp: the file of the case, and what is kept of edits
+  /// Tells what cannot be kept, once and until it can. @param error  empty: it can
+  void tell_trouble(const QString& what, const QString& words, const QString& error);
+  void remember_file();
   [[nodiscard]] bool save();
   void save_as();
   void look_at_disk();
   /// Tells whether another window has the case open.
   void claim_case();
   [[nodiscard]] bool agrees_with_disk();
+  /// Another program has changed the file: asks which of both stays. False: it was not settled.
+  [[nodiscard]] bool settle_with_disk();
   [[nodiscard]] bool may_leave_case();
-  void case_changed();
-  void validate();
-  void stage_selected(int stage, const QString& path);
-  void go_to(const QString& key, int line);
-  void show_title();
-  void show_extras(const QString& path);
-  void show_joint_law();
-  void picked(const Scene::Picked& what);
-  void show_groups(const QStringList& groups);
-  void show_loads();
-  void take_from_library();
-  void add_to_library();
 
   // main_window_import.cpp: a solid becomes a case
   void import_geometry();
@@ -123,7 +143,11 @@ class MainWindow final : public QMainWindow {
   void load_mesh();
   void show_elements(vtkPolyData* faces, const QString& words);
   void show_division(const QJsonObject& json);
-  void query_failed(const QString& what, const QString& text, const std::vector<Problem>& problems);
+  void show_laws(const QJsonObject& json);
+  /// The solver has answered a question: what it said against the case before does not hold any more.
+  void query_succeeded(const QString& what);
+  void query_failed(const QString& what, const QString& text, const std::vector<Problem>& problems,
+                    const QByteArray& asked);
 
   // main_window_queue.cpp: runs that wait, alone or as a study
   void queue_run();
@@ -137,13 +161,20 @@ class MainWindow final : public QMainWindow {
   void go_on_with_run();
   /// Whether the run that is shown is to go on though its case has been edited since. It may start a new one instead.
   [[nodiscard]] bool resumes_as_it_was_run();
+  /// More ranks than cores need the user's agreement, which is asked for where they are set.
+  [[nodiscard]] bool ranks_are_accepted();
   void pause_or_resume();
   void show_commands();
   void take_run(SolverRun* run);
   void open_run(const QString& path);
+  /// The one that is watched, or is from now on.
+  SolverRun* run_in(const QString& folder);
+  void attach_newest_run();
   [[nodiscard]] static QString case_of(const SolverRun& run);
   void find_runs();
   void watch(SolverRun* run);
+  void show_run_frames();
+  [[nodiscard]] QString no_frame_words() const;
   void run_changed();
   void run_ended(const SolverRun* run);
   void show_frame(const FrameData& frame);
@@ -158,6 +189,7 @@ class MainWindow final : public QMainWindow {
   void write_curves();
   [[nodiscard]] QString table_name(const QString& title, const QString& suggested);
   void write_table(const QString& name, const QByteArray& text);
+  [[nodiscard]] QString film_name();
   void save_animation();
   void end_animation();
   void save_picture();
@@ -178,17 +210,23 @@ class MainWindow final : public QMainWindow {
   std::vector<SolverRun*> runs_, compared_;
   SolverRun* run_ = nullptr;  ///< the one that is shown
   FrameLoader* loader_;
+  ParaViewResults* paraview_;
   AnimationExport* animation_ = nullptr;
   QString curves_file_;  ///< of the table that waits for the histories; empty: none
   QTimer validation_, preview_, law_, estimate_;
   QByteArray estimated_;  ///< text of the case that the estimate is of; empty: none was asked for
   std::vector<Problem> problems_;
+  SolverProblems told_;  ///< that the solver's commands have found
   std::vector<int> owner_;  ///< rank of each element of the preview
   FrameData preview_frame_;
   bool showing_results_ = false, run_when_checked_ = false;
   std::vector<Condition> loads_;     ///< of the case, as last read
   QJsonArray laws_;                  ///< of joints, as last told
+  QByteArray laws_asked_, laws_of_;  ///< text of the case that they were asked for; that they were told of
+  QString laws_error_;               ///< why they were not told
   QString mesh_text_;                ///< what the preview was made of
+  QString mesh_asked_, groups_of_;   ///< what the mesh was asked of; what the groups are of
+  std::optional<MeshGroups> mesh_groups_;
   QString mesh_file_;                ///< its elements, until they have been read
   std::vector<std::string> groups_;  ///< names of the volume groups of the preview
 

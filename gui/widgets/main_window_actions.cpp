@@ -5,9 +5,11 @@
 #include <QMessageBox>
 #include <QToolBar>
 
+#include "widgets/keys_dialog.hpp"
 #include "widgets/main_window.hpp"
 #include "widgets/problems_panel.hpp"
 #include "widgets/property_form.hpp"
+#include "widgets/view3d.hpp"
 
 namespace breccia::gui {
 
@@ -60,7 +62,9 @@ void MainWindow::make_actions() {
   QAction* undo = document_.undo_stack().createUndoAction(this, tr("&Undo"));
   undo->setShortcut(QKeySequence::Undo);
   QAction* redo = document_.undo_stack().createRedoAction(this, tr("&Redo"));
-  redo->setShortcut(QKeySequence::Redo);
+  QList<QKeySequence> redo_keys = QKeySequence::keyBindings(QKeySequence::Redo);
+  if (const QKeySequence other("Ctrl+Y"); !redo_keys.contains(other)) redo_keys << other;
+  redo->setShortcuts(redo_keys);
   edit->addActions({undo, redo});
   add(
       edit, tr("Next &problem"), Qt::Key_F8, [this] { messages_->next_problem(); }, false);
@@ -69,7 +73,7 @@ void MainWindow::make_actions() {
       run, tr("&Mesh"), Qt::Key_F6,
       [this] {
         form_->take_typed();
-        queries_.mesh();
+        ask_mesh();
       },
       true));
   needs_case_.push_back(add(
@@ -105,6 +109,7 @@ void MainWindow::make_actions() {
   dark_ = add(
       view, tr("&Dark"), QKeySequence("Ctrl+D"), [this](bool on) { set_dark(on); }, true);
   dark_->setCheckable(true);
+  view->addMenu(view_->look_menu());
   QMenu* tools = menuBar()->addMenu(tr("&Tools"));
   needs_run_.push_back(add(
       tools, tr("Open in &ParaView"), {}, [this] { open_paraview(); }, false));
@@ -118,11 +123,13 @@ void MainWindow::make_actions() {
       tools, tr("Save p&icture..."), {}, [this] { save_picture(); }, false);
   QMenu* help = menuBar()->addMenu(tr("&Help"));
   add(
+      help, tr("&Keys..."), QKeySequence::HelpContents, [this] { show_keys(*this); }, false);
+  add(
       help, tr("&About Breccia"), {},
       [this] {
         QMessageBox::about(this, tr("Breccia"),
                            tr("<b>Breccia</b><br>Combined finite-discrete element simulation of solids that break.<br>"
-                              "<br>F5 run, F6 mesh, F7 check, F8 next problem, Ctrl+Z undo."));
+                              "<br>F1 lists the keys."));
       },
       false);
   for (QAction* action : findChildren<QAction*>()) action->setProperty("tip", action->toolTip());

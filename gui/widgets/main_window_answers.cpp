@@ -1,10 +1,10 @@
-#include <QCryptographicHash>
 #include <QDir>
 #include <QFile>
 #include <QJsonArray>
 #include <QLabel>
 
 #include "widgets/animation_export.hpp"
+#include "widgets/case_tree.hpp"
 #include "widgets/domains_panel.hpp"
 #include "widgets/frame_loader.hpp"
 #include "widgets/histogram_panel.hpp"
@@ -36,27 +36,37 @@ SurfaceGroups surfaces_of(const QJsonObject& json) {
   return surfaces;
 }
 
+/// A problem in the geometry is one of the key that the solver names, else of the one that names the file.
+void place_in_case(Problem& p, const Document& document) {
+  const std::string own = document.file().toStdString();
+  if (p.file.empty() || p.file == own) return;
+  const std::string key = p.key.empty() ? "mesh.file" : p.key;
+  const Place* place = document.places().find(key);
+  if (place == nullptr) return;
+  p.what = p.file + (p.line > 0 ? ":" + std::to_string(p.line) : std::string()) + ": " + p.what;
+  p.key = key;
+  p.file = own;
+  p.line = place->line;
+}
+
 }  // namespace
 
-void MainWindow::claim_case() {
-  const QByteArray name =
-      QCryptographicHash::hash(document_.file().toUtf8(), QCryptographicHash::Sha1).toHex().left(16);
-  const QString lock = document_.is_open() ? QString("%1/open-%2.lock").arg(places_.state, QString(name)) : QString();
-  if (lock != claimed_) claim_ = lock.isEmpty() ? nullptr : std::make_unique<QLockFile>(lock);
-  claimed_ = lock;
-  QString other;
-  if (claim_ != nullptr && !claim_->isLocked()) {
-    claim_->setStaleLockTime(0);  // however long it is open; that of a process that is gone does not count
-    qint64 process = 0;
-    QString host, program;
-    if (!claim_->tryLock(0) && claim_->error() == QLockFile::LockFailedError &&
-        claim_->getLockInfo(&process, &host, &program))
-      other = tr("process %1 on %2 has %3 open").arg(process).arg(host, document_.file());
+void MainWindow::query_succeeded(const QString& what) {
+  messages_->set_trouble(what, {});
+  if (what != tr("check") && what != tr("mesh")) return;
+  const bool told = !told_.empty();
+  told_.clear();
+  validate();
+  if (!told) return;
+  if (what == tr("mesh")) {
+    ask_estimate();  // the mesh is good; whether the rest is, only a check can tell
+  } else if (preview_frame_.skin == nullptr && mesh_file_.isEmpty()) {
+    ask_mesh();
   }
-  tell_trouble("elsewhere", tr("This case is open in another window as well, and what is saved last stays"), other);
 }
 
 void MainWindow::show_check(const QJsonObject& json) {
+  query_succeeded(tr("check"));
   const double seconds = json["seconds"].toDouble(), most = json["most_seconds"].toDouble();
   QString words =
       tr("%1 elements, %2 joints<br>stable step %3; step used %4<br>%5 steps to %6<br>"
@@ -81,11 +91,12 @@ void MainWindow::show_check(const QJsonObject& json) {
 
 void MainWindow::show_mesh(const QJsonObject& json, const QString& elements_file) {
   const QJsonObject groups = json["groups"].toObject();
-  QStringList words;
-  for (const char* kind : {"volumes", "surfaces"})
-    for (const std::string& name : names_of(groups[kind].toArray())) words << QString::fromStdString(name);
-  form_->set_groups(words);
   groups_ = names_of(groups["volumes"].toArray());
+  mesh_groups_ = MeshGroups{groups_, names_of(groups["surfaces"].toArray()), json["bodies"].toInt()};
+  groups_of_ = mesh_asked_;
+  form_->set_groups(mesh_groups_);
+  tree_->set_groups(mesh_groups_);
+  query_succeeded(tr("mesh"));
   name_groups();
   view_->scene().set_surfaces(surfaces_of(json));
   const bool one = json["bodies"].toInt() == 1;
@@ -121,7 +132,16 @@ void MainWindow::load_mesh() {
 /// Of a bar of the histogram.
 void MainWindow::show_elements(vtkPolyData* faces, const QString& words) { view_->mark(faces, words); }
 
+void MainWindow::show_laws(const QJsonObject& json) {
+  query_succeeded(tr("joints"));
+  laws_ = json["laws"].toArray();
+  laws_of_ = laws_asked_;
+  laws_error_.clear();
+  show_joint_law();
+}
+
 void MainWindow::show_division(const QJsonObject& json) {
+  query_succeeded(tr("domains"));
   domains_->show_division(json);
   owner_.clear();
   for (const QJsonValue& rank : json["owner"].toArray()) owner_.push_back(rank.toInt());
@@ -132,13 +152,30 @@ void MainWindow::show_division(const QJsonObject& json) {
                     tr("mesh at rest, as %1 ranks would share it").arg(json["domains"].toArray().size()));
 }
 
-void MainWindow::query_failed(const QString& what, const QString& text, const std::vector<Problem>& problems) {
-  if (!text.isEmpty()) messages_->add_message(tr("%1: %2").arg(what, text));
-  for (const Problem& p : problems) messages_->add_message(tr("%1: %2").arg(what, QString::fromStdString(p.text())));
+/// A problem with a place in the case is one of the case, at its field; others are told until the question is answered.
+void MainWindow::query_failed(const QString& what, const QString& text, const std::vector<Problem>& problems,
+                              const QByteArray& asked) {
+  QStringList words{text};
+  std::vector<Problem> placed;
+  for (Problem p : problems) {
+    place_in_case(p, document_);
+    p.key.empty() ? static_cast<void>(words << QString::fromStdString(p.text())) : placed.push_back(p);
+  }
+  words.removeAll({});
+  const QString trouble = words.isEmpty() ? QString() : tr("%1: %2").arg(what, words.join('\n'));
+  const bool changed = messages_->set_trouble(what, trouble);
+  const std::size_t known = problems_.size();
+  told_.take(asked, placed);
+  if (what == tr("joints")) {
+    laws_of_ = laws_asked_;
+    laws_error_ = words.join(' ');
+  }
+  validate();
   if (what == tr("check")) run_panel_->set_estimate(tr("The check found problems; see the messages below."));
   if (what == tr("mesh") && !showing_results_ && preview_frame_.skin == nullptr)
     view_->clear(tr("no mesh: see the messages"));
-  show_dock("dock_messages");
+  const bool news = (changed && !words.isEmpty()) || problems_.size() > known;
+  if (news) offer_dock("dock_messages");  // not each time that an edit leaves a problem as it is
 }
 
 }  // namespace breccia::gui

@@ -1,7 +1,6 @@
 #include <QAction>
 #include <QCoreApplication>
 #include <QDir>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QInputDialog>
 #include <QJsonArray>
@@ -9,13 +8,13 @@
 #include <QStatusBar>
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "core/own_files.hpp"
 #include "core/value_text.hpp"
 #include "widgets/animation_export.hpp"
 #include "widgets/case_text.hpp"
 #include "widgets/case_tree.hpp"
+#include "widgets/condition_glyphs.hpp"
 #include "widgets/conditions_panel.hpp"
 #include "widgets/domains_panel.hpp"
 #include "widgets/frame_loader.hpp"
@@ -39,49 +38,6 @@ constexpr std::array kDocks{"dock_stages", "dock_properties", "dock_plots",    "
                             "dock_law",    "dock_conditions", "dock_contacts", "dock_messages"};
 constexpr int kPreviewDelay = 1000;  // ms after the last edit
 
-/// What a condition looks like, with words beside it.
-std::vector<Load> glyphs_of(const Condition& row) {
-  using Vector = std::array<double, 3>;
-  const auto size = [](const Vector& v) { return std::hypot(v[0], v[1], v[2]); };
-  const QString largest = row.type + " " + quantity_words(size(row.largest), row.unit);
-  Load load{LoadShape::arrow, row.target.toStdString(), row.largest, {}, largest.toStdString()};
-  if (row.follows) {
-    load.shape = LoadShape::pressure;
-    load.words = (row.type + " " + quantity_words(row.largest[0], row.unit)).toStdString();
-  } else if (row.number < 0) {
-    load.shape = LoadShape::double_arrow;
-  } else if (!row.target.isEmpty() && !(size(row.largest) > 0)) {  // held, or moved by nothing
-    load.shape = LoadShape::support;
-    load.axes = row.axes;
-    load.words = (row.type + " " + row.value).toStdString();
-  }
-  std::vector<Load> loads{load};
-  if (row.number < 0 && row.random > 0) {
-    const QString words = QCoreApplication::translate("conditions", "random velocities up to %1");
-    loads.push_back(
-        {LoadShape::random, load.group, {}, {}, words.arg(quantity_words(row.random, "m/s")).toStdString()});
-  }
-  if (row.number < 0 && size(row.turns_by) > 0) {
-    const QString words = QCoreApplication::translate("conditions", "turns by %1 about this axis");
-    loads.push_back({LoadShape::double_arrow,
-                     load.group,
-                     row.turns_by,
-                     {},
-                     words.arg(quantity_words(size(row.turns_by), "rad/s")).toStdString()});
-  }
-  if (row.number < 0 && size(row.stretches_by) > 0) {
-    const QString words = QCoreApplication::translate("conditions", "stretched at up to %1");
-    double most = 0;
-    for (const double rate : row.stretches_by) most = std::max(most, std::abs(rate));
-    loads.push_back({LoadShape::double_arrow,
-                     load.group,
-                     row.stretches_by,
-                     {},
-                     words.arg(quantity_words(most, "1/s")).toStdString()});
-  }
-  return loads;
-}
-
 }  // namespace
 
 void MainWindow::show_start() {
@@ -90,23 +46,13 @@ void MainWindow::show_start() {
   for (const char* name : kDocks) findChild<QWidget*>(name)->hide();
 }
 
-void MainWindow::tell_trouble(const QString& what, const QString& words, const QString& error) {
-  const QString text = error.isEmpty() ? QString() : QString("%1: %2").arg(words, error);
-  if (!messages_->set_trouble(what, text) || text.isEmpty()) return;
-  statusBar()->showMessage(text, 15000);
-  if (document_.is_open()) show_dock("dock_messages");
-}
-
-void MainWindow::remember_file() {
-  tell_trouble("recent", tr("This case is not kept among the recent ones"), remember_case(places_, document_.file()));
-}
-
 void MainWindow::show_workspace() {
   setAnimated(false);  // each step of it would draw the view anew
   for (const char* name : kDocks) findChild<QWidget*>(name)->show();
   show_dock(kDocks.back());
   centre_->setCurrentWidget(view_);
   setAnimated(true);
+  tree_->setFocus();
 }
 
 void MainWindow::open_template(int number, bool run_it) {
@@ -144,7 +90,12 @@ void MainWindow::open_case(const QString& file) {
   mesh_text_.clear();
   mesh_file_.clear();
   groups_.clear();
+  mesh_groups_.reset();
+  form_->set_groups(mesh_groups_);
+  tree_->set_groups(mesh_groups_);
+  told_.clear();
   laws_ = {};
+  laws_of_.clear();
   run_panel_->set_estimate(tr("Not checked yet."));
   estimated_.clear();
   messages_->set_advice({});
@@ -154,88 +105,8 @@ void MainWindow::open_case(const QString& file) {
   stage_selected(tree_->stage(), tree_->path());
   validate();
   show_studies();
+  attach_newest_run();
   offer_recovery(document_.file());
-}
-
-/// Of all cases; of one: what stands in its file is open.
-void MainWindow::offer_recovery(const QString& of) {
-  for (const Recovery& recovery : Document::recoveries(places_.state)) {
-    if (!of.isEmpty() && recovery.file != of) continue;
-    const auto answer = QMessageBox::question(
-        this, tr("Unsaved edits"),
-        tr("Breccia ended without saving its edits of\n%1\nTake them up again?").arg(recovery.file));
-    if (answer == QMessageBox::Yes) {
-      document_.recover(recovery);
-      show_workspace();
-      stage_selected(tree_->stage(), tree_->path());
-      validate();
-      return;
-    }
-    Document::discard(recovery);
-  }
-}
-
-bool MainWindow::save() {
-  form_->take_typed();
-  if (!document_.is_open()) return false;
-  if (document_.changed_on_disk() &&
-      QMessageBox::question(
-          this, tr("Save"),
-          tr("Another program has changed\n%1\nsince it was opened. Write over it?").arg(document_.file()),
-          QMessageBox::Save | QMessageBox::Cancel, QMessageBox::Cancel) != QMessageBox::Save)
-    return false;
-  const QString error = document_.save();
-  look_at_disk();
-  if (!error.isEmpty())
-    QMessageBox::warning(this, tr("Breccia"), tr("%1\nFile > Save as... writes the case elsewhere.").arg(error));
-  return error.isEmpty();
-}
-
-void MainWindow::save_as() {
-  form_->take_typed();
-  if (!document_.is_open()) return;
-  const QString name =
-      QFileDialog::getSaveFileName(this, tr("Save the case as"), document_.file(), tr("Cases (*.toml)"));
-  if (name.isEmpty()) return;
-  if (const QString error = document_.save_as(name); !error.isEmpty()) {
-    QMessageBox::warning(this, tr("Breccia"), error);
-    return;
-  }
-  remember_file();
-  validate();  // relative names start from another folder
-}
-
-void MainWindow::look_at_disk() {
-  claim_case();
-  tell_trouble("disk", tr("Another program has changed or removed the case since it was opened here"),
-               document_.is_open() && !document_.is_on_disk() ? document_.file() : QString());
-}
-
-/// Whether what is run is what the window shows. A case with edits of its own is saved, which asks by itself.
-bool MainWindow::agrees_with_disk() {
-  if (!document_.is_open() || document_.modified() || document_.is_on_disk()) return true;
-  if (!QFileInfo::exists(document_.file())) return save();
-  QMessageBox box(QMessageBox::Question, tr("Breccia"),
-                  tr("Another program has changed\n%1\nsince it was opened.").arg(document_.file()),
-                  QMessageBox::Open | QMessageBox::Save | QMessageBox::Cancel, this);
-  box.button(QMessageBox::Open)->setText(tr("&Take that over"));
-  box.button(QMessageBox::Save)->setText(tr("&Write over it"));
-  box.setDefaultButton(QMessageBox::Cancel);
-  const int answer = box.exec();
-  QString error;
-  if (answer == QMessageBox::Open) error = document_.reload();
-  if (answer == QMessageBox::Save) error = document_.save();
-  if (!error.isEmpty()) QMessageBox::warning(this, tr("Breccia"), error);
-  look_at_disk();
-  return answer != QMessageBox::Cancel && error.isEmpty();
-}
-
-bool MainWindow::may_leave_case() {
-  form_->take_typed();
-  if (!document_.is_open() || !document_.modified()) return true;
-  const auto answer = QMessageBox::question(this, tr("Breccia"), tr("Save the edits of %1?").arg(document_.file()),
-                                            QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel);
-  return answer == QMessageBox::Discard || (answer == QMessageBox::Save && save());
 }
 
 void MainWindow::show_title() {
@@ -256,6 +127,8 @@ void MainWindow::validate() {
   validation_.stop();
   if (!document_.is_open()) return;
   problems_ = document_.problems();
+  const bool readable = problems_.empty();
+  if (readable) add_problems_of_mesh();
   tree_->set_problems(problems_);
   form_->set_problems(problems_);
   text_->set_problems(problems_);
@@ -263,25 +136,46 @@ void MainWindow::validate() {
   run_panel_->set_problems(static_cast<int>(problems_.size()));
   show_actions();
   run_action_->setText(run_words(static_cast<int>(problems_.size())));
-  if (problems_.empty()) {
+  if (readable) {
     loads_ = conditions_of(document_);
     conditions_->show_conditions(loads_);
+    view_->scene().set_up(up_of(document_, loads_));
     show_loads();
   }
   if (side_->currentIndex() == 1 && !estimated_.isEmpty()) renew_estimate();
-  if (!problems_.empty() && mesh_text_.isEmpty() && !showing_results_)
+  if (readable && told_.are_of_another_text(document_)) estimate_.start(kPreviewDelay);
+  if (form_->section().startsWith("joint[")) {
+    if (problems_.empty() && laws_of_ != document_.text()) law_.start();
+    show_joint_law();
+  }
+  if (!readable && mesh_text_.isEmpty() && !showing_results_)
     view_->clear(tr("no mesh yet: the case has problems, see the messages"));
   // The preview follows what the mesh is made of.
-  QString source;
-  for (const Place& place : document_.places().all())
-    if (place.path.starts_with("mesh"))
-      source += QString::fromStdString(place.path + "=" + std::string(document_.places().value(place.path)) + "\n");
-  if (problems_.empty() && source != mesh_text_) {
+  if (const QString source = mesh_source(); readable && source != mesh_text_) {
     const bool first = mesh_text_.isEmpty();
     if (first && !showing_results_) view_->clear(tr("meshing..."));
     mesh_text_ = source;
     preview_.start(first ? 0 : kPreviewDelay);
   }
+}
+
+void MainWindow::add_problems_of_mesh() {
+  if (mesh_groups_ && groups_of_ == mesh_source()) problems_ = document_.problems(mesh_groups_);
+  const std::vector<Problem> others = told_.beside(problems_, document_);
+  problems_.insert(problems_.end(), others.begin(), others.end());
+}
+
+QString MainWindow::mesh_source() const {
+  QString source;
+  for (const Place& place : document_.places().all())
+    if (place.path.starts_with("mesh"))
+      source += QString::fromStdString(place.path + "=" + std::string(document_.places().value(place.path)) + "\n");
+  return source;
+}
+
+void MainWindow::ask_mesh() {
+  mesh_asked_ = mesh_source();
+  queries_.mesh();
 }
 
 void MainWindow::ask_estimate() {
@@ -320,7 +214,7 @@ void MainWindow::stage_selected(int stage, const QString& path) {
   }
   if (chosen.kind == Kind::run) {
     show_commands();
-    if (run_ == nullptr || !estimated_.isEmpty()) renew_estimate();
+    if (run_ == nullptr || !run_->alive() || !estimated_.isEmpty()) renew_estimate();
     if (run_ != nullptr) show_dock("dock_plots");
   }
   show_loads();
@@ -332,14 +226,15 @@ void MainWindow::stage_selected(int stage, const QString& path) {
   if (animation_ != nullptr) animation_->give_up(tr("the view shows something else"));
   loader_->start_model();
   if (results) {
-    results_->set_frames(run_->frames());
-    if (!results_->follows() && !run_->frames().empty())
-      loader_->load(run_->frames().back().file, run_->frames().back().time);
+    show_run_frames();
   } else if (!mesh_file_.isEmpty()) {
     load_mesh();
   } else if (preview_frame_.skin != nullptr) {
     view_->show_frame(preview_frame_, tr("mesh at rest"));
     histogram_->set_frame(preview_frame_, false);
+  } else {
+    view_->clear(queries_.busy() || preview_.isActive() ? tr("meshing...") : tr("no mesh: see the messages"));
+    histogram_->set_frame({}, false);
   }
 }
 
@@ -348,15 +243,15 @@ void MainWindow::show_extras(const QString& path) {
   const QString section = QString::fromStdString(case_::pattern_of(path.toStdString()));
   const bool law = section.startsWith("joint[]");
   library_bar_->setVisible(section == "material[]");
-  if (section == "contact[]") show_dock("dock_contacts");
+  if (section == "contact[]") offer_dock("dock_contacts");
   if (section.startsWith("stage[]") || section == "initial_velocity[]") {
-    show_dock("dock_conditions");
+    offer_dock("dock_conditions");
     conditions_->choose(path);
   }
   if (!law) return;
-  show_dock("dock_law");
-  show_joint_law();
+  offer_dock("dock_law");
   law_.start();
+  show_joint_law();
 }
 
 void MainWindow::show_joint_law() {
@@ -369,8 +264,14 @@ void MainWindow::show_joint_law() {
   }
   for (const QJsonValue& law : laws_)
     if (names.contains(law.toObject()["name"].toString())) return joint_plot_->show_law(law.toObject(), {});
-  joint_plot_->show_law({}, queries_.busy() || law_.isActive() ? tr("the solver works out the curves...")
-                                                               : tr("This law has no curve: its joints cannot break."));
+  joint_plot_->show_law({}, no_law_words());
+}
+
+QString MainWindow::no_law_words() const {
+  if (!problems_.empty()) return tr("The curves follow once the problems of the case are solved (F8).");
+  if (laws_of_ != document_.text()) return tr("the solver works out the curves...");
+  if (!laws_error_.isEmpty()) return tr("The solver could not work out the curves: %1").arg(laws_error_);
+  return tr("This law has no curve: its joints cannot break.");
 }
 
 void MainWindow::show_groups(const QStringList& groups) {

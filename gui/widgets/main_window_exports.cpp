@@ -7,12 +7,14 @@
 #include <QStandardPaths>
 #include <QStatusBar>
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "core/written_file.hpp"
 #include "widgets/animation_export.hpp"
 #include "widgets/frame_loader.hpp"
 #include "widgets/main_window.hpp"
+#include "widgets/paraview_results.hpp"
 #include "widgets/plots_panel.hpp"
 #include "widgets/results_panel.hpp"
 #include "widgets/study_panel.hpp"
@@ -79,15 +81,25 @@ void MainWindow::write_table(const QString& name, const QByteArray& text) {
   if (const QString error = written(name, text); !error.isEmpty()) QMessageBox::warning(this, tr("Breccia"), error);
 }
 
+/// Without ffmpeg there are numbered pictures, of which other programs make films. Empty: nothing is to be written.
+QString MainWindow::film_name() {
+  const bool can_film = !AnimationExport::program().isEmpty();
+  const QString pictures = tr("Numbered pictures (*.png)"), films = tr("Films (*.mp4)");
+  const QString suffix = can_film ? ".mp4" : ".png";
+  QString name = QFileDialog::getSaveFileName(
+      this,
+      can_film ? tr("Save the animation as") : tr("Save the animation as pictures (ffmpeg, for films, is missing)"),
+      document_.folder() + "/animation" + suffix, can_film ? films + ";;" + pictures : pictures);
+  const bool is_known = name.endsWith(".png", Qt::CaseInsensitive) || (can_film && !QFileInfo(name).suffix().isEmpty());
+  if (!name.isEmpty() && !is_known) name += suffix;
+  return name;
+}
+
 void MainWindow::save_animation() {
   if (run_ == nullptr || run_->frames().empty() || animation_ != nullptr) return;
-  if (AnimationExport::program().isEmpty()) {
-    QMessageBox::information(this, tr("Breccia"), tr("Films are made by ffmpeg, which is not installed here."));
-    return;
-  }
-  const QString name = QFileDialog::getSaveFileName(this, tr("Save the animation as"),
-                                                    document_.folder() + "/animation.mp4", tr("Films (*.mp4)"));
+  const QString name = film_name();
   if (name.isEmpty()) return;
+  results_->stop_playing();
   results_->set_follow(false);
   animation_ = new AnimationExport(run_->frames(), name, this);
   connect(animation_, &AnimationExport::frame_wanted, loader_, &FrameLoader::load);
@@ -133,12 +145,11 @@ void MainWindow::open_paraview() {
         tr("ParaView is not installed (Debian: paraview). The frames are in %1/frames.").arg(run_->record().folder));
     return;
   }
-  QStringList files;
-  for (const char* part : {"elements", "joints"}) {
-    const QString file = QDir(run_->record().folder).filePath(QString("frames/%1.hdf.series").arg(part));
-    if (QFileInfo::exists(file)) files << file;
-  }
-  QProcess::startDetached(program, files, run_->record().folder);
+  statusBar()->showMessage(tr("ParaView starts..."), 15000);
+  const std::array<double, 3>& up = view_->scene().up();
+  const auto axis = std::find_if(up.begin(), up.end(), [](double x) { return x != 0; });
+  const QString words = QString(*axis < 0 ? "-" : "") + "xyz"[axis - up.begin()];
+  paraview_->open(program, run_->record().folder, words, places_.state);
 }
 
 void MainWindow::save_picture() {

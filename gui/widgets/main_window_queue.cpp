@@ -14,7 +14,7 @@ namespace breccia::gui {
 
 void MainWindow::queue_run() {
   form_->take_typed();
-  if (!agrees_with_disk()) return;
+  if (!ranks_are_accepted() || !agrees_with_disk()) return;
   validate();
   if (!problems_.empty() || !document_.is_open()) {
     show_dock("dock_messages");
@@ -34,7 +34,7 @@ void MainWindow::start_worker() {
 }
 
 void MainWindow::start_study(const std::vector<StudyParameter>& parameters) {
-  if (!document_.is_open()) return;
+  if (!document_.is_open() || !ranks_are_accepted()) return;
   Study study{new_run_folder() + "-study", document_.file(), run_panel_->ranks(), parameters, {}};
   QStringList problems;
   const std::vector<RunWish> wishes = plan_study(document_, study, &problems);

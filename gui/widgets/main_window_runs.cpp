@@ -58,11 +58,22 @@ void MainWindow::remember_run(const RunRecord& record) {
                registry_.add(record));
 }
 
+bool MainWindow::ranks_are_accepted() {
+  if (run_panel_->accepts_ranks()) return true;
+  tree_->select(run_stage(), {});
+  run_panel_->ask_for_agreement();
+  statusBar()->showMessage(tr("There are more ranks than cores: that needs the tick below them"), 15000);
+  return false;
+}
+
 void MainWindow::start_run() {
   form_->take_typed();
+  if (!document_.is_open() || !ranks_are_accepted()) return;
   if (!agrees_with_disk()) return;
   validate();
-  if (!problems_.empty() || (document_.modified() && !save())) {
+  const bool saved = !problems_.empty() || !document_.modified() || save();
+  validate();  // the text of another program may have been taken over
+  if (!saved || !problems_.empty()) {
     show_dock("dock_messages");
     return;
   }
@@ -101,7 +112,7 @@ bool MainWindow::resumes_as_it_was_run() {
 }
 
 void MainWindow::go_on_with_run() {
-  if (run_ == nullptr || !run_->can_go_on() || !resumes_as_it_was_run()) return;
+  if (run_ == nullptr || !run_->can_go_on() || !ranks_are_accepted() || !resumes_as_it_was_run()) return;
   QString error;
   SolverRun* ended = run_;
   SolverRun* run = SolverRun::go_on(places_.launch, ended->record(), run_panel_->ranks(), &error, this);
@@ -121,7 +132,7 @@ void MainWindow::go_on_with_run() {
 }
 
 void MainWindow::pause_or_resume() {
-  if (run_ == nullptr || !run_->alive()) return;
+  if (run_ == nullptr || !run_->alive() || run_->state() == "pausing" || run_->state() == "resuming") return;
   run_->state() == "paused" ? run_->resume() : run_->pause();
 }
 
@@ -163,12 +174,7 @@ void MainWindow::open_run(const QString& path) {
     QMessageBox::warning(this, tr("Breccia"), tr("%1 is not the folder of a run.").arg(folder));
     return;
   }
-  SolverRun* chosen = nullptr;
-  for (SolverRun* run : runs_)
-    if (run->record().folder == folder) chosen = run;
-  if (chosen == nullptr) {
-    take_run(chosen = new SolverRun({folder, {}, 1, {}, {}}, this));
-  }
+  SolverRun* chosen = run_in(folder);
   const QString file = case_of(*chosen);
   if (!document_.is_open() && QFileInfo::exists(file)) open_case(file);
   show_workspace();
@@ -177,21 +183,53 @@ void MainWindow::open_run(const QString& path) {
   show_dock("dock_plots");
 }
 
+SolverRun* MainWindow::run_in(const QString& folder) {
+  for (SolverRun* run : runs_)
+    if (run->record().folder == folder) return run;
+  take_run(new SolverRun({folder, {}, 1, {}, {}}, this));
+  return runs_.front();
+}
+
+/// The latest run of the case that has just been opened is at hand, though nobody has asked for it.
+void MainWindow::attach_newest_run() {
+  const auto own = std::find_if(runs_.begin(), runs_.end(), [this](const SolverRun* run) {
+    return run->record().case_file == document_.file();
+  });
+  if (own != runs_.end()) return watch(*own);
+  if (const QString folder = newest_run_beside(document_.file()); !folder.isEmpty()) watch(run_in(folder));
+}
+
 void MainWindow::watch(SolverRun* run) {
   if (animation_ != nullptr) end_animation();
   run_ = run;
-  showing_results_ = run != nullptr;
+  using Kind = WorkStage::Kind;
+  showing_results_ =
+      run != nullptr && work_stages()[static_cast<std::size_t>(tree_->stage())].kind != Kind::sections;
   name_groups();
   loader_->start_model();
-  histogram_->set_frame({}, false);
+  if (showing_results_ || run == nullptr) histogram_->set_frame({}, false);
   if (run != nullptr) run->read_history();
+  if (run != nullptr && run->alive() && !run->record().command.isEmpty()) run_panel_->set_ranks(run->record().ranks);
   show_curves();
   results_->set_run(run == nullptr ? QString() : run->record().folder);
-  if (run != nullptr) {
-    view_->clear(tr("waiting for the first frame..."));
+  if (showing_results_) {
+    view_->clear(no_frame_words());
+    show_run_frames();
+  } else if (run != nullptr) {
     results_->set_frames(run->frames());
   }
   run_changed();
+}
+
+void MainWindow::show_run_frames() {
+  if (run_->frames().empty()) view_->clear(no_frame_words());
+  results_->set_frames(run_->frames());
+  if (!results_->follows() && !run_->frames().empty())
+    loader_->load(run_->frames().back().file, run_->frames().back().time);
+}
+
+QString MainWindow::no_frame_words() const {
+  return run_->alive() ? tr("waiting for the first frame...") : tr("this run has left no frame");
 }
 
 void MainWindow::run_changed() {
@@ -204,10 +242,12 @@ void MainWindow::run_changed() {
     run_words_->clear();
     return;
   }
+  const bool nothing_to_see = showing_results_ && run_->frames().empty();
+  if (nothing_to_see && view_->caption() != no_frame_words()) view_->clear(no_frame_words());
   const RunStatus& s = run_->status();
   run_bar_->setValue(static_cast<int>(1000 * s.share));
-  run_words_->setText(run_->alive() && !s.state.isEmpty() ? tr("%1, %2 to go").arg(run_->state(), duration_words(s.eta))
-                                                          : run_->state());
+  run_words_->setText(run_->state() == "running" ? tr("%1, to go: %2").arg(run_->state(), to_go_words(*run_))
+                                                 : run_->state());
   domains_->show_measured(s, run_->record().ranks);
 }
 

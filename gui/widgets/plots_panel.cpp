@@ -1,123 +1,233 @@
 #include "widgets/plots_panel.hpp"
 
-#include <QHBoxLayout>
+#include <QCoreApplication>
+#include <QEvent>
+#include <QHeaderView>
 #include <QLabel>
+#include <QRegularExpression>
+#include <QSignalBlocker>
+#include <QSplitter>
 #include <QVBoxLayout>
+#include <algorithm>
 
 namespace breccia::gui {
 namespace {
 
-QVTKOpenGLNativeWidget* canvas(vtkGenericOpenGLRenderWindow* window, HistoryChart& chart, const QString& name) {
+/// "kinetic" and "J" of "kinetic [J]".
+struct Column {
+  QString name, unit;
+};
+
+Column parts_of(const QString& column) {
+  static const QRegularExpression pattern(R"(^(.*) \[([^\[\]]*)\]$)");
+  const auto match = pattern.match(column);
+  return match.hasMatch() ? Column{match.captured(1), match.captured(2)} : Column{column, {}};
+}
+
+/// Of a chart and of a part of the list.
+QString quantity_of(const QString& unit) {
+  static const QHash<QString, const char*> words{
+      {"J", QT_TRANSLATE_NOOP("plots", "energy")},   {"N", QT_TRANSLATE_NOOP("plots", "force")},
+      {"m", QT_TRANSLATE_NOOP("plots", "length")},   {"m/s", QT_TRANSLATE_NOOP("plots", "velocity")},
+      {"Pa", QT_TRANSLATE_NOOP("plots", "stress")},  {"m2", QT_TRANSLATE_NOOP("plots", "area")},
+      {"s", QT_TRANSLATE_NOOP("plots", "duration")}, {"N m", QT_TRANSLATE_NOOP("plots", "torque")},
+      {"rad/s", QT_TRANSLATE_NOOP("plots", "spin")}, {"kg m/s", QT_TRANSLATE_NOOP("plots", "momentum")},
+      {"", QT_TRANSLATE_NOOP("plots", "number")},    {"kg m2/s", QT_TRANSLATE_NOOP("plots", "angular momentum")}};
+  return QCoreApplication::translate("plots", words.value(unit, QT_TRANSLATE_NOOP("plots", "value")));
+}
+
+/// Ticked before anyone has chosen: the terms of the energy, what breaks, and what gauges are mostly there for.
+bool is_first_choice(const QString& column) {
+  static const QStringList list{"kinetic [J]",          "elastic [J]",    "joint mode 1 [J]", "joint mode 2 [J]",
+                                "contact friction [J]", "damping [J]",    "plastic [J]",      "external work [J]",
+                                "residual [J]",         "damaged joints", "broken joints",    "broken in mode I",
+                                "broken in mode II",    "fragments"};
+  static const QRegularExpression gauge(R"(^.+(?<! max) displacement [xyz] \[m\]$|^.+ reaction [xyz] \[N\]$)");
+  return list.contains(column) || gauge.match(column).hasMatch();
+}
+
+bool is_zero(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double x) { return !(x != 0); });
+}
+
+QVTKOpenGLNativeWidget* canvas(vtkGenericOpenGLRenderWindow* window, HistoryChart& chart) {
   auto* widget = new QVTKOpenGLNativeWidget;
   window->SetMultiSamples(0);
   widget->setRenderWindow(window);
   window->AddRenderer(chart.renderer());
-  widget->setAccessibleName(name);
-  widget->setToolTip(name);
-  widget->setMinimumSize(240, 140);
+  widget->setMinimumSize(120, 100);
   widget->setFocusPolicy(Qt::StrongFocus);
+  widget->hide();
   return widget;
-}
-
-/// Curves of those columns that are there and are not zero throughout.
-std::vector<Curve> curves_of(const History& history, const QStringList& columns, const QString& unit) {
-  std::vector<Curve> curves;
-  for (const QString& name : columns) {
-    const int column = history.column(unit.isEmpty() ? name : name + " [" + unit + "]");
-    if (column < 0) continue;
-    const std::vector<double>& values = history.values(column);
-    bool zero = true;
-    for (const double x : values) zero = zero && !(x != 0);
-    if (!zero) curves.push_back({name.toStdString(), values});
-  }
-  return curves;
-}
-
-/// The curve of another run.
-void add_other(std::vector<Curve>& curves, const QString& run, const History& history, const QString& name,
-               const QString& unit) {
-  const int time = history.column("time [s]"),
-            column = history.column(unit.isEmpty() ? name : name + " [" + unit + "]");
-  if (time >= 0 && column >= 0)
-    curves.push_back({(run + ": " + name).toStdString(), history.values(column), history.values(time)});
 }
 
 }  // namespace
 
 PlotsPanel::PlotsPanel(QWidget* parent)
     : QWidget(parent),
-      energies_canvas_(canvas(energies_window_, energies_, tr("Energies [J] over time [us]"))),
-      breaking_canvas_(canvas(breaking_window_, breaking_, tr("Broken joints and fragments over time [us]"))) {
+      list_(new QTreeWidget),
+      no_data_(new QLabel(tr("No data yet: curves appear with the first samples of a run."))),
+      too_many_(new QLabel(tr("Curves of %1 units are drawn at most.").arg(kMostCharts))) {
   setObjectName("plots");
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(2, 2, 2, 2);
-  no_data_ = new QLabel(tr("No data yet: curves appear with the first samples of a run."));
   no_data_->setObjectName("no_data");
   no_data_->setWordWrap(true);
-  auto* row = new QHBoxLayout;
-  column->addWidget(no_data_);
-  column->addLayout(row, 1);
-  for (QWidget* chart : {energies_canvas_, breaking_canvas_}) {
-    row->addWidget(chart);
-    chart->hide();
+  too_many_->setWordWrap(true);
+  too_many_->hide();
+  list_->setObjectName("curves");
+  list_->setAccessibleName(tr("Curves"));
+  list_->setToolTip(tr("Which curves are drawn, in a chart for each unit (space ticks the one in hand)"));
+  list_->header()->hide();
+  list_->setMinimumWidth(120);
+  auto* row = new QSplitter;
+  row->addWidget(list_);
+  row->setChildrenCollapsible(false);
+  for (Chart& chart : charts_) {
+    row->addWidget(chart.canvas = canvas(chart.window, chart.chart));
+    chart.canvas->installEventFilter(this);
+    row->setStretchFactor(row->count() - 1, 1);
   }
+  list_->setMaximumWidth(260);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(2, 2, 2, 2);
+  column->addWidget(no_data_);
+  column->addWidget(too_many_);
+  column->addWidget(row, 1);
   unfolding_.setSingleShot(true);
   connect(&unfolding_, &QTimer::timeout, this, &PlotsPanel::unfold);
+  connect(list_, &QTreeWidget::itemChanged, this, &PlotsPanel::ticked);
 }
 
 /// It is in front: a panel behind another one is never painted.
 void PlotsPanel::paintEvent(QPaintEvent* event) {
   QWidget::paintEvent(event);
-  if (stale_ || energies_canvas_->isHidden()) unfolding_.start(0);
+  if (stale_) unfolding_.start(0);
 }
 
 /// OpenGL takes a tenth of a second to begin in each chart: one at a time, and only where they are seen.
 void PlotsPanel::unfold() {
-  for (QWidget* chart : {energies_canvas_, breaking_canvas_}) {
-    if (!chart->isHidden()) continue;
-    chart->show();
+  for (Chart& chart : charts_) {
+    if (!chart.wanted || !chart.canvas->isHidden()) continue;
+    chart.canvas->show();
     unfolding_.start(0);
     return;
   }
   render();
 }
 
+/// A chart that got another size lays its axes out in one picture and draws by them in the next.
+bool PlotsPanel::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Resize) unfolding_.start(0);
+  return QWidget::eventFilter(watched, event);
+}
+
 void PlotsPanel::render() {
-  stale_ = energies_canvas_->isHidden() || breaking_canvas_->isHidden() || visibleRegion().isEmpty();
-  if (stale_) return;
-  energies_window_->Render();
-  breaking_window_->Render();
+  const auto waits = [](const Chart& chart) { return chart.wanted && chart.canvas->isHidden(); };
+  stale_ = std::any_of(charts_.begin(), charts_.end(), waits) || visibleRegion().isEmpty();
+  if (stale_) return update();
+  for (Chart& chart : charts_)
+    if (chart.wanted) chart.window->Render();
+}
+
+/// All but the step and the time themselves, by unit. It stays as it is while the columns do.
+void PlotsPanel::list_columns() {
+  if (listed_ == history_->columns()) return;
+  listed_ = history_->columns();
+  const QSignalBlocker quiet(list_);
+  list_->clear();
+  QHash<QString, QTreeWidgetItem*> parts;
+  for (const QString& column : listed_) {
+    if (column == "step" || column == "time [s]") continue;
+    const auto [name, unit] = parts_of(column);
+    QTreeWidgetItem*& part = parts[unit];
+    if (part == nullptr) {
+      const QString words = unit.isEmpty() ? quantity_of(unit) : QString("%1 [%2]").arg(quantity_of(unit), unit);
+      part = new QTreeWidgetItem(list_, {words});
+      part->setFlags(Qt::ItemIsEnabled);
+    }
+    auto* item = new QTreeWidgetItem(part, {name});
+    item->setData(0, Qt::UserRole, column);
+    item->setToolTip(0, column);
+    item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
+    const bool on = ticks_.value(column, is_first_choice(column));
+    item->setCheckState(0, on ? Qt::Checked : Qt::Unchecked);
+    if (on) part->setExpanded(true);
+  }
+}
+
+void PlotsPanel::ticked(QTreeWidgetItem* item) {
+  ticks_[item->data(0, Qt::UserRole).toString()] = item->checkState(0) == Qt::Checked;
+  draw();
+}
+
+/// A curve that nobody has asked for is drawn once it is not zero throughout.
+bool PlotsPanel::is_drawn(int column) const {
+  const QString& name = history_->columns()[column];
+  if (ticks_.contains(name)) return ticks_.value(name);
+  return is_first_choice(name) && !is_zero(history_->values(column));
+}
+
+/// In the order of the columns; those of other runs follow theirs.
+PlotsPanel::CurvesByUnit PlotsPanel::chosen_curves() const {
+  CurvesByUnit chosen;
+  const int first = history_->column("kinetic [J]");  // columns of a history always follow each other in one order
+  for (int column = 0; column < history_->columns().size(); ++column) {
+    if (!is_drawn(column)) continue;
+    const auto [name, unit] = parts_of(history_->columns()[column]);
+    auto part = std::find_if(chosen.begin(), chosen.end(), [&](const auto& one) { return one.first == unit; });
+    if (part == chosen.end()) part = chosen.insert(part, {unit, {}});
+    const int look = std::max(0, column - first);
+    part->second.push_back({name.toStdString(), history_->values(column), look});
+    int number = 0;
+    for (const auto& [run, other] : others_) {
+      ++number;
+      const int time = other->column("time [s]"), same = other->column(history_->columns()[column]);
+      if (time < 0 || same < 0) continue;
+      part->second.push_back(
+          {name.toStdString(), other->values(same), look, number, run.toStdString(), other->values(time)});
+    }
+  }
+  return chosen;
 }
 
 void PlotsPanel::show_history(const History& history, const std::vector<std::pair<QString, const History*>>& others) {
-  const int time = history.column("time [s]");
-  if (time < 0) {
-    energies_.show({}, {}, "energy [J]");
-    breaking_.show({}, {}, "count");
-  } else {
-    std::vector<Curve> energies = curves_of(history,
-                                            {"kinetic", "elastic", "joint mode 1", "joint mode 2", "contact friction",
-                                             "damping", "plastic", "external work", "residual"},
-                                            "J");
-    std::vector<Curve> breaking = curves_of(
-        history, {"damaged joints", "broken joints", "broken in mode I", "broken in mode II", "fragments"}, "");
-    for (const auto& [run, other] : others) {
-      add_other(energies, run, *other, "kinetic", "J");
-      add_other(breaking, run, *other, "broken joints", {});
+  history_ = &history;
+  others_ = others;
+  list_columns();
+  draw();
+}
+
+void PlotsPanel::draw() {
+  const int time = history_->column("time [s]");
+  const CurvesByUnit chosen = time < 0 ? CurvesByUnit() : chosen_curves();
+  for (std::size_t i = 0; i < charts_.size(); ++i) {
+    Chart& chart = charts_[i];
+    chart.wanted = i < chosen.size();
+    if (!chart.wanted) {
+      chart.chart.show({}, {}, {}, {});
+      chart.canvas->hide();
+      continue;
     }
-    energies_.show(history.values(time), energies, "energy [J]");
-    breaking_.show(history.values(time), breaking, "count");
+    const auto& [unit, curves] = chosen[i];
+    const QString quantity = quantity_of(unit), words = tr("%1 over time").arg(quantity);
+    chart.chart.show(history_->values(time), curves, quantity.toStdString(), unit.toStdString());
+    chart.canvas->setAccessibleName(words);
+    chart.canvas->setToolTip(words);
   }
+  too_many_->setVisible(chosen.size() > charts_.size());
   no_data_->setVisible(num_curves() == 0);
+  list_->setVisible(list_->topLevelItemCount() > 0);
   render();
 }
 
 void PlotsPanel::set_dark(bool dark) {
-  energies_.set_dark(dark);
-  breaking_.set_dark(dark);
+  for (Chart& chart : charts_) chart.chart.set_dark(dark);
   render();
 }
 
-int PlotsPanel::num_curves() const { return static_cast<int>(energies_.num_curves() + breaking_.num_curves()); }
+int PlotsPanel::num_curves() const {
+  std::size_t count = 0;
+  for (const Chart& chart : charts_) count += chart.chart.num_curves();
+  return static_cast<int>(count);
+}
 
 }  // namespace breccia::gui

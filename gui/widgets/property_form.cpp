@@ -1,6 +1,9 @@
 #include "widgets/property_form.hpp"
 
+#include <QDir>
 #include <QEvent>
+#include <QFileDialog>
+#include <QKeyEvent>
 #include <QLineEdit>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
@@ -15,9 +18,10 @@ using case_::ValueType;
 
 QString text_of(std::string_view s) { return QString::fromUtf8(s.data(), static_cast<int>(s.size())); }
 
-bool names_a_group(const Key& key) {
-  const std::string_view name = key.name();
-  return key.type == ValueType::text && (name == "group" || name == "surface");
+/// What the text of an editor is typed into; nullptr: it is chosen.
+QLineEdit* line_in(QWidget* editor) {
+  auto* box = qobject_cast<QComboBox*>(editor);
+  return box != nullptr ? box->lineEdit() : qobject_cast<QLineEdit*>(editor);
 }
 
 /// Words to choose from; empty: the value is typed.
@@ -28,6 +32,12 @@ QStringList words_of(const Key& key) {
   if (one)
     for (const std::string& word : key.choice_list()) words << QString::fromStdString(word);
   return words;
+}
+
+/// Names of groups and words that are not allowed may be of any length: the form does not grow with them.
+void limit_width(QComboBox& box) {
+  box.setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  box.setMinimumContentsLength(8);
 }
 
 bool stands_at(const std::string& key, const std::string& path) {
@@ -97,7 +107,10 @@ void PropertyForm::add_field(const Key& key, QFormLayout& layout) {
   field.editor->setAccessibleName(label_of(key) + (key.unit == "1" ? QString() : " [" + text_of(key.unit) + "]"));
   field.editor->setAccessibleDescription(text_of(key.help));
   cells->addWidget(field.editor, 1);
-  if (names_a_group(key)) add_picker(path, label_of(key), *cells);
+  if (group_kind(key) != GroupKind::none) add_picker(path, label_of(key), *cells);
+  if (key.type == ValueType::path) add_browser(path, key, *cells);
+  for (QObject* typed : {static_cast<QObject*>(field.editor), static_cast<QObject*>(line_in(field.editor))})
+    if (typed != nullptr) typed->installEventFilter(this);
   cells->addWidget(field.mark);
   field.mark->setObjectName("mark:" + path);
   field.mark->hide();
@@ -126,45 +139,73 @@ void PropertyForm::add_picker(const QString& path, const QString& label, QHBoxLa
   cells.addWidget(pick);
 }
 
+void PropertyForm::add_browser(const QString& path, const Key& key, QHBoxLayout& cells) {
+  auto* browse = new QToolButton;
+  browse->setText(tr("Browse..."));
+  browse->setFocusPolicy(Qt::StrongFocus);
+  browse->setObjectName("browse:" + path);
+  browse->setAccessibleName(tr("Browse: %1").arg(label_of(key)));
+  browse->setToolTip(tr("Choose it among the files of this machine"));
+  connect(browse, &QToolButton::clicked, this, [this, path, &key] {
+    const QDir folder(document_.folder());
+    const QString name = key.path == "start.from"
+                             ? QFileDialog::getExistingDirectory(this, tr("Run to start from"), folder.path())
+                             : QFileDialog::getOpenFileName(this, tr("Mesh or geometry"), folder.path());
+    if (name.isEmpty()) return;
+    const QString relative = folder.relativeFilePath(name);
+    take_over(path, key, relative.startsWith("../..") ? name : relative);
+  });
+  cells.addWidget(browse);
+}
+
 bool PropertyForm::take_pick(const QString& volume, const QStringList& surfaces) {
   const QString path = picks_for_;
   if (path.isEmpty() || !fields_.contains(path)) return false;
-  const bool only_surfaces = fields_[path].key->name() == "surface";
-  const bool either = path.startsWith("stage[");
-  if (only_surfaces && surfaces.isEmpty()) return true;  // goes on waiting
-  const QString group = either && !surfaces.isEmpty() ? surfaces.first() : volume;
-  if (auto* pick = findChild<QToolButton*>("pick:" + path)) pick->setChecked(false);
-  take_over(path, *fields_[path].key, group);
+  const Key& key = *fields_[path].key;
+  const GroupKind kind = group_kind(key);
+  if (kind == GroupKind::surface && surfaces.isEmpty()) return true;  // goes on waiting
+  const QString group = kind != GroupKind::volume && !surfaces.isEmpty() ? surfaces.first() : volume;
+  const bool many = names_many_groups(key);
+  if (auto* pick = findChild<QToolButton*>("pick:" + path); pick != nullptr && !many) pick->setChecked(false);
+  take_over(path, key, many ? with_group(shown_value(key, document_.value(path)), group) : group);
   emit group_entered(group);
   return true;
 }
 
 QWidget* PropertyForm::editor_of(const Key& key, const QString& path) {
   const QStringList words = words_of(key);
-  if (!words.isEmpty() || names_a_group(key)) {
-    auto* box = new QComboBox;
-    box->setEditable(names_a_group(key));
-    if (names_a_group(key)) {
-      box->addItems(groups_);
-      connect(box->lineEdit(), &QLineEdit::editingFinished, this,
-              [this, box, path, &key] { take_over(path, key, box->currentText()); });
-      connect(box, qOverload<int>(&QComboBox::activated), this, [this, box, path, &key] {
-        take_over(path, key, box->currentText());
-        emit group_entered(box->currentText());
-      });
-    } else {
-      const QString fallback = shown_default(key);
-      box->addItem(fallback.isEmpty() ? tr("(not given)") : tr("%1 (default)").arg(fallback), QString());
-      for (const QString& word : words) box->addItem(word, word);
-      box->setMinimumWidth(box->sizeHint().width());
-      connect(box, qOverload<int>(&QComboBox::activated), this,
-              [this, box, path, &key] { take_over(path, key, box->currentData().toString()); });
-    }
-    // Names of groups and words that are not allowed may be of any length: the form does not grow with them.
-    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    box->setMinimumContentsLength(8);
-    return box;
-  }
+  if (!words.isEmpty()) return box_of_words(key, path, words);
+  const bool names_one = group_kind(key) != GroupKind::none && !names_many_groups(key);
+  return names_one ? static_cast<QWidget*>(box_of_groups(key, path)) : line_of(key, path);
+}
+
+QComboBox* PropertyForm::box_of_words(const Key& key, const QString& path, const QStringList& words) {
+  auto* box = new QComboBox;
+  const QString fallback = shown_default(key);
+  box->addItem(fallback.isEmpty() ? tr("(not given)") : tr("%1 (default)").arg(fallback), QString());
+  for (const QString& word : words) box->addItem(word, word);
+  box->setMinimumWidth(box->sizeHint().width());
+  connect(box, qOverload<int>(&QComboBox::activated), this,
+          [this, box, path, &key] { take_over(path, key, box->currentData().toString()); });
+  limit_width(*box);
+  return box;
+}
+
+QComboBox* PropertyForm::box_of_groups(const Key& key, const QString& path) {
+  auto* box = new QComboBox;
+  box->setEditable(true);
+  box->addItems(groups_of_kind(group_kind(key), document_.places(), groups_));
+  connect(box->lineEdit(), &QLineEdit::editingFinished, this,
+          [this, box, path, &key] { take_over(path, key, box->currentText()); });
+  connect(box, qOverload<int>(&QComboBox::activated), this, [this, box, path, &key] {
+    take_over(path, key, box->currentText());
+    emit group_entered(box->currentText());
+  });
+  limit_width(*box);
+  return box;
+}
+
+QLineEdit* PropertyForm::line_of(const Key& key, const QString& path) {
   auto* line = new QLineEdit;
   const QString fallback = shown_default(key);
   line->setPlaceholderText(!fallback.isEmpty()   ? fallback
@@ -190,10 +231,9 @@ void PropertyForm::take_typed() {
   if (!document_.is_open()) return;
   const QWidget* cursor = window()->focusWidget();
   for (auto it = fields_.begin(); it != fields_.end(); ++it) {
-    const QWidget* editor = it->editor;
+    QWidget* editor = it->editor;
     if (cursor == nullptr || (editor != cursor && !editor->isAncestorOf(cursor))) continue;
-    const auto* box = qobject_cast<const QComboBox*>(editor);
-    const auto* line = box != nullptr ? box->lineEdit() : qobject_cast<const QLineEdit*>(editor);
+    const QLineEdit* line = line_in(editor);
     const Field field = *it;  // an edit may change the form
     const QString path = it.key();
     if (line != nullptr) take_over(path, *field.key, line->text());
@@ -230,7 +270,7 @@ void PropertyForm::set_problems(const std::vector<Problem>& problems) {
   mark_problems();
 }
 
-void PropertyForm::set_groups(const QStringList& groups) {
+void PropertyForm::set_groups(const std::optional<MeshGroups>& groups) {
   groups_ = groups;
   for (const Field& field : fields_) {
     auto* box = qobject_cast<QComboBox*>(field.editor);
@@ -238,7 +278,7 @@ void PropertyForm::set_groups(const QStringList& groups) {
     const QString text = box->currentText();
     const QSignalBlocker quiet(box);
     box->clear();
-    box->addItems(groups_);
+    box->addItems(groups_of_kind(group_kind(*field.key), document_.places(), groups_));
     box->setEditText(text);
   }
 }
@@ -268,6 +308,28 @@ void PropertyForm::changeEvent(QEvent* event) {
       field.editor->setStyleSheet(style);
     }
   QScrollArea::changeEvent(event);
+}
+
+bool PropertyForm::holds_typed(const QObject* editor) const {
+  for (auto it = fields_.begin(); it != fields_.end(); ++it) {
+    const QLineEdit* line = line_in(it->editor);
+    if (line != nullptr && (editor == it->editor || editor == line))
+      return line->text().trimmed() != shown_value(*it->key, document_.value(it.key()));
+  }
+  return false;
+}
+
+/// A field takes the keys of undo and redo for the letters typed into it; where all of them are in the case, they are
+/// those of the case.
+bool PropertyForm::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride && !holds_typed(watched)) {
+    const auto* key = static_cast<QKeyEvent*>(event);
+    if (key->matches(QKeySequence::Undo) || key->matches(QKeySequence::Redo)) {
+      event->ignore();
+      return true;
+    }
+  }
+  return QScrollArea::eventFilter(watched, event);
 }
 
 void PropertyForm::focus_field(const QString& path) {

@@ -10,6 +10,7 @@
 
 #include "case/schema.hpp"
 #include "core/document.hpp"
+#include "core/group_names.hpp"
 
 namespace breccia::gui {
 
@@ -24,10 +25,10 @@ class PropertyForm final : public QScrollArea {
   void show_section(const QString& path);
   [[nodiscard]] const QString& section() const { return section_; }
   void set_problems(const std::vector<Problem>& problems);
-  /// Words that a group field offers.
-  void set_groups(const QStringList& groups);
-  /// A face was clicked on in the view. True: a field waits for it, and has taken the group that it can name: a surface
-  /// for loads and constraints, where the face is in one, else the volume.
+  /// What fields that name groups offer.
+  void set_groups(const std::optional<MeshGroups>& groups);
+  /// A face was clicked on in the view. True: a field waits for it, and has taken the group that it can name, a surface
+  /// before a volume where both can be. A list gets one more, and goes on waiting.
   bool take_pick(const QString& volume, const QStringList& surfaces);
   /// Puts the cursor into the field of a path, if it is here.
   void focus_field(const QString& path);
@@ -42,6 +43,7 @@ class PropertyForm final : public QScrollArea {
 
  protected:
   void changeEvent(QEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   struct Field {
@@ -52,7 +54,13 @@ class PropertyForm final : public QScrollArea {
   };
   void add_field(const case_::Key& key, QFormLayout& layout);
   void add_picker(const QString& path, const QString& label, QHBoxLayout& cells);
+  void add_browser(const QString& path, const case_::Key& key, QHBoxLayout& cells);
   [[nodiscard]] QWidget* editor_of(const case_::Key& key, const QString& path);
+  [[nodiscard]] QComboBox* box_of_words(const case_::Key& key, const QString& path, const QStringList& words);
+  [[nodiscard]] QComboBox* box_of_groups(const case_::Key& key, const QString& path);
+  [[nodiscard]] QLineEdit* line_of(const case_::Key& key, const QString& path);
+  /// Something is typed there that the case does not have yet.
+  [[nodiscard]] bool holds_typed(const QObject* editor) const;
   void take_over(const QString& path, const case_::Key& key, const QString& typed);
   void refresh();
   void mark_problems();
@@ -62,7 +70,7 @@ class PropertyForm final : public QScrollArea {
   QString section_;
   QMap<QString, Field> fields_;  // by path
   std::vector<Problem> problems_;
-  QStringList groups_;
+  std::optional<MeshGroups> groups_;
   QString picks_for_;  ///< path of the field that waits for a click
 };
 

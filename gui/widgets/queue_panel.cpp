@@ -20,12 +20,12 @@ QueuePanel::QueuePanel(const RunQueue& queue, QWidget* parent)
       queue_(queue),
       table_(new QTableWidget),
       earlier_(named_button(tr("Ear&lier"), "queue_earlier", tr("Before the run above it"))),
-      later_(named_button(tr("Late&r"), "queue_later", tr("After the run below it"))),
-      stop_(named_button(tr("S&top"), "queue_stop", tr("End this run after its present step; the next one follows"))),
+      later_(named_button(tr("L&ater"), "queue_later", tr("After the run below it"))),
+      stop_(named_button(tr("Stop"), "queue_stop", tr("End this run after its present step; the next one follows"))),
       remove_(named_button(tr("Re&move"), "queue_remove", tr("Take a run that waits or has ended off this list"))),
-      clear_(named_button(tr("Clear en&ded"), "queue_clear", tr("Take all runs that have ended off this list"))),
+      clear_(named_button(tr("Clear ended"), "queue_clear", tr("Take all runs that have ended off this list"))),
       cores_(new QSpinBox),
-      held_(new QCheckBox(tr("&Hold"))),
+      held_(new QCheckBox(tr("Hol&d"))),
       why_(new QLabel) {
   setObjectName("queue");
   make_table();

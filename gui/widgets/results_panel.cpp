@@ -4,19 +4,26 @@
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 
+#include "widgets/named_button.hpp"
 #include "widgets/run_panel.hpp"
 
 namespace breccia::gui {
+namespace {
+
+constexpr int kPace = 80;  // ms that a frame is seen while frames are played, beside the time that it takes to draw one
+
+}  // namespace
 
 ResultsPanel::ResultsPanel(QWidget* parent)
     : QWidget(parent),
       run_(new QLabel(tr("No run is open."))),
       time_(new QLabel),
       slider_(new QSlider(Qt::Horizontal)),
-      follow_(new QCheckBox(tr("&Follow the newest frame"))),
+      follow_(new QCheckBox(tr("F&ollow the newest frame"))),
       back_(new QPushButton("◀")),
       forward_(new QPushButton("▶")),
-      paraview_(new QPushButton(tr("Open in Para&View"))),
+      play_(named_button(tr("Pla&y"), "play", tr("Show the frames one after the other; from the last one, all (F9)"))),
+      paraview_(new QPushButton(tr("Open in ParaVie&w"))),
       picture_(new QPushButton(tr("Save p&icture..."))),
       curves_(new QPushButton(tr("Export &curves..."))),
       animation_(new QPushButton(tr("Save &animation..."))) {
@@ -37,9 +44,12 @@ ResultsPanel::ResultsPanel(QWidget* parent)
   forward_->setObjectName("next_frame");
   forward_->setAccessibleName(tr("Next frame"));
   forward_->setToolTip(tr("Next frame"));
+  play_->setCheckable(true);
+  play_->setShortcut(QKeySequence(Qt::Key_F9));
   paraview_->setObjectName("open_paraview");
   paraview_->setAccessibleName(tr("Open in ParaView"));
-  paraview_->setToolTip(tr("Start ParaView with the frames of this run"));
+  paraview_->setToolTip(
+      tr("Start ParaView with the frames of this run, bodies by stress and joints by time of failure"));
   picture_->setObjectName("save_picture");
   picture_->setAccessibleName(tr("Save picture"));
   picture_->setToolTip(tr("Save what the 3D view shows as PNG"));
@@ -48,7 +58,7 @@ ResultsPanel::ResultsPanel(QWidget* parent)
   curves_->setToolTip(tr("Save the history of this run, and of those ticked in the table of runs, as CSV"));
   animation_->setObjectName("save_animation");
   animation_->setAccessibleName(tr("Save animation"));
-  animation_->setToolTip(tr("Save all frames, as the 3D view shows them, as a film (MP4, by ffmpeg)"));
+  animation_->setToolTip(tr("Save all frames, as the 3D view shows them, as a film (MP4, by ffmpeg) or as pictures"));
   auto* column = new QVBoxLayout(this);
   column->addWidget(run_);
   column->addWidget(follow_);
@@ -57,7 +67,10 @@ ResultsPanel::ResultsPanel(QWidget* parent)
   row->addWidget(slider_, 1);
   row->addWidget(forward_);
   column->addLayout(row);
-  column->addWidget(time_);
+  auto* below = new QHBoxLayout;
+  below->addWidget(time_, 1);
+  below->addWidget(play_);
+  column->addLayout(below);
   column->addWidget(paraview_);
   column->addWidget(picture_);
   column->addWidget(animation_);
@@ -70,6 +83,10 @@ ResultsPanel::ResultsPanel(QWidget* parent)
   });
   connect(forward_, &QPushButton::clicked, this, [this] { slider_->setValue(slider_->value() + 1); });
   connect(slider_, &QSlider::actionTriggered, this, [this] { follow_->setChecked(false); });
+  pace_.setSingleShot(true);
+  pace_.setInterval(kPace);
+  connect(&pace_, &QTimer::timeout, this, &ResultsPanel::play_next);
+  connect(play_, &QPushButton::toggled, this, &ResultsPanel::play);
   connect(paraview_, &QPushButton::clicked, this, &ResultsPanel::paraview_wanted);
   connect(picture_, &QPushButton::clicked, this, &ResultsPanel::picture_wanted);
   connect(curves_, &QPushButton::clicked, this, &ResultsPanel::curves_wanted);
@@ -79,16 +96,39 @@ ResultsPanel::ResultsPanel(QWidget* parent)
 
 void ResultsPanel::set_run(const QString& folder) {
   run_->setText(folder.isEmpty() ? tr("No run is open.") : tr("<b>Run</b> %1").arg(folder.toHtmlEscaped()));
+  stop_playing();
   set_frames({});
   follow_->setChecked(true);
+}
+
+void ResultsPanel::play(bool on) {
+  if (!on) return pace_.stop();
+  follow_->setChecked(false);
+  if (slider_->value() < slider_->maximum()) return play_next();
+  slider_->setValue(0);
+  if (slider_->maximum() == 0) stop_playing();  // there is one frame alone, which is seen
+}
+
+void ResultsPanel::play_next() {
+  if (slider_->value() == slider_->maximum()) return stop_playing();
+  slider_->setValue(slider_->value() + 1);
+}
+
+void ResultsPanel::frame_shown() {
+  if (play_->isChecked()) pace_.start();
+}
+
+void ResultsPanel::hideEvent(QHideEvent* event) {
+  stop_playing();
+  QWidget::hideEvent(event);
 }
 
 void ResultsPanel::set_frames(const std::vector<RunFrame>& frames) {
   frames_ = frames;
   const bool any = !frames_.empty();
-  for (QWidget* w :
-       {static_cast<QWidget*>(slider_), static_cast<QWidget*>(back_), static_cast<QWidget*>(forward_),
-        static_cast<QWidget*>(paraview_), static_cast<QWidget*>(picture_), static_cast<QWidget*>(animation_)})
+  for (QWidget* w : {static_cast<QWidget*>(slider_), static_cast<QWidget*>(back_), static_cast<QWidget*>(forward_),
+                     static_cast<QWidget*>(play_), static_cast<QWidget*>(paraview_), static_cast<QWidget*>(picture_),
+                     static_cast<QWidget*>(animation_)})
     w->setEnabled(any);
   const int last = any ? static_cast<int>(frames_.size()) - 1 : 0;
   const int now = follow_->isChecked() ? last : std::min(slider_->value(), last);

@@ -17,8 +17,8 @@
 namespace breccia::gui {
 
 QString run_words(int problems) {
-  if (problems == 0) return RunPanel::tr("&Run");
-  return problems == 1 ? RunPanel::tr("&Run (1 problem)") : RunPanel::tr("&Run (%1 problems)").arg(problems);
+  if (problems == 0) return RunPanel::tr("R&un");
+  return problems == 1 ? RunPanel::tr("R&un (1 problem)") : RunPanel::tr("R&un (%1 problems)").arg(problems);
 }
 
 QString duration_words(double seconds) {
@@ -27,6 +27,13 @@ QString duration_words(double seconds) {
   if (s < 60) return RunPanel::tr("%1 s").arg(seconds < 10 ? QString::number(seconds, 'g', 2) : QString::number(s));
   if (s < 3600) return RunPanel::tr("%1 min %2 s").arg(s / 60).arg(s % 60);
   return RunPanel::tr("%1 h %2 min").arg(s / 3600).arg(s / 60 % 60);
+}
+
+QString to_go_words(const SolverRun& run) {
+  constexpr double kShare = 0.01, kWall = 20;  // s; the first steps, with reading and meshing, tell nothing of the rest
+  const RunStatus& s = run.status();
+  if (!run.alive() || run.state() != "running") return "-";
+  return s.share < kShare && s.wall < kWall ? RunPanel::tr("not known yet") : duration_words(s.eta);
 }
 
 QString quantity_words(double value, const QString& unit) {
@@ -40,7 +47,8 @@ QString quantity_words(double value, const QString& unit) {
 RunPanel::RunPanel(QWidget* parent)
     : QWidget(parent),
       ranks_(new QSpinBox),
-      run_(named_button(tr("&Run"), "run", tr("Save the case and start the run (F5)"))),
+      oversubscribe_(new QCheckBox(tr("Run more ranks than cores"))),
+      run_(named_button(tr("R&un"), "run", tr("Save the case and start the run (F5)"))),
       queue_(named_button(tr("Add to &queue"), "queue_run",
                           tr("Run the case as it is now when its turn comes and cores are free (Ctrl+Shift+F5)"))),
       pause_(named_button(tr("&Pause"), "pause", tr("Wait between two steps, and go on"))),
@@ -52,8 +60,8 @@ RunPanel::RunPanel(QWidget* parent)
       go_on_(
           named_button(tr("Resu&me from checkpoint"), "go_on",
                        tr("Go on to the same results as if nothing had happened, on as many ranks as are set above"))),
-      check_(named_button(tr("C&heck"), "check", tr("Stable step, run time, memory and disk, with advice (F7)"))),
-      results_(named_button(tr("Open res&ults"), "open_results", tr("Walk through the recorded frames of this run"))),
+      check_(named_button(tr("Chec&k"), "check", tr("Stable step, run time, memory and disk, with advice (F7)"))),
+      results_(named_button(tr("&Open results"), "open_results", tr("Walk through the recorded frames of this run"))),
       command_(new QLineEdit),
       go_on_command_(new QLineEdit),
       estimate_(new QLabel),
@@ -63,19 +71,6 @@ RunPanel::RunPanel(QWidget* parent)
       progress_(new QProgressBar),
       failure_(new QPlainTextEdit) {
   setObjectName("run_panel");
-  const int cores = QThread::idealThreadCount();
-  ranks_->setRange(1, 4096);
-  ranks_->setValue(cores);
-  ranks_->setObjectName("ranks");
-  ranks_->setAccessibleName(tr("Ranks"));
-  ranks_->setToolTip(tr("Processes that share the model; this machine has %1 cores").arg(cores));
-  connect(ranks_, qOverload<int>(&QSpinBox::valueChanged), this, [this, cores](int n) {
-    warning_->setVisible(n > cores);
-    emit ranks_changed(n);
-  });
-  warning_->setText(tr("⚠ more ranks than the %1 cores of this machine: they will be in each other's way").arg(cores));
-  warning_->setWordWrap(true);
-  warning_->hide();
   checkpoints_->setWordWrap(true);
   checkpoints_->setObjectName("checkpoints");
   estimate_->setWordWrap(true);
@@ -96,20 +91,8 @@ RunPanel::RunPanel(QWidget* parent)
   failure_->hide();
 
   auto* column = new QVBoxLayout(this);
-  auto* form = new QFormLayout;
-  auto* label = new QLabel(tr("&Ranks"));
-  label->setBuddy(ranks_);
-  form->addRow(label, ranks_);
-  column->addLayout(form);
-  column->addWidget(warning_);
-  // A run that goes on is seen without scrolling; what was estimated before it stands below.
-  auto* grid = new QGridLayout;
-  grid->addWidget(run_, 0, 0);
-  grid->addWidget(queue_, 0, 1);
-  grid->addWidget(pause_, 1, 0);
-  grid->addWidget(stop_, 1, 1);
-  grid->addWidget(checkpoint_, 2, 0);
-  column->addLayout(grid);
+  make_ranks(*column);
+  make_buttons(*column);
   column->addWidget(progress_);
   column->addWidget(state_);
   column->addWidget(failure_);
@@ -135,6 +118,52 @@ RunPanel::RunPanel(QWidget* parent)
   connect(check_, &QPushButton::clicked, this, &RunPanel::check_wanted);
   connect(results_, &QPushButton::clicked, this, &RunPanel::results_wanted);
   show_run(nullptr);
+}
+
+void RunPanel::make_ranks(QVBoxLayout& column) {
+  constexpr int kMostOnACore = 16;
+  const int cores = QThread::idealThreadCount();
+  ranks_->setRange(1, kMostOnACore * cores);
+  ranks_->setValue(cores);
+  ranks_->setObjectName("ranks");
+  ranks_->setAccessibleName(tr("Ranks"));
+  ranks_->setToolTip(tr("Processes that share the model; this machine has %1 cores").arg(cores));
+  warning_->setText(tr("⚠ more ranks than the %1 cores of this machine: they will be in each other's way").arg(cores));
+  warning_->setWordWrap(true);
+  oversubscribe_->setObjectName("oversubscribe");
+  oversubscribe_->setAccessibleName(oversubscribe_->text());
+  oversubscribe_->setToolTip(tr("Without this tick no run is started on more ranks than the %1 cores").arg(cores));
+  for (QWidget* widget : {static_cast<QWidget*>(warning_), static_cast<QWidget*>(oversubscribe_)}) widget->hide();
+  auto* form = new QFormLayout;
+  auto* label = new QLabel(tr("Ra&nks"));
+  label->setBuddy(ranks_);
+  form->addRow(label, ranks_);
+  column.addLayout(form);
+  column.addWidget(warning_);
+  column.addWidget(oversubscribe_);
+  connect(ranks_, qOverload<int>(&QSpinBox::valueChanged), this, [this, cores](int n) {
+    oversubscribe_->setChecked(false);  // one agrees to a number
+    warning_->setVisible(n > cores);
+    oversubscribe_->setVisible(n > cores);
+    set_problems(problems_);
+    emit ranks_changed(n);
+  });
+  connect(oversubscribe_, &QCheckBox::toggled, this, [this] { set_problems(problems_); });
+}
+
+/// A run that goes on is seen without scrolling; what was estimated before it stands below.
+void RunPanel::make_buttons(QVBoxLayout& column) {
+  auto* grid = new QGridLayout;
+  grid->addWidget(run_, 0, 0);
+  grid->addWidget(queue_, 0, 1);
+  grid->addWidget(pause_, 1, 0);
+  grid->addWidget(stop_, 1, 1);
+  grid->addWidget(checkpoint_, 2, 0);
+  column.addLayout(grid);
+}
+
+bool RunPanel::accepts_ranks() const {
+  return ranks_->value() <= QThread::idealThreadCount() || oversubscribe_->isChecked();
 }
 
 QWidget* RunPanel::command_row(QLineEdit* line, const QString& name, const QString& title) {
@@ -169,11 +198,14 @@ void RunPanel::set_problems(int count) {
   problems_ = count;
   run_->setText(run_words(count));
   run_->setAccessibleName(count == 0 ? tr("Run") : tr("Run, %1 problems").arg(count));
-  run_->setEnabled(count == 0 && !running_);
-  run_->setToolTip(count == 0 ? tr("Save the case and start the run (F5)")
-                              : tr("The case has %1 problems; F8 goes to the next one").arg(count));
+  const bool agreed = accepts_ranks();
+  run_->setEnabled(count == 0 && !running_ && agreed);
+  run_->setToolTip(count > 0 ? tr("The case has %1 problems; F8 goes to the next one").arg(count)
+                   : agreed  ? tr("Save the case and start the run (F5)")
+                             : tr("There are more ranks than cores: that needs the tick below them"));
   check_->setEnabled(count == 0);
-  queue_->setEnabled(count == 0);
+  queue_->setEnabled(count == 0 && agreed);
+  go_on_->setEnabled(agreed);
 }
 
 void RunPanel::set_estimate(const QString& html) { estimate_->setText(html); }
@@ -186,7 +218,7 @@ void RunPanel::set_state_words(const SolverRun& run) {
                  .arg(s.step, 0, 'f', 0)
                  .arg(s.steps_total, 0, 'f', 0)
                  .arg(quantity_words(s.time, "s"), quantity_words(s.end, "s"));
-    if (run.alive()) words += tr("<br>time to go %1").arg(duration_words(s.eta));
+    if (run.alive()) words += tr("<br>time to go %1").arg(to_go_words(run));
     words += tr("<br>wall time %1").arg(duration_words(s.wall));
     words += tr("<br>broken joints %1, fragments %2").arg(s.broken_joints, 0, 'f', 0).arg(s.fragments, 0, 'f', 0);
     words += tr("<br>unaccounted energy %1 %").arg(100 * s.residual, 0, 'g', 2);
@@ -209,7 +241,6 @@ void RunPanel::show_checkpoints(const SolverRun& run) {
 
 void RunPanel::show_run(const SolverRun* run) {
   running_ = run != nullptr && run->alive();
-  pause_->setEnabled(running_);
   for (QPushButton* b : {pause_, stop_, checkpoint_}) b->setVisible(running_);
   stop_->setEnabled(running_ && run->state() != "stopping");
   checkpoint_->setEnabled(running_ && (run->state() == "running" || run->state() == "paused"));
@@ -217,8 +248,10 @@ void RunPanel::show_run(const SolverRun* run) {
   go_on_->setVisible(can_go_on);
   go_on_row_->setVisible(can_go_on);
   results_->setEnabled(run != nullptr && !run->frames().empty());
-  const bool paused = run != nullptr && run->state() == "paused";
-  pause_->setText(paused ? tr("&Resume") : tr("&Pause"));
+  const QString state = run != nullptr ? run->state() : QString();
+  const bool paused = state == "paused" || state == "resuming";
+  pause_->setEnabled(running_ && state != "pausing" && state != "resuming" && state != "stopping");
+  pause_->setText(paused ? tr("Resu&me") : tr("&Pause"));
   pause_->setAccessibleName(paused ? tr("Resume") : tr("Pause"));
   set_problems(problems_);
   if (run == nullptr) {

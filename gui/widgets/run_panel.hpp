@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QCheckBox>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPlainTextEdit>
@@ -8,6 +9,8 @@
 #include <QSpinBox>
 
 #include "core/solver_run.hpp"
+
+class QVBoxLayout;
 
 namespace breccia::gui {
 
@@ -19,6 +22,11 @@ class RunPanel final : public QWidget {
   explicit RunPanel(QWidget* parent = nullptr);
 
   [[nodiscard]] int ranks() const { return ranks_->value(); }
+  void set_ranks(int ranks) { ranks_->setValue(ranks); }
+  /// There are no more than cores, or the user has agreed to that.
+  [[nodiscard]] bool accepts_ranks() const;
+  /// Puts the cursor where one agrees to more ranks than cores.
+  void ask_for_agreement() { oversubscribe_->setFocus(Qt::OtherFocusReason); }
   /// @param go_on  that of the run in hand, should it go on from its checkpoint; empty: it cannot
   void set_command(const QStringList& command, const QStringList& go_on);
   void set_problems(int count);
@@ -40,10 +48,13 @@ class RunPanel final : public QWidget {
 
  private:
   [[nodiscard]] QWidget* command_row(QLineEdit* line, const QString& name, const QString& title);
+  void make_ranks(QVBoxLayout& column);
+  void make_buttons(QVBoxLayout& column);
   void set_state_words(const SolverRun& run);
   void show_checkpoints(const SolverRun& run);
 
   QSpinBox* ranks_;
+  QCheckBox* oversubscribe_;
   QPushButton *run_, *queue_, *pause_, *checkpoint_, *stop_, *go_on_, *check_, *results_;
   QLineEdit *command_, *go_on_command_;
   QWidget* go_on_row_ = nullptr;
@@ -58,6 +69,8 @@ class RunPanel final : public QWidget {
 [[nodiscard]] QString run_words(int problems);
 /// "3 min 20 s".
 [[nodiscard]] QString duration_words(double seconds);
+/// How long a run will go on: "3 min 20 s"; "-" for one that does not go on now.
+[[nodiscard]] QString to_go_words(const SolverRun& run);
 /// "12.3 us" with a prefix of the unit.
 [[nodiscard]] QString quantity_words(double value, const QString& unit);
 

@@ -43,16 +43,18 @@ void RunsPanel::show_runs(const std::vector<SolverRun*>& runs) {
                             run.state(),
                             QString::number(run.record().ranks),
                             tr("%1 %").arg(100 * s.share, 0, 'f', 0),
-                            run.alive() ? duration_words(s.eta) : QString("-"),
+                            to_go_words(run),
                             QString::number(s.broken_joints, 'f', 0),
                             run.record().folder};
     for (int c = 0; c < cells.size(); ++c) {
       if (item(row, c) == nullptr) setItem(row, c, new QTableWidgetItem);
       item(row, c)->setText(cells[c]);
+      item(row, c)->setToolTip(cells[c]);
     }
     item(row, 0)->setFlags(item(row, 0)->flags() | Qt::ItemIsUserCheckable);
     item(row, 0)->setCheckState(ticked.contains(run.record().folder) ? Qt::Checked : Qt::Unchecked);
   }
+  resizeColumnToContents(0);  // names of runs differ in their ends
   showing_ = false;
 }
 

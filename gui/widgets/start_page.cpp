@@ -134,6 +134,7 @@ StartPage::StartPage(const Places& places, QWidget* parent)
     if (i->listWidget() == recent_) emit case_chosen(i->data(Qt::UserRole).toString());
     if (i->listWidget() == runs_) emit run_chosen(i->data(Qt::UserRole).toString());
   };
+  for (QListWidget* w : {recent_, runs_}) w->setTextElideMode(Qt::ElideMiddle);  // names of runs differ in their ends
   for (QListWidget* w : {templates_, recent_, runs_}) connect(w, &QListWidget::itemActivated, this, enter);
 }
 
@@ -142,6 +143,7 @@ void StartPage::refresh(const std::vector<RunRecord>& runs) {
   for (const QString& file : recent_cases(places_)) {
     auto* item = new QListWidgetItem(file, recent_);
     item->setData(Qt::UserRole, file);
+    item->setToolTip(file);
   }
   runs_->clear();
   std::vector<Session> sessions;
@@ -154,6 +156,7 @@ void StartPage::refresh(const std::vector<RunRecord>& runs) {
                                          .arg(run.ranks),
                                      runs_);
     item->setData(Qt::UserRole, run.folder);
+    item->setToolTip(run.folder);
   }
 }
 

@@ -84,8 +84,8 @@ void StudyPanel::make_setup(QVBoxLayout& column) {
     values_[i]->setPlaceholderText(tr("e.g. 70 GPa; 75 GPa"));
     form->addRow(names[i], keys_[i]);
     form->addRow(tr("Values"), values_[i]);
-    connect(keys_[i], &QComboBox::editTextChanged, this, &StudyPanel::count_runs);
-    connect(values_[i], &QLineEdit::textChanged, this, &StudyPanel::count_runs);
+    connect(keys_[i], &QComboBox::editTextChanged, this, &StudyPanel::take_edit);
+    connect(values_[i], &QLineEdit::textChanged, this, &StudyPanel::take_edit);
   }
   start_ = named_button(tr("Add to the queue"), "study_start",
                         tr("Queue a run of the case, as it is now, for every combination of the values"));
@@ -149,6 +149,12 @@ std::vector<StudyParameter> StudyPanel::parameters() const {
     if (const QString key = keys_[i]->currentText().trimmed(); !key.isEmpty())
       list.push_back({key, study_values(values_[i]->text())});
   return list;
+}
+
+/// What was wrong with the study was wrong with what stood there before.
+void StudyPanel::take_edit() {
+  words_->clear();
+  count_runs();
 }
 
 void StudyPanel::count_runs() {

@@ -41,6 +41,7 @@ class StudyPanel final : public QWidget {
   void make_setup(QVBoxLayout& column);
   void make_results(QVBoxLayout& column);
   [[nodiscard]] std::vector<StudyParameter> parameters() const;
+  void take_edit();
   void count_runs();
   void fill_keys();
   void show_study(const QString& folder);

@@ -17,13 +17,17 @@ View3D::View3D(QWidget* parent)
     : QWidget(parent),
       canvas_(new QVTKOpenGLNativeWidget),
       colour_(new QComboBox),
+      joints_(new QComboBox),
       edges_(new QCheckBox(tr("&Edges"))),
       skin_(new QCheckBox(tr("So&lid"))),
       loads_(new QCheckBox(tr("Loads"))),
-      explode_(new QSlider(Qt::Horizontal)) {
+      explode_(new QSlider(Qt::Horizontal)),
+      look_(new QMenu(tr("&Look from"), this)) {
   window_->SetMultiSamples(0);
   canvas_->setRenderWindow(window_);
+  window_->SetNumberOfLayers(2);
   window_->AddRenderer(scene_.renderer());
+  window_->AddRenderer(scene_.axes_renderer());
   vtkNew<vtkInteractorStyleTrackballCamera> style;
   window_->GetInteractor()->SetInteractorStyle(style);
   canvas_->setObjectName("canvas");
@@ -43,6 +47,26 @@ View3D::View3D(QWidget* parent)
     render();
     emit colouring_changed(scene_.colouring());
   });
+  make_joints_box();
+  make_boxes();
+  make_look_menu();
+  fill_bar();
+}
+
+/// The colours of the damaged joints.
+void View3D::make_joints_box() {
+  joints_->addItem(tr("mode"), static_cast<int>(JointColouring::mode));
+  joints_->addItem(tr("time of failure"), static_cast<int>(JointColouring::time_of_failure));
+  joints_->setObjectName("joints_by");
+  joints_->setAccessibleName(tr("Joints by"));
+  joints_->setToolTip(tr("What the colours of damaged joints mean; those that hold have no time of failure: grey"));
+  connect(joints_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
+    scene_.set_joint_colouring(static_cast<JointColouring>(joints_->currentData().toInt()));
+    render();
+  });
+}
+
+void View3D::make_boxes() {
   edges_->setObjectName("edges");
   edges_->setAccessibleName(tr("Edges of elements"));
   edges_->setToolTip(tr("Draw the edges of the elements"));
@@ -78,6 +102,41 @@ View3D::View3D(QWidget* parent)
     scene_.set_explode(x / 50.0);
     render();
   });
+}
+
+void View3D::make_look_menu() {
+  const auto add = [this](const QString& text, const QString& keys, LookFrom where) {
+    QAction* action = look_->addAction(text);
+    action->setShortcut(QKeySequence(keys));
+    connect(action, &QAction::triggered, this, [this, where] {
+      scene_.look_from(where);
+      render();
+    });
+  };
+  add(tr("A &corner"), "Ctrl+0", LookFrom::corner);
+  add(tr("+x"), "Ctrl+1", LookFrom::plus_x);
+  add(tr("-x"), "Ctrl+2", LookFrom::minus_x);
+  add(tr("+y"), "Ctrl+3", LookFrom::plus_y);
+  add(tr("-y"), "Ctrl+4", LookFrom::minus_y);
+  add(tr("+z"), "Ctrl+5", LookFrom::plus_z);
+  add(tr("-z"), "Ctrl+6", LookFrom::minus_z);
+  look_->addSeparator();
+  QAction* axes = look_->addAction(tr("&Axes and scale"));
+  axes->setShortcut(QKeySequence("Ctrl+7"));
+  axes->setCheckable(true);
+  axes->setChecked(true);
+  connect(axes, &QAction::toggled, this, [this](bool on) {
+    scene_.show_axes(on);
+    render();
+  });
+}
+
+void View3D::fill_bar() {
+  auto* look = new QPushButton(tr("Look from"));
+  look->setObjectName("look_from");
+  look->setAccessibleName(tr("Look from"));
+  look->setToolTip(tr("Look along an axis (Ctrl+1 to Ctrl+6) or from a corner (Ctrl+0); axes and scale (Ctrl+7)"));
+  look->setMenu(look_);
   auto* fit = new QPushButton(tr("&Fit"));
   fit->setObjectName("fit");
   fit->setAccessibleName(tr("Fit the view"));
@@ -96,9 +155,12 @@ View3D::View3D(QWidget* parent)
   shown->addWidget(edges_);
   shown->addWidget(skin_);
   shown->addWidget(loads_);
+  seen_from->addWidget(new QLabel(tr("Joints by")));
+  seen_from->addWidget(joints_);
   seen_from->addWidget(new QLabel(tr("Explode")));
   seen_from->addWidget(explode_);
   seen_from->addStretch();
+  seen_from->addWidget(look);
   seen_from->addWidget(fit);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(2, 2, 2, 2);

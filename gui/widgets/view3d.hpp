@@ -6,6 +6,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QImage>
+#include <QMenu>
 #include <QSlider>
 
 #include "render/scene.hpp"
@@ -23,6 +24,8 @@ class View3D final : public QWidget {
   void clear(const QString& caption);
   [[nodiscard]] const QString& caption() const { return caption_; }
   void set_colouring(Colouring colouring);
+  /// From where the model is looked at, each with its key.
+  [[nodiscard]] QMenu* look_menu() { return look_; }
   /// Draws these faces in front of all others, with words for them; nullptr: none, and the caption of the frame.
   void mark(vtkPolyData* faces, const QString& words);
   /// Seen as glyphs where that is switched on.
@@ -49,12 +52,17 @@ class View3D final : public QWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  void make_look_menu();
+  void make_joints_box();
+  void make_boxes();
+  void fill_bar();
   Scene scene_;
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   QVTKOpenGLNativeWidget* canvas_;
-  QComboBox* colour_;
+  QComboBox *colour_, *joints_;
   QCheckBox *edges_, *skin_, *loads_;
   QSlider* explode_;
+  QMenu* look_;
   QString caption_;  ///< of the frame
   QPoint pressed_;
   bool will_render_ = false;

@@ -77,10 +77,12 @@ TEST(CaseOutline, AProblemBelongsToTheStageOfItsSection) {
   EXPECT_EQ(name("contact_points.field"), "Contacts");
 }
 
-TEST(CaseOutline, ANewEntryHasItsRequiredKeys) {
-  EXPECT_EQ(lines_of_new_entry("initial_velocity"), "group = \"projectile\"\n");
-  EXPECT_EQ(lines_of_new_entry("stage[3].constraint"), "group = \"support\"\n");
-  EXPECT_TRUE(lines_of_new_entry("material").contains("young = "));
+TEST(CaseOutline, AStepOfTheHistoryNamesWhatItIsAbout) {
+  const TomlPlaces places("[[joint]]\ngroup = \"glass\"\n[[stage]]\nend = 1\n");
+  EXPECT_EQ(words_of("joint[0].softening.c", places), "softening c of joint: glass");
+  EXPECT_EQ(words_of("joint[0]", places), "joint: glass");
+  EXPECT_EQ(words_of("stage[0].constraint", places), "constraint of stage");
+  EXPECT_EQ(words_of("mesh.raster.cell_size", places), "mesh raster cell size");
 }
 
 }  // namespace

@@ -103,6 +103,25 @@ TEST(Conditions, TellTheirLargestValueByAxisAndWhichAxesTheyHold) {
   EXPECT_NEAR(std::abs(rows[4].largest[0]), 2e6, 1e3);
 }
 
+/// A strain rate or a spin alone left the cell of the table empty.
+TEST(Conditions, TellEveryPartOfAnInitialVelocity) {
+  const QTemporaryDir scratch;
+  Document document(scratch.filePath("state"));
+  ASSERT_EQ(document.open(test::written_case(scratch, test::block_case(2, "10 us") + R"([[initial_velocity]]
+group = "block"
+strain_rate = ["3 1/s", 0, "-1 1/s"]
+[[initial_velocity]]
+group = "block"
+velocity = [0, "-3 m/s", 0]
+angular = [0, 0, "90 deg/s"]
+)")),
+            QString());
+  const std::vector<Condition> rows = conditions_of(document);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].value, "strain rate 3 1/s, 0, -1 1/s");
+  EXPECT_EQ(rows[1].value, "0, -3 m/s, 0; spin 0, 0, 90 deg/s");
+}
+
 TEST(Conditions, OfACaseThatIsRefusedAreNone) {
   const QTemporaryDir scratch;
   Document document(scratch.filePath("state"));

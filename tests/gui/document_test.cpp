@@ -9,6 +9,8 @@
 #include <QDirIterator>
 #include <QElapsedTimer>
 #include <QFile>
+#include <QJsonDocument>
+#include <QJsonObject>
 #include <QTemporaryDir>
 #include <random>
 
@@ -151,9 +153,11 @@ TEST(Document, EditsThatAreTwoSecondsOldSurviveAKill) {
     let_events_run(2000);
     ::kill(::getpid(), SIGKILL);
   }
-  ::waitpid(child, nullptr, 0);
+  siginfo_t about{};
+  ASSERT_EQ(::waitid(P_PID, static_cast<id_t>(child), &about, WEXITED | WNOWAIT), 0);
   const std::vector<Recovery> found = Document::recoveries(state);
-  ASSERT_EQ(found.size(), 1U);
+  ::waitpid(child, nullptr, 0);
+  ASSERT_EQ(found.size(), 1U) << "a process that has ended counts until its parent has heard of it";
   EXPECT_EQ(found[0].file, file);
   Document document(state);
   document.recover(found[0]);
@@ -163,6 +167,40 @@ TEST(Document, EditsThatAreTwoSecondsOldSurviveAKill) {
   EXPECT_EQ(document.text(), bytes_of(file));
   document.close();
   EXPECT_TRUE(Document::recoveries(state).empty());
+}
+
+TEST(Document, EditsOfAProcessWhoseNumberAnotherOneHasNowAreOffered) {
+  const QTemporaryDir scratch;
+  Document document(scratch.filePath("state"));
+  ASSERT_EQ(document.open(QString(BRECCIA_MESHES) + "/block_wall/case.toml"), "");
+  document.set_value("material[0].young", "\"31 GPa\"");
+  let_events_run(Document::kAutosaveDelay + 300);
+  EXPECT_TRUE(Document::recoveries(scratch.filePath("state")).empty()) << "this process lives";
+  const QDir state(scratch.filePath("state"));
+  const QStringList names = state.entryList({"unsaved-*"});
+  ASSERT_EQ(names.size(), 1);
+  QFile file(state.filePath(names[0]));
+  ASSERT_TRUE(file.open(QIODevice::ReadWrite));
+  QJsonObject json = QJsonDocument::fromJson(file.readAll()).object();
+  json["started"] = json["started"].toDouble() - 1;
+  file.resize(0);
+  file.seek(0);
+  file.write(QJsonDocument(json).toJson());
+  file.close();
+  EXPECT_EQ(Document::recoveries(scratch.filePath("state")).size(), 1U);
+}
+
+TEST(Document, AGroupThatTheMeshHasNotIsAProblemOnceTheMeshIsKnown) {
+  const QTemporaryDir scratch;
+  Document document(scratch.filePath("state"));
+  ASSERT_EQ(document.open(QString(BRECCIA_MESHES) + "/slit_plate/case_smoke.toml"), "");
+  const std::vector<std::string> surfaces{"plate.x0", "plate.slit"};
+  EXPECT_TRUE(document.problems(MeshGroups{{"plate"}, surfaces, 1}).empty());
+  document.set_value("stage[0].pressure[0].surface", "\"plate.slot\"");
+  EXPECT_TRUE(document.problems().empty());
+  const std::vector<Problem> found = document.problems(MeshGroups{{"plate"}, surfaces, 1});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].key, "stage[0].pressure[0].surface");
 }
 
 TEST(Document, EditsThatWereRecoveredStayInTheirSnapshotUntilTheyAreInAnother) {

@@ -137,7 +137,7 @@ TEST(Forms, AnEntryIsAddedAndRemoved) {
   auto* tree = desk.find<QTreeWidget>("stages");
   const QByteArray before = desk.window->document().text();
   tree->setCurrentItem(tree->topLevelItem(1)->child(0));
-  desk.window->document().add_entry("material", lines_of_new_entry("material"));
+  desk.window->document().add_entry("material", "group = \"other\"\n");
   EXPECT_EQ(tree->topLevelItem(1)->childCount(), 2);
   tree->setCurrentItem(tree->topLevelItem(1)->child(1));
   desk.click("remove_entry");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <QDir>
 #include <QFile>
 #include <QImage>
 #include <QTemporaryDir>
@@ -110,6 +111,29 @@ TEST(Film, ThePicturesOfAllFramesBecomeOneFile) {
   }
   EXPECT_EQ(film.error, QString());
   EXPECT_GT(QFile(film.scratch.filePath("film.mp4")).size(), 0);
+}
+
+/// Without ffmpeg there was no film at all.
+TEST(Film, PicturesAreKeptNumberedWhereAPictureIsAskedFor) {
+  Film film;
+  AnimationExport pictures({{"a", 1}, {"b", 2}}, film.scratch.filePath("fall.png"));
+  QString error = "it has not ended";
+  QObject::connect(&pictures, &AnimationExport::done, [&](const QString& why) { error = why; });
+  pictures.begin();
+  for (const double time : {1.0, 2.0}) pictures.take(time, film.picture);
+  EXPECT_EQ(error, QString());
+  EXPECT_EQ(QDir(film.scratch.path()).entryList({"*.png"}), (QStringList{"fall_000000.png", "fall_000001.png"}));
+  EXPECT_EQ(QImage(film.scratch.filePath("fall_000001.png")).size(), film.picture.size());
+}
+
+TEST(Film, OfPicturesThatCannotBeWrittenTellsTheirName) {
+  Film film;
+  AnimationExport pictures({{"a", 1}}, film.scratch.filePath("nowhere/fall.png"));
+  QString error;
+  QObject::connect(&pictures, &AnimationExport::done, [&](const QString& why) { error = why; });
+  pictures.begin();
+  pictures.take(1, film.picture);
+  EXPECT_TRUE(error.contains("nowhere/fall_000000.png")) << error.toStdString();
 }
 
 }  // namespace

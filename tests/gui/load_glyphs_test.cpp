@@ -7,6 +7,11 @@
 #include <vtkNew.h>
 #include <vtkPoints.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "render/vectors.hpp"
+
 namespace breccia::gui {
 namespace {
 
@@ -113,6 +118,127 @@ TEST(LoadGlyphs, OfRandomVelocitiesPointInManyDirections) {
   for (std::size_t i = 0; i < glyphs.places.size(); ++i) left += glyphs.places[i][1] < 0 ? 1 : 0;
   EXPECT_GT(left, 0);
   EXPECT_LT(left, glyphs.count());
+}
+
+/// The element of three corners on the axes and one in the origin, in a group of its own, as one body.
+vtkSmartPointer<vtkUnstructuredGrid> corner_of(double edge, int element, int body) {
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> points;
+  for (const std::array<double, 3>& x :
+       std::array<std::array<double, 3>, 4>{{{0, 0, 0}, {edge, 0, 0}, {0, edge, 0}, {0, 0, edge}}})
+    points->InsertNextPoint(x.data());
+  grid->SetPoints(points);
+  const std::array<vtkIdType, 4> corners{0, 1, 2, 3};
+  grid->InsertNextCell(10, 4, corners.data());
+  const std::array<std::pair<const char*, int>, 3> values{{{"id", element}, {"body", body}, {"material", 0}}};
+  for (const auto& [name, value] : values) {
+    vtkNew<vtkIntArray> array;
+    array->SetName(name);
+    array->InsertNextValue(value);
+    grid->GetCellData()->AddArray(array);
+  }
+  return grid;
+}
+
+/// What is drawn on the element of edge 4, whose centre is (1, 1, 1).
+LoadGlyphs drawn_on_corner(const Load& load) {
+  const auto element = corner_of(4, 0, 7);
+  return draw_load(*Skin(*element).draw(*element), element, {"corner"}, {}, load);
+}
+
+/// All arrows of a stretching used to point the same way, as if the body flew.
+TEST(LoadGlyphs, OfAStretchingPointAwayFromTheCentreOfTheBodyAndOfACompressionTowardsIt) {
+  const Vector centre{1, 1, 1};
+  for (const double rate : {2.0, -2.0}) {
+    const LoadGlyphs glyphs = drawn_on_corner({LoadShape::stretch, "corner", {rate, rate, rate}, {}, {}});
+    ASSERT_EQ(glyphs.count(), 4) << "one on each face";
+    // The head of an arrow ends in its tip: the one point of a radius of nought, next to the middle of its foot.
+    for (const Vector& end : glyphs.places) {
+      double furthest = 0;
+      for (vtkIdType i = 0; i < glyphs.mesh->GetNumberOfPoints(); ++i) {
+        Vector x{};
+        glyphs.mesh->GetPoint(i, x.data());
+        furthest = std::max(furthest, length(x - centre));
+      }
+      EXPECT_LE(length(end - centre), furthest + 1e-6);
+      EXPECT_GT(length(end - centre), 0.5) << "the end that is away from the model";
+    }
+    // Of the face across (1, 1, 1) the wide foot is at the face where it is stretched, else the head is.
+    const Vector out = unit({1, 1, 1});
+    double widest = 0, height = 0;
+    for (vtkIdType i = 0; i < glyphs.mesh->GetNumberOfPoints(); ++i) {
+      Vector x{};
+      glyphs.mesh->GetPoint(i, x.data());
+      const double along = dot(x, out);
+      if (along < dot({4.0 / 3, 4.0 / 3, 4.0 / 3}, out) - 0.1) continue;  // glyphs of other faces
+      const double radius = length(x - along * out);
+      if (radius <= widest) continue;
+      widest = radius;
+      height = along - dot({4.0 / 3, 4.0 / 3, 4.0 / 3}, out);
+    }
+    EXPECT_EQ(height<0.05, rate> 0) << height;
+  }
+}
+
+TEST(LoadGlyphs, OfAStretchingAlongOneAxisLieAlongItAndAreLongestAtItsEnds) {
+  const LoadGlyphs glyphs = drawn_on_corner({LoadShape::stretch, "corner", {3, 0, 0}, {}, {}});
+  ASSERT_EQ(glyphs.count(), 4);
+  const Vector kFaces[] = {
+      {4.0 / 3, 4.0 / 3, 4.0 / 3}, {0, 4.0 / 3, 4.0 / 3}, {4.0 / 3, 0, 4.0 / 3}, {4.0 / 3, 4.0 / 3, 0}};
+  for (const Vector& end : glyphs.places) {
+    double nearest = 10, shift = 0;
+    for (const Vector& face : kFaces) {
+      const Vector way = end - face;
+      if (std::hypot(way[1], way[2]) >= nearest) continue;
+      nearest = std::hypot(way[1], way[2]);
+      shift = way[0];
+    }
+    EXPECT_NEAR(nearest, 0, 1e-6) << "along x alone";
+    EXPECT_NE(shift, 0);
+  }
+}
+
+TEST(LoadGlyphs, OfASpinAreOneArcAroundEachBodyWhoseAxisGoesThroughItsCentre) {
+  const LoadGlyphs glyphs = drawn_on_corner({LoadShape::spin, "corner", {0, 0, -5}, {}, {}});
+  ASSERT_EQ(glyphs.count(), 1);
+  double reach = 0;
+  Vector middle{};
+  for (vtkIdType i = 0; i < glyphs.mesh->GetNumberOfPoints(); ++i) {
+    Vector x{};
+    glyphs.mesh->GetPoint(i, x.data());
+    reach = std::max(reach, std::hypot(x[0] - 1, x[1] - 1));
+    if (x[2] < middle[2]) middle = x;
+  }
+  EXPECT_GT(reach, std::hypot(1.0 / 3, 1.0 / 3)) << "around the faces";
+  EXPECT_NEAR(std::hypot(middle[0] - 1, middle[1] - 1), 0, 0.05) << "the axis sticks out below the centre";
+  for (const double rate : {5.0, -5.0}) {  // the last two points are the middle of the foot of its head, and its tip
+    const Vector turn{0, 0, rate};
+    const auto mesh = drawn_on_corner({LoadShape::spin, "corner", turn, {}, {}}).mesh;
+    Vector foot{}, tip{};
+    mesh->GetPoint(mesh->GetNumberOfPoints() - 2, foot.data());
+    mesh->GetPoint(mesh->GetNumberOfPoints() - 1, tip.data());
+    const Vector velocity = cross(turn, foot - Vector{1, 1, 1});
+    EXPECT_NEAR(dot(unit(velocity), unit(tip - foot)), 1, 1e-6) << "by the right hand";
+  }
+}
+
+TEST(LoadGlyphs, OfMotionsAboutCentresAreNoneWhereTheModelIsNotKnown) {
+  for (const LoadShape shape : {LoadShape::stretch, LoadShape::spin})
+    EXPECT_EQ(drawn({shape, "wall", {1, 0, 0}, {}, {}}).count(), 0);
+}
+
+TEST(LoadGlyphs, OfAnAbsorbingFaceAreThreeDiscsThatShrinkAwayFromIt) {
+  const LoadGlyphs waves = drawn({LoadShape::absorbing, "tool", {}, {}, {}});
+  const LoadGlyphs one = drawn({LoadShape::support, "tool", {}, {false, false, true}, {}});
+  ASSERT_EQ(waves.count(), 1);
+  EXPECT_EQ(waves.mesh->GetNumberOfCells(), 3 * one.mesh->GetNumberOfCells());
+  EXPECT_GT(box_of(waves)[4], 0) << "above the face";
+}
+
+/// Heads of arrows along one line lay over each other, as a chain of beads.
+TEST(LoadGlyphs, AreApartByAGoodPartOfTheirLength) {
+  EXPECT_EQ(drawn({LoadShape::pressure, "edge", {1, 0, 0}, {}, {}}, 5).count(), 2) << "long apart";
+  EXPECT_EQ(drawn({LoadShape::pressure, "edge", {1, 0, 0}, {}, {}}, 300).count(), 1) << "a hundredth of an arrow";
 }
 
 /// The slit of a plate lies between elements of one body, so that the skin does not have its faces.

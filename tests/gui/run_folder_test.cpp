@@ -145,5 +145,21 @@ TEST(RunFolder, FramesWhoseFileIsThereAreListed) {
   EXPECT_EQ(frames[0].time, 0.5);
 }
 
+TEST(RunFolder, TheNewestRunBesideACaseIsOfThatCaseAndHasWrittenSomething) {
+  const QTemporaryDir scratch;
+  const QString file = scratch.filePath("case.toml");
+  EXPECT_EQ(newest_run_beside(file), "");
+  const QStringList runs{"case-20261126-100000", "case-20261126-100000-2", "case-20261127-090000",
+                         "case-2-20261128-090000", "case-20261129-090000-study"};
+  for (const QString& name : runs) {
+    ASSERT_TRUE(QDir(scratch.path()).mkpath("runs/" + name));
+    QFile out(scratch.filePath("runs/" + name + "/provenance.json"));
+    if (name.startsWith("case-20261127")) continue;  // it was stopped before it wrote anything
+    ASSERT_TRUE(out.open(QIODevice::WriteOnly));
+    out.write(R"({"program": "breccia"})");
+  }
+  EXPECT_EQ(newest_run_beside(file), scratch.filePath("runs/case-20261126-100000-2"));
+}
+
 }  // namespace
 }  // namespace breccia::gui

@@ -51,6 +51,38 @@ TEST(SolverRun, ARunOnTwoRanksIsWatchedAndAStopLeavesNoProcess) {
   EXPECT_GT(run->history().rows(), 1);
 }
 
+TEST(SolverRun, APauseIsSeenAtOnceAndSoIsTheEndOfOne) {
+  const QTemporaryDir scratch;
+  const auto run = started(scratch, 1);
+  ASSERT_TRUE(wait_until([&] { return run->state() == "running"; }, 60000)) << run->failure().toStdString();
+  QStringList states;
+  QObject::connect(run.get(), &SolverRun::status_changed, [&] { states << run->state(); });
+  run->pause();
+  EXPECT_EQ(states, QStringList("pausing"));
+  ASSERT_TRUE(wait_until([&] { return run->state() == "paused"; }, 30000));
+  run->resume();
+  EXPECT_EQ(run->state(), "resuming");
+  EXPECT_TRUE(wait_until([&] { return run->state() == "running"; }, 30000));
+  run->stop();
+  EXPECT_TRUE(wait_until([&] { return !run->alive(); }, 30000));
+}
+
+TEST(SolverRun, TheEndOfARunIsToldOnceAndThatOfOneThatHadEndedBeforeIsNot) {
+  const QTemporaryDir scratch;
+  QString error;
+  const std::unique_ptr<SolverRun> run(
+      SolverRun::start(kLaunch, long_case(scratch, "50 us"), scratch.filePath("runs/one"), 1, &error, nullptr));
+  ASSERT_NE(run, nullptr) << error.toStdString();
+  int told = 0, told_again = 0;
+  QObject::connect(run.get(), &SolverRun::ended, [&] { ++told; });
+  ASSERT_TRUE(wait_until([&] { return told > 0; }, 60000));
+  SolverRun found(run->record());
+  QObject::connect(&found, &SolverRun::ended, [&] { ++told_again; });
+  wait_until([] { return false; }, 8 * SolverRun::kInterval);
+  EXPECT_EQ(told, 1);
+  EXPECT_EQ(told_again, 0) << "every start of the desktop announced old runs";
+}
+
 TEST(SolverRun, ARunThatIsStoppedBeforeItSaysAnythingIsStoppedAndHasNotFailed) {
   const QTemporaryDir scratch;
   QString error;

@@ -46,6 +46,7 @@ QImage drawing_of(View3D& view, bool z_is_up) {
   vtkActor2DCollection* all = renderer->GetActors2D();
   all->InitTraversal();
   while (vtkActor2D* words = all->GetNextActor2D()) words->VisibilityOff();
+  view.scene().show_axes(false);
   renderer->GradientBackgroundOff();
   renderer->SetBackground(1, 0, 1);
   const QSize whole = view.picture().size(), part = kPicture.scaled(whole, Qt::KeepAspectRatio);

@@ -1,11 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <QAbstractButton>
 #include <QAction>
 #include <QLabel>
 #include <QListWidget>
-#include <QMessageBox>
 
+#include "gui/answer.hpp"
 #include "gui/desk.hpp"
 #include "gui/full_disk.hpp"
 #include "gui/plain_user.hpp"
@@ -32,26 +31,6 @@ void block_state(const Desk& desk) {
   QFile file(state);
   ASSERT_TRUE(file.open(QIODevice::WriteOnly));
 }
-
-/// Clicks a button of every question that is asked.
-class Answer {
- public:
-  explicit Answer(QMessageBox::StandardButton button) {
-    QObject::connect(&timer_, &QTimer::timeout, [this, button] {
-      auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
-      if (box == nullptr) return;
-      words_ << box->text();
-      QAbstractButton* wanted = box->button(button);
-      (wanted != nullptr ? wanted : box->buttons().front())->click();
-    });
-    timer_.start(50);
-  }
-  [[nodiscard]] const QStringList& words() const { return words_; }
-
- private:
-  QTimer timer_;
-  QStringList words_;
-};
 
 void write(const QString& name, const QByteArray& text) {
   QFile file(name);
@@ -271,7 +250,7 @@ TEST(Trouble, AMeshThatCannotBeReadIsToldInTheViewAndIsDrawnOnceItCan) {
   write(desk.scratch.filePath("broken.geo"), "Box(1) = {;\n");
   desk.window->document().set_value("mesh.file", "\"broken.geo\"");
   ASSERT_TRUE(wait_until([&] { return view.caption().startsWith("no mesh:"); }, kSolver)) << "it is said to be meshed";
-  EXPECT_FALSE(messages(desk).filter("broken.geo").empty());
+  EXPECT_FALSE(messages(desk).filter("broken.geo").empty()) << messages(desk).join("\n").toStdString();
   ASSERT_TRUE(QFile::copy(QString(BRECCIA_MESHES) + "/block_wall/geometry.geo", desk.scratch.filePath("geometry.geo")));
   desk.window->document().set_value("mesh.file", "\"geometry.geo\"");
   EXPECT_TRUE(wait_until([&] { return view.scene().has_data(); }, kSolver));
@@ -338,19 +317,59 @@ TEST(Trouble, AnEntryWhoseFormIsShownCanBeUndoneAndANameThatNothingHasAnyMoreIsM
   ASSERT_TRUE(wait_until([&] { return messages(desk).empty(); }, kSolver)) << messages(desk).join("\n").toStdString();
 }
 
+/// Edits of a case that a session which was killed has left.
+void leave_edits(const Desk& desk, const QString& file, const QByteArray& edited) {
+  ASSERT_TRUE(QDir().mkpath(desk.scratch.filePath("state")));
+  write(desk.scratch.filePath("state/unsaved-0-1.json"),
+        "{\"file\": \"" + file.toUtf8() + "\", \"process\": 99999999, \"text\": \"" + edited.toBase64() + "\"}");
+}
+
 TEST(Trouble, EditsThatASessionLeftAreOfferedWhenTheirCaseIsOpened) {
   Desk desk;
   const QString file = written_case(desk.scratch, turning_case("50 us"));
-  ASSERT_TRUE(QDir().mkpath(desk.scratch.filePath("state")));
   const QByteArray edited = turning_case("70 us");
-  write(desk.scratch.filePath("state/unsaved-0-1.json"),
-        "{\"file\": \"" + file.toUtf8() + "\", \"process\": 99999999, \"text\": \"" + edited.toBase64() + "\"}");
+  leave_edits(desk, file, edited);
   const Answer yes(QMessageBox::Yes);
   desk.window->open_path(file);
   EXPECT_EQ(yes.words().filter("without saving").size(), 1);
+  EXPECT_EQ(yes.details(), QStringList("- end = \"50 us\"\n+ end = \"70 us\"")) << "what would come back";
   EXPECT_EQ(desk.window->document().text(), edited);
   EXPECT_TRUE(desk.window->document().modified());
   EXPECT_EQ(snapshots(desk).size(), 1) << "they are kept on";
+}
+
+TEST(Trouble, EditsThatASessionLeftAreKeptUntilTheyAreTakenUpOrDiscarded) {
+  Desk desk;
+  const QString file = written_case(desk.scratch, turning_case("50 us"));
+  leave_edits(desk, file, turning_case("70 us"));
+  {
+    const Answer escape(QMessageBox::NoButton);
+    desk.window->open_path(file);
+    EXPECT_EQ(escape.words().filter("without saving").size(), 1);
+    EXPECT_EQ(snapshots(desk).size(), 1) << "the key of Escape has thrown them away";
+    EXPECT_EQ(desk.window->document().text(), turning_case("50 us"));
+  }
+  const Answer discard(QMessageBox::Discard);
+  desk.window->open_path(file);
+  EXPECT_EQ(discard.words().filter("without saving").size(), 1) << "offered again";
+  EXPECT_TRUE(snapshots(desk).isEmpty());
+}
+
+TEST(Trouble, WhoSavesOverAnotherProgramsEditsCanTakeThoseInstead) {
+  Desk desk;
+  const QString file = written_case(desk.scratch, turning_case("100 us"));
+  desk.window->open_path(file);
+  Document& document = desk.window->document();
+  document.set_value("stage[0].end", "\"70 us\"");
+  write(file, turning_case("50 us"));
+  const Answer theirs(QMessageBox::Open);
+  QTest::keyClick(desk.window.get(), Qt::Key_S, Qt::ControlModifier);
+  EXPECT_EQ(theirs.words().filter("Another program has changed").size(), 1);
+  EXPECT_TRUE(theirs.details().join("").contains("- end = \"70 us\"\n+ end = \"50 us\""));
+  EXPECT_EQ(content(file), turning_case("50 us"));
+  EXPECT_EQ(document.text(), turning_case("50 us"));
+  document.undo_stack().undo();
+  EXPECT_EQ(document.value("stage[0].end"), "\"70 us\"") << "what was here before is lost";
 }
 
 }  // namespace

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace breccia::gui {
+
+/// A unit in which numbers of an axis have few digits.
+struct PrefixedUnit {
+  double size = 1;   ///< of it in the unit without prefix
+  std::string name;  ///< "MPa"
+};
+
+/// @param largest  of the numbers, in `unit`
+/// @param unit     of SI; one that takes no prefix, as "m2" or "kg", is returned as it is
+inline PrefixedUnit prefixed_unit(double largest, const std::string& unit) {
+  constexpr std::array kTakePrefixes{"Pa", "m", "s", "N", "J", "W", "m/s", "Pa/m", "N m"};
+  constexpr std::array<std::pair<double, const char*>, 7> kPrefixes{
+      {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "u"}, {1e-9, "n"}}};
+  constexpr double kRounding = 1 - 1e-9;
+  const double size = std::abs(largest);
+  if (!(size > 0) || std::find(kTakePrefixes.begin(), kTakePrefixes.end(), unit) == kTakePrefixes.end())
+    return {1, unit};
+  for (const auto& [factor, prefix] : kPrefixes) {
+    const bool is_used = factor <= 1 || unit != "s";  // nobody counts in kiloseconds
+    if (is_used && size >= kRounding * factor) return {factor, prefix + unit};
+  }
+  return {kPrefixes.back().first, kPrefixes.back().second + unit};
+}
+
+}  // namespace breccia::gui
