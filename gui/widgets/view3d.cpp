@@ -18,7 +18,7 @@ View3D::View3D(QWidget* parent)
       canvas_(new QVTKOpenGLNativeWidget),
       colour_(new QComboBox),
       joints_(new QComboBox),
-      edges_(new QCheckBox(tr("&Edges"))),
+      edges_(new QCheckBox(tr("Edges"))),
       skin_(new QCheckBox(tr("So&lid"))),
       loads_(new QCheckBox(tr("Loads"))),
       explode_(new QSlider(Qt::Horizontal)),
@@ -137,7 +137,7 @@ void View3D::fill_bar() {
   look->setAccessibleName(tr("Look from"));
   look->setToolTip(tr("Look along an axis (Ctrl+1 to Ctrl+6) or from a corner (Ctrl+0); axes and scale (Ctrl+7)"));
   look->setMenu(look_);
-  auto* fit = new QPushButton(tr("&Fit"));
+  auto* fit = new QPushButton(tr("Fit"));
   fit->setObjectName("fit");
   fit->setAccessibleName(tr("Fit the view"));
   fit->setToolTip(tr("Show everything"));
