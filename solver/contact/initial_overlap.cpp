@@ -203,7 +203,8 @@ void relax_initial_overlaps(const ContactParams& params, const LocalMesh& local,
     const Vec3 corner = load_node(position.data(), face[0]);
     const Vec3 outward =
         (load_node(position.data(), face[1]) - corner).cross(load_node(position.data(), face[2]) - corner);
-    const double overlap = overlap_value(shape, lambda, rows_for(params.field, shape, tetra, outward));
+    const double overlap = overlap_value(
+        shape, lambda, rows_for(params.field == OverlapField::body && stays_whole(local, slot), shape, tetra, outward));
     if (overlap > 0) contact.touching.push_back({.point = point, .contactor = couple.contactor, .offset = overlap});
   }
 }

@@ -95,7 +95,7 @@ Vec3 Pass::outward_of(const ContactPoint& point, double dt) const {
 
 Candidate Pass::candidate_of(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda) const {
   const OverlapShape& shape = shape_of(contactor);
-  const OverlapRows rows = shape.rows > 1 ? rows_for(outward_of(point), shape, prepared(contactor)) : kAllRows;
+  const OverlapRows rows = rows_for(has_sides(contactor), shape, prepared(contactor), outward_of(point));
   Candidate candidate{contactor, lambda, rows, 0, 0};
   candidate.g = candidate.g_before = overlap_value(shape, lambda, rows);
   if (contact_.ramp_of_contactor[static_cast<std::size_t>(contactor)] >= 0)
@@ -172,7 +172,7 @@ Pass::Before Pass::one_step_ago(const ContactPoint& point, Index contactor) cons
   const PreparedTetra tetra = prepare(corners, local_.volume[static_cast<std::size_t>(slot)]);
   const OverlapShape& shape = shape_of(contactor, Instant::step_before);
   return {tetra, barycentric(tetra, at_point(rule_, point, x) - dt_ * at_point(rule_, point, v)),
-          inert(tetra) ? kAllRows : rows_for(outward_of(point, dt_), shape, tetra)};
+          inert(tetra) ? kAllRows : rows_for(has_sides(contactor), shape, tetra, outward_of(point, dt_))};
 }
 
 /// The overlap is the least of several functions, and of other ones in the next element: where the point has passed

@@ -41,7 +41,7 @@ void Pass::bridge_gaps(Index point) {
 }
 
 bool Pass::lies_under_facing_side(const ContactPoint& point, const Beside& here) const {
-  if (params_.field != OverlapField::body) return false;
+  if (!has_sides(here.couple->contactor)) return false;
   const OverlapShape& shape = shape_of(here.couple->contactor);
   const OverlapRows rows = rows_facing(shape, prepared(here.couple->contactor), outward_of(point));
   return rows != 0 && overlap_value(shape, here.lambda, rows) > 0;
@@ -161,13 +161,15 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   }
   // A contactor that was crushed while it was touched gives nothing back.
   if (crushed) return account(point, work_.dissipated).add(normal_held(point, old));
-  // A point that has not left through the side that it pressed on: over an edge, or a crack has opened under it. What
-  // the couple held is gone, but for the work of its force over half of the way out.
   const OverlapShape& shape = shape_of(old.contactor);
-  const double overlap = overlap_value(shape, lambda, rows_for(outward_of(point), shape, tetra));
+  const double overlap =
+      overlap_value(shape, lambda, rows_for(has_sides(old.contactor), shape, tetra, outward_of(point)));
   if (overlap > 0) {
-    const double held_still = normal_held(point, old) - 0.5 * (old.force - old.friction).dot(motion);
-    return account(point, work_.dissipated).add(std::max(held_still, 0.0));
+    // A point that has not left through the side that it pressed on: over an edge, or a crack has opened under it. What
+    // the couple held is gone, but for the work of its force over half of the way out.
+    const double gone = std::max(normal_held(point, old) - 0.5 * (old.force - old.friction).dot(motion), 0.0);
+    account(point, work_.dissipated).add(gone);
+    lost += gone;
   }
   TouchingCouple ended{
       .point = old.point, .contactor = old.contactor, .delayed = old.delayed, .gained_before = old.gained_before};

@@ -168,9 +168,10 @@ class Pass {
   }
   /// The overlap functions of a contactor; valid until the next call.
   [[nodiscard]] const OverlapShape& shape_of(Index contactor, Instant instant = Instant::now) const;
-  /// Which of them count for a point on a face (overlap.hpp).
-  [[nodiscard]] OverlapRows rows_for(const Vec3& outward, const OverlapShape& shape, const PreparedTetra& tetra) const {
-    return breccia::rows_for(params_.field, shape, tetra, outward);
+  /// Whether its sides are told apart (rows_for in overlap.hpp).
+  [[nodiscard]] bool has_sides(Index contactor) const {
+    return params_.field == OverlapField::body && stays_whole(local_, slot_of(contactor)) &&
+           contact_.ramp_of_contactor[static_cast<std::size_t>(contactor)] < 0;
   }
   /// Normal of a point's face, outwards, not of length 1. @param dt  s, by which the nodes are taken back
   [[nodiscard]] Vec3 outward_of(const ContactPoint& point, double dt = 0) const;

@@ -123,12 +123,18 @@ inline constexpr double kOpposed = 0.1;
   return facing;
 }
 
-/// Which functions count for a point on a face: those whose side looks towards it, through which the point enters the
-/// body, also just beside an edge, where another side is nearer; all where there is none, or where the overlap is not
-/// that of a body. @param outward  as above
-[[nodiscard]] inline OverlapRows rows_for(OverlapField field, const OverlapShape& shape, const PreparedTetra& tetra,
+/// Whether the surface of an element's body stays as it was meshed: an ordinary finite element, of shared nodes.
+[[nodiscard]] inline bool stays_whole(const LocalMesh& local, Index slot) {
+  return local.node_id[static_cast<std::size_t>(local.corner_node(slot, 0))] >= kFirstSharedNode;
+}
+
+/// Which functions count for a point on a face: in a body that stays whole those whose side looks towards it, through
+/// which the point enters, also just beside an edge, where another side is nearer; all where there is none. In debris,
+/// whose surface changes and turns, all do.
+/// @param whole  stays_whole, and no set of corners is coming to count;  @param outward  as above
+[[nodiscard]] inline OverlapRows rows_for(bool whole, const OverlapShape& shape, const PreparedTetra& tetra,
                                           const Vec3& outward) {
-  if (field != OverlapField::body || shape.rows < 2) return kAllRows;
+  if (!whole || shape.rows < 2) return kAllRows;
   const OverlapRows facing = rows_facing(shape, tetra, outward);
   return facing != 0 ? facing : kAllRows;
 }
