@@ -164,11 +164,14 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   const OverlapShape& shape = shape_of(old.contactor);
   const double overlap =
       overlap_value(shape, lambda, rows_for(has_sides(old.contactor), shape, tetra, outward_of(point)));
+  // A point that has not left through the side that it pressed on. A crack has opened under it: what the couple held is
+  // gone. Over an edge: but for the work of its force over half of the way out.
   if (overlap > 0) {
-    // A point that has not left through the side that it pressed on: over an edge, or a crack has opened under it. What
-    // the couple held is gone, but for the work of its force over half of the way out.
-    const double gone = std::max(normal_held(point, old) - 0.5 * (old.force - old.friction).dot(motion), 0.0);
+    const bool over_edge = has_sides(old.contactor);
+    const double work = over_edge ? 0.5 * (old.force - old.friction).dot(motion) : 0.0;
+    const double gone = std::max(normal_held(point, old) - work, 0.0);
     account(point, work_.dissipated).add(gone);
+    if (!over_edge) return;
     lost += gone;
   }
   TouchingCouple ended{
