@@ -196,6 +196,7 @@ Division divide_model(const case_::Case& input, const Model& model, int parts) {
   const std::vector<Vec3> places = places_of_fragments(centroids, neighbours, share, reach.distance());
   const std::vector<int> owner = assign_domains(alone, spec, parts, places, weight, edge);
   std::vector<Index> sets;
+  sets.reserve(model.discretisation.size());
   for (Index group = 0; group < static_cast<Index>(model.discretisation.size()); ++group)
     sets.push_back(node_set(model.discretisation, model.whole.node_sets, group));
   return {spec.kind == DomainKind::rcb ? "rcb" : fmt::format("grid of {} x {} x {}", spec.n[0], spec.n[1], spec.n[2]),
