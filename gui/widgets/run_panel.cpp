@@ -127,7 +127,10 @@ void RunPanel::make_ranks(QVBoxLayout& column) {
   ranks_->setValue(cores);
   ranks_->setObjectName("ranks");
   ranks_->setAccessibleName(tr("Ranks"));
-  ranks_->setToolTip(tr("Processes that share the model; this machine has %1 cores").arg(cores));
+  ranks_->setToolTip(
+      tr("Processes that share the model; this machine has %1 cores, at most %2 ranks are started on each")
+          .arg(cores)
+          .arg(kMostOnACore));
   warning_->setText(tr("⚠ more ranks than the %1 cores of this machine: they will be in each other's way").arg(cores));
   warning_->setWordWrap(true);
   oversubscribe_->setObjectName("oversubscribe");

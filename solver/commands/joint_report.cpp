@@ -50,7 +50,7 @@ double area_per_volume(const Model& model, std::size_t groups) {
 struct Sides {
   Index softer = -1;           ///< group of the smaller Young's modulus; -1: there are no such joints
   double softer_young = 0;     ///< Pa, its modulus
-  double interface_young = 0;  ///< Pa, 2 / (1/E_a + 1/E_b): what a crack between both releases energy by
+  double interface_young = 0;  ///< Pa, 2 / (1/E_a + 1/E_b): of a crack along the interface
 };
 Sides sides_of(const Model& model, std::size_t groups) {
   for (const ModelJoint& joint : model.joints) {

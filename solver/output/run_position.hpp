@@ -32,7 +32,8 @@ struct RunPosition {
   double wall = 0;                                             ///< s, that the run has taken so far
   std::array<double, 4> histories{}, frames{}, checkpoints{};  ///< Schedule::numbers
   std::int64_t frame_number = 0;                               ///< of the next one
-  std::int64_t fragments = 0, broken_joints = 0;               ///< as last counted; now
+  std::int64_t fragments = 0;                                  ///< as last counted
+  std::int64_t broken_joints = 0;                              ///< when the position was taken
   std::array<double, kEnergyTerms.size() + 1> energy{};        ///< J, last sample, then the relative residual
   std::int64_t worst_element = -1;                             ///< of that sample
   double start_time = 0;                                       ///< s, of the state that the run started from

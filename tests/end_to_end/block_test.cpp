@@ -55,6 +55,7 @@ gauges = ["upper"]
   const std::string command = "run " + file + " -f --progress none -o '" + folder + "'";
   const Outcome outcome = ranks == 1 ? call(command) : call_ranks(ranks, command);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(energy_fault(folder + "/history.csv"), "");
   double furthest = 0;
   for (const double motion : history_column(folder + "/history.csv", "upper max displacement x [m]"))
     furthest = std::max(furthest, std::abs(motion));

@@ -84,18 +84,9 @@ const OverlapShape& Pass::shape_of(Index contactor, Instant instant) const {
   return shape_;
 }
 
-Vec3 Pass::outward_of(const ContactPoint& point, double dt) const {
-  std::array<Vec3, 3> corner;
-  for (std::size_t i = 0; i < 3; ++i) {
-    corner[i] = load_node(state_.position.data(), point.nodes[i]);
-    if (dt > 0) corner[i] -= dt * load_node(state_.velocity.data(), point.nodes[i]);
-  }
-  return (corner[1] - corner[0]).cross(corner[2] - corner[0]);
-}
-
 Candidate Pass::candidate_of(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda) const {
   const OverlapShape& shape = shape_of(contactor);
-  const OverlapRows rows = rows_for(has_sides(contactor), shape, prepared(contactor), outward_of(point));
+  const OverlapRows rows = rows_of(point, contactor, shape, prepared(contactor));
   Candidate candidate{contactor, lambda, rows, 0, 0};
   candidate.g = candidate.g_before = overlap_value(shape, lambda, rows);
   if (contact_.ramp_of_contactor[static_cast<std::size_t>(contactor)] >= 0)
@@ -172,7 +163,7 @@ Pass::Before Pass::one_step_ago(const ContactPoint& point, Index contactor) cons
   const PreparedTetra tetra = prepare(corners, local_.volume[static_cast<std::size_t>(slot)]);
   const OverlapShape& shape = shape_of(contactor, Instant::step_before);
   return {tetra, barycentric(tetra, at_point(rule_, point, x) - dt_ * at_point(rule_, point, v)),
-          inert(tetra) ? kAllRows : rows_for(has_sides(contactor), shape, tetra, outward_of(point, dt_))};
+          inert(tetra) ? kAllRows : rows_of(point, contactor, shape, tetra, dt_)};
 }
 
 /// The overlap is the least of several functions, and of other ones in the next element: where the point has passed
@@ -185,8 +176,8 @@ Pass::Before Pass::one_step_ago(const ContactPoint& point, Index contactor) cons
 void Pass::keep_step(const ContactPoint& point, double length, TouchingCouple& h, Candidate& candidate) const {
   const Vec3 motion = relative_motion(point, slot_of(candidate.contactor), candidate.lambda);
   if (motion == Vec3::Zero()) {
-    if (h.contactor != candidate.contactor)
-      h.offset = candidate.g_before - h.d * length;  // as by an edge: the same force
+    // A neighbour that has taken the point over beside an edge goes on with the same force.
+    if (h.contactor != candidate.contactor) h.offset = candidate.g_before - h.d * length;
     return;
   }
   const Vec3 gradient = gradient_before(candidate);

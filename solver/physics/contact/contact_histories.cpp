@@ -162,10 +162,9 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   // A contactor that was crushed while it was touched gives nothing back.
   if (crushed) return account(point, work_.dissipated).add(normal_held(point, old));
   const OverlapShape& shape = shape_of(old.contactor);
-  const double overlap =
-      overlap_value(shape, lambda, rows_for(has_sides(old.contactor), shape, tetra, outward_of(point)));
-  // A point that has not left through the side that it pressed on. A crack has opened under it: what the couple held is
-  // gone. Over an edge: but for the work of its force over half of the way out.
+  const double overlap = overlap_value(shape, lambda, rows_of(point, old.contactor, shape, tetra));
+  // The point has not left through the side that it pressed on. Where a crack has opened under it, what the couple held
+  // is gone; where it has left over an edge, all but the work of its force over half of the last step.
   if (overlap > 0) {
     const bool over_edge = has_sides(old.contactor);
     const double work = over_edge ? 0.5 * (old.force - old.friction).dot(motion) : 0.0;

@@ -46,4 +46,12 @@ void append_points(const FaceRule& rule, const LocalMesh& local, Index slot, int
          shape[2] * load_node(field, point.nodes[2]);
 }
 
+/// Normal of a point's face, outwards, twice as long as the face is large.
+/// @param place  of a node, m
+template <class Place>
+[[nodiscard]] Vec3 outward_normal(const ContactPoint& point, Place&& place) {
+  const Vec3 corner = place(point.nodes[0]);
+  return (place(point.nodes[1]) - corner).cross(place(point.nodes[2]) - corner);
+}
+
 }  // namespace breccia

@@ -80,27 +80,29 @@ TEST(CheckReport, advises_on_elements_from_a_third_of_the_process_zone_on) {
     return report_of(kCubes, {"joint[0].energy_mode_1=" + std::to_string(100 * ratio / wanted) + " J/m2"});
   };
   EXPECT_THAT(at_ratio(1.2), AllOf(HasSubstr("are larger than its fracture process zone"), HasSubstr("crack paths")));
+  EXPECT_THAT(at_ratio(1.05), HasSubstr("are as large as its fracture process zone"));
   EXPECT_THAT(at_ratio(0.4), AllOf(HasSubstr("are 0.4 of its fracture process zone"), HasSubstr("branching")));
   EXPECT_THAT(at_ratio(0.3), Not(HasSubstr("of its fracture process zone (")));
 }
 
-/// Two boxes of one cell, glued at x = 10 mm. @param upper  joints inside of the second
-std::string glued_report(const case_::CaseFolder& folder, const std::string& upper, double energy) {
+/// Two boxes of one cell, glued at x = 10 mm. @param upper  joints inside of the second;  @param young  of both, GPa
+std::string glued_report(const case_::CaseFolder& folder, const std::string& upper, double energy,
+                         const std::array<double, 2>& young = {40, 40}) {
   folder.write(
       "two.geo",
       "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 0.01, 0.01, 0.01};\n"
       "Box(2) = {0.01, 0, 0, 0.01, 0.01, 0.01};\nCoherence;\nMeshSize{:} = 0.01;\nPhysical Volume(\"lower\") = {1};\n"
       "Physical Volume(\"upper\") = {2};\n");
-  const auto material = [](const std::string& group, const std::string& joints) {
-    return "[[material]]\ngroup = \"" + group + "\"\nyoung = \"40 GPa\"\npoisson = 0.2\ndensity = 2400\njoints = \"" +
-           joints + "\"\n";
+  const auto material = [](const std::string& group, const std::string& joints, double modulus) {
+    return "[[material]]\ngroup = \"" + group + "\"\nyoung = \"" + std::to_string(modulus) +
+           " GPa\"\npoisson = 0.2\ndensity = 2400\njoints = \"" + joints + "\"\n";
   };
   const auto joint = [&](const std::string& of) {
     return "[[joint]]\n" + of +
            "\npenalty_factor = 10\ntensile_strength = \"5 MPa\"\nenergy_mode_1 = " + std::to_string(energy) + "\n";
   };
-  std::string text = "[mesh]\nfile = \"two.geo\"\nglue = true\n" + material("lower", "none") +
-                     material("upper", upper) + joint("between = [\"lower\", \"upper\"]");
+  std::string text = "[mesh]\nfile = \"two.geo\"\nglue = true\n" + material("lower", "none", young[0]) +
+                     material("upper", upper, young[1]) + joint("between = [\"lower\", \"upper\"]");
   if (upper == "breakable") text += joint("group = \"upper\"");
   const case_::Case input = case_::read_case(folder.write("case.toml", text + "[[stage]]\nend = \"1 us\"\n"));
   return check_report(input, build_model(input));
@@ -119,6 +121,21 @@ TEST(CheckReport, speaks_of_load_and_speed_but_of_no_path_where_joints_lie_on_a_
   }
 }
 
+TEST(CheckReport, measures_an_interface_by_its_softer_side_and_its_process_zone_by_both) {
+  const case_::CaseFolder folder;
+  constexpr double kEnergy = 1e5;  // J/m2: beside it what the rise to the strength takes, a few J/m2, is nothing
+  const auto numbers = [&](const std::array<double, 2>& young) {
+    const std::string report = glued_report(folder, "none", kEnergy, young);
+    return std::array{number_after(report, "they make the body "), number_after(report, "process zone at least ")};
+  };
+  const auto softer_below = numbers({4, 40}), softer_above = numbers({40, 4}), alike = numbers({40, 40});
+  EXPECT_EQ(softer_below, softer_above) << "whichever comes first";
+  // k goes with the smaller modulus, the softness with that modulus over k; 2 / (1/4 + 1/40) over 40 is 2/11.
+  constexpr double kFourDigits = 1e-3;  // as many as are told; of the softness two, the same
+  EXPECT_EQ(softer_below[0], alike[0]);
+  EXPECT_NEAR(softer_below[1] / alike[1] / (2.0 / 11), 1.0, kFourDigits);
+}
+
 TEST(CheckReport, advises_no_refinement_or_step_beyond_what_can_be_computed) {
   // As a core that is made soft for an excavation.
   const std::string report =
@@ -127,7 +144,7 @@ TEST(CheckReport, advises_no_refinement_or_step_beyond_what_can_be_computed) {
   EXPECT_THAT(report, AllOf(Not(HasSubstr("Refine by")), Not(HasSubstr("soften within"))));
 }
 
-TEST(CheckReport, tells_that_the_finest_part_alone_of_a_graded_mesh_is_fine_enough) {
+TEST(CheckReport, tells_that_the_finest_part_alone_of_a_graded_mesh_is_fine_enough_and_how_soft_joints_make_it) {
   const case_::CaseFolder folder;
   folder.write("graded.geo",
                "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 0.08, 0.02, 0.02};\nMeshSize{:} = 0.02;\n"
@@ -142,6 +159,10 @@ TEST(CheckReport, tells_that_the_finest_part_alone_of_a_graded_mesh_is_fine_enou
   const std::string report = graded("100 J/m2");
   const double zone = number_after(report, "process zone at least ") / 100,
                fine = number_after(report, "a tenth below ");
+  const double softness = number_after(report, "they make the body "), edge = number_after(report, "mean joint edge ");
+  constexpr double kTwoDigits = 0.05;  // as many as are told
+  EXPECT_NEAR(number_after(report, " % softer, ") / (softness * edge / fine), 1.0, kTwoDigits);
+  EXPECT_THAT(report, HasSubstr("where it is meshed finest"));
   EXPECT_THAT(graded(std::to_string(3.1 * fine / zone) + " J/m2"), HasSubstr("trust fracture in that part alone"));
   EXPECT_THAT(graded(std::to_string(2.5 * fine / zone) + " J/m2"), HasSubstr("in the finest tenth 0.4"));
 }
