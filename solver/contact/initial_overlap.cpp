@@ -199,10 +199,10 @@ void relax_initial_overlaps(const ContactParams& params, const LocalMesh& local,
     const auto lambda = barycentric(tetra, points[at(couple.point)]);
     if (!inside(lambda)) continue;
     const OverlapShape shape = overlap_shape(params, local, contact, couple.contactor);
-    const bool has_sides = params.field == OverlapField::body && stays_whole(local, slot);
     const Vec3 outward =
         outward_normal(contact.points[at(point)], [&](Index node) { return load_node(position.data(), node); });
-    const double overlap = overlap_value(shape, lambda, has_sides ? rows_for(shape, tetra, outward) : kAllRows);
+    const double overlap = overlap_value(
+        shape, lambda, has_sides(params, contact, couple.contactor) ? rows_for(shape, tetra, outward) : kAllRows);
     if (overlap > 0) contact.touching.push_back({.point = point, .contactor = couple.contactor, .offset = overlap});
   }
 }

@@ -219,6 +219,15 @@ double Partition::step_length(double steps) const {
   return global_step_length(communicator_, *time_step_, step_state(), steps);
 }
 
+double Partition::step_length(const case_::Stage& stage, double steps) const {
+  const auto lap = domain_->timer.measure(Phase::stable_step);
+  const StageLoads loads = stage_loads(stage, *model_);
+  StepState state = step_state();
+  state.constraints = &loads.constraints;
+  state.local_damping = loads.local_damping;
+  return global_step_length(communicator_, *time_step_, state, steps);
+}
+
 void Partition::keep_up() {
   if (communicator_.size() == 1) return;
   const bool due = left_reach(), pays = balancing_pays();

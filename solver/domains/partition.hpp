@@ -68,6 +68,8 @@ class Partition {
   [[nodiscard]] StableStep stable_step(double steps) const;
   /// Its length alone, s, in less time. Collective.
   [[nodiscard]] double step_length(double steps) const;
+  /// The same under the constraints of another stage.
+  [[nodiscard]] double step_length(const case_::Stage& stage, double steps) const;
 
  private:
   void start_alone();

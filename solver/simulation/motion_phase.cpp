@@ -242,22 +242,33 @@ void absorb(const SweepArgs& args, Domain& domain) {
   state.absorbing.apply(state.nodes, state.clock.dt_before, state.clock.dt, args.damping_before, args.damping_after);
 }
 
-void constrain(const SweepArgs& args, Domain& domain) {
+/// @return  m/s, the largest speed of a held node as the sweep left it, without what holds it; 0: none
+double constrain(const SweepArgs& args, Domain& domain) {
   State& state = domain.state;
-  if (state.constraints.empty()) return;
+  if (state.constraints.empty()) return 0;
   const auto lap = domain.timer.measure(Phase::loads);
-  const bool damped = args.damping_after != nullptr;
-  if (damped) keep_held(domain, domain.scratch.held_free);
+  keep_held(domain, domain.scratch.held_free);
   state.constraints.apply(state.nodes, state.clock.time, state.clock.dt_before, state.clock.dt);
-  if (damped) account_held_damping(args, domain);
+  if (args.damping_after != nullptr) account_held_damping(args, domain);
   double& max_speed = state.signals.max_speed;
   for (const NodalConstraint& entry : state.loads.constraints) {
-    if (holds_still(entry)) continue;  // slower than the sweep left them
+    if (holds_still(entry)) continue;
     for (const Index node : entry.nodes) {
       if (domain.model.local.counted[at(node)] == 0) continue;
       max_speed = std::max(max_speed, load_node(state.nodes.velocity.data(), node).norm());
     }
   }
+  double fastest = 0;
+  for (const Vec3& free : domain.scratch.held_free) fastest = std::max(fastest, free.norm());
+  return fastest;
+}
+
+/// The sweep's largest speed is that of nodes as if nothing held them: counted anew where it may be that of a held one,
+/// which loads or contact would throw off.
+void correct_max_speed(double held, Domain& domain) {
+  constexpr double kRoundOff = 1e-12;
+  double& max_speed = domain.state.signals.max_speed;
+  if (held > 0 && held >= (1 - kRoundOff) * max_speed) max_speed = fastest_node(domain).speed;
 }
 
 /// Padding stays where it is; work of the halves after t_n with the velocities as constraints left them.
@@ -279,20 +290,22 @@ void move_nodes(bool sample, Domain& domain) {
   if (args.damping_after != nullptr) keep_held(domain, domain.scratch.held_before);
   domain.state.absorbing.begin(domain.state.nodes.velocity);
   domain.state.signals.max_speed = 0;
+  double held = 0;
   if (domain.exchange.alone()) {
     sweep_all(args, domain);
     absorb(args, domain);
-    constrain(args, domain);
+    held = constrain(args, domain);
   } else {
     sweep_ahead(args, domain);
     absorb(args, domain);
-    constrain(args, domain);
+    held = constrain(args, domain);
     stand_still_if_failed(domain);
     send_proxies(domain);
     sweep_rest(args, domain);
     stand_still_if_failed(domain);
   }
   finish_motion(args, domain);
+  correct_max_speed(held, domain);
   note_motion(domain);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
@@ -115,10 +116,25 @@ void StageSteps::look() {
   if (partition_.state().signals.released)
     looks_.until = std::min(looks_.until, std::max(kTaken, kSoonest - looks_.since));
   ++looks_.since;
-  if (--looks_.until != 0 || input_.time.step > 0) return;
+  const bool due = --looks_.until == 0;
+  if (input_.time.step > 0) return;
+  if (due) adjust();
+  if (at_last()) prepare_next();
+}
+
+void StageSteps::adjust() {
   const double most = allowed(), now = partition_.state().clock.dt;
   // By more than 1 % down or 20 % up: a length that is kept leaves the limit a margin, and fits the end of the stage.
   if (most < 0.99 * now || length(most) > 1.2 * now) partition_.domain().state.clock.dt = length(most);
+}
+
+void StageSteps::prepare_next() {
+  const auto stage =
+      std::find_if(input_.stages.begin(), input_.stages.end(), [&](const case_::Stage& s) { return &s == &stage_; });
+  if (stage == input_.stages.end() || std::next(stage) == input_.stages.end()) return;
+  Clock& clock = partition_.domain().state.clock;
+  const double stable = input_.time.safety * partition_.step_length(*std::next(stage), steps_to_look());
+  if (stable < clock.dt) clock.dt = length(stable);
 }
 
 }  // namespace breccia

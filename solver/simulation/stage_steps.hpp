@@ -22,8 +22,10 @@ struct StepLooks {
 /// long as is stable; every hundred steps the stable step is looked at again, since it shrinks when elements are
 /// crushed, and after ten where a joint has been released: its faces may meet others from then on. From one look to the
 /// next, and into a stage, a step grows by half at most (domains/motion_limit.hpp), and after ten steps again. A stable
-/// step that has fallen far below that of the model at rest is told at every tenth part, and refused in the end. A step
-/// that the case gives (time.step) is not looked at.
+/// step that has fallen far below that of the model at rest is told at every tenth part, and refused in the end. The
+/// last step of a stage is divided into steps that are stable in the next one as well: what is let go there was held
+/// against forces that act on it at once, over half of this step too. A step that the case gives (time.step) is not
+/// looked at.
 class StageSteps {
  public:
   /// Begins the stage. Collective. Throws InputError where it would take more steps than can be counted.
@@ -58,6 +60,10 @@ class StageSteps {
   void demand_countable() const;
   /// The length that is allowed now, s, and when it is to be looked at again. Collective.
   [[nodiscard]] double allowed();
+  /// At a look. Collective. Throws SimulationError as look().
+  void adjust();
+  /// Where one step is left of the stage: divides it, if the next stage has a shorter one. Collective.
+  void prepare_next();
   /// Stable steps to the next look.
   [[nodiscard]] double steps_to_look() const;
   /// Notes a warning, or throws. Collective. @param stable  step, s

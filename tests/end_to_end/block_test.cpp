@@ -10,13 +10,24 @@
 namespace breccia::test {
 namespace {
 
-std::string material(const std::string& group) {
-  return "[[material]]\ngroup = \"" + group + "\"\nyoung = \"2 GPa\"\npoisson = 0\ndensity = 2000\njoints = \"none\"\n";
+enum class Joints { none, breakable };
+
+std::string material(const std::string& group, Joints joints) {
+  std::string text = "[[material]]\ngroup = \"" + group + "\"\nyoung = \"2 GPa\"\npoisson = 0\ndensity = 2000\n";
+  if (joints == Joints::none) return text + "joints = \"none\"\n";
+  return text + "joints = \"breakable\"\n[[joint]]\ngroup = \"" + group + R"("
+penalty_factor = 20
+tensile_strength = "3 MPa"
+shear_strength = "6 MPa"
+energy_mode_1 = "300 J/m2"
+energy_mode_2 = "900 J/m2"
+)";
 }
 
 /// m, furthest sideways motion of a block whose centre of mass lies 80 mm beside the middle of its base, which is
 /// 200 mm wide and one face across. @param beside  by which the block below is not quite under it
-double motion_of_overhanging_block(const Scratch& scratch, const std::string& beside, int ranks) {
+double motion_of_overhanging_block(const Scratch& scratch, const std::string& beside, int ranks,
+                                   Joints joints = Joints::none) {
   scratch.write("blocks.geo", R"(SetFactory("OpenCASCADE");
 DefineConstant[ dx = 0 ];
 Rectangle(1) = {-0.1, -0.4, 0, 0.2, 0.4};
@@ -34,7 +45,7 @@ Mesh.Algorithm = 5;
 )");
   const std::string file = scratch.write(
       "blocks.toml", "title = \"blocks\"\n[mesh]\nfile = \"blocks.geo\"\nparameters = { dx = \"" + beside +
-                         "\" }\n[plane]\nkind = \"strain\"\n" + material("lower") + material("upper") +
+                         "\" }\n[plane]\nkind = \"strain\"\n" + material("lower", joints) + material("upper", joints) +
                          R"([[contact]]
 between = ["*", "*"]
 penalty = "50 MPa"
@@ -70,6 +81,15 @@ TEST(Block, stands_on_an_edge_right_above_that_of_the_block_below) {
   EXPECT_EQ(motion_of_overhanging_block(scratch, "0 mm", 2), aligned);
   EXPECT_LT(motion_of_overhanging_block(scratch, "2 mm", 1), kStands);
   EXPECT_LT(motion_of_overhanging_block(scratch, "-2 mm", 1), kStands);
+}
+
+TEST(Block, that_can_break_stands_there_too) {
+  const Scratch scratch;
+  constexpr double kStands = 1e-3;  // m; joints make it softer
+  const double aligned = motion_of_overhanging_block(scratch, "0 mm", 1, Joints::breakable);
+  EXPECT_LT(aligned, kStands);
+  EXPECT_EQ(motion_of_overhanging_block(scratch, "0 mm", 2, Joints::breakable), aligned);
+  EXPECT_LT(motion_of_overhanging_block(scratch, "2 mm", 1, Joints::breakable), kStands);
 }
 
 }  // namespace

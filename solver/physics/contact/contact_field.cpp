@@ -30,7 +30,7 @@ void drop_finished_ramps(ContactState& contact) {
     contact.ramp_of_contactor[at(ramp.contactor)] = done ? -1 : static_cast<Index>(kept);
     CornerSets& sets = contact.field[at(ramp.contactor)].sets;
     if (done) {
-      sets = largest_sets(sets);
+      sets = largest_sets(sets) | (sets & kFractured);
     } else {
       contact.ramps[kept++] = FieldRamp(ramp);
     }
@@ -99,7 +99,7 @@ void free_corners(const ContactParams& params, Index contactor, unsigned set, Co
   CornerSets& sets = contact.field[at(contactor)].sets;
   // The usual call is for corners that lie on the surface already: leave without touching the list of ramps.
   if (covers(sets, set)) return;
-  sets |= 1 << set;
+  sets |= 1 << set | kFractured;
   ramp_of(contactor, contact).remaining[set] = params.ramp_steps;
 }
 

@@ -45,6 +45,12 @@ enum class Instant { now, step_before };
 [[nodiscard]] OverlapShape overlap_shape(const ContactParams& params, const LocalMesh& local,
                                          const ContactState& contact, Index contactor, Instant instant = Instant::now);
 
+/// Whether the sides of a contactor are told apart (rows_for in overlap.hpp).
+[[nodiscard]] inline bool has_sides(const ContactParams& params, const ContactState& contact, Index contactor) {
+  return params.field == OverlapField::body &&
+         (contact.field[static_cast<std::size_t>(contactor)].sets & kFractured) == 0;
+}
+
 /// Coefficients of g for one element. @param length  H of its body, m;  @param coming  of a ramp, or null: none
 [[nodiscard]] OverlapShape overlap_shape(const ContactParams& params, const LocalMesh& local, Index slot,
                                          const FieldValues& values, double length, const ComingSets* coming = nullptr);

@@ -23,7 +23,8 @@ void Pass::bridge_gaps(Index point) {
       pressed = pressed || (old[k].contactor == contactor && old[k].d > 0);
     here.under_facing_side = lies_under_facing_side(point_at(point), here);
     if (!pressed) {
-      if (here.under_facing_side) continue;
+      // Beside a side it may come to lie under it at any time, without coming nearer.
+      if (has_sides(params_, contact_, contactor)) continue;
       here.couple->apart_until = contact_.travel.counted + safe_travel(prepared(contactor), here.lambda, kInside);
       continue;
     }
@@ -41,7 +42,7 @@ void Pass::bridge_gaps(Index point) {
 }
 
 bool Pass::lies_under_facing_side(const ContactPoint& point, const Beside& here) const {
-  if (!has_sides(here.couple->contactor)) return false;
+  if (!has_sides(params_, contact_, here.couple->contactor)) return false;
   const OverlapShape& shape = shape_of(here.couple->contactor);
   const OverlapRows rows = rows_facing(shape, prepared(here.couple->contactor), outward_of(point));
   return rows != 0 && overlap_value(shape, here.lambda, rows) > 0;
@@ -166,7 +167,7 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   // The point has not left through the side that it pressed on. Where a crack has opened under it, what the couple held
   // is gone; where it has left over an edge, all but the work of its force over half of the last step.
   if (overlap > 0) {
-    const bool over_edge = has_sides(old.contactor);
+    const bool over_edge = has_sides(params_, contact_, old.contactor);
     const double work = over_edge ? 0.5 * (old.force - old.friction).dot(motion) : 0.0;
     const double gone = std::max(normal_held(point, old) - work, 0.0);
     account(point, work_.dissipated).add(gone);

@@ -168,11 +168,6 @@ class Pass {
   }
   /// The overlap functions of a contactor; valid until the next call.
   [[nodiscard]] const OverlapShape& shape_of(Index contactor, Instant instant = Instant::now) const;
-  /// Whether its sides are told apart (rows_for in overlap.hpp): not while its field follows a new surface.
-  [[nodiscard]] bool has_sides(Index contactor) const {
-    return params_.field == OverlapField::body && stays_whole(local_, slot_of(contactor)) &&
-           contact_.ramp_of_contactor[static_cast<std::size_t>(contactor)] < 0;
-  }
   /// Normal of a point's face. @param dt  s, by which the nodes are taken back
   [[nodiscard]] Vec3 outward_of(const ContactPoint& point, double dt = 0) const {
     return outward_normal(point, [&](Index node) {
@@ -183,7 +178,8 @@ class Pass {
   /// Those of a contactor's functions that count for a point. @param tetra, dt  by dt ago
   [[nodiscard]] OverlapRows rows_of(const ContactPoint& point, Index contactor, const OverlapShape& shape,
                                     const PreparedTetra& tetra, double dt = 0) const {
-    return shape.rows < 2 || !has_sides(contactor) ? kAllRows : rows_for(shape, tetra, outward_of(point, dt));
+    return shape.rows < 2 || !has_sides(params_, contact_, contactor) ? kAllRows
+                                                                      : rows_for(shape, tetra, outward_of(point, dt));
   }
   [[nodiscard]] Candidate candidate_of(const ContactPoint& point, Index contactor,
                                        const std::array<double, 4>& lambda) const;

@@ -56,10 +56,13 @@ struct TouchingCouple {
   double gained_before = 0;  ///< J, the same of earlier overlaps, not yet put right
 };
 
+/// Among CornerSets, where bit 0 stands for no set: fracture has added some to those of the mesh.
+inline constexpr CornerSets kFractured = 1;
+
 /// Overlap field of a contactor (contact_field.hpp).
 struct FieldValues {
   std::array<double, 4> depth{};  ///< m, at its corners, > 0
-  CornerSets sets = 0;            ///< corners on one face of the free surface
+  CornerSets sets = 0;            ///< corners on one face of the free surface; kFractured
   bool operator==(const FieldValues&) const = default;
 };
 

@@ -123,16 +123,11 @@ inline constexpr double kOpposed = 0.1;
   return facing;
 }
 
-/// Whether an element cannot come off its body: an ordinary finite element, of shared nodes.
-[[nodiscard]] inline bool stays_whole(const LocalMesh& local, Index slot) {
-  return local.node_id[static_cast<std::size_t>(local.corner_node(slot, 0))] >= kFirstSharedNode;
-}
-
 /// The functions that count for a point on a face, where sides are told apart: those whose side looks towards it,
 /// through which the point enters, also just beside an edge, where another side is nearer; all where there is none. Not
-/// for elements that can come off: sides told apart in debris made up to two thirds of the energy put in, in 3 of 22
-/// fragmentations.
-/// @pre stays_whole;  @param outward  as above
+/// for elements at which cracks have made new sides: told apart there, sides made up to two thirds of the energy put
+/// in, in 3 of 22 fragmentations.
+/// @param outward  as above
 [[nodiscard]] inline OverlapRows rows_for(const OverlapShape& shape, const PreparedTetra& tetra, const Vec3& outward) {
   const OverlapRows facing = rows_facing(shape, tetra, outward);
   return facing != 0 ? facing : kAllRows;

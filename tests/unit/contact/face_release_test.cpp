@@ -103,7 +103,7 @@ TEST(face_release, the_field_sinks_around_a_body_that_breaks_up) {
   ContactWork work;
   for (int i = 0; i < 4; ++i) search.forces(model.state, 1e-6, forces, work);
   for (const FieldValues& values : search.contact().field)
-    EXPECT_EQ(values.sets, 1 << 7 | 1 << 11 | 1 << 13 | 1 << 14)
+    EXPECT_EQ(values.sets, 1 << 7 | 1 << 11 | 1 << 13 | 1 << 14 | kFractured)
         << "every element is a fragment of its own: four faces";
 }
 

@@ -64,7 +64,7 @@ TEST(overlap_field, comes_to_count_a_freed_face_step_by_step) {
   }
   EXPECT_TRUE(scene.contact.ramps.empty());
   EXPECT_EQ(scene.contact.ramp_of_contactor[0], -1);
-  EXPECT_EQ(scene.contact.field[0].sets, 1 << freed.face | 1 << freed.set) << "what they cover is dropped";
+  EXPECT_EQ(scene.contact.field[0].sets, 1 << freed.face | 1 << freed.set | kFractured) << "what they cover is dropped";
 }
 
 /// A small tetrahedron whose base sits at a depth of 0.03 under the top of a body of 3 x 3 x 3 cubes, which lean over,

@@ -1,0 +1,70 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "unit/physics/contact/scene.hpp"
+
+/// Couples that are sure to be apart are passed over: that must not change a bit.
+namespace breccia {
+namespace {
+
+constexpr double kTurn = 2e-6;  // rad, about which the base comes to look at the top of the box
+
+/// A box of 1 m and a small tetrahedron with its base down; one contact point a face.
+test::Scene box_and_tetra() {
+  constexpr double a = 0.1;
+  const Mesh tetra = test::lone({Vec3(0, 0, 0), Vec3(a, 0, 0), Vec3(0, a, 0), Vec3(0, 0, a)});
+  return {test::joined(test::box({1, 1, 1}, 1.0), tetra), {1e6, std::numeric_limits<double>::infinity(), 1, 0, 1}};
+}
+
+/// Turns the tetrahedron about its base's middle, which comes to lie at `base`, by an angle about the x axis.
+void place_tetra(test::Scene& scene, const Vec3& base, double angle) {
+  const Mat3 rotation = Eigen::AngleAxisd(angle, Vec3::UnitX()).toRotationMatrix();
+  const Vec3 middle = Vec3(1, 1, 0) * (0.1 / 3);
+  for (const Index n : scene.nodes_of(1)) {
+    const Vec3 x = load_node(scene.local.reference.data(), n), before = load_node(scene.state.position.data(), n);
+    const Vec3 now = base + rotation * (x - middle);
+    store_node(scene.state.position.data(), n, now);
+    store_node(scene.state.velocity.data(), n, (now - before) / 1e-3);
+  }
+}
+
+/// Contactors that are touched after the tetrahedron has turned, by which its points move by less than kTurn.
+std::vector<Index> touched(test::Scene scene, const Vec3& base, double angle, double turn, bool passing_over) {
+  place_tetra(scene, base, angle);
+  scene.state.velocity.assign(scene.state.velocity.size(), 0.0);
+  scene.contact.travel.counted = 0;
+  if (passing_over) scene.contact.travel.at_most = 0;
+  scene.evaluate(1e-3);
+  place_tetra(scene, base, angle + turn);
+  scene.contact.travel.counted = kTurn;
+  if (passing_over) scene.contact.travel.at_most = kTurn;
+  scene.evaluate(1e-3);
+  std::vector<Index> contactors;
+  for (const TouchingCouple& couple : scene.contact.touching) contactors.push_back(couple.contactor);
+  return contactors;
+}
+
+/// Inside an element with one side of an edge and just beside one with the other side: the face of the point turns.
+TEST(apart, is_no_couple_beside_an_edge_which_turning_alone_brings_under_the_side_that_its_point_looks_at) {
+  const test::Scene scene = box_and_tetra();
+  const double away = std::acos(kOpposed) + 0.5 * kTurn;
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> inside(0.05, 0.95);
+  int taken_over = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 base(inside(random), inside(random), inside(random));
+    for (const double angle : {-away, away}) {
+      const double turn = -std::copysign(kTurn, angle);
+      const std::vector<Index> expected = touched(scene, base, angle, turn, false);
+      ASSERT_EQ(touched(scene, base, angle, turn, true), expected) << base.transpose();
+      if (touched(scene, base, angle, 0, false) != expected) ++taken_over;
+    }
+  }
+  EXPECT_GT(taken_over, 10);
+}
+
+}  // namespace
+}  // namespace breccia
