@@ -31,6 +31,7 @@ namespace {
 
 constexpr std::size_t kProblemsNamed = 10;
 constexpr int kTriangle3 = 2, kTetra4 = 4;  // gmsh's numbers of element types
+constexpr int kDelaunay = 1, kHxt = 10;     // and of algorithms in three dimensions
 
 // --- Running gmsh
 // -----------------------------------------------------------------------------------------------------
@@ -43,6 +44,7 @@ void open_gmsh() {
   gmsh::option::setNumber("Mesh.MaxNumThreads1D", 1);
   gmsh::option::setNumber("Mesh.MaxNumThreads2D", 1);
   gmsh::option::setNumber("Mesh.MaxNumThreads3D", 1);
+  gmsh::option::setNumber("Mesh.Algorithm3D", kDelaunay);
   // Errors are logged, not thrown: a throw out of gmsh's parser leaves it unable to read any file after.
   gmsh::option::setNumber("General.AbortOnError", 0);
   gmsh::logger::start();
@@ -138,6 +140,16 @@ void run_gmsh(const GmshSource& source, Step step) {
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
+/// The same case is to give the same mesh.
+void refuse_hxt(const GmshSource& source) {
+  double algorithm = kDelaunay;
+  gmsh::option::getNumber("Mesh.Algorithm3D", algorithm);
+  if (algorithm != kHxt) return;
+  throw InputError(Problem{source.file.string(), 0, "Mesh.Algorithm3D",
+                           "asks for HXT, which makes another mesh each time",
+                           "1 (Delaunay) or 4 (Frontal), or a mesh file that gmsh has written", std::to_string(kHxt)});
+}
+
 /// @param script  that assigns the parameters; null for a mesh file or a solid
 void load(const GmshSource& source, const ParameterScript* script) {
   if (is_solid(geometry_file(source.file))) {
@@ -155,7 +167,10 @@ void load(const GmshSource& source, const ParameterScript* script) {
     }
     gmsh::merge(source.file.string());
   });
-  run_gmsh(source, [] { gmsh::model::mesh::generate(3); });
+  run_gmsh(source, [&] {
+    refuse_hxt(source);
+    gmsh::model::mesh::generate(3);
+  });
 }
 
 // --- From gmsh's model to ours

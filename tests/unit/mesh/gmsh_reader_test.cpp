@@ -287,6 +287,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadScript{"RunsAProgram", "SystemCall \"true\";\n",
                   "model.geo:1: SystemCall: a mesh script may not run programs"},
         BadScript{"EndsTheProcess", "Point(1) = {0, 0, 0};\nExit;\n", "model.geo:2: Exit: a mesh script may not"},
+        BadScript{
+            "MeshesThatDifferEachTime",
+            "SetFactory(\"OpenCASCADE\");\nBox(1) = {0,0,0,1,1,1};\nMesh.Algorithm3D = 10;\n",
+            "model.geo: Mesh.Algorithm3D: asks for HXT, which makes another mesh each time; allowed: 1 (Delaunay)"},
         BadScript{"SecondOrder", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0,0,0,1,1,1};\nMesh.ElementOrder = 2;\n",
                   "volume 1: holds elements of a kind that is not supported; allowed: tetrahedra of first order"},
         BadScript{"Hexahedra",
