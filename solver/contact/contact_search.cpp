@@ -59,10 +59,13 @@ void ContactSearch::restrict_to(std::vector<std::uint8_t> relevant) {
 }
 
 void ContactSearch::mark_coupled(std::vector<std::uint8_t>& marks) const {
-  for (const ContactCouple& couple : contact_.couples) {
+  const auto mark = [&](const auto& couple) {
     marks[at(contact_.points[at(couple.point)].slot)] = 1;
     marks[at(contact_.contactors[at(couple.contactor)])] = 1;
-  }
+  };
+  for (const ContactCouple& couple : contact_.couples) mark(couple);
+  // Histories without a couple any more: what is left of them ends with forces.
+  for (const TouchingCouple& couple : contact_.touching) mark(couple);
 }
 
 void ContactSearch::verify(const NodalState& nodes) const {

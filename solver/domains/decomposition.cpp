@@ -104,7 +104,7 @@ Reach reach_of(const case_::Case& input, double edge, double buffer) {
   const bool shared_nodes = std::any_of(input.materials.begin(), input.materials.end(), [](const case_::Material& m) {
     return m.joints == case_::JointPlacement::none;
   });
-  return {input.domains.margin * edge, (shared_nodes ? 2 : 1) * edge, 2 * buffer};
+  return {input.domains.margin * edge, (shared_nodes ? 2 : 1) * edge, 2 * buffer, (shared_nodes ? 3 : 0) * edge};
 }
 
 DomainSpec domain_spec(const case_::Case& input) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -37,14 +38,17 @@ struct Piece {
 ///   buffer, so that all it touched is within two buffers more;
 /// - around such elements corner clusters are complete, since what is bonded to them at a vertex is no further away
 /// than
-///   the largest element: the ring.
+///   the largest element: the ring;
+/// - the stable step of contact on shared nodes (contact_step.cpp) comes from the faces at the nodes of an original, the
+///   nodes of these, and twice more so: three rings around it, wherever they have moved.
 struct Reach {
   double margin = 0;   ///< m
   double ring = 0;     ///< m
   double buffers = 0;  ///< m, two of the largest
+  double step = 0;     ///< m, for the stable step
 
   [[nodiscard]] double allowed_motion() const { return margin / 2; }
-  [[nodiscard]] double distance() const { return margin + ring + buffers; }
+  [[nodiscard]] double distance() const { return std::max(margin + ring + buffers, step); }
 };
 
 /// @param edge    m, longest of an element

@@ -109,7 +109,9 @@ using OverlapRows = std::uint32_t;
 inline constexpr OverlapRows kAllRows = ~OverlapRows{0};
 
 /// Two sides look towards each other where the cosine of the angle between their outward normals is at most -kOpposed.
-inline constexpr double kOpposed = 0.1;
+/// Little, so that what is sharp is felt: a wedge that comes down on a flat face from an opening of 1.2 degrees on, two
+/// crossed ridges, whose sides look past each other more, from 11.5 degrees on.
+inline constexpr double kOpposed = 0.01;
 
 /// The functions whose side of the surface looks towards a face.
 /// @param outward  normal of the face, of any length
