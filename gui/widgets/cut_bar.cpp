@@ -15,6 +15,13 @@ namespace {
 
 constexpr int kTicks = 500;  // of the slider
 
+/// A place with few digits, closer to the given one than the slider tells apart.
+double short_place(double place, const std::array<double, 2>& extent) {
+  if (!(extent[1] > extent[0])) return place;
+  const double step = std::pow(10, std::floor(std::log10((extent[1] - extent[0]) / kTicks)));
+  return std::round(place / step) * step + 0.0;  // no "-0"
+}
+
 QString metres_words(double metres) {
   const PrefixedUnit unit = prefixed_unit(metres, "m");
   return QString("%1 %2").arg(metres / unit.size, 0, 'g', 5).arg(QString::fromStdString(unit.name));
@@ -30,7 +37,7 @@ CutBar::CutBar(QWidget* parent)
       other_(new QCheckBox(tr("Other side"))),
       action_(new QAction(tr("C&ut open"), this)) {
   make_fields();
-  action_->setShortcut(QKeySequence("Ctrl+K"));
+  action_->setShortcut(QKeySequence("Ctrl+8"));
   action_->setCheckable(true);
   connect(action_, &QAction::triggered, this, [this](bool on) {
     way_->setCurrentIndex(on ? last_way_ : 0);
@@ -63,7 +70,7 @@ void CutBar::make_fields() {
   way_->setAccessibleName(tr("Cut across"));
   way_->setToolTip(
       tr("Cut the model open by a plane across an axis, or across the direction that is looked along now (chosen "
-         "again: anew); the elements that it goes through are seen in it (Ctrl+K)"));
+         "again: anew); the elements that it goes through are seen in it (Ctrl+8)"));
   slider_->setObjectName("cut_slider");
   slider_->setAccessibleName(tr("Place of the cut"));
   slider_->setToolTip(tr("Moves the cut through the model (arrow keys)"));
@@ -101,8 +108,12 @@ void CutBar::choose_way() {
     normal_ = {};
     normal_[static_cast<std::size_t>(way()) - static_cast<std::size_t>(Way::x)] = 1;
   }
-  const auto [from, to] = extent_(normal_);
-  set_place(0.5 * (from + to));
+  to_middle();
+}
+
+void CutBar::to_middle() {
+  const std::array<double, 2> extent = extent_(normal_);
+  set_place(short_place(0.5 * (extent[0] + extent[1]), extent));
 }
 
 void CutBar::set_place(double place) {
@@ -125,13 +136,13 @@ void CutBar::show_place() {
 void CutBar::follow_model(bool is_new) {
   if (!plane_) return;
   const auto [from, to] = extent_(normal_);
-  is_new && (at_ <= from || at_ >= to) ? set_place(0.5 * (from + to)) : show_place();
+  is_new && (at_ <= from || at_ >= to) ? to_middle() : show_place();
 }
 
 void CutBar::take_slider(int tick) {
   if (!plane_) return;
-  const auto [from, to] = extent_(normal_);
-  set_place(from + (to - from) * tick / kTicks);
+  const std::array<double, 2> extent = extent_(normal_);
+  set_place(short_place(extent[0] + (extent[1] - extent[0]) * tick / kTicks, extent));
 }
 
 void CutBar::take_typed() {

@@ -43,6 +43,7 @@ class CutBar final : public QWidget {
   void choose_way();
   void take_slider(int tick);
   void take_typed();
+  void to_middle();
   void set_place(double place);
   void show_place();
 

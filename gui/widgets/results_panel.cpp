@@ -29,7 +29,7 @@ ResultsPanel::ResultsPanel(QWidget* parent)
       picture_(new QPushButton(tr("Save p&icture..."))),
       curves_(new QPushButton(tr("Export &curves..."))),
       animation_(new QPushButton(tr("Save &animation..."))),
-      report_(named_button(tr("Repor&t..."), "report",
+      report_(named_button(tr("Re&port..."), "report",
                            tr("Have the solver write a page about this run, with figures, curves and pictures by "
                               "ParaView, that needs nothing beside it; it opens in the browser"))),
       other_(named_button(tr("Another..."), "other_run", tr("Open the folder of any other run"))) {
@@ -112,7 +112,7 @@ void ResultsPanel::make_picker(QVBoxLayout& column) {
     if (!folder.isEmpty() && folder != folder_) emit run_chosen(folder);
   });
   auto* row = new QHBoxLayout;
-  auto* label = new QLabel(tr("&Run"));
+  auto* label = new QLabel(tr("Ru&n"));
   label->setBuddy(runs_);
   row->addWidget(label, 1);
   row->addWidget(other_);
@@ -145,7 +145,7 @@ void ResultsPanel::choose_shown() {
 }
 
 void ResultsPanel::set_reporting(bool on) {
-  report_->setText(on ? tr("The report is written...") : tr("Repor&t..."));
+  report_->setText(on ? tr("The report is written...") : tr("Re&port..."));
   report_->setEnabled(!on && !folder_.isEmpty());
 }
 

@@ -1,6 +1,7 @@
 #include "render/cut.hpp"
 
 #include <gtest/gtest.h>
+#include <vtkCamera.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 
@@ -94,7 +95,7 @@ TEST(Cut, AKeyCutsTheMeshOpenAndSliderAndFieldMoveThePlane) {
   Whole desk(block_case(3, "1 ms"));  // 30 mm
   EXPECT_FALSE(desk.find<QWidget>("cut_slider")->isVisible());
   const double whole = desk.window->view().drawn_share();
-  QTest::keyClick(desk.window.get(), Qt::Key_K, Qt::ControlModifier);
+  QTest::keyClick(desk.window.get(), Qt::Key_8, Qt::ControlModifier);
   auto* slider = desk.find<QSlider>("cut_slider");
   auto* place = desk.find<QLineEdit>("cut_place");
   ASSERT_TRUE(wait_until([&] { return slider->isVisible() && slider->hasFocus(); }, 5000));
@@ -113,7 +114,7 @@ TEST(Cut, AKeyCutsTheMeshOpenAndSliderAndFieldMoveThePlane) {
   EXPECT_EQ(place->text(), "10 mm");
   desk.click_stage("material");
   desk.picture("cut_mesh");
-  QTest::keyClick(desk.window.get(), Qt::Key_K, Qt::ControlModifier);
+  QTest::keyClick(desk.window.get(), Qt::Key_8, Qt::ControlModifier);
   EXPECT_EQ(desk.scene().num_cut(), 0);
   EXPECT_NEAR(desk.window->view().drawn_share(), whole, 0.01);
 }
@@ -165,6 +166,8 @@ TEST(Cut, IsSeenThroughWholeElementsOfAPlateThatIsHit) {
   way->setCurrentText("z");
   emit way->activated(way->currentIndex());
   EXPECT_GT(scene.num_cut(), 50);
+  EXPECT_EQ(desk.find<QLineEdit>("cut_place")->text(), "0 m") << "the middle of the plate, with few digits";
+  scene.renderer()->GetActiveCamera()->Zoom(1.7);
   desk.find<QAbstractButton>("edges")->setChecked(true);
   QTest::qWait(300);
   desk.picture("cut");

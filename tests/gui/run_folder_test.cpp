@@ -162,17 +162,18 @@ TEST(RunFolder, RunsBesideACaseAreOfThatCaseAndHaveWrittenSomethingAndTheNewestI
   ASSERT_EQ(named.size(), 2U);
   EXPECT_EQ(named[0].folder, scratch.filePath("runs/case-20261126-100000-2"));
   // One that was started in a terminal has any name, and tells when and of what it is.
-  for (const QString& name : {"try", "of_another"}) {
-    ASSERT_TRUE(QDir(scratch.path()).mkpath("runs/" + name));
-    append(scratch.filePath("runs/" + name + "/provenance.json"),
+  for (const char* const name : {"try", "of_another"}) {
+    const bool is_own = name == std::string("try");
+    ASSERT_TRUE(QDir(scratch.path()).mkpath(QString("runs/%1").arg(name)));
+    append(scratch.filePath(QString("runs/%1/provenance.json").arg(name)),
            R"({"program": "breccia", "started": "2026-11-30T10:00:00Z", "ranks": 4, "inputs": [{"file": "/a/)" +
-               QByteArray(name == "try" ? "case.toml" : "other.toml") + R"("}]})");
+               QByteArray(is_own ? "case.toml" : "other.toml") + R"("}]})");
   }
   const auto all = runs_beside(file);
   ASSERT_EQ(all.size(), 3U);
   EXPECT_EQ(all[0].folder, scratch.filePath("runs/try"));
   EXPECT_EQ(all[0].ranks, 4);
-  EXPECT_EQ(all[0].started, QDateTime(QDate(2026, 11, 30), QTime(10, 0), Qt::UTC));
+  EXPECT_EQ(all[0].started, QDateTime::fromString("2026-11-30T12:00:00+02:00", Qt::ISODate));
 }
 
 }  // namespace
