@@ -85,6 +85,15 @@ TEST(Results, AreNeverEmptyWhenARunHasComeToStandBesideTheCase) {
   EXPECT_TRUE(wait_until([&] { return desk.window->view().caption().startsWith("time "); }, kSolver));
 }
 
+TEST(Results, OfARunWhoseFramesHaveNoElementsSaySo) {
+  Desk desk;
+  const QString file = written_case(desk.scratch, turning_case("100 us") + "elements = false\n");
+  run_in_terminal(file, desk.scratch.filePath("runs/one"));
+  desk.window->open_path(file);
+  desk.click_stage("Results");
+  EXPECT_TRUE(desk.window->view().caption().contains("no elements")) << desk.window->view().caption().toStdString();
+}
+
 TEST(Results, OfAFinishedRunThatIsOpenedAllChartsAreDrawn) {
   Desk desk;
   const QString file = written_case(desk.scratch, turning_case("300 us"));
