@@ -11,6 +11,7 @@
 #include <QJsonObject>
 #include <QRegularExpression>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace breccia::gui {
@@ -49,6 +50,7 @@ QList<QByteArray> GrowingFile::news(bool* restarted) {
 void History::clear() {
   columns_.clear();
   values_.clear();
+  largest_.clear();
   rows_ = 0;
 }
 
@@ -56,6 +58,7 @@ void History::add_line(const QByteArray& line) {
   if (columns_.isEmpty()) {
     columns_ = QString::fromUtf8(line).trimmed().split(',');
     values_.assign(static_cast<std::size_t>(columns_.size()), {});
+    largest_.assign(static_cast<std::size_t>(columns_.size()), 0);
     return;
   }
   const QList<QByteArray> cells = line.split(',');
@@ -63,7 +66,9 @@ void History::add_line(const QByteArray& line) {
   for (int c = 0; c < cells.size(); ++c) {
     bool good = false;
     const double value = cells[c].toDouble(&good);
-    values_[static_cast<std::size_t>(c)].push_back(good ? value : std::numeric_limits<double>::quiet_NaN());
+    const auto column = static_cast<std::size_t>(c);
+    values_[column].push_back(good ? value : std::numeric_limits<double>::quiet_NaN());
+    if (good && std::isfinite(value)) largest_[column] = std::max(largest_[column], std::abs(value));
   }
   ++rows_;
 }
@@ -162,13 +167,33 @@ bool is_run_folder(const QString& folder) {
   return file.open(QIODevice::ReadOnly) && QJsonDocument::fromJson(file.readAll()).object()["program"] == "breccia";
 }
 
-QString newest_run_beside(const QString& case_file) {
+RunOrigin origin_of(const QString& run_folder) {
+  RunOrigin origin{QDir(run_folder).absolutePath(), {}, 1, {}};
+  QFile file(QDir(run_folder).filePath("provenance.json"));
+  if (!file.open(QIODevice::ReadOnly)) return origin;
+  const QJsonObject json = QJsonDocument::fromJson(file.readAll()).object();
+  origin.started = QDateTime::fromString(json["started"].toString(), Qt::ISODate);
+  origin.ranks = json["ranks"].toInt(1);
+  // The first input of a run is its case.
+  origin.case_name = QFileInfo(json["inputs"].toArray()[0].toObject()["file"].toString()).fileName();
+  return origin;
+}
+
+std::vector<RunOrigin> runs_beside(const QString& case_file) {
   const QFileInfo file(case_file);
   const QDir runs(file.dir().filePath("runs"));
   const QRegularExpression own("^" + QRegularExpression::escape(file.completeBaseName()) + R"(-\d{8}-\d{6}(-\d+)?$)");
-  for (const QString& name : runs.entryList(QDir::Dirs | QDir::NoDotAndDotDot, QDir::Name | QDir::Reversed))
-    if (own.match(name).hasMatch() && is_run_folder(runs.filePath(name))) return runs.absoluteFilePath(name);
-  return {};
+  std::vector<RunOrigin> found;
+  for (const QString& name : runs.entryList(QDir::Dirs | QDir::NoDotAndDotDot, QDir::Name | QDir::Reversed)) {
+    const QString folder = runs.absoluteFilePath(name);
+    if (!is_run_folder(folder)) continue;
+    RunOrigin origin = origin_of(folder);
+    if (own.match(name).hasMatch() || origin.case_name == file.fileName()) found.push_back(std::move(origin));
+  }
+  // Of those that do not tell when, the names do.
+  const auto when = [](const RunOrigin& run) { return run.started.isValid() ? run.started.toMSecsSinceEpoch() : 0; };
+  std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) { return when(a) > when(b); });
+  return found;
 }
 
 }  // namespace breccia::gui

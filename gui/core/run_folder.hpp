@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QByteArray>
+#include <QDateTime>
 #include <QString>
 #include <QStringList>
 #include <vector>
@@ -66,10 +67,13 @@ class History {
   [[nodiscard]] const std::vector<double>& values(int column) const {
     return values_[static_cast<std::size_t>(column)];
   }
+  /// Of the sizes of the finite values of a column.
+  [[nodiscard]] double largest(int column) const { return largest_[static_cast<std::size_t>(column)]; }
 
  private:
   QStringList columns_;
   std::vector<std::vector<double>> values_;
+  std::vector<double> largest_;
   int rows_ = 0;
 };
 
@@ -88,8 +92,16 @@ class History {
 [[nodiscard]] bool was_run_with_another(const QString& run_folder, const QByteArray& case_text);
 /// True for a folder that a run has written into.
 [[nodiscard]] bool is_run_folder(const QString& folder);
-/// The latest run of a case in the folder "runs" beside it, by the times in the names that runs are given here. Empty:
-/// there is none.
-[[nodiscard]] QString newest_run_beside(const QString& case_file);
+/// A run, as its provenance tells it.
+struct RunOrigin {
+  QString folder;     ///< absolute
+  QDateTime started;  ///< not valid: it does not tell
+  int ranks = 1;
+  QString case_name;  ///< file name of its case
+};
+[[nodiscard]] RunOrigin origin_of(const QString& run_folder);
+/// The runs of a case in the folder "runs" beside it, newest first: those that say so, and those with such names as
+/// runs are given here.
+[[nodiscard]] std::vector<RunOrigin> runs_beside(const QString& case_file);
 
 }  // namespace breccia::gui

@@ -3,6 +3,7 @@
 #include <QMap>
 #include <QRegularExpression>
 
+#include "case/units.hpp"
 #include "case/writer.hpp"
 #include "core/toml_places.hpp"
 
@@ -27,14 +28,18 @@ bool is_number(const QString& text) {
   return number.match(text).hasMatch();
 }
 
+/// "3.5 mm" of "3,5 mm": a decimal comma.
+QString with_point(QString text) {
+  static const QRegularExpression comma(R"(^([+-]?[0-9]+),([0-9]+))");
+  return text.replace(comma, "\\1.\\2");
+}
+
 /// A quantity as TOML: a bare number, or text with its unit.
 QString quantity(const QString& typed) {
   const QString text = typed.trimmed();
   if (text.isEmpty() || is_number(text) || text.startsWith('"') || text.startsWith('\'') || text.startsWith('{'))
     return text;
-  QString number = text;  // "3,5 mm": a decimal comma
-  static const QRegularExpression comma(R"(^([+-]?[0-9]+),([0-9]+))");
-  number.replace(comma, "\\1.\\2");
+  const QString number = with_point(text);
   return is_number(number) ? number : quoted(number);
 }
 
@@ -93,6 +98,15 @@ QString typed_value(const Key& key, const QString& typed) {
   QStringList out;
   for (const QString& item : items) out << (is_text(key.type) ? quoted(item.trimmed()) : quantity(item));
   return "[" + out.join(", ") + "]";
+}
+
+std::optional<double> number_of(const QString& typed, const char* unit, QString* error) {
+  try {
+    return case_::to_si(with_point(typed.trimmed()).toStdString(), unit);
+  } catch (const case_::UnitError& wrong) {
+    *error = QString("%1; %2").arg(QString::fromUtf8(wrong.what()), QString::fromStdString(wrong.allowed));
+    return std::nullopt;
+  }
 }
 
 QString shown_default(const Key& key) {

@@ -2,6 +2,7 @@
 
 #include <QString>
 #include <QStringList>
+#include <optional>
 
 #include "case/schema.hpp"
 
@@ -14,6 +15,9 @@ namespace breccia::gui {
 /// TOML text of what was typed into the field of a key; empty: the key is taken out. A text that is TOML already
 /// (begins with a quote or a bracket) is taken as it is.
 [[nodiscard]] QString typed_value(const case_::Key& key, const QString& typed);
+
+/// A quantity as people type it, in SI. None: it is not one of that dimension. @param error  out: the solver's words
+[[nodiscard]] std::optional<double> number_of(const QString& typed, const char* unit, QString* error);
 
 /// Default of a key as it is shown, empty when there is none.
 [[nodiscard]] QString shown_default(const case_::Key& key);

@@ -16,6 +16,7 @@ namespace breccia::gui {
 namespace {
 
 constexpr int kBars = 10;
+constexpr double kMilli = 1e3;  // m in mm
 /// Share by which equal values may differ, written in single precision; how far the bars then reach to both sides.
 constexpr double kEqual = 1e-5, kBelow = 0.055, kAbove = 0.045;
 using Corners = std::array<Vector, 4>;
@@ -53,7 +54,6 @@ double min_dihedral(const Corners& normals) {
 }
 
 double mean_edge(const Corners& x) {
-  constexpr double kMilli = 1e3;
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < i; ++j) sum += length(x[i] - x[j]);
@@ -110,6 +110,15 @@ std::vector<double> numbers_of(const FrameData& frame, Measure measure) {
       return of_array(elements, "von_mises", scaled(kMega));
     case Measure::tension:
       return of_array(elements, "principal", scaled(kMega));
+    case Measure::displacement:
+      return of_array(elements, "displacement",
+                      [](vtkDataArray& array, vtkIdType row) { return kMilli * magnitude(array, row); });
+    case Measure::displacement_x:
+    case Measure::displacement_y:
+    case Measure::displacement_z:
+      return of_array(elements, "displacement",
+                      [axis = static_cast<int>(measure) - static_cast<int>(Measure::displacement_x)](
+                          vtkDataArray& array, vtkIdType row) { return kMilli * array.GetComponent(row, axis); });
     case Measure::opening:
       return of_array(joints, "opening", scaled(kMicro));
     case Measure::slip:
@@ -163,6 +172,10 @@ const std::vector<std::pair<Measure, std::string>>& measures() {
       {Measure::speed, "speed [m/s]"},
       {Measure::von_mises, "von Mises stress [MPa]"},
       {Measure::tension, "largest principal stress [MPa]"},
+      {Measure::displacement, "displacement [mm]"},
+      {Measure::displacement_x, "displacement x [mm]"},
+      {Measure::displacement_y, "displacement y [mm]"},
+      {Measure::displacement_z, "displacement z [mm]"},
       {Measure::opening, "opening of damaged joints [um]"},
       {Measure::slip, "slip of damaged joints [um]"},
       {Measure::damage, "damage of damaged joints"}};
@@ -185,8 +198,7 @@ int Histogram::bar_of(double value) const {
 vtkSmartPointer<vtkPolyData> faces_of_bar(const FrameData& frame, const ElementValues& of, int bar) {
   std::vector<bool> chosen(of.values.size());
   for (std::size_t e = 0; e < chosen.size(); ++e) chosen[e] = of.bars.bar_of(of.values[e]) == bar;
-  return is_of_joints(of.measure) ? triangles_of(*frame.joints, chosen)
-                                  : frame.faces->draw_part(*frame.elements, chosen);
+  return is_of_joints(of.measure) ? triangles_of(*frame.joints, chosen) : frame.faces->draw_part(*frame.drawn, chosen);
 }
 
 }  // namespace breccia::gui

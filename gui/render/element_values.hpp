@@ -21,9 +21,13 @@ enum class Measure {
   speed,         ///< m/s
   von_mises,     ///< MPa
   tension,       ///< largest principal stress, MPa
-  opening,       ///< of damaged joints, um
-  slip,          ///< of damaged joints, um
-  damage         ///< of damaged joints
+  displacement,  ///< mm, as its components
+  displacement_x,
+  displacement_y,
+  displacement_z,
+  opening,  ///< of damaged joints, um
+  slip,     ///< of damaged joints, um
+  damage    ///< of damaged joints
 };
 
 /// With their names for people, units among them.

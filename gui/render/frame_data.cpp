@@ -253,16 +253,6 @@ vtkSmartPointer<vtkPolyData> cracks_of(vtkUnstructuredGrid& joints) {
   return cracks;
 }
 
-/// Whether nothing has moved: then nothing is apart, as in a mesh that has just been opened.
-bool is_at_rest(vtkUnstructuredGrid& elements) {
-  vtkDataArray* displacement = elements.GetCellData()->GetArray("displacement");
-  if (displacement == nullptr) return false;
-  for (vtkIdType c = 0; c < displacement->GetNumberOfTuples(); ++c)
-    for (int a = 0; a < displacement->GetNumberOfComponents(); ++a)
-      if (displacement->GetComponent(c, a) != 0) return false;
-  return true;
-}
-
 /// Whether two faces that rest on each other are that no more. @param a, b  rows of their elements
 bool are_apart(vtkUnstructuredGrid& elements, vtkIdType a, const std::array<std::int8_t, 3>& in_a, vtkIdType b,
                const std::array<std::int8_t, 3>& in_b) {
@@ -304,35 +294,66 @@ vtkSmartPointer<vtkPolyData> Skin::draw_part(vtkUnstructuredGrid& elements, cons
   return writer.take();
 }
 
+namespace {
+
+/// Moves what is drawn away from its place at rest.
+void enlarge(FrameData& frame) {
+  Deformation& how = frame.deformation;
+  if (how.scale == 1 || how.lacks_rest) return;
+  if (how.rest == nullptr) how.rest = RestPlaces::of(read_vtkhdf(how.rest_file));
+  how.lacks_rest = how.rest == nullptr;
+  if (how.lacks_rest) return;
+  if (how.scale == Deformation::kAutomatic) how.scale = automatic_scale(*frame.elements, *how.rest);
+  if (how.scale == 1 || how.scale == Deformation::kAutomatic) return;
+  frame.drawn = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  frame.drawn->ShallowCopy(frame.elements);
+  frame.drawn->SetPoints(enlarged_elements(*frame.elements, *how.rest, how.scale));
+  if (frame.joints == nullptr) return;
+  frame.joints->SetPoints(enlarged_joints(*frame.joints, *how.rest, how.scale));
+  frame.broken->SetPoints(frame.joints->GetPoints());
+}
+
+}  // namespace
+
 FrameData load_frame(const std::string& elements_file, const std::string& joints_file, double time,
-                     std::shared_ptr<const Skin> faces) {
+                     std::shared_ptr<const Skin> faces, Deformation deformation) {
   FrameData frame;
   frame.time = time;
   const auto elements = read_vtkhdf(elements_file);
   if (elements == nullptr) return frame;
   if (faces == nullptr) faces = std::make_shared<Skin>(*elements);
   frame.faces = faces;
-  frame.elements = elements;
-  frame.skin = faces->draw(*elements);
-  if (joints_file.empty()) return frame;
-  if (const auto joints = read_vtkhdf(joints_file); joints != nullptr && joints->GetNumberOfCells() > 0) {
+  frame.elements = frame.drawn = elements;
+  if (const auto joints = joints_file.empty() ? nullptr : read_vtkhdf(joints_file);
+      joints != nullptr && joints->GetNumberOfCells() > 0) {
     frame.joints = joints;
     frame.broken = cracks_of(*joints);
   }
+  frame.deformation = std::move(deformation);
+  enlarge(frame);
+  frame.skin = faces->draw(*frame.drawn);
   return frame;
 }
 
-void set_ranks(vtkPolyData& skin, const std::vector<int>& owner) {
-  vtkDataArray* id = skin.GetCellData()->GetArray("id");
-  if (id == nullptr) return;
-  vtkNew<vtkIntArray> ranks;
-  ranks->SetName("rank");
-  for (vtkIdType c = 0; c < skin.GetNumberOfCells(); ++c) {
-    const auto element = static_cast<std::size_t>(id->GetTuple1(c));
-    ranks->InsertNextValue(element < owner.size() ? owner[element] : 0);
-  }
-  skin.GetCellData()->RemoveArray("rank");
-  skin.GetCellData()->AddArray(ranks);
+void set_ranks(FrameData& frame, const std::vector<int>& owner) {
+  const auto set = [&](vtkDataSet& cells) {
+    vtkDataArray* id = cells.GetCellData()->GetArray("id");
+    if (id == nullptr) return;
+    vtkNew<vtkIntArray> ranks;
+    ranks->SetName("rank");
+    for (vtkIdType c = 0; c < cells.GetNumberOfCells(); ++c) {
+      const auto element = static_cast<std::size_t>(id->GetComponent(c, 0));
+      ranks->InsertNextValue(element < owner.size() ? owner[element] : 0);
+    }
+    cells.GetCellData()->RemoveArray("rank");
+    cells.GetCellData()->AddArray(ranks);
+  };
+  set(*frame.skin);
+  // Others may be reading the elements as they are.
+  auto elements = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  elements->ShallowCopy(frame.elements);
+  set(*elements);
+  frame.elements = frame.drawn = elements;
 }
 
 }  // namespace breccia::gui

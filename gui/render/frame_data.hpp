@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "render/deformation.hpp"
+
 /// What is drawn of a frame: the skin of the bodies and the joints that are damaged. VTK only, no Qt; everything here
 /// may be called from any thread, one at a time for each object.
 namespace breccia::gui {
@@ -61,15 +63,17 @@ struct FrameData {
   vtkSmartPointer<vtkPolyData> broken;            ///< triangles of the joints that carry damage
   std::shared_ptr<const Skin> faces;              ///< of this model, for the next frame
   vtkSmartPointer<vtkUnstructuredGrid> elements;  ///< all of them; only read once the frame is told
-  vtkSmartPointer<vtkUnstructuredGrid> joints;    ///< all that carry damage, as the elements; nullptr: none
+  vtkSmartPointer<vtkUnstructuredGrid> drawn;     ///< the same, where they are drawn: displacements may be enlarged
+  vtkSmartPointer<vtkUnstructuredGrid> joints;    ///< all that carry damage, as and where the drawn; nullptr: none
+  Deformation deformation;                        ///< as it is drawn; what was found for it holds for the next frame
 };
 
 /// @param joints_file  empty: none is there
 /// @param faces        of the same run, nullptr: found anew
 [[nodiscard]] FrameData load_frame(const std::string& elements_file, const std::string& joints_file, double time,
-                                   std::shared_ptr<const Skin> faces);
+                                   std::shared_ptr<const Skin> faces, Deformation deformation = {});
 
-/// Adds the array "rank" to the cells of a skin by the owner of each element. @param owner  by id
-void set_ranks(vtkPolyData& skin, const std::vector<int>& owner);
+/// Adds the array "rank" to skin and elements by the owner of each element. @param owner  by id
+void set_ranks(FrameData& frame, const std::vector<int>& owner);
 
 }  // namespace breccia::gui

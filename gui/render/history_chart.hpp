@@ -29,6 +29,8 @@ class HistoryChart {
   /// Replaces all curves. @param time  s;  @param quantity, unit  of the values, which are shown with a prefix
   void show(const std::vector<double>& time, const std::vector<Curve>& curves, const std::string& quantity,
             const std::string& unit);
+  /// To be called once it was drawn in another size: axes that had no room there have lost their range.
+  void renew_range() { chart_->RecalculateBounds(); }
   void set_dark(bool dark);
   [[nodiscard]] std::size_t num_curves() const { return num_curves_; }
 

@@ -8,7 +8,6 @@
 #include <vtkTextProperty.h>
 
 #include <algorithm>
-#include <map>
 
 namespace breccia::gui {
 namespace {
@@ -26,7 +25,11 @@ const std::vector<std::pair<Colouring, std::string>>& colourings() {
       {Colouring::rank, "rank"},
       {Colouring::speed, "speed [m/s]"},
       {Colouring::von_mises, "von Mises stress [MPa]"},
-      {Colouring::tension, "largest principal stress [MPa]"}};
+      {Colouring::tension, "largest principal stress [MPa]"},
+      {Colouring::displacement, "displacement"},
+      {Colouring::displacement_x, "displacement x"},
+      {Colouring::displacement_y, "displacement y"},
+      {Colouring::displacement_z, "displacement z"}};
   return list;
 }
 
@@ -45,10 +48,15 @@ Scene::Scene() {
   // They lie in the skin, and are drawn in front of it.
   chosen_mapper_->SetResolveCoincidentTopologyToPolygonOffset();
   chosen_mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(-1, -1);
-  skin_->GetProperty()->SetInterpolationToFlat();
-  skin_->GetProperty()->SetAmbient(0.25);
-  skin_->GetProperty()->SetDiffuse(0.75);
-  skin_->GetProperty()->SetEdgeColor(0.25, 0.25, 0.3);
+  cut_->SetMapper(cut_mapper_);
+  cut_->VisibilityOff();
+  for (vtkActor* actor : {skin_.Get(), cut_.Get()}) {
+    actor->GetProperty()->SetInterpolationToFlat();
+    const double ambient = actor == cut_ ? 0.7 : 0.25;  // colours of the cut are those of the legend
+    actor->GetProperty()->SetAmbient(ambient);
+    actor->GetProperty()->SetDiffuse(1 - ambient);
+    actor->GetProperty()->SetEdgeColor(0.25, 0.25, 0.3);
+  }
   broken_->GetProperty()->SetAmbient(0.5);
   broken_->GetProperty()->SetDiffuse(0.5);
   style_legends();
@@ -57,17 +65,19 @@ Scene::Scene() {
   // Cracks lie in the faces of the skin: they are drawn in front.
   broken_mapper_->SetResolveCoincidentTopologyToPolygonOffset();
   broken_mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(-2, -2);
-  skin_mapper_->SetLookupTable(colours_);
-  skin_mapper_->SetScalarModeToUseCellFieldData();
-  skin_mapper_->SelectColorArray(kShown);
-  skin_mapper_->UseLookupTableScalarRangeOn();
+  for (vtkPolyDataMapper* mapper : {skin_mapper_.Get(), cut_mapper_.Get()}) {
+    mapper->SetLookupTable(colours_);
+    mapper->SetScalarModeToUseCellFieldData();
+    mapper->SelectColorArray(kShown);
+    mapper->UseLookupTableScalarRangeOn();
+  }
   caption_->GetTextProperty()->SetFontSize(14);
   caption_->GetTextProperty()->SetBackgroundOpacity(kPlateOpacity);
   for (vtkProp* prop :
        {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(marked_),
-        static_cast<vtkProp*>(chosen_), static_cast<vtkProp*>(legend_), static_cast<vtkProp*>(time_legend_),
-        static_cast<vtkProp*>(class_legend_), static_cast<vtkProp*>(mode_legend_), static_cast<vtkProp*>(caption_),
-        static_cast<vtkProp*>(scale_bar_)})
+        static_cast<vtkProp*>(chosen_), static_cast<vtkProp*>(cut_), static_cast<vtkProp*>(legend_),
+        static_cast<vtkProp*>(time_legend_), static_cast<vtkProp*>(class_legend_), static_cast<vtkProp*>(mode_legend_),
+        static_cast<vtkProp*>(caption_), static_cast<vtkProp*>(scale_bar_)})
     renderer_->AddViewProp(prop);
   vtkNew<vtkCallbackCommand> begin;
   begin->SetClientData(this);
@@ -98,17 +108,20 @@ void Scene::show_axes(bool on) { shows_axes_ = on; }
 
 void Scene::clear() {
   frame_ = {};
+  through_.reset();
   draw_loads();
   mark(nullptr);
-  for (vtkProp* prop : {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(chosen_),
-                        static_cast<vtkProp*>(legend_), static_cast<vtkProp*>(time_legend_),
-                        static_cast<vtkProp*>(class_legend_), static_cast<vtkProp*>(mode_legend_)})
+  for (vtkProp* prop :
+       {static_cast<vtkProp*>(skin_), static_cast<vtkProp*>(broken_), static_cast<vtkProp*>(chosen_),
+        static_cast<vtkProp*>(cut_), static_cast<vtkProp*>(legend_), static_cast<vtkProp*>(time_legend_),
+        static_cast<vtkProp*>(class_legend_), static_cast<vtkProp*>(mode_legend_)})
     prop->VisibilityOff();
 }
 
 void Scene::show(const FrameData& frame) {
   const bool first = !has_data();
   frame_ = frame;
+  through_.reset();
   if (frame_.skin == nullptr) {
     clear();
     return;
@@ -189,13 +202,9 @@ vtkIdType Scene::num_chosen() const {
   return chosen_->GetVisibility() != 0 ? chosen_mapper_->GetInput()->GetNumberOfPolys() : 0;
 }
 
-void Scene::set_explode(double share) {
-  explode_ = share;
-  if (has_data()) colour();
-  draw_loads();
+void Scene::show_edges(bool on) {
+  for (vtkActor* actor : {skin_.Get(), cut_.Get()}) actor->GetProperty()->SetEdgeVisibility(on);
 }
-
-void Scene::show_edges(bool on) { skin_->GetProperty()->SetEdgeVisibility(on); }
 
 void Scene::show_skin(bool on) {
   solid_ = on;
@@ -216,21 +225,25 @@ vtkIdType Scene::num_marked() const {
 void Scene::set_opacity() {
   constexpr double kSeenThrough = 0.15;
   const bool marks = marked_->GetVisibility() != 0;
-  skin_->GetProperty()->SetOpacity(solid_ && !marks ? 1.0 : kSeenThrough);
+  for (vtkActor* actor : {skin_.Get(), cut_.Get()})
+    actor->GetProperty()->SetOpacity(solid_ && !marks ? 1.0 : kSeenThrough);
   broken_->GetProperty()->SetOpacity(marks ? kSeenThrough : 1.0);
 }
 
 Scene::Picked Scene::picked_at(double x, double y) const {
   vtkNew<vtkCellPicker> picker;
   picker->PickFromListOn();
-  picker->AddPickList(skin_);
+  for (vtkActor* actor : {skin_.Get(), cut_.Get()}) picker->AddPickList(actor);
   picker->SetTolerance(0);
   if (frame_.skin == nullptr || picker->Pick(x, y, 0, renderer_) == 0 || picker->GetCellId() < 0) return {};
-  vtkDataArray* groups = frame_.skin->GetCellData()->GetArray("material");
+  const bool on_cut = picker->GetActor() == cut_.Get();
+  vtkPolyData& seen = on_cut ? *cut_mapper_->GetInput() : *frame_.skin;
+  vtkDataArray* groups = seen.GetCellData()->GetArray("material");
   if (groups == nullptr || picker->GetCellId() >= groups->GetNumberOfTuples()) return {};
   const auto group = static_cast<std::size_t>(groups->GetTuple1(picker->GetCellId()));
   Picked picked;
   if (group < groups_.size()) picked.volume = groups_[group];
+  if (on_cut) return picked;
   const auto face = groups_of_face_.find(face_of(picker->GetCellId()));
   if (face == groups_of_face_.end()) return picked;
   for (const std::size_t surface : face->second) picked.surfaces.push_back(surfaces_.names[surface]);
@@ -238,43 +251,5 @@ Scene::Picked Scene::picked_at(double x, double y) const {
 }
 
 void Scene::set_caption(const std::string& text) { caption_->SetInput(text.c_str()); }
-
-vtkSmartPointer<vtkPolyData> Scene::exploded() const {
-  auto out = vtkSmartPointer<vtkPolyData>::New();
-  out->ShallowCopy(frame_.skin);
-  vtkDataArray* rank = frame_.skin->GetCellData()->GetArray("rank");
-  if (explode_ <= 0 || rank == nullptr) return out;
-  struct Sum {
-    std::array<double, 3> x{};
-    double n = 0;
-  };
-  std::map<int, Sum> parts;
-  Sum all;
-  vtkPoints* points = frame_.skin->GetPoints();
-  for (vtkIdType c = 0; c < frame_.skin->GetNumberOfCells(); ++c) {
-    Sum& part = parts[static_cast<int>(rank->GetTuple1(c))];
-    std::array<double, 3> p{};
-    points->GetPoint(3 * c, p.data());  // each triangle has its own three points
-    for (std::size_t a = 0; a < 3; ++a) {
-      part.x[a] += p[a];
-      all.x[a] += p[a];
-    }
-    part.n += 1;
-    all.n += 1;
-  }
-  vtkNew<vtkPoints> moved;
-  moved->DeepCopy(points);
-  for (vtkIdType c = 0; c < frame_.skin->GetNumberOfCells(); ++c) {
-    const Sum& part = parts[static_cast<int>(rank->GetTuple1(c))];
-    for (vtkIdType i = 3 * c; i < 3 * c + 3; ++i) {
-      std::array<double, 3> p{};
-      points->GetPoint(i, p.data());
-      for (std::size_t a = 0; a < 3; ++a) p[a] += explode_ * (part.x[a] / part.n - all.x[a] / all.n);
-      moved->SetPoint(i, p.data());
-    }
-  }
-  out->SetPoints(moved);
-  return out;
-}
 
 }  // namespace breccia::gui

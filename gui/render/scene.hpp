@@ -4,6 +4,7 @@
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
+#include <vtkPlane.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkRenderer.h>
 #include <vtkScalarBarActor.h>
@@ -11,6 +12,9 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
@@ -18,15 +22,29 @@
 
 #include "render/axes_corner.hpp"
 #include "render/class_legend.hpp"
+#include "render/cut.hpp"
 #include "render/frame_data.hpp"
 #include "render/load_glyphs.hpp"
 #include "render/load_words.hpp"
+#include "render/prefixed_unit.hpp"
 #include "render/scale_bar.hpp"
 
 namespace breccia::gui {
 
 /// What the colour of the skin means.
-enum class Colouring { group, body, fragment, rank, speed, von_mises, tension };
+enum class Colouring {
+  group,
+  body,
+  fragment,
+  rank,
+  speed,
+  von_mises,
+  tension,
+  displacement,
+  displacement_x,
+  displacement_y,
+  displacement_z
+};
 
 /// What the colour of the damaged joints means.
 enum class JointColouring { mode, time_of_failure };
@@ -74,6 +92,14 @@ class Scene {
   void hold_range(bool on) { hold_ = on; }
   /// How far parts of different ranks are moved apart: 0 not at all.
   void set_explode(double share);
+  /// Cuts the model open: half of it is hidden, and the elements that the plane goes through are seen in it.
+  void set_cut(const std::optional<CutPlane>& plane);
+  /// Elements that are seen cut through.
+  [[nodiscard]] vtkIdType num_cut() const;
+  /// The arrays of those, the one that they are coloured by among them; nullptr: there are none.
+  [[nodiscard]] vtkCellData* cut_values() const;
+  /// From where to where the model reaches along a direction, m; { 0, 0 }: nothing is there.
+  [[nodiscard]] std::array<double, 2> extent(const Vector& normal) const;
   /// Draws these faces and looks through the others at them; nullptr: none.
   void mark(vtkPolyData* faces);
   [[nodiscard]] vtkIdType num_marked() const;
@@ -86,12 +112,15 @@ class Scene {
   void show_skin(bool on);
   void set_dark(bool dark);
   void set_caption(const std::string& text);
+  [[nodiscard]] std::string caption() const { return caption_->GetInput() == nullptr ? "" : caption_->GetInput(); }
   /// The direction that is drawn upwards, of length one along an axis, from the next look on.
   void set_up(const std::array<double, 3>& up) { up_ = up; }
   [[nodiscard]] const std::array<double, 3>& up() const { return up_; }
   /// Looks at everything from there.
   void look_from(LookFrom where);
   void reset_camera() { look_from(LookFrom::corner); }
+  /// The direction that is looked along.
+  [[nodiscard]] Vector look() const;
   /// The axes in the corner and the scale bar.
   void show_axes(bool on);
   [[nodiscard]] bool has_data() const { return frame_.skin != nullptr; }
@@ -105,9 +134,11 @@ class Scene {
   /// Range of what is coloured, for the legend.
   [[nodiscard]] std::array<double, 2> range() const { return range_; }
 
+  static constexpr const char* kShown = "shown";  ///< array that skin and cut are coloured by
+
  private:
-  static constexpr const char* kShown = "shown";  ///< array that the skin is coloured by
   void colour();
+  void draw_cut();
   void draw_chosen();
   void draw_loads();
   void draw_joints();
@@ -118,12 +149,17 @@ class Scene {
   [[nodiscard]] std::int64_t face_of(vtkIdType cell) const;
   void set_opacity();
   void colour_by_class(const char* array, const std::vector<std::string>& names, const char* title);
+  void colour_by_displacement(int component);
   void colour_by_value(const char* array, int component, double scale, const char* title);
+  [[nodiscard]] vtkDataArray* values_within(const char* array) const;
+  [[nodiscard]] std::map<int, Vector> explode_ways() const;
   [[nodiscard]] vtkSmartPointer<vtkPolyData> exploded() const;
+  [[nodiscard]] vtkSmartPointer<vtkUnstructuredGrid> exploded_elements() const;
 
   vtkNew<vtkRenderer> renderer_;
-  vtkNew<vtkPolyDataMapper> skin_mapper_, broken_mapper_, marked_mapper_, chosen_mapper_;
-  vtkNew<vtkActor> skin_, broken_, marked_, chosen_;
+  vtkNew<vtkPolyDataMapper> skin_mapper_, broken_mapper_, marked_mapper_, chosen_mapper_, cut_mapper_;
+  vtkNew<vtkActor> skin_, broken_, marked_, chosen_, cut_;
+  vtkNew<vtkPlane> clip_;
   vtkNew<vtkLookupTable> colours_, mode_colours_, time_colours_;
   vtkNew<vtkScalarBarActor> legend_, time_legend_;
   vtkNew<ClassLegend> class_legend_, mode_legend_;
@@ -144,6 +180,10 @@ class Scene {
   std::array<double, 3> up_{0, 1, 0};
   std::array<double, 2> failure_range_{0, 0};
   double explode_ = 0;
+  std::optional<CutPlane> cut_plane_;
+  std::optional<Cut> through_;  ///< the frame in view in that direction; none: not worked out yet
+  PrefixedUnit unit_of_displacement_;
+  std::function<vtkSmartPointer<vtkDataArray>(vtkCellData&)> shown_;  ///< what cells are coloured by, of their arrays
   int num_glyphs_ = 0;
   std::array<double, 2> range_{0, 1};
   bool hold_ = false, solid_ = true, dark_ = false, shows_loads_ = true, shows_axes_ = true;

@@ -54,6 +54,12 @@ void Scene::look_from(LookFrom where) {
   renderer_->ResetCameraClippingRange();
 }
 
+Vector Scene::look() const {
+  Vector way{};
+  renderer_->GetActiveCamera()->GetDirectionOfProjection(way.data());
+  return way;
+}
+
 /// Zooms until the model is as large as it may be beside legend, axes and caption. @param middle  of it in the view
 void Scene::fit_beside(double middle) {
   constexpr double kRight = 0.62, kLeft = -0.96, kHigh = 0.92, kFoot = 64;  // the last in pixels

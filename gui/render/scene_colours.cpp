@@ -27,6 +27,46 @@ constexpr std::array<Colour, 8> kClasses{{{0.34, 0.71, 0.91},
                                           {0.84, 0.37, 0.0},
                                           {0.6, 0.6, 0.6}}};
 
+/// Cells of one class mostly follow each other: it is looked up where it changes. Class, and the first cell that is
+/// not of it.
+std::vector<std::pair<std::int64_t, vtkIdType>> stretches_of(vtkDataArray* values) {
+  std::vector<std::pair<std::int64_t, vtkIdType>> stretches;
+  for (vtkIdType c = 0; values != nullptr && c < values->GetNumberOfTuples(); ++c) {
+    const auto value = static_cast<std::int64_t>(values->GetComponent(c, 0));
+    if (stretches.empty() || stretches.back().first != value) stretches.emplace_back(value, c);
+    stretches.back().second = c + 1;
+  }
+  return stretches;
+}
+
+vtkSmartPointer<vtkDataArray> places_of(vtkDataArray* values, const std::map<std::int64_t, int>& seen) {
+  auto places = vtkSmartPointer<vtkIntArray>::New();
+  places->SetName(Scene::kShown);
+  places->SetNumberOfValues(values == nullptr ? 0 : values->GetNumberOfTuples());
+  vtkIdType at = 0;
+  for (const auto& [value, end] : stretches_of(values))
+    for (const int place = seen.at(value); at < end; ++at) places->SetValue(at, place);
+  return places;
+}
+
+/// @param component  < 0: the magnitude
+double number_of(vtkDataArray& values, vtkIdType cell, int component) {
+  if (component >= 0) return values.GetComponent(cell, component);
+  double sum = 0;
+  for (int a = 0; a < values.GetNumberOfComponents(); ++a)
+    sum += values.GetComponent(cell, a) * values.GetComponent(cell, a);
+  return std::sqrt(sum);
+}
+
+vtkSmartPointer<vtkDataArray> numbers_of(vtkDataArray* values, int component, double scale) {
+  auto numbers = vtkSmartPointer<vtkDoubleArray>::New();
+  numbers->SetName(Scene::kShown);
+  numbers->SetNumberOfValues(values == nullptr ? 0 : values->GetNumberOfTuples());
+  for (vtkIdType c = 0; c < numbers->GetNumberOfValues(); ++c)
+    numbers->SetValue(c, scale * number_of(*values, c, component));
+  return numbers;
+}
+
 }  // namespace
 
 void Scene::colour() {
@@ -52,34 +92,32 @@ void Scene::colour() {
     case Colouring::tension:
       colour_by_value("principal", 0, 1e-6, "largest principal\nstress [MPa]");
       break;
+    case Colouring::displacement:
+      colour_by_displacement(-1);
+      break;
+    case Colouring::displacement_x:
+    case Colouring::displacement_y:
+    case Colouring::displacement_z:
+      colour_by_displacement(static_cast<int>(colouring_) - static_cast<int>(Colouring::displacement_x));
+      break;
   }
+  draw_cut();
   draw_chosen();
+}
+
+/// Of all elements, where a cut shows any of them: colours stay as they are wherever it goes.
+vtkDataArray* Scene::values_within(const char* array) const {
+  return cut_plane_ && frame_.elements != nullptr ? frame_.elements->GetCellData()->GetArray(array) : nullptr;
 }
 
 void Scene::colour_by_class(const char* array, const std::vector<std::string>& names, const char* title) {
   constexpr std::size_t kMostNamed = 12;
   const vtkSmartPointer<vtkPolyData> skin = exploded();
-  vtkDataArray* values = skin->GetCellData()->GetArray(array);
-  vtkNew<vtkIntArray> shown;
-  shown->SetName(kShown);
   std::map<std::int64_t, int> seen;  // value -> its place among those present
-  // Faces of one class mostly follow each other: it is looked up where it changes.
-  const vtkIdType count = values == nullptr ? 0 : values->GetNumberOfTuples();
-  std::vector<std::pair<std::int64_t, vtkIdType>> stretches;  // class, and the first face that is not of it
-  for (vtkIdType c = 0; c < count; ++c) {
-    const auto value = static_cast<std::int64_t>(values->GetComponent(c, 0));
-    if (stretches.empty() || stretches.back().first != value) stretches.emplace_back(value, c);
-    stretches.back().second = c + 1;
-  }
-  for (const auto& [value, end] : stretches) seen.emplace(value, 0);
+  for (vtkDataArray* values : {skin->GetCellData()->GetArray(array), values_within(array)})
+    for (const auto& [value, end] : stretches_of(values)) seen.emplace(value, 0);
   int next = 0;
   for (auto& [value, place] : seen) place = next++;
-  shown->SetNumberOfValues(count);
-  vtkIdType at = 0;
-  for (const auto& [value, end] : stretches) {
-    const int place = seen[value];
-    for (; at < end; ++at) shown->SetValue(at, place);
-  }
   const bool dims = colouring_ == Colouring::group &&
                     std::any_of(names.begin(), names.end(), [&](const auto& n) { return highlighted_.count(n) != 0; });
   colours_->ResetAnnotations();
@@ -102,28 +140,36 @@ void Scene::colour_by_class(const char* array, const std::vector<std::string>& n
   class_legend_->set_classes(title, classes);
   class_legend_->SetVisibility(!classes.empty());
   legend_->VisibilityOff();
-  skin->GetCellData()->AddArray(shown);
+  shown_ = [array = std::string(array), seen](vtkCellData& cells) {
+    return places_of(cells.GetArray(array.c_str()), seen);
+  };
+  skin->GetCellData()->AddArray(shown_(*skin->GetCellData()));
   skin_mapper_->SetInputData(skin);
+}
+
+/// They are small in some runs and large in others. A range that is held keeps its unit. @param component  < 0: none
+void Scene::colour_by_displacement(int component) {
+  double most = 0;
+  for (vtkDataArray* values : {frame_.skin->GetCellData()->GetArray("displacement"), values_within("displacement")})
+    for (vtkIdType c = 0; values != nullptr && c < values->GetNumberOfTuples(); ++c)
+      most = std::max(most, std::abs(number_of(*values, c, component)));
+  if (!hold_) unit_of_displacement_ = prefixed_unit(most, "m");
+  const std::string name = component < 0 ? "displacement" : std::string("displacement ") + "xyz"[component];
+  colour_by_value("displacement", component, 1 / unit_of_displacement_.size,
+                  (name + " [" + unit_of_displacement_.name + "]").c_str());
 }
 
 void Scene::colour_by_value(const char* array, int component, double scale, const char* title) {
   const vtkSmartPointer<vtkPolyData> skin = exploded();
-  vtkDataArray* values = skin->GetCellData()->GetArray(array);
-  vtkNew<vtkDoubleArray> shown;
-  shown->SetName(kShown);
   double low = 0, high = 0;
-  for (vtkIdType c = 0; values != nullptr && c < values->GetNumberOfTuples(); ++c) {
-    double x = 0;
-    if (component < 0) {
-      for (int a = 0; a < values->GetNumberOfComponents(); ++a) x += std::pow(values->GetComponent(c, a), 2);
-      x = std::sqrt(x);
-    } else {
-      x = values->GetComponent(c, component);
+  bool any = false;
+  for (vtkDataArray* values : {skin->GetCellData()->GetArray(array), values_within(array)})
+    for (vtkIdType c = 0; values != nullptr && c < values->GetNumberOfTuples(); ++c) {
+      const double x = scale * number_of(*values, c, component);
+      low = any ? std::min(low, x) : x;
+      high = any ? std::max(high, x) : x;
+      any = true;
     }
-    shown->InsertNextValue(scale * x);
-    low = c == 0 ? scale * x : std::min(low, scale * x);
-    high = c == 0 ? scale * x : std::max(high, scale * x);
-  }
   if (!(high > low)) high = low + 1;
   if (hold_) {
     low = std::min(low, range_[0]);
@@ -135,7 +181,10 @@ void Scene::colour_by_value(const char* array, int component, double scale, cons
   legend_->SetTitle(title);
   legend_->VisibilityOn();
   class_legend_->VisibilityOff();
-  skin->GetCellData()->AddArray(shown);
+  shown_ = [array = std::string(array), component, scale](vtkCellData& cells) {
+    return numbers_of(cells.GetArray(array.c_str()), component, scale);
+  };
+  skin->GetCellData()->AddArray(shown_(*skin->GetCellData()));
   skin_mapper_->SetInputData(skin);
 }
 

@@ -10,6 +10,7 @@ FrameLoader::FrameLoader(QObject* parent) : QObject(parent) {
     const FrameData frame = watcher_.result();
     if (loading_model_ == model_) {
       faces_ = frame.faces;
+      keep(frame.deformation);
       telling_ = true;  // what is asked for meanwhile comes last, and is read
       emit loaded(frame);
       telling_ = false;
@@ -27,7 +28,23 @@ FrameLoader::~FrameLoader() { watcher_.waitForFinished(); }
 void FrameLoader::start_model() {
   faces_.reset();
   next_.reset();
+  scale_ = 1;
+  deformation_ = {};
   ++model_;
+}
+
+/// An automatic scale stays that of the frame for which it was found, so that frames can be compared.
+void FrameLoader::set_deformation(double scale, const QString& rest_file) {
+  if (scale == scale_) return;
+  scale_ = deformation_.scale = scale;
+  deformation_.rest_file = rest_file.toStdString();
+}
+
+/// Of a frame that has been read; another scale may have been asked for meanwhile.
+void FrameLoader::keep(const Deformation& found) {
+  if (found.rest != nullptr) deformation_.rest = found.rest;
+  deformation_.lacks_rest = deformation_.lacks_rest || found.lacks_rest;
+  if (finds_scale_ && deformation_.scale == Deformation::kAutomatic) deformation_.scale = found.scale;
 }
 
 void FrameLoader::load(const QString& elements_file, double time) {
@@ -41,12 +58,13 @@ void FrameLoader::load(const QString& elements_file, double time) {
 
 void FrameLoader::begin(const Wanted& wanted) {
   loading_model_ = model_;
+  finds_scale_ = deformation_.scale == Deformation::kAutomatic;
   QString joints = wanted.file;
   joints.replace("/elements_", "/joints_");
   if (!QFileInfo::exists(joints)) joints.clear();
-  watcher_.setFuture(
-      QtConcurrent::run([elements = wanted.file.toStdString(), joints = joints.toStdString(), time = wanted.time,
-                         faces = faces_] { return load_frame(elements, joints, time, faces); }));
+  watcher_.setFuture(QtConcurrent::run(
+      [elements = wanted.file.toStdString(), joints = joints.toStdString(), time = wanted.time, faces = faces_,
+       deformation = deformation_] { return load_frame(elements, joints, time, faces, deformation); }));
 }
 
 }  // namespace breccia::gui

@@ -21,6 +21,7 @@
 #include <array>
 
 #include "core/own_files.hpp"
+#include "core/report_maker.hpp"
 #include "widgets/case_text.hpp"
 #include "widgets/case_tree.hpp"
 #include "widgets/conditions_panel.hpp"
@@ -75,7 +76,8 @@ MainWindow::MainWindow(Places places, QWidget* parent)
       queue_(places_.state),
       library_(places_.state + "/materials.toml"),
       loader_(new FrameLoader(this)),
-      paraview_(new ParaViewResults(this)) {
+      paraview_(new ParaViewResults(this)),
+      report_(new ReportMaker(this)) {
   setObjectName("main_window");
   // The frame, which the system adds, has room as well.
   const QSize room = QGuiApplication::primaryScreen()->availableGeometry().size() - QSize(8, 40);
@@ -286,6 +288,10 @@ void MainWindow::join_panels() {
   connect(conditions_, &ConditionsPanel::groups_chosen, this, &MainWindow::show_groups);
   connect(form_, &PropertyForm::pick_wanted, view_, &View3D::set_picking);
   connect(view_, &View3D::colouring_changed, histogram_, &HistogramPanel::follow);
+  connect(view_, &View3D::deformation_chosen, this, [this] {
+    loader_->forget_scale();
+    results_->ask_again();
+  });
   connect(view_, &View3D::picked, this, &MainWindow::picked);
   connect(run_panel_, &RunPanel::run_wanted, this, &MainWindow::start_run);
   connect(run_panel_, &RunPanel::queue_wanted, this, &MainWindow::queue_run);
@@ -328,12 +334,18 @@ void MainWindow::join_panels() {
   connect(study_panel_, &StudyPanel::export_wanted, this, &MainWindow::export_study);
   connect(study_panel_, &StudyPanel::run_chosen, this, &MainWindow::open_run);
   connect(results_, &ResultsPanel::curves_wanted, this, &MainWindow::export_curves);
+  connect(results_, &ResultsPanel::run_chosen, this, [this](const QString& folder) {
+    watch(run_in(folder));
+    show_dock("dock_plots");
+  });
+  connect(results_, &ResultsPanel::other_run_wanted, this, &MainWindow::open_other_run);
+  connect(results_, &ResultsPanel::report_wanted, this, &MainWindow::make_report);
+  connect(report_, &ReportMaker::done, this, &MainWindow::report_made);
   connect(results_, &ResultsPanel::animation_wanted, this, &MainWindow::save_animation);
   connect(results_, &ResultsPanel::frame_wanted, this, [this](int n) {
     // A stage of the case shows the mesh at rest, whatever the run writes meanwhile.
     if (!showing_results_ || run_ == nullptr || n >= static_cast<int>(run_->frames().size())) return;
-    const RunFrame& frame = run_->frames()[static_cast<std::size_t>(n)];
-    loader_->load(frame.file, frame.time);
+    load_frame_of_run(run_->frames()[static_cast<std::size_t>(n)]);
   });
   connect(results_, &ResultsPanel::paraview_wanted, this, &MainWindow::open_paraview);
   connect(paraview_, &ParaViewResults::failed, this, [this](const QString& error) {

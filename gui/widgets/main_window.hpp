@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QAction>
+#include <QHash>
 #include <QJsonArray>
 #include <QLockFile>
 #include <QMainWindow>
@@ -41,6 +42,7 @@ class ProblemsPanel;
 class PropertyForm;
 class HistogramPanel;
 class QueuePanel;
+class ReportMaker;
 class ResultsPanel;
 class RunPanel;
 class RunsPanel;
@@ -167,6 +169,10 @@ class MainWindow final : public QMainWindow {
   void show_commands();
   void take_run(SolverRun* run);
   void open_run(const QString& path);
+  void open_other_run();
+  /// Looks for the runs of the case, of whatever window or terminal they are.
+  void find_runs_of_case();
+  void list_runs_of_case();
   /// The one that is watched, or is from now on.
   SolverRun* run_in(const QString& folder);
   void attach_newest_run();
@@ -174,6 +180,7 @@ class MainWindow final : public QMainWindow {
   void find_runs();
   void watch(SolverRun* run);
   void show_run_frames();
+  void load_frame_of_run(const RunFrame& frame);
   [[nodiscard]] QString no_frame_words() const;
   void run_changed();
   void run_ended(const SolverRun* run);
@@ -193,6 +200,8 @@ class MainWindow final : public QMainWindow {
   void save_animation();
   void end_animation();
   void save_picture();
+  void make_report();
+  void report_made(const QString& file, const QString& error, const QString& notes);
   [[nodiscard]] QString new_run_folder() const;
   [[nodiscard]] QStringList command_line() const;
 
@@ -212,11 +221,14 @@ class MainWindow final : public QMainWindow {
   FrameLoader* loader_;
   ParaViewResults* paraview_;
   AnimationExport* animation_ = nullptr;
-  QString curves_file_;  ///< of the table that waits for the histories; empty: none
+  ReportMaker* report_;
+  std::vector<RunOrigin> beside_;   ///< runs of the case, as last looked for
+  QHash<QString, QString> states_;  ///< of those, by folder, as last looked for
+  QString curves_file_;             ///< of the table that waits for the histories; empty: none
   QTimer validation_, preview_, law_, estimate_;
   QByteArray estimated_;  ///< text of the case that the estimate is of; empty: none was asked for
   std::vector<Problem> problems_;
-  SolverProblems told_;  ///< that the solver's commands have found
+  SolverProblems told_;     ///< that the solver's commands have found
   std::vector<int> owner_;  ///< rank of each element of the preview
   FrameData preview_frame_;
   bool showing_results_ = false, run_when_checked_ = false;

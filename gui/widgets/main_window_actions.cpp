@@ -45,12 +45,7 @@ void MainWindow::make_actions() {
   add(
       file, tr("&Import a geometry..."), QKeySequence("Ctrl+I"), [this] { import_geometry(); }, false);
   add(
-      file, tr("Open &results..."), {},
-      [this] {
-        const QString name = QFileDialog::getExistingDirectory(this, tr("Open the folder of a run"), places_.projects);
-        if (!name.isEmpty()) open_path(name);
-      },
-      false);
+      file, tr("Open &results..."), QKeySequence("Ctrl+Shift+O"), [this] { open_other_run(); }, false);
   needs_case_.push_back(add(
       file, tr("&Save"), QKeySequence::Save, [this] { (void)save(); }, true));
   needs_case_.push_back(add(
@@ -110,6 +105,7 @@ void MainWindow::make_actions() {
       view, tr("&Dark"), QKeySequence("Ctrl+D"), [this](bool on) { set_dark(on); }, true);
   dark_->setCheckable(true);
   view->addMenu(view_->look_menu());
+  view->addAction(view_->cut_action());
   QMenu* tools = menuBar()->addMenu(tr("&Tools"));
   needs_run_.push_back(add(
       tools, tr("Open in &ParaView"), {}, [this] { open_paraview(); }, false));
@@ -117,6 +113,8 @@ void MainWindow::make_actions() {
       tools, tr("Watch &live in ParaView"), {}, [this] { watch_live(); }, false));
   needs_run_.push_back(add(
       tools, tr("Export &curves..."), {}, [this] { export_curves(); }, false));
+  needs_run_.push_back(add(
+      tools, tr("&Report of the run..."), QKeySequence("Ctrl+R"), [this] { make_report(); }, false));
   needs_run_.push_back(add(
       tools, tr("Save &animation..."), {}, [this] { save_animation(); }, false));
   add(

@@ -146,7 +146,7 @@ void MainWindow::show_division(const QJsonObject& json) {
   owner_.clear();
   for (const QJsonValue& rank : json["owner"].toArray()) owner_.push_back(rank.toInt());
   if (preview_frame_.skin == nullptr || showing_results_) return;
-  set_ranks(*preview_frame_.skin, owner_);
+  set_ranks(preview_frame_, owner_);
   view_->set_colouring(Colouring::rank);
   view_->show_frame(preview_frame_,
                     tr("mesh at rest, as %1 ranks would share it").arg(json["domains"].toArray().size()));

@@ -218,9 +218,13 @@ void MainWindow::stage_selected(int stage, const QString& path) {
     if (run_ != nullptr) show_dock("dock_plots");
   }
   show_loads();
+  if (chosen.kind == Kind::results) {  // a terminal may have started one since
+    run_ == nullptr&& document_.is_open() ? attach_newest_run() : find_runs_of_case();
+  }
   const bool results = run_ != nullptr && chosen.kind != Kind::sections;
   if (results == showing_results_) return;
   showing_results_ = results;
+  view_->set_deformable(results);
   name_groups();
   view_->scene().mark(nullptr);
   if (animation_ != nullptr) animation_->give_up(tr("the view shows something else"));

@@ -1,4 +1,5 @@
 #include <QBuffer>
+#include <QDesktopServices>
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -6,10 +7,12 @@
 #include <QProcess>
 #include <QStandardPaths>
 #include <QStatusBar>
+#include <QUrl>
 #include <algorithm>
 #include <array>
 #include <utility>
 
+#include "core/report_maker.hpp"
 #include "core/written_file.hpp"
 #include "widgets/animation_export.hpp"
 #include "widgets/frame_loader.hpp"
@@ -38,6 +41,7 @@ void MainWindow::show_curves() {
   for (const SolverRun* run : compared_)
     if (run != run_) others.emplace_back(name_of(*run), &run->history());
   static const History none;
+  results_->set_has_curves(run_ != nullptr || !compared_.empty());
   plots_->show_history(run_ == nullptr ? none : run_->history(), others);
 }
 
@@ -160,6 +164,32 @@ void MainWindow::save_picture() {
   view_->picture().save(&png, "PNG");
   if (const QString error = written(name, png.data()); !error.isEmpty())
     QMessageBox::warning(this, tr("Breccia"), error);
+}
+
+/// The solver says what there is to say of a run; ParaView draws for it, which takes a while.
+void MainWindow::make_report() {
+  if (run_ == nullptr || report_->busy()) return;
+  const QString suggested = QDir(run_->record().folder).filePath("report.html");
+  QString name = QFileDialog::getSaveFileName(this, tr("Write the report as"), suggested, tr("Pages (*.html)"));
+  if (name.isEmpty()) return;
+  if (QFileInfo(name).suffix().isEmpty()) name += ".html";
+  results_->set_reporting(true);
+  statusBar()->showMessage(tr("the report is written, with pictures by ParaView..."));
+  report_->make(places_.launch.program, run_->record().folder, name);
+}
+
+void MainWindow::report_made(const QString& file, const QString& error, const QString& notes) {
+  results_->set_reporting(false);
+  statusBar()->clearMessage();
+  if (!error.isEmpty()) {
+    QMessageBox::warning(this, tr("Breccia"), tr("The report could not be written: %1").arg(error));
+    return;
+  }
+  const bool seen = QDesktopServices::openUrl(QUrl::fromLocalFile(file));
+  QString words = tr("%1 is written").arg(file);
+  if (!seen) words += tr("; no browser is there to show it");
+  if (!notes.isEmpty()) words += tr(", without pictures: %1").arg(notes);
+  statusBar()->showMessage(words, 15000);
 }
 
 }  // namespace breccia::gui

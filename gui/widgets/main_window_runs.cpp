@@ -2,6 +2,7 @@
 #include <QApplication>
 #include <QDateTime>
 #include <QDir>
+#include <QFileDialog>
 #include <QFileInfo>
 #include <QLabel>
 #include <QMessageBox>
@@ -10,7 +11,9 @@
 #include <QStatusBar>
 #include <QSystemTrayIcon>
 #include <algorithm>
+#include <limits>
 
+#include "core/report_maker.hpp"
 #include "widgets/animation_export.hpp"
 #include "widgets/case_tree.hpp"
 #include "widgets/domains_panel.hpp"
@@ -190,28 +193,71 @@ SolverRun* MainWindow::run_in(const QString& folder) {
   return runs_.front();
 }
 
-/// The latest run of the case that has just been opened is at hand, though nobody has asked for it.
+void MainWindow::open_other_run() {
+  const QString from = document_.is_open() ? document_.folder() : places_.projects;
+  const QString name = QFileDialog::getExistingDirectory(this, tr("Open the folder of a run"), from);
+  if (!name.isEmpty()) open_path(name);
+}
+
+void MainWindow::find_runs_of_case() {
+  beside_ = document_.is_open() ? runs_beside(document_.file()) : std::vector<RunOrigin>();
+  for (const SolverRun* run : runs_) {
+    const QString folder = run->record().folder;
+    const bool is_listed =
+        std::any_of(beside_.begin(), beside_.end(), [&](const RunOrigin& one) { return one.folder == folder; });
+    if (!is_listed && (run == run_ || run->record().case_file == document_.file()))
+      beside_.push_back(origin_of(folder));
+  }
+  // One that has just been started has told nothing yet.
+  const auto when = [](const RunOrigin& one) {
+    return one.started.isValid() ? one.started.toMSecsSinceEpoch() : std::numeric_limits<qint64>::max();
+  };
+  std::stable_sort(beside_.begin(), beside_.end(), [&](const auto& a, const auto& b) { return when(a) > when(b); });
+  states_.clear();
+  for (const RunOrigin& one : beside_)
+    states_[one.folder] = is_held(one.folder) ? tr("running") : outcome_of(one.folder).state;
+  list_runs_of_case();
+}
+
+/// Those that are watched say how they go.
+void MainWindow::list_runs_of_case() {
+  std::vector<RunChoice> choices;
+  for (const RunOrigin& one : beside_) {
+    const auto watched = std::find_if(runs_.begin(), runs_.end(),
+                                      [&](const SolverRun* run) { return run->record().folder == one.folder; });
+    const QString state = watched != runs_.end() ? (*watched)->state() : states_.value(one.folder);
+    QStringList words{QFileInfo(one.folder).fileName(), state};
+    if (one.started.isValid()) words << one.started.toLocalTime().toString("yyyy-MM-dd HH:mm");
+    words << (one.ranks == 1 ? tr("1 rank") : tr("%1 ranks").arg(one.ranks));
+    choices.push_back({one.folder, words.join(", ")});
+  }
+  results_->set_choices(choices);
+}
+
+/// The latest run of the case is at hand, though nobody has asked for it; one that goes on comes before all others.
 void MainWindow::attach_newest_run() {
-  const auto own = std::find_if(runs_.begin(), runs_.end(), [this](const SolverRun* run) {
-    return run->record().case_file == document_.file();
-  });
-  if (own != runs_.end()) return watch(*own);
-  if (const QString folder = newest_run_beside(document_.file()); !folder.isEmpty()) watch(run_in(folder));
+  find_runs_of_case();
+  if (beside_.empty()) return;
+  const auto alive =
+      std::find_if(beside_.begin(), beside_.end(), [](const RunOrigin& one) { return is_held(one.folder); });
+  watch(run_in((alive != beside_.end() ? *alive : beside_.front()).folder));
 }
 
 void MainWindow::watch(SolverRun* run) {
   if (animation_ != nullptr) end_animation();
   run_ = run;
   using Kind = WorkStage::Kind;
-  showing_results_ =
-      run != nullptr && work_stages()[static_cast<std::size_t>(tree_->stage())].kind != Kind::sections;
+  showing_results_ = run != nullptr && work_stages()[static_cast<std::size_t>(tree_->stage())].kind != Kind::sections;
   name_groups();
   loader_->start_model();
+  view_->set_deformable(showing_results_);
   if (showing_results_ || run == nullptr) histogram_->set_frame({}, false);
   if (run != nullptr) run->read_history();
   if (run != nullptr && run->alive() && !run->record().command.isEmpty()) run_panel_->set_ranks(run->record().ranks);
   show_curves();
+  find_runs_of_case();
   results_->set_run(run == nullptr ? QString() : run->record().folder);
+  results_->set_reporting(report_->busy());
   if (showing_results_) {
     view_->clear(no_frame_words());
     show_run_frames();
@@ -224,11 +270,18 @@ void MainWindow::watch(SolverRun* run) {
 void MainWindow::show_run_frames() {
   if (run_->frames().empty()) view_->clear(no_frame_words());
   results_->set_frames(run_->frames());
-  if (!results_->follows() && !run_->frames().empty())
-    loader_->load(run_->frames().back().file, run_->frames().back().time);
+  if (!results_->follows() && !run_->frames().empty()) load_frame_of_run(run_->frames().back());
+}
+
+/// Displacements count from the first frame of the run, which is the model at rest.
+void MainWindow::load_frame_of_run(const RunFrame& frame) {
+  loader_->set_deformation(view_->deformation(), run_->frames().front().file);
+  loader_->load(frame.file, frame.time);
 }
 
 QString MainWindow::no_frame_words() const {
+  if (!read_series(run_->record().folder, "joints").empty())
+    return tr("the frames of this run have joints but no elements (output.elements of its case): nothing to draw");
   return run_->alive() ? tr("waiting for the first frame...") : tr("this run has left no frame");
 }
 
@@ -236,6 +289,7 @@ void MainWindow::run_changed() {
   run_panel_->show_run(run_);
   show_commands();
   runs_panel_->show_runs(runs_);
+  list_runs_of_case();
   run_bar_->setVisible(run_ != nullptr && run_->alive());
   show_actions();
   if (run_ == nullptr) {
@@ -275,7 +329,7 @@ void MainWindow::show_frame(const FrameData& frame) {
   if (!showing_results_) {
     mesh_file_.clear();
     preview_frame_ = frame;
-    if (!owner_.empty()) set_ranks(*preview_frame_.skin, owner_);
+    if (!owner_.empty()) set_ranks(preview_frame_, owner_);
     view_->show_frame(preview_frame_, tr("mesh at rest"));
     histogram_->set_frame(preview_frame_, false);
     return;

@@ -9,20 +9,12 @@
 #include <QSplitter>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <utility>
+
+#include "core/history_columns.hpp"
 
 namespace breccia::gui {
 namespace {
-
-/// "kinetic" and "J" of "kinetic [J]".
-struct Column {
-  QString name, unit;
-};
-
-Column parts_of(const QString& column) {
-  static const QRegularExpression pattern(R"(^(.*) \[([^\[\]]*)\]$)");
-  const auto match = pattern.match(column);
-  return match.hasMatch() ? Column{match.captured(1), match.captured(2)} : Column{column, {}};
-}
 
 /// Of a chart and of a part of the list.
 QString quantity_of(const QString& unit) {
@@ -44,10 +36,6 @@ bool is_first_choice(const QString& column) {
                                 "broken in mode II",    "fragments"};
   static const QRegularExpression gauge(R"(^.+(?<! max) displacement [xyz] \[m\]$|^.+ reaction [xyz] \[N\]$)");
   return list.contains(column) || gauge.match(column).hasMatch();
-}
-
-bool is_zero(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [](double x) { return !(x != 0); });
 }
 
 QVTKOpenGLNativeWidget* canvas(vtkGenericOpenGLRenderWindow* window, HistoryChart& chart) {
@@ -114,7 +102,6 @@ void PlotsPanel::unfold() {
   render();
 }
 
-/// A chart that got another size lays its axes out in one picture and draws by them in the next.
 bool PlotsPanel::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::Resize) unfolding_.start(0);
   return QWidget::eventFilter(watched, event);
@@ -124,8 +111,15 @@ void PlotsPanel::render() {
   const auto waits = [](const Chart& chart) { return chart.wanted && chart.canvas->isHidden(); };
   stale_ = std::any_of(charts_.begin(), charts_.end(), waits) || visibleRegion().isEmpty();
   if (stale_) return update();
-  for (Chart& chart : charts_)
-    if (chart.wanted) chart.window->Render();
+  for (Chart& chart : charts_) {
+    if (!chart.wanted || !chart.window->GetReadyForRendering()) continue;
+    chart.window->Render();
+    const std::array<int, 2> size{chart.window->GetSize()[0], chart.window->GetSize()[1]};
+    if (size == std::exchange(chart.size, size)) continue;
+    // A chart that got another size lays its axes out in one picture and draws by them in the next.
+    chart.chart.renew_range();
+    for (int picture = 0; picture < 2; ++picture) chart.window->Render();
+  }
 }
 
 /// All but the step and the time themselves, by unit. It stays as it is while the columns do.
@@ -159,11 +153,28 @@ void PlotsPanel::ticked(QTreeWidgetItem* item) {
   draw();
 }
 
-/// A curve that nobody has asked for is drawn once it is not zero throughout.
+/// A curve that nobody has asked for is drawn once it is neither zero throughout nor mere rounding.
 bool PlotsPanel::is_drawn(int column) const {
   const QString& name = history_->columns()[column];
   if (ticks_.contains(name)) return ticks_.value(name);
-  return is_first_choice(name) && !is_zero(history_->values(column));
+  return is_first_choice(name) && history_->largest(column) > 0 && !round_off_[static_cast<std::size_t>(column)];
+}
+
+/// Curves that are mere rounding say so; those of them that nobody has ticked are drawn once they are.
+void PlotsPanel::tell_round_off() {
+  round_off_ = are_round_off(*history_);
+  const QSignalBlocker quiet(list_);
+  for (QTreeWidgetItemIterator it(list_); *it != nullptr; ++it) {
+    const QString column = (*it)->data(0, Qt::UserRole).toString();
+    if (column.isEmpty()) continue;
+    const bool rounding = round_off_[static_cast<std::size_t>(history_->column(column))];
+    const QString name = parts_of(column).name, words = rounding ? tr("%1 (only rounding)").arg(name) : name;
+    if ((*it)->text(0) == words) continue;
+    (*it)->setText(0, words);
+    (*it)->setToolTip(0, rounding ? tr("%1: what rounding leaves of nothing; a tick draws it").arg(column) : column);
+    if (!ticks_.contains(column))
+      (*it)->setCheckState(0, is_first_choice(column) && !rounding ? Qt::Checked : Qt::Unchecked);
+  }
 }
 
 /// In the order of the columns; those of other runs follow theirs.
@@ -193,6 +204,7 @@ void PlotsPanel::show_history(const History& history, const std::vector<std::pai
   history_ = &history;
   others_ = others;
   list_columns();
+  tell_round_off();
   draw();
 }
 

@@ -39,10 +39,12 @@ class PlotsPanel final : public QWidget {
     vtkNew<vtkGenericOpenGLRenderWindow> window;
     QVTKOpenGLNativeWidget* canvas = nullptr;
     bool wanted = false;
+    std::array<int, 2> size{};  ///< at which it was drawn last, pixels
   };
   using CurvesByUnit = std::vector<std::pair<QString, std::vector<Curve>>>;
 
   void list_columns();
+  void tell_round_off();
   void ticked(QTreeWidgetItem* item);
   [[nodiscard]] bool is_drawn(int column) const;
   [[nodiscard]] CurvesByUnit chosen_curves() const;
@@ -57,9 +59,10 @@ class PlotsPanel final : public QWidget {
   History history_none_;
   const History* history_ = &history_none_;
   std::vector<std::pair<QString, const History*>> others_;
-  QStringList listed_;          ///< columns of the list
-  QHash<QString, bool> ticks_;  ///< columns that someone has ticked or unticked
-  bool stale_ = false;          ///< the charts have changed since they were drawn
+  std::vector<bool> round_off_;  ///< by column
+  QStringList listed_;           ///< columns of the list
+  QHash<QString, bool> ticks_;   ///< columns that someone has ticked or unticked
+  bool stale_ = false;           ///< the charts have changed since they were drawn
 };
 
 }  // namespace breccia::gui

@@ -1,5 +1,7 @@
 #include "widgets/results_panel.hpp"
 
+#include <QAbstractItemView>
+#include <QFileInfo>
 #include <QHBoxLayout>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
@@ -16,7 +18,7 @@ constexpr int kPace = 80;  // ms that a frame is seen while frames are played, b
 
 ResultsPanel::ResultsPanel(QWidget* parent)
     : QWidget(parent),
-      run_(new QLabel(tr("No run is open."))),
+      runs_(new QComboBox),
       time_(new QLabel),
       slider_(new QSlider(Qt::Horizontal)),
       follow_(new QCheckBox(tr("F&ollow the newest frame"))),
@@ -26,9 +28,11 @@ ResultsPanel::ResultsPanel(QWidget* parent)
       paraview_(new QPushButton(tr("Open in ParaVie&w"))),
       picture_(new QPushButton(tr("Save p&icture..."))),
       curves_(new QPushButton(tr("Export &curves..."))),
-      animation_(new QPushButton(tr("Save &animation..."))) {
-  run_->setWordWrap(true);
-  run_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+      animation_(new QPushButton(tr("Save &animation..."))),
+      report_(named_button(tr("Re&port..."), "report",
+                           tr("Have the solver write a page about this run, with figures, curves and pictures by "
+                              "ParaView, that needs nothing beside it; it opens in the browser"))),
+      other_(named_button(tr("Another..."), "other_run", tr("Open the folder of any other run"))) {
   time_->setObjectName("frame_time");
   slider_->setObjectName("frame");
   slider_->setAccessibleName(tr("Frame"));
@@ -60,7 +64,7 @@ ResultsPanel::ResultsPanel(QWidget* parent)
   animation_->setAccessibleName(tr("Save animation"));
   animation_->setToolTip(tr("Save all frames, as the 3D view shows them, as a film (MP4, by ffmpeg) or as pictures"));
   auto* column = new QVBoxLayout(this);
-  column->addWidget(run_);
+  make_picker(*column);
   column->addWidget(follow_);
   auto* row = new QHBoxLayout;
   row->addWidget(back_);
@@ -75,6 +79,7 @@ ResultsPanel::ResultsPanel(QWidget* parent)
   column->addWidget(picture_);
   column->addWidget(animation_);
   column->addWidget(curves_);
+  column->addWidget(report_);
   column->addStretch();
   connect(slider_, &QSlider::valueChanged, this, &ResultsPanel::moved);
   connect(back_, &QPushButton::clicked, this, [this] {
@@ -90,12 +95,64 @@ ResultsPanel::ResultsPanel(QWidget* parent)
   connect(paraview_, &QPushButton::clicked, this, &ResultsPanel::paraview_wanted);
   connect(picture_, &QPushButton::clicked, this, &ResultsPanel::picture_wanted);
   connect(curves_, &QPushButton::clicked, this, &ResultsPanel::curves_wanted);
+  connect(report_, &QPushButton::clicked, this, &ResultsPanel::report_wanted);
+  connect(other_, &QPushButton::clicked, this, &ResultsPanel::other_run_wanted);
   connect(animation_, &QPushButton::clicked, this, &ResultsPanel::animation_wanted);
-  set_frames({});
+  set_run({});
+  set_has_curves(false);
+}
+
+void ResultsPanel::make_picker(QVBoxLayout& column) {
+  runs_->setObjectName("results_run");
+  runs_->setAccessibleName(tr("Run that is looked at"));
+  runs_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  runs_->setMinimumContentsLength(12);
+  connect(runs_, qOverload<int>(&QComboBox::activated), this, [this](int row) {
+    const QString folder = runs_->itemData(row).toString();
+    if (!folder.isEmpty() && folder != folder_) emit run_chosen(folder);
+  });
+  auto* row = new QHBoxLayout;
+  auto* label = new QLabel(tr("Ru&n"));
+  label->setBuddy(runs_);
+  row->addWidget(label, 1);
+  row->addWidget(other_);
+  column.addLayout(row);
+  column.addWidget(runs_);
+}
+
+void ResultsPanel::set_choices(const std::vector<RunChoice>& choices) {
+  if (choices == choices_) return;
+  choices_ = choices;
+  choose_shown();
+}
+
+void ResultsPanel::choose_shown() {
+  const QSignalBlocker quiet(runs_);
+  runs_->clear();
+  for (const RunChoice& choice : choices_) {
+    runs_->addItem(choice.words, choice.folder);
+    runs_->setItemData(runs_->count() - 1, choice.folder, Qt::ToolTipRole);
+  }
+  int shown = runs_->findData(folder_);
+  if (shown < 0) {
+    runs_->insertItem(0, folder_.isEmpty() ? tr("no run is open") : QFileInfo(folder_).fileName(), folder_);
+    shown = 0;
+  }
+  runs_->setCurrentIndex(shown);
+  runs_->view()->setMinimumWidth(runs_->view()->sizeHintForColumn(0));  // names of runs differ in their ends
+  const QString tip = tr("The runs of this case, newest first: name, state, start, ranks");
+  runs_->setToolTip(folder_.isEmpty() ? tip : tip + "\n" + folder_);
+}
+
+void ResultsPanel::set_reporting(bool on) {
+  report_->setText(on ? tr("The report is written...") : tr("Re&port..."));
+  report_->setEnabled(!on && !folder_.isEmpty());
 }
 
 void ResultsPanel::set_run(const QString& folder) {
-  run_->setText(folder.isEmpty() ? tr("No run is open.") : tr("<b>Run</b> %1").arg(folder.toHtmlEscaped()));
+  folder_ = folder;
+  choose_shown();
+  set_reporting(false);
   stop_playing();
   set_frames({});
   follow_->setChecked(true);

@@ -22,7 +22,9 @@ View3D::View3D(QWidget* parent)
       skin_(new QCheckBox(tr("So&lid"))),
       loads_(new QCheckBox(tr("Loads"))),
       explode_(new QSlider(Qt::Horizontal)),
-      look_(new QMenu(tr("&Look from"), this)) {
+      look_(new QMenu(tr("&Look from"), this)),
+      cut_(new CutBar),
+      deformation_(new DeformationBox) {
   window_->SetMultiSamples(0);
   canvas_->setRenderWindow(window_);
   window_->SetNumberOfLayers(2);
@@ -50,7 +52,18 @@ View3D::View3D(QWidget* parent)
   make_joints_box();
   make_boxes();
   make_look_menu();
+  make_cut_bar();
+  connect(deformation_, &DeformationBox::chosen, this, &View3D::deformation_chosen);
   fill_bar();
+}
+
+void View3D::make_cut_bar() {
+  cut_->set_model([this](const Vector& way) { return scene_.extent(way); }, [this] { return scene_.look(); });
+  connect(cut_, &CutBar::changed, this, [this] {
+    scene_.set_cut(cut_->plane());
+    write_caption();
+    render();
+  });
 }
 
 /// The colours of the damaged joints.
@@ -165,6 +178,12 @@ void View3D::fill_bar() {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(2, 2, 2, 2);
   column->addWidget(bar);
+  auto* how = new FoldingBar;
+  how->row(0)->addWidget(cut_, 1);
+  how->row(1)->addWidget(new QLabel(tr("Displacements")));
+  how->row(1)->addWidget(deformation_);
+  how->row(1)->addStretch();
+  column->addWidget(how);
   column->addWidget(canvas_, 1);
 }
 
@@ -203,23 +222,34 @@ void View3D::render_now() {
   window_->Render();
 }
 
+void View3D::write_caption() {
+  const QString words = marked_.isEmpty() ? caption_ : marked_;
+  scene_.set_caption((scene_.has_data() ? words + scale_words_ + cut_->words() : words).toStdString());
+}
+
 void View3D::show_frame(const FrameData& frame, const QString& caption) {
+  const bool is_new = !scene_.has_data();
   scene_.show(frame);
   caption_ = caption;
-  scene_.set_caption(caption.toStdString());
+  marked_.clear();
+  scale_words_ = words_of(frame.deformation);
+  cut_->follow_model(is_new);
+  write_caption();
   render();
 }
 
 void View3D::mark(vtkPolyData* faces, const QString& words) {
   scene_.mark(faces);
-  scene_.set_caption((faces == nullptr ? caption_ : words).toStdString());
+  marked_ = faces == nullptr ? QString() : words;
+  write_caption();
   render();
 }
 
 void View3D::clear(const QString& caption) {
   scene_.clear();
   caption_ = caption;
-  scene_.set_caption(caption.toStdString());
+  marked_.clear();
+  write_caption();
   render();
 }
 

@@ -10,6 +10,8 @@
 #include <QSlider>
 
 #include "render/scene.hpp"
+#include "widgets/cut_bar.hpp"
+#include "widgets/deformation_box.hpp"
 
 namespace breccia::gui {
 
@@ -26,6 +28,11 @@ class View3D final : public QWidget {
   void set_colouring(Colouring colouring);
   /// From where the model is looked at, each with its key.
   [[nodiscard]] QMenu* look_menu() { return look_; }
+  [[nodiscard]] QAction* cut_action() { return cut_->action(); }
+  /// How displacements are to be drawn, as of Deformation.
+  [[nodiscard]] double deformation() const { return deformation_->scale(); }
+  /// Frames of a run have displacements.
+  void set_deformable(bool on) { deformation_->setEnabled(on); }
   /// Draws these faces in front of all others, with words for them; nullptr: none, and the caption of the frame.
   void mark(vtkPolyData* faces, const QString& words);
   /// Seen as glyphs where that is switched on.
@@ -47,6 +54,8 @@ class View3D final : public QWidget {
   /// It was clicked on, without dragging.
   void picked(const Scene::Picked& what);
   void colouring_changed(Colouring colouring);
+  /// The frame in view is to be drawn anew with it.
+  void deformation_chosen();
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -55,7 +64,10 @@ class View3D final : public QWidget {
   void make_look_menu();
   void make_joints_box();
   void make_boxes();
+  void make_cut_bar();
   void fill_bar();
+  /// What is drawn, and how.
+  void write_caption();
   Scene scene_;
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   QVTKOpenGLNativeWidget* canvas_;
@@ -63,7 +75,11 @@ class View3D final : public QWidget {
   QCheckBox *edges_, *skin_, *loads_;
   QSlider* explode_;
   QMenu* look_;
-  QString caption_;  ///< of the frame
+  CutBar* cut_;
+  DeformationBox* deformation_;
+  QString scale_words_;  ///< of the frame, where displacements are not drawn as they are
+  QString caption_;      ///< of the frame
+  QString marked_;       ///< words for the faces that are marked; empty: there are none
   QPoint pressed_;
   bool will_render_ = false;
 };

@@ -102,13 +102,19 @@ TEST(Skin, OfAPartTheFacesAreSeenThatNoTwoOfItsElementsShare) {
   EXPECT_EQ(box[0], 0.5) << "rows of the frame, not ids";
 }
 
-TEST(Skin, RanksAreThoseOfTheOwners) {
+TEST(Skin, RanksAreThoseOfTheOwnersAndTheElementsOfOthersStayAsTheyAre) {
   const auto whole = grid_of({{kLeft, 0, 0}, {kRight, 1, 0}});
-  const auto skin = Skin(*whole).draw(*whole);
-  set_ranks(*skin, {7, 9});
-  vtkDataArray* rank = skin->GetCellData()->GetArray("rank");
-  vtkDataArray* id = skin->GetCellData()->GetArray("id");
-  for (vtkIdType c = 0; c < skin->GetNumberOfCells(); ++c) EXPECT_EQ(rank->GetTuple1(c), id->GetTuple1(c) == 0 ? 7 : 9);
+  FrameData frame;
+  frame.skin = Skin(*whole).draw(*whole);
+  frame.elements = whole;
+  set_ranks(frame, {7, 9});
+  for (vtkDataSet* cells : {static_cast<vtkDataSet*>(frame.skin), static_cast<vtkDataSet*>(frame.elements)}) {
+    vtkDataArray* rank = cells->GetCellData()->GetArray("rank");
+    vtkDataArray* id = cells->GetCellData()->GetArray("id");
+    for (vtkIdType c = 0; c < cells->GetNumberOfCells(); ++c)
+      EXPECT_EQ(rank->GetTuple1(c), id->GetTuple1(c) == 0 ? 7 : 9);
+  }
+  EXPECT_FALSE(whole->GetCellData()->HasArray("rank"));
 }
 
 TEST(LoadFrame, AFileThatCannotBeReadGivesNothing) {

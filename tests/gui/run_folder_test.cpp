@@ -145,10 +145,10 @@ TEST(RunFolder, FramesWhoseFileIsThereAreListed) {
   EXPECT_EQ(frames[0].time, 0.5);
 }
 
-TEST(RunFolder, TheNewestRunBesideACaseIsOfThatCaseAndHasWrittenSomething) {
+TEST(RunFolder, RunsBesideACaseAreOfThatCaseAndHaveWrittenSomethingAndTheNewestIsFirst) {
   const QTemporaryDir scratch;
   const QString file = scratch.filePath("case.toml");
-  EXPECT_EQ(newest_run_beside(file), "");
+  EXPECT_TRUE(runs_beside(file).empty());
   const QStringList runs{"case-20261126-100000", "case-20261126-100000-2", "case-20261127-090000",
                          "case-2-20261128-090000", "case-20261129-090000-study"};
   for (const QString& name : runs) {
@@ -158,7 +158,22 @@ TEST(RunFolder, TheNewestRunBesideACaseIsOfThatCaseAndHasWrittenSomething) {
     ASSERT_TRUE(out.open(QIODevice::WriteOnly));
     out.write(R"({"program": "breccia"})");
   }
-  EXPECT_EQ(newest_run_beside(file), scratch.filePath("runs/case-20261126-100000-2"));
+  const auto named = runs_beside(file);
+  ASSERT_EQ(named.size(), 2U);
+  EXPECT_EQ(named[0].folder, scratch.filePath("runs/case-20261126-100000-2"));
+  // One that was started in a terminal has any name, and tells when and of what it is.
+  for (const char* const name : {"try", "of_another"}) {
+    const bool is_own = name == std::string("try");
+    ASSERT_TRUE(QDir(scratch.path()).mkpath(QString("runs/%1").arg(name)));
+    append(scratch.filePath(QString("runs/%1/provenance.json").arg(name)),
+           R"({"program": "breccia", "started": "2026-11-30T10:00:00Z", "ranks": 4, "inputs": [{"file": "/a/)" +
+               QByteArray(is_own ? "case.toml" : "other.toml") + R"("}]})");
+  }
+  const auto all = runs_beside(file);
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[0].folder, scratch.filePath("runs/try"));
+  EXPECT_EQ(all[0].ranks, 4);
+  EXPECT_EQ(all[0].started, QDateTime::fromString("2026-11-30T12:00:00+02:00", Qt::ISODate));
 }
 
 }  // namespace
