@@ -33,14 +33,12 @@ struct Piece {
 /// rank:
 /// - what touches an original then is within twice that motion, the margin;
 /// - a point that comes to an original brings the history of what it touched on its way, which counts from the last
-/// search:
-///   then its rank told what it touched. Since then neither it nor any element has moved by more than half the search's
-///   buffer, so that all it touched is within two buffers more;
+///   search: then its rank told what it touched. Since then neither it nor any element has moved by more than half
+///   the search's buffer, so that all it touched is within two buffers more;
 /// - around such elements corner clusters are complete, since what is bonded to them at a vertex is no further away
-/// than
-///   the largest element: the ring;
-/// - the stable step of contact on shared nodes (contact_step.cpp) comes from the faces at the nodes of an original, the
-///   nodes of these, and twice more so: three rings around it, wherever they have moved.
+///   than the largest element: the ring;
+/// - the stable step of contact on shared nodes (contact_step.cpp) comes from the faces at the nodes of an original,
+///   the nodes of these, and twice more so: three rings around it, wherever they have moved.
 struct Reach {
   double margin = 0;   ///< m
   double ring = 0;     ///< m
