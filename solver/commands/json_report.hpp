@@ -29,8 +29,8 @@ namespace breccia {
 [[nodiscard]] std::string mesh_json(const FinishedMesh& made,
                                     const std::vector<std::vector<Topology::Face>>* faces = nullptr);
 
-/// What a geometry lets mesh.parameters set, in its order: `parameters`, each with `names`, any of which sets it, and as
-/// the geometry has them `default` and `words`, the comment behind it. None of any file but a .geo.
+/// What a geometry lets mesh.parameters set, in its order: `parameters`, each with `names`, any of which sets it, and
+/// as the geometry has them `default` and `words`, the comment behind it. None of any file but a .geo.
 [[nodiscard]] std::string parameters_json(const std::filesystem::path& geometry);
 
 /// Every row of the table of keys: path, type, unit, default, required, lower, upper, choices, word, help, example,
