@@ -121,6 +121,15 @@ QString words_of(const QString& path, const TomlPlaces& places) {
   return rest.isEmpty() ? words : QCoreApplication::translate("stages", "%1 of %2").arg(rest, words);
 }
 
+QString numbered_words(const QString& path) {
+  QStringList words;
+  for (const QString& part : path.split('.')) {
+    const QString name = plain(part.section('[', 0, 0).toStdString()), index = part.section('[', 1).remove(']');
+    words << (index.isEmpty() ? name : QString("%1 %2").arg(name).arg(index.toInt() + 1));
+  }
+  return words.join(", ");
+}
+
 int stage_of(const std::string& path) {
   const std::string pattern = case_::pattern_of(path);
   int best = 0;

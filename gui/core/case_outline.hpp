@@ -36,6 +36,9 @@ struct OutlineRow {
 /// What a path names, for people: "softening c of joint: glass" for "joint[0].softening.c".
 [[nodiscard]] QString words_of(const QString& path, const TomlPlaces& places);
 
+/// Which entry a path is, by numbers: "stage 1, constraint 2" for "stage[0].constraint[1]".
+[[nodiscard]] QString numbered_words(const QString& path);
+
 /// The stage that a path belongs to.
 [[nodiscard]] int stage_of(const std::string& path);
 

@@ -24,13 +24,7 @@ struct Interval {
 };
 
 PlotLine curve(const QString& name, const TimeFunction& function, const Interval& stage) {
-  PlotLine line{name, {}, {}};
-  for (int i = 0; i <= kSamples; ++i) line.x.push_back(stage.begin + (stage.end - stage.begin) * i / kSamples);
-  for (const TimeFunction::Point& p : function.table)
-    if (p.time > stage.begin && p.time < stage.end) line.x.push_back(p.time);
-  std::sort(line.x.begin(), line.x.end());
-  for (const double t : line.x) line.y.push_back(function(t));
-  return line;
+  return sampled(name, function, stage.begin, stage.end);
 }
 
 /// The values by axis at the time at which they are largest together.
@@ -158,6 +152,16 @@ Condition initial_velocity(const Document& document, const case_::InitialVelocit
 }
 
 }  // namespace
+
+PlotLine sampled(const QString& name, const TimeFunction& function, double begin, double end) {
+  PlotLine line{name, {}, {}};
+  for (int i = 0; i <= kSamples; ++i) line.x.push_back(begin + (end - begin) * i / kSamples);
+  for (const TimeFunction::Point& p : function.table)
+    if (p.time > begin && p.time < end) line.x.push_back(p.time);
+  std::sort(line.x.begin(), line.x.end());
+  for (const double t : line.x) line.y.push_back(function(t));
+  return line;
+}
 
 std::vector<Condition> conditions_of(const Document& document) {
   std::vector<Condition> rows;

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "base/time_function.hpp"
 #include "core/document.hpp"
 #include "core/plot_line.hpp"
 
@@ -30,6 +31,9 @@ struct Condition {
   std::array<double, 3> stretches_by{};  ///< 1/s, of an initial velocity
   double random = 0;                     ///< greatest speed that is drawn for a body, m/s, of an initial velocity
 };
+
+/// A function of time from `begin` to `end`, s, with the corners of its table.
+[[nodiscard]] PlotLine sampled(const QString& name, const TimeFunction& function, double begin, double end);
 
 /// All of them, stage by stage. Empty where the reader refuses the case.
 [[nodiscard]] std::vector<Condition> conditions_of(const Document& document);

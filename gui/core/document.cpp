@@ -160,6 +160,10 @@ void Document::set_text(const QByteArray& text) {
   push(difference(places_.text(), text.toStdString()), tr("edit text"), true);
 }
 
+void Document::take_text(const std::string& text, const QString& words) {
+  push(difference(places_.text(), text), words);
+}
+
 void Document::push(const TextChange& change, const QString& words, bool merges) {
   if (!change.empty()) undo_.push(new TextEdit(*this, change, words, merges));
 }

@@ -68,6 +68,9 @@ class Document final : public QObject {
   /// The whole text at once; steps that follow each other at neighbouring places while the user types are one.
   void set_text(const QByteArray& text);
 
+  /// The whole text at once, as one edit. @param words  what it does
+  void take_text(const std::string& text, const QString& words);
+
   /// What the solver's reader says of the present text, with its words. Where that is nothing and the mesh is known:
   /// what it says of the names of groups.
   [[nodiscard]] std::vector<Problem> problems(const std::optional<MeshGroups>& mesh = {}) const;

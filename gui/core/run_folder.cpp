@@ -19,6 +19,7 @@ namespace breccia::gui {
 namespace {
 
 constexpr qint64 kMostAtOnce = 1 << 20, kRemembered = 64;  // bytes
+constexpr qint64 kStatusTail = 1 << 16;                    // bytes of status.jsonl in which its last state stands
 
 }  // namespace
 
@@ -45,6 +46,13 @@ QList<QByteArray> GrowingFile::news(bool* restarted) {
   last_ = bytes.left(end + 1).right(kRemembered);
   has_more_ = !file.atEnd();
   return bytes.left(end).split('\n');
+}
+
+RunProgress::RunProgress(const QString& run_folder) : file_(QDir(run_folder).filePath("status.jsonl"), kStatusTail) {}
+
+const RunStatus& RunProgress::look() {
+  for (const QByteArray& line : file_.news()) (void)read_status(line, status_);
+  return status_;
 }
 
 void History::clear() {

@@ -55,6 +55,18 @@ class GrowingFile {
   bool has_more_ = false;
 };
 
+/// What a run that goes on says of itself, looked at now and then.
+class RunProgress {
+ public:
+  explicit RunProgress(const QString& run_folder);
+  /// The last that was said; as it was made while nothing is.
+  const RunStatus& look();
+
+ private:
+  GrowingFile file_;
+  RunStatus status_;
+};
+
 /// history.csv by columns; grows with the run.
 class History {
  public:

@@ -37,6 +37,13 @@ std::string leaf_of(std::string_view path) {
   return std::string(dot == std::string_view::npos ? path : path.substr(dot + 1));
 }
 
+std::string toml_key(const std::string& name) {
+  const bool bare = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+  return bare ? name : '"' + name + '"';
+}
+
 TomlPlaces::TomlPlaces(std::string text) : text_(std::move(text)) { TomlScanner(*this).scan(); }
 
 const Place* TomlPlaces::find(std::string_view path) const {
@@ -127,7 +134,7 @@ TextChange TomlPlaces::set(std::string_view path, std::string_view value) const 
   if (const Place* place = find(path); place != nullptr && place->kind != Place::Kind::section)
     return {place->value.begin, text_.substr(place->value.begin, place->value.size()), std::string(value)};
   const std::string parent = parent_of(path), name = leaf_of(path), n = newline();
-  const std::string line = name + " = " + std::string(value);
+  const std::string line = toml_key(name) + " = " + std::string(value);
   const Place* section = find(parent);
   if (section != nullptr && section->kind == Place::Kind::inline_table) {
     std::size_t at = section->value.end - 1;  // the closing bracket
@@ -149,8 +156,18 @@ TextChange TomlPlaces::set(std::string_view path, std::string_view value) const 
     const bool open = at > 0 && text_[at - 1] != '\n';
     return {at, "", (open ? n : "") + line + n};
   }
-  // A section of dotted keys or of none yet.
   const std::string above = parent_of(parent);
+  const auto is_dotted = [&](const Place& place) {  // parameters.h = 1 in [mesh]
+    return place.kind != Place::Kind::section && parent_of(place.path) == parent;
+  };
+  if (const auto last = std::find_if(places_.rbegin(), places_.rend(), is_dotted); last != places_.rend()) {
+    const std::size_t at = line_end(last->entry.end);
+    const bool open = at > 0 && text_[at - 1] != '\n';
+    const std::size_t begin = last->entry.begin;
+    const std::string written = text_.substr(begin, text_.find('=', begin) - begin);
+    return {at, "", (open ? n : "") + written.substr(0, written.rfind('.') + 1) + line + n};
+  }
+  // A section of which nothing is there yet.
   return insert_section(above, "[" + header_path(parent) + "]", line + "\n");
 }
 

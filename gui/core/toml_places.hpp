@@ -86,5 +86,7 @@ class TomlPlaces {
 /// Path without indices in the last part's list, and the like.
 [[nodiscard]] std::string parent_of(std::string_view path);
 [[nodiscard]] std::string leaf_of(std::string_view path);
+/// A name as it is written in front of its value: in quotes where it has other signs than letters, digits, - and _.
+[[nodiscard]] std::string toml_key(const std::string& name);
 
 }  // namespace breccia::gui

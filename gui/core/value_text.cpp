@@ -43,6 +43,10 @@ QString quantity(const QString& typed) {
   return is_number(number) ? number : quoted(number);
 }
 
+bool is_angle(const Key& key) { return key.type == ValueType::number && key.unit == "rad"; }
+
+bool is_zero(const QString& number) { return number.toDouble() == 0; }
+
 bool is_list(ValueType type) {
   using enum ValueType;
   switch (type) {
@@ -82,7 +86,8 @@ QString shown_value(const Key& key, const QString& toml) {
     }
     return items.join(", ");
   }
-  return unquoted(toml);
+  // People count angles in degrees, the text in radians where it names no unit.
+  return is_angle(key) && is_number(toml) && !is_zero(toml) ? toml + " rad" : unquoted(toml);
 }
 
 QString typed_value(const Key& key, const QString& typed) {
@@ -91,6 +96,7 @@ QString typed_value(const Key& key, const QString& typed) {
     return text;
   if (key.type == ValueType::boolean) return text;
   if (key.type == ValueType::integer) return is_number(text) ? text : quoted(text);
+  if (is_angle(key) && is_number(text) && !is_zero(text)) return quoted(text + " deg");
   if (!is_list(key.type)) return is_text(key.type) ? quoted(text) : quantity(text);
   const bool one_for_all = key.type == ValueType::vector_or_number || key.type == ValueType::integers_or_one;
   const QStringList items = text.split(',');
@@ -107,6 +113,18 @@ std::optional<double> number_of(const QString& typed, const char* unit, QString*
     *error = QString("%1; %2").arg(QString::fromUtf8(wrong.what()), QString::fromStdString(wrong.allowed));
     return std::nullopt;
   }
+}
+
+QString shown_unit(const QString& unit) {
+  static const QRegularExpression power("(?<=[A-Za-z])([23])");
+  QString shown = unit == "rad" ? QString("deg") : QString(unit).replace("/s/s", "/s2");  // growth of a velocity
+  for (auto match = power.match(shown); match.hasMatch(); match = power.match(shown))
+    shown.replace(match.capturedStart(), 1, match.captured(1) == "2" ? "²" : "³");
+  return shown;
+}
+
+QString counted(double number, const QString& one, const QString& many) {
+  return QString("%1 %2").arg(number, 0, 'f', 0).arg(number == 1 ? one : many);
 }
 
 QString shown_default(const Key& key) {
@@ -156,7 +174,9 @@ QString tooltip_of(const Key& key) {
   const auto line = [](const QString& name, const QString& text) {
     return text.isEmpty() ? QString() : QString("<br><i>%1</i> %2").arg(name, text.toHtmlEscaped());
   };
-  const QString unit = key.unit == "1" ? QObject::tr("none") : text_of(key.unit);
+  const QString unit = key.unit == "1" ? QObject::tr("none")
+                       : is_angle(key) ? QObject::tr("deg; rad is typed behind the number")
+                                       : shown_unit(text_of(key.unit));
   const QString fallback = key.required ? QObject::tr("none, must be given") : shown_default(key);
   return "<b>" + text_of(case_::plain_path(key.path)) + "</b><br>" + text_of(key.help).toHtmlEscaped() +
          line(QObject::tr("Symbol:"), symbol_of(key)) + line(QObject::tr("Unit:"), unit) +

@@ -9,7 +9,7 @@
 namespace breccia::gui {
 
 /// A value as people write it in a field, of its TOML text: "75 GPa" for "\"75 GPa\"", "0, -3 m/s, 0" for a list of
-/// quantities. Tables, functions and lists of lists stay TOML.
+/// quantities, "0.6 rad" for a bare angle. Tables, functions and lists of lists stay TOML.
 [[nodiscard]] QString shown_value(const case_::Key& key, const QString& toml);
 
 /// TOML text of what was typed into the field of a key; empty: the key is taken out. A text that is TOML already
@@ -18,6 +18,12 @@ namespace breccia::gui {
 
 /// A quantity as people type it, in SI. None: it is not one of that dimension. @param error  out: the solver's words
 [[nodiscard]] std::optional<double> number_of(const QString& typed, const char* unit, QString* error);
+
+/// A unit as people read it: "kg/m³", and degrees for "rad", in which angles are shown and a bare number is typed.
+[[nodiscard]] QString shown_unit(const QString& unit);
+
+/// "1 element", "12 elements".
+[[nodiscard]] QString counted(double number, const QString& one, const QString& many);
 
 /// Default of a key as it is shown, empty when there is none.
 [[nodiscard]] QString shown_default(const case_::Key& key);

@@ -5,6 +5,8 @@
 #include <QSignalBlocker>
 #include <algorithm>
 
+#include "core/case_outline.hpp"
+
 namespace breccia::gui {
 ConditionsPanel::ConditionsPanel(QWidget* parent) : QWidget(parent), table_(new QTableWidget), chart_(new LineChart) {
   setObjectName("conditions");
@@ -49,7 +51,7 @@ void ConditionsPanel::show_conditions(std::vector<Condition> conditions) {
   for (int row = 0; row < table_->rowCount(); ++row) {
     const Condition& c = conditions_[static_cast<std::size_t>(row)];
     const QStringList cells{c.stage.isEmpty() ? tr("start") : c.stage, c.type,
-                            c.target.isEmpty() ? tr("everything") : c.target, c.value, c.path};
+                            c.target.isEmpty() ? tr("everything") : c.target, c.value, numbered_words(c.path)};
     for (int column = 0; column < cells.size(); ++column) {
       if (table_->item(row, column) == nullptr) table_->setItem(row, column, new QTableWidgetItem);
       table_->item(row, column)->setText(cells[column]);

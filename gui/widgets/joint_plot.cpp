@@ -86,8 +86,8 @@ void JointPlot::paint_curves(QPainter& painter, const QRectF& box) const {
   const QFontMetrics metrics(painter.font());
   double line = box.top() + 2;
   for (const auto& [pen, text] :
-       {std::pair{QPen(kOpening, 2), tr("opening, G_I = %1 J/m2").arg(energy_1_, 0, 'g', 4)},
-        std::pair{QPen(kSliding, 2, Qt::DashLine), tr("sliding, G_II = %1 J/m2").arg(energy_2_, 0, 'g', 4)}}) {
+       {std::pair{QPen(kOpening, 2), tr("opening, G_I = %1 J/m²").arg(energy_1_, 0, 'g', 4)},
+        std::pair{QPen(kSliding, 2, Qt::DashLine), tr("sliding, G_II = %1 J/m²").arg(energy_2_, 0, 'g', 4)}}) {
     const double left = box.right() - metrics.horizontalAdvance(text) - 2;
     painter.setPen(pen);
     painter.drawLine(QPointF(left - 34, line + metrics.height() / 2.0),

@@ -49,7 +49,10 @@ void widen(double& low, double& high) {
 }
 
 /// Puts values into a unit in which they are short. @return  the title with that unit
-QString scaled(const QString& title, std::vector<PlotLine>& lines, std::vector<double> PlotLine::*values) {
+/// @param size  out: of the unit, SI
+QString scaled(const QString& title, std::vector<PlotLine>& lines, std::vector<double> PlotLine::*values,
+               double& size) {
+  size = 1;
   static const QRegularExpression pattern(R"(^(.*) \[([^\[\]]+)\]$)");
   const auto match = pattern.match(title);
   if (!match.hasMatch()) return title;
@@ -58,8 +61,9 @@ QString scaled(const QString& title, std::vector<PlotLine>& lines, std::vector<d
     for (const double v : line.*values)
       if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
   const PrefixedUnit unit = prefixed_unit(largest, match.captured(2).toStdString());
+  size = unit.size;
   for (PlotLine& line : lines)
-    for (double& v : line.*values) v /= unit.size;
+    for (double& v : line.*values) v /= size;
   return QString("%1 [%2]").arg(match.captured(1), QString::fromStdString(unit.name));
 }
 
@@ -71,11 +75,14 @@ void LineChart::show_lines(std::vector<PlotLine> lines, const QString& x_title, 
                            const QStringList& x_words) {
   lines_ = std::move(lines);
   shown_ = lines_;
-  x_title_ = x_words.isEmpty() ? scaled(x_title, shown_, &PlotLine::x) : x_title;
-  y_title_ = scaled(y_title, shown_, &PlotLine::y);
+  double y_unit = 1;
+  x_unit_ = 1;
+  x_title_ = x_words.isEmpty() ? scaled(x_title, shown_, &PlotLine::x, x_unit_) : x_title;
+  y_title_ = scaled(y_title, shown_, &PlotLine::y, y_unit);
   x_words_ = x_words;
   QStringList names;
   for (const PlotLine& line : lines_) names << line.name;
+  for (const ChartMark& mark : marks_) names << mark.name;
   setAccessibleDescription(tr("%1 over %2: %3").arg(y_title_, x_title_, names.join(", ")));
   update();
 }
@@ -90,6 +97,23 @@ void LineChart::paint_line(QPainter& painter, const ChartFrame& frame, const Plo
   painter.drawPath(path);
   if (line.x.size() > kMostMarked) return;
   for (std::size_t i = 0; i < line.x.size(); ++i) paint_mark(painter, frame.at(line.x[i], line.y[i]), number);
+}
+
+void LineChart::paint_marks(QPainter& painter, const ChartFrame& frame) const {
+  const QColor ink = palette().color(QPalette::WindowText);
+  const QFontMetrics metrics(painter.font());
+  double free_to = frame.box.right();  // words of earlier marks give way
+  for (auto mark = marks_.rbegin(); mark != marks_.rend(); ++mark) {
+    const double x = frame.at(mark->at / x_unit_, frame.bottom).x();
+    if (x < frame.box.left() || x > frame.box.right()) continue;
+    painter.setPen(QPen(ink, 1, Qt::DashLine));
+    painter.drawLine(QPointF(x, frame.box.top()), QPointF(x, frame.box.bottom()));
+    const double begin = x - metrics.horizontalAdvance(mark->name) - 4;
+    if (begin < frame.box.left() || x > free_to) continue;
+    painter.setPen(ink);
+    painter.drawText(QPointF(begin, frame.box.bottom() - metrics.descent() - 2), mark->name);
+    free_to = begin;
+  }
 }
 
 void LineChart::paint_legend(QPainter& painter, const QRectF& box) const {
@@ -130,6 +154,7 @@ void LineChart::paintEvent(QPaintEvent*) {
   const ChartFrame frame{box, left, right, bottom, top};
   paint_axes(painter, frame, palette(), x_title_, y_title_, x_words_);
   for (std::size_t i = 0; i < shown_.size(); ++i) paint_line(painter, frame, shown_[i], static_cast<int>(i));
+  paint_marks(painter, frame);
   paint_legend(painter, QRectF(box.right() + 12, box.top(), legend, height() - box.top()));
 }
 

@@ -110,7 +110,7 @@ void MainWindow::make_panels() {
   text_ = new CaseText(document_);
   view_ = new View3D;
   plots_ = new PlotsPanel;
-  messages_ = new ProblemsPanel;
+  messages_ = new ProblemsPanel(document_);
   joint_plot_ = new JointPlot;
   contacts_ = new ContactMatrix(document_);
   conditions_ = new ConditionsPanel;
@@ -243,6 +243,7 @@ void MainWindow::join_panels() {
     queries_.joints();
   });
   connect(&queries_, &CaseQueries::joints_told, this, &MainWindow::show_laws);
+  connect(&queries_, &CaseQueries::parameters_told, this, &MainWindow::show_parameters);
   connect(&document_, &Document::changed, this, &MainWindow::case_changed);
   connect(&document_, &Document::snapshot_tried, this, [this](const QString& error) {
     tell_trouble("snapshot", tr("Unsaved edits are not kept against a crash; save the case"), error);

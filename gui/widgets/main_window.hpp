@@ -106,6 +106,8 @@ class MainWindow final : public QMainWindow {
   /// What the mesh of the case is made of.
   [[nodiscard]] QString mesh_source() const;
   void ask_mesh();
+  /// What the geometry lets the case set, where the case names another one than was asked about.
+  void ask_parameters();
   void stage_selected(int stage, const QString& path);
   void go_to(const QString& key, int line);
   void show_title();
@@ -146,10 +148,10 @@ class MainWindow final : public QMainWindow {
   void show_elements(vtkPolyData* faces, const QString& words);
   void show_division(const QJsonObject& json);
   void show_laws(const QJsonObject& json);
+  void show_parameters(const QJsonObject& json);
   /// The solver has answered a question: what it said against the case before does not hold any more.
-  void query_succeeded(const QString& what);
-  void query_failed(const QString& what, const QString& text, const std::vector<Problem>& problems,
-                    const QByteArray& asked);
+  void query_succeeded(Query what);
+  void query_failed(Query what, const QString& text, const std::vector<Problem>& problems, const QByteArray& asked);
 
   // main_window_queue.cpp: runs that wait, alone or as a study
   void queue_run();
@@ -236,6 +238,7 @@ class MainWindow final : public QMainWindow {
   QJsonArray laws_;                  ///< of joints, as last told
   QByteArray laws_asked_, laws_of_;  ///< text of the case that they were asked for; that they were told of
   QString laws_error_;               ///< why they were not told
+  std::optional<QString> geometry_;  ///< .geo whose numbers the form has, or will; none: not looked at yet
   QString mesh_text_;                ///< what the preview was made of
   QString mesh_asked_, groups_of_;   ///< what the mesh was asked of; what the groups are of
   std::optional<MeshGroups> mesh_groups_;

@@ -3,6 +3,8 @@
 #include <QJsonArray>
 #include <QLabel>
 
+#include "core/mesh_parameters.hpp"
+#include "core/value_text.hpp"
 #include "widgets/animation_export.hpp"
 #include "widgets/case_tree.hpp"
 #include "widgets/domains_panel.hpp"
@@ -51,14 +53,14 @@ void place_in_case(Problem& p, const Document& document) {
 
 }  // namespace
 
-void MainWindow::query_succeeded(const QString& what) {
-  messages_->set_trouble(what, {});
-  if (what != tr("check") && what != tr("mesh")) return;
+void MainWindow::query_succeeded(Query what) {
+  messages_->set_trouble(words_of(what), {});
+  if (what != Query::check && what != Query::mesh) return;
   const bool told = !told_.empty();
   told_.clear();
   validate();
   if (!told) return;
-  if (what == tr("mesh")) {
+  if (what == Query::mesh) {
     ask_estimate();  // the mesh is good; whether the rest is, only a check can tell
   } else if (preview_frame_.skin == nullptr && mesh_file_.isEmpty()) {
     ask_mesh();
@@ -66,21 +68,20 @@ void MainWindow::query_succeeded(const QString& what) {
 }
 
 void MainWindow::show_check(const QJsonObject& json) {
-  query_succeeded(tr("check"));
+  query_succeeded(Query::check);
   const double seconds = json["seconds"].toDouble(), most = json["most_seconds"].toDouble();
   QString words =
-      tr("%1 elements, %2 joints<br>stable step %3; step used %4<br>%5 steps to %6<br>"
-         "about %7 on one core")
-          .arg(json["elements"].toInt())
-          .arg(json["joints"].toInt())
+      tr("%1, %2<br>stable step %3; step used %4<br>%5 to %6<br>about %7 on one core")
+          .arg(counted(json["elements"].toDouble(), tr("element"), tr("elements")))
+          .arg(counted(json["joints"].toDouble(), tr("joint"), tr("joints")))
           .arg(quantity_words(json["stable_step"].toDouble(), "s"), quantity_words(json["step"].toDouble(), "s"))
-          .arg(json["steps"].toDouble(), 0, 'f', 0)
+          .arg(counted(json["steps"].toDouble(), tr("step"), tr("steps")))
           .arg(quantity_words(json["end"].toDouble(), "s"), duration_words(seconds));
   if (most > seconds)
     words += tr(" while little breaks or meets, up to %1 where everything does").arg(duration_words(most));
-  words += tr("<br>memory %1, about %3 on disk for %2 frames, more where joints break")
+  words += tr("<br>memory %1, about %3 on disk for %2, more where joints break")
                .arg(quantity_words(json["memory"].toDouble(), "B"))
-               .arg(json["frames"].toDouble(), 0, 'f', 0)
+               .arg(counted(json["frames"].toDouble(), tr("frame"), tr("frames")))
                .arg(quantity_words(json["disk"].toDouble(), "B"));
   QStringList advice;
   for (const QJsonValue& line : json["advice"].toArray()) advice << line.toString();
@@ -96,14 +97,13 @@ void MainWindow::show_mesh(const QJsonObject& json, const QString& elements_file
   groups_of_ = mesh_asked_;
   form_->set_groups(mesh_groups_);
   tree_->set_groups(mesh_groups_);
-  query_succeeded(tr("mesh"));
+  query_succeeded(Query::mesh);
   name_groups();
   view_->scene().set_surfaces(surfaces_of(json));
-  const bool one = json["bodies"].toInt() == 1;
-  mesh_words_->setText((one ? tr("%1 elements, %2 nodes, %3 body") : tr("%1 elements, %2 nodes, %3 bodies"))
-                           .arg(json["elements"].toInt())
-                           .arg(json["nodes"].toInt())
-                           .arg(json["bodies"].toInt()));
+  mesh_words_->setText(QStringList{counted(json["elements"].toDouble(), tr("element"), tr("elements")),
+                                   counted(json["nodes"].toDouble(), tr("node"), tr("nodes")),
+                                   counted(json["bodies"].toDouble(), tr("body"), tr("bodies"))}
+                           .join(", "));
   owner_.clear();
   preview_frame_ = {};
   if (!showing_results_) histogram_->set_frame({}, false);
@@ -133,15 +133,20 @@ void MainWindow::load_mesh() {
 void MainWindow::show_elements(vtkPolyData* faces, const QString& words) { view_->mark(faces, words); }
 
 void MainWindow::show_laws(const QJsonObject& json) {
-  query_succeeded(tr("joints"));
+  query_succeeded(Query::joints);
   laws_ = json["laws"].toArray();
   laws_of_ = laws_asked_;
   laws_error_.clear();
   show_joint_law();
 }
 
+void MainWindow::show_parameters(const QJsonObject& json) {
+  query_succeeded(Query::parameters);
+  form_->set_parameters(mesh_parameters(json));
+}
+
 void MainWindow::show_division(const QJsonObject& json) {
-  query_succeeded(tr("domains"));
+  query_succeeded(Query::domains);
   domains_->show_division(json);
   owner_.clear();
   for (const QJsonValue& rank : json["owner"].toArray()) owner_.push_back(rank.toInt());
@@ -153,7 +158,7 @@ void MainWindow::show_division(const QJsonObject& json) {
 }
 
 /// A problem with a place in the case is one of the case, at its field; others are told until the question is answered.
-void MainWindow::query_failed(const QString& what, const QString& text, const std::vector<Problem>& problems,
+void MainWindow::query_failed(Query what, const QString& text, const std::vector<Problem>& problems,
                               const QByteArray& asked) {
   QStringList words{text};
   std::vector<Problem> placed;
@@ -162,17 +167,17 @@ void MainWindow::query_failed(const QString& what, const QString& text, const st
     p.key.empty() ? static_cast<void>(words << QString::fromStdString(p.text())) : placed.push_back(p);
   }
   words.removeAll({});
-  const QString trouble = words.isEmpty() ? QString() : tr("%1: %2").arg(what, words.join('\n'));
-  const bool changed = messages_->set_trouble(what, trouble);
+  const QString trouble = words.isEmpty() ? QString() : tr("%1: %2").arg(words_of(what), words.join('\n'));
+  const bool changed = messages_->set_trouble(words_of(what), trouble);
   const std::size_t known = problems_.size();
   told_.take(asked, placed);
-  if (what == tr("joints")) {
+  if (what == Query::joints) {
     laws_of_ = laws_asked_;
     laws_error_ = words.join(' ');
   }
   validate();
-  if (what == tr("check")) run_panel_->set_estimate(tr("The check found problems; see the messages below."));
-  if (what == tr("mesh") && !showing_results_ && preview_frame_.skin == nullptr)
+  if (what == Query::check) run_panel_->set_estimate(tr("The check found problems; see the messages below."));
+  if (what == Query::mesh && !showing_results_ && preview_frame_.skin == nullptr)
     view_->clear(tr("no mesh: see the messages"));
   const bool news = (changed && !words.isEmpty()) || problems_.size() > known;
   if (news) offer_dock("dock_messages");  // not each time that an edit leaves a problem as it is

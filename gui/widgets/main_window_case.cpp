@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/mesh_parameters.hpp"
 #include "core/own_files.hpp"
 #include "core/value_text.hpp"
 #include "widgets/animation_export.hpp"
@@ -93,6 +94,8 @@ void MainWindow::open_case(const QString& file) {
   mesh_groups_.reset();
   form_->set_groups(mesh_groups_);
   tree_->set_groups(mesh_groups_);
+  geometry_.reset();
+  form_->set_parameters({});
   told_.clear();
   laws_ = {};
   laws_of_.clear();
@@ -126,6 +129,7 @@ void MainWindow::case_changed() {
 void MainWindow::validate() {
   validation_.stop();
   if (!document_.is_open()) return;
+  if (geometry_ != script_of(document_)) ask_parameters();
   problems_ = document_.problems();
   const bool readable = problems_.empty();
   if (readable) add_problems_of_mesh();
@@ -173,7 +177,14 @@ QString MainWindow::mesh_source() const {
   return source;
 }
 
+void MainWindow::ask_parameters() {
+  geometry_ = script_of(document_);
+  if (geometry_->isEmpty()) form_->set_parameters(std::vector<MeshParameter>());
+  queries_.parameters();
+}
+
 void MainWindow::ask_mesh() {
+  ask_parameters();  // the geometry may have been edited
   mesh_asked_ = mesh_source();
   queries_.mesh();
 }

@@ -2,12 +2,14 @@
 
 #include <QStyle>
 
+#include "core/case_outline.hpp"
+
 namespace breccia::gui {
 namespace {
 constexpr int kKey = Qt::UserRole, kLine = Qt::UserRole + 1;
 }
 
-ProblemsPanel::ProblemsPanel(QWidget* parent) : QListWidget(parent) {
+ProblemsPanel::ProblemsPanel(const Document& document, QWidget* parent) : QListWidget(parent), document_(document) {
   setObjectName("problems");
   setAccessibleName(tr("Messages"));
   setToolTip(tr("Problems of the case and advice of the solver; Enter or a double click leads to the field"));
@@ -25,11 +27,13 @@ void ProblemsPanel::rebuild() {
   for (const Problem& p : problems_) {
     Problem shown = p;
     shown.file.clear();
+    shown.key = words_of(QString::fromStdString(p.key), document_.places()).replace(": ", " ").toStdString();
     QString words = QString::fromStdString(shown.text());
     if (p.line > 0) words = tr("line %1: %2").arg(p.line).arg(words);
     auto* item = new QListWidgetItem(style()->standardIcon(QStyle::SP_MessageBoxCritical), words, this);
     item->setData(kKey, QString::fromStdString(p.key.empty() ? "title" : p.key));
     item->setData(kLine, p.line);
+    item->setToolTip(QString::fromStdString(p.key));
     item->setData(Qt::AccessibleTextRole, tr("Problem: %1").arg(words));
   }
   for (const QString& words : troubles_) {

@@ -4,6 +4,7 @@
 #include <QMap>
 
 #include "base/error.hpp"
+#include "core/document.hpp"
 
 namespace breccia::gui {
 
@@ -11,7 +12,7 @@ namespace breccia::gui {
 class ProblemsPanel final : public QListWidget {
   Q_OBJECT
  public:
-  explicit ProblemsPanel(QWidget* parent = nullptr);
+  explicit ProblemsPanel(const Document& document, QWidget* parent = nullptr);
   void set_problems(const std::vector<Problem>& problems);
   void set_advice(const QStringList& advice);
   void add_message(const QString& text);
@@ -30,6 +31,7 @@ class ProblemsPanel final : public QListWidget {
   std::vector<Problem> problems_;
   QStringList advice_, messages_;
   QMap<QString, QString> troubles_;
+  const Document& document_;
 };
 
 }  // namespace breccia::gui

@@ -8,7 +8,9 @@
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 
+#include "core/case_outline.hpp"
 #include "core/value_text.hpp"
+#include "widgets/function_dialog.hpp"
 
 namespace breccia::gui {
 namespace {
@@ -74,7 +76,8 @@ void PropertyForm::show_section(const QString& path) {
   help->setWordWrap(true);
   help->setObjectName("section_help");
   if (const Key* section = case_::find_key(pattern); section != nullptr) {
-    help->setText("<b>" + QString::fromStdString(case_::header_of(*section)).toHtmlEscaped() + "</b><br>" +
+    help->setText("<b>" + words_of(path, document_.places()).toHtmlEscaped() + "</b>  " +
+                  QString::fromStdString(case_::header_of(*section)).toHtmlEscaped() + "<br>" +
                   text_of(section->help).toHtmlEscaped());
   } else {
     help->setText(tr("<b>The case</b>"));
@@ -84,7 +87,11 @@ void PropertyForm::show_section(const QString& path) {
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
   form->setRowWrapPolicy(QFormLayout::WrapLongRows);
   column->addLayout(form);
-  for (const Key* key : keys_in(pattern)) add_field(*key, *form);
+  parameter_rows_ = parameter_rows(parameters_, document_.places());
+  for (const Key* key : keys_in(pattern)) {
+    const bool as_rows = key->type == ValueType::parameters && !holds_no_table(*key);
+    as_rows ? add_parameters(*key, *form) : add_field(*key, *form);
+  }
   column->addStretch();
   setWidget(page);  // deletes the one before
   refresh();
@@ -101,23 +108,31 @@ void PropertyForm::add_field(const Key& key, QFormLayout& layout) {
   field.mark = new QLabel;
   const QString symbol = symbol_of(key);
   field.label = label_of(key) + (symbol.isEmpty() ? "" : " " + symbol);
-  if (key.unit != "1") field.label += " [" + text_of(key.unit) + "]";
+  const QString unit = key.unit == "1" ? QString() : " [" + shown_unit(text_of(key.unit)) + "]";
+  field.label += unit;
+  field.tip = tooltip_of(key);
   field.editor->setObjectName("field:" + path);
-  field.editor->setToolTip(tooltip_of(key));
-  field.editor->setAccessibleName(label_of(key) + (key.unit == "1" ? QString() : " [" + text_of(key.unit) + "]"));
+  field.editor->setToolTip(field.tip);
+  field.editor->setAccessibleName(label_of(key) + unit);
   field.editor->setAccessibleDescription(text_of(key.help));
   cells->addWidget(field.editor, 1);
   if (group_kind(key) != GroupKind::none) add_picker(path, label_of(key), *cells);
   if (key.type == ValueType::path) add_browser(path, key, *cells);
-  for (QObject* typed : {static_cast<QObject*>(field.editor), static_cast<QObject*>(line_in(field.editor))})
-    if (typed != nullptr) typed->installEventFilter(this);
-  cells->addWidget(field.mark);
-  field.mark->setObjectName("mark:" + path);
-  field.mark->hide();
+  if (FunctionEdit::takes_functions(key)) add_function(path, label_of(key), *cells);
+  finish_row(path, field, *cells);
   auto* label = new QLabel(field.label + (key.required ? " *" : ""));
   label->setToolTip(tooltip_of(key));
   label->setBuddy(field.editor);
   layout.addRow(label, row);
+}
+
+/// What every row has beside what its kind of value needs.
+void PropertyForm::finish_row(const QString& path, const Field& field, QHBoxLayout& cells) {
+  for (QObject* typed : {static_cast<QObject*>(field.editor), static_cast<QObject*>(line_in(field.editor))})
+    if (typed != nullptr) typed->installEventFilter(this);
+  cells.addWidget(field.mark);
+  field.mark->setObjectName("mark:" + path);
+  field.mark->hide();
   fields_.insert(path, field);
 }
 
@@ -137,6 +152,21 @@ void PropertyForm::add_picker(const QString& path, const QString& label, QHBoxLa
     emit pick_wanted(on);
   });
   cells.addWidget(pick);
+}
+
+void PropertyForm::add_function(const QString& path, const QString& label, QHBoxLayout& cells) {
+  auto* open = new QToolButton;
+  open->setText(tr("f(t)..."));
+  open->setFocusPolicy(Qt::StrongFocus);
+  open->setObjectName("function:" + path);
+  open->setAccessibleName(tr("Function of time: %1").arg(label));
+  open->setToolTip(tr("Constant, linear, ramp, sine or table, with a chart of it"));
+  connect(open, &QToolButton::clicked, this, [this, path] {
+    auto* dialog = new FunctionDialog(document_, path, this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->open();
+  });
+  cells.addWidget(open);
 }
 
 void PropertyForm::add_browser(const QString& path, const Key& key, QHBoxLayout& cells) {
@@ -220,7 +250,9 @@ void PropertyForm::take_over(const QString& path, const Key& key, const QString&
   const QString before = document_.value(path);
   if (typed.trimmed() == shown_value(key, before)) return;  // as it was: the way it is written stays
   const QString toml = typed_value(key, typed);
-  if (toml.isEmpty()) {
+  if (is_mesh_parameter(path)) {
+    set_parameter(document_, path, toml);
+  } else if (toml.isEmpty()) {
     document_.remove(path);
   } else {
     document_.set_value(path, toml);
@@ -232,7 +264,7 @@ void PropertyForm::take_typed() {
   const QWidget* cursor = window()->focusWidget();
   for (auto it = fields_.begin(); it != fields_.end(); ++it) {
     QWidget* editor = it->editor;
-    if (cursor == nullptr || (editor != cursor && !editor->isAncestorOf(cursor))) continue;
+    if (cursor == nullptr || it->is_box || (editor != cursor && !editor->isAncestorOf(cursor))) continue;
     const QLineEdit* line = line_in(editor);
     const Field field = *it;  // an edit may change the form
     const QString path = it.key();
@@ -263,6 +295,7 @@ void PropertyForm::refresh() {
     }
   }
   mark_problems();
+  follow_parameters();
 }
 
 void PropertyForm::set_problems(const std::vector<Problem>& problems) {
@@ -287,15 +320,15 @@ void PropertyForm::mark_problems() {
   for (auto it = fields_.begin(); it != fields_.end(); ++it) {
     QString words;
     for (const Problem& p : problems_)
-      if (stands_at(p.key, it.key().toStdString())) words = QString::fromStdString(p.text());
+      if (it->is_box ? p.key == it.key().toStdString() : stands_at(p.key, it.key().toStdString()))
+        words = QString::fromStdString(p.text());
     it->mark->setVisible(!words.isEmpty());
     it->mark->setText(words.isEmpty() ? QString() : "⚠");
     it->mark->setToolTip(words);
     it->mark->setAccessibleName(words.isEmpty() ? QString() : tr("Problem: %1").arg(words));
     it->editor->setProperty("wrong", !words.isEmpty());
-    it->editor->setStyleSheet(words.isEmpty() ? QString() : "border: 2px solid #d03030;");
-    it->editor->setToolTip(words.isEmpty() ? tooltip_of(*it->key)
-                                           : "<b>" + words.toHtmlEscaped() + "</b><hr>" + tooltip_of(*it->key));
+    if (!it->is_box) it->editor->setStyleSheet(words.isEmpty() ? QString() : "border: 2px solid #d03030;");
+    it->editor->setToolTip(words.isEmpty() ? it->tip : "<b>" + words.toHtmlEscaped() + "</b><hr>" + it->tip);
   }
 }
 
@@ -334,7 +367,7 @@ bool PropertyForm::eventFilter(QObject* watched, QEvent* event) {
 
 void PropertyForm::focus_field(const QString& path) {
   for (auto it = fields_.begin(); it != fields_.end(); ++it) {
-    if (!stands_at(path.toStdString(), it.key().toStdString())) continue;
+    if (it->is_box || !stands_at(path.toStdString(), it.key().toStdString())) continue;
     ensureWidgetVisible(it->editor);
     it->editor->setFocus(Qt::OtherFocusReason);
   }

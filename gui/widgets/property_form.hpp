@@ -11,6 +11,7 @@
 #include "case/schema.hpp"
 #include "core/document.hpp"
 #include "core/group_names.hpp"
+#include "core/mesh_parameters.hpp"
 
 namespace breccia::gui {
 
@@ -27,6 +28,8 @@ class PropertyForm final : public QScrollArea {
   void set_problems(const std::vector<Problem>& problems);
   /// What fields that name groups offer.
   void set_groups(const std::optional<MeshGroups>& groups);
+  /// What the geometry lets mesh.parameters set; none: it has not been told.
+  void set_parameters(const std::optional<std::vector<MeshParameter>>& parameters);
   /// A face was clicked on in the view. True: a field waits for it, and has taken the group that it can name, a surface
   /// before a volume where both can be. A list gets one more, and goes on waiting.
   bool take_pick(const QString& volume, const QStringList& surfaces);
@@ -50,10 +53,21 @@ class PropertyForm final : public QScrollArea {
     const case_::Key* key = nullptr;
     QWidget* editor = nullptr;
     QLabel* mark = nullptr;
-    QString label;
+    QString label, tip;
+    bool is_box = false;  ///< around fields of its own
   };
   void add_field(const case_::Key& key, QFormLayout& layout);
+  /// A box with a row for each number of the geometry, in place of one field for the table of all of them.
+  void add_parameters(const case_::Key& key, QFormLayout& layout);
+  void add_parameter(const ParameterRow& row, QFormLayout& layout);
+  /// Where the numbers of the geometry or of the case are others than those of the rows.
+  void follow_parameters();
+  void show_again();
+  void finish_row(const QString& path, const Field& field, QHBoxLayout& cells);
+  /// What stands at a key of a table is none.
+  [[nodiscard]] bool holds_no_table(const case_::Key& key) const;
   void add_picker(const QString& path, const QString& label, QHBoxLayout& cells);
+  void add_function(const QString& path, const QString& label, QHBoxLayout& cells);
   void add_browser(const QString& path, const case_::Key& key, QHBoxLayout& cells);
   [[nodiscard]] QWidget* editor_of(const case_::Key& key, const QString& path);
   [[nodiscard]] QComboBox* box_of_words(const case_::Key& key, const QString& path, const QStringList& words);
@@ -71,7 +85,9 @@ class PropertyForm final : public QScrollArea {
   QMap<QString, Field> fields_;  // by path
   std::vector<Problem> problems_;
   std::optional<MeshGroups> groups_;
-  QString picks_for_;  ///< path of the field that waits for a click
+  std::optional<std::vector<MeshParameter>> parameters_;
+  std::vector<ParameterRow> parameter_rows_;  ///< that are shown
+  QString picks_for_;                         ///< path of the field that waits for a click
 };
 
 }  // namespace breccia::gui

@@ -2,15 +2,20 @@
 
 #include <QFileInfo>
 #include <QHeaderView>
+#include <QProgressBar>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "widgets/named_button.hpp"
+#include "widgets/run_panel.hpp"
 
 namespace breccia::gui {
 namespace {
 
 constexpr int kLook = 1000;         // ms
+constexpr int kProgress = 2;        // column
+constexpr int kWhole = 1000;        // of a bar
 constexpr qint64 kStarting = 5000;  // ms that a worker needs at most before it holds its lock
 
 }  // namespace
@@ -52,8 +57,8 @@ void QueuePanel::make_table() {
   table_->setToolTip(
       tr("Runs start in this order as cores become free, also while no window is open; Enter or a double click shows "
          "a run that has started"));
-  table_->setColumnCount(5);
-  table_->setHorizontalHeaderLabels({tr("run"), tr("state"), tr("ranks"), tr("case"), tr("folder")});
+  table_->setColumnCount(6);
+  table_->setHorizontalHeaderLabels({tr("run"), tr("state"), tr("progress"), tr("ranks"), tr("case"), tr("folder")});
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->setSelectionMode(QAbstractItemView::SingleSelection);
@@ -126,6 +131,8 @@ void QueuePanel::look() {
     contents_ = queue_.load();
     show_contents();
     emit changed();
+  } else {
+    show_progress();
   }
   const bool just_started = since_worker_.isValid() && since_worker_.elapsed() < kStarting;
   if (contents_.runs.empty() || just_started || !queue_.wants_worker()) return;
@@ -140,17 +147,51 @@ void QueuePanel::show_contents() {
   table_->setRowCount(static_cast<int>(contents_.runs.size()));
   for (int row = 0; row < table_->rowCount(); ++row) {
     const QueuedRun& run = contents_.runs[static_cast<std::size_t>(row)];
-    const QStringList cells{run.words, run.state, QString::number(run.record.ranks),
-                            QFileInfo(run.record.case_file).fileName(), run.record.folder};
+    const QStringList cells{
+        run.words,        run.state, {}, QString::number(run.record.ranks), QFileInfo(run.record.case_file).fileName(),
+        run.record.folder};
     for (int c = 0; c < cells.size(); ++c) {
       if (table_->item(row, c) == nullptr) table_->setItem(row, c, new QTableWidgetItem);
       table_->item(row, c)->setText(cells[c]);
       table_->item(row, c)->setToolTip(run.message.isEmpty() ? shell_line(run.record.command) : run.message);
     }
   }
+  show_progress();
   table_->resizeColumnsToContents();
   show_buttons();
   show_why();
+}
+
+void QueuePanel::show_progress() {
+  std::erase_if(progress_, [this](const auto& one) {
+    return std::none_of(contents_.runs.begin(), contents_.runs.end(),
+                        [&](const QueuedRun& run) { return run.runs() && run.record.folder == one.first; });
+  });
+  for (int row = 0; row < table_->rowCount(); ++row) {
+    const QueuedRun& run = contents_.runs[static_cast<std::size_t>(row)];
+    auto* bar = qobject_cast<QProgressBar*>(table_->cellWidget(row, kProgress));
+    if (!run.runs()) {
+      if (bar != nullptr) table_->removeCellWidget(row, kProgress);
+      continue;
+    }
+    if (bar == nullptr) {
+      bar = new QProgressBar;
+      bar->setRange(0, kWhole);
+      bar->setMinimumWidth(bar->fontMetrics().horizontalAdvance("100 %, to go: 00 min 00 s") + 20);
+      table_->setCellWidget(row, kProgress, bar);
+      table_->setColumnWidth(kProgress, bar->minimumWidth());
+    }
+    const RunStatus& status =
+        progress_.try_emplace(run.record.folder, RunProgress(run.record.folder)).first->second.look();
+    bar->setValue(static_cast<int>(kWhole * status.share));
+    const QString words = status.state.isEmpty() ? tr("begins...")
+                          : status.state == "paused"
+                              ? tr("paused at %1 %").arg(100 * status.share, 0, 'f', 0)
+                              : tr("%1 %, to go: %2").arg(100 * status.share, 0, 'f', 0).arg(to_go_words(status));
+    bar->setFormat(words);
+    bar->setAccessibleName(tr("Progress of %1: %2").arg(run.words, words));
+    bar->setToolTip(tr("Share of the simulated time, and time to go: %1").arg(words));
+  }
 }
 
 void QueuePanel::show_why() {

@@ -8,7 +8,9 @@
 #include <QSpinBox>
 #include <QTableWidget>
 #include <QTimer>
+#include <map>
 
+#include "core/run_folder.hpp"
 #include "core/run_queue.hpp"
 
 namespace breccia::gui {
@@ -37,6 +39,8 @@ class QueuePanel final : public QWidget {
   void make_table();
   void make_buttons(QHBoxLayout& row);
   void show_contents();
+  /// How far the runs are that go on.
+  void show_progress();
   void show_buttons();
   /// Why the chosen run failed; none is chosen: the last one that did.
   void show_why();
@@ -46,6 +50,7 @@ class QueuePanel final : public QWidget {
 
   const RunQueue& queue_;
   QueueContents contents_;
+  std::map<QString, RunProgress> progress_;  ///< by folder, of those that go on
   QByteArray mark_;
   QTimer timer_;
   QElapsedTimer since_worker_;

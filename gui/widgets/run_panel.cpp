@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/value_text.hpp"
 #include "widgets/named_button.hpp"
 
 namespace breccia::gui {
@@ -29,19 +30,22 @@ QString duration_words(double seconds) {
   return RunPanel::tr("%1 h %2 min").arg(s / 3600).arg(s / 60 % 60);
 }
 
-QString to_go_words(const SolverRun& run) {
+QString to_go_words(const RunStatus& status) {
   constexpr double kShare = 0.01, kWall = 20;  // s; the first steps, with reading and meshing, tell nothing of the rest
-  const RunStatus& s = run.status();
-  if (!run.alive() || run.state() != "running") return "-";
-  return s.share < kShare && s.wall < kWall ? RunPanel::tr("not known yet") : duration_words(s.eta);
+  return status.share < kShare && status.wall < kWall ? RunPanel::tr("not known yet") : duration_words(status.eta);
+}
+
+QString to_go_words(const SolverRun& run) {
+  return run.alive() && run.state() == "running" ? to_go_words(run.status()) : QString("-");
 }
 
 QString quantity_words(double value, const QString& unit) {
   static const std::array<std::pair<double, const char*>, 9> prefixes{
       {{1e12, "T"}, {1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "u"}, {1e-9, "n"}, {1e-12, "p"}}};
   for (const auto& [factor, prefix] : prefixes)
-    if (std::abs(value) >= 0.9995 * factor) return QString::number(value / factor, 'g', 3) + " " + prefix + unit;
-  return QString::number(value, 'g', 3) + " " + unit;
+    if (std::abs(value) >= 0.9995 * factor)
+      return QString::number(value / factor, 'g', 3) + " " + prefix + shown_unit(unit);
+  return QString::number(value, 'g', 3) + " " + shown_unit(unit);
 }
 
 RunPanel::RunPanel(QWidget* parent)
@@ -200,12 +204,13 @@ void RunPanel::set_command(const QStringList& command, const QStringList& go_on)
 void RunPanel::set_problems(int count) {
   problems_ = count;
   run_->setText(run_words(count));
-  run_->setAccessibleName(count == 0 ? tr("Run") : tr("Run, %1 problems").arg(count));
+  run_->setAccessibleName(count == 0 ? tr("Run") : tr("Run, %1").arg(counted(count, tr("problem"), tr("problems"))));
   const bool agreed = accepts_ranks();
   run_->setEnabled(count == 0 && !running_ && agreed);
-  run_->setToolTip(count > 0 ? tr("The case has %1 problems; F8 goes to the next one").arg(count)
-                   : agreed  ? tr("Save the case and start the run (F5)")
-                             : tr("There are more ranks than cores: that needs the tick below them"));
+  run_->setToolTip(
+      count > 0 ? tr("The case has %1; F8 goes to the next one").arg(counted(count, tr("problem"), tr("problems")))
+      : agreed  ? tr("Save the case and start the run (F5)")
+                : tr("There are more ranks than cores: that needs the tick below them"));
   check_->setEnabled(count == 0);
   queue_->setEnabled(count == 0 && agreed);
   go_on_->setEnabled(agreed);

@@ -71,6 +71,8 @@ class RunPanel final : public QWidget {
 [[nodiscard]] QString duration_words(double seconds);
 /// How long a run will go on: "3 min 20 s"; "-" for one that does not go on now.
 [[nodiscard]] QString to_go_words(const SolverRun& run);
+/// The same of a run that goes on.
+[[nodiscard]] QString to_go_words(const RunStatus& status);
 /// "12.3 us" with a prefix of the unit.
 [[nodiscard]] QString quantity_words(double value, const QString& unit);
 

@@ -11,6 +11,7 @@
 #include <QtConcurrent>
 #include <algorithm>
 
+#include "core/value_text.hpp"
 #include "widgets/named_button.hpp"
 
 namespace breccia::gui {
@@ -163,7 +164,8 @@ void StudyPanel::count_runs() {
   for (const StudyParameter& p : list) runs *= p.values.size();
   if (list.empty()) runs = 0;
   start_->setEnabled(runs > 0);
-  start_->setText(runs > 0 ? tr("Add %1 runs to the queue").arg(runs) : tr("Add to the queue"));
+  start_->setText(runs > 0 ? tr("Add %1 to the queue").arg(counted(static_cast<double>(runs), tr("run"), tr("runs")))
+                           : tr("Add to the queue"));
   start_->setAccessibleName(start_->text());
 }
 

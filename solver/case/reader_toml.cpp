@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "base/geometry_file.hpp"
 
 namespace breccia::case_ {
 namespace {
@@ -163,6 +164,9 @@ Node parse_toml_file(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path, error)) throw InputError({name, 0, "", "the case file does not exist", "", ""});
   if (!std::filesystem::is_regular_file(path, error))
     throw InputError({name, 0, "", "the case is not a file", "a TOML file", ""});
+  if (geometry_file(path) != GeometryFile::unknown)
+    throw InputError({name, 0, "", "is a geometry or a mesh, not a case",
+                      "a case (.toml) that names it: [mesh] with file = \"" + path.filename().string() + "\"", ""});
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream content;
   if (stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();

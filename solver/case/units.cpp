@@ -262,12 +262,17 @@ NumberText number_at_start(std::string_view text) {
   return out;
 }
 
-/// Spaces that look like others, as text from a web page or a word processor has them: U+00A0, U+2009, U+202F.
-std::string with_plain_spaces(std::string_view text) {
+/// Signs that look like others, as text from a web page or a word processor has them: spaces (U+00A0, U+2009, U+202F),
+/// and a raised 2 or 3 behind a unit.
+std::string with_plain_signs(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kSigns{
+      {{"\u00a0", " "}, {"\u2009", " "}, {"\u202f", " "}, {"\u00b2", "2"}, {"\u00b3", "3"}}};
   std::string plain(text);
-  for (const std::string_view space : {"\u00a0", "\u2009", "\u202f"}) {
-    for (std::size_t at = plain.find(space); at != std::string::npos; at = plain.find(space, at))
-      plain.replace(at, space.size(), " ");
+  for (const auto& [sign, meant] : kSigns) {
+    for (std::size_t at = plain.find(sign); at != std::string::npos; at = plain.find(sign, at + 1)) {
+      const bool behind_unit = at > 0 && std::isalpha(static_cast<unsigned char>(plain[at - 1])) != 0;
+      if (meant == " " || behind_unit) plain.replace(at, sign.size(), meant);
+    }
   }
   return plain;
 }
@@ -303,8 +308,8 @@ std::string name_of(const Dimension& dimension) {
 }
 
 Quantity parse_quantity(std::string_view given) {
-  const std::string spaced = with_plain_spaces(given);
-  std::string_view text = trimmed(spaced);
+  const std::string plain = with_plain_signs(given);
+  std::string_view text = trimmed(plain);
   if (text.starts_with('+')) text.remove_prefix(1);
   const NumberText number = number_at_start(text);
   if (number.length == 0) throw UnitError("does not begin with a number", "a number and a unit, e.g. \"26.6 GPa\"");

@@ -107,6 +107,9 @@ void define_command_line(CLI::App& app, Arguments& a) {
   mesh->add_option("-o,--output", a.mesh.folder, "write the elements for ParaView into this folder")
       ->check(some_name());
   mesh->add_flag("--json", a.mesh.json, "as JSON, problems of the case too");
+  mesh->add_flag("--parameters", a.mesh.parameters,
+                 "tell only, as JSON, the numbers that the .geo of the case, or one that is given in its place, lets "
+                 "mesh.parameters set");
 
   CLI::App* diff =
       app.add_subcommand("diff", "In which keys, inputs, versions and results two runs differ, and where they part");

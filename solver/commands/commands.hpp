@@ -91,6 +91,7 @@ struct MeshCommand {
   bool trust_geometry = false;   ///< the mesh may run programs and write files
   std::filesystem::path folder;  ///< empty: report only
   bool json = false;
+  bool parameters = false;  ///< only what the geometry lets the case set
 };
 int mesh_command(const MeshCommand& asked);
 

@@ -7,9 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
+#include "base/geometry_file.hpp"
 #include "case/schema.hpp"
 #include "commands/check_report.hpp"
 #include "commands/joint_curves.hpp"
+#include "mesh/geo_scan.hpp"
 
 namespace breccia {
 namespace {
@@ -169,6 +171,19 @@ std::string mesh_json(const FinishedMesh& made, const std::vector<std::vector<To
     json["faces"].push_back(std::move(numbers));
   }
   return text_of(json);
+}
+
+std::string parameters_json(const std::filesystem::path& geometry) {
+  Json rows = Json::array();
+  if (geometry_file(geometry) == GeometryFile::script) {
+    for (const GeoParameter& parameter : scan_geo(geometry).parameters) {
+      Json names = Json::array();
+      for (const std::string& name : {parameter.name, parameter.label})
+        if (!name.empty()) names.push_back(name);
+      rows.push_back({{"names", std::move(names)}, {"default", parameter.value}, {"words", parameter.words}});
+    }
+  }
+  return text_of(Json{{"parameters", std::move(rows)}});
 }
 
 std::string schema_json() {

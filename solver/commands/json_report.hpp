@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -27,6 +28,10 @@ namespace breccia {
 /// the report in words. @param faces  null, or those of each surface group, told as 4 * element + side below `faces`
 [[nodiscard]] std::string mesh_json(const FinishedMesh& made,
                                     const std::vector<std::vector<Topology::Face>>* faces = nullptr);
+
+/// What a geometry lets mesh.parameters set, in its order: `parameters`, each with `names`, any of which sets it, and
+/// as the geometry has them `default` and `words`, the comment behind it. None of any file but a .geo.
+[[nodiscard]] std::string parameters_json(const std::filesystem::path& geometry);
 
 /// Every row of the table of keys: path, type, unit, default, required, lower, upper, choices, word, help, example,
 /// allowed in words.

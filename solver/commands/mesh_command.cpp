@@ -39,7 +39,18 @@ void refuse_frames_of_run(const std::filesystem::path& folder) {
     throw OutputError(Problem{folder.string(), 0, "", "these are the frames of a run", "another folder (-o)", ""});
 }
 
+/// A geometry that is given is told of without a case, which may have mistakes elsewhere.
+std::string parameters_of(const MeshCommand& asked) {
+  if (geometry_file(asked.case_file) != GeometryFile::unknown) return parameters_json(asked.case_file);
+  return parameters_json(
+      read_case_of(asked.case_file, asked.overrides, read_start_state(asked.case_file, asked.overrides, {})).mesh.file);
+}
+
 int mesh(const MeshCommand& asked) {
+  if (asked.parameters) {
+    fmt::print("{}", parameters_of(asked));
+    return 0;
+  }
   const auto told = [&](const FinishedMesh& made) {
     fmt::print("{}", asked.json ? mesh_json(made) : mesh_report(made, assess_quality(made.mesh)));
   };
@@ -75,7 +86,7 @@ int mesh(const MeshCommand& asked) {
 }  // namespace
 
 int mesh_command(const MeshCommand& asked) {
-  return asked.json ? or_problems([&] { return mesh(asked); }) : mesh(asked);
+  return asked.json || asked.parameters ? or_problems([&] { return mesh(asked); }) : mesh(asked);
 }
 
 }  // namespace breccia

@@ -14,6 +14,7 @@ struct Token {
   enum class Kind { word, text, sign } kind;
   std::string value;
   int line;
+  std::size_t begin;  ///< of it in the source
 };
 
 bool starts_word(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
@@ -39,19 +40,19 @@ std::vector<Token> tokens_of(const std::string& source) {
       i = std::min(end + 2, size);
     } else if (c == '"' || c == '\'') {
       const std::size_t end = std::min(source.find(c, i + 1), size);
-      tokens.push_back({Token::Kind::text, source.substr(i + 1, end - i - 1), line});
+      tokens.push_back({Token::Kind::text, source.substr(i + 1, end - i - 1), line, i});
       line += static_cast<int>(std::count(tokens.back().value.begin(), tokens.back().value.end(), '\n'));
       i = std::min(end + 1, size);
     } else if (starts_word(c)) {
       std::size_t end = i;
       while (end < size && continues_word(source[end])) ++end;
-      tokens.push_back({Token::Kind::word, source.substr(i, end - i), line});
+      tokens.push_back({Token::Kind::word, source.substr(i, end - i), line, i});
       i = end;
     } else if (std::isdigit(static_cast<unsigned char>(c)) != 0) {
       while (i < size && (continues_word(source[i]) || source[i] == '.'))
         ++i;  // 1e-3: the sign and 3 come apart, harmless
     } else {
-      if (std::isspace(static_cast<unsigned char>(c)) == 0) tokens.push_back({Token::Kind::sign, {c}, line});
+      if (std::isspace(static_cast<unsigned char>(c)) == 0) tokens.push_back({Token::Kind::sign, {c}, line, i});
       ++i;
     }
   }
@@ -64,6 +65,27 @@ bool is(const Token& token, std::string_view sign_or_word) {
 bool opens(const Token& token) { return is(token, "[") || is(token, "(") || is(token, "{"); }
 bool closes(const Token& token) { return is(token, "]") || is(token, ")") || is(token, "}"); }
 
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
+}
+
+/// The comment that stands at a place of the source or behind signs that end an entry, on the same line.
+std::string comment_behind(std::string_view source, std::size_t at) {
+  const std::string_view line = source.substr(at, source.find('\n', at) - at);
+  const std::size_t begin = line.find_first_not_of(" \t,;])}");
+  if (begin == std::string_view::npos) return {};
+  const std::string_view comment = line.substr(begin);
+  if (comment.starts_with("//")) return std::string(trimmed(comment.substr(2)));
+  return comment.starts_with("/*") ? std::string(trimmed(comment.substr(2, comment.find("*/") - 2))) : std::string();
+}
+
+/// An expression without the comment that follows it.
+std::string_view expression(std::string_view text) {
+  return trimmed(text.substr(0, std::min(text.find("//"), text.find("/*"))));
+}
+
 class Scanner {
  public:
   void read(const std::filesystem::path& file) {
@@ -73,15 +95,15 @@ class Scanner {
     std::ifstream in(file, std::ios::binary);
     if (!in) return;
     result.files.insert(file.lexically_normal());
-    const std::vector<Token> tokens = tokens_of({std::istreambuf_iterator<char>(in), {}});
+    const std::string source{std::istreambuf_iterator<char>(in), {}};
+    const std::vector<Token> tokens = tokens_of(source);
     for (std::size_t i = 0; i < tokens.size(); ++i) {
       if (tokens[i].kind != Token::Kind::word) continue;
-      if (is(tokens[i], "DefineConstant")) defined_names(tokens, i + 1);
-      if (i + 2 < tokens.size() && is(tokens[i], "Exists") && opens(tokens[i + 1])) {
-        result.constants.insert(tokens[i + 2].value);
-      }
+      if (is(tokens[i], "DefineConstant")) defined_names(source, tokens, i + 1);
+      if (i + 2 < tokens.size() && is(tokens[i], "Exists") && opens(tokens[i + 1]))
+        add({tokens[i + 2].value, {}, {}, {}});
       if (i + 1 < tokens.size() && tokens[i + 1].kind == Token::Kind::text) {
-        if (is(tokens[i], "Name")) result.onelab_names.insert(tokens[i + 1].value);
+        if (is(tokens[i], "Name")) add({{}, tokens[i + 1].value, {}, {}});
         if (is(tokens[i], "Include") || is(tokens[i], "Merge")) read(beside(file, tokens[i + 1].value));
       }
       refuse(file, tokens[i]);
@@ -96,23 +118,49 @@ class Scanner {
     return path.is_absolute() ? path : file.parent_path() / path;
   }
 
-  /// DefineConstant[ a = 1, b = {2, Name "B"}, c ]: the first word of each entry.
-  void defined_names(const std::vector<Token>& tokens, std::size_t i) {
+  /// One that is told a second time is the same.
+  void add(GeoParameter parameter) {
+    const bool is_new = !parameter.name.empty() ? result.constants.insert(parameter.name).second
+                                                : result.onelab_names.count(parameter.label) == 0;
+    if (!parameter.label.empty()) result.onelab_names.insert(parameter.label);
+    if (is_new) result.parameters.push_back(std::move(parameter));
+  }
+
+  /// DefineConstant[ a = 1, b = {2, Name "B"}, c ]: the first word of each entry names it.
+  void defined_names(std::string_view source, const std::vector<Token>& tokens, std::size_t i) {
     int depth = 0;
-    bool entry_starts = false;
+    std::size_t entry = i;
     for (; i < tokens.size(); ++i) {
       const Token& token = tokens[i];
+      const bool ends = depth == 1 && (is(token, ",") || closes(token));
+      if (ends) add_entry(source, tokens, entry, i);
       if (opens(token)) {
-        entry_starts = ++depth == 1;
-      } else if (closes(token)) {
-        if (--depth <= 0) return;
-      } else if (depth == 1 && is(token, ",")) {
-        entry_starts = true;
-      } else {
-        if (entry_starts && token.kind == Token::Kind::word) result.constants.insert(token.value);
-        entry_starts = false;
+        ++depth;
+      } else if (closes(token) && --depth <= 0) {
+        return;
       }
+      if (ends || (depth == 1 && opens(token))) entry = i + 1;
     }
+    if (depth > 0) add_entry(source, tokens, entry, tokens.size());  // never closed
+  }
+
+  /// @param begin, end  tokens of the entry and the one behind it
+  void add_entry(std::string_view source, const std::vector<Token>& tokens, std::size_t begin, std::size_t end) {
+    if (begin >= end || tokens[begin].kind != Token::Kind::word) return;
+    GeoParameter found{tokens[begin].value, {}, {}, {}};
+    const std::size_t behind = end < tokens.size() ? tokens[end].begin : source.size();
+    std::size_t words_from = tokens[begin].begin + found.name.size();
+    if (begin + 1 < end && is(tokens[begin + 1], "=")) {
+      const std::size_t from = tokens[begin + 1].begin + 1;
+      std::string_view value = expression(source.substr(from, behind - from));
+      words_from = value.empty() ? from : static_cast<std::size_t>(value.data() - source.data()) + value.size();
+      if (value.starts_with('{')) value = trimmed(value.substr(1, value.find_first_of(",}") - 1));  // {1, Name "h"}
+      found.value = value;
+    }
+    found.words = comment_behind(source, words_from);
+    for (std::size_t i = begin; i + 1 < end; ++i)
+      if (is(tokens[i], "Name") && tokens[i + 1].kind == Token::Kind::text) found.label = tokens[i + 1].value;
+    add(std::move(found));
   }
 
   void refuse(const std::filesystem::path& file, const Token& token) {

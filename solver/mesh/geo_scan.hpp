@@ -9,11 +9,20 @@
 
 namespace breccia {
 
+/// A number that a script lets the outside set, as the script has it.
+struct GeoParameter {
+  std::string name;   ///< of the constant; empty: it has only a label
+  std::string label;  ///< text after `Name`, which sets it as well; empty: none
+  std::string value;  ///< what it is unless it is set, as it is written there; empty: not told
+  std::string words;  ///< comment behind it on its line
+};
+
 /// What a .geo script and the files it includes let the outside set, found by reading its words.
 struct GeoScan {
   std::set<std::string>
       constants;  ///< names in DefineConstant[...] and in Exists(...): set before, they keep their value
   std::set<std::string> onelab_names;     ///< texts after `Name`: parameters of the form "Group/label"
+  std::vector<GeoParameter> parameters;   ///< all of those, in the order of the script
   std::set<std::filesystem::path> files;  ///< the script itself and what it includes by name
   std::vector<Problem> problems;          ///< statements that are refused, with file and line
 };

@@ -77,6 +77,39 @@ TEST(Solid, whose_lengths_look_like_millimetres_taken_for_metres_is_asked_about)
       << checked.out;
 }
 
+TEST(Geometry, with_the_numbers_that_a_case_may_set_tells_them_without_meshing) {
+  const Scratch scratch;
+  const std::string file = scratch.write("bar.geo", "DefineConstant[ h = 2e-3, // element size\n n ];\n");
+  const json wanted = {{{"names", {"h"}}, {"default", "2e-3"}, {"words", "element size"}},
+                       {{"names", {"n"}}, {"default", ""}, {"words", ""}}};
+  EXPECT_EQ(json::parse(call("mesh " + file + " --parameters").out)["parameters"], wanted);
+  std::string text = kCase;
+  text.replace(text.find("beam.stl"), 8, "bar.geo");
+  for (const char* key : {"scale", "size"})
+    if (const auto at = text.find(std::string(key) + " ="); at != std::string::npos)
+      text.erase(at, text.find('\n', at) + 1 - at);
+  const Outcome of_case = call("mesh " + scratch.write("bar.toml", text) + " --parameters");
+  EXPECT_EQ(of_case.exit_code, 0) << of_case.out;
+  EXPECT_EQ(json::parse(of_case.out)["parameters"], wanted);
+  scratch.write("beam.stl", beam());
+  const Outcome of_solid = call("mesh " + scratch.write("case.toml", kCase) + " --parameters");
+  EXPECT_EQ(json::parse(of_solid.out)["parameters"], json::array());
+}
+
+TEST(Geometry, in_place_of_a_case_is_refused_with_what_a_case_would_say) {
+  const Scratch scratch;
+  const std::string file = scratch.write("bar.geo", "Point(1) = {0, 0, 0};\n");
+  for (const char* command : {"mesh ", "check ", "run "}) {
+    const Outcome refused = call(command + file);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(
+        refused.err.find("is a geometry or a mesh, not a case; allowed: a case (.toml) that names it: [mesh] with "
+                         "file = \"bar.geo\""),
+        std::string::npos)
+        << refused.err;
+  }
+}
+
 TEST(Solid, without_a_case_is_meshed_and_its_groups_and_box_told) {
   const Scratch scratch;
   const std::string file = scratch.write("beam.stl", beam());

@@ -45,7 +45,11 @@ TEST(FirstUse, FromATemplateToBreakingGlassAndItsResults) {
   // A coarser mesh is drawn as soon as it is asked for.
   const auto fine = desk.window->view().scene().num_faces();
   desk.click_stage("mesh");
-  desk.type("field:mesh.parameters", R"({ h = "4 mm", h_support = "4 mm", h_projectile = "4.5 mm", tip = "5 mm" })");
+  desk.type("parameter:h", "4 mm");
+  desk.type("parameter:h_support", "4 mm");
+  desk.type("parameter:h_projectile", "4.5 mm");
+  EXPECT_EQ(document.value("mesh.parameters"),
+            R"({ h = "4 mm", h_support = "4 mm", h_projectile = "4.5 mm", tip = "5 mm" })");
   ASSERT_TRUE(
       wait_until([&] { return desk.window->view().scene().num_faces() < fine && !desk.window->busy(); }, kSolver));
 

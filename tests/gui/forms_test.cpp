@@ -83,7 +83,8 @@ TEST(Forms, EveryShippedCaseOpensAndLookingAtItChangesNothing) {
     for (QTreeWidgetItemIterator it(tree); *it != nullptr; ++it) {
       tree->setCurrentItem(*it);
       for (auto* line : desk.window->findChildren<QLineEdit*>())
-        if (line->objectName().startsWith("field:")) emit line->editingFinished();
+        if (line->objectName().startsWith("field:") || line->objectName().startsWith("parameter:"))
+          emit line->editingFinished();
     }
     EXPECT_EQ(desk.window->document().text(), before) << file.toStdString();
     EXPECT_FALSE(desk.window->document().modified()) << file.toStdString();
@@ -165,6 +166,38 @@ TEST(Forms, APairOfGroupsGetsItsContactFromTheMatrix) {
   desk.picture("contacts");
 }
 
+TEST(Forms, NumbersOfTheGeometryHaveARowEachWithTheirDefaultsAndThoseThatItDoesNotKnowAreMarked) {
+  Desk desk;
+  Places places;
+  places.meshes = BRECCIA_MESHES;
+  places.projects = desk.scratch.filePath("own");
+  QString error;
+  const QString file = copy_template(templates(places)[0], places, &error);
+  desk.window->open_path(file);
+  Document& document = desk.window->document();
+  desk.click_stage("mesh");
+  ASSERT_TRUE(wait_until([&] { return desk.window->findChild<QLineEdit*>("parameter:h_edge") != nullptr; }, 20000));
+  const auto* edge = desk.find<QLineEdit>("parameter:h_edge");
+  EXPECT_EQ(edge->text(), "");
+  EXPECT_EQ(edge->placeholderText(), "h");
+  EXPECT_TRUE(edge->toolTip().contains("and at the edge of the plate"));
+  const QByteArray before = document.text();
+  desk.type("parameter:h_edge", "4 mm");
+  EXPECT_EQ(document.value("mesh.parameters.h_edge"), "\"4 mm\"");
+  QTest::keyClick(desk.find<QWidget>("parameter:h_edge"), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(document.text(), before);
+  ASSERT_TRUE(wait_until([&] { return !desk.window->busy() && desk.window->view().scene().has_data(); }, 60000));
+  desk.picture("parameters");
+  document.set_value("mesh.parameters.hh", "3");
+  ASSERT_TRUE(wait_until([&] { return desk.window->findChild<QLineEdit*>("parameter:hh") != nullptr; }, 5000));
+  ASSERT_TRUE(wait_until([&] { return desk.find<QLabel>("mark:mesh.parameters.hh")->isVisible(); }, 30000));
+  EXPECT_TRUE(desk.find<QLabel>("mark:mesh.parameters.hh")->toolTip().contains("the script defines no such parameter"));
+  EXPECT_FALSE(desk.find<QLabel>("mark:mesh.parameters.h")->isVisible());
+  desk.type("parameter:hh", "");
+  ASSERT_TRUE(wait_until([&] { return desk.window->findChild<QLineEdit*>("parameter:hh") == nullptr; }, 5000));
+  EXPECT_EQ(document.text(), before);
+}
+
 /// Room for the text of a box to choose from, pixels.
 int room_for_text(const QComboBox& box) {
   if (box.lineEdit() != nullptr) return box.lineEdit()->width();
@@ -239,7 +272,7 @@ TEST(Accessibility, EveryWidgetThatTakesTheFocusHasANameAndATooltipAndIsReachedB
       EXPECT_FALSE(widget->accessibleName().isEmpty()) << who;
       EXPECT_FALSE(widget->toolTip().isEmpty()) << who;
       EXPECT_TRUE(reached.contains(widget)) << who;
-      if (widget->objectName().startsWith("field:")) {
+      if (widget->objectName().startsWith("field:") || widget->objectName().startsWith("parameter:")) {
         EXPECT_TRUE(widget->toolTip().contains("Unit:")) << who;
       }
       ++seen;

@@ -3,6 +3,7 @@
 #include <QAbstractButton>
 #include <QCheckBox>
 #include <QLabel>
+#include <QProgressBar>
 #include <QSpinBox>
 #include <QTableWidget>
 
@@ -35,12 +36,12 @@ TEST(Queue, RunsThatWereAddedStartInTheChosenOrderAndGoOnWhileNoWindowIsOpen) {
   desk.click("queue_run");
   ASSERT_EQ(states(*table), (QStringList{"waiting", "waiting", "waiting"}));
   EXPECT_TRUE(desk.window->document().modified()) << "a run of what is edited needs no saving";
-  const QString second = table->item(1, 4)->text(), third = table->item(2, 4)->text();
+  const QString second = table->item(1, 5)->text(), third = table->item(2, 5)->text();
   EXPECT_TRUE(desk.find<QLabel>("queue_why")->isHidden());
   table->setCurrentCell(2, 0);
   EXPECT_FALSE(desk.find<QAbstractButton>("queue_stop")->isEnabled());
   desk.click("queue_earlier");
-  EXPECT_EQ(table->item(1, 4)->text(), third);
+  EXPECT_EQ(table->item(1, 5)->text(), third);
   EXPECT_EQ(table->currentRow(), 1);
   table->setCurrentCell(2, 0);
   desk.click("queue_remove");
@@ -49,6 +50,12 @@ TEST(Queue, RunsThatWereAddedStartInTheChosenOrderAndGoOnWhileNoWindowIsOpen) {
   ASSERT_TRUE(wait_until([&] { return states(*table) == QStringList({"running", "waiting"}); }, kSolver));
   EXPECT_TRUE(wait_until([&] { return desk.window->view().scene().has_data(); }, kSolver));
   EXPECT_EQ(desk.find<QTableWidget>("runs")->rowCount(), 1);
+  const auto* bar = qobject_cast<QProgressBar*>(table->cellWidget(0, 2));
+  ASSERT_NE(bar, nullptr);
+  EXPECT_EQ(table->cellWidget(1, 2), nullptr) << "it waits";
+  EXPECT_TRUE(wait_until([&] { return bar->value() > 0 && bar->text().contains(" %, to go: "); }, kSolver))
+      << bar->text().toStdString();
+  EXPECT_TRUE(bar->accessibleName().contains("to go"));
   desk.picture("queue");
 
   desk.window->document().close();  // its edits are not asked about here

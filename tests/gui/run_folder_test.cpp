@@ -36,6 +36,18 @@ TEST(RunFolder, ALineThatIsHalfWrittenWaitsForItsEnd) {
   EXPECT_TRUE(status.over());
 }
 
+TEST(RunFolder, TheProgressOfARunIsWhatItSaidLast) {
+  const QTemporaryDir scratch;
+  RunProgress progress(scratch.path());
+  EXPECT_TRUE(progress.look().state.isEmpty());
+  const QString file = scratch.filePath("status.jsonl");
+  append(file, "{\"state\":\"running\",\"share\":0.25,\"eta_s\":60}\n{\"event\":\"frame\"}\n");
+  EXPECT_EQ(progress.look().share, 0.25);
+  EXPECT_EQ(progress.look().eta, 60) << "nothing new";
+  append(file, "{\"state\":\"running\",\"share\":0.5,\"eta_s\":40}\n");
+  EXPECT_EQ(progress.look().share, 0.5);
+}
+
 TEST(RunFolder, AFileThatBeganAnewIsReadFromItsStart) {
   const QTemporaryDir scratch;
   const QString file = scratch.filePath("history.csv");

@@ -36,6 +36,26 @@ TEST(ValueText, TomlIsShownAsPeopleWriteIt) {
   EXPECT_EQ(shown("stage[].constraint[].velocity", "{ y = 1 }"), "{ y = 1 }");
 }
 
+TEST(ValueText, AnglesAreTypedAndShownInDegrees) {
+  EXPECT_EQ(typed("material[].friction_angle", "35"), "\"35 deg\"");
+  EXPECT_EQ(typed("material[].friction_angle", "0.6 rad"), "\"0.6 rad\"");
+  EXPECT_EQ(typed("material[].friction_angle", "0"), "0");
+  EXPECT_EQ(shown("material[].friction_angle", "\"35 deg\""), "35 deg");
+  EXPECT_EQ(shown("material[].friction_angle", "0.6"), "0.6 rad");
+  EXPECT_EQ(shown("material[].friction_angle", "0"), "0");
+  EXPECT_EQ(shown_unit("rad"), "deg");
+  EXPECT_TRUE(tooltip_of(case_::key_of("material[].friction_angle")).contains("deg; rad"));
+}
+
+TEST(ValueText, PowersInUnitsAreRaisedAndNumbersHaveTheirWords) {
+  EXPECT_EQ(shown_unit("kg/m3"), "kg/m³");
+  EXPECT_EQ(shown_unit("kg m2/s"), "kg m²/s");
+  EXPECT_EQ(shown_unit("m/s/s"), "m/s²");
+  EXPECT_EQ(shown_unit("1/s"), "1/s");
+  EXPECT_EQ(counted(1, "element", "elements"), "1 element");
+  EXPECT_EQ(counted(421824, "element", "elements"), "421824 elements");
+}
+
 TEST(ValueText, EveryValueOfEveryShippedCaseMeansTheSameTypedAgain) {
   QDirIterator it(BRECCIA_MESHES, {"*.toml"}, QDir::Files, QDirIterator::Subdirectories);
   int values = 0;

@@ -41,6 +41,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Good{"10 /s", "1/s", 10}, Good{"10/s", "1/s", 10}, Good{"5 %", "1", 0.05}, Good{"0.3", "1", 0.3},
                     Good{"0", "Pa", 0}, Good{"2 min", "s", 120}, Good{"3 h", "s", 10800}, Good{"1 bar", "Pa", 1e5},
                     Good{"1 N/mm2", "Pa", 1e6}, Good{"  4   m  ", "m", 4}, Good{"4\u00a0MPa", "Pa", 4e6},
+                    Good{"9.81 m/s\u00b2", "m/s2", 9.81}, Good{"2.4 g/cm\u00b3", "kg/m3", 2400},
                     Good{"2\u202fPa\u2009s", "Pa s", 2}, Good{"180 deg", "rad", std::numbers::pi},
                     Good{"2 rad/s", "rad/s", 2}, Good{"1 dm3", "m3", 1e-3}, Good{"1 l", "m3", 1e-3},
                     Good{"3 mrad", "rad", 0.003}));
@@ -71,8 +72,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Bad{"3 m", "kg/m3", "is of dimension length, not density", "kg/m3, g/cm3"},
         Bad{"3 Pa", "m/s", "is of dimension pressure, not velocity", "mm/s"},
-        Bad{"3", "Pa", "the unit is missing", "MPa, GPa"}, Bad{"3 %", "Pa", "has no dimension", "MPa"},
-        Bad{"3 m2 kg", "Pa", "dimension m2 kg, not pressure", "GPa"},
+        Bad{"3\u00b2 m", "m", "unknown unit", "units m g s"}, Bad{"3", "Pa", "the unit is missing", "MPa, GPa"},
+        Bad{"3 %", "Pa", "has no dimension", "MPa"}, Bad{"3 m2 kg", "Pa", "dimension m2 kg, not pressure", "GPa"},
         Bad{"3 Hz", "rad/s", "is of dimension frequency, not angular velocity", "deg/s"},
         Bad{"3 parsec", "m", "unknown unit \"parsec\"", "units m g s"},
         Bad{"3 mpa", "Pa", "did you mean \"MPa\" or \"mPa\"?", "prefix"},

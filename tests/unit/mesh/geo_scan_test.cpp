@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "sample_meshes.hpp"
 
 namespace breccia {
@@ -26,6 +28,32 @@ TEST(GeoScan, FindsConstantsThatKeepAValueSetBefore) {
 TEST(GeoScan, FindsOnelabNames) {
   EXPECT_EQ(scan_text("h = DefineNumber[ 0.5, Name \"Parameters/h\" ]; n = {1, Name 'Other/n'};").onelab_names,
             (Names{"Parameters/h", "Other/n"}));
+}
+
+/// Name, label, value and words of each.
+using Row = std::array<std::string, 4>;
+std::vector<Row> rows_of(const std::string& text) {
+  std::vector<Row> rows;
+  for (const GeoParameter& p : scan_text(text).parameters) rows.push_back({p.name, p.label, p.value, p.words});
+  return rows;
+}
+
+TEST(GeoScan, TellsValuesAndCommentsOfParametersInTheirOrder) {
+  const std::vector<Row> found = rows_of(
+      "DefineConstant[\n  width = 0.050,   // of the plate\n  h = {1e-3, Name \"Mesh/h\", Min 0}, /* element size */\n"
+      "  far = 4*h,\n  n,  // how many\n  a = 1, b = (2 + 3) / 2  // both last\n];\nm = DefineNumber[3, Name \"m\"];\n"
+      "If (!Exists(gap))\n  gap = 1;\nEndIf\nDefineConstant[ width = 2 ];");
+  EXPECT_EQ(found, (std::vector<Row>{{"width", "", "0.050", "of the plate"},
+                                     {"h", "Mesh/h", "1e-3", "element size"},
+                                     {"far", "", "4*h", ""},
+                                     {"n", "", "", "how many"},
+                                     {"a", "", "1", ""},
+                                     {"b", "", "(2 + 3) / 2", "both last"},
+                                     {"", "m", "", ""},
+                                     {"gap", "", "", ""}}));
+  EXPECT_EQ(rows_of("DefineConstant[ a = 1 ]; // of all"), (std::vector<Row>{{"a", "", "1", "of all"}}));
+  EXPECT_EQ(rows_of("DefineConstant[ a = {2"), (std::vector<Row>{{"a", "", "2", ""}}));
+  EXPECT_EQ(rows_of("DefineConstant[ a = "), (std::vector<Row>{{"a", "", "", ""}}));
 }
 
 TEST(GeoScan, SkipsCommentsAndTexts) {
