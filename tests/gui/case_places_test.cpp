@@ -83,6 +83,8 @@ TEST(CaseOutline, AStepOfTheHistoryNamesWhatItIsAbout) {
   EXPECT_EQ(words_of("joint[0]", places), "joint: glass");
   EXPECT_EQ(words_of("stage[0].constraint", places), "constraint of stage");
   EXPECT_EQ(words_of("mesh.raster.cell_size", places), "mesh raster cell size");
+  EXPECT_EQ(numbered_words("stage[0].constraint[1]"), "stage 1, constraint 2");
+  EXPECT_EQ(numbered_words("initial_velocity[0]"), "initial velocity 1");
 }
 
 }  // namespace

@@ -35,6 +35,8 @@ TEST(Problems, AGroupThatTheMeshHasNotIsMarkedCountedAndLeadsToItsField) {
   auto* problems = desk.find<QListWidget>("problems");
   ASSERT_TRUE(wait_until([&] { return problems->count() == 1; }, 5000)) << "only the run would have said it";
   EXPECT_TRUE(problems->item(0)->text().contains("block.top"));
+  EXPECT_TRUE(problems->item(0)->text().contains("surface of pressure block.top: ")) << "in words";
+  EXPECT_EQ(problems->item(0)->toolTip(), "stage[0].pressure[0].surface") << "as in the text";
   EXPECT_TRUE(desk.find<QLabel>("mark:stage[0].pressure[0].surface")->isVisible());
   EXPECT_TRUE(desk.find<QAbstractButton>("run")->text().contains("1 problem"));
   QTest::keyClick(desk.window.get(), Qt::Key_F5);
