@@ -103,9 +103,9 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "material[].law", .type = choice, .fallback = "neo_hookean", 
      .choices = "neo_hookean|green_st_venant|drucker_prager",
      .help = "Law of the bulk. neo_hookean, elastic, gives back all energy of a closed strain loop; green_st_venant is "
-             "the published elastic law; drucker_prager yields and flows: the keys from friction_angle on are its. Elements of constant strain are "
-             "too stiff where it flows without change of volume: a strip footing carries 45 % too much on five elements "
-             "under half of it, 28 % on ten.",
+             "the published elastic law; drucker_prager yields and flows: the keys from friction_angle on are "
+             "its. Elements of constant strain are too stiff where it flows without change of volume: a strip footing "
+             "carries 45 % too much on five elements under half of it, 28 % on ten.",
      .example = "\"drucker_prager\"", .fixed_by_state = "what the elements remember is of this law"},
     {.path = "material[].young", .type = number, .unit = "Pa", .required = true, .range = positive,
      .help = "Young's modulus.", .example = "\"75 GPa\""},
@@ -280,8 +280,8 @@ constexpr auto model_keys = std::to_array<Key>({
      .fixed_by_state = "what the points touch is part of the state"},
     {.path = "contact_points.per_face", .type = integer, .fallback = "3", .choices = "1|3|4|6",
      .help = "Points a free face: 1, 3 and 6 lie inside of it; of 4 points three are its corners, so that what "
-             "touches a face with an edge or corner is felt at once; edges that cross between nodes sink in by a fifth of "
-             "an edge of an element first. With 3 a base is narrower by a sixth of an edge on "
+             "touches a face with an edge or corner is felt at once; edges that cross between nodes sink in by a fifth "
+             "of an element's edge first. With 3 a base is narrower by a sixth of an edge on "
              "each side: a block of four elements that should topple at 18.4 degrees stands at 16.5 and topples at "
              "17, with 4 points it stands at 18 and topples at 18.3.",
      .example = "4"},
