@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/printable.hpp"
+#include "base/trimmed.hpp"
 #include "case/nearest.hpp"
 
 namespace breccia::case_ {
@@ -275,12 +276,6 @@ std::string with_plain_signs(std::string_view text) {
     }
   }
   return plain;
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
-  return text;
 }
 
 std::string units_of(std::string_view unit) {

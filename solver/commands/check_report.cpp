@@ -207,11 +207,14 @@ std::string domain_line(const case_::Case& input, const Model& model, int parts)
   return verdict(divide_model(input, model, parts)) + "\n";
 }
 
+const char* word_for(Index count, const char* one, const char* many) { return count == 1 ? one : many; }
+
 std::string domain_table(const case_::Case& input, const Model& model, int parts) {
   const Division division = divide_model(input, model, parts);
   const std::vector<DomainLoad>& domains = division.report.domains;
-  std::string text = fmt::format("{}\n{} {}, {}\n  {:<10}", printable(input.title), model.mesh.num_elements(),
-                                 model.mesh.num_elements() == 1 ? "element" : "elements", verdict(division), "domain");
+  std::string text =
+      fmt::format("{}\n{} {}, {}\n  {:<10}", printable(input.title), model.mesh.num_elements(),
+                  word_for(model.mesh.num_elements(), "element", "elements"), verdict(division), "domain");
   for (const char* column : kColumns) text += fmt::format(" {:>11}", column);
   text += "\n";
   std::vector<std::size_t> shown(domains.size());
@@ -247,8 +250,8 @@ std::array<Vec3, 2> box_of(const Mesh& mesh) {
 std::string mesh_report(const FinishedMesh& made, const QualityReport& q) {
   const MeshReport& r = made.report;
   std::string text = fmt::format("{}: {} {}, {} {}, {} {}\n", printable(made.mesh.source), r.elements,
-                                 r.elements == 1 ? "element" : "elements", r.nodes, r.nodes == 1 ? "node" : "nodes",
-                                 r.bodies, r.bodies == 1 ? "body" : "bodies");
+                                 word_for(r.elements, "element", "elements"), r.nodes,
+                                 word_for(r.nodes, "node", "nodes"), r.bodies, word_for(r.bodies, "body", "bodies"));
   const auto [lower, upper] = box_of(made.mesh);
   const Vec3 size = upper - lower;
   text += fmt::format("  box           {:.4g} x {:.4g} x {:.4g} m, from ({:.4g}, {:.4g}, {:.4g})\n", size.x(), size.y(),
@@ -257,11 +260,11 @@ std::string mesh_report(const FinishedMesh& made, const QualityReport& q) {
   if (kind == GeometryFile::step) text += "  unit          the one that the file states, times mesh.scale\n";
   if (states_no_unit(kind)) text += "  unit          the file states none: a length of 1 is mesh.scale metres\n";
   for (const MeshReport::Group& g : r.volume_groups)
-    text +=
-        fmt::format("  volume  {:<20} {:>9} {}\n", printable(g.name), g.count, g.count == 1 ? "element" : "elements");
+    text += fmt::format("  volume  {:<20} {:>9} {}\n", printable(g.name), g.count,
+                        word_for(g.count, "element", "elements"));
   for (const MeshReport::Group& g : r.surface_groups)
-    text +=
-        fmt::format("  surface {:<20} {:>9} {}\n", printable(g.name), g.count, g.count == 1 ? "triangle" : "triangles");
+    text += fmt::format("  surface {:<20} {:>9} {}\n", printable(g.name), g.count,
+                        word_for(g.count, "triangle", "triangles"));
   const auto note = [&](Index count, const char* what) {
     if (count > 0) text += fmt::format("  {} {}\n", count, what);
   };

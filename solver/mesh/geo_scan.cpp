@@ -7,6 +7,8 @@
 #include <iterator>
 #include <string_view>
 
+#include "base/trimmed.hpp"
+
 namespace breccia {
 namespace {
 
@@ -64,12 +66,6 @@ bool is(const Token& token, std::string_view sign_or_word) {
 }
 bool opens(const Token& token) { return is(token, "[") || is(token, "(") || is(token, "{"); }
 bool closes(const Token& token) { return is(token, "]") || is(token, ")") || is(token, "}"); }
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
-}
 
 /// The comment that stands at a place of the source or behind signs that end an entry, on the same line.
 std::string comment_behind(std::string_view source, std::size_t at) {

@@ -13,6 +13,7 @@
 #include <system_error>
 #include <thread>
 
+#include "base/trimmed.hpp"
 #include "case/units.hpp"
 #include "output/atomic_file.hpp"
 #include "output/run_folder.hpp"
@@ -28,17 +29,12 @@ constexpr std::size_t kLongestLine = 200;                // bytes; what is longe
 constexpr std::size_t kMostLines = 100;                  // of one request, each of which is answered; the rest is not
 constexpr auto kGlance = std::chrono::milliseconds(20);  // between two looks for an answer
 
-std::string trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
-  return first == std::string_view::npos ? std::string() : std::string(text.substr(first, last - first + 1));
-}
-
 /// Takes " id=WORD" off the end.
 std::string take_id(std::string& text) {
   const std::size_t start = text.rfind(" id=");
   if (start == std::string::npos) return {};
-  const std::string id = trimmed(text.substr(start + 4));
-  text = trimmed(text.substr(0, start));
+  const std::string id(trimmed(text.substr(start + 4)));
+  text = std::string(trimmed(text.substr(0, start)));
   return id;
 }
 
@@ -64,7 +60,7 @@ void set_interval(Command& command, const std::string& time) {
 std::vector<std::string> lines_of(std::istream& stream) {
   std::vector<std::string> lines;
   for (std::string line; lines.size() < kMostLines && std::getline(stream, line);) {
-    line = trimmed(line);
+    line = std::string(trimmed(line));
     if (line.size() > kLongestLine) line.replace(kLongestLine, std::string::npos, "...");
     if (!line.empty()) lines.push_back(line);
   }
@@ -149,7 +145,7 @@ Command parse_command(std::string_view line) {
   std::string word, rest;
   words >> word;
   std::getline(words, rest);
-  rest = trimmed(rest);
+  rest = std::string(trimmed(rest));
   using Kind = Command::Kind;
   if (word == "frame_interval") {
     set_interval(command, rest);

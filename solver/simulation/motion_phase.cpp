@@ -242,33 +242,38 @@ void absorb(const SweepArgs& args, Domain& domain) {
   state.absorbing.apply(state.nodes, state.clock.dt_before, state.clock.dt, args.damping_before, args.damping_after);
 }
 
-/// @return  m/s, the largest speed of a held node as the sweep left it, without what holds it; 0: none
-double constrain(const SweepArgs& args, Domain& domain) {
+void constrain(const SweepArgs& args, Domain& domain) {
   State& state = domain.state;
-  if (state.constraints.empty()) return 0;
+  if (state.constraints.empty()) return;
   const auto lap = domain.timer.measure(Phase::loads);
-  keep_held(domain, domain.scratch.held_free);
+  const bool damped = args.damping_after != nullptr;
+  if (damped) keep_held(domain, domain.scratch.held_free);
   state.constraints.apply(state.nodes, state.clock.time, state.clock.dt_before, state.clock.dt);
-  if (args.damping_after != nullptr) account_held_damping(args, domain);
+  if (damped) account_held_damping(args, domain);
   double& max_speed = state.signals.max_speed;
   for (const NodalConstraint& entry : state.loads.constraints) {
-    if (holds_still(entry)) continue;
+    if (holds_still(entry)) continue;  // slower than others, or counted anew (correct_max_speed)
     for (const Index node : entry.nodes) {
       if (domain.model.local.counted[at(node)] == 0) continue;
       max_speed = std::max(max_speed, load_node(state.nodes.velocity.data(), node).norm());
     }
   }
+}
+
+/// Right after the sweep of held nodes: m/s, the largest speed that it gave them, without what holds them. 0: none
+double fastest_if_free(const Domain& domain) {
   double fastest = 0;
-  for (const Vec3& free : domain.scratch.held_free) fastest = std::max(fastest, free.norm());
+  for (const Index node : domain.state.constraints.nodes())
+    fastest = std::max(fastest, load_node(domain.state.nodes.velocity.data(), node).norm());
   return fastest;
 }
 
-/// The sweep's largest speed is that of nodes as if nothing held them: counted anew where it may be that of a held one,
-/// which loads or contact would throw off.
-void correct_max_speed(double held, Domain& domain) {
+/// The sweep's largest speed is counted anew where it may be that of a held node, which loads would throw off if
+/// nothing held it.
+void correct_max_speed(double fastest_if_free, Domain& domain) {
   constexpr double kRoundOff = 1e-12;
   double& max_speed = domain.state.signals.max_speed;
-  if (held > 0 && held >= (1 - kRoundOff) * max_speed) max_speed = fastest_node(domain).speed;
+  if (fastest_if_free > 0 && fastest_if_free >= (1 - kRoundOff) * max_speed) max_speed = fastest_node(domain).speed;
 }
 
 /// Padding stays where it is; work of the halves after t_n with the velocities as constraints left them.
@@ -290,22 +295,24 @@ void move_nodes(bool sample, Domain& domain) {
   if (args.damping_after != nullptr) keep_held(domain, domain.scratch.held_before);
   domain.state.absorbing.begin(domain.state.nodes.velocity);
   domain.state.signals.max_speed = 0;
-  double held = 0;
+  double held_if_free = 0;
   if (domain.exchange.alone()) {
     sweep_all(args, domain);
+    held_if_free = fastest_if_free(domain);
     absorb(args, domain);
-    held = constrain(args, domain);
+    constrain(args, domain);
   } else {
     sweep_ahead(args, domain);
+    held_if_free = fastest_if_free(domain);
     absorb(args, domain);
-    held = constrain(args, domain);
+    constrain(args, domain);
     stand_still_if_failed(domain);
     send_proxies(domain);
     sweep_rest(args, domain);
     stand_still_if_failed(domain);
   }
   finish_motion(args, domain);
-  correct_max_speed(held, domain);
+  correct_max_speed(held_if_free, domain);
   note_motion(domain);
 }
 

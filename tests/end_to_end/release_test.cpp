@@ -77,7 +77,8 @@ TEST(Release, of_a_driven_platen_gives_back_what_contact_held_though_steps_were_
   ASSERT_LT(steps.back(), 0.5 * *std::max_element(steps.begin(), steps.end()));
   const double put_in = history_column(history, "external work [J]").back();
   ASSERT_GT(put_in, 0);
-  EXPECT_NEAR(held(history, steps.size() - 1), put_in, 0.03 * put_in);
+  constexpr double kStepChange = 0.03;  // from 0.118 to 0.132 us at the release takes 1.5 %; one step throughout 0.01 %
+  EXPECT_NEAR(held(history, steps.size() - 1), put_in, kStepChange * put_in);
 }
 
 /// Held nodes do not move as fast as loads would throw them: no motion to end the run for.

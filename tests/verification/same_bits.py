@@ -1,4 +1,4 @@
-"""Random cases of the other generators, run on one rank, on several with other margins and buffers, and killed at a random step and gone on with:
+"""Random cases of the other generators, run on one rank, on several with other margins and buffers, and stopped at a random step and resumed:
 all end in the same state, to the bit.
 
 usage: same_bits.py BRECCIA MPIEXEC FOLDER SEED... [--count N] [--steps N]
