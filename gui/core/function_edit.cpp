@@ -16,8 +16,6 @@ using case_::Key;
 using case_::Node;
 using case_::ValueType;
 
-QString text_of(std::string_view s) { return QString::fromUtf8(s.data(), static_cast<int>(s.size())); }
-
 /// Row of the table of keys of a summand: <function>.linear, <function>.ramp[].
 std::string pattern_of_kind(const QString& kind) {
   const bool section = kind == "ramp" || kind == "sine";

@@ -16,8 +16,6 @@
 namespace breccia::gui {
 namespace {
 
-QString text_of(std::string_view s) { return QString::fromUtf8(s.data(), static_cast<int>(s.size())); }
-
 const QString kRanks = "ranks";
 constexpr int kMostRanks = 4096;
 constexpr qint64 kTail = 1 << 16;  // bytes of history.csv in which its last line stands

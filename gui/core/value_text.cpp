@@ -13,8 +13,6 @@ namespace {
 using case_::Key;
 using case_::ValueType;
 
-QString text_of(std::string_view s) { return QString::fromUtf8(s.data(), static_cast<int>(s.size())); }
-
 /// A scalar in quotes without them; anything else as it is.
 QString unquoted(const QString& toml) {
   if (toml.size() < 2 || toml.front() != toml.back() || toml.contains('\\')) return toml;

@@ -3,10 +3,16 @@
 #include <QString>
 #include <QStringList>
 #include <optional>
+#include <string_view>
 
 #include "case/schema.hpp"
 
 namespace breccia::gui {
+
+/// Of the table of keys.
+[[nodiscard]] inline QString text_of(std::string_view s) {
+  return QString::fromUtf8(s.data(), static_cast<int>(s.size()));
+}
 
 /// A value as people write it in a field, of its TOML text: "75 GPa" for "\"75 GPa\"", "0, -3 m/s, 0" for a list of
 /// quantities, "0.6 rad" for a bare angle. Tables, functions and lists of lists stay TOML.

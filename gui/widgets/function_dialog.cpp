@@ -19,8 +19,6 @@
 namespace breccia::gui {
 namespace {
 
-QString text_of(std::string_view s) { return QString::fromUtf8(s.data(), static_cast<int>(s.size())); }
-
 const case_::Key* key_of_kind(const QString& kind) {
   const std::string pattern = "<function>." + kind.toStdString();
   const case_::Key* key = case_::find_key(pattern);

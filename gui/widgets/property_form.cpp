@@ -18,8 +18,6 @@ namespace {
 using case_::Key;
 using case_::ValueType;
 
-QString text_of(std::string_view s) { return QString::fromUtf8(s.data(), static_cast<int>(s.size())); }
-
 /// What the text of an editor is typed into; nullptr: it is chosen.
 QLineEdit* line_in(QWidget* editor) {
   auto* box = qobject_cast<QComboBox*>(editor);
