@@ -21,7 +21,7 @@ void Pass::bridge_gaps(Index point) {
     bool pressed = false;
     for (std::size_t k = old_; k < old.size() && old[k].point == point; ++k)
       pressed = pressed || (old[k].contactor == contactor && old[k].d > 0);
-    here.under_facing_side = lies_under_facing_side(point_at(point), here);
+    here.under_side = side_over(point_at(point), here);
     if (!pressed) {
       // Beside a side it may come to lie under it at any time, without coming nearer.
       if (has_sides(params_, contact_, contactor)) continue;
@@ -41,27 +41,32 @@ void Pass::bridge_gaps(Index point) {
   candidates_.erase(last, candidates_.end());
 }
 
-bool Pass::lies_under_facing_side(const ContactPoint& point, const Beside& here) const {
-  if (!has_sides(params_, contact_, here.couple->contactor)) return false;
-  const OverlapShape& shape = shape_of(here.couple->contactor);
-  const OverlapRows rows = rows_facing(shape, prepared(here.couple->contactor), outward_of(point));
-  return rows != 0 && overlap_value(shape, here.lambda, rows) > 0;
+/// How the side faces under which the point would lie if the contactor reached so far.
+Facing Pass::side_over(const ContactPoint& point, const Beside& here) const {
+  const Index contactor = here.couple->contactor;
+  if (!has_sides(params_, contact_, contactor)) return Facing::away;
+  const OverlapShape& shape = shape_of(contactor);
+  const FacingRows most = rows_facing(shape, prepared(contactor), outward_of(point));
+  return most.rows != 0 && overlap_value(shape, here.lambda, most.rows) > 0 ? most.facing : Facing::away;
 }
 
 /// Just beside an edge a point may be in an element that has only the other side of the edge: the nearest neighbour
-/// with a side that the point's face looks at takes it over, as if it reached so far.
+/// with a side that the point's face looks at more takes it over, as if it reached so far.
 /// @param inside  number of candidates that the point is in, which come first
 void Pass::prefer_facing_sides(const ContactPoint& point, std::size_t inside) {
   for (std::size_t i = 0; i < inside; ++i) {
     const Index contactor = candidates_[i].contactor;
-    const Beside* nearest = nullptr;
+    const Beside* best = nullptr;
     for (const Beside& here : beside_) {
-      if (here.under_facing_side && are_neighbours(here.couple->contactor, contactor) &&
-          (nearest == nullptr || smallest(here.lambda) > smallest(nearest->lambda)))
-        nearest = &here;
+      if (here.under_side == Facing::away || !are_neighbours(here.couple->contactor, contactor)) continue;
+      const bool better = best == nullptr || here.under_side > best->under_side ||
+                          (here.under_side == best->under_side && smallest(here.lambda) > smallest(best->lambda));
+      if (better) best = &here;
     }
-    if (nearest == nullptr || rows_facing(shape_of(contactor), prepared(contactor), outward_of(point)) != 0) continue;
-    candidates_[i] = candidate_of(point, nearest->couple->contactor, nearest->lambda);
+    if (best == nullptr) continue;
+    const FacingRows own = rows_facing(shape_of(contactor), prepared(contactor), outward_of(point));
+    if (best->under_side > own.facing)
+      candidates_[i] = candidate_of(point, best->couple->contactor, best->lambda);
   }
 }
 
@@ -211,8 +216,7 @@ void Pass::end(const ContactPoint& point, const TouchingCouple& last, const Vec3
 /// which slides over it. Without motion the places have been given, not moved to.
 bool Pass::comes_from_beside(const ContactPoint& point, const Candidate& candidate) const {
   if (relative_motion(point, slot_of(candidate.contactor), candidate.lambda) == Vec3::Zero()) return false;
-  const Vec3 outward = outward_of(point), inward = gradient_before(candidate);
-  return outward.dot(inward) < kOpposed * outward.norm() * inward.norm();
+  return facing(outward_of(point), gradient_before(candidate)) == Facing::away;
 }
 
 /// Overlap that makes no force, m, of a couple seen for the first time.

@@ -46,7 +46,7 @@ struct Candidate {
 struct Beside {
   ContactCouple* couple;
   std::array<double, 4> lambda;
-  bool under_facing_side = false;  ///< of the contactor, were it larger
+  Facing under_side = Facing::away;  ///< that of the contactor under which it were, were that larger
 };
 
 /// Whether nothing is left of the couple but what its overlaps have gained or lost and its delayed normal force.
@@ -81,7 +81,7 @@ class Pass {
   void look_at(ContactCouple& couple, const Vec3& x);
   void bridge_gaps(Index point);
   void prefer_facing_sides(const ContactPoint& point, std::size_t inside);
-  [[nodiscard]] bool lies_under_facing_side(const ContactPoint& point, const Beside& here) const;
+  [[nodiscard]] Facing side_over(const ContactPoint& point, const Beside& here) const;
   void touch_point(Index point);
   void drop_ambiguous();
   void forget_before(Index point);

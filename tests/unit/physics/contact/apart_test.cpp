@@ -50,7 +50,7 @@ std::vector<Index> touched(test::Scene scene, const Vec3& base, double angle, do
 /// Inside an element with one side of an edge and just beside one with the other side: the face of the point turns.
 TEST(apart, is_no_couple_beside_an_edge_which_turning_alone_brings_under_the_side_that_its_point_looks_at) {
   const test::Scene scene = box_and_tetra();
-  const double away = std::acos(kOpposed) + 0.5 * kTurn;
+  const double away = std::acos(kBarelyFacing) + 0.5 * kTurn;
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> inside(0.05, 0.95);
   int taken_over = 0;
