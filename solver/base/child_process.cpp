@@ -91,16 +91,20 @@ void limit(Resource what, std::uint64_t value) {
   ::setrlimit(what, &limits);
 }
 
-/// Moves the two descriptors the child keeps to 2 and 3 and closes all others.
-void keep_descriptors(int report, int words) {
+/// Moves the descriptors the child keeps to 1, 2, 3 and kKeptDescriptor and closes all others.
+/// @param kept  -1: none
+void keep_descriptors(int report, int words, int kept) {
   const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
   const int high_report = ::fcntl(report, F_DUPFD, 10), high_words = ::fcntl(words, F_DUPFD, 10);
+  const int high_kept = kept < 0 ? -1 : ::fcntl(kept, F_DUPFD, 10);
   ::dup2(nothing, 0);
   ::dup2(high_words, 1);
   ::dup2(high_words, 2);
   ::dup3(high_report, 3, O_CLOEXEC);  // a program that a trusted script leaves running must not keep it open
-  if (::syscall(SYS_close_range, 4U, ~0U, 0U) != 0) {
-    for (int d = 4; d < 65536; ++d) ::close(d);  // an older kernel
+  int first_closed = kKeptDescriptor;
+  if (high_kept >= 0) ::dup3(high_kept, first_closed++, O_CLOEXEC);
+  if (::syscall(SYS_close_range, static_cast<unsigned>(first_closed), ~0U, 0U) != 0) {
+    for (int d = first_closed; d < 65536; ++d) ::close(d);  // an older kernel
   }
 }
 
@@ -110,7 +114,7 @@ void keep_descriptors(int report, int words) {
   if (::getppid() != parent) ::_exit(1);
   for (const int s : kEndingSignals) ::signal(s, SIG_DFL);
   for (const int s : {SIGPIPE, SIGXFSZ, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL}) ::signal(s, SIG_DFL);
-  keep_descriptors(report, words);
+  keep_descriptors(report, words, limits.kept);
   constexpr int kReport = 3;
   limit(RLIMIT_CORE, 0);
   if (limits.bytes > 0 && kAddressSpaceCanBeLimited) limit(RLIMIT_AS, memory_of(::getpid(), 0) + limits.bytes);

@@ -13,7 +13,10 @@ struct ChildLimits {
   double seconds = 3600;    ///< wall time
   std::uint64_t bytes = 0;  ///< memory beyond what it starts with; 0: no limit
   bool confined = true;     ///< no right to run, write or connect (base/confinement.hpp)
+  int kept = -1;            ///< a descriptor of the parent's that it keeps, as kKeptDescriptor; -1: none
 };
+
+inline constexpr int kKeptDescriptor = 4;
 
 /// How a child ended.
 struct ChildEnd {
@@ -34,7 +37,7 @@ struct ChildEnd {
 
 /// Runs `work` in a forked copy of this process and returns its result. A crash, endless loop or memory bomb there ends
 /// the child alone. It has its own stdin (empty), stdout and stderr (kept for `text`), no other descriptor of the
-/// parent's, no core dump, and dies with the parent. Signals have their default meaning in it.
+/// parent's than limits.kept, no core dump, and dies with the parent. Signals have their default meaning in it.
 /// The work may read files, take memory up to the limit and start threads; with limits.confined it may not write, run,
 /// connect or signal (confinement.hpp). Whatever it does ends as one of ChildEnd::Kind, never in this process.
 /// @param limits   seconds > 0, counted from the fork; bytes beyond what this process has at that moment

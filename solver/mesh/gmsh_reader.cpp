@@ -1,14 +1,13 @@
 #include "mesh/gmsh_reader.hpp"
 
 #include <gmsh.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <iomanip>
 #include <limits>
 #include <new>
@@ -50,35 +49,30 @@ void open_gmsh() {
   gmsh::logger::start();
 }
 
-/// A script that assigns the parameters, removed at the end of its life. Reading it first is the way to give gmsh's
-/// script language a constant. Written before the child loses its right to write.
+/// A script that assigns the parameters, in memory: nothing is left behind however a program ends. Reading it first is
+/// the way to give gmsh's script language a constant. The child reads it as path().
 class ParameterScript {
  public:
-  explicit ParameterScript(const GmshSource& source) {
-    std::string name = (std::filesystem::temp_directory_path() / "breccia_parameters_XXXXXX.geo").string();
-    const int handle = ::mkstemps(name.data(), 4);
-    if (handle < 0) {
-      throw InputError(
-          Problem{name, 0, "mesh.parameters", "no temporary file can be written", "a writable folder in TMPDIR", ""});
-    }
-    ::close(handle);
-    path_ = name;
-    std::ofstream out(path_);
-    out << std::setprecision(std::numeric_limits<double>::max_digits10);
+  explicit ParameterScript(const GmshSource& source) : descriptor_(::memfd_create("parameters", MFD_CLOEXEC)) {
+    std::ostringstream script;
+    script << std::setprecision(std::numeric_limits<double>::max_digits10);
     for (const auto& [key, value] : source.parameters) {
-      if (is_identifier(key)) out << key << " = " << value << ";\n";
+      if (is_identifier(key)) script << key << " = " << value << ";\n";
     }
+    const std::string text = script.str();
+    if (descriptor_ < 0 || ::write(descriptor_, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+      throw OutputError(Problem{"", 0, "mesh.parameters", "no memory for the parameters of a mesh", "some free", ""});
   }
   ~ParameterScript() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
+    if (descriptor_ >= 0) ::close(descriptor_);
   }
   ParameterScript(const ParameterScript&) = delete;
   ParameterScript& operator=(const ParameterScript&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+  [[nodiscard]] static std::string path() { return "/proc/self/fd/" + std::to_string(kKeptDescriptor); }
 
  private:
-  std::filesystem::path path_;
+  int descriptor_;
 };
 
 /// What gmsh says, in its form "'file', line 12: what" with the place taken out where it stands there.
@@ -150,18 +144,17 @@ void refuse_hxt(const GmshSource& source) {
                            "1 (Delaunay) or 4 (Frontal), or a mesh file that gmsh has written", std::to_string(kHxt)});
 }
 
-/// @param script  that assigns the parameters; null for a mesh file or a solid
-void load(const GmshSource& source, const ParameterScript* script) {
+void load(const GmshSource& source) {
   if (is_solid(geometry_file(source.file))) {
     run_gmsh(source, [&] { mesh_solids(source); });
     return;
   }
-  if (script == nullptr) {
+  if (!is_script(source)) {
     run_gmsh(source, [&] { gmsh::open(source.file.string()); });
     return;
   }
   run_gmsh(source, [&] {
-    gmsh::open(script->path().string());
+    gmsh::open(ParameterScript::path());
     for (const auto& [key, value] : source.parameters) {
       if (!is_identifier(key)) gmsh::onelab::setNumber(key, {value});
     }
@@ -347,9 +340,9 @@ class ModelReader {
 };
 
 /// What the child does: everything that gmsh has a hand in.
-MeshOrProblems read_here(const GmshSource& source, const ParameterScript* script) {
+MeshOrProblems read_here(const GmshSource& source) {
   try {
-    load(source, script);
+    load(source);
     RawMesh raw;
     run_gmsh(source, [&] { raw.mesh = ModelReader(source).read(raw.ungrouped_elements); });
     return raw;
@@ -417,8 +410,8 @@ FinishedMesh read_gmsh(const GmshSource& source) {
   limits.seconds = source.time_limit;
   limits.bytes = static_cast<std::uint64_t>(source.memory_limit * static_cast<double>(memory_of_machine()));
   limits.confined = !source.trust;
-  const ChildEnd end =
-      run_in_child(limits, open_gmsh, [&] { return bytes_of(read_here(source, script ? &*script : nullptr)); });
+  if (script) limits.kept = script->descriptor();
+  const ChildEnd end = run_in_child(limits, open_gmsh, [&] { return bytes_of(read_here(source)); });
   if (end.kind != ChildEnd::Kind::finished) throw InputError(failure_of(source, end));
   MeshOrProblems read = mesh_of(end.result);
   if (auto* problems = std::get_if<std::vector<Problem>>(&read)) throw InputError(std::move(*problems));

@@ -1,5 +1,6 @@
 #include "base/child_process.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/socket.h>
@@ -12,6 +13,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include "base/interruption.hpp"
 
@@ -34,6 +36,28 @@ TEST(ChildProcess, BringsAResultLargerThanAPipe) {
   const ChildEnd end = end_of([] { return std::vector<std::byte>(5'000'000, std::byte{7}); });
   EXPECT_EQ(end.kind, ChildEnd::Kind::finished);
   EXPECT_EQ(end.result, std::vector<std::byte>(5'000'000, std::byte{7}));
+}
+
+TEST(ChildProcess, KeepsNoDescriptorOfTheParentsButTheOneThatItIsGiven) {
+  const auto open_in_child = [](int kept) {
+    const ChildEnd end = end_of(
+        [] {
+          std::vector<std::byte> open;
+          for (int d = 0; d < 64; ++d) {
+            if (::fcntl(d, F_GETFD) >= 0) open.push_back(static_cast<std::byte>(d));
+          }
+          return open;
+        },
+        {.kept = kept});
+    return end.result;
+  };
+  const std::vector<std::byte> own{std::byte{0}, std::byte{1}, std::byte{2}, std::byte{3}};
+  EXPECT_EQ(open_in_child(-1), own);
+  const int descriptor = ::open("/dev/null", O_RDONLY);
+  std::vector<std::byte> with_kept = own;
+  with_kept.push_back(static_cast<std::byte>(kKeptDescriptor));
+  EXPECT_EQ(open_in_child(descriptor), with_kept);
+  ::close(descriptor);
 }
 
 TEST(ChildProcess, TellsHowItCrashed) {
