@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "physics/contact/contact_balance.hpp"
 #include "physics/contact/contact_field.hpp"
@@ -21,7 +22,6 @@ void Pass::bridge_gaps(Index point) {
     bool pressed = false;
     for (std::size_t k = old_; k < old.size() && old[k].point == point; ++k)
       pressed = pressed || (old[k].contactor == contactor && old[k].d > 0);
-    here.under_side = side_over(point_at(point), here);
     if (!pressed) {
       // Beside a side it may come to lie under it at any time, without coming nearer.
       if (has_sides(params_, contact_, contactor)) continue;
@@ -41,13 +41,31 @@ void Pass::bridge_gaps(Index point) {
   candidates_.erase(last, candidates_.end());
 }
 
-/// How the side faces under which the point would lie if the contactor reached so far.
+/// How the side faces under which the point would lie if the contactor reached so far. @pre it has sides
 Facing Pass::side_over(const ContactPoint& point, const Beside& here) const {
   const Index contactor = here.couple->contactor;
-  if (!has_sides(params_, contact_, contactor)) return Facing::away;
   const OverlapShape& shape = shape_of(contactor);
   const FacingRows most = rows_facing(shape, prepared(contactor), outward_of(point));
   return most.rows != 0 && overlap_value(shape, here.lambda, most.rows) > 0 ? most.facing : Facing::away;
+}
+
+/// The nearest neighbour of a candidate with a side that the point's face looks at more; null: none.
+const Beside* Pass::facing_more(const ContactPoint& point, Index candidate) const {
+  const Beside* best = nullptr;
+  std::optional<Facing> most;
+  for (const Beside& here : beside_) {
+    const Index contactor = here.couple->contactor;
+    // Most surfaces of debris have no sides that are told apart.
+    if (!has_sides(params_, contact_, contactor) || !are_neighbours(contactor, candidate)) continue;
+    if (!most) most = rows_facing(shape_of(candidate), prepared(candidate), outward_of(point)).facing;
+    if (best == nullptr && *most == Facing::well) return nullptr;
+    const Facing facing = side_over(point, here);
+    const bool nearer = best != nullptr && facing == *most && smallest(here.lambda) > smallest(best->lambda);
+    if (!(facing > *most) && !nearer) continue;
+    most = facing;
+    best = &here;
+  }
+  return best;
 }
 
 /// Just beside an edge a point may be in an element that has only the other side of the edge: the nearest neighbour
@@ -55,18 +73,8 @@ Facing Pass::side_over(const ContactPoint& point, const Beside& here) const {
 /// @param inside  number of candidates that the point is in, which come first
 void Pass::prefer_facing_sides(const ContactPoint& point, std::size_t inside) {
   for (std::size_t i = 0; i < inside; ++i) {
-    const Index contactor = candidates_[i].contactor;
-    const Beside* best = nullptr;
-    for (const Beside& here : beside_) {
-      if (here.under_side == Facing::away || !are_neighbours(here.couple->contactor, contactor)) continue;
-      const bool better = best == nullptr || here.under_side > best->under_side ||
-                          (here.under_side == best->under_side && smallest(here.lambda) > smallest(best->lambda));
-      if (better) best = &here;
-    }
-    if (best == nullptr) continue;
-    const FacingRows own = rows_facing(shape_of(contactor), prepared(contactor), outward_of(point));
-    if (best->under_side > own.facing)
-      candidates_[i] = candidate_of(point, best->couple->contactor, best->lambda);
+    const Beside* best = facing_more(point, candidates_[i].contactor);
+    if (best != nullptr) candidates_[i] = candidate_of(point, best->couple->contactor, best->lambda);
   }
 }
 

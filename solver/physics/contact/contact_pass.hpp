@@ -46,7 +46,6 @@ struct Candidate {
 struct Beside {
   ContactCouple* couple;
   std::array<double, 4> lambda;
-  Facing under_side = Facing::away;  ///< that of the contactor under which it were, were that larger
 };
 
 /// Whether nothing is left of the couple but what its overlaps have gained or lost and its delayed normal force.
@@ -80,6 +79,7 @@ class Pass {
   void evaluate_point(PointCouples& couples);
   void look_at(ContactCouple& couple, const Vec3& x);
   void bridge_gaps(Index point);
+  [[nodiscard]] const Beside* facing_more(const ContactPoint& point, Index candidate) const;
   void prefer_facing_sides(const ContactPoint& point, std::size_t inside);
   [[nodiscard]] Facing side_over(const ContactPoint& point, const Beside& here) const;
   void touch_point(Index point);
