@@ -19,9 +19,6 @@ struct BodyOverlap {
   std::int64_t corners = 0;  ///< and corners of faces with contact points
 };
 
-/// Overlaps of this share of H and less are round-off of the mesh: contact answers them with this share of its penalty.
-inline constexpr double kOverlapTolerance = 1e-6;
-
 /// Bodies of different numbers with a contact law that overlap by more than kOverlapTolerance H in the mesh, deepest
 /// first, then by bodies. Contact points, the corners of their faces and the middles of the elements behind them are
 /// looked up in all elements, those deep inside as well. A body does not overlap itself: faces of a crack that is open

@@ -175,16 +175,17 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   }
   // A contactor that was crushed while it was touched gives nothing back.
   if (crushed) return account(point, work_.dissipated).add(normal_held(point, old));
-  const OverlapShape& shape = shape_of(old.contactor);
-  const double overlap = overlap_value(shape, lambda, rows_of(point, old.contactor, shape, tetra));
+  // By the sides of the last step: those of now may be others, where a body rolls and a side has turned away.
+  const bool has_own_sides = has_sides(params_, contact_, old.contactor);
+  const OverlapRows rows = has_own_sides ? one_step_ago(point, old.contactor).rows : kAllRows;
+  const double overlap = overlap_value(shape_of(old.contactor), lambda, rows);
   // The point has not left through the side that it pressed on. Where a crack has opened under it, what the couple held
   // is gone; where it has left over an edge, all but the work of its force over half of the last step.
   if (overlap > 0) {
-    const bool over_edge = has_sides(params_, contact_, old.contactor);
-    const double work = over_edge ? 0.5 * (old.force - old.friction).dot(motion) : 0.0;
+    const double work = has_own_sides ? 0.5 * (old.force - old.friction).dot(motion) : 0.0;
     const double gone = std::max(normal_held(point, old) - work, 0.0);
     account(point, work_.dissipated).add(gone);
-    if (!over_edge) return;
+    if (!has_own_sides) return;
     lost += gone;
   }
   TouchingCouple ended{
@@ -240,7 +241,11 @@ double Pass::first_offset(Index point, const Candidate& candidate) const {
   // A point that comes through a gap between elements, an opened joint say, is deep inside at once: deeper than it
   // moved inwards.
   const Vec3 motion = relative_motion(point_at(point), slot, candidate.lambda);
-  if (motion == Vec3::Zero()) return 0.0;
+  if (motion == Vec3::Zero()) {
+    // Given places: of bodies that stand on each other, a point at an edge is far behind the side that it looks at.
+    const double depth = overlap_value(shape_of(candidate.contactor), candidate.lambda);
+    return depth > kOverlapTolerance * length_of(slot) ? 0.0 : std::max(candidate.g_before, 0.0);
+  }
   const Vec3 gradient = gradient_before(candidate);
   return std::max(candidate.g_before - std::max(gradient.dot(motion), 0.0) - kSameSlope * motion.norm(), 0.0);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -65,6 +66,65 @@ TEST(rocking, under_a_point_neither_takes_nor_gives_energy) {
   EXPECT_EQ(rocking.press.scene.contact.touching.front().offset, 0);
   // After the first step the way is closed, a hundred times.
   EXPECT_NEAR(rocking.done + rocking.press.scene.work.stored.value(), held, 0.05 * held);
+}
+
+/// Moves a body of a scene by a map within a step of 1 s.
+void move(test::Scene& scene, Index body, const std::function<Vec3(const Vec3&)>& map) {
+  scene.set_velocity(0, Vec3::Zero());
+  scene.set_velocity(1, Vec3::Zero());
+  for (const Index n : scene.nodes_of(body)) {
+    const Vec3 x = load_node(scene.state.position.data(), n), to = map(x);
+    store_node(scene.state.velocity.data(), n, to - x);
+    store_node(scene.state.position.data(), n, to);
+  }
+  scene.evaluate(1.0);
+}
+
+TEST(rocking, away_from_a_point_that_is_just_beside_an_edge_loses_what_the_couple_held_and_says_so) {
+  constexpr double size = 1e-3, side = 0.02;  // m, of the face with the point; rad by which the side looks up at first
+  const auto turn = [](double angle) {
+    return [angle](const Vec3& x) -> Vec3 {
+      const Vec3 pivot(1, 0.5, 0);
+      return pivot + Eigen::AngleAxisd(angle, -Vec3::UnitY()) * (x - pivot);
+    };
+  };
+  const Mesh box = test::moved(test::wall(1, 1.0), turn(side));
+  const Vec3 place(1.005, 0.5, 0.005);  // beside the side at x = 1, above that at z = 0
+  const Mesh tetra = test::lone({place, place + Vec3(size, 0, 0), place + Vec3(0, size, 0), place + Vec3(0, 0, size)});
+  test::Scene scene(test::joined(box, tetra), {kPenalty, kInfinite, 1, 0, 1});
+  constexpr int down = 3;  // face of the tetrahedron
+  std::erase_if(scene.contact.couples, [&](const ContactCouple& couple) {
+    const ContactPoint& point = scene.contact.points[test::at(couple.point)];
+    return scene.body(point.slot) == 0 || point.face != down;
+  });
+  couples_replaced(scene.contact);
+  const auto shift = [&](const Vec3& by) { move(scene, 1, [&](const Vec3& x) -> Vec3 { return x + by; }); };
+  for (int n = 0; n < 25; ++n) shift({-0.001, 0, 0});
+  for (int n = 0; n < 6; ++n) shift({0, 0, -0.001});
+  const double held = scene.work.stored.value(), lost = scene.work.dissipated.value();
+  ASSERT_GT(held, 0);
+  move(scene, 0, turn(-0.75 * side));
+  ASSERT_EQ(scene.work.stored.value(), 0) << "all sides look away";
+  EXPECT_NEAR(scene.work.dissipated.value() - lost, held, 0.1 * held);
+}
+
+/// Points at the lower edges of the upper body look at a side of the lower one that is far away.
+TEST(standing, bodies_touch_without_force_at_first_also_where_they_overlap_by_round_off) {
+  constexpr double overlap = 0.5 * kOverlapTolerance;
+  const Mesh lower = test::wall(1, 1.0), upper = test::box({1, 1, 1}, 0.5);
+  const double length = mean_inradii(lower)[0];
+  for (const double angle : {-0.2, 0.0, 0.2}) {
+    for (const double deep : {-1e-15, 0.0, 1e-15, overlap * length}) {
+      const Mesh stack = test::joined(lower, test::moved(upper, [&](const Vec3& x) -> Vec3 {
+                                        return Eigen::AngleAxisd(angle, Vec3::UnitZ()) * x + Vec3(-0.3, 0.3, 1 - deep);
+                                      }));
+      test::Scene scene(stack, {kPenalty, kInfinite, 1, 0, 1}, 4);
+      scene.evaluate(1e-3);
+      const double most = kPenalty * 0.25 * 4 * overlap;  // both sides, N
+      EXPECT_LE(scene.force_on(1).norm(), most) << angle << " " << deep;
+      EXPECT_LE(scene.work.stored.value(), most * overlap * length) << angle << " " << deep;
+    }
+  }
 }
 
 }  // namespace
