@@ -155,6 +155,7 @@ class Runner {
       take_commands();
       steps.look();
       tell_of_step(steps);
+      look_at_state();  // a script may ask for the end: this step is the last one then
       const bool end = s + 1 == input_.stages.size() && steps.at_last();
       const bool last = end || stop_commanded_ || output_.steps_done() + 1 == input_.time.max_steps ||
                         clock().time + clock().dt > options_.until - 0.5 * clock().dt;
@@ -186,12 +187,15 @@ class Runner {
     if (paused_) stay_paused();
   }
 
+  void look_at_state() {
+    if (output_.frame_due()) output_.write_frame();
+    look_in_situ(false);
+  }
+
   /// @param end   of the run: the step gets a line of the history
   /// @param last  the energies are sampled, for the summary
   void advance(bool end, bool last) {
     const double time = clock().time;
-    if (output_.frame_due()) output_.write_frame();
-    look_in_situ(false);
     const bool line = output_.line_due() || end;
     step(partition_.domain(), {line || last, signals()});
     const bool sampled = line || last || partition_.state().signals.received.stop;
@@ -337,6 +341,11 @@ class Runner {
       (void)control_.asks();
       obey(control_.receive());
       if (extract_commanded_) look_in_situ(true);
+      const bool checkpoint = checkpoint_requested.exchange(false);
+      if (communicator_.max(static_cast<std::int64_t>(checkpoint)) != 0 && writes_checkpoints()) {
+        checkpoints_->begin(position());
+        checkpoints_->finish();
+      }
       if (communicator_.max(static_cast<std::int64_t>(stop_requested)) != 0) paused_ = false;
       output_.tell_status(paused_);
     }

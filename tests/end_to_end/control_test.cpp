@@ -60,6 +60,7 @@ class LongRun {
     }
     return states;
   }
+  void signal(int number) const { kill(launcher_, number); }
   int wait_for_end() {
     int status = 0;
     waitpid(std::exchange(launcher_, 0), &status, 0);
@@ -104,6 +105,22 @@ TEST_P(Control, stops_in_order_also_while_paused) {
   EXPECT_EQ(json::parse(read_text(run.folder() + "/summary.json"))["status"].get<std::string>().substr(0, 7),
             "stopped");
   EXPECT_EQ(run.ask("pause").exit_code, 2) << "of a run that has ended";
+}
+
+TEST_P(Control, writes_a_checkpoint_that_a_signal_asks_for_also_while_paused) {
+  LongRun run(GetParam(), "--set 'checkpoint.steps=0'");
+  ASSERT_EQ(run.ask("pause").exit_code, 0);
+  run.signal(SIGUSR1);
+  std::ptrdiff_t told = 0;
+  for (int look = 0; look < 500 && told == 0; ++look) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    const std::vector<json> lines = run.lines();
+    told = std::count_if(lines.begin(), lines.end(), [](const json& line) {
+      return line.value("text", "").starts_with("checkpoint ") && line.value("accepted", false);
+    });
+  }
+  EXPECT_EQ(told, 1);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(run.folder() + "/checkpoints"), {}), 1);
 }
 
 TEST_P(Control, samples_the_energies_of_the_step_in_which_a_run_is_stopped) {
