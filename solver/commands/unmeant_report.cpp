@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "commands/stage_report.hpp"
 #include "commands/surface_report.hpp"
 #include "mesh/geometry.hpp"
+#include "model/parameters.hpp"
 #include "output/quantity_text.hpp"
 
 namespace breccia {
@@ -142,6 +145,25 @@ Advice pressed_without_friction(const case_::Case& input, const Model& model) {
   return advice;
 }
 
+/// Pairs of groups for which two entries of [[contact]] say as much, each with the first pair that shows it.
+Advice tied_contacts(const case_::Case& input, const Model& model) {
+  Advice advice;
+  const std::vector<std::string>& groups = model.mesh.volume_groups;
+  std::set<std::pair<const case_::Contact*, const case_::Contact*>> told;
+  for (std::size_t a = 0; a < groups.size(); ++a) {
+    for (std::size_t b = a; b < groups.size(); ++b) {
+      const auto [ruling, overruled] = tied_contact_entries(input, groups[a], groups[b]);
+      if (overruled == nullptr || !told.emplace(ruling, overruled).second) continue;
+      advice.push_back(fmt::format(
+          "Contact between \"{}\" and \"{}\" follows {} (line {}), the later one; {} (line {}) fits as well. Name "
+          "the pair in a [[contact]] of its own.",
+          groups[a], groups[b], ruling->origin.key, ruling->origin.line, overruled->origin.key,
+          overruled->origin.line));
+    }
+  }
+  return advice;
+}
+
 /// Axes along which an entry takes the initial velocity away from all of its group.
 std::string lost_axes(const case_::InitialVelocity& initial, const case_::Constraint& entry) {
   std::string axes;
@@ -214,6 +236,7 @@ Advice unmeant_advice(const case_::Case& input, const Model& model) {
   advise(advice, no_contact_points(input, model));
   append(advice, lowered_penalties(input));
   append(advice, soft_penalties(input, model));
+  append(advice, tied_contacts(input, model));
   append(advice, pressed_without_friction(input, model));
   append(advice, lost_velocities(input));
   append(advice, loads_on_what_is_held(input, model));

@@ -186,15 +186,21 @@ JointLawParams joint_law_params(const case_::Joint& joint, double size, bool unb
   return law;
 }
 
-const case_::Contact* contact_entry(const case_::Case& input, const std::string& group, const std::string& other) {
+TiedContacts tied_contact_entries(const case_::Case& input, const std::string& group, const std::string& other) {
   const auto names = [](const case_::Contact& entry) { return (entry.groups[0] != "*") + (entry.groups[1] != "*"); };
-  const case_::Contact* found = nullptr;
+  TiedContacts found;
   for (const case_::Contact& entry : input.contacts) {
     const bool named = (fits(entry.groups[0], group) && fits(entry.groups[1], other)) ||
                        (fits(entry.groups[1], group) && fits(entry.groups[0], other));
-    if (named && (found == nullptr || names(entry) >= names(*found))) found = &entry;
+    if (!named || (found.ruling != nullptr && names(entry) < names(*found.ruling))) continue;
+    const bool tied = found.ruling != nullptr && names(entry) == names(*found.ruling);
+    found = {.ruling = &entry, .overruled = tied ? found.ruling : nullptr};
   }
   return found;
+}
+
+const case_::Contact* contact_entry(const case_::Case& input, const std::string& group, const std::string& other) {
+  return tied_contact_entries(input, group, other).ruling;
 }
 
 ContactParams contact_params(const case_::Case& input, const std::vector<std::string>& groups) {

@@ -25,6 +25,14 @@ namespace breccia {
 [[nodiscard]] const case_::Contact* contact_entry(const case_::Case& input, const std::string& group,
                                                   const std::string& other);
 
+/// That entry, and the last one before it that names as many of the groups; null: none.
+struct TiedContacts {
+  const case_::Contact* ruling = nullptr;
+  const case_::Contact* overruled = nullptr;
+};
+[[nodiscard]] TiedContacts tied_contact_entries(const case_::Case& input, const std::string& group,
+                                                const std::string& other);
+
 [[nodiscard]] ContactParams contact_params(const case_::Case& input, const std::vector<std::string>& groups);
 
 struct Model;

@@ -68,6 +68,25 @@ TEST(Unmeant, IsAPenaltyTooSoftToStopWhatComesWithinAnElement) {
   EXPECT_EQ(advice_on("", {"contact[0].penalty=1 kPa"}), "") << "nothing moves";
 }
 
+TEST(Unmeant, IsAPairOfWhichTwoContactsNameOneGroupEach) {
+  const auto of_two = [](const std::string& contacts) {
+    const std::string lid =
+        "[[material]]\ngroup = \"lid\"\nyoung = 1e9\npoisson = 0.2\ndensity = 1000\njoints = \"none\"\n";
+    Model model = build_bare_model(case_::read_text(kCubes, {}));
+    model.mesh.volume_groups.emplace_back("lid");
+    return as_list(unmeant_advice(case_::read_text(kCubes + lid + contacts, {}), model));
+  };
+  const auto contact = [](const std::string& between) {
+    return "[[contact]]\nbetween = [" + between + "]\npenalty = 1e9\n";
+  };
+  const std::string tied = contact("\"rock\", \"*\"") + contact("\"lid\", \"*\"");
+  EXPECT_THAT(of_two(tied), AllOf(HasSubstr("between \"rock\" and \"lid\" follows contact[2] (line 26), the later one; "
+                                            "contact[1] (line 23)"),
+                                  testing::Not(HasSubstr("between \"rock\" and \"rock\""))));
+  EXPECT_EQ(of_two(tied + contact("\"rock\", \"lid\"")), "") << "the pair by name goes before";
+  EXPECT_EQ(of_two(contact("\"rock\", \"*\"")), "");
+}
+
 TEST(Unmeant, IsPressingWithoutFriction) {
   const std::string driven = "[[stage.constraint]]\ngroup = \"rock.z1\"\nvelocity = { z = -1 }\n";
   const std::string pressed = "[[stage.constraint]]\ngroup = \"rock.z0\"\nfixed = \"z\"\n" + driven;
