@@ -73,9 +73,9 @@ void AbsorbingBoundary::apply(NodalState& state, double dt_before, double dt, do
     // Where a velocity turns within the step one of its halves alone would give something back.
     const double first = (kick - 0.5 * dt) * force.dot(before),
                  all = std::max(0.0, first + 0.5 * dt * force.dot(after));
-    const double booked = std::clamp(first, 0.0, all);
-    damping_before[at] += booked;
-    damping_after[at] += all - booked;
+    const double taken_before = std::clamp(first, 0.0, all);
+    damping_before[at] += taken_before;
+    damping_after[at] += all - taken_before;
     if (mesh_->counted[at] != 0) work_.add_before(entry.support.dot(before), dt_before);
     store_node(state.velocity.data(), entry.node, after);
     store_node(state.next_position.data(), entry.node, load_node(state.position.data(), entry.node) + dt * after);

@@ -143,8 +143,8 @@ inline double half_before(const SweepArgs& args) { return args.kick - 0.5 * args
 /// Accounts the work of the viscous stress, and of the elastic stress of laws that have no energy, during half a step.
 /// @param length  of that half, s
 template <class X>
-inline void book_stress_work(const ElasticParams& p, const Stress& s, const X& v, double length, std::size_t slot,
-                             double* viscous, double* stress) {
+inline void account_stress_work(const ElasticParams& p, const Stress& s, const X& v, double length, std::size_t slot,
+                                double* viscous, double* stress) {
   const bool no_energy = !is_hyperelastic(p.law) && stress != nullptr;
   const bool dissipates = p.viscosity > 0 && viscous != nullptr;
   if (!no_energy && !dissipates) return;
@@ -278,7 +278,8 @@ inline void sweep_own(const SweepArgs& args, const ElasticParams& p, const Mover
     }
   }
   if (!is_plain) {
-    book_stress_work(p, stress, v, half_before(args), block * kLanes + lane, args.viscous_before, args.stress_before);
+    account_stress_work(p, stress, v, half_before(args), block * kLanes + lane, args.viscous_before,
+                        args.stress_before);
     keep_stress(args, p, stress, block, lane);
   }
   const Real mass = load(args.node_mass + block * 4 * kLanes + lane);
@@ -317,7 +318,8 @@ inline void scatter_shared(const SweepArgs& args, const ElasticParams& p, std::s
   Stress stress;
   evaluate_stress<is_plain>(args, p, block, lane, x, v, totals, stress);
   if (!is_plain) {
-    book_stress_work(p, stress, v, half_before(args), block * kLanes + lane, args.viscous_before, args.stress_before);
+    account_stress_work(p, stress, v, half_before(args), block * kLanes + lane, args.viscous_before,
+                        args.stress_before);
     keep_stress(args, p, stress, block, lane);
   }
   const Corners force = el::corner_forces(stress.total, stress.inverse, stress.volume);
@@ -364,7 +366,7 @@ inline void account_after(const SweepArgs& args, std::size_t block, std::size_t 
   }
   stress.volume = load(args.volume + block * kLanes + lane);
   const auto account = [&](const auto& v) {
-    book_stress_work(p, stress, v, 0.5 * args.dt, block * kLanes + lane, args.viscous_after, args.stress_after);
+    account_stress_work(p, stress, v, 0.5 * args.dt, block * kLanes + lane, args.viscous_after, args.stress_after);
   };
   if (block < static_cast<std::size_t>(args.num_own_blocks)) {
     account(StoredCorners{args.velocity + block * 96 + lane});
@@ -374,7 +376,7 @@ inline void account_after(const SweepArgs& args, std::size_t block, std::size_t 
   }
 }
 
-inline void book_rate_work(const SweepArgs& args) {
+inline void account_rate_work(const SweepArgs& args) {
   const auto account = [&](Index block) {
     for (std::size_t lane = 0; lane < kLanes; lane += kWidth)
       account_after(args, static_cast<std::size_t>(block), lane);

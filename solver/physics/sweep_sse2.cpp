@@ -3,6 +3,6 @@
 namespace breccia {
 
 SweepStatus sweep_sse2(const SweepArgs& args) { return sweep(args); }
-void rate_work_sse2(const SweepArgs& args) { book_rate_work(args); }
+void rate_work_sse2(const SweepArgs& args) { account_rate_work(args); }
 
 }  // namespace breccia

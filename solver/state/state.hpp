@@ -161,9 +161,8 @@ struct FieldTable<State> {
       FieldRow{"released", "1", kNotHashed, [](auto& s) -> auto& { return s.signals.released; }},
       FieldRow{"released_here", "1", kList, [](auto& s) -> auto& { return s.signals.released_here; }},
   };
+};
 // clang-format on
-}
-;
 
 /// Gives `to` the model's rows of `from`: for a rank whose elements change.
 inline void copy_model_fields(const State& from, State& to) {
