@@ -9,7 +9,7 @@
 
 namespace breccia::gui {
 
-/// Of the table of keys.
+/// A text of the table of keys (case/schema.hpp) as one of Qt's.
 [[nodiscard]] inline QString text_of(std::string_view s) {
   return QString::fromUtf8(s.data(), static_cast<int>(s.size()));
 }

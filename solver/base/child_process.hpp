@@ -16,7 +16,7 @@ struct ChildLimits {
   int kept = -1;            ///< a descriptor of the parent's that it keeps, as kKeptDescriptor; -1: none
 };
 
-inline constexpr int kKeptDescriptor = 4;
+inline constexpr int kKeptDescriptor = 4;  ///< number of ChildLimits::kept in the child
 
 /// How a child ended.
 struct ChildEnd {

@@ -145,7 +145,7 @@ Advice pressed_without_friction(const case_::Case& input, const Model& model) {
   return advice;
 }
 
-/// Pairs of groups for which two entries of [[contact]] say as much, each with the first pair that shows it.
+/// Two entries of [[contact]] that fit a pair of groups and name as many of its groups: told once, with the first pair.
 Advice tied_contacts(const case_::Case& input, const Model& model) {
   Advice advice;
   const std::vector<std::string>& groups = model.mesh.volume_groups;

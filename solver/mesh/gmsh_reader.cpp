@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
@@ -61,7 +62,9 @@ class ParameterScript {
     }
     const std::string text = script.str();
     if (descriptor_ < 0 || ::write(descriptor_, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
-      throw OutputError(Problem{"", 0, "mesh.parameters", "no memory for the parameters of a mesh", "some free", ""});
+      throw OutputError(Problem{"", 0, "mesh.parameters",
+                                std::string("cannot be handed to gmsh: ") + std::strerror(errno),
+                                "a system with files in memory (memfd_create)", ""});
   }
   ~ParameterScript() {
     if (descriptor_ >= 0) ::close(descriptor_);

@@ -220,7 +220,7 @@ class Runner {
   void look_at_checkpoints() {
     if (!checkpoints_) return;
     checkpoints_->look();
-    if (checkpoints_->due()) checkpoints_->begin(position());
+    if (checkpoints_->due()) begin_checkpoint();
   }
 
   /// When a run ends with an error: the last sound state. A checkpoint that cannot be written is not what is told then.
@@ -298,6 +298,12 @@ class Runner {
   void write_checkpoint_for(const Command& command) {
     checkpoints_->finish(!paused_);  // one that began before
     wait_for_checkpoint_.push_back(command);
+    begin_checkpoint();
+  }
+
+  /// In a pause it is complete at once: no step waits for it.
+  void begin_checkpoint() {
+    checkpoints_->finish(!paused_);
     checkpoints_->begin(position());
     if (paused_) checkpoints_->finish();
   }
@@ -342,10 +348,7 @@ class Runner {
       obey(control_.receive());
       if (extract_commanded_) look_in_situ(true);
       const bool checkpoint = checkpoint_requested.exchange(false);
-      if (communicator_.max(static_cast<std::int64_t>(checkpoint)) != 0 && writes_checkpoints()) {
-        checkpoints_->begin(position());
-        checkpoints_->finish();
-      }
+      if (communicator_.max(static_cast<std::int64_t>(checkpoint)) != 0 && writes_checkpoints()) begin_checkpoint();
       if (communicator_.max(static_cast<std::int64_t>(stop_requested)) != 0) paused_ = false;
       output_.tell_status(paused_);
     }

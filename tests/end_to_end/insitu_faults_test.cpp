@@ -67,6 +67,15 @@ TEST_P(InSituFaults, a_script_that_does_not_come_back_from_a_library_ends_the_ru
       << run.outcome.err;
 }
 
+TEST_P(InSituFaults, a_script_that_asks_for_the_end_gets_the_step_that_follows_with_its_energies) {
+  const FaultyRun run(GetParam(), script("asks_for_the_end.py"), "--set 'output.history_interval=1000 s'");
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  const json summary = json::parse(read_text(run.folder() / "summary.json"));
+  EXPECT_TRUE(summary["status"].get<std::string>().starts_with("stopped")) << summary["status"];
+  const double first = history_column(run.folder() / "history.csv", "kinetic [J]").front();
+  EXPECT_NE(summary["energy"]["kinetic"].get<double>(), first);
+}
+
 TEST_P(InSituFaults, an_abort_within_paraview_leaves_a_line_that_names_the_pipeline) {
   const FaultyRun run(GetParam(), script("aborts.py"));
   EXPECT_NE(run.outcome.exit_code, 0);

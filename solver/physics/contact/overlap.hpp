@@ -19,7 +19,7 @@ struct PreparedTetra {
   std::array<std::array<double, 3>, 3> gradient;  ///< 1/m; NaN for an inert contactor
 };
 
-/// Overlaps of this share of H and less are round-off of the mesh: contact answers them with this share of its penalty.
+/// Overlaps of this share of H and less that the mesh comes with are round-off: bodies touch there without force.
 inline constexpr double kOverlapTolerance = 1e-6;
 
 /// Below this share of its reference volume an element is crushed or inverted and touches nothing.
