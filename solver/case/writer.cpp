@@ -3,10 +3,12 @@
 #include <array>
 #include <charconv>
 #include <cstdio>
+#include <iterator>
+#include <type_traits>
+#include <utility>
 
 #include "case/bindings.hpp"
 #include "case/nearest.hpp"
-#include "case/schema.hpp"
 
 namespace breccia::case_ {
 namespace {
@@ -91,20 +93,22 @@ class SectionWriter {
   void value(std::string_view name, const T& x) {
     const Key& key = row(name);
     if constexpr (std::is_same_v<T, double>) {
-      if (x == 0 && !key.word.empty()) return line(key, toml_text(std::string(key.word)));
+      if (x == 0 && !key.word.empty()) return add(key, toml_text(std::string(key.word)));
       // Keys without a default of their own say "not given" by zero.
       const bool optional = !key.required && (key.fallback.empty() || key.fallback.starts_with('='));
       if (x == 0 && optional) return;
     }
     if constexpr (std::is_same_v<T, std::array<bool, 3>>)
-      line(key, toml_axes(x));
+      add(key, toml_axes(x));
+    else if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>)
+      add(key, toml(x), static_cast<double>(x));
     else
-      line(key, toml(x));
+      add(key, toml(x));
   }
 
   template <class Choice>
   void choice(std::string_view name, Choice x) {
-    line(row(name), toml_text(row(name).choice_list().at(static_cast<std::size_t>(x))));
+    add(row(name), toml_text(row(name).choice_list().at(static_cast<std::size_t>(x))));
   }
 
   void axis_functions(std::string_view name, const std::array<bool, 3>& axes,
@@ -112,14 +116,14 @@ class SectionWriter {
     std::vector<std::string> parts;
     for (std::size_t i = 0; i < 3; ++i)
       if (axes[i]) parts.push_back(std::string(1, "xyz"[i]) + " = " + toml(functions[i]));
-    line(row(name), "{" + joined(parts) + "}");
+    add(row(name), "{" + joined(parts) + "}");
   }
 
   template <class Visitor>
   void section(std::string_view name, Visitor visit) {
     SectionWriter inner(below(path_, name), below(pattern_, name), "[" + below(path_, name) + "]");
     visit(inner);
-    sections_ += inner.text();
+    inner_.push_back(std::move(inner));
   }
 
   template <class T>
@@ -132,24 +136,53 @@ class SectionWriter {
     for (T& item : items) {
       SectionWriter inner(below(path_, name), below(pattern_, name) + "[]", "[[" + below(path_, name) + "]]");
       bind(inner, item);
-      sections_ += inner.text();
+      inner_.push_back(std::move(inner));
     }
   }
 
-  [[nodiscard]] std::string text() const { return (header_.empty() ? "" : "\n" + header_ + "\n") + lines_ + sections_; }
+  [[nodiscard]] std::string text() const {
+    std::string out = header_.empty() ? "" : "\n" + header_ + "\n";
+    for (const WrittenKey& written : keys_) out += line(written);
+    for (const SectionWriter& inner : inner_) out += inner.text();
+    return out;
+  }
+
+  /// Its own and those of the sections inside it.
+  [[nodiscard]] std::vector<WrittenKey> all_keys() && {
+    std::vector<WrittenKey> all = std::move(keys_);
+    for (SectionWriter& inner : inner_) {
+      std::vector<WrittenKey> more = std::move(inner).all_keys();
+      std::move(more.begin(), more.end(), std::back_inserter(all));
+    }
+    return all;
+  }
 
  private:
   static std::string below(const std::string& path, std::string_view name) {
     return path + (path.empty() ? "" : ".") + std::string(name);
   }
   [[nodiscard]] const Key& row(std::string_view name) const { return key_of(below(pattern_, name)); }
-  void line(const Key& key, const std::string& value) {
-    lines_ += std::string(key.name()) + " = " + value + (key.unit == "1" ? "" : "  # " + std::string(key.unit)) + "\n";
+  void add(const Key& key, std::string value, std::optional<double> number = std::nullopt) {
+    keys_.push_back({&key, std::move(value), number});
+  }
+  static std::string line(const WrittenKey& written) {
+    const Key& key = *written.key;
+    return std::string(key.name()) + " = " + written.value + (key.unit == "1" ? "" : "  # " + std::string(key.unit)) +
+           "\n";
   }
 
   std::string path_, pattern_, header_;
-  std::string lines_, sections_;
+  std::vector<WrittenKey> keys_;
+  std::vector<SectionWriter> inner_;
 };
+
+/// @param entry  a copy: archives walk members by reference, the reader writes to them
+template <class T>
+std::vector<WrittenKey> keys_of_entry(std::string_view list, T entry) {
+  SectionWriter writer("", std::string(list) + "[]", "");
+  bind(writer, entry);
+  return std::move(writer).all_keys();
+}
 
 }  // namespace
 
@@ -171,10 +204,14 @@ std::string toml_text(const std::string& text) {
 }
 
 std::string write_case(const Case& c) {
-  Case copy = c;  // archives walk members by reference, the reader writes to them
+  Case copy = c;  // as above
   SectionWriter writer("", "", "");
   bind(writer, copy);
   return "# The case with every default written out, in SI units.\n" + writer.text();
 }
+
+std::vector<WrittenKey> written_keys(const Material& material) { return keys_of_entry("material", material); }
+std::vector<WrittenKey> written_keys(const Joint& joint) { return keys_of_entry("joint", joint); }
+std::vector<WrittenKey> written_keys(const Contact& contact) { return keys_of_entry("contact", contact); }
 
 }  // namespace breccia::case_

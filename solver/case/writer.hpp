@@ -1,8 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "case/case.hpp"
+#include "case/schema.hpp"
 
 namespace breccia::case_ {
 
@@ -10,6 +13,18 @@ namespace breccia::case_ {
 /// it: numbers are written with as many digits as they need to come back bit for bit, files with their absolute names.
 /// Case::resolved is not looked at.
 [[nodiscard]] std::string write_case(const Case& c);
+
+/// A key of an entry as write_case() writes it.
+struct WrittenKey {
+  const Key* key = nullptr;
+  std::string value;             ///< TOML
+  std::optional<double> number;  ///< in the key's unit, where the value is one number
+};
+
+/// The keys of an entry of a list; those of sections inside it, as [joint.softening], stand last.
+[[nodiscard]] std::vector<WrittenKey> written_keys(const Material& material);
+[[nodiscard]] std::vector<WrittenKey> written_keys(const Joint& joint);
+[[nodiscard]] std::vector<WrittenKey> written_keys(const Contact& contact);
 
 /// A text as a TOML string in quotes; control characters escaped.
 [[nodiscard]] std::string toml_text(const std::string& text);

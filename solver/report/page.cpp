@@ -91,6 +91,7 @@ std::string page_of(const RunRecord& run, const Figures& figures, const std::str
                      {"events", "Crack events", events(figures)},
                      {"contacts", "Contacts", contacts(run, figures)},
                      {"gauges", "Gauges", gauges(run)},
+                     {"model", "Materials, joints and contacts", model(run)},
                      {"effort", "Phases and ranks", effort(run, figures)},
                      {"origin", "Origin", origin(run, figures, made)}};
   std::string links, sections;

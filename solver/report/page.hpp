@@ -20,6 +20,7 @@ namespace breccia::report {
 [[nodiscard]] std::string events(const Figures& figures);
 [[nodiscard]] std::string contacts(const RunRecord& run, const Figures& figures);
 [[nodiscard]] std::string gauges(const RunRecord& run);
+[[nodiscard]] std::string model(const RunRecord& run);
 [[nodiscard]] std::string effort(const RunRecord& run, const Figures& figures);
 [[nodiscard]] std::string origin(const RunRecord& run, const Figures& figures, const std::string& made);
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "base/error.hpp"
 #include "case/groups.hpp"
@@ -237,9 +238,12 @@ void read_case_of(const RunFolder& run, RunRecord& record) {
   }
   record.case_text = *text;
   try {
-    const case_::Case input =
+    case_::Case input =
         case_::read_case_text(*text, run.case_file(), {}, case_::MeshFile::may_be_gone);  // nothing is read from it
     record.title = input.title;
+    record.materials = std::move(input.materials);
+    record.joints = std::move(input.joints);
+    record.contacts = std::move(input.contacts);
     double gravity[3]{}, velocity[3]{};
     for (const case_::Stage& stage : input.stages) {
       for (std::size_t i = 0; i < 3; ++i) gravity[i] += stage.gravity[i](0.0);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "case/case.hpp"
 #include "output/run_folder.hpp"
 #include "output/sink.hpp"
 
@@ -38,7 +39,10 @@ struct RunRecord {
   std::string message;  ///< with the state
   double end = 0;       ///< s, simulated: where the case ends; 0: unknown
   Provenance provenance;
-  std::string case_text;            ///< resolved
+  std::string case_text;  ///< resolved
+  std::vector<case_::Material> materials;
+  std::vector<case_::Joint> joints;
+  std::vector<case_::Contact> contacts;
   char up = 'z';                    ///< axis against gravity, or of the fastest initial motion
   std::vector<std::string> bodies;  ///< their names by their numbers; empty in runs of before
   History history;

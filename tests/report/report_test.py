@@ -299,6 +299,8 @@ def paraview():
     expect(summary["broken_joints"] > 0 and abs(area[0] - joints[1]) < STRETCH * joints[1], f"areas {area} and {joints}")
     ranks = shown.values("Ranks at the last frame; load: cost over the mean")
     expect(sum(values[0] for values in ranks.values()) == summary["elements"], f"elements of ranks {ranks}")
+    expect(sorted(shown.values("Materials")["young"]) == [7.5e10, 7.5e10, 7.5e11], "Young's moduli of the case")
+    expect(shown.values("Joints")["energy_mode_1"] == [10], "energy of its joints")
 
 
 def one_frame():

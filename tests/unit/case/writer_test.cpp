@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string_view>
+
 #include "case/reader_toml.hpp"
 #include "case/schema.hpp"
 #include "case_files.hpp"
@@ -36,6 +39,23 @@ INSTANTIATE_TEST_SUITE_P(
                     replaced(minimal, "joints = \"none\"", "joints = \"unbreakable\""),
                     minimal + "[plane]\nkind = \"stress\"\naxis = \"y\"\n",
                     "title = \"a \\\"quoted\\\" \\\\ \\u0001 \\n \u00fc\"\n" + minimal));
+
+TEST(Writer, KeysOfAJointAreThoseOfItsSectionToo) {
+  Joint joint;
+  joint.groups = {"glass", "glass"};
+  joint.energy_mode_1 = 12.5;
+  const std::vector<WrittenKey> keys = written_keys(joint);
+  const auto written = [&](std::string_view path) {
+    const auto found = std::find_if(keys.begin(), keys.end(), [&](const WrittenKey& k) { return k.key->path == path; });
+    return found == keys.end() ? WrittenKey{} : *found;
+  };
+  EXPECT_EQ(written("joint[].group").value, "\"glass\"");
+  EXPECT_EQ(written("joint[].energy_mode_1").number, 12.5);
+  EXPECT_EQ(written("joint[].energy_mode_1").value, "12.5");
+  EXPECT_EQ(written("joint[].points_to_fail").number, 3);
+  EXPECT_EQ(written("joint[].weibull_modulus").number, std::nullopt) << "none";
+  EXPECT_EQ(keys.back().key->path, "joint[].softening.exponent");
+}
 
 TEST(Writer, EveryDefaultIsWrittenOut) {
   const std::string text = write_case(read_text(minimal));

@@ -66,6 +66,28 @@ TEST(Pages, NameTheGaugeOfAChartOfOneCurve) {
   EXPECT_TRUE(has(gauges(run), "The gauge is plate (body 0).")) << gauges(run);
 }
 
+TEST(Pages, ShowMaterialsJointsAndContactsOnceForGroupsThatHaveThemInCommon) {
+  RunRecord run;
+  for (const char* group : {"plate", "anvil", "<wheel>"}) {
+    case_::Material& material = run.materials.emplace_back();
+    material.group = group;
+    material.young = group == std::string("anvil") ? 2.1e11 : 7e10;
+  }
+  case_::Joint& joint = run.joints.emplace_back();
+  joint.groups = {"plate", "anvil"};
+  joint.energy_mode_1 = 12.5;
+  run.contacts.emplace_back().groups = {"*", "*"};
+  const std::string html = model(run);
+  EXPECT_TRUE(
+      has(html, "<th scope=\"col\" class=\"n\">plate, &lt;wheel&gt;</th><th scope=\"col\" class=\"n\">anvil</th>"))
+      << html;
+  EXPECT_TRUE(has(html, ">70 GPa</data></td><td class=\"n\"><data value=\"210000000000\">210 GPa<")) << html;
+  EXPECT_TRUE(has(html, "plate – anvil")) << html;
+  EXPECT_TRUE(has(html, "12.5 J/m")) << html;
+  EXPECT_TRUE(has(html, "any – any")) << html;
+  EXPECT_EQ(model({}), "");
+}
+
 TEST(Pages, WarnOfABudgetThatDoesNotClose) {
   RunRecord run = record_in("/runs/a", "complete");
   run.numbers["energy_residual_relative"] = 1e-3;
