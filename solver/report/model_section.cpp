@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -43,10 +46,19 @@ void add(std::vector<Column>& columns, const std::string& group, std::vector<Wri
     columns.push_back({{group}, std::move(keys)});
 }
 
+/// As it was typed where three digits are too few or the unit has a prefix already.
+Cell number_cell(double value, std::string_view unit) {
+  const bool short_enough = std::abs(std::stod(fmt::format("{:.2e}", value)) - value) <= 1e-12 * std::abs(value);
+  if (short_enough && !unit.starts_with("kg")) return Cell::number_of(value, unit);
+  return {
+      fmt::format("<data value=\"{:.17g}\">{:.10g}{}{}</data>", value, value, unit.empty() ? "" : " ", escaped(unit)),
+      true};
+}
+
 /// A value without the marks of TOML.
 Cell cell_of(const WrittenKey& written) {
   const std::string_view unit = written.key->unit;
-  if (written.number) return Cell::number_of(*written.number, unit == "1" ? "" : unit);
+  if (written.number) return number_cell(*written.number, unit == "1" ? "" : unit);
   const std::string& value = written.value;
   const bool quoted = value.size() > 1 && value.front() == '"' && value.back() == '"';
   return {escaped(quoted ? value.substr(1, value.size() - 2) : value), true};
@@ -74,7 +86,7 @@ std::string table_of(const char* caption, const std::vector<Column>& columns) {
   }
   for (const case_::Key* key : keys_of(columns)) {
     std::vector<Cell>& row = table.rows.emplace_back();
-    row.push_back(Cell::text(key->name()));
+    row.push_back(Cell::text(key->path.substr(key->path.find("[].") + 3)));  // "softening.kind"
     for (const Column& column : columns) {
       const auto found = std::find_if(column.keys.begin(), column.keys.end(),
                                       [&](const WrittenKey& written) { return written.key == key; });

@@ -71,6 +71,7 @@ TEST(Pages, ShowMaterialsJointsAndContactsOnceForGroupsThatHaveThemInCommon) {
   for (const char* group : {"plate", "anvil", "<wheel>"}) {
     case_::Material& material = run.materials.emplace_back();
     material.group = group;
+    material.density = 2456;
     material.young = group == std::string("anvil") ? 2.1e11 : 7e10;
   }
   case_::Joint& joint = run.joints.emplace_back();
@@ -82,7 +83,9 @@ TEST(Pages, ShowMaterialsJointsAndContactsOnceForGroupsThatHaveThemInCommon) {
       has(html, "<th scope=\"col\" class=\"n\">plate, &lt;wheel&gt;</th><th scope=\"col\" class=\"n\">anvil</th>"))
       << html;
   EXPECT_TRUE(has(html, ">70 GPa</data></td><td class=\"n\"><data value=\"210000000000\">210 GPa<")) << html;
+  EXPECT_TRUE(has(html, ">2456 kg/m3<")) << html;
   EXPECT_TRUE(has(html, "plate – anvil")) << html;
+  EXPECT_TRUE(has(html, ">softening.kind<")) << html;
   EXPECT_TRUE(has(html, "12.5 J/m")) << html;
   EXPECT_TRUE(has(html, "any – any")) << html;
   EXPECT_EQ(model({}), "");
