@@ -13,7 +13,8 @@ mkdir -p "$clean"
 found=0
 
 if [[ $# == 0 ]]; then
-  cppcheck --project="$build/compile_commands.json" --file-filter='solver/*' --std=c++20 --quiet --inline-suppr \
+  # Files have names from here, as in the filter and the list of suppressions, where the project has.
+  cppcheck --project="$(realpath --relative-to=. "$build/compile_commands.json")" --file-filter='solver/*' --std=c++20 --quiet --inline-suppr \
     --enable=warning,performance,portability --suppressions-list="$here/cppcheck.supp" --suppress=missingIncludeSystem \
     -j "$(nproc)" --error-exitcode=1 --template='{file}:{line}: {message} [cppcheck {id}]' || found=1
 fi
