@@ -70,8 +70,8 @@ void ContactSearch::mark_coupled(std::vector<std::uint8_t>& marks) const {
 
 void ContactSearch::verify(const NodalState& nodes) const {
   if (!verify_) return;
-  const auto& [params, mesh, topology, local] = surface_.model();
-  const FaceRule& rule = face_rule(params.points_per_face);
+  const LocalMesh& local = surface_.model().local;
+  const FaceRule& rule = face_rule(surface_.model().params.points_per_face);
   for (std::size_t c = 0; c < contact_.contactors.size(); ++c) {
     const Index slot = contact_.contactors[c];
     const auto contactor = static_cast<Index>(c);

@@ -42,7 +42,7 @@ class Largest {
 double relative_displacement(const LocalMesh& local, const Field<double>& now, const Field<double>& then,
                              const Communicator& communicator) {
   Largest largest;
-  for (std::size_t block = 0; block < then.size(); block += 3 * kLanes) {
+  for (std::size_t block = 0; block < then.size(); block += std::size_t{3} * kLanes) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       if (local.counted[block / 3 + lane] == 0) continue;
       std::array<double, 3> u;

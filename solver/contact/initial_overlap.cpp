@@ -77,8 +77,10 @@ struct Hit {
 std::vector<Hit> hits_of(const Model& model, const std::vector<Place>& places) {
   const Mesh& mesh = model.mesh;
   std::vector<Vec3> points;
+  points.reserve(places.size());
   for (const Place& place : places) points.push_back(place.x);
   std::vector<detection::Corners> corners;
+  corners.reserve(at(mesh.num_elements()));
   for (Index e = 0; e < mesh.num_elements(); ++e) corners.push_back(geometry::corners_of(mesh, e));
   std::vector<detection::Couple> couples;
   detection::make_search(detection::Algorithm::packed_tree, 0)->search(points, corners, 0.0, couples);
@@ -161,6 +163,7 @@ std::vector<BodyOverlap> by_bodies(const Model& model, const std::vector<Place>&
     overlap.place = place.x;
   }
   std::vector<BodyOverlap> overlaps;
+  overlaps.reserve(found.size());
   for (const auto& [bodies, overlap] : found) overlaps.push_back(overlap);
   std::stable_sort(overlaps.begin(), overlaps.end(),
                    [](const BodyOverlap& p, const BodyOverlap& q) { return p.depth > q.depth; });
