@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/disjoint_sets.hpp"
 #include "commands/stage_report.hpp"
 #include "commands/surface_report.hpp"
 #include "mesh/geometry.hpp"
@@ -129,11 +130,42 @@ bool is_pressed(const case_::Case& input) {
   });
 }
 
+bool begins_broken(const case_::Case& input, const std::string& surface) {
+  const auto names = [&](const std::vector<std::string>& broken) {
+    return std::find(broken.begin(), broken.end(), surface) != broken.end();
+  };
+  return names(input.broken_surfaces) ||
+         std::any_of(input.stages.begin(), input.stages.end(),
+                     [&](const case_::Stage& stage) { return names(stage.broken_surfaces); });
+}
+
+/// Solids: bodies glued to each other, but for the surfaces that the case breaks.
+std::size_t num_solids(const case_::Case& input, const Model& model) {
+  const Mesh& mesh = model.mesh;
+  std::vector<std::uint8_t> broken(mesh.elements.size(), 0);  // a bit a face
+  for (std::size_t s = 0; s < mesh.surface_groups.size(); ++s) {
+    if (!begins_broken(input, mesh.surface_groups[s])) continue;
+    for (const Topology::Face& face : model.topology.surface_groups[s])
+      broken[at(face.element)] |= static_cast<std::uint8_t>(1U << face.face);
+  }
+  DisjointSets sets(at(mesh.num_bodies));
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    for (std::size_t f = 0; f < 4; ++f) {
+      const FaceLink& link = model.topology.links[e][f];
+      if (link.inner() && (broken[e] >> f & 1U) == 0)
+        sets.join(mesh.element_body[e], mesh.element_body[at(link.neighbour)]);
+    }
+  }
+  std::size_t solids = 0;
+  for (Index body = 0; body < mesh.num_bodies; ++body) solids += sets.root(body) == body ? 1 : 0;
+  return solids;
+}
+
 /// What is pressed between flat bodies without friction is in neutral equilibrium sideways.
 Advice pressed_without_friction(const case_::Case& input, const Model& model) {
-  constexpr std::size_t kBetweenTwo = 3;  // bodies
+  constexpr std::size_t kBetweenTwo = 3;  // solids
   Advice advice;
-  if (model.whole.body_length.size() < kBetweenTwo || !is_pressed(input)) return advice;
+  if (!is_pressed(input) || num_solids(input, model) < kBetweenTwo) return advice;
   for (const case_::Contact& entry : input.contacts) {
     if (entry.friction > 0) continue;
     advice.push_back(fmt::format(

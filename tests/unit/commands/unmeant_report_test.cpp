@@ -97,6 +97,33 @@ TEST(Unmeant, IsPressingWithoutFriction) {
   EXPECT_EQ(advice_on(pressed), "") << "nothing is between the two";
 }
 
+/// Three boxes one above the other, the lowest held, the highest driven.
+std::string stacked(const std::string& glue, const std::string& more = "") {
+  const case_::CaseFolder folder;
+  folder.write("boxes.geo",
+               "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\nBox(2) = {0, 0, 1, 1, 1, 1};\n"
+               "Box(3) = {0, 0, 2, 1, 1, 1};\nCoherence;\nPhysical Volume(\"rock\") = Volume{:};\ne = 0.01;\n"
+               "Physical Surface(\"top\") = Surface In BoundingBox {-e, -e, 3 - e, 1 + e, 1 + e, 3 + e};\n"
+               "Physical Surface(\"bottom\") = Surface In BoundingBox {-e, -e, -e, 1 + e, 1 + e, e};\n"
+               "Physical Surface(\"bonds\") = Surface In BoundingBox {-e, -e, 1 - e, 1 + e, 1 + e, 2 + e};\n"
+               "MeshSize{:} = 2;\n");
+  std::string without_mesh = kCubes.substr(kCubes.find("[[material]]"));
+  const std::string none = "\"none\"";  // elements that share nodes have nothing to break
+  without_mesh.replace(without_mesh.find(none), none.size(), "\"unbreakable\"");
+  const case_::Case input = case_::read_case(
+      folder.write("case.toml", "[mesh]\nfile = \"boxes.geo\"\nglue = " + glue + "\n" + without_mesh +
+                                    "[[stage.constraint]]\ngroup = \"bottom\"\nfixed = \"z\"\n[[stage.constraint]]\n"
+                                    "group = \"top\"\nvelocity = { z = -1 }\n" +
+                                    more));
+  return as_list(unmeant_advice(input, build_bare_model(input)));
+}
+
+TEST(Unmeant, IsPressingWithoutFrictionOfPartsOfOneSolidOnlyWhereTheyAreBroken) {
+  EXPECT_THAT(stacked("false"), HasSubstr("has no friction"));
+  EXPECT_EQ(stacked("true"), "") << "the bond holds them sideways";
+  EXPECT_THAT(stacked("true", "[joints]\nbroken = [\"bonds\"]\n"), HasSubstr("has no friction"));
+}
+
 TEST(Unmeant, IsAnInitialVelocityAlongAxesThatAreHeld) {
   EXPECT_THAT(
       advice_on(kHeld + "fixed = \"xy\"\n" + kFlying),
