@@ -158,12 +158,16 @@ Advice silently_apart(const case_::Case& input, const Model& model) {
   }
   Advice advice;
   for (const auto& [group, touch] : touches) {
+    const bool pressing = model.has_contact && model.contact.law(group, group).penalty > 0;
+    const char* what_to_do =
+        input.mesh.glue ? "the geometry has their interface twice: use Coherence or BooleanFragments."
+        : pressing ? "mesh.glue = true makes them one solid. As they are, like stones without mortar, contact alone "
+                     "keeps them apart."
+                   : "mesh.glue = true makes them one solid. As they are nothing keeps them apart: that takes a "
+                     "[[contact]] of the group with itself.";
     advice.push_back(fmt::format(
         "Volumes of \"{}\" touch along {} triangles and are not joined there (bodies {} and {}, for one): {}",
-        mesh.volume_groups[index(group)], touch.faces, touch.body, touch.other,
-        input.mesh.glue
-            ? "the geometry has their interface twice: use Coherence or BooleanFragments."
-            : "mesh.glue = true makes them one solid; give them different groups if they are meant to part."));
+        mesh.volume_groups[index(group)], touch.faces, touch.body, touch.other, what_to_do));
   }
   return advice;
 }
