@@ -93,6 +93,22 @@ std::string key_text(const Key& key) {
 
 std::string text_of(const Key& key) { return key.is_section() ? section_text(key) : key_text(key); }
 
+/// Keys in whose name a word stands, and behind them those whose help says it.
+std::vector<std::string> keys_that_say(const std::string& word) {
+  constexpr std::size_t kShortest = 4, kMost = 8;
+  std::vector<std::string> names, helps;
+  if (word.size() < kShortest) return names;
+  for (const Key& row : schema()) {
+    if (row.name().find(word) != std::string_view::npos)
+      names.push_back(plain_path(row.path));
+    else if (std::string_view(row.help).find(word) != std::string_view::npos)
+      helps.push_back(plain_path(row.path));
+  }
+  names.insert(names.end(), helps.begin(), helps.end());
+  if (names.size() > kMost) names.resize(kMost);
+  return names;
+}
+
 }  // namespace
 
 std::string explain() {
@@ -126,11 +142,14 @@ std::string explain(std::string_view key) {
 
   std::vector<std::string> paths;
   for (const std::string& path : similar_keys(pattern_of(key), 3)) paths.push_back(plain_path(path));
+  const std::vector<std::string> speaking = paths.empty() ? keys_that_say(wanted) : std::vector<std::string>{};
   std::vector<std::string> sections;
   for (const Key& row : schema())
     if (row.section().empty()) sections.push_back(plain_path(row.path));
   throw InputError({"", 0, std::string(key),
-                    paths.empty() ? "unknown key" : "unknown key; did you mean " + joined(paths, " or ") + "?",
+                    !paths.empty()      ? "unknown key; did you mean " + joined(paths, " or ") + "?"
+                    : !speaking.empty() ? "unknown key; the word stands in " + joined(speaking)
+                                        : "unknown key",
                     "sections and keys of a case: " + joined(sections), ""});
 }
 

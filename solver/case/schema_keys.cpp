@@ -247,7 +247,9 @@ constexpr auto model_keys = std::to_array<Key>({
              "Steps that do not resolve the way to the plateau would let bodies sink and gain energy.",
      .example = "\"60 MPa\""},
     {.path = "contact[].unloading_exponent", .type = number, .fallback = "1", .range = {.lower = 1, .upper = 100},
-     .help = "Exponent b of the unloading curve: 1 gives all energy back, more dissipates.", .example = "2"},
+     .help = "Exponent b of the unloading curve: 1 gives all energy back, more dissipates. Below the plateau 2/(b + 1) "
+             "of what contact stores comes back, a restitution of sqrt(2/(b + 1)) for bodies far stiffer than the "
+             "penalty: 0.82 for 2, 0.71 for 3, 0.47 for 8.", .example = "2"},
     {.path = "contact[].friction", .type = number, .fallback = "0", .range = not_negative,
      .help = "Coefficient of Coulomb friction.", .example = "0.3"},
     {.path = "contact[].friction_delay", .type = number, .fallback = "6", .range = not_negative,
