@@ -34,7 +34,9 @@ constexpr auto model_keys = std::to_array<Key>({
              "surface_N.",
      .example = "\"geometry.geo\""},
     {.path = "mesh.parameters", .type = parameters, .fallback = "{}",
-     .help = "Numbers handed to a .geo file, each in place of the DefineConstant of its name. In SI, or with a unit.",
+     .help = "Numbers handed to a .geo file, each in place of the DefineConstant of its name. In SI, or with a unit "
+             "that is turned into SI: lengths of a file in millimetres (mesh.scale = 0.001) are given as plain numbers "
+             "of millimetres.",
      .example = "{ h = \"2.5 mm\", n = 3 }"},
     {.path = "mesh.scale", .type = number, .fallback = "1", .range = positive,
      .help = "Metres a unit of length of the mesh file: 0.001 for a file in millimetres. A STEP file states its unit.",
@@ -127,7 +129,9 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "material[].cohesion", .type = number, .unit = "Pa", .fallback = "0", .range = not_negative,
      .help = "Cohesion of the cone.", .example = "\"8 MPa\""},
     {.path = "material[].hardening", .type = number, .unit = "Pa", .fallback = "0", .range = not_negative,
-     .help = "Cohesion gained a unit of plastic shear strain (engineering).", .example = "\"200 MPa\""},
+     .help = "Cohesion gained a unit of plastic shear strain (engineering). The strength of a sample in uniaxial "
+             "compression grows by 2 sqrt(3) times this a unit of plastic strain, without friction.",
+     .example = "\"200 MPa\""},
     {.path = "material[].tension_cutoff", .type = number, .unit = "Pa", .fallback = "apex", .range = positive,
      .word = "apex", .help = "Largest mean stress. apex: that of the cone's tip, cohesion / tan(friction_angle).",
      .example = "\"2 MPa\""},
@@ -151,8 +155,10 @@ constexpr auto model_keys = std::to_array<Key>({
              "this or group.",
      .example = "[\"brick\", \"mortar\"]"},
     {.path = "joint[].law", .type = choice, .fallback = "mixed_mode", .choices = "mixed_mode|independent_peaks",
-     .help = "mixed_mode: elliptic onset, its energy is exact in every mode mix. independent_peaks: each direction "
-             "reaches its own strength (the published law).", .example = "\"independent_peaks\"",
+     .help = "mixed_mode: elliptic onset; a joint has failed when what it took in mode I over energy_mode_1 and in "
+             "mode II over energy_mode_2 add up to 1 (to about 1 % where a third of it is elastic). "
+             "independent_peaks: each direction reaches its own strength (the published law).",
+     .example = "\"independent_peaks\"",
      .fixed_by_state = "the damage of the state is of this law"},
     {.path = "joint[].rise", .type = choice, .fallback = "linear", .choices = "linear|parabolic",
      .help = "Shape of the traction before the peak.", .example = "\"parabolic\"",

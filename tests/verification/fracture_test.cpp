@@ -91,6 +91,23 @@ TEST(JointPair, of_the_default_law_takes_the_fracture_energy_in_every_direction)
   }
 }
 
+TEST(JointPair, of_the_default_law_takes_energies_of_both_modes_that_add_up_over_their_fracture_energies) {
+  constexpr double kMode1 = 30, kMode2 = 90;  // J/m2
+  constexpr double kLinear = 2e-3;            // 1 % of the energies is elastic, of which the criterion knows nothing
+  for (const double degrees : {30.0, 60.0, 80.0}) {
+    const double angle = degrees * std::acos(-1.0) / 180.0;
+    const auto table = [](double part) { return "{table = [[0, 0], [1e-3, " + std::to_string(part) + "e-6]]}"; };
+    const Recording run = run_case_file("joint_pair/case.toml",
+                                        {"joint[0].penalty=800 GPa", "joint[0].shear_strength=10 MPa",
+                                         "joint[0].energy_mode_1=" + std::to_string(kMode1),
+                                         "joint[0].energy_mode_2=" + std::to_string(kMode2), "time.step=0.02 us",
+                                         "stage[0].constraint[1].displacement={x = " + table(60 * std::cos(angle)) +
+                                             ", y = " + table(60 * std::sin(angle)) + ", z = 0}"});
+    const EnergyBudget& e = run.rows.back().energy;
+    EXPECT_NEAR((e.joint_mode_1 / kMode1 + e.joint_mode_2 / kMode2) / kArea, 1.0, kLinear) << degrees;
+  }
+}
+
 TEST(SlitPlate, breaks_from_the_slit_with_a_closed_budget) {
   const Recording run = run_case_file("slit_plate/case_a.toml");
   EXPECT_GT(run.summary.broken_joints, 0);
