@@ -88,9 +88,47 @@ template <class T>
   }
 }
 
-/// Takes the damage of an opening where it grows. The loss begins where, on the ray of the opening, the present damage
-/// was reached: at the share R_old/R of it, R_old = z/(1-d) (1 without damage), under pressure where k |delta_s| = c
-/// R_old + mu p; it ends at the opening, but no farther than where the damage is 1, (r - 1) Q = 1.
+/// R of an opening: r, or (k |delta_s| - mu p)/c under pressure.
+/// @param r  of an open one;  @param coulomb  mu p
+template <class T>
+[[nodiscard]] inline T reach_of(const JointLawParams& law, const T& r, const T& shear, const T& coulomb,
+                                const Mask<T>& pressed) {
+  return select(pressed, T((law.stiffness * shear - coulomb) / law.cohesion), r);
+}
+
+/// Lengths of both components of an opening, m.
+template <class T>
+struct Lengths {
+  T open, shear;
+};
+
+/// Where a loss of the opening's stiffness begins. Without damage before, where its ray, on which R is 1 at the onset,
+/// has the share 1/R of it, under pressure where k |delta_s| = c + mu p. What is damaged has been followed from
+/// evaluation to evaluation: there on the way from the last opening, where R reaches R_old = z/(1-d). The ray would
+/// miss that by what a component that falls meanwhile has changed by, an error of the work that is of first order in
+/// the step.
+/// @param reach  R of the opening
+template <class T>
+[[nodiscard]] inline Lengths<T> begin_of_loss(const JointLawParams& law, const Components<T>& c, const T& coulomb,
+                                              const T& reach, const Point<T>& h) {
+  const T zero = 0.0, one = 1.0;
+  const T share = lesser(T(one / reach), one);
+  const T onset = lesser(T((law.cohesion + coulomb) / law.stiffness), c.shear);
+  const Lengths<T> ray{share * c.open, select(c.pressure > zero, onset, T(share * c.shear))};
+  const Mask<T> damaged = h.damage > zero;
+  if (!any(damaged)) return ray;
+  const Lengths<T> last{greater(h.normal_opening, zero), h.shear_opening};
+  const T x_n = last.open / law.onset_normal, x_s = last.shear / law.onset_shear;
+  const T last_coulomb = law.friction * law.stiffness * greater(T(-h.normal_opening), zero);
+  const T last_reach = reach_of(law, root(T(x_n * x_n + x_s * x_s)), last.shear, last_coulomb, h.normal_opening < zero);
+  const T left = h.strength_share / (1.0 - h.damage) - last_reach, way = reach - last_reach;
+  const T part = select(left > zero, select(left < way, T(left / way), one), zero);
+  return {select(damaged, T(last.open + part * (c.open - last.open)), ray.open),
+          select(damaged, T(last.shear + part * (c.shear - last.shear)), ray.shear)};
+}
+
+/// Takes the damage of an opening where it grows. The loss ends at the opening, but no farther than where, on its ray,
+/// the damage is 1, (r - 1) Q = 1.
 template <class T>
 inline void grow_mixed_mode(const JointLawParams& law, const Components<T>& c, Point<T>& h, LossOpenings<T>& loss) {
   const T zero = 0.0, one = 1.0;
@@ -102,7 +140,7 @@ inline void grow_mixed_mode(const JointLawParams& law, const Components<T>& c, P
   const Mask<T> growing = r2 > one && h.damage < one;
   if (!any(growing)) return;
   const T r = root(r2);
-  const T reach = select(c.pressure > zero, T((law.stiffness * c.shear - coulomb) / law.cohesion), r);
+  const T reach = reach_of(law, r, c.shear, coulomb, c.pressure > zero);
   const T slope = (normal2 * law.onset_normal / law.width_normal + shear2 * onset_shear / law.width_shear) / r2;  // Q
   const T level = (r - 1.0) * slope;
   const Mask<T> full = growing && level >= one;
@@ -111,12 +149,11 @@ inline void grow_mixed_mode(const JointLawParams& law, const Components<T>& c, P
   if (!any(trying) && !any(full)) return;
   const T z = softened(law.curve, level, trying), trial = 1.0 - z / reach;
   const Mask<T> partly = trying && trial > h.damage, grown = partly || full;
-  const T old_reach = h.strength_share / (1.0 - h.damage), begin = lesser(T(old_reach / reach), one);
-  const T begin_shear = select(
-      c.pressure > zero, lesser(T((law.cohesion * old_reach + coulomb) / law.stiffness), c.shear), T(begin * c.shear));
-  const T end = select(full, greater(lesser(T((1.0 + 1.0 / slope) / r), one), begin), one);
-  loss.normal2 = select(grown, T(begin * end * (c.open * c.open)), loss.normal2);
-  loss.shear2 = select(grown, T(begin_shear * end * c.shear), loss.shear2);
+  const Lengths<T> begin = begin_of_loss(law, c, coulomb, reach, h);
+  const T end = select(full, lesser(T((1.0 + 1.0 / slope) / r), one), one);
+  const auto loss_of = [&](const T& from, const T& to) { return from * lesser(greater(T(end * to), from), to); };
+  loss.normal2 = select(grown, loss_of(begin.open, c.open), loss.normal2);
+  loss.shear2 = select(grown, loss_of(begin.shear, c.shear), loss.shear2);
   h.damage = select(full, one, select(partly, trial, h.damage));
   h.level = select(full, one, select(partly, level, h.level));
   h.strength_share = select(full, zero, select(partly, z, h.strength_share));

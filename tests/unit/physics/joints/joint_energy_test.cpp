@@ -157,6 +157,26 @@ TEST(JointEnergy, what_the_law_dissipates_tends_to_the_work_less_what_is_stored_
   }
 }
 
+TEST(JointEnergy, what_a_path_that_turns_dissipates_is_the_work_to_second_order_in_the_step_for_strengths_apart) {
+  for (const double friction : {0.0, 0.7}) {
+    JointLawParams law = example_law();
+    law.stiffness *= 30;
+    law.cohesion = 3 * law.tensile_strength;
+    law.energy_mode_2 = 6 * law.energy_mode_1;
+    law.friction = friction;
+    law.softening.shape = SofteningShape::linear;
+    law = prepared(law);
+    const auto unaccounted = [&](int steps) {
+      PointDriver point{law};
+      for (int i = 1; i <= steps; ++i) point.step(wild(law, static_cast<double>(i) / steps));
+      EXPECT_GT(point.history.damage, 0.5);
+      return std::abs(point.work - point.dissipated() - point.history.stored) / kEnergy;
+    };
+    const double coarse = unaccounted(4000), fine = unaccounted(32000);
+    EXPECT_LT(fine, coarse / 32) << friction;
+  }
+}
+
 /// One step of a random history: small ones, jumps, closing, back to rest.
 Vec3 random_step(const JointLawParams& law, const Vec3& from, std::mt19937& random) {
   std::normal_distribution<double> part;
