@@ -21,7 +21,7 @@ void Pass::run() {
   contact_.touching.clear();
   work_.stored = work_.friction_stored = ExactSum{};
   work_.touching = 0;
-  spherical_boundary(params_, local_, state_, contact_, forces_, work_.stored);
+  spherical_boundary(params_, local_, state_, dt_, contact_, forces_, work_.stored);
   ++contact_.calls;
   contact_.prepared.resize(contact_.in_couples.size());
   contact_.prepared_in.resize(contact_.in_couples.size(), 0);

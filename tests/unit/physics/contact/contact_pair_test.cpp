@@ -169,6 +169,38 @@ TEST(contact_pair, a_sphere_pushes_points_back_with_the_force_of_its_energy) {
   }
 }
 
+TEST(contact_pair, a_sphere_gives_back_what_it_took_however_fast_a_point_comes_and_goes) {
+  constexpr double kStep = 1e-6;  // s
+  for (const double out : {0.0003, 0.0007, 0.0011}) {
+    for (const double back : {0.0001, 0.0005, 0.0013}) {
+      Pair pair(kCases[0]);
+      test::Scene& scene = pair.scene;
+      scene.contact.couples.clear();
+      couples_replaced(scene.contact);
+      scene.params.sphere = SphericalBoundary{{-0.03, 0, 0}, 0.028, 5e6};
+      scene.shift(1, {-0.03 - 0.004, 0, 0});  // well inside
+      scene.shift(0, {-0.004, 0, 0});         // the base's centroid 2 mm within
+      scene.evaluate(kStep);
+      double place = -0.002, force = 0, work = 0, most = 0;
+      const auto move = [&](double by) {
+        scene.set_velocity(0, {by / kStep, 0, 0});
+        scene.shift(0, {by, 0, 0});
+        scene.evaluate(kStep);
+        const double now = scene.force_on(0)[0];
+        work += 0.5 * (force + now) * by;
+        most = std::max(most, scene.work.stored.value());
+        force = now;
+        place += by;
+      };
+      while (place < 0.002) move(out);
+      EXPECT_NEAR(-work, most, 1e-9 * most) << out;
+      while (place > -0.002) move(-back);
+      EXPECT_EQ(scene.work.stored.value(), 0.0);
+      EXPECT_NEAR(work, 0.0, 1e-9 * most) << out << ", " << back;
+    }
+  }
+}
+
 TEST(contact_pair, a_sphere_takes_a_point_that_is_outside_when_first_seen_as_far_as_it_came_in) {
   Pair pair(kCases[0]);
   test::Scene& scene = pair.scene;
