@@ -302,20 +302,26 @@ void Pass::balance(const ContactPoint& point, double length, const Vec3& motion,
   h.force += h.balance * normal;
 }
 
-/// Its work is that of the mean of this and the last force over the motion; where that turns round there is none.
+/// Its work is that of the mean of this and the last force over the motion, each along the gradient that it had: where
+/// the point has passed an edge of the overlap they point elsewhere. Where the motion turns round there is none.
 Damping Pass::damp(const ContactLaw& law, const ContactPoint& point, const Vec3& motion, const Candidate& candidate,
                    const Vec3& gradient, double elastic) const {
   const double deeper = gradient.dot(motion) - candidate.turn;  // m, during the last step
   const double pressure = point.weight * normal_law::damped(law, elastic / point.weight, deeper / dt_);
-  double before = 0;
+  double work_before = 0;
   if (candidate.old >= 0) {
     const TouchingCouple& old = contact_.touching_before[static_cast<std::size_t>(candidate.old)];
     const double share = std::abs(1 + old.balance);
-    if (old.d > 0 && share > 0)
-      before = (old.force - old.friction).norm() / (share * gradient.norm()) -
-               point.weight * normal_law::stress(law, old.d, old.d_max);
+    if (old.d > 0 && share > 0) {
+      const Before then = one_step_ago(point, old.contactor);
+      const OverlapShape& shape = shape_of(old.contactor, Instant::step_before);
+      const Vec3 last = inert(then.tetra) ? gradient : overlap(shape, then.tetra, then.lambda, then.rows).gradient;
+      const double before = (old.force - old.friction).norm() / (share * last.norm()) -
+                            point.weight * normal_law::stress(law, old.d, old.d_max);
+      work_before = before * (candidate.turn == 0 ? last.dot(motion) : deeper);
+    }
   }
-  return {pressure, std::max(0.0, 0.5 * (before + pressure - elastic) * deeper)};
+  return {pressure, std::max(0.0, 0.5 * (work_before + (pressure - elastic) * deeper))};
 }
 
 void Pass::distribute(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda,

@@ -24,11 +24,11 @@ struct Way {
   bool touched = false;
   Vec3 force = Vec3::Zero();
 
-  explicit Way(const Vec3& from)
+  explicit Way(const Vec3& from, double damping = 0)
       : scene(
             test::joined(test::lone(test::regular_tetra(kLarge)),
                          test::moved(test::lone(test::regular_tetra(kSmall)), [&](const Vec3& x) { return x + from; })),
-            {kPenalty, kInfinite, 1, 0, 1}) {
+            {kPenalty, kInfinite, 1, 0, 1, damping}) {
     scene.couple([&](Index s) { return scene.body(s) == 1; }, [&](Index s) { return scene.body(s) == 0; });
     stiffness = scene.contact.points.back().weight * kPenalty / scene.contact.body_length[0];
   }
@@ -63,6 +63,25 @@ TEST(kinks_of_the_overlap, give_no_energy_to_a_point_that_passes_them_on_any_way
     EXPECT_LT(point.gain, kOfStep * point.stiffness * kStep * kStep) << "way " << way;
   }
   EXPECT_GT(touched, 150);
+}
+
+TEST(kinks_of_the_overlap, take_of_a_damped_point_what_is_dissipated) {
+  constexpr double kDamping = 1e7, kShare = 0.005;  // Pa s/m; of what is dissipated
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> number(-1, 1);
+  const Vec3 middle(-0.25 * kLarge * std::sqrt(2.0 / 3.0), 0, 0);
+  double unaccounted = 0, dissipated = 0;
+  for (int way = 0; way < 100; ++way) {
+    const Vec3 direction = Vec3(number(random), number(random), number(random)).normalized();
+    const Vec3 beside = 0.15 * kLarge * Vec3(number(random), number(random), number(random));
+    Way point(middle + beside - 1.2 * kLarge * direction, kDamping);
+    for (int i = 0; i < 240; ++i) point.move(kStep * direction);
+    EXPECT_EQ(point.scene.work.stored.value(), 0.0);
+    unaccounted += std::abs(point.done + point.scene.work.dissipated.value());
+    dissipated += point.scene.work.dissipated.value();
+  }
+  EXPECT_GT(dissipated, 0.0);
+  EXPECT_LT(unaccounted / dissipated, kShare);
 }
 
 }  // namespace
