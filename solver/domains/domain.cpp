@@ -53,7 +53,7 @@ Domain::Domain(const Model& of, const ContactSearchParams& search) : model(of), 
   contact = std::make_unique<ContactSearch>(search, parts, state.contact);
 }
 
-Domain::Domain(const Model& of, const ContactSearchParams& search, const Records& records, Continuation from)
+Domain::Domain(const Model& of, const ContactSearchParams& search, const Records& records, const Continuation& from)
     : model(of), derived(derive(of)), timer(from.timer), sample(from.sample), scratch(of.local) {
   start_state(model, state);
   copy_model_fields(from.state, state);

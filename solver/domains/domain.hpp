@@ -53,7 +53,7 @@ struct Domain {
   /// Everything at rest. @pre model outlives this object and does not change
   Domain(const Model& model, const ContactSearchParams& search);
   /// Goes on where others stopped. @param records  of the elements of model.mesh
-  Domain(const Model& model, const ContactSearchParams& search, const Records& records, Continuation from);
+  Domain(const Model& model, const ContactSearchParams& search, const Records& records, const Continuation& from);
   Domain(const Domain&) = delete;
   Domain& operator=(const Domain&) = delete;
 

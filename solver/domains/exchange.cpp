@@ -56,10 +56,12 @@ std::vector<SharedSlots> shared_slots(const std::vector<SharedElements>& shared,
                                       const LocalMesh& local) {
   const auto slots = [&](const std::vector<GlobalId>& ids) {
     std::vector<Index> list;
+    list.reserve(ids.size());
     for (const GlobalId id : ids) list.push_back(local.slot_of_element[at(mesh.element_with(id))]);
     return list;
   };
   std::vector<SharedSlots> lists;
+  lists.reserve(shared.size());
   for (const SharedElements& elements : shared)
     lists.push_back({elements.rank, slots(elements.send), slots(elements.receive)});
   return lists;

@@ -111,7 +111,7 @@ Partition::Partition(const case_::Case& input, const Communicator& communicator,
       domains_(std::move(from.domains)),
       stage_(from.in_stage ? &input.stages[from.stage] : nullptr),
       motion_(from.motion) {
-  decompose_anew(std::move(from.whole), std::move(from.mine), from.weight, std::move(from.state));
+  decompose_anew(std::move(from.whole), std::move(from.mine), from.weight, from.state);
   model_->whole.step_ratio = time_step_->ratio();
 }
 
@@ -138,27 +138,28 @@ Snapshot Partition::copy() const {
   return now;
 }
 
-void Partition::decompose_anew(WholeModel whole, Records mine, const std::vector<double>& weight, Continuation from) {
+void Partition::decompose_anew(WholeModel whole, Records mine, const std::vector<double>& weight,
+                               const Continuation& from) {
   communicator_.set_phase("division of the model");
   const Phase phase = stage_ != nullptr ? Phase::decomposition : Phase::setup;  // the first one is before all stages
   PhaseTimer timer;
   {
     const auto lap = timer.measure(phase);
-    rebuild(std::move(whole), std::move(mine), weight, std::move(from));
+    rebuild(std::move(whole), std::move(mine), weight, from);
   }
   decomposition_s_ = communicator_.max(timer.seconds(phase));
   domain_->timer.add(timer);
   balance_.restart(*domain_);
 }
 
-void Partition::rebuild(WholeModel whole, Records mine, const std::vector<double>& weight, Continuation from) {
+void Partition::rebuild(WholeModel whole, Records mine, const std::vector<double>& weight, const Continuation& from) {
   domain_.reset();
   time_step_.reset();
   model_.reset();
   reach_ = reach_of(input_, longest_edge(communicator_, mine),
                     largest_buffer(input_.detection.buffer, whole.contactor_size));
   reach_.margin *= stretch();
-  build(decompose(communicator_, domains_, std::move(mine), weight, reach_), std::move(whole), std::move(from));
+  build(decompose(communicator_, domains_, std::move(mine), weight, reach_), std::move(whole), from);
 }
 
 /// Of the margin as the case has it, at the present speed.
@@ -166,13 +167,13 @@ double Partition::stretch() const {
   return std::clamp(kLasting * motion_ / reach_.allowed_motion(), 1.0, kMostStretched);
 }
 
-void Partition::build(const Piece& piece, WholeModel whole, Continuation from) {
+void Partition::build(const Piece& piece, WholeModel whole, const Continuation& from) {
   const double dt = from.state.clock.dt;
   Mesh mesh = mesh_of(piece.records, whole);
   Topology topology = topology_of(piece.records, mesh);
   model_ = std::make_unique<Model>(build_piece(input_, std::move(whole), std::move(mesh), std::move(topology),
                                                piece.original, piece.records.corners));
-  domain_ = std::make_unique<Domain>(*model_, search_params(input_, *model_), piece.records, std::move(from));
+  domain_ = std::make_unique<Domain>(*model_, search_params(input_, *model_), piece.records, from);
   const bool pairwise = input_.domains.exchange == case_::Exchange::pairwise;
   if (communicator_.size() > 1)
     domain_->connect(communicator_, shared_slots(piece.neighbours, model_->mesh, model_->local),

@@ -82,9 +82,9 @@ class Partition {
   [[nodiscard]] double first_motion() const;
   [[nodiscard]] double stretch() const;
   [[nodiscard]] RankOperations rank_operations() const;
-  void decompose_anew(WholeModel whole, Records mine, const std::vector<double>& weight, Continuation from);
-  void rebuild(WholeModel whole, Records mine, const std::vector<double>& weight, Continuation from);
-  void build(const Piece& piece, WholeModel whole, Continuation from);
+  void decompose_anew(WholeModel whole, Records mine, const std::vector<double>& weight, const Continuation& from);
+  void rebuild(WholeModel whole, Records mine, const std::vector<double>& weight, const Continuation& from);
+  void build(const Piece& piece, WholeModel whole, const Continuation& from);
   [[nodiscard]] bool left_reach();
   [[nodiscard]] bool balancing_pays();
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace breccia::detection {
@@ -28,7 +29,7 @@ class HilbertCurve {
  private:
   static constexpr std::uint32_t num_orientations = 12;
   /// (orientation, two bits of x, y and z) -> next orientation << 6 | place among 64
-  using Steps = std::array<std::uint16_t, 64 * num_orientations>;
+  using Steps = std::array<std::uint16_t, std::size_t{64} * num_orientations>;
   static const Steps steps;
   static constexpr Steps make_steps();
 

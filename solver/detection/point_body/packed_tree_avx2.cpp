@@ -1,5 +1,7 @@
 #include <immintrin.h>
 
+#include <cstddef>
+
 #include "detection/point_body/packed_tree_walk.hpp"
 
 namespace breccia::detection {
@@ -21,7 +23,7 @@ struct Avx2 {
     }
 
    private:
-    __m256 overlap(const float* group, int axis) const {
+    __m256 overlap(const float* group, std::size_t axis) const {
       return _mm256_and_ps(_mm256_cmp_ps(_mm256_loadu_ps(group + 8 * axis), high_[axis], _CMP_LE_OQ),
                            _mm256_cmp_ps(_mm256_loadu_ps(group + 24 + 8 * axis), low_[axis], _CMP_GE_OQ));
     }

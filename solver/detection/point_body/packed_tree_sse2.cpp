@@ -1,5 +1,7 @@
 #include <immintrin.h>
 
+#include <cstddef>
+
 #include "detection/point_body/packed_tree_walk.hpp"
 
 namespace breccia::detection {
@@ -25,7 +27,7 @@ struct Sse2 {
       const __m128 x = overlap(group, 0), y = overlap(group, 1), z = overlap(group, 2);
       return static_cast<unsigned>(_mm_movemask_ps(_mm_and_ps(_mm_and_ps(x, y), z)));
     }
-    __m128 overlap(const float* group, int axis) const {
+    __m128 overlap(const float* group, std::size_t axis) const {
       return _mm_and_ps(_mm_cmple_ps(_mm_loadu_ps(group + 8 * axis), high_[axis]),
                         _mm_cmpge_ps(_mm_loadu_ps(group + 24 + 8 * axis), low_[axis]));
     }
