@@ -78,7 +78,7 @@ std::vector<const case_::Key*> keys_of(const std::vector<Column>& columns) {
 
 /// Keys by groups; a column for what several groups have in common.
 std::string table_of(const char* caption, const std::vector<Column>& columns) {
-  Table table{caption, {""}, {}};
+  Table table{caption, {"key"}, {}};
   for (const Column& column : columns) {
     std::string groups;
     for (const std::string& group : column.groups) groups += (groups.empty() ? "" : ", ") + group;
