@@ -51,7 +51,7 @@ struct Raster {
 /// [mesh]
 struct MeshSource {
   std::filesystem::path file;                ///< of base/geometry_file.hpp, absolute; empty when a raster is asked for
-  std::map<std::string, double> parameters;  ///< numbers handed to a .geo (DefineConstant), SI
+  std::map<std::string, double> parameters;  ///< handed to a .geo (DefineConstant) as they are
   std::optional<Raster> raster;
   double scale = 1.0;           ///< file units to m
   double size = 0;              ///< m, edge of the elements of a solid; 0: automatic
@@ -219,7 +219,7 @@ struct Stage {
   std::vector<Constraint> constraints;
   std::vector<Pressure> pressures;
   std::vector<Traction> tractions;
-  std::vector<std::string> absorbing;  ///< surfaces behind which the material goes on
+  std::vector<std::string> absorbing;        ///< surfaces behind which the material goes on
   double mass_damping = 0;                   ///< 1/s, alpha of f = -alpha m v
   double local_damping = 0;                  ///< 0..1, share of the unbalanced force, against the velocity
   std::vector<std::string> broken_surfaces;  ///< surfaces whose joints are broken when the stage starts

@@ -1,6 +1,7 @@
 #include "case/reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 
 #include "case/bindings.hpp"
@@ -160,6 +161,12 @@ void add_default_joints(Case& c, ValueReader& values) {
   }
 }
 
+/// A length that a .geo is given with a unit, "2.5 mm", is one of the model: the geometry counts in its own unit.
+void count_lengths_in_units_of_the_file(ValueReader& values, MeshSource& mesh) {
+  for (const auto& [name, power] : values.lengths_in("mesh.parameters"))
+    mesh.parameters[name] /= std::pow(mesh.scale, power);
+}
+
 bool stands_below(std::string_view key, std::string_view section) {
   return key.size() > section.size() && key.starts_with(section) &&
          (key[section.size()] == '.' || key[section.size()] == '[');
@@ -191,6 +198,7 @@ Case case_of(Node root, const std::filesystem::path& file, std::span<const std::
   check_keys(root, values);
   SectionReader reader(values, c, root, "", true);
   bind(reader, c);
+  count_lengths_in_units_of_the_file(values, c.mesh);
   add_default_joints(c, values);
 
   const auto add = [&](std::vector<Problem> found) {

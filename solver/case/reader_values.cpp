@@ -12,6 +12,12 @@ namespace {
 
 std::string indexed(const std::string& path, std::size_t i) { return path + "[" + std::to_string(i) + "]"; }
 
+/// 1 for a length, 2 for an area, ...; 0 for what is no power of a length.
+int power_of_length(const Dimension& dimension) {
+  const auto& [metre, kilogram, second, radian] = dimension.powers;
+  return kilogram == 0 && second == 0 && radian == 0 ? metre : 0;
+}
+
 }  // namespace
 
 void ValueReader::problem(const Node& node, const std::string& path, const std::string& what,
@@ -184,6 +190,7 @@ void ValueReader::read(const Key& key, const Node& node, const std::string& path
 }
 
 void ValueReader::read(const Key& key, const Node& node, const std::string& path, std::map<std::string, double>& out) {
+  lengths_.erase(path);
   if (!node.is(Node::Kind::table)) return wrong_type(key, node, path);
   out.clear();
   for (const auto& [name, value] : node.entries) {
@@ -193,7 +200,9 @@ void ValueReader::read(const Key& key, const Node& node, const std::string& path
       continue;
     }
     try {
-      out[name] = parse_quantity(value.text).value;
+      const Quantity quantity = parse_quantity(value.text);
+      out[name] = quantity.value;
+      if (const int power = power_of_length(quantity.dimension); power != 0) lengths_[path][name] = power;
     } catch (const UnitError& e) {
       problem(value, own, e.what(), e.allowed, value.shown());
     }

@@ -34,9 +34,9 @@ constexpr auto model_keys = std::to_array<Key>({
              "surface_N.",
      .example = "\"geometry.geo\""},
     {.path = "mesh.parameters", .type = parameters, .fallback = "{}",
-     .help = "Numbers handed to a .geo file, each in place of the DefineConstant of its name. In SI, or with a unit "
-             "that is turned into SI: lengths of a file in millimetres (mesh.scale = 0.001) are given as plain numbers "
-             "of millimetres.",
+     .help = "Numbers handed to a .geo file, each in place of the DefineConstant of its name. Plain "
+             "numbers are handed on as they are; of what has a unit, lengths, areas and volumes are counted in that of the "
+             "file (mesh.scale), all else in SI.",
      .example = "{ h = \"2.5 mm\", n = 3 }"},
     {.path = "mesh.scale", .type = number, .fallback = "1", .range = positive,
      .help = "Metres a unit of length of the mesh file: 0.001 for a file in millimetres. A STEP file states its unit.",

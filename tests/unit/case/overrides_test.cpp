@@ -51,7 +51,8 @@ TEST(Overrides, SectionsThatTheFileLacksAreMade) {
 }
 
 TEST(Overrides, ParametersOfTheGeometryAndElementsOfAVectorAreReached) {
-  EXPECT_EQ(read_text(complete, {"mesh.parameters.h=1 mm"}).mesh.parameters.at("h"), 0.001);
+  EXPECT_EQ(read_text(complete, {"mesh.parameters.h=1 mm"}).mesh.parameters.at("h"), 1) << "scale = 0.001";
+  EXPECT_EQ(read_text(complete, {"mesh.parameters.h=1 mm", "mesh.scale=1"}).mesh.parameters.at("h"), 0.001);
   EXPECT_EQ(read_text(complete, {"mesh.parameters.fresh=4"}).mesh.parameters.at("fresh"), 4);
   EXPECT_EQ(read_text(complete, {"stage[0].gravity[1]=3"}).stages[0].gravity[1].constant, 3);
   EXPECT_EQ(read_text(complete, {"stage[0].gravity[2].ramp.to=-1"}).stages[0].gravity[2](1), -1);

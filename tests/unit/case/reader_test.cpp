@@ -69,7 +69,7 @@ TEST(Reader, MeshAndMaterialsAreRead) {
   EXPECT_EQ(c.title, "Every key");
   EXPECT_EQ(c.file, folder.path() / "case.toml");
   EXPECT_EQ(c.mesh.file, folder.path() / "geometry.geo");
-  EXPECT_EQ(c.mesh.parameters, (std::map<std::string, double>{{"h", 0.0025}, {"n", 3}, {"odd name", 0.1}}));
+  EXPECT_EQ(c.mesh.parameters, (std::map<std::string, double>{{"h", 2.5}, {"n", 3}, {"odd name", 0.1}}));
   EXPECT_EQ(c.mesh.scale, 0.001);
   EXPECT_TRUE(c.mesh.glue);
   EXPECT_FALSE(c.mesh.repair_inverted);
