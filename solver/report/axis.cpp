@@ -32,7 +32,8 @@ int power_of(double largest, const std::string& unit) {
 
 std::string title_of(const std::string& name, const std::string& unit, int power) {
   constexpr std::array<const char*, 11> kPrefixes{"f", "p", "n", "µ", "m", "", "k", "M", "G", "T", "P"};
-  const std::string prefix = kPrefixes[static_cast<std::size_t>(power + 5)];
+  const int place = power + 5;
+  const std::string prefix = kPrefixes[static_cast<std::size_t>(place)];
   if (!unit.empty()) return name + " [" + prefix + unit + "]";
   if (power == 0) return name;
   return name + " [10" + raised(3 * power) + "]";

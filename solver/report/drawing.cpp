@@ -48,7 +48,7 @@ fs::path program_named(const std::string& name) {
   std::string rest = folders != nullptr ? folders : "/usr/bin:/bin";
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find(':'), rest.size());
-    const fs::path file = fs::path(rest.substr(0, end)) / name;
+    fs::path file = fs::path(rest.substr(0, end)) / name;
     std::error_code error;
     if (fs::is_regular_file(file, error) && ::access(file.c_str(), X_OK) == 0) return file;
     rest.erase(0, end + 1);
@@ -105,6 +105,7 @@ void guard_against_end_of(pid_t parent) {
     ::dup2(said, 2);
   }
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
   ::execv(argv.front(), argv.data());

@@ -102,6 +102,7 @@ std::vector<Patch> joined_by_group(std::span<const Patch> patches) {
     if (!fresh) place->second = joined(place->second, p);
   }
   std::vector<Patch> list;
+  list.reserve(groups.size());
   for (const auto& [group, patch] : groups) list.push_back(patch);
   return list;
 }
