@@ -93,7 +93,7 @@ std::string key_text(const Key& key) {
 
 std::string text_of(const Key& key) { return key.is_section() ? section_text(key) : key_text(key); }
 
-/// Keys in whose name a word stands, and behind them those whose help says it.
+/// Keys in whose name a word stands, then those whose help has it; of many the first, and how many more there are.
 std::vector<std::string> keys_that_say(const std::string& word) {
   constexpr std::size_t kShortest = 4, kMost = 8;
   std::vector<std::string> names, helps;
@@ -105,7 +105,11 @@ std::vector<std::string> keys_that_say(const std::string& word) {
       helps.push_back(plain_path(row.path));
   }
   names.insert(names.end(), helps.begin(), helps.end());
-  if (names.size() > kMost) names.resize(kMost);
+  if (names.size() > kMost) {
+    const std::size_t more = names.size() - kMost;
+    names.resize(kMost);
+    names.push_back("and " + std::to_string(more) + " more");
+  }
   return names;
 }
 

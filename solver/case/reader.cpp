@@ -161,8 +161,8 @@ void add_default_joints(Case& c, ValueReader& values) {
   }
 }
 
-/// A length that a .geo is given with a unit, "2.5 mm", is one of the model: the geometry counts in its own unit.
-void count_lengths_in_units_of_the_file(ValueReader& values, MeshSource& mesh) {
+/// mesh.parameters are in the unit of length of the geometry; what the case gives with a unit has been read in metres.
+void convert_lengths_to_the_unit_of_the_file(ValueReader& values, MeshSource& mesh) {
   for (const auto& [name, power] : values.lengths_in("mesh.parameters"))
     mesh.parameters[name] /= std::pow(mesh.scale, power);
 }
@@ -198,7 +198,7 @@ Case case_of(Node root, const std::filesystem::path& file, std::span<const std::
   check_keys(root, values);
   SectionReader reader(values, c, root, "", true);
   bind(reader, c);
-  count_lengths_in_units_of_the_file(values, c.mesh);
+  convert_lengths_to_the_unit_of_the_file(values, c.mesh);
   add_default_joints(c, values);
 
   const auto add = [&](std::vector<Problem> found) {

@@ -38,7 +38,7 @@ class ValueReader {
   void read(const Key& key, const Node& node, const std::string& path, std::array<double, 2>& out);
   void read(const Key& key, const Node& node, const std::string& path, Vec3& out);
   void read(const Key& key, const Node& node, const std::string& path, std::array<int, 3>& out);
-  /// What is given with a unit of length, area or volume is kept in mind for lengths_in().
+  /// Which numbers have a unit of length, area or volume is recorded for lengths_in().
   void read(const Key& key, const Node& node, const std::string& path, std::map<std::string, double>& out);
   void read(const Key& key, const Node& node, const std::string& path, std::map<std::string, Setting>& out);
   void read(const Key& key, const Node& node, const std::string& path, TimeFunction& out);
@@ -51,7 +51,7 @@ class ValueReader {
   /// Position of the word among the choices of the key.
   [[nodiscard]] std::optional<std::size_t> read_choice(const Key& key, const Node& node, const std::string& path);
 
-  /// Numbers of a table that were given in a power of a unit of length, by that power.
+  /// Numbers of a table that have a unit of length (1), area (2), volume (3)...
   [[nodiscard]] const std::map<std::string, int>& lengths_in(const std::string& path) { return lengths_[path]; }
 
   /// An entry of a table that is no key of it; names the nearest key of the schema.

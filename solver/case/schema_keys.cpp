@@ -35,8 +35,8 @@ constexpr auto model_keys = std::to_array<Key>({
      .example = "\"geometry.geo\""},
     {.path = "mesh.parameters", .type = parameters, .fallback = "{}",
      .help = "Numbers handed to a .geo file, each in place of the DefineConstant of its name. Plain "
-             "numbers are handed on as they are; of what has a unit, lengths, areas and volumes are counted in that of "
-             "the file (mesh.scale), all else in SI.",
+             "numbers are passed unchanged. With a unit, lengths, areas and volumes are converted to the unit of "
+             "length of the file (mesh.scale), all else to SI.",
      .example = "{ h = \"2.5 mm\", n = 3 }"},
     {.path = "mesh.scale", .type = number, .fallback = "1", .range = positive,
      .help = "Metres a unit of length of the mesh file: 0.001 for a file in millimetres. A STEP file states its unit.",

@@ -176,7 +176,7 @@ class SectionWriter {
   std::vector<SectionWriter> inner_;
 };
 
-/// @param entry  a copy: archives walk members by reference, the reader writes to them
+/// @param entry  a copy, as in write_case()
 template <class T>
 std::vector<WrittenKey> keys_of_entry(std::string_view list, T entry) {
   SectionWriter writer("", std::string(list) + "[]", "");
@@ -204,7 +204,7 @@ std::string toml_text(const std::string& text) {
 }
 
 std::string write_case(const Case& c) {
-  Case copy = c;  // as above
+  Case copy = c;  // archives walk members by reference, the reader writes to them
   SectionWriter writer("", "", "");
   bind(writer, copy);
   return "# The case with every default written out, in SI units.\n" + writer.text();

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "case/nearest.hpp"
 #include "case/writer.hpp"
 #include "report/html.hpp"
 #include "report/page.hpp"
@@ -46,7 +47,7 @@ void add(std::vector<Column>& columns, const std::string& group, std::vector<Wri
     columns.push_back({{group}, std::move(keys)});
 }
 
-/// As it was typed where three digits are too few or the unit has a prefix already.
+/// With ten digits where three do not give the value, or where the unit has a prefix already.
 Cell number_cell(double value, std::string_view unit) {
   const bool short_enough = std::abs(std::stod(fmt::format("{:.2e}", value)) - value) <= 1e-12 * std::abs(value);
   if (short_enough && !unit.starts_with("kg")) return Cell::number_of(value, unit);
@@ -79,11 +80,7 @@ std::vector<const case_::Key*> keys_of(const std::vector<Column>& columns) {
 /// Keys by groups; a column for what several groups have in common.
 std::string table_of(const char* caption, const std::vector<Column>& columns) {
   Table table{caption, {"key"}, {}};
-  for (const Column& column : columns) {
-    std::string groups;
-    for (const std::string& group : column.groups) groups += (groups.empty() ? "" : ", ") + group;
-    table.heads.push_back(groups);
-  }
+  for (const Column& column : columns) table.heads.push_back(case_::joined(column.groups));
   for (const case_::Key* key : keys_of(columns)) {
     std::vector<Cell>& row = table.rows.emplace_back();
     row.push_back(Cell::text(key->path.substr(key->path.find("[].") + 3)));  // "softening.kind"

@@ -13,7 +13,7 @@ mkdir -p "$clean"
 found=0
 
 if [[ $# == 0 ]]; then
-  # Files have names from here, as in the filter and the list of suppressions, where the project has.
+  # With a relative path of the project cppcheck names files relative to this folder, as the filter and the suppressions do.
   cppcheck --project="$(realpath --relative-to=. "$build/compile_commands.json")" --file-filter='solver/*' --std=c++20 --quiet --inline-suppr \
     --enable=warning,performance,portability --suppressions-list="$here/cppcheck.supp" --suppress=missingIncludeSystem \
     -j "$(nproc)" --error-exitcode=1 --template='{file}:{line}: {message} [cppcheck {id}]' || found=1

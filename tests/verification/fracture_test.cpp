@@ -93,7 +93,7 @@ TEST(JointPair, of_the_default_law_takes_the_fracture_energy_in_every_direction)
 
 TEST(JointPair, of_the_default_law_takes_energies_of_both_modes_that_add_up_over_their_fracture_energies) {
   constexpr double kMode1 = 30, kMode2 = 90;  // J/m2
-  constexpr double kLinear = 2e-3;            // 1 % of the energies is elastic, of which the criterion knows nothing
+  constexpr double kLinear = 2e-3;  // with the 1 % that is elastic at this penalty the sum is 0.9997 to 0.9999
   for (const double degrees : {30.0, 60.0, 80.0}) {
     const double angle = degrees * std::acos(-1.0) / 180.0;
     const auto table = [](double part) { return "{table = [[0, 0], [1e-3, " + std::to_string(part) + "e-6]]}"; };

@@ -149,12 +149,17 @@ TEST(contact_pair, a_crushed_contactor_books_what_it_no_longer_returns) {
   EXPECT_NEAR(pair.scene.work.dissipated.value(), stored, kRoundOff * stored);
 }
 
-TEST(contact_pair, a_sphere_pushes_points_back_with_the_force_of_its_energy) {
-  Pair pair(kCases[0]);
-  test::Scene& scene = pair.scene;
+/// No couples, but a sphere; where the pair is made the base's centroid is 2 mm beyond it.
+void put_into_sphere(test::Scene& scene) {
   scene.contact.couples.clear();
   couples_replaced(scene.contact);
   scene.params.sphere = SphericalBoundary{{-0.03, 0, 0}, 0.028, 5e6};
+}
+
+TEST(contact_pair, a_sphere_pushes_points_back_with_the_force_of_its_energy) {
+  Pair pair(kCases[0]);
+  test::Scene& scene = pair.scene;
+  put_into_sphere(scene);
   const double inradius = kHeight / 4;
   // Only the centroid of the right tetrahedron's back faces and both base centroids lie beyond: look at one base alone.
   for (const double x : {-0.01, -0.001, 0.002}) {
@@ -175,9 +180,7 @@ TEST(contact_pair, a_sphere_gives_back_what_it_took_however_fast_a_point_comes_a
     for (const double back : {0.0001, 0.0005, 0.0013}) {
       Pair pair(kCases[0]);
       test::Scene& scene = pair.scene;
-      scene.contact.couples.clear();
-      couples_replaced(scene.contact);
-      scene.params.sphere = SphericalBoundary{{-0.03, 0, 0}, 0.028, 5e6};
+      put_into_sphere(scene);
       scene.shift(1, {-0.03 - 0.004, 0, 0});  // well inside
       scene.shift(0, {-0.004, 0, 0});         // the base's centroid 2 mm within
       scene.evaluate(kStep);
@@ -204,9 +207,7 @@ TEST(contact_pair, a_sphere_gives_back_what_it_took_however_fast_a_point_comes_a
 TEST(contact_pair, a_sphere_takes_a_point_that_is_outside_when_first_seen_as_far_as_it_came_in) {
   Pair pair(kCases[0]);
   test::Scene& scene = pair.scene;
-  scene.contact.couples.clear();
-  couples_replaced(scene.contact);
-  scene.params.sphere = SphericalBoundary{{-0.03, 0, 0}, 0.028, 5e6};
+  put_into_sphere(scene);
   scene.shift(1, {-0.03 - 0.004, 0, 0});  // well inside
   const auto force_beyond = [&](double beyond) {
     scene.shift(0, {beyond - 0.002 - pair.depth, 0, 0});  // the base's centroid starts 2 mm beyond
