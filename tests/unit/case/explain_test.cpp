@@ -71,6 +71,7 @@ TEST(Explain, AnUnknownKeyNamesTheNearest) {
   EXPECT_THAT(message_of_key("damping"),
               HasSubstr("the word stands in contact.damping_ratio, stage.mass_damping, stage.local_damping"));
   EXPECT_THAT(message_of_key("restitution"), HasSubstr("the word stands in contact.unloading_exponent"));
+  EXPECT_THAT(message_of_key("energy"), testing::ContainsRegex("stands in joint.energy_mode_1, .*, and [0-9]+ more"));
   EXPECT_THAT(message_of_key("xyzzy"), AllOf(HasSubstr("unknown key"), HasSubstr("mesh, plane, material, joint")));
   EXPECT_THAT(message_of_key(""), HasSubstr("unknown key"));
 }
