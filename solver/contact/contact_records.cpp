@@ -58,6 +58,7 @@ ContactSearch::ContactSearch(const ContactSearchParams& search, const Model& mod
   contact_.body_length = model.whole.body_length;
   contact_.body_extent = model.whole.body_extent;
   contact_.near = search_.always_found();
+  contact_.travel = 0;
   surface_.add_free_points();
   restore_faces(records);
   sort_points(contact_);

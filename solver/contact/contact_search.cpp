@@ -25,17 +25,14 @@ ContactSearch::ContactSearch(const ContactSearchParams& search, const ContactMod
       kept_(contact),
       release_(surface_, search_, contact) {
   contact_.near = search_.always_found();
+  contact_.travel = 0;
   surface_.add_free_points();
   sort_points(contact_);
 }
 
-/// On several ranks the motion is that of the step before the last; in that one nodes move twice as far at most, and by
-/// what was unforeseen. Rounded up, so that after a long way the shortest steps count as well.
-void ContactSearch::count_travel(const KnownMotion& motion) {
-  Travel& travel = contact_.travel;
-  travel.counted = std::nextafter(travel.counted + motion.length, std::numeric_limits<double>::infinity());
-  travel.at_most = travel.counted;
-  if (!contact_.relevant.empty()) travel.at_most += 2 * motion.length + motion.unforeseen;
+/// Rounded up, so that after a long way the shortest steps count as well.
+void ContactSearch::count_travel(double length) {
+  contact_.travel = std::nextafter(contact_.travel + length, std::numeric_limits<double>::infinity());
 }
 
 void ContactSearch::search(const NodalState& nodes, double step_length, std::span<const std::uint8_t> current) {
@@ -90,7 +87,7 @@ void ContactSearch::verify(const NodalState& nodes) const {
                std::to_string(local.element_of_slot[at(slot)]);
       };
       DEMAND(found != contact_.couples.end() && *found == couple, what() + " but they are no couple");
-      DEMAND(!(contact_.travel.at_most < found->apart_until), what() + " but their couple is held to be apart");
+      DEMAND(!(contact_.travel < found->apart_until), what() + " but their couple is held to be apart");
     }
   }
 }

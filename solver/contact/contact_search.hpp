@@ -31,9 +31,10 @@ class ContactSearch {
   ContactSearch(const ContactSearch&) = delete;
   ContactSearch& operator=(const ContactSearch&) = delete;
 
+  /// After every step. @param length  m, no node of a couple here has moved further in it
+  void count_travel(double length);
   /// CoupleSearch::due(). Collective.
   [[nodiscard]] bool due(const NodalState& nodes, const KnownMotion& motion, const Communicator& communicator) {
-    count_travel(motion);
     return search_.due(nodes, motion, communicator);
   }
   /// A full search; arguments as of CoupleSearch::search().
@@ -68,7 +69,6 @@ class ContactSearch {
   [[nodiscard]] const CoupleSearch& searches() const { return search_; }
 
  private:
-  void count_travel(const KnownMotion& motion);
   void restore_contactors(const Records& records);
   void restore_faces(const Records& records);
   void restore_offsets(const Records& records);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "base/error.hpp"
@@ -155,7 +156,11 @@ void Exchange::plan_near(const LocalMesh& local, std::span<const std::uint8_t> n
     messages_ += near_->messages();
     bytes_ += near_->bytes();
   }
-  near_ = std::make_unique<Halo>(communicator_, halo_plan(local, wanted), 2, kind_);
+  std::vector<HaloNeighbour> plan = halo_plan(local, wanted);
+  moving_.clear();
+  for (const HaloNeighbour& of_rank : plan)
+    moving_.insert(moving_.end(), of_rank.receive.begin(), of_rank.receive.end());
+  near_ = std::make_unique<Halo>(communicator_, std::move(plan), 2, kind_);
   sent_.assign(at(local.num_own_blocks()), 0);
   for (const SharedSlots& shared : wanted) {
     for (const auto* slots : {&shared.send, &shared.send_position}) {
@@ -172,6 +177,15 @@ void Exchange::begin_gather(Field<double>& position, Field<double>& velocity) co
 
 void Exchange::finish_gather() const {
   if (near_) near_->gather_end();
+}
+
+double Exchange::fastest_received(const Field<double>& velocity) const {
+  double largest = 0;
+  for (const std::size_t place : moving_) {
+    const double *v = velocity.data() + place, y = v[kHaloStride], z = v[2 * kHaloStride];
+    largest = std::max(largest, v[0] * v[0] + y * y + z * z);
+  }
+  return std::sqrt(largest);
 }
 
 void Exchange::gather_all(Field<double>& position, Field<double>& velocity) const {

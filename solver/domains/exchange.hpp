@@ -69,6 +69,8 @@ class Exchange {
   /// Sends near proxies' originals: `position` and velocity as they are now. Nothing alone.
   void begin_gather(Field<double>& position, Field<double>& velocity) const;
   void finish_gather() const;
+  /// Largest speed of the proxies that are gathered with their velocities, m/s. Not collective.
+  [[nodiscard]] double fastest_received(const Field<double>& velocity) const;
   /// All proxies, where couples are to be verified; else nothing.
   void gather_all(Field<double>& position, Field<double>& velocity) const;
   [[nodiscard]] bool gathers_all() const { return all_ != nullptr; }
@@ -93,6 +95,7 @@ class Exchange {
   ExchangeKind kind_ = ExchangeKind::non_blocking;
   std::unique_ptr<Halo> near_;             ///< proxies that forces here depend on
   std::unique_ptr<Halo> all_;              ///< all of them, to verify couples
+  std::vector<std::size_t> moving_;        ///< places of the nodes that near_ gathers with their velocities
   std::vector<std::uint8_t> sent_;         ///< sent_blocks()
   std::int64_t messages_ = 0, bytes_ = 0;  ///< beside those of the present halos
   std::optional<PendingReduction> reduction_;

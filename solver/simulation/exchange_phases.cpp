@@ -41,6 +41,13 @@ std::vector<std::uint8_t> receive_moved(bool search, Domain& domain) {
                                            domain.contact->search_reach(domain.state.signals.motion), nodes.position);
 }
 
+/// How far nodes of couples have moved in the last step at most, m: those that this rank moves, and those it received.
+/// What other ranks tell late is not needed for it.
+double motion_here(const Domain& domain) {
+  const double received = domain.exchange.fastest_received(domain.state.nodes.velocity);
+  return std::max(domain.state.signals.max_speed, received) * domain.state.clock.dt_before;
+}
+
 /// Histories of points that came into couples here, and what is gathered from now on.
 void follow_couples(bool search, bool meets_others, Domain& domain) {
   if (domain.exchange.alone() || !(search || domain.state.signals.released)) return;
@@ -77,6 +84,7 @@ void update_couples(Domain& domain) {
   bool due = false, meets_others = false;
   {
     const auto lap = domain.timer.measure(Phase::search);
+    contact.count_travel(motion_here(domain));
     due =
         contact.due(state.nodes, {state.signals.motion, unforeseen_motion(domain, 1)}, domain.exchange.communicator());
   }

@@ -254,7 +254,7 @@ void constrain(const SweepArgs& args, Domain& domain) {
   for (const NodalConstraint& entry : state.loads.constraints) {
     if (holds_still(entry)) continue;  // slower than others, or counted anew (correct_max_speed)
     for (const Index node : entry.nodes) {
-      if (domain.model.local.counted[at(node)] == 0) continue;
+      if (!domain.model.local.is_moved(node)) continue;
       max_speed = std::max(max_speed, load_node(state.nodes.velocity.data(), node).norm());
     }
   }
@@ -268,12 +268,22 @@ double fastest_if_free(const Domain& domain) {
   return fastest;
 }
 
+/// m/s, of the nodes that this rank moves.
+double largest_speed(const Domain& domain) {
+  double largest = 0;
+  for (Index node = 0; node < domain.model.local.num_moved_nodes; ++node) {
+    if (domain.model.local.is_moved(node))
+      largest = std::max(largest, load_node(domain.state.nodes.velocity.data(), node).squaredNorm());
+  }
+  return std::sqrt(largest);
+}
+
 /// The sweep's largest speed is counted anew where it may be that of a held node, which loads would throw off if
 /// nothing held it.
 void correct_max_speed(double fastest_if_free, Domain& domain) {
   constexpr double kRoundOff = 1e-12;
   double& max_speed = domain.state.signals.max_speed;
-  if (fastest_if_free > 0 && fastest_if_free >= (1 - kRoundOff) * max_speed) max_speed = fastest_node(domain).speed;
+  if (fastest_if_free > 0 && fastest_if_free >= (1 - kRoundOff) * max_speed) max_speed = largest_speed(domain);
 }
 
 /// Padding stays where it is; work of the halves after t_n with the velocities as constraints left them.

@@ -50,7 +50,7 @@ struct StepMotion {
 struct Signals {
   StepSignals received;                 ///< sent by the ranks a step ago, alike on all of them
   StepSignals sent;                     ///< by this rank in the last step
-  double max_speed = 0;                 ///< m/s, of this rank's originals after the last step
+  double max_speed = 0;                 ///< m/s, of the nodes that this rank moves, after the last step
   double motion = 0;                    ///< m, furthest that a node of any rank went in a step, received late
   double fastest = 0;                   ///< m/s, largest max_speed of all ranks, received late
   std::int64_t fastest_step = -1;       ///< the step after which it was that; -1: before the first

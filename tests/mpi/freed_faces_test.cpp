@@ -43,6 +43,38 @@ TEST(Ranks, KeepFacesFreeWhenWhatWasBehindThemIsFarAway) {
   for (const int ranks : {2, 3}) boxes.on(ranks);
 }
 
+/// A body at rest, alone on its rank, from which another one is drawn away and then pushed into it.
+const std::string kStruck = R"([mesh]
+file = ")" BRECCIA_MESHES R"(/contact_pair/geometry.msh"
+[[material]]
+group = "left"
+young = "26.6 GPa"
+poisson = 0.205
+density = 2340
+joints = "none"
+[[material]]
+group = "right"
+young = "26.6 GPa"
+poisson = 0.205
+density = 2340
+joints = "none"
+[[contact]]
+between = ["left", "right"]
+penalty = "90 MPa"
+[[stage]]
+end = "1.5 ms"
+[[stage.constraint]]
+group = "right"
+displacement = { x = { table = [[0, 0], ["0.5 ms", "0.5 mm"], ["1.5 ms", "-0.5 mm"]] }, y = 0, z = 0 }
+)";
+
+TEST(Ranks, FeelWhatMovesOnAnotherRankOnly) {
+  const test::Scratch scratch;
+  test::SameBits pair(scratch.write("case.toml", kStruck));
+  EXPECT_GT(pair.alone().at("energy").at("kinetic"), 0);
+  pair.on(2);
+}
+
 /// Contacts that have ended are remembered by the same rule whatever the buffer of the search.
 TEST(Ranks, RememberEndedContactsAlikeWithASmallBuffer) {
   const std::string less = "--set detection.buffer=1e-6 --set time.max_steps=3000";

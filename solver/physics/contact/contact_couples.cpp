@@ -1,6 +1,7 @@
 #include "physics/contact/contact_couples.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace breccia {
 
@@ -24,16 +25,34 @@ void merge_few(std::vector<T>& many, const std::vector<T>& few, Before&& before)
   }
 }
 
-void group_by_point(ContactState& contact) {
-  contact.by_point.clear();
-  const std::vector<ContactCouple>& couples = contact.couples;
-  for (std::size_t i = 0; i < couples.size(); ++i) {
-    if (i == 0 || couples[i].point != couples[i - 1].point)
-      contact.by_point.push_back({static_cast<Index>(i), static_cast<Index>(i), couples[i].apart_until});
-    PointCouples& point = contact.by_point.back();
-    point.last = static_cast<Index>(i) + 1;
-    point.apart_until = std::min(point.apart_until, couples[i].apart_until);
+std::vector<PointCouples> grouped_by_point(const std::vector<ContactCouple>& couples) {
+  std::vector<PointCouples> points;
+  for (const ContactCouple& couple : couples) {
+    if (points.empty() || points.back().point != couple.point)
+      points.push_back({couple.point, 0, std::numeric_limits<double>::infinity()});
+    ++points.back().count;
+    points.back().apart_until = std::min(points.back().apart_until, couple.apart_until);
   }
+  return points;
+}
+
+/// Points with further couples, by ascending id: those that had some already keep their place, the others come between.
+void add_points(const std::vector<PointCouples>& points, ContactState& contact) {
+  const auto by_id = [&](const PointCouples& a, const PointCouples& b) {
+    return contact.id(a.point) < contact.id(b.point);
+  };
+  std::vector<PointCouples>& all = contact.by_point;
+  std::vector<PointCouples> added;
+  for (const PointCouples& here : points) {
+    const auto found = std::lower_bound(all.begin(), all.end(), here, by_id);
+    if (found == all.end() || found->point != here.point) {
+      added.push_back(here);
+    } else {
+      found->count += here.count;
+      found->apart_until = std::min(found->apart_until, here.apart_until);
+    }
+  }
+  merge_few(all, added, by_id);
 }
 
 }  // namespace
@@ -69,7 +88,7 @@ void couples_replaced(ContactState& contact) {
     contact.place[c] = static_cast<Index>(contact.in_couples.size());
     contact.in_couples.push_back(static_cast<Index>(c));
   }
-  group_by_point(contact);
+  contact.by_point = grouped_by_point(contact.couples);
 }
 
 void add_fresh_couples(const std::vector<ContactCouple>& made, ContactState& contact) {
@@ -82,7 +101,7 @@ void add_fresh_couples(const std::vector<ContactCouple>& made, ContactState& con
     place = static_cast<Index>(contact.in_couples.size());
     contact.in_couples.push_back(couple.contactor);
   }
-  group_by_point(contact);
+  add_points(grouped_by_point(made), contact);
 }
 
 }  // namespace breccia

@@ -26,27 +26,29 @@ void Pass::run() {
   contact_.prepared.resize(contact_.in_couples.size());
   contact_.prepared_in.resize(contact_.in_couples.size(), 0);
 
-  for (PointCouples& couples : contact_.by_point) {
-    if (!(contact_.travel.at_most < couples.apart_until)) evaluate_point(couples);
+  ContactCouple* first = contact_.couples.data();
+  for (PointCouples& point : contact_.by_point) {
+    const std::span<ContactCouple> couples{first, static_cast<std::size_t>(point.count)};
+    if (!(contact_.travel < point.apart_until)) point.apart_until = evaluate_point(point.point, couples);
+    first += point.count;
   }
   for (; old_ < contact_.touching_before.size(); ++old_) forget(contact_.touching_before[old_]);
   contact_.fresh.clear();
 }
 
-/// Finds the contactors that a point is in, and the forces between them.
-void Pass::evaluate_point(PointCouples& couples) {
-  const std::span<ContactCouple> all{contact_.couples.data() + couples.first, contact_.couples.data() + couples.last};
-  const Index point = all.front().point;
+/// Finds the contactors that a point is in, and the forces between them. @return  m, the least apart_until
+double Pass::evaluate_point(Index point, std::span<ContactCouple> couples) {
   const Vec3 x = at_point(rule_, point_at(point), state_.position.data());
   candidates_.clear();
   beside_.clear();
-  for (ContactCouple& couple : all) {
-    if (!(contact_.travel.at_most < couple.apart_until)) look_at(couple, x);
+  for (ContactCouple& couple : couples) {
+    if (!(contact_.travel < couple.apart_until)) look_at(couple, x);
   }
   if (!beside_.empty()) bridge_gaps(point);
   if (!candidates_.empty()) touch_point(point);
-  couples.apart_until = std::numeric_limits<double>::infinity();
-  for (const ContactCouple& couple : all) couples.apart_until = std::min(couples.apart_until, couple.apart_until);
+  double apart_until = std::numeric_limits<double>::infinity();
+  for (const ContactCouple& couple : couples) apart_until = std::min(apart_until, couple.apart_until);
+  return apart_until;
 }
 
 /// Prepares the contactor where nobody has yet in this step.
@@ -70,7 +72,7 @@ void Pass::look_at(ContactCouple& couple, const Vec3& x) {
   } else if (smallest(lambda) >= -kGap) {
     beside_.push_back({&couple, lambda});
   } else if (!inert(tetra)) {
-    couple.apart_until = contact_.travel.counted + safe_travel(tetra, lambda, kGap);
+    couple.apart_until = contact_.travel + safe_travel(tetra, lambda, kGap);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "physics/contact/contact_field.hpp"
@@ -76,7 +77,7 @@ class Pass {
 
  private:
   [[nodiscard]] const PreparedTetra& prepare_contactor(Index contactor);
-  void evaluate_point(PointCouples& couples);
+  double evaluate_point(Index point, std::span<ContactCouple> couples);
   void look_at(ContactCouple& couple, const Vec3& x);
   void bridge_gaps(Index point);
   [[nodiscard]] const Beside* facing_more(const ContactPoint& point, Index candidate) const;

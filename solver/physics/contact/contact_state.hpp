@@ -18,23 +18,16 @@ namespace breccia {
 struct ContactCouple {
   Index point;      ///< index into ContactState::points
   Index contactor;  ///< index into ContactState::contactors
-  /// m: while Travel::at_most is less, the point is not in the contactor or so near that it could matter.
+  /// m: while ContactState::travel is less, the point is not in the contactor or so near that it could matter.
   double apart_until = -std::numeric_limits<double>::infinity();
   bool operator==(const ContactCouple& other) const { return point == other.point && contactor == other.contactor; }
 };
 
-/// The couples of one point: [first, last) of ContactState::couples.
+/// The couples of one point, which follow those of the point before it in ContactState::couples.
 struct PointCouples {
-  Index first, last;
+  Index point;
+  Index count;
   double apart_until;  ///< m: the smallest of these couples
-};
-
-/// Sum of the largest motions of any node in the steps so far, m. From one step to a later one no node moves further
-/// than from `counted` of the first to `at_most` of the later. As long as nobody counts it, couples are looked at in
-/// every step.
-struct Travel {
-  double counted = 0;                                        ///< what is known
-  double at_most = std::numeric_limits<double>::infinity();  ///< with what other ranks have yet to tell
 };
 
 /// A couple that touches, with its history. It lives as long as the overlap: a point that slides into a neighbouring
@@ -94,7 +87,9 @@ struct ContactState {
   double near = std::numeric_limits<double>::infinity();
   std::vector<ContactCouple> couples;  ///< by (point id, contactor)
   std::vector<PointCouples> by_point;  ///< the same, point by point; made with them (contact_couples.hpp)
-  Travel travel;                       ///< up to the positions of now
+  /// Sum over the steps so far of the largest motion of any node of this rank's couples, m. As long as nobody counts
+  /// it, couples are looked at in every step.
+  double travel = std::numeric_limits<double>::infinity();
   std::vector<ContactCouple> fresh;    ///< made by fracture since the last forces; by (point id, contactor)
 
   std::vector<std::uint8_t> relevant;  ///< (num_slots) 1: forces on it are evaluated on this rank; empty: on all

@@ -28,6 +28,7 @@ class OwnedContact : WithContactState, public ContactSearch {
 
   /// A step of length dt, s, in which no node was faster than max_speed, m/s.
   void update(const NodalState& nodes, double max_speed, double dt) {
+    count_travel(max_speed * dt);
     if (due(nodes, {max_speed * dt}, {})) {
       search(nodes, max_speed * dt);
       ++num_searches_;
@@ -37,8 +38,8 @@ class OwnedContact : WithContactState, public ContactSearch {
   void forces(const NodalState& nodes, double dt, NodalForces& forces, ContactWork& work) {
     contact_forces(model_.params, model_.local, nodes, dt, state, forces, work);
   }
-  /// As if nothing were known of how far nodes have moved, in the next call of forces().
-  void look_at_all() { state.travel.at_most = std::numeric_limits<double>::infinity(); }
+  /// As if nothing were known of how far nodes have moved, from the next call of forces() on.
+  void look_at_all() { state.travel = std::numeric_limits<double>::infinity(); }
   [[nodiscard]] int num_searches() const { return num_searches_; }
   [[nodiscard]] double buffer() const { return searches().buffer(); }
 

@@ -35,12 +35,10 @@ void place_tetra(test::Scene& scene, const Vec3& base, double angle) {
 std::vector<Index> touched(test::Scene scene, const Vec3& base, double angle, double turn, bool passing_over) {
   place_tetra(scene, base, angle);
   scene.state.velocity.assign(scene.state.velocity.size(), 0.0);
-  scene.contact.travel.counted = 0;
-  if (passing_over) scene.contact.travel.at_most = 0;
+  if (passing_over) scene.contact.travel = 0;
   scene.evaluate(1e-3);
   place_tetra(scene, base, angle + turn);
-  scene.contact.travel.counted = kTurn;
-  if (passing_over) scene.contact.travel.at_most = kTurn;
+  if (passing_over) scene.contact.travel = kTurn;
   scene.evaluate(1e-3);
   std::vector<Index> contactors;
   for (const TouchingCouple& couple : scene.contact.touching) contactors.push_back(couple.contactor);
