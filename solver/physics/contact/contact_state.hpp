@@ -90,7 +90,7 @@ struct ContactState {
   /// Sum over the steps so far of the largest motion of any node of this rank's couples, m. As long as nobody counts
   /// it, couples are looked at in every step.
   double travel = std::numeric_limits<double>::infinity();
-  std::vector<ContactCouple> fresh;    ///< made by fracture since the last forces; by (point id, contactor)
+  std::vector<ContactCouple> fresh;  ///< made by fracture since the last forces; by (point id, contactor)
 
   std::vector<std::uint8_t> relevant;  ///< (num_slots) 1: forces on it are evaluated on this rank; empty: on all
 
