@@ -25,20 +25,27 @@ class NodalForces {
   void clear();
 
   /// Adds a force, N, to a node.
-  void add(Index node, const Vec3& force) {
-    double* p = at(node);
-    p[0] += force[0];
-    p[8] += force[1];
-    p[16] += force[2];
+  void add(Index node, const Vec3& force) { add(at(node), force); }
+  /// The same at one of places().
+  static void add(double* place, const Vec3& force) {
+    place[0] += force[0];
+    place[8] += force[1];
+    place[16] += force[2];
   }
 
-  /// Where the forces on three nodes of one element are summed, components kLanes apart: for callers that add as `add`
+  /// Where the forces on some nodes of one element are summed, components kLanes apart: for callers that add as `add`
   /// does. Valid until the next call that is not const.
-  [[nodiscard]] std::array<double*, 3> places(Index first, Index second, Index third) {
-    if (first >= num_own_nodes_) return {at(first), at(second), at(third)};
+  template <std::size_t n>
+  [[nodiscard]] std::array<double*, n> places(const std::array<Index, n>& nodes) {
+    std::array<double*, n> places;
+    if (nodes[0] >= num_own_nodes_) {
+      for (std::size_t i = 0; i < n; ++i) places[i] = at(nodes[i]);
+      return places;
+    }
     constexpr Index kBlock = 4 * kLanes;
-    double* block = at(first / kBlock * kBlock);
-    return {block + nodal(first % kBlock, 0), block + nodal(second % kBlock, 0), block + nodal(third % kBlock, 0)};
+    double* block = at(nodes[0] / kBlock * kBlock);
+    for (std::size_t i = 0; i < n; ++i) places[i] = block + nodal(nodes[i] % kBlock, 0);
+    return places;
   }
 
   [[nodiscard]] Vec3 get(Index node) const;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bit>
+
 #include "base/types.hpp"
 
 namespace breccia {
@@ -12,9 +14,9 @@ inline constexpr unsigned kNumCornerSets = 15;  ///< m is below
 /// Calls f(m) for every set, ascending.
 template <class F>
 void for_each_set(CornerSets sets, F&& f) {
-  for (unsigned m = 1; m < kNumCornerSets; ++m) {
-    if ((sets >> m & 1) != 0) f(m);
-  }
+  constexpr unsigned kAll = (1U << kNumCornerSets) - 2;
+  for (unsigned left = static_cast<unsigned>(sets) & kAll; left != 0; left &= left - 1)
+    f(static_cast<unsigned>(std::countr_zero(left)));
 }
 
 /// Whether some set has all corners of m.

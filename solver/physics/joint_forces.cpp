@@ -142,8 +142,8 @@ void add_forces(const JointBlock& block, Index lane, NodalForces& forces) {
     }
   }
   const auto node = [&](std::size_t corner) { return block.node[corner][lane]; };
-  add_to(forces.places(node(0), node(1), node(2)), on_a);
-  add_to(forces.places(node(3), node(4), node(5)), on_b);
+  add_to(forces.places(std::array{node(0), node(1), node(2)}), on_a);
+  add_to(forces.places(std::array{node(3), node(4), node(5)}), on_b);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "physics/contact/contact_field.hpp"
+
 namespace breccia {
 
 namespace {
@@ -60,6 +62,8 @@ void add_points(const std::vector<PointCouples>& points, ContactState& contact) 
 void set_contactors(const LocalMesh& local, std::vector<Index> slots, ContactState& contact) {
   contact.contactors = std::move(slots);
   contact.contactor_of_slot.assign(static_cast<std::size_t>(local.num_slots), -1);
+  contact.height.clear();
+  for (const Index slot : contact.contactors) contact.height.push_back(heights(local, slot));
   for (std::size_t c = 0; c < contact.contactors.size(); ++c) {
     contact.contactor_of_slot[static_cast<std::size_t>(contact.contactors[c])] = static_cast<Index>(c);
   }

@@ -9,20 +9,6 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Heights of the corners above their opposite faces, at rest.
-std::array<double, 4> heights(const LocalMesh& local, Index slot) {
-  const double* m = local.gradient.data() + at(slot / kLanes) * 9 * kLanes + slot % kLanes;
-  Vec3 sum = Vec3::Zero();
-  std::array<double, 4> height{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    const Vec3 row(m[8 * (3 * c)], m[8 * (3 * c + 1)], m[8 * (3 * c + 2)]);
-    height[c + 1] = 1 / row.norm();
-    sum += row;
-  }
-  height[0] = 1 / sum.norm();
-  return height;
-}
-
 void drop_finished_ramps(ContactState& contact) {
   std::size_t kept = 0;
   for (const FieldRamp& ramp : contact.ramps) {
@@ -61,10 +47,9 @@ std::array<double, 4> row_of(const FieldValues& values, const std::array<double,
   return row;
 }
 
-OverlapShape body_shape(const ContactParams& params, const LocalMesh& local, Index slot, const FieldValues& values,
+OverlapShape body_shape(const ContactParams& params, const std::array<double, 4>& height, const FieldValues& values,
                         const ComingSets* coming) {
   OverlapShape shape;
-  const std::array<double, 4> height = heights(local, slot);
   bool whole = false;  // a set that counts in full
   for_each_set(values.sets, [&](unsigned set) {
     const Index remaining = coming != nullptr ? (*coming)[set] : 0;
@@ -76,6 +61,19 @@ OverlapShape body_shape(const ContactParams& params, const LocalMesh& local, Ind
 }
 
 }  // namespace
+
+std::array<double, 4> heights(const LocalMesh& local, Index slot) {
+  const double* m = local.gradient.data() + at(slot / kLanes) * 9 * kLanes + slot % kLanes;
+  Vec3 sum = Vec3::Zero();
+  std::array<double, 4> height{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Vec3 row(m[8 * (3 * c)], m[8 * (3 * c + 1)], m[8 * (3 * c + 2)]);
+    height[c + 1] = 1 / row.norm();
+    sum += row;
+  }
+  height[0] = 1 / sum.norm();
+  return height;
+}
 
 void build_field(const ContactParams& params, const Mesh& mesh, const LocalMesh& local, const SurfaceDepth& surface,
                  ContactState& contact) {
@@ -116,15 +114,15 @@ OverlapShape overlap_shape(const ContactParams& params, const LocalMesh& local, 
   const Index slot = contact.contactors[at(contactor)], ramp = contact.ramp_of_contactor[at(contactor)];
   const double length = contact.body_length[at(local.slot_body[at(slot)])];
   const FieldValues& values = contact.field[at(contactor)];
-  if (ramp < 0) return overlap_shape(params, local, slot, values, length);
+  const std::array<double, 4>& height = contact.height[at(contactor)];
+  if (ramp < 0) return overlap_shape(params, height, values, length);
   const FieldRamp& coming = contact.ramps[at(ramp)];
-  return overlap_shape(params, local, slot, values, length,
-                       instant == Instant::now ? &coming.remaining : &coming.before);
+  return overlap_shape(params, height, values, length, instant == Instant::now ? &coming.remaining : &coming.before);
 }
 
-OverlapShape overlap_shape(const ContactParams& params, const LocalMesh& local, Index slot, const FieldValues& values,
+OverlapShape overlap_shape(const ContactParams& params, const std::array<double, 4>& height, const FieldValues& values,
                            double length, const ComingSets* coming) {
-  if (params.field == OverlapField::body) return body_shape(params, local, slot, values, coming);
+  if (params.field == OverlapField::body) return body_shape(params, height, values, coming);
   OverlapShape shape;
   std::array<double, 4> face{};
   switch (params.field) {
@@ -134,7 +132,7 @@ OverlapShape overlap_shape(const ContactParams& params, const LocalMesh& local, 
       face.fill(4 * length);
       break;
     case OverlapField::tet_distance:
-      face = heights(local, slot);
+      face = height;
       break;
   }
   for (std::size_t a = 0; a < 4; ++a) {

@@ -51,8 +51,12 @@ enum class Instant { now, step_before };
          (contact.field[static_cast<std::size_t>(contactor)].sets & kFractured) == 0;
 }
 
-/// Coefficients of g for one element. @param length  H of its body, m;  @param coming  of a ramp, or null: none
-[[nodiscard]] OverlapShape overlap_shape(const ContactParams& params, const LocalMesh& local, Index slot,
+/// Coefficients of g for one element. @param height  heights() of it;  @param length  H of its body, m
+/// @param coming  of a ramp, or null: none
+[[nodiscard]] OverlapShape overlap_shape(const ContactParams& params, const std::array<double, 4>& height,
                                          const FieldValues& values, double length, const ComingSets* coming = nullptr);
+
+/// Heights of an element's corners above their opposite faces, at rest, m.
+[[nodiscard]] std::array<double, 4> heights(const LocalMesh& local, Index slot);
 
 }  // namespace breccia

@@ -25,6 +25,7 @@ void Pass::run() {
   ++contact_.calls;
   contact_.prepared.resize(contact_.in_couples.size());
   contact_.prepared_in.resize(contact_.in_couples.size(), 0);
+  contact_.turns.resize(static_cast<std::size_t>(local_.num_slots));
 
   ContactCouple* first = contact_.couples.data();
   for (PointCouples& point : contact_.by_point) {
@@ -51,16 +52,24 @@ double Pass::evaluate_point(Index point, std::span<ContactCouple> couples) {
   return apart_until;
 }
 
+PreparedTetra Pass::prepare_element(Index slot) const {
+  return prepare(load_corners(local_, state_.position.data(), slot), local_.volume[static_cast<std::size_t>(slot)]);
+}
+
 /// Prepares the contactor where nobody has yet in this step.
 const PreparedTetra& Pass::prepare_contactor(Index contactor) {
   const auto place = static_cast<std::size_t>(contact_.place[static_cast<std::size_t>(contactor)]);
   if (contact_.prepared_in[place] != contact_.calls) {
     contact_.prepared_in[place] = contact_.calls;
-    const Index slot = slot_of(contactor);
-    contact_.prepared[place] =
-        prepare(load_corners(local_, state_.position.data(), slot), local_.volume[static_cast<std::size_t>(slot)]);
+    contact_.prepared[place] = prepare_element(slot_of(contactor));
   }
   return contact_.prepared[place];
+}
+
+/// Of a contactor that may have left all couples with a search in this step.
+PreparedTetra Pass::prepared_even_if_alone(Index contactor) {
+  const bool in_couples = contact_.place[static_cast<std::size_t>(contactor)] >= 0;
+  return in_couples ? prepare_contactor(contactor) : prepare_element(slot_of(contactor));
 }
 
 /// @param x  m, place of the couple's point
@@ -77,7 +86,7 @@ void Pass::look_at(ContactCouple& couple, const Vec3& x) {
 }
 
 const OverlapShape& Pass::shape_of(Index contactor, Instant instant) const {
-  if (contact_.ramp_of_contactor[static_cast<std::size_t>(contactor)] < 0) instant = Instant::now;
+  if (!is_growing(contactor)) instant = Instant::now;
   if (contactor != shape_of_ || instant != shape_at_) {
     shape_ = overlap_shape(params_, local_, contact_, contactor, instant);
     shape_of_ = contactor;
@@ -89,9 +98,9 @@ const OverlapShape& Pass::shape_of(Index contactor, Instant instant) const {
 Candidate Pass::candidate_of(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda) const {
   const OverlapShape& shape = shape_of(contactor);
   const OverlapRows rows = rows_of(point, contactor, shape, prepared(contactor));
-  Candidate candidate{contactor, lambda, rows, 0, 0};
-  candidate.g = candidate.g_before = overlap_value(shape, lambda, rows);
-  if (contact_.ramp_of_contactor[static_cast<std::size_t>(contactor)] >= 0)
+  const Overlap here = overlap(shape, prepared(contactor), lambda, rows);
+  Candidate candidate{contactor, lambda, rows, here.g, here.gradient, here.g};
+  if (is_growing(contactor))
     candidate.g_before = overlap_value(shape_of(contactor, Instant::step_before), lambda, rows);
   return candidate;
 }
@@ -110,21 +119,29 @@ Vec3 Pass::relative_motion(const ContactPoint& point, Index slot, const std::arr
   return dt_ * relative;
 }
 
+const Vec3& Pass::motion_of(const ContactPoint& point, Candidate& candidate) const {
+  if (!candidate.motion) candidate.motion = relative_motion(point, slot_of(candidate.contactor), candidate.lambda);
+  return *candidate.motion;
+}
+
+/// Of an element's velocities, 1/s; 0 of an inert one. An element is in many couples: once a step.
+const Vec3& Pass::curl_of(Index slot) {
+  ElementTurn& turn = contact_.turns[static_cast<std::size_t>(slot)];
+  if (turn.in == contact_.calls) return turn.curl;
+  turn = {Vec3::Zero(), contact_.calls};
+  const PreparedTetra tetra = prepare_element(slot);
+  if (inert(tetra)) return turn.curl;
+  const std::array<Vec3, 4> v = load_corners(local_, state_.velocity.data(), slot);
+  for (std::size_t c = 1; c < 4; ++c) {
+    const std::array<double, 3>& row = tetra.gradient[c - 1];
+    turn.curl += Vec3(row[0], row[1], row[2]).cross(v[c] - v[0]);
+  }
+  return turn.curl;
+}
+
 /// Rotation of the two elements of a couple in the mean during the last step, rad: half the curl of their motions.
-Vec3 Pass::mean_turn(Index target, Index contactor) const {
-  const auto curl = [&](Index slot, const PreparedTetra& tetra) {
-    Vec3 sum = Vec3::Zero();
-    if (inert(tetra)) return sum;
-    const std::array<Vec3, 4> v = load_corners(local_, state_.velocity.data(), slot);
-    for (std::size_t c = 1; c < 4; ++c) {
-      const std::array<double, 3>& row = tetra.gradient[c - 1];
-      sum += Vec3(row[0], row[1], row[2]).cross(v[c] - v[0]);
-    }
-    return sum;
-  };
-  const PreparedTetra tetra =
-      prepare(load_corners(local_, state_.position.data(), target), local_.volume[static_cast<std::size_t>(target)]);
-  return 0.25 * dt_ * (curl(target, tetra) + curl(slot_of(contactor), prepared(contactor)));
+Vec3 Pass::mean_turn(Index target, Index contactor) {
+  return 0.25 * dt_ * (curl_of(target) + curl_of(slot_of(contactor)));
 }
 
 /// The law follows the motion (field at rest), then the field (points at rest), so that the energy each of them moves
@@ -151,6 +168,7 @@ double Pass::follow(const ContactLaw& law, double scale, double length, const Ca
 }
 
 Vec3 Pass::gradient_before(const Candidate& candidate) const {
+  if (!is_growing(candidate.contactor)) return candidate.gradient;
   const OverlapShape& shape = shape_of(candidate.contactor, Instant::step_before);
   return overlap(shape, prepared(candidate.contactor), candidate.lambda, candidate.rows).gradient;
 }
@@ -176,7 +194,7 @@ Pass::Before Pass::one_step_ago(const ContactPoint& point, Index contactor) cons
 /// not moved to.
 /// @param h  of the last step; changed: offset, and of the candidate g_before and turn
 void Pass::keep_step(const ContactPoint& point, double length, TouchingCouple& h, Candidate& candidate) const {
-  const Vec3 motion = relative_motion(point, slot_of(candidate.contactor), candidate.lambda);
+  const Vec3& motion = motion_of(point, candidate);
   if (motion == Vec3::Zero()) {
     // A neighbour that has taken the point over beside an edge goes on with the same force.
     if (h.contactor != candidate.contactor) h.offset = candidate.g_before - h.d * length;
@@ -237,13 +255,13 @@ void Pass::act(Index index, Candidate& candidate) {
     forget(last, lost);  // by the law and on the contactor that it had
   } else if (h.d > 0 || last.force != Vec3::Zero()) {
     // Freshly broken surfaces are full of couples that lie together without force: nothing more to do for those.
-    const Vec3 motion = relative_motion(point, slot, candidate.lambda);
+    const Vec3& motion = motion_of(point, candidate);
     const double before = candidate.old >= 0 ? held(point, last) : 0.0;
     const double kept = press(law, point, length, motion, candidate, h);
     // What a couple holds that was there before anything moved has been put in.
     if (candidate.old >= 0 || motion != Vec3::Zero()) {
       h.gained += 0.5 * (last.force + h.force).dot(motion) + kept - before + lost;
-      balance(point, length, motion, h);
+      balance(law, point, length, motion, h);
     }
     distribute(point, candidate.contactor, candidate.lambda, h.force);
     if (h.force == Vec3::Zero()) end(point, last, motion, candidate.lambda, h);
@@ -254,19 +272,19 @@ void Pass::act(Index index, Candidate& candidate) {
 /// that comes from the rotation of its direction: no gain, since the law has a potential and such work cancels
 double Pass::press(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
                    const Candidate& candidate, TouchingCouple& h) {
-  const Overlap here =
-      overlap(shape_of(candidate.contactor), prepared(candidate.contactor), candidate.lambda, candidate.rows);
-  Damping normal{point.weight * normal_law::stress(law, h.d, h.d_max), 0.0};
-  if (law.damping > 0 && h.d > 0 && dt_ > 0 && here.gradient != Vec3::Zero())
-    normal = damp(law, point, motion, candidate, here.gradient, normal.pressure);
+  const Vec3& gradient = candidate.gradient;
+  const double stress = normal_law::stress(law, h.d, h.d_max);
+  Damping normal{point.weight * stress, 0.0};
+  if (law.damping > 0 && h.d > 0 && dt_ > 0 && gradient != Vec3::Zero())
+    normal = damp(law, point, motion, candidate, normal.pressure);
   account(point, work_.dissipated).add(normal.dissipated);
-  h.force = -normal.pressure * here.gradient;
-  const double stored = point.weight * length * normal_law::stored(law, h.d, h.d_max);
+  h.force = -normal.pressure * gradient;
+  const double stored = point.weight * length * normal_law::stored_under(law, h.d, stress);
   double kept = stored + normal.dissipated;
-  const double slope = here.gradient.norm();
+  const double slope = gradient.norm();
   if (law.friction > 0 && law.tangential_ratio > 0 && slope > 0) {
-    const double k = spring_stiffness(point, h);
-    const Vec3 outward = -here.gradient / slope;
+    const double k = law.tangential_ratio * stiffness(law, point, length);
+    const Vec3 outward = -gradient / slope;
     if (h.spring != Vec3::Zero())
       turn_spring(outward, outward.dot(mean_turn(point.slot, candidate.contactor)), h.spring);
     if (h.d > 0) follow_normal_force(normal.pressure * slope, dt_, longest_delay(h), h.delayed);
@@ -286,17 +304,17 @@ double Pass::press(const ContactLaw& law, const ContactPoint& point, double leng
 }
 
 /// @param h  force by its law and what it has gained with it; changed
-void Pass::balance(const ContactPoint& point, double length, const Vec3& motion, TouchingCouple& h) const {
+void Pass::balance(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
+                   TouchingCouple& h) const {
   constexpr double kNoForce = 1e-60;  // N; a pull as a share of less, at the far end of a steep curve, may overflow
   const Vec3 normal = h.force - h.friction;
   const double work = normal.dot(motion);
   if (work == 0 || !(normal.norm() > kNoForce)) return;
-  const double out = work / normal.norm(), k = stiffness(point, h);
+  const double out = work / normal.norm(), k = stiffness(law, point, length);
   const bool leaves = out > h.d * length;  // in the next step, with the motion of this one
   const double gained = h.gained + (leaves ? 0.5 * work - normal_held(point, h) : 0.0);
-  const double exponent = law_of(h.point, h.contactor).exponent;
   const BalancingLimits limits =
-      exponent > 1 && work > 0 ? steep_limits(work, k, exponent, out) : balancing_limits(work, k, out);
+      law.exponent > 1 && work > 0 ? steep_limits(work, k, law.exponent, out) : balancing_limits(work, k, out);
   const BalancingShares shares = balancing_shares(gained, h.gained_before, work, limits);
   h.balance = shares.own + shares.before;
   h.gained_before += shares.before * work;
@@ -307,7 +325,8 @@ void Pass::balance(const ContactPoint& point, double length, const Vec3& motion,
 /// Its work is that of the mean of this and the last force over the motion, each along the gradient that it had: where
 /// the point has passed an edge of the overlap they point elsewhere. Where the motion turns round there is none.
 Damping Pass::damp(const ContactLaw& law, const ContactPoint& point, const Vec3& motion, const Candidate& candidate,
-                   const Vec3& gradient, double elastic) const {
+                   double elastic) const {
+  const Vec3& gradient = candidate.gradient;
   const double deeper = gradient.dot(motion) - candidate.turn;  // m, during the last step
   const double pressure = point.weight * normal_law::damped(law, elastic / point.weight, deeper / dt_);
   double work_before = 0;
@@ -330,11 +349,13 @@ void Pass::distribute(const ContactPoint& point, Index contactor, const std::arr
                       const Vec3& force) {
   if (force == Vec3::Zero()) return;
   const std::array<double, 3>& shape = rule_.shape[static_cast<std::size_t>(point.k)];
-  for (std::size_t i = 0; i < 3; ++i) forces_.add(point.nodes[i], shape[i] * force);
+  const std::array<double*, 3> target = forces_.places(point.nodes);
+  for (std::size_t i = 0; i < 3; ++i) NodalForces::add(target[i], shape[i] * force);
   const Index slot = slot_of(contactor);
-  for (int a = 0; a < 4; ++a) {
-    forces_.add(local_.corner_node(slot, a), -lambda[static_cast<std::size_t>(a)] * force);
-  }
+  const std::array<double*, 4> corners =
+      forces_.places(std::array{local_.corner_node(slot, 0), local_.corner_node(slot, 1), local_.corner_node(slot, 2),
+                                local_.corner_node(slot, 3)});
+  for (std::size_t a = 0; a < 4; ++a) NodalForces::add(corners[a], -lambda[a] * force);
 }
 
 }  // namespace contact_pass

@@ -124,6 +124,12 @@ void Pass::find_histories(Index point) {
 /// couple that has ended, a candidate there gets what is left to put right and the delayed force.
 void Pass::take_over(std::size_t first, std::size_t last) {
   const std::vector<TouchingCouple>& old = contact_.touching_before;
+  // The usual case: a point goes on in the element that it was in.
+  if (candidates_.size() == 1 && last == first + 1 && old[first].contactor == candidates_[0].contactor &&
+      !has_ended(old[first])) {
+    candidates_[0].old = static_cast<std::ptrdiff_t>(first);
+    return;
+  }
   taken_.assign(last - first, false);
   const auto assign = [&](auto&& belongs) {
     for (Candidate& candidate : candidates_) {
@@ -151,22 +157,21 @@ void Pass::take_over(std::size_t first, std::size_t last) {
   }
 }
 
-/// The overlap is gone. What the normal law had stored was given back as work, or is lost; the spring lets go. The
-/// contactor may have left all couples with a search in this step, so it is prepared here.
+/// The overlap is gone. What the normal law had stored was given back as work, or is lost; the spring lets go.
 /// @param lost  J, by the normal law
 void Pass::forget(const TouchingCouple& old, double lost) {
   if (!(old.d > 0) && old.force == Vec3::Zero() && old.gained_before == 0 && old.delayed.age == 0) return;
   const ContactPoint& point = point_at(old.point);
   const Index slot = slot_of(old.contactor);
-  const std::array<Vec3, 4> corners = load_corners(local_, state_.position.data(), slot);
-  const PreparedTetra tetra = prepare(corners, local_.volume[static_cast<std::size_t>(slot)]);
+  const PreparedTetra tetra = prepared_even_if_alone(old.contactor);
   const bool crushed = inert(tetra);
   const Vec3 place = at_point(rule_, point, state_.position.data());
   std::array<double, 4> lambda{};
   Vec3 motion = Vec3::Zero();
+  const bool settled = lost == 0 && is_settled(old);
   if (!crushed) {
     lambda = barycentric(tetra, place);
-    motion = relative_motion(point, slot, lambda);
+    if (!settled) motion = relative_motion(point, slot, lambda);
   }
   if (old.friction != Vec3::Zero()) {
     const double released = released_by_friction(motion, spring_stiffness(point, old), old.spring);
@@ -191,18 +196,21 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   TouchingCouple ended{
       .point = old.point, .contactor = old.contactor, .delayed = old.delayed, .gained_before = old.gained_before};
   forget_normal_force(dt_, ended.delayed);
-  ended.gained = old.gained + 0.5 * old.force.dot(motion) - held(point, old) + lost;
-  end(point, old, motion, lambda, ended);
+  if (!settled) {
+    ended.gained = old.gained + 0.5 * old.force.dot(motion) - held(point, old) + lost;
+    end(point, old, motion, lambda, ended);
+  }
   const double remembered = overlap / kRememberedGap;  // m
   const double least = kLargestWorkError * stiffness(point, ended) * remembered * remembered;
   const bool matters = std::abs(ended.gained_before) > least || ended.delayed.age > 0;
-  if (ended.force != Vec3::Zero() || (matters && is_near(lambda, corners, place))) contact_.touching.push_back(ended);
+  if (ended.force != Vec3::Zero() || (matters && is_near(lambda, slot, place))) contact_.touching.push_back(ended);
 }
 
 /// Whether the point of a couple that has ended may soon touch again. Every search finds those that are so near, so all
 /// ranks that evaluate the point's next couple know of this one.
-bool Pass::is_near(const std::array<double, 4>& lambda, const std::array<Vec3, 4>& corners, const Vec3& place) const {
+bool Pass::is_near(const std::array<double, 4>& lambda, Index slot, const Vec3& place) const {
   if (!(smallest(lambda) >= -kGap)) return false;
+  const std::array<Vec3, 4> corners = load_corners(local_, state_.position.data(), slot);
   const Vec3 low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2].cwiseMin(corners[3]));
   const Vec3 high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2].cwiseMax(corners[3]));
   return (low - place).cwiseMax(place - high).maxCoeff() <= contact_.near;
@@ -223,13 +231,13 @@ void Pass::end(const ContactPoint& point, const TouchingCouple& last, const Vec3
 /// Whether no side of the surface looks towards the face of the point: the front of a block, say, where a point of the
 /// floor comes into an element that does not reach down to the lower edge. Pushed back there it would stop the block,
 /// which slides over it. Without motion the places have been given, not moved to.
-bool Pass::comes_from_beside(const ContactPoint& point, const Candidate& candidate) const {
-  if (relative_motion(point, slot_of(candidate.contactor), candidate.lambda) == Vec3::Zero()) return false;
+bool Pass::comes_from_beside(const ContactPoint& point, Candidate& candidate) const {
+  if (motion_of(point, candidate) == Vec3::Zero()) return false;
   return facing(outward_of(point), gradient_before(candidate)) == Facing::away;
 }
 
 /// Overlap that makes no force, m, of a couple seen for the first time.
-double Pass::first_offset(Index point, const Candidate& candidate) const {
+double Pass::first_offset(Index point, Candidate& candidate) const {
   const ContactCouple couple{point, candidate.contactor};
   const auto& fresh = contact_.fresh;
   const bool is_fresh = !fresh.empty() && std::binary_search(fresh.begin(), fresh.end(), couple,
@@ -240,7 +248,7 @@ double Pass::first_offset(Index point, const Candidate& candidate) const {
   if (is_fresh || share_vertex(local_, point_at(point).slot, slot)) return std::max(candidate.g_before, 0.0);
   // A point that comes through a gap between elements, an opened joint say, is deep inside at once: deeper than it
   // moved inwards.
-  const Vec3 motion = relative_motion(point_at(point), slot, candidate.lambda);
+  const Vec3& motion = motion_of(point_at(point), candidate);
   if (motion == Vec3::Zero()) {
     // Given places: of bodies that stand on each other, a point at an edge is far behind the side that it looks at.
     const double depth = overlap_value(shape_of(candidate.contactor), candidate.lambda);

@@ -56,8 +56,12 @@ namespace normal_law {
 }
 
 /// Energy that unloading from d would return, J/m3: the integral of sigma from 0 to d along the unloading curve.
+/// @param stress  Pa, sigma there
+[[nodiscard]] inline double stored_under(const ContactLaw& law, double d, double stress) {
+  return d > 0 ? stress * d / (law.exponent + 1) : 0.0;
+}
 [[nodiscard]] inline double stored(const ContactLaw& law, double d, double d_max) {
-  return d > 0 ? stress(law, d, d_max) * d / (law.exponent + 1) : 0.0;
+  return stored_under(law, d, stress(law, d, d_max));
 }
 
 /// Energy that loading up to d_max has cost beyond what unloading returns, J/m3; never decreases with d_max.

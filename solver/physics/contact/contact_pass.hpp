@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,13 +35,15 @@ inline bool share_vertex(const LocalMesh& local, Index slot, Index other) {
 struct Candidate {
   Index contactor;
   std::array<double, 4> lambda;
-  OverlapRows rows;         ///< of the contactor that count for the point
-  double g;                 ///< m, now
-  double g_before;          ///< m, with the field of one step ago
-  double gained = 0;        ///< J, left to put right by couples of the point that have ended
-  DelayedForce delayed{};   ///< of the same
-  double turn = 0;          ///< m, gradient now times the last motion beyond what the overlap has changed by
-  std::ptrdiff_t old = -1;  ///< index of its history among those of the last step, -1: none
+  OverlapRows rows;              ///< of the contactor that count for the point
+  double g;                      ///< m, now
+  Vec3 gradient;                 ///< -, of the overlap, now
+  double g_before;               ///< m, with the field of one step ago
+  double gained = 0;             ///< J, left to put right by couples of the point that have ended
+  DelayedForce delayed{};        ///< of the same
+  double turn = 0;               ///< m, gradient now times the last motion beyond what the overlap has changed by
+  std::ptrdiff_t old = -1;       ///< index of its history among those of the last step, -1: none
+  std::optional<Vec3> motion{};  ///< m, relative_motion(), once it has been asked for
 };
 
 /// A couple of the point at hand that lies just outside of the contactor.
@@ -52,6 +55,11 @@ struct Beside {
 /// Whether nothing is left of the couple but what its overlaps have gained or lost and its delayed normal force.
 inline bool has_ended(const TouchingCouple& couple) {
   return !(couple.d > 0) && couple.offset == 0 && couple.force == Vec3::Zero();
+}
+
+/// Whether in addition no force of it is to be balanced.
+inline bool is_settled(const TouchingCouple& couple) {
+  return has_ended(couple) && couple.gained == 0 && couple.friction == Vec3::Zero() && couple.spring == Vec3::Zero();
 }
 
 /// Normal force with damping over the slope of the overlap, N, and what the damping takes, J.
@@ -76,7 +84,9 @@ class Pass {
   void run();
 
  private:
+  [[nodiscard]] PreparedTetra prepare_element(Index slot) const;
   [[nodiscard]] const PreparedTetra& prepare_contactor(Index contactor);
+  [[nodiscard]] PreparedTetra prepared_even_if_alone(Index contactor);
   double evaluate_point(Index point, std::span<ContactCouple> couples);
   void look_at(ContactCouple& couple, const Vec3& x);
   void bridge_gaps(Index point);
@@ -89,14 +99,15 @@ class Pass {
   void find_histories(Index point);
   void take_over(std::size_t first, std::size_t last);
   void forget(const TouchingCouple& old, double lost = 0);
-  [[nodiscard]] bool is_near(const std::array<double, 4>& lambda, const std::array<Vec3, 4>& corners,
-                             const Vec3& place) const;
+  [[nodiscard]] bool is_near(const std::array<double, 4>& lambda, Index slot, const Vec3& place) const;
   void end(const ContactPoint& point, const TouchingCouple& last, const Vec3& motion,
            const std::array<double, 4>& lambda, TouchingCouple& h);
   [[nodiscard]] Vec3 relative_motion(const ContactPoint& point, Index slot, const std::array<double, 4>& lambda) const;
-  [[nodiscard]] Vec3 mean_turn(Index target, Index contactor) const;
-  [[nodiscard]] bool comes_from_beside(const ContactPoint& point, const Candidate& candidate) const;
-  [[nodiscard]] double first_offset(Index point, const Candidate& candidate) const;
+  [[nodiscard]] const Vec3& motion_of(const ContactPoint& point, Candidate& candidate) const;
+  [[nodiscard]] const Vec3& curl_of(Index slot);
+  [[nodiscard]] Vec3 mean_turn(Index target, Index contactor);
+  [[nodiscard]] bool comes_from_beside(const ContactPoint& point, Candidate& candidate) const;
+  [[nodiscard]] double first_offset(Index point, Candidate& candidate) const;
   [[nodiscard]] static double follow(const ContactLaw& law, double scale, double length, const Candidate& candidate,
                                      TouchingCouple& h);
   /// Gradient of the overlap by the field of one step ago.
@@ -111,9 +122,10 @@ class Pass {
   void act(Index point, Candidate& candidate);
   [[nodiscard]] double press(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
                              const Candidate& candidate, TouchingCouple& h);
-  void balance(const ContactPoint& point, double length, const Vec3& motion, TouchingCouple& h) const;
+  void balance(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
+               TouchingCouple& h) const;
   [[nodiscard]] Damping damp(const ContactLaw& law, const ContactPoint& point, const Vec3& motion,
-                             const Candidate& candidate, const Vec3& gradient, double elastic) const;
+                             const Candidate& candidate, double elastic) const;
   void distribute(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda, const Vec3& force);
 
   [[nodiscard]] const ContactPoint& point_at(Index point) const {
@@ -124,6 +136,10 @@ class Pass {
   }
   [[nodiscard]] Index body_of(Index contactor) const {
     return local_.slot_body[static_cast<std::size_t>(slot_of(contactor))];
+  }
+  /// Whether the overlap field of a contactor changes in this step.
+  [[nodiscard]] bool is_growing(Index contactor) const {
+    return contact_.ramp_of_contactor[static_cast<std::size_t>(contactor)] >= 0;
   }
   /// Whether two contactors are of one body and share a vertex of its mesh.
   [[nodiscard]] bool are_neighbours(Index contactor, Index other) const {
@@ -144,8 +160,11 @@ class Pass {
     return params_.law(group_of(local_, point_at(point).slot), group_of(local_, slot_of(contactor)));
   }
   /// N/m, of a couple along its normal; times tangential_ratio of its friction.
+  [[nodiscard]] static double stiffness(const ContactLaw& law, const ContactPoint& point, double length) {
+    return point.weight * law.penalty / length;
+  }
   [[nodiscard]] double stiffness(const ContactPoint& point, const TouchingCouple& h) const {
-    return point.weight * law_of(h.point, h.contactor).penalty / length_of(slot_of(h.contactor));
+    return stiffness(law_of(h.point, h.contactor), point, length_of(slot_of(h.contactor)));
   }
   [[nodiscard]] double spring_stiffness(const ContactPoint& point, const TouchingCouple& h) const {
     return law_of(h.point, h.contactor).tangential_ratio * stiffness(point, h);

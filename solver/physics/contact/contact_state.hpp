@@ -68,6 +68,12 @@ struct FieldRamp {
   ComingSets remaining{}, before{};
 };
 
+/// How an element turns.
+struct ElementTurn {
+  Vec3 curl{0, 0, 0};    ///< 1/s, of its velocities
+  std::uint64_t in = 0;  ///< number of the call of contact_forces, as in `prepared_in`
+};
+
 /// Force of the spherical boundary on a point.
 struct BoundaryForce {
   Index point;
@@ -77,12 +83,13 @@ struct BoundaryForce {
 /// Everything about contact that changes in a run. Plain data.
 struct ContactState {
   // Who may touch whom.
-  std::vector<ContactPoint> points;      ///< in the order in which they came
-  std::vector<Index> order;              ///< (points) indices by ascending id
-  std::vector<Index> contactors;         ///< slots by ascending global element id
-  std::vector<Index> contactor_of_slot;  ///< (num_slots) -1: none
-  std::vector<double> body_length;       ///< (bodies) H, m
-  std::vector<double> body_extent;       ///< (bodies) m
+  std::vector<ContactPoint> points;           ///< in the order in which they came
+  std::vector<Index> order;                   ///< (points) indices by ascending id
+  std::vector<Index> contactors;              ///< slots by ascending global element id
+  std::vector<Index> contactor_of_slot;       ///< (num_slots) -1: none
+  std::vector<std::array<double, 4>> height;  ///< (contactors) m, of the corners above their opposite faces, at rest
+  std::vector<double> body_length;            ///< (bodies) H, m
+  std::vector<double> body_extent;            ///< (bodies) m
   /// m: every search finds the points that are so near to the box of a contactor.
   double near = std::numeric_limits<double>::infinity();
   std::vector<ContactCouple> couples;  ///< by (point id, contactor)
@@ -111,6 +118,7 @@ struct ContactState {
   std::uint64_t calls = 0;                 ///< of contact_forces
   std::vector<Index> place;                ///< (contactors) index into `prepared`, -1: not in any couple
   std::vector<Index> in_couples;           ///< (prepared) contactors that are in some couple
+  std::vector<ElementTurn> turns;          ///< (num_slots) of those that rub, in this step
 
   [[nodiscard]] bool evaluated(Index slot) const {
     return relevant.empty() || relevant[static_cast<std::size_t>(slot)] != 0;

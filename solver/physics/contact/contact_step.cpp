@@ -116,7 +116,7 @@ class Surface {
     if (contactor >= 0) values = state->field[at(contactor)];
     values.sets |= 1 << (15 ^ 1 << face);
     const double length = model_.body_length[at(mesh.slot_body[at(slot)])];
-    const OverlapShape shape = overlap_shape(model_.params, mesh, slot, values, length);
+    const OverlapShape shape = overlap_shape(model_.params, heights(mesh, slot), values, length);
     double square = 0;
     for (std::size_t k = 0; k < shape.rows; ++k) {
       // Of elements with a field of their own the face's function alone.

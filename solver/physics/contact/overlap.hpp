@@ -81,6 +81,14 @@ inline constexpr double kInside = 1e-9;
 struct OverlapShape {
   std::array<std::array<double, 4>, kNumCornerSets> row;
   std::size_t rows = 0;
+  OverlapShape() = default;
+  OverlapShape(const OverlapShape& other) { *this = other; }
+  /// Of those in use alone: most shapes have one or two.
+  OverlapShape& operator=(const OverlapShape& other) {
+    rows = other.rows;
+    std::copy_n(other.row.begin(), rows, row.begin());
+    return *this;
+  }
   void add(const std::array<double, 4>& function) { row[rows++] = function; }
 };
 

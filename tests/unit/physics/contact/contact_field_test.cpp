@@ -38,7 +38,7 @@ struct FreedCentre {
   /// Overlap at the barycentric coordinates.
   [[nodiscard]] double at_point(const std::array<double, 4>& lambda) const {
     const Index slot = scene.contact.contactors[0], ramp = scene.contact.ramp_of_contactor[0];
-    return overlap_value(overlap_shape(scene.params, scene.local, slot, scene.contact.field[0], 1,
+    return overlap_value(overlap_shape(scene.params, heights(scene.local, slot), scene.contact.field[0], 1,
                                        ramp < 0 ? nullptr : &scene.contact.ramps[at(ramp)].remaining),
                          lambda);
   }
