@@ -157,5 +157,7 @@ int main(int argc, char** argv) {
   }
   std::signal(SIGPIPE, SIG_IGN);  // who reads the progress may go; the run goes on
   std::signal(SIGXFSZ, SIG_IGN);  // a file over its limit is an error of the write, told with the file's name
-  return guarded(app, arguments, session, argc, argv);
+  const int ended = guarded(app, arguments, session, argc, argv);
+  reports_signals = 0;  // mpiexec ends the ranks that are last to go where one has failed
+  return ended;
 }

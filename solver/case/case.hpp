@@ -16,10 +16,17 @@
 /// stand in comments; case/schema.hpp is their one table (unit, default, range, help).
 namespace breccia::case_ {
 
-/// Where a value was written, to name it in a message found later (a group absent from the mesh, say).
+/// Where a key was written.
+struct KeyPlace {
+  std::string file;  ///< as the user named it, or "--set"
+  int line = 0;
+};
+
+/// Where an entry and its keys were written, to name them in a message found later (a group absent from the mesh, say).
 struct Origin {
   int line = 0;
   std::string key;
+  std::map<std::string, KeyPlace> keys{};  ///< "group", "displacement.x"
   /// Cases are equal when they ask for the same, wherever it was written.
   friend bool operator==(const Origin&, const Origin&) { return true; }
 };

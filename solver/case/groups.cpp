@@ -5,6 +5,7 @@
 #include <set>
 
 #include "case/nearest.hpp"
+#include "case/problem_at.hpp"
 #include "case/validate.hpp"
 
 namespace breccia::case_ {
@@ -15,7 +16,7 @@ constexpr const char* kEveryGroup = "*";
 class GroupChecker {
  public:
   GroupChecker(const Case& c, std::span<const std::string> volumes, std::span<const std::string> surfaces)
-      : file_(c.file.string()),
+      : case_(c),
         volumes_(volumes.begin(), volumes.end()),
         surfaces_(surfaces.begin(), surfaces.end()),
         both_(volumes_) {
@@ -31,22 +32,22 @@ class GroupChecker {
   void either(const Origin& origin, const char* name, const std::string& group) {
     check(origin, name, group, both_, "volume or surface group");
     if (std::count(both_.begin(), both_.end(), group) > 1)
-      problems_.push_back({file_, origin.line, origin.key + "." + name,
-                           "a volume group and a surface group of the mesh have this name: which is meant is not clear",
-                           "groups with different names", group});
+      add(problem_at(case_, origin, name,
+                     "a volume group and a surface group of the mesh have this name: which is meant is not clear",
+                     "groups with different names", group));
   }
   void gauge(const Origin& origin, const std::string& name, std::int64_t num_bodies) {
     const std::int64_t body = numbered_body(name);
     const bool is_group = std::find(both_.begin(), both_.end(), name) != both_.end();
     if (is_group && 0 <= body && body < num_bodies) {
-      add({file_, origin.line, origin.key + ".gauges",
-           "a group of the mesh has the name by which a gauge calls a body: which is meant is not clear",
-           "another name for the group, or another gauge", name});
+      add(problem_at(case_, origin, "gauges",
+                     "a group of the mesh has the name by which a gauge calls a body: which is meant is not clear",
+                     "another name for the group, or another gauge", name));
     } else if (body < 0 || is_group) {
       either(origin, "gauges", name);
     } else if (body >= num_bodies) {
-      add({file_, origin.line, origin.key + ".gauges", "the mesh has no such body",
-           num_bodies > 0 ? "\"body 0\" to \"body " + std::to_string(num_bodies - 1) + "\"" : "", name});
+      add(problem_at(case_, origin, "gauges", "the mesh has no such body",
+                     num_bodies > 0 ? "\"body 0\" to \"body " + std::to_string(num_bodies - 1) + "\"" : "", name));
     }
   }
   void add(Problem problem) { problems_.push_back(std::move(problem)); }
@@ -57,11 +58,10 @@ class GroupChecker {
              const std::vector<std::string>& present, const std::string& kind) {
     if (std::find(present.begin(), present.end(), group) != present.end()) return;
     const std::string list = present.empty() ? "the mesh has none" : joined(nearest_first(group, present));
-    problems_.push_back(
-        {file_, origin.line, origin.key + "." + name, "the mesh has no " + kind + " \"" + group + "\"", list, group});
+    add(problem_at(case_, origin, name, "the mesh has no " + kind + " \"" + group + "\"", list, group));
   }
 
-  std::string file_;
+  const Case& case_;
   std::vector<std::string> volumes_, surfaces_, both_;
   std::vector<Problem> problems_;
 };

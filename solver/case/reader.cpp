@@ -16,6 +16,14 @@
 namespace breccia::case_ {
 namespace {
 
+/// Adds the places of what stands in a table. @param before  of the names: "displacement."
+void add_places(const Node& table, const std::string& before, std::map<std::string, KeyPlace>& places) {
+  for (const auto& [name, node] : table.entries) {
+    places[before + name] = {node.file, node.line};
+    if (node.is(Node::Kind::table)) add_places(node, before + name + ".", places);
+  }
+}
+
 // Archive that fills one section of a case from one table of the file. What the table lacks is read from the schema.
 class SectionReader {
  public:
@@ -31,7 +39,10 @@ class SectionReader {
 
   [[nodiscard]] bool has(std::string_view name) const { return table_.find(name) != nullptr; }
 
-  void origin(Origin& out) const { out = {table_.line, path_}; }
+  void origin(Origin& out) const {
+    out = {table_.line, path_};
+    add_places(table_, "", out.keys);
+  }
 
   template <class T>
   void value(std::string_view name, T& out) {

@@ -135,13 +135,13 @@ std::vector<Problem> jumps_at(const Case& c, const Stage& stage, double start) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double jump = constraint.value[axis](start);
       if (!constraint.axes[axis] || std::abs(jump) <= kRoundOff * parts_of(constraint.value[axis], start)) continue;
-      problems.push_back({c.file.string(), constraint.origin.line,
-                          constraint.origin.key + ".displacement." + std::string(1, "xyz"[axis]),
-                          "jumps in the first step of its stage: displacements count from the start of the stage, at " +
-                              number(start) + " s of the run, and time from the start of the run",
-                          "a function that is 0 at " + number(start) +
-                              " s, such as { ramp = { start = " + number(start) + ", end = ..., to = ... } }",
-                          number(jump) + " m"});
+      problems.push_back(
+          problem_at(c, constraint.origin, "displacement." + std::string(1, "xyz"[axis]),
+                     "jumps in the first step of its stage: displacements count from the start of the stage, at " +
+                         number(start) + " s of the run, and time from the start of the run",
+                     "a function that is 0 at " + number(start) + " s, such as { ramp = { start = " + number(start) +
+                         ", end = ..., to = ... } }",
+                     number(jump) + " m"));
     }
   }
   return problems;

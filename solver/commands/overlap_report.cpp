@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "case/problem_at.hpp"
 #include "contact/initial_overlap.hpp"
 #include "model/parameters.hpp"
 #include "output/quantity_text.hpp"
@@ -99,8 +100,8 @@ void refuse_initial_overlaps(const case_::Case& input, const Model& model) {
   for (const GroupOverlap& groups : overlaps_by_groups(model)) {
     const case_::Contact& entry = entry_of(input, model, groups.deepest);
     if (entry.initial_overlap != case_::InitialOverlap::refuse) continue;
-    problems.push_back({input.file.string(), entry.origin.line, entry.origin.key + ".initial_overlap",
-                        description(model, groups), remedy(groups.deepest), "refuse"});
+    problems.push_back(case_::problem_at(input, entry.origin, "initial_overlap", description(model, groups),
+                                         remedy(groups.deepest), "refuse"));
   }
   if (!problems.empty()) throw InputError(std::move(problems));
 }

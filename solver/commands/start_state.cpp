@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "base/error.hpp"
+#include "case/problem_at.hpp"
 #include "case/reader.hpp"
 #include "case/validate.hpp"
 #include "case/validate_motion.hpp"
@@ -165,10 +166,11 @@ void check_stages(const case_::Case& input, const Clock& clock) {
     if (!jumps.empty()) throw InputError(std::move(jumps));
     return;
   }
-  throw InputError(Problem{input.file.string(), first.origin.line, first.origin.key + ".end",
-                           "the state that the run starts from is later than the end of this stage: time goes on "
-                           "counting there",
-                           "later than " + quantity_text(clock.time, "s"), quantity_text(first.end, "s")});
+  throw InputError(
+      case_::problem_at(input, first.origin, "end",
+                        "the state that the run starts from is later than the end of this stage: time goes on "
+                        "counting there",
+                        "later than " + quantity_text(clock.time, "s"), quantity_text(first.end, "s")));
 }
 
 }  // namespace

@@ -245,6 +245,7 @@ bool wholly_held(const case_::Stage& stage, const Model& model, const std::strin
   return false;
 }
 
+/// And absorbing boundaries there.
 Advice loads_on_what_is_held(const case_::Case& input, const Model& model) {
   Advice advice;
   for (const case_::Stage& stage : input.stages) {
@@ -256,6 +257,12 @@ Advice loads_on_what_is_held(const case_::Case& input, const Model& model) {
     };
     for (const case_::Pressure& pressure : stage.pressures) judge(pressure);
     for (const case_::Traction& traction : stage.tractions) judge(traction);
+    for (const std::string& surface : stage.absorbing) {
+      if (!wholly_held(stage, model, surface)) continue;
+      advice.push_back(fmt::format(
+          "{}.absorbing (line {}) absorbs nothing: the motion of all nodes of \"{}\" is prescribed along x, y and z.",
+          stage.origin.key, stage.origin.line, surface));
+    }
   }
   return advice;
 }

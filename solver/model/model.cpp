@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "case/problem_at.hpp"
 #include "model/model_joints.hpp"
 #include "model/node_sets.hpp"
 #include "model/parameters.hpp"
@@ -63,10 +64,10 @@ void break_initial(const case_::Case& input, Model& model) {
     const Index group = model.mesh.element_group[index(element)];
     const Index other = model.mesh.element_group[index(link.neighbour)];
     if (share_nodes(model.discretisation, model.whole.node_sets, group, other)) {
-      throw InputError(Problem{input.file.string(), input.broken_origin.line, "joints.broken",
-                               "a surface cuts through \"" + model.mesh.volume_groups[index(group)] +
-                                   "\", whose elements share nodes: there are no joints to break",
-                               "surfaces inside groups with joints = \"breakable\" or \"unbreakable\"", ""});
+      throw InputError(case_::problem_at(input, input.broken_origin, "broken",
+                                         "a surface cuts through \"" + model.mesh.volume_groups[index(group)] +
+                                             "\", whose elements share nodes: there are no joints to break",
+                                         "surfaces inside groups with joints = \"breakable\" or \"unbreakable\"", ""));
     }
     link = FaceLink{};
   }

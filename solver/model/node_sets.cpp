@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "case/problem_at.hpp"
+
 namespace breccia {
 namespace {
 
@@ -45,12 +47,8 @@ std::set<Pair> meeting_pairs(const Mesh& mesh, const Topology& topology, const s
 
 Problem cannot_part(const case_::Case& input, const case_::Joint& joint, const std::string& what,
                     const std::string& allowed) {
-  return {input.file.string(),
-          joint.origin.line,
-          joint.origin.key + ".between",
-          what,
-          allowed,
-          "\"" + joint.groups[0] + "\" and \"" + joint.groups[1] + "\""};
+  return case_::problem_at(input, joint.origin, "between", what, allowed,
+                           "\"" + joint.groups[0] + "\" and \"" + joint.groups[1] + "\"");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "case/problem_at.hpp"
 
 namespace breccia {
 namespace {
@@ -61,11 +62,11 @@ void refuse_what_cannot_break(const case_::Case& input, std::span<const SurfaceJ
       const auto place = std::lower_bound(surfaces.begin(), surfaces.end(), surface) - surfaces.begin();
       const std::string fault = fault_of(joints[static_cast<std::size_t>(place)]);
       if (fault.empty()) continue;
-      problems.push_back({input.file.string(), stage.origin.line, stage.origin.key + ".broken",
-                          "the surface \"" + surface + "\" " + fault,
-                          "surfaces within groups with joints = \"breakable\", or between two groups with a breakable "
-                          "joint of their own",
-                          surface});
+      problems.push_back(case_::problem_at(
+          input, stage.origin, "broken", "the surface \"" + surface + "\" " + fault,
+          "surfaces within groups with joints = \"breakable\", or between two groups with a breakable "
+          "joint of their own",
+          surface));
     }
   }
   if (!problems.empty()) throw InputError(std::move(problems));

@@ -248,11 +248,12 @@ TEST(Ranks, WarnOnceOfAStepThatIsTooLong) {
 TEST(Ranks, TellAWrongCaseOnce) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", test::changed("2340 kg/m3", "-1 kg/m3"));
-  const Outcome outcome = test::call_ranks(3, "run -o '" + scratch.path("out").string() + "' " + file);
+  const Outcome outcome = test::call_ranks(4, "run -o '" + scratch.path("out").string() + "' " + file);
   EXPECT_EQ(outcome.exit_code, 2);
   const std::size_t first = outcome.err.find("material[0].density");
   ASSERT_NE(first, std::string::npos) << outcome.err;
   EXPECT_EQ(outcome.err.find("material[0].density", first + 1), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("ending after the present step"), std::string::npos) << outcome.err;
 }
 
 TEST(Ranks, RefuseADivisionThatCannotBe) {

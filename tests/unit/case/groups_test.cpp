@@ -32,9 +32,16 @@ TEST(Groups, AnAbsentVolumeIsNamedWithItsLineAndTheNearestGroupsFirst) {
   const auto problems = check_groups(read_text(complete), present, surfaces);
   ASSERT_THAT(problems, SizeIs(2));
   EXPECT_THAT(problems[0].text(),
-              AllOf(HasSubstr("case.toml:8: material[0].group: the mesh has no volume group \"glass\""),
+              AllOf(HasSubstr("case.toml:9: material[0].group: the mesh has no volume group \"glass\""),
                     HasSubstr("allowed: glas, frame, projectile")));
   EXPECT_THAT(problems[1].text(), HasSubstr("the volume group \"glas\" of the mesh has no material"));
+}
+
+TEST(Groups, AnAbsentOneIsToldWithThePlaceWhereItWasGiven) {
+  const Case c = read_text(complete, {"stage[0].constraint[1].group=nowhere"});
+  const auto problems = check_groups(c, volumes, surfaces);
+  ASSERT_THAT(problems, SizeIs(1));
+  EXPECT_EQ(problems[0].text().find("--set: stage[0].constraint[1].group: the mesh has no"), 0U) << problems[0].text();
 }
 
 TEST(Groups, AnAbsentSurfaceIsReportedWhereverItIsNamed) {

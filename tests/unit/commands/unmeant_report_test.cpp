@@ -141,6 +141,12 @@ TEST(Unmeant, IsAPressureOnABodyThatIsWhollyHeld) {
   EXPECT_EQ(advice_on("[[stage.constraint]]\ngroup = \"rock.z0\"\nfixed = \"xyz\"\n" + pressure), "");
 }
 
+TEST(Unmeant, IsAnAbsorbingBoundaryThatIsHeld) {
+  const std::string absorbing = "absorbing = [\"rock.z1\"]\n", held = "[[stage.constraint]]\ngroup = \"rock.z1\"\n";
+  EXPECT_THAT(advice_on(absorbing + held + "fixed = \"xyz\"\n"), HasSubstr("stage[0].absorbing (line "));
+  EXPECT_EQ(advice_on(absorbing + held + "fixed = \"xy\"\n"), "");
+}
+
 /// Two cubes side by side that share the nodes of the surface "middle".
 const std::string kTwins = R"(SetFactory("OpenCASCADE");
 Box(1) = {0, 0, 0, 1, 1, 1};
