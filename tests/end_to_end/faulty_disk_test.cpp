@@ -157,7 +157,7 @@ class FullDisk : public testing::TestWithParam<std::tuple<int, int>> {
     return call(arguments, "unshare -m sh -c 'mount -t tmpfs -o size=" + std::to_string(size) + "k none \"$0\" && " +
                                launcher +
                                "\"$@\"; code=$?; for look in $(seq 50); do tail -n 1 \"$0/run/status.jsonl\" " +
-                               "2>&1 | grep -qv running && break; sleep 0.1; done; cp -a \"$0\" \"" + kept_ +
+                               "2>&1 | grep -q \"state...[^r]\" && break; sleep 0.1; done; cp -a \"$0\" \"" + kept_ +
                                "\"; exit $code' '" + disk_ + "'");
   }
 
