@@ -40,6 +40,7 @@ std::vector<NamedNode> nodes_of(const Model& model, const std::string& group) {
 
 Index mesh_nodes_of(const std::vector<NamedNode>& nodes) {
   std::vector<std::int64_t> ids;
+  ids.reserve(nodes.size());
   for (const NamedNode& node : nodes) ids.push_back(node.mesh_node);
   std::sort(ids.begin(), ids.end());
   return static_cast<Index>(std::unique(ids.begin(), ids.end()) - ids.begin());

@@ -66,7 +66,7 @@ void add_law(const case_::Case& input, const case_::Joint& entry, double size, M
   JointLawParams params = joint_law_params(entry, size, !can_fail(input, entry));
   if (const std::string problem = prepare(params); !problem.empty())
     problems.push_back({input.file.string(), entry.origin.line, entry.origin.key, whose + problem, "", ""});
-  model.joint_laws.push_back(std::move(params));
+  model.joint_laws.push_back(params);
 }
 
 /// The laws of all classes of strength. @param entries  of the joint groups
