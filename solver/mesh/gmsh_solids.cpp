@@ -212,6 +212,7 @@ void add_solids(const StlFile& file, const ClosedSurfaces& parts) {
   std::vector<std::pair<int, std::string>> volumes;
   for (const std::vector<Index>& solid : parts.solids) {
     std::vector<int> loops;
+    loops.reserve(solid.size());
     for (const Index shell : solid) loops.push_back(gmsh::model::geo::addSurfaceLoop(of_shell.at(shell)));
     const int tag = gmsh::model::geo::addVolume(loops);
     const std::string name = given_name(name_of_shell.at(solid.front()));

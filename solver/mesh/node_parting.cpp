@@ -131,6 +131,7 @@ void demand_surfaces_are_faces(const Mesh& mesh) {
     if (bodies[f].empty()) ++strays[mesh.surface_faces[f].group];
   }
   std::vector<Problem> problems;
+  problems.reserve(strays.size());
   for (const auto& [group, number] : strays) {
     problems.push_back({mesh.source, 0, "surface group \"" + mesh.surface_groups[at(group)] + "\"", kStrayTriangles,
                         kFacesOfVolumes, std::to_string(number) + " such triangles"});

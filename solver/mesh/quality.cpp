@@ -151,6 +151,7 @@ std::vector<double> body_extents(const Mesh& mesh) {
     for (const Vec3& corner : geometry::corners_of(mesh, e)) boxes[body].extend(corner);
   }
   std::vector<double> extents;
+  extents.reserve(boxes.size());
   for (const Eigen::AlignedBox3d& box : boxes) extents.push_back(box.isEmpty() ? 0.0 : box.diagonal().norm());
   return extents;
 }

@@ -53,9 +53,9 @@ void demand_valid(const RasterSource& source) {
   }
   double elements = source.single_tetrahedra ? 1.0 : 24.0;
   for (int a = 0; a < 3; ++a) elements *= static_cast<double>(source.cells[at(a)]) * source.boxes[at(a)];
-  if (elements > std::numeric_limits<Index>::max() / 4) {
-    refuse("cells", "makes too many tetrahedra", "up to " + std::to_string(std::numeric_limits<Index>::max() / 4),
-           short_text(elements));
+  constexpr Index kMost = std::numeric_limits<Index>::max() / 4;
+  if (elements > static_cast<double>(kMost)) {
+    refuse("cells", "makes too many tetrahedra", "up to " + std::to_string(kMost), short_text(elements));
   }
   if (source.slit) {
     const Vec3 extent = source.slit->upper - source.slit->lower;
