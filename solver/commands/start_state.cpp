@@ -31,7 +31,7 @@ constexpr std::size_t kNamed = 8;
 
 [[noreturn]] void refuse(const fs::path& case_file, const case_::Start& start, const std::string& key,
                          const std::string& what, const std::string& allowed, const std::string& given) {
-  throw InputError(Problem{case_file.string(), start.origin.line, "start." + key, what, allowed, given});
+  throw InputError(case_::problem_at(case_file, start.origin, key, what, allowed, given));
 }
 
 struct Choice {
@@ -122,7 +122,7 @@ fs::path checkpoint_of(const fs::path& case_file, const case_::Start& start) {
 [[noreturn]] void refuse_start(const fs::path& case_file, const case_::Start& start, const InputError& error) {
   std::vector<Problem> problems;
   for (const Problem& p : error.problems())
-    problems.push_back({case_file.string(), start.origin.line, "start.from", p.what, p.allowed, p.file});
+    problems.push_back(case_::problem_at(case_file, start.origin, "from", p.what, p.allowed, p.file));
   throw InputError(std::move(problems));
 }
 

@@ -245,7 +245,7 @@ bool wholly_held(const case_::Stage& stage, const Model& model, const std::strin
   return false;
 }
 
-/// And absorbing boundaries there.
+/// Loads and absorbing boundaries on surfaces whose motion is prescribed.
 Advice loads_on_what_is_held(const case_::Case& input, const Model& model) {
   Advice advice;
   for (const case_::Stage& stage : input.stages) {

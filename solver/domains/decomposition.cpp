@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/extent.hpp"
+#include "case/problem_at.hpp"
 #include "parallel/whole_fragments.hpp"
 
 namespace breccia {
@@ -109,11 +110,9 @@ Reach reach_of(const case_::Case& input, double edge, double buffer) {
 
 DomainSpec domain_spec(const case_::Case& input) {
   const case_::Domains& asked = input.domains;
-  return {asked.kind == case_::DomainKind::grid ? DomainKind::grid : DomainKind::rcb,
-          asked.n,
-          input.file.string(),
-          asked.origin.line,
-          {}};
+  const case_::KeyPlace place = case_::place_of(input.file, asked.origin, "n");
+  return {
+      asked.kind == case_::DomainKind::grid ? DomainKind::grid : DomainKind::rcb, asked.n, place.file, place.line, {}};
 }
 
 Piece decompose(const Communicator& communicator, DomainSpec& domains, Records mine, const std::vector<double>& weight,

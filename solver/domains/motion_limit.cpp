@@ -38,7 +38,7 @@ FastestNode fastest_node(const Domain& domain) {
   const LocalMesh& local = domain.model.local;
   FastestNode fastest;
   for (Index n = 0; n < local.num_nodes; ++n) {
-    if (local.counted[static_cast<std::size_t>(n)] == 0) continue;
+    if (!local.is_moved(n) || local.node_id[static_cast<std::size_t>(n)] < 0) continue;
     const Vec3 v = load_node(domain.state.nodes.velocity.data(), n);
     const double speed = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     const GlobalId id = local.node_id[static_cast<std::size_t>(n)];

@@ -14,7 +14,7 @@ namespace breccia {
 // Without contact nothing depends on it.
 inline constexpr double kUnforeseen = 0.005, kUnforeseenAtStart = 0.04;
 
-/// A node that this rank counts.
+/// A node that this rank moves.
 struct FastestNode {
   GlobalId node = -1;
   double speed = 0;  ///< m/s

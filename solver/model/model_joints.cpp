@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "case/problem_at.hpp"
 #include "model/node_sets.hpp"
 #include "model/parameters.hpp"
 #include "model/strength_scatter.hpp"
@@ -65,7 +66,7 @@ void add_law(const case_::Case& input, const case_::Joint& entry, double size, M
              std::vector<Problem>& problems, const std::string& whose = "") {
   JointLawParams params = joint_law_params(entry, size, !can_fail(input, entry));
   if (const std::string problem = prepare(params); !problem.empty())
-    problems.push_back({input.file.string(), entry.origin.line, entry.origin.key, whose + problem, "", ""});
+    problems.push_back(case_::problem_at(input, entry.origin, "", whose + problem, "", ""));
   model.joint_laws.push_back(params);
 }
 

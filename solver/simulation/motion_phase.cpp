@@ -268,22 +268,12 @@ double fastest_if_free(const Domain& domain) {
   return fastest;
 }
 
-/// m/s, of the nodes that this rank moves.
-double largest_speed(const Domain& domain) {
-  double largest = 0;
-  for (Index node = 0; node < domain.model.local.num_moved_nodes; ++node) {
-    if (domain.model.local.is_moved(node))
-      largest = std::max(largest, load_node(domain.state.nodes.velocity.data(), node).squaredNorm());
-  }
-  return std::sqrt(largest);
-}
-
 /// The sweep's largest speed is counted anew where it may be that of a held node, which loads would throw off if
 /// nothing held it.
 void correct_max_speed(double fastest_if_free, Domain& domain) {
   constexpr double kRoundOff = 1e-12;
   double& max_speed = domain.state.signals.max_speed;
-  if (fastest_if_free > 0 && fastest_if_free >= (1 - kRoundOff) * max_speed) max_speed = largest_speed(domain);
+  if (fastest_if_free > 0 && fastest_if_free >= (1 - kRoundOff) * max_speed) max_speed = fastest_node(domain).speed;
 }
 
 /// Padding stays where it is; work of the halves after t_n with the velocities as constraints left them.

@@ -147,7 +147,8 @@ class FullDisk : public testing::TestWithParam<std::tuple<int, int>> {
   [[nodiscard]] bool can_be_mounted() const {
     return std::system(("unshare -m mount -t tmpfs -o size=1m none '" + disk_ + "' > /dev/null 2>&1").c_str()) == 0;
   }
-  /// On a disk of so many KB, whose files stand in `kept_` afterwards: once the run's watch has had its say.
+  /// On a disk of so many KB, whose files stand in `kept_` afterwards: once a line of the status says how
+  /// the run ended, which may come after the program has ended ("state" followed by anything but "running").
   [[nodiscard]] Outcome call_on_disk(int ranks, int size, const std::string& arguments) const {
     const std::string launcher = ranks == 1
                                      ? ""

@@ -27,15 +27,15 @@ void merge_few(std::vector<T>& many, const std::vector<T>& few, Before&& before)
   }
 }
 
-std::vector<PointCouples> grouped_by_point(const std::vector<ContactCouple>& couples) {
-  std::vector<PointCouples> points;
+/// @param points  out
+void group_by_point(const std::vector<ContactCouple>& couples, std::vector<PointCouples>& points) {
+  points.clear();
   for (const ContactCouple& couple : couples) {
     if (points.empty() || points.back().point != couple.point)
       points.push_back({couple.point, 0, std::numeric_limits<double>::infinity()});
     ++points.back().count;
     points.back().apart_until = std::min(points.back().apart_until, couple.apart_until);
   }
-  return points;
 }
 
 /// Points with further couples, by ascending id: those that had some already keep their place, the others come between.
@@ -92,7 +92,7 @@ void couples_replaced(ContactState& contact) {
     contact.place[c] = static_cast<Index>(contact.in_couples.size());
     contact.in_couples.push_back(static_cast<Index>(c));
   }
-  contact.by_point = grouped_by_point(contact.couples);
+  group_by_point(contact.couples, contact.by_point);
 }
 
 void add_fresh_couples(const std::vector<ContactCouple>& made, ContactState& contact) {
@@ -105,7 +105,9 @@ void add_fresh_couples(const std::vector<ContactCouple>& made, ContactState& con
     place = static_cast<Index>(contact.in_couples.size());
     contact.in_couples.push_back(couple.contactor);
   }
-  add_points(grouped_by_point(made), contact);
+  std::vector<PointCouples> points;
+  group_by_point(made, points);
+  add_points(points, contact);
 }
 
 }  // namespace breccia

@@ -67,7 +67,7 @@ const PreparedTetra& Pass::prepare_contactor(Index contactor) {
 }
 
 /// Of a contactor that may have left all couples with a search in this step.
-PreparedTetra Pass::prepared_even_if_alone(Index contactor) {
+PreparedTetra Pass::prepare_past_contactor(Index contactor) {
   const bool in_couples = contact_.place[static_cast<std::size_t>(contactor)] >= 0;
   return in_couples ? prepare_contactor(contactor) : prepare_element(slot_of(contactor));
 }

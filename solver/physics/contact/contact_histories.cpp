@@ -163,7 +163,7 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   if (!(old.d > 0) && old.force == Vec3::Zero() && old.gained_before == 0 && old.delayed.age == 0) return;
   const ContactPoint& point = point_at(old.point);
   const Index slot = slot_of(old.contactor);
-  const PreparedTetra tetra = prepared_even_if_alone(old.contactor);
+  const PreparedTetra tetra = prepare_past_contactor(old.contactor);
   const bool crushed = inert(tetra);
   const Vec3 place = at_point(rule_, point, state_.position.data());
   std::array<double, 4> lambda{};

@@ -86,7 +86,7 @@ class Pass {
  private:
   [[nodiscard]] PreparedTetra prepare_element(Index slot) const;
   [[nodiscard]] const PreparedTetra& prepare_contactor(Index contactor);
-  [[nodiscard]] PreparedTetra prepared_even_if_alone(Index contactor);
+  [[nodiscard]] PreparedTetra prepare_past_contactor(Index contactor);
   double evaluate_point(Index point, std::span<ContactCouple> couples);
   void look_at(ContactCouple& couple, const Vec3& x);
   void bridge_gaps(Index point);
