@@ -94,7 +94,9 @@ constexpr auto model_keys = std::to_array<Key>({
      .fixed_by_state = "which faces carry contact points is part of the state"},
     {.path = "plane.kind", .type = choice, .required = true, .choices = "strain|stress",
      .help = "strain: nothing moves along the axis, as inside a long body. stress: nothing acts along it, as in a thin "
-             "plate, whose sides are free.", .example = "\"strain\""},
+             "plate: the lower side stays in its plane, which is the middle one of a plate of twice the thickness, and "
+             "the upper side is free. Strong pressure in the plane may make joints slide across the "
+             "thickness.", .example = "\"strain\""},
     {.path = "plane.axis", .type = choice, .fallback = "z", .choices = "x|y|z",
      .help = "Axis across the layer.", .example = "\"y\""},
 

@@ -115,7 +115,7 @@ class PlaneCheck {
     if (constraint.kind != ConstraintKind::fixed && !constraint.value[axis_].is_zero())
       problem(constraint.origin, key, "none along " + name_);
     else if (!strain_)
-      problem(constraint.origin, key, "the other axes: under plane stress nothing holds the sides");
+      problem(constraint.origin, key, "the other axes: under plane stress the thickness is free");
   }
 
   const Case& c_;

@@ -109,7 +109,7 @@ void check_stage(const case_::Case& input, const Checkpoint& from, const fs::pat
   if (from.position.stage < 0 || from.position.stage >= std::ssize(input.stages))
     throw refused(run.string(), "this checkpoint is damaged: its case has no such stage",
                   fmt::format("0 to {}", input.stages.size() - 1), std::to_string(from.position.stage));
-  demand_constraints(file, from.mine, input, input.stages[static_cast<std::size_t>(from.position.stage)]);
+  demand_constraints(file, from.mine, input.stages[static_cast<std::size_t>(from.position.stage)]);
 }
 
 /// Throws InputError where there is nothing to do.

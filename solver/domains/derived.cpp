@@ -46,6 +46,18 @@ void find_relevant(const LocalMesh& local, Derived& derived) {
   }
 }
 
+/// As the sweep wants it.
+std::vector<double> nodes_free_across(const Model& model) {
+  std::vector<double> free;
+  if (!model.plane) return free;
+  const WholeModel& whole = model.whole;
+  for (Index n = 0; n < model.local.num_nodes; ++n) {
+    const double across = model.local.reference[nodal(n, model.plane->axis)];
+    free.push_back(is_held_across(*model.plane, across, whole.lower_side, whole.longest_edge) ? 0.0 : 1.0);
+  }
+  return free;
+}
+
 }  // namespace
 
 Derived derive(const Model& model) {
@@ -56,6 +68,7 @@ Derived derive(const Model& model) {
   for (Index n = 0; n < model.local.num_nodes; ++n) {
     if (model.local.node_id[at(n)] < 0) derived.padding_nodes.push_back(n);
   }
+  derived.free_across = nodes_free_across(model);
   find_relevant(model.local, derived);
   return derived;
 }

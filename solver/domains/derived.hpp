@@ -25,6 +25,7 @@ struct Derived {
   std::vector<Index> shared_corners;   ///< [shared block][4][8], as the sweep wants them
   std::vector<Index> shared_blocks;    ///< shared-node blocks with a relevant element
   std::vector<Index> padding_nodes;
+  std::vector<double> free_across;    ///< (nodes) 1: moves along the axis of a plane model, 0: does not; or empty
   std::vector<BlockRun> ahead, rest;  ///< own-node blocks of originals: swept before the others, and the others
 
   [[nodiscard]] bool is_relevant(Index slot) const { return relevant[static_cast<std::size_t>(slot)] != 0; }

@@ -11,7 +11,8 @@ namespace breccia {
 std::vector<std::byte> pack(const WholeModel& whole) {
   PackedBytes bytes;
   for (const std::int64_t count : {whole.num_elements, whole.num_joints}) bytes.put(count);
-  for (const double number : {whole.contactor_size, whole.longest_edge, whole.energy_floor, whole.step_ratio})
+  for (const double number :
+       {whole.contactor_size, whole.longest_edge, whole.lower_side, whole.energy_floor, whole.step_ratio})
     bytes.put(number);
   bytes.put(static_cast<std::uint64_t>(whole.joint_groups.size()));
   for (const WholeModel::JointGroups& groups : whole.joint_groups) {
@@ -43,7 +44,8 @@ WholeModel unpack_whole(std::span<const std::byte> packed) {
   PackedReader bytes(packed);
   WholeModel whole;
   for (std::int64_t* count : {&whole.num_elements, &whole.num_joints}) *count = bytes.take<std::int64_t>();
-  for (double* number : {&whole.contactor_size, &whole.longest_edge, &whole.energy_floor, &whole.step_ratio})
+  for (double* number :
+       {&whole.contactor_size, &whole.longest_edge, &whole.lower_side, &whole.energy_floor, &whole.step_ratio})
     *number = bytes.take<double>();
   for (auto left = bytes.take<std::uint64_t>(); left > 0; --left) {
     WholeModel::JointGroups& groups = whole.joint_groups.emplace_back();

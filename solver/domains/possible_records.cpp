@@ -4,12 +4,10 @@
 #include <cstdint>
 #include <cstdlib>
 #include <exception>
-#include <optional>
 #include <string>
 
 #include "base/error.hpp"
 #include "domains/piece_mesh.hpp"
-#include "model/plane.hpp"
 #include "model/strength_scatter.hpp"
 #include "physics/contact/contact_point.hpp"
 
@@ -93,11 +91,8 @@ void demand_possible(const std::filesystem::path& file, std::span<const std::byt
   if (!possible) refuse(file, "its numbers point to what its model does not have");
 }
 
-void demand_constraints(const std::filesystem::path& file, const Records& records, const case_::Case& input,
-                        const case_::Stage& stage) {
-  const std::optional<PlaneModel> plane = plane_model(input);
-  const std::int64_t across = plane && plane->strain ? 1 : 0;  // as stage_loads holds the nodes of plane strain
-  const std::int64_t number = std::ssize(stage.constraints) + across;
+void demand_constraints(const std::filesystem::path& file, const Records& records, const case_::Stage& stage) {
+  const std::int64_t number = std::ssize(stage.constraints);
   if (all(records.holds, [&](const HoldRecord& r) { return within(r.entry, number); })) return;
   refuse(file, "it holds nodes by a constraint that its stage does not have");
 }

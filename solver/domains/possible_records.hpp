@@ -23,7 +23,6 @@ void demand_possible(const std::filesystem::path& file, std::span<const std::byt
 /// What the case of a checkpoint tells besides: every hold is of a constraint of the stage. Throws InputError that
 /// names the file. O(holds).
 /// @param stage  of the case, in which the checkpoint was written
-void demand_constraints(const std::filesystem::path& file, const Records& records, const case_::Case& input,
-                        const case_::Stage& stage);
+void demand_constraints(const std::filesystem::path& file, const Records& records, const case_::Stage& stage);
 
 }  // namespace breccia

@@ -145,16 +145,6 @@ ContactLaw contact_law(const case_::Contact& entry, const Pair& pair) {
   return law;
 }
 
-/// No node moves along the axis of a plane model. The last constraint of a stage, so that it rules.
-NodalConstraint hold_across(const Model& model) {
-  NodalConstraint constraint;
-  for (Index node = 0; node < model.local.num_nodes; ++node) {
-    if (model.local.node_id[static_cast<std::size_t>(node)] >= 0) constraint.nodes.push_back(node);
-  }
-  constraint.axes[static_cast<std::size_t>(model.plane->axis)] = true;
-  return constraint;
-}
-
 void sort_unique(std::vector<Index>& nodes) {
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -315,7 +305,6 @@ StageLoads stage_loads(const case_::Stage& stage, const Model& model) {
     if (entry.kind != case_::ConstraintKind::fixed) constraint.value = entry.value;
     loads.constraints.push_back(std::move(constraint));
   }
-  if (model.plane && model.plane->strain) loads.constraints.push_back(hold_across(model));
   return loads;
 }
 

@@ -68,6 +68,12 @@ std::optional<PlaneModel> plane_model(const case_::Case& input) {
   return PlaneModel{input.plane->kind == case_::PlaneKind::strain, static_cast<int>(input.plane->axis)};
 }
 
+bool is_held_across(const PlaneModel& plane, double across, double lower_side, double edge) {
+  return plane.strain || across - lower_side <= kFlat * edge;
+}
+
+double lower_side(const Mesh& mesh, int axis) { return sides_of(mesh, axis).low; }
+
 bool on_side(const Mesh& mesh, Index element, int face, int axis) {
   return along(mesh, element, face, axis) > 1 - kFlat;
 }

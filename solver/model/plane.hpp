@@ -9,7 +9,9 @@
 namespace breccia {
 
 /// A model of plane strain or stress: a slice of one flat layer of elements. Its two flat sides, whose normals lie
-/// along the axis, are no surface for contact. Under plane strain no node moves along the axis.
+/// along the axis, are no surface for contact. Under plane strain no node moves along the axis; under plane stress
+/// those of the lower side do not, which is the middle plane of a plate of twice the thickness: free on both sides, a
+/// slice would bend, buckle and leave the plane wherever contact pushes on it.
 struct PlaneModel {
   bool strain = false;
   int axis = 2;
@@ -21,6 +23,13 @@ struct PlaneModel {
 struct Layer {
   double thickness = 0, edge = 0;
 };
+
+/// Whether a node does not move along the axis. @param across  m, where it is along the axis in the reference
+/// @param lower_side  m, WholeModel::lower_side;  @param edge  m, WholeModel::longest_edge
+[[nodiscard]] bool is_held_across(const PlaneModel& plane, double across, double lower_side, double edge);
+
+/// Where the lower side of the layer is, m along the axis. O(nodes)
+[[nodiscard]] double lower_side(const Mesh& mesh, int axis);
 
 /// @pre check_layer.  O(elements).
 [[nodiscard]] Layer layer_of(const Mesh& mesh, int axis);

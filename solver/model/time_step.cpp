@@ -156,7 +156,9 @@ std::vector<std::uint8_t> TimeStep::held_nodes(const std::vector<NodalConstraint
     for (std::size_t i = 0; i < 3; ++i) bits |= entry.axes[i] ? 1U << i : 0U;
     for (const Index node : entry.nodes) axes[index(node)] |= static_cast<std::uint8_t>(bits);
   }
-  for (std::uint8_t& bits : axes) bits = bits == 7 ? 1 : 0;
+  // Contact pushes within the plane of a plane model.
+  const unsigned across = model_.plane ? 1U << static_cast<unsigned>(model_.plane->axis) : 0U;
+  for (std::uint8_t& bits : axes) bits = (bits | across) == 7 ? 1 : 0;
   return axes;
 }
 

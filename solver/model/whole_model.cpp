@@ -6,6 +6,7 @@
 
 #include "mesh/geometry.hpp"
 #include "mesh/quality.hpp"
+#include "model/plane.hpp"
 
 namespace breccia {
 namespace {
@@ -64,6 +65,7 @@ WholeModel whole_of(const case_::Case& input, const Mesh& mesh, const std::vecto
   whole.body_length = mean_inradii(mesh);
   whole.body_extent = body_extents(mesh);
   whole.longest_edge = longest_edge(mesh);
+  if (input.plane) whole.lower_side = lower_side(mesh, static_cast<int>(input.plane->axis));
   for (Index e = 0; e < mesh.num_elements(); ++e) {
     const auto x = geometry::corners_of(mesh, e);
     const double volume = volume_of(x), strain = kRoundOffs * x[0].lpNorm<Eigen::Infinity>() / std::cbrt(volume);

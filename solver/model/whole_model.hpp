@@ -29,6 +29,7 @@ struct WholeModel {
   std::vector<double> body_extent;        ///< (bodies) m: diagonal of the box around it at rest
   double contactor_size = 0;              ///< m, mean size of the contactors
   double longest_edge = 0;                ///< m, of all elements, reference
+  double lower_side = 0;                  ///< m, along the axis of a plane model (plane.hpp); 0 of others
   double energy_floor = 0;                ///< J, energies below are round-off
   double step_ratio = 0;  ///< of the true stable step to the bound at rest (time_step.hpp); 0: not found yet
   /// (entries of initial_velocities) centres of mass, m, of what each body has in the entry's group; empty: it

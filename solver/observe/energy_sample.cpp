@@ -83,6 +83,7 @@ EnergySample energy_sample(const Field<double>& velocity_before, const Domain& d
   EnergySample sample;
   for (std::size_t t = 0; t < kEnergies.size(); ++t) sample.budget.*kEnergies[t] = terms[t];
   sample.budget.external_work = terms.back();
+  sample.budget.step_change = state.work.step_change;
   sample.worst_element = densest_element(elastic, domain);
   return sample;
 }
@@ -107,7 +108,7 @@ void set_residual(double first_excess, double floor, EnergyBudget& budget) {
     total += budget.*term;
     largest = std::max(largest, std::abs(budget.*term));
   }
-  budget.residual = first_excess + budget.external_work - total;
+  budget.residual = first_excess + budget.external_work + budget.step_change - total;
   budget.residual_relative = std::abs(budget.residual) / std::max(largest, floor);
   double held = 0;
   for (const auto term : kHeld) held += budget.*term;

@@ -17,7 +17,8 @@ namespace breccia {
 /// Energy and dissipated energy beyond the external work, J: what the first sample leaves to the later ones.
 [[nodiscard]] double excess_energy(const EnergyBudget& budget);
 
-/// The residual and the energy gained, both also as shares of the largest term.
+/// The residual and the energy gained, both also as shares of the largest term. What changes of the step moved is
+/// accounted in the residual, but never counts as put in: a step in rhythm with a vibration drives it.
 /// @param first_excess  J, of the first sample
 /// @param floor         J, terms below are round-off: shares are never of less
 void set_residual(double first_excess, double floor, EnergyBudget& budget);

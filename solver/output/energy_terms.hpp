@@ -14,7 +14,7 @@ struct EnergyTerm {
 };
 
 /// Every term in J, in the order in which files and the terminal list them (residual_relative is not a term).
-inline constexpr std::array<EnergyTerm, 14> kEnergyTerms{{
+inline constexpr std::array<EnergyTerm, 15> kEnergyTerms{{
     {"kinetic", "kinetic", &EnergyBudget::kinetic},
     {"elastic", "elastic", &EnergyBudget::elastic},
     {"joint_elastic", "stored in joints", &EnergyBudget::joint_elastic},
@@ -28,6 +28,7 @@ inline constexpr std::array<EnergyTerm, 14> kEnergyTerms{{
     {"viscous", "viscous", &EnergyBudget::viscous},
     {"damping", "damping", &EnergyBudget::damping},
     {"external_work", "external work", &EnergyBudget::external_work},
+    {"step_change", "moved by changes of the step", &EnergyBudget::step_change},
     {"residual", "residual, unaccounted", &EnergyBudget::residual},
 }};
 

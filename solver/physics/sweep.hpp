@@ -41,12 +41,15 @@ struct SweepArgs {
   Index num_shared_blocks = 0;
   Index num_moved_nodes = 0;  ///< end of the shared nodes to move
 
-  const double* position = nullptr;              ///< nodal field, x_n
-  double* next_position = nullptr;               ///< nodal field, out: x_(n+1)
-  double* velocity = nullptr;                    ///< nodal field, in: v_(n-1/2), out: v_(n+1/2)
-  const double* gradient = nullptr;              ///< [block][9][8]
-  const double* volume = nullptr;                ///< [block][8]
-  const double* node_mass = nullptr;             ///< (num_nodes)
+  const double* position = nullptr;     ///< nodal field, x_n
+  double* next_position = nullptr;      ///< nodal field, out: x_(n+1)
+  double* velocity = nullptr;           ///< nodal field, in: v_(n-1/2), out: v_(n+1/2)
+  const double* gradient = nullptr;     ///< [block][9][8]
+  const double* volume = nullptr;       ///< [block][8]
+  const double* node_mass = nullptr;    ///< (num_nodes)
+  const double* free_across = nullptr;  ///< (num_nodes) 1: moves along the axis `across`, 0: does not and never
+                                        ///< has; null: all nodes move along all axes
+  std::size_t across = 0;
   const std::int32_t* shared_corners = nullptr;  ///< [shared block][4][8] nodes
 
   const std::int32_t* link = nullptr;   ///< [own block][4][8]

@@ -220,7 +220,9 @@ struct Mover {
 
   /// @param v  as of Vector
   template <class V>
-  Vector move(const V& v, const Vector& force, const Real& mass, std::size_t node) const {
+  Vector move(const V& v, Vector force, const Real& mass, std::size_t node) const {
+    // Without a force along it, and without gravity, the velocity stays zero there.
+    if (args.free_across != nullptr) force[args.across] *= load(args.free_across + node);
     const Real kick_over_mass = args.kick / mass;
     Vector moved;
     if (!damped) {

@@ -22,7 +22,7 @@ std::string column_of(const EnergyTerm& term) {
 
 bool is_stock(const EnergyTerm& term) {
   const std::string name = term.name;
-  return name != "external_work" && name != "residual";
+  return name != "external_work" && name != "step_change" && name != "residual";
 }
 
 /// What the bodies had at the start, and what was put in from outside until then.

@@ -47,17 +47,21 @@ void activate_crossed_joints(Domain& domain) {
   activate_joints(domain.model, domain.scratch.crossed, domain.state, domain.derived);
 }
 
+void account_step_change(Domain& domain) {
+  domain.exchange.agree_on_failure();
+  const auto lap = domain.timer.measure(Phase::energy);
+  AccountedWork& work = domain.state.work;
+  // Where a load sets in on a body at rest there is no energy yet but this: it counts as put in.
+  double& account = begins_stage(domain.state) ? work.first_excess : work.step_change;
+  account += step_change_energy(domain.scratch.velocity_before, domain);
+}
+
 void sample_energies(Domain& domain) {
   domain.exchange.agree_on_failure();
   const auto lap = domain.timer.measure(Phase::energy);
   domain.sample = energy_sample(domain.scratch.velocity_before, domain);
   double& first = domain.state.work.first_excess;
-  if (std::isnan(first)) {
-    first = excess_energy(domain.sample.budget);
-  } else if (begins_stage(domain.state)) {
-    // Where a load sets in on a body at rest there is no energy yet but this.
-    first += step_change_energy(domain.scratch.velocity_before, domain);
-  }
+  if (std::isnan(first)) first = excess_energy(domain.sample.budget) - domain.sample.budget.step_change;
   set_residual(first, domain.model.whole.energy_floor, domain.sample.budget);
 }
 

@@ -49,6 +49,10 @@ void set_model_args(const Domain& domain, SweepArgs& args) {
   args.gradient = local.gradient.data();
   args.volume = local.volume.data();
   args.node_mass = local.node_mass.data();
+  if (domain.model.plane) {
+    args.free_across = derived.free_across.data();
+    args.across = static_cast<std::size_t>(domain.model.plane->axis);
+  }
   args.shared_corners = derived.shared_corners.data();
   args.link = derived.links.link.data();
   args.place = derived.links.place.data();

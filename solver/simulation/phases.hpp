@@ -39,7 +39,16 @@ void move_nodes(bool sample, Domain& domain);
 /// Joints noted by the sweep join the active list.
 void activate_crossed_joints(Domain& domain);
 
-/// The energies at t_n: Domain::sample. Where a stage begins, what its change of the step moves counts as put in.
+/// Whether t_n lies between steps of different lengths.
+[[nodiscard]] inline bool changes_step(const Clock& clock) {
+  return clock.dt_before > 0 && clock.dt != clock.dt_before;
+}
+
+/// Where the step changes: what the change moves the kinetic energy by at t_n, in state.work; where a stage begins it
+/// counts as put in. @pre scratch.velocity_before is v_(n-1/2). Throws what any rank failed with.
+void account_step_change(Domain& domain);
+
+/// The energies at t_n: Domain::sample.
 /// @pre scratch.velocity_before is v_(n-1/2). Throws what any rank failed with.
 void sample_energies(Domain& domain);
 

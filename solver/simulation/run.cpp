@@ -137,7 +137,7 @@ class Runner {
   StageSteps begin_stage(std::size_t s) {
     const case_::Stage& stage = input_.stages[s];
     if (!from_ || s != first_stage()) return {input_, stage, partition_};
-    StageSteps steps(input_, stage, partition_, StepLooks{from_->until_look, from_->since_look});
+    StageSteps steps(input_, stage, partition_, StepLooks{from_->until_look, from_->since_look, from_->calm});
     if (options_.extended && s + 1 == input_.stages.size()) steps.fit_end();
     return steps;
   }
@@ -256,6 +256,7 @@ class Runner {
     RunPosition position = output_.position();
     position.until_look = steps_->looks().until;
     position.since_look = steps_->looks().since;
+    position.calm = steps_->looks().calm;
     if (insitu_) position.broken_count = insitu_->broken_count();
     return position;
   }

@@ -16,6 +16,8 @@ constexpr std::int64_t kStepsBetweenLooks = 100;
 constexpr std::int64_t kSoonest = 10;  // steps between looks where joints come apart, or the step is still to grow
 constexpr std::int64_t kTaken = 2;     // steps until contact has the faces of a joint that was released
 constexpr double kGrowth = 1.5;        // of the step at a look: motions of a step foretell those of the next
+constexpr double kWorthIt = 1.2;       // a step that could be so much longer grows
+constexpr std::int64_t kCalm = 300;   // steps, see the class comment
 constexpr double kMostTenths = 300;    // of the step at rest; what is shorter still is told as this
 
 /// How many times a step has come below a tenth of that at rest: 0 above a tenth, 1 above a hundredth, and so on.
@@ -54,7 +56,7 @@ StageSteps::StageSteps(const case_::Case& input, const case_::Stage& stage, Part
       at_rest_(input.time.step > 0 ? 0.0 : step_at_rest(partition)) {}
 
 StageSteps::StageSteps(const case_::Case& input, const case_::Stage& stage, Partition& partition)
-    : StageSteps(input, stage, partition, StepLooks{}) {
+    : StageSteps(input, stage, partition, StepLooks{.calm = kCalm}) {
   partition_.begin_stage(stage);
   partition_.domain().state.clock.dt = length(allowed());
   demand_countable();
@@ -72,13 +74,17 @@ double StageSteps::length(double allowed) const {
 }
 
 double StageSteps::allowed() {
-  looks_ = {kStepsBetweenLooks, 0};
+  const std::int64_t calm = looks_.calm + looks_.since;
+  looks_ = {.until = kStepsBetweenLooks};
   if (input_.time.step > 0) return input_.time.step;
   const Clock& clock = partition_.state().clock;
   const double now = partition_.step_length(steps_to_look());
   judge(now);
   const double stable = input_.time.safety * now, most = kGrowth * clock.dt;
-  if (clock.steps == 0 || stable <= most) return stable;
+  if (clock.steps == 0 || stable <= kWorthIt * clock.dt) return stable;
+  looks_.calm = calm;
+  if (calm < kCalm) return clock.dt;
+  if (stable <= most) return stable;
   looks_.until = kSoonest;
   return most;
 }
@@ -125,7 +131,7 @@ void StageSteps::look() {
 void StageSteps::adjust() {
   const double most = allowed(), now = partition_.state().clock.dt;
   // By more than 1 % down or 20 % up: a length that is kept leaves the limit a margin, and fits the end of the stage.
-  if (most < 0.99 * now || length(most) > 1.2 * now) partition_.domain().state.clock.dt = length(most);
+  if (most < 0.99 * now || length(most) > kWorthIt * now) partition_.domain().state.clock.dt = length(most);
 }
 
 void StageSteps::prepare_next() {

@@ -77,6 +77,7 @@ struct AccountedWork {
   JointWork joints;
   ContactWork contact;
   double first_excess = std::numeric_limits<double>::quiet_NaN();  ///< energy beyond external work, first sample
+  double step_change = 0;  ///< moved within stages, where the step changed; of the whole model
 };
 
 /// Sums over the run, this rank's part; searches are the same on all ranks.
@@ -133,6 +134,7 @@ struct FieldTable<State> {
       FieldRow{"friction_stored", "J", kSummed, [](auto& s) -> auto& { return s.work.contact.friction_stored; }},
       FieldRow{"touching", "1", kSumNotHashed, [](auto& s) -> auto& { return s.work.contact.touching; }},
       FieldRow{"first_excess", "J", kNotHashed, [](auto& s) -> auto& { return s.work.first_excess; }},
+      FieldRow{"step_change", "J", kNotHashed, [](auto& s) -> auto& { return s.work.step_change; }},
       FieldRow{"crushed", "1", kSummed, [](auto& s) -> auto& { return s.counters.crushed; }},
       FieldRow{"searches", "1", kNotHashed, [](auto& s) -> auto& { return s.counters.searches; }},
       FieldRow{"messages", "1", kSumNotHashed, [](auto& s) -> auto& { return s.counters.messages; }},

@@ -264,6 +264,35 @@ TEST(MaxSteps, gives_the_last_line_also_where_the_model_would_be_divided_anew_th
   }
 }
 
+TEST(Budget, holds_what_changes_of_the_step_move_where_a_block_rebounds_and_vibrates) {
+  const Scratch scratch;
+  scratch.write("blocks.geo", R"(SetFactory("OpenCASCADE");
+Rectangle(1) = {-0.005, -0.004, 0, 0.010, 0.004};
+Rectangle(2) = {-0.001, 10e-6, 0, 0.002, 0.002};
+Extrude {0, 0, 0.001} { Surface{1:2}; Layers{1}; }
+Physical Volume("block") = {1};
+Physical Volume("striker") = {2};
+Physical Surface("base") = Surface In BoundingBox {-1, -0.004-1e-6, -1, 1, -0.004+1e-6, 1};
+MeshSize{:} = 0.001;
+Mesh.Algorithm = 5;
+)");
+  const auto material = [](const std::string& group) {
+    return "[[material]]\ngroup = \"" + group + "\"\nyoung = \"70 GPa\"\npoisson = 0.3\ndensity = 2700\n" +
+           "joints = \"none\"\n";
+  };
+  const FinishedRun run(scratch.write(
+      "strike.toml",
+      "[mesh]\nfile = \"blocks.geo\"\n" + material("block") + material("striker") +
+          "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"70 GPa\"\n[[initial_velocity]]\ngroup = \"striker\"\n"
+          "velocity = [0, \"-20 m/s\", 0]\n[[stage]]\nend = \"150 us\"\n[[stage.constraint]]\ngroup = \"base\"\n"
+          "fixed = \"xyz\"\n[output]\nhistory_interval = \"0.2 us\"\nframe_interval = 0\n"));
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  // While they touch it is more: what the steps leave in which that begins, the last ones put right.
+  EXPECT_LT(run.history.at("relative residual").back(), kResidual);
+  EXPECT_GT(run.largest("step change [J]"), kResidual * run.largest("kinetic [J]")) << "unaccounted it would stop runs";
+  EXPECT_EQ(run.largest("contact dissipated [J]"), 0);
+}
+
 /// Two boxes that meet and fly apart: contact makes the step some thirty times shorter than it is without.
 std::string rebound_case() {
   return "[mesh.raster]\ncells = [1, 1, 1]\nboxes = [2, 1, 1]\ngap = [0.0002, 0, 0]\ncell_size = 0.02\ngroup = \"b\"\n"

@@ -93,5 +93,74 @@ TEST(Plane, PlatesShatterToTheSameBitsOnAnyNumberOfRanks) {
   }
 }
 
+/// A slice that is pressed on another one, without friction, and slides along it.
+const std::string kPress = R"(title = "Press"
+[mesh]
+file = "press.geo"
+[plane]
+kind = "stress"
+[[material]]
+group = "block"
+young = "70 GPa"
+poisson = 0.3
+density = 2700
+joints = "none"
+[[material]]
+group = "press"
+young = "210 GPa"
+poisson = 0.3
+density = 7800
+joints = "none"
+[[contact]]
+between = ["*", "*"]
+penalty = "70 GPa"
+[[stage]]
+end = "1.2 ms"
+mass_damping = 2000
+[[stage.constraint]]
+group = "press"
+[stage.constraint.velocity]
+x = { table = [[0, 0], ["0.4 ms", 0], ["0.5 ms", 0.4], ["2 ms", 0.4]] }
+y = { table = [[0, 0], ["0.1 ms", -0.05], ["0.3 ms", -0.05], ["0.4 ms", 0], ["2 ms", 0]] }
+[[stage.constraint]]
+group = "base"
+fixed = "xy"
+[output]
+frame_interval = 0
+history_interval = "0.1 ms"
+gauges = ["press", "block"]
+)";
+
+TEST(Plane, APressUnderPlaneStressStaysInItsPlaneAndKeepsPressing) {
+  const Scratch scratch;
+  scratch.write("press.geo", R"(SetFactory("OpenCASCADE");
+Rectangle(1) = {-0.005, -0.004, 0, 0.010, 0.004};
+Rectangle(2) = {-0.001, 0, 0, 0.002, 0.002};
+Extrude {0, 0, 0.001} { Surface{1:2}; Layers{1}; }
+Physical Volume("block") = {1};
+Physical Volume("press") = {2};
+Physical Surface("base") = Surface In BoundingBox {-1, -0.004-1e-6, -1, 1, -0.004+1e-6, 1};
+MeshSize{:} = 0.001;
+Mesh.Algorithm = 5;
+)");
+  const std::string history = scratch.path("run/history.csv").string();
+  const Outcome outcome =
+      call("run " + scratch.write("press.toml", kPress) + " --progress none -o '" + scratch.path("run").string() + "'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(energy_fault(history), "");
+  const std::vector<double> time = history_column(history, "time [s]");
+  const std::vector<double> force = history_column(history, "press reaction y [N]");
+  const std::vector<double> across = history_column(history, "press displacement z [m]");
+  double pressed = 0;
+  for (std::size_t line = 0; line < time.size(); ++line) {
+    EXPECT_LT(std::abs(across[line]), 1e-6) << "at " << time[line] << " s";
+    if (time[line] < 0.45e-3) pressed = force[line];
+    if (time[line] < 0.55e-3) continue;
+    EXPECT_NEAR(force[line] / pressed, 1.0, 0.05) << "slides at " << time[line] << " s";
+  }
+  // 10 um on a stack of 6 mm, whose lower part is the wider one: no less than a quarter of what a bar would bear.
+  EXPECT_LT(pressed, -0.25 * 70e9 * 2e-6 * 10e-6 / 6e-3);
+}
+
 }  // namespace
 }  // namespace breccia::test

@@ -89,17 +89,19 @@ void Pass::touch_point(Index point) {
             [](const TouchingCouple& a, const TouchingCouple& b) { return a.contactor < b.contactor; });
 }
 
-/// A point on the border of neighbouring elements is inside all of them (kInside): the first one counts.
+/// A point on the border of neighbouring elements is inside all of them (kInside): the first one counts. So it does
+/// where they overlap, as a joint between them is pressed together, unless a crack runs there: two fragments each push.
 void Pass::drop_ambiguous() {
+  const auto is_one = [&](const Candidate& a, const Candidate& b) {
+    const bool on_border = smallest(a.lambda) < kInside && smallest(b.lambda) < kInside;
+    const bool whole = has_sides(params_, contact_, a.contactor) && has_sides(params_, contact_, b.contactor);
+    return (on_border || whole) && are_neighbours(a.contactor, b.contactor);
+  };
   std::size_t kept = 1;
   for (std::size_t i = 1; i < candidates_.size(); ++i) {
     const Candidate& here = candidates_[i];
-    const bool counted =
-        smallest(here.lambda) < kInside &&
-        std::any_of(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(kept),
-                    [&](const Candidate& c) {
-                      return smallest(c.lambda) < kInside && are_neighbours(c.contactor, here.contactor);
-                    });
+    const bool counted = std::any_of(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(kept),
+                                     [&](const Candidate& c) { return is_one(c, here); });
     if (!counted) candidates_[kept++] = Candidate(here);
   }
   candidates_.resize(kept);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "model/model.hpp"
+#include "unit/case/case_files.hpp"
 #include "unit/model/two_boxes.hpp"
 
 namespace breccia {
@@ -42,6 +43,26 @@ TEST(Derived, LeavesJointsAtSharedNodesToTheActiveList) {
     EXPECT_EQ(is_swept(model, derived, std::min(a, b), a < b ? joint.face.face_a : joint.face.code / 3), !shared);
   }
   EXPECT_GT(between, 0u);
+}
+
+/// Of a layer of cubes of 10 mm across y.
+Model layer_model(const std::string& kind) {
+  return build_model(case_::read_text(case_::minimal + "[plane]\nkind = \"" + kind + "\"\naxis = \"y\"\n",
+                                      {"mesh.raster.cells=[3, 1, 2]"}));
+}
+
+TEST(Derived, HoldsNodesAcrossUnderPlaneStrainAndThoseOfTheLowerSideUnderPlaneStress) {
+  for (const bool strain : {true, false}) {
+    const Model model = layer_model(strain ? "strain" : "stress");
+    const Derived derived = derive(model);
+    ASSERT_EQ(derived.free_across.size(), at(model.local.num_nodes));
+    for (Index n = 0; n < model.local.num_nodes; ++n) {
+      if (model.local.node_id[at(n)] < 0) continue;
+      const bool lower = model.local.reference[nodal(n, 1)] < 1e-6;
+      EXPECT_EQ(derived.free_across[at(n)], strain || lower ? 0.0 : 1.0) << n;
+    }
+  }
+  EXPECT_TRUE(derive(build_model(test::two_boxes_case())).free_across.empty());
 }
 
 TEST(SweepOrder, HasEveryBlockOnceAndFirstThoseThatAreSentOrHeld) {

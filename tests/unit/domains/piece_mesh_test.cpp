@@ -160,22 +160,15 @@ TEST(Records, OfContactAreNotPossibleWithoutTheirContactorsAndPoints) {
 }
 
 TEST(Records, MayHoldNodesByTheConstraintsOfTheirStageAlone) {
-  case_::Case input;
   case_::Stage stage;
   stage.constraints.resize(2);
   Records records;
   const auto held_by = [&](Index entry) {
     records.holds = {{0, 0, 0, 0, 0.0, 0.0}, {0, entry, 0, 0, 0.0, 0.0}};
-    demand_constraints("a.h5", records, input, stage);
+    demand_constraints("a.h5", records, stage);
   };
   EXPECT_NO_THROW(held_by(1));
   for (const Index entry : {-1, 2, 1000000}) EXPECT_THROW(held_by(entry), InputError) << entry;
-  input.plane.emplace();
-  input.plane->kind = case_::PlaneKind::stress;
-  EXPECT_THROW(held_by(2), InputError);
-  input.plane->kind = case_::PlaneKind::strain;  // holds all nodes across, behind the constraints of the stage
-  EXPECT_NO_THROW(held_by(2));
-  EXPECT_THROW(held_by(3), InputError);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include "base/error.hpp"
 #include "model/model.hpp"
-#include "model/parameters.hpp"
 #include "unit/case/case_files.hpp"
 
 namespace breccia {
@@ -84,17 +83,10 @@ TEST(Plane, outline_is_the_surface_without_the_sides) {
   EXPECT_EQ(all, 4 * (kSquares + kSides));
 }
 
-TEST(Plane, strain_holds_every_node_along_the_axis_as_the_last_constraint_and_stress_none) {
-  const std::string support = "[[stage.constraint]]\ngroup = \"raster.x0\"\nfixed = \"xz\"\n";
-  const case_::Case strain = layer("[3, 1, 2]", "y", "strain", support);
-  const Model model = build_model(strain);
-  const StageLoads loads = stage_loads(strain.stages.front(), model);
-  ASSERT_EQ(loads.constraints.size(), 2u);
-  EXPECT_EQ(loads.constraints.back().axes, (std::array{false, true, false}));
-  EXPECT_TRUE(holds_still(loads.constraints.back()));
-  EXPECT_EQ(loads.constraints.back().nodes, nodes_of_group(model, "raster"));
-  const case_::Case stress = layer("[3, 1, 2]", "y", "stress", support);
-  EXPECT_EQ(stage_loads(stress.stages.front(), build_model(stress)).constraints.size(), 1u);
+TEST(Plane, model_knows_its_lower_side) {
+  const case_::Case input = case_::read_text(case_::minimal + "[plane]\nkind = \"stress\"\naxis = \"y\"\n",
+                                             {"mesh.raster.cells=[3, 1, 2]", "mesh.raster.origin=[0, -1, 0]"});
+  EXPECT_NEAR(build_bare_model(input).whole.lower_side, -1.0, 1e-12);
 }
 
 }  // namespace

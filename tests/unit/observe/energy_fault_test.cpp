@@ -53,6 +53,17 @@ TEST(EnergyFault, CountsWhatWasThereAtFirstAsPutIn) {
   EXPECT_EQ(key_of_fault(budget, 50), "time.energy_gain_limit");
 }
 
+TEST(EnergyFault, AccountsWhatChangesOfTheStepMoveButDoesNotCountItAsPutIn) {
+  EnergyBudget budget;
+  budget.external_work = 100;
+  budget.kinetic = 90;
+  budget.step_change = -10;
+  EXPECT_EQ(key_of_fault(budget), "") << "taken";
+  budget.kinetic = 110;
+  budget.step_change = 10;
+  EXPECT_EQ(key_of_fault(budget), "time.energy_gain_limit") << "given";
+}
+
 TEST(EnergyFault, IsNoneWhileTheLargestTermIsRoundOff) {
   EnergyBudget budget;
   budget.kinetic = 0.9 * kFloor;

@@ -106,12 +106,12 @@ TEST_F(HistoryTest, EveryTermOfTheBudgetStandsUnderItsName) {
   EnergyBudget& e = row.energy;
   e.kinetic = 1, e.elastic = 2, e.joint_elastic = 3, e.contact_stored = 4, e.joint_mode_1 = 5, e.joint_mode_2 = 6;
   e.joint_friction = 7, e.contact_dissipated = 8, e.contact_friction = 9, e.viscous = 10, e.damping = 11;
-  e.external_work = 12, e.residual = 13;
+  e.external_work = 12, e.step_change = 13, e.residual = 14;
   const std::vector<std::string> columns = history_columns({}, false);
   const std::vector<double> values = history_values(row);
   ASSERT_EQ(values.size(), columns.size());
   std::vector<std::string> terms;
-  for (double number = 1; number <= 13; ++number) {
+  for (double number = 1; number <= 14; ++number) {
     const auto found = std::find(values.begin(), values.end(), number);
     ASSERT_NE(found, values.end()) << number;
     terms.push_back(columns[static_cast<std::size_t>(found - values.begin())]);
@@ -119,7 +119,7 @@ TEST_F(HistoryTest, EveryTermOfTheBudgetStandsUnderItsName) {
   EXPECT_THAT(terms, testing::ElementsAre("kinetic [J]", "elastic [J]", "joint elastic [J]", "contact stored [J]",
                                           "joint mode 1 [J]", "joint mode 2 [J]", "joint friction [J]",
                                           "contact dissipated [J]", "contact friction [J]", "viscous [J]",
-                                          "damping [J]", "external work [J]", "residual [J]"));
+                                          "damping [J]", "external work [J]", "step change [J]", "residual [J]"));
 }
 
 TEST_F(HistoryTest, EveryLineHasOneFieldForEachColumn) {

@@ -60,7 +60,7 @@ TEST(SummaryJson, HasExactlyTheFieldsThatReadersKnow) {
   EXPECT_THAT(names_of(summary.at("energy")),
               UnorderedElementsAre("kinetic", "elastic", "joint_elastic", "contact_stored", "joint_mode_1",
                                    "joint_mode_2", "joint_friction", "contact_dissipated", "contact_friction",
-                                   "plastic", "viscous", "damping", "external_work", "residual"));
+                                   "plastic", "viscous", "damping", "external_work", "step_change", "residual"));
 }
 
 TEST(SummaryJson, HoldsTheValues) {

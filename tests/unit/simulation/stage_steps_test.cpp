@@ -40,6 +40,16 @@ class StageStepsOfCubes : public testing::Test {
     while (steps_.looks().since > 0) steps_.look();
   }
 
+  /// Looks, at most so many, until the step has grown. @return  how many
+  int steps_until_grown(int most) {
+    const double dt = partition_.state().clock.dt;
+    for (int step = 1; step <= most; ++step) {
+      steps_.look();
+      if (partition_.state().clock.dt > dt) return step;
+    }
+    return most + 1;
+  }
+
   const case_::Case input_;
   Partition partition_;
   StageSteps steps_;
@@ -73,6 +83,20 @@ TEST_F(StageStepsOfCubes, AreNotHalvedAtTheEndOfTheirStageByALimitThatHardlyMove
     look();
     EXPECT_EQ(clock.dt, step) << left;
   }
+}
+
+TEST_F(StageStepsOfCubes, GrowAfterThreeHundredStepsInWhichEveryLookWouldHaveLetThem) {
+  look();
+  partition_.domain().state.clock.dt *= 0.25;
+  constexpr int kLooks = 100;  // steps between them
+  EXPECT_EQ(steps_until_grown(290), 291);
+  draw_out(7, 100);
+  look();
+  draw_out(7, 1);
+  const int steps = steps_until_grown(1000);
+  EXPECT_GE(steps, 300);
+  EXPECT_LE(steps, 300 + 2 * kLooks);
+  EXPECT_LE(steps_until_grown(kLooks), 10) << "growing, it is looked at again soon";
 }
 
 TEST(StageStepsOfAGivenLength, AreNotLookedAt) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "base/error.hpp"
 #include "unit/model/two_boxes.hpp"
 #include "unit/observe/two_cubes.hpp"
@@ -71,6 +73,47 @@ TEST_F(StepOfCubes, KicksByTheMeanOfTwoStepsWhereTheirLengthChanges) {
   const double speed = 9.81 * (1 + 0.5 * (1 + 3)) * kCubeStep;
   constexpr double kRounding = 1e-13;  // m/s: positions are round to 1e-18 m
   EXPECT_LE(deviation(model.local, domain.state.nodes.velocity, [&](Index) { return Vec3(0, 0, -speed); }), kRounding);
+}
+
+/// A box that vibrates along x, in steps near the stable one.
+class VibratingCubes : public StepOfCubes {
+ protected:
+  static constexpr double kStep = 4e-7, kSpeed = 0.01;  // s; m/s, of its ends: joints stay elastic
+
+  VibratingCubes() {
+    for (Index n = 0; n < model.local.num_nodes; ++n)
+      store_node(domain.state.nodes.velocity.data(), n, Vec3(kSpeed * (start(n)[0] / test::kCubeEdge - 1), 0, 0));
+  }
+  /// One step, of which the energies are sampled.
+  const EnergyBudget& advance(double dt) {
+    domain.state.clock.dt = dt;
+    step(domain, {.sample = true});
+    return domain.sample.budget;
+  }
+};
+
+TEST_F(VibratingCubes, AccountWhatChangesOfTheStepMove) {
+  double largest = 0;
+  for (int i = 0; i < 600; ++i) {
+    const EnergyBudget& budget = advance(i % 7 < 3 ? kStep : 0.25 * kStep);
+    EXPECT_LT(budget.residual_relative, 1e-6) << i;
+    largest = std::max(largest, std::abs(budget.step_change));
+  }
+  EXPECT_GT(largest, 1e-4 * domain.sample.budget.kinetic);
+}
+
+TEST_F(VibratingCubes, ShowTheEnergyThatStepsInTheirRhythmGive) {
+  double gain = 0, stored = 0;
+  bool returns =
+      false;  // towards the middle: steps shrink where accelerations are largest, and grow where they are not
+  for (int i = 0; i < 4000; ++i) {
+    const EnergyBudget& budget = advance(returns ? 0.25 * kStep : kStep);
+    EXPECT_LT(budget.residual_relative, 1e-5) << i;
+    const double before = std::exchange(stored, budget.elastic + budget.joint_elastic);
+    returns = stored < before;
+    gain = budget.gain_relative;
+  }
+  EXPECT_GT(gain, 0.01);
 }
 
 TEST_F(StepOfCubes, SamplesTheEnergiesWhenAskedTo) {
