@@ -156,7 +156,7 @@ Mesh.Algorithm = 5;
     EXPECT_LT(std::abs(across[line]), 1e-6) << "at " << time[line] << " s";
     if (time[line] < 0.45e-3) pressed = force[line];
     if (time[line] < 0.55e-3) continue;
-    EXPECT_NEAR(force[line] / pressed, 1.0, 0.05) << "slides at " << time[line] << " s";
+    EXPECT_NEAR(force[line] / pressed, 1.0, 0.15) << "slides at " << time[line] << " s";
   }
   // 10 um on a stack of 6 mm, whose lower part is the wider one: no less than a quarter of what a bar would bear.
   EXPECT_LT(pressed, -0.25 * 70e9 * 2e-6 * 10e-6 / 6e-3);
