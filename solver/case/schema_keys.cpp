@@ -153,8 +153,8 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "joint[].group", .type = text, .help = "Group whose inner joints follow this law. Give this or between.",
      .example = "\"glass\""},
     {.path = "joint[].between", .type = text_pair,
-     .help = "Two groups whose glued interface follows this law, also where both have joints = \"none\" inside. Give "
-             "this or group.",
+     .help = "Two groups whose glued interface follows this law, also where both have joints = \"none\" inside. "
+             "Without strengths it holds for good; between two breakable groups it needs them. Give this or group.",
      .example = "[\"brick\", \"mortar\"]"},
     {.path = "joint[].law", .type = choice, .fallback = "mixed_mode", .choices = "mixed_mode|independent_peaks",
      .help = "mixed_mode: elliptic onset; a joint has failed when what it took in mode I over energy_mode_1 and in "
@@ -357,7 +357,9 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Damping against the velocity, as a share beta of the unbalanced force on each node: 0.3 to 0.8 find a "
              "state of rest quickly. The step is shorter by sqrt(1 + beta). Not where something is to move: a body "
              "falls with 1 - beta of its acceleration, and one that slides on a joint or a rough surface creeps or "
-             "stops, since its vibrations are damped at the cost of what drives it.",
+             "stops, since its vibrations are damped at the cost of what drives it. Nor where reactions are recorded "
+             "(output.gauges) while anything accelerates or breaks: they include what the damping takes, 1/(1 - beta) "
+             "times the force where a body is accelerated.",
      .example = "0.5"},
     {.path = "stage[].broken", .type = text_list, .fallback = "[]",
      .help = "Surfaces whose joints are broken when the stage starts. What they hold by then counts as dissipated in "
@@ -377,7 +379,8 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "stage[].constraint[].fixed", .type = axes, .help = "Axes along which the nodes stay where they are.",
      .example = "\"xyz\""},
     {.path = "stage[].constraint[].velocity", .type = axis_functions, .unit = "m/s",
-     .help = "Velocity by axis, functions of time.", .example = "{ y = \"-1 mm/s\" }"},
+     .help = "Velocity by axis, functions of time. One that is not 0 at the start strikes what rests with a wave of "
+             "stress rho c v; a ramp over many crossings of a wave does not.", .example = "{ y = \"-1 mm/s\" }"},
     {.path = "stage[].constraint[].displacement", .type = axis_functions, .unit = "m",
      .help = "Displacement by axis since the start of the stage, functions of time.",
      .example = "{ x = { table = [[0, 0], [\"1 ms\", \"1 mm\"]] } }"},

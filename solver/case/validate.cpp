@@ -194,9 +194,11 @@ class Validator {
     };
     if (inside && material(j.groups[0]) != nullptr && material(j.groups[0])->joints == JointPlacement::none)
       problem(j.origin, "group", "the group has no joints",
-              "joints = \"breakable\" or \"unbreakable\" in its [[material]]", j.groups[0]);
+              "joints = \"breakable\" or \"unbreakable\" in its [[material]], or between for its interface",
+              j.groups[0]);
     const bool strong = !inside && (j.tensile_strength > 0 || j.shear_strength > 0 || j.energy_mode_1 > 0);
-    if (!breakable(j.groups[0]) && !breakable(j.groups[1]) && !strong) return;
+    // An interface without strengths is glue, unless both of its sides break.
+    if (!(breakable(j.groups[0]) && breakable(j.groups[1])) && !strong) return;
     const std::string why = "is missing: joints of " + words(j.groups) + " can fail";
     if (j.tensile_strength == 0) problem(j.origin, "tensile_strength", why, "a strength > 0");
     if (j.energy_mode_1 == 0) problem(j.origin, "energy_mode_1", why, "a fracture energy > 0");

@@ -47,13 +47,12 @@ Problem no_law(const case_::Case& input, const std::vector<std::string>& names, 
           ""};
 }
 
-/// Joints can fail inside of a breakable group and where one ends, and at any interface that has a strength.
+/// Joints can fail inside of a breakable group, and at any interface that has a strength.
 bool can_fail(const case_::Case& input, const case_::Joint& entry) {
-  const auto breakable = [&](const case_::Material& m) {
-    return m.joints == case_::JointPlacement::breakable && (m.group == entry.groups[0] || m.group == entry.groups[1]);
-  };
-  return std::any_of(input.materials.begin(), input.materials.end(), breakable) ||
-         (entry.groups[0] != entry.groups[1] && entry.tensile_strength > 0);
+  if (entry.groups[0] != entry.groups[1]) return entry.tensile_strength > 0;
+  return std::any_of(input.materials.begin(), input.materials.end(), [&](const case_::Material& m) {
+    return m.joints == case_::JointPlacement::breakable && m.group == entry.groups[0];
+  });
 }
 
 void include_class(WholeModel::JointGroups& groups, Index number) {

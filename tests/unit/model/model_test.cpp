@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "mesh/geometry.hpp"
@@ -87,6 +88,42 @@ TEST(Model, has_for_each_law_the_mean_edge_of_its_joints) {
       count += 1;
     }
     EXPECT_DOUBLE_EQ(model.joint_sizes[l], sum / count);
+  }
+}
+
+/// The two boxes with nothing but the groups in the law of their interface. @param right  joints of that group
+std::string glued(const std::string& right) {
+  std::string text = test::kTwoBoxesCase;
+  const std::size_t at = text.find("between = [\"left\", \"right\"]\n") + 28;
+  text.erase(at, text.find("[[contact]]") - at);
+  text.replace(text.find("group = \"right\"\n"), 16, "group = \"right\"\njoints = \"" + right + "\"\n");
+  if (right != "none") return text;
+  const std::size_t joint = text.find("[[joint]]\ngroup = \"right\"");
+  return text.erase(joint, text.find("[[joint]]", joint + 1) - joint);
+}
+
+TEST(Model, glues_a_breakable_group_for_good_to_one_that_is_not_where_the_interface_has_no_strength) {
+  for (const char* right : {"none", "unbreakable"}) {
+    const Model model = build_model(two_boxes_case({}, glued(right)));
+    ASSERT_EQ(model.joint_law_names.front(), "left") << right;
+    std::vector<std::string> breakable;
+    for (std::size_t l = 0; l < model.joint_law_names.size(); ++l) {
+      if (model.joint_laws[l].breakable()) breakable.push_back(model.joint_law_names[l]);
+    }
+    EXPECT_EQ(breakable, std::vector<std::string>{"left"}) << right;
+    EXPECT_TRUE(std::any_of(model.joints.begin(), model.joints.end(), [&](const ModelJoint& joint) {
+      return model.joint_law_names[at(joint.law)] == "left-right";
+    })) << right;
+  }
+}
+
+TEST(Model, wants_strengths_at_the_interface_of_two_breakable_groups) {
+  try {
+    two_boxes_case({}, glued("breakable"));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("joints of \"left\" and \"right\" can fail"), std::string::npos)
+        << error.what();
   }
 }
 
