@@ -9,6 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/geometry.hpp"
+#include "mesh/tetrahedron.hpp"
+
 namespace breccia {
 namespace {
 
@@ -62,29 +65,56 @@ Sides sides_of(const Model& model, std::size_t groups) {
   return {};
 }
 
-/// m, below which the edges of a tenth of a pair's joints are.
-double fine_edge(const Model& model, std::size_t groups) {
+/// Mean length of the edges of a joint, m; of a plane model as seen along its axis, without those that stand upright:
+/// a crack runs through the thickness at once, whatever that is.
+double edge_of(const Model& model, const JointFace& face) {
+  if (!model.plane) return face.size;
+  constexpr double kUpright = 1e-6;  // of an edge: round-off of a mesh written with few digits
+  const auto x = geometry::corners_of(model.mesh, face.a);
+  const auto& corners = kFaceCorners[static_cast<std::size_t>(face.face_a)];
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    Vec3 edge = x[static_cast<std::size_t>(corners[(i + 1) % 3])] - x[static_cast<std::size_t>(corners[i])];
+    const double length = edge.norm();
+    edge[model.plane->axis] = 0;
+    if (edge.norm() <= kUpright * length) continue;
+    sum += edge.norm();
+    ++count;
+  }
+  return count > 0 ? sum / count : face.size;
+}
+
+/// Edges of the joints of a pair, m.
+struct Edges {
+  double mean = 0;
+  double fine = 0;  ///< below which those of a tenth of the joints are
+};
+Edges edges_of(const Model& model, std::size_t groups) {
   std::vector<double> edges;
   for (const ModelJoint& joint : model.joints) {
-    if (groups_of(model, joint) == groups) edges.push_back(joint.face.size);
+    if (groups_of(model, joint) == groups) edges.push_back(edge_of(model, joint.face));
   }
-  if (edges.empty()) return 0;
+  if (edges.empty()) return {};
+  const double mean = std::accumulate(edges.begin(), edges.end(), 0.0) / static_cast<double>(edges.size());
   const auto tenth = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 10);
   std::nth_element(edges.begin(), tenth, edges.end());
-  return *tenth;
+  return {mean, *tenth};
+}
+
+/// Whether a group has joints of its own that can break.
+bool breaks_inside(const Model& model, Index group) {
+  for (std::size_t l = 0; l < model.whole.joint_groups.size(); ++l) {
+    const WholeModel::JointGroups& groups = model.whole.joint_groups[l];
+    if (groups.a == group && groups.b == group) return model.joint_laws[l].breakable();
+  }
+  return false;
 }
 
 /// Whether the joints of a pair lie on planes between two groups neither of which can break inside.
-bool path_is_given(const Model& model, std::size_t groups) {
-  std::vector<bool> breaks_inside(model.mesh.volume_groups.size(), false);
-  for (const ModelJoint& joint : model.joints) {
-    const auto [a, b] = groups_beside(model, joint);
-    if (a == b && model.joint_laws[index(joint.law)].breakable()) breaks_inside[a] = true;
-  }
-  return std::all_of(model.joints.begin(), model.joints.end(), [&](const ModelJoint& joint) {
-    const auto [a, b] = groups_beside(model, joint);
-    return groups_of(model, joint) != groups || (a != b && !breaks_inside[a] && !breaks_inside[b]);
-  });
+bool path_is_given(const Model& model, std::size_t l) {
+  const WholeModel::JointGroups& groups = model.whole.joint_groups[l];
+  return groups.a != groups.b && !breaks_inside(model, groups.a) && !breaks_inside(model, groups.b);
 }
 
 /// Least length of the fracture process zone of a pair, m: the lesser of two estimates.
@@ -97,14 +127,37 @@ double process_zone(const Model& model, std::size_t groups) {
 /// Elements are of different sizes where the finest tenth is below this share of the mean.
 constexpr double kGraded = 0.7;
 
+/// Share of the process zone that elements should have, so that several lie across it.
+constexpr double kWanted = 1.0 / 3;
+
 /// Finer elements or shorter steps than this are not advised: elements would be 8,000 times as many.
 constexpr double kWorthRefining = 20;
 
+bool beyond_refining(double h, double zone) { return h > kWorthRefining * kWanted * zone; }
+
+/// What depends on the mesh, and what to do: one aim, whatever the elements are.
+/// @param refinement  to a third of the process zone;  @param larger  they are larger than all of it
+std::string refine(double refinement, bool larger, bool given) {
+  const std::string by = fmt::format("Refine by {:.2g}, to a third of that zone,", refinement);
+  const char* instead = " or take the results as qualitative.";
+  if (given) {
+    return fmt::format(
+        "the load at fracture and the speed of the crack depend on the mesh; its path is given, between two groups "
+        "that cannot break. {}{}",
+        by, larger ? instead : " where load and speed matter.");
+  }
+  if (larger) return fmt::format("the load at fracture and the crack paths depend on the mesh. {}{}", by, instead);
+  return fmt::format(
+      "crack paths and branching depend on the mesh. {} where cracks are to branch or turn; a fine mesh alone does not "
+      "make a crack branch, that takes enough load as well.",
+      by);
+}
+
 /// Element size against the process zone, m.
-/// @param h, fine  edges: mean, and of the finest tenth
-/// @param given    the joints lie on planes alone: see path_is_given
-std::string zone_advice(const std::string& name, double zone, double h, double fine, bool given) {
-  constexpr double kWanted = 1.0 / 3, kClearlyLarger = 1.1;
+/// @param given  the joints lie on planes alone: see path_is_given
+std::string zone_advice(const std::string& name, double zone, const Edges& edges, bool given) {
+  constexpr double kClearlyLarger = 1.1;
+  const double h = edges.mean, fine = edges.fine;
   if (h <= kWanted * zone) return {};
   const std::string elements = fmt::format("The elements of {} (edge {:.3g} m)", name, h);
   if (fine < kGraded * h && fine <= kWanted * zone) {
@@ -113,35 +166,20 @@ std::string zone_advice(const std::string& name, double zone, double h, double f
         "m): trust fracture in that part alone.",
         elements, zone, fine);
   }
-  if (h > kWorthRefining * zone) {
+  if (beyond_refining(h, zone)) {
     return fmt::format(
         "{} are far larger than its fracture process zone, which no practicable mesh resolves: how these joints break "
         "depends on the mesh. It is of no concern where a group was made soft for an excavation, or in a thin soft "
         "layer; else look at young, tensile_strength and energy_mode_1.",
         elements);
   }
-  const std::string finest = fine < kGraded * h ? fmt::format(", in the finest tenth {:.2g}", fine / zone) : "";
-  if (h > kClearlyLarger * zone) {
-    return fmt::format(
-        "{} are larger than its fracture process zone (h_max = {:.3g} m{}): the load at fracture and the {} depend on "
-        "the mesh. Refine by {:.2g}, or take the results as qualitative.",
-        elements, zone, finest.empty() ? "" : finest + " of it", given ? "speed of the crack" : "crack paths",
-        h / zone);
-  }
-  const std::string share = h < 0.95 * zone ? fmt::format("{:.2g} of", h / zone) : "as large as";
-  const std::string ratio =
-      fmt::format("{} are {} its fracture process zone ({:.3g} m){}: above a third", elements, share, zone, finest);
-  const double refinement = h / (kWanted * zone);
-  if (given) {
-    return fmt::format(
-        "{} the load at fracture and the speed of the crack depend on the mesh; its path is given, between two groups "
-        "that cannot break. Refine by {:.2g} where load and speed matter.",
-        ratio, refinement);
-  }
-  return fmt::format(
-      "{} crack paths and branching depend on the mesh. Refine by {:.2g} where cracks are to branch or turn; a fine "
-      "mesh alone does not make a crack branch, that takes enough load as well.",
-      ratio, refinement);
+  const bool larger = h > kClearlyLarger * zone;
+  const std::string share = larger            ? "larger than"
+                            : h < 0.95 * zone ? fmt::format("{:.2g} of", h / zone)
+                                              : "as large as";
+  const std::string finest = fine < kGraded * h ? fmt::format(", in the finest tenth {:.2g} of it", fine / zone) : "";
+  return fmt::format("{} are {} its fracture process zone ({:.3g} m){}: {}", elements, share, zone, finest,
+                     refine(h / (kWanted * zone), larger, given));
 }
 
 /// Strengths that scatter, of the joints of a pair; empty: they do not.
@@ -158,18 +196,25 @@ std::string scatter_report(const Model& model, std::size_t groups) {
                      strengths.front(), strengths.back(), mean, strengths[strengths.size() / 10]);
 }
 
+/// Of joints that cannot break: whether they could, on the interface of a breakable group; else empty.
+std::string glue_line(const Model& model, std::size_t l) {
+  const WholeModel::JointGroups& groups = model.whole.joint_groups[l];
+  if (groups.a == groups.b || !(breaks_inside(model, groups.a) || breaks_inside(model, groups.b))) return {};
+  return "  they cannot break: their [[joint]] has no tensile_strength\n";
+}
+
 /// The joints of a pair of groups: penalty, softness, process zone; warnings are added to `advice`.
 std::string law_report(const Model& model, std::size_t l, Advice& advice) {
   const JointLawParams& law = model.joint_laws[l];
-  const double h = model.joint_sizes[l], fine = fine_edge(model, l);
+  const Edges edges = edges_of(model, l);
   const double softness = sides_of(model, l).softer_young * area_per_volume(model, l) / (3 * law.stiffness);
   // Joints of one k lie the closer the finer the elements are.
-  const bool graded = fine > 0 && fine < kGraded * h;
-  const double softest = graded ? softness * h / fine : softness;
+  const bool graded = edges.fine > 0 && edges.fine < kGraded * edges.mean;
+  const double softest = graded ? softness * edges.mean / edges.fine : softness;
   const std::string& name = model.joint_law_names[l];
   std::string text =
       fmt::format("joints of {}: k = p/h = {:.4g} Pa/m with h = {:.4g} m; they make the body {:.2g} % softer{}\n", name,
-                  law.stiffness, h, 100 * softness,
+                  law.stiffness, model.joint_sizes[l], 100 * softness,
                   graded ? fmt::format(", {:.2g} % where a tenth of them is finest", 100 * softest) : "");
   if (softest > kWorthRaising * kSoftness) {
     advice.push_back(fmt::format(
@@ -178,12 +223,12 @@ std::string law_report(const Model& model, std::size_t l, Advice& advice) {
         name, 100 * softest, graded ? " where it is meshed finest" : "", softest / kSoftness,
         graded ? ", or give joint.size the edges of that part" : ""));
   }
-  if (!law.breakable()) return text;
+  if (!law.breakable()) return text + glue_line(model, l);
   const double zone = process_zone(model, l);
-  text += fmt::format("  fracture process zone at least {:.4g} m; mean joint edge {:.4g} m, a tenth below {:.4g} m\n",
-                      zone, h, fine);
+  text += fmt::format("  fracture process zone at least {:.4g} m; mean joint edge {:.4g} m{}, a tenth below {:.4g} m\n",
+                      zone, edges.mean, model.plane ? " in the plane" : "", edges.fine);
   text += scatter_report(model, l);
-  advise(advice, zone_advice(name, zone, h, fine, path_is_given(model, l)));
+  advise(advice, zone_advice(name, zone, edges, path_is_given(model, l)));
   return text;
 }
 
@@ -208,7 +253,7 @@ Advice sudden_softening(const Model& model, double dt) {
     const double steps = law.width_normal * impedance / (2 * law.tensile_strength * dt);
     if (steps >= kEnough) continue;
     // joint_report says that nothing resolves these.
-    if (kEnough / steps > kWorthRefining && model.joint_sizes[l] > kWorthRefining * process_zone(model, l)) continue;
+    if (kEnough / steps > kWorthRefining && beyond_refining(edges_of(model, l).mean, process_zone(model, l))) continue;
     advice.push_back(fmt::format(
         "The joints of {} soften within {:.2g} steps, too few to follow: of a glass bar 6 % of the energy was lost "
         "with 3.8 steps, 1.3 % with 10, and damping took more than fracture (time.residual_limit ends a run that loses "

@@ -14,6 +14,7 @@
 #include "model/model.hpp"
 #include "model/time_step.hpp"
 #include "unit/case/case_files.hpp"
+#include "unit/model/two_boxes.hpp"
 
 namespace breccia {
 namespace {
@@ -85,6 +86,28 @@ TEST(CheckReport, advises_on_elements_from_a_third_of_the_process_zone_on) {
   EXPECT_THAT(at_ratio(0.3), Not(HasSubstr("of its fracture process zone (")));
 }
 
+TEST(CheckReport, aims_at_a_third_of_the_process_zone_from_the_start) {
+  constexpr double kTwoDigits = 0.05;  // as many as are told
+  for (const char* energy : {"6 J/m2", "10 J/m2", "20 J/m2", "40 J/m2"}) {
+    const std::string report = report_of(kCubes, {std::string("joint[0].energy_mode_1=") + energy});
+    const double ratio = number_after(report, "mean joint edge ") / number_after(report, "process zone at least ");
+    EXPECT_NEAR(number_after(report, "Refine by ") / (3 * ratio), 1.0, kTwoDigits) << ratio;
+    EXPECT_THAT(report, HasSubstr(", to a third of that zone,")) << ratio;
+  }
+}
+
+TEST(CheckReport, measures_the_joints_of_a_plane_model_in_the_plane) {
+  const auto edge = [](const std::string& thickness, const std::string& plane) {
+    const std::string report = report_of(
+        kCubes + plane, {"mesh.raster.cells=[2, 2, 1]", "mesh.raster.cell_size=[0.01, 0.01, " + thickness + "]"});
+    EXPECT_EQ(report.find(" m in the plane, a tenth below ") != std::string::npos, !plane.empty()) << report;
+    return number_after(report, "mean joint edge ");
+  };
+  const std::string plane = "[plane]\nkind = \"strain\"\n";
+  EXPECT_EQ(edge("0.01", plane), edge("0.02", plane));
+  EXPECT_LT(edge("0.01", plane), edge("0.02", ""));
+}
+
 /// Two boxes of one cell, glued at x = 10 mm. @param upper  joints inside of the second;  @param young  of both, GPa
 std::string glued_report(const case_::CaseFolder& folder, const std::string& upper, double energy,
                          const std::array<double, 2>& young = {40, 40}) {
@@ -134,6 +157,19 @@ TEST(CheckReport, measures_an_interface_by_its_softer_side_and_its_process_zone_
   constexpr double kFourDigits = 1e-3;  // as many as are told; of the softness two, the same
   EXPECT_EQ(softer_below[0], alike[0]);
   EXPECT_NEAR(softer_below[1] / alike[1] / (2.0 / 11), 1.0, kFourDigits);
+}
+
+TEST(CheckReport, tells_of_an_interface_without_strengths_that_it_cannot_break) {
+  std::string glue = test::kTwoBoxesCase;
+  const std::size_t at = glue.find("between = [\"left\", \"right\"]\n") + 28;
+  glue.erase(at, glue.find("[[contact]]") - at);
+  glue.replace(glue.find("[[material]]", glue.find("[[material]]") + 1), 12, "[[material]]\njoints = \"unbreakable\"");
+  const auto report = [](const std::string& text) {
+    const case_::Case input = test::two_boxes_case({}, text);
+    return check_report(input, build_model(input));
+  };
+  EXPECT_THAT(report(glue), HasSubstr("  they cannot break: their [[joint]] has no tensile_strength"));
+  EXPECT_THAT(report(test::kTwoBoxesCase), Not(HasSubstr("they cannot break")));
 }
 
 TEST(CheckReport, advises_no_refinement_or_step_beyond_what_can_be_computed) {
