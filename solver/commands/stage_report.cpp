@@ -9,137 +9,14 @@
 #include <tuple>
 #include <vector>
 
-#include "base/disjoint_sets.hpp"
 #include "base/error.hpp"
+#include "commands/constraint_words.hpp"
+#include "commands/motion_report.hpp"
+#include "commands/solids.hpp"
 #include "output/quantity_text.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-const char* kind_of(const case_::Constraint& entry) {
-  switch (entry.kind) {
-    case case_::ConstraintKind::fixed:
-      break;
-    case case_::ConstraintKind::velocity:
-      return "velocity";
-    case case_::ConstraintKind::displacement:
-      return "displacement";
-  }
-  return "fixed";
-}
-
-/// "stage[0].constraint[1] (fixed, \"bottom\", line 24)"
-std::string name_of(const case_::Constraint& entry) {
-  return fmt::format("{} ({}, \"{}\", line {})", entry.origin.key, kind_of(entry), entry.group, entry.origin.line);
-}
-
-/// Bodies glued to each other, and what is known of each such solid.
-struct Solid {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::max());
-  Vec3 high = Vec3::Constant(std::numeric_limits<double>::lowest());
-  double speed = std::numeric_limits<double>::max();  ///< m/s, of waves, the slowest
-  double edge = std::numeric_limits<double>::max();   ///< m, H of its finest body
-  bool held = false;                                  ///< somewhere, in the stage
-  bool whole = false;                                 ///< all of it is held along all axes
-  bool pressed = false;                               ///< a pressure or traction of the stage acts on it
-
-  [[nodiscard]] double size() const { return (high - low).norm(); }
-};
-
-class Solids {
- public:
-  explicit Solids(const Model& model) : model_(model), sets_(at(model.mesh.num_bodies)) {
-    const Mesh& mesh = model.mesh;
-    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-      for (const FaceLink& link : model.topology.links[e]) {
-        if (link.inner()) sets_.join(mesh.element_body[e], mesh.element_body[at(link.neighbour)]);
-      }
-    }
-    all_.resize(at(mesh.num_bodies));
-    for (Index e = 0; e < mesh.num_elements(); ++e) {
-      Solid& solid = of(e);
-      for (const Index node : mesh.elements[at(e)]) {
-        solid.low = solid.low.cwiseMin(mesh.nodes[at(node)]);
-        solid.high = solid.high.cwiseMax(mesh.nodes[at(node)]);
-      }
-      const ElasticParams& p = model.elastic[at(mesh.element_group[at(e)])];
-      const double density = model.density[at(mesh.element_group[at(e)])];
-      solid.speed = std::min(solid.speed, std::sqrt((p.lambda + 2 * p.mu) / density));
-      solid.edge = std::min(solid.edge, model.whole.body_length[at(mesh.element_body[at(e)])]);
-    }
-  }
-
-  Solid& of(Index element) { return all_[at(sets_.root(model_.mesh.element_body[at(element)]))]; }
-
-  /// Which of them the constraints of a stage hold, and its pressures and tractions act on.
-  void hold(const case_::Stage& stage) {
-    for (Solid& solid : all_) solid.held = solid.whole = solid.pressed = false;
-    for (const case_::Constraint& entry : stage.constraints) {
-      const bool all_axes = entry.axes == std::array{true, true, true};
-      for_each_element(entry.group, [&](Index e, bool volume) {
-        of(e).held = true;
-        of(e).whole = of(e).whole || (volume && all_axes);
-      });
-    }
-    for (const case_::Pressure& pressure : stage.pressures)
-      for_each_element(pressure.surface, [&](Index e, bool) { of(e).pressed = true; });
-    for (const case_::Traction& traction : stage.tractions)
-      for_each_element(traction.surface, [&](Index e, bool) { of(e).pressed = true; });
-  }
-
-  /// The largest crossing time of a wave, s.
-  [[nodiscard]] double slowest_crossing() const {
-    double time = 0;
-    for (const Solid& solid : all_) {
-      if (solid.speed < std::numeric_limits<double>::max()) time = std::max(time, solid.size() / solid.speed);
-    }
-    return time;
-  }
-
-  /// The largest crossing time of a wave among solids that are held at some place, lie on others or are pressed on, s;
-  /// 0: none.
-  [[nodiscard]] double slowest_at_rest() const {
-    double time = 0;
-    for (std::size_t i = 0; i < all_.size(); ++i) {
-      const Solid& solid = all_[i];
-      if (solid.whole || !(solid.speed < std::numeric_limits<double>::max())) continue;
-      if (solid.held || solid.pressed || lies_on_another(i)) time = std::max(time, solid.size() / solid.speed);
-    }
-    return time;
-  }
-
- private:
-  template <class F>
-  void for_each_element(const std::string& group, F&& f) {
-    const Mesh& mesh = model_.mesh;
-    for (Index e = 0; e < mesh.num_elements(); ++e) {
-      if (mesh.volume_groups[at(mesh.element_group[at(e)])] == group) f(e, true);
-    }
-    for (std::size_t s = 0; s < mesh.surface_groups.size(); ++s) {
-      if (mesh.surface_groups[s] != group) continue;
-      for (const Topology::Face& face : model_.topology.surface_groups[s]) f(face.element, false);
-    }
-  }
-
-  /// Bodies that touch do so with their boxes as well; the gap of boxes that lie on each other is far below H.
-  [[nodiscard]] bool lies_on_another(std::size_t i) const {
-    constexpr double kTouches = 0.01;
-    if (!model_.has_contact) return false;
-    const Solid& a = all_[i];
-    const double gap = kTouches * a.edge;
-    for (std::size_t k = 0; k < all_.size(); ++k) {
-      if (k == i || !(all_[k].speed < std::numeric_limits<double>::max())) continue;
-      if (((a.low - all_[k].high).array() <= gap).all() && ((all_[k].low - a.high).array() <= gap).all()) return true;
-    }
-    return false;
-  }
-
-  const Model& model_;
-  DisjointSets sets_;
-  std::vector<Solid> all_;  ///< (bodies) by their root
-};
 
 /// Viscosity over Young's modulus, of the time in which a wave crosses a body: 2 % of critical damping.
 constexpr double kViscosity = 0.005;
@@ -335,6 +212,28 @@ std::string damped_sliding_advice(const case_::Case& input, const Model& model) 
       words_of(input, last), last.local_damping, 1 - last.local_damping);
 }
 
+/// Reactions of a stage that damps what its constraints drive.
+std::string damped_reactions_advice(const case_::Case& input) {
+  const auto recorded = [&](const case_::Constraint& entry) {
+    const std::vector<std::string>& gauges = input.output.gauges;
+    return std::find(gauges.begin(), gauges.end(), entry.group) != gauges.end();
+  };
+  for (const case_::Stage& stage : input.stages) {
+    const auto& entries = stage.constraints;
+    const bool drives = std::any_of(entries.begin(), entries.end(), [](const case_::Constraint& entry) {
+      return entry.kind != case_::ConstraintKind::fixed &&
+             !std::all_of(entry.value.begin(), entry.value.end(), [](const TimeFunction& f) { return f.is_zero(); });
+    });
+    if (!(stage.local_damping > 0) || !drives || std::none_of(entries.begin(), entries.end(), recorded)) continue;
+    return fmt::format(
+        "Stage {} has a local_damping of {:g} and drives what output.gauges record: it changes the reactions wherever "
+        "anything accelerates or breaks (to accelerate a body takes {:.3g} times its force). To measure forces, leave "
+        "it out there and damp with material.viscosity; compare the reactions of both ends.",
+        words_of(input, stage), stage.local_damping, 1 / (1 - stage.local_damping));
+  }
+  return {};
+}
+
 /// Intervals at which nothing happens before the run is over.
 Advice long_intervals(const case_::Case& input) {
   const double end = input.stages.back().end;
@@ -388,8 +287,10 @@ void refuse_contradictions(const case_::Case& input, const std::vector<Constrain
 
 Advice stage_advice(const case_::Case& input, const Model& model) {
   Advice advice = sudden_load_advice(input, model);
+  advise(advice, sudden_motion_advice(input, model));
   append(advice, undamped_friction_advice(input, model));
   advise(advice, damped_sliding_advice(input, model));
+  advise(advice, damped_reactions_advice(input));
   append(advice, long_intervals(input));
   return advice;
 }

@@ -10,7 +10,8 @@
 namespace breccia {
 
 /// What of the stages is probably not meant: loads that act at full size from the first step on bodies that rest and
-/// that nothing damps, friction where nothing damps, intervals longer than the run.
+/// that nothing damps, motions that begin with a jump in speed, friction where nothing damps, reactions where local
+/// damping acts, intervals longer than the run.
 /// @param model  of the whole mesh; a bare one will do. O(elements log elements).
 [[nodiscard]] Advice stage_advice(const case_::Case& input, const Model& model);
 

@@ -70,6 +70,91 @@ TEST(SuddenLoads, of_pressure_on_a_body_that_nothing_supports_are) {
   EXPECT_EQ(advice_on(cube(pressure + "{ ramp = { to = 1e6, end = \"0.5 ms\" } }\n", "")), "");
 }
 
+const std::string kBreakable =
+    "[[joint]]\ngroup = \"raster\"\ntensile_strength = \"1 MPa\"\nenergy_mode_1 = \"10 J/m2\"\n";
+
+/// The cube with joints, held below and driven above. @param motion  velocity = ..., or displacement = ...
+std::string driven(const std::string& motion, std::vector<std::string> overrides = {}) {
+  overrides.emplace_back("material[0].joints=breakable");
+  return advice_on(cube("") + "[[stage.constraint]]\ngroup = \"raster.z1\"\n" + motion + "\n" + kBreakable, overrides);
+}
+
+TEST(SuddenMotions, are_named_with_their_wave_beside_the_strength_and_a_ramp) {
+  // rho c v = 14.3 MPa s/m times 10 mm/s.
+  const std::string advice = driven("velocity = { z = -0.01 }");
+  EXPECT_THAT(advice, AllOf(HasSubstr("stage[0].constraint[1] (velocity, \"raster.z1\", line "),
+                            HasSubstr("a jump in speed of 10 mm/s"), HasSubstr("rho c v of about 143 kPa, is 14 % of"),
+                            HasSubstr("joints of raster"), HasSubstr("ramp = { end = ..., to = -0.01 }")));
+  EXPECT_THAT(driven("displacement = { z = { table = [[0, 0], [\"1 ms\", \"10 um\"]] } }"),
+              AllOf(HasSubstr("(displacement, \"raster.z1\""), HasSubstr("of 10 mm/s")));
+}
+
+TEST(SuddenMotions, that_grow_or_are_slow_or_a_pulse_or_meet_no_joints_are_not) {
+  EXPECT_EQ(driven("velocity = { z = { ramp = { to = -0.01, end = \"0.5 ms\" } } }"), "");
+  EXPECT_EQ(driven("displacement = { z = { constant = 1e-5, sine = { amplitude = 1e-5, frequency = 250, phase = "
+                   "\"-90 deg\" } } }"),
+            "")
+      << "a cosine";
+  EXPECT_EQ(driven("velocity = { z = -0.005 }"), "") << "7 % of the strength";
+  EXPECT_EQ(driven("velocity = { z = -0.01 }", {"stage[0].end=10 us"}), "");
+  EXPECT_EQ(advice_on(cube("", "group = \"raster.z1\"\nvelocity = { z = -1 }\n")), "");
+  EXPECT_EQ(
+      advice_on(cube("", "group = \"raster\"\nvelocity = { z = -1 }\n") + kBreakable, {"material[0].joints=breakable"}),
+      "")
+      << "all of it moves";
+}
+
+TEST(SuddenMotions, are_measured_against_the_motion_before) {
+  const std::string fast = "[[initial_velocity]]\ngroup = \"raster\"\nvelocity = [0, 0, -1]\n";
+  EXPECT_EQ(driven("velocity = { z = -1 }\n" + fast), "");
+  EXPECT_THAT(driven("velocity = { z = 1 }\n" + fast), HasSubstr("a jump in speed of 2 m/s"));
+  const std::string next = "[[stage]]\nend = \"2 ms\"\n[[stage.constraint]]\ngroup = \"raster.z1\"\n";
+  const std::string grown = "velocity = { z = { ramp = { to = -0.01, end = \"0.5 ms\" } } }\n";
+  EXPECT_EQ(driven(grown + next + "velocity = { z = -0.01 }\n"), "");
+  EXPECT_EQ(driven(grown + next + "displacement = { z = { table = [[\"1 ms\", 0], [\"2 ms\", \"-10 um\"]] } }\n"), "");
+  EXPECT_THAT(driven(grown + next + "velocity = { z = 0.01 }\n"),
+              AllOf(HasSubstr("stage[1].constraint[0]"), HasSubstr("of 20 mm/s"), HasSubstr("start = 0.001, end")));
+  EXPECT_THAT(driven("fixed = \"z\"\n" + next + "velocity = { z = 0.01 }\n"), HasSubstr("of 10 mm/s"));
+  const std::string loose = "[[stage]]\nend = \"2 ms\"\n[[stage.constraint]]\ngroup = \"raster.x1\"\n";
+  EXPECT_EQ(driven(grown + loose + "velocity = { x = 0.01 }\n"), "") << "how it moved before is not known";
+}
+
+TEST(SuddenMotions, come_to_what_lies_on_the_driven_body) {
+  const case_::CaseFolder folder;
+  folder.write("boxes.geo",
+               "SetFactory(\"OpenCASCADE\");\nDefineConstant[ gap = 0 ];\nBox(1) = {0, 0, 0, 1, 1, 1};\n"
+               "Box(2) = {0, 0, 1 + gap, 1, 1, 1};\nPhysical Volume(\"raster\") = {1};\n"
+               "Physical Volume(\"platen\") = {2};\nMeshSize{:} = 2;\n");
+  const auto pressed = [&](const std::string& gap) {
+    const std::string rock = case_::minimal.substr(case_::minimal.find("[[material]]"));
+    std::string platen = rock.substr(0, rock.find("[[stage]]"));
+    platen.replace(platen.find("raster"), 6, "platen");
+    const std::string contact = "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"75 GPa\"\n";
+    const std::string text = "[mesh]\nfile = \"boxes.geo\"\nparameters = { gap = " + gap + " }\n" + platen + rock +
+                             "[[stage.constraint]]\ngroup = \"platen\"\nvelocity = { x = 0, y = 0, z = -0.01 }\n" +
+                             kBreakable + contact;
+    const std::vector<std::string> overrides{"material[1].joints=breakable", "stage[0].end=1 s"};
+    const case_::Case input = case_::read_case(folder.write("case.toml", text), overrides);
+    return as_list(stage_advice(input, build_bare_model(input)));
+  };
+  EXPECT_THAT(pressed("0"), AllOf(HasSubstr("(velocity, \"platen\""), HasSubstr("joints of raster")));
+  EXPECT_EQ(pressed("0.1"), "");
+}
+
+TEST(Reactions, of_what_is_driven_under_local_damping_are_named) {
+  const auto recorded = [](const std::string& damping, const std::string& motion, const std::string& gauge) {
+    return advice_on(cube(damping) + "[[stage.constraint]]\ngroup = \"raster.z1\"\n" + motion,
+                     {"output.gauges=[\"" + gauge + "\"]"});
+  };
+  const std::string damping = "local_damping = 0.3\n", motion = "velocity = { z = 0.01 }\n";
+  EXPECT_THAT(recorded(damping, motion, "raster.z1"),
+              AllOf(HasSubstr("Stage 0 has a local_damping of 0.3"), HasSubstr("takes 1.43 times its force")));
+  EXPECT_THAT(recorded(damping, motion, "raster.z0"), HasSubstr("reactions"));
+  EXPECT_EQ(recorded(damping, motion, "raster.x0"), "");
+  EXPECT_EQ(recorded(damping, "fixed = \"z\"\n", "raster.z1"), "");
+  EXPECT_EQ(recorded("", motion, "raster.z1"), "");
+}
+
 TEST(Friction, where_nothing_damps_what_is_loaded_is_named_with_a_viscosity) {
   const std::string contact = "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"75 GPa\"\nfriction = 0.3\n";
   const std::string grown = "gravity = [0, 0, { ramp = { to = -9.81, end = \"0.5 ms\" } }]\n";
