@@ -73,6 +73,68 @@ std::string layer_advice(const Model& model) {
       quantity_text(layer.thickness, "m"), quantity_text(layer.edge, "m"), quantity_text(layer.edge, "m"));
 }
 
+/// Whether anything that the case prescribes acts along an axis, but for what is held.
+bool acts_along(const case_::Case& input, const Model& model, std::size_t axis) {
+  const auto i = static_cast<Eigen::Index>(axis);
+  const auto moves = [&](const case_::InitialVelocity& v) {
+    Vec3 turns = v.angular;
+    turns[i] = 0;
+    return v.velocity[i] != 0 || v.random[1] > 0 || !turns.isZero() || v.strain_rate[i] != 0;
+  };
+  const auto presses = [&](const case_::Pressure& pressure) {
+    for (std::size_t s = 0; s < model.mesh.surface_groups.size(); ++s) {
+      if (model.mesh.surface_groups[s] != pressure.surface) continue;
+      const auto& faces = model.topology.surface_groups[s];
+      return std::any_of(faces.begin(), faces.end(), [&](const Topology::Face& f) {
+        return on_side(model.mesh, f.element, f.face, static_cast<int>(axis));
+      });
+    }
+    return false;
+  };
+  const auto pulls = [&](const case_::Traction& traction) { return !traction.value[axis].is_zero(); };
+  const auto drives = [&](const case_::Constraint& c) {
+    return c.kind != case_::ConstraintKind::fixed && c.axes[axis] && !c.value[axis].is_zero();
+  };
+  return std::any_of(input.initial_velocities.begin(), input.initial_velocities.end(), moves) ||
+         std::any_of(input.stages.begin(), input.stages.end(), [&](const case_::Stage& stage) {
+           return !stage.gravity[axis].is_zero() ||
+                  std::any_of(stage.pressures.begin(), stage.pressures.end(), presses) ||
+                  std::any_of(stage.tractions.begin(), stage.tractions.end(), pulls) ||
+                  std::any_of(stage.constraints.begin(), stage.constraints.end(), drives);
+         });
+}
+
+/// Whether a constraint of every stage holds all that is in the model along an axis.
+bool held_along(const case_::Case& input, const Model& model, std::size_t axis) {
+  const auto& groups = model.mesh.volume_groups;
+  return std::all_of(groups.begin(), groups.end(), [&](const std::string& group) {
+    return std::all_of(input.stages.begin(), input.stages.end(), [&](const case_::Stage& stage) {
+      return std::any_of(stage.constraints.begin(), stage.constraints.end(),
+                         [&](const case_::Constraint& c) { return c.group == group && c.axes[axis]; });
+    });
+  });
+}
+
+/// A slice without [plane], thin beside what it measures along both other axes.
+std::string slice_without_plane(const case_::Case& input, const Model& model) {
+  constexpr double kThin = 0.2;
+  if (model.plane || model.contact.sphere) return {};
+  const auto [lower, upper] = box_of(model.mesh);
+  const Vec3 size = upper - lower;
+  Eigen::Index axis = 0;
+  const double thickness = size.minCoeff(&axis);
+  const Vec3 rest = size + Vec3::Unit(axis) * size.maxCoeff();
+  const auto a = static_cast<std::size_t>(axis);
+  if (thickness > kThin * rest.minCoeff() || acts_along(input, model, a) || held_along(input, model, a) ||
+      !is_layer(model.mesh, model.topology, static_cast<int>(axis)))
+    return {};
+  return fmt::format(
+      "The mesh is one layer of elements across {}, with two free flat sides that carry contact points. If a slice is "
+      "meant, [plane] kind = \"stress\"{} takes them out of contact, and kind = \"strain\" lets nothing move along {} "
+      "as well, as inside a long body.",
+      "xyz"[axis], axis == 2 ? "" : fmt::format(", axis = \"{}\",", "xyz"[axis]), "xyz"[axis]);
+}
+
 /// Bodies that go through each other. Those that a constraint holds in every stage cannot move into others.
 std::string missing_contact(const case_::Case& input, const Model& model) {
   if (model.has_contact) return {};
@@ -193,6 +255,7 @@ Advice model_advice(const case_::Case& input, const Model& model) {
   const std::string bodies_meet = missing_contact(input, model);
   advise(advice, bodies_meet.empty() ? missing_contact_of_fragments(model) : bodies_meet);
   advise(advice, layer_advice(model));
+  advise(advice, slice_without_plane(input, model));
   advise(advice, sphere_too_small(model));
   append(advice, silently_apart(input, model));
   return advice;

@@ -107,6 +107,14 @@ Layer layer_of(const Mesh& mesh, int axis) {
   return layer;
 }
 
+bool is_layer(const Mesh& mesh, const Topology& topology, int axis) {
+  const Sides sides = sides_of(mesh, axis);
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    if (!fault_of(mesh, topology, e, sides, axis).empty()) return false;
+  }
+  return mesh.num_elements() > 0;
+}
+
 void check_layer(const case_::Case& input, const Mesh& mesh, const Topology& topology) {
   if (!input.plane) return;
   const int axis = static_cast<int>(input.plane->axis);

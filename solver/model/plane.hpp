@@ -34,8 +34,11 @@ struct Layer {
 /// @pre check_layer.  O(elements).
 [[nodiscard]] Layer layer_of(const Mesh& mesh, int axis);
 
-/// Throws InputError unless the mesh is one flat layer across the axis: free faces lie on one of two planes or stand
-/// upright on them, every element reaches one of the planes, and no face between two elements is parallel to them.
+/// Whether the mesh is one flat layer across the axis: free faces lie on one of two planes or stand upright on them,
+/// every element reaches one of the planes, and no face between two elements is parallel to them. O(elements)
+[[nodiscard]] bool is_layer(const Mesh& mesh, const Topology& topology, int axis);
+
+/// Throws InputError if a plane model is none.
 void check_layer(const case_::Case& input, const Mesh& mesh, const Topology& topology);
 
 /// Whether the face lies on a side of the layer. @pre check_layer: faces parallel to the sides lie on them

@@ -60,6 +60,26 @@ TEST(ModelAdvice, names_the_thickness_that_fits_the_elements_of_a_plane_model) {
   EXPECT_THAT(layer("0.002"), HasSubstr("2 mm thick"));
 }
 
+TEST(ModelAdvice, tells_of_plane_models_where_the_mesh_is_one_thin_layer_whose_sides_are_free) {
+  const auto layer = [](const std::string& cells, const std::string& more) {
+    std::string text = raster("[1, 1, 1]");
+    text.insert(text.find("boxes"), "cells = " + cells + "\n");
+    return advice_on(text + kStage + more);
+  };
+  const std::string words = "one layer of elements across ";
+  EXPECT_THAT(layer("[6, 6, 1]", ""), AllOf(HasSubstr(words + "z"), HasSubstr("[plane] kind = \"stress\" takes")));
+  EXPECT_THAT(layer("[6, 1, 6]", ""), AllOf(HasSubstr(words + "y"), HasSubstr("axis = \"y\"")));
+  for (const char* cells : {"[12, 12, 2]", "[4, 4, 1]", "[6, 1, 1]"}) EXPECT_EQ(layer(cells, ""), "") << cells;
+  for (const char* more : {"[plane]\nkind = \"strain\"\n", "gravity = [0, 0, -9.81]\n",
+                           "[[stage.constraint]]\ngroup = \"rock\"\nfixed = \"z\"\n",
+                           "[[stage.constraint]]\ngroup = \"rock.x1\"\nvelocity = { z = 1 }\n",
+                           "[[stage.pressure]]\nsurface = \"rock.z1\"\nvalue = 1e6\n",
+                           "[[stage.traction]]\nsurface = \"rock.x1\"\nvalue = [0, 0, 1e6]\n",
+                           "[[initial_velocity]]\ngroup = \"rock\"\nvelocity = [0, 0, 1]\n"})
+    EXPECT_EQ(layer("[6, 6, 1]", more), "") << more;
+  EXPECT_THAT(layer("[6, 6, 1]", "[[stage.pressure]]\nsurface = \"rock.x1\"\nvalue = 1e6\n"), HasSubstr(words));
+}
+
 TEST(ModelAdvice, names_a_sphere_that_does_not_hold_the_model_and_the_radius_that_would) {
   const auto sphere = [](const std::string& radius) {
     return "[sphere]\ncentre = [\"5 mm\", \"5 mm\", \"5 mm\"]\nradius = \"" + radius + "\"\npenalty = \"40 GPa\"\n";
