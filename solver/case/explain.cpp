@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "case/nearest.hpp"
 #include "case/schema.hpp"
+#include "case/topics.hpp"
 #include "case/units.hpp"
 
 namespace breccia::case_ {
@@ -93,6 +94,12 @@ std::string key_text(const Key& key) {
 
 std::string text_of(const Key& key) { return key.is_section() ? section_text(key) : key_text(key); }
 
+std::string topic_text(std::string_view word, const Topic& topic) {
+  std::string keys(topic.keys);
+  for (std::size_t at = keys.find('|'); at != std::string::npos; at = keys.find('|', at)) keys.replace(at, 1, ", ");
+  return std::string(word) + "\n" + wrapped(std::string(topic.answer), "  ") + "  " + padded("keys", 8) + keys + "\n";
+}
+
 /// Keys in whose name a word stands, then those whose help has it; of many the first, and how many more there are.
 std::vector<std::string> keys_that_say(const std::string& word) {
   constexpr std::size_t kShortest = 4, kMost = 8;
@@ -119,7 +126,9 @@ std::string explain() {
   std::string out =
       "Keys of a case file (TOML): name, default, meaning [SI unit]. Numbers are SI; texts may carry a unit, "
       "\"26.6 GPa\".\n" +
-      wrapped(units_help(), "") + "`breccia explain KEY` tells more about one.\n\n";
+      wrapped(units_help(), "") +
+      "`breccia explain KEY` tells more about one, and what a word of the field "
+      "is called here: `breccia explain notch`.\n\n";
   for (const Key& key : schema())
     if (key.section().empty() && !key.is_section()) out += line_of(key);
   for (const Key& key : schema())
@@ -143,6 +152,8 @@ std::string explain(std::string_view key) {
     for (const Key& row : schema())
       if (row.path.starts_with(section + "[]") && plain_path(row.path) == section + rest) return text_of(row);
   }
+
+  if (const Topic* topic = topic_of(key)) return topic_text(key, *topic);
 
   std::vector<std::string> paths;
   for (const std::string& path : similar_keys(pattern_of(key), 3)) paths.push_back(plain_path(path));

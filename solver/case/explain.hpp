@@ -10,8 +10,8 @@ namespace breccia::case_ {
 
 /// Text of `breccia explain KEY`: meaning, type, unit, default, range, choices and an example of a key, or a section
 /// with its keys. The key may be a path with or without indices ("material[].young", "material.young",
-/// "material[0].young") or the last part of one or several paths ("young"). Throws InputError with the nearest keys if
-/// there is no such key.
+/// "material[0].young"), the last part of one or several paths ("young"), or a word of the field, which is answered
+/// with the keys that it stands for (topics.hpp). Throws InputError with the nearest keys if there is no such key.
 [[nodiscard]] std::string explain(std::string_view key);
 
 }  // namespace breccia::case_

@@ -120,7 +120,7 @@ void define_command_line(CLI::App& app, Arguments& a) {
 
   CLI::App* explain =
       app.add_subcommand("explain", "What a key of the case file means: unit, default, range; all keys without one");
-  explain->add_option("key", a.key, "such as material.young, or the name of a section");
+  explain->add_option("key", a.key, "such as material.young, the name of a section, or a word such as notch");
 
   CLI::App* schema = app.add_subcommand("schema", "The table of all keys of a case file, a line a key");
   schema->add_flag("--json", a.schema_json, "as JSON, with units, defaults, ranges, choices and help");

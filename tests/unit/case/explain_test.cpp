@@ -3,8 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "base/error.hpp"
 #include "case/schema.hpp"
+#include "case/topics.hpp"
 
 namespace breccia::case_ {
 namespace {
@@ -63,6 +70,45 @@ TEST(Explain, ANameOfSeveralKeysExplainsAllOfThem) {
 
 TEST(Explain, ASectionListsItsKeys) {
   EXPECT_THAT(explain("sphere"), AllOf(HasSubstr("[sphere]"), HasSubstr("radius"), Not(HasSubstr("young"))));
+}
+
+TEST(Explain, AWordOfTheFieldIsAnsweredWithTheKeysThatItStandsFor) {
+  for (const auto& [word, key] :
+       {std::pair{"process zone", "joint.tensile_strength"}, std::pair{"notch", "joints.broken"},
+        std::pair{"symmetry", "stage.constraint.fixed"}, std::pair{"reaction", "output.gauges"},
+        std::pair{"cohesive", "joint.softening"}, std::pair{"crack", "joints.broken"},
+        std::pair{"fracture energy", "joint.energy_mode_1"}, std::pair{"time step", "time.safety"},
+        std::pair{"mass scaling", "material.density"}, std::pair{"rebound", "contact.unloading_exponent"},
+        std::pair{"roller", "stage.constraint"}, std::pair{"clamp", "stage.constraint"},
+        std::pair{"prescribed velocity", "stage.constraint.velocity"}})
+    EXPECT_THAT(message_of_key(word), AllOf(HasSubstr("no error but: " + std::string(word) + "\n"),
+                                            testing::ContainsRegex("\n  keys +[^\n]*" + std::string(key))))
+        << word;
+  const auto answer = [](const std::string& word) { return explain(word).substr(word.size()); };
+  EXPECT_EQ(answer("Process_Zones"), answer("process zone"));
+  EXPECT_EQ(answer("NOTCHES"), answer("notch"));
+  EXPECT_EQ(explain("pressure"), explain("stage.pressure")) << "what is a key is explained as one";
+}
+
+TEST(Topics, HaveASentenceAndKeysThatThereAreAndWordsThatAreNoKeys) {
+  const auto parts = [](std::string_view list) {
+    std::vector<std::string> out;
+    std::istringstream in{std::string(list)};
+    for (std::string part; std::getline(in, part, '|');) out.push_back(part);
+    return out;
+  };
+  const auto is_path = [](const std::string& path) {
+    return std::any_of(schema().begin(), schema().end(), [&](const Key& row) { return plain_path(row.path) == path; });
+  };
+  for (const Topic& topic : topics()) {
+    EXPECT_TRUE(topic.answer.ends_with('.')) << topic.words;
+    for (const std::string& key : parts(topic.keys)) EXPECT_TRUE(is_path(key)) << key;
+    for (const std::string& word : parts(topic.words)) {
+      EXPECT_EQ(topic_of(word), &topic) << word << " is of two";
+      EXPECT_TRUE(std::none_of(schema().begin(), schema().end(), [&](const Key& row) { return row.name() == word; }))
+          << word;
+    }
+  }
 }
 
 TEST(Explain, AnUnknownKeyNamesTheNearest) {

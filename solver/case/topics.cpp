@@ -1,0 +1,135 @@
+#include "case/topics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string>
+
+namespace breccia::case_ {
+namespace {
+
+// clang-format off
+constexpr auto table = std::to_array<Topic>({
+    {"process zone|fracture process zone|cohesive zone",
+     "The length ahead of a crack over which joints soften. It follows from young, tensile_strength and the "
+     "fracture energy; `breccia check` tells it for every kind of joint, and advises elements of a third of it.",
+     "joint.tensile_strength|joint.energy_mode_1|material.young"},
+    {"cohesive|cohesive element|cohesive law|traction separation|traction separation law",
+     "Cohesive interfaces are the joints between neighbouring elements: a [[joint]] has their strengths, fracture "
+     "energies and softening. `breccia check CASE --joints` gives traction over opening and slip.",
+     "joint|joint.softening|material.joints"},
+    {"crack|fracture|joint opening",
+     "Cracks run along faces between elements, whose joints soften and fail; frames show their damage, opening, "
+     "slip and time_of_failure. One that is there from the start is a surface in joints.broken.",
+     "joint|joints.broken|output.joints"},
+    {"notch|pre crack|precrack|initial crack|starter crack",
+     "A notch is a gap in the geometry, or a surface of the mesh whose joints are broken from the start; a raster "
+     "makes such a surface with mesh.raster.slit.",
+     "joints.broken|mesh.raster.slit|stage.broken"},
+    {"fracture energy|toughness|fracture toughness|energy release rate|gic|g ic|kic|k ic",
+     "The fracture energies of opening and sliding. Of a toughness K it is K^2/young, (1 - poisson^2) times that "
+     "under plane strain.",
+     "joint.energy_mode_1|joint.energy_mode_2|joint.energy_counts"},
+    {"symmetry|symmetry plane|symmetric",
+     "A plane of symmetry is a surface that is fixed along its normal, fixed = \"x\". No crack can run in it, and "
+     "forces and energies are those of the part that is modelled.",
+     "stage.constraint|stage.constraint.fixed"},
+    {"reaction|reaction force|support force|load cell|force displacement",
+     "The history records the reaction of the constraints on every group that output.gauges names, beside its "
+     "displacement. It includes what accelerates the held part and what local_damping takes.",
+     "output.gauges|output.history_interval|stage.local_damping"},
+    {"boundary condition|support|spc|encastre|clamp|clamped|fixed support",
+     "Nodes of a group are held or driven by a [[stage.constraint]]; fixed = \"xyz\" clamps them. Surfaces take a "
+     "pressure or a traction, or absorb waves.",
+     "stage.constraint|stage.pressure|stage.traction|stage.absorbing"},
+    {"roller|pin|loading pin|loading nose|hinge",
+     "A small body of its own, held or driven by a [[stage.constraint]] on its volume group, that presses through "
+     "[[contact]]. A constraint on a patch of the sample itself clamps it.",
+     "stage.constraint|contact"},
+    {"platen|rigid|rigid body|rigid wall|rigid part",
+     "There are no rigid bodies: a [[stage.constraint]] along x, y and z on a volume group moves it as a whole; "
+     "joints = \"none\" in its [[material]] makes it cheap.",
+     "stage.constraint|material.joints|contact"},
+    {"prescribed velocity|prescribed displacement|prescribed motion|imposed velocity|imposed displacement|"
+     "loading rate|displacement control",
+     "A [[stage.constraint]] with velocity or displacement. One that begins with a jump in speed strikes what "
+     "rests with a wave of stress rho c v; let it grow by a ramp where a slow load is meant.",
+     "stage.constraint.velocity|stage.constraint.displacement|function.ramp"},
+    {"point load|nodal force|concentrated force|concentrated load|external force",
+     "There are no forces on single nodes: a [[stage.traction]] on a small surface acts in a fixed direction, a "
+     "[[stage.pressure]] follows the faces.",
+     "stage.traction|stage.pressure|stage.gravity"},
+    {"time step|timestep|time increment|critical time step|cfl",
+     "It is time.safety times the stable step, which `breccia check` tells with what limits it; time.step gives "
+     "another.",
+     "time.step|time.safety"},
+    {"mass scaling|selective mass scaling",
+     "There is none: masses are those of the density. `breccia check` tells what limits the time step: the "
+     "smallest elements, or penalties of joints or contact.",
+     "time.safety|joint.penalty_factor|contact.penalty|material.density"},
+    {"rebound|bounce|coefficient of restitution",
+     "Contact gives all energy back unless it has a plateau, an unloading_exponent above 1 or a damping_ratio.",
+     "contact.unloading_exponent|contact.damping_ratio|contact.plateau"},
+    {"erosion|element erosion|element deletion|failure strain",
+     "Nothing is deleted: joints fail, and what has come apart stays in the model as fragments that collide.",
+     "material.joints|joint|contact"},
+    {"hourglass|hourglass control|element formulation",
+     "Elements are tetrahedra of constant strain, which have no hourglass modes.",
+     "mesh|material.law"},
+    {"element size|mesh size|mesh density|mesh refinement",
+     "Given in the .geo file, where mesh.parameters set it from the case, by mesh.size for STEP, BREP and STL, or "
+     "by the raster's cell_size. `breccia check` compares it with the process zone.",
+     "mesh.parameters|mesh.size|mesh.raster.cell_size"},
+    {"plane strain|plane stress|2d|two dimensional",
+     "One flat layer of elements and a [plane] section.",
+     "plane|plane.kind"},
+    {"tie|tied|tied contact|bond|bonded|weld",
+     "mesh.glue joins bodies of one conforming mesh; a [[joint]] with between says how their interface holds, for "
+     "good if it has no strengths.",
+     "mesh.glue|joint.between"},
+    {"heterogeneity|scatter|random strength",
+     "Strengths scatter from joint to joint with a weibull_modulus.",
+     "joint.weibull_modulus|joint.weibull_area|joint.weibull_seed"},
+    {"initial stress|in situ stress|prestress|excavation",
+     "A first run settles under gravity or outer pressures; a second one starts from its state with other loads, "
+     "constraints and materials.",
+     "start|stage.gravity|stage.pressure|stage.local_damping"},
+});
+// clang-format on
+
+/// Lower case, with spaces for _ and -.
+std::string plain(std::string_view word) {
+  std::string out(word);
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return c == '_' || c == '-' ? ' ' : static_cast<char>(std::tolower(c)); });
+  return out;
+}
+
+/// @param words  "a|b|c"
+bool is_among(std::string_view words, std::string_view word) {
+  for (std::size_t at = 0; at <= words.size();) {
+    const std::size_t end = std::min(words.find('|', at), words.size());
+    if (words.substr(at, end - at) == word) return true;
+    at = end + 1;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::span<const Topic> topics() { return table; }
+
+const Topic* topic_of(std::string_view word) {
+  const std::string wanted = plain(word);
+  const std::string_view several = wanted;
+  for (const Topic& topic : table) {
+    for (const std::string_view ending : {"", "s", "es"}) {
+      if (several.size() > ending.size() && several.ends_with(ending) &&
+          is_among(topic.words, several.substr(0, several.size() - ending.size())))
+        return &topic;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace breccia::case_
