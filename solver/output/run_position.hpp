@@ -48,7 +48,7 @@ struct FieldTable<RunPosition> {
       FieldRow{"stage", "1", kNotHashed, [](auto& r) -> auto& { return r.stage; }},
       FieldRow{"steps_until_stable_step_is_looked_at", "1", kNotHashed, [](auto& r) -> auto& { return r.until_look; }},
       FieldRow{"steps_since_stable_step_was_looked_at", "1", kNotHashed, [](auto& r) -> auto& { return r.since_look; }},
-      FieldRow{"steps_in_which_the_step_could_grow", "1", kNotHashed, [](auto& r) -> auto& { return r.calm; }},
+      FieldRow{"steps_in_which_the_step_could_grow_by_half", "1", kNotHashed, [](auto& r) -> auto& { return r.calm; }},
       FieldRow{"largest_motion", "m", kNotHashed, [](auto& r) -> auto& { return r.motion; }},
       FieldRow{"wall_time", "s", kNotHashed, [](auto& r) -> auto& { return r.wall; }},
       FieldRow{"schedule_of_history", "s, 1, 1, 1", kNotHashed, [](auto& r) -> auto& { return r.histories; }},

@@ -16,7 +16,6 @@ constexpr std::int64_t kStepsBetweenLooks = 100;
 constexpr std::int64_t kSoonest = 10;  // steps between looks where joints come apart, or the step is still to grow
 constexpr std::int64_t kTaken = 2;     // steps until contact has the faces of a joint that was released
 constexpr double kGrowth = 1.5;        // of the step at a look: motions of a step foretell those of the next
-constexpr double kWorthIt = 1.2;       // a step that could be so much longer grows
 constexpr std::int64_t kCalm = 300;   // steps, see the class comment
 constexpr double kMostTenths = 300;    // of the step at rest; what is shorter still is told as this
 
@@ -81,10 +80,9 @@ double StageSteps::allowed() {
   const double now = partition_.step_length(steps_to_look());
   judge(now);
   const double stable = input_.time.safety * now, most = kGrowth * clock.dt;
-  if (clock.steps == 0 || stable <= kWorthIt * clock.dt) return stable;
+  if (clock.steps == 0 || stable <= most) return stable;
   looks_.calm = calm;
   if (calm < kCalm) return clock.dt;
-  if (stable <= most) return stable;
   looks_.until = kSoonest;
   return most;
 }
@@ -131,7 +129,7 @@ void StageSteps::look() {
 void StageSteps::adjust() {
   const double most = allowed(), now = partition_.state().clock.dt;
   // By more than 1 % down or 20 % up: a length that is kept leaves the limit a margin, and fits the end of the stage.
-  if (most < 0.99 * now || length(most) > kWorthIt * now) partition_.domain().state.clock.dt = length(most);
+  if (most < 0.99 * now || length(most) > 1.2 * now) partition_.domain().state.clock.dt = length(most);
 }
 
 void StageSteps::prepare_next() {

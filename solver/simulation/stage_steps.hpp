@@ -16,19 +16,20 @@ inline constexpr double kSmallestStep = 1e-3;
 struct StepLooks {
   std::int64_t until = 0;  ///< steps to the next look
   std::int64_t since = 0;  ///< steps from the last one
-  std::int64_t calm = 0;   ///< steps up to the last one in which every look would have let the step grow
+  std::int64_t calm = 0;   ///< steps up to the last one in which every look found one more than half longer
 };
 
 /// The steps of one stage: how long they are, and when the stage is over. A stage is a whole number of equal steps, as
 /// long as is stable; every hundred steps the stable step is looked at again, since it shrinks when elements are
 /// crushed, and after ten where a joint has been released: its faces may meet others from then on. From one look to the
-/// next, and into a stage, a step grows by half at most (domains/motion_limit.hpp), and after ten steps again; within a
-/// stage only after three hundred steps in which every look would have let it: where bodies that vibrate are near each
-/// other the stable step goes up and down, and with each change of the step the energy of vibrations moves. A stable
-/// step that has fallen far below that of the model at rest is told at every tenth part, and refused in the end. The
-/// last step of a stage is divided into steps that are stable in the next one as well: what is let go there was held
-/// against forces that act on it at once, over half of this step too. A step that the case gives (time.step) is not
-/// looked at.
+/// next, and into a stage, a step grows by half at most (domains/motion_limit.hpp), and after ten steps again. Where it
+/// could grow by more within a stage, every look of three hundred steps must have found that: near others, bodies that
+/// vibrate make the stable step rise and fall by far, and each change of the step moves energy of their vibrations.
+///
+/// A stable step that has fallen far below that of the model at rest is told at every tenth part, and refused in the
+/// end. The last step of a stage is divided into steps that are stable in the next one as well: what is let go there
+/// was held against forces that act on it at once, over half of this step too. A step that the case gives (time.step)
+/// is not looked at.
 class StageSteps {
  public:
   /// Begins the stage. Collective. Throws InputError where it would take more steps than can be counted.
