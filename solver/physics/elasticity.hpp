@@ -93,6 +93,17 @@ template <class Mask, class T>
   }
 }
 
+/// The lesser; a when they are equal or one is not a number.
+template <class T>
+[[nodiscard]] inline T lesser(const T& a, const T& b) {
+  return select(b < a, b, a);
+}
+/// The greater; a when they are equal or one is not a number.
+template <class T>
+[[nodiscard]] inline T greater(const T& a, const T& b) {
+  return select(b > a, b, a);
+}
+
 /// F from positions (m), or Fdot from velocities (m/s).
 /// @param x  x[c][i] as of Corners<T>   @param inverse  inverse[k] as of Tensor<T>: D_m^-1, row-major, 1/m
 template <class T, class X, class Inverse>

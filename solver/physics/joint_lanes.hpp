@@ -15,6 +15,8 @@
 
 namespace breccia::joint_point {
 
+using elasticity::greater;
+using elasticity::lesser;
 using elasticity::select;
 using elasticity::Vector;
 
@@ -50,16 +52,6 @@ template <class T>
 [[nodiscard]] inline T root(const T& x) {
   using std::sqrt;
   return sqrt(x);
-}
-/// The lesser; a when they are equal or one is not a number.
-template <class T>
-[[nodiscard]] inline T lesser(const T& a, const T& b) {
-  return select(b < a, b, a);
-}
-/// The greater; a when they are equal or one is not a number.
-template <class T>
-[[nodiscard]] inline T greater(const T& a, const T& b) {
-  return select(b > a, b, a);
 }
 template <class T>
 [[nodiscard]] inline T dot(const Vector<T>& a, const Vector<T>& b) {

@@ -38,7 +38,7 @@ void contact_forces(Domain& domain) {
   const auto lap = domain.timer.measure(Phase::contact);
   State& state = domain.state;
   contact_forces(domain.model.contact, domain.model.local, state.nodes, state.clock.dt_before, state.contact,
-                 domain.scratch.forces, state.work.contact);
+                 domain.scratch.forces, state.work.contact, domain.simd);
 }
 
 void activate_crossed_joints(Domain& domain) {

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+#include <type_traits>
 
-#include "base/types.hpp"
+#include "physics/elasticity.hpp"
 #include "physics/work_error.hpp"
 
 namespace breccia {
@@ -13,22 +13,30 @@ namespace breccia {
 /// of a force over a step as the mean of its values at both ends times the motion. That is exact for a linear law but
 /// for the steps in which the overlap begins or ends: of a motion D the force k d of an overlap d < D takes 1/2 k d D
 /// where 1/2 k d^2 is stored, so up to k D^2 / 8 is lost where it begins and gained where it ends.
+/// For Real = double and for several couples side by side, lane by lane with the same bits.
 
 /// Largest pull of a couple, N, after a motion D out of the overlap: k D / 4. With a pull of k D a mass comes back
 /// faster than it left where steps are long, and such contacts gain energy.
-[[nodiscard]] constexpr double largest_pull(double k, double out) { return 2 * kLargestWorkError * k * out; }
+template <class Real>
+[[nodiscard]] constexpr Real largest_pull(const Real& k, const Real& out) {
+  return 2 * kLargestWorkError * k * out;
+}
 
 /// How much a force may be changed in a step of a motion D along it, J each.
-struct BalancingLimits {
-  double own = 0;   ///< beyond it what the couple has gained is not that of a step at which an overlap begins or ends
-  double give = 0;  ///< of work given back to the motion
-  double take = 0;  ///< taken from it
+template <class Real>
+struct BalancingLimitsOf {
+  Real own = 0.0;   ///< beyond it what the couple has gained is not that of a step at which an overlap begins or ends
+  Real give = 0.0;  ///< of work given back to the motion
+  Real take = 0.0;  ///< taken from it
 };
+using BalancingLimits = BalancingLimitsOf<double>;
 
 /// Of a linear law. Half of the force is that of one which begins at the very end of a step.
 /// @param work  J, of the normal force over the motion;  @param k  N/m
-[[nodiscard]] inline BalancingLimits balancing_limits(double work, double k, double out) {
-  const double most = std::min(kLargestWorkError * k * out * out, 0.5 * std::abs(work));
+template <class Real>
+[[nodiscard]] BalancingLimitsOf<Real> balancing_limits(const Real& work, const Real& k, const Real& out) {
+  using std::abs;
+  const Real most = elasticity::lesser(Real(kLargestWorkError * k * out * out), Real(0.5 * abs(work)));
   return {most, most, most};
 }
 
@@ -37,16 +45,21 @@ struct BalancingLimits {
 /// slope b k could take within the motion: what has hardly begun to leave comes back within the next step, which has to
 /// be borne. Not while it loads, where larger changes make the contact stiffer than the time step allows.
 /// @param work  J, > 0;  @param exponent  b
-[[nodiscard]] inline BalancingLimits steep_limits(double work, double k, double exponent, double out) {
+template <class Real>
+[[nodiscard]] BalancingLimitsOf<Real> steep_limits(const Real& work, const Real& k,
+                                                   const std::type_identity_t<Real>& exponent, const Real& out) {
+  const Real most = elasticity::lesser(work, Real(exponent * k * out * out));
   return {std::numeric_limits<double>::infinity(), balancing_limits(work, k, out).give,
-          std::min(work, exponent * k * out * out) + largest_pull(k, out) * out};
+          most + largest_pull(k, out) * out};
 }
 
 /// Shares of the normal force to be added to it.
-struct BalancingShares {
-  double own = 0;     ///< for this overlap
-  double before = 0;  ///< for earlier ones
+template <class Real>
+struct BalancingSharesOf {
+  Real own = 0.0;     ///< for this overlap
+  Real before = 0.0;  ///< for earlier ones
 };
+using BalancingShares = BalancingSharesOf<double>;
 
 /// With these shares this step and the next one, taken to move as this one, give back what the couple has taken too
 /// much or take what it has gained. None for this overlap where that is more than the steps at which an overlap begins
@@ -54,10 +67,17 @@ struct BalancingShares {
 /// earlier overlaps have left is put right: contacts that last for a few steps end before they can do so themselves.
 /// @param gained  J, what the couple would have gained with the force as it is;  @param before  J, of earlier overlaps
 /// @param work    J, of the normal force over the motion, not 0
-[[nodiscard]] inline BalancingShares balancing_shares(double gained, double before, double work,
-                                                      const BalancingLimits& limits) {
-  const double own = std::abs(gained) <= limits.own ? std::clamp(gained, -limits.give, limits.take) : 0;
-  const double earlier = std::clamp(before, -limits.give - own, limits.take - own);
+template <class Real>
+[[nodiscard]] BalancingSharesOf<Real> balancing_shares(const std::type_identity_t<Real>& gained,
+                                                       const std::type_identity_t<Real>& before,
+                                                       const std::type_identity_t<Real>& work,
+                                                       const BalancingLimitsOf<Real>& limits) {
+  using elasticity::select, std::abs;
+  const auto clamp = [](const Real& value, const Real& low, const Real& high) {
+    return select(value < low, low, select(high < value, high, value));
+  };
+  const Real own = select(abs(gained) <= limits.own, clamp(gained, -limits.give, limits.take), Real(0.0));
+  const Real earlier = clamp(before, -limits.give - own, limits.take - own);
   return {-own / work, -earlier / work};
 }
 
@@ -70,12 +90,13 @@ inline constexpr double kRememberedGap = 1000;
 /// assuming that the next motion equals this one. None while the gap closes, or where there is next to nothing left.
 /// Never larger than the force before or than the largest pull.
 /// @param last  N, force one step ago: of the law (`pushed`), or of this function
-[[nodiscard]] inline Vec3 closing_force(double gained, const Vec3& last, const Vec3& motion, bool pushed, double k) {
+template <class Vector>
+[[nodiscard]] Vector closing_force(double gained, const Vector& last, const Vector& motion, bool pushed, double k) {
   const double work = last.dot(motion), against = pushed ? work : -work;
-  if (!(against > 0)) return Vec3::Zero();
+  if (!(against > 0)) return Vector::Zero();
   const double out = against / last.norm(), most = largest_pull(k, out) * out;
-  if (!(gained > 0.5 * kNegligibleWorkError * most)) return Vec3::Zero();
-  return std::min(std::min(gained, most) / against, 1.0) * (pushed ? Vec3(-last) : last);
+  if (!(gained > 0.5 * kNegligibleWorkError * most)) return Vector::Zero();
+  return std::min(std::min(gained, most) / against, 1.0) * (pushed ? Vector(-last) : last);
 }
 
 }  // namespace breccia

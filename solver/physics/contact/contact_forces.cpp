@@ -4,7 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <string>
+#include <tuple>
 
+#include "base/error.hpp"
 #include "physics/contact/contact_balance.hpp"
 #include "physics/contact/contact_field.hpp"
 #include "physics/contact/contact_pass.hpp"
@@ -34,6 +37,7 @@ void Pass::run() {
     first += point.count;
   }
   for (; old_ < contact_.touching_before.size(); ++old_) forget(contact_.touching_before[old_]);
+  press_waiting();
   contact_.fresh.clear();
 }
 
@@ -41,12 +45,16 @@ void Pass::run() {
 double Pass::evaluate_point(Index point, std::span<ContactCouple> couples) {
   const Vec3 x = at_point(rule_, point_at(point), state_.position.data());
   candidates_.clear();
+  inside_.clear();
   beside_.clear();
   for (ContactCouple& couple : couples) {
     if (!(contact_.travel < couple.apart_until)) look_at(couple, x);
   }
-  if (!beside_.empty()) bridge_gaps(point);
-  if (!candidates_.empty()) touch_point(point);
+  if (!press_aside(point)) {
+    for (const Nearby& here : inside_) consider(point_at(point), here.couple->contactor, here.lambda);
+    if (!beside_.empty()) bridge_gaps(point);
+    if (!candidates_.empty()) touch_point(point);
+  }
   double apart_until = std::numeric_limits<double>::infinity();
   for (const ContactCouple& couple : couples) apart_until = std::min(apart_until, couple.apart_until);
   return apart_until;
@@ -77,7 +85,7 @@ void Pass::look_at(ContactCouple& couple, const Vec3& x) {
   const PreparedTetra& tetra = prepare_contactor(couple.contactor);
   const std::array<double, 4> lambda = barycentric(tetra, x);
   if (inside(lambda)) {
-    consider(point_at(couple.point), couple.contactor, lambda);
+    inside_.push_back({&couple, lambda});
   } else if (smallest(lambda) >= -kGap) {
     beside_.push_back({&couple, lambda});
   } else if (!inert(tetra)) {
@@ -129,7 +137,8 @@ const Vec3& Pass::curl_of(Index slot) {
   ElementTurn& turn = contact_.turns[static_cast<std::size_t>(slot)];
   if (turn.in == contact_.calls) return turn.curl;
   turn = {Vec3::Zero(), contact_.calls};
-  const PreparedTetra tetra = prepare_element(slot);
+  const Index contactor = contact_.contactor_of_slot[static_cast<std::size_t>(slot)];
+  const PreparedTetra tetra = contactor >= 0 ? prepare_past_contactor(contactor) : prepare_element(slot);
   if (inert(tetra)) return turn.curl;
   const std::array<Vec3, 4> v = load_corners(local_, state_.velocity.data(), slot);
   for (std::size_t c = 1; c < 4; ++c) {
@@ -144,25 +153,27 @@ Vec3 Pass::mean_turn(Index target, Index contactor) {
   return 0.25 * dt_ * (curl_of(target) + curl_of(slot_of(contactor)));
 }
 
+/// The overlap becomes g. @return  J dissipated
+double Pass::go_to(const ContactLaw& law, double scale, double length, double g, TouchingCouple& h) {
+  h.offset = std::min(h.offset, std::max(g, 0.0));
+  const double d = std::max(0.0, g - h.offset) / length;
+  const double d_max = normal_law::largest(d, h.d_max);
+  const double lost = std::max(0.0, normal_law::dissipated(law, d_max) - normal_law::dissipated(law, h.d_max));
+  h.d = d;
+  h.d_max = d_max;
+  return scale * lost;
+}
+
 /// The law follows the motion (field at rest), then the field (points at rest), so that the energy each of them moves
 /// is known apart. @return  J dissipated
 double Pass::follow(const ContactLaw& law, double scale, double length, const Candidate& candidate, TouchingCouple& h) {
-  const auto go_to = [&](double g) {
-    h.offset = std::min(h.offset, std::max(g, 0.0));
-    const double d = std::max(0.0, g - h.offset) / length;
-    const double d_max = normal_law::largest(d, h.d_max);
-    const double lost = std::max(0.0, normal_law::dissipated(law, d_max) - normal_law::dissipated(law, h.d_max));
-    h.d = d;
-    h.d_max = d_max;
-    return scale * lost;
-  };
-  const double lost = go_to(candidate.g_before);
+  const double lost = go_to(law, scale, length, candidate.g_before, h);
   if (candidate.g == candidate.g_before) return lost;
   // The offset takes up the field's change: what rises makes no force, what sinks takes force away once the offset is
   // gone.
   const double stored = normal_law::stored(law, h.d, h.d_max);
   h.offset = std::max(0.0, h.offset + (candidate.g - candidate.g_before));
-  go_to(candidate.g);
+  std::ignore = go_to(law, scale, length, candidate.g, h);
   // d does not rise here: the difference is negative by round-off only.
   return lost + scale * std::max(0.0, stored - normal_law::stored(law, h.d, h.d_max));
 }
@@ -226,12 +237,14 @@ void Pass::keep_step(const ContactPoint& point, double length, TouchingCouple& h
   candidate.g_before -= beyond - turned;
 }
 
-void Pass::act(Index index, Candidate& candidate) {
+void Pass::act(Index index, Candidate& candidate) { touch(index, candidate, contact_.touching.emplace_back()); }
+
+/// @param h  of contact_.touching, the last one where the overlap ends; out
+void Pass::touch(Index index, Candidate& candidate, TouchingCouple& h) {
   const ContactPoint& point = point_at(index);
   const Index slot = slot_of(candidate.contactor);
   const ContactLaw& law = law_of(index, candidate.contactor);
   const double length = length_of(slot);
-  TouchingCouple& h = contact_.touching.emplace_back();
   if (candidate.old >= 0) {
     h = contact_.touching_before[static_cast<std::size_t>(candidate.old)];
     // Where the overlap stays below the offset there is no force before or after.
@@ -289,7 +302,7 @@ double Pass::press(const ContactLaw& law, const ContactPoint& point, double leng
       turn_spring(outward, outward.dot(mean_turn(point.slot, candidate.contactor)), h.spring);
     if (h.d > 0) follow_normal_force(normal.pressure * slope, dt_, longest_delay(h), h.delayed);
     const double limit = h.d > 0 ? law.friction * h.delayed.force : 0.0;
-    const FrictionStep friction = friction_step(outward, motion, k, limit, h.spring);
+    const FrictionStep<Vec3> friction = friction_step(outward, motion, k, limit, h.spring);
     const double spring = 0.5 * k * h.spring.squaredNorm();
     account(point, work_.friction_dissipated).add(friction.dissipated);
     account(point, work_.friction_stored).add(spring);
@@ -306,7 +319,6 @@ double Pass::press(const ContactLaw& law, const ContactPoint& point, double leng
 /// @param h  force by its law and what it has gained with it; changed
 void Pass::balance(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
                    TouchingCouple& h) const {
-  constexpr double kNoForce = 1e-60;  // N; a pull as a share of less, at the far end of a steep curve, may overflow
   const Vec3 normal = h.force - h.friction;
   const double work = normal.dot(motion);
   if (work == 0 || !(normal.norm() > kNoForce)) return;
@@ -348,6 +360,15 @@ Damping Pass::damp(const ContactLaw& law, const ContactPoint& point, const Vec3&
 void Pass::distribute(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda,
                       const Vec3& force) {
   if (force == Vec3::Zero()) return;
+  if (filled_ > 0) {
+    waiting_.push_back({&point, contactor, lambda, force});
+  } else {
+    add_force(point, contactor, lambda, force);
+  }
+}
+
+void Pass::add_force(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda,
+                     const Vec3& force) {
   const std::array<double, 3>& shape = rule_.shape[static_cast<std::size_t>(point.k)];
   const std::array<double*, 3> target = forces_.places(point.nodes);
   for (std::size_t i = 0; i < 3; ++i) NodalForces::add(target[i], shape[i] * force);
@@ -360,9 +381,27 @@ void Pass::distribute(const ContactPoint& point, Index contactor, const std::arr
 
 }  // namespace contact_pass
 
+namespace {
+
+ContactKernel kernel_for(Simd simd) {
+  DEMAND(simd_available(simd), std::string(name_of(simd)));
+  switch (simd) {
+    case Simd::avx512:
+      return press_block_avx512;
+    case Simd::avx2:
+      return press_block_avx2;
+    case Simd::sse2:
+      break;
+  }
+  return press_block_sse2;
+}
+
+}  // namespace
+
 void contact_forces(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt,
-                    ContactState& contact, NodalForces& forces, ContactWork& work) {
-  contact_pass::Pass(params, local, state, dt, contact, forces, work).run();
+                    ContactState& contact, NodalForces& forces, ContactWork& work, std::optional<Simd> simd) {
+  const ContactKernel kernel = simd ? kernel_for(*simd) : nullptr;
+  contact_pass::Pass(params, local, state, dt, contact, forces, work, kernel).run();
 }
 
 }  // namespace breccia

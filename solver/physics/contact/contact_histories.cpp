@@ -17,13 +17,13 @@ void Pass::bridge_gaps(Index point) {
   const std::vector<TouchingCouple>& old = contact_.touching_before;
   forget_before(point);
   const std::size_t inside_one = candidates_.size();
-  for (Beside& here : beside_) {
+  for (Nearby& here : beside_) {
     const Index contactor = here.couple->contactor;
     bool pressed = false;
     for (std::size_t k = old_; k < old.size() && old[k].point == point; ++k)
       pressed = pressed || (old[k].contactor == contactor && old[k].d > 0);
     if (!pressed) {
-      // Beside a side it may come to lie under it at any time, without coming nearer.
+      // Nearby a side it may come to lie under it at any time, without coming nearer.
       if (has_sides(params_, contact_, contactor)) continue;
       here.couple->apart_until = contact_.travel + safe_travel(prepared(contactor), here.lambda, kInside);
       continue;
@@ -42,7 +42,7 @@ void Pass::bridge_gaps(Index point) {
 }
 
 /// How the side faces under which the point would lie if the contactor reached so far. @pre it has sides
-Facing Pass::side_over(const ContactPoint& point, const Beside& here) const {
+Facing Pass::side_over(const ContactPoint& point, const Nearby& here) const {
   const Index contactor = here.couple->contactor;
   const OverlapShape& shape = shape_of(contactor);
   const FacingRows most = rows_facing(shape, prepared(contactor), outward_of(point));
@@ -50,10 +50,10 @@ Facing Pass::side_over(const ContactPoint& point, const Beside& here) const {
 }
 
 /// The nearest neighbour of a candidate with a side that the point's face looks at more; null: none.
-const Beside* Pass::facing_more(const ContactPoint& point, Index candidate) const {
-  const Beside* best = nullptr;
+const Nearby* Pass::facing_more(const ContactPoint& point, Index candidate) const {
+  const Nearby* best = nullptr;
   std::optional<Facing> most;
-  for (const Beside& here : beside_) {
+  for (const Nearby& here : beside_) {
     const Index contactor = here.couple->contactor;
     // Most surfaces of debris have no sides that are told apart.
     if (!has_sides(params_, contact_, contactor) || !are_neighbours(contactor, candidate)) continue;
@@ -73,7 +73,7 @@ const Beside* Pass::facing_more(const ContactPoint& point, Index candidate) cons
 /// @param inside  number of candidates that the point is in, which come first
 void Pass::prefer_facing_sides(const ContactPoint& point, std::size_t inside) {
   for (std::size_t i = 0; i < inside; ++i) {
-    const Beside* best = facing_more(point, candidates_[i].contactor);
+    const Nearby* best = facing_more(point, candidates_[i].contactor);
     if (best != nullptr) candidates_[i] = candidate_of(point, best->couple->contactor, best->lambda);
   }
 }

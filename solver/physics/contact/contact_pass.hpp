@@ -7,16 +7,15 @@
 #include <span>
 #include <vector>
 
+#include "physics/contact/contact_block.hpp"
 #include "physics/contact/contact_field.hpp"
 #include "physics/contact/contact_forces.hpp"
 #include "physics/contact/contact_law.hpp"
 #include "physics/contact/friction.hpp"
 
-/// For contact_forces.cpp and contact_histories.cpp only.
+/// For contact_forces.cpp, contact_histories.cpp and contact_lanes.cpp only.
 namespace breccia::contact_pass {
 
-/// Change of overlap over motion that is put down to the deformation and rotation of an element in one step.
-inline constexpr double kSameSlope = 1e-3;
 /// Share of its heights by which an element reaches beyond its faces for a point that was in it. Joints break before
 /// they open so far: critical opening over height is 0.1 % in meshes/glass_impact, 0.4 % in block_wall, 0.8 % in disc.
 inline constexpr double kGap = 0.01;
@@ -46,10 +45,26 @@ struct Candidate {
   std::optional<Vec3> motion{};  ///< m, relative_motion(), once it has been asked for
 };
 
-/// A couple of the point at hand that lies just outside of the contactor.
-struct Beside {
+/// A couple of the point at hand that lies in the contactor or just beside it.
+struct Nearby {
   ContactCouple* couple;
   std::array<double, 4> lambda;
+};
+
+/// A force that is to be added to nodes, in its turn: of a couple in the block, or known already.
+struct Waiting {
+  const ContactPoint* point;
+  Index contactor;
+  std::array<double, 4> lambda;
+  Vec3 force{0, 0, 0};      ///< N, on the point
+  std::ptrdiff_t lane = -1;  ///< in the block, -1: known
+};
+
+/// A couple in the block.
+struct Lane {
+  Index point;
+  std::size_t touching;  ///< where it stands in ContactState::touching
+  std::ptrdiff_t old;    ///< likewise in touching_before
 };
 
 /// Whether nothing is left of the couple but what its overlaps have gained or lost and its delayed normal force.
@@ -71,7 +86,7 @@ struct Damping {
 class Pass {
  public:
   Pass(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt, ContactState& contact,
-       NodalForces& forces, ContactWork& work)
+       NodalForces& forces, ContactWork& work, ContactKernel kernel)
       : params_(params),
         local_(local),
         state_(state),
@@ -79,6 +94,7 @@ class Pass {
         contact_(contact),
         forces_(forces),
         work_(work),
+        kernel_(kernel),
         rule_(face_rule(params.points_per_face)) {}
 
   void run();
@@ -90,9 +106,9 @@ class Pass {
   double evaluate_point(Index point, std::span<ContactCouple> couples);
   void look_at(ContactCouple& couple, const Vec3& x);
   void bridge_gaps(Index point);
-  [[nodiscard]] const Beside* facing_more(const ContactPoint& point, Index candidate) const;
+  [[nodiscard]] const Nearby* facing_more(const ContactPoint& point, Index candidate) const;
   void prefer_facing_sides(const ContactPoint& point, std::size_t inside);
-  [[nodiscard]] Facing side_over(const ContactPoint& point, const Beside& here) const;
+  [[nodiscard]] Facing side_over(const ContactPoint& point, const Nearby& here) const;
   void touch_point(Index point);
   void drop_ambiguous();
   void forget_before(Index point);
@@ -108,6 +124,7 @@ class Pass {
   [[nodiscard]] Vec3 mean_turn(Index target, Index contactor);
   [[nodiscard]] bool comes_from_beside(const ContactPoint& point, Candidate& candidate) const;
   [[nodiscard]] double first_offset(Index point, Candidate& candidate) const;
+  [[nodiscard]] static double go_to(const ContactLaw& law, double scale, double length, double g, TouchingCouple& h);
   [[nodiscard]] static double follow(const ContactLaw& law, double scale, double length, const Candidate& candidate,
                                      TouchingCouple& h);
   /// Gradient of the overlap by the field of one step ago.
@@ -120,6 +137,16 @@ class Pass {
   [[nodiscard]] Before one_step_ago(const ContactPoint& point, Index contactor) const;
   void keep_step(const ContactPoint& point, double length, TouchingCouple& h, Candidate& candidate) const;
   void act(Index point, Candidate& candidate);
+  void touch(Index point, Candidate& candidate, TouchingCouple& h);
+  [[nodiscard]] bool press_aside(Index point);
+  [[nodiscard]] bool is_ordinary(Index point, Index contactor) const;
+  [[nodiscard]] const TouchingCouple* only_history(Index point, Index contactor);
+  void pass_over_beside();
+  void fill_lane(const ContactPoint& point, const TouchingCouple& old, const TouchingCouple& h, double g, double lost);
+  void place_lane(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda,
+                  const std::array<double, 4>& depth);
+  void press_waiting();
+  void settle(const Waiting& waiting);
   [[nodiscard]] double press(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
                              const Candidate& candidate, TouchingCouple& h);
   void balance(const ContactLaw& law, const ContactPoint& point, double length, const Vec3& motion,
@@ -127,6 +154,7 @@ class Pass {
   [[nodiscard]] Damping damp(const ContactLaw& law, const ContactPoint& point, const Vec3& motion,
                              const Candidate& candidate, double elastic) const;
   void distribute(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda, const Vec3& force);
+  void add_force(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda, const Vec3& force);
 
   [[nodiscard]] const ContactPoint& point_at(Index point) const {
     return contact_.points[static_cast<std::size_t>(point)];
@@ -213,12 +241,20 @@ class Pass {
   ContactState& contact_;
   NodalForces& forces_;
   ContactWork& work_;
+  ContactKernel kernel_;
   const FaceRule& rule_;
   std::vector<Candidate> candidates_;  ///< of the point at hand, ascending
-  std::vector<Beside> beside_;         ///< of the same point, ascending
+  std::vector<Nearby> inside_;         ///< of the same point, ascending: couples whose contactor holds it
+  std::vector<Nearby> beside_;         ///< likewise: it lies just outside
   std::vector<bool> taken_;            ///< old histories of the point at hand that live on
   std::size_t old_ = 0;                ///< first old history not yet looked at
   ExactSum ignored_;                   ///< what other ranks account
+
+  // Couples of the points before that are evaluated side by side, and all forces from the first of these on.
+  ContactBlock block_;
+  std::array<Lane, kLanes> lanes_;
+  std::size_t filled_ = 0;
+  std::vector<Waiting> waiting_;
 
   // The last result of shape_of: several calls for one couple follow each other.
   mutable OverlapShape shape_;

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "base/types.hpp"
 #include "discretisation/local_mesh.hpp"
 

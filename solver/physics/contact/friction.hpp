@@ -1,17 +1,19 @@
 #pragma once
 
-#include <algorithm>
+#include <type_traits>
 
-#include <Eigen/Geometry>
+#include "physics/elasticity.hpp"
 
-#include "base/types.hpp"
+// For Vector = Vec3 and for LaneVector (physics/lane_vector.hpp), whose numbers are those of several contact points:
+// the same operations in the same order, hence the same bits.
 
 namespace breccia {
 
 /// What friction does to a contact point in a step.
+template <class Vector>
 struct FrictionStep {
-  Vec3 force;         ///< N, tangential, on the point
-  double dissipated;  ///< J, >= 0
+  Vector force;                        ///< N, tangential, on the point
+  typename Vector::Scalar dissipated;  ///< J, >= 0
 };
 
 /// Coulomb friction of one contact point by a tangential spring. Source: [Cundall and Strack 1979], rotated with the
@@ -28,29 +30,34 @@ struct FrictionStep {
 /// @param motion  m, of the point relative to the contactor during the step
 /// @param k       N/m, > 0;  @param limit  N, mu f_n >= 0
 /// @param xi      m, elongation of the spring, read and written
-[[nodiscard]] inline FrictionStep friction_step(const Vec3& normal, const Vec3& motion, double k, double limit,
-                                                Vec3& xi) {
-  const double length = xi.norm();
+template <class Vector, class Real = typename Vector::Scalar>
+[[nodiscard]] FrictionStep<Vector> friction_step(const std::type_identity_t<Vector>& normal,
+                                                 const std::type_identity_t<Vector>& motion,
+                                                 const std::type_identity_t<Real>& k,
+                                                 const std::type_identity_t<Real>& limit, Vector& xi) {
+  using elasticity::select;
+  const Real zero(0.0), one(1.0);
+  const Real length = xi.norm();
   xi -= normal.dot(xi) * normal;
-  const double turned = xi.norm();
-  if (turned > 0) xi *= length / turned;
-  const Vec3 before = xi;
+  const Real turned = xi.norm();
+  xi *= select(turned > zero, Real(length / turned), one);
+  const Vector before = xi;
   xi += motion - normal.dot(motion) * normal;
-  const double trial = k * xi.norm();
-  double dissipated = 0;
-  if (trial > limit) {
-    const Vec3 stretched = xi;
-    xi *= limit / trial;
-    dissipated = std::max(0.0, 0.5 * k * (before + xi).dot(stretched - xi));
-  }
-  return {-k * xi, dissipated};
+  const Real trial = k * xi.norm();
+  const auto slides = trial > limit;
+  const Vector stretched = xi;
+  xi *= select(slides, Real(limit / trial), one);
+  const Real dissipated = elasticity::greater(zero, Real(0.5 * k * (before + xi).dot(stretched - xi)));
+  return {-k * xi, select(slides, dissipated, zero)};
 }
 
 /// The normal force that limits friction, late.
-struct DelayedForce {
-  double force = 0;  ///< N
-  double age = 0;    ///< s, of the overlap, up to kSettledAge; counts down while there is none
+template <class Real>
+struct DelayedForceOf {
+  Real force = 0.0;  ///< N
+  Real age = 0.0;    ///< s, of the overlap, up to kSettledAge; counts down while there is none
 };
+using DelayedForce = DelayedForceOf<double>;
 
 /// Age of an overlap from which on friction is latest, in longest delays. A half wave that presses for 0.3, 1 or 4 of
 /// them rubs 0.1, 0.5 or 1.9 % more than by Coulomb's law.
@@ -65,11 +72,15 @@ inline constexpr double kSettledAge = 14;
 /// by a wave they are not [Prakash and Clifton 1993; Ranjith and Rice 2001]. Between overlaps f stays as it is, so that
 /// in the mean over all overlaps it is f_n.
 /// @param normal  N, f_n;  @param dt  s, >= 0;  @param longest  s, >= 0;  @param delayed  read and written
-inline void follow_normal_force(double normal, double dt, double longest, DelayedForce& delayed) {
-  delayed.age = std::min(delayed.age + dt, kSettledAge * longest);
-  const double settled = longest > 0 ? delayed.age / (kSettledAge * longest) : 0.0;
-  const double delay = longest * settled * settled;
-  delayed.force = dt < delay ? delayed.force + (normal - delayed.force) * (dt / delay) : normal;
+template <class Real>
+void follow_normal_force(const std::type_identity_t<Real>& normal, const std::type_identity_t<Real>& dt,
+                         const std::type_identity_t<Real>& longest, DelayedForceOf<Real>& delayed) {
+  using elasticity::select;
+  delayed.age = elasticity::lesser(Real(delayed.age + dt), Real(kSettledAge * longest));
+  const Real settled = select(longest > 0.0, Real(delayed.age / (kSettledAge * longest)), Real(0.0));
+  const Real delay = longest * settled * settled;
+  const Real late = delayed.force + (normal - delayed.force) * (dt / delay);
+  delayed.force = select(dt < delay, late, Real(normal));
 }
 
 /// One step without overlap: what lifts off again and again stays old. If the age fell to a third as fast, blocks that
@@ -84,15 +95,17 @@ inline void forget_normal_force(double dt, DelayedForce& delayed) {
 /// spins about the normal is held as on one at rest. Cayley's form of the rotation keeps lengths; it turns by
 /// a - a^3/12 for an angle a.
 /// @param normal  unit vector;  @param angle  rad, of both surfaces in the mean during the step
-inline void turn_spring(const Vec3& normal, double angle, Vec3& xi) {
-  const Vec3 half = 0.5 * angle * normal;
-  const Vec3 across = half.cross(xi);
+template <class Vector, class Real = typename Vector::Scalar>
+void turn_spring(const std::type_identity_t<Vector>& normal, const std::type_identity_t<Real>& angle, Vector& xi) {
+  const Vector half = 0.5 * angle * normal;
+  const Vector across = half.cross(xi);
   xi += 2.0 / (1.0 + half.squaredNorm()) * (across + half.cross(across));
 }
 
 /// Of a spring that lets go in a step, J, >= 0: the same with the limit 0. @param motion  as above, along the surface
-[[nodiscard]] inline double released_by_friction(const Vec3& motion, double k, const Vec3& xi) {
-  return std::max(0.0, 0.5 * k * xi.dot(xi + motion));
+template <class Vector>
+[[nodiscard]] double released_by_friction(const std::type_identity_t<Vector>& motion, double k, const Vector& xi) {
+  return elasticity::greater(0.0, 0.5 * k * xi.dot(xi + motion));
 }
 
 }  // namespace breccia

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/index.hpp"
+#include "discretisation/blocks.hpp"
+
+namespace breccia {
+
+/// Change of overlap over motion that is put down to the deformation and rotation of an element in one step.
+inline constexpr double kSameSlope = 1e-3;
+/// N; a pull as a share of less, at the far end of a steep curve, may overflow.
+inline constexpr double kNoForce = 1e-60;
+
+/// A number of each of eight couples: one cache line.
+struct ContactRow {
+  double lane[kLanes] = {};
+
+  [[nodiscard]] double& operator[](std::size_t l) { return lane[l]; }
+  [[nodiscard]] const double& operator[](std::size_t l) const { return lane[l]; }
+};
+
+/// Eight couples that go on pressing, side by side, each with a law of its own: what the kernel reads and writes in rows
+/// (AoSoA). What an empty place holds is computed along and forgotten.
+struct alignas(64) ContactBlock {
+  // Where: the three nodes of the point's face and the four of the contactor.
+  Index node[7][kLanes] = {};
+  ContactRow shape[3], lambda[4];
+  ContactRow lambda_gradient[3][3];  ///< 1/m, of lambda_1..3
+  ContactRow depth[4];               ///< m, coefficients of the overlap function that counts
+  // By the normal law, now and one step ago.
+  ContactRow change;                 ///< m, of the overlap since the last step, by what the couple had then
+  ContactRow deep;                   ///< m, d H
+  ContactRow pressure;               ///< N, w sigma
+  ContactRow stored, stored_before;  ///< J
+  ContactRow lost;                   ///< J, dissipated in this step
+  ContactRow last_force[3];          ///< N
+  // Of the laws.
+  ContactRow stiffness, tangential;  ///< N/m
+  ContactRow exponent, friction, longest_delay;
+  ContactRow turn[3];  ///< rad, of the two elements in the mean
+  // Read and written, as in TouchingCouple.
+  ContactRow spring[3], delayed_force, delayed_age, gained, gained_before;
+  // Results.
+  ContactRow force[3], tangential_force[3], balance;
+  ContactRow spring_energy, slip_energy;  ///< J, held by the spring, dissipated
+  /// 1: not one of the couples that this kernel is for: what it has computed is void (`press_block`).
+  std::uint8_t other[kLanes] = {};
+};
+
+/// One step of couples whose points stay under the same function of the overlap of the same contactor, with friction
+/// and without damping: the very operations of contact_pass::Pass::touch in the same order, hence the same bits.
+/// `other` is set where something has to be looked at that is not in the block: another slope of the overlap than one
+/// step ago, no motion, no force any more.
+/// @param velocity  nodal field, m/s;  @param dt  s
+using ContactKernel = void (*)(double dt, const double* velocity, ContactBlock& block);
+void press_block_sse2(double dt, const double* velocity, ContactBlock& block);
+void press_block_avx2(double dt, const double* velocity, ContactBlock& block);
+void press_block_avx512(double dt, const double* velocity, ContactBlock& block);
+
+}  // namespace breccia
