@@ -21,6 +21,20 @@ struct ContactRow {
   [[nodiscard]] const double& operator[](std::size_t l) const { return lane[l]; }
 };
 
+/// Where the point of a couple is: in the contactor, so near that it may be as good as in it (kGap), farther away, or
+/// nowhere, as the contactor is inert.
+enum class Whereabouts : std::uint8_t { inside, beside, outside, nowhere };
+
+/// Eight couples that are looked at. What an empty place holds is computed along, and has to be a contactor's.
+struct alignas(64) LookBlock {
+  const double* tetra[kLanes] = {};  ///< PreparedTetra, by its 12 numbers
+  ContactRow x[3];                   ///< m, of the point
+  // Results.
+  ContactRow lambda[4];
+  ContactRow safe;  ///< m, safe_travel() to kGap
+  Whereabouts where[kLanes] = {};
+};
+
 /// Eight couples that go on pressing, side by side, each with a law of its own: what the kernel reads and writes in rows
 /// (AoSoA). What an empty place holds is computed along and forgotten.
 struct alignas(64) ContactBlock {
@@ -54,9 +68,16 @@ struct alignas(64) ContactBlock {
 /// `other` is set where something has to be looked at that is not in the block: another slope of the overlap than one
 /// step ago, no motion, no force any more.
 /// @param velocity  nodal field, m/s;  @param dt  s
-using ContactKernel = void (*)(double dt, const double* velocity, ContactBlock& block);
-void press_block_sse2(double dt, const double* velocity, ContactBlock& block);
-void press_block_avx2(double dt, const double* velocity, ContactBlock& block);
-void press_block_avx512(double dt, const double* velocity, ContactBlock& block);
+using PressKernel = void (*)(double dt, const double* velocity, ContactBlock& block);
+using LookKernel = void (*)(LookBlock& block);
+
+/// Compiled for one instruction set.
+struct ContactKernels {
+  LookKernel look;
+  PressKernel press;  ///< null: couples are evaluated one by one
+};
+[[nodiscard]] ContactKernels contact_kernels_sse2();
+[[nodiscard]] ContactKernels contact_kernels_avx2();
+[[nodiscard]] ContactKernels contact_kernels_avx512();
 
 }  // namespace breccia

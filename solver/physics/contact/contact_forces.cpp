@@ -18,6 +18,13 @@ namespace breccia {
 
 namespace contact_pass {
 
+namespace {
+
+/// Couples that are looked at before the first of their points is evaluated: few, so that all is still at hand.
+constexpr std::size_t kMostLooks = 64;
+
+}  // namespace
+
 void Pass::run() {
   advance_field(contact_);
   contact_.touching_before.swap(contact_.touching);
@@ -33,31 +40,46 @@ void Pass::run() {
   ContactCouple* first = contact_.couples.data();
   for (PointCouples& point : contact_.by_point) {
     const std::span<ContactCouple> couples{first, static_cast<std::size_t>(point.count)};
-    if (!(contact_.travel < point.apart_until)) point.apart_until = evaluate_point(point.point, couples);
+    if (!(contact_.travel < point.apart_until)) look_at(point, couples);
+    if (looks_.size() >= kMostLooks) evaluate_looks();
     first += point.count;
   }
+  evaluate_looks();
   for (; old_ < contact_.touching_before.size(); ++old_) forget(contact_.touching_before[old_]);
   press_waiting();
   contact_.fresh.clear();
 }
 
-/// Finds the contactors that a point is in, and the forces between them. @return  m, the least apart_until
-double Pass::evaluate_point(Index point, std::span<ContactCouple> couples) {
-  const Vec3 x = at_point(rule_, point_at(point), state_.position.data());
+/// Finds the contactors that a point is in, and the forces between them. @param end  of its looks
+void Pass::evaluate_point(const PointLooks& looks, std::size_t end) {
+  const Index point = looks.point->point;
   candidates_.clear();
   inside_.clear();
   beside_.clear();
-  for (ContactCouple& couple : couples) {
-    if (!(contact_.travel < couple.apart_until)) look_at(couple, x);
+  for (std::size_t k = looks.first; k < end; ++k) {
+    const Look& look = looks_[k];
+    switch (look.where) {
+      case Whereabouts::inside:
+        inside_.push_back({look.couple, look.lambda});
+        break;
+      case Whereabouts::beside:
+        beside_.push_back({look.couple, look.lambda});
+        break;
+      case Whereabouts::outside:
+        look.couple->apart_until = contact_.travel + look.safe;
+        break;
+      case Whereabouts::nowhere:
+        break;
+    }
   }
   if (!press_aside(point)) {
     for (const Nearby& here : inside_) consider(point_at(point), here.couple->contactor, here.lambda);
     if (!beside_.empty()) bridge_gaps(point);
     if (!candidates_.empty()) touch_point(point);
   }
-  double apart_until = std::numeric_limits<double>::infinity();
-  for (const ContactCouple& couple : couples) apart_until = std::min(apart_until, couple.apart_until);
-  return apart_until;
+  double& apart_until = looks.point->apart_until;
+  apart_until = std::numeric_limits<double>::infinity();
+  for (const ContactCouple& couple : looks.couples) apart_until = std::min(apart_until, couple.apart_until);
 }
 
 PreparedTetra Pass::prepare_element(Index slot) const {
@@ -78,19 +100,6 @@ const PreparedTetra& Pass::prepare_contactor(Index contactor) {
 PreparedTetra Pass::prepare_past_contactor(Index contactor) {
   const bool in_couples = contact_.place[static_cast<std::size_t>(contactor)] >= 0;
   return in_couples ? prepare_contactor(contactor) : prepare_element(slot_of(contactor));
-}
-
-/// @param x  m, place of the couple's point
-void Pass::look_at(ContactCouple& couple, const Vec3& x) {
-  const PreparedTetra& tetra = prepare_contactor(couple.contactor);
-  const std::array<double, 4> lambda = barycentric(tetra, x);
-  if (inside(lambda)) {
-    inside_.push_back({&couple, lambda});
-  } else if (smallest(lambda) >= -kGap) {
-    beside_.push_back({&couple, lambda});
-  } else if (!inert(tetra)) {
-    couple.apart_until = contact_.travel + safe_travel(tetra, lambda, kGap);
-  }
 }
 
 const OverlapShape& Pass::shape_of(Index contactor, Instant instant) const {
@@ -383,25 +392,26 @@ void Pass::add_force(const ContactPoint& point, Index contactor, const std::arra
 
 namespace {
 
-ContactKernel kernel_for(Simd simd) {
+ContactKernels kernels_for(Simd simd) {
   DEMAND(simd_available(simd), std::string(name_of(simd)));
   switch (simd) {
     case Simd::avx512:
-      return press_block_avx512;
+      return contact_kernels_avx512();
     case Simd::avx2:
-      return press_block_avx2;
+      return contact_kernels_avx2();
     case Simd::sse2:
       break;
   }
-  return press_block_sse2;
+  return contact_kernels_sse2();
 }
 
 }  // namespace
 
 void contact_forces(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt,
-                    ContactState& contact, NodalForces& forces, ContactWork& work, std::optional<Simd> simd) {
-  const ContactKernel kernel = simd ? kernel_for(*simd) : nullptr;
-  contact_pass::Pass(params, local, state, dt, contact, forces, work, kernel).run();
+                    ContactState& contact, NodalForces& forces, ContactWork& work, Simd simd, bool side_by_side) {
+  ContactKernels kernels = kernels_for(simd);
+  if (!side_by_side) kernels.press = nullptr;
+  contact_pass::Pass(params, local, state, dt, contact, forces, work, kernels).run();
 }
 
 }  // namespace breccia

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <functional>
-#include <optional>
 
 #include "base/exact_sum.hpp"
 #include "discretisation/local_mesh.hpp"
@@ -62,12 +61,11 @@ struct ContactWork {
 /// @param dt       s, from t_(n-1) to t_n
 /// @param contact  couples sorted; apart_until, histories, field and scratch are written, `fresh` is emptied
 /// @param forces   added to, in the order (point id, contactor)
-/// @param simd     available; what couples that go on pressing are evaluated with, side by side; none: one by one. The
-///                 same bits
+/// @param simd     available.  @param side_by_side  whether couples that go on pressing are. The same bits
 /// @pre dt >= 0; couples hold every pair that touches. O(couples) + O(points) with a sphere. Throws nothing.
 void contact_forces(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt,
                     ContactState& contact, NodalForces& forces, ContactWork& work,
-                    std::optional<Simd> simd = best_simd());
+                    Simd simd = best_simd(), bool side_by_side = true);
 
 /// Sum of the contact forces of the last step on some elements by axis, N: forces on their points (the spherical
 /// boundary's included), reactions on their contactors; of the points of this rank's originals. O(touching couples).

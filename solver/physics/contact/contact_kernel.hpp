@@ -8,6 +8,7 @@
 #include "physics/contact/contact_balance.hpp"
 #include "physics/contact/contact_block.hpp"
 #include "physics/contact/friction.hpp"
+#include "physics/contact/tetra_place.hpp"
 #include "physics/lane_vector.hpp"
 
 namespace breccia {
@@ -135,6 +136,33 @@ inline void act(const Some& at, double dt, const double* velocity) {
   at.store(now.delayed.force, b.delayed_force);
   at.store(now.delayed.age, b.delayed_age);
   for (std::size_t l = 0; l < kWidth; ++l) b.other[at.first + l] = whole[l] ? 0 : 1;
+}
+
+/// Where the points of W couples are.
+inline void look(LookBlock& b, std::size_t first) {
+  const auto gather = [&](std::size_t k) { return Real([&](auto l) { return b.tetra[first + l][k]; }); };
+  PreparedTetraOf<Real> tetra;
+  std::array<Real, 3> x;
+  for (std::size_t i = 0; i < 3; ++i) {
+    tetra.origin[i] = gather(i);
+    for (std::size_t c = 0; c < 3; ++c) tetra.gradient[c][i] = gather(3 + 3 * c + i);
+    x[i] = Real(&b.x[i].lane[first], stdx::element_aligned);
+  }
+  const std::array<Real, 4> lambda = barycentric(tetra, x);
+  const Real least = elasticity::lesser(elasticity::lesser(lambda[0], lambda[1]), elasticity::lesser(lambda[2], lambda[3]));
+  const Lanes inert = !(tetra.gradient[0][0] == tetra.gradient[0][0]), inside = least >= -kInside, near = least >= -kGap;
+  for (std::size_t a = 0; a < 4; ++a) lambda[a].copy_to(&b.lambda[a].lane[first], stdx::element_aligned);
+  safe_travel(tetra, lambda, kGap).copy_to(&b.safe.lane[first], stdx::element_aligned);
+  for (std::size_t l = 0; l < kWidth; ++l) {
+    b.where[first + l] = inside[l]  ? Whereabouts::inside
+                         : near[l]  ? Whereabouts::beside
+                         : inert[l] ? Whereabouts::nowhere
+                                    : Whereabouts::outside;
+  }
+}
+
+inline void look_block(LookBlock& block) {
+  for (std::size_t first = 0; first < kLanes; first += kWidth) look(block, first);
 }
 
 inline void press_block(double dt, const double* velocity, ContactBlock& block) {

@@ -2,6 +2,6 @@
 
 namespace breccia {
 
-void press_block_avx2(double dt, const double* velocity, ContactBlock& block) { press_block(dt, velocity, block); }
+ContactKernels contact_kernels_avx2() { return {look_block, press_block}; }
 
 }  // namespace breccia

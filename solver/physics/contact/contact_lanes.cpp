@@ -20,6 +20,44 @@ Vec3 take(const ContactRow (&rows)[3], std::size_t lane) { return {rows[0][lane]
 
 }  // namespace
 
+/// Looks where a point is in its contactors.
+void Pass::look_at(PointCouples& point, std::span<ContactCouple> couples) {
+  const Vec3 x = at_point(rule_, point_at(point.point), state_.position.data());
+  points_.push_back({&point, couples, looks_.size()});
+  for (ContactCouple& couple : couples) {
+    if (contact_.travel < couple.apart_until) continue;
+    const std::size_t lane = looks_.size() % kLanes;
+    Look& look = looks_.emplace_back();
+    look.couple = &couple;
+    look.tetra = &prepare_contactor(couple.contactor);
+    look_block_.tetra[lane] = look.tetra->origin.data();
+    put(x, lane, look_block_.x);
+    if (lane + 1 == kLanes) locate(looks_.size() - kLanes);
+  }
+}
+
+/// Evaluates the block. @param first  of its looks
+void Pass::locate(std::size_t first) {
+  const std::size_t count = looks_.size() - first;
+  for (std::size_t lane = count; lane < kLanes; ++lane) look_block_.tetra[lane] = look_block_.tetra[0];
+  kernels_.look(look_block_);
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    Look& look = looks_[first + lane];
+    for (std::size_t a = 0; a < 4; ++a) look.lambda[a] = look_block_.lambda[a][lane];
+    look.safe = look_block_.safe[lane];
+    look.where = look_block_.where[lane];
+  }
+}
+
+/// Evaluates the points that have been looked at.
+void Pass::evaluate_looks() {
+  if (const std::size_t rest = looks_.size() % kLanes; rest > 0) locate(looks_.size() - rest);
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    evaluate_point(points_[i], i + 1 < points_.size() ? points_[i + 1].first : looks_.size());
+  points_.clear();
+  looks_.clear();
+}
+
 /// Whether the point may be one for the block: in one contactor, whose field is at rest and beside which no side could
 /// take it over, by a law with friction and without damping.
 bool Pass::is_ordinary(Index point, Index contactor) const {
@@ -42,7 +80,7 @@ const TouchingCouple* Pass::only_history(Index point, Index contactor) {
 
 /// Puts the point's couple into the block if it is one for it. @return  whether nothing is left to do for the point
 bool Pass::press_aside(Index index) {
-  if (kernel_ == nullptr || inside_.size() != 1) return false;
+  if (kernels_.press == nullptr || inside_.size() != 1) return false;
   const Index contactor = inside_[0].couple->contactor;
   const std::array<double, 4>& lambda = inside_[0].lambda;
   if (!is_ordinary(index, contactor)) return false;
@@ -122,7 +160,7 @@ void Pass::fill_lane(const ContactPoint& point, const TouchingCouple& old, const
 /// Evaluates the block, and adds all forces in the order in which they came.
 void Pass::press_waiting() {
   if (filled_ == 0) return;
-  kernel_(dt_, state_.velocity.data(), block_);
+  kernels_.press(dt_, state_.velocity.data(), block_);
   filled_ = 0;
   for (const Waiting& waiting : waiting_) {
     if (waiting.lane >= 0) {

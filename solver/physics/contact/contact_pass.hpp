@@ -16,10 +16,6 @@
 /// For contact_forces.cpp, contact_histories.cpp and contact_lanes.cpp only.
 namespace breccia::contact_pass {
 
-/// Share of its heights by which an element reaches beyond its faces for a point that was in it. Joints break before
-/// they open so far: critical opening over height is 0.1 % in meshes/glass_impact, 0.4 % in block_wall, 0.8 % in disc.
-inline constexpr double kGap = 0.01;
-
 inline Index group_of(const LocalMesh& local, Index slot) {
   return local.block_group[static_cast<std::size_t>(slot / kLanes)];
 }
@@ -49,6 +45,22 @@ struct Candidate {
 struct Nearby {
   ContactCouple* couple;
   std::array<double, 4> lambda;
+};
+
+/// A couple that is looked at, and where its point is.
+struct Look {
+  ContactCouple* couple;
+  const PreparedTetra* tetra;
+  std::array<double, 4> lambda;
+  double safe;  ///< m, safe_travel() to kGap
+  Whereabouts where;
+};
+
+/// A point that is looked at, with its couples.
+struct PointLooks {
+  PointCouples* point;
+  std::span<ContactCouple> couples;
+  std::size_t first;  ///< of its looks
 };
 
 /// A force that is to be added to nodes, in its turn: of a couple in the block, or known already.
@@ -86,7 +98,7 @@ struct Damping {
 class Pass {
  public:
   Pass(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt, ContactState& contact,
-       NodalForces& forces, ContactWork& work, ContactKernel kernel)
+       NodalForces& forces, ContactWork& work, ContactKernels kernels)
       : params_(params),
         local_(local),
         state_(state),
@@ -94,7 +106,7 @@ class Pass {
         contact_(contact),
         forces_(forces),
         work_(work),
-        kernel_(kernel),
+        kernels_(kernels),
         rule_(face_rule(params.points_per_face)) {}
 
   void run();
@@ -103,8 +115,10 @@ class Pass {
   [[nodiscard]] PreparedTetra prepare_element(Index slot) const;
   [[nodiscard]] const PreparedTetra& prepare_contactor(Index contactor);
   [[nodiscard]] PreparedTetra prepare_past_contactor(Index contactor);
-  double evaluate_point(Index point, std::span<ContactCouple> couples);
-  void look_at(ContactCouple& couple, const Vec3& x);
+  void look_at(PointCouples& point, std::span<ContactCouple> couples);
+  void locate(std::size_t first);
+  void evaluate_looks();
+  void evaluate_point(const PointLooks& looks, std::size_t end);
   void bridge_gaps(Index point);
   [[nodiscard]] const Nearby* facing_more(const ContactPoint& point, Index candidate) const;
   void prefer_facing_sides(const ContactPoint& point, std::size_t inside);
@@ -241,8 +255,10 @@ class Pass {
   ContactState& contact_;
   NodalForces& forces_;
   ContactWork& work_;
-  ContactKernel kernel_;
+  ContactKernels kernels_;
   const FaceRule& rule_;
+  std::vector<PointLooks> points_;     ///< a few, to be evaluated next
+  std::vector<Look> looks_;            ///< of these
   std::vector<Candidate> candidates_;  ///< of the point at hand, ascending
   std::vector<Nearby> inside_;         ///< of the same point, ascending: couples whose contactor holds it
   std::vector<Nearby> beside_;         ///< likewise: it lies just outside
@@ -251,6 +267,7 @@ class Pass {
   ExactSum ignored_;                   ///< what other ranks account
 
   // Couples of the points before that are evaluated side by side, and all forces from the first of these on.
+  LookBlock look_block_;
   ContactBlock block_;
   std::array<Lane, kLanes> lanes_;
   std::size_t filled_ = 0;

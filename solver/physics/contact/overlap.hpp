@@ -10,23 +10,15 @@
 #include "discretisation/local_mesh.hpp"
 #include "mesh/corner_sets.hpp"
 #include "physics/contact/contact_params.hpp"
+#include "physics/contact/tetra_place.hpp"
 
 namespace breccia {
-
-/// A contactor made ready for many points: its corner 0 and the gradients of lambda_1..3 in the current configuration.
-struct PreparedTetra {
-  std::array<double, 3> origin;
-  std::array<std::array<double, 3>, 3> gradient;  ///< 1/m; NaN for an inert contactor
-};
 
 /// Overlaps of this share of H and less that the mesh comes with are round-off: bodies touch there without force.
 inline constexpr double kOverlapTolerance = 1e-6;
 
 /// Below this share of its reference volume an element is crushed or inverted and touches nothing.
 inline constexpr double kInertVolumeRatio = 0.01;
-
-/// A point counts as inside down to this lambda, so that round-off opens no gap between neighbouring elements.
-inline constexpr double kInside = 1e-9;
 
 /// O(1), branch-free but for the inert case.
 [[nodiscard]] inline PreparedTetra prepare(const std::array<Vec3, 4>& x, double reference_volume) {
@@ -45,14 +37,6 @@ inline constexpr double kInside = 1e-9;
 
 [[nodiscard]] inline bool inert(const PreparedTetra& tetra) { return !(tetra.gradient[0][0] == tetra.gradient[0][0]); }
 
-/// Barycentric coordinates of x. NaN for an inert contactor.
-[[nodiscard]] inline std::array<double, 4> barycentric(const PreparedTetra& tetra, const Vec3& x) {
-  const double r0 = x[0] - tetra.origin[0], r1 = x[1] - tetra.origin[1], r2 = x[2] - tetra.origin[2];
-  const auto along = [&](const std::array<double, 3>& g) { return g[0] * r0 + g[1] * r1 + g[2] * r2; };
-  const double l1 = along(tetra.gradient[0]), l2 = along(tetra.gradient[1]), l3 = along(tetra.gradient[2]);
-  return {1 - l1 - l2 - l3, l1, l2, l3};
-}
-
 /// False for NaN.
 [[nodiscard]] inline bool inside(const std::array<double, 4>& lambda) {
   return (lambda[0] >= -kInside) & (lambda[1] >= -kInside) & (lambda[2] >= -kInside) & (lambda[3] >= -kInside);
@@ -60,21 +44,6 @@ inline constexpr double kInside = 1e-9;
 
 [[nodiscard]] inline double smallest(const std::array<double, 4>& lambda) {
   return std::min(std::min(lambda[0], lambda[1]), std::min(lambda[2], lambda[3]));
-}
-
-/// How far all nodes may move before a point that is outside can come to within lambda >= -reach, m; 0 if it is there.
-/// What has lambda >= -reach is the hull of four corners, each of which moves by at most (1 + 6 reach) times as much as
-/// the nodes, and it lies on the other side of the plane lambda_k = -reach, k that of the smallest lambda.
-/// @pre the contactor is not inert
-[[nodiscard]] inline double safe_travel(const PreparedTetra& tetra, const std::array<double, 4>& lambda, double reach) {
-  const auto k = static_cast<std::size_t>(std::min_element(lambda.begin(), lambda.end()) - lambda.begin());
-  const auto component = [&](std::size_t i) {
-    const auto& g = tetra.gradient;
-    return k > 0 ? g[k - 1][i] : -(g[0][i] + g[1][i] + g[2][i]);
-  };
-  const double slope = Vec3(component(0), component(1), component(2)).norm();
-  constexpr double kRoundOff = 1.001;
-  return std::max(0.0, -lambda[k] - reach) / (slope * (2 + 6 * reach) * kRoundOff);
 }
 
 /// g of one element is the least of some linear functions sum_a row[a] lambda_a, m.
