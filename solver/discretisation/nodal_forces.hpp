@@ -33,6 +33,13 @@ class NodalForces {
     place[16] += force[2];
   }
 
+  /// The same of a share of a force.
+  static void add(double* place, double share, const Vec3& force) {
+    place[0] += share * force[0];
+    place[8] += share * force[1];
+    place[16] += share * force[2];
+  }
+
   /// Where the forces on some nodes of one element are summed, components kLanes apart: for callers that add as `add`
   /// does. Valid until the next call that is not const.
   template <std::size_t n>
@@ -42,10 +49,18 @@ class NodalForces {
       for (std::size_t i = 0; i < n; ++i) places[i] = at(nodes[i]);
       return places;
     }
-    constexpr Index kBlock = 4 * kLanes;
-    double* block = at(nodes[0] / kBlock * kBlock);
-    for (std::size_t i = 0; i < n; ++i) places[i] = block + nodal(nodes[i] % kBlock, 0);
+    double* block = own_block(static_cast<std::size_t>(nodes[0]) / kBlockNodes);
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t node = static_cast<std::size_t>(nodes[i]) % kBlockNodes;
+      places[i] = block + node / kLanes * (3 * kLanes) + node % kLanes;
+    }
     return places;
+  }
+  /// The same for the corners of an element that owns its nodes, of which corner 0 is given.
+  [[nodiscard]] std::array<double*, 4> own_places(Index corner) {
+    const auto node = static_cast<std::size_t>(corner);
+    double* first = own_block(node / kBlockNodes) + node % kLanes;
+    return {first, first + 3 * kLanes, first + 6 * kLanes, first + 9 * kLanes};
   }
 
   [[nodiscard]] Vec3 get(Index node) const;
@@ -62,12 +77,16 @@ class NodalForces {
   [[nodiscard]] double* shared() { return shared_.data(); }
 
  private:
+  static constexpr std::size_t kBlockNodes = 4 * kLanes;
+
   double* at(Index node) {
     if (node >= num_own_nodes_) return shared_.data() + nodal(node - num_own_nodes_, 0);
-    const Index block = node / (4 * kLanes);
-    Index& slot = slot_[static_cast<std::size_t>(block)];
-    if (slot < 0) slot = take_slot(block);
-    return own_.data() + static_cast<std::size_t>(slot) * 96 + nodal(node % (4 * kLanes), 0);
+    return own_block(static_cast<std::size_t>(node) / kBlockNodes) + nodal(node % (4 * kLanes), 0);
+  }
+  double* own_block(std::size_t block) {
+    Index& slot = slot_[block];
+    if (slot < 0) slot = take_slot(static_cast<Index>(block));
+    return own_.data() + static_cast<std::size_t>(slot) * 96;
   }
   Index take_slot(Index block);
 

@@ -31,7 +31,7 @@ struct alignas(64) LookBlock {
   ContactRow x[3];                   ///< m, of the point
   // Results.
   ContactRow lambda[4];
-  ContactRow safe;  ///< m, safe_travel() to kGap
+  ContactRow safe;  ///< m, safe_travel() to kInside where it is beside the contactor, to kGap where it is outside
   Whereabouts where[kLanes] = {};
 };
 

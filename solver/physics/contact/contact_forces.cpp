@@ -60,10 +60,10 @@ void Pass::evaluate_point(const PointLooks& looks, std::size_t end) {
     const Look& look = looks_[k];
     switch (look.where) {
       case Whereabouts::inside:
-        inside_.push_back({look.couple, look.lambda});
+        inside_.push_back({look.couple, look.lambda, look.safe});
         break;
       case Whereabouts::beside:
-        beside_.push_back({look.couple, look.lambda});
+        beside_.push_back({look.couple, look.lambda, look.safe});
         break;
       case Whereabouts::outside:
         look.couple->apart_until = contact_.travel + look.safe;
@@ -380,12 +380,13 @@ void Pass::add_force(const ContactPoint& point, Index contactor, const std::arra
                      const Vec3& force) {
   const std::array<double, 3>& shape = rule_.shape[static_cast<std::size_t>(point.k)];
   const std::array<double*, 3> target = forces_.places(point.nodes);
-  for (std::size_t i = 0; i < 3; ++i) NodalForces::add(target[i], shape[i] * force);
+  for (std::size_t i = 0; i < 3; ++i) NodalForces::add(target[i], shape[i], force);
   const Index slot = slot_of(contactor);
   const std::array<double*, 4> corners =
-      forces_.places(std::array{local_.corner_node(slot, 0), local_.corner_node(slot, 1), local_.corner_node(slot, 2),
-                                local_.corner_node(slot, 3)});
-  for (std::size_t a = 0; a < 4; ++a) NodalForces::add(corners[a], -lambda[a] * force);
+      slot < local_.num_own_slots
+          ? forces_.own_places(own_corner_node(slot, 0))
+          : forces_.places(local_.shared_corners[static_cast<std::size_t>(slot - local_.num_own_slots)]);
+  for (std::size_t a = 0; a < 4; ++a) NodalForces::add(corners[a], -lambda[a], force);
 }
 
 }  // namespace contact_pass

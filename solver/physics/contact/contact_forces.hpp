@@ -64,8 +64,8 @@ struct ContactWork {
 /// @param simd     available.  @param side_by_side  whether couples that go on pressing are. The same bits
 /// @pre dt >= 0; couples hold every pair that touches. O(couples) + O(points) with a sphere. Throws nothing.
 void contact_forces(const ContactParams& params, const LocalMesh& local, const NodalState& state, double dt,
-                    ContactState& contact, NodalForces& forces, ContactWork& work,
-                    Simd simd = best_simd(), bool side_by_side = true);
+                    ContactState& contact, NodalForces& forces, ContactWork& work, Simd simd = best_simd(),
+                    bool side_by_side = true);
 
 /// Sum of the contact forces of the last step on some elements by axis, N: forces on their points (the spherical
 /// boundary's included), reactions on their contactors; of the points of this rank's originals. O(touching couples).

@@ -25,7 +25,7 @@ void Pass::bridge_gaps(Index point) {
     if (!pressed) {
       // Nearby a side it may come to lie under it at any time, without coming nearer.
       if (has_sides(params_, contact_, contactor)) continue;
-      here.couple->apart_until = contact_.travel + safe_travel(prepared(contactor), here.lambda, kInside);
+      here.couple->apart_until = contact_.travel + here.safe;
       continue;
     }
     const bool goes_on = std::any_of(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(inside_one),

@@ -29,7 +29,9 @@ struct Some {
   std::size_t first;
 
   [[nodiscard]] Real load(const ContactRow& row) const { return Real(&row.lane[first], stdx::element_aligned); }
-  [[nodiscard]] Vector load(const ContactRow (&rows)[3]) const { return {{load(rows[0]), load(rows[1]), load(rows[2])}}; }
+  [[nodiscard]] Vector load(const ContactRow (&rows)[3]) const {
+    return {{load(rows[0]), load(rows[1]), load(rows[2])}};
+  }
   void store(const Real& value, ContactRow& row) const { value.copy_to(&row.lane[first], stdx::element_aligned); }
   void store(const Vector& value, ContactRow (&rows)[3]) const {
     for (std::size_t axis = 0; axis < 3; ++axis) store(value[axis], rows[axis]);
@@ -149,10 +151,13 @@ inline void look(LookBlock& b, std::size_t first) {
     x[i] = Real(&b.x[i].lane[first], stdx::element_aligned);
   }
   const std::array<Real, 4> lambda = barycentric(tetra, x);
-  const Real least = elasticity::lesser(elasticity::lesser(lambda[0], lambda[1]), elasticity::lesser(lambda[2], lambda[3]));
-  const Lanes inert = !(tetra.gradient[0][0] == tetra.gradient[0][0]), inside = least >= -kInside, near = least >= -kGap;
+  const Real least =
+      elasticity::lesser(elasticity::lesser(lambda[0], lambda[1]), elasticity::lesser(lambda[2], lambda[3]));
+  const Lanes inert = !(tetra.gradient[0][0] == tetra.gradient[0][0]), inside = least >= -kInside,
+              near = least >= -kGap;
   for (std::size_t a = 0; a < 4; ++a) lambda[a].copy_to(&b.lambda[a].lane[first], stdx::element_aligned);
-  safe_travel(tetra, lambda, kGap).copy_to(&b.safe.lane[first], stdx::element_aligned);
+  const Real safe = safe_travel(tetra, lambda, select(near, Real(kInside), Real(kGap)));
+  safe.copy_to(&b.safe.lane[first], stdx::element_aligned);
   for (std::size_t l = 0; l < kWidth; ++l) {
     b.where[first + l] = inside[l]  ? Whereabouts::inside
                          : near[l]  ? Whereabouts::beside

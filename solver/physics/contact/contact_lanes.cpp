@@ -29,8 +29,7 @@ void Pass::look_at(PointCouples& point, std::span<ContactCouple> couples) {
     const std::size_t lane = looks_.size() % kLanes;
     Look& look = looks_.emplace_back();
     look.couple = &couple;
-    look.tetra = &prepare_contactor(couple.contactor);
-    look_block_.tetra[lane] = look.tetra->origin.data();
+    look_block_.tetra[lane] = prepare_contactor(couple.contactor).origin.data();
     put(x, lane, look_block_.x);
     if (lane + 1 == kLanes) locate(looks_.size() - kLanes);
   }
@@ -63,9 +62,8 @@ void Pass::evaluate_looks() {
 bool Pass::is_ordinary(Index point, Index contactor) const {
   const ContactLaw& law = law_of(point, contactor);
   if (law.damping > 0 || !(law.friction > 0) || !(law.tangential_ratio > 0) || is_growing(contactor)) return false;
-  return std::none_of(beside_.begin(), beside_.end(), [&](const Nearby& here) {
-    return has_sides(params_, contact_, here.couple->contactor);
-  });
+  return std::none_of(beside_.begin(), beside_.end(),
+                      [&](const Nearby& here) { return has_sides(params_, contact_, here.couple->contactor); });
 }
 
 /// Of a point that pressed on this contactor in the last step and on nothing else; null: it did not.
@@ -108,8 +106,7 @@ bool Pass::press_aside(Index index) {
 
 /// As bridge_gaps() does of contactors without sides on which the point did not press.
 void Pass::pass_over_beside() {
-  for (const Nearby& here : beside_)
-    here.couple->apart_until = contact_.travel + safe_travel(prepared(here.couple->contactor), here.lambda, kInside);
+  for (const Nearby& here : beside_) here.couple->apart_until = contact_.travel + here.safe;
 }
 
 /// Where the next couple of the block is. @param depth  m, coefficients of the overlap function

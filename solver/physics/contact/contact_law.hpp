@@ -52,7 +52,7 @@ namespace normal_law {
 [[nodiscard]] inline double stress(const ContactLaw& law, double d, double d_max) {
   if (!(d > 0)) return 0.0;
   const double ratio = d / d_max;  // never a d^b with a = sigma_max / d_max^b, which overflows for b = 6
-  return peak(law, d_max) * (law.exponent == 1 ? ratio : std::pow(ratio, law.exponent));
+  return peak(law, d_max) * (law.exponent == 1 || ratio == 1 ? ratio : std::pow(ratio, law.exponent));
 }
 
 /// Energy that unloading from d would return, J/m3: the integral of sigma from 0 to d along the unloading curve.

@@ -45,14 +45,14 @@ struct Candidate {
 struct Nearby {
   ContactCouple* couple;
   std::array<double, 4> lambda;
+  double safe;  ///< m, as in LookBlock
 };
 
 /// A couple that is looked at, and where its point is.
 struct Look {
   ContactCouple* couple;
-  const PreparedTetra* tetra;
   std::array<double, 4> lambda;
-  double safe;  ///< m, safe_travel() to kGap
+  double safe;  ///< m, as in LookBlock
   Whereabouts where;
 };
 
@@ -68,7 +68,7 @@ struct Waiting {
   const ContactPoint* point;
   Index contactor;
   std::array<double, 4> lambda;
-  Vec3 force{0, 0, 0};      ///< N, on the point
+  Vec3 force{0, 0, 0};       ///< N, on the point
   std::ptrdiff_t lane = -1;  ///< in the block, -1: known
 };
 

@@ -40,7 +40,8 @@ template <class Real, class Place>
 /// the nodes, and it lies on the other side of the plane lambda_k = -reach, k that of the smallest lambda.
 /// @pre the contactor is not inert
 template <class Real>
-[[nodiscard]] Real safe_travel(const PreparedTetraOf<Real>& tetra, const std::array<Real, 4>& lambda, double reach) {
+[[nodiscard]] Real safe_travel(const PreparedTetraOf<Real>& tetra, const std::array<Real, 4>& lambda,
+                               const std::type_identity_t<Real>& reach) {
   using elasticity::select;
   using std::sqrt;
   const auto& g = tetra.gradient;

@@ -185,13 +185,14 @@ TEST(contact_balance, a_closing_force_pulls_no_more_than_was_pushed_and_only_whe
   const Vec3 pushed(0, 0, 4), up(0, 0, 0.1);
   constexpr double k = 1e3;
   EXPECT_EQ(closing_force(-0.1, pushed, up, true, k), Vec3(Vec3::Zero()));
-  EXPECT_EQ(closing_force(0.1, pushed, -up, true, k), Vec3(Vec3::Zero())) << "nothing is taken from a way in";
+  EXPECT_EQ(closing_force(0.1, pushed, Vec3(-up), true, k), Vec3(Vec3::Zero())) << "nothing is taken from a way in";
   EXPECT_NEAR(closing_force(0.1, pushed, up, true, k)[2], -1, 1e-15) << "over two halves of a step";
   EXPECT_NEAR(closing_force(1, pushed, up, true, k)[2], -4, 1e-15) << "never larger than the force before";
   EXPECT_NEAR(closing_force(0.1, Vec3(0, 0, -2), up, false, k)[2], -1, 1e-15) << "one that pulls goes on";
   EXPECT_EQ(closing_force(1e-5, pushed, up, true, k), Vec3(Vec3::Zero())) << "next to nothing is left over";
   constexpr double left_over = kLargestWorkError * k * 0.1 * 0.1;  // J, of this motion
-  EXPECT_NEAR(closing_force(1e3, 1e3 * pushed, up, true, k)[2], -2 * left_over / 0.1, 1e-12) << "turns no motion round";
+  EXPECT_NEAR(closing_force(1e3, Vec3(1e3 * pushed), up, true, k)[2], -2 * left_over / 0.1, 1e-12)
+      << "turns no motion round";
 }
 
 TEST(contact_balance, of_a_steep_unloading_curve_is_no_larger_on_the_way_in_than_of_a_line) {

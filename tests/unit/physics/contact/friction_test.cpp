@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/types.hpp"
 #include "physics/contact/friction.hpp"
 
 namespace breccia {
