@@ -24,7 +24,8 @@ class ContactLook {
                time_step.model().whole.body_length,
                faces_,
                held_,
-               state.contact} {
+               state.contact,
+               &time_step.contact_elements()} {
     std::int64_t open = 0;
     for (Index s = 0; s < model_.mesh.num_slots; ++s) {
       if (model_.mesh.is_original(s)) open += std::popcount(faces_.open[static_cast<std::size_t>(s)]);

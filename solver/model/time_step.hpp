@@ -37,6 +37,8 @@ class TimeStep {
   /// (num_nodes) 1: a stage's constraints prescribe its motion in all directions.
   [[nodiscard]] std::vector<std::uint8_t> held_nodes(const std::vector<NodalConstraint>& constraints) const;
   [[nodiscard]] const Model& model() const { return model_; }
+  /// What open faces add to the step, kept from one look to the next.
+  [[nodiscard]] ContactElements& contact_elements() const { return contact_elements_; }
 
  private:
   void mark_faces();
@@ -46,6 +48,7 @@ class TimeStep {
   std::vector<JointStiffness> joints_;
   ContactFaces at_rest_;  ///< open: from the start; pointed: if it comes to be open
   double ratio_ = 1.0;
+  mutable ContactElements contact_elements_;
 };
 
 /// "the joint between elements 17 and 43".

@@ -35,8 +35,8 @@ struct alignas(64) LookBlock {
   Whereabouts where[kLanes] = {};
 };
 
-/// Eight couples that go on pressing, side by side, each with a law of its own: what the kernel reads and writes in rows
-/// (AoSoA). What an empty place holds is computed along and forgotten.
+/// Eight couples that go on pressing, side by side, each with a law of its own: what the kernel reads and writes, in
+/// rows (AoSoA). What an empty place holds is computed along and forgotten.
 struct alignas(64) ContactBlock {
   // Where: the three nodes of the point's face and the four of the contactor.
   Index node[7][kLanes] = {};

@@ -76,11 +76,41 @@ class Surface {
     }
   }
 
+  [[nodiscard]] ContactElement element(Index slot) const {
+    const auto find = [&] {
+      ContactElement element;
+      set_corners(slot, element);
+      for_each_open(slot, [&](int face) {
+        const Face shape = face_at_rest(model_.mesh, slot, face);
+        element.area[static_cast<std::size_t>(face)] = shape.area;
+        element.longest[static_cast<std::size_t>(face)] = shape.longest;
+        element.steepness[static_cast<std::size_t>(face)] = steepness(slot, face);
+      });
+      return element;
+    };
+    if (model_.known == nullptr || slot >= model_.mesh.num_own_slots) return find();
+    return model_.known->of(slot, model_.mesh.num_slots, cause(slot), find);
+  }
+
+ private:
+  [[nodiscard]] Index contactor_of(Index slot) const {
+    return model_.state != nullptr ? model_.state->contactor_of_slot[at(slot)] : -1;
+  }
+
+  /// What an element with its own nodes depends on. Depths of the overlap field stay as they are.
+  [[nodiscard]] ContactElements::Cause cause(Index slot) const {
+    const Index contactor = contactor_of(slot);
+    unsigned held = 0;
+    for (int c = 0; c < 4; ++c) {
+      if (model_.held[at(model_.mesh.corner_node(slot, c))] != 0) held |= 1U << c;
+    }
+    return {.open = model_.faces.open[at(slot)],
+            .held = static_cast<std::uint8_t>(held),
+            .sets = contactor >= 0 ? std::int32_t{model_.state->field[at(contactor)].sets} : -1};
+  }
+
   /// A_i/m_i and 1/m_i of an element's corners on its open faces; 0 for others and held ones.
-  struct Nodes {
-    std::array<double, 4> area_over_mass{}, per_mass{};
-  };
-  [[nodiscard]] Nodes nodes_of(Index slot) const {
+  void set_corners(Index slot, ContactElement& element) const {
     const LocalMesh& mesh = model_.mesh;
     std::array<Mat3, 4> sum;
     unsigned on_open = 0;
@@ -92,28 +122,25 @@ class Surface {
       for (const int corner : kFaceCorners[static_cast<std::size_t>(face)])
         sum[static_cast<std::size_t>(corner)] += third;
     });
-    Nodes nodes;
     for (int c = 0; c < 4; ++c) {
       const Index node = mesh.corner_node(slot, c);
       if ((on_open >> c & 1) == 0 || model_.held[at(node)] != 0) continue;
       const Mat3& area =
           slot < mesh.num_own_slots ? sum[static_cast<std::size_t>(c)] : shared_[at(node - mesh.num_own_nodes())];
       const double per_mass = 1.0 / mesh.node_mass[at(node)];
-      nodes.area_over_mass[static_cast<std::size_t>(c)] = largest_direction(area) * per_mass;
-      nodes.per_mass[static_cast<std::size_t>(c)] = per_mass;
+      element.area_over_mass[static_cast<std::size_t>(c)] = largest_direction(area) * per_mass;
+      element.per_mass[static_cast<std::size_t>(c)] = per_mass;
     }
-    return nodes;
   }
 
   /// G^2 of the field of an element that is touched through a face, which is or may become one of the free surface: the
   /// largest of its functions at rest.
   [[nodiscard]] double steepness(Index slot, int face) const {
     const LocalMesh& mesh = model_.mesh;
-    const ContactState* state = model_.state;
-    const Index contactor = state != nullptr ? state->contactor_of_slot[at(slot)] : -1;
+    const Index contactor = contactor_of(slot);
     FieldValues values;
     values.depth.fill(std::numeric_limits<double>::max());  // where it is not known; the height is less
-    if (contactor >= 0) values = state->field[at(contactor)];
+    if (contactor >= 0) values = model_.state->field[at(contactor)];
     values.sets |= 1 << (15 ^ 1 << face);
     const double length = model_.body_length[at(mesh.slot_body[at(slot)])];
     const OverlapShape shape = overlap_shape(model_.params, heights(mesh, slot), values, length);
@@ -126,7 +153,6 @@ class Surface {
     return square;
   }
 
- private:
   /// |sum_a row[a] grad lambda_a|^2 at rest.
   [[nodiscard]] double slope_squared(Index slot, const std::array<double, 4>& row) const {
     const LocalMesh& mesh = model_.mesh;
@@ -211,10 +237,11 @@ void take_vector(Patch& patch, std::size_t first, const Vec3& x) {
 }
 
 /// The patch that an open face belongs to, without numbers.
-Patch patch_of(const LocalMesh& mesh, Index slot, int face, const Face& shape, const Field<double>& position,
+/// @param longest  m, edge
+Patch patch_of(const LocalMesh& mesh, Index slot, int face, double longest, const Field<double>& position,
                double coarsening) {
   Patch patch;
-  patch.level = level_of(shape.longest);
+  patch.level = level_of(longest);
   patch.group = mesh.block_group[at(slot / kLanes)];
   patch.body = mesh.slot_body[at(slot)];
   Vec3 sum = Vec3::Zero();
@@ -255,10 +282,10 @@ ContactPatches contact_patches(const ContactStepModel& model, const Field<double
   std::unordered_map<Key, Index, KeyHash> known;  // to the place in the list
   for (Index s = 0; s < mesh.num_slots; ++s) {
     if (!mesh.is_original(s) || model.faces.open[at(s)] == 0) continue;
-    const Surface::Nodes nodes = surface.nodes_of(s);
+    const ContactElement element = surface.element(s);
     surface.for_each_open(s, [&](int face) {
-      const Face shape = face_at_rest(mesh, s, face);
-      const Patch empty = patch_of(mesh, s, face, shape, position, coarsening);
+      const auto f = static_cast<std::size_t>(face);
+      const Patch empty = patch_of(mesh, s, face, element.longest[f], position, coarsening);
       const auto [found, fresh] = known.emplace(empty.key(), static_cast<Index>(patches.list.size()));
       if (fresh) patches.list.push_back(empty);
       patches.place[at(4 * s + face)] = found->second;
@@ -268,11 +295,11 @@ ContactPatches contact_patches(const ContactStepModel& model, const Field<double
         take_vector(patch, Patch::box, load_node(position.data(), node));
         take_vector(patch, Patch::reference_box, load_node(mesh.reference.data(), node));
         take_vector(patch, Patch::velocity, load_node(velocity.data(), node));
-        patch.raise(Patch::area_over_mass, nodes.area_over_mass[static_cast<std::size_t>(c)]);
-        patch.raise(Patch::per_mass, nodes.per_mass[static_cast<std::size_t>(c)]);
+        patch.raise(Patch::area_over_mass, element.area_over_mass[static_cast<std::size_t>(c)]);
+        patch.raise(Patch::per_mass, element.per_mass[static_cast<std::size_t>(c)]);
       }
-      patch.raise(Patch::steepness, surface.steepness(s, face));
-      patch.raise(Patch::weight, (model.faces.pointed[at(s)] >> face & 1) != 0 ? largest_share * shape.area : 0.0);
+      patch.raise(Patch::steepness, element.steepness[f]);
+      patch.raise(Patch::weight, (model.faces.pointed[at(s)] >> face & 1) != 0 ? largest_share * element.area[f] : 0.0);
       patch.raise(Patch::per_length, 1.0 / model.body_length[at(mesh.slot_body[at(s)])]);
       patch.raise(Patch::torn, (model.faces.torn[at(s)] >> face & 1) != 0 ? 1.0 : 0.0);
     });
@@ -295,7 +322,7 @@ class ContactShares::Impl {
   [[nodiscard]] ContactShare of(Index slot) {
     ContactShare share;
     if (model_.faces.open[at(slot)] == 0) return share;
-    const Surface::Nodes nodes = surface_.nodes_of(slot);
+    const ContactElement element = surface_.element(slot);
     surface_.for_each_open(slot, [&](int face) {
       const auto raise_corner = [&](int corner, double omega_squared, Index against) {
         if (omega_squared > share.largest()) {
@@ -308,10 +335,10 @@ class ContactShares::Impl {
       const Index place = place_of(slot, face);
       const bool at_sphere = meets_sphere(place);
       for (const int c : kFaceCorners[static_cast<std::size_t>(face)]) {
-        const double area = nodes.area_over_mass[static_cast<std::size_t>(c)];
+        const double area = element.area_over_mass[static_cast<std::size_t>(c)];
         const double wall = at_sphere ? wall_share(place, area) : 0.0;
         if (at_sphere) raise_corner(c, wall, -1);
-        const double per_mass = nodes.per_mass[static_cast<std::size_t>(c)];
+        const double per_mass = element.per_mass[static_cast<std::size_t>(c)];
         for (const ContactBound& m : near(place)) raise_corner(c, wall + m.share(area, per_mass), m.against);
       }
     });

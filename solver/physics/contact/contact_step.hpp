@@ -49,6 +49,43 @@ struct ContactFaces {
   std::vector<std::uint8_t> pointed;  ///< (num_slots) carries contact points if it is open
 };
 
+/// What the open faces of an element add, but for who is near.
+struct ContactElement {
+  std::array<double, 4> area_over_mass{}, per_mass{};    ///< A_i/m_i, 1/m_i of corners on open faces; 0: others, held
+  std::array<double, 4> area{}, longest{}, steepness{};  ///< by open face: m2; m, edge; G^2
+};
+
+/// ContactElement of elements that own their nodes, which only changes with the following: kept from look to look.
+class ContactElements {
+ public:
+  struct Cause {
+    std::uint8_t open = 0, held = 0;  ///< bits of faces and of corners
+    std::int32_t sets = 0;            ///< of the overlap field; -1: there is none
+    bool operator==(const Cause&) const = default;
+  };
+  /// @param find  finds it where it is not known;  @param num_slots  of one and the same mesh
+  template <class Find>
+  const ContactElement& of(Index slot, Index num_slots, const Cause& cause, Find&& find) {
+    place_.resize(static_cast<std::size_t>(num_slots), -1);
+    Index& place = place_[static_cast<std::size_t>(slot)];
+    if (place < 0) {
+      place = static_cast<Index>(known_.size());
+      known_.push_back({cause, find()});
+    }
+    Known& known = known_[static_cast<std::size_t>(place)];
+    if (known.cause != cause) known = {cause, find()};
+    return known.element;
+  }
+
+ private:
+  struct Known {
+    Cause cause;
+    ContactElement element;
+  };
+  std::vector<Index> place_;  ///< (slots) in known_, -1: never asked for
+  std::vector<Known> known_;
+};
+
 struct ContactStepModel {
   const ContactParams& params;
   const LocalMesh& mesh;
@@ -56,6 +93,7 @@ struct ContactStepModel {
   const ContactFaces& faces;
   std::span<const std::uint8_t> held;   ///< (num_nodes) 1: its motion is prescribed in all directions
   const ContactState* state = nullptr;  ///< the overlap field; null: as of elements on their own
+  ContactElements* known = nullptr;     ///< of this mesh, read and written; null: nothing is kept
 };
 
 /// Steepest slope of the normal law, where unloading begins, Pa: b sigma_p.

@@ -294,5 +294,37 @@ TEST(ContactStep, GrowsWithTheSlopeOfUnloading) {
   EXPECT_EQ(stiffest_slope(law), 4 * kPenalty);
 }
 
+TEST(ContactStep, IsTheSameFromWhatIsKeptOfEarlierLooksWhateverHasOpenedIsHeldOrHasNewSides) {
+  Scene scene(two_boxes(0.01), Discretisation::own_nodes);
+  scene.move(1, {0, 0, -0.02});
+  ContactState field;
+  for (Index s = 0; s < scene.model.local.num_slots; ++s) field.contactor_of_slot.push_back(s);
+  field.field.assign(field.contactor_of_slot.size(), {.depth = {2, 3, 4, 5}, .sets = 0});
+  ContactElements known;
+  const auto shares = [&](ContactElements* kept) {
+    ContactStepModel model = scene.step_model();
+    model.state = &field;
+    model.known = kept;
+    const auto patches = contact_patches(model, scene.model.state.position, scene.model.state.velocity, 1.0);
+    std::vector<std::array<double, 4>> omega_squared;
+    for (const ContactShare& share : contact_shares(model, patches, 0)) omega_squared.push_back(share.omega_squared);
+    return omega_squared;
+  };
+  const auto expect_the_same_but_other_than = [&](const auto& before, const char* what) {
+    auto now = shares(nullptr);
+    EXPECT_EQ(shares(&known), now) << what;
+    EXPECT_EQ(shares(&known), now) << what << ", looked at again";
+    EXPECT_NE(now, before) << what << " changes nothing";
+    return now;
+  };
+  auto last = expect_the_same_but_other_than(std::vector<std::array<double, 4>>{}, "at first");
+  for (FieldValues& values : field.field) values.sets = kFractured | 1 << 3;
+  last = expect_the_same_but_other_than(last, "a new side");
+  std::fill(scene.faces.open.begin(), scene.faces.open.end(), std::uint8_t{15});
+  last = expect_the_same_but_other_than(last, "open faces");
+  scene.hold(0);
+  expect_the_same_but_other_than(last, "a held body");
+}
+
 }  // namespace
 }  // namespace breccia
