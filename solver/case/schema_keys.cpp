@@ -355,7 +355,7 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "stage[].local_damping", .type = number, .fallback = "0",
      .range = {.lower = 0, .upper = 1, .upper_open = true},
      .help = "Damping against the velocity, as a share beta of the unbalanced force on each node: 0.3 to 0.8 find a "
-             "state of rest quickly. The step is shorter by sqrt(1 + beta). Not where something is to move: a body "
+             "state of rest quickly. The step is shorter by sqrt(2 + 2 beta). Not where something is to move: a body "
              "falls with 1 - beta of its acceleration, and one that slides on a joint or a rough surface creeps or "
              "stops, since its vibrations are damped at the cost of what drives it. Nor where reactions are recorded "
              "(output.gauges) while anything accelerates or breaks: they include what the damping takes, 1/(1 - beta) "

@@ -94,6 +94,10 @@ constexpr auto table = std::to_array<Topic>({
      "A first run settles under gravity or outer pressures; a second one starts from its state with other loads, "
      "constraints and materials.",
      "start|stage.gravity|stage.pressure|stage.local_damping"},
+    {"remove|removal|delete|deletion|demolition|demolish",
+     "No part is taken out of a model. A run that starts from another one's state gives a group next to no strength, "
+     "and it breaks, or next to no stiffness, and it holds nothing up.",
+     "start|joint.tensile_strength|material.young"},
 });
 // clang-format on
 

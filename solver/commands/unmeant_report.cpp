@@ -21,6 +21,16 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
+std::string lost_elements(const Model& model) {
+  const Index lost = model.mesh_report.ungrouped_elements;
+  if (lost == 0) return {};
+  return fmt::format(
+      "Of {} tetrahedra of the mesh {} are in no physical volume and are left out. Give their volumes a Physical "
+      "Volume "
+      "of their own, or take them out of the geometry.",
+      lost + model.mesh.num_elements(), lost);
+}
+
 std::string empty_sphere(const Model& model) {
   if (!model.contact.sphere) return {};
   const SphericalBoundary& sphere = *model.contact.sphere;
@@ -271,6 +281,7 @@ Advice loads_on_what_is_held(const case_::Case& input, const Model& model) {
 
 Advice unmeant_advice(const case_::Case& input, const Model& model) {
   Advice advice;
+  advise(advice, lost_elements(model));
   advise(advice, empty_sphere(model));
   advise(advice, no_contact_points(input, model));
   append(advice, lowered_penalties(input));

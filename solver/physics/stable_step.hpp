@@ -124,7 +124,7 @@ class ElementSteps {
 
  private:
   double most_, most_damping_;
-  double forces_;  ///< 1 + beta
+  double forces_;  ///< by how much local damping makes them larger, at least as far as the step goes
 };
 
 /// The same without contact at these positions. O(elements).

@@ -210,6 +210,48 @@ TEST(Budget, holds_all_that_damping_takes_where_every_step_is_sampled) {
   EXPECT_LT(run.largest("relative residual"), kResidual);
 }
 
+/// A beam clamped at both ends, with stiff joints, so that most vibrations are near the limit of the stable step.
+constexpr const char* kHeavyBeam = R"([mesh.raster]
+cells = [20, 1, 1]
+cell_size = "0.2 m"
+group = "beam"
+[[material]]
+group = "beam"
+young = "30 GPa"
+poisson = 0.2
+density = "2400 kg/m3"
+joints = "unbreakable"
+[[joint]]
+group = "beam"
+penalty_factor = 100
+[[stage]]
+end = "0.1 s"
+gravity = [0, { ramp = { to = -9.81, end = "50 ms" } }, 0]
+local_damping = 0.4
+[[stage.constraint]]
+group = "beam.x0"
+fixed = "xyz"
+[[stage.constraint]]
+group = "beam.x1"
+fixed = "xyz"
+[output]
+gauges = ["beam.x0", "beam.x1"]
+history_interval = "1 ms"
+frame_interval = 0
+)";
+
+TEST(LocalDamping, brings_a_heavy_beam_to_rest_on_its_supports_with_the_default_step) {
+  constexpr double kWeight = 20 * 0.2 * 0.2 * 0.2 * 2400 * 9.81;
+  const Scratch scratch;
+  const FinishedRun run(scratch.write("beam.toml", kHeavyBeam));
+  ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
+  EXPECT_LT(run.largest("relative residual"), kResidual);
+  const double left = run.history.at("beam.x0 reaction y [N]").back();
+  const double right = run.history.at("beam.x1 reaction y [N]").back();
+  constexpr double kStillSwings = 0.02;
+  EXPECT_NEAR((left + right) / kWeight, 1.0, kStillSwings);
+}
+
 TEST(NotFinite, names_the_element_where_it_began_and_leaves_numbers_that_can_be_shown) {
   const Scratch scratch;
   std::string alone = kSmallCase;  // with contact the run would end earlier: nodes move too far in a step

@@ -10,6 +10,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 /// Two cubes of 10 mm, one above the other.
 const std::string kCubes = R"([mesh.raster]
@@ -36,6 +37,15 @@ std::string advice_on(const std::string& more, const std::vector<std::string>& o
 }
 const std::string kFlying = "[[initial_velocity]]\ngroup = \"rock\"\nvelocity = [\"10 m/s\", 0, 0]\n";
 const std::string kHeld = "[[stage.constraint]]\ngroup = \"rock\"\n";
+
+TEST(Unmeant, AreElementsInNoPhysicalVolume) {
+  const case_::Case input = case_::read_text(kCubes, {});
+  Model model = build_bare_model(input);
+  EXPECT_THAT(as_list(unmeant_advice(input, model)), Not(HasSubstr("left out")));
+  model.mesh_report.ungrouped_elements = 7;
+  EXPECT_THAT(as_list(unmeant_advice(input, model)), HasSubstr("Of " + std::to_string(model.mesh.num_elements() + 7) +
+                                                               " tetrahedra of the mesh 7 are in no "));
+}
 
 TEST(Unmeant, IsASphereAroundNothing) {
   const auto sphere = [](const std::string& radius) {
