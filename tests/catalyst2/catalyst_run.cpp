@@ -17,7 +17,7 @@ void add_lines(const fs::path& file, std::vector<std::string>& lines) {
 /// A line of the history without its last column, the wall time, and without the couples that a search has found,
 /// which depend on when it was made.
 std::string without_what_runs_do_not_share(const std::string& line) {
-  constexpr int kCouples = 28;  // words before it: the channel, four numbers of the cell, 23 columns
+  constexpr int kCouples = 29;  // words before it: the channel, four numbers of the cell, 24 columns
   std::istringstream in(line);
   std::vector<std::string> words{std::istream_iterator<std::string>(in), {}};
   words.pop_back();
