@@ -88,8 +88,10 @@ Jump jump_of(const case_::Case& input, const StageTimes& times, const Solids& so
     const std::optional<double> before = velocity_before(input, times, solids, model, entry, a);
     if (!before) continue;
     change[i] = velocity - *before;
-    if (std::abs(change[i]) > std::abs(change[static_cast<Eigen::Index>(jump.axis)]) || jump.velocity == 0)
-      jump.axis = a, jump.velocity = velocity;
+    if (std::abs(change[i]) >= change.cwiseAbs().maxCoeff()) {  // so far
+      jump.axis = a;
+      jump.velocity = velocity;
+    }
   }
   jump.speed = change.norm();
   return jump;
@@ -125,7 +127,10 @@ void meet_joints(const Model& model, const std::vector<bool>& reached, Jump& jum
     if (!model.joint_laws[g].breakable() || !(reached[a] || reached[b])) continue;
     const double stress = std::min(impedance(model, a), impedance(model, b)) * jump.speed;
     const double share = stress / model.joint_laws[g].tensile_strength;
-    if (share > jump.share) jump.stress = stress, jump.share = share, jump.joints = model.joint_law_names[g];
+    if (!(share > jump.share)) continue;
+    jump.stress = stress;
+    jump.share = share;
+    jump.joints = model.joint_law_names[g];
   }
 }
 

@@ -233,7 +233,7 @@ double stiffest(const StepModel& model, std::span<const StepShare> shares) {
 
 /// Local damping turns round with the velocity half a step before the force. It takes nothing of a vibration of four
 /// steps a period, omega^2 dt^2 (1 + beta) = 2, and those of fewer steps may settle around a force that is to move
-/// something slowly, and hold it back: a beam under its own weight stopped at 0.7 of its sag.
+/// something slowly, and hold it back: a beam stopped with 0.72 of its weight on its supports.
 constexpr double kCalmed = 2.0;
 
 ElementSteps::ElementSteps(const StepModel& model, double most)

@@ -16,7 +16,7 @@ constexpr std::int64_t kStepsBetweenLooks = 100;
 constexpr std::int64_t kSoonest = 10;  // steps between looks where joints come apart, or the step is still to grow
 constexpr std::int64_t kTaken = 2;     // steps until contact has the faces of a joint that was released
 constexpr double kGrowth = 1.5;        // of the step at a look: motions of a step foretell those of the next
-constexpr std::int64_t kCalm = 300;   // steps, see the class comment
+constexpr std::int64_t kCalm = 300;    // steps, see the class comment
 constexpr double kMostTenths = 300;    // of the step at rest; what is shorter still is told as this
 
 /// How many times a step has come below a tenth of that at rest: 0 above a tenth, 1 above a hundredth, and so on.

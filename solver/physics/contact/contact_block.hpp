@@ -5,6 +5,7 @@
 
 #include "base/index.hpp"
 #include "discretisation/blocks.hpp"
+#include "physics/contact/tetra_place.hpp"
 
 namespace breccia {
 
@@ -27,8 +28,8 @@ enum class Whereabouts : std::uint8_t { inside, beside, outside, nowhere };
 
 /// Eight couples that are looked at. What an empty place holds is computed along, and has to be a contactor's.
 struct alignas(64) LookBlock {
-  const double* tetra[kLanes] = {};  ///< PreparedTetra, by its 12 numbers
-  ContactRow x[3];                   ///< m, of the point
+  const PreparedTetra* tetra[kLanes] = {};
+  ContactRow x[3];  ///< m, of the point
   // Results.
   ContactRow lambda[4];
   ContactRow safe;  ///< m, safe_travel() to kInside where it is beside the contactor, to kGap where it is outside

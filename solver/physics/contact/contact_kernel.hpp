@@ -142,12 +142,12 @@ inline void act(const Some& at, double dt, const double* velocity) {
 
 /// Where the points of W couples are.
 inline void look(LookBlock& b, std::size_t first) {
-  const auto gather = [&](std::size_t k) { return Real([&](auto l) { return b.tetra[first + l][k]; }); };
+  const PreparedTetra* const* some = b.tetra + first;
   PreparedTetraOf<Real> tetra;
   std::array<Real, 3> x;
   for (std::size_t i = 0; i < 3; ++i) {
-    tetra.origin[i] = gather(i);
-    for (std::size_t c = 0; c < 3; ++c) tetra.gradient[c][i] = gather(3 + 3 * c + i);
+    tetra.origin[i] = Real([&](auto l) { return some[l]->origin[i]; });
+    for (std::size_t c = 0; c < 3; ++c) tetra.gradient[c][i] = Real([&](auto l) { return some[l]->gradient[c][i]; });
     x[i] = Real(&b.x[i].lane[first], stdx::element_aligned);
   }
   const std::array<Real, 4> lambda = barycentric(tetra, x);

@@ -29,7 +29,7 @@ void Pass::look_at(PointCouples& point, std::span<ContactCouple> couples) {
     const std::size_t lane = looks_.size() % kLanes;
     Look& look = looks_.emplace_back();
     look.couple = &couple;
-    look_block_.tetra[lane] = prepare_contactor(couple.contactor).origin.data();
+    look_block_.tetra[lane] = &prepare_contactor(couple.contactor);
     put(x, lane, look_block_.x);
     if (lane + 1 == kLanes) locate(looks_.size() - kLanes);
   }

@@ -73,7 +73,8 @@ TEST(contact_lanes, couples_side_by_side_get_the_bits_of_couples_one_by_one) {
     const std::vector<double> alone = shake(law, {Simd::sse2, false});
     EXPECT_GT(alone.size(), 10'000U);
     for (const Simd simd : {Simd::sse2, Simd::avx2, Simd::avx512}) {
-      if (simd_available(simd)) EXPECT_EQ(shake(law, {simd, true}), alone) << name_of(simd);
+      if (!simd_available(simd)) continue;
+      EXPECT_EQ(shake(law, {simd, true}), alone) << name_of(simd);
     }
   }
 }
