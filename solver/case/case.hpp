@@ -264,7 +264,7 @@ struct Domains {
   std::array<int, 3> n{0, 0, 0};  ///< grid: domains along x, y, z; 0: automatic
   Exchange exchange = Exchange::non_blocking;
   bool rebalance = true;  ///< divide anew when ranks wait for each other
-  double margin = 1;      ///< of the proxies, in longest edges
+  double margin = 1;      ///< of the proxies, in mean longest edges of the elements
   double patience = 300;  ///< s, wall, that a rank waits for others before it says so; twice as long: the run ends
   Origin origin;
   friend bool operator==(const Domains&, const Domains&) = default;

@@ -46,9 +46,9 @@ inline constexpr auto run_keys = std::to_array<Key>({
      .help = "Divide anew when that pays: when ranks have waited for each other for as long as it takes.",
      .example = "false"},
     {.path = "domains.margin", .type = number, .fallback = "1", .range = {.lower = 0.1, .upper = 100},
-     .help = "How far beyond a domain a rank knows its neighbours' elements at least, in longest edges of an element. "
-             "Larger: fewer new divisions while bodies move, but more to search. For fast bodies it is widened up to "
-             "fivefold by itself.",
+     .help = "How far beyond a domain a rank knows its neighbours' elements at least, in the mean of the elements' "
+             "longest edges. Larger: fewer new divisions while bodies move, but more to search. For fast bodies it is "
+             "widened up to fivefold by itself.",
      .example = "2"},
     {.path = "domains.patience", .type = number, .unit = "s", .fallback = "300", .range = positive,
      .help = "Wall time that a rank waits for others before it says for whom, and where; after twice as long the "

@@ -150,6 +150,24 @@ std::string verdict(const Division& division) {
                      100 * report.efficiency);
 }
 
+std::vector<double> longest_edges(const Mesh& mesh) {
+  std::vector<double> lengths;
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    const auto x = geometry::corners_of(mesh, e);
+    double square = 0;
+    for (const auto& edge : geometry::kEdges)
+      square = std::max(square, (x[index(edge[0])] - x[index(edge[1])]).squaredNorm());
+    lengths.push_back(std::sqrt(square));
+  }
+  return lengths;
+}
+
+std::vector<std::array<GlobalId, 4>> vertices_of(const Mesh& mesh) {
+  std::vector<std::array<GlobalId, 4>> vertices;
+  for (const auto& c : mesh.elements) vertices.push_back({c[0], c[1], c[2], c[3]});
+  return vertices;
+}
+
 }  // namespace
 
 RunEstimate estimate_run(const case_::Case& input, const Model& model, const StepReport& step, double start) {
@@ -187,20 +205,23 @@ Division divide_model(const case_::Case& input, const Model& model, int parts) {
     neighbours.push_back({links[0].neighbour, links[1].neighbour, links[2].neighbour, links[3].neighbour});
   }
   const Communicator alone;
-  const double edge = model.whole.longest_edge;
+  const std::vector<double> lengths = longest_edges(mesh);
+  const Sizes sizes = sizes_of_all(alone, lengths);
   const double buffer = model.has_contact ? largest_buffer(input.detection.buffer, mean_size(mesh)) : 0.0;
-  const Reach reach = reach_of(input, edge, buffer);
-  const DomainSpec spec = settled(alone, domain_spec(input), parts, centroids, edge);
+  const Reach reach = reach_of(input, sizes.mean, buffer);
+  const DomainSpec spec = settled(alone, domain_spec(input), parts, centroids, sizes.largest);
   const std::vector<double> weight(centroids.size(), 1.0);
   const double share = static_cast<double>(centroids.size()) / parts;
-  const std::vector<Vec3> places = places_of_fragments(centroids, neighbours, share, reach.distance());
-  const std::vector<int> owner = assign_domains(alone, spec, parts, places, weight, edge);
+  const std::vector<Vec3> places = places_of_fragments(centroids, neighbours, share, reach.distance(sizes.mean));
+  const std::vector<int> owner = assign_domains(alone, spec, parts, places, weight, sizes.largest);
+  std::vector<double> distance = sizes_around(alone, vertices_of(mesh), lengths, reach.most_rings());
+  for (double& each : distance) each = reach.distance(each);
   std::vector<Index> sets;
   sets.reserve(model.discretisation.size());
   for (Index group = 0; group < static_cast<Index>(model.discretisation.size()); ++group)
     sets.push_back(node_set(model.discretisation, model.whole.node_sets, group));
   return {spec.kind == DomainKind::rcb ? "rcb" : fmt::format("grid of {} x {} x {}", spec.n[0], spec.n[1], spec.n[2]),
-          report_domains(mesh, model.topology, sets, owner, parts, reach.distance()), owner};
+          report_domains(mesh, model.topology, sets, owner, parts, distance), owner};
 }
 
 std::string domain_line(const case_::Case& input, const Model& model, int parts) {

@@ -118,13 +118,19 @@ void ContactSearch::adopt(std::span<const CoupleRecord> touching) {
   for (const CoupleRecord& record : touching) {
     const TouchingCouple couple = restored(record, contact_, local);
     // What a point touches beyond this rank's elements exerts no force here.
-    if (couple.point >= 0 && couple.contactor >= 0) known.push_back(couple);
+    if (couple.point >= 0 && couple.contactor >= 0 && concerns(couple)) known.push_back(couple);
   }
   const auto before = [&](const TouchingCouple& a, const TouchingCouple& b) {
     return contact_.before({a.point, a.contactor}, {b.point, b.contactor});
   };
   std::sort(known.begin() + own, known.end(), before);
   std::inplace_merge(known.begin(), known.begin() + own, known.end(), before);
+}
+
+/// Whether forces here depend on what a point has touched: on those of a kept point, and where it presses for the last
+/// time. All else would be gathered in every step for nothing.
+bool ContactSearch::concerns(const TouchingCouple& couple) const {
+  return kept_.is_kept(couple.point) || contact_.evaluated(contact_.contactors[at(couple.contactor)]);
 }
 
 std::vector<CoupleRecord> ContactSearch::touching_of(std::span<const Index> slots) const {

@@ -39,10 +39,10 @@ class ContactSearch {
   }
   /// A full search; arguments as of CoupleSearch::search().
   void search(const NodalState& nodes, double step_length, std::span<const std::uint8_t> current = {});
-  /// How far around extent() a search finds couples, m.
+  /// How far around evaluated elements a search finds couples, m.
   [[nodiscard]] double search_reach(double step_length) const { return search_.reach(step_length); }
-  /// Box around the elements on which this rank evaluates forces.
-  [[nodiscard]] Extent extent(const Field<double>& position) const;
+  /// Boxes around the elements on which this rank evaluates forces (cover).
+  [[nodiscard]] std::vector<Extent> evaluated_boxes(const Field<double>& position) const;
   /// Where the case asks for it: throws InternalError naming the pair if a pair touches and is no couple.
   void verify(const NodalState& nodes) const;
   [[nodiscard]] bool verifies() const { return verify_; }
@@ -55,8 +55,8 @@ class ContactSearch {
   void mark_coupled(std::vector<std::uint8_t>& marks) const;
   /// What the points of these elements touch. @param slots  ascending by element id
   [[nodiscard]] std::vector<CoupleRecord> touching_of(std::span<const Index> slots) const;
-  /// Takes what other ranks hold of the couples of their points that touch. @param touching  by (element, point,
-  /// contactor)
+  /// Takes what other ranks hold of the couples of their points that touch, as far as forces here depend on it.
+  /// @param touching  by (element, point, contactor). @pre couples are those that are kept
   void adopt(std::span<const CoupleRecord> touching);
   /// Writes the contact state of an element into its record and the lists; elements ascending.
   void store(Index element, ElementRecord& record, Records& records) const;
@@ -72,6 +72,7 @@ class ContactSearch {
   void restore_contactors(const Records& records);
   void restore_faces(const Records& records);
   void restore_offsets(const Records& records);
+  [[nodiscard]] bool concerns(const TouchingCouple& couple) const;
 
   bool verify_;
   ContactState& contact_;

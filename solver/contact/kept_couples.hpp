@@ -20,10 +20,11 @@ class KeptCouples {
   /// @return  whether couples with elements that are not evaluated here came about: of these, positions and what they
   /// touch have to be received from now on
   [[nodiscard]] bool add(std::vector<ContactCouple>& made);
+  /// Whether couples of a point, if it has any, are kept. O(log couples).
+  [[nodiscard]] bool is_kept(Index point) const;
 
  private:
   void keep_evaluated();
-  [[nodiscard]] bool is_kept(Index point) const;
   void choose_again(const std::vector<ContactCouple>& made);
 
   ContactState& contact_;

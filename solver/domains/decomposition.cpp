@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/extent.hpp"
+#include "base/box_cover.hpp"
 #include "case/problem_at.hpp"
 #include "parallel/whole_fragments.hpp"
 
@@ -79,20 +79,29 @@ Records migrate(const Communicator& communicator, Records mine, const std::vecto
   return mine;
 }
 
+/// How far each element reaches, m.
+std::vector<double> distances(const Communicator& communicator, const Records& owned, const Reach& reach) {
+  std::vector<std::array<GlobalId, 4>> vertices;
+  for (const ElementRecord& element : owned.elements) vertices.push_back(element.vertex);
+  std::vector<double> distance = sizes_around(communicator, vertices, longest_edges(owned), reach.most_rings());
+  for (double& each : distance) each = reach.distance(each);
+  return distance;
+}
+
 /// Originals that other ranks need.
-Wanted needed_elsewhere(const Communicator& communicator, const Records& owned, double reach) {
+Wanted needed_elsewhere(const Communicator& communicator, const Records& owned, const Reach& reach) {
   std::vector<Extent> elements;
   Extent all;
-  for (const ElementRecord& element : owned.elements) {
-    elements.push_back(extent_of(element));
-    all.add(elements.back());
-  }
-  const std::vector<std::vector<Extent>> extents = communicator.all_gather(std::span<const Extent>(&all, 1));
-  Wanted wanted(extents.size());
-  for (std::size_t r = 0; r < extents.size(); ++r) {
-    if (static_cast<int>(r) == communicator.rank() || !all.near(extents[r][0], reach)) continue;
-    for (std::size_t e = 0; e < owned.elements.size(); ++e) {
-      if (elements[e].near(extents[r][0], reach)) wanted[r].push_back(static_cast<Index>(e));
+  for (const ElementRecord& element : owned.elements) all.add(elements.emplace_back(extent_of(element)));
+  const std::vector<double> distance = distances(communicator, owned, reach);
+  const double most = distance.empty() ? 0.0 : *std::max_element(distance.begin(), distance.end());
+  const std::vector<Extent> mine = cover(elements);
+  const std::vector<std::vector<Extent>> covers = communicator.all_gather(std::span<const Extent>(mine));
+  Wanted wanted(covers.size());
+  for (std::size_t r = 0; r < covers.size(); ++r) {
+    if (static_cast<int>(r) == communicator.rank() || !near_any(all, covers[r], most)) continue;
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+      if (near_any(elements[e], covers[r], distance[e])) wanted[r].push_back(static_cast<Index>(e));
     }
   }
   return wanted;
@@ -101,11 +110,10 @@ Wanted needed_elsewhere(const Communicator& communicator, const Records& owned, 
 }  // namespace
 
 Reach reach_of(const case_::Case& input, double edge, double buffer) {
-  // Forces meet at shared nodes that come from what touches any of their elements: one more ring.
   const bool shared_nodes = std::any_of(input.materials.begin(), input.materials.end(), [](const case_::Material& m) {
     return m.joints == case_::JointPlacement::none;
   });
-  return {input.domains.margin * edge, (shared_nodes ? 2 : 1) * edge, 2 * buffer, (shared_nodes ? 3 : 0) * edge};
+  return {input.domains.margin * edge, 2 * buffer, shared_nodes ? 2 : 1, shared_nodes ? 3 : 0};
 }
 
 DomainSpec domain_spec(const case_::Case& input) {
@@ -116,17 +124,17 @@ DomainSpec domain_spec(const case_::Case& input) {
 }
 
 Piece decompose(const Communicator& communicator, DomainSpec& domains, Records mine, const std::vector<double>& weight,
-                const Reach& reach) {
+                const Sizes& sizes, const Reach& reach) {
   std::vector<Vec3> centroids;
   for (const ElementRecord& element : mine.elements) centroids.push_back(centroid(element));
-  const double edge = longest_edge(communicator, mine);
-  domains = settled(communicator, domains, communicator.size(), centroids, edge);
-  const std::vector<Vec3> place = places(communicator, mine, centroids, reach.distance());
-  const std::vector<int> owner = assign_domains(communicator, domains, communicator.size(), place, weight, edge);
+  domains = settled(communicator, domains, communicator.size(), centroids, sizes.largest);
+  const std::vector<Vec3> place = places(communicator, mine, centroids, reach.distance(sizes.mean));
+  const std::vector<int> owner =
+      assign_domains(communicator, domains, communicator.size(), place, weight, sizes.largest);
   Records owned = migrate(communicator, std::move(mine), owner);
 
   Piece piece;
-  const Wanted wanted = needed_elsewhere(communicator, owned, reach.distance());
+  const Wanted wanted = needed_elsewhere(communicator, owned, reach);
   std::vector<SharedElements> by_rank(wanted.size());
   for (std::size_t r = 0; r < wanted.size(); ++r) {
     by_rank[r].rank = static_cast<int>(r);
@@ -151,23 +159,6 @@ Piece decompose(const Communicator& communicator, DomainSpec& domains, Records m
     if (!neighbour.send.empty() || !neighbour.receive.empty()) piece.neighbours.push_back(std::move(neighbour));
   }
   return piece;
-}
-
-double longest_edge(const Communicator& communicator, const Records& mine) {
-  double square = 0;
-  for (const ElementRecord& element : mine.elements) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      for (std::size_t j = i + 1; j < 4; ++j) {
-        double sum = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-          const double d = element.position[i][k] - element.position[j][k];
-          sum += d * d;
-        }
-        square = std::max(square, sum);
-      }
-    }
-  }
-  return communicator.max(std::sqrt(square));
 }
 
 }  // namespace breccia

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "case/case.hpp"
+#include "domains/element_sizes.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/domain_topology.hpp"
 #include "state/records.hpp"
@@ -28,28 +29,32 @@ struct Piece {
 
 /// How far the proxies reach.
 ///
-/// A rank holds every element whose box comes within distance() of the box around its originals. Until nodes have moved
-/// by more than allowed_motion() since, beside what all have moved together, that is enough for the same bits as on one
-/// rank:
+/// A rank holds every element whose box comes within distance() of a box around some of its originals (cover). Until
+/// nodes have moved by more than allowed_motion() since, beside what all have moved together, that is enough for the
+/// same bits as on one rank:
 /// - what touches an original then is within twice that motion, the margin;
 /// - a point that comes to an original brings the history of what it touched on its way, which counts from the last
 ///   search: then its rank told what it touched. Since then neither it nor any element has moved by more than half
 ///   the search's buffer, so that all it touched is within two buffers more;
 /// - around such elements corner clusters are complete, since what is bonded to them at a vertex is no further away
-///   than the largest element: the ring;
+///   than the size of these: a ring, or two around shared nodes, where what touches any element of a node counts;
 /// - the stable step of contact on shared nodes (contact_step.cpp) comes from the faces at the nodes of an original,
 ///   the nodes of these, and twice more so: three rings around it, wherever they have moved.
 struct Reach {
   double margin = 0;   ///< m
-  double ring = 0;     ///< m
   double buffers = 0;  ///< m, two of the largest
-  double step = 0;     ///< m, for the stable step
+  int rings = 1;       ///< of elements
+  int step_rings = 0;  ///< of elements, for the stable step; no fewer than `rings` if there are any
 
   [[nodiscard]] double allowed_motion() const { return margin / 2; }
-  [[nodiscard]] double distance() const { return std::max(margin + ring + buffers, step); }
+  /// Of an element. @param size  m, largest of the elements up to most_rings() away from it (sizes_around)
+  [[nodiscard]] double distance(double size) const {
+    return std::max(margin + buffers + rings * size, step_rings * size);
+  }
+  [[nodiscard]] int most_rings() const { return std::max(rings, step_rings); }
 };
 
-/// @param edge    m, longest of an element
+/// @param edge    m, mean over the elements of their longest
 /// @param buffer  m, largest that a search may choose
 [[nodiscard]] Reach reach_of(const case_::Case& input, double edge, double buffer);
 
@@ -60,12 +65,10 @@ struct Reach {
 /// @param domains a grid is settled by the first call
 /// @param mine    this rank's originals, in their present state; on the first call all elements on one rank
 /// @param weight  (elements of mine) relative cost
+/// @param sizes   of all elements, in their present state
 /// O(elements log elements) and two exchanges of elements, those that change hands and proxies.
 /// Throws on all ranks what assign_domains throws.
 [[nodiscard]] Piece decompose(const Communicator& communicator, DomainSpec& domains, Records mine,
-                              const std::vector<double>& weight, const Reach& reach);
-
-/// Longest edge in the present state, m; collective.
-[[nodiscard]] double longest_edge(const Communicator& communicator, const Records& mine);
+                              const std::vector<double>& weight, const Sizes& sizes, const Reach& reach);
 
 }  // namespace breccia

@@ -156,10 +156,10 @@ void Partition::rebuild(WholeModel whole, Records mine, const std::vector<double
   domain_.reset();
   time_step_.reset();
   model_.reset();
-  reach_ = reach_of(input_, longest_edge(communicator_, mine),
-                    largest_buffer(input_.detection.buffer, whole.contactor_size));
+  const Sizes sizes = sizes_of_all(communicator_, longest_edges(mine));
+  reach_ = reach_of(input_, sizes.mean, largest_buffer(input_.detection.buffer, whole.contactor_size));
   reach_.margin *= stretch();
-  build(decompose(communicator_, domains_, std::move(mine), weight, reach_), std::move(whole), from);
+  build(decompose(communicator_, domains_, std::move(mine), weight, sizes, reach_), std::move(whole), from);
 }
 
 /// Of the margin as the case has it, at the present speed.

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "base/extent.hpp"
+#include "base/box_cover.hpp"
 #include "base/types.hpp"
 #include "parallel/exchange_schedule.hpp"
 
@@ -77,7 +77,7 @@ class Counter {
     report_.domains.resize(at(parts));
   }
 
-  DomainReport run(double reach) {
+  DomainReport run(std::span<const double> reach) {
     find_sharers();
     for (std::size_t e = 0; e < owner_.size(); ++e) count_element(e);
     count_held(reach);
@@ -150,21 +150,25 @@ class Counter {
     if (std::find(takers_.begin(), takers_.end(), domain) == takers_.end()) takers_.push_back(domain);
   }
 
-  void count_held(double reach) {
-    std::vector<Extent> boxes(report_.domains.size());
+  void count_held(std::span<const double> reach) {
+    std::vector<std::vector<Extent>> originals(report_.domains.size());
+    std::vector<Extent> boxes(originals.size());
     Extent all;
-    double largest = 0;
+    double furthest = 0;
     for (std::size_t e = 0; e < owner_.size(); ++e) {
       const Extent box = box_of(mesh_, e);
+      originals[at(owner_[e])].push_back(box);
       boxes[at(owner_[e])].add(box);
       all.add(box);
-      largest = std::max(largest, (box.upper - box.lower).maxCoeff());
+      furthest = std::max(furthest, reach[e] + (box.upper - box.lower).maxCoeff());
     }
-    const NearDomains near(boxes, all, reach + largest);
+    std::vector<std::vector<Extent>> covers;
+    for (const std::vector<Extent>& domain : originals) covers.push_back(cover(domain));
+    const NearDomains near(boxes, all, furthest);
     for (std::size_t e = 0; e < owner_.size(); ++e) {
       const Extent box = box_of(mesh_, e);
       for (const int domain : near.of(box.lower)) {
-        if (domain != owner_[e] && box.near(boxes[at(domain)], reach)) ++report_.domains[at(domain)].held;
+        if (domain != owner_[e] && near_any(box, covers[at(domain)], reach[e])) ++report_.domains[at(domain)].held;
       }
     }
   }
@@ -202,7 +206,7 @@ class Counter {
 }  // namespace
 
 DomainReport report_domains(const Mesh& mesh, const Topology& topology, std::span<const Index> node_sets,
-                            std::span<const int> owner, int parts, double reach) {
+                            std::span<const int> owner, int parts, std::span<const double> reach) {
   return Counter(mesh, topology, node_sets, owner, parts).run(reach);
 }
 

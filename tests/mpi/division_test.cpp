@@ -28,10 +28,11 @@ class FlyingBoxes : public testing::Test {
   }
 
   void divide() {
-    const Reach reach = reach_of(input_, longest_edge(world(), mine_), 0.0);
+    const Sizes sizes = sizes_of_all(world(), longest_edges(mine_));
+    const Reach reach = reach_of(input_, sizes.mean, 0.0);
     DomainSpec domains = domain_spec(input_);
     const std::vector<double> weight(mine_.elements.size(), 1.0);
-    Piece piece = decompose(world(), domains, std::move(mine_), weight, reach);
+    Piece piece = decompose(world(), domains, std::move(mine_), weight, sizes, reach);
     keep(piece.records, piece.original);
     mine_ = std::move(piece.records);
   }

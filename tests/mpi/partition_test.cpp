@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "domains/state_records.hpp"
 #include "mpi/world.hpp"
 #include "simulation/step.hpp"
@@ -126,6 +128,26 @@ TEST_F(PartitionOfCubes, TakesTheStepsOfARankThatIsAlone) {
   take_steps(partition, kSteps);
   EXPECT_GT(world().sum(partition.state().joints.broken), 0);
   EXPECT_EQ(hash(partition), hash_alone(kSteps));
+}
+
+/// Each history that a rank holds costs it a message a step.
+TEST_F(PartitionOfCubes, RemembersTheContactsThatItsForcesDependOn) {
+  Partition partition = begun();
+  std::int64_t of_others = 0;
+  for (int i = 0; i < 400; ++i) {
+    take_steps(partition, 1);
+    if (!partition.domain().contact->searches().searched()) continue;  // divided anew
+    const ContactState& contact = partition.state().contact;
+    std::set<Index> coupled;
+    for (const ContactCouple& couple : contact.couples) coupled.insert(couple.point);
+    for (const TouchingCouple& couple : contact.touching) {
+      const auto point = static_cast<std::size_t>(couple.point), contactor = static_cast<std::size_t>(couple.contactor);
+      const bool here = contact.evaluated(contact.points[point].slot);
+      of_others += !here;
+      ASSERT_TRUE(here || contact.evaluated(contact.contactors[contactor]) || coupled.contains(couple.point));
+    }
+  }
+  EXPECT_EQ(world().sum(of_others) > 0, world().size() > 1);
 }
 
 TEST_F(PartitionOfCubes, GoesOnFromASnapshotWithAnotherSearch) {

@@ -6,7 +6,7 @@
 namespace breccia {
 namespace {
 
-constexpr double kEdge = 0.25, kBuffer = 0.0625;  // m; sums of these are exact
+constexpr double kEdge = 0.25, kSize = 0.375, kBuffer = 0.0625;  // m; sums of these are exact
 
 /// The shortest case, whose elements share nodes, or one whose elements have their own and joints that hold them.
 case_::Case with_joints(bool joined) {
@@ -19,8 +19,15 @@ case_::Case with_joints(bool joined) {
 }
 
 TEST(Reach, is_one_ring_of_elements_for_joints_and_two_for_shared_nodes) {
-  EXPECT_EQ(reach_of(with_joints(true), kEdge, kBuffer).distance(), kEdge + kEdge + 2 * kBuffer);
-  EXPECT_EQ(reach_of(with_joints(false), kEdge, kBuffer).distance(), kEdge + 2 * kEdge + 2 * kBuffer);
+  EXPECT_EQ(reach_of(with_joints(true), kEdge, kBuffer).distance(kSize), kEdge + kSize + 2 * kBuffer);
+  EXPECT_EQ(reach_of(with_joints(false), kEdge, kBuffer).distance(kSize), kEdge + 2 * kSize + 2 * kBuffer);
+}
+
+/// Around shared nodes the stable step depends on three rings, which among large elements lie beyond the margin.
+TEST(Reach, is_three_rings_of_large_elements_for_shared_nodes) {
+  const double large = 8;
+  EXPECT_EQ(reach_of(with_joints(true), kEdge, kBuffer).distance(large), kEdge + large + 2 * kBuffer);
+  EXPECT_EQ(reach_of(with_joints(false), kEdge, kBuffer).distance(large), 3 * large);
 }
 
 TEST(Reach, lets_both_sides_move_by_half_its_margin) {

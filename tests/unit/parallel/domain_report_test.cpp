@@ -5,6 +5,7 @@
 #include <random>
 #include <set>
 
+#include "base/box_cover.hpp"
 #include "mesh/raster.hpp"
 
 namespace breccia {
@@ -30,7 +31,7 @@ int common_nodes(const Mesh& mesh, std::size_t a, std::size_t b) {
 
 /// Domain and all else by all against all.
 std::vector<DomainLoad> brute_force(const Mesh& mesh, bool joints, const std::vector<int>& owner, int parts,
-                                    double reach) {
+                                    const std::vector<double>& reach) {
   std::vector<DomainLoad> loads(static_cast<std::size_t>(parts));
   std::vector<std::array<Vec3, 2>> boxes(mesh.elements.size());
   for (std::size_t e = 0; e < boxes.size(); ++e) {
@@ -42,12 +43,11 @@ std::vector<DomainLoad> brute_force(const Mesh& mesh, bool joints, const std::ve
   }
   for (int d = 0; d < parts; ++d) {
     DomainLoad& load = loads[static_cast<std::size_t>(d)];
-    Vec3 lower = Vec3::Constant(1e300), upper = -lower;
+    std::vector<Extent> originals;
     for (std::size_t e = 0; e < owner.size(); ++e) {
       if (owner[e] != d) continue;
       ++load.elements;
-      lower = lower.cwiseMin(boxes[e][0]);
-      upper = upper.cwiseMax(boxes[e][1]);
+      originals.push_back({boxes[e][0], boxes[e][1]});
       for (std::size_t o = 0; o < owner.size(); ++o) {
         if (o == e || common_nodes(mesh, e, o) != 3) continue;
         load.joints += joints && e < o;
@@ -55,10 +55,11 @@ std::vector<DomainLoad> brute_force(const Mesh& mesh, bool joints, const std::ve
         load.cut_faces += owner[o] != d;
       }
     }
+    const std::vector<Extent> covered = cover(originals);
     std::set<int> neighbours;
     for (std::size_t e = 0; e < owner.size(); ++e) {
       if (owner[e] == d) continue;
-      load.held += ((boxes[e][0] - upper).array() <= reach).all() && ((lower - boxes[e][1]).array() <= reach).all();
+      load.held += near_any({boxes[e][0], boxes[e][1]}, covered, reach[e]);
       bool gathered = false;
       for (std::size_t o = 0; o < owner.size() && !gathered; ++o) {
         gathered = owner[o] == d && common_nodes(mesh, e, o) >= (joints ? 3 : 1);
@@ -84,7 +85,8 @@ TEST_P(ReportOfScatteredDomains, CountsWhatAllAgainstAllCounts) {
     owner.push_back(random() % 8 == 0 ? static_cast<int>(random() % 3)
                                       : std::min(kParts - 1, static_cast<int>(x * 1.8)));
   }
-  const double reach = 0.3;
+  std::vector<double> reach;
+  for (std::size_t e = 0; e < owner.size(); ++e) reach.push_back(e % 3 == 0 ? 0.5 : 0.3);
   const auto expected = brute_force(mesh, GetParam() == kJoints, owner, kParts, reach);
   const std::vector<Index> node_sets(mesh.volume_groups.size(), GetParam());
   const DomainReport report = report_domains(mesh, build_topology(mesh), node_sets, owner, kParts, reach);
@@ -113,7 +115,8 @@ TEST(DomainReport, OfTwoCubesIsThatOfAHandCalculation) {
     for (const Index node : corners) x += mesh.nodes[at(node)][0];
     owner.push_back(x / 4 > 1 ? 1 : 0);
   }
-  const DomainReport report = report_domains(mesh, build_topology(mesh), std::vector<Index>{kJoints}, owner, 2, 0.0);
+  const DomainReport report = report_domains(mesh, build_topology(mesh), std::vector<Index>{kJoints}, owner, 2,
+                                             std::vector<double>(owner.size(), 0.0));
   EXPECT_EQ(report.domains[0].joints + report.domains[1].joints, 36 + 36 + 4);
   for (const DomainLoad& load : report.domains) {
     EXPECT_EQ(load.elements, 24);
@@ -137,7 +140,8 @@ TEST(DomainReport, OfTwoBondedCubesWithoutJointsInsideHasThoseOfTheBond) {
     for (const Index node : mesh.elements[e]) x += mesh.nodes[at(node)][0];
     mesh.element_group[e] = owner.emplace_back(x / 4 > 1 ? 1 : 0);
   }
-  const DomainReport report = report_domains(mesh, build_topology(mesh), std::vector<Index>{0, 1}, owner, 2, 0.0);
+  const DomainReport report = report_domains(mesh, build_topology(mesh), std::vector<Index>{0, 1}, owner, 2,
+                                             std::vector<double>(owner.size(), 0.0));
   EXPECT_EQ(report.domains[0].joints + report.domains[1].joints, 4);
   for (const DomainLoad& load : report.domains) {
     EXPECT_EQ(load.shared, 4);
@@ -149,7 +153,8 @@ TEST(DomainReport, OfUnequalDomainsNamesTheLargestOverTheMean) {
   const Mesh mesh = block({2, 1, 1});
   std::vector<int> owner(mesh.elements.size(), 0);
   for (std::size_t e = 0; e < 12; ++e) owner[e] = 2;  // 36, 0 and 12 of 48 elements
-  const DomainReport report = report_domains(mesh, build_topology(mesh), std::vector<Index>{kJoints}, owner, 3, 1.0);
+  const DomainReport report = report_domains(mesh, build_topology(mesh), std::vector<Index>{kJoints}, owner, 3,
+                                             std::vector<double>(owner.size(), 1.0));
   EXPECT_DOUBLE_EQ(report.imbalance, 36.0 / 16.0);
   EXPECT_EQ(report.domains[1].elements + report.domains[1].held + report.domains[1].neighbours, 0);
 }
