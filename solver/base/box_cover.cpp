@@ -74,8 +74,7 @@ class Cover {
     const auto begin = boxes_.begin();
     const auto first = begin + static_cast<std::ptrdiff_t>(which.first);
     const auto end = begin + static_cast<std::ptrdiff_t>(which.end);
-    const auto bound =
-        std::partition(first, end, [&](const Extent& box) { return middle(box, cut.axis) < cut.place; });
+    const auto bound = std::partition(first, end, [&](const Extent& box) { return middle(box, cut.axis) < cut.place; });
     const Part low = part(which.first, static_cast<std::size_t>(bound - begin)), high = part(low.end, which.end);
     *std::find_if(parts.begin(), parts.end(), [&](const Part& p) { return p.first == low.first; }) = low;
     parts.push_back(high);

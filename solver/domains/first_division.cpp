@@ -24,6 +24,7 @@ class RestRecords {
   void append(Index element, Records& records) {
     ElementRecord record = mesh_record(bare_.mesh, bare_.topology, element);
     record.position = record.reference;
+    record.torn = bare_.torn[at(element)];
     if (!contactors_.chosen.empty() && contactors_.chosen[at(element)] != 0) {
       record.contactor = 1;
       record.field = field_at_rest(bare_.contact.field, bare_.mesh, element, contactors_.surface);

@@ -171,8 +171,10 @@ void Partition::build(const Piece& piece, WholeModel whole, const Continuation& 
   const double dt = from.state.clock.dt;
   Mesh mesh = mesh_of(piece.records, whole);
   Topology topology = topology_of(piece.records, mesh);
+  std::vector<std::uint8_t> torn;
+  for (const ElementRecord& record : piece.records.elements) torn.push_back(record.torn);
   model_ = std::make_unique<Model>(build_piece(input_, std::move(whole), std::move(mesh), std::move(topology),
-                                               piece.original, piece.records.corners));
+                                               piece.original, piece.records.corners, std::move(torn)));
   domain_ = std::make_unique<Domain>(*model_, search_params(input_, *model_), piece.records, from);
   const bool pairwise = input_.domains.exchange == case_::Exchange::pairwise;
   if (communicator_.size() > 1)

@@ -29,6 +29,7 @@ class ElementCollector {
     const State& state = domain_.state;
     const Index slot = local.slot_of_element[at(element)];
     ElementRecord record = mesh_record(domain_.model.mesh, domain_.model.topology, element);
+    record.torn = domain_.model.torn[at(element)];
     record.numbers = state.elements.of(slot);
     for (int c = 0; c < 4; ++c) {
       const Index node = local.corner_node(slot, c);

@@ -12,6 +12,7 @@
 #include "model/node_sets.hpp"
 #include "model/parameters.hpp"
 #include "model/surfaces_to_break.hpp"
+#include "model/torn_faces.hpp"
 
 namespace breccia {
 namespace {
@@ -184,6 +185,7 @@ Model build_bare_model(const case_::Case& input) {
   break_initial(input, model);
   model.whole.cut = surfaces_to_break(input);
   model.corner_tags = tag_corners(model.whole.cut, model.mesh, model.topology);
+  model.torn = torn_faces(model.mesh, model.topology);
   find_joint_groups(input, model);
   take_joint_laws(input, model);
   return model;
@@ -197,12 +199,14 @@ Model build_model(const case_::Case& input) {
 }
 
 Model build_piece(const case_::Case& input, WholeModel whole, Mesh mesh, Topology topology,
-                  const std::vector<std::uint8_t>& original, std::vector<CornerTag> corner_tags) {
+                  const std::vector<std::uint8_t>& original, std::vector<CornerTag> corner_tags,
+                  std::vector<std::uint8_t> torn) {
   Model model;
   model.mesh = std::move(mesh);
   model.topology = std::move(topology);
   model.whole = std::move(whole);
   model.corner_tags = std::move(corner_tags);
+  model.torn = std::move(torn);
   take_materials(input, model);
   take_contact(input, model);
   take_joint_laws(input, model);

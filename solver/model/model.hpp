@@ -60,6 +60,7 @@ struct Model {
   bool contact_everywhere = true;
   bool has_contact = false;
   std::vector<CornerTag> corner_tags;  ///< by (element, group)
+  std::vector<std::uint8_t> torn;      ///< (mesh elements) a bit a face (torn_faces.hpp)
 
   MeshReport mesh_report;  ///< of the whole mesh, on the rank that has read it
 
@@ -79,9 +80,10 @@ struct Model {
 /// The model of a piece of the mesh.
 /// @param mesh, topology  the piece, faces broken from the start cut;  @param original  (elements) 1: the rank's own
 /// @param whole           as build_bare_model found it on the root, with contactor_size
-/// @param corner_tags     of the piece's elements, by (element, group)
+/// @param corner_tags     of the piece's elements, by (element, group);  @param torn  (elements) as Model::torn
 [[nodiscard]] Model build_piece(const case_::Case& input, WholeModel whole, Mesh mesh, Topology topology,
-                                const std::vector<std::uint8_t>& original, std::vector<CornerTag> corner_tags);
+                                const std::vector<std::uint8_t>& original, std::vector<CornerTag> corner_tags,
+                                std::vector<std::uint8_t> torn);
 
 /// Corners on the surfaces of a mesh: those of their faces, and those connected to them around the same node through
 /// faces that no stage breaks. @param cut  surfaces that stages break;  by (element, group). O(elements x surfaces).

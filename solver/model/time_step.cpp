@@ -4,18 +4,12 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Geometry>
-
 #include "base/number_text.hpp"
-#include "physics/contact/patch_tree.hpp"
 
 namespace breccia {
 namespace {
 
 std::size_t index(Index i) { return static_cast<std::size_t>(i); }
-
-/// Faces of a body look at each other when the line between their middles is so close to both normals (its cosine).
-constexpr double kFacing = 0.8;
 
 /// Joints that the sweep does not look after, at their stiffest.
 std::vector<JointStiffness> other_joints(const Model& model) {
@@ -44,50 +38,10 @@ std::vector<bool> groups_with_contact(const Model& model) {
   return touched;
 }
 
-/// A free face of the mesh at rest.
-struct FreeFace {
-  Index element;
-  int face;
-  Index body;
-  Vec3 middle, normal;
-};
-
-std::vector<FreeFace> free_faces(const Model& model, std::vector<PatchTree::Box>& boxes) {
-  std::vector<FreeFace> faces;
-  const std::vector<bool> touched = groups_with_contact(model);
-  for (Index e = 0; e < model.mesh.num_elements(); ++e) {
-    if (!touched[index(model.mesh.element_group[index(e)])]) continue;
-    for (int f = 0; f < 4; ++f) {
-      if (!model.topology.links[index(e)][index(f)].free()) continue;
-      if (model.plane && on_side(model.mesh, e, f, model.plane->axis)) continue;
-      std::array<Vec3, 3> x;
-      for (std::size_t i = 0; i < 3; ++i)
-        x[i] = model.mesh.nodes[index(model.mesh.elements[index(e)][index(kFaceCorners[index(f)][i])])];
-      faces.push_back({e, f, model.local.slot_body[index(model.local.slot_of_element[index(e)])],
-                       (x[0] + x[1] + x[2]) / 3.0, (x[1] - x[0]).cross(x[2] - x[0]).normalized()});
-      const double half = 0.5 * std::max({(x[1] - x[0]).norm(), (x[2] - x[1]).norm(), (x[0] - x[2]).norm()});
-      PatchTree::Box& box = boxes.emplace_back();
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto axis = static_cast<Eigen::Index>(k);
-        box.low[k] = std::min({x[0][axis], x[1][axis], x[2][axis]}) - half;
-        box.high[k] = std::max({x[0][axis], x[1][axis], x[2][axis]}) + half;
-      }
-    }
-  }
-  return faces;
-}
-
-bool look_at_each_other(const FreeFace& a, const FreeFace& b) {
-  const Vec3 line = b.middle - a.middle;
-  const double length = line.norm();
-  return a.normal.dot(b.normal) < -0.5 && line.dot(a.normal) >= kFacing * length &&
-         -line.dot(b.normal) >= kFacing * length;
-}
-
 }  // namespace
 
 TimeStep::TimeStep(const Model& model, const RankOperations& ranks)
-    : model_(model), links_(build_links(model)), joints_(other_joints(model)) {
+    : model_(model), touched_(groups_with_contact(model)), links_(build_links(model)), joints_(other_joints(model)) {
   if (model.has_contact) mark_faces();
   ratio_ = model.whole.step_ratio;
   if (ratio_ > 0) return;
@@ -109,18 +63,14 @@ void TimeStep::mark_faces() {
   const auto mark = [&](std::vector<std::uint8_t>& bits, Index element, int face) {
     bits[index(local.slot_of_element[index(element)])] |= static_cast<std::uint8_t>(1U << face);
   };
-  std::vector<PatchTree::Box> boxes;
-  const std::vector<FreeFace> faces = free_faces(model_, boxes);
-  const PatchTree tree(boxes);
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const FreeFace& face = faces[i];
-    mark(at_rest_.open, face.element, face.face);
-    bool torn = false;
-    tree.query(boxes[i], [&](std::int32_t other) {
-      const FreeFace& there = faces[static_cast<std::size_t>(other)];
-      torn = torn || (there.body == face.body && look_at_each_other(face, there));
-    });
-    if (torn) mark(at_rest_.torn, face.element, face.face);
+  for (Index e = 0; e < model_.mesh.num_elements(); ++e) {
+    if (!touched_[index(model_.mesh.element_group[index(e)])]) continue;
+    at_rest_.torn[index(local.slot_of_element[index(e)])] = model_.torn[index(e)];
+    for (int f = 0; f < 4; ++f) {
+      if (!model_.topology.links[index(e)][index(f)].free()) continue;
+      if (model_.plane && on_side(model_.mesh, e, f, model_.plane->axis)) continue;
+      mark(at_rest_.open, e, f);
+    }
   }
   if (model_.contact_everywhere) {
     std::fill(at_rest_.pointed.begin(), at_rest_.pointed.end(), std::uint8_t{15});
@@ -136,9 +86,8 @@ void TimeStep::mark_faces() {
 ContactFaces TimeStep::open_faces(const CornerClusters* clusters) const {
   ContactFaces faces = at_rest_;
   if (clusters == nullptr) return faces;
-  const std::vector<bool> touched = groups_with_contact(model_);
   for (Index e = 0; e < model_.mesh.num_elements(); ++e) {
-    if (!touched[index(model_.mesh.element_group[index(e)])]) continue;
+    if (!touched_[index(model_.mesh.element_group[index(e)])]) continue;
     const std::size_t slot = index(model_.local.slot_of_element[index(e)]);
     for (int f = 0; f < 4; ++f) {
       if (!clusters->broken(e, f)) continue;

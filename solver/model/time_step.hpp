@@ -44,6 +44,7 @@ class TimeStep {
   void mark_faces();
 
   const Model& model_;
+  std::vector<bool> touched_;  ///< (volume groups) whether anything can touch it
   JointLinks links_;
   std::vector<JointStiffness> joints_;
   ContactFaces at_rest_;  ///< open: from the start; pointed: if it comes to be open

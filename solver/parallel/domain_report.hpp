@@ -43,14 +43,14 @@ struct DomainReport {
 ///
 /// A proxy is gathered in every step if a joint holds it to an original or if it shares a node with one, in a body
 /// without joints (kBytesAProxy is then an upper bound: a shared node goes once). It is held if its box is within
-/// its reach of a box around some of the originals (cover). step = kSecondsAnElement elements + kSecondsAMessage neighbours + bytes /
-/// kBytesASecond: joints on a cut are computed on both sides, but so they are in the sweep of one rank.
+/// its reach of a box around some of the originals (cover). step = kSecondsAnElement elements + kSecondsAMessage
+/// neighbours + bytes / kBytesASecond: joints on a cut are computed on both sides, but so they are in the sweep of one
+/// rank.
 /// @param node_sets  (volume groups) -1: every element has its own nodes and joints to its neighbours; else elements
 /// share nodes, with those of other groups of the same number, and have joints to the others
 /// @param owner      (elements) 0..parts-1;  @param reach  (elements) m
 /// @pre mesh and topology are the whole model's. O(elements), 40 bytes a node and 60 a cut face; throws nothing.
 [[nodiscard]] DomainReport report_domains(const Mesh& mesh, const Topology& topology, std::span<const Index> node_sets,
-                                          std::span<const int> owner, int parts,
-                                          std::span<const double> reach);
+                                          std::span<const int> owner, int parts, std::span<const double> reach);
 
 }  // namespace breccia

@@ -28,6 +28,7 @@ struct ElementRecord {
   std::array<GlobalId, 4> vertex{};                                          ///< mesh nodes of the corners
   std::array<GlobalId, 4> neighbour{};                                       ///< by face, -1: free
   std::array<std::int8_t, 4> code{};                                         ///< FaceLink::code
+  std::uint8_t torn = 0;                                                     ///< a bit a face (model/torn_faces.hpp)
   std::uint8_t released = 0;                                                 ///< a bit a face: freed by fracture
   std::uint8_t contactor = 0;                                                ///< 1: others may touch it
   std::array<std::array<double, 3>, 4> reference{}, position{}, velocity{};  ///< of the corners, m, m/s
@@ -46,6 +47,7 @@ struct FieldTable<ElementRecord> {
       FieldRow{"vertex", "1", kNotHashed, [](auto& r) -> auto& { return r.vertex; }},
       FieldRow{"neighbour", "1", kNotHashed, [](auto& r) -> auto& { return r.neighbour; }},
       FieldRow{"code", "1", kNotHashed, [](auto& r) -> auto& { return r.code; }},
+      FieldRow{"torn_faces", "1", kNotHashed, [](auto& r) -> auto& { return r.torn; }},
       FieldRow{"reference", "m", kNotHashed, [](auto& r) -> auto& { return r.reference; }},
       FieldRow{"position", "m", kState, [](auto& r) -> auto& { return r.position; }},
       FieldRow{"velocity", "m/s", kState, [](auto& r) -> auto& { return r.velocity; }},

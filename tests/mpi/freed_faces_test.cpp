@@ -43,6 +43,40 @@ TEST(Ranks, KeepFacesFreeWhenWhatWasBehindThemIsFarAway) {
   for (const int ranks : {2, 3}) boxes.on(ranks);
 }
 
+/// Halves of a body that part along a slit: what made the sides of the slit such is on another rank soon.
+const std::string kParted = R"([mesh.raster]
+cells = [6, 2, 2]
+cell_size = "10 mm"
+slit = { lower = ["30 mm", 0, 0], upper = ["30 mm", "20 mm", "20 mm"] }
+[joints]
+broken = ["raster.slit"]
+[[material]]
+group = "raster"
+young = "100 MPa"
+poisson = 0.2
+density = 1000
+joints = "unbreakable"
+[[joint]]
+group = "raster"
+penalty_factor = 10
+[[contact]]
+between = ["*", "*"]
+penalty = "1 GPa"
+[[initial_velocity]]
+group = "raster"
+strain_rate = [400, 0, 0]
+[[stage]]
+end = "12 ms"
+[domains]
+margin = 0.1
+)";
+
+TEST(Ranks, KnowTheSidesOfASlitWhenTheyAreFarApart) {
+  const test::Scratch scratch;
+  test::SameBits halves(scratch.write("case.toml", kParted));
+  halves.on(2);
+}
+
 /// A body at rest, alone on its rank, from which another one is drawn away and then pushed into it.
 const std::string kStruck = R"([mesh]
 file = ")" BRECCIA_MESHES R"(/contact_pair/geometry.msh"

@@ -79,7 +79,7 @@ std::size_t bytes_without_row() {
 
 TEST(FieldTable, HasARowForEveryMemberOfEveryRecord) {
   const auto gaps = [](std::size_t bytes) { return bytes; };
-  EXPECT_EQ(bytes_without_row<ElementRecord>(), gaps(2 + 4));
+  EXPECT_EQ(bytes_without_row<ElementRecord>(), gaps(1 + 4));
   EXPECT_EQ(bytes_without_row<JointRecord>(), gaps(2 + 7) + 2 * sizeof(Index));  // slots of its sides
   EXPECT_EQ(bytes_without_row<ReleasedRecord>(), gaps(2) + sizeof(Index));       // slot of side a
   EXPECT_EQ(bytes_without_row<CoupleRecord>(), 2 * sizeof(Index));               // point and contactor
