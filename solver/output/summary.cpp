@@ -47,6 +47,7 @@ void add_phases(std::string& text, const Summary& summary) {
 void add_energies(std::string& text, const EnergyBudget& energy) {
   const double largest = largest_energy(energy);
   if (largest <= 0) return;
+  if (energy.is_round_off) return add_line(text, "energy", "no more than round-off, " + quantity_text(largest, "J"));
   text += "  energy, share of the largest term\n";
   for (const EnergyTerm& term : kEnergyTerms) {
     const double value = energy.*term.value;

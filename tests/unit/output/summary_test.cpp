@@ -14,7 +14,9 @@ namespace breccia {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::UnorderedElementsAre;
 
 Summary example_summary() {
@@ -107,6 +109,19 @@ TEST(SummaryJson, IsValidWithNumbersThatJsonCannotHold) {
   summary.energy.kinetic = std::numeric_limits<double>::infinity();
   summary.title = "\xff";
   EXPECT_TRUE(json::parse(summary_json(summary)).at("energy").at("kinetic").is_null());
+}
+
+/// Shares of round-off would look like a fault.
+TEST(SummaryText, GivesSharesOfEnergiesThatAreMoreThanRoundOff) {
+  Summary summary = example_summary();
+  summary.energy.is_round_off = false;
+  EXPECT_THAT(summary_text(summary), AllOf(HasSubstr("energy, share of the largest term\n"), HasSubstr("100.00 %\n")));
+  summary.energy.kinetic = 1e-21;
+  summary.energy.residual = -8.2e-22;
+  summary.energy.is_round_off = true;
+  const std::string text = summary_text(summary);
+  EXPECT_THAT(text, HasSubstr("no more than round-off, 1.00e-21 J\n"));
+  EXPECT_THAT(text, Not(HasSubstr("82.00 %")));
 }
 
 TEST(SummaryFile, IsWrittenAtTheEnd) {
