@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <bit>
+#include <cstddef>
 
 #include "base/types.hpp"
 
@@ -17,6 +19,18 @@ void for_each_set(CornerSets sets, F&& f) {
   constexpr unsigned kAll = (1U << kNumCornerSets) - 2;
   for (unsigned left = static_cast<unsigned>(sets) & kAll; left != 0; left &= left - 1)
     f(static_cast<unsigned>(std::countr_zero(left)));
+}
+
+/// Of the sets of one or two corners of an element, ascending, at most so many: m of each corner behind a plane through
+/// the set; all zero where there is none.
+inline constexpr std::size_t kMostSides = 4;
+using SideRows = std::array<std::array<double, 4>, kMostSides>;
+
+/// Calls f(m, place among the sets of one or two corners, or -1) for every set, ascending.
+template <class F>
+void for_each_side(CornerSets sets, F&& f) {
+  int small = 0;
+  for_each_set(sets, [&](unsigned m) { f(m, std::popcount(m) < 3 ? small++ : -1); });
 }
 
 /// Whether some set has all corners of m.

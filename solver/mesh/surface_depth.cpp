@@ -13,6 +13,9 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
+/// Of the sum of normals: what lies between the two sides of a sheet has none of its own.
+constexpr double kNoSide = 1e-3;
+
 /// Free faces around every node, as rows of one array.
 class FacesAtNodes {
  public:
@@ -49,6 +52,35 @@ CornerSets sets_of(const std::array<Index, 4>& corners, const std::vector<FreeFa
     }
   }
   return largest_sets(sets);
+}
+
+/// @param sets  of the element
+SideRows sides_of(const Mesh& mesh, const std::array<Index, 4>& corners, CornerSets sets,
+                  const std::vector<FreeFace>& faces, const FacesAtNodes& around) {
+  SideRows sides{};
+  for_each_side(sets, [&](unsigned set, int place) {
+    if (place < 0 || at(place) >= kMostSides) return;
+    const auto has = [&](const FreeFace& face, std::size_t c) {
+      return std::find(face.begin(), face.end(), corners[c]) != face.end();
+    };
+    const auto first = static_cast<std::size_t>(std::countr_zero(set));
+    Vec3 outward = Vec3::Zero();
+    for (const Index f : around.at_node(corners[first])) {
+      const FreeFace& face = faces[at(f)];
+      bool all = true;
+      for (std::size_t c = 0; c < 4; ++c) all = all && ((set >> c & 1U) == 0 || has(face, c));
+      if (!all) continue;
+      const Vec3 &a = mesh.nodes[at(face[0])], &b = mesh.nodes[at(face[1])], &c = mesh.nodes[at(face[2])];
+      outward += (b - a).cross(c - a).normalized();
+    }
+    if (!(outward.norm() > kNoSide)) return;
+    outward.normalize();
+    for (std::size_t c = 0; c < 4; ++c) {
+      if ((set >> c & 1U) == 0)
+        sides[at(place)][c] = outward.dot(mesh.nodes[at(corners[first])] - mesh.nodes[at(corners[c])]);
+    }
+  });
+  return sides;
 }
 
 /// Of a node's elements.
@@ -107,14 +139,18 @@ void set_distances(const Mesh& mesh, const Topology& topology, const std::vector
 }  // namespace
 
 SurfaceDepth surface_depth(const std::vector<bool>& breakable, const Mesh& mesh, const Topology& topology) {
-  SurfaceDepth result{std::vector<std::uint8_t>(mesh.nodes.size(), 0), {}, {}};
+  SurfaceDepth result{std::vector<std::uint8_t>(mesh.nodes.size(), 0), {}, {}, {}};
   const std::vector<FreeFace> faces = free_faces(mesh, topology);
   for (const FreeFace& face : faces) {
     for (const Index node : face) result.on_surface[at(node)] = 1;
   }
   const FacesAtNodes faces_at(mesh, faces);
   result.sets.reserve(mesh.elements.size());
-  for (const auto& corners : mesh.elements) result.sets.push_back(sets_of(corners, faces, faces_at));
+  result.sides.reserve(mesh.elements.size());
+  for (const auto& corners : mesh.elements) {
+    result.sets.push_back(sets_of(corners, faces, faces_at));
+    result.sides.push_back(sides_of(mesh, corners, result.sets.back(), faces, faces_at));
+  }
 
   const std::vector<Around> around = around_nodes(breakable, mesh, topology);
   result.depth.reserve(around.size());

@@ -16,6 +16,7 @@ struct SurfaceDepth {
   std::vector<std::uint8_t> on_surface;  ///< (mesh nodes) 1: a corner of a free face
   std::vector<double> depth;             ///< (mesh nodes) m, > 0
   std::vector<CornerSets> sets;          ///< (elements) corners on one free face, those that no other set covers
+  std::vector<SideRows> sides;           ///< (elements) of the sets of one or two corners
 };
 
 /// The depth of a node of what can break is the least of its heights in its elements: no face that may become one of
@@ -25,6 +26,10 @@ struct SurfaceDepth {
 /// on the surface is how much lies behind it: the least of its heights above opposite free faces of its elements and of
 /// its distances to free faces that it lies behind by half its distance at least (the other side of a wall, the far
 /// side of a ridge); where there is none of these nearer than its longest edge, the least of its heights.
+///
+/// Where an element meets the surface with an edge or a corner alone, how its depths grow does not tell how the surface
+/// lies there. `sides` holds, for each such set, how far the corners are behind the plane through the set that lies as
+/// the free faces around it do on average.
 /// O(n log n) in the free faces, throws nothing.
 /// @param breakable  (volume groups) inner faces may be freed
 /// @pre mesh is finished, topology belongs to it

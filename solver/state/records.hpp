@@ -57,6 +57,7 @@ struct FieldTable<ElementRecord> {
       FieldRow{"contactor", "1", kState, [](auto& r) -> auto& { return r.contactor; }},
       FieldRow{"overlap_depth", "m", kState, [](auto& r) -> auto& { return r.field.depth; }},
       FieldRow{"surface_corners", "1", kState, [](auto& r) -> auto& { return r.field.sets; }},
+      FieldRow{"surface_sides", "m", kNotHashed, [](auto& r) -> auto& { return r.field.sides; }},
   };
 // clang-format on
 }

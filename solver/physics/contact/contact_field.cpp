@@ -51,10 +51,12 @@ OverlapShape body_shape(const ContactParams& params, const std::array<double, 4>
                         const ComingSets* coming) {
   OverlapShape shape;
   bool whole = false;  // a set that counts in full
-  for_each_set(values.sets, [&](unsigned set) {
+  const bool has_sides = (values.sets & kFractured) == 0;
+  for_each_side(values.sets, [&](unsigned set, int place) {
     const Index remaining = coming != nullptr ? (*coming)[set] : 0;
     whole = whole || remaining == 0;
     shape.add(row_of(values, height, set, 1 - static_cast<double>(remaining) / params.ramp_steps));
+    if (has_sides && 0 <= place && at(place) < kMostSides) shape.set_side(values.sides[at(place)]);
   });
   if (!whole) shape.add(values.depth);
   return shape;
@@ -89,6 +91,7 @@ FieldValues field_at_rest(OverlapField field, const Mesh& mesh, Index element, c
   if (field != OverlapField::body) return values;
   for (std::size_t a = 0; a < 4; ++a) values.depth[a] = surface.depth[at(mesh.elements[at(element)][a])];
   values.sets = surface.sets[at(element)];
+  values.sides = surface.sides[at(element)];
   return values;
 }
 

@@ -263,7 +263,8 @@ void Pass::touch(Index index, Candidate& candidate, TouchingCouple& h) {
     h.delayed = candidate.delayed;
   }
   h.gained_before += candidate.gained;
-  if (!(h.d > 0) && candidate.g_before > h.offset && comes_from_beside(point, candidate)) h.offset = candidate.g_before;
+  if (!(h.d > 0) && candidate.g_before > h.offset && comes_from_beside(point, candidate, h.offset))
+    h.offset = candidate.g_before;
   const TouchingCouple last = h;
   h.point = index;
   h.contactor = candidate.contactor;

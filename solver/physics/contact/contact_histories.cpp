@@ -232,10 +232,20 @@ void Pass::end(const ContactPoint& point, const TouchingCouple& last, const Vec3
 
 /// Whether no side of the surface looks towards the face of the point: the front of a block, say, where a point of the
 /// floor comes into an element that does not reach down to the lower edge. Pushed back there it would stop the block,
-/// which slides over it. Without motion the places have been given, not moved to.
-bool Pass::comes_from_beside(const ContactPoint& point, Candidate& candidate) const {
+/// which slides over it. Nor is it pushed by a side far away that it looks at but has not come through, next to another
+/// one: on the lower side of a voussoir, by the upper side of the next. Without motion the places have been given, not
+/// moved to.
+/// @param offset  m, of the couple, which exerts no force
+bool Pass::comes_from_beside(const ContactPoint& point, Candidate& candidate, double offset) const {
   if (motion_of(point, candidate) == Vec3::Zero()) return false;
-  return facing(outward_of(point), gradient_before(candidate)) == Facing::away;
+  const OverlapShape& shape = shape_of(candidate.contactor, Instant::step_before);
+  const std::size_t least = least_row(shape, candidate.lambda, candidate.rows);
+  if (facing(outward_of(point), side_gradient(shape, least, prepared(candidate.contactor))) == Facing::away)
+    return true;
+  const std::array<double, 4>& depth = shape.row[least];
+  const double g = row_value(shape, least, candidate.lambda);
+  const bool is_far = g > kFarSide * *std::max_element(depth.begin(), depth.end());
+  return is_far && offset > 0.5 * g && overlap_value(shape, candidate.lambda) < 0.5 * g;
 }
 
 /// Overlap that makes no force, m, of a couple seen for the first time.

@@ -136,7 +136,7 @@ class Pass {
   [[nodiscard]] const Vec3& motion_of(const ContactPoint& point, Candidate& candidate) const;
   [[nodiscard]] const Vec3& curl_of(Index slot);
   [[nodiscard]] Vec3 mean_turn(Index target, Index contactor);
-  [[nodiscard]] bool comes_from_beside(const ContactPoint& point, Candidate& candidate) const;
+  [[nodiscard]] bool comes_from_beside(const ContactPoint& point, Candidate& candidate, double offset) const;
   [[nodiscard]] double first_offset(Index point, Candidate& candidate) const;
   [[nodiscard]] static double go_to(const ContactLaw& law, double scale, double length, double g, TouchingCouple& h);
   [[nodiscard]] static double follow(const ContactLaw& law, double scale, double length, const Candidate& candidate,

@@ -56,6 +56,7 @@ inline constexpr CornerSets kFractured = 1;
 struct FieldValues {
   std::array<double, 4> depth{};  ///< m, at its corners, > 0
   CornerSets sets = 0;            ///< corners on one face of the free surface; kFractured
+  SideRows sides{};               ///< m, at rest (mesh/surface_depth.hpp)
   bool operator==(const FieldValues&) const = default;
 };
 

@@ -46,19 +46,34 @@ inline constexpr double kInertVolumeRatio = 0.01;
   return std::min(std::min(lambda[0], lambda[1]), std::min(lambda[2], lambda[3]));
 }
 
-/// g of one element is the least of some linear functions sum_a row[a] lambda_a, m.
+/// g of one element is the least of some linear functions sum_a row[a] lambda_a, m. Each belongs to a side of the
+/// surface, which lies as the function grows, or as another one does.
 struct OverlapShape {
   std::array<std::array<double, 4>, kNumCornerSets> row;
-  std::size_t rows = 0;
+  SideRows side;                                    ///< of those functions that another one tells of
+  std::array<std::int8_t, kNumCornerSets> side_of;  ///< (rows) index into `side`, -1: the function itself
+  std::size_t rows = 0, sides = 0;
   OverlapShape() = default;
   OverlapShape(const OverlapShape& other) { *this = other; }
   /// Of those in use alone: most shapes have one or two.
   OverlapShape& operator=(const OverlapShape& other) {
     rows = other.rows;
+    sides = other.sides;
     std::copy_n(other.row.begin(), rows, row.begin());
+    std::copy_n(other.side_of.begin(), rows, side_of.begin());
+    std::copy_n(other.side.begin(), sides, side.begin());
     return *this;
   }
-  void add(const std::array<double, 4>& function) { row[rows++] = function; }
+  void add(const std::array<double, 4>& function) {
+    side_of[rows] = -1;
+    row[rows++] = function;
+  }
+  /// Of the last function; where it is zero the function itself tells. @pre fewer than kMostSides so far
+  void set_side(const std::array<double, 4>& function) {
+    if (function == std::array<double, 4>{}) return;
+    side_of[rows - 1] = static_cast<std::int8_t>(sides);
+    side[sides++] = function;
+  }
 };
 
 /// Overlap and its gradient with respect to the point; that with respect to corner a is -lambda_a gradient.
@@ -73,15 +88,25 @@ struct Overlap {
   return lambda[0] * row[0] + lambda[1] * row[1] + lambda[2] * row[2] + lambda[3] * row[3];
 }
 
-/// The gradient of one with respect to the point, which is inwards. @pre 0 <= k < rows
-[[nodiscard]] inline Vec3 row_gradient(const OverlapShape& shape, std::size_t k, const PreparedTetra& tetra) {
-  const std::array<double, 4>& slope = shape.row[k];
+/// Gradient of a linear function of lambda with respect to the point. @param slope  its values at the corners
+[[nodiscard]] inline Vec3 gradient_of(const std::array<double, 4>& slope, const PreparedTetra& tetra) {
   Vec3 gradient = Vec3::Zero();
   for (std::size_t c = 1; c < 4; ++c) {
     const std::array<double, 3>& row = tetra.gradient[c - 1];
     gradient += (slope[c] - slope[0]) * Vec3(row[0], row[1], row[2]);
   }
   return gradient;
+}
+
+/// That of one of the functions, which is inwards. @pre 0 <= k < rows
+[[nodiscard]] inline Vec3 row_gradient(const OverlapShape& shape, std::size_t k, const PreparedTetra& tetra) {
+  return gradient_of(shape.row[k], tetra);
+}
+
+/// Against the normal of the side that a function belongs to, of any length. @pre 0 <= k < rows
+[[nodiscard]] inline Vec3 side_gradient(const OverlapShape& shape, std::size_t k, const PreparedTetra& tetra) {
+  const std::int8_t side = shape.side_of[k];
+  return gradient_of(side < 0 ? shape.row[k] : shape.side[static_cast<std::size_t>(side)], tetra);
 }
 
 /// Some of an element's functions: bit k for the k-th.
@@ -109,6 +134,9 @@ inline constexpr double kWellFacing = 0.1;
   return along >= kBarelyFacing * most ? Facing::barely : Facing::away;
 }
 
+/// Of the depth of an element: a point that is so far behind a side has not just come through it.
+inline constexpr double kFarSide = 0.1;
+
 /// Some of an element's functions, and how their sides face.
 struct FacingRows {
   OverlapRows rows = 0;
@@ -121,7 +149,7 @@ struct FacingRows {
                                             const Vec3& outward) {
   FacingRows most;
   for (std::size_t k = 0; k < shape.rows; ++k) {
-    const Facing here = facing(outward, row_gradient(shape, k, tetra));
+    const Facing here = facing(outward, side_gradient(shape, k, tetra));
     if (here > most.facing) most = {.rows = 0, .facing = here};
     if (here == most.facing && here != Facing::away) most.rows |= OverlapRows{1} << k;
   }
