@@ -44,6 +44,16 @@ TEST(SlidingBlock, stops_where_friction_has_taken_its_energy) {
   EXPECT_LT(run.worst_residual(), 1e-3);
 }
 
+/// Points on the lower edge of its front are on that face as well, which looks along the floor: pushed by what lies
+/// below, they stopped it after four fifths of the way.
+TEST(SlidingBlock, stops_there_with_points_on_its_corners_as_well) {
+  const Recording run = run_case_file("sliding_block/case.toml", {"contact_points.per_face=4"});
+  constexpr double kExpected = 1.0 / (2 * 0.5 * 9.81);  // m
+  constexpr double kTolerance = 0.01;
+  EXPECT_NEAR(run.rows.back().gauges[0].displacement[0] / kExpected, 1.0, kTolerance);
+  EXPECT_LT(run.worst_residual(), 1e-3);
+}
+
 TEST(SlidingBlock, is_not_stopped_by_edges_of_a_coarse_floor) {
   // Of those whose front has met points of the floor just above its lower edge.
   struct Slide {

@@ -60,6 +60,33 @@ TEST(SurfaceDepth, NamesTheCornersOfAnElementThatLieOnOneFreeFace) {
   }
 }
 
+/// An element that meets the surface with an edge or a corner alone: it lies as that side of the box does.
+TEST(SurfaceDepth, KnowsHowTheSurfaceLiesAroundAnEdgeOrACornerOfAnElement) {
+  const Vec3 size(3 * 1.0, 2 * 0.75, 2 * 1.25);
+  const Mesh box = test::raster_box({3, 2, 2}).mesh;
+  const SurfaceDepth depth = surface_depth(kWhole, box, build_topology(box));
+  int tested = 0;
+  for (Index e = 0; e < box.num_elements(); ++e) {
+    for_each_side(depth.sets[at(e)], [&](unsigned set, int place) {
+      if (place < 0) return;
+      ASSERT_LT(at(place), kMostSides);
+      for (int side = 0; side < 6; ++side) {  // of the box: lower and upper, axis by axis
+        const auto behind = [&](int corner) {
+          const double x = test::node_of(box, e, corner)[side / 2];
+          return side % 2 == 0 ? x : size[side / 2] - x;
+        };
+        bool on = true;
+        for (int c = 0; c < 4; ++c) on = on && ((set >> c & 1U) == 0 || behind(c) < kRoundOff);
+        if (!on) continue;
+        ++tested;
+        for (int c = 0; c < 4; ++c)
+          EXPECT_NEAR(depth.sides[at(e)][at(place)][at(c)], behind(c), kRoundOff) << "element " << e << ", set " << set;
+      }
+    });
+  }
+  EXPECT_GT(tested, 100);
+}
+
 TEST(SurfaceDepth, OfANodeOnTheSurfaceIsWhatLiesBehindIt) {
   constexpr double kLeastHeight = 0.2;  // of the elements of a cell of 1 x 0.75 x 1.25, rounded down
   const Vec3 size(3 * 1.0, 2 * 0.75, 2 * 1.25);
