@@ -67,7 +67,7 @@ constexpr auto table = std::to_array<Topic>({
      "There is none: masses are those of the density. `breccia check` tells what limits the time step: the "
      "smallest elements, or penalties of joints or contact.",
      "time.safety|joint.penalty_factor|contact.penalty|material.density"},
-    {"rebound|bounce|coefficient of restitution",
+    {"rebound|bounce|restitution|coefficient of restitution",
      "Contact gives all energy back unless it has a plateau, an unloading_exponent above 1 or a damping_ratio.",
      "contact.unloading_exponent|contact.damping_ratio|contact.plateau"},
     {"erosion|element erosion|element deletion|failure strain",
@@ -90,7 +90,7 @@ constexpr auto table = std::to_array<Topic>({
     {"heterogeneity|scatter|random strength",
      "Strengths scatter from joint to joint with a weibull_modulus.",
      "joint.weibull_modulus|joint.weibull_area|joint.weibull_seed"},
-    {"initial stress|in situ stress|prestress|excavation",
+    {"initial stress|in situ stress|k0|geostatic|prestress|excavation|tunnel|staged construction",
      "A first run settles under gravity or outer pressures; a second one starts from its state with other loads, "
      "constraints and materials.",
      "start|stage.gravity|stage.pressure|stage.local_damping"},
@@ -98,6 +98,50 @@ constexpr auto table = std::to_array<Topic>({
      "No part is taken out of a model. A run that starts from another one's state gives a group next to no strength, "
      "and it breaks, or next to no stiffness, and it holds nothing up.",
      "start|joint.tensile_strength|material.young"},
+    {"viscous boundary|quiet boundary|non reflecting boundary|absorbing boundary|infinite boundary|lysmer",
+     "Surfaces named in a stage's absorbing list take waves up that arrive, and go on holding what they held.",
+     "stage.absorbing"},
+    {"dynamic relaxation|quasi static|static equilibrium|static analysis|settle",
+     "A stage with damping comes to rest: local_damping takes a share of every unbalanced force, mass_damping slows "
+     "all motion. Kinetic over elastic energy in the history tells when; a load that grows by a ramp rings less.",
+     "stage.local_damping|stage.mass_damping|function.ramp"},
+    {"rayleigh|rayleigh damping|damping|structural damping",
+     "mass_damping is the share of the mass (alpha, 1/s), a material's viscosity damps its rate of strain (beta, as a "
+     "stress over a rate). Joints and contact damp by what they dissipate; contact.damping_ratio adds to that.",
+     "stage.mass_damping|stage.local_damping|material.viscosity|contact.damping_ratio"},
+    {"strength reduction|factor of safety|safety factor|slope stability",
+     "A case settles; others start from its state with cohesion, strengths and friction divided by a factor. The "
+     "largest with which it comes to rest is the factor of safety. A material that flows is too strong by some per "
+     "cent on tetrahedra.",
+     "start|joint.shear_strength|joint.friction|material.cohesion"},
+    {"confinement|confining pressure|confining stress|triaxial|triaxial test|fluid pressure|borehole|blast|explosion|"
+     "gas pressure",
+     "A [[stage.pressure]] on a surface, as a function of time; it follows the faces. On a surface that has broken it "
+     "opens the crack.",
+     "stage.pressure|stage.traction"},
+    {"restart|continue|checkpoint restart",
+     "`breccia resume RUN` goes on from the last checkpoint, on any number of ranks, to the same bits. [start] takes "
+     "the state of a run into a case with other loads, materials or contact.",
+     "checkpoint|start"},
+    {"mohr coulomb|coulomb|drucker prager|yield surface",
+     "Between elements: shear_strength is the cohesion of a joint, friction that of its faces. Within them: "
+     "material.law = \"drucker_prager\".",
+     "joint.shear_strength|joint.friction|joint.friction_angle|material.law"},
+    {"fault|bedding|bedding plane|dfn|joint set|discontinuity|weak plane|interface",
+     "A surface of the mesh: between two volumes, whose interface has a [[joint]] of its own, or a physical surface "
+     "within one that joints.broken or stage.broken opens.",
+     "joint.between|joints.broken|stage.broken|mesh.glue"},
+    {"ucs|uniaxial compression|unconfined compression|brazilian|brazilian test|hopkinson|split hopkinson",
+     "Sample and platens or bars are volumes of one geometry that touch by [[contact]]; one platen is driven, "
+     "output.gauges records the forces on both. meshes/disc is such a case. Strengths on a regular mesh, a raster "
+     "above all, are those of its planes.",
+     "contact|stage.constraint|output.gauges"},
+    {"bolt|rock bolt|anchor|cable|rebar|spring|dashpot|beam element|shell element",
+     "There are no springs, bolts, beams or shells: every part is a volume, bonded by joints or held by contact.",
+     "joint.between|contact"},
+    {"servo|servo control|stress control|force control",
+     "There is none: a load is a function of time. A run stopped at a state of interest goes on from it with [start].",
+     "stage.traction|stage.pressure|start"},
 });
 // clang-format on
 

@@ -114,9 +114,9 @@ TEST(Topics, HaveASentenceAndKeysThatThereAreAndWordsThatAreNoKeys) {
 TEST(Explain, AnUnknownKeyNamesTheNearest) {
   EXPECT_THAT(message_of_key("material.yung"), HasSubstr("did you mean material.young"));
   EXPECT_THAT(message_of_key("densty"), HasSubstr("did you mean material.density"));
-  EXPECT_THAT(message_of_key("damping"),
-              HasSubstr("the word stands in contact.damping_ratio, stage.mass_damping, stage.local_damping"));
-  EXPECT_THAT(message_of_key("restitution"), HasSubstr("the word stands in contact.unloading_exponent"));
+  EXPECT_THAT(message_of_key("tension"),
+              HasSubstr("the word stands in material.tension_cutoff, joint.tensile_strength"));
+  EXPECT_THAT(message_of_key("weight"), HasSubstr("the word stands in output.gauges"));
   EXPECT_THAT(message_of_key("energy"), testing::ContainsRegex("stands in joint.energy_mode_1, .*, and [0-9]+ more"));
   EXPECT_THAT(message_of_key("xyzzy"), AllOf(HasSubstr("unknown key"), HasSubstr("mesh, plane, material, joint")));
   EXPECT_THAT(message_of_key(""), HasSubstr("unknown key"));
