@@ -84,19 +84,26 @@ std::string frames_line(const RunEstimate& estimate, Advice& advice) {
                      quantity_text(estimate.disk, "B"));
 }
 
+/// What an estimate leaves out.
+std::string not_counted(const Model& model, bool breaks) {
+  constexpr Index kFew = 2;  // bodies
+  if (!model.has_contact || (!breaks && model.mesh.num_bodies <= kFew)) return {};
+  return fmt::format(" (not counted: contact among {}, with which it can be several times as long)",
+                     breaks ? "debris" : "bodies that touch each other all over");
+}
+
 /// The estimate as a line.
-std::string run_time(const StepReport& step, const RunEstimate& estimate, double end, bool has_contact) {
-  std::string text =
-      fmt::format("{:.0f} steps of {} to {}; about {} on this machine while little breaks", estimate.steps,
-                  quantity_text(step.dt, "s"), quantity_text(end, "s"), quantity_text(estimate.seconds, "s"));
+std::string run_time(const Model& model, const StepReport& step, const RunEstimate& estimate, double end) {
+  std::string text = fmt::format("{:.0f} steps of {} to {}; about {} on this machine{}", estimate.steps,
+                                 quantity_text(step.dt, "s"), quantity_text(end, "s"),
+                                 quantity_text(estimate.seconds, "s"), estimate.breaks ? " while little breaks" : "");
   if (estimate.meets)
-    text += fmt::format(" and no bodies meet, {} if they had met from the start",
+    text += fmt::format(" while no bodies meet, {} if they had met from the start",
                         quantity_text(estimate.most_seconds, "s"));
   if (estimate.breaks)
-    text += fmt::format(
-        ", {} where much does, up to {} where everything does at once{}", quantity_text(estimate.likely_seconds, "s"),
-        quantity_text(estimate.most_seconds, "s"),
-        has_contact ? " (not counted: contact among debris, with which it can be several times as long)" : "");
+    text += fmt::format(", {} where much does, up to {} where everything does at once",
+                        quantity_text(estimate.likely_seconds, "s"), quantity_text(estimate.most_seconds, "s"));
+  text += not_counted(model, estimate.breaks);
   return text + fmt::format(", memory {:.0f} MB\n", static_cast<double>(estimate.memory) / 1e6);
 }
 
@@ -329,7 +336,7 @@ CheckReport full_report(const case_::Case& input, const Model& model, const Star
   append(report.advice, stage_advice(input, model));
   report.step = step_report(input, model);
   report.estimate = estimate_run(input, model, report.step, from.time);
-  report.text += report.step.text + run_time(report.step, report.estimate, input.stages.back().end, model.has_contact) +
+  report.text += report.step.text + run_time(model, report.step, report.estimate, input.stages.back().end) +
                  frames_line(report.estimate, report.advice);
   append(report.advice, report.step.advice);
   append(report.advice, sudden_softening(model, report.step.dt));

@@ -116,9 +116,10 @@ Advice sudden_load_advice(const case_::Case& input, const Model& model) {
           "Stage {} begins with {}, on bodies that are held, lie on others or are pressed on and that nothing damps: "
           "they vibrate with up to twice the static stress. If a slow load is meant, let it grow over {} or more, {{ "
           "ramp = {{ start = {:g}, end = ..., to = ... }} }}, and damp: a "
-          "material.viscosity of {}, or stage.local_damping; contact.damping_ratio = 0.2 damps what bounces.",
+          "material.viscosity of {}, or stage.local_damping{}.",
           words_of(input, stage), loads, quantity_text(kSlow * crossing, "s"), start,
-          quantity_text(kViscosity * crossing * softest(model), "Pa s")));
+          quantity_text(kViscosity * crossing * softest(model), "Pa s"),
+          model.has_contact ? "; contact.damping_ratio = 0.2 damps what bounces" : ""));
     }
     before = &stage;
     start = stage.end;

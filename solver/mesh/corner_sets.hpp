@@ -21,8 +21,9 @@ void for_each_set(CornerSets sets, F&& f) {
     f(static_cast<unsigned>(std::countr_zero(left)));
 }
 
-/// Of the sets of one or two corners of an element, ascending, at most so many: m of each corner behind a plane through
-/// the set; all zero where there is none.
+/// Of the sets of one or two corners of an element, ascending: how far each corner lies behind a plane through the set,
+/// m; all zero where there is none. Of more sets than so many, as of an element whose edges lie on five sides and none
+/// of whose faces does, nothing is kept.
 inline constexpr std::size_t kMostSides = 4;
 using SideRows = std::array<std::array<double, 4>, kMostSides>;
 

@@ -46,11 +46,11 @@ inline constexpr double kInertVolumeRatio = 0.01;
   return std::min(std::min(lambda[0], lambda[1]), std::min(lambda[2], lambda[3]));
 }
 
-/// g of one element is the least of some linear functions sum_a row[a] lambda_a, m. Each belongs to a side of the
-/// surface, which lies as the function grows, or as another one does.
+/// g of one element is the least of some linear functions sum_a row[a] lambda_a, m. Each is the distance to one side of
+/// the surface, whose normal is along the gradient of the function, or of another one where `side_of` names it.
 struct OverlapShape {
   std::array<std::array<double, 4>, kNumCornerSets> row;
-  SideRows side;                                    ///< of those functions that another one tells of
+  SideRows side;                                    ///< those other functions
   std::array<std::int8_t, kNumCornerSets> side_of;  ///< (rows) index into `side`, -1: the function itself
   std::size_t rows = 0, sides = 0;
   OverlapShape() = default;

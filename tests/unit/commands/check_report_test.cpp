@@ -232,7 +232,29 @@ fixed = "xyz"
   EXPECT_FALSE(estimate(resting).meets);
   EXPECT_TRUE(estimate(falling).meets);
   EXPECT_THAT(report_of(fall, {"stage[0].gravity=[0, 0, -9.81]"}),
-              AllOf(HasSubstr("once bodies meet that are on their way"), HasSubstr("and no bodies meet")));
+              AllOf(HasSubstr("once bodies meet that are on their way"), HasSubstr("while no bodies meet")));
+}
+
+TEST(CheckReport, says_that_contact_of_many_bodies_is_not_in_the_estimate) {
+  const std::string text = R"([mesh.raster]
+cells = 1
+cell_size = "10 mm"
+boxes = [3, 1, 1]
+gap = "1 mm"
+[[material]]
+group = "raster"
+young = "1 GPa"
+poisson = 0.2
+density = 2000
+joints = "none"
+[[contact]]
+between = ["*", "*"]
+penalty = "1 GPa"
+[[stage]]
+end = "1 ms"
+)";
+  EXPECT_THAT(report_of(text), HasSubstr("(not counted: contact among bodies that touch each other all over"));
+  EXPECT_THAT(report_of(text, {"mesh.raster.boxes=[2, 1, 1]"}), Not(HasSubstr("not counted")));
 }
 
 TEST(CheckReport, warns_of_a_time_step_beyond_the_stable_one_and_of_no_other) {
