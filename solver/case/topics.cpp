@@ -111,8 +111,8 @@ constexpr auto table = std::to_array<Topic>({
      "stage.mass_damping|stage.local_damping|material.viscosity|contact.damping_ratio"},
     {"strength reduction|factor of safety|safety factor|slope stability",
      "A case settles; others start from its state with cohesion, strengths and friction divided by a factor. The "
-     "largest with which it comes to rest is the factor of safety. A material that flows is too strong by some per "
-     "cent on tetrahedra.",
+     "largest with which it comes to rest is the factor of safety. Of a material that flows it comes out too "
+     "high (material.law).",
      "start|joint.shear_strength|joint.friction|material.cohesion"},
     {"confinement|confining pressure|confining stress|triaxial|triaxial test|fluid pressure|borehole|blast|explosion|"
      "gas pressure",

@@ -84,12 +84,12 @@ std::string frames_line(const RunEstimate& estimate, Advice& advice) {
                      quantity_text(estimate.disk, "B"));
 }
 
-/// What an estimate leaves out.
+/// What an estimate leaves out. Two bodies that cannot break share one zone of contact, which costs little.
 std::string not_counted(const Model& model, bool breaks) {
-  constexpr Index kFew = 2;  // bodies
+  constexpr Index kFew = 2;
   if (!model.has_contact || (!breaks && model.mesh.num_bodies <= kFew)) return {};
   return fmt::format(" (not counted: contact among {}, with which it can be several times as long)",
-                     breaks ? "debris" : "bodies that touch each other all over");
+                     breaks ? "debris" : "many bodies");
 }
 
 /// The estimate as a line.
@@ -159,13 +159,8 @@ std::string verdict(const Division& division) {
 
 std::vector<double> longest_edges(const Mesh& mesh) {
   std::vector<double> lengths;
-  for (Index e = 0; e < mesh.num_elements(); ++e) {
-    const auto x = geometry::corners_of(mesh, e);
-    double square = 0;
-    for (const auto& edge : geometry::kEdges)
-      square = std::max(square, (x[index(edge[0])] - x[index(edge[1])]).squaredNorm());
-    lengths.push_back(std::sqrt(square));
-  }
+  for (Index e = 0; e < mesh.num_elements(); ++e)
+    lengths.push_back(geometry::longest_edge(geometry::corners_of(mesh, e)));
   return lengths;
 }
 
@@ -221,14 +216,13 @@ Division divide_model(const case_::Case& input, const Model& model, int parts) {
   const double share = static_cast<double>(centroids.size()) / parts;
   const std::vector<Vec3> places = places_of_fragments(centroids, neighbours, share, reach.distance(sizes.mean));
   const std::vector<int> owner = assign_domains(alone, spec, parts, places, weight, sizes.largest);
-  std::vector<double> distance = sizes_around(alone, vertices_of(mesh), lengths, reach.most_rings());
-  for (double& each : distance) each = reach.distance(each);
   std::vector<Index> sets;
   sets.reserve(model.discretisation.size());
   for (Index group = 0; group < static_cast<Index>(model.discretisation.size()); ++group)
     sets.push_back(node_set(model.discretisation, model.whole.node_sets, group));
   return {spec.kind == DomainKind::rcb ? "rcb" : fmt::format("grid of {} x {} x {}", spec.n[0], spec.n[1], spec.n[2]),
-          report_domains(mesh, model.topology, sets, owner, parts, distance), owner};
+          report_domains(mesh, model.topology, sets, owner, parts, distances(alone, vertices_of(mesh), lengths, reach)),
+          owner};
 }
 
 std::string domain_line(const case_::Case& input, const Model& model, int parts) {

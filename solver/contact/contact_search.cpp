@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "base/box_cover.hpp"
 #include "base/error.hpp"
 #include "physics/contact/contact_couples.hpp"
 
@@ -41,13 +40,13 @@ void ContactSearch::search(const NodalState& nodes, double step_length, std::spa
   kept_.replaced();
 }
 
-std::vector<Extent> ContactSearch::evaluated_boxes(const Field<double>& position) const {
+Extent ContactSearch::extent(const Field<double>& position) const {
   const LocalMesh& local = surface_.model().local;
-  std::vector<Extent> boxes;
+  Extent extent;
   for (Index s = 0; s < local.num_slots; ++s) {
-    if (contact_.evaluated(s)) boxes.push_back(extent_of(load_corners(local, position.data(), s)));
+    if (contact_.evaluated(s)) extent.add(extent_of(load_corners(local, position.data(), s)));
   }
-  return cover(boxes);
+  return extent;
 }
 
 void ContactSearch::restrict_to(std::vector<std::uint8_t> relevant) {

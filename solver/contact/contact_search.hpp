@@ -39,10 +39,10 @@ class ContactSearch {
   }
   /// A full search; arguments as of CoupleSearch::search().
   void search(const NodalState& nodes, double step_length, std::span<const std::uint8_t> current = {});
-  /// How far around evaluated elements a search finds couples, m.
+  /// How far around extent() a search finds couples, m.
   [[nodiscard]] double search_reach(double step_length) const { return search_.reach(step_length); }
-  /// Boxes around the elements on which this rank evaluates forces (cover).
-  [[nodiscard]] std::vector<Extent> evaluated_boxes(const Field<double>& position) const;
+  /// Box around the elements on which this rank evaluates forces.
+  [[nodiscard]] Extent extent(const Field<double>& position) const;
   /// Where the case asks for it: throws InternalError naming the pair if a pair touches and is no couple.
   void verify(const NodalState& nodes) const;
   [[nodiscard]] bool verifies() const { return verify_; }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/box_cover.hpp"
+#include "base/extent.hpp"
 #include "case/problem_at.hpp"
 #include "parallel/whole_fragments.hpp"
 
@@ -79,29 +79,23 @@ Records migrate(const Communicator& communicator, Records mine, const std::vecto
   return mine;
 }
 
-/// How far each element reaches, m.
-std::vector<double> distances(const Communicator& communicator, const Records& owned, const Reach& reach) {
-  std::vector<std::array<GlobalId, 4>> vertices;
-  for (const ElementRecord& element : owned.elements) vertices.push_back(element.vertex);
-  std::vector<double> distance = sizes_around(communicator, vertices, longest_edges(owned), reach.most_rings());
-  for (double& each : distance) each = reach.distance(each);
-  return distance;
-}
-
 /// Originals that other ranks need.
 Wanted needed_elsewhere(const Communicator& communicator, const Records& owned, const Reach& reach) {
   std::vector<Extent> elements;
+  std::vector<std::array<GlobalId, 4>> vertices;
   Extent all;
-  for (const ElementRecord& element : owned.elements) all.add(elements.emplace_back(extent_of(element)));
-  const std::vector<double> distance = distances(communicator, owned, reach);
+  for (const ElementRecord& element : owned.elements) {
+    all.add(elements.emplace_back(extent_of(element)));
+    vertices.push_back(element.vertex);
+  }
+  const std::vector<double> distance = distances(communicator, vertices, longest_edges(owned), reach);
   const double most = distance.empty() ? 0.0 : *std::max_element(distance.begin(), distance.end());
-  const std::vector<Extent> mine = cover(elements);
-  const std::vector<std::vector<Extent>> covers = communicator.all_gather(std::span<const Extent>(mine));
-  Wanted wanted(covers.size());
-  for (std::size_t r = 0; r < covers.size(); ++r) {
-    if (static_cast<int>(r) == communicator.rank() || !near_any(all, covers[r], most)) continue;
+  const std::vector<std::vector<Extent>> extents = communicator.all_gather(std::span<const Extent>(&all, 1));
+  Wanted wanted(extents.size());
+  for (std::size_t r = 0; r < extents.size(); ++r) {
+    if (static_cast<int>(r) == communicator.rank() || !all.near(extents[r][0], most)) continue;
     for (std::size_t e = 0; e < elements.size(); ++e) {
-      if (near_any(elements[e], covers[r], distance[e])) wanted[r].push_back(static_cast<Index>(e));
+      if (elements[e].near(extents[r][0], distance[e])) wanted[r].push_back(static_cast<Index>(e));
     }
   }
   return wanted;
@@ -114,6 +108,13 @@ Reach reach_of(const case_::Case& input, double edge, double buffer) {
     return m.joints == case_::JointPlacement::none;
   });
   return {input.domains.margin * edge, 2 * buffer, shared_nodes ? 2 : 1, shared_nodes ? 3 : 0};
+}
+
+std::vector<double> distances(const Communicator& communicator, std::span<const std::array<GlobalId, 4>> vertices,
+                              std::vector<double> size, const Reach& reach) {
+  std::vector<double> distance = sizes_around(communicator, vertices, std::move(size), reach.most_rings());
+  for (double& each : distance) each = reach.distance(each);
+  return distance;
 }
 
 DomainSpec domain_spec(const case_::Case& input) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "case/case.hpp"
@@ -29,9 +31,9 @@ struct Piece {
 
 /// How far the proxies reach.
 ///
-/// A rank holds every element whose box comes within distance() of a box around some of its originals (cover). Until
-/// nodes have moved by more than allowed_motion() since, beside what all have moved together, that is enough for the
-/// same bits as on one rank:
+/// A rank holds every element whose box comes within distance() of the box around its originals. Until nodes have moved
+/// by more than allowed_motion() since, beside what all have moved together, that is enough for the same bits as on one
+/// rank:
 /// - what touches an original then is within twice that motion, the margin;
 /// - a point that comes to an original brings the history of what it touched on its way, which counts from the last
 ///   search: then its rank told what it touched. Since then neither it nor any element has moved by more than half
@@ -57,6 +59,11 @@ struct Reach {
 /// @param edge    m, mean over the elements of their longest
 /// @param buffer  m, largest that a search may choose
 [[nodiscard]] Reach reach_of(const case_::Case& input, double edge, double buffer);
+
+/// How far each element of this rank reaches, m. Collective. @param vertices, size  of sizes_around
+[[nodiscard]] std::vector<double> distances(const Communicator& communicator,
+                                            std::span<const std::array<GlobalId, 4>> vertices, std::vector<double> size,
+                                            const Reach& reach);
 
 /// What the case asks for.
 [[nodiscard]] DomainSpec domain_spec(const case_::Case& input);

@@ -1,9 +1,9 @@
 #include "domains/element_sizes.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/exact_sum.hpp"
+#include "mesh/geometry.hpp"
 #include "parallel/totals.hpp"
 
 namespace breccia {
@@ -20,6 +20,7 @@ class SharedVertices {
   /// @param vertices  of this rank's elements, ascending, each once
   SharedVertices(const Communicator& communicator, std::span<const GlobalId> vertices)
       : communicator_(communicator), vertices_(vertices) {
+    if (communicator.size() == 1) return;
     const GlobalId last = communicator.max(vertices.empty() ? GlobalId{0} : vertices.back());
     range_ = last / communicator.size() + 1;
   }
@@ -61,7 +62,7 @@ class SharedVertices {
 
   const Communicator& communicator_;
   std::span<const GlobalId> vertices_;
-  GlobalId range_;  ///< ids a keeper
+  GlobalId range_ = 1;  ///< ids a keeper
 };
 
 }  // namespace
@@ -70,18 +71,9 @@ std::vector<double> longest_edges(const Records& mine) {
   std::vector<double> lengths;
   lengths.reserve(mine.elements.size());
   for (const ElementRecord& element : mine.elements) {
-    double square = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      for (std::size_t j = i + 1; j < 4; ++j) {
-        double sum = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-          const double d = element.position[i][k] - element.position[j][k];
-          sum += d * d;
-        }
-        square = std::max(square, sum);
-      }
-    }
-    lengths.push_back(std::sqrt(square));
+    std::array<Vec3, 4> x;
+    for (std::size_t c = 0; c < 4; ++c) x[c] = Vec3(element.position[c].data());
+    lengths.push_back(geometry::longest_edge(x));
   }
   return lengths;
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/box_cover.hpp"
 #include "base/error.hpp"
 
 namespace breccia {
@@ -211,16 +210,15 @@ struct MovedElement {
 
 /// Every rank sends the others those of its elements that have come near to theirs.
 std::vector<std::uint8_t> Exchange::receive_positions(const LocalMesh& local, const std::vector<std::uint8_t>& relevant,
-                                                      std::span<const Extent> mine, double distance,
-                                                      Field<double>& position) {
-  const auto boxes = communicator_.all_gather(mine);
+                                                      const Extent& mine, double distance, Field<double>& position) {
+  const auto extents = communicator_.all_gather(std::span(&mine, 1));
   std::vector<Communicator::ListOf<MovedElement>> lists;
   for (const SharedSlots& shared : shared_) {
-    const std::vector<Extent>& theirs = boxes[static_cast<std::size_t>(shared.rank)];
+    const Extent& theirs = extents[static_cast<std::size_t>(shared.rank)][0];
     std::vector<MovedElement>& moved = lists.emplace_back(Communicator::ListOf<MovedElement>{shared.rank, {}}).entries;
     for (std::size_t i = 0; i < shared.send.size(); ++i) {
       const detection::Corners corners = load_corners(local, position.data(), shared.send[i]);
-      if (near_any(extent_of(corners), theirs, distance)) moved.push_back({static_cast<std::int64_t>(i), corners});
+      if (extent_of(corners).near(theirs, distance)) moved.push_back({static_cast<std::int64_t>(i), corners});
     }
     if (moved.empty()) continue;
     ++messages_;

@@ -75,11 +75,11 @@ class Exchange {
   void gather_all(Field<double>& position, Field<double>& velocity) const;
   [[nodiscard]] bool gathers_all() const { return all_ != nullptr; }
 
-  /// Positions of all elements of others that have come within `distance`, m, of any of the boxes `mine`.
+  /// Positions of all elements of others that have come within `distance`, m, of `mine`.
   /// @return  (slots) 1: relevant, or received
   [[nodiscard]] std::vector<std::uint8_t> receive_positions(const LocalMesh& local,
                                                             const std::vector<std::uint8_t>& relevant,
-                                                            std::span<const Extent> mine, double distance,
+                                                            const Extent& mine, double distance,
                                                             Field<double>& position);
   /// What the points of shared elements touch, from the ranks that own them.
   [[nodiscard]] std::vector<CoupleRecord> receive_touching(const ContactSearch& contact) const;

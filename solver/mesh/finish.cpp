@@ -87,8 +87,7 @@ Index orient(Mesh& mesh, bool repair) {
   std::vector<std::int64_t> flat, inverted;
   for (Index e = 0; e < mesh.num_elements(); ++e) {
     const auto x = geometry::corners_of(mesh, e);
-    double longest = 0;
-    for (const auto& [a, b] : geometry::kEdges) longest = std::max(longest, (x[at(a)] - x[at(b)]).norm());
+    const double longest = geometry::longest_edge(x);
     const double volume = geometry::tetra_volume(x[0], x[1], x[2], x[3]);
     if (!(std::abs(volume) > kFlatShare * longest * longest * longest)) {
       flat.push_back(mesh.element_source_id[at(e)]);

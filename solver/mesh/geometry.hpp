@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "mesh/mesh.hpp"
 #include "mesh/tetrahedron.hpp"
@@ -53,5 +55,13 @@ namespace breccia::geometry {
 
 /// The six edges of a tetrahedron as pairs of corners; edge i and edge 5 - i share no corner.
 inline constexpr std::array<std::array<int, 2>, 6> kEdges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+/// m, of the tetrahedron.
+[[nodiscard]] inline double longest_edge(const std::array<Vec3, 4>& x) {
+  double square = 0;
+  for (const auto& [a, b] : kEdges)
+    square = std::max(square, (x[static_cast<std::size_t>(a)] - x[static_cast<std::size_t>(b)]).squaredNorm());
+  return std::sqrt(square);
+}
 
 }  // namespace breccia::geometry

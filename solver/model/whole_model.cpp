@@ -20,13 +20,10 @@ constexpr double kRoundOffStrain = 1e-10, kRoundOffs = 100 * std::numeric_limits
 double volume_of(const std::array<Vec3, 4>& x) { return geometry::tetra_volume(x[0], x[1], x[2], x[3]); }
 
 double longest_edge(const Mesh& mesh) {
-  double square = 0;
-  for (Index e = 0; e < mesh.num_elements(); ++e) {
-    const auto x = geometry::corners_of(mesh, e);
-    for (const auto& edge : geometry::kEdges)
-      square = std::max(square, (x[at(edge[0])] - x[at(edge[1])]).squaredNorm());
-  }
-  return std::sqrt(square);
+  double longest = 0;
+  for (Index e = 0; e < mesh.num_elements(); ++e)
+    longest = std::max(longest, geometry::longest_edge(geometry::corners_of(mesh, e)));
+  return longest;
 }
 
 /// Centre of mass of what each body has in a group, m; zero for bodies that have nothing there.

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "base/box_cover.hpp"
+#include "base/extent.hpp"
 #include "base/types.hpp"
 #include "parallel/exchange_schedule.hpp"
 
@@ -151,24 +151,20 @@ class Counter {
   }
 
   void count_held(std::span<const double> reach) {
-    std::vector<std::vector<Extent>> originals(report_.domains.size());
-    std::vector<Extent> boxes(originals.size());
+    std::vector<Extent> boxes(report_.domains.size());
     Extent all;
     double furthest = 0;
     for (std::size_t e = 0; e < owner_.size(); ++e) {
       const Extent box = box_of(mesh_, e);
-      originals[at(owner_[e])].push_back(box);
       boxes[at(owner_[e])].add(box);
       all.add(box);
       furthest = std::max(furthest, reach[e] + (box.upper - box.lower).maxCoeff());
     }
-    std::vector<std::vector<Extent>> covers;
-    for (const std::vector<Extent>& domain : originals) covers.push_back(cover(domain));
     const NearDomains near(boxes, all, furthest);
     for (std::size_t e = 0; e < owner_.size(); ++e) {
       const Extent box = box_of(mesh_, e);
       for (const int domain : near.of(box.lower)) {
-        if (domain != owner_[e] && near_any(box, covers[at(domain)], reach[e])) ++report_.domains[at(domain)].held;
+        if (domain != owner_[e] && box.near(boxes[at(domain)], reach[e])) ++report_.domains[at(domain)].held;
       }
     }
   }

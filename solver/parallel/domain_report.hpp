@@ -43,7 +43,7 @@ struct DomainReport {
 ///
 /// A proxy is gathered in every step if a joint holds it to an original or if it shares a node with one, in a body
 /// without joints (kBytesAProxy is then an upper bound: a shared node goes once). It is held if its box is within
-/// its reach of a box around some of the originals (cover). step = kSecondsAnElement elements + kSecondsAMessage
+/// its reach of the box around the originals. step = kSecondsAnElement elements + kSecondsAMessage
 /// neighbours + bytes / kBytesASecond: joints on a cut are computed on both sides, but so they are in the sweep of one
 /// rank.
 /// @param node_sets  (volume groups) -1: every element has its own nodes and joints to its neighbours; else elements

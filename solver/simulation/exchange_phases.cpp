@@ -37,7 +37,7 @@ std::vector<std::uint8_t> receive_moved(bool search, Domain& domain) {
   domain.exchange.gather_all(nodes.position, nodes.velocity);
   if (!search) return {};
   return domain.exchange.receive_positions(domain.model.local, domain.derived.relevant,
-                                           domain.contact->evaluated_boxes(nodes.position),
+                                           domain.contact->extent(nodes.position),
                                            domain.contact->search_reach(domain.state.signals.motion), nodes.position);
 }
 

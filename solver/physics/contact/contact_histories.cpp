@@ -233,8 +233,8 @@ void Pass::end(const ContactPoint& point, const TouchingCouple& last, const Vec3
 /// Whether no side of the surface looks towards the face of the point: the front of a block, say, where a point of the
 /// floor comes into an element that does not reach down to the lower edge. Pushed back there it would stop the block,
 /// which slides over it. Nor is it pushed by a side far away that it looks at but has not come through, next to another
-/// one: on the lower side of a voussoir, by the upper side of the next. Without motion the places have been given, not
-/// moved to.
+/// one: on the lower side of a stone of an arch, by the upper side of the next. Without motion the places have been
+/// given, not moved to.
 /// @param offset  m, of the couple, which exerts no force
 bool Pass::comes_from_beside(const ContactPoint& point, Candidate& candidate, double offset) const {
   if (motion_of(point, candidate) == Vec3::Zero()) return false;

@@ -5,7 +5,6 @@
 #include <random>
 #include <set>
 
-#include "base/box_cover.hpp"
 #include "mesh/raster.hpp"
 
 namespace breccia {
@@ -43,11 +42,12 @@ std::vector<DomainLoad> brute_force(const Mesh& mesh, bool joints, const std::ve
   }
   for (int d = 0; d < parts; ++d) {
     DomainLoad& load = loads[static_cast<std::size_t>(d)];
-    std::vector<Extent> originals;
+    Vec3 lower = Vec3::Constant(1e300), upper = -lower;
     for (std::size_t e = 0; e < owner.size(); ++e) {
       if (owner[e] != d) continue;
       ++load.elements;
-      originals.push_back({boxes[e][0], boxes[e][1]});
+      lower = lower.cwiseMin(boxes[e][0]);
+      upper = upper.cwiseMax(boxes[e][1]);
       for (std::size_t o = 0; o < owner.size(); ++o) {
         if (o == e || common_nodes(mesh, e, o) != 3) continue;
         load.joints += joints && e < o;
@@ -55,11 +55,11 @@ std::vector<DomainLoad> brute_force(const Mesh& mesh, bool joints, const std::ve
         load.cut_faces += owner[o] != d;
       }
     }
-    const std::vector<Extent> covered = cover(originals);
     std::set<int> neighbours;
     for (std::size_t e = 0; e < owner.size(); ++e) {
       if (owner[e] == d) continue;
-      load.held += near_any({boxes[e][0], boxes[e][1]}, covered, reach[e]);
+      load.held +=
+          ((boxes[e][0] - upper).array() <= reach[e]).all() && ((lower - boxes[e][1]).array() <= reach[e]).all();
       bool gathered = false;
       for (std::size_t o = 0; o < owner.size() && !gathered; ++o) {
         gathered = owner[o] == d && common_nodes(mesh, e, o) >= (joints ? 3 : 1);
