@@ -76,9 +76,11 @@ std::pair<Checkpoint, fs::path> latest_sound(const std::vector<fs::path>& files,
     try {
       Checkpoint checkpoint = read_checkpoint(file, world);
       world.agree([&] { demand_possible(file, checkpoint.whole_model, checkpoint.mine); });
+      for (const Problem& problem : problems) {
+        if (world.is_root()) std::cerr << "breccia: warning: " << problem.text() << '\n';
+      }
       return {std::move(checkpoint), file};
     } catch (const InputError& error) {  // the same on all ranks
-      if (world.is_root() && files.size() > 1) std::cerr << "breccia: warning: " << error.what() << '\n';
       for (const Problem& problem : error.problems()) problems.push_back(problem);
     }
   }

@@ -230,6 +230,21 @@ TEST_F(Resume, NamesADamagedCheckpointAndUsesTheOneBefore) {
   expect_same_as_undisturbed("damaged");
 }
 
+TEST_F(Resume, NamesEachCheckpointOnceWhereAllAreDamaged) {
+  run_up_to(120, "lost");
+  const auto files = checkpoints(folder("lost"));
+  ASSERT_EQ(files.size(), 2U);
+  for (const fs::path& file : files) fs::resize_file(file, fs::file_size(file) - 1);
+  const Outcome resumed = resume("lost");
+  EXPECT_EQ(resumed.exit_code, 2);
+  for (const fs::path& file : files) {
+    const std::string name = file.filename().string();
+    const std::size_t first = resumed.err.find(name);
+    ASSERT_NE(first, std::string::npos) << resumed.err;
+    EXPECT_EQ(resumed.err.find(name, first + 1), std::string::npos) << resumed.err;
+  }
+}
+
 TEST_F(Resume, RefusesEveryFlippedBit) {
   run_up_to(60, "flipped", 2, "--set checkpoint.keep=1");
   const fs::path file = checkpoints(folder("flipped")).at(0);
