@@ -28,9 +28,9 @@ struct StatusLine {
   double time = 0;                 ///< s, simulated
   double end = 0;                  ///< s, simulated
   double share = 0;                ///< 0..1 of the run
-  double element_steps_per_s = 0;  ///< since the run's start or over the last interval, as the caller likes
+  double element_steps_per_s = 0;  ///< at present
   double wall_s = 0;               ///< since the run's start
-  double eta_s = 0;                ///< wall time still to go; negative or NaN: unknown
+  double eta_s = 0;                ///< wall time still to go at that pace; negative or NaN: unknown
   double energy_residual = 0;      ///< relative
   std::int64_t broken_joints = 0, fragments = 0;
   double imbalance = 1;             ///< largest over mean working time of the ranks

@@ -72,6 +72,7 @@ void RunOutput::tell_start(bool insitu, const RunPosition* from) {
     within_stage_ = true;
     sound_.step = clock().steps - 1;  // whether the run goes well from here on is not known yet
   }
+  pace_.begin({wall(), share(), clock().steps});
   sink_group_.tell([&](Sink& sink) { sink.start(start); });
 }
 
@@ -130,7 +131,13 @@ double RunOutput::wall() const {
   return wall_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
 }
 
-StatusLine RunOutput::status_line(bool paused) const {
+double RunOutput::share() const {
+  const double share = (clock().time - start_time_) / (end_ - start_time_);
+  const std::int64_t most = input_.time.max_steps;  // which ends the run if it comes first
+  return most > 0 ? std::max(share, static_cast<double>(steps_done()) / static_cast<double>(most)) : share;
+}
+
+StatusLine RunOutput::status_line(bool paused) {
   StatusLine line;
   const double left = end_ - clock().time;
   line.step = clock().steps;
@@ -139,15 +146,13 @@ StatusLine RunOutput::status_line(bool paused) const {
   line.steps_total = line.step + static_cast<std::int64_t>(std::llround(std::min(left / clock().dt, kMostSteps)));
   line.time = clock().time;
   line.end = end_;
-  line.share = (clock().time - start_time_) / (end_ - start_time_);
-  if (const std::int64_t most = input_.time.max_steps; most > 0) {  // which ends the run if it comes first
+  line.share = share();
+  if (const std::int64_t most = input_.time.max_steps; most > 0)
     line.steps_total = std::min(line.steps_total, start_step_ + most);
-    line.share = std::max(line.share, static_cast<double>(steps_done()) / static_cast<double>(most));
-  }
   line.wall_s = wall();
-  line.element_steps_per_s =
-      static_cast<double>(partition_.whole().num_elements) * static_cast<double>(steps_done()) / line.wall_s;
-  line.eta_s = line.share > 0 ? line.wall_s * (1.0 - line.share) / line.share : -1.0;
+  const RecentPace::Pace pace = pace_.follow({line.wall_s, line.share, line.step}, paused);
+  line.element_steps_per_s = static_cast<double>(partition_.whole().num_elements) * pace.steps_per_s;
+  line.eta_s = pace.share_per_s > 0 ? (1.0 - line.share) / pace.share_per_s : -1.0;
   line.energy_residual = partition_.domain().sample.budget.residual_relative;
   line.broken_joints = last_broken_;
   line.fragments = last_fragments_;

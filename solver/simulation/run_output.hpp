@@ -13,6 +13,7 @@
 #include "output/schedule.hpp"
 #include "output/sink.hpp"
 #include "simulation/insitu_watch.hpp"
+#include "simulation/recent_pace.hpp"
 #include "simulation/sink_group.hpp"
 #include "simulation/sound_state.hpp"
 
@@ -66,7 +67,8 @@ class RunOutput {
   void tell_of_frame_interval(bool told_before);
   [[nodiscard]] std::int64_t broken_joints() const;  ///< of the whole model, now; collective
   [[nodiscard]] double wall() const;
-  [[nodiscard]] StatusLine status_line(bool paused) const;
+  [[nodiscard]] double share() const;  ///< 0..1 of the run
+  [[nodiscard]] StatusLine status_line(bool paused);
   [[nodiscard]] Summary summary_of(const std::string& status);
   [[nodiscard]] const Clock& clock() const { return partition_.state().clock; }
 
@@ -85,6 +87,7 @@ class RunOutput {
   bool within_stage_ = false;     ///< the run goes on in a stage that has begun before
   bool frames_told_ = false;      ///< tell_of_frame_interval has had reason to
   SoundState sound_;
+  RecentPace pace_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace breccia {
 
@@ -33,14 +34,17 @@ FieldRamp& ramp_of(Index contactor, ContactState& contact) {
   return contact.ramps[at(place)];
 }
 
+bool has_corner(unsigned set, std::size_t a) { return (set >> a & 1U) != 0; }
+bool is_face(unsigned set) { return (((1U << 7) | (1U << 11) | (1U << 13) | (1U << 14)) >> set & 1U) != 0; }
+
 /// One function of an element on the surface. @param weight  of the set, 0 to 1
 std::array<double, 4> row_of(const FieldValues& values, const std::array<double, 4>& height, unsigned set,
                              double weight) {
   std::array<double, 4> row = values.depth;
   for (std::size_t a = 0; a < 4; ++a) {
-    if ((set >> a & 1U) != 0) {
+    if (has_corner(set, a)) {
       row[a] *= 1 - weight;
-    } else if ((set | 1U << a) == 15U) {
+    } else if (is_face(set)) {
       row[a] = std::min(row[a], height[a]);
     }
   }
@@ -110,6 +114,27 @@ void advance_field(ContactState& contact) {
     ramp.before = ramp.remaining;
     for (Index& remaining : ramp.remaining) remaining = std::max(remaining - 1, 0);
   }
+}
+
+OverlapFunction least_function(const std::array<double, 4>& height, const FieldValues& values,
+                               const std::array<double, 4>& lambda) {
+  std::array<double, 4> by_depth{}, by_height{};
+  for (std::size_t a = 0; a < 4; ++a) {
+    by_depth[a] = lambda[a] * values.depth[a];
+    by_height[a] = lambda[a] * std::min(values.depth[a], height[a]);
+  }
+  double least = std::numeric_limits<double>::infinity();
+  unsigned set_of_least = 0;
+  for_each_set(values.sets, [&](unsigned set) {
+    const std::array<double, 4>& term = is_face(set) ? by_height : by_depth;
+    double g = 0;
+    for (std::size_t a = 0; a < 4; ++a) g += has_corner(set, a) ? 0.0 : term[a];
+    if (!(g < least)) return;
+    least = g;
+    set_of_least = set;
+  });
+  if (set_of_least == 0) return {by_depth[0] + by_depth[1] + by_depth[2] + by_depth[3], values.depth};
+  return {least, row_of(values, height, set_of_least, 1.0)};
 }
 
 OverlapShape overlap_shape(const ContactParams& params, const LocalMesh& local, const ContactState& contact,

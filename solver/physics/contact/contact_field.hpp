@@ -51,6 +51,23 @@ enum class Instant { now, step_before };
          (contact.field[static_cast<std::size_t>(contactor)].sets & kFractured) == 0;
 }
 
+/// Whether it has more than one.
+[[nodiscard]] inline bool has_several_sides(const ContactParams& params, const ContactState& contact, Index contactor) {
+  const auto sets = static_cast<unsigned>(contact.field[static_cast<std::size_t>(contactor)].sets);
+  return has_sides(params, contact, contactor) && (sets & (sets - 1)) != 0;
+}
+
+/// One of the sums of an element.
+struct OverlapFunction {
+  double g = 0;                 ///< m, its value at a place
+  std::array<double, 4> row{};  ///< m, its coefficients
+};
+
+/// The least sum of the field `body` at lambda where no ramp runs: the same bits as by overlap_shape() and least_row(),
+/// without the others' coefficients. @param height  heights() of the element
+[[nodiscard]] OverlapFunction least_function(const std::array<double, 4>& height, const FieldValues& values,
+                                             const std::array<double, 4>& lambda);
+
 /// Coefficients of g for one element. @param height  heights() of it;  @param length  H of its body, m
 /// @param coming  of a ramp, or null: none
 [[nodiscard]] OverlapShape overlap_shape(const ContactParams& params, const std::array<double, 4>& height,

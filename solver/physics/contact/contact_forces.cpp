@@ -112,6 +112,14 @@ const OverlapShape& Pass::shape_of(Index contactor, Instant instant) const {
   return shape_;
 }
 
+OverlapFunction Pass::least_function_of(Index contactor, const std::array<double, 4>& lambda) const {
+  const auto at = static_cast<std::size_t>(contactor);
+  if (params_.field == OverlapField::body) return least_function(contact_.height[at], contact_.field[at], lambda);
+  const OverlapShape& shape = shape_of(contactor);
+  const std::size_t row = least_row(shape, lambda);
+  return {row_value(shape, row, lambda), shape.row[row]};
+}
+
 Candidate Pass::candidate_of(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda) const {
   const OverlapShape& shape = shape_of(contactor);
   const OverlapRows rows = rows_of(point, contactor, shape, prepared(contactor));
@@ -310,7 +318,7 @@ double Pass::press(const ContactLaw& law, const ContactPoint& point, double leng
     const Vec3 outward = -gradient / slope;
     if (h.spring != Vec3::Zero())
       turn_spring(outward, outward.dot(mean_turn(point.slot, candidate.contactor)), h.spring);
-    if (h.d > 0) follow_normal_force(normal.pressure * slope, dt_, longest_delay(h), h.delayed);
+    if (h.d > 0) follow_normal_force(normal.pressure * slope, dt_, longest_delay(law, h), h.delayed);
     const double limit = h.d > 0 ? law.friction * h.delayed.force : 0.0;
     const FrictionStep<Vec3> friction = friction_step(outward, motion, k, limit, h.spring);
     const double spring = 0.5 * k * h.spring.squaredNorm();

@@ -184,8 +184,10 @@ void Pass::forget(const TouchingCouple& old, double lost) {
   if (crushed) return account(point, work_.dissipated).add(normal_held(point, old));
   // By the sides of the last step: those of now may be others, where a body rolls and a side has turned away.
   const bool has_own_sides = has_sides(params_, contact_, old.contactor);
-  const OverlapRows rows = has_own_sides ? one_step_ago(point, old.contactor).rows : kAllRows;
-  const double overlap = overlap_value(shape_of(old.contactor), lambda, rows);
+  const double overlap = has_own_sides
+                             ? overlap_value(shape_of(old.contactor), lambda, one_step_ago(point, old.contactor).rows)
+                         : is_growing(old.contactor) ? overlap_value(shape_of(old.contactor), lambda)
+                                                     : least_function_of(old.contactor, lambda).g;
   // The point has not left through the side that it pressed on. Where a crack has opened under it, what the couple held
   // is gone; where it has left over an edge, all but the work of its force over half of the last step.
   if (overlap > 0) {

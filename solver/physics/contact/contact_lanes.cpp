@@ -59,8 +59,7 @@ void Pass::evaluate_looks() {
 
 /// Whether the point may be one for the block: in one contactor, whose field is at rest and beside which no side could
 /// take it over, by a law with friction and without damping.
-bool Pass::is_ordinary(Index point, Index contactor) const {
-  const ContactLaw& law = law_of(point, contactor);
+bool Pass::is_ordinary(const ContactLaw& law, Index contactor) const {
   if (law.damping > 0 || !(law.friction > 0) || !(law.tangential_ratio > 0) || is_growing(contactor)) return false;
   return std::none_of(beside_.begin(), beside_.end(),
                       [&](const Nearby& here) { return has_sides(params_, contact_, here.couple->contactor); });
@@ -81,24 +80,24 @@ bool Pass::press_aside(Index index) {
   if (kernels_.press == nullptr || inside_.size() != 1) return false;
   const Index contactor = inside_[0].couple->contactor;
   const std::array<double, 4>& lambda = inside_[0].lambda;
-  if (!is_ordinary(index, contactor)) return false;
+  const ContactLaw& law = law_of(index, contactor);
+  if (!is_ordinary(law, contactor) || has_several_sides(params_, contact_, contactor)) return false;
   const TouchingCouple* old = only_history(index, contactor);
   if (old == nullptr) return false;
-  const OverlapShape& shape = shape_of(contactor);
-  if (shape.rows > 1 && has_sides(params_, contact_, contactor)) return false;
-  const std::size_t row = least_row(shape, lambda);
-  const double g = row_value(shape, row, lambda);
-  if (!(g > 0)) return false;
+  const OverlapFunction least = least_function_of(contactor, lambda);
+  if (!(least.g > 0)) return false;
   const ContactPoint& point = point_at(index);
   const double length = length_of(slot_of(contactor));
-  TouchingCouple h = *old;
-  const double lost = go_to(law_of(index, contactor), point.weight * length, length, g, h);
-  if (!(h.d > 0)) return false;
+  TouchingCouple& h = contact_.touching.emplace_back(*old);
+  const double lost = go_to(law, point.weight * length, length, least.g, h);
+  if (!(h.d > 0)) {
+    contact_.touching.pop_back();
+    return false;
+  }
   pass_over_beside();
-  place_lane(point, contactor, lambda, shape.row[row]);
-  fill_lane(point, *old, h, g, lost);
-  lanes_[filled_] = {index, contact_.touching.size(), static_cast<std::ptrdiff_t>(old_++)};
-  contact_.touching.push_back(h);
+  place_lane(point, contactor, lambda, least.row);
+  fill_lane(law, length, *old, h, least.g, lost);
+  lanes_[filled_] = {index, contact_.touching.size() - 1, static_cast<std::ptrdiff_t>(old_++)};
   waiting_.push_back({&point, contactor, lambda, Vec3::Zero(), static_cast<std::ptrdiff_t>(filled_++)});
   if (filled_ == lanes_.size() || waiting_.size() >= kMostWaiting) press_waiting();
   return true;
@@ -129,23 +128,23 @@ void Pass::place_lane(const ContactPoint& point, Index contactor, const std::arr
 }
 
 /// What presses there. @param old, h  one step ago; now by the normal law alone;  @param g  m
-void Pass::fill_lane(const ContactPoint& point, const TouchingCouple& old, const TouchingCouple& h, double g,
+void Pass::fill_lane(const ContactLaw& law, double length, const TouchingCouple& old, const TouchingCouple& h, double g,
                      double lost) {
   const std::size_t lane = filled_;
-  const ContactLaw& law = law_of(h.point, h.contactor);
-  const double length = length_of(slot_of(h.contactor)), stress = normal_law::stress(law, h.d, h.d_max);
+  const ContactPoint& point = point_at(h.point);
+  const double scale = point.weight * length, stress = normal_law::stress(law, h.d, h.d_max);
   block_.change[lane] = g - (old.d * length + old.offset);
   block_.deep[lane] = h.d * length;
   block_.pressure[lane] = point.weight * stress;
-  block_.stored[lane] = point.weight * length * normal_law::stored_under(law, h.d, stress);
-  block_.stored_before[lane] = normal_held(point, old);
+  block_.stored[lane] = scale * normal_law::stored_under(law, h.d, stress);
+  block_.stored_before[lane] = scale * normal_law::stored(law, old.d, old.d_max);
   block_.lost[lane] = lost;
   put(old.force, lane, block_.last_force);
   block_.stiffness[lane] = stiffness(law, point, length);
   block_.tangential[lane] = law.tangential_ratio * block_.stiffness[lane];
   block_.exponent[lane] = law.exponent;
   block_.friction[lane] = law.friction;
-  block_.longest_delay[lane] = longest_delay(h);
+  block_.longest_delay[lane] = longest_delay(law, h);
   put(old.spring == Vec3::Zero() ? Vec3(Vec3::Zero()) : mean_turn(point.slot, h.contactor), lane, block_.turn);
   put(old.spring, lane, block_.spring);
   block_.delayed_force[lane] = old.delayed.force;

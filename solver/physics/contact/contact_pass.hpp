@@ -153,10 +153,11 @@ class Pass {
   void act(Index point, Candidate& candidate);
   void touch(Index point, Candidate& candidate, TouchingCouple& h);
   [[nodiscard]] bool press_aside(Index point);
-  [[nodiscard]] bool is_ordinary(Index point, Index contactor) const;
+  [[nodiscard]] bool is_ordinary(const ContactLaw& law, Index contactor) const;
   [[nodiscard]] const TouchingCouple* only_history(Index point, Index contactor);
   void pass_over_beside();
-  void fill_lane(const ContactPoint& point, const TouchingCouple& old, const TouchingCouple& h, double g, double lost);
+  void fill_lane(const ContactLaw& law, double length, const TouchingCouple& old, const TouchingCouple& h, double g,
+                 double lost);
   void place_lane(const ContactPoint& point, Index contactor, const std::array<double, 4>& lambda,
                   const std::array<double, 4>& depth);
   void press_waiting();
@@ -191,12 +192,11 @@ class Pass {
     return contact_.body_length[static_cast<std::size_t>(local_.slot_body[static_cast<std::size_t>(slot)])];
   }
   /// s, of friction (friction.hpp)
-  [[nodiscard]] double longest_delay(const TouchingCouple& h) const {
+  [[nodiscard]] double longest_delay(const ContactLaw& law, const TouchingCouple& h) const {
     const auto extent = [&](Index slot) {
       return contact_.body_extent[static_cast<std::size_t>(local_.slot_body[static_cast<std::size_t>(slot)])];
     };
-    const double least = std::min(extent(point_at(h.point).slot), extent(slot_of(h.contactor)));
-    return law_of(h.point, h.contactor).friction_delay * least;
+    return law.friction_delay * std::min(extent(point_at(h.point).slot), extent(slot_of(h.contactor)));
   }
   [[nodiscard]] const ContactLaw& law_of(Index point, Index contactor) const {
     return params_.law(group_of(local_, point_at(point).slot), group_of(local_, slot_of(contactor)));
@@ -228,6 +228,8 @@ class Pass {
   [[nodiscard]] ExactSum& account(const ContactPoint& point, ExactSum& sum) {
     return local_.is_original(point.slot) ? sum : ignored_;
   }
+  /// The overlap function of a contactor that counts at lambda, of all. @pre it is not growing
+  [[nodiscard]] OverlapFunction least_function_of(Index contactor, const std::array<double, 4>& lambda) const;
   /// The overlap functions of a contactor; valid until the next call.
   [[nodiscard]] const OverlapShape& shape_of(Index contactor, Instant instant = Instant::now) const;
   /// Normal of a point's face. @param dt  s, by which the nodes are taken back

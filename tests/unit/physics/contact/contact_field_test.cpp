@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <random>
 
 #include "scene.hpp"
 
@@ -19,6 +20,28 @@ TEST(overlap_field, of_a_lone_tetrahedron_is_made_of_its_heights_and_faces) {
   const FieldValues& values = scene.contact.field.at(0);
   for (const double depth : values.depth) EXPECT_NEAR(depth, std::sqrt(2.0 / 3.0), kRoundOff);
   EXPECT_EQ(values.sets, 1 << 7 | 1 << 11 | 1 << 13 | 1 << 14);
+}
+
+TEST(overlap_field, has_the_same_least_function_however_it_is_found) {
+  ContactParams params;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> length(0.2, 1.0);
+  for (int set = 0; set < 4000; ++set) {
+    FieldValues values;
+    std::array<double, 4> height{}, lambda{};
+    for (std::size_t a = 0; a < 4; ++a) {
+      values.depth[a] = length(random);
+      height[a] = length(random);
+      lambda[a] = length(random) - 0.1;  // outside as well
+    }
+    // None in some: the depths alone.
+    values.sets = set % 16 == 0 ? kFractured : largest_sets(static_cast<CornerSets>(random() & 0x7FFE)) | kFractured;
+    const OverlapShape shape = overlap_shape(params, height, values, 1.0);
+    const std::size_t least = least_row(shape, lambda);
+    const OverlapFunction found = least_function(height, values, lambda);
+    ASSERT_EQ(found.g, row_value(shape, least, lambda)) << values.sets;
+    ASSERT_EQ(found.row, shape.row[least]) << values.sets;
+  }
 }
 
 /// The first element of a cube, whose last corner, the centre of the cube, has just been freed with two others.
