@@ -247,6 +247,17 @@ std::string unit_question(const case_::Case& input, const Model& model) {
       input.mesh.file.filename().string(), size.x(), size.y(), size.z());
 }
 
+/// Joints all through a raster: that they lie in few planes decides at which load it breaks.
+std::string planes_of_raster(const case_::Case& input, const Model& model) {
+  constexpr int kThick = 3;  // cells: fewer are a bar or a layer whose crack has its place
+  if (!input.mesh.raster || input.mesh.raster->single_tetrahedra || model.joints.empty()) return {};
+  const std::array<int, 3>& cells = input.mesh.raster->cells;
+  if (*std::min_element(cells.begin(), cells.end()) < kThick) return {};
+  return "The joints of a raster lie in planes of few directions, and its strength depends on how these lie to the "
+         "load: pressed prisms of 53 MPa by Mohr-Coulomb broke at 77 MPa as rasters, at 61 MPa with a mesh of gmsh. "
+         "Where the strength of a solid or the path of a crack matters, mesh it with gmsh (mesh.file).";
+}
+
 }  // namespace
 
 Advice model_advice(const case_::Case& input, const Model& model) {
@@ -255,6 +266,7 @@ Advice model_advice(const case_::Case& input, const Model& model) {
   const std::string bodies_meet = missing_contact(input, model);
   advise(advice, bodies_meet.empty() ? missing_contact_of_fragments(model) : bodies_meet);
   advise(advice, layer_advice(model));
+  advise(advice, planes_of_raster(input, model));
   advise(advice, slice_without_plane(input, model));
   advise(advice, sphere_too_small(model));
   append(advice, silently_apart(input, model));

@@ -49,6 +49,20 @@ TEST(ModelAdvice, names_what_can_break_where_there_is_no_contact) {
   EXPECT_EQ(advice_on(text + "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"40 GPa\"\n"), "");
 }
 
+TEST(ModelAdvice, says_of_a_solid_of_a_raster_that_can_break_how_its_joints_lie) {
+  const std::string contact = "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"40 GPa\"\n" + kStage;
+  const std::string joint = "[[joint]]\ngroup = \"rock\"\ntensile_strength = 1e6\nenergy_mode_1 = 10\n";
+  const auto box = [](const std::string& cells) { return raster("[1, 1, 1]\ncells = " + cells); };
+  const auto breakable = [&](const std::string& cells) {
+    std::string text = box(cells);
+    text.replace(text.find("\"none\""), 6, "\"breakable\"");
+    return advice_on(text + joint + contact);
+  };
+  EXPECT_THAT(breakable("[3, 4, 3]"), HasSubstr("planes of few directions"));
+  EXPECT_EQ(breakable("[9, 1, 3]"), "") << "a bar or a plate";
+  EXPECT_EQ(advice_on(box("[3, 4, 3]") + contact), "") << "nothing can break";
+}
+
 TEST(ModelAdvice, names_the_thickness_that_fits_the_elements_of_a_plane_model) {
   const auto layer = [](const std::string& thickness) {
     std::string text = raster("[1, 1, 1]") + kStage + "[plane]\nkind = \"strain\"\n";
