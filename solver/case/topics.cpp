@@ -136,6 +136,19 @@ constexpr auto table = std::to_array<Topic>({
      "output.gauges records the forces on both. meshes/disc is such a case. Strengths on a regular mesh, a raster "
      "above all, are those of its planes.",
      "contact|stage.constraint|output.gauges"},
+    {"history|history csv|history output|energies|energy balance|energy budget|time history",
+     "history.csv has a line each history_interval: all energies, J, whose sum is the external work but for a "
+     "residual, counts of joints and fragments, momenta and what output.gauges record. `summary.txt` tells the "
+     "energies at the end.",
+     "output.history_interval|output.gauges|time.residual_limit"},
+    {"frame|field output|vtk|vtu|paraview|visualization|visualisation|animation",
+     "frames/*.series hold stresses, strains, velocities, joints and contacts at times, for ParaView; "
+     "`breccia report RUN` draws some, [insitu] draws and records while the run goes on.",
+     "output.frame_interval|output.elements|output.joints|insitu"},
+    {"strength|tensile strength|compressive strength|shear strength",
+     "A joint opens at its tensile_strength and slides at its shear_strength, the cohesion, plus friction times the "
+     "pressure on it; a compressive strength results from both. `breccia check CASE --joints` draws the curves.",
+     "joint.tensile_strength|joint.shear_strength|joint.friction"},
     {"bolt|rock bolt|anchor|cable|rebar|spring|dashpot|beam element|shell element",
      "There are no springs, bolts, beams or shells: every part is a volume, bonded by joints or held by contact.",
      "joint.between|contact"},

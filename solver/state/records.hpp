@@ -127,6 +127,7 @@ struct FieldTable<CoupleRecord> {
       FieldRow{"friction", "N", kState, [](auto& r) -> auto& { return r.couple.friction; }},
       FieldRow{"delayed_force", "N", kState, [](auto& r) -> auto& { return r.couple.delayed.force; }},
       FieldRow{"age", "s", kState, [](auto& r) -> auto& { return r.couple.delayed.age; }},
+      FieldRow{"delayed_force_halfway", "N", kState, [](auto& r) -> auto& { return r.couple.delayed.halfway; }},
       FieldRow{"force", "N", kState, [](auto& r) -> auto& { return r.couple.force; }},
       FieldRow{"balance", "1", kState, [](auto& r) -> auto& { return r.couple.balance; }},
       FieldRow{"gained", "J", kState, [](auto& r) -> auto& { return r.couple.gained; }},

@@ -56,7 +56,7 @@ struct alignas(64) ContactBlock {
   ContactRow exponent, friction, longest_delay;
   ContactRow turn[3];  ///< rad, of the two elements in the mean
   // Read and written, as in TouchingCouple.
-  ContactRow spring[3], delayed_force, delayed_age, gained, gained_before;
+  ContactRow spring[3], delayed_force, delayed_age, delayed_halfway, gained, gained_before;
   // Results.
   ContactRow force[3], tangential_force[3], balance;
   ContactRow spring_energy, slip_energy;  ///< J, held by the spring, dissipated

@@ -76,7 +76,11 @@ inline Pressed press(const Some& at, double dt, const Vector& gradient, const Re
                      const Real& turn) {
   ContactBlock& b = at.block;
   const Real pressure = at.load(b.pressure), k = at.load(b.tangential);
-  Pressed now{-pressure * gradient, {}, at.load(b.spring), {at.load(b.delayed_force), at.load(b.delayed_age)}, {}};
+  Pressed now{-pressure * gradient,
+              {},
+              at.load(b.spring),
+              {at.load(b.delayed_force), at.load(b.delayed_age), at.load(b.delayed_halfway)},
+              {}};
   const Vector outward = -gradient / slope, spring = now.spring;
   Vector turned = spring;
   turn_spring(outward, outward.dot(at.load(b.turn)), turned);
@@ -137,6 +141,7 @@ inline void act(const Some& at, double dt, const double* velocity) {
   at.store(now.spring, b.spring);
   at.store(now.delayed.force, b.delayed_force);
   at.store(now.delayed.age, b.delayed_age);
+  at.store(now.delayed.halfway, b.delayed_halfway);
   for (std::size_t l = 0; l < kWidth; ++l) b.other[at.first + l] = whole[l] ? 0 : 1;
 }
 

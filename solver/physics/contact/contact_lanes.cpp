@@ -149,6 +149,7 @@ void Pass::fill_lane(const ContactLaw& law, double length, const TouchingCouple&
   put(old.spring, lane, block_.spring);
   block_.delayed_force[lane] = old.delayed.force;
   block_.delayed_age[lane] = old.delayed.age;
+  block_.delayed_halfway[lane] = old.delayed.halfway;
   block_.gained[lane] = old.gained;
   block_.gained_before[lane] = old.gained_before + 0.0;  // as touch() adds what it takes over: no negative zero
 }
@@ -185,7 +186,7 @@ void Pass::settle(const Waiting& waiting) {
   if (local_.is_original(point.slot)) ++work_.touching;
   h.spring = take(block_.spring, lane);
   h.friction = take(block_.tangential_force, lane);
-  h.delayed = {block_.delayed_force[lane], block_.delayed_age[lane]};
+  h.delayed = {block_.delayed_force[lane], block_.delayed_age[lane], block_.delayed_halfway[lane]};
   h.force = take(block_.force, lane);
   h.balance = block_.balance[lane];
   h.gained = block_.gained[lane];

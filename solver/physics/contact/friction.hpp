@@ -54,8 +54,9 @@ template <class Vector, class Real = typename Vector::Scalar>
 /// The normal force that limits friction, late.
 template <class Real>
 struct DelayedForceOf {
-  Real force = 0.0;  ///< N
-  Real age = 0.0;    ///< s, of the overlap, up to kSettledAge; counts down while there is none
+  Real force = 0.0;    ///< N
+  Real age = 0.0;      ///< s, of the overlap, up to kSettledAge; counts down while there is none
+  Real halfway = 0.0;  ///< N, late by half of the delay: what `force` follows
 };
 using DelayedForce = DelayedForceOf<double>;
 
@@ -63,14 +64,18 @@ using DelayedForce = DelayedForceOf<double>;
 /// them rubs 0.1, 0.5 or 1.9 % more than by Coulomb's law.
 inline constexpr double kSettledAge = 14;
 
-/// One step of a force f that follows the normal force f_n with a delay that grows with the age a of the overlap:
+/// One step of a force f that follows the normal force f_n with a delay that grows with the age a of the overlap, in
+/// two stages:
 ///
-///   df/dt = (f_n - f) / t,  t = longest min(1, (a / (kSettledAge longest))^2)
+///   df/dt = (h - f) / (t/2),  dh/dt = (f_n - h) / (t/2),  t = longest min(1, (a / (kSettledAge longest))^2)
 ///
 /// Elastic bodies that slide on each other are unstable where the limit of friction follows the normal force at once:
 /// friction feeds vibrations, which take it away [Adams 1995]. Where it follows over some crossings of the smaller body
-/// by a wave they are not [Prakash and Clifton 1993; Ranjith and Rice 2001]. Between overlaps f stays as it is, so that
-/// in the mean over all overlaps it is f_n.
+/// by a wave they are not [Prakash and Clifton 1993; Ranjith and Rice 2001], but for what is left of the lag: a
+/// vibration of frequency omega is fed in proportion to the part of f that is a quarter of a period behind,
+/// 1/(omega t) with one stage, 16/(omega t)^3 with two. With one a block that slid down a slope of 30 degrees with a
+/// coefficient of 0.5 came to hop within half a second. Between overlaps f stays as it is, so that in the mean over all
+/// overlaps it is f_n.
 /// @param normal  N, f_n;  @param dt  s, >= 0;  @param longest  s, >= 0;  @param delayed  read and written
 template <class Real>
 void follow_normal_force(const std::type_identity_t<Real>& normal, const std::type_identity_t<Real>& dt,
@@ -78,9 +83,11 @@ void follow_normal_force(const std::type_identity_t<Real>& normal, const std::ty
   using elasticity::select;
   delayed.age = elasticity::lesser(Real(delayed.age + dt), Real(kSettledAge * longest));
   const Real settled = select(longest > 0.0, Real(delayed.age / (kSettledAge * longest)), Real(0.0));
-  const Real delay = longest * settled * settled;
-  const Real late = delayed.force + (normal - delayed.force) * (dt / delay);
-  delayed.force = select(dt < delay, late, Real(normal));
+  const Real half = 0.5 * longest * settled * settled;
+  const auto late = dt < half;
+  const Real share = dt / half;
+  delayed.halfway = select(late, Real(delayed.halfway + (normal - delayed.halfway) * share), Real(normal));
+  delayed.force = select(late, Real(delayed.force + (delayed.halfway - delayed.force) * share), Real(normal));
 }
 
 /// One step without overlap: what lifts off again and again stays old. If the age fell to a third as fast, blocks that

@@ -90,6 +90,26 @@ TEST(StepReport, NamesAPenaltyThatWouldNotCostAnything) {
   EXPECT_GT(soft.report.limit, 3 * stiff.report.limit);
 }
 
+TEST(StepReport, BlamesTheDampingOfContactForTheStepItCosts) {
+  const auto with = [](const std::string& ratio) {
+    std::string text = boxes("\"1 GPa\"");
+    return check(text.insert(text.find("penalty"), "damping_ratio = " + ratio + "\n"));
+  };
+  const Checked much = with("1");
+  const std::string advice = as_list(much.report.advice);
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(advice, found,
+                                std::regex("contact.damping_ratio makes the step ([0-9.]+) times shorter where bodies "
+                                           "meet; a tenth of it would make it ([0-9.]+) times")))
+      << advice;
+  EXPECT_THAT(advice, Not(HasSubstr("a penalty of")));
+  constexpr double kTwoDigits = 0.05;  // as many as are told
+  const double plain = with("0").report.limit;
+  EXPECT_NEAR(std::stod(found[1]) * much.report.limit / plain, 1.0, kTwoDigits);
+  EXPECT_NEAR(std::stod(found[2]) * with("0.1").report.limit / plain, 1.0, kTwoDigits);
+  EXPECT_THAT(as_list(with("0.01").report.advice), Not(HasSubstr("damping_ratio")));
+}
+
 TEST(StepReport, JudgesAGivenStepByTheTrueLimit) {
   const double free = check(boxes("1")).report.limit;
   const auto with_step = [&](double step) {
