@@ -119,7 +119,7 @@ Advice sudden_load_advice(const case_::Case& input, const Model& model) {
           "material.viscosity of {}, or stage.local_damping{}.",
           words_of(input, stage), loads, quantity_text(kSlow * crossing, "s"), start,
           quantity_text(kViscosity * crossing * softest(model), "Pa s"),
-          model.has_contact ? "; contact.damping_ratio = 0.2 damps what bounces" : ""));
+          model.has_contact ? "; contact.damping_ratio = 0.05 damps what bounces" : ""));
     }
     before = &stage;
     start = stage.end;
@@ -154,7 +154,7 @@ struct RoughEntries {
 };
 
 RoughEntries rough_entries(const case_::Case& input) {
-  constexpr double kSteady = 0.6, kSteadyAtOnce = 0.2;  // with and without a delay
+  constexpr double kSteady = 0.25, kSteadyAtOnce = 0.2;  // with and without a delay
   RoughEntries entries;
   const auto add = [&](const char* what, const std::array<std::string, 2>& groups, double friction, double steady) {
     if (friction <= steady) return;
@@ -186,8 +186,10 @@ Advice undamped_friction_advice(const case_::Case& input, const Model& model) {
     if (!damped(input, stage, kAsTold * viscosity) && is_loaded(stage, start)) {
       return {fmt::format(
           "{} stage {}, and there is friction (coefficients: {}) with which elastic bodies that slide vibrate and rub "
-          "too little; contact.friction_delay prevents that up to a coefficient of 0.6, joints have no delay. If "
-          "anything slides, damp: a material.viscosity of {}.",
+          "too little; contact.friction_delay prevents that in what slides steadily, up to a coefficient of 0.6, not "
+          "in "
+          "what is set down, dragged along or spun at once, and joints have no delay. If anything slides, damp: a "
+          "material.viscosity of {}.",
           damped(input, stage) ? "Viscosity damps little in" : "Nothing damps", words_of(input, stage), entries.words,
           quantity_text(viscosity, "Pa s"))};
     }

@@ -164,7 +164,7 @@ TEST(Friction, where_nothing_damps_what_is_loaded_is_named_with_a_viscosity) {
   const std::string rough = "contact[0].friction=0.9";
   EXPECT_THAT(boxes(grown, rough), AllOf(HasSubstr("Nothing damps stage 0"), HasSubstr("contact of * 0.9"),
                                          HasSubstr("material.viscosity of ")));
-  EXPECT_EQ(boxes(grown, "contact[0].friction=0.6"), "");
+  EXPECT_EQ(boxes(grown, "contact[0].friction=0.25"), "");
   EXPECT_EQ(boxes("", rough), "") << "nothing is loaded";
   EXPECT_THAT(boxes(grown, "contact[0].friction_delay=0"), HasSubstr("* 0.3"));
   const auto at_once = [&](const std::string& entry) {
