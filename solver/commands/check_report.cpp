@@ -326,6 +326,7 @@ CheckReport full_report(const case_::Case& input, const Model& model, const Star
   report.text += stiffness_report(model) + overlaps.text;
   append(report.advice, overlaps.advice);
   append(report.advice, late_contact_advice(model));
+  append(report.advice, coarse_points_advice(model));
   append(report.advice, unmeant_advice(input, model));
   append(report.advice, stage_advice(input, model));
   report.step = step_report(input, model);

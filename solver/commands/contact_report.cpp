@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -106,6 +107,18 @@ bool has_points(const Model& model, Index group) {
   return false;
 }
 
+/// m, (groups) square root of the mean area of the free faces; 0: none.
+std::vector<double> face_sizes(const Model& model) {
+  std::vector<double> area(model.mesh.volume_groups.size(), 0.0), count = area;
+  for_each_free_face(model, [&](Index e, const std::array<Index, 3>&, const Vec3& of_face) {
+    const std::size_t group = at(model.mesh.element_group[at(e)]);
+    area[group] += of_face.norm();
+    ++count[group];
+  });
+  for (std::size_t g = 0; g < area.size(); ++g) area[g] = count[g] > 0 ? std::sqrt(area[g] / count[g]) : 0.0;
+  return area;
+}
+
 }  // namespace
 
 std::string stiffness_report(const Model& model) {
@@ -147,10 +160,34 @@ Advice late_contact_advice(const Model& model) {
   for (std::size_t g = 0; g < late.size(); ++g) {
     if (!(late[g] > 0) || !has_points(model, static_cast<Index>(g))) continue;
     advice.push_back(
-        fmt::format("The surface of {} is curved, and its contact points lie up to {} behind the corners of its faces: "
+        fmt::format("The surface of {} is curved or has blunt edges, and its contact points lie up to {} behind the "
+                    "corners of its faces: "
                     "other bodies "
                     "come so much nearer before they feel it. contact_points.per_face = 4 has points on corners.",
                     model.mesh.volume_groups[g], quantity_text(late[g], "m")));
+  }
+  return advice;
+}
+
+Advice coarse_points_advice(const Model& model) {
+  constexpr double kCoarse = 1.5;  // times as large faces
+  constexpr int kAtCorners = 4;
+  Advice advice;
+  if (!model.has_contact || model.contact.points_per_face == kAtCorners) return advice;
+  const auto& names = model.mesh.volume_groups;
+  const std::vector<double> size = face_sizes(model);
+  for (std::size_t fine = 0; fine < size.size(); ++fine) {
+    for (std::size_t coarse = 0; coarse < size.size(); ++coarse) {
+      const auto i = static_cast<Index>(fine), k = static_cast<Index>(coarse);
+      if (!(size[fine] > 0) || size[coarse] < kCoarse * size[fine]) continue;
+      if (!model.contact.law(i, k).active() || !model.contact.law(k, i).active()) continue;
+      advice.push_back(fmt::format(
+          "The faces of {0} are {1:.2g} times as large as those of {2}, so its contact points are few and heavy: one "
+          "that gets into a corner of {2} drives it aside (a cube that fell on its corner kept a quarter of its "
+          "energy, the rest went into spin and friction). contact_points.per_face = 4 prevents that, or points_on = "
+          "\"first\" with {2} named first.",
+          names[coarse], size[coarse] / size[fine], names[fine]));
+    }
   }
   return advice;
 }

@@ -16,4 +16,8 @@ namespace breccia {
 /// noticeably nearer before they feel each other. Edges and corners proper, flat surfaces: nothing. O(elements).
 [[nodiscard]] Advice late_contact_advice(const Model& model);
 
+/// Pairs that both press with their points where those of one lie far apart beside the faces of the other, inside the
+/// faces. O(elements + groups^2).
+[[nodiscard]] Advice coarse_points_advice(const Model& model);
+
 }  // namespace breccia

@@ -53,6 +53,20 @@ TEST(LateContact, IsNoneForBoxes) {
                   .empty());
 }
 
+TEST(CoarsePoints, AreThoseOfFacesMuchLargerThanTheOthers) {
+  const auto advice = [](const std::string& floor_size, const std::string& more = "") {
+    return as_list(coarse_points_advice(
+        model_of("Box(1) = {0, 0, 0, 3, 3, 1};\nBox(2) = {1, 1, 1.1, 1, 1, 1};\nPhysical Volume(\"floor\") = {1};\n"
+                 "Physical Volume(\"cube\") = {2};\nMeshSize{:} = 0.5;\nMeshSize{PointsOf{Volume{1};}} = " +
+                     floor_size + ";\n",
+                 material("floor", "1 GPa") + material("cube", "1 GPa"), more)));
+  };
+  EXPECT_EQ(advice("0.5"), "");
+  EXPECT_THAT(advice("1.5"), HasSubstr("The faces of floor are "));
+  EXPECT_THAT(advice("1.5"), HasSubstr("\"first\" with cube named first"));
+  EXPECT_EQ(advice("1.5", "[contact_points]\nper_face = 4\n"), "");
+}
+
 TEST(StiffnessReport, HasALineForEachGroupWithItsOwnModulus) {
   const std::string text = stiffness_report(
       model_of("Box(1) = {0, 0, 0, 1, 1, 1};\nBox(2) = {2, 0, 0, 1, 1, 1};\nPhysical Volume(\"soft\") = {1};\n"
