@@ -8,6 +8,7 @@ import json
 import math
 import os
 import sys
+import tomllib
 
 import numpy as np
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  registers the text renderer
@@ -36,7 +37,7 @@ FIELDS = {  # title, unit, the unit in SI
     "damage": ("joint damage", "", 1.0),
     "fragment": None, "body": None,
 }
-VIEWS = {  # from where, what is up
+VIEWS = {  # from where, what is up; turned so that y is against gravity (turn_of)
     "front": ((0, 0, 1), (0, 1, 0)),
     "top": ((0, 1, 0), (0, 0, -1)),
     "bottom": ((0, -1, 0), (0, 0, 1)),
@@ -66,7 +67,8 @@ def parse_arguments():
     when = parser.add_mutually_exclusive_group()
     when.add_argument("--time", type=float, help="s; the frame nearest to it is drawn")
     when.add_argument("--last", action="store_true", help="the last frame (default)")
-    parser.add_argument("--view", choices=list(VIEWS), default="iso")
+    parser.add_argument("--view", choices=list(VIEWS), default="iso",
+                        help="up is against the gravity of the case, y where it has none")
     parser.add_argument("--size", default="1600x1000", help="pixels, WIDTHxHEIGHT")
     parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),
                         help="of the colours, in the unit shown; less damaged joints than LOW are left out")
@@ -248,10 +250,32 @@ def label(text, height, x, y, bold=False):
     return actor
 
 
+def last_value(function):
+    """Of a number or a function of time of a case."""
+    if isinstance(function, dict):
+        function = function.get("table", [[0, 0]])[-1][1] + function.get("constant", 0)
+    return float(function) if isinstance(function, (int, float)) else 0.0
+
+
+def turn_of(run):
+    """Rotation that turns the views so that what is up is against gravity; none where the case has none, or it is along y."""
+    try:
+        with open(os.path.join(run, "case.toml"), "rb") as file:
+            stages = tomllib.load(file).get("stage", [])
+        along = [np.array([last_value(g) for g in stage.get("gravity", [0, 0, 0])]) for stage in stages]
+    except (OSError, ValueError, TypeError, AttributeError, IndexError):
+        return np.eye(3)
+    gravity = next((g for g in along if g.any()), np.array([0.0, -1.0, 0.0]))
+    axis = int(np.argmax(np.abs(gravity)))
+    turn = {0: [[0, 1, 0], [-1, 0, 0], [0, 0, 1]], 1: np.eye(3), 2: [[1, 0, 0], [0, 0, -1], [0, 1, 0]]}[axis]
+    upright = 1.0 if gravity[axis] < 0 else -1.0
+    return np.array(turn, dtype=float) @ np.diag([1.0, upright, upright])
+
+
 def aim(renderer, points, view, aspect):
     """Turns the camera so that the points fill the picture's left nine tenths; the colour bar has the rest. Returns
-    the height of the picture, m."""
-    towards, up = (np.array(v, dtype=float) for v in VIEWS[view])
+    the height of the picture, m. `view`: from where, what is up."""
+    towards, up = (np.array(v, dtype=float) for v in view)
     towards /= np.linalg.norm(towards)
     right = np.cross(up, towards)
     right /= np.linalg.norm(right)
@@ -328,6 +352,9 @@ def build(arguments):
         stop(f"{arguments.run} holds no complete frame")
     wanted = frames[-1][0] if arguments.time is None else arguments.time
     time, file = min(frames, key=lambda frame: abs(frame[0] - wanted))
+    if not frames[0][0] * (1 - 1e-9) <= wanted <= frames[-1][0] * (1 + 1e-9):
+        print(f"breccia-picture: there are frames from {frames[0][0]:g} to {frames[-1][0]:g} s: the one at {time:g} s is drawn",
+              file=sys.stderr, flush=True)
     reference, first = read(frames[0][1])
     now, arrays = read(file)
     if len(now) == 0 or len(reference) != len(now) or not np.array_equal(first["id"], arrays["id"]):
@@ -358,7 +385,9 @@ def build(arguments):
     for (owner, ends), opacity in zip(edges_between(numbers, reference, whole, arrays["fragment"]), (1.0, 0.6)):
         if len(owner) > 0:
             renderer.AddActor(lines_of(now[owner[:, None], ends], line, opacity))
-    tall = aim(renderer, in_view(reference[shown], now[shown]), arguments.view, width / height)
+    turn = turn_of(arguments.run)
+    view = [turn @ np.array(v, dtype=float) for v in VIEWS[arguments.view]]
+    tall = aim(renderer, in_view(reference[shown], now[shown]), view, width / height)
     if arguments.field == "damage":
         surface.GetProperty().SetOpacity(0.35)
     broken = add_joints(renderer, arguments, time, table, line, 3 * tall / arguments.pixels[1])

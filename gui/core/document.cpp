@@ -14,6 +14,7 @@
 #include "case/validate.hpp"
 #include "core/case_outline.hpp"
 #include "core/process_session.hpp"
+#include "core/value_text.hpp"
 #include "core/written_file.hpp"
 
 namespace breccia::gui {
@@ -99,14 +100,36 @@ QString Document::save() {
 
 QString Document::save_as(const QString& file) {
   const QString absolute = QFileInfo(file).absoluteFilePath();
+  const bool moved = name_files_from(QFileInfo(absolute).absolutePath());
   const QString error = written(absolute, text());
-  if (!error.isEmpty()) return error;
+  if (!error.isEmpty()) {
+    if (moved) undo_.undo();
+    return error;
+  }
   remove_snapshot();
   file_ = absolute;
   on_disk_ = text();
   undo_.setClean();
   emit renamed();
   return {};
+}
+
+bool Document::name_files_from(const QString& folder) {
+  const QDir before = QFileInfo(file_).absoluteDir(), after(folder);
+  if (before == after) return false;
+  std::string text = places_.text();
+  for (const Place& place : places_.all()) {
+    const case_::Key* key = case_::find_key(case_::pattern_of(place.path));
+    if (place.kind != Place::Kind::value || key == nullptr) continue;
+    const QString name = shown_value(*key, value(QString::fromStdString(place.path)));
+    const bool is_script = key->path == "insitu.pipeline[].name" && case_::is_script(name.toStdString());
+    if ((key->type != case_::ValueType::path && !is_script) || name.isEmpty() || QDir::isAbsolutePath(name)) continue;
+    const QString there = after.relativeFilePath(before.absoluteFilePath(name));
+    text = applied(text, TomlPlaces(text).set(place.path, quoted(there).toStdString()));
+  }
+  if (text == places_.text()) return false;
+  take_text(text, tr("names of files, from the new folder"));
+  return true;
 }
 
 bool Document::changed_on_disk() const {
@@ -177,7 +200,7 @@ void Document::apply(const TextChange& change) {
 std::vector<Problem> Document::problems(const std::optional<MeshGroups>& mesh) const {
   try {
     const case_::Case read = case_::read_case_text(places_.text(), file_.toStdString());
-    if (mesh) return case_::check_groups(read, mesh->volumes, mesh->surfaces, mesh->num_bodies);
+    if (mesh) return case_::check_groups(read, {mesh->volumes, mesh->surfaces, mesh->nodes}, mesh->num_bodies);
   } catch (const InputError& error) {
     return error.problems();
   }

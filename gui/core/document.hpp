@@ -21,7 +21,7 @@ struct Recovery {
 
 /// What the names of groups in a case may stand for.
 struct MeshGroups {
-  std::vector<std::string> volumes, surfaces;
+  std::vector<std::string> volumes, surfaces, nodes;
   int num_bodies = 0;
 };
 
@@ -91,6 +91,8 @@ class Document final : public QObject {
  private:
   friend class TextEdit;
   void apply(const TextChange& change);
+  /// Files that the text names relative to its folder, from another folder. @return  whether there are any
+  bool name_files_from(const QString& folder);
   void push(const TextChange& change, const QString& words, bool merges = false);
   void start(const QString& file, const QByteArray& text);
   /// @return  whether all edits are kept

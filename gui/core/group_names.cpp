@@ -41,7 +41,7 @@ QStringList strings(const std::vector<std::string>& names) {
 GroupKind group_kind(const Key& key) {
   if (key.path == "mesh.raster.group") return GroupKind::none;  // it gives the group its name
   const std::string_view name = key.name();
-  if (key.path == "stage[].constraint[].group" || key.path == "output.gauges") return GroupKind::either;
+  if (key.path == "stage[].constraint[].group" || key.path == "output.gauges") return GroupKind::any;
   if (key.type == ValueType::text && name == "group") return GroupKind::volume;
   if (key.type == ValueType::text && name == "surface") return GroupKind::surface;
   const bool surfaces = name == "broken" || name == "absorbing" || name == "surfaces";
@@ -65,7 +65,8 @@ QStringList groups_of_kind(GroupKind kind, const TomlPlaces& places, const std::
   QStringList volumes = mesh ? strings(mesh->volumes) : taken("material", case_::key_of("material[].group"), places);
   volumes.removeAll(QString());
   const QStringList surfaces = mesh ? strings(mesh->surfaces) : QStringList();
-  return kind == GroupKind::volume ? volumes : kind == GroupKind::surface ? surfaces : surfaces + volumes;
+  const QStringList nodes = mesh ? strings(mesh->nodes) : QStringList();
+  return kind == GroupKind::volume ? volumes : kind == GroupKind::surface ? surfaces : surfaces + nodes + volumes;
 }
 
 QString lines_of_new_entry(const QString& list, const TomlPlaces& places, const std::optional<MeshGroups>& mesh) {

@@ -10,7 +10,7 @@
 namespace breccia::gui {
 
 /// Which groups of the mesh a value of the case may name.
-enum class GroupKind { none, volume, surface, either };
+enum class GroupKind { none, volume, surface, any };
 [[nodiscard]] GroupKind group_kind(const case_::Key& key);
 /// Whether a value may name several, as a list.
 [[nodiscard]] bool names_many_groups(const case_::Key& key);

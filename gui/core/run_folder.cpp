@@ -21,6 +21,15 @@ namespace {
 constexpr qint64 kMostAtOnce = 1 << 20, kRemembered = 64;  // bytes
 constexpr qint64 kStatusTail = 1 << 16;                    // bytes of status.jsonl in which its last state stands
 
+/// The case among the inputs of a run: the first that is one. A geometry may stand before it, and that of another run
+/// from which it goes on behind it.
+QJsonObject case_among(const QJsonObject& provenance) {
+  for (const QJsonValue& input : provenance["inputs"].toArray()) {
+    if (input.toObject()["file"].toString().endsWith(".toml")) return input.toObject();
+  }
+  return {};
+}
+
 }  // namespace
 
 QList<QByteArray> GrowingFile::news(bool* restarted) {
@@ -164,9 +173,7 @@ bool is_held(const QString& run_folder) {
 bool was_run_with_another(const QString& run_folder, const QByteArray& case_text) {
   QFile file(QDir(run_folder).filePath("provenance.json"));
   if (!file.open(QIODevice::ReadOnly)) return false;
-  // The first input of a run is its case.
-  const QString sum =
-      QJsonDocument::fromJson(file.readAll()).object()["inputs"].toArray()[0].toObject()["sha256"].toString();
+  const QString sum = case_among(QJsonDocument::fromJson(file.readAll()).object())["sha256"].toString();
   return !sum.isEmpty() && sum != QCryptographicHash::hash(case_text, QCryptographicHash::Sha256).toHex();
 }
 
@@ -182,8 +189,7 @@ RunOrigin origin_of(const QString& run_folder) {
   const QJsonObject json = QJsonDocument::fromJson(file.readAll()).object();
   origin.started = QDateTime::fromString(json["started"].toString(), Qt::ISODate);
   origin.ranks = json["ranks"].toInt(1);
-  // The first input of a run is its case.
-  origin.case_name = QFileInfo(json["inputs"].toArray()[0].toObject()["file"].toString()).fileName();
+  origin.case_name = QFileInfo(case_among(json)["file"].toString()).fileName();
   return origin;
 }
 

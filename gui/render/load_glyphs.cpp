@@ -47,6 +47,18 @@ int index_of(const std::vector<std::string>& volumes, const std::string& group) 
   return static_cast<int>(std::find(volumes.begin(), volumes.end(), group) - volumes.begin());
 }
 
+/// The nodes of a curve or point, each with the direction away from the middle of the model.
+std::vector<Seat> nodes_of(vtkPolyData& skin, const SurfaceGroups& surfaces, const std::string& group) {
+  const auto curve = static_cast<std::size_t>(std::find(surfaces.curves.begin(), surfaces.curves.end(), group) -
+                                              surfaces.curves.begin());
+  std::vector<Seat> seats;
+  if (curve >= surfaces.places.size()) return seats;
+  Vector middle{};
+  skin.GetCenter(middle.data());
+  for (const Vector& place : surfaces.places[curve]) seats.push_back({place, unit(place - middle), -1});
+  return seats;
+}
+
 /// The faces of a group that are seen.
 std::vector<Seat> seats_of(vtkPolyData& skin, const std::vector<std::string>& volumes, const SurfaceGroups& surfaces,
                            const std::string& group) {
@@ -254,6 +266,7 @@ LoadGlyphs draw_load(vtkPolyData& skin, vtkUnstructuredGrid* elements, const std
     mesh.add_arrow(glyphs.places[0], end, 1);
   } else {
     std::vector<Seat> seats = seats_of(skin, volumes, surfaces, load.group);
+    if (seats.empty()) seats = nodes_of(skin, surfaces, load.group);
     glyphs.inner = seats.empty() && elements != nullptr;
     if (glyphs.inner) seats = inner_seats_of(*elements, surfaces, load.group);
     const BodyCentres centres = load.shape == LoadShape::stretch || load.shape == LoadShape::spin

@@ -30,10 +30,18 @@ std::vector<std::string> names_of(const QJsonArray& groups) {
 
 /// The surface groups of the answer of `mesh --json` with their faces.
 SurfaceGroups surfaces_of(const QJsonObject& json) {
-  SurfaceGroups surfaces{names_of(json["groups"].toObject()["surfaces"].toArray()), {}};
+  const QJsonObject groups = json["groups"].toObject();
+  SurfaceGroups surfaces;
+  surfaces.names = names_of(groups["surfaces"].toArray());
+  surfaces.curves = names_of(groups["curves_and_points"].toArray());
   for (const QJsonValue& group : json["faces"].toArray()) {
     std::vector<std::int64_t>& faces = surfaces.faces.emplace_back();
     for (const QJsonValue& face : group.toArray()) faces.push_back(static_cast<std::int64_t>(face.toDouble()));
+  }
+  for (const QJsonValue& group : json["places"].toArray()) {
+    auto& places = surfaces.places.emplace_back();
+    for (const QJsonValue& x : group.toArray())
+      places.push_back({x.toArray()[0].toDouble(), x.toArray()[1].toDouble(), x.toArray()[2].toDouble()});
   }
   return surfaces;
 }
@@ -93,7 +101,8 @@ void MainWindow::show_check(const QJsonObject& json) {
 void MainWindow::show_mesh(const QJsonObject& json, const QString& elements_file) {
   const QJsonObject groups = json["groups"].toObject();
   groups_ = names_of(groups["volumes"].toArray());
-  mesh_groups_ = MeshGroups{groups_, names_of(groups["surfaces"].toArray()), json["bodies"].toInt()};
+  mesh_groups_ = MeshGroups{groups_, names_of(groups["surfaces"].toArray()),
+                            names_of(groups["curves_and_points"].toArray()), json["bodies"].toInt()};
   groups_of_ = mesh_asked_;
   form_->set_groups(mesh_groups_);
   tree_->set_groups(mesh_groups_);

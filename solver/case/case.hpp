@@ -191,7 +191,7 @@ struct InitialVelocity {
 
 enum class ConstraintKind { fixed, velocity, displacement };
 
-/// [[stage.constraint]]: nodes of a volume or surface group, by axis.
+/// [[stage.constraint]]: nodes of a volume, surface, curve or point group, by axis.
 struct Constraint {
   std::string group;
   ConstraintKind kind = ConstraintKind::fixed;

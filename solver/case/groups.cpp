@@ -15,36 +15,43 @@ constexpr const char* kEveryGroup = "*";
 
 class GroupChecker {
  public:
-  GroupChecker(const Case& c, std::span<const std::string> volumes, std::span<const std::string> surfaces)
+  GroupChecker(const Case& c, const GroupNames& groups)
       : case_(c),
-        volumes_(volumes.begin(), volumes.end()),
-        surfaces_(surfaces.begin(), surfaces.end()),
-        both_(volumes_) {
-    both_.insert(both_.end(), surfaces_.begin(), surfaces_.end());
+        volumes_(groups.volumes.begin(), groups.volumes.end()),
+        surfaces_(groups.surfaces.begin(), groups.surfaces.end()),
+        nodes_(groups.nodes.begin(), groups.nodes.end()) {
+    for (const auto* names : {&volumes_, &surfaces_, &nodes_}) all_.insert(all_.end(), names->begin(), names->end());
   }
 
   void volume(const Origin& origin, const char* name, const std::string& group) {
     check(origin, name, group, volumes_, "volume group");
   }
   void surface(const Origin& origin, const char* name, const std::string& group) {
+    if (has(nodes_, group) && !has(surfaces_, group)) {
+      const std::string list = surfaces_.empty() ? "the mesh has none" : joined(nearest_first(group, surfaces_));
+      add(problem_at(case_, origin, name, "this is a curve or point of the mesh, where a surface is asked for", list,
+                     group));
+      return;
+    }
     check(origin, name, group, surfaces_, "surface group");
   }
-  void either(const Origin& origin, const char* name, const std::string& group) {
-    check(origin, name, group, both_, "volume or surface group");
-    if (std::count(both_.begin(), both_.end(), group) > 1)
+  /// A curve or point is meant only where no volume or surface has its name.
+  void any(const Origin& origin, const char* name, const std::string& group) {
+    check(origin, name, group, all_, "volume, surface, curve or point group");
+    if (has(volumes_, group) && has(surfaces_, group))
       add(problem_at(case_, origin, name,
                      "a volume group and a surface group of the mesh have this name: which is meant is not clear",
                      "groups with different names", group));
   }
   void gauge(const Origin& origin, const std::string& name, std::int64_t num_bodies) {
     const std::int64_t body = numbered_body(name);
-    const bool is_group = std::find(both_.begin(), both_.end(), name) != both_.end();
+    const bool is_group = has(all_, name);
     if (is_group && 0 <= body && body < num_bodies) {
       add(problem_at(case_, origin, "gauges",
                      "a group of the mesh has the name by which a gauge calls a body: which is meant is not clear",
                      "another name for the group, or another gauge", name));
     } else if (body < 0 || is_group) {
-      either(origin, "gauges", name);
+      any(origin, "gauges", name);
     } else if (body >= num_bodies) {
       add(problem_at(case_, origin, "gauges", "the mesh has no such body",
                      num_bodies > 0 ? "\"body 0\" to \"body " + std::to_string(num_bodies - 1) + "\"" : "", name));
@@ -54,22 +61,25 @@ class GroupChecker {
   std::vector<Problem> take() { return std::move(problems_); }
 
  private:
+  static bool has(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  }
   void check(const Origin& origin, const std::string& name, const std::string& group,
              const std::vector<std::string>& present, const std::string& kind) {
-    if (std::find(present.begin(), present.end(), group) != present.end()) return;
+    if (has(present, group)) return;
     const std::string list = present.empty() ? "the mesh has none" : joined(nearest_first(group, present));
     add(problem_at(case_, origin, name, "the mesh has no " + kind + " \"" + group + "\"", list, group));
   }
 
   const Case& case_;
-  std::vector<std::string> volumes_, surfaces_, both_;
+  std::vector<std::string> volumes_, surfaces_, nodes_, all_;
   std::vector<Problem> problems_;
 };
 
 void check_stage(const Stage& stage, GroupChecker& checker) {
   for (const std::string& group : stage.broken_surfaces) checker.surface(stage.origin, "broken", group);
   for (const std::string& group : stage.absorbing) checker.surface(stage.origin, "absorbing", group);
-  for (const Constraint& k : stage.constraints) checker.either(k.origin, "group", k.group);
+  for (const Constraint& k : stage.constraints) checker.any(k.origin, "group", k.group);
   for (const Pressure& p : stage.pressures) checker.surface(p.origin, "surface", p.surface);
   for (const Traction& t : stage.tractions) checker.surface(t.origin, "surface", t.surface);
 }
@@ -84,15 +94,14 @@ std::int64_t numbered_body(const std::string& name) {
   return error == std::errc() && end == name.data() + name.size() ? number : -1;
 }
 
-std::vector<Problem> check_groups(const Case& c, std::span<const std::string> volume_groups,
-                                  std::span<const std::string> surface_groups, std::int64_t num_bodies) {
-  GroupChecker checker(c, volume_groups, surface_groups);
+std::vector<Problem> check_groups(const Case& c, const GroupNames& groups, std::int64_t num_bodies) {
+  GroupChecker checker(c, groups);
   std::set<std::string> with_material;
   for (const Material& m : c.materials) {
     checker.volume(m.origin, "group", m.group);
     with_material.insert(m.group);
   }
-  for (const std::string& group : volume_groups) {
+  for (const std::string& group : groups.volumes) {
     if (group == kEveryGroup)
       checker.add({c.file.string(), c.mesh.origin.line, "mesh",
                    "a volume group of the mesh has the name that stands for every group in [[contact]]",

@@ -355,7 +355,9 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "stage[].local_damping", .type = number, .fallback = "0",
      .range = {.lower = 0, .upper = 1, .upper_open = true},
      .help = "Damping against the velocity, as a share beta of the unbalanced force on each node: 0.3 to 0.8 find a "
-             "state of rest quickly. The step is shorter by sqrt(2 + 2 beta). Not where something is to move: a body "
+             "state of rest quickly. The step is shorter by sqrt(5 + 5 beta). What has come to rest is in equilibrium "
+             "only where the reactions (output.gauges) carry the loads: vibrations of stiff joints hold back what "
+             "bends slowly. Not where something is to move: a body "
              "falls with 1 - beta of its acceleration, and one that slides on a joint or a rough surface creeps or "
              "stops, since its vibrations are damped at the cost of what drives it. Nor where reactions are recorded "
              "(output.gauges) while anything accelerates or breaks: they include what the damping takes, 1/(1 - beta) "
@@ -372,9 +374,13 @@ constexpr auto model_keys = std::to_array<Key>({
 
     {.path = "stage[].constraint[]", .type = section_list,
      .help = "Imposed motion of the nodes of a group: one of fixed, velocity and displacement. Axes not named stay "
-             "free. A patch of several nodes is clamped: it cannot turn. A roller or a pin is a small body of its own "
-             "that is held or driven and presses through contact."},
-    {.path = "stage[].constraint[].group", .type = text, .required = true, .help = "Physical volume or surface group.",
+             "free. A patch of several nodes is clamped: it cannot turn; what is held along a straight curve turns "
+             "about it as on a hinge. A roller or a pin is a small body of its own that is held or driven and presses "
+             "through contact."},
+    {.path = "stage[].constraint[].group", .type = text, .required = true,
+     .help = "Physical volume, surface, curve or point of the mesh. A curve or point means its nodes, and is meant "
+             "only where no volume or surface has its name. What is held there alone yields the more, the finer the "
+             "elements around it are.",
      .example = "\"support\""},
     {.path = "stage[].constraint[].fixed", .type = axes, .help = "Axes along which the nodes stay where they are.",
      .example = "\"xyz\""},

@@ -142,9 +142,26 @@ constexpr auto table = std::to_array<Topic>({
      "energies at the end.",
      "output.history_interval|output.gauges|time.residual_limit"},
     {"frame|field output|vtk|vtu|paraview|visualization|visualisation|animation",
-     "frames/*.series hold stresses, strains, velocities, joints and contacts at times, for ParaView; "
+     "frames/*.series hold stresses, velocities, displacements, joints and contacts at times, in SI, for ParaView; "
      "`breccia report RUN` draws some, [insitu] draws and records while the run goes on.",
      "output.frame_interval|output.elements|output.joints|insitu"},
+    {"fragment|fragments|fragment size|fragment size distribution|debris",
+     "A fragment is what intact joints and shared nodes hold together. Element frames number it (fragment), with mass "
+     "and velocity of each element; `breccia report RUN` draws how many there are and their sizes by mass.",
+     "output.elements|output.frame_interval"},
+    {"stress|stresses|principal stress|von mises|pressure in the material",
+     "Element frames hold the Cauchy stress (stress), its principal values (principal) and von Mises' (von_mises), Pa, "
+     "tension positive.",
+     "output.elements|output.frame_interval"},
+    {"unit|units|unit system|si",
+     "A number without a unit is SI: m, kg, s, N, Pa, J, rad. A text may have another one: \"5 mm\", \"2.4 g/cm3\", "
+     "\"30 deg\". All results are SI.",
+     "mesh.scale"},
+    {"inertia|moment of inertia|rotation|rotational inertia|lumped mass",
+     "A quarter of the mass of an element lies at each of its corners: moments of inertia are too large by a factor of "
+     "5 for a fragment of one element, 1.75, 1.19, 1.05 and 1.01 for a cube of 1, 2, 4 and 8 cells along an edge. "
+     "Angular momentum is kept; small fragments spin too slowly.",
+     "initial_velocity.angular|output.gauges"},
     {"strength|tensile strength|compressive strength|shear strength",
      "A joint opens at its tensile_strength and slides at its shear_strength, the cohesion, plus friction times the "
      "pressure on it; a compressive strength results from both. `breccia check CASE --joints` draws the curves.",

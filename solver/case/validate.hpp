@@ -17,11 +17,14 @@ namespace breccia::case_ {
 /// @param needs_mesh_file  false: the elements are those of a checkpoint, and the mesh file may be gone
 [[nodiscard]] std::vector<Problem> validate(const Case& c, bool needs_mesh_file = true);
 
+/// Names of the groups of a mesh, as Mesh has them.
+struct GroupNames {
+  std::span<const std::string> volumes, surfaces, nodes = {};
+};
+
 /// Compares the groups a case names with those of its mesh, and the volumes of the mesh with the materials. Each
 /// problem names the group absent and lists those present, nearest first, with the line of the section that names it.
 /// @param num_bodies  of the mesh, for gauges of bodies
-[[nodiscard]] std::vector<Problem> check_groups(const Case& c, std::span<const std::string> volume_groups,
-                                                std::span<const std::string> surface_groups,
-                                                std::int64_t num_bodies = 0);
+[[nodiscard]] std::vector<Problem> check_groups(const Case& c, const GroupNames& groups, std::int64_t num_bodies = 0);
 
 }  // namespace breccia::case_

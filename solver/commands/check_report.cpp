@@ -3,6 +3,7 @@
 #include "commands/joint_report.hpp"
 #include "commands/model_report.hpp"
 #include "commands/overlap_report.hpp"
+#include "commands/plausibility_report.hpp"
 #include "commands/stage_report.hpp"
 #include "commands/step_report.hpp"
 #include "commands/unmeant_report.hpp"
@@ -287,6 +288,8 @@ std::string mesh_report(const FinishedMesh& made, const QualityReport& q) {
   for (const MeshReport::Group& g : r.surface_groups)
     text += fmt::format("  surface {:<20} {:>9} {}\n", printable(g.name), g.count,
                         word_for(g.count, "triangle", "triangles"));
+  for (const MeshReport::Group& g : r.node_groups)
+    text += fmt::format("  nodes   {:<20} {:>9} on a curve or at a point\n", printable(g.name), g.count);
   const auto note = [&](Index count, const char* what) {
     if (count > 0) text += fmt::format("  {} {}\n", count, what);
   };
@@ -328,6 +331,7 @@ CheckReport full_report(const case_::Case& input, const Model& model, const Star
   append(report.advice, late_contact_advice(model));
   append(report.advice, coarse_points_advice(model));
   append(report.advice, unmeant_advice(input, model));
+  append(report.advice, plausibility_advice(input));
   append(report.advice, stage_advice(input, model));
   report.step = step_report(input, model);
   report.estimate = estimate_run(input, model, report.step, from.time);

@@ -26,7 +26,9 @@ Json groups(const MeshReport& report) {
     for (const MeshReport::Group& group : from) out.push_back({{"name", group.name}, {"count", group.count}});
     return out;
   };
-  return {{"volumes", list(report.volume_groups)}, {"surfaces", list(report.surface_groups)}};
+  return {{"volumes", list(report.volume_groups)},
+          {"surfaces", list(report.surface_groups)},
+          {"curves_and_points", list(report.node_groups)}};
 }
 
 Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
@@ -169,6 +171,12 @@ std::string mesh_json(const FinishedMesh& made, const std::vector<std::vector<To
     Json numbers = Json::array();
     for (const Topology::Face& face : group) numbers.push_back(4 * std::int64_t{face.element} + face.face);
     json["faces"].push_back(std::move(numbers));
+  }
+  json["places"] = Json::array();  // in the order of groups.curves_and_points
+  for (std::size_t g = 0; g < r.node_groups.size(); ++g) json["places"].push_back(Json::array());
+  for (const Mesh::GroupNode& one : made.mesh.group_nodes) {
+    const Vec3& x = made.mesh.nodes[static_cast<std::size_t>(one.node)];
+    json["places"][static_cast<std::size_t>(one.group)].push_back(std::array{x.x(), x.y(), x.z()});
   }
   return text_of(json);
 }

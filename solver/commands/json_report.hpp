@@ -24,8 +24,9 @@ namespace breccia {
 /// `shear`; `unloading`; `envelope` with normal and shear.
 [[nodiscard]] std::string joints_json(const Model& model);
 
-/// Source, elements, nodes, bodies, volume and surface groups, repairs, the quality of every element in ten bins, and
-/// the report in words. @param faces  null, or those of each surface group, told as 4 * element + side below `faces`
+/// Source, elements, nodes, bodies, groups, repairs, the quality of every element in ten bins, and the report in words.
+/// @param faces  null, or those of each surface group, told as 4 * element + side below `faces`, with the places of the
+/// nodes of each curve and point below `places`, m
 [[nodiscard]] std::string mesh_json(const FinishedMesh& made,
                                     const std::vector<std::vector<Topology::Face>>* faces = nullptr);
 

@@ -45,7 +45,8 @@ Provenance provenance_of(const RunCommand& asked, const case_::Case& input, cons
     provenance.parents = with_parent(start->file, start->checkpoint);
     return provenance;
   }
-  std::set<std::filesystem::path> files{asked.case_file};
+  provenance.inputs.push_back(input_file(asked.case_file));  // first: readers know it by that
+  std::set<std::filesystem::path> files;
   if (!input.mesh.file.empty()) files.insert(input.mesh.file);
   if (geometry_file(input.mesh.file) == GeometryFile::script) files.merge(scan_geo(input.mesh.file).files);
   for (const std::filesystem::path& file : files) provenance.inputs.push_back(input_file(file));

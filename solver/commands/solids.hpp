@@ -1,5 +1,6 @@
 #pragma once
 
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -56,8 +57,8 @@ class Solids {
   /// Whether two solids lie on each other: there is contact and their boxes touch.
   [[nodiscard]] bool touch(std::size_t one, std::size_t other) const;
 
-  /// Calls f(element, whether the group is a volume) for the elements of a volume group, or behind the faces of a
-  /// surface group.
+  /// Calls f(element, whether the group is a volume) for the elements of a volume group, behind the faces of a surface
+  /// group, or around the nodes of a curve or point.
   template <class F>
   void for_each_element(const std::string& group, F&& f) const {
     const Mesh& mesh = model_.mesh;
@@ -68,6 +69,11 @@ class Solids {
     for (std::size_t s = 0; s < mesh.surface_groups.size(); ++s) {
       if (mesh.surface_groups[s] != group) continue;
       for (const Topology::Face& face : model_.topology.surface_groups[s]) f(face.element, false);
+    }
+    const Index nodes = corner_group(mesh, group);
+    if (group_index(mesh.volume_groups, group) >= 0 || nodes < std::ssize(mesh.surface_groups)) return;
+    for (const CornerTag& tag : model_.corner_tags) {
+      if (tag.group == nodes) f(static_cast<Index>(tag.element), false);
     }
   }
 

@@ -135,10 +135,6 @@ case_::ParentCase parent_of(const Checkpoint& checkpoint, const fs::path& file) 
 /// Those of this rank's elements.
 std::vector<NamedNode> nodes_of_records(const Records& records, const WholeModel& whole,
                                         const std::vector<Discretisation>& kinds, const std::string& group) {
-  const auto index_in = [&](const std::vector<std::string>& names) {
-    const auto found = std::find(names.begin(), names.end(), group);
-    return found == names.end() ? -1 : static_cast<Index>(found - names.begin());
-  };
   std::vector<NamedNode> nodes;
   const auto add = [&](const ElementRecord& element, unsigned corners) {
     const Index set = node_set(kinds, whole.node_sets, element.group);
@@ -147,12 +143,12 @@ std::vector<NamedNode> nodes_of_records(const Records& records, const WholeModel
         nodes.push_back(named_node(set, element.id, c, element.vertex[static_cast<std::size_t>(c)]));
     }
   };
-  const Index volume = index_in(whole.volume_groups), surface = index_in(whole.surface_groups);
+  const Index volume = group_index(whole.volume_groups, group), of_corners = corner_group(whole, group);
   for (const ElementRecord& element : records.elements) {
     if (element.group == volume) add(element, 15);
   }
   for (const CornerTag& tag : records.corners) {
-    const Index place = volume < 0 && tag.group == surface ? records.place_of(tag.element) : -1;
+    const Index place = volume < 0 && tag.group == of_corners ? records.place_of(tag.element) : -1;
     if (place >= 0) add(records.elements[static_cast<std::size_t>(place)], static_cast<unsigned>(tag.corners));
   }
   return nodes;
@@ -214,8 +210,9 @@ case_::Case read_case_of(const fs::path& case_file, const std::vector<std::strin
   case_::Case input = case_::read_started_case(case_file, overrides, start->parent);
   check_stages(input, start->checkpoint.model.clock);
   const WholeModel whole = unpack_whole(start->checkpoint.whole_model);
-  std::vector<Problem> problems = case_::check_groups(input, whole.volume_groups, whole.surface_groups,
-                                                      static_cast<std::int64_t>(whole.body_length.size()));
+  std::vector<Problem> problems =
+      case_::check_groups(input, {whole.volume_groups, whole.surface_groups, whole.node_groups},
+                          static_cast<std::int64_t>(whole.body_length.size()));
   if (!problems.empty()) throw InputError(std::move(problems));
   check_laws(input, whole);
   return input;

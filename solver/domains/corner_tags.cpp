@@ -1,5 +1,7 @@
 #include "domains/corner_tags.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -21,10 +23,13 @@ void tag_corners_anew(const Communicator& communicator, const WholeModel& whole,
   }
   const Mesh mesh = mesh_of(on_surfaces, whole);
   const Topology topology = topology_of(on_surfaces, mesh);
-  mine.corners.clear();
+  // Those of curves and points are where they were.
+  std::erase_if(mine.corners, [&](const CornerTag& tag) { return tag.group < std::ssize(whole.surface_groups); });
   for (const CornerTag& tag : tag_corners(cut, mesh, topology)) {
     if (mine.place_of(tag.element) >= 0) mine.corners.push_back(tag);
   }
+  std::sort(mine.corners.begin(), mine.corners.end(),
+            [](const CornerTag& p, const CornerTag& q) { return p.comes_before(q); });
 }
 
 }  // namespace breccia

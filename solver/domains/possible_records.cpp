@@ -78,7 +78,9 @@ bool are_possible(const Records& records, const WholeModel& whole) {
          all(records.held, [](const HeldRecord& r) { return within(r.corner, kCorners); }) &&
          all(records.faces,
              [&](const FaceTag& tag) { return within(tag.group, whole.surface_groups) && within(tag.face, kFaces); }) &&
-         all(records.corners, [&](const CornerTag& tag) { return within(tag.group, whole.surface_groups); });
+         all(records.corners, [&](const CornerTag& tag) {
+           return within(tag.group, std::ssize(whole.surface_groups) + std::ssize(whole.node_groups));
+         });
 }
 
 void demand_possible(const std::filesystem::path& file, std::span<const std::byte> whole_model,

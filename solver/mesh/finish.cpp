@@ -161,7 +161,7 @@ void sort_elements(Mesh& mesh) {
 }
 
 /// Nodes in the order in which the elements touch them; nodes of no element are dropped. @pre surface faces name only
-/// nodes of elements.
+/// nodes of elements. Of curves and points they get the number -1.
 void sort_nodes(Mesh& mesh) {
   std::vector<Index> new_of(mesh.nodes.size(), -1);
   std::vector<Vec3> nodes;
@@ -179,6 +179,7 @@ void sort_nodes(Mesh& mesh) {
   for (auto& face : mesh.surface_faces) {
     for (Index& node : face.nodes) node = new_of[at(node)];
   }
+  for (Mesh::GroupNode& one : mesh.group_nodes) one.node = new_of[at(one.node)];
   mesh.nodes = std::move(nodes);
 }
 
@@ -197,12 +198,24 @@ void sort_surface_faces(Mesh& mesh) {
               faces.end());
 }
 
+/// Sorted, each once; those of no element are dropped.
+void sort_group_nodes(Mesh& mesh) {
+  auto& all = mesh.group_nodes;
+  std::erase_if(all, [](const Mesh::GroupNode& one) { return one.node < 0; });
+  const auto key = [](const Mesh::GroupNode& one) { return std::pair{one.group, one.node}; };
+  std::sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  all.erase(std::unique(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) == key(b); }),
+            all.end());
+}
+
 void count(const Mesh& mesh, MeshReport& report) {
   report.nodes = mesh.num_nodes();
   report.elements = mesh.num_elements();
   report.bodies = mesh.num_bodies;
   for (const std::string& name : mesh.volume_groups) report.volume_groups.push_back({name, 0});
   for (const std::string& name : mesh.surface_groups) report.surface_groups.push_back({name, 0});
+  for (const std::string& name : mesh.node_groups) report.node_groups.push_back({name, 0});
+  for (const Mesh::GroupNode& one : mesh.group_nodes) ++report.node_groups[at(one.group)].count;
   for (const Index group : mesh.element_group) ++report.volume_groups[at(group)].count;
   for (const auto& face : mesh.surface_faces) ++report.surface_groups[at(face.group)].count;
 }
@@ -224,6 +237,7 @@ FinishedMesh finish_mesh(Mesh raw, const FinishOptions& options) {
   sort_elements(mesh);
   sort_nodes(mesh);
   sort_surface_faces(mesh);
+  sort_group_nodes(mesh);
   count(mesh, report);
   return result;
 }

@@ -24,6 +24,7 @@ struct MeshReport {
   };
   std::vector<Group> volume_groups;   ///< elements of each
   std::vector<Group> surface_groups;  ///< triangles of each
+  std::vector<Group> node_groups;     ///< nodes of each
 };
 
 struct FinishedMesh {

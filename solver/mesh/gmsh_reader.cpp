@@ -16,12 +16,12 @@
 #include <set>
 #include <sstream>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 
 #include "base/child_process.hpp"
 #include "base/error.hpp"
 #include "base/geometry_file.hpp"
+#include "mesh/gmsh_model.hpp"
 #include "mesh/gmsh_solids.hpp"
 #include "mesh/gmsh_source_check.hpp"
 #include "mesh/mesh_bytes.hpp"
@@ -30,8 +30,7 @@ namespace breccia {
 namespace {
 
 constexpr std::size_t kProblemsNamed = 10;
-constexpr int kTriangle3 = 2, kTetra4 = 4;  // gmsh's numbers of element types
-constexpr int kDelaunay = 1, kHxt = 10;     // and of algorithms in three dimensions
+constexpr int kDelaunay = 1, kHxt = 10;  // gmsh's numbers of algorithms in three dimensions
 
 // --- Running gmsh
 // -----------------------------------------------------------------------------------------------------
@@ -169,185 +168,12 @@ void load(const GmshSource& source) {
   });
 }
 
-// --- From gmsh's model to ours
-// ----------------------------------------------------------------------------------------
-
-class ModelReader {
- public:
-  explicit ModelReader(const GmshSource& source) : source_(source) { mesh_.source = source.file.string(); }
-
-  Mesh read(Index& ungrouped_elements) {
-    read_nodes();
-    read_volumes(ungrouped_elements);
-    read_surfaces();
-    if (!problems_.empty()) throw InputError(std::move(problems_));
-    return std::move(mesh_);
-  }
-
- private:
-  void refuse(const std::string& entity, const std::string& what, const std::string& allowed,
-              const std::string& given) {
-    problems_.push_back({source_.file.string(), 0, entity, what, allowed, given});
-  }
-
-  void read_nodes() {
-    std::vector<std::size_t> tags;
-    std::vector<double> coordinates, unused;
-    gmsh::model::mesh::getNodes(tags, coordinates, unused);
-    node_of_tag_.reserve(tags.size());
-    mesh_.nodes.reserve(tags.size());
-    for (std::size_t n = 0; n < tags.size(); ++n) {
-      const double* x = &coordinates[3 * n];
-      const Vec3 place = source_.scale * Vec3(x[0], x[1], x[2]);
-      const auto [entry, fresh] = node_of_tag_.emplace(tags[n], mesh_.num_nodes());
-      if (fresh) {
-        mesh_.nodes.push_back(place);
-      } else if (mesh_.nodes[static_cast<std::size_t>(entry->second)] != place && problems_.empty()) {
-        refuse("node " + std::to_string(tags[n]), "stands twice, at different places",
-               "a number of its own for each node", "");
-      }
-    }
-  }
-
-  /// Physical groups of a dimension as (name, entities), by ascending tag; names are unique.
-  std::vector<std::pair<std::string, std::vector<int>>> physical_groups(int dimension) {
-    const std::string kind = dimension == 3 ? "volume" : "surface";
-    gmsh::vectorpair tags;
-    gmsh::model::getPhysicalGroups(tags, dimension);
-    std::sort(tags.begin(), tags.end());
-    std::vector<std::pair<std::string, std::vector<int>>> groups;
-    std::map<std::string, int> tag_of_name;
-    for (const auto& [unused, tag] : tags) {
-      std::string name;
-      gmsh::model::getPhysicalName(dimension, tag, name);
-      if (name.empty()) name = kind + "_" + std::to_string(tag);
-      const auto [entry, fresh] = tag_of_name.emplace(name, tag);
-      if (!fresh) {
-        refuse("physical " + kind + " \"" + name + "\"", "the name is used twice", "one name a group",
-               "tags " + std::to_string(entry->second) + " and " + std::to_string(tag));
-      }
-      std::vector<int> entities;
-      gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, entities);
-      groups.emplace_back(std::move(name), std::move(entities));
-    }
-    return groups;
-  }
-
-  /// Group of every volume that lies in one; without physical volumes each volume is a group.
-  std::map<int, Index> groups_of_volumes(const std::vector<int>& volumes) {
-    std::map<int, Index> group_of;
-    const auto groups = physical_groups(3);
-    for (const auto& [name, entities] : groups) {
-      const auto group = static_cast<Index>(mesh_.volume_groups.size());
-      mesh_.volume_groups.push_back(name);
-      for (const int volume : entities) {
-        const auto [entry, fresh] = group_of.emplace(volume, group);
-        if (!fresh && entry->second != group) {
-          refuse("volume " + std::to_string(volume), "lies in two physical volumes", "one a volume",
-                 "\"" + mesh_.volume_groups[static_cast<std::size_t>(entry->second)] + "\" and \"" + name + "\"");
-        }
-      }
-    }
-    if (!groups.empty()) return group_of;
-    for (const int volume : volumes) {
-      group_of[volume] = static_cast<Index>(mesh_.volume_groups.size());
-      mesh_.volume_groups.push_back("volume_" + std::to_string(volume));
-    }
-    return group_of;
-  }
-
-  void read_volumes(Index& ungrouped_elements) {
-    std::vector<int> volumes;
-    gmsh::vectorpair entities;
-    gmsh::model::getEntities(entities, 3);
-    for (const auto& entity : entities) volumes.push_back(entity.second);
-    std::sort(volumes.begin(), volumes.end());
-    const std::map<int, Index> group_of = groups_of_volumes(volumes);
-    for (const int volume : volumes) {
-      const auto group = group_of.find(volume);
-      const auto elements = elements_of(3, volume, kTetra4, group != group_of.end());
-      if (group == group_of.end()) {
-        ungrouped_elements += static_cast<Index>(elements.tags.size());
-        continue;
-      }
-      if (elements.tags.empty()) continue;
-      const Index body = mesh_.num_bodies++;
-      for (std::size_t e = 0; e < elements.tags.size(); ++e) {
-        std::array<Index, 4> corners{};
-        for (std::size_t c = 0; c < 4; ++c) corners[c] = node(elements.nodes[4 * e + c]);
-        mesh_.elements.push_back(corners);
-        mesh_.element_group.push_back(group->second);
-        mesh_.element_body.push_back(body);
-        mesh_.element_source_id.push_back(static_cast<std::int64_t>(elements.tags[e]));
-      }
-    }
-  }
-
-  void read_surfaces() {
-    for (const auto& [name, entities] : physical_groups(2)) {
-      const auto group = static_cast<Index>(mesh_.surface_groups.size());
-      mesh_.surface_groups.push_back(name);
-      for (const int surface : entities) {
-        const auto triangles = elements_of(2, surface, kTriangle3, true);
-        for (std::size_t t = 0; t < triangles.tags.size(); ++t) {
-          Mesh::SurfaceFace face{{}, group};
-          for (std::size_t c = 0; c < 3; ++c) face.nodes[c] = node(triangles.nodes[3 * t + c]);
-          mesh_.surface_faces.push_back(face);
-        }
-      }
-    }
-  }
-
-  struct Elements {
-    std::vector<std::size_t> tags, nodes;
-  };
-
-  /// Elements of one type on an entity. Any other type there is refused where `strict`.
-  Elements elements_of(int dimension, int entity, int type, bool strict) {
-    std::vector<int> types;
-    std::vector<std::vector<std::size_t>> tags, nodes;
-    gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
-    Elements wanted;
-    for (std::size_t t = 0; t < types.size(); ++t) {
-      if (types[t] == type) {
-        wanted.tags = std::move(tags[t]);
-        wanted.nodes = std::move(nodes[t]);
-      } else if (strict && !tags[t].empty()) {
-        std::string kind;
-        int unused_dimension = 0, order = 0, num_nodes = 0, num_primary = 0;
-        std::vector<double> unused;
-        gmsh::model::mesh::getElementProperties(types[t], kind, unused_dimension, order, num_nodes, unused,
-                                                num_primary);
-        const std::string name = (dimension == 3 ? "volume " : "surface ") + std::to_string(entity);
-        refuse(name, "holds elements of a kind that is not supported",
-               dimension == 3 ? "tetrahedra of first order (Tetrahedron 4)" : "triangles of first order (Triangle 3)",
-               std::to_string(tags[t].size()) + " of " + kind);
-      }
-    }
-    return wanted;
-  }
-
-  Index node(std::size_t tag) {
-    const auto found = node_of_tag_.find(tag);
-    if (found == node_of_tag_.end()) {
-      throw InputError(Problem{source_.file.string(), 0, "mesh", "an element names a node that is not in the file", "",
-                               "node " + std::to_string(tag)});
-    }
-    return found->second;
-  }
-
-  const GmshSource& source_;
-  Mesh mesh_;
-  std::vector<Problem> problems_;
-  std::unordered_map<std::size_t, Index> node_of_tag_;
-};
-
 /// What the child does: everything that gmsh has a hand in.
 MeshOrProblems read_here(const GmshSource& source) {
   try {
     load(source);
     RawMesh raw;
-    run_gmsh(source, [&] { raw.mesh = ModelReader(source).read(raw.ungrouped_elements); });
+    run_gmsh(source, [&] { raw.mesh = read_gmsh_model(source.file, source.scale, raw.ungrouped_elements); });
     return raw;
   } catch (const InputError& error) {
     return error.problems();

@@ -27,7 +27,8 @@ struct GmshSource {
 ///
 /// Volume groups: the physical volumes by ascending tag, unnamed ones as "volume_<tag>"; tetrahedra outside them are
 /// left out and counted. Without any physical volume every volume becomes a group "volume_<tag>". Surface groups: the
-/// physical surfaces, unnamed ones as "surface_<tag>". Bodies: the volumes, by ascending tag. Element source ids are
+/// physical surfaces, unnamed ones as "surface_<tag>". Node groups: the physical curves and points, "curve_<tag>",
+/// "point_<tag>"; nodes of no element are left out. Bodies: the volumes, by ascending tag. Element source ids are
 /// gmsh's. A .geo is meshed on one thread, from gmsh's fixed random seed: the same file and parameters give the same
 /// mesh; so is a solid, whose groups mesh/gmsh_solids.hpp tells. A STEP file states the unit of its lengths.
 ///

@@ -33,8 +33,16 @@ struct Mesh {
   };
   std::vector<SurfaceFace> surface_faces;
 
+  /// Node of a physical curve or point.
+  struct GroupNode {
+    Index node;
+    Index group;  ///< index into node_groups
+  };
+  std::vector<GroupNode> group_nodes;
+
   std::vector<std::string> volume_groups;
   std::vector<std::string> surface_groups;
+  std::vector<std::string> node_groups;  ///< physical curves and points; those of one name are one group
   Index num_bodies = 0;
 
   [[nodiscard]] Index num_elements() const { return static_cast<Index>(elements.size()); }
@@ -53,10 +61,19 @@ struct Mesh {
   }
 };
 
-/// Index of a group by its name; -1: there is none. @param names  volume or surface groups of a mesh
+/// Index of a group by its name; -1: there is none. @param names  of groups of one kind
 [[nodiscard]] inline Index group_index(const std::vector<std::string>& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
   return found == names.end() ? -1 : static_cast<Index>(found - names.begin());
+}
+
+/// Groups that consist of corners of elements: the surface groups, then the node groups. Index of one by its name; -1:
+/// there is none. @param groups  with both, as Mesh has them
+template <class Groups>
+[[nodiscard]] Index corner_group(const Groups& groups, const std::string& name) {
+  if (const Index surface = group_index(groups.surface_groups, name); surface >= 0) return surface;
+  const Index of_nodes = group_index(groups.node_groups, name);
+  return of_nodes < 0 ? -1 : static_cast<Index>(groups.surface_groups.size()) + of_nodes;
 }
 
 }  // namespace breccia

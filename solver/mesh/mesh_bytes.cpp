@@ -109,8 +109,10 @@ void write(Writer& out, const RawMesh& raw) {
   out.list(mesh.element_body);
   out.list(mesh.element_source_id);
   out.list(mesh.surface_faces);
+  out.list(mesh.group_nodes);
   write_texts(out, mesh.volume_groups);
   write_texts(out, mesh.surface_groups);
+  write_texts(out, mesh.node_groups);
   out.number(mesh.num_bodies);
   out.number(raw.ungrouped_elements);
 }
@@ -140,6 +142,10 @@ void check(const RawMesh& raw) {
     }
     if (!within(face.group, mesh.surface_groups.size())) refuse("a triangle is of a group that is not there");
   }
+  for (const Mesh::GroupNode& one : mesh.group_nodes) {
+    if (!within(one.node, nodes) || !within(one.group, mesh.node_groups.size()))
+      refuse("a curve or point names a node or a group that is not there");
+  }
 }
 
 RawMesh read_mesh(Reader& in) {
@@ -152,8 +158,10 @@ RawMesh read_mesh(Reader& in) {
   mesh.element_body = in.list<Index>();
   mesh.element_source_id = in.list<std::int64_t>();
   mesh.surface_faces = in.list<Mesh::SurfaceFace>();
+  mesh.group_nodes = in.list<Mesh::GroupNode>();
   mesh.volume_groups = read_texts(in);
   mesh.surface_groups = read_texts(in);
+  mesh.node_groups = read_texts(in);
   mesh.num_bodies = in.number<Index>();
   raw.ungrouped_elements = in.number<Index>();
   in.end();

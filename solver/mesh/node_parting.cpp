@@ -61,6 +61,18 @@ std::vector<std::vector<Index>> bodies_behind(const Mesh& mesh) {
   return bodies;
 }
 
+/// A node of a curve or point stays one, and so does every copy of it. @param copies  (node << 32 | body) to copy
+void add_copies(const std::unordered_map<std::uint64_t, Index>& copies, std::vector<Mesh::GroupNode>& group_nodes) {
+  if (group_nodes.empty()) return;
+  std::unordered_multimap<Index, Index> copies_of;
+  for (const auto& [key, copy] : copies) copies_of.emplace(static_cast<Index>(key >> 32), copy);
+  const std::size_t before = group_nodes.size();
+  for (std::size_t i = 0; i < before; ++i) {
+    const auto [first, last] = copies_of.equal_range(group_nodes[i].node);
+    for (auto copy = first; copy != last; ++copy) group_nodes.push_back({copy->second, group_nodes[i].group});
+  }
+}
+
 }  // namespace
 
 Index count_orphan_nodes(const Mesh& mesh) {
@@ -168,6 +180,7 @@ Index part_bodies(Mesh& mesh) {
     }
   }
   mesh.surface_faces = std::move(faces);
+  add_copies(copies, mesh.group_nodes);
   return static_cast<Index>(copies.size());
 }
 

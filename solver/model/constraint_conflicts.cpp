@@ -27,9 +27,9 @@ std::vector<NamedNode> nodes_of(const Model& model, const std::string& group) {
       for (int c = 0; c < 4 && mesh.element_group[at(e)] == volume; ++c) nodes.push_back(node(e, c));
     }
   } else {
-    const Index surface = group_index(mesh.surface_groups, group);
+    const Index of_corners = corner_group(mesh, group);
     for (const CornerTag& tag : model.corner_tags) {
-      for (int c = 0; c < 4 && tag.group == surface; ++c) {
+      for (int c = 0; c < 4 && tag.group == of_corners; ++c) {
         if ((tag.corners >> c & 1) != 0) nodes.push_back(node(static_cast<Index>(tag.element), c));
       }
     }

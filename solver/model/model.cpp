@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
+#include <unordered_map>
 #include <utility>
 
 #include "base/error.hpp"
@@ -146,15 +148,32 @@ void take_whole(const case_::Case& input, Model& model) {
   model.whole.node_sets = node_sets(input, model.mesh, model.topology, model.discretisation);
 }
 
+/// Tags of the node groups, O(elements).
+void append_node_tags(const Mesh& mesh, std::vector<CornerTag>& tags) {
+  std::unordered_multimap<Index, Index> groups_of;
+  for (const Mesh::GroupNode& one : mesh.group_nodes) groups_of.emplace(one.node, one.group);
+  if (groups_of.empty()) return;
+  std::map<Index, std::uint8_t> corners_by_group;  // of an element
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    corners_by_group.clear();
+    for (std::size_t c = 0; c < 4; ++c) {
+      const auto [first, last] = groups_of.equal_range(mesh.elements[index(e)][c]);
+      for (auto entry = first; entry != last; ++entry)
+        corners_by_group[entry->second] |= static_cast<std::uint8_t>(1U << c);
+    }
+    for (const auto& [group, corners] : corners_by_group)
+      tags.push_back({mesh.element_id(e), static_cast<Index>(mesh.surface_groups.size()) + group, corners});
+  }
+}
+
 }  // namespace
 
 std::vector<CornerTag> tag_corners(const std::vector<std::string>& cut, const Mesh& mesh, const Topology& topology) {
   SurfaceCorners corners(cut, mesh, topology);
   std::vector<CornerTag> tags;
   for (std::size_t g = 0; g < mesh.surface_groups.size(); ++g) corners.append_tags(static_cast<Index>(g), tags);
-  std::sort(tags.begin(), tags.end(), [](const CornerTag& p, const CornerTag& q) {
-    return std::pair(p.element, p.group) < std::pair(q.element, q.group);
-  });
+  append_node_tags(mesh, tags);
+  std::sort(tags.begin(), tags.end(), [](const CornerTag& p, const CornerTag& q) { return p.comes_before(q); });
   return tags;
 }
 

@@ -27,11 +27,16 @@ struct ModelJoint {
   Index law = 0;   ///< index into Model::joint_laws: of its groups, or of its class of strength
 };
 
-/// Elements whose corners belong to a physical surface: with a face, or an edge or a point bonded to such a face.
+/// Elements whose corners belong to a physical surface: with a face, or an edge or a point bonded to such a face; or to
+/// a physical curve or point.
 struct CornerTag {
   GlobalId element;
-  Index group;           ///< index into Mesh::surface_groups
+  Index group;           ///< as corner_group() counts
   std::uint8_t corners;  ///< a bit a corner
+  /// By element, then group.
+  [[nodiscard]] bool comes_before(const CornerTag& other) const {
+    return element != other.element ? element < other.element : group < other.group;
+  }
 };
 
 /// Everything that is known before the first step: the case turned into discretised bodies and the small parameter
@@ -86,7 +91,8 @@ struct Model {
                                 std::vector<std::uint8_t> torn);
 
 /// Corners on the surfaces of a mesh: those of their faces, and those connected to them around the same node through
-/// faces that no stage breaks. @param cut  surfaces that stages break;  by (element, group). O(elements x surfaces).
+/// faces that no stage breaks; and all those at the nodes of its curves and points. By (element, group).
+/// @param cut  surfaces that stages break. O(elements x surfaces).
 [[nodiscard]] std::vector<CornerTag> tag_corners(const std::vector<std::string>& cut, const Mesh& mesh,
                                                  const Topology& topology);
 

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <map>
 
 #include "base/error.hpp"
+#include "case/problem_at.hpp"
 #include "case/validate.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/raster.hpp"
@@ -53,6 +55,22 @@ FinishedMesh raster_of(const case_::Case& input) {
   }
 }
 
+/// Constraints on what has no node that could be held: they would do nothing.
+std::vector<Problem> constraints_of_nothing(const case_::Case& input, const MeshReport& report) {
+  const auto is_empty = [](const std::vector<MeshReport::Group>& groups, const std::string& name) {
+    return std::any_of(groups.begin(), groups.end(), [&](const auto& g) { return g.name == name && g.count == 0; });
+  };
+  std::vector<Problem> problems;
+  for (const case_::Stage& stage : input.stages) {
+    for (const case_::Constraint& entry : stage.constraints) {
+      if (!is_empty(report.surface_groups, entry.group) && !is_empty(report.node_groups, entry.group)) continue;
+      problems.push_back(case_::problem_at(input, entry.origin, "group", "this group holds no node of any element",
+                                           "a group with nodes of meshed physical volumes", entry.group));
+    }
+  }
+  return problems;
+}
+
 }  // namespace
 
 FinishedMesh read_mesh(const case_::Case& input) {
@@ -61,8 +79,9 @@ FinishedMesh read_mesh(const case_::Case& input) {
 
 FinishedMesh build_mesh(const case_::Case& input) {
   FinishedMesh made = read_mesh(input);
-  std::vector<Problem> problems =
-      case_::check_groups(input, made.mesh.volume_groups, made.mesh.surface_groups, made.mesh.num_bodies);
+  std::vector<Problem> problems = case_::check_groups(
+      input, {made.mesh.volume_groups, made.mesh.surface_groups, made.mesh.node_groups}, made.mesh.num_bodies);
+  if (problems.empty()) problems = constraints_of_nothing(input, made.report);
   if (!problems.empty()) throw InputError(std::move(problems));
   return made;
 }

@@ -245,11 +245,11 @@ std::vector<Index> nodes_of_group(const Model& model, const std::string& group) 
         continue;
       for (int c = 0; c < 4; ++c) take(s, c);
     }
-  } else if (const Index surface = group_index(model.mesh.surface_groups, group); surface >= 0) {
+  } else if (const Index of_corners = corner_group(model.mesh, group); of_corners >= 0) {
     auto tag = model.corner_tags.begin();
     for (Index e = 0; e < model.mesh.num_elements(); ++e) {
       for (; tag != model.corner_tags.end() && tag->element == model.mesh.element_id(e); ++tag) {
-        if (tag->group != surface) continue;
+        if (tag->group != of_corners) continue;
         for (int c = 0; c < 4; ++c) {
           if ((tag->corners >> c & 1) != 0) take(local.slot_of_element[static_cast<std::size_t>(e)], c);
         }

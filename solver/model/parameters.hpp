@@ -44,7 +44,7 @@ struct Model;
 [[nodiscard]] std::vector<InitialVelocity> initial_velocities(const case_::Case& input, const Model& model);
 [[nodiscard]] StageLoads stage_loads(const case_::Stage& stage, const Model& model);
 
-/// Nodes of a volume or surface group, ascending. A surface means the corners of its faces, and those of
+/// Nodes of a volume, surface, curve or point group, ascending. A surface means the corners of its faces, and those of
 /// elements that touch it with an edge or a corner and are connected to such a face around the node: not what lies
 /// across a notch that begins at the surface's border.
 [[nodiscard]] std::vector<Index> nodes_of_group(const Model& model, const std::string& group);

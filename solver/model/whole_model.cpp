@@ -58,6 +58,7 @@ WholeModel whole_of(const case_::Case& input, const Mesh& mesh, const std::vecto
   whole.source = mesh.source;
   whole.volume_groups = mesh.volume_groups;
   whole.surface_groups = mesh.surface_groups;
+  whole.node_groups = mesh.node_groups;
   whole.num_elements = mesh.num_elements();
   whole.body_length = mean_inradii(mesh);
   whole.body_extent = body_extents(mesh);

@@ -21,7 +21,7 @@ struct WholeModel {
   };
   std::string source;            ///< of the mesh, for messages
   std::vector<std::string> cut;  ///< surfaces that stages break, of all runs up to this one; ascending
-  std::vector<std::string> volume_groups, surface_groups;
+  std::vector<std::string> volume_groups, surface_groups, node_groups;
   std::int64_t num_elements = 0, num_joints = 0;
   std::vector<Index> node_sets;           ///< (volume groups) of shared nodes (node_sets.hpp), or empty
   std::vector<JointGroups> joint_groups;  ///< pair g has the joint law g, of mean strengths

@@ -201,13 +201,8 @@ std::vector<Gauge> make_gauges(const Model& model, const std::vector<std::string
   for (const std::string& name : names) {
     Gauge gauge;
     gauge.name = name;
-    const auto index_in = [&](const std::vector<std::string>& groups) {
-      const auto found = std::find(groups.begin(), groups.end(), name);
-      return found != groups.end() ? static_cast<Index>(found - groups.begin()) : Index{-1};
-    };
-    gauge.volume_group = index_in(model.mesh.volume_groups);
-    const bool is_group = gauge.volume_group >= 0 || index_in(model.mesh.surface_groups) >= 0;
-    if (is_group) {
+    gauge.volume_group = group_index(model.mesh.volume_groups, name);
+    if (gauge.volume_group >= 0 || corner_group(model.mesh, name) >= 0) {
       gauge.nodes = counted_nodes_of_group(model, name);
     } else {
       gauge.body = static_cast<Index>(case_::numbered_body(name));

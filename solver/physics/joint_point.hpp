@@ -73,6 +73,7 @@ template <class T>
 struct Sliding {
   T dissipated;  // J/m2
   T spring2;     // m2, square of the spring's length afterwards
+  T along_slip;  // m2, the spring times the slip, afterwards
 };
 
 /// Friction of the damaged share: moves the slip so that the spring stays within Coulomb's limit. It dissipates
@@ -100,7 +101,29 @@ template <class T>
   const T mean = 0.5 * (h.friction_weight * lesser(limit_before, length) + weight * limit);
   // The slip that the first damage finds was not slid: nothing weighed on it.
   const Mask<T> slid = sliding && h.friction_weight > zero;
-  return {select(slid, T(law.stiffness * mean * (length - limit)), zero), spring2};
+  const T along_slip = select(on, T(spring[0] * h.slip[0] + spring[1] * h.slip[1]), zero);
+  return {select(slid, T(law.stiffness * mean * (length - limit)), zero), spring2, along_slip};
+}
+
+/// What the cohesion along the joint loses with a share of its stiffness, J/m2, apart: delta_s is the slip and the
+/// spring together, so of the loss beyond what the spring takes over,
+///   1/2 k (delta_s^2 - spring^2) = 1/2 k slip^2 + k spring . slip   a share,
+/// the second is what friction would have dissipated had that share slid from the beginning. The first alone makes G_II
+/// under any pressure. Source: [Palmer and Rice 1973]
+template <class T>
+struct ShearLoss {
+  T cohesion, friction;
+};
+
+/// @param given  share of the stiffness;  @param loss  J/m2, all of it
+template <class T>
+[[nodiscard]] inline ShearLoss<T> parted(const JointLawParams& law, const Components<T>& c, const Sliding<T>& sliding,
+                                         const T& given, const T& loss) {
+  const T zero = 0.0;
+  const T net = greater(T(loss - 0.5 * law.stiffness * given * sliding.spring2), zero);
+  const T beyond = c.shear2 - sliding.spring2, along = greater(T(2.0 * sliding.along_slip), zero);
+  const T friction = select(beyond > along, T(net * (along / beyond)), select(along > zero, net, zero));
+  return {net - friction, friction};
 }
 
 /// Normal traction, Pa, and what it holds, J/m2, at an opening.
@@ -201,10 +224,9 @@ template <class T>
       const Vector<T> rubbed =
           plus(traction, plus(times(now.friction[0], frame.tangent[0]), times(now.friction[1], frame.tangent[1])));
       traction = select3<T>(rubs, rubbed, traction);
-      response.friction = sliding.dissipated;
-      // What the friction spring takes over of the cohesion's energy is not lost.
-      shear_loss =
-          greater(T(shear_loss - 0.5 * law.stiffness * (before.shear() - remaining.shear()) * sliding.spring2), zero);
+      const ShearLoss<T> lost = parted(law, c, sliding, T(before.shear() - remaining.shear()), shear_loss);
+      response.friction = sliding.dissipated + select(damaged, lost.friction, zero);
+      shear_loss = lost.cohesion;
       h.friction_weight = select(damaged, weight, h.friction_weight);
     }
     if (law.viscosity > 0) {

@@ -4,20 +4,12 @@
 #include <cmath>
 #include <sstream>
 
+#include "physics/whole_power.hpp"
+
 namespace breccia {
 namespace {
 
 constexpr int kLargestWholeExponent = 64;
-
-/// x^n by squaring: faster than pow, and the same on every machine.
-double power(double x, int n) {
-  double result = 1.0;
-  for (; n > 0; n /= 2) {
-    if (n % 2 == 1) result *= x;
-    x *= x;
-  }
-  return result;
-}
 
 /// Five-point Gauss-Legendre rule on 64 panels in u, D = 1 - u^4: (1-D)^c becomes smooth at D = 1 for small c as well.
 double quadrature(const SofteningCurve& z) {
@@ -30,7 +22,7 @@ double quadrature(const SofteningCurve& z) {
   for (int p = 0; p < panels; ++p) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double u = (p + 0.5 * (1.0 + points[i])) / panels;
-      area += weights[i] * z(1.0 - power(u, 4)) * 4.0 * power(u, 3) / (2.0 * panels);
+      area += weights[i] * z(1.0 - whole_power(u, 4)) * 4.0 * whole_power(u, 3) / (2.0 * panels);
     }
   }
   return area;
@@ -60,7 +52,7 @@ double SofteningCurve::operator()(double damage) const {
     case SofteningShape::z_curve:
       break;
   }
-  const double tail = whole_c_ > 0 ? power(left, whole_c_) : std::pow(left, s_.c);
+  const double tail = whole_c_ > 0 ? whole_power(left, whole_c_) : std::pow(left, s_.c);
   return (1.0 - weight_ * std::exp(damage * rate_)) * (s_.a * left + s_.b * tail);
 }
 

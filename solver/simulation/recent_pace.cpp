@@ -11,6 +11,11 @@ RecentPace::Pace RecentPace::follow(const Mark& now, bool paused) {
     marks_ = {now};
     return pace_;
   }
+  // The first step takes along what is done once, the first search for one: by it alone seconds were told as hours.
+  if (now.steps == marks_.front().steps + 1 && marks_.size() == 1) {
+    marks_ = {now};
+    return pace_;
+  }
   elapsed_ += now.wall - marks_.back().wall;
   marks_.push_back(now);
   const double begin = now.wall - std::max(kShortest, kPart * elapsed_);

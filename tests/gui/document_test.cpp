@@ -47,9 +47,33 @@ TEST(Document, EveryShippedCaseIsSavedByteForByte) {
     ASSERT_EQ(document.open(file), "");
     EXPECT_TRUE(document.editable_as_text());
     EXPECT_TRUE(document.problems().empty()) << file.toStdString() << "\n" << document.problems().front().text();
+    QFile::remove(scratch.filePath("case.toml"));
+    ASSERT_TRUE(QFile::copy(file, scratch.filePath("case.toml")));
+    ASSERT_EQ(document.open(scratch.filePath("case.toml")), "");
     ASSERT_EQ(document.save_as(scratch.filePath("copy.toml")), "");
     EXPECT_EQ(bytes_of(scratch.filePath("copy.toml")), bytes_of(file)) << file.toStdString();
   }
+}
+
+TEST(Document, SavedInAnotherFolderNamesTheSameFiles) {
+  const QTemporaryDir scratch;
+  ASSERT_TRUE(QDir(scratch.path()).mkpath("here") && QDir(scratch.path()).mkpath("there/deep"));
+  const auto path = [&](const char* name) { return scratch.filePath(name); };
+  const QByteArray text =
+      "[start]\nfrom = \"../run\"\n[mesh]\nfile = \"a.geo\"  # mine\n[[insitu.pipeline]]\nname = \"stress\"\n"
+      "[[insitu.pipeline]]\nname = \"see.py\"\n[[insitu.pipeline]]\nname = \"/abs/see.py\"\n";
+  QFile file(path("here/case.toml"));
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly) && file.write(text) == text.size());
+  file.close();
+  Document document(path("state"));
+  ASSERT_EQ(document.open(file.fileName()), "");
+  ASSERT_EQ(document.save_as(path("there/deep/case.toml")), "");
+  QByteArray moved = text;
+  moved.replace("../run", "../../run").replace("a.geo", "../../here/a.geo").replace("\"see.py", "\"../../here/see.py");
+  EXPECT_EQ(bytes_of(path("there/deep/case.toml")), moved);
+  EXPECT_FALSE(document.modified());
+  ASSERT_NE(document.save_as(path("here/case.toml/case.toml")), "");
+  EXPECT_EQ(document.text(), moved) << "as before what could not be written";
 }
 
 /// One edit of some kind at some place.
@@ -195,10 +219,10 @@ TEST(Document, AGroupThatTheMeshHasNotIsAProblemOnceTheMeshIsKnown) {
   Document document(scratch.filePath("state"));
   ASSERT_EQ(document.open(QString(BRECCIA_MESHES) + "/slit_plate/case_smoke.toml"), "");
   const std::vector<std::string> surfaces{"plate.x0", "plate.slit"};
-  EXPECT_TRUE(document.problems(MeshGroups{{"plate"}, surfaces, 1}).empty());
+  EXPECT_TRUE(document.problems(MeshGroups{{"plate"}, surfaces, {}, 1}).empty());
   document.set_value("stage[0].pressure[0].surface", "\"plate.slot\"");
   EXPECT_TRUE(document.problems().empty());
-  const std::vector<Problem> found = document.problems(MeshGroups{{"plate"}, surfaces, 1});
+  const std::vector<Problem> found = document.problems(MeshGroups{{"plate"}, surfaces, {}, 1});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].key, "stage[0].pressure[0].surface");
 }

@@ -178,7 +178,8 @@ TEST(RunFolder, RunsBesideACaseAreOfThatCaseAndHaveWrittenSomethingAndTheNewestI
     const bool is_own = name == std::string("try");
     ASSERT_TRUE(QDir(scratch.path()).mkpath(QString("runs/%1").arg(name)));
     append(scratch.filePath(QString("runs/%1/provenance.json").arg(name)),
-           R"({"program": "breccia", "started": "2026-11-30T10:00:00Z", "ranks": 4, "inputs": [{"file": "/a/)" +
+           R"({"program": "breccia", "started": "2026-11-30T10:00:00Z", "ranks": 4, "inputs": [{"file": "/a/a.geo"}, )"
+           R"({"file": "/a/)" +
                QByteArray(is_own ? "case.toml" : "other.toml") + R"("}]})");
   }
   const auto all = runs_beside(file);

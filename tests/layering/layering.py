@@ -51,7 +51,7 @@ THIRD_PARTY = [
     (r"spdlog/.*", ["base/log.cpp"]),
     (r"fmt/.*", ["base/log.cpp", "output/*.cpp", "report/*.cpp", "commands/*.cpp"]),
     (r"(toml\.hpp|toml\+\+/.*|toml\+\+\.h|tomlplusplus/.*)", ["case/*reader*.cpp"]),
-    (r"gmsh(c|\.h_cwrap)?\.h", ["mesh/gmsh_reader.cpp", "mesh/gmsh_solids.cpp"]),
+    (r"gmsh(c|\.h_cwrap)?\.h", ["mesh/gmsh_model.cpp", "mesh/gmsh_reader.cpp", "mesh/gmsh_solids.cpp"]),
     (r"mpi\.h", ["parallel/*"]),
     (r"(hdf5(_hl)?|H5\w*)\.h", ["output/hdf5*.cpp"]),
     (r"nlohmann/.*", ["output/*.cpp", "report/*.cpp", "commands/json_report.cpp"]),

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/whole_power.hpp"
+
 namespace breccia {
 
 /// Interaction of two volume groups at a contact point. The default means: these groups do not touch.
@@ -48,11 +50,17 @@ namespace normal_law {
   return std::min(law.penalty * d_max, law.plateau);
 }
 
+/// (d/d_max)^b, by multiplication where b is whole.
+[[nodiscard]] inline double unloaded(double ratio, double exponent) {
+  const int whole = static_cast<int>(exponent);
+  return whole == exponent ? whole_power(ratio, whole) : std::pow(ratio, exponent);
+}
+
 /// sigma, Pa, compression positive. @pre d <= d_max unless d <= 0
 [[nodiscard]] inline double stress(const ContactLaw& law, double d, double d_max) {
   if (!(d > 0)) return 0.0;
-  const double ratio = d / d_max;  // never a d^b with a = sigma_max / d_max^b, which overflows for b = 6
-  return peak(law, d_max) * (law.exponent == 1 || ratio == 1 ? ratio : std::pow(ratio, law.exponent));
+  // Never a d^b with a = sigma_max / d_max^b, which overflows for b = 6.
+  return peak(law, d_max) * unloaded(d / d_max, law.exponent);
 }
 
 /// Energy that unloading from d would return, J/m3: the integral of sigma from 0 to d along the unloading curve.

@@ -22,14 +22,14 @@ std::vector<std::string> without(std::vector<std::string> groups, const std::str
 std::string text(const std::vector<Problem>& problems) { return InputError(problems).what(); }
 
 TEST(Groups, ACaseWhoseGroupsTheMeshHasIsAccepted) {
-  const auto problems = check_groups(read_text(complete), volumes, surfaces);
+  const auto problems = check_groups(read_text(complete), {volumes, surfaces});
   EXPECT_TRUE(problems.empty()) << text(problems);
 }
 
 TEST(Groups, AnAbsentVolumeIsNamedWithItsLineAndTheNearestGroupsFirst) {
   std::vector<std::string> present = without(volumes, "glass");
   present.push_back("glas");
-  const auto problems = check_groups(read_text(complete), present, surfaces);
+  const auto problems = check_groups(read_text(complete), {present, surfaces});
   ASSERT_THAT(problems, SizeIs(2));
   EXPECT_THAT(problems[0].text(),
               AllOf(HasSubstr("case.toml:9: material[0].group: the mesh has no volume group \"glass\""),
@@ -39,30 +39,31 @@ TEST(Groups, AnAbsentVolumeIsNamedWithItsLineAndTheNearestGroupsFirst) {
 
 TEST(Groups, AnAbsentOneIsToldWithThePlaceWhereItWasGiven) {
   const Case c = read_text(complete, {"stage[0].constraint[1].group=nowhere"});
-  const auto problems = check_groups(c, volumes, surfaces);
+  const auto problems = check_groups(c, {volumes, surfaces});
   ASSERT_THAT(problems, SizeIs(1));
   EXPECT_EQ(problems[0].text().find("--set: stage[0].constraint[1].group: the mesh has no"), 0U) << problems[0].text();
 }
 
 TEST(Groups, AnAbsentSurfaceIsReportedWhereverItIsNamed) {
-  const std::string message = text(check_groups(read_text(complete), volumes, without(surfaces, "slit")));
+  const std::string message = text(check_groups(read_text(complete), {volumes, without(surfaces, "slit")}));
   for (const char* key : {"contact_points.surfaces", "joints.broken", "stage[0].pressure[0].surface"})
     EXPECT_THAT(message, HasSubstr(std::string(key) + ": the mesh has no surface group \"slit\""));
 }
 
 TEST(Groups, ConstraintsAndGaugesTakeVolumesAndSurfaces) {
   const Case c = read_text(replaced(complete, "gauges = [\"support\"]", "gauges = [\"glass\", \"top\", \"nowhere\"]"));
-  EXPECT_THAT(text(check_groups(c, volumes, without(surfaces, "grip"))),
-              AllOf(HasSubstr("stage[0].constraint[1].group: the mesh has no volume or surface group \"grip\""),
-                    HasSubstr("output.gauges: the mesh has no volume or surface group \"nowhere\"")));
+  EXPECT_THAT(
+      text(check_groups(c, {volumes, without(surfaces, "grip")})),
+      AllOf(HasSubstr("stage[0].constraint[1].group: the mesh has no volume, surface, curve or point group \"grip\""),
+            HasSubstr("output.gauges: the mesh has no volume, surface, curve or point group \"nowhere\"")));
 }
 
 TEST(Groups, AConstraintOnANameOfAVolumeAndASurfaceIsRefusedAsNotClear) {
   std::vector<std::string> both = surfaces;
   both.push_back("glass");
   const Case c = read_text(replaced(complete, "gauges = [\"support\"]", "gauges = [\"glass\"]"));
-  EXPECT_TRUE(check_groups(c, volumes, surfaces).empty());
-  EXPECT_THAT(text(check_groups(c, volumes, both)),
+  EXPECT_TRUE(check_groups(c, {volumes, surfaces}).empty());
+  EXPECT_THAT(text(check_groups(c, {volumes, both})),
               HasSubstr("output.gauges: a volume group and a surface group of the mesh have this name"));
 }
 
@@ -72,7 +73,7 @@ TEST(Groups, AVolumeNamedAsEveryGroupIsRefused) {
   const Case c = read_text(complete +
                            "[[material]]\ngroup = \"*\"\nyoung = 1e9\npoisson = 0.2\ndensity = 1\n"
                            "joints = \"none\"\n");
-  EXPECT_THAT(text(check_groups(c, starred, surfaces)),
+  EXPECT_THAT(text(check_groups(c, {starred, surfaces})),
               HasSubstr("mesh: a volume group of the mesh has the name that stands for every group in [[contact]]"));
 }
 
@@ -80,18 +81,33 @@ TEST(Groups, AGaugeOnANameOfAGroupAndABodyIsRefusedAsNotClear) {
   const Case c = read_text(replaced(complete, "gauges = [\"support\"]", "gauges = [\"body 1\"]"));
   std::vector<std::string> with_body = surfaces;
   with_body.push_back("body 1");
-  EXPECT_TRUE(check_groups(c, volumes, surfaces, 2).empty());
-  EXPECT_TRUE(check_groups(c, volumes, with_body, 1).empty()) << "there is no such body";
-  EXPECT_THAT(text(check_groups(c, volumes, with_body, 2)),
+  EXPECT_TRUE(check_groups(c, {volumes, surfaces}, 2).empty());
+  EXPECT_TRUE(check_groups(c, {volumes, with_body}, 1).empty()) << "there is no such body";
+  EXPECT_THAT(text(check_groups(c, {volumes, with_body}, 2)),
               HasSubstr("output.gauges: a group of the mesh has the name by which a gauge calls a body"));
 }
 
+TEST(Groups, ConstraintsAndGaugesTakeCurvesAndPoints) {
+  const std::vector<std::string> nodes{"edge", "grip", "slit"};
+  const Case c = read_text(replaced(complete, "gauges = [\"support\"]", "gauges = [\"edge\"]"));
+  EXPECT_TRUE(check_groups(c, {volumes, without(surfaces, "grip"), nodes}).empty());
+  EXPECT_TRUE(check_groups(c, {volumes, surfaces, nodes}).empty()) << "the surface of that name is meant";
+}
+
+TEST(Groups, ACurveWhereASurfaceIsAskedForIsRefused) {
+  const std::vector<std::string> nodes{"slit"};
+  EXPECT_THAT(
+      text(check_groups(read_text(complete), {volumes, without(surfaces, "slit"), nodes})),
+      HasSubstr("stage[0].pressure[0].surface: this is a curve or point of the mesh, where a surface is asked for; "
+                "allowed: "));
+}
+
 TEST(Groups, AMeshWithoutSurfacesSaysSo) {
-  EXPECT_THAT(text(check_groups(read_text(complete), volumes, {})), HasSubstr("the mesh has none"));
+  EXPECT_THAT(text(check_groups(read_text(complete), {volumes, {}})), HasSubstr("the mesh has none"));
 }
 
 TEST(Groups, ASurfaceToBreakInAStageIsChecked) {
-  EXPECT_THAT(text(check_groups(read_text(complete), volumes, without(surfaces, "surface"))),
+  EXPECT_THAT(text(check_groups(read_text(complete), {volumes, without(surfaces, "surface")})),
               HasSubstr("stage[0].broken: the mesh has no surface group \"surface\""));
 }
 

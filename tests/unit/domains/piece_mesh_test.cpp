@@ -95,11 +95,13 @@ TEST(Records, MadeOfAPieceStillKnowTheNeighboursBeyondIt) {
 TEST(WholeModel, ArrivesAsItWasSent) {
   WholeModel whole = whole_of(cubes());
   whole.num_elements = 144;
+  whole.node_groups = {"edge", "tip"};
   whole.joint_groups = {{0, 0, 0.5}, {0, 2, 0.25}};
   whole.step_ratio = 1.75;
   const WholeModel there = unpack_whole(pack(whole));
   EXPECT_EQ(there.volume_groups, whole.volume_groups);
   EXPECT_EQ(there.surface_groups, whole.surface_groups);
+  EXPECT_EQ(there.node_groups, whole.node_groups);
   EXPECT_EQ(there.num_elements, 144);
   ASSERT_EQ(there.joint_groups.size(), 2U);
   EXPECT_EQ(there.joint_groups[1].b, 2);

@@ -197,6 +197,8 @@ RawMesh sample() {
   raw.mesh.element_body = {0};
   raw.mesh.element_source_id = {17};
   raw.mesh.surface_faces = {{{0, 1, 2}, 0}};
+  raw.mesh.group_nodes = {{3, 0}};
+  raw.mesh.node_groups = {"tip"};
   raw.mesh.volume_groups = {"box"};
   raw.mesh.surface_groups = {"floor"};
   raw.mesh.num_bodies = 1;
@@ -212,6 +214,8 @@ TEST(MeshBytes, BringTheWholeMeshBack) {
   EXPECT_EQ(read.mesh.elements, sent.mesh.elements);
   EXPECT_EQ(read.mesh.element_source_id, sent.mesh.element_source_id);
   EXPECT_EQ(read.mesh.surface_faces[0].nodes, sent.mesh.surface_faces[0].nodes);
+  EXPECT_EQ(read.mesh.group_nodes[0].node, 3);
+  EXPECT_EQ(read.mesh.node_groups, sent.mesh.node_groups);
   EXPECT_EQ(read.mesh.volume_groups, sent.mesh.volume_groups);
   EXPECT_EQ(read.mesh.surface_groups, sent.mesh.surface_groups);
   EXPECT_EQ(read.mesh.num_bodies, 1);
@@ -250,6 +254,8 @@ TEST(MeshBytes, RefuseIndicesThatPointNowhere) {
   refused([](RawMesh& raw) { raw.mesh.element_body.clear(); });
   refused([](RawMesh& raw) { raw.mesh.surface_faces[0].nodes[0] = 4; });
   refused([](RawMesh& raw) { raw.mesh.surface_faces[0].group = 1; });
+  refused([](RawMesh& raw) { raw.mesh.group_nodes[0].node = 4; });
+  refused([](RawMesh& raw) { raw.mesh.group_nodes[0].group = 1; });
   refused([](RawMesh& raw) { raw.mesh.num_bodies = -1; });
   refused([](RawMesh& raw) { raw.ungrouped_elements = -1; });
 }

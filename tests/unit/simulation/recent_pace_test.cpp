@@ -28,6 +28,13 @@ TEST(RecentPace, IsThatOfAllAtFirst) {
   EXPECT_DOUBLE_EQ(pace.follow({15, 0.05, 500}, false).steps_per_s, 40);
 }
 
+TEST(RecentPace, DoesNotCountTheFirstStep) {
+  RecentPace pace;
+  pace.begin({0, 0, 0});
+  EXPECT_EQ(pace.follow({3, 1e-4, 1}, false).share_per_s, 0) << "not known yet";
+  EXPECT_DOUBLE_EQ(pace.follow({4, 0.1001, 1001}, false).share_per_s, 0.1);
+}
+
 TEST(RecentPace, DoesNotCountAPause) {
   RecentPace pace;
   pace.begin({0, 0, 0});

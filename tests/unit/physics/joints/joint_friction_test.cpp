@@ -49,17 +49,22 @@ TEST(JointFriction, shear_under_pressure_peaks_at_mohr_coulomb_and_ends_at_coulo
 }
 
 TEST(JointFriction, work_under_pressure_is_fracture_energy_plus_friction_times_slip_plus_the_spring) {
-  for (const double factor : {1.0, 10.0, 100.0}) {
-    const JointLawParams law = mohr_coulomb(JointLaw::mixed_mode, factor);
-    for (const double pressure : {1e6, 5e6, 40e6}) {
-      PointDriver point{law};
-      const double closed = -pressure / law.stiffness, friction = kFriction * pressure;
-      point.move_to(opening_of(axes(), closed, 0), 10);
-      const double pressed = point.work;
-      point.move_to(opening_of(axes(), closed, 40e-6), 40000);
-      const double slip = 40e-6 - friction / law.stiffness;
-      const double expected = law.energy_mode_2 + friction * slip + friction * friction / (2 * law.stiffness);
-      EXPECT_NEAR((point.work - pressed) / expected, 1.0, 1e-3) << factor << ", " << pressure;
+  for (const JointLaw kind : kLaws) {
+    for (const double factor : {1.0, 10.0, 100.0}) {
+      const JointLawParams law = mohr_coulomb(kind, factor);
+      for (const double pressure : {0.0, 1e6, 5e6, 40e6}) {
+        PointDriver point{law};
+        const double closed = -pressure / law.stiffness, friction = kFriction * pressure;
+        point.move_to(opening_of(axes(), closed, 0), 10);
+        const double pressed = point.work;
+        point.move_to(opening_of(axes(), closed, 40e-6), 40000);
+        const double slip = 40e-6 - friction / law.stiffness;
+        const double expected = law.energy_mode_2 + friction * slip + friction * friction / (2 * law.stiffness);
+        EXPECT_NEAR((point.work - pressed) / expected, 1.0, 1e-3) << factor << ", " << pressure;
+        // Each apart [Palmer and Rice 1973].
+        EXPECT_NEAR(point.mode_2 / law.energy_mode_2, 1.0, 2e-3) << factor << ", " << pressure;
+        EXPECT_NEAR(point.friction, friction * slip, 1e-3 * expected) << factor << ", " << pressure;
+      }
     }
   }
 }
@@ -74,8 +79,8 @@ TEST(JointFriction, undamaged_joint_has_none) {
   EXPECT_NEAR(point.traction[0], 0.0, kRoundOff * law.cohesion);
 }
 
-TEST(JointFriction, has_no_share_in_the_step_that_starts_the_damage) {
-  // The slip that the first damage finds was not slid.
+TEST(JointFriction, of_the_step_that_starts_the_damage_is_that_of_the_share_that_is_lost) {
+  // The slip that the first damage finds was not slid: it only parts what is lost.
   const JointLawParams law = mohr_coulomb(JointLaw::mixed_mode);
   PointDriver point{law};
   const double pressure = 5e6, closed = -pressure / law.stiffness;
@@ -85,10 +90,11 @@ TEST(JointFriction, has_no_share_in_the_step_that_starts_the_damage) {
   EXPECT_EQ(point.history.damage, 0.0);
   point.step(opening_of(axes(), closed, limit * 1.1));
   EXPECT_GT(point.history.damage, 0.0);
-  EXPECT_EQ(point.friction, 0.0);
-  EXPECT_GT(point.mode_2, 0.0);
+  const double spring = kFriction * pressure / law.stiffness;
+  EXPECT_NEAR(point.friction / (point.friction + point.mode_2), 2 * spring / (1.1 * limit + spring), 1e-9);
+  const double first = point.friction;
   point.step(opening_of(axes(), closed, limit * 1.2));
-  EXPECT_GT(point.friction, 0.0);
+  EXPECT_GT(point.friction, first);
 }
 
 /// A point broken in shear under pressure.
