@@ -137,9 +137,10 @@ constexpr auto table = std::to_array<Topic>({
      "above all, are those of its planes.",
      "contact|stage.constraint|output.gauges"},
     {"history|history csv|history output|energies|energy balance|energy budget|time history",
-     "history.csv has a line each history_interval: all energies, J, whose sum is the external work but for a "
-     "residual, counts of joints and fragments, momenta and what output.gauges record. `summary.txt` tells the "
-     "energies at the end.",
+     "history.csv has a line each history_interval: energies, J, counts of joints and fragments, momenta and what "
+     "output.gauges record. All that is held and dissipated makes, but for the residual, the external work, what "
+     "changes of the step have moved, and what the bodies had at the start: the sum in the first line, after [start] "
+     "with the new laws. `summary.txt` tells the energies at the end.",
      "output.history_interval|output.gauges|time.residual_limit"},
     {"frame|field output|vtk|vtu|paraview|visualization|visualisation|animation",
      "frames/*.series hold stresses, velocities, displacements, joints and contacts at times, in SI, for ParaView; "

@@ -92,6 +92,16 @@ bool has_gravity(const case_::Stage& stage) {
   return std::any_of(stage.gravity.begin(), stage.gravity.end(), [](const TimeFunction& f) { return !f.is_zero(); });
 }
 
+/// Whether gravity acts along an axis along which the stage holds or moves nothing.
+bool falls(const case_::Stage& stage) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const bool is_held = std::any_of(stage.constraints.begin(), stage.constraints.end(),
+                                     [&](const case_::Constraint& entry) { return entry.axes[axis]; });
+    if (!stage.gravity[axis].is_zero() && !is_held) return true;
+  }
+  return false;
+}
+
 /// What the stage before had and this one does not have at all, in words.
 std::string left_out(const case_::Stage& before, const case_::Stage& stage) {
   std::string words;
@@ -114,9 +124,10 @@ void judge_stages(Advice& advice, const case_::Case& input) {
   }
   if (input.stages.empty() || input.start) return;
   const case_::Stage& first = input.stages.front();
-  if (!first.absorbing.empty() && first.constraints.empty() && has_gravity(first))
+  if (!first.absorbing.empty() && falls(first))
     advice.push_back(
-        "Stage 0 has gravity and an absorbing surface, and holds nothing: what stands on it sinks at a steady speed, "
+        "Stage 0 has gravity and an absorbing surface, and holds nothing against gravity: what stands on it sinks at a "
+        "steady speed, "
         "as "
         "the surface carries only what it carried when it began to absorb. Let the model come to rest on a fixed base "
         "in a stage before.");

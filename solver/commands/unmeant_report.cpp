@@ -234,17 +234,17 @@ Advice lost_velocities(const case_::Case& input) {
   return advice;
 }
 
-/// Groups of volumes, and the surface itself, whose motion a stage prescribes along all axes.
+/// Whether a stage prescribes the motion of a surface along all axes, by entries that name it or a volume behind it.
 bool wholly_held(const case_::Stage& stage, const Model& model, const std::string& surface) {
   const Mesh& mesh = model.mesh;
-  const auto held = [&](const std::string& group) {
+  const auto held = [&](const std::string& volume) {
     std::array<bool, 3> axes{};
     for (const case_::Constraint& entry : stage.constraints) {
-      for (std::size_t a = 0; a < 3 && entry.group == group; ++a) axes[a] = axes[a] || entry.axes[a];
+      if (entry.group != surface && entry.group != volume) continue;
+      for (std::size_t a = 0; a < 3; ++a) axes[a] = axes[a] || entry.axes[a];
     }
     return axes == std::array{true, true, true};
   };
-  if (held(surface)) return true;
   for (std::size_t s = 0; s < mesh.surface_groups.size(); ++s) {
     if (mesh.surface_groups[s] != surface) continue;
     const auto& faces = model.topology.surface_groups[s];

@@ -88,6 +88,9 @@ TEST(Plausibility, of_gravity_on_a_base_that_absorbs_from_the_start_is_doubted) 
   std::string text = kBrick.substr(0, kBrick.find("[[stage.constraint]]"));
   EXPECT_THAT(advice_on({}, text + "absorbing = [\"raster.z0\"]\n"), HasSubstr("sinks at a steady speed"));
   EXPECT_EQ(advice_on({}, text), "");
+  text += "absorbing = [\"raster.z0\"]\n[[stage.constraint]]\ngroup = \"raster\"\nfixed = ";
+  EXPECT_THAT(advice_on({}, text + "\"xy\"\n"), HasSubstr("sinks at a steady speed"));
+  EXPECT_EQ(advice_on({}, text + "\"z\"\n"), "");
 }
 
 }  // namespace

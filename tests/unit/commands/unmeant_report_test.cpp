@@ -155,6 +155,8 @@ TEST(Unmeant, IsAnAbsorbingBoundaryThatIsHeld) {
   const std::string absorbing = "absorbing = [\"rock.z1\"]\n", held = "[[stage.constraint]]\ngroup = \"rock.z1\"\n";
   EXPECT_THAT(advice_on(absorbing + held + "fixed = \"xyz\"\n"), HasSubstr("stage[0].absorbing (line "));
   EXPECT_EQ(advice_on(absorbing + held + "fixed = \"xy\"\n"), "");
+  const std::string sides = "[[stage.constraint]]\ngroup = \"rock\"\nfixed = \"xy\"\n";
+  EXPECT_THAT(advice_on(absorbing + held + "fixed = \"z\"\n" + sides), HasSubstr("stage[0].absorbing (line "));
 }
 
 /// Two cubes side by side that share the nodes of the surface "middle".
