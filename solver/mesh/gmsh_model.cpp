@@ -56,7 +56,7 @@ class ModelReader {
     }
   }
 
-  /// Physical groups of a dimension as (name, entities), by ascending tag; names are unique.
+  /// Physical groups of a dimension as (name, entities), by ascending tag; names of volumes and surfaces are unique.
   std::vector<std::pair<std::string, std::vector<int>>> physical_groups(int dimension) {
     const std::string kind = kKinds[static_cast<std::size_t>(dimension)];
     gmsh::vectorpair tags;
@@ -69,7 +69,7 @@ class ModelReader {
       gmsh::model::getPhysicalName(dimension, tag, name);
       if (name.empty()) name = kind + "_" + std::to_string(tag);
       const auto [entry, fresh] = tag_of_name.emplace(name, tag);
-      if (!fresh) {
+      if (!fresh && dimension >= 2) {
         refuse("physical " + kind + " \"" + name + "\"", "the name is used twice", "one name a group",
                "tags " + std::to_string(entry->second) + " and " + std::to_string(tag));
       }
