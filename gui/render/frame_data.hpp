@@ -53,9 +53,9 @@ class Skin {
 /// The surface groups of a mesh: what a pick finds and a row shows. And its curves and points.
 struct SurfaceGroups {
   std::vector<std::string> names;
-  std::vector<std::vector<std::int64_t>> faces;              ///< of each: 4 * id of the element + side
-  std::vector<std::string> curves;                           ///< and points
-  std::vector<std::vector<std::array<double, 3>>> places{};  ///< m, of the nodes of each
+  std::vector<std::vector<std::int64_t>> faces;            ///< of each: 4 * id of the element + side
+  std::vector<std::string> curves;                         ///< and points
+  std::vector<std::vector<std::array<double, 3>>> places;  ///< m, of the nodes of each
 };
 
 /// One instant, ready to be drawn.

@@ -27,12 +27,6 @@ class GroupChecker {
     check(origin, name, group, volumes_, "volume group");
   }
   void surface(const Origin& origin, const char* name, const std::string& group) {
-    if (has(nodes_, group) && !has(surfaces_, group)) {
-      const std::string list = surfaces_.empty() ? "the mesh has none" : joined(nearest_first(group, surfaces_));
-      add(problem_at(case_, origin, name, "this is a curve or point of the mesh, where a surface is asked for", list,
-                     group));
-      return;
-    }
     check(origin, name, group, surfaces_, "surface group");
   }
   /// A curve or point is meant only where no volume or surface has its name.
@@ -68,7 +62,10 @@ class GroupChecker {
              const std::vector<std::string>& present, const std::string& kind) {
     if (has(present, group)) return;
     const std::string list = present.empty() ? "the mesh has none" : joined(nearest_first(group, present));
-    add(problem_at(case_, origin, name, "the mesh has no " + kind + " \"" + group + "\"", list, group));
+    const std::string what = has(nodes_, group)
+                                 ? "this is a curve or point of the mesh, where a " + kind + " is asked for"
+                                 : "the mesh has no " + kind + " \"" + group + "\"";
+    add(problem_at(case_, origin, name, what, list, group));
   }
 
   const Case& case_;

@@ -55,8 +55,7 @@ void judge_strength(Advice& advice, const case_::Case& input, const case_::Joint
   if (!(young > 0) || !std::isfinite(strength) || strength <= kLargestStrain * young) return;
   advice.push_back(
       fmt::format("{}.tensile_strength (line {}) is {} with a young of {}: the material would stretch by {:.0f} % "
-                  "before it breaks. "
-                  "Numbers without a unit are SI.",
+                  "before it breaks. Numbers without a unit are SI.",
                   joint.origin.key, joint.origin.line, quantity_text(strength, "Pa"), quantity_text(young, "Pa"),
                   100 * strength / young));
 }
@@ -127,10 +126,8 @@ void judge_stages(Advice& advice, const case_::Case& input) {
   if (!first.absorbing.empty() && falls(first))
     advice.push_back(
         "Stage 0 has gravity and an absorbing surface, and holds nothing against gravity: what stands on it sinks at a "
-        "steady speed, "
-        "as "
-        "the surface carries only what it carried when it began to absorb. Let the model come to rest on a fixed base "
-        "in a stage before.");
+        "steady speed, as the surface carries only what it carried when it began to absorb. Let the model come to rest "
+        "on a fixed base in a stage before.");
 }
 
 }  // namespace

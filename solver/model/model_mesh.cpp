@@ -57,13 +57,17 @@ FinishedMesh raster_of(const case_::Case& input) {
 
 /// Constraints on what has no node that could be held: they would do nothing.
 std::vector<Problem> constraints_of_nothing(const case_::Case& input, const MeshReport& report) {
-  const auto is_empty = [](const std::vector<MeshReport::Group>& groups, const std::string& name) {
-    return std::any_of(groups.begin(), groups.end(), [&](const auto& g) { return g.name == name && g.count == 0; });
+  const auto is_empty = [&](const std::string& name) {
+    for (const auto* groups : {&report.volume_groups, &report.surface_groups, &report.node_groups}) {
+      const auto found = std::find_if(groups->begin(), groups->end(), [&](const auto& g) { return g.name == name; });
+      if (found != groups->end()) return found->count == 0;  // the first that has the name is meant
+    }
+    return false;
   };
   std::vector<Problem> problems;
   for (const case_::Stage& stage : input.stages) {
     for (const case_::Constraint& entry : stage.constraints) {
-      if (!is_empty(report.surface_groups, entry.group) && !is_empty(report.node_groups, entry.group)) continue;
+      if (!is_empty(entry.group)) continue;
       problems.push_back(case_::problem_at(input, entry.origin, "group", "this group holds no node of any element",
                                            "a group with nodes of meshed physical volumes", entry.group));
     }

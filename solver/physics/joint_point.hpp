@@ -73,7 +73,7 @@ template <class T>
 struct Sliding {
   T dissipated;  // J/m2
   T spring2;     // m2, square of the spring's length afterwards
-  T along_slip;  // m2, the spring times the slip, afterwards
+  T along_slip;  // m2, the spring times the slip, both afterwards
 };
 
 /// Friction of the damaged share: moves the slip so that the spring stays within Coulomb's limit. It dissipates
@@ -105,22 +105,22 @@ template <class T>
   return {select(slid, T(law.stiffness * mean * (length - limit)), zero), spring2, along_slip};
 }
 
-/// What the cohesion along the joint loses with a share of its stiffness, J/m2, apart: delta_s is the slip and the
-/// spring together, so of the loss beyond what the spring takes over,
-///   1/2 k (delta_s^2 - spring^2) = 1/2 k slip^2 + k spring . slip   a share,
-/// the second is what friction would have dissipated had that share slid from the beginning. The first alone makes G_II
-/// under any pressure. Source: [Palmer and Rice 1973]
+/// What the shear stiffness k of the cohesion loses with a share dK of itself, J/m2. The slipping share takes over the
+/// energy of its spring; as delta_s = slip + spring, the rest is
+///   1/2 k dK (delta_s^2 - spring^2) = dK (1/2 k slip^2 + k spring . slip).
+/// The second term is what friction would have dissipated had this share slipped from the beginning; the first alone
+/// adds up to G_II under any pressure. Source: [Palmer and Rice 1973]
 template <class T>
 struct ShearLoss {
   T cohesion, friction;
 };
 
-/// @param given  share of the stiffness;  @param loss  J/m2, all of it
+/// @param lost  dK;  @param loss  J/m2, 1/2 k dK delta_s^2
 template <class T>
-[[nodiscard]] inline ShearLoss<T> parted(const JointLawParams& law, const Components<T>& c, const Sliding<T>& sliding,
-                                         const T& given, const T& loss) {
+[[nodiscard]] inline ShearLoss<T> split_shear_loss(const JointLawParams& law, const Components<T>& c,
+                                                   const Sliding<T>& sliding, const T& lost, const T& loss) {
   const T zero = 0.0;
-  const T net = greater(T(loss - 0.5 * law.stiffness * given * sliding.spring2), zero);
+  const T net = greater(T(loss - 0.5 * law.stiffness * lost * sliding.spring2), zero);
   const T beyond = c.shear2 - sliding.spring2, along = greater(T(2.0 * sliding.along_slip), zero);
   const T friction = select(beyond > along, T(net * (along / beyond)), select(along > zero, net, zero));
   return {net - friction, friction};
@@ -224,9 +224,9 @@ template <class T>
       const Vector<T> rubbed =
           plus(traction, plus(times(now.friction[0], frame.tangent[0]), times(now.friction[1], frame.tangent[1])));
       traction = select3<T>(rubs, rubbed, traction);
-      const ShearLoss<T> lost = parted(law, c, sliding, T(before.shear() - remaining.shear()), shear_loss);
-      response.friction = sliding.dissipated + select(damaged, lost.friction, zero);
-      shear_loss = lost.cohesion;
+      const ShearLoss<T> part = split_shear_loss(law, c, sliding, T(before.shear() - remaining.shear()), shear_loss);
+      response.friction = sliding.dissipated + select(damaged, part.friction, zero);
+      shear_loss = part.cohesion;
       h.friction_weight = select(damaged, weight, h.friction_weight);
     }
     if (law.viscosity > 0) {

@@ -112,9 +112,10 @@ TEST_F(Curves, AreNoSurfaces) {
   text.insert(text.find("[output]"), "[[stage.pressure]]\nsurface = \"left\"\nvalue = \"1 kPa\"\n");
   const Outcome outcome = call("check " + scratch_.write("wrong.toml", text));
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("stage[0].pressure[0].surface: this is a curve or point of the mesh, where a surface is "
-                             "asked for; allowed: the mesh has none; given: left"),
-            std::string::npos)
+  EXPECT_NE(
+      outcome.err.find("stage[0].pressure[0].surface: this is a curve or point of the mesh, where a surface group is "
+                       "asked for; allowed: the mesh has none; given: left"),
+      std::string::npos)
       << outcome.err;
 }
 

@@ -98,8 +98,9 @@ TEST(Groups, ACurveWhereASurfaceIsAskedForIsRefused) {
   const std::vector<std::string> nodes{"slit"};
   EXPECT_THAT(
       text(check_groups(read_text(complete), {volumes, without(surfaces, "slit"), nodes})),
-      HasSubstr("stage[0].pressure[0].surface: this is a curve or point of the mesh, where a surface is asked for; "
-                "allowed: "));
+      HasSubstr(
+          "stage[0].pressure[0].surface: this is a curve or point of the mesh, where a surface group is asked for; "
+          "allowed: "));
 }
 
 TEST(Groups, AMeshWithoutSurfacesSaysSo) {
