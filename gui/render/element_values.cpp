@@ -19,6 +19,8 @@ constexpr int kBars = 10;
 constexpr double kMilli = 1e3;  // m in mm
 /// Share by which equal values may differ, written in single precision; how far the bars then reach to both sides.
 constexpr double kEqual = 1e-5, kBelow = 0.055, kAbove = 0.045;
+constexpr int kFirstQuantity = static_cast<int>(Measure::speed);
+static_assert(static_cast<int>(Measure::displacement_z) - kFirstQuantity == kNumQuantities - 1);
 using Corners = std::array<Vector, 4>;
 
 /// Twice the area of each face, outwards where the element is positive.
@@ -66,13 +68,6 @@ Corners corners_of(vtkUnstructuredGrid& grid, vtkIdType c) {
   return x;
 }
 
-double magnitude(vtkDataArray& array, vtkIdType row) {
-  double sum = 0;
-  for (int a = 0; a < array.GetNumberOfComponents(); ++a)
-    sum += array.GetComponent(row, a) * array.GetComponent(row, a);
-  return std::sqrt(sum);
-}
-
 /// Every row of an array by a function of it; none where it is not there.
 template <class Function>
 std::vector<double> of_array(vtkUnstructuredGrid* grid, const char* name, Function&& function) {
@@ -80,6 +75,13 @@ std::vector<double> of_array(vtkUnstructuredGrid* grid, const char* name, Functi
   vtkDataArray* array = grid == nullptr ? nullptr : grid->GetCellData()->GetArray(name);
   for (vtkIdType c = 0; array != nullptr && c < array->GetNumberOfTuples(); ++c) values.push_back(function(*array, c));
   return values;
+}
+
+std::vector<double> of_quantity(vtkUnstructuredGrid* elements, Quantity quantity) {
+  const QuantitySource& source = source_of(quantity);
+  return of_array(elements, source.array, [&](vtkDataArray& array, vtkIdType row) {
+    return source.scale * number_of(array, row, source.component);
+  });
 }
 
 template <class Function>
@@ -91,7 +93,7 @@ std::vector<double> of_shape(vtkUnstructuredGrid* elements, Function&& function)
 }
 
 std::vector<double> numbers_of(const FrameData& frame, Measure measure) {
-  constexpr double kMega = 1e-6, kMicro = 1e6;
+  constexpr double kMicro = 1e6;
   vtkUnstructuredGrid* elements = frame.elements;
   vtkUnstructuredGrid* joints = frame.joints;
   const auto scaled = [](double scale) {
@@ -104,29 +106,15 @@ std::vector<double> numbers_of(const FrameData& frame, Measure measure) {
       return of_shape(elements, [](const Corners& x) { return min_dihedral(face_normals(x)); });
     case Measure::mean_edge:
       return of_shape(elements, mean_edge);
-    case Measure::speed:
-      return of_array(elements, "velocity", magnitude);
-    case Measure::von_mises:
-      return of_array(elements, "von_mises", scaled(kMega));
-    case Measure::tension:
-      return of_array(elements, "principal", scaled(kMega));
-    case Measure::displacement:
-      return of_array(elements, "displacement",
-                      [](vtkDataArray& array, vtkIdType row) { return kMilli * magnitude(array, row); });
-    case Measure::displacement_x:
-    case Measure::displacement_y:
-    case Measure::displacement_z:
-      return of_array(elements, "displacement",
-                      [axis = static_cast<int>(measure) - static_cast<int>(Measure::displacement_x)](
-                          vtkDataArray& array, vtkIdType row) { return kMilli * array.GetComponent(row, axis); });
     case Measure::opening:
       return of_array(joints, "opening", scaled(kMicro));
     case Measure::slip:
       return of_array(joints, "slip", scaled(kMicro));
     case Measure::damage:
       return of_array(joints, "damage", scaled(1));
+    default:
+      return of_quantity(elements, static_cast<Quantity>(static_cast<int>(measure) - kFirstQuantity));
   }
-  return {};
 }
 
 Histogram histogram_of(const std::vector<double>& values, Measure measure) {
@@ -165,22 +153,23 @@ vtkSmartPointer<vtkPolyData> triangles_of(vtkUnstructuredGrid& joints, const std
 }  // namespace
 
 const std::vector<std::pair<Measure, std::string>>& measures() {
-  static const std::vector<std::pair<Measure, std::string>> list{
-      {Measure::radius_ratio, "radius ratio, 1 is regular"},
-      {Measure::min_dihedral, "smallest dihedral angle [deg]"},
-      {Measure::mean_edge, "mean edge [mm]"},
-      {Measure::speed, "speed [m/s]"},
-      {Measure::von_mises, "von Mises stress [MPa]"},
-      {Measure::tension, "largest principal stress [MPa]"},
-      {Measure::displacement, "displacement [mm]"},
-      {Measure::displacement_x, "displacement x [mm]"},
-      {Measure::displacement_y, "displacement y [mm]"},
-      {Measure::displacement_z, "displacement z [mm]"},
-      {Measure::opening, "opening of damaged joints [um]"},
-      {Measure::slip, "slip of damaged joints [um]"},
-      {Measure::damage, "damage of damaged joints"}};
+  static const auto list = [] {
+    std::vector<std::pair<Measure, std::string>> all{{Measure::radius_ratio, "radius ratio, 1 is regular"},
+                                                     {Measure::min_dihedral, "smallest dihedral angle [deg]"},
+                                                     {Measure::mean_edge, "mean edge [mm]"}};
+    for (int i = 0; i < kNumQuantities; ++i) {
+      const auto quantity = static_cast<Quantity>(i);
+      all.emplace_back(measure_of(quantity), title_of(quantity));
+    }
+    all.insert(all.end(), {{Measure::opening, "opening of damaged joints [um]"},
+                           {Measure::slip, "slip of damaged joints [um]"},
+                           {Measure::damage, "damage of damaged joints"}});
+    return all;
+  }();
   return list;
 }
+
+Measure measure_of(Quantity quantity) { return static_cast<Measure>(kFirstQuantity + static_cast<int>(quantity)); }
 
 bool is_of_joints(Measure measure) { return measure >= Measure::opening; }
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "render/element_quantity.hpp"
 #include "render/frame_data.hpp"
 
 /// Numbers of the elements and joints of a frame, and how often they occur. VTK only; everything here may be called
@@ -18,10 +19,17 @@ enum class Measure {
   radius_ratio,  ///< 3 r_in / r_circumscribed: 1 for the regular tetrahedron, 0 for a flat one
   min_dihedral,  ///< smallest angle between two faces, degrees
   mean_edge,     ///< mean of the six edges, mm
-  speed,         ///< m/s
-  von_mises,     ///< MPa
-  tension,       ///< largest principal stress, MPa
-  displacement,  ///< mm, as its components
+  speed,         ///< from here to displacement_z as in Quantity
+  von_mises,
+  tension,
+  compression,
+  stress_xx,
+  stress_yy,
+  stress_zz,
+  stress_xy,
+  stress_yz,
+  stress_xz,
+  displacement,
   displacement_x,
   displacement_y,
   displacement_z,
@@ -32,6 +40,7 @@ enum class Measure {
 
 /// With their names for people, units among them.
 [[nodiscard]] const std::vector<std::pair<Measure, std::string>>& measures();
+[[nodiscard]] Measure measure_of(Quantity quantity);
 /// Whether it is of the damaged joints; else it is of the elements.
 [[nodiscard]] bool is_of_joints(Measure measure);
 

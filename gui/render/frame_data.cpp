@@ -31,8 +31,8 @@ Point at(vtkUnstructuredGrid& grid, vtkIdType point) {
   return p;
 }
 
-/// Arrays of elements that nothing here is drawn or counted by: a third of what would be read.
-constexpr std::array<const char*, 4> kNotDrawn{"neighbour", "stress", "mass", "cost"};
+/// Arrays of elements that nothing here is drawn or counted by.
+constexpr std::array<const char*, 3> kNotDrawn{"neighbour", "mass", "cost"};
 
 /// A place to begin at in a table of a power of two.
 std::size_t hashed(std::uint64_t key, std::size_t mask) {

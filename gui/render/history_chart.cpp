@@ -2,6 +2,7 @@
 
 #include <vtkAxis.h>
 #include <vtkBrush.h>
+#include <vtkCallbackCommand.h>
 #include <vtkChartLegend.h>
 #include <vtkContextActor.h>
 #include <vtkDoubleArray.h>
@@ -82,7 +83,21 @@ HistoryChart::HistoryChart() {
   chart_->GetLegend()->SetHorizontalAlignment(vtkChartLegend::RIGHT);
   chart_->GetLegend()->SetVerticalAlignment(vtkChartLegend::TOP);
   chart_->SetBorders(20, 20, 16, 10);  // at the right: half of the last label
+  vtkNew<vtkCallbackCommand> begin;
+  begin->SetClientData(this);
+  begin->SetCallback(
+      [](vtkObject*, unsigned long, void* chart, void*) { static_cast<HistoryChart*>(chart)->begin_picture(); });
+  begins_ = renderer_->AddObserver(vtkCommand::StartEvent, begin);
   set_dark(false);
+}
+
+HistoryChart::~HistoryChart() { renderer_->RemoveObserver(begins_); }
+
+/// Where title and legend leave an axis no length VTK computes with numbers that are none, and says so for each curve.
+void HistoryChart::begin_picture() {
+  constexpr int kWidth = 240, kHeight = 90;  // pixels
+  const int* size = renderer_->GetSize();
+  chart_->SetVisible(size[0] >= kWidth && size[1] >= kHeight);
 }
 
 void HistoryChart::add_line(const Curve& curve, const std::vector<double>& time, const Scale& scale) {

@@ -25,6 +25,9 @@ struct Curve {
 class HistoryChart {
  public:
   HistoryChart();
+  ~HistoryChart();
+  HistoryChart(const HistoryChart&) = delete;
+  HistoryChart& operator=(const HistoryChart&) = delete;
   [[nodiscard]] vtkRenderer* renderer() { return renderer_; }
   /// Replaces all curves. @param time  s;  @param quantity, unit  of the values, which are shown with a prefix
   void show(const std::vector<double>& time, const std::vector<Curve>& curves, const std::string& quantity,
@@ -36,6 +39,7 @@ class HistoryChart {
 
  private:
   struct Scale;
+  void begin_picture();
   void add_line(const Curve& curve, const std::vector<double>& time, const Scale& scale);
   void add_marks(const Curve& curve, const std::vector<double>& time, const Scale& scale, bool is_named);
 
@@ -43,6 +47,7 @@ class HistoryChart {
   vtkSmartPointer<vtkContextScene> scene_;
   vtkNew<vtkChartXY> chart_;
   std::size_t num_curves_ = 0;
+  unsigned long begins_ = 0;  ///< observer of pictures that begin
 };
 
 }  // namespace breccia::gui

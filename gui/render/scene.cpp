@@ -17,19 +17,27 @@ constexpr vtkIdType kMostWithEdges = 50000;
 
 }  // namespace
 
+std::optional<Quantity> quantity_of(Colouring colouring) {
+  constexpr int kFirst = static_cast<int>(Colouring::speed);
+  static_assert(static_cast<int>(Colouring::displacement_z) - kFirst == static_cast<int>(Quantity::displacement_z));
+  const int place = static_cast<int>(colouring) - kFirst;
+  return place < 0 ? std::nullopt : std::optional(static_cast<Quantity>(place));
+}
+
 const std::vector<std::pair<Colouring, std::string>>& colourings() {
-  static const std::vector<std::pair<Colouring, std::string>> list{
-      {Colouring::group, "group"},
-      {Colouring::body, "body"},
-      {Colouring::fragment, "fragment"},
-      {Colouring::rank, "rank"},
-      {Colouring::speed, "speed [m/s]"},
-      {Colouring::von_mises, "von Mises stress [MPa]"},
-      {Colouring::tension, "largest principal stress [MPa]"},
-      {Colouring::displacement, "displacement"},
-      {Colouring::displacement_x, "displacement x"},
-      {Colouring::displacement_y, "displacement y"},
-      {Colouring::displacement_z, "displacement z"}};
+  static const auto list = [] {
+    std::vector<std::pair<Colouring, std::string>> all{{Colouring::group, "group"},
+                                                       {Colouring::body, "body"},
+                                                       {Colouring::fragment, "fragment"},
+                                                       {Colouring::rank, "rank"}};
+    for (int i = 0; i < kNumQuantities; ++i) {
+      const auto quantity = static_cast<Quantity>(i);
+      const bool adapts = quantity >= Quantity::displacement;  // its unit does, to the model
+      all.emplace_back(static_cast<Colouring>(static_cast<int>(Colouring::speed) + i),
+                       adapts ? source_of(quantity).name : title_of(quantity));
+    }
+    return all;
+  }();
   return list;
 }
 

@@ -23,6 +23,7 @@
 #include "render/axes_corner.hpp"
 #include "render/class_legend.hpp"
 #include "render/cut.hpp"
+#include "render/element_quantity.hpp"
 #include "render/frame_data.hpp"
 #include "render/load_glyphs.hpp"
 #include "render/load_words.hpp"
@@ -37,17 +38,33 @@ enum class Colouring {
   body,
   fragment,
   rank,
-  speed,
+  speed,  ///< from here on as in Quantity
   von_mises,
   tension,
+  compression,
+  stress_xx,
+  stress_yy,
+  stress_zz,
+  stress_xy,
+  stress_yz,
+  stress_xz,
   displacement,
   displacement_x,
   displacement_y,
   displacement_z
 };
 
-/// What the colour of the damaged joints means.
-enum class JointColouring { mode, time_of_failure };
+/// None for a colouring by classes.
+[[nodiscard]] std::optional<Quantity> quantity_of(Colouring colouring);
+
+/// The ends of the colours as they are given, in the unit of the legend; none: the least or the largest value.
+struct ColourRange {
+  std::optional<double> low, high;
+  bool operator==(const ColourRange&) const = default;
+};
+
+/// What the colour of the damaged joints means; hidden: they are not drawn.
+enum class JointColouring { mode, time_of_failure, hidden };
 
 /// From where the model is looked at: a corner above it, or along an axis.
 enum class LookFrom { corner, plus_x, minus_x, plus_y, minus_y, plus_z, minus_z };
@@ -88,6 +105,9 @@ class Scene {
     std::vector<std::string> surfaces;  ///< groups that the face belongs to
   };
   [[nodiscard]] Picked picked_at(double x, double y) const;
+  /// Of the present colouring, until it is given anew: each has its own. A quantity keeps its unit meanwhile.
+  void set_colour_range(const ColourRange& range);
+  [[nodiscard]] ColourRange colour_range() const;
   /// Keeps the range of colours of the present picture for those that follow, so that they can be compared.
   void hold_range(bool on) { hold_ = on; }
   /// How far parts of different ranks are moved apart: 0 not at all.
@@ -149,8 +169,9 @@ class Scene {
   [[nodiscard]] std::int64_t face_of(vtkIdType cell) const;
   void set_opacity();
   void colour_by_class(const char* array, const std::vector<std::string>& names, const char* title);
-  void colour_by_displacement(int component);
-  void colour_by_value(const char* array, int component, double scale, const char* title);
+  void colour_by_displacement(const QuantitySource& source);
+  void colour_by_value(const QuantitySource& source, const std::string& title);
+  void choose_range(double low, double high);
   [[nodiscard]] vtkDataArray* values_within(const char* array) const;
   [[nodiscard]] std::map<int, Vector> explode_ways() const;
   [[nodiscard]] vtkSmartPointer<vtkPolyData> exploded() const;
@@ -182,6 +203,11 @@ class Scene {
   double explode_ = 0;
   std::optional<CutPlane> cut_plane_;
   std::optional<Cut> through_;  ///< the frame in view in that direction; none: not worked out yet
+  struct GivenRange {
+    ColourRange range;
+    PrefixedUnit unit;  ///< of a displacement
+  };
+  std::map<Colouring, GivenRange> given_ranges_;
   PrefixedUnit unit_of_displacement_;
   std::function<vtkSmartPointer<vtkDataArray>(vtkCellData&)> shown_;  ///< what cells are coloured by, of their arrays
   int num_glyphs_ = 0;

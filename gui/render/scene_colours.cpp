@@ -49,15 +49,6 @@ vtkSmartPointer<vtkDataArray> places_of(vtkDataArray* values, const std::map<std
   return places;
 }
 
-/// @param component  < 0: the magnitude
-double number_of(vtkDataArray& values, vtkIdType cell, int component) {
-  if (component >= 0) return values.GetComponent(cell, component);
-  double sum = 0;
-  for (int a = 0; a < values.GetNumberOfComponents(); ++a)
-    sum += values.GetComponent(cell, a) * values.GetComponent(cell, a);
-  return std::sqrt(sum);
-}
-
 vtkSmartPointer<vtkDataArray> numbers_of(vtkDataArray* values, int component, double scale) {
   auto numbers = vtkSmartPointer<vtkDoubleArray>::New();
   numbers->SetName(Scene::kShown);
@@ -65,6 +56,14 @@ vtkSmartPointer<vtkDataArray> numbers_of(vtkDataArray* values, int component, do
   for (vtkIdType c = 0; c < numbers->GetNumberOfValues(); ++c)
     numbers->SetValue(c, scale * number_of(*values, c, component));
   return numbers;
+}
+
+/// The words of a legend stand beside the model, where there is little room.
+std::string in_two_lines(std::string title) {
+  constexpr std::size_t kNarrow = 18;
+  const std::size_t half = title.rfind(' ', title.size() / 2 + 3);
+  if (title.size() > kNarrow && half != std::string::npos) title[half] = '\n';
+  return title;
 }
 
 }  // namespace
@@ -83,22 +82,14 @@ void Scene::colour() {
     case Colouring::rank:
       colour_by_class("rank", {}, "rank");
       break;
-    case Colouring::speed:
-      colour_by_value("velocity", -1, 1, "speed [m/s]");
-      break;
-    case Colouring::von_mises:
-      colour_by_value("von_mises", 0, 1e-6, "von Mises [MPa]");
-      break;
-    case Colouring::tension:
-      colour_by_value("principal", 0, 1e-6, "largest principal\nstress [MPa]");
-      break;
     case Colouring::displacement:
-      colour_by_displacement(-1);
-      break;
     case Colouring::displacement_x:
     case Colouring::displacement_y:
     case Colouring::displacement_z:
-      colour_by_displacement(static_cast<int>(colouring_) - static_cast<int>(Colouring::displacement_x));
+      colour_by_displacement(source_of(*quantity_of(colouring_)));
+      break;
+    default:
+      colour_by_value(source_of(*quantity_of(colouring_)), title_of(*quantity_of(colouring_)));
       break;
   }
   draw_cut();
@@ -147,45 +138,74 @@ void Scene::colour_by_class(const char* array, const std::vector<std::string>& n
   skin_mapper_->SetInputData(skin);
 }
 
-/// They are small in some runs and large in others. A range that is held keeps its unit. @param component  < 0: none
-void Scene::colour_by_displacement(int component) {
+/// They are small in some runs and large in others. A range that is held or given keeps its unit.
+void Scene::colour_by_displacement(const QuantitySource& source) {
   double most = 0;
-  for (vtkDataArray* values : {frame_.skin->GetCellData()->GetArray("displacement"), values_within("displacement")})
+  for (vtkDataArray* values : {frame_.skin->GetCellData()->GetArray(source.array), values_within(source.array)})
     for (vtkIdType c = 0; values != nullptr && c < values->GetNumberOfTuples(); ++c)
-      most = std::max(most, std::abs(number_of(*values, c, component)));
-  if (!hold_) unit_of_displacement_ = prefixed_unit(most, "m");
-  const std::string name = component < 0 ? "displacement" : std::string("displacement ") + "xyz"[component];
-  colour_by_value("displacement", component, 1 / unit_of_displacement_.size,
-                  (name + " [" + unit_of_displacement_.name + "]").c_str());
+      most = std::max(most, std::abs(number_of(*values, c, source.component)));
+  if (const auto given = given_ranges_.find(colouring_); given != given_ranges_.end()) {
+    unit_of_displacement_ = given->second.unit;
+  } else if (!hold_) {
+    unit_of_displacement_ = prefixed_unit(most, "m");
+  }
+  QuantitySource shown = source;
+  shown.scale = 1 / unit_of_displacement_.size;
+  colour_by_value(shown, std::string(source.name) + " [" + unit_of_displacement_.name + "]");
 }
 
-void Scene::colour_by_value(const char* array, int component, double scale, const char* title) {
+void Scene::colour_by_value(const QuantitySource& source, const std::string& title) {
   const vtkSmartPointer<vtkPolyData> skin = exploded();
   double low = 0, high = 0;
   bool any = false;
-  for (vtkDataArray* values : {skin->GetCellData()->GetArray(array), values_within(array)})
+  for (vtkDataArray* values : {skin->GetCellData()->GetArray(source.array), values_within(source.array)})
     for (vtkIdType c = 0; values != nullptr && c < values->GetNumberOfTuples(); ++c) {
-      const double x = scale * number_of(*values, c, component);
+      const double x = source.scale * number_of(*values, c, source.component);
       low = any ? std::min(low, x) : x;
       high = any ? std::max(high, x) : x;
       any = true;
     }
-  if (!(high > low)) high = low + 1;
+  choose_range(low, high);
+  fill_ramp(*colours_);
+  colours_->SetTableRange(range_[0], range_[1]);
+  legend_->SetTitle(in_two_lines(title).c_str());
+  legend_->VisibilityOn();
+  class_legend_->VisibilityOff();
+  shown_ = [source](vtkCellData& cells) {
+    return numbers_of(cells.GetArray(source.array), source.component, source.scale);
+  };
+  skin->GetCellData()->AddArray(shown_(*skin->GetCellData()));
+  skin_mapper_->SetInputData(skin);
+}
+
+/// @param low, high  of the values in view
+void Scene::choose_range(double low, double high) {
   if (hold_) {
     low = std::min(low, range_[0]);
     high = std::max(high, range_[1]);
   }
+  const ColourRange given = colour_range();
+  low = given.low.value_or(low);
+  high = given.high.value_or(high);
+  if (!(high > low)) {  // all are equal, or lie beyond the end that is given
+    const double width = std::max(std::abs(low), 1e-300) * 1e-3;
+    given.high&& !given.low ? low = high - width : high = low + (low == 0 ? 1.0 : width);
+  }
   range_ = {low, high};
-  fill_ramp(*colours_);
-  colours_->SetTableRange(low, high);
-  legend_->SetTitle(title);
-  legend_->VisibilityOn();
-  class_legend_->VisibilityOff();
-  shown_ = [array = std::string(array), component, scale](vtkCellData& cells) {
-    return numbers_of(cells.GetArray(array.c_str()), component, scale);
-  };
-  skin->GetCellData()->AddArray(shown_(*skin->GetCellData()));
-  skin_mapper_->SetInputData(skin);
+}
+
+void Scene::set_colour_range(const ColourRange& range) {
+  if (range == ColourRange{}) {
+    given_ranges_.erase(colouring_);
+  } else {
+    given_ranges_[colouring_] = {range, unit_of_displacement_};
+  }
+  if (has_data()) colour();
+}
+
+ColourRange Scene::colour_range() const {
+  const auto given = given_ranges_.find(colouring_);
+  return given == given_ranges_.end() ? ColourRange{} : given->second.range;
 }
 
 }  // namespace breccia::gui

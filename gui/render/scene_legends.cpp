@@ -71,7 +71,7 @@ void Scene::set_joint_colouring(JointColouring colouring) {
 }
 
 void Scene::draw_joints() {
-  const bool any = frame_.broken != nullptr;
+  const bool any = frame_.broken != nullptr && joint_colouring_ != JointColouring::hidden;
   const bool by_time = any && joint_colouring_ == JointColouring::time_of_failure &&
                        frame_.broken->GetCellData()->HasArray("time_of_failure") != 0;
   broken_->SetVisibility(any);

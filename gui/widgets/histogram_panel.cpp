@@ -132,14 +132,8 @@ void HistogramPanel::set_frame(const FrameData& frame, bool follows) {
 }
 
 void HistogramPanel::follow(Colouring colouring) {
-  const Measure wanted = colouring == Colouring::speed            ? Measure::speed
-                         : colouring == Colouring::von_mises      ? Measure::von_mises
-                         : colouring == Colouring::tension        ? Measure::tension
-                         : colouring == Colouring::displacement   ? Measure::displacement
-                         : colouring == Colouring::displacement_x ? Measure::displacement_x
-                         : colouring == Colouring::displacement_y ? Measure::displacement_y
-                         : colouring == Colouring::displacement_z ? Measure::displacement_z
-                                                                  : measure();
+  const std::optional<Quantity> quantity = quantity_of(colouring);
+  const Measure wanted = quantity ? measure_of(*quantity) : measure();
   measure_->setCurrentIndex(measure_->findData(static_cast<int>(wanted)));
 }
 

@@ -23,6 +23,7 @@ View3D::View3D(QWidget* parent)
       loads_(new QCheckBox(tr("Loads"))),
       explode_(new QSlider(Qt::Horizontal)),
       look_(new QMenu(tr("&Look from"), this)),
+      range_(new ColourRangeBox),
       cut_(new CutBar),
       deformation_(new DeformationBox) {
   window_->SetMultiSamples(0);
@@ -46,6 +47,7 @@ View3D::View3D(QWidget* parent)
   colour_->setToolTip(tr("What the colours mean"));
   connect(colour_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     scene_.set_colouring(static_cast<Colouring>(colour_->currentData().toInt()));
+    show_range();
     render();
     emit colouring_changed(scene_.colouring());
   });
@@ -54,6 +56,12 @@ View3D::View3D(QWidget* parent)
   make_look_menu();
   make_cut_bar();
   connect(deformation_, &DeformationBox::chosen, this, &View3D::deformation_chosen);
+  connect(range_, &ColourRangeBox::chosen, this, [this](const ColourRange& range) {
+    scene_.set_colour_range(range);
+    show_range();
+    render();
+  });
+  show_range();
   fill_bar();
 }
 
@@ -61,6 +69,7 @@ void View3D::make_cut_bar() {
   cut_->set_model([this](const Vector& way) { return scene_.extent(way); }, [this] { return scene_.look(); });
   connect(cut_, &CutBar::changed, this, [this] {
     scene_.set_cut(cut_->plane());
+    show_range();
     write_caption();
     render();
   });
@@ -70,9 +79,12 @@ void View3D::make_cut_bar() {
 void View3D::make_joints_box() {
   joints_->addItem(tr("mode"), static_cast<int>(JointColouring::mode));
   joints_->addItem(tr("time of failure"), static_cast<int>(JointColouring::time_of_failure));
+  joints_->addItem(tr("hidden"), static_cast<int>(JointColouring::hidden));
   joints_->setObjectName("joints_by");
   joints_->setAccessibleName(tr("Joints by"));
-  joints_->setToolTip(tr("What the colours of damaged joints mean; those that hold have no time of failure: grey"));
+  joints_->setToolTip(
+      tr("What the colours of damaged joints mean; those that hold have no time of failure: grey. Hidden: none is "
+         "drawn"));
   connect(joints_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     scene_.set_joint_colouring(static_cast<JointColouring>(joints_->currentData().toInt()));
     render();
@@ -180,6 +192,7 @@ void View3D::fill_bar() {
   column->addWidget(bar);
   auto* how = new FoldingBar;
   how->row(0)->addWidget(cut_, 1);
+  how->row(1)->addWidget(range_);
   how->row(1)->addWidget(new QLabel(tr("Displacements")));
   how->row(1)->addWidget(deformation_);
   how->row(1)->addStretch();
@@ -227,6 +240,11 @@ void View3D::write_caption() {
   scene_.set_caption((scene_.has_data() ? words + scale_words_ + cut_->words() : words).toStdString());
 }
 
+void View3D::show_range() {
+  range_->setEnabled(scene_.has_data() && quantity_of(scene_.colouring()));
+  range_->show_range(scene_.colour_range(), scene_.range());
+}
+
 void View3D::show_frame(const FrameData& frame, const QString& caption) {
   const bool is_new = !scene_.has_data();
   scene_.show(frame);
@@ -234,6 +252,7 @@ void View3D::show_frame(const FrameData& frame, const QString& caption) {
   marked_.clear();
   scale_words_ = words_of(frame.deformation);
   cut_->follow_model(is_new);
+  show_range();
   write_caption();
   render();
 }

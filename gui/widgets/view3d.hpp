@@ -10,6 +10,7 @@
 #include <QSlider>
 
 #include "render/scene.hpp"
+#include "widgets/colour_range_box.hpp"
 #include "widgets/cut_bar.hpp"
 #include "widgets/deformation_box.hpp"
 
@@ -66,6 +67,8 @@ class View3D final : public QWidget {
   void make_boxes();
   void make_cut_bar();
   void fill_bar();
+  /// What the ends of the colours are now.
+  void show_range();
   /// What is drawn, and how.
   void write_caption();
   Scene scene_;
@@ -75,6 +78,7 @@ class View3D final : public QWidget {
   QCheckBox *edges_, *skin_, *loads_;
   QSlider* explode_;
   QMenu* look_;
+  ColourRangeBox* range_;
   CutBar* cut_;
   DeformationBox* deformation_;
   QString scale_words_;  ///< of the frame, where displacements are not drawn as they are

@@ -131,9 +131,9 @@ TEST(LoadFrame, WhatNothingIsDrawnByIsNotRead) {
   ASSERT_NE(frame.skin, nullptr);
   EXPECT_EQ(frame.skin->GetNumberOfCells(), 24);
   vtkCellData* arrays = frame.elements->GetCellData();
-  for (const char* name : {"neighbour", "stress", "mass", "cost"}) EXPECT_FALSE(arrays->HasArray(name)) << name;
+  for (const char* name : {"neighbour", "mass", "cost"}) EXPECT_FALSE(arrays->HasArray(name)) << name;
   for (const char* name :
-       {"id", "body", "material", "rank", "fragment", "von_mises", "principal", "velocity", "displacement"})
+       {"id", "body", "material", "rank", "fragment", "stress", "von_mises", "principal", "velocity", "displacement"})
     EXPECT_TRUE(arrays->HasArray(name)) << name;
 }
 

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vtkDataArray.h>
+
+#include <array>
+#include <string>
+
+/// The numbers that a frame tells of every element, as they are coloured by and counted. VTK only; may be called from
+/// any thread.
+namespace breccia::gui {
+
+enum class Quantity {
+  speed,
+  von_mises,
+  tension,
+  compression,
+  stress_xx,
+  stress_yy,
+  stress_zz,
+  stress_xy,
+  stress_yz,
+  stress_xz,
+  displacement,
+  displacement_x,
+  displacement_y,
+  displacement_z
+};
+inline constexpr int kNumQuantities = static_cast<int>(Quantity::displacement_z) + 1;
+
+/// Where a quantity is found in a frame, and what people call it.
+struct QuantitySource {
+  const char* name;   ///< "von Mises stress"
+  const char* unit;   ///< in which it is shown
+  const char* array;  ///< of the elements
+  int component;      ///< < 0: the magnitude
+  double scale;       ///< from SI to the unit
+};
+
+[[nodiscard]] const QuantitySource& source_of(Quantity quantity);
+/// "von Mises stress [MPa]"
+[[nodiscard]] std::string title_of(Quantity quantity);
+
+/// @param component  < 0: the magnitude
+[[nodiscard]] double number_of(vtkDataArray& values, vtkIdType row, int component);
+
+}  // namespace breccia::gui
