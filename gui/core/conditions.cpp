@@ -89,6 +89,15 @@ Condition traction(const Document& document, const case_::Traction& given, Condi
   return row;
 }
 
+Condition force(const Document& document, const case_::Force& given, Condition row, const Interval& stage) {
+  row.target = QString::fromStdString(given.group);
+  row.type = text("force");
+  row.value = shown(document, row.path + ".value");
+  row.unit = "N";
+  add_by_axis(given.value, stage, row);
+  return row;
+}
+
 void add_stage(const Document& document, const case_::Stage& stage, int number, const Interval& time,
                std::vector<Condition>& rows) {
   const QString path = QString("stage[%1]").arg(number);
@@ -115,6 +124,8 @@ void add_stage(const Document& document, const case_::Stage& stage, int number, 
     rows.push_back(pressure(document, stage.pressures[i], begun(path + QString(".pressure[%1]").arg(i)), time));
   for (std::size_t i = 0; i < stage.tractions.size(); ++i)
     rows.push_back(traction(document, stage.tractions[i], begun(path + QString(".traction[%1]").arg(i)), time));
+  for (std::size_t i = 0; i < stage.forces.size(); ++i)
+    rows.push_back(force(document, stage.forces[i], begun(path + QString(".force[%1]").arg(i)), time));
   for (const std::string& surface : stage.absorbing) {
     Condition row = begun(path);
     row.type = text("absorbing");

@@ -14,7 +14,7 @@ namespace breccia::gui {
 struct Condition {
   QString path;   ///< "stage[0].constraint[1]"
   QString stage;  ///< name, or its number from 1; empty: before the first one
-  /// "gravity", "fixed", "velocity", "displacement", "pressure", "traction", "absorbing", "initial velocity"
+  /// "gravity", "fixed", "velocity", "displacement", "pressure", "traction", "force", "absorbing", "initial velocity"
   QString type;
   QString target;  ///< group or surface; empty: everything
   QString value;   ///< as it stands in the case

@@ -41,7 +41,8 @@ QStringList strings(const std::vector<std::string>& names) {
 GroupKind group_kind(const Key& key) {
   if (key.path == "mesh.raster.group") return GroupKind::none;  // it gives the group its name
   const std::string_view name = key.name();
-  if (key.path == "stage[].constraint[].group" || key.path == "output.gauges") return GroupKind::any;
+  for (const char* any : {"stage[].constraint[].group", "stage[].force[].group", "output.gauges"})
+    if (key.path == any) return GroupKind::any;
   if (key.type == ValueType::text && name == "group") return GroupKind::volume;
   if (key.type == ValueType::text && name == "surface") return GroupKind::surface;
   const bool surfaces = name == "broken" || name == "absorbing" || name == "surfaces";

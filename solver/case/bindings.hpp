@@ -222,6 +222,13 @@ void bind(A& a, Traction& traction) {
 }
 
 template <class A>
+void bind(A& a, Force& force) {
+  a.origin(force.origin);
+  a.value("group", force.group);
+  a.value("value", force.value);
+}
+
+template <class A>
 void bind(A& a, Stage& stage) {
   a.origin(stage.origin);
   a.value("name", stage.name);
@@ -234,6 +241,7 @@ void bind(A& a, Stage& stage) {
   a.list("constraint", stage.constraints);
   a.list("pressure", stage.pressures);
   a.list("traction", stage.tractions);
+  a.list("force", stage.forces);
 }
 
 template <class A>

@@ -218,6 +218,14 @@ struct Traction {
   friend bool operator==(const Traction&, const Traction&) = default;
 };
 
+/// [[stage.force]]: in a direction that stays, shared among the nodes of a volume, surface, curve or point group.
+struct Force {
+  std::string group;
+  std::array<TimeFunction, 3> value;  ///< N, on the whole group
+  Origin origin;
+  friend bool operator==(const Force&, const Force&) = default;
+};
+
 /// [[stage]]
 struct Stage {
   std::string name;
@@ -226,6 +234,7 @@ struct Stage {
   std::vector<Constraint> constraints;
   std::vector<Pressure> pressures;
   std::vector<Traction> tractions;
+  std::vector<Force> forces;
   std::vector<std::string> absorbing;        ///< surfaces behind which the material goes on
   double mass_damping = 0;                   ///< 1/s, alpha of f = -alpha m v
   double local_damping = 0;                  ///< 0..1, share of the unbalanced force, against the velocity

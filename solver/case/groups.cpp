@@ -79,6 +79,7 @@ void check_stage(const Stage& stage, GroupChecker& checker) {
   for (const Constraint& k : stage.constraints) checker.any(k.origin, "group", k.group);
   for (const Pressure& p : stage.pressures) checker.surface(p.origin, "surface", p.surface);
   for (const Traction& t : stage.tractions) checker.surface(t.origin, "surface", t.surface);
+  for (const Force& f : stage.forces) checker.any(f.origin, "group", f.group);
 }
 
 }  // namespace

@@ -406,6 +406,15 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "stage[].traction[].value", .type = function_vector, .unit = "Pa", .required = true,
      .help = "Along x, y and z, functions of time.", .example = "[\"1 MPa\", 0, \"-2 MPa\"]"},
 
+    {.path = "stage[].force[]", .type = section_list,
+     .help = "Force on a group as a whole, in a direction that stays, shared among its nodes: of a surface by area at "
+             "rest, of a volume, curve or point by mass. What it acts on at a curve or point yields the more, the "
+             "finer the elements there are, and may be torn off."},
+    {.path = "stage[].force[].group", .type = text, .required = true,
+     .help = "Physical volume, surface, curve or point.", .example = "\"loaded line\""},
+    {.path = "stage[].force[].value", .type = function_vector, .unit = "N", .required = true,
+     .help = "Along x, y and z, functions of time.", .example = "[0, \"-500 N\", 0]"},
+
     {.path = "time", .type = section, .help = "Time steps and what stops a run early."},
     {.path = "time.step", .type = number, .unit = "s", .fallback = "auto", .range = positive, .word = "auto",
      .help = "Time step. auto: safety times the stable step.", .example = "\"20 ns\""},

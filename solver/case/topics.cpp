@@ -40,8 +40,8 @@ constexpr auto table = std::to_array<Topic>({
      "output.gauges|output.history_interval|stage.local_damping"},
     {"boundary condition|support|spc|encastre|clamp|clamped|fixed support",
      "Nodes of a group are held or driven by a [[stage.constraint]]; fixed = \"xyz\" clamps them. Surfaces take a "
-     "pressure or a traction, or absorb waves.",
-     "stage.constraint|stage.pressure|stage.traction|stage.absorbing"},
+     "pressure or a traction, or absorb waves; any group takes a force.",
+     "stage.constraint|stage.pressure|stage.traction|stage.force|stage.absorbing"},
     {"roller|pin|loading pin|loading nose|hinge",
      "A small body of its own, held or driven by a [[stage.constraint]] on its volume group, that presses through "
      "[[contact]]. A constraint on a patch of the sample itself clamps it.",
@@ -56,9 +56,9 @@ constexpr auto table = std::to_array<Topic>({
      "rests with a wave of stress rho c v; let it grow by a ramp where a slow load is meant.",
      "stage.constraint.velocity|stage.constraint.displacement|function.ramp"},
     {"point load|nodal force|concentrated force|concentrated load|external force",
-     "There are no forces on single nodes: a [[stage.traction]] on a small surface acts in a fixed direction, a "
-     "[[stage.pressure]] follows the faces.",
-     "stage.traction|stage.pressure|stage.gravity"},
+     "A [[stage.force]] acts on a volume, surface, curve or point as a whole, in a fixed direction; a "
+     "[[stage.traction]] by area, a [[stage.pressure]] follows the faces.",
+     "stage.force|stage.traction|stage.pressure|stage.gravity"},
     {"time step|timestep|time increment|critical time step|cfl",
      "It is time.safety times the stable step, which `breccia check` tells with what limits it; time.step gives "
      "another.",

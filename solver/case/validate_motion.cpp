@@ -28,6 +28,7 @@ constexpr double kFastestTurn = 1e15;    // rad/s
 constexpr double kFastestStrain = 1e15;  // 1/s
 constexpr double kMostGravity = 1e20;    // m/s2
 constexpr double kMostPressure = 1e20;   // Pa
+constexpr double kMostForce = 1e20;      // N
 
 /// Speeds, displacements and loads that no run can bear.
 class MotionLimits {
@@ -56,6 +57,10 @@ class MotionLimits {
       for (const Traction& traction : stage.tractions) {
         for (const TimeFunction& f : traction.value)
           demand(traction.origin, "value", parts_of(f, stage.end), kMostPressure, "Pa");
+      }
+      for (const Force& force : stage.forces) {
+        for (const TimeFunction& f : force.value)
+          demand(force.origin, "value", parts_of(f, stage.end), kMostForce, "N");
       }
     }
     return std::move(problems_);
@@ -87,6 +92,9 @@ class PlaneCheck {
       for (const Constraint& constraint : stage.constraints) this->constraint(constraint);
       for (const Traction& traction : stage.tractions) {
         if (!traction.value[axis_].is_zero()) problem(traction.origin, "value", "none along " + name_);
+      }
+      for (const Force& force : stage.forces) {
+        if (!force.value[axis_].is_zero()) problem(force.origin, "value", "none along " + name_);
       }
     }
     if (c_.sphere) problem(c_.sphere->origin, "", "no [sphere]");

@@ -91,7 +91,7 @@ bool acts_along(const case_::Case& input, const Model& model, std::size_t axis) 
     }
     return false;
   };
-  const auto pulls = [&](const case_::Traction& traction) { return !traction.value[axis].is_zero(); };
+  const auto pulls = [&](const auto& load) { return !load.value[axis].is_zero(); };
   const auto drives = [&](const case_::Constraint& c) {
     return c.kind != case_::ConstraintKind::fixed && c.axes[axis] && !c.value[axis].is_zero();
   };
@@ -100,6 +100,7 @@ bool acts_along(const case_::Case& input, const Model& model, std::size_t axis) 
            return !stage.gravity[axis].is_zero() ||
                   std::any_of(stage.pressures.begin(), stage.pressures.end(), presses) ||
                   std::any_of(stage.tractions.begin(), stage.tractions.end(), pulls) ||
+                  std::any_of(stage.forces.begin(), stage.forces.end(), pulls) ||
                   std::any_of(stage.constraints.begin(), stage.constraints.end(), drives);
          });
 }

@@ -85,6 +85,9 @@ void judge_courses(Advice& advice, const case_::Stage& stage, double start) {
   for (const case_::Traction& entry : stage.tractions) {
     for (const TimeFunction& f : entry.value) judge_course(advice, entry.origin, f, start, stage.end);
   }
+  for (const case_::Force& entry : stage.forces) {
+    for (const TimeFunction& f : entry.value) judge_course(advice, entry.origin, f, start, stage.end);
+  }
 }
 
 bool has_gravity(const case_::Stage& stage) {

@@ -49,6 +49,8 @@ void Solids::hold(const case_::Stage& stage) {
     for_each_element(pressure.surface, [&](Index e, bool) { of(e).pressed = true; });
   for (const case_::Traction& traction : stage.tractions)
     for_each_element(traction.surface, [&](Index e, bool) { of(e).pressed = true; });
+  for (const case_::Force& force : stage.forces)
+    for_each_element(force.group, [&](Index e, bool) { of(e).pressed = true; });
 }
 
 double Solids::slowest_crossing() const {

@@ -64,6 +64,16 @@ Vec3 traction_at(const case_::Stage* stage, const std::string& surface, double t
   return sum;
 }
 
+/// And the force on a group, N.
+Vec3 force_at(const case_::Stage* stage, const std::string& group, double time) {
+  Vec3 sum = Vec3::Zero();
+  if (stage == nullptr) return sum;
+  for (const case_::Force& f : stage->forces) {
+    if (f.group == group) sum += value_at(f.value, time);
+  }
+  return sum;
+}
+
 /// Loads that a stage begins with, in words; empty: none that comes suddenly.
 std::string sudden_loads(const case_::Stage& stage, const case_::Stage* before, double start) {
   constexpr double kMuch = 0.1;  // of the load, in one step
@@ -82,6 +92,12 @@ std::string sudden_loads(const case_::Stage& stage, const case_::Stage* before, 
     if (jump <= kMuch * std::max(value_at(t.value, start).norm(), value_at(t.value, stage.end).norm())) continue;
     loads += fmt::format("{}the traction on \"{}\" ({} at once)", loads.empty() ? "" : " and ", t.surface,
                          quantity_text(jump, "Pa"));
+  }
+  for (const case_::Force& f : stage.forces) {
+    const double jump = (force_at(&stage, f.group, start) - force_at(before, f.group, start)).norm();
+    if (jump <= kMuch * std::max(value_at(f.value, start).norm(), value_at(f.value, stage.end).norm())) continue;
+    loads += fmt::format("{}the force on \"{}\" ({} at once)", loads.empty() ? "" : " and ", f.group,
+                         quantity_text(jump, "N"));
   }
   return loads;
 }
@@ -139,6 +155,9 @@ bool is_loaded(const case_::Stage& stage, double start) {
     }
     for (const case_::Traction& t : stage.tractions) {
       if (std::any_of(t.value.begin(), t.value.end(), acts)) return true;
+    }
+    for (const case_::Force& f : stage.forces) {
+      if (std::any_of(f.value.begin(), f.value.end(), acts)) return true;
     }
     for (const case_::Constraint& c : stage.constraints) {
       if (c.kind != case_::ConstraintKind::fixed && std::any_of(c.value.begin(), c.value.end(), acts)) return true;

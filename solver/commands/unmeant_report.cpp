@@ -234,19 +234,21 @@ Advice lost_velocities(const case_::Case& input) {
   return advice;
 }
 
-/// Whether a stage prescribes the motion of a surface along all axes, by entries that name it or a volume behind it.
-bool wholly_held(const case_::Stage& stage, const Model& model, const std::string& surface) {
+/// Whether a stage prescribes the motion of a group along all axes, by entries that name it or, of a surface, a volume
+/// behind it.
+bool wholly_held(const case_::Stage& stage, const Model& model, const std::string& group) {
   const Mesh& mesh = model.mesh;
   const auto held = [&](const std::string& volume) {
     std::array<bool, 3> axes{};
     for (const case_::Constraint& entry : stage.constraints) {
-      if (entry.group != surface && entry.group != volume) continue;
+      if (entry.group != group && entry.group != volume) continue;
       for (std::size_t a = 0; a < 3; ++a) axes[a] = axes[a] || entry.axes[a];
     }
     return axes == std::array{true, true, true};
   };
+  if (held(group)) return true;
   for (std::size_t s = 0; s < mesh.surface_groups.size(); ++s) {
-    if (mesh.surface_groups[s] != surface) continue;
+    if (mesh.surface_groups[s] != group) continue;
     const auto& faces = model.topology.surface_groups[s];
     return !faces.empty() && std::all_of(faces.begin(), faces.end(), [&](const Topology::Face& face) {
       return held(mesh.volume_groups[at(mesh.element_group[at(face.element)])]);
@@ -259,14 +261,15 @@ bool wholly_held(const case_::Stage& stage, const Model& model, const std::strin
 Advice loads_on_what_is_held(const case_::Case& input, const Model& model) {
   Advice advice;
   for (const case_::Stage& stage : input.stages) {
-    const auto judge = [&](const auto& load) {
-      if (!wholly_held(stage, model, load.surface)) return;
+    const auto judge = [&](const case_::Origin& origin, const std::string& group) {
+      if (!wholly_held(stage, model, group)) return;
       advice.push_back(
           fmt::format("{} (line {}) moves nothing: the motion of all nodes of \"{}\" is prescribed along x, y and z.",
-                      load.origin.key, load.origin.line, load.surface));
+                      origin.key, origin.line, group));
     };
-    for (const case_::Pressure& pressure : stage.pressures) judge(pressure);
-    for (const case_::Traction& traction : stage.tractions) judge(traction);
+    for (const case_::Pressure& pressure : stage.pressures) judge(pressure.origin, pressure.surface);
+    for (const case_::Traction& traction : stage.tractions) judge(traction.origin, traction.surface);
+    for (const case_::Force& force : stage.forces) judge(force.origin, force.group);
     for (const std::string& surface : stage.absorbing) {
       if (!wholly_held(stage, model, surface)) continue;
       advice.push_back(fmt::format(

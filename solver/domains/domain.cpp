@@ -40,6 +40,7 @@ ExactSum work_of_loads(const State& state) {
   ExactSum sum = state.constraints.work();
   sum.add(state.absorbing.work());
   for (const SurfaceLoad& load : state.loads.surfaces) sum.add(load.work());
+  for (const NodalLoad& load : state.loads.forces) sum.add(load.work());
   return sum;
 }
 

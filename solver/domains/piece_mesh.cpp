@@ -23,6 +23,8 @@ std::vector<std::byte> pack(const WholeModel& whole) {
     bytes.put(groups.num_classes);
   }
   bytes.put_list(whole.node_sets);
+  const GroupSizes& sizes = whole.group_sizes;
+  for (const auto* list : {&sizes.volume_mass, &sizes.surface_area, &sizes.node_group_mass}) bytes.put_list(*list);
   bytes.put_list(whole.body_length);
   bytes.put_list(whole.body_extent);
   bytes.put(static_cast<std::uint64_t>(whole.motion_centres.size()));
@@ -56,6 +58,9 @@ WholeModel unpack_whole(std::span<const std::byte> packed) {
     groups.num_classes = bytes.take<Index>();
   }
   whole.node_sets = bytes.take_list<Index>();
+  GroupSizes& sizes = whole.group_sizes;
+  for (auto* list : {&sizes.volume_mass, &sizes.surface_area, &sizes.node_group_mass})
+    *list = bytes.take_list<double>();
   whole.body_length = bytes.take_list<double>();
   whole.body_extent = bytes.take_list<double>();
   DEMAND(whole.body_extent.size() == whole.body_length.size(), "two numbers of bodies");
@@ -72,6 +77,10 @@ WholeModel unpack_whole(std::span<const std::byte> packed) {
   for (auto* names : {&whole.volume_groups, &whole.surface_groups, &whole.node_groups, &whole.cut}) {
     for (auto left = bytes.take<std::uint64_t>(); left > 0; --left) names->push_back(bytes.take_text());
   }
+  DEMAND(sizes.volume_mass.size() == whole.volume_groups.size() &&
+             sizes.surface_area.size() == whole.surface_groups.size() &&
+             sizes.node_group_mass.size() == whole.node_groups.size(),
+         "sizes of other groups");
   DEMAND(bytes.left() == 0, std::to_string(bytes.left()) + " bytes too many");
   return whole;
 }

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "case/problem_at.hpp"
 #include "model/model_joints.hpp"
+#include "model/nodal_loads.hpp"
 #include "model/node_sets.hpp"
 #include "model/parameters.hpp"
 #include "model/surfaces_to_break.hpp"
@@ -204,6 +205,7 @@ Model build_bare_model(const case_::Case& input) {
   break_initial(input, model);
   model.whole.cut = surfaces_to_break(input);
   model.corner_tags = tag_corners(model.whole.cut, model.mesh, model.topology);
+  model.whole.group_sizes = group_sizes(model);
   model.torn = torn_faces(model.mesh, model.topology);
   find_joint_groups(input, model);
   take_joint_laws(input, model);

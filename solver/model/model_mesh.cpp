@@ -55,8 +55,8 @@ FinishedMesh raster_of(const case_::Case& input) {
   }
 }
 
-/// Constraints on what has no node that could be held: they would do nothing.
-std::vector<Problem> constraints_of_nothing(const case_::Case& input, const MeshReport& report) {
+/// Constraints and forces on what has no node: they would do nothing.
+std::vector<Problem> conditions_of_nothing(const case_::Case& input, const MeshReport& report) {
   const auto is_empty = [&](const std::string& name) {
     for (const auto* groups : {&report.volume_groups, &report.surface_groups, &report.node_groups}) {
       const auto found = std::find_if(groups->begin(), groups->end(), [&](const auto& g) { return g.name == name; });
@@ -65,12 +65,14 @@ std::vector<Problem> constraints_of_nothing(const case_::Case& input, const Mesh
     return false;
   };
   std::vector<Problem> problems;
+  const auto demand = [&](const auto& entry) {
+    if (!is_empty(entry.group)) return;
+    problems.push_back(case_::problem_at(input, entry.origin, "group", "this group holds no node of any element",
+                                         "a group with nodes of meshed physical volumes", entry.group));
+  };
   for (const case_::Stage& stage : input.stages) {
-    for (const case_::Constraint& entry : stage.constraints) {
-      if (!is_empty(entry.group)) continue;
-      problems.push_back(case_::problem_at(input, entry.origin, "group", "this group holds no node of any element",
-                                           "a group with nodes of meshed physical volumes", entry.group));
-    }
+    for (const case_::Constraint& entry : stage.constraints) demand(entry);
+    for (const case_::Force& entry : stage.forces) demand(entry);
   }
   return problems;
 }
@@ -85,7 +87,7 @@ FinishedMesh build_mesh(const case_::Case& input) {
   FinishedMesh made = read_mesh(input);
   std::vector<Problem> problems = case_::check_groups(
       input, {made.mesh.volume_groups, made.mesh.surface_groups, made.mesh.node_groups}, made.mesh.num_bodies);
-  if (problems.empty()) problems = constraints_of_nothing(input, made.report);
+  if (problems.empty()) problems = conditions_of_nothing(input, made.report);
   if (!problems.empty()) throw InputError(std::move(problems));
   return made;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "model/model.hpp"
+#include "model/nodal_loads.hpp"
 
 namespace breccia {
 namespace {
@@ -296,6 +297,7 @@ StageLoads stage_loads(const case_::Stage& stage, const Model& model) {
     loads.surfaces.emplace_back(faces_of_surface(model, entry.surface), entry.value);
   for (const case_::Traction& entry : stage.tractions)
     loads.surfaces.emplace_back(faces_of_surface(model, entry.surface), entry.value);
+  for (const case_::Force& entry : stage.forces) loads.forces.push_back(nodal_load(entry, model));
   for (const std::string& surface : stage.absorbing) add_absorbing(model, surface, loads.absorbing);
   for (const case_::Constraint& entry : stage.constraints) {
     NodalConstraint constraint;

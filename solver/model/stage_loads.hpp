@@ -7,12 +7,14 @@
 #include "physics/absorbing.hpp"
 #include "physics/constraints.hpp"
 #include "physics/loads.hpp"
+#include "physics/nodal_load.hpp"
 
 namespace breccia {
 
 /// What acts on the model during one stage.
 struct StageLoads {
   std::vector<SurfaceLoad> surfaces;
+  std::vector<NodalLoad> forces;
   std::vector<NodalConstraint> constraints;
   AbsorbingSurfaces absorbing;
   std::array<TimeFunction, 3> gravity;  ///< m/s2

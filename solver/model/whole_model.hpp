@@ -10,6 +10,13 @@
 
 namespace breccia {
 
+/// What forces on the groups of a mesh are shared by.
+struct GroupSizes {
+  std::vector<double> volume_mass;      ///< (volume groups) kg
+  std::vector<double> surface_area;     ///< (surface groups) m2 at rest, of both sides of an inner surface
+  std::vector<double> node_group_mass;  ///< (curves and points) kg, a quarter of every element for each of its corners
+};
+
 /// What depends on the model as a whole, the same on every rank.
 struct WholeModel {
   /// A pair of groups that joints hold together.
@@ -25,13 +32,14 @@ struct WholeModel {
   std::int64_t num_elements = 0, num_joints = 0;
   std::vector<Index> node_sets;           ///< (volume groups) of shared nodes (node_sets.hpp), or empty
   std::vector<JointGroups> joint_groups;  ///< pair g has the joint law g, of mean strengths
-  std::vector<double> body_length;        ///< (bodies) H of contact, m: mean inradius of the elements
-  std::vector<double> body_extent;        ///< (bodies) m: diagonal of the box around it at rest
-  double contactor_size = 0;              ///< m, mean size of the contactors
-  double longest_edge = 0;                ///< m, of all elements, reference
-  double lower_side = 0;                  ///< m, along the axis of a plane model (plane.hpp); 0 of others
-  double energy_floor = 0;                ///< J, energies below are round-off
-  double step_ratio = 0;  ///< of the true stable step to the bound at rest (time_step.hpp); 0: not found yet
+  GroupSizes group_sizes;
+  std::vector<double> body_length;  ///< (bodies) H of contact, m: mean inradius of the elements
+  std::vector<double> body_extent;  ///< (bodies) m: diagonal of the box around it at rest
+  double contactor_size = 0;        ///< m, mean size of the contactors
+  double longest_edge = 0;          ///< m, of all elements, reference
+  double lower_side = 0;            ///< m, along the axis of a plane model (plane.hpp); 0 of others
+  double energy_floor = 0;          ///< J, energies below are round-off
+  double step_ratio = 0;            ///< of the true stable step to the bound at rest (time_step.hpp); 0: not found yet
   /// (entries of initial_velocities) centres of mass, m, of what each body has in the entry's group; empty: it
   /// neither turns nor stretches them
   std::vector<std::vector<Vec3>> motion_centres;

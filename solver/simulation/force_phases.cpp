@@ -14,6 +14,8 @@ void apply_loads(Domain& domain) {
   scratch.forces.clear();
   for (SurfaceLoad& p : state.loads.surfaces)
     p.apply(local, state.nodes, state.clock.time, state.clock.dt_before, scratch.forces);
+  for (NodalLoad& f : state.loads.forces)
+    f.apply(local, state.nodes, state.clock.time, state.clock.dt_before, scratch.forces);
   for (std::size_t i = 0; i < 3; ++i) scratch.gravity[i] = state.loads.gravity[i](state.clock.time);
   state.work.gravity.advance(local, state.nodes, Vec3(scratch.gravity[0], scratch.gravity[1], scratch.gravity[2]),
                              state.clock.dt_before);
@@ -81,6 +83,7 @@ void account_late_work(Domain& domain) {
   const auto lap = domain.timer.measure(Phase::loads);
   State& state = domain.state;
   for (SurfaceLoad& p : state.loads.surfaces) p.account_after(domain.model.local, state.nodes, state.clock.dt);
+  for (NodalLoad& f : state.loads.forces) f.account_after(domain.model.local, state.nodes, state.clock.dt);
   state.constraints.account_after(state.clock.dt);
   state.absorbing.account_after(state.nodes.velocity, state.clock.dt);
   const auto merge = [](Field<double>& work, const Field<double>& late) {

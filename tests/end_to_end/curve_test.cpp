@@ -6,7 +6,7 @@
 
 #include "end_to_end/program.hpp"
 
-/// What is held along curves and at points of the mesh.
+/// What is held along curves and at points of the mesh, and forces on them.
 namespace breccia::test {
 namespace {
 
@@ -54,6 +54,15 @@ Physical Point("pin") = Point In BoundingBox {-0.01, -0.01, -0.01, 0.01, 0.01, 0
 MeshSize{:} = 0.05;
 )";
 
+/// The same without gravity, with a force of 100 N on a line across its top.
+std::string pressed_beam() {
+  std::string text = kBeam;
+  text.replace(text.find("gravity = "), std::string("gravity = [0, 0, \"-9.81 m/s2\"]").size(), "");
+  text.insert(text.find("[output]"), "[[stage.force]]\ngroup = \"load\"\nvalue = [0, 0, \"-100 N\"]\n");
+  text.replace(text.find("\"pin\"]"), 6, "\"pin\", \"load\"]");
+  return text;
+}
+
 class Curves : public testing::Test {
  protected:
   void SetUp() override {
@@ -83,6 +92,29 @@ TEST_F(Curves, BearTheWeightOfWhatLiesOnThemTheSameOnAnyNumberOfRanks) {
   EXPECT_NEAR(last("left reaction z [N]"), half, 0.01 * half);
   EXPECT_NEAR(last("right reaction z [N]"), half, 0.01 * half);
   EXPECT_NEAR(last("pin reaction x [N]"), 0, 0.01 * half);
+}
+
+TEST_F(Curves, TakeAForceThatTheirSupportsCarryTheSameOnAnyNumberOfRanks) {
+  scratch_.write("beam.geo", kGeometry + R"(Point(101) = {0.3, 0, 0.1}; Point(102) = {0.3, 0.1, 0.1};
+Line(101) = {101, 102};
+BooleanFragments{ Volume{1}; Delete; }{ Line{101}; Delete; }
+Physical Curve("load") = Curve In BoundingBox {0.29, -0.01, 0.09, 0.31, 0.11, 0.11};
+)");
+  const std::string beam = scratch_.write("pressed.toml", pressed_beam());
+  for (const int ranks : {1, 3}) {
+    const std::string run = "pressed_" + std::to_string(ranks);
+    const Outcome outcome = call_ranks(ranks, "run " + beam + " --progress none -o " + quoted(run));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(hash(run), hash("pressed_1"));
+  }
+  const auto last = [&](const std::string& column) {
+    return history_column(scratch_.path("pressed_1") / "history.csv", column).back();
+  };
+  EXPECT_NEAR(last("left reaction z [N]"), 70, 1) << "by its levers";
+  EXPECT_NEAR(last("right reaction z [N]"), 30, 1);
+  const double sinks = -last("load displacement z [m]");
+  EXPECT_GT(sinks, 0);
+  EXPECT_NEAR(last("external work [J]"), 100 * sinks, 0.02 * 100 * sinks) << "F u of a force that was there at once";
 }
 
 TEST_F(Curves, AreHeldOnAfterAResumeOnOtherRanks) {

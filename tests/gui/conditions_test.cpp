@@ -45,22 +45,26 @@ TEST(Conditions, AreThoseOfTheCaseStageByStage) {
   EXPECT_TRUE(rows[2].curves.empty());
 }
 
-TEST(Conditions, KnowTractionsAndAbsorbingSurfaces) {
+TEST(Conditions, KnowTractionsForcesAndAbsorbingSurfaces) {
   const QTemporaryDir scratch;
   Document document(scratch.filePath("state"));
   const QByteArray more =
       "absorbing = [\"bottom\"]\n[[stage.traction]]\nsurface = \"side\"\n"
-      "value = [{ linear = \"1 GPa/s\" }, 0, \"-2 MPa\"]\n";
+      "value = [{ linear = \"1 GPa/s\" }, 0, \"-2 MPa\"]\n[[stage.force]]\ngroup = \"crest\"\n"
+      "value = [0, \"-2 kN\", 0]\n";
   ASSERT_EQ(document.open(test::written_case(scratch, test::block_case(2, "10 us") + more)), QString());
   ASSERT_TRUE(document.problems().empty()) << document.problems()[0].text();
   const std::vector<Condition> rows = conditions_of(document);
-  ASSERT_EQ(rows.size(), 2U);
+  ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows[0].type + "|" + rows[0].target + "|" + rows[0].path, "traction|side|stage[0].traction[0]");
   ASSERT_EQ(rows[0].curves.size(), 2U);
   EXPECT_EQ(rows[0].curves[1].name, "traction z");
   EXPECT_EQ(rows[0].largest, (std::array{1e4, 0.0, -2e6}));
   EXPECT_FALSE(rows[0].follows);
-  EXPECT_EQ(rows[1].type + "|" + rows[1].target + "|" + rows[1].path, "absorbing|bottom|stage[0]");
+  EXPECT_EQ(rows[1].type + "|" + rows[1].target + "|" + rows[1].path, "force|crest|stage[0].force[0]");
+  EXPECT_EQ(rows[1].largest, (std::array{0.0, -2000.0, 0.0}));
+  EXPECT_EQ(rows[1].unit, "N");
+  EXPECT_EQ(rows[2].type + "|" + rows[2].target + "|" + rows[2].path, "absorbing|bottom|stage[0]");
 }
 
 TEST(Conditions, CurvesAreTheFunctionsOverTheirStageWithTheCornersOfTables) {

@@ -18,6 +18,7 @@ TEST(GroupNames, ANewEntryIsOfAGroupWithoutOneAndInventsNoQuantity) {
   EXPECT_EQ(lines_of_new_entry("material", kCase, kMesh), "group = \"steel\"\n");
   EXPECT_EQ(lines_of_new_entry("stage[0].traction", kCase, kMesh), "surface = \"foot\"\n");
   EXPECT_EQ(lines_of_new_entry("stage[0].constraint", kCase, kMesh), "group = \"top\"\n");
+  EXPECT_EQ(lines_of_new_entry("stage[0].force", kCase, kMesh), "group = \"top\"\n");
   EXPECT_EQ(lines_of_new_entry("initial_velocity", kCase, {}), "group = \"glass\"\n") << "the mesh is not known yet";
   EXPECT_EQ(lines_of_new_entry("material", kCase, MeshGroups{{"glass"}, {}, {}, 1}), "") << "all have one";
   EXPECT_EQ(lines_of_new_entry("stage", kCase, kMesh), "");
@@ -38,6 +39,7 @@ TEST(GroupNames, EveryKeyOfASurfaceOrAVolumeKnowsItsKind) {
   const auto kind = [](const char* path) { return group_kind(case_::key_of(path)); };
   EXPECT_EQ(kind("material[].group"), GroupKind::volume);
   EXPECT_EQ(kind("stage[].constraint[].group"), GroupKind::any);
+  EXPECT_EQ(kind("stage[].force[].group"), GroupKind::any);
   EXPECT_EQ(kind("stage[].pressure[].surface"), GroupKind::surface);
   EXPECT_EQ(kind("mesh.raster.group"), GroupKind::none) << "a name is given there";
   for (const char* path : {"joints.broken", "stage[].broken", "stage[].absorbing", "contact_points.surfaces"}) {

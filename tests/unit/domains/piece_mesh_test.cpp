@@ -24,6 +24,8 @@ WholeModel whole_of(const Mesh& mesh) {
   whole.source = mesh.source;
   whole.volume_groups = mesh.volume_groups;
   whole.surface_groups = mesh.surface_groups;
+  whole.group_sizes.volume_mass.assign(mesh.volume_groups.size(), 3.0);
+  whole.group_sizes.surface_area.assign(mesh.surface_groups.size(), 4.0);
   whole.body_length.assign(at(mesh.num_bodies), 1.0);
   whole.body_extent.assign(at(mesh.num_bodies), 2.0);
   return whole;
@@ -96,6 +98,7 @@ TEST(WholeModel, ArrivesAsItWasSent) {
   WholeModel whole = whole_of(cubes());
   whole.num_elements = 144;
   whole.node_groups = {"edge", "tip"};
+  whole.group_sizes.node_group_mass = {5.0, 6.0};
   whole.joint_groups = {{0, 0, 0.5}, {0, 2, 0.25}};
   whole.step_ratio = 1.75;
   const WholeModel there = unpack_whole(pack(whole));
@@ -109,6 +112,9 @@ TEST(WholeModel, ArrivesAsItWasSent) {
   EXPECT_EQ(there.step_ratio, 1.75);
   EXPECT_EQ(there.body_length, whole.body_length);
   EXPECT_EQ(there.body_extent, whole.body_extent);
+  EXPECT_EQ(there.group_sizes.volume_mass, whole.group_sizes.volume_mass);
+  EXPECT_EQ(there.group_sizes.surface_area, whole.group_sizes.surface_area);
+  EXPECT_EQ(there.group_sizes.node_group_mass, whole.group_sizes.node_group_mass);
 }
 
 TEST(Records, ThatPointBeyondTheirModelAreNotPossible) {
