@@ -22,29 +22,12 @@ from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import (vtkActor, vtkColorTransferFunction, vtkLight, vtkPolyDataMapper, vtkRenderer,
                                          vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter)
 
+from render_fields import DAMAGE, DIVERGING, FIELDS, SEQUENTIAL, numbers_of, range_of
 from render_surface import FACES, edges_between, outer_faces, point_numbers
 
 INK = (0.13, 0.14, 0.17)
 STONE = (0.88, 0.89, 0.90)
 FRACTURE = (0.30, 0.31, 0.35)
-# Colours from weak to strong; light enough everywhere for dark cracks to stand out.
-SEQUENTIAL = [(0.00, 0.93, 0.94, 0.95), (0.20, 0.72, 0.84, 0.91), (0.45, 0.45, 0.68, 0.82), (0.65, 0.98, 0.85, 0.55),
-              (0.85, 0.95, 0.55, 0.35), (1.00, 0.80, 0.22, 0.24)]
-DAMAGE = [(0.00, 0.99, 0.90, 0.70), (0.50, 0.93, 0.45, 0.25), (1.00, 0.62, 0.07, 0.15)]
-DIVERGING = [(0.00, 0.16, 0.38, 0.66), (0.25, 0.55, 0.73, 0.87), (0.50, 0.94, 0.94, 0.94), (0.75, 0.93, 0.66, 0.52),
-             (1.00, 0.72, 0.13, 0.18)]
-FIELDS = {  # title, unit, the unit in SI, array, component (None: the magnitude)
-    "von_mises": ("von Mises", "MPa", 1e6, "von_mises", 0),
-    "tension": ("largest principal\nstress", "MPa", 1e6, "principal", 0),
-    "compression": ("smallest principal\nstress", "MPa", 1e6, "principal", 2),
-    **{f"stress_{axes}": (f"stress {axes}", "MPa", 1e6, "stress", i)
-       for i, axes in enumerate(("xx", "yy", "zz", "xy", "yz", "xz"))},
-    "speed": ("speed", "m/s", 1.0, "velocity", None),
-    "displacement": ("displacement", "mm", 1e-3, "displacement", None),
-    **{f"displacement_{axis}": (f"displacement {axis}", "mm", 1e-3, "displacement", i) for i, axis in enumerate("xyz")},
-    "damage": ("joint damage", "", 1.0, None, None),
-    "fragment": None, "body": None,
-}
 VIEWS = {  # from where, what is up; turned so that y is against gravity (turn_of)
     "front": ((0, 0, 1), (0, 1, 0)),
     "top": ((0, 1, 0), (0, 0, -1)),
@@ -162,14 +145,6 @@ def categories(ids):
         hue, light = (0.1 + 0.61803398875 * i) % 1, 0.72 + 0.2 * ((7 * i) % 5) / 4  # golden angle: neighbours differ
         table.SetTableValue(i, *(light * (1 - 0.45 * (0.5 + 0.5 * math.cos(2 * math.pi * (hue + k / 3)))) for k in range(3)), 1)
     return rank[numbers], table
-
-
-def rounded_up(value):
-    """The next of 1, 1.5, 2, 3, 4, 5, 6, 8, 10 times a power of ten: a bar that ends on a number one can read."""
-    if not (value > 0 and math.isfinite(value)):
-        return 1.0
-    power = 10.0 ** math.floor(math.log10(value))
-    return next(step * power for step in (1, 1.5, 2, 3, 4, 5, 6, 8, 10) if step * power >= value * (1 - 1e-9))
 
 
 def actor_of(surface, table=None, colour=None):
@@ -317,25 +292,16 @@ def in_view(reference, now):
     return np.concatenate((reference.reshape(-1, 3), shown))
 
 
-def range_of(values, signed):
-    """Of the colours: up to what a hundredth of the faces exceeds; to both sides of 0 alike where signs occur."""
-    sizes = np.abs(values[np.isfinite(values)])
-    high = rounded_up(np.quantile(sizes, 0.99)) if len(sizes) > 0 else 1.0
-    return (-high if signed else 0), high
-
-
 def surface_actor(arguments, triangles, arrays, elements):
     """The fragments' surface, its colour table and the title of the bar (None: no bar)."""
     if FIELDS[arguments.field] is None:
         numbers, table = categories(arrays[arguments.field])
         return actor_of(polydata(triangles, numbers[elements]), table), None, None
     title, unit, size, array, component = FIELDS[arguments.field]
-    title = f"{title}\n[{unit}]" if unit else title
+    title += f"\n[{unit}]" if unit else ""
     if arguments.field == "damage":
         return actor_of(polydata(triangles), colour=STONE), table_of(DAMAGE, *(arguments.range or (0, 1))), title
-    values = arrays[array] if component is None else arrays[array].reshape(len(arrays[array]), -1)[:, component]
-    values = np.linalg.norm(values, axis=1) if component is None else values
-    values = values[elements].astype(float) / size
+    values = numbers_of(arrays[array], component)[elements].astype(float) / size
     signed = component is not None and array != "von_mises"
     table = table_of(DIVERGING if signed else SEQUENTIAL, *(arguments.range or range_of(values, signed)))
     return actor_of(polydata(triangles, values), table), table, title

@@ -2,7 +2,7 @@
 # Components: solver (package breccia) and insitu (package breccia-insitu, which needs ParaView).
 install(TARGETS breccia RUNTIME DESTINATION bin COMPONENT solver)
 install(PROGRAMS meshes/breccia-picture DESTINATION bin COMPONENT solver)
-install(FILES meshes/render.py meshes/render_surface.py DESTINATION share/breccia COMPONENT solver)
+install(FILES meshes/render.py meshes/render_fields.py meshes/render_surface.py DESTINATION share/breccia COMPONENT solver)
 install(DIRECTORY meshes/ DESTINATION share/breccia/meshes COMPONENT solver
   FILES_MATCHING PATTERN "*.toml" PATTERN "*.geo" PATTERN "*.msh" PATTERN "*.csv")
 configure_file(solver/manual/breccia.1.in breccia.1 @ONLY)

@@ -2,11 +2,23 @@
 
 #include <QFontDatabase>
 #include <QKeyEvent>
+#include <QPainter>
 #include <QTextBlock>
 
-namespace breccia::gui {
+#include "widgets/line_numbers.hpp"
 
-CaseText::CaseText(Document& document, QWidget* parent) : QPlainTextEdit(parent), document_(document) {
+namespace breccia::gui {
+namespace {
+
+constexpr int kBeside = 6;  // pixels on both sides of the numbers
+const QColor kWrong(208, 48, 48);
+
+}  // namespace
+
+CaseText::CaseText(Document& document, QWidget* parent)
+    : QPlainTextEdit(parent),
+      document_(document),
+      numbers_(new LineNumbers(this, [this](QPaintEvent* event) { paint_numbers(event->rect()); })) {
   setObjectName("case_text");
   setAccessibleName(tr("Text of the case"));
   setToolTip(tr("The case as the solver reads it (TOML); forms and text follow each other"));
@@ -19,6 +31,52 @@ CaseText::CaseText(Document& document, QWidget* parent) : QPlainTextEdit(parent)
   connect(this, &QPlainTextEdit::cursorPositionChanged, this, [this] {
     if (!showing_ && hasFocus()) emit line_entered(textCursor().blockNumber() + 1);
   });
+  make_numbers();
+}
+
+void CaseText::make_numbers() {
+  connect(this, &QPlainTextEdit::blockCountChanged, this, &CaseText::place_numbers);
+  connect(this, &QPlainTextEdit::cursorPositionChanged, numbers_, qOverload<>(&QWidget::update));
+  connect(this, &QPlainTextEdit::updateRequest, this, [this](const QRect& part, int scrolled) {
+    scrolled != 0 ? numbers_->scroll(0, scrolled) : numbers_->update(0, part.y(), numbers_->width(), part.height());
+  });
+  place_numbers();
+}
+
+/// As wide as the last number.
+void CaseText::place_numbers() {
+  const QString widest(QString::number(std::max(100, blockCount())).size(), '9');
+  const int width = fontMetrics().horizontalAdvance(widest) + 2 * kBeside;
+  setViewportMargins(width, 0, 0, 0);
+  const QRect inside = contentsRect();
+  numbers_->setGeometry(inside.left(), inside.top(), width, inside.height());
+}
+
+void CaseText::resizeEvent(QResizeEvent* event) {
+  QPlainTextEdit::resizeEvent(event);
+  place_numbers();
+}
+
+void CaseText::changeEvent(QEvent* event) {
+  QPlainTextEdit::changeEvent(event);
+  if (event->type() == QEvent::FontChange) place_numbers();
+}
+
+void CaseText::paint_numbers(const QRect& part) {
+  QPainter painter(numbers_);
+  painter.fillRect(part, palette().color(QPalette::Window));
+  painter.setFont(font());
+  QTextBlock block = firstVisibleBlock();
+  auto top = static_cast<int>(blockBoundingGeometry(block).translated(contentOffset()).top());
+  for (; block.isValid() && top <= part.bottom(); block = block.next()) {
+    const auto height = static_cast<int>(blockBoundingRect(block).height());
+    const int number = block.blockNumber() + 1;
+    const bool wrong = wrong_lines_.count(number) != 0, here = number == textCursor().blockNumber() + 1;
+    painter.setPen(wrong ? kWrong : palette().color(here ? QPalette::Active : QPalette::Disabled, QPalette::Text));
+    painter.drawText(0, top, numbers_->width() - kBeside, height, Qt::AlignRight | Qt::AlignVCenter,
+                     QString::number(number));
+    top += height;
+  }
 }
 
 void CaseText::keyPressEvent(QKeyEvent* event) {
@@ -65,18 +123,21 @@ void CaseText::show_text() {
 
 void CaseText::set_problems(const std::vector<Problem>& problems) {
   QList<QTextEdit::ExtraSelection> marks;
+  wrong_lines_.clear();
   for (const Problem& p : problems) {
     const QTextBlock block = document()->findBlockByNumber(p.line - 1);
     if (p.line <= 0 || !block.isValid()) continue;
+    wrong_lines_.insert(p.line);
     QTextEdit::ExtraSelection mark;
     mark.cursor = QTextCursor(block);
     mark.cursor.select(QTextCursor::LineUnderCursor);
     mark.format.setUnderlineStyle(QTextCharFormat::WaveUnderline);
-    mark.format.setUnderlineColor(QColor(208, 48, 48));
+    mark.format.setUnderlineColor(kWrong);
     mark.format.setToolTip(QString::fromStdString(p.text()));
     marks << mark;
   }
   setExtraSelections(marks);
+  numbers_->update();
 }
 
 void CaseText::go_to_line(int line) {

@@ -51,15 +51,22 @@ def folder_of(run):
     return name
 
 
+def last_value(function):
+    """Of a number or a function of time of a case."""
+    if isinstance(function, dict):
+        function = function.get("table", [[0, 0]])[-1][1] + function.get("constant", 0)
+    return float(function) if isinstance(function, (int, float)) else 0.0
+
+
 def up_of(run):
     """The axis against gravity, or else that of the first velocity, or else z."""
     try:
         with open(os.path.join(folder_of(run), "case.toml"), "rb") as file:
             case = tomllib.load(file)
-        gravity = np.sum([[g if isinstance(g, (int, float)) else 0.0 for g in stage.get("gravity", [0, 0, 0])]
-                          for stage in case.get("stage", [])] or [[0, 0, 0]], axis=0)
+        gravity = np.sum([[last_value(g) for g in stage.get("gravity", [0, 0, 0])] for stage in case.get("stage", [])] or [[0, 0, 0]],
+                         axis=0)
         velocity = np.max([np.abs(start.get("velocity", [0, 0, 0])) for start in case.get("initial_velocity", [])] or [[0, 0, 0]], axis=0)
-    except (OSError, ValueError, TypeError, AttributeError):
+    except (OSError, ValueError, TypeError, AttributeError, IndexError):
         return "z"
     for vector in (gravity, velocity):
         if np.any(vector != 0):

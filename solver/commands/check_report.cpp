@@ -1,4 +1,5 @@
 #include "commands/check_report.hpp"
+#include "commands/bending_report.hpp"
 #include "commands/contact_report.hpp"
 #include "commands/joint_report.hpp"
 #include "commands/model_report.hpp"
@@ -332,6 +333,7 @@ CheckReport full_report(const case_::Case& input, const Model& model, const Star
   append(report.advice, coarse_points_advice(model));
   append(report.advice, unmeant_advice(input, model));
   append(report.advice, plausibility_advice(input));
+  append(report.advice, bending_advice(input, model));
   append(report.advice, stage_advice(input, model));
   report.step = step_report(input, model);
   report.estimate = estimate_run(input, model, report.step, from.time);

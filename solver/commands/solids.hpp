@@ -44,7 +44,8 @@ class Solids {
   /// Numbers up to this one; most are of no solid.
   [[nodiscard]] std::size_t end() const { return all_.size(); }
 
-  /// Which of them the constraints of a stage hold, and its pressures, tractions and forces act on. O(elements x entries)
+  /// Which of them the constraints of a stage hold, and its pressures, tractions and forces act on.
+  /// O(elements x entries)
   void hold(const case_::Stage& stage);
 
   /// The largest crossing time of a wave, s.

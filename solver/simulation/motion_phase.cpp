@@ -121,8 +121,8 @@ std::string remedy_of(const Domain& domain) {
     return "elements have been crushed or turned inside out: lower speeds and loads, use larger elements there, or "
            "lower time.safety (or time.step)";
   if (!domain.state.loads.surfaces.empty() || !domain.state.loads.forces.empty())
-    return "a pressure, traction or force drives what it has torn off on and on: end it or lower it, or lower time.safety (or "
-           "time.step)";
+    return "a pressure, traction or force drives what it has torn off on and on: end it or lower it, or lower "
+           "time.safety (or time.step)";
   return "the time step is too long for what happens there: lower time.safety (or time.step), or the penalties";
 }
 

@@ -110,6 +110,26 @@ TEST(Forms, TextAndFormFollowEachOther) {
   EXPECT_FALSE(text->toPlainText().contains("13 GPa"));
 }
 
+TEST(Forms, LinesOfTheTextAreNumberedAndThoseWithAProblemMarked) {
+  Desk desk;
+  desk.window->open_path(written_case(desk.scratch, block_case(1, "1 ms")));
+  auto* text = desk.find<QPlainTextEdit>("case_text");
+  auto* numbers = desk.find<QWidget>("line_numbers");
+  EXPECT_GE(text->viewport()->geometry().left(), numbers->geometry().right());
+  const auto has_red = [&] {
+    numbers->resize(numbers->width(), 400);  // though another page may be seen
+    const QImage image = numbers->grab().toImage();
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x)
+        if (image.pixelColor(x, y).red() > image.pixelColor(x, y).green() + 80) return true;
+    return false;
+  };
+  EXPECT_FALSE(has_red());
+  desk.window->document().set_value("material[0].young", "\"12 GN\"");
+  ASSERT_TRUE(wait_until([&] { return desk.find<QListWidget>("problems")->count() > 0; }, 60000));
+  EXPECT_TRUE(has_red());
+}
+
 TEST(Forms, OfALongValueTheBeginningIsSeen) {
   Desk desk;
   desk.window->open_path(written_case(desk.scratch, block_case(1, "1 ms")));
