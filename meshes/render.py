@@ -58,8 +58,8 @@ def parse_arguments():
     when = parser.add_mutually_exclusive_group()
     when.add_argument("--time", type=float, help="s; the frame nearest to it is drawn")
     when.add_argument("--last", action="store_true", help="the last frame (default)")
-    parser.add_argument("--view", choices=list(VIEWS), default="iso",
-                        help="up is against the gravity of the case, y where it has none")
+    parser.add_argument("--view", choices=list(VIEWS),
+                        help="up is against the gravity of the case, y where it has none; without it iso, or along the axis of a plane model")
     parser.add_argument("--size", default="1600x1000", help="pixels, WIDTHxHEIGHT")
     parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),
                         help="of the colours, in the unit shown; less damaged joints than LOW are left out")
@@ -167,9 +167,9 @@ def actor_of(surface, table=None, colour=None):
     return actor
 
 
-def lines_of(cells, width, opacity=1.0):
-    """Lines, or the edges of triangles; width in pixels of the picture."""
-    actor = actor_of(polydata(cells), colour=INK)
+def lines_of(cells, width, opacity=1.0, values=None, table=None):
+    """Lines, or the edges of triangles, in the colours of their values or dark; width in pixels of the picture."""
+    actor = actor_of(polydata(cells, values), table, None if table else INK)
     look = actor.GetProperty()
     look.SetRepresentationToWireframe()
     look.LightingOff()
@@ -240,19 +240,47 @@ def last_value(function):
     return float(function) if isinstance(function, (int, float)) else 0.0
 
 
-def turn_of(run):
-    """Rotation that turns the views so that what is up is against gravity; none where the case has none, or it is along y."""
+def case_of(run):
+    """The resolved case of a run; empty: it cannot be read."""
     try:
         with open(os.path.join(run, "case.toml"), "rb") as file:
-            stages = tomllib.load(file).get("stage", [])
-        along = [np.array([last_value(g) for g in stage.get("gravity", [0, 0, 0])]) for stage in stages]
-    except (OSError, ValueError, TypeError, AttributeError, IndexError):
-        return np.eye(3)
-    gravity = next((g for g in along if g.any()), np.array([0.0, -1.0, 0.0]))
+            return tomllib.load(file)
+    except (OSError, ValueError):
+        return {}
+
+
+def plane_axis(case):
+    """0 to 2, along which nothing moves in a plane model; None: it is none."""
+    plane = case.get("plane")
+    return "xyz".find(plane.get("axis", "z")) if isinstance(plane, dict) else None
+
+
+def gravity_of(case):
+    """The first that is not zero, or none."""
+    try:
+        along = [np.array([last_value(g) for g in stage.get("gravity", [0, 0, 0])]) for stage in case.get("stage", [])]
+    except (TypeError, AttributeError, IndexError):
+        return None
+    return next((g for g in along if g.any()), None)
+
+
+def turn_of(case):
+    """Rotation that turns the views so that what is up is against gravity; none where the case has none, or it is along y."""
+    gravity = gravity_of(case)
+    gravity = np.array([0.0, -1.0, 0.0]) if gravity is None else gravity
     axis = int(np.argmax(np.abs(gravity)))
     turn = {0: [[0, 1, 0], [-1, 0, 0], [0, 0, 1]], 1: np.eye(3), 2: [[1, 0, 0], [0, 0, -1], [0, 1, 0]]}[axis]
     upright = 1.0 if gravity[axis] < 0 else -1.0
     return np.array(turn, dtype=float) @ np.diag([1.0, upright, upright])
+
+
+def view_of(arguments, case):
+    """From where, what is up. A plane model is looked at along its axis unless the view is given."""
+    turn, axis = turn_of(case), plane_axis(case)
+    if arguments.view is not None or axis is None:
+        return [turn @ np.array(v, dtype=float) for v in VIEWS[arguments.view or "iso"]]
+    up = turn @ np.array([0.0, 1.0, 0.0])
+    return [np.eye(3)[axis], up if abs(up[axis]) < 0.5 else np.eye(3)[(axis + 1) % 3]]
 
 
 def aim(renderer, points, view, aspect):
@@ -307,7 +335,7 @@ def surface_actor(arguments, triangles, arrays, elements):
     return actor_of(polydata(triangles, values), table), table, title
 
 
-def add_joints(renderer, arguments, time, table, line, narrow):
+def add_joints(renderer, arguments, time, table, line, narrow, layer):
     """Broken joints dark, with their edges where they gape less than `narrow` (m): wider cracks show by themselves. In a
     picture of the damage also the others, in the table's colours. Returns how many are broken."""
     frames = [frame for frame in series(arguments.run, "joints") if frame[0] == time]
@@ -322,6 +350,8 @@ def add_joints(renderer, arguments, time, table, line, narrow):
         coloured = actor_of(polydata(joints[drawn], arrays["damage"][drawn]), table)
         coloured.GetProperty().SetAmbient(0.6)
         renderer.AddActor(coloured)
+        if layer:  # they stand on edge
+            renderer.AddActor(lines_of(joints[drawn], 2 * line, values=arrays["damage"][drawn], table=table))
     if broken.any():
         renderer.AddActor(actor_of(polydata(joints[broken]), colour=FRACTURE))
         renderer.AddActor(lines_of(joints[broken & (arrays["opening"] < narrow)], line))
@@ -367,12 +397,11 @@ def build(arguments):
     for (owner, ends), opacity in zip(edges_between(numbers, reference, whole, arrays["fragment"]), (1.0, 0.6)):
         if len(owner) > 0:
             renderer.AddActor(lines_of(now[owner[:, None], ends], line, opacity))
-    turn = turn_of(arguments.run)
-    view = [turn @ np.array(v, dtype=float) for v in VIEWS[arguments.view]]
-    tall = aim(renderer, in_view(reference[shown], now[shown]), view, width / height)
+    case = case_of(arguments.run)
+    tall = aim(renderer, in_view(reference[shown], now[shown]), view_of(arguments, case), width / height)
     if arguments.field == "damage":
         surface.GetProperty().SetOpacity(0.35)
-    broken = add_joints(renderer, arguments, time, table, line, 3 * tall / arguments.pixels[1])
+    broken = add_joints(renderer, arguments, time, table, line, 3 * tall / arguments.pixels[1], plane_axis(case) is not None)
     fragments = len(np.unique(arrays["fragment"][shown]))
     texts = (f"t = {time_text(time)}", counted(fragments, "fragment"), counted(broken, "broken joint"))
     for i, text in enumerate(texts):

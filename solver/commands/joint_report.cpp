@@ -1,7 +1,7 @@
 #include "commands/joint_report.hpp"
 
 #include <fmt/core.h>
-
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -33,20 +33,57 @@ std::pair<std::size_t, std::size_t> groups_beside(const Model& model, const Mode
   return {index(model.mesh.element_group[index(joint.face.a)]), index(model.mesh.element_group[index(joint.face.b)])};
 }
 
-/// Area of the joints of a pair of groups over the volume of these, 1/m.
-double area_per_volume(const Model& model, std::size_t groups) {
-  double area = 0, volume = 0;
+/// Sum of A n n^T of the joints of a pair of groups over the volume of these, 1/m: under a stress along a unit vector d
+/// joints of stiffness k in all directions add a strain of stress / k times d . this d.
+Mat3 areas_per_volume(const Model& model, std::size_t groups) {
+  Mat3 areas = Mat3::Zero();
+  double volume = 0;
   std::vector<bool> counted(model.mesh.volume_groups.size(), false);
   for (const ModelJoint& joint : model.joints) {
     if (groups_of(model, joint) != groups) continue;
-    area += joint.face.area;
+    const auto x = geometry::corners_of(model.mesh, joint.face.a);
+    const auto& corners = kFaceCorners[static_cast<std::size_t>(joint.face.face_a)];
+    const auto corner = [&](std::size_t i) { return x[static_cast<std::size_t>(corners[i])]; };
+    const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+    areas += joint.face.area * normal * normal.transpose();
     counted[index(model.mesh.element_group[index(joint.face.a)])] = true;
     counted[index(model.mesh.element_group[index(joint.face.b)])] = true;
   }
   for (Index s = 0; s < model.local.num_slots; ++s) {
     if (counted[index(model.local.block_group[index(s / kLanes)])]) volume += model.local.volume[index(s)];
   }
-  return volume > 0 ? area / volume : 0.0;
+  return volume > 0 ? Mat3(areas / volume) : Mat3(Mat3::Zero());
+}
+
+/// How much softer joints make a body, as a share of its compliance under uniaxial stress.
+struct Softness {
+  double mean = 0;        ///< of all directions; of a plane model of those in its plane
+  double most = 0;        ///< in the softest of these
+  Vec3 softest{0, 0, 0};  ///< that direction
+  [[nodiscard]] bool is_even() const { return most < 1.2 * mean; }
+};
+
+/// @param young_over_stiffness  E/k, m
+Softness softness_of(const Model& model, std::size_t groups, double young_over_stiffness) {
+  Mat3 areas = areas_per_volume(model, groups);
+  double directions = 3;
+  if (model.plane) {
+    areas.row(model.plane->axis).setZero();
+    areas.col(model.plane->axis).setZero();
+    directions = 2;
+  }
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(areas);
+  return {young_over_stiffness * areas.trace() / directions, young_over_stiffness * eigen.eigenvalues()[2],
+          eigen.eigenvectors().col(2)};
+}
+
+/// "along x"
+std::string words_of(const Vec3& direction) {
+  constexpr double kAlong = 0.98;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (std::abs(direction[static_cast<Eigen::Index>(axis)]) > kAlong) return std::string("along ") + "xyz"[axis];
+  }
+  return fmt::format("along ({:.2g}, {:.2g}, {:.2g})", direction[0], direction[1], direction[2]);
 }
 
 /// Both sides of the joints of a pair.
@@ -207,20 +244,23 @@ std::string glue_line(const Model& model, std::size_t l) {
 std::string law_report(const Model& model, std::size_t l, Advice& advice) {
   const JointLawParams& law = model.joint_laws[l];
   const Edges edges = edges_of(model, l);
-  const double softness = sides_of(model, l).softer_young * area_per_volume(model, l) / (3 * law.stiffness);
+  const Softness softness = softness_of(model, l, sides_of(model, l).softer_young / law.stiffness);
+  const double typical = softness.is_even() ? softness.mean : softness.most;
   // Joints of one k lie the closer the finer the elements are.
   const bool graded = edges.fine > 0 && edges.fine < kGraded * edges.mean;
-  const double softest = graded ? softness * edges.mean / edges.fine : softness;
+  const double softest = graded ? typical * edges.mean / edges.fine : typical;
+  const std::string where = softness.is_even() ? "" : " " + words_of(softness.softest);
   const std::string& name = model.joint_law_names[l];
   std::string text =
-      fmt::format("joints of {}: k = p/h = {:.4g} Pa/m with h = {:.4g} m; they make the body {:.2g} % softer{}\n", name,
-                  law.stiffness, model.joint_sizes[l], 100 * softness,
+      fmt::format("joints of {}: k = p/h = {:.4g} Pa/m with h = {:.4g} m; they make the body {:.2g} % softer{}{}\n",
+                  name, law.stiffness, model.joint_sizes[l], 100 * softness.mean,
+                  softness.is_even() ? "" : fmt::format(", {:.2g} %{}", 100 * softness.most, where),
                   graded ? fmt::format(", {:.2g} % where a tenth of them is finest", 100 * softest) : "");
   if (softest > kWorthRaising * kSoftness) {
     advice.push_back(fmt::format(
-        "The joints of {} make it {:.1f} % softer{}. For 5 % raise joint.penalty (or joint.penalty_factor, whichever "
+        "The joints of {} make it {:.1f} % softer{}{}. For 5 % raise joint.penalty (or joint.penalty_factor, whichever "
         "the case has) by a factor of {:.2g}{}; the time step falls with its root.",
-        name, 100 * softest, graded ? " where it is meshed finest" : "", softest / kSoftness,
+        name, 100 * softest, where, graded ? " where it is meshed finest" : "", softest / kSoftness,
         graded ? ", or give joint.size the edges of that part" : ""));
   }
   if (!law.breakable()) return text + glue_line(model, l);

@@ -252,6 +252,22 @@ TEST(Program, check_tells_how_much_softer_joints_make_the_body) {
   EXPECT_NEAR(number_before(outcome.out, " % softer. For 5 %") / (100 * softness), 1.0, kTwoDigits);
 }
 
+TEST(Program, check_tells_along_which_direction_joints_of_flat_elements_make_the_body_softest) {
+  const Scratch scratch;
+  const std::string flat =
+      "--set 'mesh.raster.cells=[10, 1, 1]' --set 'mesh.raster.cell_size=[\"1 mm\", \"4 mm\", \"4 mm\"]'";
+  const Outcome outcome = call("check " + scratch.write("case.toml", kSmallCase) + " " + flat);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  // Joints of a cell of a x b x b by the squares of their normals along a: 16 triangles centre - face - corner and 8
+  // centre - edge, 2 b^3 / sqrt(a^2 + b^2) each kind, and nine faces b^2 between ten cells.
+  constexpr double kThin = 1e-3, kWide = 4e-3, kYoung = 4e6;  // m, Pa
+  const double areas = 4 * kWide / (kThin * std::hypot(kThin, kWide)) + 0.9 / kThin;
+  const double softness = kYoung * areas / number_before(outcome.out, " Pa/m with");
+  constexpr double kTwoDigits = 0.05;  // as many as are told
+  EXPECT_NEAR(number_before(outcome.out, " % along x") / (100 * softness), 1.0, kTwoDigits);
+  EXPECT_NEAR(number_before(outcome.out, " % softer along x. For 5 %") / (100 * softness), 1.0, kTwoDigits);
+}
+
 TEST(Program, check_tells_how_ranks_would_share_the_model) {
   const Scratch scratch;
   const Outcome outcome =
