@@ -176,6 +176,11 @@ constexpr auto table = std::to_array<Topic>({
      "thickness, of rasters by 0.88, 0.96 and 0.99 with 2, 4 and 8 cells across. `breccia check` names slender solids "
      "that are few elements thick.",
      "mesh.parameters|mesh.raster.cells"},
+    {"crack tip|crack speed|crack velocity|crack length|crack growth|acoustic emission|microseismicity|seismic event",
+     "Joints in frames have their time_of_failure. The plugin for ParaView makes of it where the crack tip was and how "
+     "fast (filter Fracture Surface, output 3), and events with energy, moment tensor and magnitude (Crack Events); "
+     "`breccia report RUN` lists the largest.",
+     "output.frame_interval|output.joints"},
     {"servo|servo control|stress control|force control",
      "There is none: a load is a function of time. A run stopped at a state of interest goes on from it with [start].",
      "stage.traction|stage.pressure|start"},

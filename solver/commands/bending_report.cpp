@@ -92,6 +92,7 @@ struct Slender {
 
 Advice bending_advice(const case_::Case& input, const Model& model) {
   constexpr double kSlenderBeam = 5, kSlenderPlate = 10, kMuch = 0.75;
+  constexpr std::int64_t kFew = 8;  // elements, of a grain: a tetrahedron is as thin by volume over area as a plate
   if (model.plane) return {};
   Solids solids(model);
   const std::vector<bool> rigid = never_bent(input, solids);
@@ -100,7 +101,7 @@ Advice bending_advice(const case_::Case& input, const Model& model) {
     const double size = solids[number].size();
     const bool beam = shape.is_beam(size);
     const double thickness = (beam ? 4 : 2) * shape.volume / shape.area;
-    if (rigid[number] || size < (beam ? kSlenderBeam : kSlenderPlate) * thickness) continue;
+    if (shape.elements < kFew || rigid[number] || size < (beam ? kSlenderBeam : kSlenderPlate) * thickness) continue;
     const double share = share_of_bending(shape.edge() / thickness);
     Slender& of_group = worst[shape.group];
     if (share < of_group.share) of_group = {share, thickness / shape.edge(), thickness};

@@ -42,5 +42,24 @@ TEST(Bending, IsNoMatterWhereItIsResolvedOrNothingBends) {
   EXPECT_EQ(advice_on("[20, 1, 1]", "10 mm", "bar"), "") << "all of it is held";
 }
 
+TEST(Bending, IsNoMatterOfASingleTetrahedron) {
+  const case_::Case input = case_::read_text(R"([mesh.raster]
+kind = "tetrahedra"
+boxes = [2, 2, 2]
+cell_size = "10 mm"
+gap = "1 mm"
+group = "grain"
+[[material]]
+group = "grain"
+young = "1 GPa"
+poisson = 0.2
+density = 1000
+[[stage]]
+end = "1 ms"
+)",
+                                             {});
+  EXPECT_EQ(as_list(bending_advice(input, build_bare_model(input))), "");
+}
+
 }  // namespace
 }  // namespace breccia
