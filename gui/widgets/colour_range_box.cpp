@@ -64,8 +64,8 @@ ColourRangeBox::ColourRangeBox(QWidget* parent)
 }
 
 void ColourRangeBox::show_range(const ColourRange& given, const std::array<double, 2>& drawn) {
-  low_->setPlaceholderText(QString::number(drawn[0], 'g', 4));
-  high_->setPlaceholderText(QString::number(drawn[1], 'g', 4));
+  low_->setPlaceholderText(isEnabled() ? QString::number(drawn[0], 'g', 4) : QString());
+  high_->setPlaceholderText(isEnabled() ? QString::number(drawn[1], 'g', 4) : QString());
   if (given == given_) return;  // what is being typed stays
   given_ = given;
   const QSignalBlocker low_quiet(low_), high_quiet(high_);

@@ -65,6 +65,7 @@ TEST(Colours, EndsThatAreTypedHoldForTheirQuantityInAllFrames) {
   RunDesk desk(pulled_block());
   auto *low = desk.find<QLineEdit>("colours_from"), *high = desk.find<QLineEdit>("colours_to");
   EXPECT_FALSE(low->isEnabled()) << "groups have no range";
+  EXPECT_TRUE(low->placeholderText().isEmpty());
   desk.window->view().set_colouring(Colouring::displacement_x);
   ASSERT_TRUE(low->isEnabled());
   const auto found = desk.scene().range();  // um
