@@ -80,22 +80,25 @@ void add_by_axis(const std::array<TimeFunction, 3>& functions, const Interval& s
       row.curves.push_back(curve(QString("%1 %2").arg(row.type, kAxes[a]), functions[a], stage));
 }
 
-Condition traction(const Document& document, const case_::Traction& given, Condition row, const Interval& stage) {
-  row.target = QString::fromStdString(given.surface);
-  row.type = text("traction");
+/// A load with a value by axis. @param given  a traction or a force;  @param target  its group
+Condition load_by_axis(const Document& document, const auto& given, const std::string& target, Condition row,
+                       const Interval& stage) {
+  row.target = QString::fromStdString(target);
   row.value = shown(document, row.path + ".value");
-  row.unit = "Pa";
   add_by_axis(given.value, stage, row);
   return row;
 }
 
+Condition traction(const Document& document, const case_::Traction& given, Condition row, const Interval& stage) {
+  row.type = text("traction");
+  row.unit = "Pa";
+  return load_by_axis(document, given, given.surface, std::move(row), stage);
+}
+
 Condition force(const Document& document, const case_::Force& given, Condition row, const Interval& stage) {
-  row.target = QString::fromStdString(given.group);
   row.type = text("force");
-  row.value = shown(document, row.path + ".value");
   row.unit = "N";
-  add_by_axis(given.value, stage, row);
-  return row;
+  return load_by_axis(document, given, given.group, std::move(row), stage);
 }
 
 void add_stage(const Document& document, const case_::Stage& stage, int number, const Interval& time,

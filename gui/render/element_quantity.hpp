@@ -36,6 +36,9 @@ struct QuantitySource {
   double scale;       ///< from SI to the unit
 };
 
+/// A displacement or a component of it.
+[[nodiscard]] constexpr bool is_displacement(Quantity quantity) { return quantity >= Quantity::displacement; }
+
 [[nodiscard]] const QuantitySource& source_of(Quantity quantity);
 /// "von Mises stress [MPa]"
 [[nodiscard]] std::string title_of(Quantity quantity);

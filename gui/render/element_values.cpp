@@ -19,8 +19,7 @@ constexpr int kBars = 10;
 constexpr double kMilli = 1e3;  // m in mm
 /// Share by which equal values may differ, written in single precision; how far the bars then reach to both sides.
 constexpr double kEqual = 1e-5, kBelow = 0.055, kAbove = 0.045;
-constexpr int kFirstQuantity = static_cast<int>(Measure::speed);
-static_assert(static_cast<int>(Measure::displacement_z) - kFirstQuantity == kNumQuantities - 1);
+constexpr int kFirstQuantity = static_cast<int>(Measure::first_quantity);
 using Corners = std::array<Vector, 4>;
 
 /// Twice the area of each face, outwards where the element is positive.

@@ -16,26 +16,13 @@
 namespace breccia::gui {
 
 enum class Measure {
-  radius_ratio,  ///< 3 r_in / r_circumscribed: 1 for the regular tetrahedron, 0 for a flat one
-  min_dihedral,  ///< smallest angle between two faces, degrees
-  mean_edge,     ///< mean of the six edges, mm
-  speed,         ///< from here to displacement_z as in Quantity
-  von_mises,
-  tension,
-  compression,
-  stress_xx,
-  stress_yy,
-  stress_zz,
-  stress_xy,
-  stress_yz,
-  stress_xz,
-  displacement,
-  displacement_x,
-  displacement_y,
-  displacement_z,
-  opening,  ///< of damaged joints, um
-  slip,     ///< of damaged joints, um
-  damage    ///< of damaged joints
+  radius_ratio,    ///< 3 r_in / r_circumscribed: 1 for the regular tetrahedron, 0 for a flat one
+  min_dihedral,    ///< smallest angle between two faces, degrees
+  mean_edge,       ///< mean of the six edges, mm
+  first_quantity,  ///< those from here to `opening` are made by measure_of
+  opening = first_quantity + kNumQuantities,  ///< of damaged joints, um
+  slip,                                       ///< of damaged joints, um
+  damage                                      ///< of damaged joints
 };
 
 /// With their names for people, units among them.

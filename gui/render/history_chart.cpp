@@ -93,7 +93,7 @@ HistoryChart::HistoryChart() {
 
 HistoryChart::~HistoryChart() { renderer_->RemoveObserver(begins_); }
 
-/// Where title and legend leave an axis no length VTK computes with numbers that are none, and says so for each curve.
+/// An axis to which title and legend leave no length gets NaN as its range, and VTK warns for each curve.
 void HistoryChart::begin_picture() {
   constexpr int kWidth = 240, kHeight = 90;  // pixels
   const int* size = renderer_->GetSize();

@@ -18,9 +18,7 @@ constexpr vtkIdType kMostWithEdges = 50000;
 }  // namespace
 
 std::optional<Quantity> quantity_of(Colouring colouring) {
-  constexpr int kFirst = static_cast<int>(Colouring::speed);
-  static_assert(static_cast<int>(Colouring::displacement_z) - kFirst == static_cast<int>(Quantity::displacement_z));
-  const int place = static_cast<int>(colouring) - kFirst;
+  const int place = static_cast<int>(colouring) - static_cast<int>(Colouring::first_quantity);
   return place < 0 ? std::nullopt : std::optional(static_cast<Quantity>(place));
 }
 
@@ -32,9 +30,8 @@ const std::vector<std::pair<Colouring, std::string>>& colourings() {
                                                        {Colouring::rank, "rank"}};
     for (int i = 0; i < kNumQuantities; ++i) {
       const auto quantity = static_cast<Quantity>(i);
-      const bool adapts = quantity >= Quantity::displacement;  // its unit does, to the model
-      all.emplace_back(static_cast<Colouring>(static_cast<int>(Colouring::speed) + i),
-                       adapts ? source_of(quantity).name : title_of(quantity));
+      const bool adapts = is_displacement(quantity);  // its unit does, to the model
+      all.emplace_back(colouring_by(quantity), adapts ? source_of(quantity).name : title_of(quantity));
     }
     return all;
   }();

@@ -38,22 +38,12 @@ enum class Colouring {
   body,
   fragment,
   rank,
-  speed,  ///< from here on as in Quantity
-  von_mises,
-  tension,
-  compression,
-  stress_xx,
-  stress_yy,
-  stress_zz,
-  stress_xy,
-  stress_yz,
-  stress_xz,
-  displacement,
-  displacement_x,
-  displacement_y,
-  displacement_z
+  first_quantity  ///< those from here on are made by colouring_by
 };
 
+[[nodiscard]] constexpr Colouring colouring_by(Quantity quantity) {
+  return static_cast<Colouring>(static_cast<int>(Colouring::first_quantity) + static_cast<int>(quantity));
+}
 /// None for a colouring by classes.
 [[nodiscard]] std::optional<Quantity> quantity_of(Colouring colouring);
 
@@ -169,6 +159,7 @@ class Scene {
   [[nodiscard]] std::int64_t face_of(vtkIdType cell) const;
   void set_opacity();
   void colour_by_class(const char* array, const std::vector<std::string>& names, const char* title);
+  void colour_by_quantity(Quantity quantity);
   void colour_by_displacement(const QuantitySource& source);
   void colour_by_value(const QuantitySource& source, const std::string& title);
   void choose_range(double low, double high);

@@ -82,14 +82,8 @@ void Scene::colour() {
     case Colouring::rank:
       colour_by_class("rank", {}, "rank");
       break;
-    case Colouring::displacement:
-    case Colouring::displacement_x:
-    case Colouring::displacement_y:
-    case Colouring::displacement_z:
-      colour_by_displacement(source_of(*quantity_of(colouring_)));
-      break;
     default:
-      colour_by_value(source_of(*quantity_of(colouring_)), title_of(*quantity_of(colouring_)));
+      colour_by_quantity(*quantity_of(colouring_));
       break;
   }
   draw_cut();
@@ -136,6 +130,11 @@ void Scene::colour_by_class(const char* array, const std::vector<std::string>& n
   };
   skin->GetCellData()->AddArray(shown_(*skin->GetCellData()));
   skin_mapper_->SetInputData(skin);
+}
+
+void Scene::colour_by_quantity(Quantity quantity) {
+  const QuantitySource& source = source_of(quantity);
+  is_displacement(quantity) ? colour_by_displacement(source) : colour_by_value(source, title_of(quantity));
 }
 
 /// They are small in some runs and large in others. A range that is held or given keeps its unit.

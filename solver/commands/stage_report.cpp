@@ -54,22 +54,12 @@ double pressure_at(const case_::Stage* stage, const std::string& surface, double
   return sum;
 }
 
-/// Likewise its traction.
-Vec3 traction_at(const case_::Stage* stage, const std::string& surface, double time) {
+/// The tractions on a surface, Pa, or the forces on a group, N. @param name  of a load's surface or group
+template <class Load>
+Vec3 sum_at(const std::vector<Load>& loads, std::string Load::*name, const std::string& group, double time) {
   Vec3 sum = Vec3::Zero();
-  if (stage == nullptr) return sum;
-  for (const case_::Traction& t : stage->tractions) {
-    if (t.surface == surface) sum += value_at(t.value, time);
-  }
-  return sum;
-}
-
-/// And the force on a group, N.
-Vec3 force_at(const case_::Stage* stage, const std::string& group, double time) {
-  Vec3 sum = Vec3::Zero();
-  if (stage == nullptr) return sum;
-  for (const case_::Force& f : stage->forces) {
-    if (f.group == group) sum += value_at(f.value, time);
+  for (const Load& load : loads) {
+    if (load.*name == group) sum += value_at(load.value, time);
   }
   return sum;
 }
@@ -87,18 +77,20 @@ std::string sudden_loads(const case_::Stage& stage, const case_::Stage* before, 
     loads += fmt::format("{}the pressure on \"{}\" ({} at once)", loads.empty() ? "" : " and ", p.surface,
                          quantity_text(jump, "Pa"));
   }
-  for (const case_::Traction& t : stage.tractions) {
-    const double jump = (traction_at(&stage, t.surface, start) - traction_at(before, t.surface, start)).norm();
-    if (jump <= kMuch * std::max(value_at(t.value, start).norm(), value_at(t.value, stage.end).norm())) continue;
-    loads += fmt::format("{}the traction on \"{}\" ({} at once)", loads.empty() ? "" : " and ", t.surface,
-                         quantity_text(jump, "Pa"));
-  }
-  for (const case_::Force& f : stage.forces) {
-    const double jump = (force_at(&stage, f.group, start) - force_at(before, f.group, start)).norm();
-    if (jump <= kMuch * std::max(value_at(f.value, start).norm(), value_at(f.value, stage.end).norm())) continue;
-    loads += fmt::format("{}the force on \"{}\" ({} at once)", loads.empty() ? "" : " and ", f.group,
-                         quantity_text(jump, "N"));
-  }
+  const auto judge = [&]<class Load>(std::vector<Load> case_::Stage::*member, std::string Load::*name, const char* what,
+                                     const char* unit) {
+    for (const Load& load : stage.*member) {
+      const Vec3 now = sum_at(stage.*member, name, load.*name, start);
+      const Vec3 then = before != nullptr ? sum_at(before->*member, name, load.*name, start) : Vec3(Vec3::Zero());
+      const double jump = (now - then).norm();
+      if (jump <= kMuch * std::max(value_at(load.value, start).norm(), value_at(load.value, stage.end).norm()))
+        continue;
+      loads += fmt::format("{}the {} on \"{}\" ({} at once)", loads.empty() ? "" : " and ", what, load.*name,
+                           quantity_text(jump, unit));
+    }
+  };
+  judge(&case_::Stage::tractions, &case_::Traction::surface, "traction", "Pa");
+  judge(&case_::Stage::forces, &case_::Force::group, "force", "N");
   return loads;
 }
 

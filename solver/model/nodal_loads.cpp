@@ -24,14 +24,12 @@ double area_of(const Mesh& mesh, const Topology::Face& face) {
   return 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
 }
 
-/// Calls f(element, bits of its corners) for the tagged elements of a corner group, ascending elements.
+/// Calls f(element, tag) for all corner tags, ascending elements.
 template <class F>
-void for_each_tag(const Model& model, Index group, F&& f) {
+void for_each_tag(const Model& model, F&& f) {
   auto tag = model.corner_tags.begin();
   for (Index e = 0; e < model.mesh.num_elements(); ++e) {
-    for (; tag != model.corner_tags.end() && tag->element == model.mesh.element_id(e); ++tag) {
-      if (tag->group == group) f(e, tag->corners);
-    }
+    for (; tag != model.corner_tags.end() && tag->element == model.mesh.element_id(e); ++tag) f(e, *tag);
   }
 }
 
@@ -76,11 +74,11 @@ GroupSizes group_sizes(const Model& model) {
   for (std::size_t s = 0; s < mesh.surface_groups.size(); ++s) {
     for (const Topology::Face& face : model.topology.surface_groups[s]) sizes.surface_area[s] += area_of(mesh, face);
   }
-  for (std::size_t g = 0; g < mesh.node_groups.size(); ++g) {
-    for_each_tag(model, static_cast<Index>(mesh.surface_groups.size() + g), [&](Index e, std::uint8_t corners) {
-      sizes.node_group_mass[g] += 0.25 * std::popcount(corners) * mass_of(model, e);
-    });
-  }
+  for_each_tag(model, [&](Index e, const CornerTag& tag) {
+    const auto group = static_cast<std::ptrdiff_t>(tag.group) - std::ssize(mesh.surface_groups);
+    if (group < 0) return;  // of a surface
+    sizes.node_group_mass[static_cast<std::size_t>(group)] += 0.25 * std::popcount(tag.corners) * mass_of(model, e);
+  });
   return sizes;
 }
 
@@ -112,7 +110,9 @@ NodalLoad nodal_load(const case_::Force& force, const Model& model) {
   } else {
     const Index group = corner_group(mesh, force.group);
     const double mass = sizes.node_group_mass[at(group) - mesh.surface_groups.size()];
-    for_each_tag(model, group, [&](Index e, std::uint8_t corners) { add_corners(e, corners, mass); });
+    for_each_tag(model, [&](Index e, const CornerTag& tag) {
+      if (tag.group == group) add_corners(e, tag.corners, mass);
+    });
   }
   return {shares.take(), force.value};
 }

@@ -24,15 +24,15 @@ void type(QLineEdit* field, const QString& text) {
 /// Stress of a bar in tension along x: E times its strain, of both ends apart; nothing across but by its inertia.
 TEST(Colours, OfAPulledBarAreItsStressAlongTheAxisThatIsChosen) {
   RunDesk desk(pulled_block());
-  desk.window->view().set_colouring(Colouring::stress_xx);
+  desk.window->view().set_colouring(colouring_by(Quantity::stress_xx));
   const auto along = desk.scene().range();
-  desk.window->view().set_colouring(Colouring::tension);
+  desk.window->view().set_colouring(colouring_by(Quantity::tension));
   const auto largest = desk.scene().range();
   EXPECT_GT(along[1], 0);
   EXPECT_NEAR(along[1], largest[1], 0.02 * largest[1]) << "it is nearly the largest principal stress";
-  desk.window->view().set_colouring(Colouring::stress_yz);
+  desk.window->view().set_colouring(colouring_by(Quantity::stress_yz));
   EXPECT_LT(std::max(-desk.scene().range()[0], desk.scene().range()[1]), 0.2 * along[1]);
-  desk.window->view().set_colouring(Colouring::compression);
+  desk.window->view().set_colouring(colouring_by(Quantity::compression));
   EXPECT_LT(desk.scene().range()[1], along[1]);
 }
 
@@ -66,7 +66,7 @@ TEST(Colours, EndsThatAreTypedHoldForTheirQuantityInAllFrames) {
   auto *low = desk.find<QLineEdit>("colours_from"), *high = desk.find<QLineEdit>("colours_to");
   EXPECT_FALSE(low->isEnabled()) << "groups have no range";
   EXPECT_TRUE(low->placeholderText().isEmpty());
-  desk.window->view().set_colouring(Colouring::displacement_x);
+  desk.window->view().set_colouring(colouring_by(Quantity::displacement_x));
   ASSERT_TRUE(low->isEnabled());
   const auto found = desk.scene().range();  // um
   EXPECT_NEAR(high->placeholderText().toDouble(), found[1], 1e-3 * found[1]);
@@ -78,9 +78,9 @@ TEST(Colours, EndsThatAreTypedHoldForTheirQuantityInAllFrames) {
   ASSERT_TRUE(wait_until([&] { return desk.caption().startsWith("time 0 ") && !desk.window->busy(); }, kSolver))
       << desk.caption().toStdString();
   EXPECT_EQ(desk.scene().range()[1], 10) << "in the unit that it was typed in, though nothing has moved";
-  desk.window->view().set_colouring(Colouring::speed);
+  desk.window->view().set_colouring(colouring_by(Quantity::speed));
   EXPECT_TRUE(high->text().isEmpty());
-  desk.window->view().set_colouring(Colouring::displacement_x);
+  desk.window->view().set_colouring(colouring_by(Quantity::displacement_x));
   EXPECT_EQ(high->text(), "10");
   type(low, "12");
   EXPECT_EQ(desk.scene().range()[1], 10) << "above the other end: nothing changes";

@@ -161,7 +161,7 @@ TEST(Cut, IsSeenThroughWholeElementsOfAPlateThatIsHit) {
   desk.click_stage("Results");
   Scene& scene = desk.window->view().scene();
   ASSERT_TRUE(wait_until([&] { return scene.has_data() && !desk.window->busy(); }, kSolver));
-  desk.window->view().set_colouring(Colouring::von_mises);
+  desk.window->view().set_colouring(colouring_by(Quantity::von_mises));
   auto* way = desk.find<QComboBox>("cut_way");
   way->setCurrentText("z");
   emit way->activated(way->currentIndex());
@@ -180,7 +180,7 @@ TEST(Cut, OfARunIsColouredByWhatIsChosen) {
   desk.window->open_path(run);
   Scene& scene = desk.window->view().scene();
   ASSERT_TRUE(wait_until([&] { return scene.num_broken() > 0 && !desk.window->busy(); }, kSolver));
-  desk.window->view().set_colouring(Colouring::tension);
+  desk.window->view().set_colouring(colouring_by(Quantity::tension));
   auto* way = desk.find<QComboBox>("cut_way");
   way->setCurrentText("z");
   emit way->activated(way->currentIndex());
@@ -212,7 +212,7 @@ TEST(Cut, MovesThroughFourHundredThousandElements) {
   desk.window->open_path(written_case(desk.scratch, block_case(kCells, "1 ms")));
   Scene& scene = desk.window->view().scene();
   ASSERT_TRUE(wait_until([&] { return scene.has_data() && !desk.window->busy(); }, kSolver));
-  desk.window->view().set_colouring(Colouring::von_mises);
+  desk.window->view().set_colouring(colouring_by(Quantity::von_mises));
   auto* way = desk.find<QComboBox>("cut_way");
   way->setCurrentText("x");
   const double before = busy_ms();

@@ -83,7 +83,7 @@ TEST(Deformation, IsDrawnAtTheScaleThatIsTypedAndTheCaptionTellsIt) {
   EXPECT_TRUE(wait_until([&] { return wide() > 0.02 + 50 * is; }, kSolver));
   EXPECT_NEAR(wide() - 0.02, 100 * is, 1e-4 * 100 * is);
   EXPECT_TRUE(desk.seen_words().contains("displacements x100")) << desk.seen_words().toStdString();
-  desk.window->view().set_colouring(Colouring::displacement_x);
+  desk.window->view().set_colouring(colouring_by(Quantity::displacement_x));
   EXPECT_NEAR(desk.scene().range()[1], 4.6, 0.5) << "um, of centres of elements: values are true at any scale";
   desk.picture("deformation");
   desk.choose("nonsense");

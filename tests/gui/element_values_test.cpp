@@ -42,11 +42,11 @@ TEST(ElementValues, OfATetrahedronWithARightAngledCornerAreThoseByHand) {
               kRounding);
   EXPECT_NEAR(values_of(frame, Measure::min_dihedral).values.at(0), std::acos(1 / std::sqrt(3.0)) * 180 / M_PI, 1e-9);
   EXPECT_NEAR(values_of(frame, Measure::mean_edge).values.at(0), 1 + std::sqrt(2.0), kRounding);
-  EXPECT_NEAR(values_of(frame, Measure::speed).values.at(0), 5, kRounding);
+  EXPECT_NEAR(values_of(frame, measure_of(Quantity::speed)).values.at(0), 5, kRounding);
 }
 
 TEST(ElementValues, WhatAFrameDoesNotTellHasNoBars) {
-  EXPECT_TRUE(values_of(right_angled(1, {}), Measure::von_mises).bars.counts.empty());
+  EXPECT_TRUE(values_of(right_angled(1, {}), measure_of(Quantity::von_mises)).bars.counts.empty());
   EXPECT_TRUE(values_of(right_angled(1, {}), Measure::opening).bars.counts.empty());
   EXPECT_TRUE(values_of({}, Measure::radius_ratio).bars.counts.empty());
 }

@@ -140,7 +140,7 @@ TEST(FirstUse, FromATemplateToBreakingGlassAndItsResults) {
   ASSERT_NE(desk.window->run(), nullptr);
   SolverRun& solver = *desk.window->run();
   EXPECT_TRUE(solver.record().command.contains("-n"));
-  desk.window->view().set_colouring(Colouring::speed);
+  desk.window->view().set_colouring(colouring_by(Quantity::speed));
   ASSERT_TRUE(wait_until(
       [&] { return solver.status().broken_joints > 20 && desk.window->view().scene().num_broken() > 0; }, 4 * kSolver))
       << solver.failure().toStdString();

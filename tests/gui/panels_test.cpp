@@ -242,14 +242,14 @@ TEST(Panels, AHistogramOfTheResultInViewShowsTheElementsAndJointsOfItsBars) {
   auto* bars = desk.find<HistogramView>("histogram_bars");
   auto* measure = desk.find<QComboBox>("histogram_measure");
   Scene& scene = desk.window->view().scene();
-  desk.window->view().set_colouring(Colouring::speed);
+  desk.window->view().set_colouring(colouring_by(Quantity::speed));
   EXPECT_EQ(measure->currentText(), "speed [m/s]") << "what is coloured";
   constexpr std::size_t kElements = 4 * 4 * 4 * 24;
   const auto counted = [&](Measure of) {
     return !desk.window->busy() && panel->values() != nullptr && panel->values()->measure == of &&
            !panel->values()->values.empty();
   };
-  ASSERT_TRUE(wait_until([&] { return scene.has_data() && counted(Measure::speed); }, kSolver));
+  ASSERT_TRUE(wait_until([&] { return scene.has_data() && counted(measure_of(Quantity::speed)); }, kSolver));
   const auto total = [&] { return std::accumulate(bars->bars().counts.begin(), bars->bars().counts.end(), 0U); };
   EXPECT_EQ(total(), kElements);
   const auto [low, high] = scene.range();
@@ -266,7 +266,7 @@ TEST(Panels, AHistogramOfTheResultInViewShowsTheElementsAndJointsOfItsBars) {
   auto* frame = desk.find<QSlider>("frame");
   frame->setValue(frame->value() - 1);
   QTest::keyClick(frame, Qt::Key_Left);
-  EXPECT_TRUE(wait_until([&] { return counted(Measure::speed) && bars->chosen() == 0; }, kSolver))
+  EXPECT_TRUE(wait_until([&] { return counted(measure_of(Quantity::speed)) && bars->chosen() == 0; }, kSolver))
       << "the bar stays chosen while one walks through the frames";
 
   QTest::keyClick(frame, Qt::Key_End);

@@ -54,6 +54,7 @@ group = "grain"
 young = "1 GPa"
 poisson = 0.2
 density = 1000
+joints = "none"
 [[stage]]
 end = "1 ms"
 )",
