@@ -47,7 +47,8 @@ TEST(Bending, IsNoMatterOfASingleTetrahedron) {
 kind = "tetrahedra"
 boxes = [2, 2, 2]
 cell_size = "10 mm"
-gap = "1 mm"
+gap = "5 mm"
+random_orientation = true
 group = "grain"
 [[material]]
 group = "grain"
