@@ -19,6 +19,9 @@ QString shown(const Document& document, const QString& path) {
   return shown_value(case_::key_of(case_::pattern_of(path.toStdString())), document.value(path));
 }
 
+/// Path of an entry in the text, which may be that of several groups.
+QString written(const auto& entry) { return QString::fromStdString(entry.origin.key); }
+
 struct Interval {
   double begin = 0, end = 0;  // s
 };
@@ -121,14 +124,10 @@ void add_stage(const Document& document, const case_::Stage& stage, int number, 
     add_by_axis(stage.gravity, time, row);
     rows.push_back(std::move(row));
   }
-  for (std::size_t i = 0; i < stage.constraints.size(); ++i)
-    rows.push_back(constraint(document, stage.constraints[i], begun(path + QString(".constraint[%1]").arg(i)), time));
-  for (std::size_t i = 0; i < stage.pressures.size(); ++i)
-    rows.push_back(pressure(document, stage.pressures[i], begun(path + QString(".pressure[%1]").arg(i)), time));
-  for (std::size_t i = 0; i < stage.tractions.size(); ++i)
-    rows.push_back(traction(document, stage.tractions[i], begun(path + QString(".traction[%1]").arg(i)), time));
-  for (std::size_t i = 0; i < stage.forces.size(); ++i)
-    rows.push_back(force(document, stage.forces[i], begun(path + QString(".force[%1]").arg(i)), time));
+  for (const auto& given : stage.constraints) rows.push_back(constraint(document, given, begun(written(given)), time));
+  for (const auto& given : stage.pressures) rows.push_back(pressure(document, given, begun(written(given)), time));
+  for (const auto& given : stage.tractions) rows.push_back(traction(document, given, begun(written(given)), time));
+  for (const auto& given : stage.forces) rows.push_back(force(document, given, begun(written(given)), time));
   for (const std::string& surface : stage.absorbing) {
     Condition row = begun(path);
     row.type = text("absorbing");
@@ -149,9 +148,9 @@ QString parts_of_velocity(const Document& document, const QString& path) {
   return given.join("; ");
 }
 
-Condition initial_velocity(const Document& document, const case_::InitialVelocity& given, const QString& path) {
+Condition initial_velocity(const Document& document, const case_::InitialVelocity& given) {
   Condition row;
-  row.path = path;
+  const QString path = row.path = written(given);
   row.type = text("initial velocity");
   row.target = QString::fromStdString(given.group);
   row.value = parts_of_velocity(document, path);
@@ -181,8 +180,8 @@ std::vector<Condition> conditions_of(const Document& document) {
   std::vector<Condition> rows;
   try {
     const case_::Case input = case_::read_case_text(document.text().toStdString(), document.file().toStdString());
-    for (std::size_t i = 0; i < input.initial_velocities.size(); ++i)
-      rows.push_back(initial_velocity(document, input.initial_velocities[i], QString("initial_velocity[%1]").arg(i)));
+    for (const case_::InitialVelocity& given : input.initial_velocities)
+      rows.push_back(initial_velocity(document, given));
     Interval time;
     for (std::size_t s = 0; s < input.stages.size(); ++s) {
       time = {time.end, input.stages[s].end};

@@ -4,18 +4,10 @@
 #include "core/value_text.hpp"
 
 namespace breccia::gui {
-namespace {
-
-QStringList shown_list(const Document& document, const QString& path, const char* key) {
-  return shown_value(case_::key_of(key), document.value(path)).split(", ");
-}
-
-}  // namespace
-
 QStringList groups_of(const Document& document) {
   QStringList groups;
   for (int i = 0; i < document.places().count("material"); ++i)
-    groups += shown_list(document, QString("material[%1].group").arg(i), "material[].group");
+    groups += names_in(document.value(QString("material[%1].group").arg(i)));
   groups.removeAll(QString());
   groups.removeDuplicates();
   return groups;
@@ -27,7 +19,7 @@ QString contact_of(const Document& document, const QString& a, const QString& b,
   int most = -1;
   for (int i = 0; i < document.places().count("contact"); ++i) {
     const QString path = QString("contact[%1]").arg(i);
-    const QStringList pair = shown_list(document, path + ".between", "contact[].between");
+    const QStringList pair = names_in(document.value(path + ".between"));
     if (pair.size() != 2) continue;
     const int names = (pair[0] != "*" ? 1 : 0) + (pair[1] != "*" ? 1 : 0);
     const bool named = (fits(pair[0], a) && fits(pair[1], b)) || (fits(pair[1], a) && fits(pair[0], b));

@@ -13,21 +13,16 @@ using case_::ValueType;
 /// A word of the user's own, not a quantity.
 bool is_a_name(const Key& key) {
   using enum ValueType;
-  return key.type == text || key.type == choice || key.type == text_pair || key.type == text_list;
+  return key.type == text || key.type == text_or_list || key.type == choice || key.type == text_pair ||
+         key.type == text_list;
 }
 
-QString shown_at(const std::string& path, const TomlPlaces& places) {
-  const std::string_view value = places.value(path);
-  return shown_value(case_::key_of(case_::pattern_of(path)),
-                     QString::fromUtf8(value.data(), static_cast<int>(value.size())));
-}
-
-/// What the entries of a list have under a key.
+/// The names that the entries of a list have under a key.
 QStringList taken(const std::string& list, const Key& key, const TomlPlaces& places) {
-  QStringList values;
+  QStringList names;
   for (int i = 0; i < places.count(list); ++i)
-    values << shown_at(list + "[" + std::to_string(i) + "]." + std::string(key.name()), places);
-  return values;
+    names << names_in(text_of(places.value(list + "[" + std::to_string(i) + "]." + std::string(key.name()))));
+  return names;
 }
 
 QStringList strings(const std::vector<std::string>& names) {
@@ -43,8 +38,8 @@ GroupKind group_kind(const Key& key) {
   const std::string_view name = key.name();
   for (const char* any : {"stage[].constraint[].group", "stage[].force[].group", "output.gauges"})
     if (key.path == any) return GroupKind::any;
-  if (key.type == ValueType::text && name == "group") return GroupKind::volume;
-  if (key.type == ValueType::text && name == "surface") return GroupKind::surface;
+  if (key.type == ValueType::text_or_list && name == "group") return GroupKind::volume;
+  if (key.type == ValueType::text_or_list && name == "surface") return GroupKind::surface;
   const bool surfaces = name == "broken" || name == "absorbing" || name == "surfaces";
   return key.type == ValueType::text_list && surfaces ? GroupKind::surface : GroupKind::none;
 }

@@ -6,6 +6,7 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QRegularExpression>
+#include <algorithm>
 
 #include "core/shipped_materials.hpp"
 #include "core/value_text.hpp"
@@ -23,14 +24,19 @@ QString string_of(const QString& toml) {
   return one.isEmpty() ? QString() : one[0].toString();
 }
 
-/// Path of the joints inside a group: "joint[1]"; empty: there are none.
-QString joints_of(const Document& document, const QString& group) {
+/// Path of the joints inside the groups of a material: "joint[1]"; empty: there are none.
+QString joints_of(const Document& document, const QString& material) {
+  const QStringList groups = names_in(document.value(material + ".group"));
   const int count = document.places().count("joint");
+  QString of_any;
   for (int i = 0; i < count; ++i) {
     const QString path = QString("joint[%1]").arg(i);
-    if (string_of(document.value(path + ".group")) == group) return path;
+    const QStringList names = names_in(document.value(path + ".group"));
+    if (names == QStringList("*")) of_any = path;
+    if (std::any_of(names.begin(), names.end(), [&](const QString& name) { return groups.contains(name); }))
+      return path;
   }
-  return {};
+  return of_any;
 }
 
 QByteArray text_of(const LibraryMaterial& material) {
@@ -136,13 +142,13 @@ LibraryMaterial material_of(const Document& document, const QString& path, const
     }
   };
   add_all(path, {});
-  const QString joints = joints_of(document, string_of(document.value(path + ".group")));
+  const QString joints = joints_of(document, path);
   if (!joints.isEmpty()) add_all(joints, kJoint);
   return material;
 }
 
 void take_material(Document& document, const QString& path, const LibraryMaterial& material) {
-  const QString joints = joints_of(document, string_of(document.value(path + ".group")));
+  const QString joints = joints_of(document, path);
   document.undo_stack().beginMacro(Document::tr("take %1").arg(material.name));
   for (const MaterialValue& v : material.values) {
     const bool of_joint = v.key.startsWith(kJoint);

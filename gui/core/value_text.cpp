@@ -48,6 +48,7 @@ bool is_zero(const QString& number) { return number.toDouble() == 0; }
 bool is_list(ValueType type) {
   using enum ValueType;
   switch (type) {
+    case text_or_list:
     case text_list:
     case text_pair:
     case number_pair:
@@ -63,7 +64,14 @@ bool is_list(ValueType type) {
 
 bool is_text(ValueType type) {
   using enum ValueType;
-  return type == text || type == path || type == choice || type == axes || type == text_list || type == text_pair;
+  return type == text || type == text_or_list || type == path || type == choice || type == axes || type == text_list ||
+         type == text_pair;
+}
+
+/// Whether a list of one is written without brackets.
+bool takes_one(ValueType type) {
+  using enum ValueType;
+  return type == text_or_list || type == vector_or_number || type == integers_or_one;
 }
 
 }  // namespace
@@ -84,8 +92,20 @@ QString shown_value(const Key& key, const QString& toml) {
     }
     return items.join(", ");
   }
+  // A comma would part it in two when it is taken over.
+  if (key.type == ValueType::text_or_list && toml.contains(',')) return toml;
   // People count angles in degrees, the text in radians where it names no unit.
   return is_angle(key) && is_number(toml) && !is_zero(toml) ? toml + " rad" : unquoted(toml);
+}
+
+QStringList names_in(const QString& toml) {
+  if (!toml.startsWith('[')) return toml.isEmpty() ? QStringList() : QStringList(unquoted(toml));
+  QStringList names;
+  const TomlPlaces places("v = " + toml.toStdString());
+  for (const Place& place : places.all())
+    if (place.path != "v") names << unquoted(text_of(places.value(place.path)));
+  names.removeAll(QString());
+  return names;
 }
 
 QString typed_value(const Key& key, const QString& typed) {
@@ -96,11 +116,11 @@ QString typed_value(const Key& key, const QString& typed) {
   if (key.type == ValueType::integer) return is_number(text) ? text : quoted(text);
   if (is_angle(key) && is_number(text) && !is_zero(text)) return quoted(text + " deg");
   if (!is_list(key.type)) return is_text(key.type) ? quoted(text) : quantity(text);
-  const bool one_for_all = key.type == ValueType::vector_or_number || key.type == ValueType::integers_or_one;
+  const auto written = [&](const QString& item) { return is_text(key.type) ? quoted(item.trimmed()) : quantity(item); };
   const QStringList items = text.split(',');
-  if (one_for_all && items.size() == 1) return quantity(text);
+  if (takes_one(key.type) && items.size() == 1) return written(text);
   QStringList out;
-  for (const QString& item : items) out << (is_text(key.type) ? quoted(item.trimmed()) : quantity(item));
+  for (const QString& item : items) out << written(item);
   return "[" + out.join(", ") + "]";
 }
 

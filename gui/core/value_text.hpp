@@ -18,6 +18,9 @@ namespace breccia::gui {
 /// quantities, "0.6 rad" for a bare angle. Tables, functions and lists of lists stay TOML.
 [[nodiscard]] QString shown_value(const case_::Key& key, const QString& toml);
 
+/// The names in the TOML text of a text or of a list of texts.
+[[nodiscard]] QStringList names_in(const QString& toml);
+
 /// TOML text of what was typed into the field of a key; empty: the key is taken out. A text that is TOML already
 /// (begins with a quote or a bracket) is taken as it is.
 [[nodiscard]] QString typed_value(const case_::Key& key, const QString& typed);

@@ -214,10 +214,9 @@ void MainWindow::stage_selected(int stage, const QString& path) {
     form_->set_problems(problems_);
     // The group that the section is about lights up.
     const QString key = document_.value(path + ".group").isEmpty() ? ".surface" : ".group";
-    const QString name = shown_value(case_::key_of("material[].group"), document_.value(path + key));
-    view_->scene().highlight({name.toStdString()});
-    if (!name.isEmpty() && !showing_results_) view_->set_colouring(Colouring::group);
-    view_->render();
+    const QStringList names = names_in(document_.value(path + key));
+    if (!names.isEmpty() && !showing_results_) view_->set_colouring(Colouring::group);
+    show_groups(names);
     const bool domains = path == "domains";
     domains_->setVisible(domains);
     if (domains && owner_.empty() && problems_.empty()) queries_.domains(run_panel_->ranks());
@@ -271,14 +270,8 @@ void MainWindow::show_extras(const QString& path) {
 
 void MainWindow::show_joint_law() {
   const QString path = form_->section().section('.', 0, 0);
-  QStringList names{shown_value(case_::key_of("joint[].group"), document_.value(path + ".group"))};
-  if (names[0].isEmpty()) {  // the solver names interfaces in the order of the mesh
-    const QStringList groups =
-        shown_value(case_::key_of("joint[].between"), document_.value(path + ".between")).split(", ");
-    names = QStringList{groups.first() + "-" + groups.last(), groups.last() + "-" + groups.first()};
-  }
   for (const QJsonValue& law : laws_)
-    if (names.contains(law.toObject()["name"].toString())) return joint_plot_->show_law(law.toObject(), {});
+    if (law.toObject()["key"].toString() == path) return joint_plot_->show_law(law.toObject(), {});
   joint_plot_->show_law({}, no_law_words());
 }
 
@@ -330,14 +323,14 @@ void MainWindow::picked(const Scene::Picked& what) {
   const int count = document_.places().count("material");
   for (int i = 0; i < count; ++i) {
     const QString path = QString("material[%1]").arg(i);
-    if (shown_value(case_::key_of("material[].group"), document_.value(path + ".group")) == group)
-      tree_->select(stage_of(path.toStdString()), path);
+    if (names_in(document_.value(path + ".group")).contains(group)) tree_->select(stage_of(path.toStdString()), path);
   }
 }
 
 void MainWindow::take_from_library() {
   const QString path = form_->section();
-  LibraryDialog dialog(library_, document_.value(path + ".group"), this);
+  LibraryDialog dialog(library_, shown_value(case_::key_of("material[].group"), document_.value(path + ".group")),
+                       this);
   if (dialog.exec() == QDialog::Accepted && dialog.chosen() != nullptr)
     take_material(document_, path, *dialog.chosen());
 }

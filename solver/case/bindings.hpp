@@ -91,7 +91,8 @@ void bind_alternatives(A& a, Joint& joint) {
     } else {
       double factor = 0;
       a.value("penalty_factor", factor);
-      joint.penalty = factor * a.smallest_young(joint.groups);
+      const bool of_any = joint.groups[0] == every_group || joint.groups[1] == every_group;
+      (of_any ? joint.penalty_factor : joint.penalty) = of_any ? factor : factor * a.smallest_young(joint.groups);
     }
     a.at_most_one({"friction", "friction_angle"});
     if (a.has("friction_angle")) {
@@ -102,11 +103,14 @@ void bind_alternatives(A& a, Joint& joint) {
       a.value("friction", joint.friction);
     }
   } else {
-    if (joint.groups[0] == joint.groups[1])
+    if (joint.inside())
       a.value("group", joint.groups[0]);
     else
       a.value("between", joint.groups);
-    a.value("penalty", joint.penalty);
+    if (joint.penalty_factor > 0)
+      a.value("penalty_factor", joint.penalty_factor);
+    else
+      a.value("penalty", joint.penalty);
     a.value("friction", joint.friction);
   }
 }

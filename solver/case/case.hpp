@@ -16,6 +16,8 @@
 /// stand in comments; case/schema.hpp is their one table (unit, default, range, help).
 namespace breccia::case_ {
 
+inline constexpr const char* every_group = "*";  ///< in [[joint]] and [[contact]]
+
 /// Where a key was written.
 struct KeyPlace {
   std::string file;  ///< as the user named it, or "--set"
@@ -114,11 +116,12 @@ enum class JointPoints { nodal, mid_edge };
 
 /// [[joint]]: law of the joints inside a group, or on the glued interface of two groups.
 struct Joint {
-  std::array<std::string, 2> groups;  ///< equal for a group's own joints
+  std::array<std::string, 2> groups;  ///< equal for a group's own joints; "*" beside another stands for every group
   JointLaw law = JointLaw::mixed_mode;
   JointRise rise = JointRise::linear;
   JointPoints points = JointPoints::nodal;
   double penalty = 0;                 ///< Pa, p in k = p/h; penalty_factor x Young's modulus (the smaller one)
+  double penalty_factor = 0;          ///< where groups hold "*" and the penalty depends on the pair; else 0
   double size = 0;                    ///< m, h in k = p/h; 0: mean edge length of the joints this entry governs
   double tensile_strength = 0;        ///< Pa
   double shear_strength = 0;          ///< Pa, cohesion
@@ -134,6 +137,8 @@ struct Joint {
   double weibull_area = 0;         ///< m2, of a joint whose mean strength is that above; 0: of every joint
   std::uint64_t weibull_seed = 1;  ///< of the scatter
   Origin origin;
+  /// Of the joints inside a group, not of an interface.
+  [[nodiscard]] bool inside() const { return groups[0] == groups[1] && groups[0] != every_group; }
   friend bool operator==(const Joint&, const Joint&) = default;
 };
 

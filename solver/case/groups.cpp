@@ -11,8 +11,6 @@
 namespace breccia::case_ {
 namespace {
 
-constexpr const char* kEveryGroup = "*";
-
 class GroupChecker {
  public:
   GroupChecker(const Case& c, const GroupNames& groups)
@@ -100,7 +98,7 @@ std::vector<Problem> check_groups(const Case& c, const GroupNames& groups, std::
     with_material.insert(m.group);
   }
   for (const std::string& group : groups.volumes) {
-    if (group == kEveryGroup)
+    if (group == every_group)
       checker.add({c.file.string(), c.mesh.origin.line, "mesh",
                    "a volume group of the mesh has the name that stands for every group in [[contact]]",
                    "another name for the group", group});

@@ -4,9 +4,11 @@
 #include <array>
 #include <set>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "base/sha256.hpp"
+#include "case/joint_entries.hpp"
 #include "case/reader.hpp"
 #include "case/schema.hpp"
 #include "case/writer.hpp"
@@ -79,6 +81,25 @@ Problem refused(const std::string& key, const std::string& pattern, const std::s
   return {"", 0, key, kCannot + std::string(fixed_by_state(pattern)), allowed, given};
 }
 
+/// Entries of pairs and of "*" may take each other's places, but not give the joints of a pair a law of another kind.
+void compare_joint_laws(const ParentCase& parent, const Case& now, std::vector<Problem>& problems) {
+  std::set<const Joint*> told;
+  for (const Material& a : now.materials) {
+    for (const Material& b : now.materials) {
+      const Joint* before = joint_entry(parent.input, a.group, b.group).ruling;
+      const Joint* joint = joint_entry(now, a.group, b.group).ruling;
+      if (before == nullptr || joint == nullptr || before->groups == joint->groups) continue;
+      const auto fixed = [](const Joint& j) {
+        return std::tuple(j.law, j.rise, j.points, j.weibull_modulus, j.weibull_area, j.weibull_seed);
+      };
+      if (fixed(*before) == fixed(*joint) || !told.insert(joint).second) continue;
+      problems.push_back({"", 0, "joint[" + std::to_string(joint - now.joints.data()) + "]",
+                          kCannot + std::string("damage and strengths of the state are of this law"),
+                          "law, rise, points and weibull keys of " + before->origin.key + " of that run", ""});
+    }
+  }
+}
+
 /// Another name is allowed, another content is not.
 void compare_mesh_files(const ParentCase& parent, const Case& now, std::vector<Problem>& problems) {
   const std::filesystem::path &before = parent.input.mesh.file, &file = now.mesh.file;
@@ -141,6 +162,7 @@ std::vector<Problem> refused_changes(const ParentCase& parent, const Case& now,
     if (after.contains(identity) || by_groups(identity) || value.pattern == "mesh.file") continue;
     problems.push_back(refused(value.key, value.pattern, value.node->shown(), "none"));
   }
+  compare_joint_laws(parent, now, problems);
   const bool own_mesh = std::find(inherited.begin(), inherited.end(), "mesh") == inherited.end();
   if (own_mesh && !parent.input.mesh.file.empty()) compare_mesh_files(parent, now, problems);
   if (parent.input.contacts.empty() != now.contacts.empty()) {

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <set>
+#include <tuple>
 
 #include "case/bindings.hpp"
+#include "case/joint_entries.hpp"
 #include "case/nearest.hpp"
 #include "case/parent_case.hpp"
+#include "case/reader_groups.hpp"
 #include "case/reader_keys.hpp"
 #include "case/reader_overrides.hpp"
 #include "case/units.hpp"
@@ -86,8 +90,10 @@ class SectionReader {
       values_.missing_key(key, node == nullptr ? table_ : *node, at(name));
     if (node == nullptr || !node->is(Node::Kind::list)) return;
     for (std::size_t i = 0; i < node->items.size(); ++i) {
-      if (!node->items[i].is(Node::Kind::table)) continue;
-      SectionReader inner(values_, model_, node->items[i], at(name) + "[" + std::to_string(i) + "]", true);
+      const Node& entry = node->items[i];
+      if (!entry.is(Node::Kind::table)) continue;
+      const std::string index = std::to_string(entry.place < 0 ? static_cast<int>(i) : entry.place);
+      SectionReader inner(values_, model_, entry, at(name) + "[" + index + "]", true);
       bind(inner, out.emplace_back());
     }
   }
@@ -115,10 +121,7 @@ class SectionReader {
 
   // 0 when a material is missing, which validate() reports.
   [[nodiscard]] double smallest_young(const std::array<std::string, 2>& groups) const {
-    double smallest = 0;
-    for (const Material& m : model_.materials)
-      if ((m.group == groups[0] || m.group == groups[1]) && (smallest == 0 || m.young < smallest)) smallest = m.young;
-    return smallest;
+    return case_::smallest_young(model_, groups);
   }
 
  private:
@@ -158,7 +161,7 @@ void add_default_joints(Case& c, ValueReader& values) {
   for (std::size_t i = 0; i < c.materials.size(); ++i) {
     const Material& m = c.materials[i];
     const bool present = std::any_of(c.joints.begin(), c.joints.end(),
-                                     [&](const Joint& j) { return j.groups[0] == m.group && j.groups[1] == m.group; });
+                                     [&](const Joint& j) { return j.inside() && j.groups[0] == m.group; });
     if (m.joints != JointPlacement::unbreakable || present) continue;
     Node table, group;
     group.kind = Node::Kind::text;
@@ -190,6 +193,13 @@ bool told_already(std::span<const Problem> problems, const std::string& key) {
   });
 }
 
+/// What groups of one entry have in common is told once.
+void tell_once(std::vector<Problem>& problems) {
+  std::set<std::tuple<std::string, std::string, std::string>> told;
+  std::erase_if(problems,
+                [&](const Problem& p) { return !p.key.empty() && !told.emplace(p.key, p.what, p.allowed).second; });
+}
+
 /// What a case is read against.
 struct Surroundings {
   MeshFile mesh = MeshFile::must_be_there;
@@ -207,6 +217,8 @@ Case case_of(Node root, const std::filesystem::path& file, std::span<const std::
   c.file = std::filesystem::absolute(file).lexically_normal();
   ValueReader values(problems, c.file.parent_path());
   check_keys(root, values);
+  const Node written = root;
+  expand_groups(root);
   SectionReader reader(values, c, root, "", true);
   bind(reader, c);
   convert_lengths_to_the_unit_of_the_file(values, c.mesh);
@@ -216,16 +228,21 @@ Case case_of(Node root, const std::filesystem::path& file, std::span<const std::
     const std::vector<Problem> before = problems;
     for (Problem& p : found) {
       if (told_already(before, p.key)) continue;
-      const Node& node = deepest_on_path(root, p.key);
+      const Node& node = deepest_on_path(written, p.key);
       p.file = node.file.empty() ? c.file.string() : node.file;
       p.line = node.line;
       problems.push_back(std::move(p));
     }
+    tell_once(problems);
   };
   add(validate(c, around.parent == nullptr && around.mesh == MeshFile::must_be_there));
   if (!problems.empty()) throw InputError(std::move(problems));
   c.resolved = write_case(c);
-  if (around.parent != nullptr) add(refused_changes(*around.parent, c, inherited));
+  if (around.parent != nullptr) {
+    std::vector<Problem> refused = refused_changes(*around.parent, c, inherited);
+    for (Problem& p : refused) p.key = written_path(root, p.key);
+    add(std::move(refused));
+  }
   if (!problems.empty()) throw InputError(std::move(problems));
   return c;
 }

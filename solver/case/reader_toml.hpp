@@ -24,6 +24,7 @@ struct Node {
   std::vector<std::pair<std::string, Node>> entries;  ///< of a table, in the order of the file
   std::string file;                                   ///< as the user named it, or "--set"
   int line = 0;
+  int place = -1;  ///< of an entry of a list that was expanded: its index as it was written
 
   [[nodiscard]] const Node* find(std::string_view name) const;
   [[nodiscard]] Node* find(std::string_view name);

@@ -39,6 +39,8 @@ std::string type_words(const Key& key) {
       return "true or false";
     case ValueType::text:
       return "text";
+    case ValueType::text_or_list:
+      return "text, or a list of texts";
     case ValueType::choice:
       return "one of";
     case ValueType::path:

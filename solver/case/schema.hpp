@@ -18,9 +18,10 @@ enum class ValueType {
   integer,
   boolean,
   text,
-  choice,  ///< one of a few words
-  path,    ///< file, relative to the case file
-  axes,    ///< letters of "xyz"
+  text_or_list,  ///< a text, or a list of texts: the entry around it stands for one entry each
+  choice,        ///< one of a few words
+  path,          ///< file, relative to the case file
+  axes,          ///< letters of "xyz"
   text_list,
   text_pair,
   number_pair,       ///< with a unit

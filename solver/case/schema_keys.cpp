@@ -101,9 +101,9 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Axis across the layer.", .example = "\"y\""},
 
     {.path = "material[]", .type = section_list, .required = true,
-     .help = "Law and density of one volume group."},
-    {.path = "material[].group", .type = text, .required = true, .help = "Physical volume group of the mesh.",
-     .example = "\"glass\""},
+     .help = "Law and density of a volume group, or of several that are alike."},
+    {.path = "material[].group", .type = text_or_list, .required = true,
+     .help = "Physical volume group of the mesh, or a list of groups.", .example = "\"glass\""},
     {.path = "material[].law", .type = choice, .fallback = "neo_hookean", 
      .choices = "neo_hookean|green_st_venant|drucker_prager",
      .help = "Law of the bulk. neo_hookean, elastic, gives back all energy of a closed strain loop; green_st_venant is "
@@ -149,13 +149,15 @@ constexpr auto model_keys = std::to_array<Key>({
 
     {.path = "joint[]", .type = section_list,
      .help = "Law of the joints inside a group, or on the glued interface of two, which breaks where it has a "
-             "strength. Every breakable group needs one."},
-    {.path = "joint[].group", .type = text, .help = "Group whose inner joints follow this law. Give this or between.",
+             "strength. Every breakable group needs one. A pair by name goes before one with \"*\"."},
+    {.path = "joint[].group", .type = text_or_list,
+     .help = "Group whose inner joints follow this law, or a list of groups; \"*\": all with joints and without an "
+             "entry of their own. Give this or between.",
      .example = "\"glass\""},
     {.path = "joint[].between", .type = text_pair,
      .help = "Two groups whose glued interface follows this law, also where both have joints = \"none\" inside. "
-             "Without strengths it holds for good; between two breakable groups it needs them. Give this or group.",
-     .example = "[\"brick\", \"mortar\"]"},
+             "Without strengths it holds for good; between two breakable groups it needs them. \"*\" stands for every "
+             "other group. Give this or group.", .example = "[\"brick\", \"mortar\"]"},
     {.path = "joint[].law", .type = choice, .fallback = "mixed_mode", .choices = "mixed_mode|independent_peaks",
      .help = "mixed_mode: elliptic onset; a joint has failed when what it took in mode I over energy_mode_1 and in "
              "mode II over energy_mode_2 add up to 1 (to about 1 % where a third of it is elastic). "
@@ -323,7 +325,8 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "initial_velocity[]", .type = section_list,
      .help = "Velocity of the bodies of a group at the start; its parts add up.",
      .fixed_by_state = "it was given before the first step of the first run; the velocities are those of the state"},
-    {.path = "initial_velocity[].group", .type = text, .required = true, .help = "Physical volume group.",
+    {.path = "initial_velocity[].group", .type = text_or_list, .required = true,
+     .help = "Physical volume group, or a list of groups.",
      .example = "\"projectile\""},
     {.path = "initial_velocity[].velocity", .type = vector, .unit = "m/s", .fallback = "[0, 0, 0]",
      .help = "Of all bodies alike.", .example = "[0, \"-3 m/s\", 0]"},
@@ -378,11 +381,10 @@ constexpr auto model_keys = std::to_array<Key>({
              "free. A patch of several nodes is clamped: it cannot turn; what is held along a straight curve turns "
              "about it as on a hinge. A roller or a pin is a small body of its own that is held or driven and presses "
              "through contact."},
-    {.path = "stage[].constraint[].group", .type = text, .required = true,
-     .help = "Physical volume, surface, curve or point of the mesh. A curve or point means its nodes, and is meant "
-             "only where no volume or surface has its name. What is held there alone yields the more, the finer the "
-             "elements around it are.",
-     .example = "\"support\""},
+    {.path = "stage[].constraint[].group", .type = text_or_list, .required = true,
+     .help = "Physical volume, surface, curve or point of the mesh, or a list of them. A curve or point means its "
+             "nodes, and is meant only where no volume or surface has its name. What is held there alone yields the "
+             "more, the finer the elements around it are.", .example = "\"support\""},
     {.path = "stage[].constraint[].fixed", .type = axes, .help = "Axes along which the nodes stay where they are.",
      .example = "\"xyz\""},
     {.path = "stage[].constraint[].velocity", .type = axis_functions, .unit = "m/s",
@@ -394,7 +396,8 @@ constexpr auto model_keys = std::to_array<Key>({
 
     {.path = "stage[].pressure[]", .type = section_list,
      .help = "Pressure on a surface that follows its faces; both sides of an inner surface are loaded."},
-    {.path = "stage[].pressure[].surface", .type = text, .required = true, .help = "Physical surface group.",
+    {.path = "stage[].pressure[].surface", .type = text_or_list, .required = true,
+     .help = "Physical surface group, or a list of groups.",
      .example = "\"slit\""},
     {.path = "stage[].pressure[].value", .type = function, .unit = "Pa", .required = true,
      .help = "Function of time; positive pushes into the body.", .example = "{ linear = \"20 GPa/s\" }"},
@@ -402,7 +405,8 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "stage[].traction[]", .type = section_list,
      .help = "Force on a surface for each unit of its area at rest, in a direction that stays when the faces turn; "
              "both sides of an inner surface are loaded alike."},
-    {.path = "stage[].traction[].surface", .type = text, .required = true, .help = "Physical surface group.",
+    {.path = "stage[].traction[].surface", .type = text_or_list, .required = true,
+     .help = "Physical surface group, or a list of groups.",
      .example = "\"crest\""},
     {.path = "stage[].traction[].value", .type = function_vector, .unit = "Pa", .required = true,
      .help = "Along x, y and z, functions of time.", .example = "[\"1 MPa\", 0, \"-2 MPa\"]"},
@@ -411,8 +415,9 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Force on a group as a whole, in a direction that stays, shared among its nodes: of a surface by area at "
              "rest, of a volume, curve or point by mass. What it acts on at a curve or point yields the more, the "
              "finer the elements there are, and may be torn off."},
-    {.path = "stage[].force[].group", .type = text, .required = true,
-     .help = "Physical volume, surface, curve or point.", .example = "\"loaded line\""},
+    {.path = "stage[].force[].group", .type = text_or_list, .required = true,
+     .help = "Physical volume, surface, curve or point; each of a list takes the whole force.",
+     .example = "\"loaded line\""},
     {.path = "stage[].force[].value", .type = function_vector, .unit = "N", .required = true,
      .help = "Along x, y and z, functions of time.", .example = "[0, \"-500 N\", 0]"},
 

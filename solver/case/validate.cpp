@@ -4,12 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "base/geometry_file.hpp"
 #include "base/number_text.hpp"
 #include "case/countable.hpp"
+#include "case/joint_entries.hpp"
 #include "case/nearest.hpp"
 #include "case/problem_at.hpp"
 #include "case/schema.hpp"
@@ -18,8 +20,6 @@
 
 namespace breccia::case_ {
 namespace {
-
-constexpr const char* every_group = "*";
 
 constexpr std::int64_t most_domains = 1000000;
 
@@ -170,13 +170,25 @@ class Validator {
       problem(j.origin, "weibull_seed", "says nothing of strengths that do not scatter", allowed);
   }
 
-  void joint(const Joint& j, std::set<Pair>& seen) {
-    const bool inside = j.groups[0] == j.groups[1];
-    if (inside) {
-      needs_material(j.origin, "group", j.groups[0]);
-    } else {
-      for (const std::string& group : j.groups) needs_material(j.origin, "between", group);
+  /// Two breakable groups, or one alone, of which an entry is the law.
+  [[nodiscard]] std::optional<Pair> breakable_pair(const Joint& j) const {
+    for (std::size_t i = 0; i < c_.materials.size(); ++i) {
+      for (std::size_t k = i; k < c_.materials.size(); ++k) {
+        const Material &a = c_.materials[i], &b = c_.materials[k];
+        const bool break_both = a.joints == JointPlacement::breakable && b.joints == JointPlacement::breakable;
+        if (break_both && joint_entry(c_, a.group, b.group).ruling == &j) return Pair{a.group, b.group};
+      }
     }
+    return std::nullopt;
+  }
+
+  void joint(const Joint& j, std::set<Pair>& seen) {
+    const bool inside = j.inside();
+    for (const std::string& group : j.groups)
+      if (group != every_group) needs_material(j.origin, inside ? "group" : "between", group);
+    if (j.groups[0] == every_group && j.origin.keys.contains("group"))
+      return problem(j.origin, "group", "stands for no group",
+                     "\"*\" where a group with joints has no [[joint]] of its own", every_group);
     if (!j.groups[0].empty() && !seen.insert(sorted(j.groups)).second)
       problem(j.origin, inside ? "group" : "between", "the joints have a law already", "one [[joint]] a group or pair",
               words(j.groups));
@@ -188,18 +200,15 @@ class Validator {
 
     softening_of_another_kind(j);
     scatter(j);
-    const auto breakable = [&](const std::string& group) {
-      const Material* m = material(group);
-      return m != nullptr && m->joints == JointPlacement::breakable;
-    };
     if (inside && material(j.groups[0]) != nullptr && material(j.groups[0])->joints == JointPlacement::none)
       problem(j.origin, "group", "the group has no joints",
               "joints = \"breakable\" or \"unbreakable\" in its [[material]], or between for its interface",
               j.groups[0]);
     const bool strong = !inside && (j.tensile_strength > 0 || j.shear_strength > 0 || j.energy_mode_1 > 0);
     // An interface without strengths is glue, unless both of its sides break.
-    if (!(breakable(j.groups[0]) && breakable(j.groups[1])) && !strong) return;
-    const std::string why = "is missing: joints of " + words(j.groups) + " can fail";
+    const std::optional<Pair> pair = strong ? j.groups : breakable_pair(j);
+    if (!pair) return;
+    const std::string why = "is missing: joints of " + words(*pair) + " can fail";
     if (j.tensile_strength == 0) problem(j.origin, "tensile_strength", why, "a strength > 0");
     if (j.energy_mode_1 == 0) problem(j.origin, "energy_mode_1", why, "a fracture energy > 0");
   }

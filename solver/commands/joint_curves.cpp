@@ -120,6 +120,7 @@ std::vector<JointLawCurves> joint_curves(const Model& model) {
     if (!model.joint_laws[i].breakable()) continue;
     all.push_back(joint_law_curves(model.joint_laws[i]));
     all.back().name = model.joint_law_names[i];
+    all.back().key = model.joint_law_keys[i];
     all.back().size = model.joint_sizes[i];
   }
   return all;

@@ -18,6 +18,7 @@ struct JointCurve {
 /// What a law does, for plots.
 struct JointLawCurves {
   std::string name;      ///< of the law: "glass"
+  std::string key;       ///< of the entry of the case: "joint[0]"
   double size = 0;       ///< m, h of k = p/h
   double stiffness = 0;  ///< Pa/m, k
   JointCurve normal, shear;

@@ -50,6 +50,8 @@ const char* name_of(case_::ValueType type) {
       return "boolean";
     case text:
       return "text";
+    case text_or_list:
+      return "text_or_list";
     case choice:
       return "choice";
     case path:
@@ -139,6 +141,7 @@ std::string joints_json(const Model& model) {
   Json laws = Json::array();
   for (const JointLawCurves& law : joint_curves(model)) {
     laws.push_back({{"name", law.name},
+                    {"key", law.key},
                     {"size", law.size},
                     {"stiffness", law.stiffness},
                     {"normal", curve(law.normal)},

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "case/joint_entries.hpp"
 #include "output/quantity_text.hpp"
 
 namespace breccia {
@@ -40,18 +41,8 @@ void judge_material(Advice& advice, const case_::Material& material) {
         material.origin.key, material.origin.line, quantity_text(speed, "m/s"), quantity_text(material.young, "Pa")));
 }
 
-/// Young's modulus of the softer of the groups of an entry, Pa; 0: unknown.
-double young_of(const case_::Case& input, const std::array<std::string, 2>& groups) {
-  double least = 0;
-  for (const case_::Material& material : input.materials) {
-    if (material.group != groups[0] && material.group != groups[1]) continue;
-    least = least > 0 ? std::min(least, material.young) : material.young;
-  }
-  return least;
-}
-
 void judge_strength(Advice& advice, const case_::Case& input, const case_::Joint& joint) {
-  const double young = young_of(input, joint.groups), strength = joint.tensile_strength;
+  const double young = case_::smallest_young(input, joint.groups), strength = joint.tensile_strength;
   if (!(young > 0) || !std::isfinite(strength) || strength <= kLargestStrain * young) return;
   advice.push_back(
       fmt::format("{}.tensile_strength (line {}) is {} with a young of {}: the material would stretch by {:.0f} % "

@@ -177,10 +177,10 @@ RoughEntries rough_entries(const case_::Case& input) {
   for (const case_::Contact& c : input.contacts)
     add("contact", c.groups, c.friction, c.friction_delay > 0 ? kSteady : kSteadyAtOnce);
   for (const case_::Joint& j : input.joints) {
-    const bool breaks = j.groups[0] != j.groups[1] ||
-                        std::any_of(input.materials.begin(), input.materials.end(), [&](const case_::Material& m) {
-                          return m.group == j.groups[0] && m.joints == case_::JointPlacement::breakable;
-                        });
+    const bool breaks =
+        !j.inside() || std::any_of(input.materials.begin(), input.materials.end(), [&](const case_::Material& m) {
+          return m.group == j.groups[0] && m.joints == case_::JointPlacement::breakable;
+        });
     if (breaks && j.tensile_strength > 0) add("joint", j.groups, j.friction, kSteadyAtOnce);
   }
   return entries;

@@ -206,6 +206,19 @@ Advice tied_contacts(const case_::Case& input, const Model& model) {
   return advice;
 }
 
+/// Laws of interfaces that are nowhere.
+Advice laws_of_no_joint(const case_::Case& input, const Model& model) {
+  Advice advice;
+  const std::vector<std::string>& used = model.joint_law_keys;
+  for (const case_::Joint& entry : input.joints) {
+    if (entry.inside() || std::find(used.begin(), used.end(), entry.origin.key) != used.end()) continue;
+    advice.push_back(fmt::format(
+        "{} (line {}) is the law of no joint: there is no glued interface of \"{}\" and \"{}\" that follows it.",
+        entry.origin.key, entry.origin.line, entry.groups[0], entry.groups[1]));
+  }
+  return advice;
+}
+
 /// Axes along which an entry takes the initial velocity away from all of its group.
 std::string lost_axes(const case_::InitialVelocity& initial, const case_::Constraint& entry) {
   std::string axes;
@@ -290,6 +303,7 @@ Advice unmeant_advice(const case_::Case& input, const Model& model) {
   append(advice, lowered_penalties(input));
   append(advice, soft_penalties(input, model));
   append(advice, tied_contacts(input, model));
+  append(advice, laws_of_no_joint(input, model));
   append(advice, pressed_without_friction(input, model));
   append(advice, lost_velocities(input));
   append(advice, loads_on_what_is_held(input, model));

@@ -37,11 +37,6 @@ void take_materials(const case_::Case& input, Model& model) {
     model.density[g] = material.density;
     model.breakable[g] = material.joints == case_::JointPlacement::breakable;
   }
-  for (const case_::Joint& interface : input.joints) {
-    if (interface.groups[0] == interface.groups[1] || !(interface.tensile_strength > 0)) continue;
-    for (const std::string& group : interface.groups)
-      model.breakable[index(group_index(model.mesh.volume_groups, group))] = true;
-  }
 }
 
 /// Faces of these surfaces, both sides, ascending.
@@ -185,7 +180,7 @@ void check_laws(const case_::Case& input, const WholeModel& whole) {
   std::vector<Problem> problems =
       joints_without_effect(input, whole.volume_groups, discretisations(input, whole.volume_groups), whole.node_sets);
   for (const WholeModel::JointGroups& groups : whole.joint_groups) {
-    if (auto problem = missing_joint_law(input, whole.volume_groups, groups)) problems.push_back(std::move(*problem));
+    if (auto problem = wrong_joint_law(input, whole.volume_groups, groups)) problems.push_back(std::move(*problem));
   }
   if (!problems.empty()) throw InputError(std::move(problems));
   take_materials(input, model);

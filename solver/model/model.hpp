@@ -58,6 +58,7 @@ struct Model {
   std::vector<JointLawParams> joint_laws;    ///< those of WholeModel::joint_groups, then those of their classes
   std::vector<Index> groups_of_joint_law;    ///< (joint laws) index into WholeModel::joint_groups
   std::vector<std::string> joint_law_names;  ///< (joint groups) "glass", "glass-steel": for reports
+  std::vector<std::string> joint_law_keys;   ///< (joint groups) entries of the case: "joint[0]"
   std::vector<double> joint_sizes;           ///< (joint groups) h of k = p/h, m
   std::vector<ModelJoint> joints;            ///< ascending (a, face) and so by id; without those broken from the start
   ContactParams contact;

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "case/joint_entries.hpp"
 #include "case/problem_at.hpp"
 #include "model/node_sets.hpp"
 #include "model/parameters.hpp"
@@ -26,30 +28,17 @@ bool has_joint(const Model& model, const Pair& groups) {
   return !share_nodes(model.discretisation, model.whole.node_sets, groups.first, groups.second);
 }
 
-/// The case's entry for a pair of groups, null: none.
-const case_::Joint* entry_for(const case_::Case& input, const std::vector<std::string>& names, const Pair& groups) {
+/// The law that the case has for a pair of groups.
+case_::Joint law_of(const case_::Case& input, const std::vector<std::string>& names, const Pair& groups) {
   const std::string &first = names[index(groups.first)], &second = names[index(groups.second)];
-  for (const case_::Joint& joint : input.joints) {
-    if ((joint.groups[0] == first && joint.groups[1] == second) ||
-        (joint.groups[0] == second && joint.groups[1] == first))
-      return &joint;
-  }
-  return nullptr;
-}
-
-Problem no_law(const case_::Case& input, const std::vector<std::string>& names, const Pair& groups) {
-  const std::string &first = names[index(groups.first)], &second = names[index(groups.second)];
-  return {input.file.string(),
-          input.mesh.origin.line,
-          "joint",
-          "the meshes of \"" + first + "\" and \"" + second + "\" are glued, but no joint law says how",
-          "a [[joint]] with between = [\"" + first + "\", \"" + second + "\"], or mesh.glue = false",
-          ""};
+  const case_::Joint* entry = case_::joint_entry(input, first, second).ruling;
+  DEMAND(entry != nullptr, first + " and " + second + " have no joint law");
+  return case_::joint_between(input, *entry, first, second);
 }
 
 /// Joints can fail inside of a breakable group, and at any interface that has a strength.
 bool can_fail(const case_::Case& input, const case_::Joint& entry) {
-  if (entry.groups[0] != entry.groups[1]) return entry.tensile_strength > 0;
+  if (!entry.inside()) return entry.tensile_strength > 0;
   return std::any_of(input.materials.begin(), input.materials.end(), [&](const case_::Material& m) {
     return m.joints == case_::JointPlacement::breakable && m.group == entry.groups[0];
   });
@@ -70,14 +59,14 @@ void add_law(const case_::Case& input, const case_::Joint& entry, double size, M
 }
 
 /// The laws of all classes of strength. @param entries  of the joint groups
-void add_class_laws(const case_::Case& input, const std::vector<const case_::Joint*>& entries, Model& model,
+void add_class_laws(const case_::Case& input, const std::vector<case_::Joint>& entries, Model& model,
                     std::vector<Problem>& problems) {
   for (std::size_t g = 0; g < entries.size(); ++g) {
     const WholeModel::JointGroups& groups = model.whole.joint_groups[g];
     const std::size_t known = problems.size();
     for (Index c = 0; c < groups.num_classes && problems.size() == known; ++c) {
       const double factor = strength_factor(groups.least_class + c);
-      case_::Joint entry = *entries[g];
+      case_::Joint entry = entries[g];
       entry.tensile_strength *= factor;
       entry.shear_strength *= factor;
       add_law(input, entry, model.joint_sizes[g], model, problems,
@@ -89,18 +78,32 @@ void add_class_laws(const case_::Case& input, const std::vector<const case_::Joi
 
 }  // namespace
 
-std::optional<Problem> missing_joint_law(const case_::Case& input, const std::vector<std::string>& names,
-                                         const WholeModel::JointGroups& groups) {
-  const Pair pair{groups.a, groups.b};
-  if (entry_for(input, names, pair) != nullptr) return std::nullopt;
-  return no_law(input, names, pair);
+std::optional<Problem> wrong_joint_law(const case_::Case& input, const std::vector<std::string>& names,
+                                       const WholeModel::JointGroups& groups) {
+  const std::string &first = names[index(groups.a)], &second = names[index(groups.b)];
+  const std::string pair = "\"" + first + "\" and \"" + second + "\"";
+  const std::string own = "a [[joint]] with between = [\"" + first + "\", \"" + second + "\"]";
+  const auto [entry, tied] = case_::joint_entry(input, first, second);
+  if (entry == nullptr) {
+    return Problem{input.file.string(),
+                   input.mesh.origin.line,
+                   "joint",
+                   "the meshes of " + pair + " are glued, but no joint law says how",
+                   own + ", or mesh.glue = false",
+                   ""};
+  }
+  if (tied == nullptr) return std::nullopt;
+  return case_::problem_at(input, tied->origin, "between",
+                           "this entry and " + entry->origin.key + " (line " + std::to_string(entry->origin.line) +
+                               ") fit the interface of " + pair + " alike",
+                           own, "");
 }
 
 void find_joint_groups(const case_::Case& input, Model& model) {
   const std::vector<std::string>& names = model.mesh.volume_groups;
   WholeModel& whole = model.whole;
   std::map<Pair, std::size_t> known;  // to the place in joint_groups
-  std::vector<const case_::Joint*> entries;
+  std::vector<std::optional<case_::Joint>> entries;
   std::vector<double> count;
   std::vector<Problem> problems;
   for_each_joint_face(model.mesh, model.topology, [&](const JointFace& face) {
@@ -110,12 +113,15 @@ void find_joint_groups(const case_::Case& input, Model& model) {
     if (fresh) {
       whole.joint_groups.push_back({groups.first, groups.second, 0.0});
       count.push_back(0.0);
-      entries.push_back(entry_for(input, names, groups));
-      if (entries.back() == nullptr) problems.push_back(no_law(input, names, groups));
+      entries.emplace_back();
+      if (auto problem = wrong_joint_law(input, names, whole.joint_groups.back()))
+        problems.push_back(std::move(*problem));
+      else
+        entries.back() = law_of(input, names, groups);
     }
     const std::size_t g = place->second;
     whole.joint_groups[g].size += face.size;
-    if (entries[g] != nullptr && entries[g]->weibull_modulus > 0)
+    if (entries[g] && entries[g]->weibull_modulus > 0)
       include_class(whole.joint_groups[g], strength_class(*entries[g], model.joint_id(face), face.area));
     count[g] += 1.0;
     ++whole.num_joints;
@@ -127,16 +133,18 @@ void find_joint_groups(const case_::Case& input, Model& model) {
 void take_joint_laws(const case_::Case& input, Model& model) {
   const std::vector<std::string>& names = model.mesh.volume_groups;
   std::vector<Problem> problems;
-  std::vector<const case_::Joint*> entries;
+  std::vector<case_::Joint> entries;
   for (const WholeModel::JointGroups& groups : model.whole.joint_groups) {
-    const case_::Joint* entry = entry_for(input, names, {groups.a, groups.b});
-    DEMAND(entry != nullptr, names[index(groups.a)] + " and " + names[index(groups.b)] + " have no joint law");
+    entries.push_back(law_of(input, names, {groups.a, groups.b}));
+    const case_::Joint& entry = entries.back();
     const std::string &first = names[index(groups.a)], &second = names[index(groups.b)];
     model.joint_law_names.push_back(first == second ? first : first + "-" + second);
-    model.joint_sizes.push_back(entry->size > 0 ? entry->size : groups.size);
-    add_law(input, *entry, model.joint_sizes.back(), model, problems);
-    model.groups_of_joint_law.push_back(static_cast<Index>(entries.size()));
-    entries.push_back(entry);
+    model.joint_law_keys.push_back(entry.origin.key);
+    model.joint_sizes.push_back(entry.size > 0 ? entry.size : groups.size);
+    add_law(input, entry, model.joint_sizes.back(), model, problems);
+    model.groups_of_joint_law.push_back(static_cast<Index>(entries.size() - 1));
+    if (!entry.inside() && entry.tensile_strength > 0)
+      model.breakable[index(groups.a)] = model.breakable[index(groups.b)] = true;
   }
   if (problems.empty()) add_class_laws(input, entries, model, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
@@ -146,15 +154,14 @@ void take_joints(const case_::Case& input, Model& model) {
   struct PairLaw {
     Index reference, first_of_class;  ///< laws
     const WholeModel::JointGroups& groups;
-    const case_::Joint& entry;
+    case_::Joint entry;
   };
-  std::map<Pair, PairLaw> law_of;
+  std::map<Pair, PairLaw> laws;
   for (std::size_t g = 0; g < model.whole.joint_groups.size(); ++g) {
     const WholeModel::JointGroups& groups = model.whole.joint_groups[g];
     const Pair pair{groups.a, groups.b};
-    const case_::Joint& entry = *entry_for(input, model.mesh.volume_groups, pair);
-    law_of.emplace(pair,
-                   PairLaw{static_cast<Index>(g), static_cast<Index>(model.whole.first_class_law(g)), groups, entry});
+    laws.emplace(pair, PairLaw{static_cast<Index>(g), static_cast<Index>(model.whole.first_class_law(g)), groups,
+                               law_of(input, model.mesh.volume_groups, pair)});
   }
   const auto law_for = [&](const PairLaw& law, const JointFace& face) {
     if (law.groups.num_classes == 0) return law.reference;
@@ -165,7 +172,7 @@ void take_joints(const case_::Case& input, Model& model) {
   model.joints.reserve(2 * model.mesh.elements.size());
   for_each_joint_face(model.mesh, model.topology, [&](const JointFace& face) {
     const Pair groups = groups_of(model, face);
-    if (has_joint(model, groups)) model.joints.push_back({face, law_for(law_of.at(groups), face)});
+    if (has_joint(model, groups)) model.joints.push_back({face, law_for(laws.at(groups), face)});
   });
 }
 

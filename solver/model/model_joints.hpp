@@ -14,11 +14,13 @@ namespace breccia {
 /// Throws InputError with every pair of groups that is glued and has no [[joint]]. O(elements).
 void find_joint_groups(const case_::Case& input, Model& model);
 
-/// The problem of a pair of groups that joints hold together and that has no [[joint]]; nullopt: it has one.
-[[nodiscard]] std::optional<Problem> missing_joint_law(const case_::Case& input, const std::vector<std::string>& names,
-                                                       const WholeModel::JointGroups& groups);
+/// The problem of a pair of groups that joints hold together, without a [[joint]] or with two that fit alike; nullopt:
+/// it has one.
+[[nodiscard]] std::optional<Problem> wrong_joint_law(const case_::Case& input, const std::vector<std::string>& names,
+                                                     const WholeModel::JointGroups& groups);
 
-/// Model::joint_laws with their names and sizes. Throws InputError with every law that makes no sense.
+/// Model::joint_laws with their names and sizes; the groups of interfaces that break are breakable. Throws InputError
+/// with every law that makes no sense.
 void take_joint_laws(const case_::Case& input, Model& model);
 
 /// Model::joints. O(elements).

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "case/joint_entries.hpp"
 #include "case/problem_at.hpp"
 
 namespace breccia {
@@ -24,9 +25,13 @@ std::vector<std::pair<Pair, const case_::Joint*>> parted_pairs(const case_::Case
                                                                const std::vector<std::string>& names,
                                                                const std::vector<Discretisation>& kinds) {
   std::vector<std::pair<Pair, const case_::Joint*>> pairs;
-  for (const case_::Joint& joint : input.joints) {
-    const Index a = group_index(names, joint.groups[0]), b = group_index(names, joint.groups[1]);
-    if (a != b && shares(kinds, a) && shares(kinds, b)) pairs.emplace_back(std::minmax(a, b), &joint);
+  const auto end = static_cast<Index>(names.size());
+  for (Index a = 0; a < end; ++a) {
+    for (Index b = a + 1; b < end && shares(kinds, a); ++b) {
+      const case_::Joint* joint =
+          shares(kinds, b) ? case_::joint_entry(input, names[at(a)], names[at(b)]).ruling : nullptr;
+      if (joint != nullptr) pairs.emplace_back(Pair{a, b}, joint);
+    }
   }
   return pairs;
 }
@@ -83,7 +88,8 @@ std::vector<Problem> joints_without_effect(const case_::Case& input, const std::
                                            const std::vector<Discretisation>& kinds, const std::vector<Index>& sets) {
   std::vector<Problem> problems;
   for (const auto& [pair, joint] : parted_pairs(input, names, kinds)) {
-    if (!share_nodes(kinds, sets, pair.first, pair.second)) continue;
+    const bool by_name = joint->groups[0] != case_::every_group && joint->groups[1] != case_::every_group;
+    if (!by_name || !share_nodes(kinds, sets, pair.first, pair.second)) continue;
     problems.push_back(cannot_part(input, *joint,
                                    "the elements of both groups share their nodes in the state that this case starts "
                                    "from: no joints can part them any more",

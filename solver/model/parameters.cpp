@@ -126,7 +126,9 @@ Pair pair_of(const case_::Case& input, const std::string& group, const std::stri
   return {a->density * b->density / (a->density + b->density), std::min(a->young, b->young)};
 }
 
-bool fits(const std::string& pattern, const std::string& group) { return pattern == "*" || pattern == group; }
+bool fits(const std::string& pattern, const std::string& group) {
+  return pattern == case_::every_group || pattern == group;
+}
 
 /// Whether points of a group are felt by the other.
 bool carries_points(const case_::Contact& entry, const std::string& group, const std::string& other) {
@@ -178,7 +180,9 @@ JointLawParams joint_law_params(const case_::Joint& joint, double size, bool unb
 }
 
 TiedContacts tied_contact_entries(const case_::Case& input, const std::string& group, const std::string& other) {
-  const auto names = [](const case_::Contact& entry) { return (entry.groups[0] != "*") + (entry.groups[1] != "*"); };
+  const auto names = [](const case_::Contact& entry) {
+    return (entry.groups[0] != case_::every_group) + (entry.groups[1] != case_::every_group);
+  };
   TiedContacts found;
   for (const case_::Contact& entry : input.contacts) {
     const bool named = (fits(entry.groups[0], group) && fits(entry.groups[1], other)) ||

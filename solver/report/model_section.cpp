@@ -30,10 +30,11 @@ bool names_groups(const WrittenKey& written) {
 
 bool same(const WrittenKey& a, const WrittenKey& b) { return a.key == b.key && a.value == b.value; }
 
-std::string name_of(const std::string& group) { return group == "*" ? "any" : group; }
+std::string name_of(const std::string& group) { return group == case_::every_group ? "any" : group; }
 
 std::string name_of(const std::array<std::string, 2>& groups) {
-  return groups[0] == groups[1] && groups[0] != "*" ? groups[0] : name_of(groups[0]) + " – " + name_of(groups[1]);
+  return groups[0] == groups[1] && groups[0] != case_::every_group ? groups[0]
+                                                                   : name_of(groups[0]) + " – " + name_of(groups[1]);
 }
 
 void add(std::vector<Column>& columns, const std::string& group, std::vector<WrittenKey> keys) {

@@ -67,6 +67,20 @@ TEST(Conditions, KnowTractionsForcesAndAbsorbingSurfaces) {
   EXPECT_EQ(rows[2].type + "|" + rows[2].target + "|" + rows[2].path, "absorbing|bottom|stage[0]");
 }
 
+TEST(Conditions, OfAnEntryOfSeveralGroupsThereIsOneOfEach) {
+  const QTemporaryDir scratch;
+  Document document(scratch.filePath("state"));
+  const QByteArray more =
+      "[[stage.constraint]]\ngroup = [\"block\", \"top\"]\nfixed = \"x\"\n"
+      "[[stage.constraint]]\ngroup = \"side\"\nfixed = \"y\"\n";
+  ASSERT_EQ(document.open(test::written_case(scratch, test::block_case(2, "10 us") + more)), QString());
+  ASSERT_TRUE(document.problems().empty()) << document.problems()[0].text();
+  QStringList words;
+  for (const Condition& row : conditions_of(document)) words << row.target + "|" + row.path + "|" + row.value;
+  EXPECT_EQ(words, (QStringList{"block|stage[0].constraint[0]|x", "top|stage[0].constraint[0]|x",
+                                "side|stage[0].constraint[1]|y"}));
+}
+
 TEST(Conditions, CurvesAreTheFunctionsOverTheirStageWithTheCornersOfTables) {
   const QTemporaryDir scratch;
   Document document(scratch.filePath("state"));

@@ -24,6 +24,13 @@ TEST(GroupNames, ANewEntryIsOfAGroupWithoutOneAndInventsNoQuantity) {
   EXPECT_EQ(lines_of_new_entry("stage", kCase, kMesh), "");
 }
 
+TEST(GroupNames, ANewEntryIsOfAGroupThatNoListNames) {
+  const TomlPlaces listed("[[material]]\ngroup = [\"glass\", \"steel\"]\n");
+  EXPECT_EQ(lines_of_new_entry("material", listed, MeshGroups{{"glass", "steel", "wood"}, {}, {}, 3}),
+            "group = \"wood\"\n");
+  EXPECT_EQ(groups_of_kind(GroupKind::volume, listed, {}), (QStringList{"glass", "steel"}));
+}
+
 TEST(GroupNames, AListGetsEachGroupOnce) {
   EXPECT_EQ(with_group("", "top"), "top");
   EXPECT_EQ(with_group("top", "foot"), "top, foot");

@@ -78,9 +78,7 @@ TEST(Keys, NoLetterThatOpensAMenuIsThatOfAButtonOrField) {
   QString menus;
   for (const QAction* action : desk.window->menuBar()->actions()) menus += letter_of(action->text());
   EXPECT_EQ(menus.size(), 6);
-  const auto check = [&](const QString& text) {
-    EXPECT_FALSE(menus.contains(letter_of(text))) << text.toStdString();
-  };
+  const auto check = [&](const QString& text) { EXPECT_FALSE(menus.contains(letter_of(text))) << text.toStdString(); };
   for (const auto* button : desk.window->findChildren<QAbstractButton*>()) check(button->text());
   for (const auto* label : desk.window->findChildren<QLabel*>())
     if (label->buddy() != nullptr) check(label->text());

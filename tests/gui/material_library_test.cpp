@@ -53,6 +53,19 @@ TEST(MaterialLibrary, ACaseWithAnyOfThemIsAccepted) {
   }
 }
 
+TEST(MaterialLibrary, JointsOfAnyGroupTakeItsStrengthsToo) {
+  const LibraryMaterial marble{"marble", "own", {}, true, {{"joint.tensile_strength", "\"7 MPa\"", {}}}};
+  for (const QByteArray& group : {QByteArray("\"*\""), QByteArray("[\"other\", \"block\"]")}) {
+    const QTemporaryDir scratch;
+    Document document(scratch.filePath("state"));
+    QByteArray text = kCase;
+    text.replace("[[joint]]\ngroup = \"block\"", "[[joint]]\ngroup = " + group);
+    ASSERT_TRUE(document.open(test::written_case(scratch, text)).isEmpty());
+    take_material(document, "material[0]", marble);
+    EXPECT_EQ(document.value("joint[0].tensile_strength"), "\"7 MPa\"") << group.toStdString();
+  }
+}
+
 TEST(MaterialLibrary, OfTheUserIsNotWrittenOverWhereNotAllOfItWasRead) {
   const QTemporaryDir scratch;
   const QString file = scratch.filePath("own.toml");

@@ -23,6 +23,7 @@ TEST(ValueText, WhatIsTypedBecomesToml) {
   EXPECT_EQ(typed("contact[].between", "*, glass"), "[\"*\", \"glass\"]");
   EXPECT_EQ(typed("output.gauges", "a"), "[\"a\"]");
   EXPECT_EQ(typed("material[].group", "12"), "\"12\"");
+  EXPECT_EQ(typed("material[].group", "glass, frame"), "[\"glass\", \"frame\"]");
   EXPECT_EQ(typed("time.step", "auto"), "\"auto\"");
   EXPECT_EQ(typed("detection.verify", "true"), "true");
   EXPECT_EQ(typed("stage[].pressure[].value", "{ linear = \"1 GPa/s\" }"), "{ linear = \"1 GPa/s\" }");
@@ -34,6 +35,16 @@ TEST(ValueText, TomlIsShownAsPeopleWriteIt) {
   EXPECT_EQ(shown("initial_velocity[].velocity", "[0, \"-3 m/s\", 0]"), "0, -3 m/s, 0");
   EXPECT_EQ(shown("title", "\"a \\\"b\\\"\""), "\"a \\\"b\\\"\"");
   EXPECT_EQ(shown("stage[].constraint[].velocity", "{ y = 1 }"), "{ y = 1 }");
+}
+
+TEST(ValueText, NamesOfGroupsAreReadFromATextAndFromAList) {
+  EXPECT_EQ(shown("joint[].group", "[\"left\", \"right\"]"), "left, right");
+  EXPECT_EQ(names_in("[\"left\", 'right']"), (QStringList{"left", "right"}));
+  EXPECT_EQ(names_in("\"left\""), QStringList{"left"});
+  EXPECT_TRUE(names_in("").isEmpty());
+  const QString comma = "\"bolt, M6\"";
+  EXPECT_EQ(names_in(comma), QStringList{"bolt, M6"});
+  EXPECT_EQ(typed_value(case_::key_of("joint[].group"), shown_value(case_::key_of("joint[].group"), comma)), comma);
 }
 
 TEST(ValueText, AnglesAreTypedAndShownInDegrees) {

@@ -44,6 +44,7 @@ std::vector<Problem> problems_of(Key key, std::string_view written) {
       as(bool{});
       break;
     case ValueType::text:
+    case ValueType::text_or_list:
       as(std::string{});
       break;
     case ValueType::choice:

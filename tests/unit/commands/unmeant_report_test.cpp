@@ -47,6 +47,11 @@ TEST(Unmeant, AreElementsInNoPhysicalVolume) {
                                                                " tetrahedra of the mesh 7 are in no "));
 }
 
+TEST(Unmeant, IsALawOfAnInterfaceThatIsNotThere) {
+  EXPECT_THAT(advice_on("[[joint]]\nbetween = [\"rock\", \"*\"]\n", {"mesh.glue=true"}),
+              HasSubstr("joint[0] (line 17) is the law of no joint"));
+}
+
 TEST(Unmeant, IsASphereAroundNothing) {
   const auto sphere = [](const std::string& radius) {
     return advice_on("[sphere]\nradius = \"" + radius + "\"\npenalty = 1e9\n");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -114,6 +115,52 @@ TEST(Model, glues_a_breakable_group_for_good_to_one_that_is_not_where_the_interf
     EXPECT_TRUE(std::any_of(model.joints.begin(), model.joints.end(), [&](const ModelJoint& joint) {
       return model.joint_law_names[at(joint.law)] == "left-right";
     })) << right;
+  }
+}
+
+/// The two boxes with the same laws for all of their joints. @param groups  of the law inside, @param pairs  in between
+std::string alike(const std::string& groups, const std::vector<std::string>& pairs) {
+  const auto joint = [](const std::string& key) {
+    return "[[joint]]\n" + key + "\npenalty_factor = 50\ntensile_strength = \"1 MPa\"\nenergy_mode_1 = \"100 J/m2\"\n";
+  };
+  std::string laws = joint("group = " + groups);
+  for (const std::string& pair : pairs) laws += joint("between = " + pair);
+  std::string text = test::kTwoBoxesCase;
+  const std::size_t at = text.find("[[joint]]");
+  return text.replace(at, text.find("[[contact]]") - at, laws);
+}
+
+TEST(Model, takes_the_law_of_any_groups_for_the_interface_of_each_two) {
+  const std::vector<std::string> overrides{"material[1].young=90e9"};
+  const auto model_of = [&](const std::string& groups, const std::vector<std::string>& pairs) {
+    return build_model(two_boxes_case(overrides, alike(groups, pairs)));
+  };
+  const Model named = model_of("[\"left\", \"right\"]", {"[\"left\", \"right\"]"});
+  EXPECT_EQ(std::set<std::string>(named.joint_law_keys.begin(), named.joint_law_keys.end()),
+            (std::set<std::string>{"joint[0]", "joint[1]"}));
+  for (const char* pair : {"[\"*\", \"*\"]", "[\"*\", \"left\"]", "[\"right\", \"*\"]"}) {
+    const Model any = model_of("\"*\"", {pair});
+    EXPECT_EQ(any.joint_law_names, named.joint_law_names) << pair;
+    EXPECT_EQ(any.joint_law_keys, named.joint_law_keys) << pair;
+    EXPECT_EQ(any.breakable, named.breakable) << pair;
+    ASSERT_EQ(any.joint_laws.size(), named.joint_laws.size()) << pair;
+    for (std::size_t l = 0; l < named.joint_laws.size(); ++l) {
+      EXPECT_EQ(any.joint_laws[l].stiffness, named.joint_laws[l].stiffness) << pair;
+      EXPECT_EQ(any.joint_laws[l].tensile_strength, named.joint_laws[l].tensile_strength) << pair;
+    }
+  }
+}
+
+TEST(Model, asks_which_of_two_laws_that_fit_an_interface_alike_is_meant) {
+  try {
+    (void)build_model(two_boxes_case({}, alike("\"*\"", {"[\"left\", \"*\"]", "[\"*\", \"right\"]"})));
+    FAIL();
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.problems().size(), 1u);
+    const Problem& problem = error.problems().front();
+    EXPECT_EQ(problem.key, "joint[2].between");
+    EXPECT_NE(problem.what.find("and joint[1] (line "), std::string::npos) << problem.what;
+    EXPECT_NE(problem.allowed.find("between = [\"left\", \"right\"]"), std::string::npos) << problem.allowed;
   }
 }
 

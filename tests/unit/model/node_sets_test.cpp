@@ -96,6 +96,12 @@ TEST(NodeSets, GiveBothSidesOfAnInterfaceTheirOwnNodesWithJointsBetween) {
   }
 }
 
+TEST(NodeSets, AreOwnForEveryGroupWhereAnyTwoHaveALaw) {
+  const std::string three = kTwoMaterials + material("top");
+  EXPECT_EQ(model_of(kThreeBoxes, three + interface("\"*\", \"*\"")).whole.node_sets, (std::vector<Index>{0, 1, 2}));
+  EXPECT_EQ(model_of(kThreeBoxes, three + interface("\"top\", \"*\"")).whole.node_sets, (std::vector<Index>{0, 0, 2}));
+}
+
 TEST(NodeSets, AreSharedAcrossInterfacesThatHaveNoLaw) {
   const std::string three = kTwoMaterials + material("top");
   const Model model = model_of(kThreeBoxes, three + interface("\"left\", \"right\"") + interface("\"right\", \"top\""));

@@ -1,0 +1,122 @@
+#include "case/reader_groups.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "case/case.hpp"
+#include "case/schema.hpp"
+
+namespace breccia::case_ {
+namespace {
+
+/// The texts of a list of nothing but texts; none of anything else.
+std::vector<std::string> names_of(const Node* list) {
+  std::vector<std::string> names;
+  if (list == nullptr || !list->is(Node::Kind::list)) return names;
+  for (const Node& item : list->items) {
+    if (!item.is(Node::Kind::text) || item.text.empty()) return {};
+    names.push_back(item.text);
+  }
+  return names;
+}
+
+/// The entry with one name instead of a list of them.
+Node with_name(const Node& entry, std::string_view key, const std::string& name) {
+  Node own = entry;
+  Node& value = *own.find(key);
+  value.kind = Node::Kind::text;
+  value.text = name;
+  value.items.clear();
+  return own;
+}
+
+void expand_entries(Node& list, std::string_view key) {
+  std::vector<Node> entries;
+  for (std::size_t i = 0; i < list.items.size(); ++i) {
+    Node& entry = list.items[i];
+    entry.place = static_cast<int>(i);
+    const std::vector<std::string> names = names_of(entry.find(key));
+    for (const std::string& name : names) entries.push_back(with_name(entry, key, name));
+    if (names.empty()) entries.push_back(std::move(entry));
+  }
+  list.items = std::move(entries);
+}
+
+bool has_text(const Node& entry, std::string_view key, std::string_view text) {
+  const Node* node = entry.find(key);
+  return node != nullptr && node->is(Node::Kind::text) && node->text == text;
+}
+
+Node* list_of(Node& root, std::string_view name) {
+  Node* list = root.find(name);
+  return list != nullptr && list->is(Node::Kind::list) ? list : nullptr;
+}
+
+/// "*" of joint.group becomes the list of the groups with joints that no other entry names.
+void list_remaining_groups(Node& root) {
+  Node *materials = list_of(root, "material"), *joints = list_of(root, "joint");
+  if (materials == nullptr || joints == nullptr) return;
+  std::set<std::string> named;
+  for (const Node& joint : joints->items) {
+    const Node* group = joint.find("group");
+    if (group != nullptr && group->is(Node::Kind::text)) named.insert(group->text);
+    for (const std::string& name : names_of(group)) named.insert(name);
+  }
+  std::vector<Node> remaining;
+  for (const Node& material : materials->items) {
+    const Node* group = material.find("group");
+    if (group != nullptr && group->is(Node::Kind::text) && !has_text(material, "joints", "none") &&
+        !named.contains(group->text))
+      remaining.push_back(*group);
+  }
+  for (Node& joint : joints->items) {
+    if (remaining.empty() || !has_text(joint, "group", every_group)) continue;
+    Node& group = *joint.find("group");
+    group.kind = Node::Kind::list;
+    group.items = remaining;
+  }
+}
+
+/// @param pattern  of the key below the table: "constraint[].group"
+void expand_below(Node& table, std::string_view pattern) {
+  const std::size_t brackets = pattern.find("[].");
+  const std::string_view rest = pattern.substr(brackets + 3);
+  Node* list = table.find(pattern.substr(0, brackets));
+  if (list == nullptr || !list->is(Node::Kind::list)) return;
+  if (rest.find("[].") == std::string_view::npos) return expand_entries(*list, rest);
+  for (Node& entry : list->items) expand_below(entry, rest);
+}
+
+}  // namespace
+
+void expand_groups(Node& root) {
+  for (const Key& key : schema()) {  // materials before joints
+    if (key.type != ValueType::text_or_list) continue;
+    if (key.path == "joint[].group") list_remaining_groups(root);
+    expand_below(root, key.path);
+  }
+}
+
+std::string written_path(const Node& root, std::string_view path) {
+  std::string written;
+  for (const Node* node = &root; !path.empty();) {
+    const std::size_t end = std::min(path.find_first_of(".[", 1), path.size());
+    std::string step(path.substr(0, end));
+    path.remove_prefix(end);
+    if (node != nullptr && step.starts_with('[')) {
+      std::size_t index = 0;
+      std::from_chars(step.data() + 1, step.data() + step.size(), index);
+      node = index < node->items.size() ? &node->items[index] : nullptr;
+      if (node != nullptr && node->place >= 0) step = "[" + std::to_string(node->place) + "]";
+    } else if (node != nullptr) {
+      node = node->find(step.starts_with('.') ? std::string_view(step).substr(1) : std::string_view(step));
+    }
+    written += step;
+  }
+  return written;
+}
+
+}  // namespace breccia::case_
