@@ -30,18 +30,16 @@ QString case_text(const QString& file, const QStringList& groups, double metres)
   const LibraryMaterial material = first_material();
   QString out = "title = " + quoted(about.completeBaseName()) + "\n\n[mesh]\nfile = " + quoted(about.fileName()) + "\n";
   if (metres != 1) out += "scale = " + QString::number(metres, 'g', 17) + "\n";
-  for (const QString& group : groups) {
-    out += "\n[[material]]                         # values of \"" + material.name +
-           "\" of the library: put in your own\n";
-    out += "group = " + quoted(group) + "\n";
-    for (const char* key : {"young", "poisson", "density"}) out += QString("%1 = %2\n").arg(key, material.value(key));
-    out += "joints = \"breakable\"\n";
-  }
-  for (const QString& group : groups) {
-    out += "\n[[joint]]\ngroup = " + quoted(group) + "\n";
-    for (const MaterialValue& v : material.values)
-      if (v.key.startsWith("joint.")) out += v.key.mid(6) + " = " + v.toml + "\n";
-  }
+  QStringList names;
+  for (const QString& group : groups) names << quoted(group);
+  const QString all = names.size() == 1 ? names[0] : "[" + names.join(", ") + "]";
+  out += "\n[[material]]                         # values of \"" + material.name +
+         "\" of the library: put in your own\n";
+  out += "group = " + all + "\n";
+  for (const char* key : {"young", "poisson", "density"}) out += QString("%1 = %2\n").arg(key, material.value(key));
+  out += "joints = \"breakable\"\n\n[[joint]]\ngroup = " + (names.size() == 1 ? all : quoted("*")) + "\n";
+  for (const MaterialValue& v : material.values)
+    if (v.key.startsWith("joint.")) out += v.key.mid(6) + " = " + v.toml + "\n";
   out += "\n[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = " + material.value("young") + "\nfriction = 0.4\n";
   return out + "\n[[stage]]\nend = \"1 ms\"\n\n[output]\nframe_interval = \"20 us\"\n";
 }

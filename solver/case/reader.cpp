@@ -186,10 +186,20 @@ bool stands_below(std::string_view key, std::string_view section) {
          (key[section.size()] == '.' || key[section.size()] == '[');
 }
 
-// True if some problem already stands at the key, around it or below it: a second one is likely to be its consequence.
-bool told_already(std::span<const Problem> problems, const std::string& key) {
+// True if what is allowed at a key depends on another one beside it: "at most friction_angle".
+bool depends_on(const Problem& problem, const std::string& other) {
+  const std::size_t section = other.rfind('.') + 1;
+  return problem.key.rfind('.') + 1 == section && problem.key.starts_with(other.substr(0, section)) &&
+         problem.allowed.find(other.substr(section)) != std::string::npos;
+}
+
+// True if some problem already stands at the key, around it, below it or at one that it depends on: a second one is
+// likely to be its consequence.
+bool told_already(std::span<const Problem> problems, const Problem& problem) {
   return std::any_of(problems.begin(), problems.end(), [&](const Problem& p) {
-    return key == p.key || (!p.key.empty() && (stands_below(key, p.key) || stands_below(p.key, key)));
+    const std::string& key = problem.key;
+    return key == p.key ||
+           (!p.key.empty() && (stands_below(key, p.key) || stands_below(p.key, key) || depends_on(problem, p.key)));
   });
 }
 
@@ -227,7 +237,7 @@ Case case_of(Node root, const std::filesystem::path& file, std::span<const std::
   const auto add = [&](std::vector<Problem> found) {
     const std::vector<Problem> before = problems;
     for (Problem& p : found) {
-      if (told_already(before, p.key)) continue;
+      if (told_already(before, p)) continue;
       const Node& node = deepest_on_path(written, p.key);
       p.file = node.file.empty() ? c.file.string() : node.file;
       p.line = node.line;

@@ -69,7 +69,7 @@ void list_remaining_groups(Node& root) {
   for (const Node& material : materials->items) {
     const Node* group = material.find("group");
     if (group != nullptr && group->is(Node::Kind::text) && !has_text(material, "joints", "none") &&
-        !named.contains(group->text))
+        named.insert(group->text).second)
       remaining.push_back(*group);
   }
   for (Node& joint : joints->items) {

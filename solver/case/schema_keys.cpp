@@ -326,8 +326,7 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Velocity of the bodies of a group at the start; its parts add up.",
      .fixed_by_state = "it was given before the first step of the first run; the velocities are those of the state"},
     {.path = "initial_velocity[].group", .type = text_or_list, .required = true,
-     .help = "Physical volume group, or a list of groups.",
-     .example = "\"projectile\""},
+     .help = "Physical volume group, or a list of groups.", .example = "\"projectile\""},
     {.path = "initial_velocity[].velocity", .type = vector, .unit = "m/s", .fallback = "[0, 0, 0]",
      .help = "Of all bodies alike.", .example = "[0, \"-3 m/s\", 0]"},
     {.path = "initial_velocity[].random", .type = number_pair, .unit = "m/s", .fallback = "[0, 0]",
@@ -397,8 +396,7 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "stage[].pressure[]", .type = section_list,
      .help = "Pressure on a surface that follows its faces; both sides of an inner surface are loaded."},
     {.path = "stage[].pressure[].surface", .type = text_or_list, .required = true,
-     .help = "Physical surface group, or a list of groups.",
-     .example = "\"slit\""},
+     .help = "Physical surface group, or a list of groups.", .example = "\"slit\""},
     {.path = "stage[].pressure[].value", .type = function, .unit = "Pa", .required = true,
      .help = "Function of time; positive pushes into the body.", .example = "{ linear = \"20 GPa/s\" }"},
 
@@ -406,8 +404,7 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Force on a surface for each unit of its area at rest, in a direction that stays when the faces turn; "
              "both sides of an inner surface are loaded alike."},
     {.path = "stage[].traction[].surface", .type = text_or_list, .required = true,
-     .help = "Physical surface group, or a list of groups.",
-     .example = "\"crest\""},
+     .help = "Physical surface group, or a list of groups.", .example = "\"crest\""},
     {.path = "stage[].traction[].value", .type = function_vector, .unit = "Pa", .required = true,
      .help = "Along x, y and z, functions of time.", .example = "[\"1 MPa\", 0, \"-2 MPa\"]"},
 

@@ -87,6 +87,11 @@ constexpr auto table = std::to_array<Topic>({
      "mesh.glue joins bodies of one conforming mesh; a [[joint]] with between says how their interface holds, for "
      "good if it has no strengths.",
      "mesh.glue|joint.between"},
+    {"set|element set|node set|section assignment|wildcard",
+     "A set is a group: a physical volume, surface, curve or point of the mesh, or a solid or face of a STEP file. "
+     "Groups that are alike share an entry: group = [\"left\", \"right\"]. In a [[joint]] and a [[contact]] \"*\" "
+     "stands for every group.",
+     "material.group|joint.group|joint.between|contact.between|stage.constraint.group"},
     {"heterogeneity|scatter|random strength",
      "Strengths scatter from joint to joint with a weibull_modulus.",
      "joint.weibull_modulus|joint.weibull_area|joint.weibull_seed"},

@@ -186,9 +186,13 @@ class Validator {
     const bool inside = j.inside();
     for (const std::string& group : j.groups)
       if (group != every_group) needs_material(j.origin, inside ? "group" : "between", group);
-    if (j.groups[0] == every_group && j.origin.keys.contains("group"))
-      return problem(j.origin, "group", "stands for no group",
-                     "\"*\" where a group with joints has no [[joint]] of its own", every_group);
+    if (j.groups[0] == every_group && j.origin.keys.contains("group")) {
+      const bool all_groups_known = material("") == nullptr;
+      if (all_groups_known)
+        problem(j.origin, "group", "stands for no group", "\"*\" where a group with joints has no [[joint]] of its own",
+                every_group);
+      return;
+    }
     if (!j.groups[0].empty() && !seen.insert(sorted(j.groups)).second)
       problem(j.origin, inside ? "group" : "between", "the joints have a law already", "one [[joint]] a group or pair",
               words(j.groups));

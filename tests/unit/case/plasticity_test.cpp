@@ -17,6 +17,9 @@ struct Wrong {
 
 TEST(Plasticity, that_cannot_be_is_refused_with_one_message_that_says_why) {
   for (const Wrong& wrong : {
+           Wrong{"friction_angle = \"36 deg\"",
+                 "friction_angle = \"96 deg\"",
+                 {"material[2].friction_angle: is out of range"}},
            Wrong{"viscosity = \"3 Pa s\"",
                  "cohesion = 1e6",
                  {"material[0].cohesion: belongs to a law", "law = \"drucker_prager\""}},
