@@ -191,9 +191,9 @@ TEST(ReaderGroups, AnOverrideChangesAllGroupsOfAnEntry) {
   EXPECT_EQ(c.materials[1].young, 30e9);
   EXPECT_EQ(c.materials[2].young, 40e9);
   EXPECT_EQ(c.joints[1].friction, 0.7);
-  EXPECT_EQ(
-      read_text(glued("[[joint]]\ngroup = \"*\"\n" + kStrong), {"material[1].group=[\"base\", \"rock\"]"}).materials.size(),
-      4u);
+  EXPECT_EQ(read_text(glued("[[joint]]\ngroup = \"*\"\n" + kStrong), {"material[1].group=[\"base\", \"rock\"]"})
+                .materials.size(),
+            4u);
 }
 
 }  // namespace
