@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -240,8 +241,44 @@ std::string glue_line(const Model& model, std::size_t l) {
   return "  they cannot break: their [[joint]] has no tensile_strength\n";
 }
 
-/// The joints of a pair of groups: penalty, softness, process zone; warnings are added to `advice`.
-std::string law_report(const Model& model, std::size_t l, Advice& advice) {
+/// What is advised on the joints of a pair of groups; empty: nothing.
+struct Finding {
+  double weight = 0;
+  std::string advice;
+};
+struct LawReport {
+  std::string text;
+  Finding softness, zone;
+};
+
+/// Of the findings on joints that follow one entry of the case the heaviest, in the order of the first of each.
+class Heaviest {
+ public:
+  void add(const std::string& key, Finding finding) {
+    const auto [known, fresh] = place_.emplace(key, findings_.size());
+    if (fresh) findings_.emplace_back();
+    Finding& told = findings_[known->second];
+    if (!finding.advice.empty() && finding.weight > told.weight) told = std::move(finding);
+  }
+  void tell(Advice& advice) {
+    for (Finding& finding : findings_) advise(advice, std::move(finding.advice));
+  }
+
+ private:
+  std::vector<Finding> findings_;
+  std::map<std::string, std::size_t> place_;
+};
+
+/// How advice names the joints of a pair of groups.
+std::string advised_name(const Model& model, std::size_t l) {
+  const std::vector<std::string>& keys = model.joint_law_keys;
+  const auto laws = std::count(keys.begin(), keys.end(), keys[l]);
+  const std::string& name = model.joint_law_names[l];
+  return laws == 1 ? name : fmt::format("{} (the worst of {} that follow {})", name, laws, keys[l]);
+}
+
+/// The joints of a pair of groups: penalty, softness, process zone.
+LawReport law_report(const Model& model, std::size_t l) {
   const JointLawParams& law = model.joint_laws[l];
   const Edges edges = edges_of(model, l);
   const Softness softness = softness_of(model, l, sides_of(model, l).softer_young / law.stiffness);
@@ -250,33 +287,47 @@ std::string law_report(const Model& model, std::size_t l, Advice& advice) {
   const bool graded = edges.fine > 0 && edges.fine < kGraded * edges.mean;
   const double softest = graded ? typical * edges.mean / edges.fine : typical;
   const std::string where = softness.is_even() ? "" : " " + words_of(softness.softest);
-  const std::string& name = model.joint_law_names[l];
-  std::string text =
+  const std::string name = advised_name(model, l);
+  LawReport report;
+  report.text =
       fmt::format("joints of {}: k = p/h = {:.4g} Pa/m with h = {:.4g} m; they make the body {:.2g} % softer{}{}\n",
-                  name, law.stiffness, model.joint_sizes[l], 100 * softness.mean,
+                  model.joint_law_names[l], law.stiffness, model.joint_sizes[l], 100 * softness.mean,
                   softness.is_even() ? "" : fmt::format(", {:.2g} %{}", 100 * softness.most, where),
                   graded ? fmt::format(", {:.2g} % where a tenth of them is finest", 100 * softest) : "");
   if (softest > kWorthRaising * kSoftness) {
-    advice.push_back(fmt::format(
-        "The joints of {} make it {:.1f} % softer{}{}. For 5 % raise joint.penalty (or joint.penalty_factor, whichever "
-        "the case has) by a factor of {:.2g}{}; the time step falls with its root.",
-        name, 100 * softest, where, graded ? " where it is meshed finest" : "", softest / kSoftness,
-        graded ? ", or give joint.size the edges of that part" : ""));
+    report.softness = {softest,
+                       fmt::format("The joints of {} make it {:.1f} % softer{}{}. For 5 % raise joint.penalty (or "
+                                   "joint.penalty_factor, whichever "
+                                   "the case has) by a factor of {:.2g}{}; the time step falls with its root.",
+                                   name, 100 * softest, where, graded ? " where it is meshed finest" : "",
+                                   softest / kSoftness, graded ? ", or give joint.size the edges of that part" : "")};
   }
-  if (!law.breakable()) return text + glue_line(model, l);
+  if (!law.breakable()) {
+    report.text += glue_line(model, l);
+    return report;
+  }
   const double zone = process_zone(model, l);
-  text += fmt::format("  fracture process zone at least {:.4g} m; mean joint edge {:.4g} m{}, a tenth below {:.4g} m\n",
-                      zone, edges.mean, model.plane ? " in the plane" : "", edges.fine);
-  text += scatter_report(model, l);
-  advise(advice, zone_advice(name, zone, edges, path_is_given(model, l)));
-  return text;
+  report.text +=
+      fmt::format("  fracture process zone at least {:.4g} m; mean joint edge {:.4g} m{}, a tenth below {:.4g} m\n",
+                  zone, edges.mean, model.plane ? " in the plane" : "", edges.fine);
+  report.text += scatter_report(model, l);
+  report.zone = {edges.mean / zone, zone_advice(name, zone, edges, path_is_given(model, l))};
+  return report;
 }
 
 }  // namespace
 
 std::string joint_report(const Model& model, Advice& advice) {
   std::string text;
-  for (std::size_t l = 0; l < model.joint_law_names.size(); ++l) text += law_report(model, l, advice);
+  Heaviest softness, zones;
+  for (std::size_t l = 0; l < model.joint_law_names.size(); ++l) {
+    LawReport report = law_report(model, l);
+    text += report.text;
+    softness.add(model.joint_law_keys[l], std::move(report.softness));
+    zones.add(model.joint_law_keys[l], std::move(report.zone));
+  }
+  softness.tell(advice);
+  zones.tell(advice);
   return text;
 }
 
@@ -284,7 +335,7 @@ Advice sudden_softening(const Model& model, double dt) {
   // Measured on a glass bar that breaks in tension, with 3.8, 7.6, 10, 15 and 30 steps: residual 6.0, 2.0, 1.25, 0.5
   // and 0.13 %; damping of damaged joints 54, 45, 43, 32 and 18 % of the work; fracture 20 % with 3.8, 27 % with 15.
   constexpr double kEnough = 10;
-  Advice advice;
+  Heaviest sudden;
   for (std::size_t l = 0; l < model.joint_law_names.size(); ++l) {
     const JointLawParams& law = model.joint_laws[l];
     const Index group = sides_of(model, l).softer;
@@ -294,12 +345,16 @@ Advice sudden_softening(const Model& model, double dt) {
     if (steps >= kEnough) continue;
     // joint_report says that nothing resolves these.
     if (kEnough / steps > kWorthRefining && beyond_refining(edges_of(model, l).mean, process_zone(model, l))) continue;
-    advice.push_back(fmt::format(
-        "The joints of {} soften within {:.2g} steps, too few to follow: of a glass bar 6 % of the energy was lost "
-        "with 3.8 steps, 1.3 % with 10, and damping took more than fracture (time.residual_limit ends a run that loses "
-        "too much). With a time.safety {:.2g} times smaller it is 10 steps.",
-        model.joint_law_names[l], steps, kEnough / steps));
+    sudden.add(model.joint_law_keys[l],
+               {1 / steps, fmt::format("The joints of {} soften within {:.2g} steps, too few to follow: of a glass bar "
+                                       "6 % of the energy was lost "
+                                       "with 3.8 steps, 1.3 % with 10, and damping took more than fracture "
+                                       "(time.residual_limit ends a run that loses "
+                                       "too much). With a time.safety {:.2g} times smaller it is 10 steps.",
+                                       advised_name(model, l), steps, kEnough / steps)});
   }
+  Advice advice;
+  sudden.tell(advice);
   return advice;
 }
 

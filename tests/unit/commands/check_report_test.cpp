@@ -144,6 +144,30 @@ TEST(CheckReport, speaks_of_load_and_speed_but_of_no_path_where_joints_lie_on_a_
   }
 }
 
+TEST(CheckReport, tells_of_the_worst_of_the_joints_that_follow_one_entry) {
+  const auto boxes = [](const std::string& joints) {
+    std::string text = test::kTwoBoxesCase;
+    const std::size_t at = text.find("[[joint]]"), end = text.find("[[joint]]\nbetween");
+    text.replace(at, end - at, joints);
+    const case_::Case input = test::two_boxes_case({}, text);
+    return check_report(input, build_model(input));
+  };
+  const std::string law = "\npenalty_factor = 10\ntensile_strength = \"5 MPa\"\nenergy_mode_1 = \"20 J/m2\"\n";
+  const auto count = [](const std::string& text, const std::string& words) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++found;
+    return found;
+  };
+  const std::string own = boxes("[[joint]]\ngroup = \"left\"" + law + "[[joint]]\ngroup = \"right\"" + law);
+  const std::string alike = boxes("[[joint]]\ngroup = [\"left\", \"right\"]" + law);
+  for (const char* words : {"are far larger than its fracture process zone", "For 5 % raise joint.penalty"}) {
+    EXPECT_EQ(count(own, words), 2u) << words << "\n" << own;
+    EXPECT_EQ(count(alike, words), 1u) << words << "\n" << alike;
+  }
+  EXPECT_THAT(alike,
+              AllOf(HasSubstr("(the worst of 2 that follow joint[0]) (edge"), HasSubstr("joints of right: k = p/h")));
+}
+
 TEST(CheckReport, measures_an_interface_by_its_softer_side_and_its_process_zone_by_both) {
   const case_::CaseFolder folder;
   constexpr double kEnergy = 1e5;  // J/m2: beside it what the rise to the strength takes, a few J/m2, is nothing
