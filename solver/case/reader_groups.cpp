@@ -23,14 +23,16 @@ std::vector<std::string> names_of(const Node* list) {
   return names;
 }
 
-/// The entry with one name instead of a list of them.
-Node with_name(const Node& entry, std::string_view key, const std::string& name) {
-  Node own = entry;
-  Node& value = *own.find(key);
+/// Puts a copy of the entry with one name in place of the list for each of the names.
+void append_copies(Node entry, std::string_view key, const std::vector<std::string>& names,
+                   std::vector<Node>& entries) {
+  Node& value = *entry.find(key);
   value.kind = Node::Kind::text;
-  value.text = name;
-  value.items.clear();
-  return own;
+  value.items = {};
+  for (const std::string& name : names) {
+    value.text = name;
+    entries.push_back(entry);
+  }
 }
 
 void expand_entries(Node& list, std::string_view key) {
@@ -38,9 +40,10 @@ void expand_entries(Node& list, std::string_view key) {
   for (std::size_t i = 0; i < list.items.size(); ++i) {
     Node& entry = list.items[i];
     entry.place = static_cast<int>(i);
-    const std::vector<std::string> names = names_of(entry.find(key));
-    for (const std::string& name : names) entries.push_back(with_name(entry, key, name));
-    if (names.empty()) entries.push_back(std::move(entry));
+    if (const std::vector<std::string> names = names_of(entry.find(key)); !names.empty())
+      append_copies(std::move(entry), key, names, entries);
+    else
+      entries.push_back(std::move(entry));
   }
   list.items = std::move(entries);
 }

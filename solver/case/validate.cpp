@@ -170,15 +170,20 @@ class Validator {
       problem(j.origin, "weibull_seed", "says nothing of strengths that do not scatter", allowed);
   }
 
+  [[nodiscard]] bool is_breakable(const std::string& group) const {
+    const Material* m = material(group);
+    return m != nullptr && m->joints == JointPlacement::breakable;
+  }
+
   /// Two breakable groups, or one alone, of which an entry is the law.
   [[nodiscard]] std::optional<Pair> breakable_pair(const Joint& j) const {
-    for (std::size_t i = 0; i < c_.materials.size(); ++i) {
-      for (std::size_t k = i; k < c_.materials.size(); ++k) {
-        const Material &a = c_.materials[i], &b = c_.materials[k];
-        const bool break_both = a.joints == JointPlacement::breakable && b.joints == JointPlacement::breakable;
-        if (break_both && joint_entry(c_, a.group, b.group).ruling == &j) return Pair{a.group, b.group};
-      }
-    }
+    if (j.groups[0] != every_group && j.groups[1] != every_group)
+      return is_breakable(j.groups[0]) && is_breakable(j.groups[1]) ? std::optional(j.groups) : std::nullopt;
+    for (const Material& a : c_.materials)
+      for (const Material& b : c_.materials)
+        if (a.joints == JointPlacement::breakable && b.joints == JointPlacement::breakable && a.group != b.group &&
+            joint_entry(c_, a.group, b.group).ruling == &j)
+          return Pair{a.group, b.group};
     return std::nullopt;
   }
 
@@ -194,8 +199,8 @@ class Validator {
       return;
     }
     if (!j.groups[0].empty() && !seen.insert(sorted(j.groups)).second)
-      problem(j.origin, inside ? "group" : "between", "the joints have a law already", "one [[joint]] a group or pair",
-              words(j.groups));
+      return problem(j.origin, inside ? "group" : "between", "the joints have a law already",
+                     "one [[joint]] a group or pair", words(j.groups));
     const bool of_parent = c_.start && c_.mesh.file.empty() && !c_.mesh.raster;  // it has the mesh
     if (!inside && !j.groups[0].empty() && !c_.mesh.glue && !of_parent)
       problem(j.origin, "between", "interfaces are not glued in this case", "mesh.glue = true", words(j.groups));

@@ -25,6 +25,8 @@ std::vector<std::pair<Pair, const case_::Joint*>> parted_pairs(const case_::Case
                                                                const std::vector<std::string>& names,
                                                                const std::vector<Discretisation>& kinds) {
   std::vector<std::pair<Pair, const case_::Joint*>> pairs;
+  if (std::all_of(input.joints.begin(), input.joints.end(), [](const case_::Joint& joint) { return joint.inside(); }))
+    return pairs;
   const auto end = static_cast<Index>(names.size());
   for (Index a = 0; a < end; ++a) {
     for (Index b = a + 1; b < end && shares(kinds, a); ++b) {
