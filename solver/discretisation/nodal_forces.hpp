@@ -52,15 +52,15 @@ class NodalForces {
     double* block = own_block(static_cast<std::size_t>(nodes[0]) / kBlockNodes);
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t node = static_cast<std::size_t>(nodes[i]) % kBlockNodes;
-      places[i] = block + node / kLanes * (3 * kLanes) + node % kLanes;
+      places[i] = block + node / kWidth * (3 * kWidth) + node % kWidth;
     }
     return places;
   }
   /// The same for the corners of an element that owns its nodes, of which corner 0 is given.
   [[nodiscard]] std::array<double*, 4> own_places(Index corner) {
     const auto node = static_cast<std::size_t>(corner);
-    double* first = own_block(node / kBlockNodes) + node % kLanes;
-    return {first, first + 3 * kLanes, first + 6 * kLanes, first + 9 * kLanes};
+    double* first = own_block(node / kBlockNodes) + node % kWidth;
+    return {first, first + 3 * kWidth, first + 6 * kWidth, first + 9 * kWidth};
   }
 
   [[nodiscard]] Vec3 get(Index node) const;
@@ -77,7 +77,7 @@ class NodalForces {
   [[nodiscard]] double* shared() { return shared_.data(); }
 
  private:
-  static constexpr std::size_t kBlockNodes = 4 * kLanes;
+  static constexpr std::size_t kWidth = kLanes, kBlockNodes = 4 * kWidth;
 
   double* at(Index node) {
     if (node >= num_own_nodes_) return shared_.data() + nodal(node - num_own_nodes_, 0);
