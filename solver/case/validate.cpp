@@ -21,6 +21,8 @@
 namespace breccia::case_ {
 namespace {
 
+constexpr const char* unread = "";  // a group whose name was wrong, which has been told
+
 constexpr std::int64_t most_domains = 1000000;
 
 using Pair = std::array<std::string, 2>;
@@ -65,7 +67,7 @@ class Validator {
   }
 
   void needs_material(const Origin& origin, const std::string& name, const std::string& group) {
-    if (group.empty() || material(group) != nullptr) return;
+    if (group.empty() || material(group) != nullptr || material(unread) != nullptr) return;
     std::vector<std::string> groups;
     for (const Material& m : c_.materials) groups.push_back(m.group);
     problem(origin, name, "no [[material]] has the group \"" + group + "\"", joined(nearest_first(group, groups)),
@@ -140,6 +142,8 @@ class Validator {
   void joints() {
     std::set<Pair> seen;
     for (const Joint& j : c_.joints) joint(j, seen);
+    const auto is_unread = [](const Joint& j) { return j.groups[0] == unread; };
+    if (std::any_of(c_.joints.begin(), c_.joints.end(), is_unread)) return;  // it may be the law that is missed
     for (const Material& m : c_.materials)
       if (m.joints == JointPlacement::breakable && !m.group.empty() && !seen.contains({m.group, m.group}))
         problem(m.origin, "joints", "the group is breakable but has no joint law",
@@ -192,8 +196,7 @@ class Validator {
     for (const std::string& group : j.groups)
       if (group != every_group) needs_material(j.origin, inside ? "group" : "between", group);
     if (j.groups[0] == every_group && j.origin.keys.contains("group")) {
-      const bool all_groups_known = material("") == nullptr;
-      if (all_groups_known)
+      if (material(unread) == nullptr)
         problem(j.origin, "group", "stands for no group", "\"*\" where a group with joints has no [[joint]] of its own",
                 every_group);
       return;

@@ -173,6 +173,18 @@ TEST(ReaderGroups, WhatIsWrongInAnEntryOfSeveralGroupsIsSaidOnce) {
   }
 }
 
+TEST(ReaderGroups, AGroupThatCannotBeReadIsMissedNowhereElse) {
+  const std::string own = "[[joint]]\ngroup = \"soft\"\n" + kStrong + "[[initial_velocity]]\ngroup = \"hard\"\n";
+  for (const auto& [from, to] :
+       std::vector<std::array<std::string, 2>>{{"[\"soft\", \"hard\"]", "3"},
+                                               {"[\"soft\", \"hard\"]", "[]"},
+                                               {"[[joint]]\ngroup = \"soft\"", "[[joint]]\ngroup = [3]"}}) {
+    const std::string told = message_of(replaced(glued(own), from, to));
+    EXPECT_THAT(told, HasSubstr("[0].group: is ")) << to;
+    EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 0) << told;
+  }
+}
+
 TEST(ReaderGroups, EveryGroupOfAJointThatIsNoneIsRefused) {
   const std::string own = "[[joint]]\ngroup = [\"soft\", \"hard\"]\n" + kStrong;
   EXPECT_THAT(message_of(glued(own + "[[joint]]\ngroup = \"*\"\n")), HasSubstr("joint[1].group: stands for no group"));
