@@ -113,6 +113,7 @@ class MainWindow final : public QMainWindow {
   void show_title();
   void show_extras(const QString& path);
   void show_joint_law();
+  [[nodiscard]] QString key_of_law() const;
   /// Why there is no curve of the law in hand.
   [[nodiscard]] QString no_law_words() const;
   void picked(const Scene::Picked& what);

@@ -181,6 +181,7 @@ void MainWindow::query_failed(Query what, const QString& text, const std::vector
   const std::size_t known = problems_.size();
   told_.take(asked, placed);
   if (what == Query::joints) {
+    laws_ = {};
     laws_of_ = laws_asked_;
     laws_error_ = words.join(' ');
   }

@@ -268,10 +268,22 @@ void MainWindow::show_extras(const QString& path) {
   show_joint_law();
 }
 
+/// Where the entry of the joints in the form stood in the text that the curves are of; empty: it is new.
+QString MainWindow::key_of_law() const {
+  const std::string path = form_->section().section('.', 0, 0).toStdString();
+  const TomlPlaces then(laws_of_.toStdString()), &now = document_.places();
+  for (int i = 0; i < then.count("joint"); ++i) {
+    const std::string before = "joint[" + std::to_string(i) + "]";
+    const auto alike = [&](const char* key) { return then.value(before + key) == now.value(path + key); };
+    if (alike(".group") && alike(".between")) return QString::fromStdString(before);
+  }
+  return {};
+}
+
 void MainWindow::show_joint_law() {
-  const QString path = form_->section().section('.', 0, 0);
+  const QString key = key_of_law();
   for (const QJsonValue& law : laws_)
-    if (law.toObject()["key"].toString() == path) return joint_plot_->show_law(law.toObject(), {});
+    if (law.toObject()["key"].toString() == key) return joint_plot_->show_law(law.toObject(), {});
   joint_plot_->show_law({}, no_law_words());
 }
 

@@ -195,9 +195,18 @@ bool PropertyForm::take_pick(const QString& volume, const QStringList& surfaces)
   const QString group = kind != GroupKind::volume && !surfaces.isEmpty() ? surfaces.first() : volume;
   const bool many = names_many_groups(key);
   if (auto* pick = findChild<QToolButton*>("pick:" + path); pick != nullptr && !many) pick->setChecked(false);
-  take_over(path, key, many ? with_group(shown_value(key, document_.value(path)), group) : group);
-  emit group_entered(group);
+  take_group(path, key, group);
   return true;
+}
+
+/// A list that names several gets one more.
+void PropertyForm::take_group(const QString& path, const Key& key, const QString& group) {
+  const QString value = document_.value(path);
+  const bool more = names_many_groups(key) || names_in(value).size() > 1;
+  const QString one = group.contains(',') ? quoted(group) : group;
+  take_over(path, key, more ? with_group(shown_value(key, value), group) : one);
+  refresh();  // a box shows what was chosen, not the list
+  emit group_entered(group);
 }
 
 QWidget* PropertyForm::editor_of(const Key& key, const QString& path) {
@@ -225,10 +234,8 @@ QComboBox* PropertyForm::box_of_groups(const Key& key, const QString& path) {
   box->addItems(groups_of_kind(group_kind(key), document_.places(), groups_));
   connect(box->lineEdit(), &QLineEdit::editingFinished, this,
           [this, box, path, &key] { take_over(path, key, box->currentText()); });
-  connect(box, qOverload<int>(&QComboBox::activated), this, [this, box, path, &key] {
-    take_over(path, key, box->currentText());
-    emit group_entered(box->currentText());
-  });
+  connect(box, qOverload<int>(&QComboBox::activated), this,
+          [this, box, path, &key](int chosen) { take_group(path, key, box->itemText(chosen)); });
   limit_width(*box);
   return box;
 }

@@ -76,6 +76,7 @@ class PropertyForm final : public QScrollArea {
   /// Something is typed there that the case does not have yet.
   [[nodiscard]] bool holds_typed(const QObject* editor) const;
   void take_over(const QString& path, const case_::Key& key, const QString& typed);
+  void take_group(const QString& path, const case_::Key& key, const QString& group);
   void refresh();
   void mark_problems();
   [[nodiscard]] QString path_of(const case_::Key& key) const;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <QAbstractButton>
+#include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
@@ -98,6 +99,27 @@ TEST(Problems, APickAddsASurfaceToAListAndAMeshFileIsChosenAmongFiles) {
   desk.click_stage("mesh");
   desk.click_and_name("browse:mesh.file", file);
   EXPECT_EQ(desk.window->document().value("mesh.file"), "\"part.geo\"");
+}
+
+TEST(Problems, AGroupThatIsChosenForAnEntryOfSeveralJoinsThemAndForOneOfOneTakesItsPlace) {
+  Desk desk;
+  open_loads(desk);
+  desk.click_stage("pressure");
+  const Document& document = desk.window->document();
+  const QString path = "stage[0].pressure[0].surface";
+  auto* box = desk.find<QComboBox>("field:" + path);
+  const auto choose = [&](const char* group) {
+    box->setCurrentIndex(box->findText(group));
+    emit box->activated(box->currentIndex());
+  };
+  choose("block.z1");
+  EXPECT_EQ(document.value(path), R"("block.z1")");
+  desk.type("field:" + path, "block.z1, block.z0");
+  EXPECT_EQ(document.value(path), R"(["block.z1", "block.z0"])");
+  choose("block.y0");
+  choose("block.z0");
+  EXPECT_EQ(document.value(path), R"(["block.z1", "block.z0", "block.y0"])");
+  EXPECT_EQ(box->currentText(), "block.z1, block.z0, block.y0");
 }
 
 TEST(Problems, ALawWithoutCurvesSaysWhyItHasNone) {
