@@ -4,6 +4,7 @@
 #include "core/value_text.hpp"
 
 namespace breccia::gui {
+
 QStringList groups_of(const Document& document) {
   QStringList groups;
   for (int i = 0; i < document.places().count("material"); ++i)

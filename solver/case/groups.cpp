@@ -100,7 +100,7 @@ std::vector<Problem> check_groups(const Case& c, const GroupNames& groups, std::
   for (const std::string& group : groups.volumes) {
     if (group == every_group)
       checker.add({c.file.string(), c.mesh.origin.line, "mesh",
-                   "a volume group of the mesh has the name that stands for every group in [[contact]]",
+                   "a volume group of the mesh has the name that stands for every group in [[joint]] and [[contact]]",
                    "another name for the group", group});
     if (!with_material.contains(group))
       checker.add({c.file.string(), c.mesh.origin.line, "material",

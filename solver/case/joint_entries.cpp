@@ -1,31 +1,16 @@
 #include "case/joint_entries.hpp"
 
-#include <algorithm>
+#include "case/groups.hpp"
 
 namespace breccia::case_ {
-namespace {
-
-bool fits(const std::string& pattern, const std::string& group) { return pattern == every_group || pattern == group; }
-
-bool fits(const Joint& entry, const std::string& a, const std::string& b) {
-  if (entry.inside() != (a == b)) return false;
-  return (fits(entry.groups[0], a) && fits(entry.groups[1], b)) ||
-         (fits(entry.groups[0], b) && fits(entry.groups[1], a));
-}
-
-auto names_in(const Joint& entry) {
-  return std::count_if(entry.groups.begin(), entry.groups.end(), [](const auto& name) { return name != every_group; });
-}
-
-}  // namespace
 
 JointEntry joint_entry(const Case& input, const std::string& a, const std::string& b) {
   JointEntry found;
   for (const Joint& entry : input.joints) {
-    if (!fits(entry, a, b)) continue;
-    if (found.ruling == nullptr || names_in(entry) > names_in(*found.ruling))
+    if (entry.inside() != (a == b) || !fits(entry.groups, a, b)) continue;
+    if (found.ruling == nullptr || num_named(entry.groups) > num_named(found.ruling->groups))
       found = {&entry, nullptr};
-    else if (names_in(entry) == names_in(*found.ruling))
+    else if (num_named(entry.groups) == num_named(found.ruling->groups))
       found.tied = &entry;
   }
   return found;

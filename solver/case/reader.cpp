@@ -1,6 +1,7 @@
 #include "case/reader.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <initializer_list>
 #include <set>
@@ -189,8 +190,15 @@ bool stands_below(std::string_view key, std::string_view section) {
 // True if what is allowed at a key depends on another one beside it: "at most friction_angle".
 bool depends_on(const Problem& problem, const std::string& other) {
   const std::size_t section = other.rfind('.') + 1;
-  return problem.key.rfind('.') + 1 == section && problem.key.starts_with(other.substr(0, section)) &&
-         problem.allowed.find(other.substr(section)) != std::string::npos;
+  if (problem.key.rfind('.') + 1 != section || !problem.key.starts_with(other.substr(0, section))) return false;
+  const std::string name = other.substr(section);
+  const std::size_t at = problem.allowed.find(name);
+  if (at == std::string::npos) return false;
+  const auto in_word = [&](std::size_t i) {
+    const char c = i < problem.allowed.size() ? problem.allowed[i] : ' ';
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+  };
+  return (at == 0 || !in_word(at - 1)) && !in_word(at + name.size());
 }
 
 // True if some problem already stands at the key, around it, below it or at one that it depends on: a second one is

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "case/groups.hpp"
 #include "model/model.hpp"
 #include "model/nodal_loads.hpp"
 
@@ -126,13 +127,10 @@ Pair pair_of(const case_::Case& input, const std::string& group, const std::stri
   return {a->density * b->density / (a->density + b->density), std::min(a->young, b->young)};
 }
 
-bool fits(const std::string& pattern, const std::string& group) {
-  return pattern == case_::every_group || pattern == group;
-}
-
 /// Whether points of a group are felt by the other.
 bool carries_points(const case_::Contact& entry, const std::string& group, const std::string& other) {
-  return entry.points_on == case_::PointsOn::both || (fits(entry.groups[0], group) && fits(entry.groups[1], other));
+  return entry.points_on == case_::PointsOn::both ||
+         (case_::fits(entry.groups[0], group) && case_::fits(entry.groups[1], other));
 }
 
 ContactLaw contact_law(const case_::Contact& entry, const Pair& pair) {
@@ -180,16 +178,12 @@ JointLawParams joint_law_params(const case_::Joint& joint, double size, bool unb
 }
 
 TiedContacts tied_contact_entries(const case_::Case& input, const std::string& group, const std::string& other) {
-  const auto names = [](const case_::Contact& entry) {
-    return (entry.groups[0] != case_::every_group) + (entry.groups[1] != case_::every_group);
-  };
   TiedContacts found;
   for (const case_::Contact& entry : input.contacts) {
-    const bool named = (fits(entry.groups[0], group) && fits(entry.groups[1], other)) ||
-                       (fits(entry.groups[1], group) && fits(entry.groups[0], other));
-    if (!named || (found.ruling != nullptr && names(entry) < names(*found.ruling))) continue;
-    const bool tied = found.ruling != nullptr && names(entry) == names(*found.ruling);
-    found = {.ruling = &entry, .overruled = tied ? found.ruling : nullptr};
+    const int named = case_::num_named(entry.groups);
+    const int before = found.ruling != nullptr ? case_::num_named(found.ruling->groups) : -1;
+    if (!case_::fits(entry.groups, group, other) || named < before) continue;
+    found = {.ruling = &entry, .overruled = named == before ? found.ruling : nullptr};
   }
   return found;
 }
