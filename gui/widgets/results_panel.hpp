@@ -6,6 +6,7 @@
 #include <QPushButton>
 #include <QSlider>
 #include <QTimer>
+#include <QVBoxLayout>
 
 #include "core/run_folder.hpp"
 
@@ -55,7 +56,7 @@ class ResultsPanel final : public QWidget {
  private:
   void moved(int number);
   void choose_shown();
-  void make_picker(class QVBoxLayout& column);
+  void make_picker(QVBoxLayout& column);
   void play(bool on);
   void play_next();
 
