@@ -299,6 +299,7 @@ std::string mesh_report(const FinishedMesh& made, const QualityReport& q) {
   note(r.split_nodes, "nodes added where bodies that are not glued touch");
   note(r.duplicate_nodes, "nodes coincide with others: bodies there are not joined");
   note(r.ungrouped_elements, "tetrahedra outside every physical volume left out");
+  for (const std::string& one : r.notes) text += fmt::format("  note          {}\n", printable(one));
   text += fmt::format("  edge          median {:.4g} m, from {:.4g} to {:.4g} m\n", q.mean_edge.median, q.mean_edge.min,
                       q.mean_edge.max);
   text += fmt::format("  radius ratio  median {:.3f}, 1 % below {:.3f}, worst {:.3f} (1 is regular)\n",

@@ -94,6 +94,7 @@ int run_command(const RunCommand& asked, const Communicator& world) {
       refuse_initial_overlaps(input, *model);
       refuse_contradictions(input, *model);
       refuse_what_cannot_break(input, joints_on(*model, surfaces_to_break(input)));
+      warn_of(model->mesh_report.notes);
       warn_of(unmeant_advice(input, *model));
     }
     folder = prepare_run_folder(root, input.resolved, provenance_of(asked, input, start, world),

@@ -25,6 +25,7 @@ struct MeshReport {
   std::vector<Group> volume_groups;   ///< elements of each
   std::vector<Group> surface_groups;  ///< triangles of each
   std::vector<Group> node_groups;     ///< nodes of each
+  std::vector<std::string> notes;     ///< what was made of the file beyond reading it, a sentence each
 };
 
 struct FinishedMesh {

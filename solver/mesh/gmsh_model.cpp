@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -15,20 +16,22 @@
 namespace breccia {
 namespace {
 
-constexpr int kTriangle3 = 2, kTetra4 = 4;                                           // gmsh's numbers of element types
 constexpr std::array<const char*, 4> kKinds{"point", "curve", "surface", "volume"};  // by dimension
 
 class ModelReader {
  public:
   ModelReader(const std::filesystem::path& file, double scale) : scale_(scale) { mesh_.source = file.string(); }
 
-  Mesh read(Index& ungrouped_elements) {
+  RawMesh read() {
+    RawMesh raw;
     read_nodes();
-    read_volumes(ungrouped_elements);
+    read_volumes(raw.ungrouped_elements);
     read_surfaces();
     read_node_groups();
     if (!problems_.empty()) throw InputError(std::move(problems_));
-    return std::move(mesh_);
+    if (order_ > 1) drop_mid_side_nodes(raw.notes);
+    raw.mesh = std::move(mesh_);
+    return raw;
   }
 
  private:
@@ -112,7 +115,7 @@ class ModelReader {
     const std::map<int, Index> group_of = groups_of_volumes(volumes);
     for (const int volume : volumes) {
       const auto group = group_of.find(volume);
-      const auto elements = elements_of(3, volume, kTetra4, group != group_of.end());
+      const auto elements = elements_of(3, volume, group != group_of.end());
       if (group == group_of.end()) {
         ungrouped_elements += static_cast<Index>(elements.tags.size());
         continue;
@@ -135,7 +138,7 @@ class ModelReader {
       const auto group = static_cast<Index>(mesh_.surface_groups.size());
       mesh_.surface_groups.push_back(name);
       for (const int surface : entities) {
-        const auto triangles = elements_of(2, surface, kTriangle3, true);
+        const auto triangles = elements_of(2, surface, true);
         for (std::size_t t = 0; t < triangles.tags.size(); ++t) {
           Mesh::SurfaceFace face{{}, group};
           for (std::size_t c = 0; c < 3; ++c) face.nodes[c] = node(triangles.nodes[3 * t + c]);
@@ -170,29 +173,65 @@ class ModelReader {
     std::vector<std::size_t> tags, nodes;
   };
 
-  /// Elements of one type on an entity. Any other type there is refused where `strict`.
-  Elements elements_of(int dimension, int entity, int type, bool strict) {
+  /// Corners of the tetrahedra of a volume, or of the triangles of a surface. Other shapes are refused where `strict`.
+  Elements elements_of(int dimension, int entity, bool strict) {
+    const auto corners = static_cast<std::size_t>(dimension) + 1;
+    const std::string shape = dimension == 3 ? "Tetrahedron" : "Triangle";
     std::vector<int> types;
     std::vector<std::vector<std::size_t>> tags, nodes;
     gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
     Elements wanted;
     for (std::size_t t = 0; t < types.size(); ++t) {
-      if (types[t] == type) {
-        wanted.tags = std::move(tags[t]);
-        wanted.nodes = std::move(nodes[t]);
+      std::string kind;
+      int unused_dimension = 0, order = 0, num_nodes = 0, num_primary = 0;
+      std::vector<double> unused;
+      gmsh::model::mesh::getElementProperties(types[t], kind, unused_dimension, order, num_nodes, unused, num_primary);
+      if (kind.starts_with(shape)) {
+        wanted.tags.insert(wanted.tags.end(), tags[t].begin(), tags[t].end());
+        add_corners(nodes[t], corners, static_cast<std::size_t>(num_nodes), wanted.nodes);
+        if (strict && !tags[t].empty()) order_ = std::max(order_, order);
       } else if (strict && !tags[t].empty()) {
-        std::string kind;
-        int unused_dimension = 0, order = 0, num_nodes = 0, num_primary = 0;
-        std::vector<double> unused;
-        gmsh::model::mesh::getElementProperties(types[t], kind, unused_dimension, order, num_nodes, unused,
-                                                num_primary);
         const std::string name = kKinds[static_cast<std::size_t>(dimension)] + (' ' + std::to_string(entity));
         refuse(name, "holds elements of a kind that is not supported",
-               dimension == 3 ? "tetrahedra of first order (Tetrahedron 4)" : "triangles of first order (Triangle 3)",
+               dimension == 3 ? "tetrahedra" : "triangles",
                std::to_string(tags[t].size()) + " of " + kind);
       }
     }
     return wanted;
+  }
+
+  /// The first nodes of each element; the others are those between them.
+  void add_corners(const std::vector<std::size_t>& nodes, std::size_t corners, std::size_t num_nodes,
+                   std::vector<std::size_t>& into) {
+    for (std::size_t first = 0; first + num_nodes <= nodes.size(); first += num_nodes)
+      for (std::size_t n = 0; n < num_nodes; ++n) {
+        if (n < corners)
+          into.push_back(nodes[first + n]);
+        else
+          mid_side_.insert(nodes[first + n]);
+      }
+  }
+
+  /// Nodes that only elements of higher order have are no nodes that the mesh has lost.
+  void drop_mid_side_nodes(std::vector<std::string>& notes) {
+    std::vector<Index> new_of(mesh_.nodes.size(), 0);
+    for (const std::size_t tag : mid_side_) new_of[static_cast<std::size_t>(node(tag))] = -1;
+    const auto keep = [&](Index n) { new_of[static_cast<std::size_t>(n)] = 0; };
+    for (const auto& corners : mesh_.elements) std::for_each(corners.begin(), corners.end(), keep);
+    for (const auto& face : mesh_.surface_faces) std::for_each(face.nodes.begin(), face.nodes.end(), keep);
+    Index kept = 0;
+    for (std::size_t n = 0; n < new_of.size(); ++n) {
+      if (new_of[n] < 0) continue;
+      mesh_.nodes[static_cast<std::size_t>(kept)] = mesh_.nodes[n];
+      new_of[n] = kept++;
+    }
+    mesh_.nodes.resize(static_cast<std::size_t>(kept));
+    const auto renumber = [&](Index& n) { n = new_of[static_cast<std::size_t>(n)]; };
+    for (auto& corners : mesh_.elements) std::for_each(corners.begin(), corners.end(), renumber);
+    for (auto& face : mesh_.surface_faces) std::for_each(face.nodes.begin(), face.nodes.end(), renumber);
+    for (Mesh::GroupNode& one : mesh_.group_nodes) renumber(one.node);
+    std::erase_if(mesh_.group_nodes, [](const Mesh::GroupNode& one) { return one.node < 0; });
+    notes.push_back(kHigherOrderNote);
   }
 
   Index node(std::size_t tag) {
@@ -208,12 +247,14 @@ class ModelReader {
   Mesh mesh_;
   std::vector<Problem> problems_;
   std::unordered_map<std::size_t, Index> node_of_tag_;
+  std::unordered_set<std::size_t> mid_side_;  ///< tags of nodes that some element has between its corners
+  int order_ = 1;                             ///< highest of the elements
 };
 
 }  // namespace
 
-Mesh read_gmsh_model(const std::filesystem::path& file, double scale, Index& ungrouped_elements) {
-  return ModelReader(file, scale).read(ungrouped_elements);
+RawMesh read_gmsh_model(const std::filesystem::path& file, double scale) {
+  return ModelReader(file, scale).read();
 }
 
 }  // namespace breccia

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstdint>
@@ -77,6 +78,25 @@ class ParameterScript {
   int descriptor_;
 };
 
+/// Words of gmsh's for a person; not those of its source, of the C++ library or of a memory allocator.
+bool is_plain(const std::string& message) {
+  constexpr std::array kInternal{"::", "what():", "terminate called", "_M_", "ssert", "malloc", "free()", "corrupt",
+                                 "bad_alloc", "core dumped", "Segmentation"};
+  return !message.empty() && std::none_of(kInternal.begin(), kInternal.end(), [&](const char* words) {
+    return message.find(words) != std::string::npos;
+  });
+}
+
+/// gmsh gave up for a reason that only its developers understand.
+Problem unexplained(const GmshSource& source) {
+  return {source.file.string(),
+          0,
+          "mesh.file",
+          "gmsh cannot read or mesh this file, and gives no reason",
+          "geometry that `gmsh -3 FILE` meshes; mended or saved anew in the program that it comes from, as STEP or .msh",
+          ""};
+}
+
 /// What gmsh says, in its form "'file', line 12: what" with the place taken out where it stands there.
 Problem problem_of(const GmshSource& source, const std::string& message) {
   const std::string mark = "', line ";
@@ -106,33 +126,35 @@ std::vector<Problem> logged_problems(const GmshSource& source) {
   gmsh::logger::get(log);
   std::vector<Problem> problems;
   std::set<std::string> seen;
+  bool internal = false;
   for (const std::string& entry : log) {
     if (problems.size() == kProblemsNamed) break;
     if (!entry.starts_with(kError) || !seen.insert(entry).second) continue;
-    problems.push_back(problem_of(source, entry.substr(kError.size())));
+    const std::string words = entry.substr(kError.size());
+    internal = internal || !is_plain(words);
+    if (is_plain(words)) problems.push_back(problem_of(source, words));
   }
+  if (problems.empty() && internal) problems.push_back(unexplained(source));
   return problems;
 }
 
 /// Runs one step of gmsh; any error it throws or logs becomes an InputError.
 template <class Step>
 void run_gmsh(const GmshSource& source, Step step) {
-  std::string thrown;
+  std::optional<Problem> thrown;
   try {
     step();
   } catch (const std::string& text) {
-    thrown = text;
+    thrown = is_plain(text) ? problem_of(source, text) : unexplained(source);
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {
     throw;
-  } catch (const std::exception& error) {
-    thrown = error.what();
+  } catch (...) {  // of the C++ library, of OpenCASCADE, or a number
+    thrown = unexplained(source);
   }
   std::vector<Problem> problems = logged_problems(source);
-  if (problems.empty() && !thrown.empty()) {
-    problems.push_back(problem_of(source, thrown));
-  }
+  if (problems.empty() && thrown) problems.push_back(*thrown);
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
@@ -146,9 +168,10 @@ void refuse_hxt(const GmshSource& source) {
                            "1 (Delaunay) or 4 (Frontal), or a mesh file that gmsh has written", std::to_string(kHxt)});
 }
 
-void load(const GmshSource& source) {
+/// @param notes  out: of MeshReport
+void load(const GmshSource& source, std::vector<std::string>& notes) {
   if (is_solid(geometry_file(source.file))) {
-    run_gmsh(source, [&] { mesh_solids(source); });
+    run_gmsh(source, [&] { notes = mesh_solids(source); });
     return;
   }
   if (!is_script(source)) {
@@ -171,9 +194,11 @@ void load(const GmshSource& source) {
 /// What the child does: everything that gmsh has a hand in.
 MeshOrProblems read_here(const GmshSource& source) {
   try {
-    load(source);
+    std::vector<std::string> notes;
+    load(source, notes);
     RawMesh raw;
-    run_gmsh(source, [&] { raw.mesh = read_gmsh_model(source.file, source.scale, raw.ungrouped_elements); });
+    run_gmsh(source, [&] { raw = read_gmsh_model(source.file, source.scale); });
+    raw.notes.insert(raw.notes.begin(), notes.begin(), notes.end());
     return raw;
   } catch (const InputError& error) {
     return error.problems();
@@ -189,7 +214,8 @@ std::string seconds_text(double seconds) {
 /// Why a child brought no mesh.
 Problem failure_of(const GmshSource& source, const ChildEnd& end) {
   const std::string file = source.file.string();
-  const std::string said = end.text.empty() ? "" : ": " + end.text;
+  const std::string said =
+      is_plain(end.text) || end.kind == ChildEnd::Kind::forbidden ? ": " + end.text : std::string();
   switch (end.kind) {
     case ChildEnd::Kind::forbidden:
       return {file, 0, "mesh.file", "tries to do what a mesh may not" + said, kTrustAdvice, ""};
@@ -247,6 +273,7 @@ FinishedMesh read_gmsh(const GmshSource& source) {
   auto& raw = std::get<RawMesh>(read);
   FinishedMesh result = finish_mesh(std::move(raw.mesh), {source.glue, source.repair_inverted});
   result.report.ungrouped_elements = raw.ungrouped_elements;
+  result.report.notes = std::move(raw.notes);
   return result;
 }
 

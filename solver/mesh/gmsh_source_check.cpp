@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <utility>
@@ -13,7 +11,7 @@
 #include "base/error.hpp"
 #include "base/geometry_file.hpp"
 #include "mesh/geo_scan.hpp"
-#include "mesh/msh_numbers.hpp"
+#include "mesh/msh_scan.hpp"
 
 namespace breccia {
 namespace {
@@ -44,7 +42,8 @@ bool has_step_end(std::ifstream& in) {
   return tail.find("END-ISO-10303-21") != std::string::npos;
 }
 
-/// A solid begins as its kind does: of what it does not know gmsh says nothing, or takes it for a script.
+/// A solid begins as its kind does: of what it does not know gmsh says nothing, or takes it for a script. An STL is read
+/// by mesh/stl_file.hpp, which demands the same.
 void demand_solid(const GmshSource& source, GeometryFile kind, std::ifstream& in) {
   constexpr std::size_t kHead = 512;  // comments and blanks before the first word of a STEP or BREP file included
   std::string head(kHead, '\0');
@@ -65,17 +64,6 @@ void demand_solid(const GmshSource& source, GeometryFile kind, std::ifstream& in
     in.seekg(0);
     if (!has_all_shapes(in)) refuse("is cut off: shapes are missing at its end", "a whole BREP file");
   }
-  if (kind != GeometryFile::stl || (head.starts_with("solid") && holds("facet"))) return;
-  // Binary: 80 bytes of any kind, the number of triangles, 50 bytes for each.
-  constexpr std::uint64_t kBefore = 84, kTriangle = 50;
-  std::uint32_t count = 0;
-  if (head.size() >= kBefore) std::memcpy(&count, head.data() + kBefore - sizeof(count), sizeof(count));
-  std::error_code ignored;
-  const std::uint64_t needed = kBefore + kTriangle * count, size = std::filesystem::file_size(source.file, ignored);
-  if (count == 0 || size < needed)
-    refuse("is no STL file, or it is cut off: " + std::to_string(size) + " bytes where " + std::to_string(count) +
-               " triangles need " + std::to_string(needed),
-           "text that begins with \"solid\" and has facets, or a whole binary file");
 }
 
 /// gmsh does not complain about a missing file, so files are looked at first.
@@ -109,8 +97,8 @@ void demand_readable(const GmshSource& source) {
   if (!(version >= 2.2 && version <= 4.1)) {
     refuse("the mesh format is not supported", "2.2 to 4.1", std::to_string(version).substr(0, 3));
   }
-  if (std::vector<Problem> repeated = repeated_numbers(source.file); !repeated.empty())
-    throw InputError(std::move(repeated));
+  if (std::vector<Problem> faults = msh_faults(source.file); !faults.empty())
+    throw InputError(std::move(faults));
 }
 
 void demand_parameters(const GmshSource& source) {

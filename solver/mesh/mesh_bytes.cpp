@@ -115,6 +115,7 @@ void write(Writer& out, const RawMesh& raw) {
   write_texts(out, mesh.node_groups);
   out.number(mesh.num_bodies);
   out.number(raw.ungrouped_elements);
+  write_texts(out, raw.notes);
 }
 
 /// True for 0 <= index < size.
@@ -164,6 +165,7 @@ RawMesh read_mesh(Reader& in) {
   mesh.node_groups = read_texts(in);
   mesh.num_bodies = in.number<Index>();
   raw.ungrouped_elements = in.number<Index>();
+  raw.notes = read_texts(in);
   in.end();
   check(raw);
   return raw;

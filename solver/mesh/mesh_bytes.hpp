@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -14,7 +15,13 @@ namespace breccia {
 struct RawMesh {
   Mesh mesh;
   Index ungrouped_elements = 0;  ///< tetrahedra outside every physical volume, left out
+  std::vector<std::string> notes;  ///< MeshReport::notes
 };
+
+/// What is said of elements with nodes between their corners.
+inline constexpr const char* kHigherOrderNote =
+    "elements of second or higher order are read by their corners: mid-side nodes are ignored, mass and volume are "
+    "those of straight edges";
 
 /// A mesh, or why there is none.
 using MeshOrProblems = std::variant<RawMesh, std::vector<Problem>>;

@@ -54,6 +54,18 @@ TEST(ClosedSurface, AShellInAnotherIsItsHoleAndOneInTheHoleASolidAgain) {
   EXPECT_EQ(parts.solids, (std::vector<std::vector<Index>>{{0}, {1, 2}, {3}}));
 }
 
+TEST(ClosedSurface, AShellThatFacesTheWayOfTheOneAroundItIsASolidThatIsCutOut) {
+  SurfaceTriangles nested;
+  add_box(nested, Vec3(0, 0, 0), Vec3(4, 4, 4));
+  add_box(nested, Vec3(1, 1, 1), Vec3(3, 3, 3));
+  const ClosedSurfaces parts = take_apart(nested, kSharp);
+  EXPECT_EQ(parts.fault, "");
+  EXPECT_EQ(parts.solids, (std::vector<std::vector<Index>>{{0, 1}, {1}}));
+  ASSERT_THAT(parts.inclusions, SizeIs(1));
+  EXPECT_EQ(parts.inclusions[0].inner, 1);
+  EXPECT_EQ(parts.num_holes, 0);
+}
+
 TEST(ClosedSurface, AnOpenSurfaceIsRefusedWithAPlace) {
   SurfaceTriangles open = box();
   open.triangles.pop_back();

@@ -203,6 +203,7 @@ RawMesh sample() {
   raw.mesh.surface_groups = {"floor"};
   raw.mesh.num_bodies = 1;
   raw.ungrouped_elements = 3;
+  raw.notes = {"a note"};
   return raw;
 }
 
@@ -220,6 +221,7 @@ TEST(MeshBytes, BringTheWholeMeshBack) {
   EXPECT_EQ(read.mesh.surface_groups, sent.mesh.surface_groups);
   EXPECT_EQ(read.mesh.num_bodies, 1);
   EXPECT_EQ(read.ungrouped_elements, 3);
+  EXPECT_EQ(read.notes, sent.notes);
 }
 
 TEST(MeshBytes, BringProblemsBack) {

@@ -1,0 +1,34 @@
+#include "mesh/solid_groups.hpp"
+
+#include <gmsh.h>
+
+#include <algorithm>
+
+#include "base/error.hpp"
+
+namespace breccia::solids {
+
+void refuse(const GmshSource& source, const std::string& what, const std::string& allowed) {
+  throw InputError(Problem{source.file.string(), 0, "mesh.file", what, allowed, ""});
+}
+
+std::string given_name(const std::string& label) {
+  const std::string name = label.substr(label.rfind('/') + 1);
+  const bool made_up = name.starts_with("Open CASCADE STEP translator") || name == "SOLID" || name == "COMPOUND";
+  return made_up || name == "*" ? std::string() : name;
+}
+
+void add_group(int dimension, const std::vector<int>& entities, const std::string& name) {
+  gmsh::model::setPhysicalName(dimension, gmsh::model::addPhysicalGroup(dimension, entities), name);
+}
+
+std::vector<int> tags_of(int dimension) {
+  gmsh::vectorpair entities;
+  gmsh::model::getEntities(entities, dimension);
+  std::vector<int> tags;
+  for (const auto& entity : entities) tags.push_back(entity.second);
+  std::sort(tags.begin(), tags.end());
+  return tags;
+}
+
+}  // namespace breccia::solids
