@@ -299,6 +299,8 @@ std::string mesh_report(const FinishedMesh& made, const QualityReport& q) {
   note(r.split_nodes, "nodes added where bodies that are not glued touch");
   note(r.duplicate_nodes, "nodes coincide with others: bodies there are not joined");
   note(r.ungrouped_elements, "tetrahedra outside every physical volume left out");
+  for (const std::string& group : r.empty_groups)
+    text += fmt::format("  group   {:<20} without element or node, left out\n", printable(group));
   for (const std::string& one : r.notes) text += fmt::format("  note          {}\n", printable(one));
   text += fmt::format("  edge          median {:.4g} m, from {:.4g} to {:.4g} m\n", q.mean_edge.median, q.mean_edge.min,
                       q.mean_edge.max);

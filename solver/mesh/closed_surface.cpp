@@ -161,12 +161,14 @@ class Surfaces {
       if (angle < -kSameAngle) angle += kTurn;
       around.push_back({angle, goes_along(t, edge) == inside_out, t});
     }
-    std::sort(around.begin(), around.end(),
-              [](const Side& a, const Side& b) { return std::pair(a.angle, a.triangle) < std::pair(b.angle, b.triangle); });
+    std::sort(around.begin(), around.end(), [](const Side& a, const Side& b) {
+      return std::pair(a.angle, a.triangle) < std::pair(b.angle, b.triangle);
+    });
     // Of two at one angle the solid of one ends before that of the other begins.
     for (std::size_t i = 1; i < around.size(); ++i) {
       if (around[i].angle - around[i - 1].angle > kSameAngle) continue;
-      if (around[i - 1].begins && !around[i].begins) std::swap(around[i - 1].triangle, around[i].triangle), std::swap(around[i - 1].begins, around[i].begins);
+      if (around[i - 1].begins && !around[i].begins)
+        std::swap(around[i - 1].triangle, around[i].triangle), std::swap(around[i - 1].begins, around[i].begins);
       if (result.twin[at(around[i].triangle)] != around[i - 1].triangle && result.mismatch.empty())
         result.mismatch = near(0.5 * (origin + points_[at(edge[1])]));
     }

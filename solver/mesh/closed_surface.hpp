@@ -18,8 +18,9 @@ struct SurfaceTriangles {
 struct ClosedSurfaces {
   std::vector<Index> shell;  ///< (triangles) connected part, numbered by its first triangle
   std::vector<Index> patch;  ///< (triangles) part without a sharp edge inside, numbered by its first triangle
-  std::vector<Index> twin;   ///< (triangles) the same triangle that faces the other way, of a shell that touches; -1: none
-  /// A solid: its outer shell, then those inside that bound it as well: its holes, and the solids that are cut out of it.
+  std::vector<Index>
+      twin;  ///< (triangles) the same triangle that faces the other way, of a shell that touches; -1: none
+  /// A solid: its outer shell, then those inside that bound it: its holes, and the solids that are cut out of it.
   std::vector<std::vector<Index>> solids;
   /// A solid inside another, which has no hole there: the other is cut by it.
   struct Inclusion {
@@ -38,7 +39,8 @@ struct ClosedSurfaces {
 /// Refused, by `fault`: no triangle, triangles without area, edges of one triangle (the surface is open), of triangles
 /// that do not alternate around it, or of two that face different ways, a shell that touches itself along a face, and
 /// triangles that cross others.
-/// Triangles that touch in their common plane without a common edge are not searched for. @param sharp  angle between normals, rad
+/// Triangles that touch in their common plane without a common edge are not searched for.
+/// @param sharp  angle between normals, rad
 /// O(n log n) for usual shapes, more where many triangles lie above each other along the longest axis; a winding number
 /// for each pair of shells. Throws nothing.
 [[nodiscard]] ClosedSurfaces take_apart(const SurfaceTriangles& surface, double sharp);

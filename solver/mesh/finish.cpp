@@ -220,6 +220,34 @@ void count(const Mesh& mesh, MeshReport& report) {
   for (const auto& face : mesh.surface_faces) ++report.surface_groups[at(face.group)].count;
 }
 
+/// Leaves out the groups of one kind that nothing is in; `use` visits the number of each thing's group.
+template <class Use>
+void drop_empty_groups(std::vector<std::string>& names, std::vector<std::string>& empty, const Use& use) {
+  std::vector<Index> new_of(names.size(), -1);
+  use([&](Index& group) { new_of[at(group)] = 0; });
+  std::vector<std::string> kept;
+  for (std::size_t g = 0; g < names.size(); ++g) {
+    if (new_of[g] == 0) new_of[g] = static_cast<Index>(kept.size());
+    (new_of[g] < 0 ? empty : kept).push_back(names[g]);
+  }
+  names = std::move(kept);
+  use([&](Index& group) { group = new_of[at(group)]; });
+}
+
+/// What a case demands of such a group would be lost without a word.
+void drop_empty_groups(Mesh& mesh, MeshReport& report) {
+  std::vector<std::string>& empty = report.empty_groups;
+  drop_empty_groups(mesh.volume_groups, empty, [&](const auto& visit) {
+    std::for_each(mesh.element_group.begin(), mesh.element_group.end(), visit);
+  });
+  drop_empty_groups(mesh.surface_groups, empty, [&](const auto& visit) {
+    for (Mesh::SurfaceFace& face : mesh.surface_faces) visit(face.group);
+  });
+  drop_empty_groups(mesh.node_groups, empty, [&](const auto& visit) {
+    for (Mesh::GroupNode& one : mesh.group_nodes) visit(one.group);
+  });
+}
+
 }  // namespace
 
 FinishedMesh finish_mesh(Mesh raw, const FinishOptions& options) {
@@ -238,6 +266,7 @@ FinishedMesh finish_mesh(Mesh raw, const FinishOptions& options) {
   sort_nodes(mesh);
   sort_surface_faces(mesh);
   sort_group_nodes(mesh);
+  drop_empty_groups(mesh, report);
   count(mesh, report);
   return result;
 }

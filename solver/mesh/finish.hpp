@@ -22,10 +22,11 @@ struct MeshReport {
     std::string name;
     Index count = 0;
   };
-  std::vector<Group> volume_groups;   ///< elements of each
-  std::vector<Group> surface_groups;  ///< triangles of each
-  std::vector<Group> node_groups;     ///< nodes of each
-  std::vector<std::string> notes;     ///< what was made of the file beyond reading it, a sentence each
+  std::vector<Group> volume_groups;       ///< elements of each
+  std::vector<Group> surface_groups;      ///< triangles of each
+  std::vector<Group> node_groups;         ///< nodes of each
+  std::vector<std::string> empty_groups;  ///< of any kind, of the file, without an element or a node of one: left out
+  std::vector<std::string> notes;         ///< what was made of the file beyond reading it, a sentence each
 };
 
 struct FinishedMesh {
@@ -39,8 +40,8 @@ struct FinishOptions {
 };
 
 /// Gives a mesh as read the invariants of `Mesh`: positive volumes, no orphan nodes, own nodes for every body (unless
-/// glued), elements sorted by (volume group, Hilbert rank of the centroid, old index), nodes in the order in which the
-/// elements first touch them. A surface triangle between two bodies that are parted is kept once for each.
+/// glued), no group without element or node, elements sorted by (volume group, Hilbert rank of the centroid, old
+/// index), nodes in the order in which the elements first touch them. A surface triangle between two bodies that are parted is kept once for each.
 /// The order depends on coordinates only through the centroid's cell in a grid of 2^20 cells an axis.
 /// O(n log n), deterministic. Throws InputError with every problem: no element, coordinates that are not finite,
 /// elements of zero volume (|V| <= 1e-10 of the longest edge cubed) or, where they are not repaired, of negative volume

@@ -192,8 +192,7 @@ class ModelReader {
         if (strict && !tags[t].empty()) order_ = std::max(order_, order);
       } else if (strict && !tags[t].empty()) {
         const std::string name = kKinds[static_cast<std::size_t>(dimension)] + (' ' + std::to_string(entity));
-        refuse(name, "holds elements of a kind that is not supported",
-               dimension == 3 ? "tetrahedra" : "triangles",
+        refuse(name, "holds elements of a kind that is not supported", dimension == 3 ? "tetrahedra" : "triangles",
                std::to_string(tags[t].size()) + " of " + kind);
       }
     }
@@ -253,8 +252,6 @@ class ModelReader {
 
 }  // namespace
 
-RawMesh read_gmsh_model(const std::filesystem::path& file, double scale) {
-  return ModelReader(file, scale).read();
-}
+RawMesh read_gmsh_model(const std::filesystem::path& file, double scale) { return ModelReader(file, scale).read(); }
 
 }  // namespace breccia

@@ -80,21 +80,21 @@ class ParameterScript {
 
 /// Words of gmsh's for a person; not those of its source, of the C++ library or of a memory allocator.
 bool is_plain(const std::string& message) {
-  constexpr std::array kInternal{"::", "what():", "terminate called", "_M_", "ssert", "malloc", "free()", "corrupt",
-                                 "bad_alloc", "core dumped", "Segmentation"};
-  return !message.empty() && std::none_of(kInternal.begin(), kInternal.end(), [&](const char* words) {
-    return message.find(words) != std::string::npos;
-  });
+  constexpr std::array kInternal{"::",     "what():", "terminate called", "_M_",         "ssert",       "malloc",
+                                 "free()", "corrupt", "bad_alloc",        "core dumped", "Segmentation"};
+  return !message.empty() && std::none_of(kInternal.begin(), kInternal.end(),
+                                          [&](const char* words) { return message.find(words) != std::string::npos; });
 }
 
 /// gmsh gave up for a reason that only its developers understand.
 Problem unexplained(const GmshSource& source) {
-  return {source.file.string(),
-          0,
-          "mesh.file",
-          "gmsh cannot read or mesh this file, and gives no reason",
-          "geometry that `gmsh -3 FILE` meshes; mended or saved anew in the program that it comes from, as STEP or .msh",
-          ""};
+  return {
+      source.file.string(),
+      0,
+      "mesh.file",
+      "gmsh cannot read or mesh this file, and gives no reason",
+      "geometry that `gmsh -3 FILE` meshes; mended or saved anew in the program that it comes from, as STEP or .msh",
+      ""};
 }
 
 /// What gmsh says, in its form "'file', line 12: what" with the place taken out where it stands there.

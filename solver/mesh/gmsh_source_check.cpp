@@ -42,8 +42,8 @@ bool has_step_end(std::ifstream& in) {
   return tail.find("END-ISO-10303-21") != std::string::npos;
 }
 
-/// A solid begins as its kind does: of what it does not know gmsh says nothing, or takes it for a script. An STL is read
-/// by mesh/stl_file.hpp, which demands the same.
+/// A solid begins as its kind does: of what it does not know gmsh says nothing, or takes it for a script. An STL is
+/// read by mesh/stl_file.hpp, which demands the same.
 void demand_solid(const GmshSource& source, GeometryFile kind, std::ifstream& in) {
   constexpr std::size_t kHead = 512;  // comments and blanks before the first word of a STEP or BREP file included
   std::string head(kHead, '\0');
@@ -97,8 +97,7 @@ void demand_readable(const GmshSource& source) {
   if (!(version >= 2.2 && version <= 4.1)) {
     refuse("the mesh format is not supported", "2.2 to 4.1", std::to_string(version).substr(0, 3));
   }
-  if (std::vector<Problem> faults = msh_faults(source.file); !faults.empty())
-    throw InputError(std::move(faults));
+  if (std::vector<Problem> faults = msh_faults(source.file); !faults.empty()) throw InputError(std::move(faults));
 }
 
 void demand_parameters(const GmshSource& source) {

@@ -14,7 +14,7 @@ namespace breccia {
 /// A mesh as read, before finish_mesh, on its way from the process that reads it.
 struct RawMesh {
   Mesh mesh;
-  Index ungrouped_elements = 0;  ///< tetrahedra outside every physical volume, left out
+  Index ungrouped_elements = 0;    ///< tetrahedra outside every physical volume, left out
   std::vector<std::string> notes;  ///< MeshReport::notes
 };
 

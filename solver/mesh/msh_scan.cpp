@@ -69,9 +69,9 @@ class Scan {
     fault_.clear();
     total_ = found_ = 0;
     numbers_.clear();
-    const bool counted = section_ == "$Nodes"           ? read_nodes()
-                         : section_ == "$Elements"      ? read_elements()
-                         : section_ == "$PhysicalNames" ? read_names()
+    const bool counted = section_ == "$Nodes"                       ? read_nodes()
+                         : section_ == "$Elements"                  ? read_elements()
+                         : section_ == "$PhysicalNames"             ? read_names()
                          : section_ == "$Entities" && version_ >= 4 ? read_entities()
                                                                     : skip_section();
     if (unknown_) return false;
@@ -88,15 +88,15 @@ class Scan {
   }
 
   void add(const std::string& what) {
-    problems_.push_back({file_, binary_ ? 0 : begin_, section_,
-                         what + ": gmsh would leave out the rest, or misread it", "a whole file, as it was written", ""});
+    problems_.push_back({file_, binary_ ? 0 : begin_, section_, what + ": gmsh would leave out the rest, or misread it",
+                         "a whole file, as it was written", ""});
   }
 
   // --- Words and numbers
   // -------------------------------------------------------------------------------------------------
 
   bool fail(const std::string& word) {
-    fault_ = word.empty()           ? "the file ends within it"
+    fault_ = word.empty()            ? "the file ends within it"
              : word.starts_with('$') ? "it holds less than its heading states"
                                      : "\"" + word.substr(0, kShown) + "\" stands where a number is expected (line " +
                                            std::to_string(in_.line()) + ")";
@@ -145,7 +145,7 @@ class Scan {
     const std::string end = "$End" + section_.substr(1);
     in_.word(word_);
     if (word_ == end) return true;
-    fault_ = word_.empty() ? "the file ends without " + end
+    fault_ = word_.empty()            ? "the file ends without " + end
              : word_.starts_with('$') ? word_ + " stands where it ends, not " + end
                                       : "it holds more than its heading states";
     return false;
@@ -294,10 +294,10 @@ class Scan {
     if (twice == numbers_.end()) return;
     const std::string what = section_ == "$Nodes" ? "nodes" : "elements";
     const auto different = std::unique(numbers_.begin(), numbers_.end()) - numbers_.begin();
-    problems_.push_back({file_, 0, "mesh.file", what + " share a number: gmsh would keep one of them",
-                         "a number of its own for each of the " + std::to_string(numbers_.size()) + " " + what,
-                         what + " " + std::to_string(*twice) + ", and " + std::to_string(different) +
-                             " different numbers"});
+    problems_.push_back(
+        {file_, 0, "mesh.file", what + " share a number: gmsh would keep one of them",
+         "a number of its own for each of the " + std::to_string(numbers_.size()) + " " + what,
+         what + " " + std::to_string(*twice) + ", and " + std::to_string(different) + " different numbers"});
   }
 
   static constexpr std::size_t kShown = 40;  // letters of a word in a message

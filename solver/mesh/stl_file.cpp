@@ -242,7 +242,8 @@ bool is_text(std::string_view bytes) {
   if (begin == std::string_view::npos) return false;
   const std::string head = lower(bytes.substr(begin, kHead));
   return head.starts_with("facet") || (head.starts_with(kFirst) && head.find("facet") != std::string::npos) ||
-         (head.starts_with(kFirst) && head.find('\0') == std::string::npos && head.find("endsolid") != std::string::npos);
+         (head.starts_with(kFirst) && head.find('\0') == std::string::npos &&
+          head.find("endsolid") != std::string::npos);
 }
 
 StlFile joined(const Facets& facets) {

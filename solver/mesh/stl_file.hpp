@@ -10,10 +10,10 @@ namespace breccia {
 
 /// The triangles of an STL file and the names of its solids.
 struct StlFile {
-  SurfaceTriangles surface;         ///< corners within 1e-8 of the file's extent are one point
-  std::vector<Index> solid;         ///< (triangles) index into `names`
-  std::vector<std::string> names;   ///< of the solids, as they stand there; empty: none
-  Index repeated = 0;               ///< triangles that stood there before, left out
+  SurfaceTriangles surface;        ///< corners within 1e-8 of the file's extent are one point
+  std::vector<Index> solid;        ///< (triangles) index into `names`
+  std::vector<std::string> names;  ///< of the solids, as they stand there; empty: none
+  Index repeated = 0;              ///< triangles that stood there before, left out
 };
 
 /// Reads an STL file: binary, or text in any common spelling: words in small and capital letters, indented or not, blank

@@ -102,7 +102,8 @@ std::vector<std::string> add_solids(const StlFile& file, const ClosedSurfaces& p
     for (const Index shell : solid) loops.push_back(gmsh::model::geo::addSurfaceLoop(model.of_shell.at(shell)));
     tags.push_back(gmsh::model::geo::addVolume(loops));
     const std::string name = given_name(name_of_shell.at(solid.front()));
-    names.push_back(taken.free(name.empty() || name == "Created by Gmsh" ? "volume_" + std::to_string(tags.back()) : name));
+    names.push_back(
+        taken.free(name.empty() || name == "Created by Gmsh" ? "volume_" + std::to_string(tags.back()) : name));
   }
   gmsh::model::geo::synchronize();
   for (std::size_t i = 0; i < tags.size(); ++i) add_group(3, {tags[i]}, names[i]);
@@ -119,9 +120,9 @@ void add_notes(const StlFile& file, const ClosedSurfaces& parts, const std::vect
                     "\" and is cut out of it: two volumes that touch (mesh.glue = true joins them); for a hole its "
                     "triangles would face into it");
   if (parts.num_holes > 0)
-    notes.push_back(std::to_string(parts.num_holes) +
-                    (parts.num_holes == 1 ? " shell inside a solid faces inwards: it is a hole"
-                                          : " shells inside solids face inwards: they are holes"));
+    notes.push_back(std::to_string(parts.num_holes) + (parts.num_holes == 1
+                                                           ? " shell inside a solid faces inwards: it is a hole"
+                                                           : " shells inside solids face inwards: they are holes"));
   if (file.repeated > 0)
     notes.push_back(std::to_string(file.repeated) + (file.repeated == 1 ? " triangle stands" : " triangles stand") +
                     " in the file twice: one of each is read");
@@ -134,7 +135,8 @@ void open_stl(const GmshSource& source, std::vector<std::string>& notes) {
   const ClosedSurfaces parts = take_apart(file.surface, kSharp);
   if (!parts.fault.empty()) refuse(source, parts.fault, kMend);
   if (source.glue && !parts.mismatch.empty())
-    refuse(source, "solids touch along a face that each cuts into other triangles, and cannot be glued" + parts.mismatch,
+    refuse(source,
+           "solids touch along a face that each cuts into other triangles, and cannot be glued" + parts.mismatch,
            "the same triangles on both sides, the solids as STEP, or mesh.glue = false");
   const StlModel model(file, parts);
   add_notes(file, parts, add_solids(file, parts, model), notes);

@@ -2,7 +2,6 @@
 #include <map>
 
 #include "base/error.hpp"
-#include "case/problem_at.hpp"
 #include "case/validate.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/raster.hpp"
@@ -55,26 +54,12 @@ FinishedMesh raster_of(const case_::Case& input) {
   }
 }
 
-/// Constraints and forces on what has no node: they would do nothing.
-std::vector<Problem> conditions_of_nothing(const case_::Case& input, const MeshReport& report) {
-  const auto is_empty = [&](const std::string& name) {
-    for (const auto* groups : {&report.volume_groups, &report.surface_groups, &report.node_groups}) {
-      const auto found = std::find_if(groups->begin(), groups->end(), [&](const auto& g) { return g.name == name; });
-      if (found != groups->end()) return found->count == 0;  // the first that has the name is meant
-    }
-    return false;
-  };
-  std::vector<Problem> problems;
-  const auto demand = [&](const auto& entry) {
-    if (!is_empty(entry.group)) return;
-    problems.push_back(case_::problem_at(input, entry.origin, "group", "this group holds no node of any element",
-                                         "a group with nodes of meshed physical volumes", entry.group));
-  };
-  for (const case_::Stage& stage : input.stages) {
-    for (const case_::Constraint& entry : stage.constraints) demand(entry);
-    for (const case_::Force& entry : stage.forces) demand(entry);
-  }
-  return problems;
+/// Entries for a group that the file has, and that nothing is in: they would do nothing.
+void name_empty_groups(const MeshReport& report, std::vector<Problem>& problems) {
+  const auto& empty = report.empty_groups;
+  for (Problem& problem : problems)
+    if (std::find(empty.begin(), empty.end(), problem.given) != empty.end())
+      problem.what = "the group \"" + problem.given + "\" of the mesh holds no element, and no node of one";
 }
 
 }  // namespace
@@ -87,7 +72,7 @@ FinishedMesh build_mesh(const case_::Case& input) {
   FinishedMesh made = read_mesh(input);
   std::vector<Problem> problems = case_::check_groups(
       input, {made.mesh.volume_groups, made.mesh.surface_groups, made.mesh.node_groups}, made.mesh.num_bodies);
-  if (problems.empty()) problems = conditions_of_nothing(input, made.report);
+  name_empty_groups(made.report, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
   return made;
 }

@@ -137,7 +137,8 @@ TEST_F(Curves, AreRefusedWhereNoNodeOfAnElementIsOnThem) {
   text.replace(text.find("group = \"pin\""), 13, "group = \"apart\"");
   const Outcome outcome = call("check " + scratch_.write("apart.toml", text));
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("stage[0].constraint[2].group: this group holds no node of any element"),
+  EXPECT_NE(outcome.err.find("stage[0].constraint[2].group: the group \"apart\" of the mesh holds no element, and no "
+                             "node of one"),
             std::string::npos)
       << outcome.err;
 }

@@ -78,6 +78,22 @@ TEST(Finish, KeepsTheSharedNodesOfGluedBodies) {
   EXPECT_EQ(topology.surface_groups[0].size(), 2u);
 }
 
+TEST(Finish, LeavesOutGroupsOfEveryKindThatNothingIsInAndNamesThem) {
+  Mesh mesh = two_tetrahedra();
+  const FinishedMesh whole = finish_mesh(two_tetrahedra(), {});
+  mesh.volume_groups.insert(mesh.volume_groups.begin(), "no volume");
+  for (Index& group : mesh.element_group) ++group;
+  mesh.surface_groups.insert(mesh.surface_groups.begin(), "no surface");
+  for (auto& face : mesh.surface_faces) ++face.group;
+  mesh.node_groups.push_back("no node");
+  const auto [finished, report] = finish_mesh(std::move(mesh), {});
+  EXPECT_EQ(finished.volume_groups, whole.mesh.volume_groups);
+  EXPECT_EQ(finished.element_group, whole.mesh.element_group);
+  EXPECT_EQ(finished.surface_groups, whole.mesh.surface_groups);
+  EXPECT_EQ(finished.node_groups, whole.mesh.node_groups);
+  EXPECT_EQ(report.empty_groups, (std::vector<std::string>{"no volume", "no surface", "no node"}));
+}
+
 TEST(Finish, CountsASurfaceTriangleOnceThatStandsTwiceInTheFile) {
   Mesh mesh = two_tetrahedra();
   mesh.surface_faces.push_back({{1, 0, 2}, 1});  // the last one again, the other way round

@@ -21,7 +21,8 @@ FinishedMesh cylinder(int order) {
       test::scratch_folder("order_" + std::to_string(order)) / "model.geo",
       "SetFactory(\"OpenCASCADE\");\nCylinder(1) = {0, 0, 0, 0, 0, 2, 1};\nMeshSize{:} = 0.8;\n"
       "Physical Volume(\"rod\") = {1};\nPhysical Surface(\"side\") = {1};\nPhysical Curve(\"rim\") = {1};\n"
-      "Mesh.ElementOrder = " + std::to_string(order) + ";\n");
+      "Mesh.ElementOrder = " +
+          std::to_string(order) + ";\n");
   return read_gmsh(source);
 }
 

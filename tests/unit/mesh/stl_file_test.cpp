@@ -137,8 +137,11 @@ const Spelling kSpellings[] = {
     {"FortranExponents", replaced(kText, "vertex 3 ", "vertex 0.3D+01 "), "box"},
     {"NotANumberNormals", replaced(kText, "normal 0 0 0", "normal nan nan -nan(ind)"), "box"},
     {"NoNormals", replaced(kText, "facet normal 0 0 0", "facet"), "box"},
-    {"Degenerate", replaced(kText, "endsolid", "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 0 0\n"
-                                               "vertex 3 1 1\nendloop\nendfacet\nendsolid"), "box"},
+    {"Degenerate",
+     replaced(kText, "endsolid",
+              "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 0 0\n"
+              "vertex 3 1 1\nendloop\nendfacet\nendsolid"),
+     "box"},
     {"Rounded", replaced(kText, "vertex 3 1 1", "vertex 3.00000001 1 0.99999999"), "box"},
     {"Binary", binary_of("made by hand", kBox), ""},
     {"BinarySolid", binary_of("solid box", kBox), ""},
@@ -180,7 +183,8 @@ const Damage kDamages[] = {
     {"OtherText", "solid box\nhello facet\n", "is no STL text here; allowed: solid, facet or endsolid"},
     {"WideCharacters", "\xff\xfes\0o\0l\0i\0d\0", "16-bit characters"},
     {"Empty", "solid box\nendsolid box\n", "holds no triangle"},
-    {"BinaryCut", binary_of("x", kBox).substr(0, 400), "is no STL file, or it is cut off: 400 bytes where 12 triangles"},
+    {"BinaryCut", binary_of("x", kBox).substr(0, 400),
+     "is no STL file, or it is cut off: 400 bytes where 12 triangles"},
     {"NoStl", "hello", "is no STL file"},
 };
 
@@ -234,13 +238,13 @@ constexpr double kRoundOff = 1e-9;
 TEST(StlSolids, ThatShareAFaceAreTwoVolumesAndJoinedWithGlue) {
   const Triangles left = box({0, 0, 0}, {10, 10, 10}), right = box({10, 0, 0}, {20, 10, 10});
   for (const bool one_name : {false, true}) {
-    const std::string text = one_name
-                                 ? text_of("both", [&] {
-                                     Triangles all = left;
-                                     all.insert(all.end(), right.begin(), right.end());
-                                     return all;
-                                   }())
-                                 : text_of("a", left) + text_of("b", right);
+    const std::string text = one_name ? text_of("both",
+                                                [&] {
+                                                  Triangles all = left;
+                                                  all.insert(all.end(), right.begin(), right.end());
+                                                  return all;
+                                                }())
+                                      : text_of("a", left) + text_of("b", right);
     for (const bool glue : {false, true}) {
       const auto [made, refusal] = read("touch", text, glue);
       ASSERT_EQ(refusal, "");
@@ -266,8 +270,8 @@ TEST(StlSolids, ThatShareAFaceCutInOtherTrianglesAreReadAndNotGlued) {
 
 TEST(StlSolids, ThatTouchAtAnEdgeOrAPointAreTwoVolumes) {
   for (const int z : {0, 10}) {
-    const auto [made, refusal] =
-        read("edge", text_of("a", box({0, 0, 0}, {10, 10, 10})) + text_of("b", box({10, 10, z}, {20, 20, z + 10})), false);
+    const auto [made, refusal] = read(
+        "edge", text_of("a", box({0, 0, 0}, {10, 10, 10})) + text_of("b", box({10, 10, z}, {20, 20, z + 10})), false);
     ASSERT_EQ(refusal, "");
     EXPECT_NEAR(volume_of(made.mesh, 0), 1000, 1000 * kRoundOff);
     EXPECT_NEAR(volume_of(made.mesh, 1), 1000, 1000 * kRoundOff);
@@ -290,10 +294,9 @@ TEST(StlSolids, InsideOthersAreCutOutOfThemAndHolesAreNamed) {
   EXPECT_NEAR(volume_of(hollow.mesh, 0), 1728 - 216, 1728 * kRoundOff);
   EXPECT_THAT(hollow.report.notes, ElementsAre(HasSubstr("faces inwards: it is a hole")));
 
-  const auto [filled, none] = read("filled",
-                                   outer + text_of("hole", box({3, 3, 3}, {9, 9, 9}, true)) +
-                                       text_of("grain", box({3, 3, 3}, {9, 9, 9})),
-                                   true);
+  const auto [filled, none] = read(
+      "filled", outer + text_of("hole", box({3, 3, 3}, {9, 9, 9}, true)) + text_of("grain", box({3, 3, 3}, {9, 9, 9})),
+      true);
   ASSERT_EQ(none, "");
   EXPECT_THAT(filled.mesh.volume_groups, ElementsAre("matrix", "grain"));
   EXPECT_NEAR(volume_of(filled.mesh, 0), 1728 - 216, 1728 * kRoundOff);
