@@ -1,14 +1,27 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace breccia {
 
 /// What a file that gives the model its shape is, by the end of its name.
-enum class GeometryFile { script, mesh, step, brep, stl, unknown };
+enum class GeometryFile {
+  script,
+  mesh,     ///< of gmsh
+  abaqus,   ///< mesh of an input file
+  unv,      ///< mesh of I-DEAS, Salome
+  nastran,  ///< mesh of bulk data
+  medit,    ///< mesh of Medit, INRIA
+  step,
+  brep,
+  stl,
+  unknown
+};
 
 /// The names that are taken, for messages.
-inline constexpr const char* kGeometryFiles = ".geo, .msh of format 2.2 to 4.1, .step, .stp, .brep or .stl";
+inline constexpr const char* kGeometryFiles =
+    ".geo, .msh of format 2.2 to 4.1, .inp, .unv, .bdf, .mesh, .step, .stp, .brep or .stl";
 
 /// Names in small or in large letters, as gmsh takes them: of any other it guesses what it is. O(1), throws nothing.
 [[nodiscard]] GeometryFile geometry_file(const std::filesystem::path& file);
@@ -18,9 +31,13 @@ inline constexpr const char* kGeometryFiles = ".geo, .msh of format 2.2 to 4.1, 
   return kind == GeometryFile::step || kind == GeometryFile::brep || kind == GeometryFile::stl;
 }
 
+/// What to do about a file of a known kind that is not read, by the end of its name; empty: nothing is known.
+[[nodiscard]] std::string remedy_for(const std::filesystem::path& file);
+
 /// A file of lengths that are nowhere said to be millimetres or metres.
 [[nodiscard]] inline bool states_no_unit(GeometryFile kind) {
-  return kind == GeometryFile::brep || kind == GeometryFile::stl;
+  return kind != GeometryFile::script && kind != GeometryFile::step && kind != GeometryFile::mesh &&
+         kind != GeometryFile::unknown;
 }
 
 }  // namespace breccia

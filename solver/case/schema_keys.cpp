@@ -29,9 +29,9 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Where the tetrahedra come from: a file or the raster generator.",
      .fixed_by_state = "elements and nodes are those of the state"},
     {.path = "mesh.file", .type = path,
-     .help = "Geometry (.geo) or mesh (.msh) of gmsh, or solids as STEP (.step, .stp), BREP or STL. Relative to the "
-             "case file. Each volume and face of a solid is a group, named as in the STEP file, or volume_N and "
-             "surface_N.",
+     .help = "Geometry (.geo) or mesh (.msh) of gmsh, solids as STEP (.step, .stp), BREP or STL, or a mesh of another "
+             "program (.inp, .unv, .bdf, .mesh). Relative to the case file. Each volume and face of a "
+             "solid is a group, named as in the STEP file, or volume_N and surface_N.",
      .example = "\"geometry.geo\""},
     {.path = "mesh.parameters", .type = parameters, .fallback = "{}",
      .help = "Numbers handed to a .geo file, each in place of the DefineConstant of its name. Plain "

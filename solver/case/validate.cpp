@@ -89,8 +89,10 @@ class Validator {
       else if (needs_mesh_file_ && !std::filesystem::is_regular_file(mesh.file, error))
         problem(mesh.origin, "file", "the file does not exist", kGeometryFiles, mesh.file.string());
       else if (kind == GeometryFile::unknown)
-        problem(mesh.origin, "file", "is no file of gmsh and no solid that it reads", kGeometryFiles,
-                mesh.file.string());
+        problem(mesh.origin, "file",
+                "is no mesh or solid that is read" +
+                    (remedy_for(mesh.file).empty() ? std::string() : ": " + remedy_for(mesh.file)),
+                kGeometryFiles, mesh.file.string());
       if (kind != GeometryFile::script && kind != GeometryFile::unknown && !mesh.parameters.empty())
         problem(mesh.origin, "parameters",
                 is_solid(kind) ? "a solid takes no parameters" : "a finished mesh takes no parameters",

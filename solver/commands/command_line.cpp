@@ -100,8 +100,7 @@ void define_command_line(CLI::App& app, Arguments& a) {
 
   CLI::App* mesh =
       app.add_subcommand("mesh", "Read or generate the mesh of a case and report its bodies, groups and quality");
-  mesh->add_option("case", a.mesh.case_file, "case file (TOML), or a STEP, BREP or STL file that has none yet")
-      ->required();
+  mesh->add_option("case", a.mesh.case_file, "case file (TOML), or a mesh or geometry that has none yet")->required();
   mesh->add_option("--set", a.mesh.overrides, kSetHelp)->allow_extra_args(false)->take_all()->check(override_text());
   mesh->add_flag("--trust-geometry", a.mesh.trust_geometry, kTrustHelp);
   mesh->add_option("-o,--output", a.mesh.folder, "write the elements for ParaView into this folder")

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "base/geometry_file.hpp"
+#include "base/printable.hpp"
 #include "commands/check_report.hpp"
 #include "commands/json_report.hpp"
 #include "commands/start_state.hpp"
@@ -27,6 +28,23 @@ case_::Case case_of_geometry(const MeshCommand& asked) {
   case_::Case input;
   input.mesh.file = asked.case_file;
   return input;
+}
+
+/// Not a case: of a kind that is read, or of one about which there is something to say.
+bool is_geometry(const std::filesystem::path& file) {
+  return geometry_file(file) != GeometryFile::unknown || !remedy_for(file).empty();
+}
+
+/// What a case of this mesh begins with; the numbers are to be replaced.
+std::string case_to_begin_with(const std::filesystem::path& file, const FinishedMesh& made) {
+  std::string text = fmt::format("A case of it begins with, the numbers being your own:\n\n  [mesh]\n  file = \"{}\"\n",
+                                 printable(file.filename().string()));
+  if (states_no_unit(geometry_file(file))) text += "  scale = 0.001  # where its lengths are millimetres\n";
+  for (const std::string& group : made.mesh.volume_groups)
+    text += fmt::format(
+        "\n  [[material]]\n  group = \"{}\"\n  young = \"30 GPa\"\n  poisson = 0.2\n  density = \"2400 kg/m3\"\n",
+        printable(group));
+  return text;
 }
 
 /// The index of a mesh would take the place of that of the frames.
@@ -54,10 +72,12 @@ int mesh(const MeshCommand& asked) {
   const auto told = [&](const FinishedMesh& made) {
     fmt::print("{}", asked.json ? mesh_json(made) : mesh_report(made, assess_quality(made.mesh)));
   };
-  if (is_solid(geometry_file(asked.case_file))) {
+  if (is_geometry(asked.case_file)) {
     case_::Case input = case_of_geometry(asked);
     input.mesh.trust = asked.trust_geometry;
-    told(read_mesh(input));
+    const FinishedMesh made = read_mesh(input);
+    told(made);
+    if (!asked.json) fmt::print("{}", case_to_begin_with(asked.case_file, made));
     return 0;
   }
   case_::Case input =

@@ -41,7 +41,8 @@ struct FinishOptions {
 
 /// Gives a mesh as read the invariants of `Mesh`: positive volumes, no orphan nodes, own nodes for every body (unless
 /// glued), no group without element or node, elements sorted by (volume group, Hilbert rank of the centroid, old
-/// index), nodes in the order in which the elements first touch them. A surface triangle between two bodies that are parted is kept once for each.
+/// index), nodes in the order in which the elements first touch them. A surface triangle between two
+/// bodies that are parted is kept once for each.
 /// The order depends on coordinates only through the centroid's cell in a grid of 2^20 cells an axis.
 /// O(n log n), deterministic. Throws InputError with every problem: no element, coordinates that are not finite,
 /// elements of zero volume (|V| <= 1e-10 of the longest edge cubed) or, where they are not repaired, of negative volume

@@ -17,6 +17,7 @@ struct Token {
   std::string value;
   int line;
   std::size_t begin;  ///< of it in the source
+  std::size_t end;    ///< behind it
 };
 
 bool starts_word(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
@@ -42,19 +43,19 @@ std::vector<Token> tokens_of(const std::string& source) {
       i = std::min(end + 2, size);
     } else if (c == '"' || c == '\'') {
       const std::size_t end = std::min(source.find(c, i + 1), size);
-      tokens.push_back({Token::Kind::text, source.substr(i + 1, end - i - 1), line, i});
+      tokens.push_back({Token::Kind::text, source.substr(i + 1, end - i - 1), line, i, std::min(end + 1, size)});
       line += static_cast<int>(std::count(tokens.back().value.begin(), tokens.back().value.end(), '\n'));
       i = std::min(end + 1, size);
     } else if (starts_word(c)) {
       std::size_t end = i;
       while (end < size && continues_word(source[end])) ++end;
-      tokens.push_back({Token::Kind::word, source.substr(i, end - i), line, i});
+      tokens.push_back({Token::Kind::word, source.substr(i, end - i), line, i, end});
       i = end;
     } else if (std::isdigit(static_cast<unsigned char>(c)) != 0) {
       while (i < size && (continues_word(source[i]) || source[i] == '.'))
         ++i;  // 1e-3: the sign and 3 come apart, harmless
     } else {
-      if (std::isspace(static_cast<unsigned char>(c)) == 0) tokens.push_back({Token::Kind::sign, {c}, line, i});
+      if (std::isspace(static_cast<unsigned char>(c)) == 0) tokens.push_back({Token::Kind::sign, {c}, line, i, i + 1});
       ++i;
     }
   }
@@ -84,6 +85,8 @@ std::string_view expression(std::string_view text) {
 
 class Scanner {
  public:
+  explicit Scanner(bool keep_output) : keep_output_(keep_output) {}
+
   void read(const std::filesystem::path& file) {
     if (!visited_.insert(file.lexically_normal().string()).second) return;
     std::error_code ignored;
@@ -93,6 +96,7 @@ class Scanner {
     result.files.insert(file.lexically_normal());
     const std::string source{std::istreambuf_iterator<char>(in), {}};
     const std::vector<Token> tokens = tokens_of(source);
+    const bool outermost = visited_.size() == 1;
     for (std::size_t i = 0; i < tokens.size(); ++i) {
       if (tokens[i].kind != Token::Kind::word) continue;
       if (is(tokens[i], "DefineConstant")) defined_names(source, tokens, i + 1);
@@ -102,8 +106,10 @@ class Scanner {
         if (is(tokens[i], "Name")) add({{}, tokens[i + 1].value, {}, {}});
         if (is(tokens[i], "Include") || is(tokens[i], "Merge")) read(beside(file, tokens[i + 1].value));
       }
+      if (outermost && leave_out(file, source, tokens, i)) break;
       refuse(file, tokens[i]);
     }
+    if (outermost) result.without_output = rewritten(source);
   }
 
   GeoScan result;
@@ -159,6 +165,67 @@ class Scanner {
     add(std::move(found));
   }
 
+  /// A piece of the script and what takes its place.
+  struct Change {
+    std::size_t begin, end;
+    std::string text;
+  };
+
+  /// Statements that end a script or write something are noted for `without_output`, and what depends on where the
+  /// script is read. True where the script ends.
+  bool leave_out(const std::filesystem::path& file, const std::string& source, const std::vector<Token>& tokens,
+                 std::size_t& i) {
+    const Token& token = tokens[i];
+    for (const char* word : {"If", "For", "Macro", "Function"}) depth_ += is(token, word) ? 1 : 0;
+    for (const char* word : {"EndIf", "EndFor", "Return"}) depth_ -= is(token, word) ? 1 : 0;
+    const bool begins = i == 0 || is(tokens[i - 1], ";") || is(tokens[i - 1], "}") || is(tokens[i - 1], ")") ||
+                        is(tokens[i - 1], "Else") || is(tokens[i - 1], "EndIf") || is(tokens[i - 1], "EndFor");
+    const auto next_is = [&](const char* sign) { return i + 1 < tokens.size() && is(tokens[i + 1], sign); };
+    if (begins && depth_ == 0 && (is(token, "Exit") || is(token, "Abort")) && next_is(";")) {
+      changes_.push_back({token.begin, source.size(), {}});
+      changes_what_is_run_ = true;
+      return true;
+    }
+    const bool writes = is(token, "Save") || is(token, "Print") || is(token, "Draw") || is(token, "Sleep");
+    if (begins && writes && !keep_output_ && !next_is("=") && !next_is(".") && !next_is("(")) {
+      std::size_t end = i;
+      while (end + 1 < tokens.size() && !is(tokens[end], ";")) ++end;
+      std::string blank = source.substr(token.begin, tokens[end].end - token.begin);
+      std::replace_if(
+          blank.begin(), blank.end(), [](char c) { return c != '\n'; }, ' ');
+      changes_.push_back({token.begin, tokens[end].end, blank});
+      changes_what_is_run_ = true;
+      i = end;
+      return false;
+    }
+    name_in_full(file, tokens, i);
+    return false;
+  }
+
+  /// Names of files that gmsh takes relative to the script, and its folder.
+  void name_in_full(const std::filesystem::path& file, const std::vector<Token>& tokens, std::size_t i) {
+    const Token& token = tokens[i];
+    const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+    if (is(token, "CurrentDirectory") || is(token, "CurrentDir"))
+      changes_.push_back({token.begin, token.end, '"' + folder.string() + "/\""});
+    const bool takes_file = is(token, "Include") || is(token, "Merge") || is(token, "ShapeFromFile");
+    const std::size_t name = i + (is(token, "ShapeFromFile") ? 2 : 1);
+    if (!takes_file || name >= tokens.size() || tokens[name].kind != Token::Kind::text) return;
+    changes_.push_back(
+        {tokens[name].begin, tokens[name].end, '"' + beside(folder / "x", tokens[name].value).string() + '"'});
+  }
+
+  [[nodiscard]] std::string rewritten(const std::string& source) const {
+    if (!changes_what_is_run_) return {};
+    std::string text;
+    std::size_t from = 0;
+    for (const Change& change : changes_) {
+      text += source.substr(from, change.begin - from) + change.text;
+      from = change.end;
+    }
+    return text + source.substr(from) + "\n";
+  }
+
   void refuse(const std::filesystem::path& file, const Token& token) {
     constexpr std::array kRefused{"SystemCall", "NonBlockingSystemCall", "OnelabRun", "Exit", "Abort"};
     if (std::none_of(kRefused.begin(), kRefused.end(), [&](const char* word) { return token.value == word; })) return;
@@ -168,12 +235,16 @@ class Scanner {
   }
 
   std::set<std::string> visited_;
+  std::vector<Change> changes_;       ///< of the script itself, in their order
+  bool changes_what_is_run_ = false;  ///< statements are left out
+  bool keep_output_;
+  int depth_ = 0;  ///< conditions, loops and macros that are open
 };
 
 }  // namespace
 
-GeoScan scan_geo(const std::filesystem::path& file) {
-  Scanner scanner;
+GeoScan scan_geo(const std::filesystem::path& file, bool keep_output) {
+  Scanner scanner(keep_output);
   scanner.read(file);
   return std::move(scanner.result);
 }

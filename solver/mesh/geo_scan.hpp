@@ -25,12 +25,17 @@ struct GeoScan {
   std::vector<GeoParameter> parameters;   ///< all of those, in the order of the script
   std::set<std::filesystem::path> files;  ///< the script itself and what it includes by name
   std::vector<Problem> problems;          ///< statements that are refused, with file and line
+  std::string without_output;             ///< the script where it differs from the file; empty: it is read as it is
 };
 
 /// Reads a script. Comments and texts are skipped; `Include "file"` and `Merge "file.geo"` are followed relative to the
 /// including file where the name is plain text. Refused: statements that run programs or end the process (SystemCall,
-/// NonBlockingSystemCall, Exit, Abort, OnelabRun): a mesh is data, and Exit would end the solver without a word.
+/// NonBlockingSystemCall, OnelabRun; Exit and Abort in a condition, a loop or an included file): a mesh is data, and
+/// Exit would end the reading without a word. In the script itself the statements with which people end it (Save,
+/// Print, Draw, Sleep, and everything from an Exit or Abort on) are left out of `without_output`, which keeps the
+/// lines and names the files that it includes, and its folder, in full: it may be read from anywhere.
 /// O(size), throws nothing; a file that cannot be read is left for gmsh to name.
-[[nodiscard]] GeoScan scan_geo(const std::filesystem::path& file);
+/// @param keep_output  what writes stays in `without_output`: the script is trusted
+[[nodiscard]] GeoScan scan_geo(const std::filesystem::path& file, bool keep_output = false);
 
 }  // namespace breccia

@@ -22,10 +22,15 @@
 #include "base/child_process.hpp"
 #include "base/error.hpp"
 #include "base/geometry_file.hpp"
+#include "mesh/bdf_scan.hpp"
+#include "mesh/geo_scan.hpp"
 #include "mesh/gmsh_model.hpp"
 #include "mesh/gmsh_solids.hpp"
 #include "mesh/gmsh_source_check.hpp"
+#include "mesh/inp_reader.hpp"
 #include "mesh/mesh_bytes.hpp"
+#include "mesh/set_readers.hpp"
+#include "mesh/solid_groups.hpp"
 
 namespace breccia {
 namespace {
@@ -50,28 +55,29 @@ void open_gmsh() {
   gmsh::logger::start();
 }
 
-/// A script that assigns the parameters, in memory: nothing is left behind however a program ends. Reading it first is
-/// the way to give gmsh's script language a constant. The child reads it as path().
-class ParameterScript {
+/// A script in memory: nothing is left behind however a program ends. The child writes it, and gmsh reads it as path().
+class ScriptInMemory {
  public:
-  explicit ParameterScript(const GmshSource& source) : descriptor_(::memfd_create("parameters", MFD_CLOEXEC)) {
-    std::ostringstream script;
-    script << std::setprecision(std::numeric_limits<double>::max_digits10);
-    for (const auto& [key, value] : source.parameters) {
-      if (is_identifier(key)) script << key << " = " << value << ";\n";
-    }
-    const std::string text = script.str();
-    if (descriptor_ < 0 || ::write(descriptor_, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+  ScriptInMemory() : descriptor_(::memfd_create("script", MFD_CLOEXEC)) {
+    if (descriptor_ < 0)
       throw OutputError(Problem{"", 0, "mesh.parameters",
                                 std::string("cannot be handed to gmsh: ") + std::strerror(errno),
                                 "a system with files in memory (memfd_create)", ""});
   }
-  ~ParameterScript() {
+  ~ScriptInMemory() {
     if (descriptor_ >= 0) ::close(descriptor_);
   }
-  ParameterScript(const ParameterScript&) = delete;
-  ParameterScript& operator=(const ParameterScript&) = delete;
+  ScriptInMemory(const ScriptInMemory&) = delete;
+  ScriptInMemory& operator=(const ScriptInMemory&) = delete;
   [[nodiscard]] int descriptor() const { return descriptor_; }
+  /// In the child.
+  static void write(std::string_view text) {
+    while (!text.empty()) {
+      const ssize_t written = ::write(kKeptDescriptor, text.data(), text.size());
+      if (written <= 0) throw std::bad_alloc();
+      text.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
   [[nodiscard]] static std::string path() { return "/proc/self/fd/" + std::to_string(kKeptDescriptor); }
 
  private:
@@ -106,7 +112,9 @@ Problem problem_of(const GmshSource& source, const std::string& message) {
     int line = 0;
     std::from_chars(message.data() + digits, message.data() + std::min(digits_end, message.size()), line);
     if (digits_end != std::string::npos && message.compare(digits_end, 2, ": ") == 0) {
-      return {message.substr(1, mark_at - 1), line, "", "gmsh: " + message.substr(digits_end + 2), "", ""};
+      const std::string file = message.substr(1, mark_at - 1);
+      const bool in_memory = file == ScriptInMemory::path();
+      return {in_memory ? source.file.string() : file, line, "", "gmsh: " + message.substr(digits_end + 2), "", ""};
     }
   }
   if (message.starts_with("Error loading"))
@@ -168,32 +176,102 @@ void refuse_hxt(const GmshSource& source) {
                            "1 (Delaunay) or 4 (Frontal), or a mesh file that gmsh has written", std::to_string(kHxt)});
 }
 
+/// Statements that assign the parameters, on one line: the way to give gmsh's script language a constant.
+std::string assignments(const GmshSource& source) {
+  std::ostringstream script;
+  script << std::setprecision(std::numeric_limits<double>::max_digits10);
+  for (const auto& [key, value] : source.parameters)
+    if (is_identifier(key)) script << key << " = " << value << "; ";
+  return script.str();
+}
+
+/// Reads the script with its parameters; where it has statements that are left out, as it is without them.
+void run_script(const GmshSource& source) {
+  const std::string rest = scan_geo(source.file, source.trust).without_output;
+  ScriptInMemory::write(assignments(source) + (rest.empty() ? "\n" : rest));  // without it the last one is lost
+  const auto set_labels = [&] {
+    for (const auto& [key, value] : source.parameters)
+      if (!is_identifier(key)) gmsh::onelab::setNumber(key, {value});
+  };
+  if (rest.empty()) {
+    gmsh::open(ScriptInMemory::path());
+    set_labels();
+    gmsh::merge(source.file.string());
+  } else {
+    gmsh::model::add("script");
+    set_labels();
+    gmsh::merge(ScriptInMemory::path());
+  }
+}
+
+/// Every volume has its elements: the script has meshed them itself, and perhaps refined them since.
+bool is_meshed() {
+  gmsh::vectorpair volumes;
+  gmsh::model::getEntities(volumes, 3);
+  return !volumes.empty() && std::all_of(volumes.begin(), volumes.end(), [](const auto& volume) {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> tags, nodes;
+    gmsh::model::mesh::getElements(types, tags, nodes, 3, volume.second);
+    return !types.empty();
+  });
+}
+
+/// Nastran's elements are of the volumes and surfaces of their properties.
+void load_bdf(const GmshSource& source) {
+  BdfScan scan = scan_bdf(source.file);
+  if (!scan.problems.empty()) throw InputError(std::move(scan.problems));
+  gmsh::open(source.file.string());
+  std::int64_t read = 0;
+  for (const int dimension : {3, 2, 1})
+    for (const int tag : solids::tags_of(dimension)) {
+      solids::add_group(
+          dimension, {tag},
+          std::array{"", "curve_", "surface_", "volume_"}[static_cast<std::size_t>(dimension)] + std::to_string(tag));
+      std::vector<int> types;
+      std::vector<std::vector<std::size_t>> tags, nodes;
+      gmsh::model::mesh::getElements(types, tags, nodes, dimension, tag);
+      for (const auto& of_type : tags) read += dimension == 3 ? static_cast<std::int64_t>(of_type.size()) : 0;
+    }
+  if (read != scan.tetrahedra)
+    solids::refuse(
+        source,
+        "has " + std::to_string(scan.tetrahedra) + " CTETRA cards, of which " + std::to_string(read) + " can be read",
+        "cards of fixed or free format whose grid points the file has");
+}
+
 /// @param notes  out: of MeshReport
 void load(const GmshSource& source, std::vector<std::string>& notes) {
   if (is_solid(geometry_file(source.file))) {
     run_gmsh(source, [&] { notes = mesh_solids(source); });
     return;
   }
+  if (geometry_file(source.file) == GeometryFile::nastran) {
+    run_gmsh(source, [&] { load_bdf(source); });
+    return;
+  }
   if (!is_script(source)) {
     run_gmsh(source, [&] { gmsh::open(source.file.string()); });
     return;
   }
-  run_gmsh(source, [&] {
-    gmsh::open(ParameterScript::path());
-    for (const auto& [key, value] : source.parameters) {
-      if (!is_identifier(key)) gmsh::onelab::setNumber(key, {value});
-    }
-    gmsh::merge(source.file.string());
-  });
+  run_gmsh(source, [&] { run_script(source); });
   run_gmsh(source, [&] {
     refuse_hxt(source);
-    gmsh::model::mesh::generate(3);
+    if (!is_meshed()) gmsh::model::mesh::generate(3);
   });
+}
+
+/// A mesh that needs nothing of gmsh.
+RawMesh read_sets(const GmshSource& source, GeometryFile kind) {
+  if (kind == GeometryFile::abaqus) return read_inp(source.file, source.scale);
+  return kind == GeometryFile::unv ? read_unv(source.file, source.scale) : read_medit(source.file, source.scale);
 }
 
 /// What the child does: everything that gmsh has a hand in.
 MeshOrProblems read_here(const GmshSource& source) {
   try {
+    const GeometryFile kind = geometry_file(source.file);
+    if (kind == GeometryFile::abaqus || kind == GeometryFile::unv || kind == GeometryFile::medit)
+      return read_sets(source, kind);
     std::vector<std::string> notes;
     load(source, notes);
     RawMesh raw;
@@ -259,8 +337,8 @@ Problem failure_of(const GmshSource& source, const ChildEnd& end) {
 
 FinishedMesh read_gmsh(const GmshSource& source) {
   check_source(source);
-  std::optional<ParameterScript> script;
-  if (is_script(source)) script.emplace(source);
+  std::optional<ScriptInMemory> script;
+  if (is_script(source)) script.emplace();
   ChildLimits limits;
   limits.seconds = source.time_limit;
   limits.bytes = static_cast<std::uint64_t>(source.memory_limit * static_cast<double>(memory_of_machine()));

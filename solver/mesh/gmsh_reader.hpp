@@ -10,7 +10,7 @@ namespace breccia {
 
 /// A mesh file, or a geometry script or a solid that gmsh meshes.
 struct GmshSource {
-  std::filesystem::path file;  ///< .geo, .msh of format 2.2 to 4.1, STEP, BREP or STL, ASCII or binary
+  std::filesystem::path file;  ///< of base/geometry_file.hpp: a script, a solid, a mesh of gmsh or of another program
   std::map<std::string, double>
       parameters;               ///< numbers set before the .geo runs: names it takes from DefineConstant, asks for
                                 ///< by Exists, or shows under a `Name "Group/label"`
@@ -38,7 +38,7 @@ struct GmshSource {
 ///
 /// Throws InputError with all problems of the step that fails: file missing, unreadable or of another kind; parameters
 /// of anything but a .geo, unknown to it or not finite; a size of anything but a solid; errors gmsh reports, with file
-/// and line where it names them; elements other than linear tetrahedra and triangles; a volume in two physical volumes;
+/// and line where it names them; elements other than tetrahedra and triangles; a volume in two physical volumes;
 /// two groups of one name; no
 /// tetrahedra; those of finish_mesh; gmsh crashed, ended, passed a limit or tried what it may not.
 /// @pre this process does not have gmsh open itself

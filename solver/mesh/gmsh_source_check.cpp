@@ -75,7 +75,9 @@ void demand_readable(const GmshSource& source) {
   std::error_code ignored;
   const GeometryFile kind = geometry_file(source.file);
   if (kind == GeometryFile::unknown) {
-    refuse("is no kind of mesh file that can be read", kGeometryFiles, source.file.extension().string());
+    const std::string remedy = remedy_for(source.file);
+    refuse("is no kind of mesh file that can be read" + (remedy.empty() ? remedy : ": " + remedy), kGeometryFiles,
+           source.file.extension().string());
   }
   if (!std::filesystem::exists(source.file, ignored)) refuse("the file does not exist", "", "");
   if (std::filesystem::is_directory(source.file, ignored)) refuse("is a folder", kGeometryFiles, "");
@@ -89,6 +91,7 @@ void demand_readable(const GmshSource& source) {
            "no such file; or --trust-geometry, if you know what is in it", "");
   if (kind == GeometryFile::script) return;
   if (is_solid(kind)) return demand_solid(source, kind, in);
+  if (kind != GeometryFile::mesh) return;  // their readers demand what is needed
 
   std::string heading;
   double version = 0;

@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::size_t kBefore = 84, kTriangle = 50;  // bytes of a binary file before its triangles, and of each
 constexpr double kSamePoint = 1e-8;                  // of the extent: below the rounding of single precision
+constexpr double kRounding = 1e-15;                  // of coordinates
 
 [[noreturn]] void refuse(const std::string& file, int line, const std::string& what, const std::string& allowed,
                          const std::string& given = {}) {
@@ -33,8 +34,8 @@ std::string lower(std::string_view text) {
   return small;
 }
 
-/// Makes one point of those that are closer than the tolerance: a grid of cells twice as wide, of which a point asks all
-/// that its surroundings reach.
+/// Makes one point of those that are closer than the tolerance: a grid of cells twice as wide, of which a point
+/// searches all that its surroundings reach.
 class Points {
  public:
   Points(std::vector<Vec3>& points, double tolerance) : points_(points), tolerance_(tolerance) {}
@@ -251,7 +252,8 @@ StlFile joined(const Facets& facets) {
   made.names = facets.names;
   Vec3 low = facets.corners.front(), high = low;
   for (const Vec3& x : facets.corners) low = low.cwiseMin(x), high = high.cwiseMax(x);
-  Points points(made.surface.points, kSamePoint * (high - low).maxCoeff());
+  const double largest = std::max(high.cwiseAbs().maxCoeff(), low.cwiseAbs().maxCoeff());
+  Points points(made.surface.points, std::max(kSamePoint * (high - low).maxCoeff(), kRounding * largest));
   std::set<std::array<Index, 3>> seen;
   for (std::size_t t = 0; t < facets.solid.size(); ++t) {
     std::array<Index, 3> corners{};

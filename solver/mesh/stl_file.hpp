@@ -16,8 +16,8 @@ struct StlFile {
   Index repeated = 0;              ///< triangles that stood there before, left out
 };
 
-/// Reads an STL file: binary, or text in any common spelling: words in small and capital letters, indented or not, blank
-/// lines, ends of lines of any system, a byte order mark, names of any length and with blanks, several solids.
+/// Reads an STL file: binary, or text in any common spelling: words in small and capital letters, indented or not,
+/// blank lines, ends of lines of any system, a byte order mark, names of any length and with blanks, several solids.
 /// A binary file may begin with "solid": where its size is that of the triangles it counts, it is binary.
 /// Triangles of which two corners are one point have no area and are left out.
 /// Throws InputError with the line: text that is no STL (a file that is cut off, a facet of four corners, a decimal

@@ -2,7 +2,9 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <filesystem>
 #include <string>
+#include <utility>
 
 #include "end_to_end/program.hpp"
 
@@ -99,7 +101,7 @@ TEST(Geometry, with_the_numbers_that_a_case_may_set_tells_them_without_meshing) 
 TEST(Geometry, in_place_of_a_case_is_refused_with_what_a_case_would_say) {
   const Scratch scratch;
   const std::string file = scratch.write("bar.geo", "Point(1) = {0, 0, 0};\n");
-  for (const char* command : {"mesh ", "check ", "run "}) {
+  for (const char* command : {"check ", "run "}) {
     const Outcome refused = call(command + file);
     EXPECT_EQ(refused.exit_code, 2);
     EXPECT_NE(
@@ -108,6 +110,56 @@ TEST(Geometry, in_place_of_a_case_is_refused_with_what_a_case_would_say) {
         std::string::npos)
         << refused.err;
   }
+}
+
+/// An Abaqus file of two tetrahedra, the second of which is a set of its own.
+constexpr const char* kPair =
+    "*NODE, NSET=all\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,1,1,1\n*ELEMENT, TYPE=C3D4, ELSET=rock\n1,1,2,3,4\n"
+    "*ELEMENT, TYPE=C3D4, ELSET=steel\n2,2,3,4,5\n*SURFACE, NAME=base\n1, S1\n";
+
+TEST(Solid, any_mesh_is_reported_without_a_case_and_with_what_one_begins_with) {
+  const Scratch scratch;
+  const Outcome mesh = call("mesh " + scratch.write("pair.inp", kPair));
+  EXPECT_EQ(mesh.exit_code, 0) << mesh.err;
+  for (const char* words : {"2 elements, 5 nodes", "volume  rock", "surface base", "nodes   all", "radius ratio",
+                            "file = \"pair.inp\"", "scale = 0.001", "group = \"steel\""})
+    EXPECT_NE(mesh.out.find(words), std::string::npos) << words << " in\n" << mesh.out;
+  const Outcome script = call("mesh " + scratch.write("box.geo",
+                                                      "SetFactory(\"OpenCASCADE\");\nBox(1) = {0,0,0,1,1,1};\n"
+                                                      "Mesh 3;\nSave \"box.msh\";\nExit;\n"));
+  EXPECT_EQ(script.exit_code, 0) << script.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch.path("box.msh")));
+  const Outcome other = call("mesh " + scratch.write("grid.vtu", "<VTKFile>"));
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.err.find("meshio convert"), std::string::npos) << other.err;
+}
+
+TEST(Solid, groups_without_elements_are_refused_under_every_key_that_names_one) {
+  const Scratch scratch;
+  scratch.write("empty.msh",
+                "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n3 1 \"rock\"\n3 2 \"lost\"\n2 3 \"no_face\"\n"
+                "$EndPhysicalNames\n$Entities\n0 0 1 2\n1 0 0 0 1 1 1 1 3 0\n1 0 0 0 1 1 1 1 1 0\n2 0 0 0 1 1 1 1 2 0\n"
+                "$EndEntities\n$Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n"
+                "$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n");
+  const auto material = [](const std::string& group) {
+    return "[[material]]\ngroup = \"" + group +
+           "\"\nyoung = \"1 GPa\"\npoisson = 0.2\ndensity = 1000\njoints = \"none\"\n";
+  };
+  const std::string head = "[mesh]\nfile = \"empty.msh\"\n" + material("rock"), stage = "[[stage]]\nend = \"1 us\"\n";
+  const std::array cases{
+      std::pair{head + material("lost") + stage, "lost"},
+      std::pair{head + stage + "[[stage.constraint]]\ngroup = \"lost\"\nfixed = \"x\"\n", "lost"},
+      std::pair{head + stage + "[[stage.pressure]]\nsurface = \"no_face\"\nvalue = 1\n", "no_face"},
+      std::pair{head + stage + "[output]\ngauges = [\"lost\"]\n", "lost"},
+  };
+  for (const auto& [text, group] : cases) {
+    const Outcome checked = call("check " + scratch.write("case.toml", text));
+    EXPECT_EQ(checked.exit_code, 2) << text;
+    EXPECT_NE(checked.err.find("the group \"" + std::string(group) + "\" of the mesh holds no element"),
+              std::string::npos)
+        << checked.err;
+  }
+  EXPECT_EQ(call("check " + scratch.write("case.toml", head + stage)).exit_code, 0);
 }
 
 TEST(Solid, without_a_case_is_meshed_and_its_groups_and_box_told) {

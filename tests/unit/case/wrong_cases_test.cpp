@@ -296,7 +296,7 @@ INSTANTIATE_TEST_SUITE_P(
               "geometry.geo",
               "geometri.geo",
               {"case.toml:3: mesh.file: the file does not exist", "geometri.geo"}},
-        Wrong{"mesh_of_other_kind", "geometry.geo", "case.toml", {"mesh.file: is no file of gmsh"}},
+        Wrong{"mesh_of_other_kind", "geometry.geo", "case.toml", {"mesh.file: is no mesh or solid that is read"}},
         Wrong{"mesh_with_parameters",
               "geometry.geo",
               "mesh.msh",

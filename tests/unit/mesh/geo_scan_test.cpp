@@ -77,8 +77,8 @@ TEST(GeoScan, PassesOverIncludedFoldersAndPipes) {
   EXPECT_TRUE(scan_text("Include \"\"; Merge \"/\"; Include \"..\";").problems.empty());
 }
 
-TEST(GeoScan, RefusesStatementsThatRunProgramsOrEndTheProcess) {
-  const GeoScan scan = scan_text("Point(1) = {0, 0, 0};\n/* two\nlines */ SystemCall \"ls\";\n\nExit;\n");
+TEST(GeoScan, RefusesStatementsThatRunProgramsOrEndTheProcessSomewhere) {
+  const GeoScan scan = scan_text("Point(1) = {0, 0, 0};\n/* two\nlines */ SystemCall \"ls\";\nIf (1)\nExit;\nEndIf\n");
   ASSERT_EQ(scan.problems.size(), 2u);
   EXPECT_EQ(scan.problems[0].line, 3);
   EXPECT_EQ(scan.problems[0].key, "SystemCall");

@@ -79,12 +79,11 @@ const Attack kAttacks[] = {
      "start a process", "run a program"},
     {"PrintfIntoAFile", "Printf(\"x\") > \"OUT\";", "open a file for writing"},
     {"PrintfBehindAFile", "Printf(\"x\") >> \"OUT\";", "open a file for writing"},
-    {"Save", "Mesh 3;\nSave \"OUT.msh\";", "open a file for writing"},
-    {"Print", "Print \"OUT.geo_unrolled\";", "model.geo"},
+    {"SaveInACondition", "If (1)\nSave StrCat(\"OUT\", \".msh\") ;\nExit;\nEndIf", "model.geo:7: Exit"},
     {"CreateDir", "CreateDir \"OUT\";", "make a folder"},
     {"DeleteFile", "DeleteFile \"OUT\";", "model.geo"},
-    {"Exit", "Exit;", "model.geo:5: Exit"},
-    {"Abort", "Abort;", "model.geo:5: Abort"},
+    {"Exit", "If (1)\nExit;\nEndIf", "model.geo:6: Exit"},
+    {"Abort", "For i In {1:2}\nAbort;\nEndFor", "model.geo:6: Abort"},
     {"OnelabRun", "OnelabRun(\"c\", \"touch OUT\");", "model.geo"},
 };
 
