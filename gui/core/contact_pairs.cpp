@@ -14,6 +14,17 @@ QStringList groups_of(const Document& document) {
   return groups;
 }
 
+QString material_entry_of(const Document& document, const QString& group) {
+  QString of_any;
+  for (int i = 0; i < document.places().count("material"); ++i) {
+    const QString path = QString("material[%1]").arg(i);
+    const QStringList names = names_in(document.value(path + ".group"));
+    if (names.contains(group)) return path;
+    if (names == QStringList("*")) of_any = path;
+  }
+  return of_any;
+}
+
 QString contact_of(const Document& document, const QString& a, const QString& b, bool* own) {
   const auto fits = [](const QString& pattern, const QString& name) { return pattern == "*" || pattern == name; };
   QString found;

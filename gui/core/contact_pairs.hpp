@@ -10,6 +10,9 @@ namespace breccia::gui {
 /// Volume groups that the case names in its materials.
 [[nodiscard]] QStringList groups_of(const Document& document);
 
+/// The [[material]] of a volume group, else the one of "*": "material[1]"; empty: it has none.
+[[nodiscard]] QString material_entry_of(const Document& document, const QString& group);
+
 /// The [[contact]] that holds for two groups: "contact[1]"; empty: they do not touch. "*" fits every group; of several
 /// that fit the one that names more of them wins, of these the later one.
 /// @param own  out: it names both

@@ -119,7 +119,7 @@ bool Document::name_files_from(const QString& folder) {
   if (before == after) return false;
   std::string text = places_.text();
   for (const Place& place : places_.all()) {
-    const case_::Key* key = case_::find_key(case_::pattern_of(place.path));
+    const case_::Key* key = case_::row_at(place.path);
     if (place.kind != Place::Kind::value || key == nullptr) continue;
     const QString name = shown_value(*key, value(QString::fromStdString(place.path)));
     const bool is_script = key->path == "insitu.pipeline[].name" && case_::is_script(name.toStdString());

@@ -18,11 +18,8 @@ using case_::ValueType;
 
 /// Row of the table of keys of a summand: <function>.linear, <function>.ramp[].
 std::string pattern_of_kind(const QString& kind) {
-  const bool section = kind == "ramp" || kind == "sine";
-  return "<function>." + kind.toStdString() + (section ? "[]" : "");
+  return "<function>." + kind.toStdString() + (FunctionEdit::may_be_several(kind) ? "[]" : "");
 }
-
-bool has_own_numbers(const QString& kind) { return kind == "ramp" || kind == "sine"; }
 
 /// What stands at a path of a parsed case; nullptr: nothing does.
 const Node* node_at(const Node& root, const QString& path) {
@@ -65,6 +62,10 @@ FunctionEdit::FunctionEdit(const Document& document, QString path)
 bool FunctionEdit::takes_functions(const Key& key) {
   using enum ValueType;
   return key.type == function || key.type == function_vector || key.type == axis_functions;
+}
+
+bool FunctionEdit::may_be_several(const QString& kind) {
+  return case_::find_key("<function>." + kind.toStdString() + "[]") != nullptr;
 }
 
 const QStringList& FunctionEdit::kinds() {
@@ -115,7 +116,7 @@ std::vector<FunctionPart> FunctionEdit::parts(int component) const {
   std::vector<FunctionPart> found;
   for (const std::string& name : places_.names_below(path.toStdString())) {
     const QString kind = QString::fromStdString(name), own = path + "." + kind;
-    const int count = has_own_numbers(kind) ? places_.count(own.toStdString()) : 0;
+    const int count = may_be_several(kind) ? places_.count(own.toStdString()) : 0;
     if (!kinds().contains(kind)) continue;
     if (count == 0) found.push_back({kind, own});
     for (int i = 0; i < count; ++i) found.push_back({kind, own + QString("[%1]").arg(i)});
@@ -128,7 +129,7 @@ std::vector<FunctionNumber> FunctionEdit::numbers(const FunctionPart& part) cons
   const auto with = [&](const QString& path, const Key& row) {
     return FunctionNumber{path, &row, text_of(row.unit).replace('*', text_of(key_->unit))};
   };
-  if (!has_own_numbers(part.kind)) return {with(part.path, case_::key_of(pattern))};
+  if (!may_be_several(part.kind)) return {with(part.path, case_::key_of(pattern))};
   std::vector<FunctionNumber> found;
   for (const Key* row : keys_in(pattern)) found.push_back(with(part.path + "." + text_of(row->name()), *row));
   return found;
@@ -137,7 +138,7 @@ std::vector<FunctionNumber> FunctionEdit::numbers(const FunctionPart& part) cons
 QString FunctionEdit::value_of(int component) const {
   static const QMap<QString, QString> value_in{{"ramp", "to"}, {"sine", "amplitude"}};
   for (const FunctionPart& part : parts(component)) {
-    if (part.kind == "linear") continue;
+    if (part.kind == "linear" || part.kind == "csv") continue;
     if (part.kind == "constant") return at(part.path);
     if (part.kind == "table") {
       const int last = static_cast<int>(points(part).size()) - 1;
@@ -154,6 +155,7 @@ QString FunctionEdit::made(const QString& kind, const QString& value) const {
   if (end.isEmpty()) end = "1";
   if (kind == "linear") return "0";
   if (kind == "ramp") return "{ to = " + value + ", end = " + end + " }";
+  if (kind == "csv") return "{ file = \"history.csv\" }";
   if (kind == "sine") return "{ amplitude = " + value + ", frequency = 0 }";
   return kind == "table" ? "[[0, " + value + "], [" + end + ", " + value + "]]" : value;
 }
@@ -179,7 +181,7 @@ void FunctionEdit::add(int component, const QString& kind) {
   const QString path = component_path(component), summand = path + "." + kind, toml = made(kind, "0");
   if (own.size() == 1 && own[0].path == path) set(path, "{ constant = " + at(path) + " }");
   const auto same = std::count_if(own.begin(), own.end(), [&](const FunctionPart& p) { return p.kind == kind; });
-  if (same == 0 || !has_own_numbers(kind)) return set(summand, toml);
+  if (same == 0 || !may_be_several(kind)) return set(summand, toml);
   const QString before = at(summand);  // one table, or a list of them
   if (!before.startsWith('[')) return set(summand, "[" + before + ", " + toml + "]");
   const auto last = before.lastIndexOf('}') + 1;
@@ -261,7 +263,7 @@ FunctionEdit::Reading FunctionEdit::read() const {
   try {
     const Node root = case_::parse_toml_text(places_.text(), file_);
     const std::string own = path_.toStdString();
-    case_::ValueReader reader(reading.problems, {});
+    case_::ValueReader reader(reading.problems, std::filesystem::path(file_).parent_path());
     if (const Node* node = node_at(root, path_); node != nullptr) {
       if (key_->type == ValueType::axis_functions) {
         reader.read_axes(*key_, *node, own, reading.given, reading.functions);

@@ -14,7 +14,7 @@ namespace breccia::gui {
 
 /// A summand of a function of time.
 struct FunctionPart {
-  QString kind;  ///< "constant", "linear", "table", "ramp" or "sine", as the table of keys has them
+  QString kind;  ///< "constant", "linear", "table", "csv", "ramp" or "sine", as the table of keys has them
   QString path;  ///< where it stands
 };
 
@@ -34,6 +34,8 @@ class FunctionEdit {
 
   [[nodiscard]] static bool takes_functions(const case_::Key& key);
   [[nodiscard]] static const QStringList& kinds();
+  /// Whether a function may have several summands of a kind, each with numbers of its own.
+  [[nodiscard]] static bool may_be_several(const QString& kind);
   [[nodiscard]] const case_::Key& key() const { return *key_; }
   [[nodiscard]] const QString& path() const { return path_; }
   /// The text of the case as it is edited here.

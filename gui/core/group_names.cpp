@@ -60,6 +60,7 @@ QStringList groups_of_kind(GroupKind kind, const TomlPlaces& places, const std::
   if (kind == GroupKind::none) return {};
   QStringList volumes = mesh ? strings(mesh->volumes) : taken("material", case_::key_of("material[].group"), places);
   volumes.removeAll(QString());
+  if (!mesh) volumes.removeAll("*");
   const QStringList surfaces = mesh ? strings(mesh->surfaces) : QStringList();
   const QStringList nodes = mesh ? strings(mesh->nodes) : QStringList();
   return kind == GroupKind::volume ? volumes : kind == GroupKind::surface ? surfaces : surfaces + nodes + volumes;

@@ -113,7 +113,7 @@ QString typed_value(const Key& key, const QString& typed) {
   if (text.isEmpty() || text.startsWith('"') || text.startsWith('\'') || text.startsWith('[') || text.startsWith('{'))
     return text;
   if (key.type == ValueType::boolean) return text;
-  if (key.type == ValueType::integer) return is_number(text) ? text : quoted(text);
+  if (key.type == ValueType::integer || key.type == ValueType::column) return is_number(text) ? text : quoted(text);
   if (is_angle(key) && is_number(text) && !is_zero(text)) return quoted(text + " deg");
   if (!is_list(key.type)) return is_text(key.type) ? quoted(text) : quantity(text);
   const auto written = [&](const QString& item) { return is_text(key.type) ? quoted(item.trimmed()) : quantity(item); };

@@ -78,7 +78,11 @@ void ContactMatrix::show_cell(int row, int column) {
   bool own = false;
   const QString path = contact_of(document_, groups_[row], groups_[column], &own);
   QString words = tr("no contact");
-  if (!path.isEmpty()) {
+  const QString interaction =
+      shown_value(case_::key_of("contact[].interaction"), document_.value(path + ".interaction"));
+  if (!path.isEmpty() && interaction == "none") {
+    words = tr("do not meet");
+  } else if (!path.isEmpty()) {
     const QString friction = shown_value(case_::key_of("contact[].friction"), document_.value(path + ".friction"));
     words = shown_value(case_::key_of("contact[].penalty"), document_.value(path + ".penalty")) + ", μ " +
             (friction.isEmpty() ? shown_default(case_::key_of("contact[].friction")) : friction);

@@ -31,6 +31,7 @@ QString words_of_kind(const QString& kind) {
   if (kind == "constant") return FunctionDialog::tr("constant");
   if (kind == "linear") return FunctionDialog::tr("linear, from 0 at time 0");
   if (kind == "table") return FunctionDialog::tr("table of points");
+  if (kind == "csv") return FunctionDialog::tr("points of a file (CSV)");
   if (kind == "ramp") return FunctionDialog::tr("ramp");
   return kind == "sine" ? FunctionDialog::tr("sine") : kind;
 }
@@ -133,9 +134,8 @@ void FunctionDialog::show_kind() {
   add_->setEnabled(edit_.is_readable());
   for (QAction* action : add_->menu()->actions()) {
     const QString kind = action->objectName().section(':', 1);
-    const bool is_one_of_many = kind == "ramp" || kind == "sine";
     const bool is_there = std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return part.kind == kind; });
-    action->setEnabled(is_one_of_many || !is_there);
+    action->setEnabled(FunctionEdit::may_be_several(kind) || !is_there);
   }
 }
 
@@ -181,14 +181,16 @@ void FunctionDialog::add_number(const FunctionPart& part, const FunctionNumber& 
   const QString name = part.kind == "linear"     ? tr("Growth")
                        : part.kind == "constant" ? tr("Value")
                                                  : label_of(*number.row);
-  const QString label = QString("%1 [%2]").arg(name, shown_unit(number.unit));
+  const bool has_unit = number.row->type == case_::ValueType::number && number.unit != "1";
+  const QString label = has_unit ? QString("%1 [%2]").arg(name, shown_unit(number.unit)) : name;
   line->setObjectName("number:" + number.path);
   line->setAccessibleName(label);
   line->setAccessibleDescription(text_of(number.row->help));
   line->setPlaceholderText(number.row->required ? tr("must be given") : shown_default(*number.row));
-  line->setToolTip(tr("%1 Unit: %2; others are typed behind the number. Default: %3")
-                       .arg(text_of(number.row->help), shown_unit(number.unit),
-                            number.row->required ? tr("none, must be given") : shown_default(*number.row)));
+  const QString fallback = number.row->required ? tr("none, must be given") : shown_default(*number.row);
+  line->setToolTip(has_unit ? tr("%1 Unit: %2; others are typed behind the number. Default: %3")
+                                  .arg(text_of(number.row->help), shown_unit(number.unit), fallback)
+                            : tr("%1 Default: %2").arg(text_of(number.row->help), fallback));
   connect(line, &QLineEdit::editingFinished, this, [this, line, number] {
     edit_.set_number(number, line->text());
     show_curves();

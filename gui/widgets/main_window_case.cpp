@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/contact_pairs.hpp"
 #include "core/mesh_parameters.hpp"
 #include "core/own_files.hpp"
 #include "core/value_text.hpp"
@@ -332,11 +333,8 @@ void MainWindow::picked(const Scene::Picked& what) {
     show_groups(surfaces.isEmpty() ? QStringList{group} : surfaces);
     return;
   }
-  const int count = document_.places().count("material");
-  for (int i = 0; i < count; ++i) {
-    const QString path = QString("material[%1]").arg(i);
-    if (names_in(document_.value(path + ".group")).contains(group)) tree_->select(stage_of(path.toStdString()), path);
-  }
+  if (const QString path = material_entry_of(document_, group); !path.isEmpty())
+    tree_->select(stage_of(path.toStdString()), path);
 }
 
 void MainWindow::take_from_library() {

@@ -158,7 +158,7 @@ void PropertyForm::add_function(const QString& path, const QString& label, QHBox
   open->setFocusPolicy(Qt::StrongFocus);
   open->setObjectName("function:" + path);
   open->setAccessibleName(tr("Function of time: %1").arg(label));
-  open->setToolTip(tr("Constant, linear, ramp, sine or table, with a chart of it"));
+  open->setToolTip(tr("Constant, linear, ramp, sine, table or the points of a file, with a chart of it"));
   connect(open, &QToolButton::clicked, this, [this, path] {
     auto* dialog = new FunctionDialog(document_, path, this);
     dialog->setAttribute(Qt::WA_DeleteOnClose);

@@ -7,7 +7,7 @@
 /// Which key of the schema stands for which member of a case: written once, walked by the reader and by the writer.
 /// An archive A offers: A::reads; value(key, member); choice(key, enumeration); axis_functions(key, axes, values);
 /// section(key, visitor), optional_section(key, member), list(key, members); origin(member) and, to read only:
-/// has(key), exactly_one(keys), at_most_one(keys), smallest_young(groups), resolve_script(name).
+/// has(key), exactly_one(keys), at_most_one(keys), only(keys, condition), smallest_young(groups), resolve_script(name).
 namespace breccia::case_ {
 
 template <class A>
@@ -84,6 +84,7 @@ void bind_alternatives(A& a, Joint& joint) {
     } else {
       a.value("group", joint.groups[0]);
       joint.groups[1] = joint.groups[0];
+      joint.inside_any = joint.groups[0] == every_group;
     }
     a.at_most_one({"penalty", "penalty_factor"});
     if (a.has("penalty")) {
@@ -147,6 +148,11 @@ template <class A>
 void bind(A& a, Contact& contact) {
   a.origin(contact.origin);
   a.value("between", contact.groups);
+  a.choice("interaction", contact.interaction);
+  if (contact.interaction == Interaction::none) {
+    if constexpr (A::reads) a.only({"between", "interaction"}, "interaction = \"none\"");
+    return;
+  }
   a.value("penalty", contact.penalty);
   a.value("plateau", contact.plateau);
   a.value("unloading_exponent", contact.unloading_exponent);

@@ -16,7 +16,7 @@
 /// stand in comments; case/schema.hpp is their one table (unit, default, range, help).
 namespace breccia::case_ {
 
-inline constexpr const char* every_group = "*";  ///< in [[joint]] and [[contact]]
+inline constexpr const char* every_group = "*";  ///< in [[material]], [[joint]] and [[contact]]
 
 /// Where a key was written.
 struct KeyPlace {
@@ -31,6 +31,21 @@ struct Origin {
   std::map<std::string, KeyPlace> keys{};  ///< "group", "displacement.x"
   /// Cases are equal when they ask for the same, wherever it was written.
   friend bool operator==(const Origin&, const Origin&) { return true; }
+};
+
+/// Files beside the case file from which functions of time were read.
+struct DataFiles {
+  struct One {
+    std::filesystem::path file;
+    std::string key;                  ///< whose function it is part of
+    std::string unit;                 ///< SI, of the values
+    TimeFunction::Point first, last;  ///< in time
+    double least = 0, largest = 0;    ///< values
+    std::size_t num_points = 0;
+  };
+  std::vector<One> files;
+  /// The functions are compared themselves.
+  friend bool operator==(const DataFiles&, const DataFiles&) { return true; }
 };
 
 /// Raster of boxes, each a raster of cubes of 24 tetrahedra (six faces x four, apex at the cube's centre).
@@ -97,7 +112,7 @@ enum class JointPlacement { breakable, unbreakable, none };
 
 /// [[material]]: one physical volume group.
 struct Material {
-  std::string group;
+  std::string group;  ///< "*": every one without an entry of its own; groups.hpp has which holds
   BulkLaw law = BulkLaw::neo_hookean;
   double young = 0;      ///< Pa
   double poisson = 0;    ///< -
@@ -117,6 +132,7 @@ enum class JointPoints { nodal, mid_edge };
 /// [[joint]]: law of the joints inside a group, or on the glued interface of two groups.
 struct Joint {
   std::array<std::string, 2> groups;  ///< equal for a group's own joints; "*" beside another stands for every group
+  bool inside_any = false;            ///< groups are "*" and mean the joints inside each group without its own entry
   JointLaw law = JointLaw::mixed_mode;
   JointRise rise = JointRise::linear;
   JointPoints points = JointPoints::nodal;
@@ -138,17 +154,19 @@ struct Joint {
   std::uint64_t weibull_seed = 1;  ///< of the scatter
   Origin origin;
   /// Of the joints inside a group, not of an interface.
-  [[nodiscard]] bool inside() const { return groups[0] == groups[1] && groups[0] != every_group; }
+  [[nodiscard]] bool inside() const { return groups[0] == groups[1] && (groups[0] != every_group || inside_any); }
   friend bool operator==(const Joint&, const Joint&) = default;
 };
 
 enum class OverlapField { body, tet_potential, tet_distance };
 enum class InitialOverlap { refuse, relax, accept };
 enum class PointsOn { both, first };
+enum class Interaction { contact, none };
 
-/// [[contact]]: normal and friction law of a pair of groups ("*" stands for every group).
+/// [[contact]]: normal and friction law of a pair of groups ("*" stands for every group), or that they do not interact.
 struct Contact {
   std::array<std::string, 2> groups;
+  Interaction interaction = Interaction::contact;           ///< none: no other key has an effect
   double penalty = 0;                                       ///< Pa, sigma_p: stress at overlap d = 1
   double plateau = 0;                                       ///< Pa, sigma_T; 0: none
   double unloading_exponent = 1;                            ///< b >= 1
@@ -409,6 +427,7 @@ struct Case {
   Checkpointing checkpoint;
   Output output;
   InSitu insitu;
+  DataFiles data;
   std::string resolved;  ///< the case as TOML, SI, every default written out; copied to the run folder
   friend bool operator==(const Case&, const Case&) = default;
 };

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <set>
+#include <span>
 
+#include "case/joint_entries.hpp"
 #include "case/nearest.hpp"
 #include "case/problem_at.hpp"
 #include "case/validate.hpp"
@@ -59,7 +61,7 @@ class GroupChecker {
   void check(const Origin& origin, const std::string& name, const std::string& group,
              const std::vector<std::string>& present, const std::string& kind) {
     if (has(present, group)) return;
-    const std::string list = present.empty() ? "the mesh has none" : joined(nearest_first(group, present));
+    const std::string list = present.empty() ? "the mesh has none" : nearest_words(group, present);
     const std::string what = has(nodes_, group)
                                  ? "this is a curve or point of the mesh, where a " + kind + " is asked for"
                                  : "the mesh has no " + kind + " \"" + group + "\"";
@@ -82,6 +84,15 @@ void check_stage(const Stage& stage, GroupChecker& checker) {
 
 }  // namespace
 
+const Material* material_of(const Case& input, const std::string& group) {
+  const Material* found = nullptr;
+  for (const Material& m : input.materials) {
+    if (m.group == group) return &m;
+    if (m.group == every_group) found = &m;
+  }
+  return found;
+}
+
 std::int64_t numbered_body(const std::string& name) {
   const std::string mark = "body ";
   if (!name.starts_with(mark) || name.size() == mark.size()) return -1;
@@ -90,24 +101,112 @@ std::int64_t numbered_body(const std::string& name) {
   return error == std::errc() && end == name.data() + name.size() ? number : -1;
 }
 
+namespace {
+
+/// What could not be checked before the groups of "*" were known.
+class EveryGroup {
+ public:
+  EveryGroup(const Case& c, std::span<const std::string> volumes, GroupChecker& checker)
+      : c_(c), volumes_(volumes), checker_(checker) {
+    for (const Material& m : c.materials) {
+      own_.insert(m.group);
+      if (m.group == every_group) any_ = &m;
+    }
+  }
+
+  void check() {
+    if (any_ != nullptr) {
+      if (std::all_of(volumes_.begin(), volumes_.end(), [&](const std::string& g) { return own_.contains(g); }))
+        stands_for_none(any_->origin, "\"*\" where a volume group has no [[material]] of its own");
+      names();
+      joints();
+      contacts();
+    }
+    for (const Joint& j : c_.joints) {
+      const auto follows = [&](const std::string& g) {
+        const Material* m = material_of(c_, g);
+        return m != nullptr && m->joints != JointPlacement::none && joint_entry(c_, g, g).ruling == &j;
+      };
+      const bool is_default = !j.origin.key.starts_with("joint");
+      if (j.inside_any && !is_default && std::none_of(volumes_.begin(), volumes_.end(), follows))
+        stands_for_none(j.origin, "\"*\" where a group with joints has no [[joint]] of its own");
+    }
+  }
+
+ private:
+  void stands_for_none(const Origin& origin, const std::string& allowed) {
+    checker_.add(problem_at(c_, origin, "group", "stands for no group of the mesh", allowed, every_group));
+  }
+
+  /// Groups without a material of their own may have any name.
+  void names() {
+    const auto check_name = [&](const Origin& origin, const char* key, const std::string& group) {
+      if (group != every_group && !own_.contains(group)) checker_.volume(origin, key, group);
+    };
+    for (const Joint& j : c_.joints) {
+      check_name(j.origin, j.inside() ? "group" : "between", j.groups[0]);
+      if (!j.inside()) check_name(j.origin, "between", j.groups[1]);
+    }
+    for (const Contact& contact : c_.contacts)
+      for (const std::string& group : contact.groups) check_name(contact.origin, "between", group);
+    for (const InitialVelocity& v : c_.initial_velocities) check_name(v.origin, "group", v.group);
+  }
+
+  void joints() {
+    if (any_->joints != JointPlacement::breakable) return;
+    for (const std::string& g : volumes_)
+      if (!own_.contains(g) && joint_entry(c_, g, g).ruling == nullptr)
+        checker_.add(problem_at(
+            c_, any_->origin, "joints", "the group \"" + g + "\", one of \"*\", is breakable but has no joint law",
+            "a [[joint]] with group = \"*\" or \"" + g + "\", or joints = \"unbreakable\" or \"none\"", g));
+  }
+
+  void contacts() {
+    if (c_.contacts.empty()) return;
+    const auto covered = [&](const std::string& a, const std::string& b) {
+      return std::any_of(c_.contacts.begin(), c_.contacts.end(),
+                         [&](const Contact& contact) { return fits(contact.groups, a, b); });
+    };
+    for (std::size_t i = 0; i < volumes_.size(); ++i) {
+      for (std::size_t k = i; k < volumes_.size(); ++k) {
+        const std::string &a = volumes_[i], &b = volumes_[k];
+        const bool checked_before = own_.contains(a) && own_.contains(b);
+        const bool can_touch = i != k || any_->joints == JointPlacement::breakable;
+        if (checked_before || !can_touch || covered(a, b)) continue;
+        checker_.add({c_.file.string(), c_.contacts.front().origin.line, "contact",
+                      "no [[contact]] covers \"" + a + "\"" + (a == b ? "" : " and \"" + b + "\""),
+                      "a [[contact]] of the pair, or of \"*\"", ""});
+      }
+    }
+  }
+
+  const Case& c_;
+  std::span<const std::string> volumes_;
+  GroupChecker& checker_;
+  std::set<std::string> own_;  ///< groups with a material of their own, and "*"
+  const Material* any_ = nullptr;
+};
+
+}  // namespace
+
 std::vector<Problem> check_groups(const Case& c, const GroupNames& groups, std::int64_t num_bodies) {
   GroupChecker checker(c, groups);
-  std::set<std::string> with_material;
-  for (const Material& m : c.materials) {
-    checker.volume(m.origin, "group", m.group);
-    with_material.insert(m.group);
-  }
+  for (const Material& m : c.materials)
+    if (m.group != every_group) checker.volume(m.origin, "group", m.group);
   for (const std::string& group : groups.volumes) {
     if (group == every_group)
       checker.add({c.file.string(), c.mesh.origin.line, "mesh",
-                   "a volume group of the mesh has the name that stands for every group in [[joint]] and [[contact]]",
+                   "a volume group of the mesh has the name that stands for every group in [[material]], [[joint]] and "
+                   "[[contact]]",
                    "another name for the group", group});
-    if (!with_material.contains(group))
+    if (material_of(c, group) == nullptr)
       checker.add({c.file.string(), c.mesh.origin.line, "material",
                    "the volume group \"" + group + "\" of the mesh has no material",
-                   "a [[material]] for every volume group", group});
+                   "a [[material]] for every volume group, or one of \"*\"", group});
   }
-  // Joints, contacts and initial velocities name groups with a material, which has been checked above.
+  // Joints, contacts and initial velocities name groups with a material, which has been checked above, but for "*".
+  if (std::find(groups.volumes.begin(), groups.volumes.end(), every_group) == groups.volumes.end())
+    EveryGroup(c, groups.volumes, checker).check();
   for (const std::string& group : c.contact_points.surfaces)
     checker.surface(c.contact_points.origin, "surfaces", group);
   for (const std::string& group : c.broken_surfaces) checker.surface(c.broken_origin, "broken", group);

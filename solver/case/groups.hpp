@@ -22,6 +22,9 @@ namespace breccia::case_ {
   return (patterns[0] != every_group ? 1 : 0) + (patterns[1] != every_group ? 1 : 0);
 }
 
+/// The material of a volume group: its own entry, else the one of "*"; nullptr: none.
+[[nodiscard]] const Material* material_of(const Case& input, const std::string& group);
+
 /// The number of a gauge "body N", as frames count bodies; -1 for other names.
 [[nodiscard]] std::int64_t numbered_body(const std::string& name);
 

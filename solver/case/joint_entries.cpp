@@ -25,8 +25,10 @@ Joint joint_between(const Case& input, const Joint& entry, const std::string& a,
 
 double smallest_young(const Case& input, const std::array<std::string, 2>& groups) {
   double smallest = 0;
-  for (const Material& m : input.materials)
-    if ((m.group == groups[0] || m.group == groups[1]) && (smallest == 0 || m.young < smallest)) smallest = m.young;
+  for (const std::string& group : groups) {
+    const Material* m = material_of(input, group);
+    if (m != nullptr && (smallest == 0 || m->young < smallest)) smallest = m->young;
+  }
   return smallest;
 }
 

@@ -50,6 +50,13 @@ std::vector<std::string> nearest_first(std::string_view word, std::span<const st
   return out;
 }
 
+std::string nearest_words(std::string_view word, std::span<const std::string> candidates) {
+  constexpr std::size_t kMany = 20, kNamed = 12;  // a few more are named rather than counted
+  const std::vector<std::string> ranked = nearest_first(word, candidates);
+  if (ranked.size() <= kMany) return joined(ranked);
+  return joined(std::span(ranked).first(kNamed)) + " and " + std::to_string(ranked.size() - kNamed) + " more";
+}
+
 std::string likely_meant(std::string_view word, std::span<const std::string> candidates) {
   const std::vector<std::string> ranked = nearest_first(word, candidates);
   if (ranked.empty()) return {};

@@ -16,6 +16,9 @@ namespace breccia::case_ {
 /// distances the one that is nearer when the case of letters counts; then the order of the candidates.
 [[nodiscard]] std::vector<std::string> nearest_first(std::string_view word, std::span<const std::string> candidates);
 
+/// The nearest candidates, "a, b, c"; of many a dozen and how many more there are.
+[[nodiscard]] std::string nearest_words(std::string_view word, std::span<const std::string> candidates);
+
 /// The nearest candidate if it is near enough to be what was meant (at most a third of the word's letters differ, and
 /// one always may), else empty.
 [[nodiscard]] std::string likely_meant(std::string_view word, std::span<const std::string> candidates);

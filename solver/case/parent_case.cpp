@@ -74,6 +74,11 @@ void collect(const Node& table, const std::string& identity, const std::string& 
   }
 }
 
+bool any_interacts(const Case& input) {
+  return std::any_of(input.contacts.begin(), input.contacts.end(),
+                     [](const Contact& contact) { return contact.interaction == Interaction::contact; });
+}
+
 constexpr const char* kCannot = "cannot change where a run starts from the state of another: ";
 
 Problem refused(const std::string& key, const std::string& pattern, const std::string& allowed,
@@ -115,15 +120,16 @@ void compare_mesh_files(const ParentCase& parent, const Case& now, std::vector<P
 }  // namespace
 
 ParentCase parent_case(const std::string& text, const std::filesystem::path& source,
-                       std::map<std::string, std::string> files) {
+                       std::map<std::string, std::string> files, std::vector<std::string> volumes) {
   Node root = parse_toml_text(text, source.string());
   std::erase_if(root.entries, [](const auto& entry) {
     return std::find(kOfTheRun.begin(), kOfTheRun.end(), entry.first) != kOfTheRun.end();
   });
   ParentCase parent;
-  parent.input = read_case_tree(std::move(root), source, MeshFile::may_be_gone);
+  parent.input = read_case_tree(std::move(root), source, MeshFile::may_be_gone, volumes);
   parent.tree = parse_toml_text(parent.input.resolved, source.string());
   parent.files = std::move(files);
+  parent.volumes = std::move(volumes);
   return parent;
 }
 
@@ -165,9 +171,10 @@ std::vector<Problem> refused_changes(const ParentCase& parent, const Case& now,
   compare_joint_laws(parent, now, problems);
   const bool own_mesh = std::find(inherited.begin(), inherited.end(), "mesh") == inherited.end();
   if (own_mesh && !parent.input.mesh.file.empty()) compare_mesh_files(parent, now, problems);
-  if (parent.input.contacts.empty() != now.contacts.empty()) {
+  const bool touched = any_interacts(parent.input);
+  if (touched != any_interacts(now)) {
     problems.push_back({"", 0, "contact", kCannot + std::string("which points may touch is part of the state"),
-                        parent.input.contacts.empty() ? "no [[contact]]" : "a [[contact]]", ""});
+                        touched ? "a [[contact]]" : "no [[contact]] but with interaction = \"none\"", ""});
   }
   return problems;
 }

@@ -16,12 +16,14 @@ struct ParentCase {
   Case input;                                ///< as far as a state depends on it: without output and pipelines
   Node tree;                                 ///< of its text, every default written out
   std::map<std::string, std::string> files;  ///< SHA-256 of the files that it was made from, by name
+  std::vector<std::string> volumes{};        ///< groups of its mesh, for "*" of materials; empty: not known
 };
 
-/// @param text  of a resolved case;  @param source  its checkpoint, for messages;  @param files  as in ParentCase
+/// @param text  of a resolved case;  @param source  its checkpoint, for messages
+/// @param files, volumes  as in ParentCase
 /// Throws InputError if the text is no case.
 [[nodiscard]] ParentCase parent_case(const std::string& text, const std::filesystem::path& source,
-                                     std::map<std::string, std::string> files);
+                                     std::map<std::string, std::string> files, std::vector<std::string> volumes = {});
 
 /// Gives the tree of a case the sections that it leaves out and that the state fixes (schema.hpp: fixed_by_state).
 /// Returns their names.

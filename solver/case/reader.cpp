@@ -115,6 +115,14 @@ class SectionReader {
                       "only one of " + words(names), joined(given, " and "));
   }
 
+  /// Keys of the section that have no effect under a condition.
+  void only(std::initializer_list<std::string_view> names, const std::string& condition) {
+    for (const auto& [name, node] : table_.entries) {
+      if (std::find(names.begin(), names.end(), name) != names.end() || find_key(pattern(name)) == nullptr) continue;
+      values_.problem(node, at(name), "has no effect beside " + condition, "only " + words(names), node.shown());
+    }
+  }
+
   // A script is named relative to the case file.
   void resolve_script(std::string& name) const {
     if (is_script(name)) name = (model_.file.parent_path() / name).lexically_normal().string();
@@ -161,8 +169,9 @@ class SectionReader {
 void add_default_joints(Case& c, ValueReader& values) {
   for (std::size_t i = 0; i < c.materials.size(); ++i) {
     const Material& m = c.materials[i];
-    const bool present = std::any_of(c.joints.begin(), c.joints.end(),
-                                     [&](const Joint& j) { return j.inside() && j.groups[0] == m.group; });
+    const bool present = std::any_of(c.joints.begin(), c.joints.end(), [&](const Joint& j) {
+      return j.inside() && (j.inside_any || j.groups[0] == m.group);
+    });
     if (m.joints != JointPlacement::unbreakable || present) continue;
     Node table, group;
     group.kind = Node::Kind::text;
@@ -222,6 +231,7 @@ void tell_once(std::vector<Problem>& problems) {
 struct Surroundings {
   MeshFile mesh = MeshFile::must_be_there;
   const ParentCase* parent = nullptr;
+  std::vector<std::string> volumes{};  ///< groups of the mesh; empty: not known
 };
 
 Case case_of(Node root, const std::filesystem::path& file, std::span<const std::string> overrides,
@@ -236,9 +246,10 @@ Case case_of(Node root, const std::filesystem::path& file, std::span<const std::
   ValueReader values(problems, c.file.parent_path());
   check_keys(root, values);
   const Node written = root;
-  expand_groups(root);
+  expand_groups(root, around.volumes);
   SectionReader reader(values, c, root, "", true);
   bind(reader, c);
+  c.data = values.data_files();
   convert_lengths_to_the_unit_of_the_file(values, c.mesh);
   add_default_joints(c, values);
 
@@ -285,7 +296,7 @@ std::optional<Start> read_start(const std::filesystem::path& file, std::span<con
 
 Case read_started_case(const std::filesystem::path& file, std::span<const std::string> overrides,
                        const ParentCase& parent) {
-  return case_of(parse_toml_file(file), file, overrides, {MeshFile::may_be_gone, &parent});
+  return case_of(parse_toml_file(file), file, overrides, {MeshFile::may_be_gone, &parent, parent.volumes});
 }
 
 Case read_case_text(std::string_view text, const std::filesystem::path& file, std::span<const std::string> overrides,
@@ -293,8 +304,9 @@ Case read_case_text(std::string_view text, const std::filesystem::path& file, st
   return case_of(parse_toml_text(text, file.string()), file, overrides, {mesh, nullptr});
 }
 
-Case read_case_tree(Node root, const std::filesystem::path& file, MeshFile mesh) {
-  return case_of(std::move(root), file, {}, {mesh, nullptr});
+Case read_case_tree(Node root, const std::filesystem::path& file, MeshFile mesh,
+                    const std::vector<std::string>& volumes) {
+  return case_of(std::move(root), file, {}, {mesh, nullptr, volumes});
 }
 
 Setting read_setting(const std::string& text) {

@@ -36,7 +36,9 @@ enum class MeshFile { must_be_there, may_be_gone };
 [[nodiscard]] Case read_case_text(std::string_view text, const std::filesystem::path& file,
                                   std::span<const std::string> overrides = {}, MeshFile mesh = MeshFile::must_be_there);
 /// The same of a tree.
-[[nodiscard]] Case read_case_tree(Node root, const std::filesystem::path& file, MeshFile mesh);
+/// @param volumes  groups of its mesh, which "*" of materials stands for; empty: not known yet
+[[nodiscard]] Case read_case_tree(Node root, const std::filesystem::path& file, MeshFile mesh,
+                                  const std::vector<std::string>& volumes = {});
 
 /// A text as a parameter of a pipeline: a number as well where it reads as a quantity.
 [[nodiscard]] Setting read_setting(const std::string& text);

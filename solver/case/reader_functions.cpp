@@ -81,6 +81,9 @@ void ValueReader::function_table(const Key& key, const Node& table, const std::s
   if (const Node* ramps = table.find("ramp"))
     for (const Node* ramp : function_tables(*ramps, path + ".ramp", "ramp[]"))
       parts.push_back(function_ramp(key, *ramp, path + ".ramp"));
+  if (const Node* files = table.find("csv"))
+    for (const Node* file : function_tables(*files, path + ".csv", "csv[]"))
+      parts.push_back(function_csv(key, *file, path + ".csv"));
   out.table = sum(std::move(parts));
   if (const Node* sines = table.find("sine"))
     for (const Node* sine : function_tables(*sines, path + ".sine", "sine[]"))
@@ -132,6 +135,57 @@ Points ValueReader::function_ramp(const Key& key, const Node& node, const std::s
   if (problems_.size() == before && !(last.time > first.time))
     problem(node, path, "does not end after its start", "end > start", node.shown());
   return {first, last};
+}
+
+template <class T>
+bool ValueReader::function_row(const Key& row, const Node& table, const std::string& path, T& out) {
+  const std::string own = path + "." + std::string(row.name());
+  const std::size_t before = problems_.size();
+  if (const Node* node = table.find(row.name()))
+    read(row, *node, own, out);
+  else if (row.required)
+    missing_key(row, table, own);
+  else
+    read(row, parse_toml_value(row.fallback, "schema"), own, out);
+  return problems_.size() == before;
+}
+
+/// The points of a file, in the unit of the key.
+Points ValueReader::function_csv(const Key& key, const Node& node, const std::string& path) {
+  PointFile source;
+  source.si_unit = key.unit;
+  const auto row = [](const char* name) { return key_of(prefix + "csv[]." + name); };
+  const bool read =
+      function_row(row("file"), node, path, source.file) & function_row(row("time"), node, path, source.time) &
+      function_row(row("value"), node, path, source.value) &
+      function_row(row("time_unit"), node, path, source.time.unit) &
+      function_row(row("value_unit"), node, path, source.value.unit) &
+      function_row(row("scale"), node, path, source.scale) & function_row(row("start"), node, path, source.start);
+  if (!read) return {};
+  Points points;
+  try {
+    points = read_points(source);
+  } catch (const InputError& error) {
+    for (Problem wrong : error.problems()) {
+      // What is wrong with the file as a whole is wrong with its name in the case.
+      if (wrong.line == 0)
+        problem(*node.find("file"), path + ".file", wrong.what, wrong.allowed, source.file.string());
+      else
+        problems_.push_back({wrong.file, wrong.line, path, wrong.what, wrong.allowed, wrong.given});
+    }
+    return {};
+  }
+  num_points_ += points.size();
+  if (num_points_ > kMostPointsOfCase) {
+    problem(node, path, "the files of the case have too many lines in all",
+            "at most " + std::to_string(kMostPointsOfCase) + ", a file that several groups share counted for each", "");
+    return {};
+  }
+  const auto by_value = [](const TimeFunction::Point& a, const TimeFunction::Point& b) { return a.value < b.value; };
+  const auto [least, largest] = std::minmax_element(points.begin(), points.end(), by_value);
+  data_.files.push_back({source.file, path.substr(0, path.rfind('.')), source.si_unit, points.front(), points.back(),
+                         least->value, largest->value, points.size()});
+  return points;
 }
 
 Points ValueReader::function_points(const Key& key, const Node& node, const std::string& path) {

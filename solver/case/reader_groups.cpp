@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -58,16 +59,47 @@ Node* list_of(Node& root, std::string_view name) {
   return list != nullptr && list->is(Node::Kind::list) ? list : nullptr;
 }
 
-/// "*" of joint.group becomes the list of the groups with joints that no other entry names.
-void list_remaining_groups(Node& root) {
-  Node *materials = list_of(root, "material"), *joints = list_of(root, "joint");
-  if (materials == nullptr || joints == nullptr) return;
+/// The groups that entries name, each of a list.
+std::set<std::string> named_groups(const Node& entries) {
   std::set<std::string> named;
-  for (const Node& joint : joints->items) {
-    const Node* group = joint.find("group");
+  for (const Node& entry : entries.items) {
+    const Node* group = entry.find("group");
     if (group != nullptr && group->is(Node::Kind::text)) named.insert(group->text);
     for (const std::string& name : names_of(group)) named.insert(name);
   }
+  return named;
+}
+
+void replace_every_group(Node& entries, const std::vector<Node>& groups) {
+  for (Node& entry : entries.items) {
+    if (groups.empty() || !has_text(entry, "group", every_group)) continue;
+    Node& group = *entry.find("group");
+    group.kind = Node::Kind::list;
+    group.items = groups;
+  }
+}
+
+/// "*" of material.group becomes the list of the volume groups that no other entry names.
+void list_remaining_volumes(Node& root, std::span<const std::string> volumes) {
+  Node* materials = list_of(root, "material");
+  if (materials == nullptr) return;
+  const std::set<std::string> named = named_groups(*materials);
+  std::vector<Node> remaining;
+  for (const std::string& volume : volumes) {
+    if (named.contains(volume)) continue;
+    remaining.emplace_back().kind = Node::Kind::text;
+    remaining.back().text = volume;
+  }
+  replace_every_group(*materials, remaining);
+}
+
+/// "*" of joint.group becomes the list of the groups with joints that no other entry names, unless a material of "*" is
+/// for groups that are not known yet: then it stays. With all groups known, an entry for none of them is left out: that
+/// of a parent may be a default of ours.
+void list_remaining_groups(Node& root, bool all_known) {
+  Node *materials = list_of(root, "material"), *joints = list_of(root, "joint");
+  if (materials == nullptr || joints == nullptr || named_groups(*materials).contains(every_group)) return;
+  std::set<std::string> named = named_groups(*joints);
   std::vector<Node> remaining;
   for (const Node& material : materials->items) {
     const Node* group = material.find("group");
@@ -75,12 +107,8 @@ void list_remaining_groups(Node& root) {
         named.insert(group->text).second)
       remaining.push_back(*group);
   }
-  for (Node& joint : joints->items) {
-    if (remaining.empty() || !has_text(joint, "group", every_group)) continue;
-    Node& group = *joint.find("group");
-    group.kind = Node::Kind::list;
-    group.items = remaining;
-  }
+  replace_every_group(*joints, remaining);
+  if (all_known) std::erase_if(joints->items, [](const Node& joint) { return has_text(joint, "group", every_group); });
 }
 
 /// @param pattern  of the key below the table: "constraint[].group"
@@ -95,10 +123,11 @@ void expand_below(Node& table, std::string_view pattern) {
 
 }  // namespace
 
-void expand_groups(Node& root) {
+void expand_groups(Node& root, std::span<const std::string> volumes) {
+  list_remaining_volumes(root, volumes);
   for (const Key& key : schema()) {  // materials before joints
     if (key.type != ValueType::text_or_list) continue;
-    if (key.path == "joint[].group") list_remaining_groups(root);
+    if (key.path == "joint[].group") list_remaining_groups(root, !volumes.empty());
     expand_below(root, key.path);
   }
 }

@@ -175,6 +175,8 @@ Node parse_toml_file(const std::filesystem::path& path) {
 }
 
 Node parse_toml_text(std::string_view text, const std::string& name) {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    throw InputError({name, 1, "", "is UTF-16 text", "UTF-8 text", ""});
   refuse_deep_keys(text, name);
   try {
     Node root = converted(toml::parse(text, name), name);

@@ -126,7 +126,8 @@ void ValueReader::read(const Key& key, const Node& node, const std::string& path
                    allowed_text(key), node.shown());
   if (!node.is(Node::Kind::text)) return wrong_type(key, node, path);
   // Only texts with a default may be empty: the others name a group.
-  if (node.text.empty() && key.fallback.empty()) return problem(node, path, "is empty", allowed_text(key), "");
+  if (node.text.empty() && (key.fallback.empty() || key.type == ValueType::column))
+    return problem(node, path, "is empty", allowed_text(key), "");
   out = node.text;
 }
 
@@ -134,6 +135,17 @@ void ValueReader::read(const Key& key, const Node& node, const std::string& path
   std::string name;
   read(key, node, path, name);
   if (!name.empty()) out = (folder_ / name).lexically_normal();
+}
+
+void ValueReader::read(const Key& key, const Node& node, const std::string& path, FileColumn& out) {
+  constexpr std::int64_t kMostColumns = 100000;
+  if (node.is(Node::Kind::integer)) {
+    if (node.integer < 1 || node.integer > kMostColumns)
+      return problem(node, path, "is out of range", allowed_text(key), node.shown());
+    out.number = static_cast<int>(node.integer);
+  } else {
+    read(key, node, path, out.name);
+  }
 }
 
 void ValueReader::read(const Key& key, const Node& node, const std::string& path, std::vector<std::string>& out) {

@@ -12,6 +12,7 @@
 #include "base/time_function.hpp"
 #include "base/types.hpp"
 #include "case/case.hpp"
+#include "case/point_file.hpp"
 #include "case/reader_toml.hpp"
 #include "case/schema.hpp"
 
@@ -38,6 +39,7 @@ class ValueReader {
   void read(const Key& key, const Node& node, const std::string& path, std::array<double, 2>& out);
   void read(const Key& key, const Node& node, const std::string& path, Vec3& out);
   void read(const Key& key, const Node& node, const std::string& path, std::array<int, 3>& out);
+  void read(const Key& key, const Node& node, const std::string& path, FileColumn& out);
   /// Which numbers have a unit of length, area or volume is recorded for lengths_in().
   void read(const Key& key, const Node& node, const std::string& path, std::map<std::string, double>& out);
   void read(const Key& key, const Node& node, const std::string& path, std::map<std::string, Setting>& out);
@@ -53,6 +55,9 @@ class ValueReader {
 
   /// Numbers of a table that have a unit of length (1), area (2), volume (3)...
   [[nodiscard]] const std::map<std::string, int>& lengths_in(const std::string& path) { return lengths_[path]; }
+
+  /// Files from which functions of time were read, each function once.
+  [[nodiscard]] const DataFiles& data_files() const { return data_; }
 
   /// An entry of a table that is no key of it; names the nearest key of the schema.
   void unknown_key(const Node& node, const std::string& path, const std::string& pattern);
@@ -73,9 +78,15 @@ class ValueReader {
   void function_table(const Key& key, const Node& table, const std::string& path, TimeFunction& out);
   std::vector<TimeFunction::Point> function_points(const Key& key, const Node& node, const std::string& path);
   std::vector<TimeFunction::Point> function_ramp(const Key& key, const Node& node, const std::string& path);
+  std::vector<TimeFunction::Point> function_csv(const Key& key, const Node& node, const std::string& path);
+  /// A row of <function> keys below a table, or its default. @return  whether it was read
+  template <class T>
+  bool function_row(const Key& row, const Node& table, const std::string& path, T& out);
 
   std::vector<Problem>& problems_;
   std::filesystem::path folder_;
+  DataFiles data_;
+  std::size_t num_points_ = 0;                                 ///< of data files, in all functions
   std::map<std::string, std::map<std::string, int>> lengths_;  ///< by the path of their table
 };
 

@@ -45,6 +45,8 @@ std::string type_words(const Key& key) {
       return "one of";
     case ValueType::path:
       return "a file name";
+    case ValueType::column:
+      return "the name of a column or its number, from 1";
     case ValueType::axes:
       return "letters out of \"xyz\"";
     case ValueType::text_list:
@@ -60,10 +62,10 @@ std::string type_words(const Key& key) {
     case ValueType::integers_or_one:
       return "a list of three integers, or one for all";
     case ValueType::function:
-      return "a function of time: " + quantity_words(key) + ", or a table of constant, linear, sine, table, ramp";
+      return "a function of time: " + quantity_words(key) + ", or a table of constant, linear, sine, table, ramp, csv";
     case ValueType::function_vector:
       return "a list of three functions of time, each " + quantity_words(key) +
-             ", or a table of constant, linear, sine, table, ramp";
+             ", or a table of constant, linear, sine, table, ramp, csv";
     case ValueType::axis_functions:
       return "a table of functions of time, in " + std::string(key.unit) + ", for some of x, y, z";
     case ValueType::parameters:
@@ -147,6 +149,23 @@ std::string pattern_of(std::string_view path) {
     if (c == '[') inside = true;
   }
   return out;
+}
+
+const Key* row_at(std::string_view path) {
+  const std::string pattern = pattern_of(path);
+  if (const Key* key = find_key(pattern)) return key;
+  for (const Key& key : schema()) {
+    const bool is_function = key.type == ValueType::function || key.type == ValueType::function_vector ||
+                             key.type == ValueType::axis_functions;
+    if (!is_function || !pattern.starts_with(key.path)) continue;
+    std::string rest = pattern.substr(key.path.size());
+    if (key.type != ValueType::function) rest.erase(0, std::min<std::size_t>(2, rest.size()));  // "[]", ".x"
+    const std::size_t end = rest.find('.', 1);
+    if (const Key* row = find_key("<function>" + rest)) return row;
+    if (end != std::string::npos)
+      if (const Key* row = find_key("<function>" + rest.substr(0, end) + "[]" + rest.substr(end))) return row;
+  }
+  return nullptr;
 }
 
 std::string plain_path(std::string_view path) {

@@ -21,6 +21,7 @@ enum class ValueType {
   text_or_list,  ///< a text, or a list of texts: the entry around it stands for one entry each
   choice,        ///< one of a few words
   path,          ///< file, relative to the case file
+  column,        ///< of a file: its name, or its number from 1
   axes,          ///< letters of "xyz"
   text_list,
   text_pair,
@@ -89,6 +90,10 @@ inline constexpr std::string_view may_change = "-";
 
 /// The row of a pattern, or nullptr. O(log rows).
 [[nodiscard]] const Key* find_key(std::string_view pattern);
+
+/// The row of what stands at a path of a case, also inside a function of time: that of <function>.ramp[].to for
+/// stage[0].gravity[2].ramp.to. nullptr: none. O(rows).
+[[nodiscard]] const Key* row_at(std::string_view path);
 
 /// The row of a pattern that must be there. Throws InternalError if it is not.
 [[nodiscard]] const Key& key_of(std::string_view pattern);

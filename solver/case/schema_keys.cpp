@@ -103,7 +103,8 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "material[]", .type = section_list, .required = true,
      .help = "Law and density of a volume group, or of several that are alike."},
     {.path = "material[].group", .type = text_or_list, .required = true,
-     .help = "Physical volume group of the mesh, or a list of groups.", .example = "\"glass\""},
+     .help = "Physical volume group of the mesh, or a list of groups; \"*\": all without an entry of their own.",
+     .example = "\"glass\""},
     {.path = "material[].law", .type = choice, .fallback = "neo_hookean", 
      .choices = "neo_hookean|green_st_venant|drucker_prager",
      .help = "Law of the bulk. neo_hookean, elastic, gives back all energy of a closed strain loop; green_st_venant is "
@@ -152,8 +153,7 @@ constexpr auto model_keys = std::to_array<Key>({
              "strength. Every breakable group needs one. A pair by name goes before one with \"*\"."},
     {.path = "joint[].group", .type = text_or_list,
      .help = "Group whose inner joints follow this law, or a list of groups; \"*\": all with joints and without an "
-             "entry of their own. Give this or between.",
-     .example = "\"glass\""},
+             "entry of their own. Give this or between.", .example = "\"glass\""},
     {.path = "joint[].between", .type = text_pair,
      .help = "Two groups whose glued interface follows this law, also where both have joints = \"none\" inside. "
              "Without strengths it holds for good; between two breakable groups it needs them. \"*\" stands for every "
@@ -193,9 +193,9 @@ constexpr auto model_keys = std::to_array<Key>({
              "undamped vibrate and rub with 0.29 for 0.3, 0.55 to 0.57 for 0.6. The viscosity that check names cures "
              "that.",
      .example = "0.6"},
-    {.path = "joint[].friction_angle", .type = number, .unit = "rad",
-     .range = angle,
-     .help = "Friction as an angle, whose tangent is the coefficient. Give this or friction.", .example = "\"30 deg\""},
+    {.path = "joint[].friction_angle", .type = number, .unit = "rad", .range = angle,
+     .help = "Friction as an angle, whose tangent is the coefficient. Give this or friction.",
+     .example = "\"30 deg\""},
     {.path = "joint[].energy_mode_1", .type = number, .unit = "J/m2", .range = positive,
      .help = "Fracture energy of opening. Needed where joints can fail.", .example = "\"10 J/m2\""},
     {.path = "joint[].energy_mode_2", .type = number, .unit = "J/m2", .fallback = "= energy_mode_1", .range = positive,
@@ -237,18 +237,20 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Exponent s of exponential softening, z = (exp(-s D) - exp(-s)) / (1 - exp(-s)).", .example = "5"},
 
     {.path = "contact[]", .type = section_list,
-     .help = "Contact law of a pair of groups. A pair by name goes before one with \"*\". A case without any has no "
-             "contact."},
+     .help = "Contact of a pair of groups. A pair by name goes before one with \"*\". A case without any has none."},
     {.path = "contact[].between", .type = text_pair, .required = true,
-     .help = "Two groups; \"*\" stands for every group.", .example = "[\"*\", \"*\"]"},
-    {.path = "contact[].penalty", .type = number, .unit = "Pa", .required = true, .range = positive,
-     .help = "Contact stress at overlap 1. The overlap is g/H, g in m, H the mean inradius of the elements of the body "
-             "that is entered (a fifth of an edge), so the stiffness is penalty/H, Pa/m; `breccia check` prints both "
-             "for every pair. Where flat faces meet and both carry points, both press: up to twice that stress. "
-             "Recommended: Young's modulus of the softer body, a third of it where breakable bodies with unequal "
-             "meshes strike each other flat (points that hit first damage joints); up to ten times it where "
-             "overlaps must be small, for a "
-             "time step up to three times shorter; of bodies that slide see friction.", .example = "\"7500 GPa\""},
+     .help = "Two groups; \"*\": every group.", .example = "[\"*\", \"*\"]"},
+    {.path = "contact[].interaction", .type = choice, .fallback = "contact", .choices = "contact|none",
+     .help = "none: the groups do not meet: each passes through the other, also what fractures free later; of a group "
+             "with itself, its bodies and fragments. Such an entry has no other keys.", .example = "\"none\""},
+    {.path = "contact[].penalty", .type = number, .unit = "Pa", .range = positive,
+     .help = "Contact stress at overlap 1; needed but with interaction none. The overlap is g/H, g in m, H the mean "
+             "inradius of the elements of the body that is entered (a fifth of an edge), so the stiffness is "
+             "penalty/H, Pa/m; `breccia check` prints both for every pair. Where flat faces meet and both carry "
+             "points, both press: up to twice that stress. Recommended: Young's modulus of the softer body, a third "
+             "of it where breakable bodies with unequal meshes strike each other flat (points that hit first damage "
+             "joints); up to ten times it where overlaps must be small, for a time step up to three times shorter; "
+             "of bodies that slide see friction.", .example = "\"7500 GPa\""},
     {.path = "contact[].plateau", .type = number, .unit = "Pa", .fallback = "0", .range = not_negative,
      .help = "Stress sigma that loading of the points of a face does not pass; 0: none. Flat faces of area A that both "
              "carry points press with up to 2 A sigma. Measured on two cubes: 1.9 A sigma, and 0.94 with points_on = "
@@ -267,8 +269,7 @@ constexpr auto model_keys = std::to_array<Key>({
              "(Young's modulus or the penalty, whichever is smaller). It grows with the age of a contact: impacts rub "
              "by Coulomb's law at once. 0: no delay; elastic bodies that slide then vibrate, lift off and rub too "
              "little: driven plates with 0.19 to 0.27 for 0.3 and 0.28 to 0.43 for 0.6, with the delay 0.300 and "
-             "0.600. Beyond 0.6 they may also need a viscosity (check names one).",
-     .example = "0"},
+             "0.600. Beyond 0.6 they may also need a viscosity (check names one).", .example = "0"},
     {.path = "contact[].tangential_ratio", .type = number, .fallback = "1", .range = share,
      .help = "Tangential over normal contact stiffness.", .example = "0.8"},
     {.path = "contact[].damping_ratio", .type = number, .fallback = "0", .range = share,
@@ -276,13 +277,11 @@ constexpr auto model_keys = std::to_array<Key>({
              "a surface layer as thick as H. Accounted as dissipated by contact. It shortens the time step, the more "
              "the smaller the elements are beside H: 0.1 by a fifth to two thirds, 1 to a fifth or a tenth (check "
              "tells). It damps bodies that bounce, hardly vibrations inside of them: a cube that falls flat on a floor "
-             "comes back with 1.000, 0.919, 0.781 and 0.480 of its speed for 0, 0.1, 0.3 and 1.",
-     .example = "0.2"},
+             "comes back with 1.000, 0.919, 0.781 and 0.480 of its speed for 0, 0.1, 0.3 and 1.", .example = "0.2"},
     {.path = "contact[].points_on", .type = choice, .fallback = "both", .choices = "both|first",
      .help = "Whose contact points are felt by the other group: those of both, or of the group named first alone. A "
              "floor is best named second: its points would catch the edges of what slides on it, and those of platens "
-             "drive a narrower body between them out sideways where there is no friction.",
-     .example = "\"first\""},
+             "drive a narrower body between them out sideways where there is no friction.", .example = "\"first\""},
     {.path = "contact[].initial_overlap", .type = choice, .fallback = "refuse", .choices = "refuse|relax|accept",
      .help = "What to do with bodies that overlap before the first step: end with an error, take the overlap out as an "
              "offset without force, or let contact push them apart at once.", .example = "\"relax\"",

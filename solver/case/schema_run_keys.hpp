@@ -222,6 +222,28 @@ inline constexpr auto run_keys = std::to_array<Key>({
     {.path = "<function>.ramp[].end", .type = number, .unit = "s", .required = true, .help = "Time at which it ends.",
      .example = "\"2.4 s\""},
 
+    {.path = "<function>.csv[]", .type = section_list,
+     .help = "Points from a text file of columns (CSV), straight between them, constant before the first and after the "
+             "last; at most 100000 lines and 64 MiB. Columns are apart by semicolons, tabs, commas or blanks; numbers "
+             "have decimal points; a header is optional; lines that begin with #, % or ! are left out. The case in the "
+             "run folder holds the points: a resumed run does not need the file. One table, or a list of them."},
+    {.path = "<function>.csv[].file", .type = path, .required = true, .help = "The file, relative to the case file.",
+     .example = "\"shake.csv\""},
+    {.path = "<function>.csv[].time", .type = column, .fallback = "1",
+     .help = "Column of the times, by its name in the header (without the unit) or by its number. Times increase.",
+     .example = "\"t\""},
+    {.path = "<function>.csv[].value", .type = column, .fallback = "2",
+     .help = "Column of the values, by its name or number.", .example = "\"a_x\""},
+    {.path = "<function>.csv[].time_unit", .type = text, .fallback = "\"\"",
+     .help = "Unit of the times. Empty: that of the header, as in \"t [ms]\" or \"t (ms)\", or s.",
+     .example = "\"ms\""},
+    {.path = "<function>.csv[].value_unit", .type = text, .fallback = "\"\"",
+     .help = "Unit of the values. Empty: that of the header, or the SI unit.", .example = "\"kPa\""},
+    {.path = "<function>.csv[].scale", .type = number, .fallback = "1", .help = "Factor of the values.",
+     .example = "-1"},
+    {.path = "<function>.csv[].start", .type = number, .unit = "s", .fallback = "0",
+     .help = "Time of the run at which that of the file is 0.", .example = "\"2.4 s\""},
+
     {.path = "<function>.sine[]", .type = section_list,
      .help = "amplitude sin(2 pi frequency t + phase). One table, or a list of them."},
     {.path = "<function>.sine[].amplitude", .type = number, .unit = "*", .required = true, .help = "Its amplitude.",

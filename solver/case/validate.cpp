@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "base/geometry_file.hpp"
 #include "base/number_text.hpp"
 #include "case/countable.hpp"
+#include "case/groups.hpp"
 #include "case/joint_entries.hpp"
 #include "case/nearest.hpp"
 #include "case/problem_at.hpp"
@@ -26,6 +28,8 @@ constexpr const char* unread = "";  // a group whose name was wrong, which has b
 constexpr std::int64_t most_domains = 1000000;
 
 using Pair = std::array<std::string, 2>;
+
+using LawsSeen = std::map<std::pair<bool, Pair>, int>;  ///< whether inside a group, and of which: the line
 
 constexpr double kRoundOff = 1e-9;
 
@@ -60,18 +64,20 @@ class Validator {
     problems_.push_back(problem_at(c_, origin, name, what, allowed, given));
   }
 
-  [[nodiscard]] const Material* material(const std::string& group) const {
-    const auto it =
-        std::find_if(c_.materials.begin(), c_.materials.end(), [&](const Material& m) { return m.group == group; });
-    return it == c_.materials.end() ? nullptr : &*it;
+  [[nodiscard]] const Material* material(const std::string& group) const { return material_of(c_, group); }
+  [[nodiscard]] int line_of(const Origin& origin, const char* name) const {
+    return place_of(c_.file, origin, name).line;
+  }
+  /// Whether the group of a material could not be read, so that others may be missed in vain.
+  [[nodiscard]] bool material_unread() const {
+    return std::any_of(c_.materials.begin(), c_.materials.end(), [](const Material& m) { return m.group == unread; });
   }
 
   void needs_material(const Origin& origin, const std::string& name, const std::string& group) {
-    if (group.empty() || material(group) != nullptr || material(unread) != nullptr) return;
+    if (group.empty() || material(group) != nullptr || material_unread()) return;
     std::vector<std::string> groups;
     for (const Material& m : c_.materials) groups.push_back(m.group);
-    problem(origin, name, "no [[material]] has the group \"" + group + "\"", joined(nearest_first(group, groups)),
-            group);
+    problem(origin, name, "no [[material]] has the group \"" + group + "\"", nearest_words(group, groups), group);
   }
 
   void mesh() {
@@ -130,10 +136,14 @@ class Validator {
   }
 
   void materials() {
-    std::set<std::string> seen;
-    for (const Material& m : c_.materials)
-      if (!m.group.empty() && !seen.insert(m.group).second)
-        problem(m.origin, "group", "the group has a material already", "one [[material]] a group", m.group);
+    std::map<std::string, int> seen;
+    for (const Material& m : c_.materials) {
+      if (m.group.empty()) continue;
+      const auto [first, is_new] = seen.emplace(m.group, line_of(m.origin, "group"));
+      if (!is_new)
+        problem(m.origin, "group", "the group has a material already, in line " + std::to_string(first->second),
+                "one [[material]] a group", m.group);
+    }
     for (const Material& m : c_.materials)
       validate(m.law, m.plasticity,
                [&](const char* name, const char* what, const std::string& allowed, const std::string& given) {
@@ -142,12 +152,15 @@ class Validator {
   }
 
   void joints() {
-    std::set<Pair> seen;
+    LawsSeen seen;
     for (const Joint& j : c_.joints) joint(j, seen);
     const auto is_unread = [](const Joint& j) { return j.groups[0] == unread; };
     if (std::any_of(c_.joints.begin(), c_.joints.end(), is_unread)) return;  // it may be the law that is missed
-    for (const Material& m : c_.materials)
-      if (m.joints == JointPlacement::breakable && !m.group.empty() && !seen.contains({m.group, m.group}))
+    const auto has_law = [&](const std::string& group) {
+      return seen.contains({true, {group, group}}) || seen.contains({true, {every_group, every_group}});
+    };
+    for (const Material& m : c_.materials)  // the groups of "*" are known with the mesh
+      if (m.joints == JointPlacement::breakable && !m.group.empty() && m.group != every_group && !has_law(m.group))
         problem(m.origin, "joints", "the group is breakable but has no joint law",
                 "a [[joint]] with group = \"" + m.group + "\", or joints = \"unbreakable\" or \"none\"", m.group);
   }
@@ -183,6 +196,11 @@ class Validator {
 
   /// Two breakable groups, or one alone, of which an entry is the law.
   [[nodiscard]] std::optional<Pair> breakable_pair(const Joint& j) const {
+    if (j.groups == Pair{every_group, every_group}) {
+      for (const Material& m : c_.materials)
+        if (m.joints == JointPlacement::breakable && (m.group == every_group || (j.inside_any && rules(j, m.group))))
+          return Pair{m.group, m.group};
+    }
     if (j.groups[0] != every_group && j.groups[1] != every_group)
       return is_breakable(j.groups[0]) && is_breakable(j.groups[1]) ? std::optional(j.groups) : std::nullopt;
     for (const Material& a : c_.materials)
@@ -193,19 +211,27 @@ class Validator {
     return std::nullopt;
   }
 
-  void joint(const Joint& j, std::set<Pair>& seen) {
+  [[nodiscard]] bool rules(const Joint& j, const std::string& group) const {
+    return joint_entry(c_, group, group).ruling == &j;
+  }
+
+  void joint(const Joint& j, LawsSeen& seen) {
     const bool inside = j.inside();
     for (const std::string& group : j.groups)
       if (group != every_group) needs_material(j.origin, inside ? "group" : "between", group);
-    if (j.groups[0] == every_group && j.origin.keys.contains("group")) {
-      if (material(unread) == nullptr)
+    if (j.inside_any && material(every_group) == nullptr) {
+      if (!material_unread())
         problem(j.origin, "group", "stands for no group", "\"*\" where a group with joints has no [[joint]] of its own",
                 every_group);
       return;
     }
-    if (!j.groups[0].empty() && !seen.insert(sorted(j.groups)).second)
-      return problem(j.origin, inside ? "group" : "between", "the joints have a law already",
-                     "one [[joint]] a group or pair", words(j.groups));
+    const char* key = inside ? "group" : "between";
+    if (!j.groups[0].empty()) {
+      const auto [first, is_new] = seen.emplace(std::pair{inside, sorted(j.groups)}, line_of(j.origin, key));
+      if (!is_new)
+        return problem(j.origin, key, "the joints have a law already, in line " + std::to_string(first->second),
+                       "one [[joint]] a group or pair", words(j.groups));
+    }
     const bool of_parent = c_.start && c_.mesh.file.empty() && !c_.mesh.raster;  // it has the mesh
     if (!inside && !j.groups[0].empty() && !c_.mesh.glue && !of_parent)
       problem(j.origin, "between", "interfaces are not glued in this case", "mesh.glue = true", words(j.groups));
@@ -214,7 +240,8 @@ class Validator {
 
     softening_of_another_kind(j);
     scatter(j);
-    if (inside && material(j.groups[0]) != nullptr && material(j.groups[0])->joints == JointPlacement::none)
+    if (inside && !j.inside_any && material(j.groups[0]) != nullptr &&
+        material(j.groups[0])->joints == JointPlacement::none)
       problem(j.origin, "group", "the group has no joints",
               "joints = \"breakable\" or \"unbreakable\" in its [[material]], or between for its interface",
               j.groups[0]);
@@ -228,17 +255,21 @@ class Validator {
   }
 
   void contacts() {
-    std::set<Pair> laws;
+    std::map<Pair, int> laws;
     for (const Contact& contact : c_.contacts) {
       if (contact.groups[0].empty()) continue;
       for (const std::string& group : contact.groups)
         if (group != every_group) needs_material(contact.origin, "between", group);
+      if (contact.interaction == Interaction::contact && contact.penalty == 0)
+        problem(contact.origin, "penalty", "is missing", "a penalty > 0 in Pa, or interaction = \"none\"");
       if (contact.points_on == PointsOn::first && contact.groups[0] == contact.groups[1])
         problem(contact.origin, "points_on", "\"first\" needs to know which group comes first",
                 "two different groups in `between`", words(contact.groups));
-      if (!laws.insert(sorted(contact.groups)).second)
-        problem(contact.origin, "between", "the pair has a contact law already", "one [[contact]] a pair",
-                words(contact.groups));
+      const auto [first, is_new] = laws.emplace(sorted(contact.groups), line_of(contact.origin, "between"));
+      if (!is_new)
+        problem(contact.origin, "between",
+                "the pair has a [[contact]] already, in line " + std::to_string(first->second),
+                "one [[contact]] a pair", words(contact.groups));
     }
     if (laws.empty()) return;
     const auto covered = [&](const std::string& a, const std::string& b) {
@@ -249,6 +280,7 @@ class Validator {
     for (std::size_t i = 0; i < c_.materials.size(); ++i)
       for (std::size_t k = i; k < c_.materials.size(); ++k) {
         const Material &a = c_.materials[i], &b = c_.materials[k];
+        if (a.group == every_group || b.group == every_group) continue;  // known with the mesh
         const bool can_touch = i != k || a.joints == JointPlacement::breakable;
         if (can_touch && !a.group.empty() && !b.group.empty() && !covered(a.group, b.group))
           problems_.push_back({c_.file.string(), c_.contacts.front().origin.line, "contact",

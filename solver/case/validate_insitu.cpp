@@ -62,7 +62,7 @@ class InSituValidator {
         problem(origin, key, "the script does not exist", "a Python script exported from ParaView", pipeline.name);
     } else if (!pipeline.name.empty() && !contains(known, pipeline.name)) {
       problem(origin, key, "no pipeline has this name",
-              joined(nearest_first(pipeline.name, known)) + ", or a script whose name ends with .py", pipeline.name);
+              nearest_words(pipeline.name, known) + ", or a script whose name ends with .py", pipeline.name);
       return;
     }
     selection(pipeline, origin);
@@ -101,7 +101,7 @@ class InSituValidator {
         problem(origin, name,
                 !plastic_ && is_of_plasticity(asked[i]) ? "no material has a law that remembers this"
                                                         : "there is no such field",
-                joined(nearest_first(asked[i], known)), asked[i]);
+                nearest_words(asked[i], known), asked[i]);
       else if (std::find(asked.begin(), asked.begin() + static_cast<std::ptrdiff_t>(i), asked[i]) !=
                asked.begin() + static_cast<std::ptrdiff_t>(i))
         problem(origin, name, "the field stands twice", "each field once", asked[i]);
@@ -165,7 +165,7 @@ class InSituValidator {
     for (const std::string& channel : live.channels) {
       if (contains(known, channel)) continue;
       all_known = false;
-      problem(live.origin, "channels", "there is no such channel", joined(nearest_first(channel, known)), channel);
+      problem(live.origin, "channels", "there is no such channel", nearest_words(channel, known), channel);
     }
     if (live.region) region(*live.region);
     if (all_known) fields(live.origin, live.fields, live.channels);

@@ -1,6 +1,7 @@
 #include "commands/check_report.hpp"
 #include "commands/bending_report.hpp"
 #include "commands/contact_report.hpp"
+#include "commands/data_report.hpp"
 #include "commands/joint_report.hpp"
 #include "commands/model_report.hpp"
 #include "commands/overlap_report.hpp"
@@ -330,8 +331,10 @@ CheckReport full_report(const case_::Case& input, const Model& model, const Star
   report.text += joint_report(model, report.advice);
   append(report.advice, model_advice(input, model));
   const OverlapReport overlaps = from.words.empty() ? overlap_report(input, model) : OverlapReport{};
-  report.text += stiffness_report(model) + overlaps.text;
+  report.text +=
+      stiffness_report(model) + separation_report(input, model.mesh.volume_groups) + overlaps.text + data_report(input);
   append(report.advice, overlaps.advice);
+  append(report.advice, data_advice(input));
   append(report.advice, late_contact_advice(model));
   append(report.advice, coarse_points_advice(model));
   append(report.advice, unmeant_advice(input, model));

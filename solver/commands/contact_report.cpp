@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "mesh/tetrahedron.hpp"
+#include "model/parameters.hpp"
 #include "output/quantity_text.hpp"
 #include "physics/contact/contact_point.hpp"
 
@@ -144,6 +145,27 @@ std::string stiffness_report(const Model& model) {
         names[g], range, quantity_text(length[g], "m"), quantity_text(young, "Pa"));
     if (const double delay = longest_delay(model, g, extent); delay > 0)
       text += fmt::format("  friction follows the normal force with a delay of up to {}\n", quantity_text(delay, "s"));
+  }
+  return text;
+}
+
+std::string separation_report(const case_::Case& input, const std::vector<std::string>& groups) {
+  constexpr std::size_t kNamed = 8;
+  std::string text;
+  for (const case_::Contact& entry : input.contacts) {
+    if (entry.interaction != case_::Interaction::none) continue;
+    std::size_t pairs = 0;
+    std::string names;
+    for (std::size_t a = 0; a < groups.size(); ++a) {
+      for (std::size_t b = a; b < groups.size(); ++b) {
+        if (contact_entry(input, groups[a], groups[b]) != &entry || ++pairs > kNamed) continue;
+        names += (names.empty() ? "" : ", ") +
+                 (a == b ? groups[a] + " with itself" : fmt::format("{} with {}", groups[a], groups[b]));
+      }
+    }
+    if (pairs > kNamed) names += fmt::format(" and {} more pairs", pairs - kNamed);
+    text += fmt::format("no interaction ({}, line {}): {}\n", entry.origin.key, entry.origin.line,
+                        names.empty() ? "no pair follows this entry" : names);
   }
   return text;
 }

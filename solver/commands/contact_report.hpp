@@ -1,7 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "case/case.hpp"
 #include "commands/advice.hpp"
 #include "model/model.hpp"
 
@@ -11,6 +13,9 @@ namespace breccia {
 /// A line for each group with a law: H, m, of its finest body, the stiffness penalty/H, Pa/m, of its laws, and the
 /// recommended penalty.
 [[nodiscard]] std::string stiffness_report(const Model& model);
+
+/// A line for each [[contact]] that keeps groups from interacting, with the pairs of groups that it rules.
+[[nodiscard]] std::string separation_report(const case_::Case& input, const std::vector<std::string>& groups);
 
 /// Groups with curved surfaces whose contact points, inside the faces, lie so far behind the corners that bodies come
 /// noticeably nearer before they feel each other. Edges and corners proper, flat surfaces: nothing. O(elements).

@@ -56,6 +56,8 @@ const char* name_of(case_::ValueType type) {
       return "choice";
     case path:
       return "path";
+    case column:
+      return "column";
     case axes:
       return "axes";
     case text_list:

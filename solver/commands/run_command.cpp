@@ -41,7 +41,7 @@ Provenance provenance_of(const RunCommand& asked, const case_::Case& input, cons
   Provenance provenance = collect_provenance(BRECCIA_VERSION, asked.command_line);
   provenance.ranks = world.size();
   if (start) {
-    provenance.inputs = inputs_of_started(asked.case_file, input.mesh.file, start->checkpoint);
+    provenance.inputs = inputs_of_started(asked.case_file, input, start->checkpoint);
     provenance.parents = with_parent(start->file, start->checkpoint);
     return provenance;
   }
@@ -49,6 +49,7 @@ Provenance provenance_of(const RunCommand& asked, const case_::Case& input, cons
   std::set<std::filesystem::path> files;
   if (!input.mesh.file.empty()) files.insert(input.mesh.file);
   if (geometry_file(input.mesh.file) == GeometryFile::script) files.merge(scan_geo(input.mesh.file).files);
+  for (const case_::DataFiles::One& one : input.data.files) files.insert(one.file);
   for (const std::filesystem::path& file : files) provenance.inputs.push_back(input_file(file));
   return provenance;
 }

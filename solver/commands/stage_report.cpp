@@ -179,7 +179,8 @@ RoughEntries rough_entries(const case_::Case& input) {
   for (const case_::Joint& j : input.joints) {
     const bool breaks =
         !j.inside() || std::any_of(input.materials.begin(), input.materials.end(), [&](const case_::Material& m) {
-          return m.group == j.groups[0] && m.joints == case_::JointPlacement::breakable;
+          const bool ruled = m.group == j.groups[0] || j.inside_any || m.group == case_::every_group;
+          return ruled && m.joints == case_::JointPlacement::breakable;
         });
     if (breaks && j.tensile_strength > 0) add("joint", j.groups, j.friction, kSteadyAtOnce);
   }

@@ -129,7 +129,8 @@ fs::path checkpoint_of(const fs::path& case_file, const case_::Start& start) {
 case_::ParentCase parent_of(const Checkpoint& checkpoint, const fs::path& file) {
   std::map<std::string, std::string> files;
   for (const Provenance::Input& input : inputs_in(checkpoint.provenance)) files[input.file] = input.sha256;
-  return case_::parent_case(checkpoint.case_text, file, std::move(files));
+  return case_::parent_case(checkpoint.case_text, file, std::move(files),
+                            unpack_whole(checkpoint.whole_model).volume_groups);
 }
 
 /// Those of this rank's elements.
@@ -254,7 +255,7 @@ void refuse_folder_of_state(const fs::path& results, const StartState& start) {
                             "another folder (-o)", ""});
 }
 
-std::vector<Provenance::Input> inputs_of_started(const fs::path& case_file, const fs::path& mesh,
+std::vector<Provenance::Input> inputs_of_started(const fs::path& case_file, const case_::Case& input,
                                                  const Checkpoint& checkpoint) {
   std::vector<Provenance::Input> inputs{input_file(case_file)};
   const auto add = [&](const Provenance::Input& added) {
@@ -262,7 +263,8 @@ std::vector<Provenance::Input> inputs_of_started(const fs::path& case_file, cons
     if (std::none_of(inputs.begin(), inputs.end(), is_it)) inputs.push_back(added);
   };
   for (const Provenance::Input& input : inputs_in(checkpoint.provenance)) add(input);
-  if (!mesh.empty()) add(input_file(mesh));
+  if (!input.mesh.file.empty()) add(input_file(input.mesh.file));
+  for (const case_::DataFiles::One& one : input.data.files) add(input_file(one.file));
   return inputs;
 }
 

@@ -46,10 +46,9 @@ struct StartState {
 void refuse_folder_of_state(const std::filesystem::path& results, const StartState& start);
 
 /// What a run that starts from a checkpoint was made from: its case, and what the state was made from, with the hashes
-/// of that time, since no mesh is read. @param mesh  that the case names; its content is that of the state's
+/// of that time, since no mesh is read; the content of a mesh that it names is that of the state's.
 [[nodiscard]] std::vector<Provenance::Input> inputs_of_started(const std::filesystem::path& case_file,
-                                                               const std::filesystem::path& mesh,
-                                                               const Checkpoint& checkpoint);
+                                                               const case_::Case& input, const Checkpoint& checkpoint);
 
 /// The parents of a run that goes on from a checkpoint: that one and its own.
 [[nodiscard]] std::vector<Provenance::Parent> with_parent(const std::filesystem::path& file,

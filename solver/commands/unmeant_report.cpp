@@ -177,7 +177,7 @@ Advice pressed_without_friction(const case_::Case& input, const Model& model) {
   Advice advice;
   if (!is_pressed(input) || num_solids(input, model) < kBetweenTwo) return advice;
   for (const case_::Contact& entry : input.contacts) {
-    if (entry.friction > 0) continue;
+    if (entry.friction > 0 || entry.interaction == case_::Interaction::none) continue;
     advice.push_back(fmt::format(
         "Contact between \"{}\" and \"{}\" (line {}) has no friction: nothing but the unevenness of the meshes holds a "
         "body sideways that is pressed between wider flat ones; it may slide, and be driven out where they end. A "

@@ -42,12 +42,16 @@ ContactSurface::ContactSurface(const ContactSearchParams& search, const ContactM
       clusters_(model.mesh, model.topology),
       carries_(carrying_faces(search, model)),
       first_point_(carries_.size(), {-1, -1, -1, -1}),
-      any_law_(std::any_of(model.params.laws.begin(), model.params.laws.end(),
-                           [](const ContactLaw& law) { return law.active(); })) {
+      presses_(model.mesh.volume_groups.size(), false),
+      pressed_(presses_) {
   const auto groups = model.mesh.volume_groups.size();
   DEMAND(search.breakable.size() == groups && model.params.laws.size() == groups * groups &&
              at(model.params.num_groups) == groups,
          std::to_string(groups) + " volume groups");
+  for (std::size_t law = 0; law < model.params.laws.size(); ++law) {
+    if (model.params.laws[law].active()) presses_[law / groups] = pressed_[law % groups] = true;
+  }
+  any_law_ = std::find(presses_.begin(), presses_.end(), true) != presses_.end();
 }
 
 double ContactSurface::choose_contactors(const ContactSearchParams& search) {
@@ -83,8 +87,7 @@ void ContactSurface::break_faces(std::span<const Topology::Face> sides, std::vec
 }
 
 bool ContactSurface::has_law(Index slot, Index other) const {
-  const auto group_of = [&](Index s) { return model_.local.block_group[at(s / kLanes)]; };
-  return model_.params.law(group_of(slot), group_of(other)).active();
+  return model_.params.law(static_cast<Index>(group_of(slot)), static_cast<Index>(group_of(other))).active();
 }
 
 bool ContactSurface::may_touch(Index point, Index contactor) const {

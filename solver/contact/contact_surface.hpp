@@ -44,6 +44,9 @@ class ContactSurface {
   void break_faces(std::span<const Topology::Face> sides, std::vector<Index>& changed);
 
   [[nodiscard]] bool any_law() const { return any_law_; }
+  /// Whether points on the element of a slot may touch anything, and anything it.
+  [[nodiscard]] bool may_press(Index slot) const { return presses_[group_of(slot)]; }
+  [[nodiscard]] bool may_be_pressed(Index slot) const { return pressed_[group_of(slot)]; }
   /// Whether the groups of two slots have a contact law.
   [[nodiscard]] bool has_law(Index slot, Index other) const;
   /// @param point, contactor  indices of ContactState
@@ -56,11 +59,16 @@ class ContactSurface {
   [[nodiscard]] const ContactModel& model() const { return model_; }
 
  private:
+  [[nodiscard]] std::size_t group_of(Index slot) const {
+    return static_cast<std::size_t>(model_.local.block_group[static_cast<std::size_t>(slot / kLanes)]);
+  }
+
   ContactModel model_;
   ContactState& contact_;
   CornerClusters clusters_;
   std::vector<std::uint8_t> carries_;              ///< (elements) a bit a face: may carry points
   std::vector<std::array<Index, 4>> first_point_;  ///< (elements)
+  std::vector<bool> presses_, pressed_;  ///< (volume groups) its points, its elements have a law with some group
   bool any_law_;
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 namespace breccia {
 
@@ -78,28 +77,24 @@ void CoupleSearch::search(const NodalState& nodes, double step_length, std::span
   moved_.restart();
 }
 
-/// All points and contactors of evaluated elements, and what may be in couples with these.
+/// All points and contactors of evaluated elements, and what may be in couples with these, of groups with a law.
 void CoupleSearch::choose(std::span<const std::uint8_t> current) {
-  if (contact_.relevant.empty()) {
-    chosen_.points = contact_.order;
-    chosen_.contactors.resize(contact_.contactors.size());
-    std::iota(chosen_.contactors.begin(), chosen_.contactors.end(), 0);
-    chosen_.corners = corners_;
-    return;
-  }
-  find_roles(current);
+  const bool alone = contact_.relevant.empty();
+  if (!alone) find_roles(current);
   chosen_.contactors.clear();
   chosen_.corners.clear();
   for (std::size_t c = 0; c < corners_.size(); ++c) {
     const Index slot = contact_.contactors[c];
-    if (!contact_.evaluated(slot) && chosen_.roles[at(slot)] == HaloRole::none) continue;
+    if (!surface_.may_be_pressed(slot)) continue;
+    if (!alone && !contact_.evaluated(slot) && chosen_.roles[at(slot)] == HaloRole::none) continue;
     chosen_.contactors.push_back(static_cast<Index>(c));
     chosen_.corners.push_back(corners_[c]);
   }
   chosen_.points.clear();
   for (const Index p : contact_.order) {
     const Index slot = contact_.points[at(p)].slot;
-    if (contact_.evaluated(slot) || chosen_.roles[at(slot)] == HaloRole::contactor_and_points)
+    if (!surface_.may_press(slot)) continue;
+    if (alone || contact_.evaluated(slot) || chosen_.roles[at(slot)] == HaloRole::contactor_and_points)
       chosen_.points.push_back(p);
   }
 }

@@ -95,6 +95,7 @@ void FaceRelease::free_corners_of(const Topology::Face& side) {
 void FaceRelease::couple_new_points(std::size_t first) {
   for (std::size_t p = first; p < contact_.points.size(); ++p) {
     const auto point = static_cast<Index>(p);
+    if (!surface_.may_press(contact_.points[p].slot)) continue;
     search_.contactors_of(search_.position(contact_.points[p]), contactors_);
     for (const Index contactor : contactors_) {
       if (surface_.may_touch(point, contactor)) made_.push_back({point, contactor});

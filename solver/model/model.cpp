@@ -31,8 +31,8 @@ void take_materials(const case_::Case& input, Model& model) {
   model.density.resize(groups);
   model.discretisation = discretisations(input, model.mesh.volume_groups);
   model.breakable.resize(groups);
-  for (const case_::Material& material : input.materials) {
-    const std::size_t g = index(group_index(model.mesh.volume_groups, material.group));
+  for (std::size_t g = 0; g < groups; ++g) {
+    const case_::Material& material = material_in(input, model.mesh.volume_groups[g]);
     model.elastic[g] = elastic_params(material);
     model.density[g] = material.density;
     model.breakable[g] = material.joints == case_::JointPlacement::breakable;

@@ -39,9 +39,7 @@ case_::Joint law_of(const case_::Case& input, const std::vector<std::string>& na
 /// Joints can fail inside of a breakable group, and at any interface that has a strength.
 bool can_fail(const case_::Case& input, const case_::Joint& entry) {
   if (!entry.inside()) return entry.tensile_strength > 0;
-  return std::any_of(input.materials.begin(), input.materials.end(), [&](const case_::Material& m) {
-    return m.joints == case_::JointPlacement::breakable && m.group == entry.groups[0];
-  });
+  return material_in(input, entry.groups[0]).joints == case_::JointPlacement::breakable;
 }
 
 void include_class(WholeModel::JointGroups& groups, Index number) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/error.hpp"
 #include "case/groups.hpp"
 #include "model/model.hpp"
 #include "model/nodal_loads.hpp"
@@ -118,11 +119,7 @@ struct Pair {
   double young = 0;    ///< Pa, of the softer one
 };
 Pair pair_of(const case_::Case& input, const std::string& group, const std::string& other) {
-  const case_::Material *a = nullptr, *b = nullptr;
-  for (const case_::Material& material : input.materials) {
-    if (material.group == group) a = &material;
-    if (material.group == other) b = &material;
-  }
+  const case_::Material *a = case_::material_of(input, group), *b = case_::material_of(input, other);
   if (a == nullptr || b == nullptr || !(a->density > 0 && b->density > 0)) return {};
   return {a->density * b->density / (a->density + b->density), std::min(a->young, b->young)};
 }
@@ -152,6 +149,12 @@ void sort_unique(std::vector<Index>& nodes) {
 }
 
 }  // namespace
+
+const case_::Material& material_in(const case_::Case& input, const std::string& group) {
+  const case_::Material* material = case_::material_of(input, group);
+  DEMAND(material != nullptr, group);
+  return *material;
+}
 
 ElasticParams elastic_params(const case_::Material& material) {
   ElasticParams params =
@@ -203,7 +206,7 @@ ContactParams contact_params(const case_::Case& input, const std::vector<std::st
   for (std::size_t a = 0; a < groups.size(); ++a) {
     for (std::size_t b = 0; b < groups.size(); ++b) {
       const case_::Contact* entry = contact_entry(input, groups[a], groups[b]);
-      if (entry == nullptr) continue;
+      if (entry == nullptr || entry->interaction == case_::Interaction::none) continue;
       if (carries_points(*entry, groups[a], groups[b]))
         params.laws[a * groups.size() + b] = contact_law(*entry, pair_of(input, groups[a], groups[b]));
       params.initial_overlaps[a * groups.size() + b] = initial_overlap_of(entry->initial_overlap);
@@ -216,9 +219,8 @@ ContactParams contact_params(const case_::Case& input, const std::vector<std::st
 
 std::vector<Discretisation> discretisations(const case_::Case& input, const std::vector<std::string>& groups) {
   std::vector<Discretisation> kinds(groups.size(), Discretisation::own_nodes);
-  for (const case_::Material& material : input.materials) {
-    if (material.joints == case_::JointPlacement::none)
-      kinds[static_cast<std::size_t>(group_index(groups, material.group))] = Discretisation::shared_nodes;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (material_in(input, groups[g]).joints == case_::JointPlacement::none) kinds[g] = Discretisation::shared_nodes;
   }
   return kinds;
 }

@@ -14,6 +14,9 @@ namespace breccia {
 
 /// Case entries turned into the parameter structs of the kernels: the border that the case does not cross.
 
+/// The material of a volume group. @pre it has one (case_::check_groups)
+[[nodiscard]] const case_::Material& material_in(const case_::Case& input, const std::string& group);
+
 [[nodiscard]] ElasticParams elastic_params(const case_::Material& material);
 
 /// @param size         h of k = p/h, m

@@ -98,7 +98,7 @@ std::string table_of(const char* caption, const std::vector<Column>& columns) {
 
 std::string model(const RunRecord& run) {
   std::vector<Column> materials, joints, contacts;
-  for (const case_::Material& material : run.materials) add(materials, material.group, written_keys(material));
+  for (const case_::Material& material : run.materials) add(materials, name_of(material.group), written_keys(material));
   for (const case_::Joint& joint : run.joints) add(joints, name_of(joint.groups), written_keys(joint));
   for (const case_::Contact& contact : run.contacts) add(contacts, name_of(contact.groups), written_keys(contact));
   return tables(table_of("Materials", materials) + table_of("Joints", joints) + table_of("Contacts", contacts));

@@ -125,6 +125,39 @@ TEST(InitialOverlap, that_is_relaxed_gives_no_energy_and_the_same_bits_on_any_nu
   }
 }
 
+TEST(Interaction, that_is_none_lets_bodies_pass_each_other_with_the_same_bits_whatever_searches_on_any_ranks) {
+  const Scratch scratch;
+  const std::string file = cubes(scratch);
+  std::string text = read_text(scratch.path("cubes.toml"));
+  const std::string penalty = "penalty = \"40 GPa\"\n";
+  text.replace(text.find(penalty), penalty.size(), "interaction = \"none\"\n");
+  const std::string apart = scratch.write("apart.toml", text);
+  const Outcome check = call("check " + apart);
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  EXPECT_NE(check.out.find("no interaction (contact[0], line 16): lower with upper\n"), std::string::npos) << check.out;
+  EXPECT_EQ(check.out.find("overlap"), std::string::npos) << check.out;
+  std::string hash;
+  for (const auto& [ranks, algorithm] : std::vector<std::pair<int, std::string>>{
+           {1, "packed_tree"}, {1, "ms"}, {1, "brute_force"}, {2, "packed_tree"}, {3, "sorted_grid"}}) {
+    const std::string folder = scratch.path(algorithm + std::to_string(ranks)).string();
+    const std::string arguments = "run " + apart + " --progress none --set detection.verify=true" +
+                                  " --set detection.algorithm=" + algorithm + " -o '" + folder + "'";
+    const Outcome outcome = ranks == 1 ? call(arguments) : call_ranks(ranks, arguments);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const json summary = json::parse(read_text(folder + "/summary.json"));
+    if (hash.empty()) hash = summary["state_hash"];
+    EXPECT_EQ(summary["state_hash"], hash) << ranks << " ranks, " << algorithm;
+    constexpr double kUpper = 0.5 * 2000 * 1e-6 * 0.01;  // J, of the cube that flies
+    EXPECT_NEAR(summary["energy"]["kinetic"].get<double>() / kUpper, 1.0, 1e-9);
+  }
+  // Keys beside it would have no effect.
+  const Outcome refused = call("check " + file + " --set contact[0].interaction=none");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("cubes.toml:18: contact[0].penalty: has no effect beside interaction = \"none\""),
+            std::string::npos)
+      << refused.err;
+}
+
 /// Runs a case in a folder of its own. @return  where its history is
 std::string history_of(const Scratch& scratch, const std::string& file) {
   const std::string folder = scratch.path("run").string();

@@ -32,6 +32,17 @@ TEST(ContactPairs, TheEntryThatNamesMoreGroupsHoldsAndOfTheseTheLaterOne) {
   EXPECT_EQ(contact_of(document, "a", "a", &own), "contact[4]");
 }
 
+TEST(ContactPairs, AGroupWithoutAMaterialOfItsOwnHasThatOfAny) {
+  const QTemporaryDir scratch;
+  Document document(scratch.filePath("state"));
+  open_case(document, scratch, {});
+  EXPECT_EQ(material_entry_of(document, "b"), "material[1]");
+  EXPECT_EQ(material_entry_of(document, "d"), "");
+  document.set_value("material[0].group", "\"*\"");
+  EXPECT_EQ(material_entry_of(document, "b"), "material[1]");
+  EXPECT_EQ(material_entry_of(document, "d"), "material[0]");
+}
+
 TEST(ContactPairs, WithoutAnEntryThereIsNoContactUntilOneIsGiven) {
   const QTemporaryDir scratch;
   Document document(scratch.filePath("state"));

@@ -61,7 +61,9 @@ TEST(Document, SavedInAnotherFolderNamesTheSameFiles) {
   const auto path = [&](const char* name) { return scratch.filePath(name); };
   const QByteArray text =
       "[start]\nfrom = \"../run\"\n[mesh]\nfile = \"a.geo\"  # mine\n[[insitu.pipeline]]\nname = \"stress\"\n"
-      "[[insitu.pipeline]]\nname = \"see.py\"\n[[insitu.pipeline]]\nname = \"/abs/see.py\"\n";
+      "[[insitu.pipeline]]\nname = \"see.py\"\n[[insitu.pipeline]]\nname = \"/abs/see.py\"\n"
+      "[[stage]]\ngravity = [0, 0, { csv = { file = \"g.csv\" } }]\n[[stage.constraint]]\nvelocity = { x = { csv = "
+      "[{ file = \"x.csv\", time = 2 }] } }\n[[stage.pressure]]\nvalue.csv.file = \"p.csv\"\n";
   QFile file(path("here/case.toml"));
   ASSERT_TRUE(file.open(QIODevice::WriteOnly) && file.write(text) == text.size());
   file.close();
@@ -70,6 +72,7 @@ TEST(Document, SavedInAnotherFolderNamesTheSameFiles) {
   ASSERT_EQ(document.save_as(path("there/deep/case.toml")), "");
   QByteArray moved = text;
   moved.replace("../run", "../../run").replace("a.geo", "../../here/a.geo").replace("\"see.py", "\"../../here/see.py");
+  for (const char* name : {"g.csv", "x.csv", "p.csv"}) moved.replace(name, QByteArray("../../here/") + name);
   EXPECT_EQ(bytes_of(path("there/deep/case.toml")), moved);
   EXPECT_FALSE(document.modified());
   ASSERT_NE(document.save_as(path("here/case.toml/case.toml")), "");

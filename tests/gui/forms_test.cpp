@@ -182,6 +182,10 @@ TEST(Forms, APairOfGroupsGetsItsContactFromTheMatrix) {
   EXPECT_TRUE(table->item(2, 0)->text().endsWith("0.55"));
   EXPECT_FALSE(table->item(0, 0)->text().endsWith("0.55"));
   EXPECT_TRUE(desk.window->document().problems().empty());
+  desk.window->document().add_entry("contact", "between = [\"glass\", \"glass\"]\ninteraction = \"none\"\n");
+  EXPECT_EQ(table->item(0, 0)->text(), "do not meet");
+  EXPECT_TRUE(desk.window->document().problems().empty());
+  desk.window->document().undo_stack().undo();
   EXPECT_TRUE(wait_until([&] { return desk.window->view().scene().has_data(); }, 60000));
   desk.picture("contacts");
 }

@@ -117,6 +117,36 @@ TEST(FunctionEdit, PartsAddUpAndAreTakenOut) {
   EXPECT_EQ(kinds_of(edit), QStringList{"linear"}) << "the last one stays";
 }
 
+TEST(FunctionEdit, PointsOfAFileHaveTheirColumnsAndUnitsInTheFormAndTheirCurve) {
+  const Edited edited(with_pressure("\"8 MPa\""));
+  QFile file(edited.scratch.filePath("history.csv"));
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  file.write("t [us];x;p\n0;0;1\n10;0;5\n");
+  file.close();
+  FunctionEdit edit = edited.edit();
+  edit.choose(0, "csv");
+  EXPECT_EQ(text_of(edit), with_pressure("{ csv = { file = \"history.csv\" } }"));
+  const auto row = [&](const char* name) {
+    for (const FunctionNumber& number : edit.numbers(edit.parts(0)[0]))
+      if (number.row->name() == name) return number;
+    ADD_FAILURE() << name;
+    return FunctionNumber();
+  };
+  edit.set_number(row("value"), "3");
+  edit.set_number(row("value_unit"), "MPa");
+  EXPECT_EQ(text_of(edit), with_pressure("{ csv = { file = \"history.csv\", value = 3, value_unit = \"MPa\" } }"));
+  edit.set_number(row("value"), "p");
+  EXPECT_EQ(text_of(edit), with_pressure("{ csv = { file = \"history.csv\", value = \"p\", value_unit = \"MPa\" } }"));
+  ASSERT_TRUE(edit.problems().empty()) << edit.problems().front().text();
+  const std::vector<PlotLine> lines = edit.curves();
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0].y.front(), 1e6);
+  EXPECT_EQ(lines[0].y.back(), 5e6);
+  edit.set_number(row("file"), "gone.csv");
+  ASSERT_EQ(edit.problems().size(), 1U);
+  EXPECT_NE(edit.problems()[0].text().find("csv.file: the file does not exist"), std::string::npos);
+}
+
 TEST(FunctionEdit, PointsOfATableAreEditedAndPasted) {
   const Edited edited(with_pressure("{ table = [[0, 0], [\"5 us\", \"1 MPa\"]] }"));
   FunctionEdit edit = edited.edit();

@@ -73,10 +73,9 @@ TEST(Groups, AVolumeNamedAsEveryGroupIsRefused) {
   const Case c = read_text(complete +
                            "[[material]]\ngroup = \"*\"\nyoung = 1e9\npoisson = 0.2\ndensity = 1\n"
                            "joints = \"none\"\n");
-  EXPECT_THAT(
-      text(check_groups(c, {starred, surfaces})),
-      HasSubstr(
-          "mesh: a volume group of the mesh has the name that stands for every group in [[joint]] and [[contact]]"));
+  EXPECT_THAT(text(check_groups(c, {starred, surfaces})),
+              HasSubstr("mesh: a volume group of the mesh has the name that stands for every group in [[material]], "
+                        "[[joint]] and [[contact]]"));
 }
 
 TEST(Groups, AGaugeOnANameOfAGroupAndABodyIsRefusedAsNotClear) {

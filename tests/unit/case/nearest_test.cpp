@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace breccia::case_ {
 namespace {
 
@@ -27,6 +29,18 @@ TEST(Nearest, CandidatesComeInOrderOfDistance) {
 
 TEST(Nearest, OfEquallyNearOnesTheOneWithTheSameCapitalsIsFirst) {
   EXPECT_EQ(likely_meant("GPpa", std::vector<std::string>{"pPa", "GPa"}), "GPa");
+}
+
+TEST(Nearest, OfManyCandidatesADozenAreNamedAndTheOthersCounted) {
+  std::vector<std::string> many;
+  for (int i = 0; i < 20; ++i) many.push_back("g" + std::to_string(i));
+  const std::string all = nearest_words("g1", many);
+  EXPECT_EQ(std::count(all.begin(), all.end(), ','), 19);
+  for (int i = 20; i < 3000; ++i) many.push_back("g" + std::to_string(i));
+  const std::string some = nearest_words("g1", many);
+  EXPECT_TRUE(some.starts_with("g1, ")) << some;
+  EXPECT_TRUE(some.ends_with(" and 2988 more")) << some;
+  EXPECT_EQ(std::count(some.begin(), some.end(), ','), 11);
 }
 
 TEST(Nearest, AWordFarFromAllCandidatesIsNotGuessed) {

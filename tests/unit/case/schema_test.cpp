@@ -53,6 +53,9 @@ std::vector<Problem> problems_of(Key key, std::string_view written) {
     case ValueType::path:
       as(std::filesystem::path{});
       break;
+    case ValueType::column:
+      as(FileColumn{});
+      break;
     case ValueType::axes:
       as(std::array<bool, 3>{});
       break;

@@ -55,5 +55,30 @@ TEST(contact_surface, groups_without_a_law_make_no_couples) {
   EXPECT_FALSE(together.contact().couples.empty());
 }
 
+TEST(contact_surface, groups_without_any_law_are_left_out_of_the_search_whatever_it_is) {
+  BreakingBoxes model(test::joined(test::box({1, 1, 1}, 1.0), test::box({1, 1, 1}, 1.0, {0.9, 0, 0})));
+  model.params.laws = {{}, kLaw, {}, {}};  // points of the first against elements of the second
+  std::vector<ContactCouple> first;
+  for (const auto algorithm :
+       {detection::Algorithm::ms, detection::Algorithm::ms_slices, detection::Algorithm::sorted_grid,
+        detection::Algorithm::packed_tree, detection::Algorithm::brute_force}) {
+    model.search.algorithm = algorithm;
+    OwnedContact one_way = model.make();
+    one_way.update(model.state, 0, 0);
+    EXPECT_FALSE(one_way.contact().couples.empty());
+    if (first.empty()) first = one_way.contact().couples;
+    EXPECT_EQ(one_way.contact().couples, first);
+  }
+  ContactState contact;
+  const ContactSurface surface(model.search, {model.params, model.mesh, model.topology, model.local}, contact);
+  const auto slot_in = [&](Index group) {
+    Index e = 0;
+    while (model.mesh.element_group[at(e)] != group) ++e;
+    return model.local.slot_of_element[at(e)];
+  };
+  EXPECT_TRUE(surface.may_press(slot_in(0)) && surface.may_be_pressed(slot_in(1)));
+  EXPECT_FALSE(surface.may_press(slot_in(1)) || surface.may_be_pressed(slot_in(0)));
+}
+
 }  // namespace
 }  // namespace breccia
