@@ -7,6 +7,8 @@
 namespace breccia::test {
 namespace {
 
+constexpr std::size_t kEvery = 9;  // a sample of the table, on two ranks
+
 constexpr const char* kHead = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n";
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -43,6 +45,10 @@ void write_wrong_files(const Scratch& scratch) {
   scratch.write("computed.geo", "c = \"true\";\nSystem Str(c);\nPoint(1) = {0, 0, 0};\n");
   scratch.write("writes.geo", "Printf(\"x\") > \"" + scratch.path("written").string() + "\";\n");
   scratch.write("exits.geo", "Exit;\n");
+  std::filesystem::create_directories(scratch.path("sub"));
+  std::filesystem::create_directories(scratch.path("folder.csv"));
+  ::mkfifo(scratch.path("pipe.csv").c_str(), 0600);
+  for (const auto& [name, content] : wrong_data_files()) scratch.write(name, content);
   scratch.write("endless.geo", "For i In {1:1000000000}\n  x = i;\nEndFor\n");
 }
 
@@ -74,9 +80,13 @@ TEST_P(WrongInput, is_refused_with_its_message_and_exit_code) {
         << "'" << fragment << "' is missing in: " << said;
   }
   EXPECT_EQ(said.find("terminate called"), std::string::npos);
+  const std::string mark = "breccia: error:";
+  EXPECT_EQ(outcome.err.find(mark), outcome.err.rfind(mark)) << "more than one message: " << outcome.err;
 }
 
 INSTANTIATE_TEST_SUITE_P(, WrongInput, testing::ValuesIn(wrongs()), [](const auto& one) { return one.param.name; });
+INSTANTIATE_TEST_SUITE_P(OfKeys, WrongInput, testing::ValuesIn(wrong_keys()),
+                         [](const auto& one) { return one.param.name; });
 
 TEST(WrongInputOfRanks, is_refused_with_one_message_by_two_of_them) {
   const Scratch scratch;
@@ -103,6 +113,24 @@ TEST(WrongInputOfRanks, is_refused_with_one_message_by_two_of_them) {
   }
 }
 
+TEST(WrongInputOfRanks, of_keys_and_data_files_is_refused_with_one_message_by_two_of_them) {
+  const Scratch scratch;
+  write_wrong_files(scratch);
+  std::size_t tried = 0;
+  for (const Wrong& wrong : wrong_keys()) {
+    if (wrong.arguments != "check CASE" || tried++ % kEvery != 0) continue;
+    const std::string file = scratch.write("two.toml", changed(wrong.from, wrong.to));
+    const Outcome outcome = call_ranks(2, "run " + file + " -o '" + scratch.path("run").string() + "'");
+    EXPECT_EQ(outcome.exit_code, kInput) << wrong.name << ": " << outcome.err;
+    for (const std::string& fragment : wrong.message)
+      EXPECT_NE(outcome.err.find(replaced(fragment, "case.toml", "two.toml")), std::string::npos)
+          << wrong.name << ": " << fragment << " is missing in: " << outcome.err;
+    const std::string mark = "breccia: error:";
+    EXPECT_EQ(outcome.err.find(mark), outcome.err.rfind(mark)) << wrong.name << ": told by both: " << outcome.err;
+  }
+  EXPECT_GT(tried, 100u);
+}
+
 TEST(WrongInputOfRanks, is_refused_where_the_environment_of_one_of_them_is_wrong) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase), run = scratch.path("run").string();
@@ -126,7 +154,10 @@ TEST(WrongInputOfTheSystem, a_stack_limit_that_is_too_low_is_told_or_raised) {
   EXPECT_EQ(raised.exit_code, 0) << raised.err;
 }
 
-TEST(WrongInputTable, holds_at_least_150_cases) { EXPECT_GE(wrongs().size(), 150u); }
+TEST(WrongInputTable, holds_at_least_250_cases) {
+  EXPECT_GE(wrongs().size(), 150u);
+  EXPECT_GE(wrong_keys().size(), 100u);
+}
 
 }  // namespace
 }  // namespace breccia::test

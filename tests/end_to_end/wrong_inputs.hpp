@@ -2,6 +2,7 @@
 
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace breccia::test {
@@ -22,5 +23,11 @@ inline void PrintTo(const Wrong& wrong, std::ostream* stream) { *stream << wrong
 
 /// At least 150 of them.
 const std::vector<Wrong>& wrongs();
+
+/// At least 100 more: keys that stand for others, files of other programs, and what people type; each ends with one
+/// message.
+const std::vector<Wrong>& wrong_keys();
+/// Files that these name beside the case: names and contents.
+const std::vector<std::pair<std::string, std::string>>& wrong_data_files();
 
 }  // namespace breccia::test
