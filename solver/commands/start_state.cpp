@@ -259,10 +259,10 @@ std::vector<Provenance::Input> inputs_of_started(const fs::path& case_file, cons
                                                  const Checkpoint& checkpoint) {
   std::vector<Provenance::Input> inputs{input_file(case_file)};
   const auto add = [&](const Provenance::Input& added) {
-    const auto is_it = [&](const Provenance::Input& input) { return input.file == added.file; };
+    const auto is_it = [&](const Provenance::Input& known) { return known.file == added.file; };
     if (std::none_of(inputs.begin(), inputs.end(), is_it)) inputs.push_back(added);
   };
-  for (const Provenance::Input& input : inputs_in(checkpoint.provenance)) add(input);
+  for (const Provenance::Input& before : inputs_in(checkpoint.provenance)) add(before);
   if (!input.mesh.file.empty()) add(input_file(input.mesh.file));
   for (const case_::DataFiles::One& one : input.data.files) add(input_file(one.file));
   return inputs;
