@@ -367,7 +367,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"contact_twice",
               "between = [\"*\", \"*\"]",
               "between = [\"*\", \"*\"]\npenalty = 1\n[[contact]]\nbetween = [\"*\", \"*\"]",
-              {"contact[1].between: the pair has a [[contact]] already, in line 55"}},
+              {"contact[1].between: the pair has a [[contact]] already, in line 58"}},
         Wrong{"contact_missing_for_fragments",
               "between = [\"*\", \"*\"]",
               "between = [\"projectile\", \"*\"]\npenalty = 1\n[[contact]]\nbetween = [\"frame\", \"*\"]",
