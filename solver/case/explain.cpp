@@ -1,6 +1,7 @@
 #include "case/explain.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include "base/error.hpp"
 #include "case/nearest.hpp"
@@ -100,6 +101,14 @@ std::string topic_text(std::string_view word, const Topic& topic) {
   return std::string(word) + "\n" + wrapped(std::string(topic.answer), "  ") + "  " + padded("keys", 8) + keys + "\n";
 }
 
+/// A word as names of keys are written: "Strain rate" is strain_rate.
+std::string as_name(std::string_view word) {
+  std::string name(word);
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return c == ' ' || c == '-' ? '_' : static_cast<char>(std::tolower(c)); });
+  return name;
+}
+
 /// Keys in whose name a word stands, then those whose help has it; of many the first, and how many more there are.
 std::vector<std::string> keys_that_say(const std::string& word) {
   constexpr std::size_t kShortest = 4, kMost = 8;
@@ -154,6 +163,9 @@ std::string explain(std::string_view key) {
   }
 
   if (const Topic* topic = topic_of(key)) return topic_text(key, *topic);
+  for (const Key& row : schema())
+    if (row.name() == as_name(key)) by_name += (by_name.empty() ? "" : "\n") + text_of(row);
+  if (!by_name.empty()) return by_name;
 
   std::vector<std::string> paths;
   for (const std::string& path : similar_keys(pattern_of(key), 3)) paths.push_back(plain_path(path));

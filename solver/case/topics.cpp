@@ -212,12 +212,20 @@ bool is_among(std::string_view words, std::string_view word) {
 
 }  // namespace
 
-std::span<const Topic> topics() { return table; }
+const std::vector<Topic>& topics() {
+  static const std::vector<Topic> all = [] {
+    std::vector<Topic> rows(table.begin(), table.end());
+    for (const std::span<const Topic> part : {physics_topics(), program_topics()})
+      rows.insert(rows.end(), part.begin(), part.end());
+    return rows;
+  }();
+  return all;
+}
 
 const Topic* topic_of(std::string_view word) {
   const std::string wanted = plain(word);
   const std::string_view several = wanted;
-  for (const Topic& topic : table) {
+  for (const Topic& topic : topics()) {
     for (const std::string_view ending : {"", "s", "es"}) {
       if (several.size() > ending.size() && several.ends_with(ending) &&
           is_among(topic.words, several.substr(0, several.size() - ending.size())))

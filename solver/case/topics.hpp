@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace breccia::case_ {
 
@@ -12,7 +13,12 @@ struct Topic {
   std::string_view keys;    ///< "a|b|c", plain paths of sections and keys that tell more
 };
 
-[[nodiscard]] std::span<const Topic> topics();
+[[nodiscard]] const std::vector<Topic>& topics();
+
+/// Parts of that table: words of mechanics, materials, loads and results; of computers, files and other programs. Where
+/// Breccia has no such thing the answer says so, and which way leads there.
+[[nodiscard]] std::span<const Topic> physics_topics();
+[[nodiscard]] std::span<const Topic> program_topics();
 
 /// The topic of a word, however it is written ("Process_Zones"), or nullptr. O(topics), throws nothing but bad_alloc.
 [[nodiscard]] const Topic* topic_of(std::string_view word);
