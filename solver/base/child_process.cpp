@@ -23,6 +23,7 @@
 #include "base/confinement.hpp"
 #include "base/control_group.hpp"
 #include "base/error.hpp"
+#include "base/file_access.hpp"
 #include "base/interruption.hpp"
 
 namespace breccia {
@@ -124,6 +125,7 @@ void keep_descriptors(int report, int words, int kept) {
     ::_exit(0);
   };
   try {
+    if (limits.confined && !limits.readable.empty()) (void)limit_file_access(limits.readable);
     confine(Refusal::error);
     prepare();
     confine(Refusal::ends_process);
@@ -239,6 +241,15 @@ std::uint64_t memory_of_machine() {
   const std::uint64_t bytes = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * page();
   const std::uint64_t allowed = memory_of_control_group();
   return allowed > 0 ? std::min(bytes, allowed) : bytes;
+}
+
+std::uint64_t available_memory() {
+  std::ifstream file("/proc/meminfo");
+  std::string name, unit;
+  for (std::uint64_t kilobytes = 0; file >> name >> kilobytes && std::getline(file, unit);) {
+    if (name == "MemAvailable:") return std::min(kilobytes * 1024, memory_of_machine());
+  }
+  return memory_of_machine();
 }
 
 }  // namespace breccia

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -13,7 +14,10 @@ struct ChildLimits {
   double seconds = 3600;    ///< wall time
   std::uint64_t bytes = 0;  ///< memory beyond what it starts with; 0: no limit
   bool confined = true;     ///< no right to run, write or connect (base/confinement.hpp)
-  int kept = -1;            ///< a descriptor of the parent's that it keeps, as kKeptDescriptor; -1: none
+  /// Confined, it reads these files and what is beneath these folders alone, where the kernel can see to that
+  /// (base/file_access.hpp); empty: all files.
+  std::vector<std::filesystem::path> readable{};
+  int kept = -1;  ///< a descriptor of the parent's that it keeps, as kKeptDescriptor; -1: none
 };
 
 inline constexpr int kKeptDescriptor = 4;  ///< number of ChildLimits::kept in the child
@@ -38,8 +42,9 @@ struct ChildEnd {
 /// Runs `work` in a forked copy of this process and returns its result. A crash, endless loop or memory bomb there ends
 /// the child alone. It has its own stdin (empty), stdout and stderr (kept for `text`), no other descriptor of the
 /// parent's than limits.kept, no core dump, and dies with the parent. Signals have their default meaning in it.
-/// The work may read files, take memory up to the limit and start threads; with limits.confined it may not write, run,
-/// connect or signal (confinement.hpp). Whatever it does ends as one of ChildEnd::Kind, never in this process.
+/// The work may read files (limits.readable), take memory up to the limit and start threads; with limits.confined it
+/// may not write, run, connect or signal (confinement.hpp). Whatever it does ends as one of ChildEnd::Kind, never in
+/// this process.
 /// @param limits   seconds > 0, counted from the fork; bytes beyond what this process has at that moment
 /// @param prepare  runs first, with refusals as errors: libraries that open files of their own when they start go on
 /// @param work     runs in the child; what it changes there is lost. It returns any number of bytes. Neither may throw;
@@ -51,5 +56,8 @@ struct ChildEnd {
 
 /// Memory of this machine, or of the control group that this process is in where that is less; bytes.
 [[nodiscard]] std::uint64_t memory_of_machine();
+
+/// Memory that programs can still get on this machine without swapping, within that of the control group; bytes.
+[[nodiscard]] std::uint64_t available_memory();
 
 }  // namespace breccia

@@ -4,7 +4,10 @@
 
 namespace breccia {
 
-std::string printable(std::string_view text) {
+namespace {
+
+/// @param kept  control characters that stay as they are
+std::string with_written_controls(std::string_view text, std::string_view kept) {
   constexpr const char* kDigits = "0123456789abcdef";
   std::string out;
   out.reserve(text.size());
@@ -16,7 +19,9 @@ std::string printable(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto byte = static_cast<unsigned char>(text[i]);
     const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0U;
-    if (byte == '\n') {
+    if (kept.find(text[i]) != std::string_view::npos) {
+      out += text[i];
+    } else if (byte == '\n') {
       out += "\\n";
     } else if (byte == '\t') {
       out += "\\t";
@@ -31,5 +36,11 @@ std::string printable(std::string_view text) {
   }
   return out;
 }
+
+}  // namespace
+
+std::string printable(std::string_view text) { return with_written_controls(text, {}); }
+
+std::string printable_lines(std::string_view text) { return with_written_controls(text, "\n\t"); }
 
 }  // namespace breccia

@@ -9,4 +9,7 @@ namespace breccia {
 /// printed, are written as \n, \t, \x1b, ...; everything else is kept.
 [[nodiscard]] std::string printable(std::string_view text);
 
+/// Likewise of a text of several lines: line feeds and tabs are kept.
+[[nodiscard]] std::string printable_lines(std::string_view text);
+
 }  // namespace breccia

@@ -119,5 +119,27 @@ TEST(ChildProcess, MayReadButNotWriteRunOrConnect) {
   fs::remove_all(folder);
 }
 
+TEST(ChildProcess, ReadsNothingOutsideTheFoldersItIsGiven) {
+  const auto folder = scratch_folder(), other = scratch_folder();
+  std::ofstream(folder / "inside") << "text";
+  std::ofstream(other / "outside") << "secret";
+  fs::create_symlink(other / "outside", folder / "link");
+  const auto first_letter = [&](const fs::path& file) {
+    const ChildEnd end =
+        end_of([&] { return std::vector{static_cast<std::byte>(std::ifstream(file).get())}; }, {.readable = {folder}});
+    return end.result.empty() ? '?' : static_cast<char>(end.result.front());
+  };
+  constexpr char kUnread = static_cast<char>(std::char_traits<char>::eof());
+  EXPECT_EQ(first_letter(folder / "inside"), 't');
+  if (first_letter(other / "outside") == 's') GTEST_SKIP() << "this kernel has no Landlock";
+  EXPECT_EQ(first_letter(other / "outside"), kUnread);
+  EXPECT_EQ(first_letter(folder / "link"), kUnread);
+  EXPECT_EQ(first_letter(folder / ".." / other.filename() / "outside"), kUnread);
+  EXPECT_EQ(first_letter("/etc/hostname"), kUnread);
+  EXPECT_EQ(first_letter("/proc/self/environ"), kUnread);
+  fs::remove_all(folder);
+  fs::remove_all(other);
+}
+
 }  // namespace
 }  // namespace breccia

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "base/printable.hpp"
+
 namespace breccia {
 namespace {
 
@@ -31,6 +33,11 @@ TEST(Problem, does_not_print_a_line_number_without_a_file) {
 TEST(Problem, writes_control_characters_of_the_input_so_that_a_terminal_does_not_obey_them) {
   const Problem p{"a\tb.toml", 1, "ti\nme\x1b[31m", "unknown", "", std::string("1 GPa\0", 6) + "\xc2\x9b" + "\u00b5"};
   EXPECT_EQ(p.text(), "a\\tb.toml:1: ti\\nme\\x1b[31m: unknown; given: 1 GPa\\x00\\x9b\u00b5");
+}
+
+TEST(Printable, keeps_the_lines_of_a_text_and_writes_all_other_control_characters) {
+  EXPECT_EQ(printable_lines("a\tb\nc\x1b[2J\r\xc2\x9b\x7f\u00b5"), "a\tb\nc\\x1b[2J\\x0d\\x9b\\x7f\u00b5");
+  EXPECT_EQ(printable("a\tb\nc"), "a\\tb\\nc");
 }
 
 TEST(InputError, tells_the_first_fifty_problems_and_how_many_more_there_are) {

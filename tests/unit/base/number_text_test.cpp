@@ -15,5 +15,15 @@ TEST(NumberText, has_no_more_digits_than_asked_for_and_keeps_small_and_large_num
   EXPECT_EQ(number_text(-std::numeric_limits<double>::max(), 17), "-1.7976931348623157e+308");
 }
 
+TEST(Rounded, keeps_the_digits_asked_for_of_every_finite_number) {
+  EXPECT_EQ(rounded(1234.5, 3), 1230);
+  EXPECT_EQ(rounded(-9996, 3), -10000);
+  EXPECT_EQ(rounded(0.0, 3), 0);
+  constexpr double kDenormal = 1e-320, kSmallest = std::numeric_limits<double>::denorm_min();
+  EXPECT_EQ(rounded(kDenormal, 3), kDenormal);
+  EXPECT_EQ(rounded(kSmallest, 3), kSmallest);
+  EXPECT_EQ(rounded(-kDenormal, 1), -kDenormal);
+}
+
 }  // namespace
 }  // namespace breccia
