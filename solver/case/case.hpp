@@ -81,7 +81,7 @@ struct MeshSource {
   double size = 0;              ///< m, edge of the elements of a solid; 0: automatic
   bool glue = false;            ///< conforming interfaces between volumes are glued
   bool repair_inverted = true;  ///< swap two corners of negative elements; false refuses them
-  double time_limit = 3600;     ///< s, wall, for reading a file
+  double time_limit = 0;        ///< s, wall, for reading a file; 0: by what asks for it
   double memory_limit = 0.8;    ///< share of this machine's memory, for reading a file
   bool trust = false;           ///< asked for on the command line alone: a script may run programs and write files
   Origin origin;

@@ -3,16 +3,20 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <fstream>
+#include <cctype>
 #include <sstream>
 
+#include "base/bounded_file.hpp"
 #include "base/error.hpp"
 #include "base/geometry_file.hpp"
+#include "case/units.hpp"
 
 namespace breccia::case_ {
 namespace {
 
 constexpr std::size_t longest_shown = 60;
+/// Bytes of a case at most: that of thirty tables of 10,000 points. Its values take a hundred times as much memory.
+constexpr std::uint64_t kLargestCase = 8'000'000;
 
 Node converted(const toml::node& node, const std::string& file) {
   Node out;
@@ -90,6 +94,25 @@ void refuse_deep_keys(std::string_view toml, const std::string& file) {
   }
 }
 
+std::string_view line_of(std::string_view text, int number) {
+  for (; number > 1 && !text.empty(); --number) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  return text.substr(0, text.find('\n'));
+}
+
+/// Whether a value on this line is a number with a comma: "young = 0,2".
+bool has_comma_in_number(std::string_view line) {
+  const auto is_digit = [&](std::size_t i) {
+    return i < line.size() && std::isdigit(static_cast<unsigned char>(line[i])) != 0;
+  };
+  for (std::size_t at = line.find('='); at != std::string_view::npos; at = line.find('=', at + 1)) {
+    std::size_t i = std::min(line.find_first_not_of(" \t+-", at + 1), line.size());
+    const std::size_t first = i;
+    while (is_digit(i)) ++i;
+    if (i > first && i < line.size() && line[i] == ',' && is_digit(i + 1)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Node::Node() = default;
@@ -160,18 +183,14 @@ std::string Node::shown() const {
 
 Node parse_toml_file(const std::filesystem::path& path) {
   const std::string name = path.string();
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) throw InputError({name, 0, "", "the case file does not exist", "", ""});
-  if (!std::filesystem::is_regular_file(path, error))
-    throw InputError({name, 0, "", "the case is not a file", "a TOML file", ""});
-  if (geometry_file(path) != GeometryFile::unknown)
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored) && geometry_file(path) != GeometryFile::unknown)
     throw InputError({name, 0, "", "is a geometry or a mesh, not a case",
                       "a case (.toml) that names it: [mesh] with file = \"" + path.filename().string() + "\"", ""});
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream content;
-  if (stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
-  if (!stream) throw InputError({name, 0, "", "the case file cannot be read", "", ""});
-  return parse_toml_text(content.str(), name);
+  const BoundedFile content = read_bounded(path, kLargestCase);
+  if (content.problem == kDoesNotExist) throw InputError({name, 0, "", "the case file does not exist", "", ""});
+  if (!content.problem.empty()) throw InputError({name, 0, "", "the case " + content.problem, "a TOML file", ""});
+  return parse_toml_text(content.text, name);
 }
 
 Node parse_toml_text(std::string_view text, const std::string& name) {
@@ -183,8 +202,10 @@ Node parse_toml_text(std::string_view text, const std::string& name) {
     root.line = 0;
     return root;
   } catch (const toml::parse_error& e) {
-    throw InputError(
-        {name, static_cast<int>(e.source().begin.line), "", "not TOML: " + std::string(e.description()), "", ""});
+    const int line = static_cast<int>(e.source().begin.line);
+    if (has_comma_in_number(line_of(text, line)))
+      throw InputError({name, line, "", "not TOML: a comma in a number", kDecimalPoint, ""});
+    throw InputError({name, line, "", "not TOML: " + std::string(e.description()), "", ""});
   }
 }
 

@@ -50,12 +50,12 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "mesh.inverted", .type = choice, .fallback = "repair", .choices = "refuse|repair",
      .help = "What happens to elements of negative volume: two corners are swapped, or the mesh is refused with their "
              "ids.", .example = "\"refuse\""},
-    {.path = "mesh.time_limit", .type = number, .unit = "s", .fallback = "3600", .range = positive,
-     .help = "Wall time after which reading or meshing a file is given up.", .example = "\"2 h\"",
-     .fixed_by_state = may_change},
+    {.path = "mesh.time_limit", .type = number, .unit = "s", .fallback = "auto", .range = positive, .word = "auto",
+     .help = "Wall time after which reading or meshing a file is given up. auto: an hour, a minute in `check` and "
+             "`mesh`.", .example = "\"2 h\"", .fixed_by_state = may_change},
     {.path = "mesh.memory_limit", .type = number, .fallback = "0.8", .range = positive_share,
-     .help = "Share of the machine's memory that reading or meshing a file may take.", .example = "0.5",
-     .fixed_by_state = may_change},
+     .help = "Share of the machine's memory that reading or meshing a file may take, if it is available.",
+     .example = "0.5", .fixed_by_state = may_change},
 
     {.path = "mesh.raster", .type = section,
      .help = "Generator of boxes in a raster, each box a raster of cubes of 24 tetrahedra. Surfaces are <group>.x0, "
@@ -112,7 +112,7 @@ constexpr auto model_keys = std::to_array<Key>({
              "its. Elements of constant strain are too stiff where it flows without change of volume: a strip footing "
              "carries 45 % too much on five elements under half of it, 28 % on ten.",
      .example = "\"drucker_prager\"", .fixed_by_state = "what the elements remember is of this law"},
-    {.path = "material[].young", .type = number, .unit = "Pa", .required = true, .range = positive,
+    {.path = "material[].young", .type = number, .unit = "Pa", .required = true, .range = stiffnesses,
      .help = "Young's modulus.", .example = "\"75 GPa\""},
     {.path = "material[].poisson", .type = number, .required = true,
      .range = {.lower = -1, .upper = 0.5, .lower_open = true, .upper_open = true}, .help = "Poisson's ratio.",
@@ -120,7 +120,7 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "material[].density", .type = number, .unit = "kg/m3", .required = true, .range = densities,
      .help = "Mass density at rest.", .example = "\"2456 kg/m3\"",
      .fixed_by_state = "the momentum of the state belongs to its masses"},
-    {.path = "material[].viscosity", .type = number, .unit = "Pa s", .fallback = "0", .range = not_negative,
+    {.path = "material[].viscosity", .type = number, .unit = "Pa s", .fallback = "0", .range = viscosities,
      .help = "Viscosity mu of the stress 2 mu D added to the elastic one, D the rate of deformation.",
      .example = "\"10 Pa s\""},
     {.path = "material[].friction_angle", .type = number, .unit = "rad", .fallback = "0", .range = angle,
@@ -170,7 +170,7 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "joint[].points", .type = choice, .fallback = "nodal", .choices = "nodal|mid_edge",
      .help = "Integration points of a joint: its corners or the middles of its edges.", .example = "\"mid_edge\"",
      .fixed_by_state = "the damage of the state is that of these points"},
-    {.path = "joint[].penalty", .type = number, .unit = "Pa", .range = positive,
+    {.path = "joint[].penalty", .type = number, .unit = "Pa", .range = stiffnesses,
      .help = "Penalty p of the joint stiffness k = p/h before the peak. Give this or penalty_factor.",
      .example = "\"26.6 GPa\""},
     {.path = "joint[].penalty_factor", .type = number, .fallback = "100", .range = positive,
@@ -243,7 +243,7 @@ constexpr auto model_keys = std::to_array<Key>({
     {.path = "contact[].interaction", .type = choice, .fallback = "contact", .choices = "contact|none",
      .help = "none: the groups do not meet: each passes through the other, also what fractures free later; of a group "
              "with itself, its bodies and fragments. Such an entry has no other keys.", .example = "\"none\""},
-    {.path = "contact[].penalty", .type = number, .unit = "Pa", .range = positive,
+    {.path = "contact[].penalty", .type = number, .unit = "Pa", .range = stiffnesses,
      .help = "Contact stress at overlap 1; needed but with interaction none. The overlap is g/H, g in m, H the mean "
              "inradius of the elements of the body that is entered (a fifth of an edge), so the stiffness is "
              "penalty/H, Pa/m; `breccia check` prints both for every pair. Where flat faces meet and both carry "
@@ -312,7 +312,7 @@ constexpr auto model_keys = std::to_array<Key>({
      .example = "[0, 0, \"1 m\"]"},
     {.path = "sphere.radius", .type = number, .unit = "m", .required = true, .range = positive, .help = "Its radius.",
      .example = "\"1 m\""},
-    {.path = "sphere.penalty", .type = number, .unit = "Pa", .required = true, .range = positive,
+    {.path = "sphere.penalty", .type = number, .unit = "Pa", .required = true, .range = stiffnesses,
      .help = "Contact stress at overlap 1, as of a contact.", .example = "\"400 MPa\"",
      .fixed_by_state = may_change},
 

@@ -10,6 +10,8 @@ namespace breccia::case_::ranges {
 inline constexpr Range positive{.lower = 0, .lower_open = true};
 // Far beyond what any solid has, so that the time step neither vanishes nor loses its digits.
 inline constexpr Range densities{.lower = 1e-6, .upper = 1e12};
+inline constexpr Range stiffnesses{.lower = 0, .upper = 1e20, .lower_open = true};
+inline constexpr Range viscosities{.lower = 0, .upper = 1e20};
 inline constexpr Range areas{.lower = 0, .upper = 1e6, .lower_open = true};
 inline constexpr Range durations{.lower = 0, .upper = 1e10, .lower_open = true};
 inline constexpr Range not_negative{.lower = 0};

@@ -278,6 +278,12 @@ std::string with_plain_signs(std::string_view text) {
   return plain;
 }
 
+/// Whether a number goes on with a comma: "0,2".
+bool has_comma(std::string_view behind_digits) {
+  return behind_digits.size() > 1 && behind_digits[0] == ',' &&
+         std::isdigit(static_cast<unsigned char>(behind_digits[1])) != 0;
+}
+
 std::string units_of(std::string_view unit) {
   const Named* n = named(dimension_of(unit));
   const std::string own(unit);
@@ -308,6 +314,7 @@ Quantity parse_quantity(std::string_view given) {
   if (text.starts_with('+')) text.remove_prefix(1);
   const NumberText number = number_at_start(text);
   if (number.length == 0) throw UnitError("does not begin with a number", "a number and a unit, e.g. \"26.6 GPa\"");
+  if (has_comma(text.substr(number.length))) throw UnitError("has a comma in its number", kDecimalPoint);
   const std::string_view unit = trimmed(text.substr(number.length));
   const Scale scale = unit.empty() ? Scale{} : UnitParser(unit).parse();
 

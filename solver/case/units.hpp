@@ -49,6 +49,9 @@ class UnitError : public std::runtime_error {
 /// Magnitudes below this lose digits, and what is computed with them more.
 inline constexpr double smallest_magnitude = 1e-307;
 
+/// What a number is written with, for messages.
+inline constexpr const char* kDecimalPoint = "a decimal point and no other separators, such as 0.2 or \"0.06 ms\"";
+
 /// Which magnitudes a number may have, for messages.
 [[nodiscard]] std::string magnitudes_help();
 

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <fstream>
-#include <iterator>
+#include <cstdint>
 #include <string_view>
+#include <utility>
 
+#include "base/bounded_file.hpp"
+#include "base/geometry_file.hpp"
 #include "base/trimmed.hpp"
 
 namespace breccia {
@@ -87,14 +89,16 @@ class Scanner {
  public:
   explicit Scanner(bool keep_output) : keep_output_(keep_output) {}
 
-  void read(const std::filesystem::path& file) {
+  /// @param from  where it is included: file and line of the problem with it
+  void read(const std::filesystem::path& file, const Problem& from) {
     if (!visited_.insert(file.lexically_normal().string()).second) return;
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(file, ignored)) return;  // a folder cannot be read, a pipe has no end
-    std::ifstream in(file, std::ios::binary);
-    if (!in) return;
+    if (visited_.size() > kMostFiles)
+      return refuse_unread(file, "is one of more than " + std::to_string(kMostFiles) + " files", from);
+    const BoundedFile content = read_bounded(file, bytes_left_);
+    if (!content.problem.empty()) return refuse_unread(file, content.problem, from);
+    bytes_left_ -= content.text.size();
     result.files.insert(file.lexically_normal());
-    const std::string source{std::istreambuf_iterator<char>(in), {}};
+    const std::string& source = content.text;
     const std::vector<Token> tokens = tokens_of(source);
     const bool outermost = visited_.size() == 1;
     for (std::size_t i = 0; i < tokens.size(); ++i) {
@@ -104,7 +108,8 @@ class Scanner {
         add({tokens[i + 2].value, {}, {}, {}});
       if (i + 1 < tokens.size() && tokens[i + 1].kind == Token::Kind::text) {
         if (is(tokens[i], "Name")) add({{}, tokens[i + 1].value, {}, {}});
-        if (is(tokens[i], "Include") || is(tokens[i], "Merge")) read(beside(file, tokens[i + 1].value));
+        if (is(tokens[i], "Include") || (is(tokens[i], "Merge") && may_be_script(tokens[i + 1].value)))
+          read(beside(file, tokens[i + 1].value), {file.string(), tokens[i].line, tokens[i].value, {}, {}, {}});
       }
       if (outermost && leave_out(file, source, tokens, i)) break;
       refuse(file, tokens[i]);
@@ -118,6 +123,12 @@ class Scanner {
   static std::filesystem::path beside(const std::filesystem::path& file, const std::string& name) {
     const std::filesystem::path path(name);
     return path.is_absolute() ? path : file.parent_path() / path;
+  }
+
+  /// What gmsh takes for another kind by its name it does not run.
+  static bool may_be_script(const std::string& name) {
+    const GeometryFile kind = geometry_file(name);
+    return kind == GeometryFile::script || kind == GeometryFile::unknown;
   }
 
   /// One that is told a second time is the same.
@@ -226,6 +237,14 @@ class Scanner {
     return text + source.substr(from) + "\n";
   }
 
+  /// A file that is not there is left for gmsh to name.
+  void refuse_unread(const std::filesystem::path& file, const std::string& why, const Problem& from) {
+    if (why == kDoesNotExist) return;
+    Problem problem = from;
+    problem.what = file.string() + " " + why;
+    result.problems.push_back(std::move(problem));
+  }
+
   void refuse(const std::filesystem::path& file, const Token& token) {
     constexpr std::array kRefused{"SystemCall", "NonBlockingSystemCall", "OnelabRun", "Exit", "Abort"};
     if (std::none_of(kRefused.begin(), kRefused.end(), [&](const char* word) { return token.value == word; })) return;
@@ -234,6 +253,9 @@ class Scanner {
                                ""});
   }
 
+  /// Files that a script is made of, and bytes of all of them together; far beyond those that programs write.
+  static constexpr std::size_t kMostFiles = 1000;
+  std::uint64_t bytes_left_ = 64'000'000;
   std::set<std::string> visited_;
   std::vector<Change> changes_;       ///< of the script itself, in their order
   bool changes_what_is_run_ = false;  ///< statements are left out
@@ -245,7 +267,7 @@ class Scanner {
 
 GeoScan scan_geo(const std::filesystem::path& file, bool keep_output) {
   Scanner scanner(keep_output);
-  scanner.read(file);
+  scanner.read(file, {file.string(), 0, {}, {}, {}, {}});
   return std::move(scanner.result);
 }
 

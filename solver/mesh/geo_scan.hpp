@@ -34,7 +34,8 @@ struct GeoScan {
 /// Exit would end the reading without a word. In the script itself the statements with which people end it (Save,
 /// Print, Draw, Sleep, and everything from an Exit or Abort on) are left out of `without_output`, which keeps the
 /// lines and names the files that it includes, and its folder, in full: it may be read from anywhere.
-/// O(size), throws nothing; a file that cannot be read is left for gmsh to name.
+/// Refused as well: an included file that is no regular one or may not be read, more files or bytes than scripts have.
+/// A file that is not there is left for gmsh to name. O(size), throws nothing but bad_alloc.
 /// @param keep_output  what writes stays in `without_output`: the script is trusted
 [[nodiscard]] GeoScan scan_geo(const std::filesystem::path& file, bool keep_output = false);
 

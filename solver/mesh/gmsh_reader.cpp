@@ -19,9 +19,11 @@
 #include <string_view>
 #include <utility>
 
+#include "base/bounded_file.hpp"
 #include "base/child_process.hpp"
 #include "base/error.hpp"
 #include "base/geometry_file.hpp"
+#include "base/number_text.hpp"
 #include "mesh/bdf_scan.hpp"
 #include "mesh/geo_scan.hpp"
 #include "mesh/gmsh_model.hpp"
@@ -117,6 +119,8 @@ Problem problem_of(const GmshSource& source, const std::string& message) {
       return {in_memory ? source.file.string() : file, line, "", "gmsh: " + message.substr(digits_end + 2), "", ""};
     }
   }
+  if (message.starts_with("Unable to open file"))
+    return {source.file.string(), 0, "", "gmsh: " + message, kReadAdvice, ""};
   if (message.starts_with("Error loading"))
     return {source.file.string(),
             0,
@@ -266,9 +270,10 @@ RawMesh read_sets(const GmshSource& source, GeometryFile kind) {
   return kind == GeometryFile::unv ? read_unv(source.file, source.scale) : read_medit(source.file, source.scale);
 }
 
-/// What the child does: everything that gmsh has a hand in.
+/// What the child does: everything that depends on the content of the file.
 MeshOrProblems read_here(const GmshSource& source) {
   try {
+    check_source(source);
     const GeometryFile kind = geometry_file(source.file);
     if (kind == GeometryFile::abaqus || kind == GeometryFile::unv || kind == GeometryFile::medit)
       return read_sets(source, kind);
@@ -283,14 +288,17 @@ MeshOrProblems read_here(const GmshSource& source) {
   }
 }
 
-std::string seconds_text(double seconds) {
-  std::ostringstream text;
-  text << seconds << " s";
-  return text.str();
+/// What the child may read: the mesh, what lies beside it, and what lies in the folder of the case.
+std::vector<std::filesystem::path> readable_for(const GmshSource& source) {
+  const std::filesystem::path folder = source.file.parent_path();
+  std::vector<std::filesystem::path> readable{source.file, folder.empty() ? "." : folder};
+  if (!source.case_folder.empty()) readable.push_back(source.case_folder);
+  return readable;
 }
 
 /// Why a child brought no mesh.
-Problem failure_of(const GmshSource& source, const ChildEnd& end) {
+/// @param memory  that it was allowed, bytes
+Problem failure_of(const GmshSource& source, const ChildEnd& end, std::uint64_t memory) {
   const std::string file = source.file.string();
   const std::string said =
       is_plain(end.text) || end.kind == ChildEnd::Kind::forbidden ? ": " + end.text : std::string();
@@ -302,15 +310,15 @@ Problem failure_of(const GmshSource& source, const ChildEnd& end) {
               0,
               "mesh.time_limit",
               "the mesh was not read in time",
-              "a coarser mesh, or a larger mesh.time_limit",
-              seconds_text(source.time_limit)};
+              "a coarser mesh, or a larger mesh.time_limit in a case (by default a minute for check and mesh)",
+              number_text(source.time_limit, 6) + " s"};
     case ChildEnd::Kind::out_of_memory:
       return {file,
               0,
               "mesh.memory_limit",
-              "reading the mesh takes more memory than it may" + said,
-              "a coarser mesh, or a larger mesh.memory_limit (share of the machine's memory)",
-              std::to_string(source.memory_limit)};
+              "reading the mesh takes more memory than it may, " + bytes_text(memory) + said,
+              "a coarser mesh, or a larger mesh.memory_limit (share of the machine's memory), within what is available",
+              number_text(source.memory_limit, 3)};
     case ChildEnd::Kind::interrupted:
       return {"", 0, "", "interrupted while the mesh was read; nothing has been written", "", ""};
     case ChildEnd::Kind::not_confined:
@@ -336,16 +344,18 @@ Problem failure_of(const GmshSource& source, const ChildEnd& end) {
 }  // namespace
 
 FinishedMesh read_gmsh(const GmshSource& source) {
-  check_source(source);
+  const double share = source.memory_limit * static_cast<double>(memory_of_machine());
+  ChildLimits limits;
+  limits.bytes = std::min(static_cast<std::uint64_t>(share), available_memory());
+  check_file(source, limits.bytes);
   std::optional<ScriptInMemory> script;
   if (is_script(source)) script.emplace();
-  ChildLimits limits;
   limits.seconds = source.time_limit;
-  limits.bytes = static_cast<std::uint64_t>(source.memory_limit * static_cast<double>(memory_of_machine()));
   limits.confined = !source.trust;
+  limits.readable = readable_for(source);
   if (script) limits.kept = script->descriptor();
   const ChildEnd end = run_in_child(limits, open_gmsh, [&] { return bytes_of(read_here(source)); });
-  if (end.kind != ChildEnd::Kind::finished) throw InputError(failure_of(source, end));
+  if (end.kind != ChildEnd::Kind::finished) throw InputError(failure_of(source, end, limits.bytes));
   MeshOrProblems read = mesh_of(end.result);
   if (auto* problems = std::get_if<std::vector<Problem>>(&read)) throw InputError(std::move(*problems));
   auto& raw = std::get<RawMesh>(read);

@@ -11,6 +11,7 @@ namespace breccia {
 /// A mesh file, or a geometry script or a solid that gmsh meshes.
 struct GmshSource {
   std::filesystem::path file;  ///< of base/geometry_file.hpp: a script, a solid, a mesh of gmsh or of another program
+  std::filesystem::path case_folder;  ///< files beneath it may be included, as those beneath the file's; empty: none
   std::map<std::string, double>
       parameters;               ///< numbers set before the .geo runs: names it takes from DefineConstant, asks for
                                 ///< by Exists, or shows under a `Name "Group/label"`
@@ -32,8 +33,10 @@ struct GmshSource {
 /// gmsh's. A .geo is meshed on one thread, from gmsh's fixed random seed: the same file and parameters give the same
 /// mesh; so is a solid, whose groups mesh/gmsh_solids.hpp tells. A STEP file states the unit of its lengths.
 ///
-/// gmsh works in a child process without the right to run, write or connect to anything (base/confinement.hpp), unless
-/// the source is trusted, and within the limits of time and memory: whatever a file does to it ends in an InputError.
+/// The file is read by a child process without the right to run, write or connect to anything (base/confinement.hpp),
+/// and to read anything outside the folders of the file and of the case (base/file_access.hpp, where the kernel has
+/// Landlock), unless the source is trusted; and within the limits of time and memory, never more than the memory that
+/// is available: whatever a file does to the child ends in an InputError.
 /// A file FILE.opt beside a mesh, which gmsh takes commands from, is refused unless the source is trusted.
 ///
 /// Throws InputError with all problems of the step that fails: file missing, unreadable or of another kind; parameters

@@ -24,8 +24,9 @@ using namespace solids;
 void set_size(const GmshSource& source) {
   std::array<double, 6> box{};
   gmsh::model::getBoundingBox(-1, -1, box[0], box[1], box[2], box[3], box[4], box[5]);
-  const double volume = (box[3] - box[0]) * (box[4] - box[1]) * (box[5] - box[2]);
-  const double size = source.size > 0 ? source.size / source.scale : 0.1 * std::cbrt(volume);
+  const Vec3 extent(box[3] - box[0], box[4] - box[1], box[5] - box[2]);
+  demand_extent(source, extent);
+  const double size = source.size > 0 ? source.size / source.scale : 0.1 * std::cbrt(extent.prod());
   for (const char* name : {"Mesh.CharacteristicLengthMin", "Mesh.CharacteristicLengthMax"})
     gmsh::option::setNumber(name, size);
   gmsh::option::setNumber("Mesh.CharacteristicLengthFromPoints", 0);

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <utility>
 #include <vector>
 
+#include "base/bounded_file.hpp"
 #include "base/error.hpp"
 #include "base/geometry_file.hpp"
 #include "mesh/geo_scan.hpp"
@@ -66,7 +68,7 @@ void demand_solid(const GmshSource& source, GeometryFile kind, std::ifstream& in
   }
 }
 
-/// gmsh does not complain about a missing file, so files are looked at first.
+/// gmsh does not complain about a missing file, so files are checked first.
 void demand_readable(const GmshSource& source) {
   const std::string file = source.file.string();
   const auto refuse = [&](const std::string& what, const std::string& allowed, const std::string& given) {
@@ -74,14 +76,6 @@ void demand_readable(const GmshSource& source) {
   };
   std::error_code ignored;
   const GeometryFile kind = geometry_file(source.file);
-  if (kind == GeometryFile::unknown) {
-    const std::string remedy = remedy_for(source.file);
-    refuse("is no kind of mesh file that can be read" + (remedy.empty() ? remedy : ": " + remedy), kGeometryFiles,
-           source.file.extension().string());
-  }
-  if (!std::filesystem::exists(source.file, ignored)) refuse("the file does not exist", "", "");
-  if (std::filesystem::is_directory(source.file, ignored)) refuse("is a folder", kGeometryFiles, "");
-  if (!std::filesystem::is_regular_file(source.file, ignored)) refuse("is not a file", kGeometryFiles, "");
   std::ifstream in(source.file, std::ios::binary);
   if (!in) refuse("the file cannot be read", "a file with read permission", "");
   if (in.peek() == std::ifstream::traits_type::eof()) refuse("the file is empty", "", "");
@@ -93,10 +87,14 @@ void demand_readable(const GmshSource& source) {
   if (is_solid(kind)) return demand_solid(source, kind, in);
   if (kind != GeometryFile::mesh) return;  // their readers demand what is needed
 
+  constexpr std::size_t kHead = 512;  // more than comes before the version
+  std::string head(kHead, '\0');
+  in.read(head.data(), kHead);
+  std::istringstream words(head.substr(0, static_cast<std::size_t>(in.gcount())));
   std::string heading;
   double version = 0;
-  in >> heading >> version;
-  if (heading != "$MeshFormat" || !in) refuse("is not a gmsh mesh: it does not begin with $MeshFormat", "", "");
+  words >> heading >> version;
+  if (heading != "$MeshFormat" || !words) refuse("is not a gmsh mesh: it does not begin with $MeshFormat", "", "");
   if (!(version >= 2.2 && version <= 4.1)) {
     refuse("the mesh format is not supported", "2.2 to 4.1", std::to_string(version).substr(0, 3));
   }
@@ -135,7 +133,7 @@ void demand_parameters(const GmshSource& source) {
     }
     for (Problem& p : scan.problems) {
       if (source.trust && p.key != "Exit" && p.key != "Abort") continue;
-      p.allowed = kTrustAdvice;
+      p.allowed = p.key == "Include" || p.key == "Merge" ? kReadAdvice : kTrustAdvice;
       problems.push_back(std::move(p));
     }
   }
@@ -150,6 +148,27 @@ bool is_identifier(const std::string& name) {
   const auto in_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
   return !name.empty() && std::isdigit(static_cast<unsigned char>(name[0])) == 0 &&
          std::all_of(name.begin(), name.end(), in_word);
+}
+
+void check_file(const GmshSource& source, std::uint64_t memory) {
+  const std::string file = source.file.string();
+  const auto refuse = [&](const std::string& what, const std::string& allowed, const std::string& given) {
+    throw InputError(Problem{file, 0, "mesh.file", what, allowed, given});
+  };
+  std::error_code error;
+  if (geometry_file(source.file) == GeometryFile::unknown) {
+    const std::string remedy = remedy_for(source.file);
+    refuse("is no kind of mesh file that can be read" + (remedy.empty() ? remedy : ": " + remedy), kGeometryFiles,
+           source.file.extension().string());
+  }
+  const std::filesystem::file_status status = std::filesystem::status(source.file, error);
+  if (!std::filesystem::exists(status)) refuse("the file does not exist", "", "");
+  if (std::filesystem::is_directory(status)) refuse("is a folder", kGeometryFiles, "");
+  if (!std::filesystem::is_regular_file(status)) refuse("is not a file", kGeometryFiles, "");
+  const std::uintmax_t size = std::filesystem::file_size(source.file, error);
+  if (!error && size > memory)  // a mesh takes more memory than its file takes bytes
+    refuse("is too large to be read", "up to the memory that reading may take, " + bytes_text(memory),
+           bytes_text(size));
 }
 
 void check_source(const GmshSource& source) {

@@ -12,6 +12,10 @@ namespace breccia::solids {
 /// Throws InputError about the file.
 [[noreturn]] void refuse(const GmshSource& source, const std::string& what, const std::string& allowed);
 
+/// Refuses what gmsh would work on without end: a box of no thickness, or one that is longer than any length.
+/// @param extent  of the box around all of the file, in its units
+void demand_extent(const GmshSource& source, const Vec3& extent);
+
 /// Names of physical groups, each once.
 class Names {
  public:

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
@@ -132,6 +133,12 @@ void add_notes(const StlFile& file, const ClosedSurfaces& parts, const std::vect
 
 void open_stl(const GmshSource& source, std::vector<std::string>& notes) {
   const StlFile file = read_stl(source.file);
+  Vec3 lower = Vec3::Constant(std::numeric_limits<double>::max()), upper = -lower;
+  for (const Vec3& point : file.surface.points) {
+    lower = lower.cwiseMin(point);
+    upper = upper.cwiseMax(point);
+  }
+  demand_extent(source, upper - lower);
   const ClosedSurfaces parts = take_apart(file.surface, kSharp);
   if (!parts.fault.empty()) refuse(source, parts.fault, kMend);
   if (source.glue && !parts.mismatch.empty())

@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "case/problem_at.hpp"
+#include "model/memory_demand.hpp"
 #include "model/model_joints.hpp"
 #include "model/nodal_loads.hpp"
 #include "model/node_sets.hpp"
@@ -209,6 +210,7 @@ Model build_bare_model(const case_::Case& input) {
 
 Model build_model(const case_::Case& input) {
   Model model = build_bare_model(input);
+  demand_memory(input, model.mesh.num_elements(), model_bytes(model));
   take_joints(input, model);
   model.local = build_local_mesh(model.mesh, model.discretisation, model.density, {}, model.whole.node_sets);
   return model;

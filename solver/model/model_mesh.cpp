@@ -5,6 +5,7 @@
 #include "case/validate.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/raster.hpp"
+#include "model/memory_demand.hpp"
 #include "model/model.hpp"
 
 namespace breccia {
@@ -25,8 +26,10 @@ RasterSource raster_source(const case_::Raster& asked) {
   return source;
 }
 
-GmshSource gmsh_source(const case_::MeshSource& asked) {
+GmshSource gmsh_source(const case_::Case& input) {
+  const case_::MeshSource& asked = input.mesh;
   GmshSource source;
+  if (!input.file.empty()) source.case_folder = input.file.has_parent_path() ? input.file.parent_path() : ".";
   source.file = asked.file;
   source.parameters = asked.parameters;
   source.scale = asked.scale;
@@ -34,13 +37,21 @@ GmshSource gmsh_source(const case_::MeshSource& asked) {
   source.glue = asked.glue;
   source.repair_inverted = asked.repair_inverted;
   source.trust = asked.trust;
-  source.time_limit = asked.time_limit;
+  if (asked.time_limit > 0) source.time_limit = asked.time_limit;
   source.memory_limit = asked.memory_limit;
   return source;
 }
 
+double elements_of(const case_::Raster& raster) {
+  double elements = raster.single_tetrahedra ? 1.0 : 24.0;
+  for (std::size_t a = 0; a < 3; ++a) elements *= static_cast<double>(raster.cells[a]) * raster.boxes[a];
+  return elements;
+}
+
 /// What is wrong with a raster stands in the case file.
 FinishedMesh raster_of(const case_::Case& input) {
+  const double elements = elements_of(*input.mesh.raster);
+  demand_memory(input, elements, mesh_bytes(elements));
   try {
     return make_raster(raster_source(*input.mesh.raster));
   } catch (const InputError& error) {
@@ -65,7 +76,10 @@ void name_empty_groups(const MeshReport& report, std::vector<Problem>& problems)
 }  // namespace
 
 FinishedMesh read_mesh(const case_::Case& input) {
-  return input.mesh.raster ? raster_of(input) : read_gmsh(gmsh_source(input.mesh));
+  if (input.mesh.raster) return raster_of(input);
+  FinishedMesh made = read_gmsh(gmsh_source(input));
+  demand_memory(input, made.mesh.num_elements(), mesh_bytes(made.mesh.num_elements()));
+  return made;
 }
 
 FinishedMesh build_mesh(const case_::Case& input) {

@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "base/error.hpp"
 #include "base/field.hpp"
 #include "mesh/random_rotation.hpp"
 
@@ -180,6 +181,13 @@ Ritz largest_ritz(const std::vector<double>& alpha, const std::vector<double>& b
   return {solver.eigenvalues()[n - 1], beta.back() * std::abs(solver.eigenvectors()(n - 1, n - 1))};
 }
 
+/// The sums are exact and the same on all ranks, and so is the error.
+[[noreturn]] void refuse_stiffness() {
+  throw InputError({"", 0, "", "stiffness over mass leaves the range of numbers: there is no stable time step",
+                    "moduli, penalties, densities, viscosities and element sizes of materials, in the units meant",
+                    ""});
+}
+
 }  // namespace
 
 void stiffness_action(const StepModel& model, const double* u, double* y) {
@@ -208,6 +216,7 @@ double largest_eigenvalue(const StepModel& model, const RankOperations& ranks) {
     alpha.push_back(dot(q, product));
     product -= alpha.back() * q;
     beta.push_back(std::sqrt(dot(product, product)));
+    if (!std::isfinite(alpha.back()) || !std::isfinite(beta.back())) refuse_stiffness();
     // An invariant subspace is found whole: Ritz values are eigenvalues.
     const bool last = beta.back() <= 1e-10 * alpha.front() || k == kMostIterations;
     if (last || (k >= kFirstCheck && k % kCheckEvery == 0)) {

@@ -1,5 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
 
 #include "case_files.hpp"
 
@@ -67,12 +71,13 @@ TEST(WrongCases, AllProblemsComeAtOnceEachWithItsLine) {
 }
 
 TEST(WrongCases, AnAbsentFileIsNamed) {
-  const std::filesystem::path absent = "/nowhere/case.toml";
+  const CaseFolder folder;
+  const std::filesystem::path absent = folder.path() / "nowhere.toml";
   try {
     (void)read_case(absent);
     FAIL() << "an absent file was read";
   } catch (const InputError& e) {
-    EXPECT_STREQ(e.what(), "/nowhere/case.toml: the case file does not exist");
+    EXPECT_EQ(e.what(), absent.string() + ": the case file does not exist");
   }
 }
 
@@ -84,6 +89,44 @@ TEST(WrongCases, ANestedSectionIsNamedAsItIsWritten) {
 TEST(WrongCases, AFolderIsNoCase) {
   const CaseFolder folder;
   EXPECT_THROW((void)read_case(folder.path()), InputError);
+}
+
+TEST(WrongCases, WhatIsNoRegularFileOrTooLargeIsRefusedAtOnce) {
+  const CaseFolder folder;
+  const auto message = [](const std::filesystem::path& file) -> std::string {
+    try {
+      (void)read_case(file);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "accepted";
+  };
+  const std::filesystem::path pipe = folder.path() / "pipe.toml", sparse = folder.path() / "sparse.toml";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THAT(message(pipe), HasSubstr("the case is not a file"));
+  std::ofstream(sparse) << "title = \"\"";
+  std::filesystem::resize_file(sparse, 100'000'000'000);
+  EXPECT_THAT(message(sparse), HasSubstr("the case is larger (100 GB) than such a file may be"));
+  EXPECT_THAT(message("/dev/zero"), HasSubstr("the case is not a file"));
+  EXPECT_THAT(message("/proc/self/mem"), HasSubstr("the case cannot be read: Input/output error"));
+}
+
+TEST(WrongCases, ADecimalCommaIsNamed) {
+  for (const char* number : {"0,2", "0,2 # a comment", "-1,5"}) {
+    EXPECT_THAT(message_of(replaced(minimal, "poisson = 0.2", std::string("poisson = ") + number)),
+                AllOf(HasSubstr("not TOML: a comma in a number"), HasSubstr("a decimal point")))
+        << number;
+  }
+  EXPECT_THAT(message_of(replaced(minimal, "end = \"1 ms\"", "end = \"0,06 ms\"")),
+              AllOf(HasSubstr("end: has a comma in its number"), HasSubstr("a decimal point")));
+  EXPECT_THAT(message_of(minimal, {"material[0].poisson=0,2"}),
+              AllOf(HasSubstr("poisson: has a comma in its number"), HasSubstr("a decimal point")));
+}
+
+TEST(WrongCases, AStiffnessBeyondAllSolidsIsOutOfRange) {
+  for (const char* young : {"1e200", "1e21", "0"})
+    EXPECT_THAT(message_of(minimal, {std::string("material[0].young=") + young}),
+                HasSubstr("material[0].young: is out of range"));
 }
 
 TEST(WrongCases, BinaryRubbishIsRefused) {

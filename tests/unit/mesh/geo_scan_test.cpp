@@ -73,8 +73,25 @@ TEST(GeoScan, FollowsIncludedFilesOnce) {
   EXPECT_EQ(scan_geo(main).constants, (Names{"a", "b"}));
 }
 
-TEST(GeoScan, PassesOverIncludedFoldersAndPipes) {
-  EXPECT_TRUE(scan_text("Include \"\"; Merge \"/\"; Include \"..\";").problems.empty());
+TEST(GeoScan, RefusesIncludedFoldersWithTheLineThatNamesThem) {
+  const GeoScan scan = scan_text("Include \"\";\nMerge \"/\";\nInclude \"..\";\nMerge \"part.stl\";\n");
+  ASSERT_EQ(scan.problems.size(), 3u);
+  EXPECT_EQ(scan.problems[1].line, 2);
+  EXPECT_EQ(scan.problems[1].key, "Merge");
+  EXPECT_EQ(scan.problems[1].what, "/ is a folder");
+}
+
+TEST(GeoScan, RefusesMoreThanAScriptHolds) {
+  const auto folder = test::scratch_folder("scan_large");
+  const auto large = test::write_file(folder / "large.geo", "");
+  std::filesystem::resize_file(large, 100'000'000'000);
+  ASSERT_EQ(scan_geo(large).problems.size(), 1u);
+  EXPECT_NE(scan_geo(large).problems[0].what.find("is larger (100 GB) than such a file may be"), std::string::npos);
+  for (int i = 0; i < 1001; ++i)
+    test::write_file(folder / (std::to_string(i) + ".geo"), "Include \"" + std::to_string(i + 1) + ".geo\";\n");
+  const GeoScan chain = scan_geo(folder / "0.geo");
+  ASSERT_EQ(chain.problems.size(), 1u);
+  EXPECT_NE(chain.problems[0].what.find("more than 1000 files"), std::string::npos);
 }
 
 TEST(GeoScan, RefusesStatementsThatRunProgramsOrEndTheProcessSomewhere) {

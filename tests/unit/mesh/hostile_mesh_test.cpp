@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 
 #include "base/child_process.hpp"
 #include "base/error.hpp"
@@ -32,6 +33,14 @@ std::string refusal_of(const GmshSource& source) {
     return error.what();
   }
   return "accepted";
+}
+
+/// Whether a child can be kept from reading.
+bool test_kernel_limits_files() {
+  const ChildEnd end = run_in_child(
+      {.readable = {"/usr"}}, [] {},
+      [] { return std::vector<std::byte>(std::ifstream("/proc/self/status").good() ? 1 : 0); });
+  return end.result.empty();
 }
 
 std::vector<std::string> names_in(const std::filesystem::path& folder) {
@@ -147,6 +156,83 @@ TEST(HostileMesh, AFifoIsNoMesh) {
   std::filesystem::remove(source.file);
   ASSERT_EQ(::mkfifo(source.file.c_str(), 0600), 0);
   EXPECT_THAT(refusal_of(source), HasSubstr("is not a file"));
+}
+
+TEST(HostileMesh, ScriptsIncludeOnlyRegularFilesBesideThemOrTheCase) {
+  const auto outside = test::scratch_folder("include_outside"), folder = test::scratch_folder("include");
+  test::write_file(outside / "part.geo", "Point(99) = {0, 0, 0};\n");
+  test::write_file(folder / "own.geo", "Point(98) = {0, 0, 0};\n");
+  std::filesystem::create_directory(folder / "folder.geo");
+  ASSERT_EQ(::mkfifo((folder / "pipe.geo").c_str(), 0600), 0);
+  const auto message = [&](const std::string& name, const std::filesystem::path& case_folder = {}) {
+    GmshSource source;
+    source.file = test::write_file(folder / "model.geo", kBox + ("Include \"" + name + "\";\n"));
+    source.case_folder = case_folder;
+    source.time_limit = 30;
+    return refusal_of(source);
+  };
+  EXPECT_EQ(message("own.geo"), "accepted");
+  EXPECT_THAT(message("/dev/zero"), AllOf(HasSubstr("model.geo:5: Include: /dev/zero"), HasSubstr("--trust-geometry")));
+  EXPECT_THAT(message("/proc/self/mem"), HasSubstr("model.geo:5: Include: /proc/self/mem cannot be read"));
+  EXPECT_THAT(message("pipe.geo"), AllOf(HasSubstr("model.geo:5: Include: "), HasSubstr("is not a file")));
+  EXPECT_THAT(message("folder.geo"), AllOf(HasSubstr("model.geo:5: Include: "), HasSubstr("is a folder")));
+  const std::string part = (outside / "part.geo").string();
+  EXPECT_EQ(message(part, outside), "accepted");
+  if (!test_kernel_limits_files()) GTEST_SKIP() << "this kernel has no Landlock";
+  EXPECT_THAT(message(part), AllOf(HasSubstr("model.geo:5: Include: " + part + " cannot be read"),
+                                   HasSubstr("beneath the folder of the mesh or of the case")));
+}
+
+TEST(HostileMesh, AFileLargerThanTheMemoryIsRefusedBeforeItIsRead) {
+  GmshSource source;
+  source.file =
+      test::write_file(test::scratch_folder("sparse") / "model.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n");
+  std::filesystem::resize_file(source.file, 1'000'000'000);
+  source.memory_limit = 500e6 / static_cast<double>(memory_of_machine());
+  EXPECT_THAT(refusal_of(source), AllOf(HasSubstr("is too large to be read"), HasSubstr("1 GB"), HasSubstr("500 MB")));
+}
+
+TEST(HostileMesh, ASparseFileIsReadWithinItsBounds) {
+  const auto folder = test::scratch_folder("zeros");
+  for (const char* name : {"model.msh", "model.brep", "model.stp", "model.stl", "model.geo"}) {
+    GmshSource source;
+    source.file = test::write_file(folder / name, "");
+    std::filesystem::resize_file(source.file, 400'000'000);
+    source.memory_limit = 500e6 / static_cast<double>(memory_of_machine());
+    source.time_limit = 20;
+    EXPECT_THAT(refusal_of(source), HasSubstr(name));
+  }
+}
+
+/// A box of triangles with this corner opposite the origin.
+std::string stl_box(double x, double y, double z) {
+  constexpr int kFaces[12][3] = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
+                                 {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+  std::ostringstream text;
+  text << "solid box\n";
+  for (const auto& face : kFaces) {
+    text << "facet normal 0 0 0\nouter loop\n";
+    for (const int n : face)
+      text << "vertex " << (n % 4 == 1 || n % 4 == 2 ? x : 0) << ' ' << (n % 4 >= 2 ? y : 0) << ' ' << (n >= 4 ? z : 0)
+           << '\n';
+    text << "endloop\nendfacet\n";
+  }
+  text << "endsolid box\n";
+  return text.str();
+}
+
+TEST(HostileMesh, ASolidOfNoThicknessOrBeyondAllLengthsIsRefusedAtOnce) {
+  const auto folder = test::scratch_folder("extents");
+  const auto message = [&](double x, double y, double z) {
+    GmshSource source;
+    source.file = test::write_file(folder / "box.stl", stl_box(x, y, z));
+    source.time_limit = 20;
+    return refusal_of(source);
+  };
+  EXPECT_EQ(message(1, 2, 3), "accepted");
+  EXPECT_THAT(message(1, 2, 0), HasSubstr("has no thickness along z"));
+  EXPECT_THAT(message(1, 1e-12, 1), HasSubstr("has no thickness along y"));
+  EXPECT_THAT(message(1e38, 1e38, 1e38), HasSubstr("is 1e+38 long along x"));
 }
 
 // --- Damaged mesh files

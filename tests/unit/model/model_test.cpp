@@ -8,9 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "base/child_process.hpp"
 #include "mesh/geometry.hpp"
+#include "model/memory_demand.hpp"
 #include "model/parameters.hpp"
 #include "model/surfaces_to_break.hpp"
+#include "model/time_step.hpp"
 #include "support/notched_beam.hpp"
 #include "unit/model/two_boxes.hpp"
 
@@ -51,6 +54,43 @@ TEST(Model, has_no_joint_and_no_link_from_either_side_where_it_is_broken_from_th
   case_::Case whole = input;
   whole.broken_surfaces.clear();
   EXPECT_EQ(model.joints.size() + slit.size() / 2, build_model(whole).joints.size());
+}
+
+std::string refusal_of(const case_::Case& input) {
+  try {
+    const Model model = build_model(input);
+    (void)TimeStep(model);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Model, of_more_elements_than_the_memory_holds_is_refused_before_it_is_made) {
+  case_::Case input = case_::read_text(kRaster);
+  input.mesh.raster->cells = {280, 280, 280};  // 527 million elements
+  if (static_cast<double>(available_memory()) > mesh_bytes(24.0 * 280 * 280 * 280))
+    GTEST_SKIP() << "this machine holds the mesh of the example";
+  EXPECT_NE(refusal_of(input).find("mesh.raster: the model needs more memory than is available"), std::string::npos);
+}
+
+TEST(Model, whose_joints_need_more_memory_than_its_mesh_is_refused_with_the_number_of_elements) {
+  const case_::Case input = case_::read_text(kRaster);
+  const Model model = build_model(input);
+  const double elements = model.mesh.num_elements();
+  EXPECT_GT(model_bytes(model), mesh_bytes(elements));
+  EXPECT_NO_THROW(demand_memory(input, elements, model_bytes(model)));
+  EXPECT_THROW(demand_memory(input, elements, 1e18), InputError);
+}
+
+TEST(Model, without_a_stable_step_that_a_number_holds_is_refused_at_once) {
+  std::string text = kRaster;
+  text.replace(text.find("penalty_factor = 10"), 19, "penalty_factor = 1e300");
+  EXPECT_NE(refusal_of(case_::read_text(text)).find("there is no stable time step"), std::string::npos);
+  case_::Case input = case_::read_text(kRaster);
+  EXPECT_EQ(refusal_of(input), "accepted");
+  input.materials[0].young = 1e300;
+  EXPECT_NE(refusal_of(input).find("there is no stable time step"), std::string::npos);
 }
 
 TEST(SurfacesToBreak, have_breakable_joints_or_are_refused) {
