@@ -9,6 +9,7 @@
 #include "commands/commands.hpp"
 #include "output/atomic_file.hpp"
 #include "output/control.hpp"
+#include "output/folder_check.hpp"
 #include "output/insitu_config.hpp"
 #include "output/insitu_plugin.hpp"
 #include "output/run_folder.hpp"
@@ -48,7 +49,11 @@ int replay_command(const ReplayCommand& asked, const Communicator& world) {
     pipeline.parameters = settings_of(asked.parameters);
   }
   world.agree([&] {
-    if (world.is_root()) create_folder(folder);
+    if (!world.is_root()) return;
+    demand_plain_folder(RunFolder{asked.run});
+    refuse_inside(folder, RunFolder{asked.run}.extracts(), "this folder lies in that of the records to be replayed");
+    if (asked.folder.empty()) demand_plain_tree(folder);
+    create_folder(folder);
   });
   std::optional<InSituPlugin> plugin;
   world.agree([&] { plugin.emplace(case_::InSituBackend::paraview); });

@@ -16,6 +16,7 @@
 #include "commands/start_state.hpp"
 #include "domains/possible_records.hpp"
 #include "output/checkpoint_writer.hpp"
+#include "output/folder_check.hpp"
 #include "output/insitu.hpp"
 #include "output/quantity_text.hpp"
 #include "output/resumed_folder.hpp"
@@ -58,6 +59,9 @@ void check_overrides(const std::vector<std::string>& overrides) {
   std::error_code error;
   if (!fs::exists(run, error)) throw refused(run.string(), "there is no such run", "the folder of a run");
   if (fs::is_regular_file(run, error)) return {run};
+  if (!fs::is_directory(run, error))
+    throw refused(run.string(), "this is neither a folder nor a regular file", "the folder of a run");
+  demand_plain_folder(RunFolder{run});
   std::vector<fs::path> files;
   for (const CheckpointEntry& entry : checkpoints_in(RunFolder{run}.checkpoints())) files.push_back(entry.file);
   if (files.empty() && !checkpoints_in(run).empty())
@@ -152,6 +156,10 @@ int go_on(const ResumeCommand& asked, const Communicator& world) {
     if (asked.without_insitu) overrides.emplace_back("insitu={}");
     input = case_of(from, RunFolder{run}.case_file(), std::move(overrides), asked.until, options);
     world.set_patience(input.domains.patience);
+    if (world.is_root()) {
+      demand_plain_folder(RunFolder{run});
+      demand_own_run(RunFolder{run}, file, from);
+    }
     complete = is_complete(RunFolder{run}, from.model.clock.steps) && !options.extended;
     if (complete) return;
     check_stage(input, from, file, run);

@@ -18,7 +18,9 @@
 #include "model/parameters.hpp"
 #include "model/surfaces_to_break.hpp"
 #include "output/checkpoint_index.hpp"
+#include "output/folder_check.hpp"
 #include "output/quantity_text.hpp"
+#include "output/resumed_folder.hpp"
 #include "output/run_lock.hpp"
 
 namespace breccia {
@@ -101,6 +103,7 @@ fs::path checkpoint_of(const fs::path& case_file, const case_::Start& start) {
              "no at and no step beside a checkpoint", start.from.string());
     return start.from;
   }
+  demand_plain_folder(RunFolder{start.from});
   const fs::path folder = RunFolder{start.from}.checkpoints();
   const std::vector<CheckpointEntry> all = checkpoints_in(folder);
   if (all.empty() && !checkpoints_in(start.from).empty())
@@ -201,6 +204,11 @@ std::optional<StartState> read_start_state(const fs::path& case_file, const std:
   } catch (const InputError& error) {  // the same on all ranks
     refuse_start(case_file, *start, error);
   }
+  world.agree([&] {
+    std::error_code error;
+    if (world.is_root() && fs::is_directory(start->from, error))
+      demand_own_run(RunFolder{start->from}, state.file, state.checkpoint);
+  });
   world.agree([&] { state.parent = parent_of(state.checkpoint, state.file); });
   return state;
 }

@@ -32,22 +32,30 @@ int sync_descriptor(int descriptor) {
 }
 
 /// Makes the rename itself durable. Returns 0 or errno.
-int sync_folder(const std::filesystem::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return errno == EACCES ? 0 : errno;  // a folder may be writable but not readable
-  const int error = sync_descriptor(descriptor);
-  ::close(descriptor);
-  return error;
+int sync_folder(const Descriptor& folder) {
+  const int error = sync_descriptor(folder.get());
+  return error == EBADF ? 0 : error;  // a folder that is writable but not readable cannot be synced
 }
 
-/// Creates `path` with `content`, or takes the file as it is; on the disk when it returns. Returns 0 or errno.
-int write_synced(const std::filesystem::path& path, std::optional<std::span<const std::byte>> content) {
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | (content ? O_CREAT | O_TRUNC : 0), kFileMode);
-  if (descriptor < 0) return errno;
+/// Why a file cannot be written.
+struct Failure {
+  std::string reason;  ///< empty: it is written
+};
+
+Failure failure_of(int error) { return {error == 0 ? std::string() : std::generic_category().message(error)}; }
+
+/// Makes the file `name` with `content`, or opens the one that is there; on the disk when it returns. What stands under
+/// the name of a new file is removed first, so that no link is followed and no file of another name is written.
+Failure write_synced(const Descriptor& folder, const std::string& name,
+                     std::optional<std::span<const std::byte>> content) {
+  if (content) ::unlinkat(folder.get(), name.c_str(), 0);
+  Opened file = open_regular_at(folder, name, O_WRONLY | (content ? O_CREAT | O_EXCL : 0), kFileMode);
+  if (!file) return {file.reason};
+  const int descriptor = file.descriptor.release();
   int error = content ? write_all(descriptor, *content) : 0;
   if (error == 0) error = sync_descriptor(descriptor);
   if (::close(descriptor) != 0 && error == 0) error = errno;
-  return error;
+  return failure_of(error);
 }
 
 std::span<const std::byte> bytes_of(std::string_view text) {
@@ -73,43 +81,57 @@ std::filesystem::path temporary_of(const std::filesystem::path& path) {
   return path.parent_path() / ("." + path.filename().string() + ".tmp");
 }
 
-void write_files_atomically(std::span<const FileContent> files) {
+void write_files_atomically(std::span<const FileContent> files, Depth depth) {
+  if (files.empty()) return;
+  const Opened folder = open_folder_of(files.front().path, depth);
+  if (!folder) throw output_error(files.front().path, "cannot write this file: its folder: " + folder.reason);
+  write_files_atomically(folder.descriptor, files);
+}
+
+void write_files_atomically(const Descriptor& folder, std::span<const FileContent> files) {
+  const int at = folder.get();
   const FileContent* failed = nullptr;
-  int error = 0;
-  const auto attempt = [&](const FileContent& file, int result) {
-    if (result != 0 && error == 0) {
-      error = result;
+  std::string reason;
+  const auto attempt = [&](const FileContent& file, const Failure& result) {
+    if (!result.reason.empty() && failed == nullptr) {
+      reason = result.reason;
       failed = &file;
     }
   };
+  const auto temporary = [](const FileContent& file) { return temporary_of(file.path).filename().string(); };
   for (const FileContent& file : files) {
-    if (error == 0) attempt(file, write_synced(temporary_of(file.path), file.content));
+    if (failed == nullptr) attempt(file, write_synced(folder, temporary(file), file.content));
   }
   for (const FileContent& file : files) {
-    if (error == 0 && ::rename(temporary_of(file.path).c_str(), file.path.c_str()) != 0) attempt(file, errno);
+    const std::string name = file.path.filename().string();
+    if (failed == nullptr && ::renameat(at, temporary(file).c_str(), at, name.c_str()) != 0)
+      attempt(file, failure_of(errno));
   }
-  if (error != 0) {
-    for (const FileContent& file : files) ::unlink(temporary_of(file.path).c_str());
-    throw output_error(failed->path, "cannot write this file", error);
+  if (failed != nullptr) {
+    for (const FileContent& file : files) ::unlinkat(at, temporary(file).c_str(), 0);
+    throw output_error(failed->path, "cannot write this file: " + reason);
   }
-  if (files.empty()) return;
-  const std::filesystem::path& path = files.back().path;
-  error = sync_folder(path.has_parent_path() ? path.parent_path() : std::filesystem::path("."));
-  if (error != 0) throw output_error(path, "cannot write its folder to the disk", error);
+  const int error = sync_folder(folder);
+  if (error != 0) throw output_error(files.back().path, "cannot write its folder to the disk", error);
 }
 
 void sync_file(const std::filesystem::path& path) {
-  const int error = write_synced(path, {});
-  if (error != 0 && error != ENOENT) throw output_error(path, "cannot write this file to the disk", error);
+  const Opened folder = open_folder_of(path, Depth::file);
+  struct stat about {};
+  if (!folder || (::fstatat(folder.descriptor.get(), path.filename().c_str(), &about, AT_SYMLINK_NOFOLLOW) != 0 &&
+                  errno == ENOENT))
+    return;
+  const Failure failure = write_synced(folder.descriptor, path.filename().string(), {});
+  if (!failure.reason.empty()) throw output_error(path, "cannot write this file to the disk: " + failure.reason);
 }
 
-void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> content) {
+void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> content, Depth depth) {
   const FileContent file{path, content};
-  write_files_atomically({&file, 1});
+  write_files_atomically({&file, 1}, depth);
 }
 
-void write_file_atomically(const std::filesystem::path& path, std::string_view content) {
-  write_file_atomically(path, bytes_of(content));
+void write_file_atomically(const std::filesystem::path& path, std::string_view content, Depth depth) {
+  write_file_atomically(path, bytes_of(content), depth);
 }
 
 namespace {
@@ -118,8 +140,9 @@ constexpr std::size_t kReserve = 8192;  // bytes
 
 LineFile::LineFile(std::filesystem::path path, std::size_t keep) : path_(std::move(path)), size_(keep) {
   const int fresh = keep == 0 ? O_TRUNC : 0;
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | fresh, kFileMode);
-  if (descriptor_ < 0) throw output_error(path_, "cannot create this file", errno);
+  Opened file = open_regular(path_, O_WRONLY | O_CREAT | O_APPEND | fresh, Depth::file, kFileMode);
+  if (!file) throw output_error(path_, "cannot create this file: " + file.reason);
+  descriptor_ = file.descriptor.release();
   if (keep == 0) {
     reserve();
     return;
@@ -143,7 +166,7 @@ void LineFile::append_line(std::string_view line) {
   whole += '\n';
   const int error = write_all(descriptor_, bytes_of(whole));
   if (error != 0) {
-    // What cannot be cut (a device) holds no lines either, so the result does not matter.
+    // The error that is reported is that of the write, whatever becomes of this.
     [[maybe_unused]] const int cut = ::ftruncate(descriptor_, static_cast<off_t>(size_));
     throw output_error(path_, "cannot append a line to this file", error);
   }

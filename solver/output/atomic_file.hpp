@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "base/regular_file.hpp"
 
 namespace breccia {
 
@@ -20,11 +21,13 @@ void create_folder(const std::filesystem::path& path);
 
 /// Replaces the whole file `path` at once: a reader, and a run killed at any instant, sees the old content or the new
 /// one, never a part. Writes `.name.tmp` in the same folder, syncs it to the disk, renames it and syncs the folder.
+/// What stands under either name, a link above all, is replaced and not followed. @param depth  of `path`
 /// @pre one writer a file at a time; `path` names a file in a folder that exists
 /// @throws OutputError naming the file and the system's reason (disk full, no permission, missing folder, ...);
 ///         then the old file stands as it was and the temporary is gone.
-void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> content);
-void write_file_atomically(const std::filesystem::path& path, std::string_view content);
+void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> content,
+                           Depth depth = Depth::file);
+void write_file_atomically(const std::filesystem::path& path, std::string_view content, Depth depth = Depth::file);
 
 struct FileContent {
   std::filesystem::path path;
@@ -34,7 +37,9 @@ struct FileContent {
 /// Several files of one folder, which is synced once for all of them. All are on the disk before the first one is
 /// renamed, and they are renamed in the order given: an index comes after what it lists.
 /// @throws OutputError as above; no temporary stays, files renamed before the failure are complete.
-void write_files_atomically(std::span<const FileContent> files);
+void write_files_atomically(std::span<const FileContent> files, Depth depth = Depth::file);
+/// The same in an open folder, of which the last name of each path is one.  @pre files is not empty
+void write_files_atomically(const Descriptor& folder, std::span<const FileContent> files);
 
 /// Waits until a file is on the disk; one that is not there has nothing to lose. Throws OutputError.
 void sync_file(const std::filesystem::path& path);
@@ -46,8 +51,8 @@ void sync_file(const std::filesystem::path& path);
 /// loses no line that was appended.
 class LineFile {
  public:
-  /// Creates the file or empties it; or goes on behind its first bytes and drops the others. Throws OutputError, also
-  /// when the file is shorter than that.
+  /// Creates the file, a regular one in a run's folder, or empties it; or goes on behind its first bytes and drops the
+  /// others. Throws OutputError, also when the file is shorter than that.
   explicit LineFile(std::filesystem::path path, std::size_t keep = 0);
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;

@@ -14,6 +14,7 @@
 #include "output/checkpoint_columns.hpp"
 #include "output/checkpoint_index.hpp"
 #include "output/checkpoint_writer.hpp"
+#include "output/folder_tree.hpp"
 
 namespace breccia {
 namespace {
@@ -157,24 +158,24 @@ std::vector<CheckpointEntry> checkpoints_in(const fs::path& folder) {
 void remove_old_checkpoints(const fs::path& folder, std::int64_t keep, std::int64_t sound_step) {
   const std::vector<CheckpointEntry> all = checkpoints_in(folder);
   const auto sound = std::find_if(all.begin(), all.end(), [&](const auto& entry) { return entry.step <= sound_step; });
-  std::error_code ignored;  // one that cannot be removed is no harm
+  // One that cannot be removed is no harm.
   for (auto entry = all.begin() + std::min(keep, std::ssize(all)); entry != all.end(); ++entry) {
-    if (entry != sound) fs::remove(entry->file, ignored);
+    if (entry != sound) (void)remove_file(entry->file, Depth::subfolder);
   }
+  std::error_code ignored;
   static const std::regex unfinished(R"(\.step_\d+\.h5\.tmp)");
   std::vector<fs::path> left_over;
   for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end; entry.increment(ignored)) {
     if (std::regex_match(entry->path().filename().string(), unfinished)) left_over.push_back(entry->path());
   }
-  for (const fs::path& file : left_over) fs::remove(file, ignored);
+  for (const fs::path& file : left_over) (void)remove_file(file, Depth::subfolder);
 }
 
 void remove_checkpoints_after(const fs::path& folder, std::int64_t step) {
   for (const CheckpointEntry& entry : checkpoints_in(folder)) {
-    std::error_code error;
-    if (entry.step > step) fs::remove(entry.file, error);
-    if (error)
-      throw output_error(entry.file, "cannot remove this checkpoint, which is ahead of the run", error.value());
+    const std::string why = entry.step > step ? remove_file(entry.file, Depth::subfolder) : std::string();
+    if (!why.empty())
+      throw output_error(entry.file, "cannot remove this checkpoint, which is ahead of the run: " + why);
   }
 }
 

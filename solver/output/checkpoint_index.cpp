@@ -7,13 +7,13 @@
 #include <bit>
 #include <charconv>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <string_view>
 #include <system_error>
 
 #include "base/error.hpp"
+#include "base/regular_file.hpp"
 #include "state/state_hash.hpp"
 
 namespace breccia {
@@ -183,7 +183,7 @@ std::vector<std::byte> header_bytes(const IndexedBytes& place, std::uint64_t fil
 std::vector<std::byte> read_verified(const std::filesystem::path& file, const IndexedBytes& place,
                                      const std::string& what) {
   std::vector<std::byte> bytes(place.size);
-  std::ifstream stream(file, std::ios::binary);
+  RegularStream stream(file, Depth::named);
   if (!stream) refuse_checkpoint(file, "cannot read this file");
   stream.seekg(static_cast<std::streamoff>(place.offset));
   stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
@@ -195,8 +195,8 @@ std::vector<std::byte> read_verified(const std::filesystem::path& file, const In
 }
 
 CheckpointIndex read_index(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) refuse_checkpoint(file, "cannot read this file");
+  RegularStream stream(file, Depth::named);
+  if (!stream) refuse_checkpoint(file, "cannot read this file");
   std::vector<std::byte> first(kCheckpointHeader);
   stream.read(reinterpret_cast<char*>(first.data()), static_cast<std::streamsize>(first.size()));
   if (stream.gcount() != static_cast<std::streamsize>(first.size()))

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "output/atomic_file.hpp"
+#include "output/folder_tree.hpp"
 #include "output/hdf5_file.hpp"
 #include "output/shared_file.hpp"
 
@@ -70,8 +71,7 @@ void CheckpointWriter::begin_writing() {
 }
 
 void CheckpointWriter::remove_unfinished() const {
-  std::error_code ignored;
-  if (communicator_.is_root()) std::filesystem::remove(temporary_of(file_), ignored);
+  if (communicator_.is_root()) (void)remove_file(temporary_of(file_), Depth::subfolder);
 }
 
 /// Which rows are whose, which columns are worth a place, and where it is.
@@ -109,7 +109,7 @@ void CheckpointWriter::lay_out() {
       const Hdf5Skeleton skeleton = hdf5_skeleton(stored_columns, checkpoint_format(columns_));
       index_.size = skeleton.size;
       index_place_ = {skeleton.offsets.back(), bound, 0};
-      const SharedFile shared(temporary_of(file_), file_, O_CREAT | O_TRUNC);
+      const SharedFile shared(temporary_of(file_), file_, O_CREAT);
       for (Hdf5Skeleton::Part part : skeleton.structure) {
         if (part.offset == 0) {  // the header's place, which stays empty until all is written
           part.offset = kCheckpointHeader;
@@ -176,7 +176,7 @@ void CheckpointWriter::publish() {
   shared.write_at(0, header_bytes(index_place_, index_.size));
   shared.finish();
   const FileContent content{file_, {}};
-  write_files_atomically({&content, 1});
+  write_files_atomically({&content, 1}, Depth::subfolder);
 }
 
 void CheckpointWriter::finish() {

@@ -1,21 +1,21 @@
 #include "output/control.hpp"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <system_error>
 #include <thread>
 
+#include "base/regular_file.hpp"
 #include "base/trimmed.hpp"
 #include "case/units.hpp"
 #include "output/atomic_file.hpp"
+#include "output/folder_check.hpp"
 #include "output/run_folder.hpp"
 #include "output/run_lock.hpp"
 
@@ -69,13 +69,10 @@ std::vector<std::string> lines_of(std::istream& stream) {
 
 /// Of an ordinary file; nothing of a pipe, a folder or a link, which might never end or be another user's.
 std::string content_of(const fs::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC);
-  if (descriptor < 0) return {};
+  const Opened file = open_regular(path, O_RDONLY, Depth::file);
+  if (!file) return {};
   std::string text(kLongestRequest, '\0');
-  struct stat about {};
-  const bool ordinary = ::fstat(descriptor, &about) == 0 && S_ISREG(about.st_mode);
-  const ssize_t got = ordinary ? ::read(descriptor, text.data(), text.size()) : 0;
-  ::close(descriptor);
+  const ssize_t got = ::read(file.descriptor.get(), text.data(), text.size());
   text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
   return text;
 }
@@ -114,7 +111,7 @@ class Tail {
  public:
   Tail(const fs::path& path, std::streamoff start) : path_(path), read_(start) {}
   [[nodiscard]] std::vector<nlohmann::json> news() {
-    std::ifstream file(path_);
+    RegularStream file(path_);
     file.seekg(read_);
     std::vector<nlohmann::json> found;
     for (std::string line; std::getline(file, line) && !file.eof();) {  // a line without its end is still being written
@@ -187,6 +184,7 @@ bool stop_waits(const fs::path& control_file) {
 
 std::string ask_run(const fs::path& run_folder, const std::string& command, double patience) {
   const RunFolder folder{run_folder};
+  demand_plain_folder(folder);
   std::error_code error;
   const auto size = fs::file_size(folder.status(), error);
   if (error) throw no_answer(run_folder, "no run of breccia writes here", "the folder of a run that goes on");

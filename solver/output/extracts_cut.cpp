@@ -1,15 +1,18 @@
 #include "output/extracts_cut.hpp"
 
+#include <cerrno>
 #include <cstdlib>
-#include <fstream>
 #include <functional>
 #include <optional>
 #include <regex>
+#include <set>
+#include <sstream>
 #include <string>
-#include <system_error>
-#include <vector>
+#include <string_view>
 
+#include "base/regular_file.hpp"
 #include "output/atomic_file.hpp"
+#include "output/folder_tree.hpp"
 
 namespace breccia {
 namespace {
@@ -24,22 +27,37 @@ std::optional<std::int64_t> step_of(const std::string& name) {
   return std::stoll(match[1].str());
 }
 
-/// Keeps the lines for which `stays` holds, but for a last one without an end, in which a run was cut off; a file that
-/// loses none is not touched.
-void cut_lines(const fs::path& file, const std::function<bool(const std::string&, std::size_t)>& stays) {
-  std::ifstream stream(file);
+/// The lines for which `stays` holds, without a last one that has no end, in which a run was cut off; nullopt: all of
+/// them.
+std::optional<std::string> cut(std::string_view text,
+                               const std::function<bool(const std::string&, std::size_t)>& stays) {
   std::string kept;
-  bool all = true;
   std::size_t number = 0;
-  for (std::string line; std::getline(stream, line); ++number) {
-    if (!stream.eof() && stays(line, number)) {
-      kept += line + '\n';
-    } else {
-      all = false;
-    }
+  const std::size_t size = text.size();
+  for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n'), ++number) {
+    const std::string line(text.substr(0, end));
+    if (stays(line, number)) kept += line + '\n';
+    text.remove_prefix(end + 1);
   }
-  stream.close();
-  if (!all) write_file_atomically(file, kept);
+  if (kept.size() == size) return std::nullopt;
+  return kept;
+}
+
+bool is_step_before(const std::string& line, std::size_t number, std::int64_t step) {
+  return number == 0 || std::atoll(line.c_str()) < step;
+}
+
+/// Steps at which pipelines wrote, from `step` on.
+std::set<std::int64_t> steps_from(std::string_view index, std::int64_t step) {
+  std::set<std::int64_t> steps;
+  std::istringstream lines{std::string(index)};
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    const std::int64_t listed = std::atoll(line.c_str());
+    if (listed >= step) steps.insert(listed);
+  }
+  return steps;
 }
 
 /// A line of a list of times names one file.
@@ -50,34 +68,46 @@ bool lists_earlier(const std::string& line, std::int64_t step) {
   return step_of(match[1].str()).value_or(-1) < step;
 }
 
+/// A file that lists what is in others, or rows by step; a file that loses no line is not touched.
+void cut_lines(const TreeEntry& entry, std::int64_t step) {
+  const bool is_list = entry.path.extension() == ".pvd";
+  const bool has_rows = entry.name == "history.csv" ||
+                        (entry.path.extension() == ".csv" && entry.path.parent_path().filename() == "probes");
+  if (!is_list && !has_rows) return;
+  const std::optional<std::string> text = regular_content(entry.folder, entry.name, entry.path);
+  if (!text) return;
+  const auto kept = cut(*text, [&](const std::string& line, std::size_t number) {
+    return is_list ? lists_earlier(line, step) : is_step_before(line, number, step);
+  });
+  if (!kept) return;
+  const FileContent file{entry.path, std::as_bytes(std::span(*kept))};
+  write_files_atomically(entry.folder, {&file, 1});
+}
+
 }  // namespace
 
-void cut_extracts_back(const fs::path& extracts, std::int64_t step) {
-  std::vector<fs::path> later, lists, histories;
-  std::error_code error;
-  for (fs::recursive_directory_iterator entry(extracts, error), end; !error && entry != end; entry.increment(error)) {
-    const fs::path& path = entry->path();
-    if (step_of(path.filename().string()).value_or(-1) >= step) {
-      later.push_back(path);
-      entry.disable_recursion_pending();
-    } else if (path.extension() == ".pvd") {
-      lists.push_back(path);
-    } else if (path.filename() == "history.csv" ||
-               (path.extension() == ".csv" && path.parent_path().filename() == "probes")) {
-      histories.push_back(path);
-    }
-  }
-  // Lists first: what they name is there as long as they name it.
-  for (const fs::path& list : lists)
-    cut_lines(list, [&](const std::string& line, std::size_t) { return lists_earlier(line, step); });
-  for (const fs::path& history : histories)
-    cut_lines(history, [&](const std::string& line, std::size_t number) {
-      return number == 0 || std::atoll(line.c_str()) < step;
+void cut_extracts_back(const fs::path& extracts, const fs::path& index, std::int64_t step) {
+  const std::string listed = regular_content(index).value_or("");
+  const std::set<std::int64_t> later = steps_from(listed, step);
+  const Opened folder = open_folder_of(extracts / "entry", Depth::subfolder);
+  if (!folder && folder.error != ENOENT) throw output_error(extracts, "cannot open this folder: " + folder.reason);
+  const auto is_later = [&](const TreeEntry& entry) {
+    return entry.kind != EntryKind::other && later.contains(step_of(entry.name).value_or(-1));
+  };
+  if (folder) {
+    // Lists first: what they name is there as long as they name it.
+    walk_tree(folder.descriptor, extracts, [&](const TreeEntry& entry) {
+      if (entry.kind == EntryKind::file && !is_later(entry)) cut_lines(entry, step);
+      return !is_later(entry);
     });
-  for (const fs::path& path : later) {
-    fs::remove_all(path, error);
-    if (error) throw output_error(path, "cannot remove this extract, which is ahead of the run", error.value());
+    walk_tree(folder.descriptor, extracts, [&](const TreeEntry& entry) {
+      if (is_later(entry)) remove_entry(entry);
+      return !is_later(entry);
+    });
   }
+  const auto kept =
+      cut(listed, [&](const std::string& line, std::size_t number) { return is_step_before(line, number, step); });
+  if (kept) write_file_atomically(index, *kept);
 }
 
 }  // namespace breccia

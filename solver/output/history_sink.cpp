@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <fstream>
 #include <iterator>
 
+#include "base/regular_file.hpp"
 #include "output/csv_field.hpp"
 #include "output/energy_terms.hpp"
 
@@ -98,7 +98,7 @@ struct NumberText {
 };
 
 bool has_insitu_share(const std::filesystem::path& history) {
-  std::ifstream file(history);
+  RegularStream file(history);
   std::string header;
   std::getline(file, header);
   return header.ends_with(kInSituShare);

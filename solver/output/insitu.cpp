@@ -1,5 +1,7 @@
 #include "output/insitu.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -9,7 +11,9 @@
 
 #include "output/atomic_file.hpp"
 #include "output/channels.hpp"
+#include "output/extracts_cut.hpp"
 #include "output/insitu_config.hpp"
+#include "output/run_folder.hpp"
 
 namespace breccia {
 namespace {
@@ -80,6 +84,9 @@ void InSitu::open(const case_::Case& input, const std::filesystem::path& folder)
   communicator_.agree([&] {
     if (communicator_.is_root()) create_folder(folder);
   });
+  communicator_.agree([&] {
+    if (communicator_.is_root()) open_index(RunFolder{folder.parent_path()}.extract_steps());
+  });
   communicator_.agree([&] { preflight(input, folder, plugin_, communicator_); });
   const InSituConfig config(input, std::filesystem::absolute(folder), communicator_);
   const std::string text =
@@ -88,6 +95,14 @@ void InSitu::open(const case_::Case& input, const std::filesystem::path& folder)
     if (adaptor_ == nullptr)
       throw InputError(insitu_problems(input.file, "the in-situ adaptor does not start: " + text));
   });
+}
+
+/// A run that goes on appends to what is there.
+void InSitu::open_index(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::uintmax_t before = std::filesystem::file_size(file, error);
+  steps_.emplace(file, error ? 0 : static_cast<std::size_t>(before));
+  if (steps_->size() == 0) steps_->append_line(kExtractsHeader);
 }
 
 InSitu::~InSitu() {
@@ -186,6 +201,7 @@ void InSitu::execute(const Plan& plan, const Frame& frame, const std::vector<std
   const Channels channels(frame, plan.channels, columns, row);
   const double shared_cost = seconds_since(planned_) / std::popcount(plan.pipelines);  // making the frame
   requests_ = {};
+  list_step();
   for (std::size_t i = 0; i < pipelines_.size(); ++i) {
     if ((plan.pipelines & bit(i)) == 0) continue;
     run_one(i, channels.instant(), shared_cost);
@@ -193,6 +209,18 @@ void InSitu::execute(const Plan& plan, const Frame& frame, const std::vector<std
   }
   space(plan.pipelines);
   tell_notices();
+}
+
+/// Before anything is written, so that a run that goes on from an earlier step knows it. Without the line, extracts of
+/// this step stay where such a run ends before it.
+void InSitu::list_step() {
+  try {
+    communicator_.agree([&] {
+      if (steps_) steps_->append_line(fmt::format("{},{:.17g}", now_.step, now_.time));
+    });
+  } catch (const OutputError& error) {  // the same on all ranks
+    tell_(error.what(), false);
+  }
 }
 
 void InSitu::tell_notices() {

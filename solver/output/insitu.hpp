@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "case/case.hpp"
+#include "output/atomic_file.hpp"
 #include "output/frame.hpp"
 #include "output/insitu_pace.hpp"
 #include "output/insitu_plugin.hpp"
@@ -38,7 +39,7 @@ class InSitu {
   using Tell = std::function<void(const std::string& text, bool good)>;
 
   /// Loads the adaptor, looks whether everything asked for could work, and starts it. Collective.
-  /// @param folder  of the extracts; made when it is not there
+  /// @param folder  of the extracts; made when it is not there, as is the index of their steps beside it
   /// Throws InputError with every problem, on all ranks alike.
   InSitu(const case_::Case& input, const std::filesystem::path& folder, const Communicator& communicator, Tell tell);
   InSitu(const InSitu&) = delete;
@@ -111,6 +112,8 @@ class InSitu {
   void tell_animations(const std::string& lines);
   void fail(Pipeline& pipeline, const std::string& why);
   void tell_notices();
+  void open_index(const std::filesystem::path& file);
+  void list_step();
 
   using Clock = std::chrono::steady_clock;
   InSituPlugin plugin_;
@@ -119,6 +122,7 @@ class InSitu {
   bool stop_on_error_, failed_ = false;
   std::vector<Pipeline> pipelines_;
   void* adaptor_ = nullptr;
+  std::optional<LineFile> steps_;  ///< at which pipelines wrote; of the root
   BrecciaRequests requests_{};
   Clock::time_point started_ = Clock::now(), planned_;
   double share_, end_;           ///< insitu.max_overhead; s, simulated

@@ -2,8 +2,10 @@
 
 #include <array>
 #include <chrono>
+#include <cstdio>
 #include <ctime>
 #include <fstream>
+#include <random>
 #include <string>
 #include <thread>
 
@@ -38,12 +40,21 @@ std::string utc_now() {
   return {text.data(), length};
 }
 
+/// 128 bits, so that no two runs have the same.
+std::string random_name() {
+  std::random_device source;
+  std::array<char, 36> text{};
+  std::snprintf(text.data(), text.size(), "%08x%08x%08x%08x", source(), source(), source(), source());
+  return text.data();
+}
+
 }  // namespace
 
 Provenance::Input input_file(const std::filesystem::path& file) { return {file.string(), sha256_of_file(file)}; }
 
 Provenance collect_provenance(std::string version, std::vector<std::string> command_line) {
   Provenance provenance;
+  provenance.run = random_name();
   provenance.version = std::move(version);
   provenance.host = host_name();
   provenance.processor = processor_model();

@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <system_error>
 
+#include "base/regular_file.hpp"
 #include "output/atomic_file.hpp"
 #include "output/checkpoint_writer.hpp"
 #include "output/extracts_cut.hpp"
+#include "output/folder_check.hpp"
+#include "output/folder_tree.hpp"
 #include "output/run_lock.hpp"
 
 namespace breccia {
@@ -17,41 +20,15 @@ namespace {
 namespace fs = std::filesystem;
 
 void remove_stale(const fs::path& path) {
-  std::error_code error;
-  fs::remove(path, error);
-  if (error) throw output_error(path, "cannot remove this file of the run so far", error.value());
-}
-
-/// Files are linked where that can be done, since those of frames and extracts are written once.
-void copy_folder(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  if (!fs::exists(from, error)) return;
-  fs::create_directories(to, error);
-  for (const auto& entry : fs::recursive_directory_iterator(from, error)) {
-    const fs::path target = to / fs::relative(entry.path(), from, error);
-    if (entry.is_directory(error)) {
-      fs::create_directories(target, error);
-      continue;
-    }
-    const bool written_once = entry.path().extension() == ".vtkhdf";
-    if (written_once) fs::create_hard_link(entry.path(), target, error);
-    if (!written_once || error) fs::copy_file(entry.path(), target, fs::copy_options::overwrite_existing, error);
-    if (error) throw output_error(target, "cannot copy this file of the run so far", error.value());
-  }
-  if (error) throw output_error(to, "cannot copy this folder of the run so far", error.value());
-}
-
-void copy_lines(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
-  if (error) throw output_error(to, "cannot copy this file of the run so far", error.value());
+  const std::string why = remove_file(path, Depth::file);
+  if (!why.empty()) throw output_error(path, "cannot remove this file of the run so far: " + why);
 }
 
 /// The lines that a run goes on from, as long as they were when the checkpoint was written. Looked at before anything
 /// is changed.
 void demand_lines(const fs::path& file, std::int64_t bytes, const Checkpoint& from) {
   std::error_code error;
-  const bool there = fs::is_regular_file(file, error);
+  const bool there = fs::is_regular_file(fs::symlink_status(file, error));
   if (there && static_cast<std::int64_t>(fs::file_size(file, error)) >= bytes && !error) return;
   Problem problem;
   problem.file = file.string();
@@ -65,8 +42,20 @@ void demand_lines(const fs::path& file, std::int64_t bytes, const Checkpoint& fr
 
 }  // namespace
 
+void demand_own_run(const RunFolder& folder, const fs::path& file, const Checkpoint& from) {
+  const std::optional<std::string> own = regular_content(folder.provenance());
+  if (!own || run_in(*own) == run_in(from.provenance)) return;
+  throw InputError(Problem{file.string(), 0, "checkpoint",
+                           "this checkpoint is of another run than the files of this folder, whose history it would "
+                           "continue",
+                           "checkpoints that this run has written; or a case with [start] from = this file, which "
+                           "starts a new run from it",
+                           ""});
+}
+
 bool is_complete(const RunFolder& folder, std::int64_t steps) {
-  std::ifstream file(folder.summary());
+  RegularStream file(folder.summary());
+  if (!file) return false;
   const auto json = nlohmann::json::parse(file, nullptr, /*allow_exceptions=*/false);
   return json.is_object() && json.value("status", nlohmann::json()) == "complete" &&
          json.value("steps", nlohmann::json()) == steps;
@@ -74,16 +63,19 @@ bool is_complete(const RunFolder& folder, std::int64_t steps) {
 
 RunFolder prepare_resumed_folder(const RunFolder& run, const fs::path& root, const Checkpoint& from,
                                  const std::string& resolved_case, const Provenance& provenance) {
+  demand_plain_tree(run.extracts());
   demand_lines(run.history(), from.position.marks.history_bytes, from);
   demand_lines(run.status(), from.position.marks.status_bytes, from);
   std::error_code error;
   if (!fs::equivalent(run.root, root, error)) {
+    refuse_inside(root, run.root, "this folder lies in that of the run, which would be copied into itself");
     RunFolder folder = prepare_run_folder(root, resolved_case, provenance, OldResults::keep);
-    copy_lines(run.history(), folder.history());
-    copy_lines(run.status(), folder.status());
-    copy_folder(run.frames(), folder.frames());
-    copy_folder(run.extracts(), folder.extracts());
-    cut_extracts_back(folder.extracts(), from.model.clock.steps);
+    copy_regular(run.history(), folder.history());
+    copy_regular(run.status(), folder.status());
+    copy_tree(run.frames(), folder.frames());
+    copy_tree(run.extracts(), folder.extracts());
+    if (fs::exists(run.extract_steps(), error)) copy_regular(run.extract_steps(), folder.extract_steps());
+    cut_extracts_back(folder.extracts(), folder.extract_steps(), from.model.clock.steps);
     return folder;
   }
   const RunFolder folder{root, std::make_shared<const RunLock>(root)};
@@ -92,7 +84,7 @@ RunFolder prepare_resumed_folder(const RunFolder& run, const fs::path& root, con
   for (const fs::path& path :
        {folder.summary(), folder.summary_text(), folder.control(), temporary_of(folder.control())})
     remove_stale(path);
-  cut_extracts_back(folder.extracts(), from.model.clock.steps);
+  cut_extracts_back(folder.extracts(), folder.extract_steps(), from.model.clock.steps);
   write_file_atomically(folder.case_file(), resolved_case);
   fs::create_directories(folder.frames(), error);
   return folder;

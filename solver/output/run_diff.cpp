@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -11,7 +10,9 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/regular_file.hpp"
 #include "case/reader_toml.hpp"
+#include "output/folder_check.hpp"
 #include "output/run_folder.hpp"
 
 namespace breccia {
@@ -69,7 +70,8 @@ Values case_of(const RunFolder& run) {
 
 Values json_of(const fs::path& file, const std::set<std::string>& left_out) {
   Values values;
-  std::ifstream stream(file);
+  RegularStream stream(file);
+  if (!stream) return values;
   const json content = json::parse(stream, nullptr, /*allow_exceptions=*/false);
   if (content.is_object()) {
     json kept = content;
@@ -111,7 +113,7 @@ std::vector<std::string> cells_of(const std::string& line) {
 bool counts(const std::string& column) { return column != "couples" && column.find("in situ") == std::string::npos; }
 
 std::string history_part(const fs::path& first, const fs::path& second) {
-  std::ifstream a(first), b(second);
+  RegularStream a(first), b(second);
   std::string head_a, head_b, line_a, line_b;
   std::getline(a, head_a);
   std::getline(b, head_b);
@@ -140,11 +142,12 @@ std::string history_part(const fs::path& first, const fs::path& second) {
 std::string diff_runs(const fs::path& first, const fs::path& second) {
   const RunFolder a{first}, b{second};
   for (const RunFolder* run : {&a, &b}) {
+    demand_plain_folder(*run);
     if (!fs::exists(run->provenance()) || !fs::exists(run->case_file()))
       throw OutputError(
           Problem{run->root.string(), 0, "", "is no folder of a run", "two folders that `run` has made", ""});
   }
-  const std::set<std::string> of_a_run{"started", "command_line"};
+  const std::set<std::string> of_a_run{"run", "started", "command_line"};
   const std::set<std::string> timings{
       "wall_s",        "element_steps_per_s", "phases",   "max_rss_bytes", "imbalance",   "messages",
       "message_bytes", "decompositions",      "searches", "insitu",        "checkpoints", "since_resume"};

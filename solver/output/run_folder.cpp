@@ -1,13 +1,13 @@
 #include "output/run_folder.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <regex>
 #include <system_error>
 
+#include "base/regular_file.hpp"
 #include "output/atomic_file.hpp"
+#include "output/folder_check.hpp"
 #include "output/run_lock.hpp"
 
 namespace breccia {
@@ -19,16 +19,10 @@ constexpr const char* kProgram = "breccia";
 
 /// True for a folder in which a run was prepared: its provenance names this program.
 bool is_run(const RunFolder& folder) {
-  std::ifstream file(folder.provenance());
+  RegularStream file(folder.provenance());
   if (!file) return false;
   const auto json = nlohmann::json::parse(file, nullptr, /*allow_exceptions=*/false);
   return json.is_object() && json.value("program", nlohmann::json()) == kProgram;
-}
-
-/// Frames, their indices and what a kill may have left of either.
-bool is_frame_file(const std::string& name) {
-  static const std::regex pattern(R"(\.?(elements|joints|contacts)(_\d+\.vtkhdf|\.hdf\.series)(\.tmp)?)");
-  return std::regex_match(name, pattern);
 }
 
 /// Every file in the folder that a run wrote as a result.
@@ -38,8 +32,9 @@ std::vector<fs::path> results_in(const RunFolder& folder) {
   for (const fs::path& path :
        {folder.history(), folder.bodies(), temporary_of(folder.bodies()), folder.status(), folder.summary(),
         temporary_of(folder.summary()), folder.summary_text(), temporary_of(folder.summary_text()), folder.extracts(),
-        folder.checkpoints(), folder.control(), temporary_of(folder.control())}) {
-    if (fs::exists(path, error)) results.push_back(path);
+        folder.extract_steps(), temporary_of(folder.extract_steps()), folder.checkpoints(), folder.control(),
+        temporary_of(folder.control())}) {
+    if (fs::exists(fs::symlink_status(path, error))) results.push_back(path);
   }
   fs::directory_iterator entries(folder.frames(), error);
   if (error) return results;
@@ -83,6 +78,12 @@ std::vector<Provenance::Input> inputs_in(const std::string& provenance) {
   return inputs;
 }
 
+std::string run_in(const std::string& provenance) {
+  const auto json = nlohmann::json::parse(provenance, nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object() || !json.contains("run") || !json["run"].is_string()) return {};
+  return json["run"].get<std::string>();
+}
+
 std::vector<Provenance::Parent> parents_in(const std::string& provenance) {
   std::vector<Provenance::Parent> parents;
   try {
@@ -99,6 +100,7 @@ std::string provenance_json(const Provenance& provenance) {
   nlohmann::ordered_json json;
   json["program"] = kProgram;
   json["version"] = provenance.version;
+  json["run"] = provenance.run;
   json["started"] = provenance.started;
   json["command_line"] = provenance.command_line;
   json["commit"] = provenance.commit;
@@ -122,6 +124,7 @@ RunFolder prepare_run_folder(const fs::path& root, const std::string& resolved_c
                              OldResults old_results) {
   RunFolder folder{root};
   create_folder(root);
+  demand_plain_folder(folder);
   if (!holds_nothing(root) && !is_run(folder)) {
     refuse(root, "this folder holds other things than a run of breccia",
            "an empty or new folder, or one of an earlier run");

@@ -17,6 +17,7 @@ struct Provenance {
     std::string file;    ///< as it was named
     std::string sha256;  ///< of its bytes; empty: it cannot be read
   };
+  std::string run;        ///< random, of this run alone; a run that is resumed in its folder keeps it
   std::string version;    ///< of the program
   std::string commit;     ///< of the sources when the build was configured; "-dirty": changed since
   std::string libraries;  ///< with their versions
@@ -39,6 +40,8 @@ struct Provenance {
 };
 
 [[nodiscard]] Provenance::Input input_file(const std::filesystem::path& file);
+/// The run in a provenance, JSON; empty: it names none.
+[[nodiscard]] std::string run_in(const std::string& provenance);
 /// What the provenance of another run, JSON, says of its inputs and parents. What cannot be read is left out.
 [[nodiscard]] std::vector<Provenance::Input> inputs_in(const std::string& provenance);
 [[nodiscard]] std::vector<Provenance::Parent> parents_in(const std::string& provenance);
@@ -63,6 +66,7 @@ struct RunFolder {
   [[nodiscard]] std::filesystem::path control() const { return root / "control"; }
   [[nodiscard]] std::filesystem::path checkpoints() const { return root / "checkpoints"; }
   [[nodiscard]] std::filesystem::path extracts() const { return root / "extracts"; }
+  [[nodiscard]] std::filesystem::path extract_steps() const { return root / "extracts.csv"; }  ///< index of extracts
 };
 
 /// `runs/<folder of the case>`, under the present folder.

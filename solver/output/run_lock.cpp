@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,11 +12,11 @@
 #include <csignal>
 #include <cstring>
 #include <exception>
-#include <fstream>
 #include <sstream>
 #include <string_view>
 
 #include "base/interruption.hpp"
+#include "base/regular_file.hpp"
 #include "output/atomic_file.hpp"
 #include "output/run_folder.hpp"
 
@@ -26,11 +27,11 @@ constexpr char kFailed = '\1';          // from the run to its watch: an error h
 constexpr std::size_t kTail = 1 << 14;  // bytes at the end of status.jsonl that hold its last line
 
 /// What the lock file says of its owner: "process 17 on host, since TIME".
-std::string owner_in(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::string line;
-  std::getline(stream, line);
-  return line.empty() ? "another process" : line.substr(0, 300);
+std::string owner_in(const Descriptor& file) {
+  std::array<char, 300> text{};
+  const ssize_t got = ::pread(file.get(), text.data(), text.size(), 0);
+  const std::string_view line(text.data(), got > 0 ? static_cast<std::size_t>(got) : 0);
+  return line.empty() ? "another process" : std::string(line.substr(0, line.find('\n')));
 }
 
 std::string own_words() {
@@ -56,8 +57,13 @@ bool says(std::string_view line, std::string_view what) { return line.find(what)
 
 /// Appends the last word to a status file whose run is gone. The caller holds the lock.
 void conclude(const char* status, bool failed) {
-  const int file = ::open(status, O_RDWR | O_APPEND | O_CLOEXEC);
+  const int file = ::open(status, O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (file < 0) return;
+  struct stat about {};
+  if (::fstat(file, &about) != 0 || !S_ISREG(about.st_mode)) {
+    ::close(file);
+    return;
+  }
   static std::array<char, kTail> tail;
   const off_t size = ::lseek(file, 0, SEEK_END);
   const off_t from = size > static_cast<off_t>(kTail) ? size - static_cast<off_t>(kTail) : 0;
@@ -104,7 +110,7 @@ void conclude(const char* status, bool failed) {
       static_cast<const char*>(std::memchr(status, 0, size - static_cast<std::size_t>(status - received.data())));
   if (second_end == nullptr) ::_exit(0);
   const bool failed = second_end + 1 < received.data() + size && second_end[1] == kFailed;
-  const int lock = ::open(received.data(), O_RDWR | O_CLOEXEC);
+  const int lock = ::open(received.data(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   // A process that ends lets go of the pipe and of the lock one after the other. If the lock stays taken, another run
   // has begun in this folder, and the file is that run's.
   bool ours = false;
@@ -124,15 +130,15 @@ std::filesystem::path lock_file(const std::filesystem::path& folder) { return fo
 
 RunLock::RunLock(const std::filesystem::path& folder) {
   const std::filesystem::path file = lock_file(folder);
-  descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644);
-  if (descriptor_ < 0) throw output_error(file, "cannot write this file", errno);
-  const bool locked = ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
-  const bool taken = !locked && (!no_locks_here(errno) || owner_lives(owner_in(file)));
+  Opened opened = open_regular(file, O_RDWR | O_CREAT, Depth::file, 0644);
+  if (!opened) throw output_error(file, "cannot write this file: " + opened.reason);
+  const bool locked = ::flock(opened.descriptor.get(), LOCK_EX | LOCK_NB) == 0;
+  const bool taken = !locked && (!no_locks_here(errno) || owner_lives(owner_in(opened.descriptor)));
   if (taken) {
-    ::close(descriptor_);
-    throw OutputError(Problem{folder.string(), 0, "", "another run writes here: " + owner_in(file),
+    throw OutputError(Problem{folder.string(), 0, "", "another run writes here: " + owner_in(opened.descriptor),
                               "another folder, or this one when that run has ended", ""});
   }
+  descriptor_ = opened.descriptor.release();
   const std::string words = own_words() + "\n";
   (void)!::ftruncate(descriptor_, 0);
   (void)!::pwrite(descriptor_, words.data(), words.size(), 0);
@@ -142,13 +148,12 @@ RunLock::~RunLock() { ::close(descriptor_); }
 
 std::string holder_of(const std::filesystem::path& folder) {
   const std::filesystem::path file = lock_file(folder);
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-  if (descriptor < 0) return {};
-  const bool free = ::flock(descriptor, LOCK_SH | LOCK_NB) == 0;
+  const Opened opened = open_regular(file, O_RDONLY, Depth::file);
+  if (!opened) return {};
+  const bool free = ::flock(opened.descriptor.get(), LOCK_SH | LOCK_NB) == 0;
   const int error = errno;
-  ::close(descriptor);
   if (free) return {};
-  const std::string owner = owner_in(file);
+  const std::string owner = owner_in(opened.descriptor);
   return no_locks_here(error) && !owner_lives(owner) ? std::string() : owner;
 }
 

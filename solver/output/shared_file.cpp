@@ -6,13 +6,30 @@
 #include <cerrno>
 #include <utility>
 
+#include "base/regular_file.hpp"
 #include "output/atomic_file.hpp"
 
 namespace breccia {
 
+namespace {
+
+/// With O_CREAT, a new one: what a run that was killed, or somebody else, left under the name is removed.
+Opened opened(const std::filesystem::path& path, int flags) {
+  Opened folder = open_folder_of(path, Depth::subfolder);
+  if (!folder) return folder;
+  const std::string name = path.filename().string();
+  const bool is_new = (flags & O_CREAT) != 0;
+  if (is_new) ::unlinkat(folder.descriptor.get(), name.c_str(), 0);
+  return open_regular_at(folder.descriptor, name, O_WRONLY | flags | (is_new ? O_EXCL : 0));
+}
+
+}  // namespace
+
 SharedFile::SharedFile(const std::filesystem::path& path, const std::filesystem::path& file, int flags)
-    : file_(file), descriptor_(::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666)) {
-  if (descriptor_ < 0) fail(errno);
+    : file_(file), descriptor_(-1) {
+  Opened result = opened(path, flags);
+  if (!result) throw output_error(file_, "cannot write this file: " + result.reason);
+  descriptor_ = result.descriptor.release();
 }
 
 SharedFile::~SharedFile() {

@@ -10,7 +10,9 @@ namespace breccia {
 /// A file that several ranks write, each to places of its own. All functions throw OutputError that names the file.
 class SharedFile {
  public:
-  /// @param file  named in errors;  @param flags  of open(2), beside O_WRONLY
+  /// @param path  in a folder of a run's folder (frames/, checkpoints/)
+  /// @param file   named in errors
+  /// @param flags  of open(2), beside O_WRONLY; O_CREAT: a new file replaces what is there
   SharedFile(const std::filesystem::path& path, const std::filesystem::path& file, int flags);
   SharedFile(const SharedFile&) = delete;
   SharedFile& operator=(const SharedFile&) = delete;

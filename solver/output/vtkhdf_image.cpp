@@ -34,7 +34,7 @@ void write_vtkhdf_temporary(const std::filesystem::path& path, const GridView& g
     if (!communicator.is_root()) return;
     try {
       const Hdf5Skeleton skeleton = hdf5_skeleton(columns);
-      const SharedFile file(temporary, path, O_CREAT | O_TRUNC);
+      const SharedFile file(temporary, path, O_CREAT);
       file.reserve(skeleton.size);
       for (const Hdf5Skeleton::Part& part : skeleton.structure) file.write_at(part.offset, part.bytes);
       places = packed(skeleton.offsets);

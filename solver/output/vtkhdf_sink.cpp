@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <set>
-#include <system_error>
 
+#include "base/regular_file.hpp"
 #include "output/atomic_file.hpp"
+#include "output/folder_check.hpp"
+#include "output/folder_tree.hpp"
 #include "output/frame_fields.hpp"
 #include "output/vtkhdf_image.hpp"
 
@@ -43,47 +43,46 @@ VtkhdfSink::VtkhdfSink(std::filesystem::path folder, FrameParts parts, Communica
 
 void VtkhdfSink::start(const RunStart& run) {
   if (!run.marks) return;
-  for (Series& part : series_) part.entries = entries_of(part.part, static_cast<std::size_t>(run.marks->frames));
-  if (communicator_.is_root()) drop_later_frames();
+  keep_frames(static_cast<std::size_t>(run.marks->frames));
 }
 
 void VtkhdfSink::mark(OutputMarks& marks) const {
   if (!series_.empty()) marks.frames = std::ssize(series_.front().entries);
 }
 
-/// The first frames of an index.
-std::vector<VtkhdfSink::Entry> VtkhdfSink::entries_of(const std::string& part, std::size_t count) const {
+/// The frames of an index.
+std::vector<VtkhdfSink::Entry> VtkhdfSink::listed(const std::string& part) const {
   std::vector<Entry> entries;
-  if (count == 0) return entries;
   const std::filesystem::path index = folder_ / (part + ".hdf.series");
-  std::ifstream file(index);
+  RegularStream file(index, Depth::subfolder);
+  if (!file) return entries;
   const auto json = nlohmann::json::parse(file, nullptr, /*allow_exceptions=*/false);
-  const auto listed = json.is_object() ? json.value("files", nlohmann::json::array()) : nlohmann::json::array();
-  if (!listed.is_array() || listed.size() < count)
-    throw output_error(index, "this index of frames has lost some that were written before the checkpoint");
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!listed[i].is_object() || !listed[i].contains("name") || !listed[i]["name"].is_string() ||
-        !listed[i].contains("time") || !listed[i]["time"].is_number())
+  const auto files = json.is_object() ? json.value("files", nlohmann::json::array()) : nlohmann::json::array();
+  for (const auto& entry : files) {
+    if (!entry.is_object() || !entry.contains("name") || !entry["name"].is_string() || !entry.contains("time") ||
+        !entry["time"].is_number() || !is_frame_file(entry["name"].get<std::string>()))
       throw output_error(index, "this is no index of frames");
-    entries.push_back({listed[i]["name"].get<std::string>(), listed[i]["time"].get<double>()});
+    entries.push_back({entry["name"].get<std::string>(), entry["time"].get<double>()});
   }
   return entries;
 }
 
-/// First from the indices, then the files.
-void VtkhdfSink::drop_later_frames() const {
-  std::set<std::string> kept;
-  for (const Series& part : series_) {
-    write_file_atomically(folder_ / (part.part + ".hdf.series"), index_text(part));
-    for (const Entry& entry : part.entries) kept.insert(entry.file);
+/// Keeps the first frames of the indices and removes those that the indices name behind them: first from the indices,
+/// then the files.
+void VtkhdfSink::keep_frames(std::size_t count) {
+  std::vector<std::string> later;
+  for (Series& part : series_) {
+    part.entries = listed(part.part);
+    if (part.entries.size() < count)
+      throw output_error(folder_ / (part.part + ".hdf.series"),
+                         "this index of frames has lost some that were written before the checkpoint");
+    for (std::size_t i = count; i < part.entries.size(); ++i) later.push_back(part.entries[i].file);
+    part.entries.resize(count);
   }
-  std::error_code error;
-  std::vector<std::filesystem::path> later;
-  for (const auto& file : std::filesystem::directory_iterator(folder_, error)) {
-    const std::string name = file.path().filename().string();
-    if (name.ends_with(".vtkhdf") && !kept.contains(name)) later.push_back(file.path());
-  }
-  for (const std::filesystem::path& file : later) std::filesystem::remove(file, error);
+  if (!communicator_.is_root()) return;
+  for (const Series& part : series_)
+    write_file_atomically(folder_ / (part.part + ".hdf.series"), index_text(part), Depth::subfolder);
+  for (const std::string& file : later) (void)remove_file(folder_ / file, Depth::subfolder);
 }
 
 void VtkhdfSink::frame(const Frame& frame) {
@@ -108,9 +107,8 @@ void VtkhdfSink::write_together(const Frame& frame, const std::vector<Series>& s
   try {
     for (const Series& part : series) write_vtkhdf_temporary(newest(part), view_of(frame, part.part), communicator_);
   } catch (...) {  // the same on all ranks
-    std::error_code ignored;
     for (const Series& part : series) {
-      if (communicator_.is_root()) std::filesystem::remove(temporary_of(newest(part)), ignored);
+      if (communicator_.is_root()) (void)remove_file(temporary_of(newest(part)), Depth::subfolder);
     }
     throw;
   }
@@ -130,7 +128,7 @@ void VtkhdfSink::publish(const std::vector<Series>& series, const std::vector<st
   for (std::size_t i = 0; i < series.size(); ++i) {
     files.push_back({folder_ / (series[i].part + ".hdf.series"), std::as_bytes(std::span(indices[i]))});
   }
-  write_files_atomically(files);
+  write_files_atomically(files, Depth::subfolder);
 }
 
 std::string VtkhdfSink::index_text(const Series& series) {

@@ -19,7 +19,8 @@ class VtkhdfSink final : public Sink {
   /// @pre folder exists
   explicit VtkhdfSink(std::filesystem::path folder, FrameParts parts = {}, Communicator communicator = {});
 
-  /// A run that goes on: takes the frames up to its mark from the indices and removes the others. Throws OutputError.
+  /// A run that goes on: takes the frames up to its mark from the indices and removes those that follow there.
+  /// Throws OutputError.
   void start(const RunStart& run) override;
   void mark(OutputMarks& marks) const override;
   /// Writes the parts and their indices, all at once. Throws OutputError naming the file, on all ranks; what was there
@@ -35,8 +36,8 @@ class VtkhdfSink final : public Sink {
     std::string part;
     std::vector<Entry> entries;
   };
-  [[nodiscard]] std::vector<Entry> entries_of(const std::string& part, std::size_t count) const;
-  void drop_later_frames() const;
+  [[nodiscard]] std::vector<Entry> listed(const std::string& part) const;
+  void keep_frames(std::size_t count);
   [[nodiscard]] static std::string index_text(const Series& series);
   [[nodiscard]] std::filesystem::path newest(const Series& series) const {
     return folder_ / series.entries.back().file;

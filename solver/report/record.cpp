@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -13,8 +11,10 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/regular_file.hpp"
 #include "case/groups.hpp"
 #include "case/reader.hpp"
+#include "output/folder_check.hpp"
 #include "output/run_lock.hpp"
 
 namespace breccia::report {
@@ -24,14 +24,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-std::optional<std::string> content_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return std::nullopt;
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (stream.bad()) return std::nullopt;
-  return text;
-}
 
 /// Whole lines; whether something follows the last line feed is told.
 std::vector<std::string_view> lines_of(std::string_view text, bool& cut) {
@@ -73,7 +65,7 @@ bool numbers_of(std::string_view line, std::vector<double>& row) {
 }
 
 void read_history(const RunFolder& run, RunRecord& record) {
-  const std::optional<std::string> text = content_of(run.history());
+  const std::optional<std::string> text = regular_content(run.history());
   if (!text) {
     record.flaws.emplace_back("history.csv is missing: there are no curves over time.");
     return;
@@ -98,7 +90,7 @@ void read_history(const RunFolder& run, RunRecord& record) {
 
 /// Names that are told for all bodies, in their order; else none.
 void read_bodies(const RunFolder& run, RunRecord& record) {
-  const std::optional<std::string> text = content_of(run.bodies());
+  const std::optional<std::string> text = regular_content(run.bodies());
   if (!text) return;
   bool cut = false;
   const std::vector<std::string_view> lines = lines_of(*text, cut);
@@ -144,7 +136,7 @@ void take_status(const Json& line, RunRecord& record) {
 }
 
 void read_status(const RunFolder& run, RunRecord& record) {
-  const std::optional<std::string> text = content_of(run.status());
+  const std::optional<std::string> text = regular_content(run.status());
   if (!text) {
     record.flaws.emplace_back("status.jsonl is missing: how the run ended is not known.");
     return;
@@ -176,7 +168,7 @@ void flatten(const Json& node, const std::string& path, RunRecord& record) {
 
 /// An object, or null with a flaw told. @param needed  its absence is a flaw
 Json object_in(const fs::path& file, bool needed, RunRecord& record) {
-  const std::optional<std::string> text = content_of(file);
+  const std::optional<std::string> text = regular_content(file);
   if (!text) {
     if (needed) record.flaws.push_back(file.filename().string() + " is missing.");
     return {};
@@ -231,7 +223,7 @@ char axis_of(const double (&offer)[3]) {
 }
 
 void read_case_of(const RunFolder& run, RunRecord& record) {
-  const std::optional<std::string> text = content_of(run.case_file());
+  const std::optional<std::string> text = regular_content(run.case_file());
   if (!text) {
     record.flaws.emplace_back("case.toml is missing.");
     return;
@@ -314,6 +306,7 @@ RunRecord read_run(const fs::path& folder) {
   if (!fs::is_directory(folder, error) || (!fs::exists(run.provenance(), error) && !fs::exists(run.history(), error)))
     throw OutputError(Problem{folder.string(), 0, "", "is no folder of a run",
                               "a folder that `breccia run` has made, with provenance.json and history.csv in it", ""});
+  demand_plain_folder(run);
   RunRecord record;
   record.folder = folder;
   read_provenance(run, record);

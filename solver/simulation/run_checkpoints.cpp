@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/regular_file.hpp"
 #include "domains/model_fields.hpp"
 #include "domains/piece_mesh.hpp"
 #include "output/atomic_file.hpp"
@@ -21,13 +20,6 @@ namespace {
 using Wall = std::chrono::steady_clock;
 
 double seconds_since(Wall::time_point start) { return std::chrono::duration<double>(Wall::now() - start).count(); }
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 std::string report_text(const CheckpointWriter& writer, double pause) {
   char text[96];
@@ -106,7 +98,7 @@ Checkpoint RunCheckpoints::content(const RunPosition& position) const {
   if (!partition_.communicator().is_root()) return checkpoint;
   checkpoint.whole_model = pack(now.whole);
   checkpoint.case_text = input_.resolved;
-  checkpoint.provenance = text_of(folder_.provenance());
+  checkpoint.provenance = regular_content(folder_.provenance()).value_or("");
   return checkpoint;
 }
 

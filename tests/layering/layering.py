@@ -61,7 +61,7 @@ THIRD_PARTY = [
 
 # Of the operating system and the compiler; anything else with a slash or ".h" needs a line in THIRD_PARTY.
 SYSTEM = re.compile(
-    r"(experimental/simd|(x86|imm)intrin\.h|dlfcn\.h|fcntl\.h|malloc\.h|poll\.h|sched\.h|spawn\.h|unistd\.h|cpuid\.h|ucontext\.h|arpa/inet\.h"
+    r"(experimental/simd|(x86|imm)intrin\.h|dlfcn\.h|fcntl\.h|malloc\.h|poll\.h|sched\.h|spawn\.h|unistd\.h|cpuid\.h|dirent\.h|ext/stdio_filebuf\.h|ucontext\.h|arpa/inet\.h"
     r"|linux/(audit|filter|landlock|seccomp)\.h|sys/(file|syscall|ioctl|mman|prctl|resource|socket|stat|statvfs|types|un|utsname|wait)\.h)")
 
 SOURCE_SUFFIXES = {".cpp", ".hpp", ".h", ".cxx", ".py"}

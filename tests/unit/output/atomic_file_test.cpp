@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
 
 #include "unit/output/file_size_limit.hpp"
 #include "unit/output/temporary_folder.hpp"
@@ -112,10 +115,47 @@ TEST(LineFile, CutsOffThePartOfALineThatDidNotFit) {
   EXPECT_EQ(content_of(path), "whole\nafter\n");
 }
 
-TEST(LineFile, ReportsAFullDevice) {
-  LineFile file("/dev/full");
-  EXPECT_THAT(error_of([&] { file.append_line("x"); }),
-              HasSubstr("/dev/full: cannot append a line to this file: No space left"));
+TEST(LineFile, IsNoDevice) {
+  EXPECT_THAT(error_of([] { LineFile file("/dev/full"); }),
+              HasSubstr("/dev/full: cannot create this file: is a device"));
+}
+
+TEST(LineFile, IsNotReachedThroughALink) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "other") << "kept";
+  std::filesystem::create_symlink(folder / "other", folder / "lines");
+  EXPECT_THAT(error_of([&] { LineFile file(folder / "lines"); }), HasSubstr("is a symbolic link"));
+  EXPECT_EQ(content_of(folder / "other"), "kept");
+}
+
+TEST(AtomicFile, DoesNotWriteThroughALinkUnderTheNameOfItsTemporaryOrItsOwn) {
+  const TemporaryFolder folder;
+  for (const char* name : {"first", "second"}) std::ofstream(folder / name) << "kept";
+  std::filesystem::create_symlink(folder / "first", temporary_of(folder / "x"));
+  std::filesystem::create_symlink(folder / "second", folder / "x");
+  write_file_atomically(folder / "x", std::string_view("new"));
+  EXPECT_EQ(content_of(folder / "first"), "kept");
+  EXPECT_EQ(content_of(folder / "second"), "kept");
+  EXPECT_EQ(content_of(folder / "x"), "new");
+  EXPECT_FALSE(std::filesystem::is_symlink(folder / "x"));
+  EXPECT_THAT(test::names_in(folder.path()), ElementsAre("first", "second", "x"));
+}
+
+TEST(AtomicFile, DoesNotWaitForAPipeUnderTheNameOfItsTemporary) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo(temporary_of(folder / "x").c_str(), 0600), 0);
+  write_file_atomically(folder / "x", std::string_view("new"));
+  EXPECT_EQ(content_of(folder / "x"), "new");
+}
+
+TEST(AtomicFile, IsNotWrittenIntoALinkedSubfolder) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "elsewhere");
+  std::filesystem::create_directory_symlink(folder / "elsewhere", folder / "frames");
+  EXPECT_THAT(
+      error_of([&] { write_file_atomically(folder / "frames" / "x", std::string_view("new"), Depth::subfolder); }),
+      HasSubstr("is a symbolic link"));
+  EXPECT_THAT(test::names_in(folder / "elsewhere"), IsEmpty());
 }
 
 TEST(Folder, ThatCannotBeMadeIsNamedWithTheReason) {

@@ -1,5 +1,8 @@
 #include "output/extracts_cut.hpp"
 
+#include <gmock/gmock.h>
+
+#include "base/error.hpp"
 #include "temporary_folder.hpp"
 
 namespace breccia {
@@ -13,7 +16,7 @@ void write(const fs::path& file, const std::string& text) {
 }
 
 TEST(ExtractsCutBack, LoseWhatWasWrittenFromTheStepOnAndNothingElse) {
-  const test::TemporaryFolder folder;
+  const test::TemporaryFolder folder, place;
   const fs::path fractures = folder / "fractures", pictures = folder / "stress", history = folder / "history";
   const std::string head = "<VTKFile>\n", foot = "</VTKFile>\n",
                     first = "<DataSet timestep=\"1\" file=\"fractures_000000120.pvtp\"/>\n",
@@ -31,7 +34,13 @@ TEST(ExtractsCutBack, LoseWhatWasWrittenFromTheStepOnAndNothingElse) {
   write(folder / "probes" / "tip.csv", "step,time\n120,1\n120,2\n240,3\n");
   write(folder / "probes" / "torn.csv", "step,time\n120,1\n23");
   write(folder / "script" / "own.csv", "999,1\n");
-  cut_extracts_back(folder.path(), 240);
+  write(folder / "keep" / "count_000000300.txt", "no step at which pipelines wrote");
+  write(folder / "keep" / "letter_2026112812.txt", "a date");
+  write(place.path() / "extracts.csv", "step,time [s]\n120,1\n239,2\n240,3\n241,4\n999,5\n1200,6");
+  cut_extracts_back(folder.path(), place / "extracts.csv", 240);
+  EXPECT_EQ(test::content_of(place / "extracts.csv"), "step,time [s]\n120,1\n239,2\n");
+  EXPECT_TRUE(fs::exists(folder / "keep" / "count_000000300.txt"));
+  EXPECT_TRUE(fs::exists(folder / "keep" / "letter_2026112812.txt"));
   EXPECT_EQ(test::content_of(fractures / "fractures.pvd"), head + first + foot);
   EXPECT_TRUE(fs::exists(fractures / "fractures_000000120.pvtp"));
   EXPECT_TRUE(fs::exists(fractures / "fractures_000000120" / "0000.vtp"));
@@ -49,7 +58,27 @@ TEST(ExtractsCutBack, LoseWhatWasWrittenFromTheStepOnAndNothingElse) {
 
 TEST(ExtractsCutBack, NeedNotBeThere) {
   const test::TemporaryFolder folder;
-  EXPECT_NO_THROW(cut_extracts_back(folder / "extracts", 0));
+  EXPECT_NO_THROW(cut_extracts_back(folder / "extracts", folder / "extracts.csv", 0));
+}
+
+TEST(ExtractsCutBack, RemoveNothingBehindALink) {
+  const test::TemporaryFolder folder, elsewhere;
+  const std::string index = "step,time [s]\n240,3\n";
+  write(elsewhere / "stress_000000240.png", "x");
+  write(elsewhere / "list.pvd", "<DataSet timestep=\"2\" file=\"fractures_000000240.pvtp\"/>\n");
+  write(folder / "extracts.csv", index);
+  fs::create_directories(folder / "extracts");
+  fs::create_directory_symlink(elsewhere.path(), folder / "extracts" / "pictures");
+  fs::create_symlink(elsewhere / "list.pvd", folder / "extracts" / "list.pvd");
+  cut_extracts_back(folder / "extracts", folder / "extracts.csv", 240);
+  EXPECT_TRUE(fs::exists(elsewhere / "stress_000000240.png"));
+  EXPECT_THAT(test::content_of(elsewhere / "list.pvd"), testing::HasSubstr("000000240"));
+
+  write(folder / "extracts.csv", index);
+  fs::remove_all(folder / "extracts");
+  fs::create_directory_symlink(elsewhere.path(), folder / "extracts");
+  EXPECT_THROW(cut_extracts_back(folder / "extracts", folder / "extracts.csv", 240), OutputError);
+  EXPECT_TRUE(fs::exists(elsewhere / "stress_000000240.png"));
 }
 
 }  // namespace
