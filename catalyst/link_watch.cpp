@@ -55,6 +55,7 @@ void LinkWatch::begin(std::optional<std::chrono::milliseconds> limit) {
   thread_.begin([&] {
     before_ = std::move(before);
     deadline_.reset();
+    stopped_before_ = thread_.stopped();
     if (limit) deadline_ = std::chrono::steady_clock::now() + *limit;
     cut_ = false;
   });
@@ -67,7 +68,8 @@ bool LinkWatch::end() {
 }
 
 void LinkWatch::look() {
-  const bool late = deadline_ && std::chrono::steady_clock::now() > *deadline_;
+  const auto stopped = thread_.stopped() - stopped_before_;
+  const bool late = deadline_ && std::chrono::steady_clock::now() - stopped > *deadline_;
   if (!late && !cut_ && !(!deadline_ && run_ends_())) return;
   cut_ = true;
   shut_down(port_, before_);

@@ -32,8 +32,9 @@ class LinkWatch {
   std::function<bool()> run_ends_;
   bool cut_ = false;
   std::optional<std::chrono::steady_clock::time_point> deadline_;
-  std::set<int> before_;  ///< sockets that were there when the call began
-  WatchThread thread_;    ///< the last member: it reads the others
+  std::chrono::duration<double> stopped_before_{0.0};  ///< of the thread, when the call began
+  std::set<int> before_;                               ///< sockets that were there when the call began
+  WatchThread thread_;                                 ///< the last member: it reads the others
 };
 
 }  // namespace breccia::insitu

@@ -2,6 +2,7 @@
 
 #include <sched.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -44,11 +45,15 @@ std::string Ranks::agree(const std::string& error) const {
 
 void Ranks::wait(MPI_Request& request, const std::string& error) const {
   using Clock = std::chrono::steady_clock;
-  const auto begin = Clock::now();
+  constexpr double kLongestGap = 1;  // s between two looks; a longer one is of a process that was stopped, not waiting
+  double waited = 0;
+  Clock::time_point before = Clock::now();
   int done = 0;
   for (MPI_Test(&request, &done, MPI_STATUS_IGNORE); done == 0; MPI_Test(&request, &done, MPI_STATUS_IGNORE)) {
     sched_yield();
-    const double waited = std::chrono::duration<double>(Clock::now() - begin).count();
+    const Clock::time_point now = Clock::now();
+    waited += std::min(std::chrono::duration<double>(now - before).count(), kLongestGap);
+    before = now;
     if (patience_ <= 0 || waited < patience_) continue;
     const std::string what = "rank " + std::to_string(rank_) + " has waited " + std::to_string(std::lround(waited)) +
                              " s for others that are still in it";

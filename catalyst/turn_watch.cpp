@@ -25,15 +25,20 @@ void TurnWatch::begin(const std::string& who) {
   const auto begun = [&] {
     if (interruption_.begin != nullptr) interruption_.begin();
     who_ = who;
-    began_ = std::chrono::steady_clock::now();
+    restart_clock();
   };
   thread_ ? thread_->begin(begun) : begun();
+}
+
+void TurnWatch::restart_clock() {
+  began_ = std::chrono::steady_clock::now();
+  if (thread_) stopped_before_ = thread_->stopped();
 }
 
 void TurnWatch::restart() {
   if (!thread_) return;
   thread_->change([&] {
-    began_ = std::chrono::steady_clock::now();
+    restart_clock();
     withdraw();
   });
 }
@@ -43,7 +48,8 @@ void TurnWatch::end() {
 }
 
 void TurnWatch::look() {
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - began_;
+  const std::chrono::duration<double> taken =
+      std::chrono::steady_clock::now() - began_ - (thread_->stopped() - stopped_before_);
   if (taken < limit_) return;
   if (taken > kEnd * limit_) {
     std::fprintf(stderr,

@@ -46,12 +46,14 @@ class TurnWatch {
   void end();
   void look();
   void withdraw() const;
+  void restart_clock();
 
   std::chrono::duration<double> limit_;
   Interruption interruption_;
   std::string who_;
   std::chrono::steady_clock::time_point began_;
-  std::optional<WatchThread> thread_;  ///< none without a limit; the last member: it reads the others
+  std::chrono::duration<double> stopped_before_{0.0};  ///< of the thread, when the turn began
+  std::optional<WatchThread> thread_;                  ///< none without a limit; the last member: it reads the others
 };
 
 }  // namespace breccia::insitu

@@ -4,6 +4,12 @@
 #include <utility>
 
 namespace breccia::insitu {
+namespace {
+
+/// A thread that wakes later than this was stopped with its process: a busy machine delays it by less.
+constexpr auto kStopped = std::chrono::seconds(2);
+
+}  // namespace
 
 WatchThread::WatchThread(std::chrono::milliseconds interval, std::function<void()> look)
     : interval_(interval), look_(std::move(look)) {
@@ -49,7 +55,10 @@ void WatchThread::watch() {
       changed_.wait(lock);
       continue;
     }
+    const auto before = std::chrono::steady_clock::now();
     changed_.wait_for(lock, interval_);
+    const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - before;
+    if (waited > interval_ + kStopped) stopped_ += waited - interval_;
     if (active_ && !leave_) look_();
   }
 }

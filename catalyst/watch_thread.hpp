@@ -22,6 +22,9 @@ class WatchThread {
   void end(const std::function<void()>& change);
   /// Changes what `look` reads in between.
   void change(const std::function<void()>& change);
+  /// Time for which this process was stopped, as a suspended job is, while calls went on: no call has taken it. To be
+  /// read with the mutex held: in `look` or in a change.
+  [[nodiscard]] std::chrono::duration<double> stopped() const { return stopped_; }
 
  private:
   void watch();
@@ -31,6 +34,7 @@ class WatchThread {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool active_ = false, leave_ = false;
+  std::chrono::duration<double> stopped_{0.0};
   std::thread thread_;
 };
 

@@ -152,7 +152,7 @@ int main(int argc, char** argv) {
   const bool in_order = asked_for("run") || asked_for("resume") || asked_for("race");  // the others lose nothing
   if (in_order) {
     reports_signals = session.world().is_root() ? 1 : 0;
-    for (const int s : kEndingSignals) std::signal(s, stop_handler);
+    for (const int s : kEndingSignals) handle_unless_ignored(s, stop_handler);
     std::signal(SIGUSR1, checkpoint_handler);
   }
   std::signal(SIGPIPE, SIG_IGN);  // who reads the progress may go; the run goes on

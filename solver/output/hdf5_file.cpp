@@ -193,13 +193,20 @@ std::vector<Hdf5Skeleton::Part> structure_of(const SparseMemory& memory, std::sp
   return parts;
 }
 
+/// Not locked: each file has one writer and gets its name when it is complete, and a file system may have no locks.
+Handle unlocked_access() {
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
+  checked(H5Pset_file_locking(access, false, true), "file access");
+  return access;
+}
+
 }  // namespace
 
 Hdf5Format vtkhdf_format() { return {"VTKHDF", "UnstructuredGrid", {"CellData", "FieldData"}, 0}; }
 
 std::vector<std::byte> hdf5_image(std::span<const Column> columns) {
   const QuietHdf5 quiet;
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
+  const Handle access = unlocked_access();
   checked(H5Pset_fapl_core(access, kImageGrowth, 0), "file access");
   const Handle file(H5Fcreate("frame", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "file");
   std::vector<std::byte> space;
@@ -220,7 +227,7 @@ Hdf5Skeleton hdf5_skeleton(std::span<const Column> columns, const Hdf5Format& fo
   hsize_t bound = format.user_block + kMetadata;
   for (const Column& column : columns) bound += size_of_values(column) + kMetadataOfDataset;
   const SparseMemory memory(bound);
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
+  const Handle access = unlocked_access();
   checked(H5Pset_fapl_stdio(access),
           "file access");  // the one driver that does not ask for the real path, where nothing is
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "file creation");

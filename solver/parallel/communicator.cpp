@@ -81,13 +81,18 @@ void wait_for(const Communicator::Handle& handle, std::span<MPI_Request> request
     check_mpi(MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE),
               "MPI_Testall");
   }
-  const Clock::time_point start = Clock::now();
+  // A longer gap between two looks is of a process that was stopped, with all its job or by its machine's sleep.
+  constexpr double kLongestGap = 1;  // s
+  Clock::time_point before = Clock::now();
+  double waited = 0;
   bool told = false;
   while (done == 0) {
     sched_yield();
     check_mpi(MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE),
               "MPI_Testall");
-    const double waited = std::chrono::duration<double>(Clock::now() - start).count();
+    const Clock::time_point now = Clock::now();
+    waited += std::min(std::chrono::duration<double>(now - before).count(), kLongestGap);
+    before = now;
     if (done != 0 || waited < handle.patience) continue;
     const std::string text = "rank " + std::to_string(handle.rank) + " has waited " +
                              std::to_string(static_cast<long>(waited)) + " s for " + ranks_text(requests, ranks) +

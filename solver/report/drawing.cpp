@@ -17,6 +17,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/interruption.hpp"
+
 namespace breccia::report {
 namespace {
 
@@ -96,7 +98,9 @@ void guard_against_end_of(pid_t parent) {
 [[noreturn]] void become(const std::vector<std::string>& words, const fs::path& log, pid_t parent) {
   ::setpgid(0, 0);
   guard_against_end_of(parent);
-  for (const int s : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ}) ::signal(s, SIG_DFL);
+  for (const int s : {SIGINT, SIGTERM, SIGHUP}) handle_unless_ignored(s, SIG_DFL);
+  for (const int s : {SIGPIPE, SIGXFSZ}) ::signal(s, SIG_DFL);
+  ::setenv("HDF5_USE_FILE_LOCKING", "FALSE", 0);  // frames are written once; a file system may have no locks
   const int nothing = ::open("/dev/null", O_RDONLY);
   const int said = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   ::dup2(nothing, 0);
@@ -121,7 +125,7 @@ End run_program(const std::vector<std::string>& words, const fs::path& log, std:
   if (child == 0) become(words, log, parent);
   ::setpgid(child, child);
   drawing_group = child;
-  for (const int s : {SIGINT, SIGTERM, SIGHUP}) std::signal(s, end_with_child);
+  for (const int s : {SIGINT, SIGTERM, SIGHUP}) handle_unless_ignored(s, end_with_child);
   const auto last = std::chrono::steady_clock::now() + limit;
   int status = 0;
   End end = End::done;
@@ -140,7 +144,7 @@ End run_program(const std::vector<std::string>& words, const fs::path& log, std:
   }
   ::kill(-child, SIGKILL);  // what it may have left behind
   drawing_group = 0;
-  for (const int s : {SIGINT, SIGTERM, SIGHUP}) std::signal(s, SIG_DFL);
+  for (const int s : {SIGINT, SIGTERM, SIGHUP}) handle_unless_ignored(s, SIG_DFL);
   if (end == End::done && (!WIFEXITED(status) || WEXITSTATUS(status) != 0)) end = End::failed;
   return end;
 }
