@@ -2,12 +2,21 @@
 
 #include <mpi.h>
 
+#include <cstdlib>
+
 namespace breccia::insitu {
 
-/// MPI for one rank, where the solver runs without and ParaView needs it.
+/// MPI for one rank, where the solver runs without and ParaView needs it. One rank has nobody to talk to: Open MPI
+/// starts no daemon for it and listens to no network, unless the environment asks for that.
 class OwnMpi {
  public:
-  OwnMpi() { MPI_Init(nullptr, nullptr); }
+  OwnMpi() {
+    ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    ::setenv("OMPI_MCA_pml", "ob1", 0);
+    ::setenv("OMPI_MCA_btl", "self", 0);
+    for (const char* name : {"OMPI_MCA_oob_tcp_if_include", "PMIX_MCA_ptl_tcp_if_include"}) ::setenv(name, "lo", 0);
+    MPI_Init(nullptr, nullptr);
+  }
   OwnMpi(const OwnMpi&) = delete;
   OwnMpi& operator=(const OwnMpi&) = delete;
   ~OwnMpi() { MPI_Finalize(); }

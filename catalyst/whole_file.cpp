@@ -1,14 +1,13 @@
 #include "catalyst/whole_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 
 #include "catalyst/pipeline_error.hpp"
 
@@ -19,11 +18,16 @@ namespace {
   throw PipelineError(path.string() + ": " + what + ": " + std::strerror(number));
 }
 
-/// Closes what it holds.
+/// A regular file of the folder of extracts, which may be another's: no link, pipe or device is opened.
 class Descriptor {
  public:
-  Descriptor(const std::filesystem::path& path, int flags) : value_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
-    if (value_ < 0) fail(path, "cannot be opened for writing", errno);
+  Descriptor(const std::filesystem::path& path, int flags)
+      : value_(::open(path.c_str(), flags | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666)) {
+    if (value_ < 0) fail(path, "cannot be opened", errno);
+    struct stat about {};
+    if (::fstat(value_, &about) == 0 && S_ISREG(about.st_mode)) return;
+    ::close(value_);
+    throw PipelineError(path.string() + ": is no regular file");
   }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
@@ -50,7 +54,8 @@ std::int64_t replace_file(const std::filesystem::path& path, std::string_view co
   temporary.replace_filename("." + path.filename().string() + ".tmp");
   try {
     {
-      const Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
+      ::unlink(temporary.c_str());  // of a run that was killed, or a link that somebody put there
+      const Descriptor file(temporary, O_WRONLY | O_CREAT | O_EXCL);
       write_all(temporary, file.value(), content);
       if (sync == Sync::yes && ::fsync(file.value()) != 0) fail(temporary, "cannot be synced to the disk", errno);
     }
@@ -75,12 +80,18 @@ std::int64_t append_to_file(const std::filesystem::path& path, std::string_view 
 }
 
 std::string file_content(const std::filesystem::path& path) {
-  if (!std::filesystem::exists(path)) return {};
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream content;
-  content << file.rdbuf();
-  if (!file) fail(path, "cannot be read", EIO);
-  return content.str();
+  std::error_code error;
+  if (!std::filesystem::exists(std::filesystem::symlink_status(path, error))) return {};
+  const Descriptor file(path, O_RDONLY);
+  std::string content;
+  std::array<char, 1 << 16> block{};
+  for (;;) {
+    const ssize_t size = ::read(file.value(), block.data(), block.size());
+    if (size < 0 && errno == EINTR) continue;
+    if (size < 0) fail(path, "cannot be read", errno);
+    if (size == 0) return content;
+    content.append(block.data(), static_cast<std::size_t>(size));
+  }
 }
 
 void make_folder(const std::filesystem::path& path) {

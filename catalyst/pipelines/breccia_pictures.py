@@ -9,6 +9,7 @@ picture); 0: one picture.
 import math
 import os
 import re
+import stat
 
 import numpy
 from paraview.simple import (ColorBy, CreateExtractor, CreateRenderView, GetColorTransferFunction, GetScalarBar, Line, SetActiveView, Show, Text,
@@ -308,7 +309,9 @@ class Picture:
         lines = ["time,phi,theta,FILE" if turns else "time,FILE"]
         lines += [f"{time!r},{phi},{theta},{file}" if turns else f"{time!r},{file}" for time, phi, theta, file in rows]
         temporary = os.path.join(folder, ".data.csv.tmp")
-        with open(temporary, "w", encoding="utf-8") as table:
+        if os.path.lexists(temporary):  # of a run that was killed, or a link that somebody put there
+            os.unlink(temporary)
+        with open(temporary, "x", encoding="utf-8") as table:
             table.write("\n".join(lines) + "\n")
             table.flush()
             os.fsync(table.fileno())
@@ -381,6 +384,8 @@ def listed_times(file, pattern):
     """Times by step of the pictures that a table lists: those drawn before the run was stopped, which goes on here."""
     times = {}
     try:
+        if not stat.S_ISREG(os.lstat(file).st_mode):  # not to be led elsewhere, or to wait for a pipe
+            return times
         with open(file, encoding="utf-8") as table:
             for line in table.read().splitlines()[1:]:
                 time, *_, name = line.split(",")
