@@ -12,6 +12,8 @@
 #include "widgets/theme.hpp"
 
 int main(int argc, char** argv) {
+  // Frames are written once; a file system may have no locks.
+  if (!qEnvironmentVariableIsSet("HDF5_USE_FILE_LOCKING")) qputenv("HDF5_USE_FILE_LOCKING", "FALSE");
   // The worker of the queue has no window and needs no display.
   if (argc == 3 && QByteArray(argv[1]) == "--work-queue") {
     const QCoreApplication worker(argc, argv);

@@ -73,6 +73,8 @@ void Document::start(const QString& file, const QByteArray& text) {
 
 QString Document::open(const QString& file) {
   QFile in(file);
+  const QFileInfo about(file);
+  if (about.exists() && !about.isFile()) return tr("%1 cannot be read: %2").arg(file, tr("it is no regular file"));
   if (!in.open(QIODevice::ReadOnly)) return tr("%1 cannot be read: %2").arg(file, in.errorString());
   start(file, in.readAll());
   emit renamed();

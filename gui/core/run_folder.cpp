@@ -1,5 +1,6 @@
 #include "core/run_folder.hpp"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 
 #include <QCryptographicHash>
@@ -13,6 +14,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "base/regular_file.hpp"
 
 namespace breccia::gui {
 
@@ -30,13 +33,36 @@ QJsonObject case_among(const QJsonObject& provenance) {
   return {};
 }
 
+/// Opens a file of a run's folder, which may be another's: no link, pipe or device. False where that cannot be done.
+bool open_in_run(const QString& path, Depth depth, QFile& file) {
+  Opened opened = open_regular(QFile::encodeName(path).toStdString(), O_RDONLY, depth);
+  return opened && file.open(opened.descriptor.release(), QIODevice::ReadOnly, QFileDevice::AutoCloseHandle);
+}
+
+/// Empty: there is none that can be read.
+QJsonObject json_in_run(const QString& path, Depth depth) {
+  QFile file;
+  if (!open_in_run(path, depth, file)) return {};
+  return QJsonDocument::fromJson(file.readAll()).object();
+}
+
+QJsonObject provenance_of(const QString& run_folder) {
+  return json_in_run(QDir(run_folder).filePath("provenance.json"), Depth::file);
+}
+
+/// Whether a file of one of a run's folders is a regular one, reached without a link.
+bool is_regular_in_run(const QString& path) {
+  QFile file;
+  return open_in_run(path, Depth::subfolder, file);
+}
+
 }  // namespace
 
 QList<QByteArray> GrowingFile::news(bool* restarted) {
-  QFile file(path_);
+  QFile file;
   has_more_ = false;
   if (restarted != nullptr) *restarted = false;
-  if (!file.open(QIODevice::ReadOnly)) return {};
+  if (!open_in_run(path_, Depth::file, file)) return {};
   if (read_ > 0) {
     const bool same = file.size() >= read_ && file.seek(read_ - last_.size()) && file.read(last_.size()) == last_;
     if (restarted != nullptr) *restarted = !same;
@@ -136,13 +162,12 @@ bool read_status(const QByteArray& line, RunStatus& out) {
 
 std::vector<RunFrame> read_series(const QString& run_folder, const QString& part) {
   const QDir frames(QDir(run_folder).filePath("frames"));
-  QFile file(frames.filePath(part + ".hdf.series"));
   std::vector<RunFrame> found;
-  if (!file.open(QIODevice::ReadOnly)) return found;
-  const QJsonArray list = QJsonDocument::fromJson(file.readAll()).object()["files"].toArray();
+  const QJsonArray list = json_in_run(frames.filePath(part + ".hdf.series"), Depth::subfolder)["files"].toArray();
   for (const QJsonValue& entry : list) {
-    const QString path = frames.absoluteFilePath(entry.toObject()["name"].toString());
-    if (QFileInfo::exists(path)) found.push_back({path, entry.toObject()["time"].toDouble()});
+    const QString name = entry.toObject()["name"].toString();
+    const QString path = frames.absoluteFilePath(name);
+    if (!name.contains('/') && is_regular_in_run(path)) found.push_back({path, entry.toObject()["time"].toDouble()});
   }
   return found;
 }
@@ -152,7 +177,7 @@ std::vector<RunCheckpoint> read_checkpoints(const QString& run_folder) {
   const QDir folder(QDir(run_folder).filePath("checkpoints"));
   std::vector<RunCheckpoint> found;
   for (const QString& file : folder.entryList({"step_*.h5"}, QDir::Files))
-    if (const auto match = name.match(file); match.hasMatch())
+    if (const auto match = name.match(file); match.hasMatch() && is_regular_in_run(folder.absoluteFilePath(file)))
       found.push_back({folder.absoluteFilePath(file), match.captured(1).toLongLong()});
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.step > b.step; });
   return found;
@@ -170,23 +195,21 @@ bool is_held(const QString& run_folder) {
   return false;
 }
 
+QByteArray case_text_of(const QString& run_folder) {
+  QFile file;
+  return open_in_run(QDir(run_folder).filePath("case.toml"), Depth::file, file) ? file.readAll() : QByteArray();
+}
+
 bool was_run_with_another(const QString& run_folder, const QByteArray& case_text) {
-  QFile file(QDir(run_folder).filePath("provenance.json"));
-  if (!file.open(QIODevice::ReadOnly)) return false;
-  const QString sum = case_among(QJsonDocument::fromJson(file.readAll()).object())["sha256"].toString();
+  const QString sum = case_among(provenance_of(run_folder))["sha256"].toString();
   return !sum.isEmpty() && sum != QCryptographicHash::hash(case_text, QCryptographicHash::Sha256).toHex();
 }
 
-bool is_run_folder(const QString& folder) {
-  QFile file(QDir(folder).filePath("provenance.json"));
-  return file.open(QIODevice::ReadOnly) && QJsonDocument::fromJson(file.readAll()).object()["program"] == "breccia";
-}
+bool is_run_folder(const QString& folder) { return provenance_of(folder)["program"] == "breccia"; }
 
 RunOrigin origin_of(const QString& run_folder) {
   RunOrigin origin{QDir(run_folder).absolutePath(), {}, 1, {}};
-  QFile file(QDir(run_folder).filePath("provenance.json"));
-  if (!file.open(QIODevice::ReadOnly)) return origin;
-  const QJsonObject json = QJsonDocument::fromJson(file.readAll()).object();
+  const QJsonObject json = provenance_of(run_folder);
   origin.started = QDateTime::fromString(json["started"].toString(), Qt::ISODate);
   origin.ranks = json["ranks"].toInt(1);
   origin.case_name = QFileInfo(case_among(json)["file"].toString()).fileName();

@@ -100,6 +100,8 @@ class History {
 [[nodiscard]] std::vector<RunCheckpoint> read_checkpoints(const QString& run_folder);
 /// Whether a process of this machine holds the folder of a run, wherever it was started.
 [[nodiscard]] bool is_held(const QString& run_folder);
+/// The case of a run as it stands in its folder; null: there is none that can be read.
+[[nodiscard]] QByteArray case_text_of(const QString& run_folder);
 /// Whether a case reads otherwise than the one that a run was started from. False where that is not known.
 [[nodiscard]] bool was_run_with_another(const QString& run_folder, const QByteArray& case_text);
 /// True for a folder that a run has written into.

@@ -13,6 +13,7 @@
 #include <QLockFile>
 #include <QThread>
 #include <algorithm>
+#include <cerrno>
 
 #include "core/written_file.hpp"
 
@@ -242,7 +243,9 @@ int work_queue(const QString& state_folder) {
   const RunQueue queue(state_folder);
   const RunRegistry registry(QDir(state_folder).filePath("runs.json"));
   QFile lock(queue.worker_lock());
-  if (!lock.open(QIODevice::WriteOnly) || ::flock(lock.handle(), LOCK_EX | LOCK_NB) != 0) return 0;
+  if (!lock.open(QIODevice::WriteOnly)) return 0;
+  // Another worker is there. A file system without locks shows none: then two may work, each change under its own lock.
+  if (::flock(lock.handle(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return 0;
   while (queue.advance(registry)) QThread::msleep(kLook);
   return 0;
 }

@@ -26,12 +26,28 @@ constexpr int kRemembered = 200;
 constexpr qint64 kStatusTail = 1 << 16;  // bytes of status.jsonl in which its last state stands
 constexpr int kLooksAfterEnd = 3;
 
-QStringList environment_of_runs() {
+/// The library that keeps what a process listens at on this machine; empty: it is not installed.
+QString loopback_library(const QStringList& command) {
+  for (const QString& word : command) {
+    const QDir above(QFileInfo(word).absolutePath() + "/..");
+    for (const char* place : {"catalyst", "lib/breccia"}) {
+      const QString file = above.filePath(QString(place) + "/libbreccia_loopback.so");
+      if (QFileInfo(word).isExecutable() && QFileInfo(file).isFile()) return QFileInfo(file).canonicalFilePath();
+    }
+  }
+  return {};
+}
+
+/// All ranks are of this machine: mpiexec, which would listen to networks for daemons of others, need not.
+QStringList environment_of_runs(const RunRecord& record) {
   QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
   if (::geteuid() == 0) {  // in a container; Open MPI asks root to say so
     environment.insert("OMPI_ALLOW_RUN_AS_ROOT", "1");
     environment.insert("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
   }
+  if (record.ranks <= 1) return environment.toStringList();
+  const QString library = loopback_library(record.command), others = environment.value("LD_PRELOAD");
+  if (!library.isEmpty()) environment.insert("LD_PRELOAD", others.isEmpty() ? library : library + ":" + others);
   return environment.toStringList();
 }
 
@@ -127,7 +143,7 @@ bool SolverRun::launch(RunRecord& record, const QString& folder, QString* error)
     *error = QObject::tr("the folder %1 is not there").arg(folder);
     return false;
   }
-  const auto session = start_session(record.command, folder, log_of(record.folder), environment_of_runs(), error);
+  const auto session = start_session(record.command, folder, log_of(record.folder), environment_of_runs(record), error);
   if (session) record.session = *session;
   return session.has_value();
 }

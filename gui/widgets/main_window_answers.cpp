@@ -125,8 +125,7 @@ void MainWindow::show_mesh(const QJsonObject& json, const QString& elements_file
 void MainWindow::name_groups() {
   const auto is_of_case = [this] {
     if (case_of(*run_) == document_.file()) return true;
-    QFile copy(QDir(run_->record().folder).filePath("case.toml"));
-    return copy.open(QIODevice::ReadOnly) && copy.readAll() == document_.text();
+    return case_text_of(run_->record().folder) == document_.text();
   };
   view_->scene().set_groups(!showing_results_ || is_of_case() ? groups_ : std::vector<std::string>());
 }

@@ -1,6 +1,8 @@
 #include "core/run_folder.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <QDir>
 #include <QFile>
@@ -187,6 +189,42 @@ TEST(RunFolder, RunsBesideACaseAreOfThatCaseAndHaveWrittenSomethingAndTheNewestI
   EXPECT_EQ(all[0].folder, scratch.filePath("runs/try"));
   EXPECT_EQ(all[0].ranks, 4);
   EXPECT_EQ(all[0].started, QDateTime::fromString("2026-11-30T12:00:00+02:00", Qt::ISODate));
+}
+
+/// A folder that comes from somebody else.
+TEST(RunFolder, NoLinkAndNoPipeOfAFolderIsOpened) {
+  const QTemporaryDir scratch;
+  const QString outside = scratch.filePath("outside"), run = scratch.filePath("run");
+  append(outside, "{\"program\":\"breccia\",\"state\":\"running\",\"files\":[{\"name\":\"a.vtkhdf\",\"time\":1}]}\n");
+  QDir().mkpath(run + "/frames");
+  for (const char* name : {"/status.jsonl", "/provenance.json", "/case.toml", "/frames/elements.hdf.series"}) {
+    const QByteArray file = QFile::encodeName(run + name);
+    for (const bool linked : {true, false}) {
+      QFile::remove(run + name);
+      ASSERT_EQ(linked ? ::symlink(QFile::encodeName(outside).constData(), file.constData())
+                       : ::mkfifo(file.constData(), 0600),
+                0);
+      EXPECT_TRUE(RunProgress(run).look().state.isEmpty()) << name;
+      EXPECT_FALSE(is_run_folder(run)) << name;
+      EXPECT_TRUE(case_text_of(run).isEmpty()) << name;
+      EXPECT_TRUE(read_series(run, "elements").empty()) << name;
+    }
+  }
+}
+
+TEST(RunFolder, NoFrameOutsideItIsListed) {
+  const QTemporaryDir scratch;
+  const QString frames = scratch.filePath("run/frames");
+  QDir().mkpath(frames);
+  append(scratch.filePath("outside.vtkhdf"), "x");
+  append(frames + "/own.vtkhdf", "x");
+  ASSERT_TRUE(QFile::link(scratch.filePath("outside.vtkhdf"), frames + "/linked.vtkhdf"));
+  append(frames + "/elements.hdf.series",
+         "{\"files\":[{\"name\":\"own.vtkhdf\",\"time\":1},{\"name\":\"linked.vtkhdf\",\"time\":2},"
+         "{\"name\":\"../../outside.vtkhdf\",\"time\":3}]}");
+  const std::vector<RunFrame> found = read_series(scratch.filePath("run"), "elements");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].time, 1);
 }
 
 }  // namespace
