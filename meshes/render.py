@@ -22,7 +22,7 @@ from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import (vtkActor, vtkColorTransferFunction, vtkLight, vtkPolyDataMapper, vtkRenderer,
                                          vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter)
 
-from render_fields import DAMAGE, DIVERGING, FIELDS, SEQUENTIAL, numbers_of, range_of
+from render_fields import DAMAGE, DIVERGING, FIELDS, SEQUENTIAL, numbers_of, range_of, regular
 from render_surface import FACES, edges_between, outer_faces, point_numbers
 
 INK = (0.13, 0.14, 0.17)
@@ -80,8 +80,8 @@ def series(run, part):
     """[(time, file)] of the complete frames."""
     folder = os.path.join(run, "frames")
     try:
-        with open(os.path.join(folder, f"{part}.hdf.series"), encoding="utf-8") as index:
-            return [(entry["time"], os.path.join(folder, entry["name"])) for entry in json.load(index)["files"]]
+        with open(regular(os.path.join(folder, f"{part}.hdf.series")), encoding="utf-8") as index:
+            return [(entry["time"], regular(os.path.join(folder, os.path.basename(entry["name"])))) for entry in json.load(index)["files"]]
     except OSError as error:
         if part == "elements":
             stop(f"{run} holds no frames of elements: {error.strerror}")
@@ -243,7 +243,7 @@ def last_value(function):
 def case_of(run):
     """The resolved case of a run; empty: it cannot be read."""
     try:
-        with open(os.path.join(run, "case.toml"), "rb") as file:
+        with open(regular(os.path.join(run, "case.toml")), "rb") as file:
             return tomllib.load(file)
     except (OSError, ValueError):
         return {}

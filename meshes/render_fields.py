@@ -1,5 +1,8 @@
-"""What render.py colours by: fields of frames with their units, tables of colours and their ranges."""
+"""What render.py colours by: fields of frames with their units, tables of colours and their ranges; and which files of a run are read."""
+import errno
 import math
+import os
+import stat
 
 import numpy as np
 
@@ -41,3 +44,10 @@ def range_of(values, signed):
     sizes = np.abs(values[np.isfinite(values)])
     high = rounded_up(np.quantile(sizes, 0.99) if len(sizes) > 0 else 1.0)
     return (-high if signed else 0), high
+
+
+def regular(path):
+    """The path of a regular file. A run's folder may be another's: a link would lead out of it, a pipe would be read for ever."""
+    if not stat.S_ISREG(os.lstat(path).st_mode):
+        raise OSError(errno.EINVAL, "is no regular file", path)
+    return path

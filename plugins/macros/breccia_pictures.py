@@ -3,6 +3,7 @@
 For ParaView's Python, in its window and in pvpython. Lies beside Breccia.so, the plugin, and loads it. Each function makes a layout of its own
 and returns its views. The run is the one given (what BrecciaReader has returned) or that of the active source. All quantities are SI."""
 import os
+import stat
 import tomllib
 
 import numpy as np
@@ -58,10 +59,17 @@ def last_value(function):
     return float(function) if isinstance(function, (int, float)) else 0.0
 
 
+def regular(path):
+    """The path of a regular file. A run's folder may be another's: a link would lead out of it, a pipe would be read for ever."""
+    if not stat.S_ISREG(os.lstat(path).st_mode):
+        raise OSError(f"{path} is no regular file")
+    return path
+
+
 def up_of(run):
     """The axis against gravity, or else that of the first velocity, or else z."""
     try:
-        with open(os.path.join(folder_of(run), "case.toml"), "rb") as file:
+        with open(regular(os.path.join(folder_of(run), "case.toml")), "rb") as file:
             case = tomllib.load(file)
         gravity = np.sum([[last_value(g) for g in stage.get("gravity", [0, 0, 0])] for stage in case.get("stage", [])] or [[0, 0, 0]],
                          axis=0)

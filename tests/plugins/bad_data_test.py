@@ -52,6 +52,18 @@ os.makedirs(f"{scratch}/empty")
 expect_told("an empty folder", opened(f"{scratch}/empty"), "is no Breccia run", "history.csv")
 expect_told("a folder that is not there", opened(f"{scratch}/nowhere/status.jsonl"), "is no Breccia run")
 
+# A folder that comes from somebody else: no link is followed, no pipe waited for.
+folder = copy("linked")
+last = sorted(n for n in os.listdir(f"{folder}/frames") if n.startswith("elements_"))[-1]
+for make in (lambda at: os.symlink(f"{run}/frames/{last}", at), os.mkfifo):
+    os.unlink(f"{folder}/frames/{last}")
+    make(f"{folder}/frames/{last}")
+    expect_told("a frame that is no regular file", opened(folder), last, "left out")
+for make in (lambda at: os.symlink(f"{run}/history.csv", at), os.mkfifo):
+    os.unlink(f"{folder}/history.csv")
+    make(f"{folder}/history.csv")
+    expect_told("a history that is no regular file", opened(folder), "history.csv")
+
 folder = copy("cut")
 last = sorted(n for n in os.listdir(f"{folder}/frames") if n.startswith("elements_"))[-1]
 os.truncate(f"{folder}/frames/{last}", os.path.getsize(f"{folder}/frames/{last}") // 2)

@@ -23,13 +23,22 @@ fs::path FolderOf(const std::string& given) {
   const fs::path path(given);
   std::vector<fs::path> candidates{path, path.parent_path(), path.parent_path().parent_path()};
   for (const fs::path& folder : candidates) {
-    if (!folder.empty() && fs::is_directory(folder / "frames", failed) && fs::exists(folder / "history.csv", failed))
+    if (!folder.empty() && fs::is_directory(fs::symlink_status(folder / "frames", failed)) &&
+        fs::exists(folder / "history.csv", failed))
       return folder;
   }
   return {};
 }
 
+/// Whether a regular file stands there. The folder may be another's: a link could lead out of it, and a pipe or a device
+/// would be read for ever.
+bool IsPlain(const fs::path& path) {
+  std::error_code failed;
+  return fs::is_regular_file(fs::symlink_status(path, failed)) && !failed;
+}
+
 std::string ContentOf(const fs::path& path) {
+  if (!IsPlain(path)) return {};
   std::ifstream file(path, std::ios::binary);
   std::stringstream text;
   text << file.rdbuf();
@@ -38,6 +47,7 @@ std::string ContentOf(const fs::path& path) {
 
 /// An HDF5 file that is as long as its superblock says (HDF5 File Format Specification, II.A).
 bool IsWhole(const fs::path& path) {
+  if (!IsPlain(path)) return false;
   std::error_code failed;
   const std::uintmax_t size = fs::file_size(path, failed);
   std::array<char, 48> head{};
@@ -77,7 +87,7 @@ RecordedChannel ChannelOf(const fs::path& index, std::vector<std::string>& incom
     const std::string time = ValueOf(text, "time", at);
     if (time.empty()) break;
     const fs::path file = index.parent_path() / name;
-    if (IsWhole(file)) {
+    if (!fs::path(name).has_parent_path() && IsWhole(file)) {
       channel.frames.push_back({std::strtod(time.c_str(), nullptr), file.string()});
     } else {
       incomplete.push_back(file.string());
@@ -167,6 +177,7 @@ HistoryColumns ReadHistory(const std::string& folder) {
   const fs::path path = fs::path(folder) / "history.csv";
   std::error_code failed;
   if (!fs::exists(path, failed)) throw BadInput("there is no " + path.string());
+  if (!IsPlain(path)) throw BadInput(path.string() + " is no regular file");
   const std::string text = ContentOf(path);
   std::stringstream lines(text.substr(0, text.rfind('\n') + 1));
   HistoryColumns history;
@@ -190,7 +201,7 @@ HistoryColumns ReadHistory(const std::string& folder) {
 }
 
 std::vector<std::string> ReadBodyNames(const std::string& folder) {
-  std::ifstream file(fs::path(folder) / "bodies.csv", std::ios::binary);
+  std::stringstream file(ContentOf(fs::path(folder) / "bodies.csv"));
   std::vector<std::string> names;
   std::string line;
   if (!std::getline(file, line) || Split(line) != std::vector<std::string>{"body", "name"}) return {};

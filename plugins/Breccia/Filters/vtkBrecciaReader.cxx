@@ -1,6 +1,7 @@
 #include "vtkBrecciaReader.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "brecciaBodies.h"
 #include "brecciaData.h"
@@ -34,6 +35,7 @@ void Remember(vtkObject*, unsigned long, void* list, void* text) {
 }  // namespace
 
 vtkBrecciaReader::vtkBrecciaReader() {
+  setenv("HDF5_USE_FILE_LOCKING", "FALSE", 0);  // frames are written once; a file system may have no locks
   this->SetNumberOfInputPorts(0);
   this->SetNumberOfOutputPorts(2);
   this->ChannelSelection->AddObserver(vtkCommand::ModifiedEvent, this, &vtkBrecciaReader::Modified);
