@@ -40,6 +40,7 @@ class Assembly {
     for (Placed& placed : placed_) read_sets(placed);
     if (!problems_.empty()) throw InputError(std::move(problems_));
     made_.higher_order = model_.higher_order;
+    made_.notes = model_.notes;
     return std::move(made_);
   }
 
@@ -221,11 +222,7 @@ class Assembly {
 }  // namespace
 
 RawMesh read_inp(const std::filesystem::path& file, double scale) {
-  inp::Model model = inp::parse(file);
-  const std::vector<std::string> notes = model.notes;
-  RawMesh raw = raw_mesh(Assembly(std::move(model), file).make(), file, scale);
-  raw.notes.insert(raw.notes.end(), notes.begin(), notes.end());
-  return raw;
+  return raw_mesh(Assembly(inp::parse(file), file).make(), file, scale);
 }
 
 }  // namespace breccia

@@ -34,6 +34,7 @@ class Builder {
     add_bodies(elements, group);
     for (const SetMesh::Set& set : given_.sets) add_parts(set);
     RawMesh raw;
+    raw.notes = given_.notes;
     if (given_.higher_order) raw.notes.emplace_back(kHigherOrderNote);
     drop_unused_nodes();
     raw.mesh = std::move(mesh_);

@@ -26,7 +26,8 @@ struct SetMesh {
   std::vector<Vec3> nodes;  ///< in the unit of the file
   std::vector<Element> elements;
   std::vector<Set> sets;
-  bool higher_order = false;  ///< elements had nodes between their corners
+  bool higher_order = false;       ///< elements had nodes between their corners
+  std::vector<std::string> notes;  ///< of MeshReport
 };
 
 /// The tetrahedra as bodies, the sets as groups. Volume groups: the sets with tetrahedra that have a material, then the

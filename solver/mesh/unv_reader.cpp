@@ -183,6 +183,7 @@ class UnvReader {
       SetMesh::Set set;
       set.name = std::string(trimmed(line()));
       if (set.name.empty()) set.name = "group_" + std::to_string(heading[0]);
+      std::int64_t missing = 0;
       for (std::int64_t read = 0; read < heading[7];) {
         const std::vector<std::int64_t> numbers = integers(4);
         for (std::size_t i = 0; i + 3 < numbers.size(); i += 4, ++read) {
@@ -190,8 +191,12 @@ class UnvReader {
           if (numbers[i] != kNode && numbers[i] != kElement) continue;
           const auto found = known.find(numbers[i + 1]);
           if (found != known.end()) (numbers[i] == kNode ? set.nodes : set.elements).push_back(found->second);
+          missing += found == known.end() ? 1 : 0;
         }
       }
+      if (missing > 0 && (set.nodes.empty() || !set.elements.empty()))  // gmsh names the points of a group twice
+        made_.notes.push_back("group \"" + set.name + "\" has " + std::to_string(missing) +
+                              " members that are no node, tetrahedron, triangle or line of the file");
       made_.sets.push_back(std::move(set));
     }
   }

@@ -121,7 +121,7 @@ TEST(Solid, any_mesh_is_reported_without_a_case_and_with_what_one_begins_with) {
   const Scratch scratch;
   const Outcome mesh = call("mesh " + scratch.write("pair.inp", kPair));
   EXPECT_EQ(mesh.exit_code, 0) << mesh.err;
-  for (const char* words : {"2 elements, 5 nodes", "volume  rock", "surface base", "nodes   all", "radius ratio",
+  for (const char* words : {"2 elements, 8 nodes", "volume  rock", "surface base", "nodes   all", "radius ratio",
                             "file = \"pair.inp\"", "scale = 0.001", "group = \"steel\""})
     EXPECT_NE(mesh.out.find(words), std::string::npos) << words << " in\n" << mesh.out;
   const Outcome script = call("mesh " + scratch.write("box.geo",

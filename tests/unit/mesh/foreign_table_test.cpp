@@ -115,6 +115,17 @@ std::vector<Row> rows_of_gmsh() {
        {},
        {},
        ""},
+      {"UnvMemberMissing",
+       ".unv",
+       [] {
+         return replaced(by_gmsh("a.unv"), "         8        53         0         0",
+                         "         8       953         0         0");
+       },
+       2,
+       {"rock", "steel", "rest"},
+       kLeft,
+       {"left", "rock", "steel", "tip"},
+       "group \"steel\" has 1 members that are no node"},
       {"UnvCut", ".unv", [] { return cut(by_gmsh("a.unv")); }, 0, {}, {}, {}, "is cut off: it ends within a dataset"},
       {"UnvNodeMissing",
        ".unv",
