@@ -48,6 +48,7 @@ void bind(A& a, MeshSource& mesh) {
   a.value("scale", mesh.scale);
   a.value("size", mesh.size);
   a.value("glue", mesh.glue);
+  a.value("merge_nodes", mesh.merge_nodes);
   a.choice("inverted", mesh.repair_inverted);
   a.value("time_limit", mesh.time_limit);
   a.value("memory_limit", mesh.memory_limit);

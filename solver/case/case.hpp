@@ -80,6 +80,7 @@ struct MeshSource {
   double scale = 1.0;           ///< file units to m
   double size = 0;              ///< m, edge of the elements of a solid; 0: automatic
   bool glue = false;            ///< conforming interfaces between volumes are glued
+  double merge_nodes = 0;       ///< m, nodes of one solid that are no further apart become one; 0: none
   bool repair_inverted = true;  ///< swap two corners of negative elements; false refuses them
   double time_limit = 0;        ///< s, wall, for reading a file; 0: by what asks for it
   double memory_limit = 0.8;    ///< share of this machine's memory, for reading a file

@@ -19,12 +19,19 @@ class GroupChecker {
       : case_(c),
         volumes_(groups.volumes.begin(), groups.volumes.end()),
         surfaces_(groups.surfaces.begin(), groups.surfaces.end()),
-        nodes_(groups.nodes.begin(), groups.nodes.end()) {
-    for (const auto* names : {&volumes_, &surfaces_, &nodes_}) all_.insert(all_.end(), names->begin(), names->end());
+        nodes_(groups.nodes.begin(), groups.nodes.end()),
+        of_elements_(volumes_) {
+    of_elements_.insert(of_elements_.end(), groups.sets.begin(), groups.sets.end());
+    for (const auto* names : {&of_elements_, &surfaces_, &nodes_})
+      all_.insert(all_.end(), names->begin(), names->end());
   }
 
   void volume(const Origin& origin, const char* name, const std::string& group) {
     check(origin, name, group, volumes_, "volume group");
+  }
+  /// A volume group, with a material or without.
+  void elements(const Origin& origin, const char* name, const std::string& group) {
+    check(origin, name, group, of_elements_, "volume group");
   }
   void surface(const Origin& origin, const char* name, const std::string& group) {
     check(origin, name, group, surfaces_, "surface group");
@@ -32,7 +39,7 @@ class GroupChecker {
   /// A curve or point is meant only where no volume or surface has its name.
   void any(const Origin& origin, const char* name, const std::string& group) {
     check(origin, name, group, all_, "volume, surface, curve or point group");
-    if (has(volumes_, group) && has(surfaces_, group))
+    if (has(of_elements_, group) && has(surfaces_, group))
       add(problem_at(case_, origin, name,
                      "a volume group and a surface group of the mesh have this name: which is meant is not clear",
                      "groups with different names", group));
@@ -69,7 +76,8 @@ class GroupChecker {
   }
 
   const Case& case_;
-  std::vector<std::string> volumes_, surfaces_, nodes_, all_;
+  std::vector<std::string> volumes_, surfaces_, nodes_;
+  std::vector<std::string> of_elements_, all_;  ///< volumes and sets; and all others
   std::vector<Problem> problems_;
 };
 
@@ -149,7 +157,6 @@ class EveryGroup {
     }
     for (const Contact& contact : c_.contacts)
       for (const std::string& group : contact.groups) check_name(contact.origin, "between", group);
-    for (const InitialVelocity& v : c_.initial_velocities) check_name(v.origin, "group", v.group);
   }
 
   void joints() {
@@ -204,7 +211,8 @@ std::vector<Problem> check_groups(const Case& c, const GroupNames& groups, std::
                    "the volume group \"" + group + "\" of the mesh has no material",
                    "a [[material]] for every volume group, or one of \"*\"", group});
   }
-  // Joints, contacts and initial velocities name groups with a material, which has been checked above, but for "*".
+  // Joints and contacts name groups with a material, which has been checked above, but for "*".
+  for (const InitialVelocity& v : c.initial_velocities) checker.elements(v.origin, "group", v.group);
   if (std::find(groups.volumes.begin(), groups.volumes.end(), every_group) == groups.volumes.end())
     EveryGroup(c, groups.volumes, checker).check();
   for (const std::string& group : c.contact_points.surfaces)

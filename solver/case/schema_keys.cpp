@@ -45,8 +45,11 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Edge of the elements that a STEP, BREP or STL file is meshed with. auto: a tenth of the cube root of the "
              "volume of its box.", .example = "\"2.5 mm\""},
     {.path = "mesh.glue", .type = boolean, .fallback = "false",
-     .help = "Whether bodies that share a conforming interface are glued by joints there, or only touch.",
+     .help = "Whether volumes that share a conforming interface are one body with joints there, or only touch.",
      .example = "true"},
+    {.path = "mesh.merge_nodes", .type = number, .unit = "m", .fallback = "0", .range = not_negative,
+     .help = "Distance up to which nodes that a mesh has twice become one: in a volume, with mesh.glue between any.",
+     .example = "\"1 um\""},
     {.path = "mesh.inverted", .type = choice, .fallback = "repair", .choices = "refuse|repair",
      .help = "What happens to elements of negative volume: two corners are swapped, or the mesh is refused with their "
              "ids.", .example = "\"refuse\""},
@@ -191,11 +194,9 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Coefficient of friction: slope of the Mohr-Coulomb strength, and friction of closed joints, damaged "
              "or failed, until they have opened. It follows the normal traction at once: interfaces that slide "
              "undamped vibrate and rub with 0.29 for 0.3, 0.55 to 0.57 for 0.6. The viscosity that check names cures "
-             "that.",
-     .example = "0.6"},
+             "that.", .example = "0.6"},
     {.path = "joint[].friction_angle", .type = number, .unit = "rad", .range = angle,
-     .help = "Friction as an angle, whose tangent is the coefficient. Give this or friction.",
-     .example = "\"30 deg\""},
+     .help = "Friction as an angle, whose tangent is the coefficient. Give this or friction.", .example = "\"30 deg\""},
     {.path = "joint[].energy_mode_1", .type = number, .unit = "J/m2", .range = positive,
      .help = "Fracture energy of opening. Needed where joints can fail.", .example = "\"10 J/m2\""},
     {.path = "joint[].energy_mode_2", .type = number, .unit = "J/m2", .fallback = "= energy_mode_1", .range = positive,
@@ -322,7 +323,7 @@ constexpr auto model_keys = std::to_array<Key>({
      .help = "Surfaces whose joints are broken from the start.", .example = "[\"slit\"]"},
 
     {.path = "initial_velocity[]", .type = section_list,
-     .help = "Velocity of the bodies of a group at the start; its parts add up.",
+     .help = "Velocity of the bodies of a group at the start; its parts add up. What is joined is one body.",
      .fixed_by_state = "it was given before the first step of the first run; the velocities are those of the state"},
     {.path = "initial_velocity[].group", .type = text_or_list, .required = true,
      .help = "Physical volume group, or a list of groups.", .example = "\"projectile\""},

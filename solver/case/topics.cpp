@@ -84,11 +84,12 @@ constexpr auto table = std::to_array<Topic>({
      "One flat layer of elements and a [plane] section.",
      "plane|plane.kind"},
     {"tie|tied|tied contact|bond|bonded|weld",
-     "mesh.glue joins bodies of one conforming mesh; a [[joint]] with between says how their interface holds, for "
-     "good if it has no strengths.",
-     "mesh.glue|joint.between"},
+     "mesh.glue joins volumes of one conforming mesh to one body, mesh.merge_nodes those that were meshed apart; a "
+     "[[joint]] with between says how their interface holds, for good if it has no strengths.",
+     "mesh.glue|mesh.merge_nodes|joint.between"},
     {"set|element set|node set|section assignment|wildcard",
      "A set is a group: a physical volume, surface, curve or point of the mesh, or a solid or face of a STEP file. "
+     "Physical volumes may overlap where one of them has a [[material]] for every element. "
      "Groups that are alike share an entry: group = [\"left\", \"right\"]. In a [[joint]] and a [[contact]] \"*\" "
      "stands for every group.",
      "material.group|joint.group|joint.between|contact.between|stage.constraint.group"},

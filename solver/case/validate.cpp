@@ -290,7 +290,7 @@ class Validator {
   }
 
   void initial_velocity(const InitialVelocity& v) {
-    needs_material(v.origin, "group", v.group);
+    if (c_.mesh.raster) needs_material(v.origin, "group", v.group);  // else it may be a group that carries none
     if (v.random[1] < v.random[0])
       problem(v.origin, "random", "the greatest speed is below the smallest", "[smallest, greatest]");
   }

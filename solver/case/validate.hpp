@@ -19,7 +19,7 @@ namespace breccia::case_ {
 
 /// Names of the groups of a mesh, as Mesh has them.
 struct GroupNames {
-  std::span<const std::string> volumes, surfaces, nodes = {};
+  std::span<const std::string> volumes, surfaces, nodes = {}, sets = {};
 };
 
 /// Compares the groups a case names with those of its mesh, and the volumes of the mesh with the materials. Each

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,11 @@ inline std::string as_list(const Advice& advice) {
   std::string text;
   for (const std::string& sentence : advice) text += "- " + sentence + "\n";
   return text;
+}
+
+/// A warning each, on stderr.
+inline void warn_of(const Advice& advice) {
+  for (const std::string& sentence : advice) std::cerr << "breccia: warning: " << sentence << '\n';
 }
 
 }  // namespace breccia

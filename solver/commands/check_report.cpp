@@ -287,6 +287,9 @@ std::string mesh_report(const FinishedMesh& made, const QualityReport& q) {
   for (const MeshReport::Group& g : r.volume_groups)
     text += fmt::format("  volume  {:<20} {:>9} {}\n", printable(g.name), g.count,
                         word_for(g.count, "element", "elements"));
+  for (const MeshReport::Group& g : r.element_sets)
+    text += fmt::format("  set     {:<20} {:>9} {}, without a material of its own\n", printable(g.name), g.count,
+                        word_for(g.count, "element", "elements"));
   for (const MeshReport::Group& g : r.surface_groups)
     text += fmt::format("  surface {:<20} {:>9} {}\n", printable(g.name), g.count,
                         word_for(g.count, "triangle", "triangles"));
@@ -297,8 +300,9 @@ std::string mesh_report(const FinishedMesh& made, const QualityReport& q) {
   };
   note(r.inverted_repaired, "inverted elements turned round");
   note(r.orphan_nodes, "nodes of no element dropped");
-  note(r.split_nodes, "nodes added where bodies that are not glued touch");
-  note(r.duplicate_nodes, "nodes coincide with others: bodies there are not joined");
+  note(r.merged_nodes, "nodes merged with others near to them (mesh.merge_nodes)");
+  note(r.split_nodes, "nodes added where volumes that are not glued touch");
+  note(r.duplicate_nodes, "nodes coincide with others: volumes there are not joined");
   note(r.ungrouped_elements, "tetrahedra outside every physical volume left out");
   for (const std::string& group : r.empty_groups)
     text += fmt::format("  group   {:<20} without element or node, left out\n", printable(group));

@@ -28,7 +28,8 @@ Json groups(const MeshReport& report) {
   };
   return {{"volumes", list(report.volume_groups)},
           {"surfaces", list(report.surface_groups)},
-          {"curves_and_points", list(report.node_groups)}};
+          {"curves_and_points", list(report.node_groups)},
+          {"sets", list(report.element_sets)}};
 }
 
 Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
@@ -168,6 +169,7 @@ std::string mesh_json(const FinishedMesh& made, const std::vector<std::vector<To
             {"groups", groups(r)},
             {"inverted_repaired", r.inverted_repaired},
             {"duplicate_nodes", r.duplicate_nodes},
+            {"merged_nodes", r.merged_nodes},
             {"quality", quality.ratio_bins},
             {"report", mesh_report(made, quality)}};
   if (faces == nullptr) return text_of(json);

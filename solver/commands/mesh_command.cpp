@@ -9,6 +9,7 @@
 #include "commands/check_report.hpp"
 #include "commands/json_report.hpp"
 #include "commands/start_state.hpp"
+#include "commands/unjoined_report.hpp"
 #include "contact/search_params.hpp"
 #include "domains/balance.hpp"
 #include "observe/fragment_labels.hpp"
@@ -78,13 +79,16 @@ int mesh(const MeshCommand& asked) {
     const FinishedMesh made = read_mesh(input);
     told(made);
     if (!asked.json) fmt::print("{}", case_to_begin_with(asked.case_file, made));
+    if (!asked.json) warn_of(unjoined_volumes(input, made.mesh, build_topology(made.mesh)));
     return 0;
   }
   case_::Case input =
       read_case_of(asked.case_file, asked.overrides, read_start_state(asked.case_file, asked.overrides, {}));
   input.mesh.trust = asked.trust_geometry;
   if (asked.folder.empty()) {
-    told(build_mesh(input));
+    const FinishedMesh made = build_mesh(input);
+    told(made);
+    if (!asked.json) warn_of(unjoined_volumes(input, made.mesh, build_topology(made.mesh)));
     return 0;
   }
   refuse_frames_of_run(asked.folder);
@@ -99,6 +103,7 @@ int mesh(const MeshCommand& asked) {
     return 0;
   }
   told({model.mesh, model.mesh_report});
+  warn_of(unjoined_volumes(input, model.mesh, model.topology));
   fmt::print("elements for ParaView in {}\n", asked.folder.string());
   return 0;
 }

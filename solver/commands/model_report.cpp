@@ -4,14 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <utility>
 #include <vector>
 
-#include "base/disjoint_sets.hpp"
 #include "base/geometry_file.hpp"
 #include "commands/check_report.hpp"
-#include "mesh/node_parting.hpp"
 #include "mesh/tetrahedron.hpp"
 #include "model/parameters.hpp"
 #include "output/quantity_text.hpp"
@@ -20,28 +16,6 @@ namespace breccia {
 namespace {
 
 std::size_t index(Index i) { return static_cast<std::size_t>(i); }
-
-/// Bodies that are glued to each other.
-class Solids {
- public:
-  explicit Solids(const Model& model) : bodies_(model.mesh.num_bodies), sets_(index(bodies_)) {
-    for (std::size_t e = 0; e < model.mesh.elements.size(); ++e) {
-      for (const FaceLink& link : model.topology.links[e]) {
-        if (link.inner()) sets_.join(model.mesh.element_body[e], model.mesh.element_body[index(link.neighbour)]);
-      }
-    }
-  }
-  [[nodiscard]] bool several() {
-    for (Index b = 1; b < bodies_; ++b) {
-      if (sets_.root(b) != sets_.root(0)) return true;
-    }
-    return false;
-  }
-
- private:
-  Index bodies_;
-  DisjointSets sets_;
-};
 
 /// Fragments go through each other as well.
 std::string missing_contact_of_fragments(const Model& model) {
@@ -138,9 +112,7 @@ std::string slice_without_plane(const case_::Case& input, const Model& model) {
 
 /// Bodies that go through each other. Those that a constraint holds in every stage cannot move into others.
 std::string missing_contact(const case_::Case& input, const Model& model) {
-  if (model.has_contact) return {};
-  Solids solids(model);
-  if (!solids.several()) return {};
+  if (model.has_contact || model.mesh.num_bodies < 2) return {};
   std::vector<bool> free(index(model.mesh.num_bodies), true);
   for (std::size_t g = 0; g < model.mesh.volume_groups.size(); ++g) {
     const bool held = std::all_of(input.stages.begin(), input.stages.end(), [&](const case_::Stage& stage) {
@@ -183,58 +155,6 @@ std::string sphere_too_small(const Model& model) {
       outside, worst, furthest - sphere.radius, sphere.radius, furthest);
 }
 
-/// (elements) a bit a face that the case breaks from the start.
-std::vector<std::uint8_t> broken_on_purpose(const case_::Case& input, const Model& model) {
-  std::vector<std::uint8_t> broken(model.mesh.elements.size(), 0);
-  for (std::size_t g = 0; g < model.mesh.surface_groups.size(); ++g) {
-    const auto& names = input.broken_surfaces;
-    if (std::find(names.begin(), names.end(), model.mesh.surface_groups[g]) == names.end()) continue;
-    for (const Topology::Face& face : model.topology.surface_groups[g])
-      broken[index(face.element)] |= static_cast<std::uint8_t>(1U << face.face);
-  }
-  return broken;
-}
-
-/// Bodies of one group that lie face to face with nothing between them. The raster's boxes are meant to be apart.
-Advice silently_apart(const case_::Case& input, const Model& model) {
-  if (input.mesh.raster || model.mesh.num_bodies < 2) return {};
-  const Mesh& mesh = model.mesh;
-  const std::vector<Index> place = coincident_nodes(mesh);
-  const std::vector<std::uint8_t> broken = broken_on_purpose(input, model);
-  std::map<std::array<Index, 3>, std::pair<Index, Index>> free_faces;  // by places: group, body
-  struct Touch {
-    Index body = -1, other = -1, faces = 0;
-  };
-  std::map<Index, Touch> touches;  // by group
-  for (Index e = 0; e < mesh.num_elements(); ++e) {
-    for (std::size_t f = 0; f < 4; ++f) {
-      if (!model.topology.links[index(e)][f].free() || (broken[index(e)] >> f & 1) != 0) continue;
-      std::array<Index, 3> key{};
-      for (std::size_t i = 0; i < 3; ++i) key[i] = place[index(mesh.elements[index(e)][index(kFaceCorners[f][i])])];
-      std::sort(key.begin(), key.end());
-      const Index group = mesh.element_group[index(e)], body = mesh.element_body[index(e)];
-      const auto [known, fresh] = free_faces.emplace(key, std::pair(group, body));
-      if (fresh || known->second.first != group || known->second.second == body) continue;
-      Touch& touch = touches[group];
-      if (touch.faces++ == 0) touch.body = known->second.second, touch.other = body;
-    }
-  }
-  Advice advice;
-  for (const auto& [group, touch] : touches) {
-    const bool pressing = model.has_contact && model.contact.law(group, group).penalty > 0;
-    const char* what_to_do =
-        input.mesh.glue ? "the geometry has their interface twice: use Coherence or BooleanFragments."
-        : pressing ? "mesh.glue = true makes them one solid. As they are, like stones without mortar, contact alone "
-                     "keeps them apart."
-                   : "mesh.glue = true makes them one solid. As they are nothing keeps them apart: that takes a "
-                     "[[contact]] of the group with itself.";
-    advice.push_back(fmt::format(
-        "Volumes of \"{}\" touch along {} triangles and are not joined there (bodies {} and {}, for one): {}",
-        mesh.volume_groups[index(group)], touch.faces, touch.body, touch.other, what_to_do));
-  }
-  return advice;
-}
-
 /// A file without a unit whose numbers look like millimetres.
 std::string unit_question(const case_::Case& input, const Model& model) {
   constexpr double kLarge = 10;  // m; parts that break are drawn in mm or in m
@@ -270,7 +190,6 @@ Advice model_advice(const case_::Case& input, const Model& model) {
   advise(advice, planes_of_raster(input, model));
   advise(advice, slice_without_plane(input, model));
   advise(advice, sphere_too_small(model));
-  append(advice, silently_apart(input, model));
   return advice;
 }
 

@@ -37,7 +37,7 @@ std::vector<GroupOverlap> overlaps_by_groups(const Model& model) {
   return groups;
 }
 
-/// The group's name, with the body's number where the group has several.
+/// The group's name, with the body's number where the group has elements of other bodies.
 std::string name_of_body(const Model& model, Index group, Index body) {
   const Mesh& mesh = model.mesh;
   bool several = false;

@@ -31,10 +31,6 @@ void warn_of_remote_viewer(const case_::InSitu& insitu) {
             << ", another machine; what is sent there is neither encrypted nor checked\n";
 }
 
-void warn_of(const Advice& advice) {
-  for (const std::string& sentence : advice) std::cerr << "breccia: warning: " << sentence << '\n';
-}
-
 /// Where the results come from, with hashes of all files that went in.
 Provenance provenance_of(const RunCommand& asked, const case_::Case& input, const std::optional<StartState>& start,
                          const Communicator& world) {

@@ -18,13 +18,8 @@ double wave_speed(const Model& model, std::size_t group) {
 
 double impedance(const Model& model, std::size_t group) { return model.density[group] * wave_speed(model, group); }
 
-Solids::Solids(const Model& model) : model_(model), sets_(at(model.mesh.num_bodies)), all_(at(model.mesh.num_bodies)) {
+Solids::Solids(const Model& model) : model_(model), all_(at(model.mesh.num_bodies)) {
   const Mesh& mesh = model.mesh;
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    for (const FaceLink& link : model.topology.links[e]) {
-      if (link.inner()) sets_.join(mesh.element_body[e], mesh.element_body[at(link.neighbour)]);
-    }
-  }
   for (Index e = 0; e < mesh.num_elements(); ++e) {
     Solid& solid = of(e);
     for (const Index node : mesh.elements[at(e)]) {
@@ -32,7 +27,7 @@ Solids::Solids(const Model& model) : model_(model), sets_(at(model.mesh.num_bodi
       solid.high = solid.high.cwiseMax(mesh.nodes[at(node)]);
     }
     solid.speed = std::min(solid.speed, wave_speed(model, at(mesh.element_group[at(e)])));
-    solid.edge = std::min(solid.edge, model.whole.body_length[at(mesh.element_body[at(e)])]);
+    solid.edge = model.whole.body_length[number(e)];
   }
 }
 

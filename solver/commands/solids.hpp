@@ -5,18 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "base/disjoint_sets.hpp"
 #include "case/case.hpp"
 #include "model/model.hpp"
 
 namespace breccia {
 
-/// Bodies glued to each other, and what is known of each such solid.
+/// What is known of a body in a stage.
 struct Solid {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::max());
   Vec3 high = Vec3::Constant(std::numeric_limits<double>::lowest());
   double speed = std::numeric_limits<double>::max();  ///< m/s, of waves, the slowest
-  double edge = std::numeric_limits<double>::max();   ///< m, H of its finest body
+  double edge = std::numeric_limits<double>::max();   ///< m, H of contact
   bool held = false;                                  ///< somewhere, in the stage
   bool whole = false;                                 ///< all of it is held along all axes
   bool pressed = false;                               ///< a pressure or traction of the stage acts on it
@@ -30,18 +29,18 @@ struct Solid {
 /// Density times speed of a wave, of a volume group, Pa s/m.
 [[nodiscard]] double impedance(const Model& model, std::size_t group);
 
-/// The solids of a model, each known by the number of one of its bodies.
+/// The bodies of a model, each known by its number.
 class Solids {
  public:
   /// @param model  stays; of the whole mesh, a bare one will do. O(elements)
   explicit Solids(const Model& model);
 
   /// The solid of an element.
-  std::size_t number(Index element) {
-    return static_cast<std::size_t>(sets_.root(model_.mesh.element_body[static_cast<std::size_t>(element)]));
+  [[nodiscard]] std::size_t number(Index element) const {
+    return static_cast<std::size_t>(model_.mesh.element_body[static_cast<std::size_t>(element)]);
   }
   [[nodiscard]] const Solid& operator[](std::size_t number) const { return all_[number]; }
-  /// Numbers up to this one; most are of no solid.
+  /// Their number.
   [[nodiscard]] std::size_t end() const { return all_.size(); }
 
   /// Which of them the constraints of a stage hold, and its pressures, tractions and forces act on.
@@ -83,8 +82,7 @@ class Solids {
   [[nodiscard]] bool lies_on_another(std::size_t i) const;
 
   const Model& model_;
-  DisjointSets sets_;
-  std::vector<Solid> all_;  ///< (bodies) by their root
+  std::vector<Solid> all_;  ///< (bodies)
 };
 
 }  // namespace breccia

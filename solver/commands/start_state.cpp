@@ -220,7 +220,7 @@ case_::Case read_case_of(const fs::path& case_file, const std::vector<std::strin
   check_stages(input, start->checkpoint.model.clock);
   const WholeModel whole = unpack_whole(start->checkpoint.whole_model);
   std::vector<Problem> problems =
-      case_::check_groups(input, {whole.volume_groups, whole.surface_groups, whole.node_groups},
+      case_::check_groups(input, {whole.volume_groups, whole.surface_groups, whole.node_groups, whole.element_sets},
                           static_cast<std::int64_t>(whole.body_length.size()));
   if (!problems.empty()) throw InputError(std::move(problems));
   check_laws(input, whole);

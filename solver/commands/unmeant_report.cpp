@@ -9,9 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/disjoint_sets.hpp"
 #include "commands/stage_report.hpp"
 #include "commands/surface_report.hpp"
+#include "commands/unjoined_report.hpp"
+#include "mesh/bodies.hpp"
 #include "mesh/geometry.hpp"
 #include "model/parameters.hpp"
 #include "output/quantity_text.hpp"
@@ -149,33 +150,20 @@ bool begins_broken(const case_::Case& input, const std::string& surface) {
                      [&](const case_::Stage& stage) { return names(stage.broken_surfaces); });
 }
 
-/// Solids: bodies glued to each other, but for the surfaces that the case breaks.
-std::size_t num_solids(const case_::Case& input, const Model& model) {
-  const Mesh& mesh = model.mesh;
-  std::vector<std::uint8_t> broken(mesh.elements.size(), 0);  // a bit a face
-  for (std::size_t s = 0; s < mesh.surface_groups.size(); ++s) {
-    if (!begins_broken(input, mesh.surface_groups[s])) continue;
-    for (const Topology::Face& face : model.topology.surface_groups[s])
-      broken[at(face.element)] |= static_cast<std::uint8_t>(1U << face.face);
+/// Bodies, parted along the surfaces that a stage breaks as well.
+Index num_parts(const case_::Case& input, const Model& model) {
+  std::vector<std::string> broken;
+  for (const std::string& surface : model.mesh.surface_groups) {
+    if (begins_broken(input, surface)) broken.push_back(surface);
   }
-  DisjointSets sets(at(mesh.num_bodies));
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    for (std::size_t f = 0; f < 4; ++f) {
-      const FaceLink& link = model.topology.links[e][f];
-      if (link.inner() && (broken[e] >> f & 1U) == 0)
-        sets.join(mesh.element_body[e], mesh.element_body[at(link.neighbour)]);
-    }
-  }
-  std::size_t solids = 0;
-  for (Index body = 0; body < mesh.num_bodies; ++body) solids += sets.root(body) == body ? 1 : 0;
-  return solids;
+  return find_bodies(model.mesh, model.topology, faces_of_surfaces(model.mesh, model.topology, broken)).count;
 }
 
 /// What is pressed between flat bodies without friction is in neutral equilibrium sideways.
 Advice pressed_without_friction(const case_::Case& input, const Model& model) {
-  constexpr std::size_t kBetweenTwo = 3;  // solids
+  constexpr Index kBetweenTwo = 3;  // bodies
   Advice advice;
-  if (!is_pressed(input) || num_solids(input, model) < kBetweenTwo) return advice;
+  if (!is_pressed(input) || num_parts(input, model) < kBetweenTwo) return advice;
   for (const case_::Contact& entry : input.contacts) {
     if (entry.friction > 0 || entry.interaction == case_::Interaction::none) continue;
     advice.push_back(fmt::format(
@@ -300,6 +288,8 @@ Advice unmeant_advice(const case_::Case& input, const Model& model) {
   advise(advice, lost_elements(model));
   advise(advice, empty_sphere(model));
   advise(advice, no_contact_points(input, model));
+  append(advice, unjoined_volumes(input, model.mesh, model.topology));
+  append(advice, parts_in_motion(input, model));
   append(advice, lowered_penalties(input));
   append(advice, soft_penalties(input, model));
   append(advice, tied_contacts(input, model));

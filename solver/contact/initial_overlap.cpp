@@ -4,7 +4,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <tuple>
 
 #include "detection/point_body/search.hpp"
 #include "mesh/geometry.hpp"
@@ -19,8 +18,8 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Index group_of(const LocalMesh& local, Index slot) { return local.block_group[at(slot / kLanes)]; }
 
-/// A place of an element that may be inside another body. Middles of elements tell bodies that coincide, whose surfaces
-/// lie on each other.
+/// A place of an element that may be inside another volume. Middles of elements show that volumes coincide, whose
+/// surfaces lie on each other.
 struct Place {
   enum Kind { point, corner, middle };
   Vec3 x;
@@ -28,6 +27,12 @@ struct Place {
   Kind kind;
   Index node = -1;  ///< of a corner
 };
+
+std::size_t num_volumes(const Mesh& mesh) {
+  Index last = -1;
+  for (Index e = 0; e < mesh.num_elements(); ++e) last = std::max(last, mesh.volume_of(e));
+  return static_cast<std::size_t>(last + 1);
+}
 
 /// Faces without a neighbour that carry contact points.
 std::vector<Topology::Face> pointed_faces(const Model& model) {
@@ -68,7 +73,7 @@ std::vector<Place> places_of(const Model& model) {
   return places;
 }
 
-/// A place inside an element of another body.
+/// A place inside an element of another volume.
 struct Hit {
   std::int32_t place;
   Index element;
@@ -87,9 +92,9 @@ std::vector<Hit> hits_of(const Model& model, const std::vector<Place>& places) {
   std::vector<Hit> hits;
   for (const detection::Couple& couple : couples) {
     const std::size_t entered = at(couple.contactor), own = at(places[at(couple.point)].element);
-    if (mesh.element_body[entered] == mesh.element_body[own]) continue;
+    if (mesh.volume_of(couple.contactor) == mesh.volume_of(places[at(couple.point)].element)) continue;
     if (!model.contact.law(mesh.element_group[own], mesh.element_group[entered]).active()) continue;
-    // Bodies that are glued beside a crack have the nodes of its front in common.
+    // Volumes that are glued beside a crack have the nodes of its front in common.
     const auto& nodes = mesh.elements[entered];
     if (std::find(nodes.begin(), nodes.end(), places[at(couple.point)].node) != nodes.end()) continue;
     const std::array<Vec3, 4>& x = corners[entered];
@@ -100,32 +105,32 @@ std::vector<Hit> hits_of(const Model& model, const std::vector<Place>& places) {
   return hits;
 }
 
-/// Free surfaces of bodies, each built when it is first asked for.
+/// Free surfaces of volumes, each built when it is first asked for.
 class Surfaces {
  public:
-  explicit Surfaces(const Model& model) : mesh_(model.mesh), trees_(at(mesh_.num_bodies)) {
+  explicit Surfaces(const Model& model) : mesh_(model.mesh), trees_(num_volumes(model.mesh)) {
     for (Index e = 0; e < mesh_.num_elements(); ++e) {
       for (int f = 0; f < 4; ++f) {
-        if (model.topology.links[at(e)][at(f)].free()) faces_.push_back({mesh_.element_body[at(e)], {e, f}});
+        if (model.topology.links[at(e)][at(f)].free()) faces_.push_back({mesh_.volume_of(e), {e, f}});
       }
     }
-    std::stable_sort(faces_.begin(), faces_.end(), [](const auto& p, const auto& q) { return p.body < q.body; });
+    std::stable_sort(faces_.begin(), faces_.end(), [](const auto& p, const auto& q) { return p.volume < q.volume; });
   }
-  [[nodiscard]] double distance(Index body, const Vec3& x) {
-    if (!trees_[at(body)]) trees_[at(body)] = std::make_unique<TriangleTree>(triangles_of(body));
-    return trees_[at(body)]->distance(x, std::numeric_limits<double>::infinity());
+  [[nodiscard]] double distance(Index volume, const Vec3& x) {
+    if (!trees_[at(volume)]) trees_[at(volume)] = std::make_unique<TriangleTree>(triangles_of(volume));
+    return trees_[at(volume)]->distance(x, std::numeric_limits<double>::infinity());
   }
 
  private:
   struct Face {
-    Index body;
+    Index volume;
     Topology::Face face;
   };
-  [[nodiscard]] std::vector<Triangle> triangles_of(Index body) const {
+  [[nodiscard]] std::vector<Triangle> triangles_of(Index volume) const {
     std::vector<Triangle> triangles;
     const auto first =
-        std::lower_bound(faces_.begin(), faces_.end(), body, [](const Face& f, Index b) { return f.body < b; });
-    for (auto f = first; f != faces_.end() && f->body == body; ++f) {
+        std::lower_bound(faces_.begin(), faces_.end(), volume, [](const Face& f, Index v) { return f.volume < v; });
+    for (auto f = first; f != faces_.end() && f->volume == volume; ++f) {
       const auto& corners = mesh_.elements[at(f->face.element)];
       const auto node = [&](std::size_t i) { return mesh_.nodes[at(corners[at(kFaceCorners[at(f->face.face)][i])])]; };
       triangles.push_back({node(0), node(1), node(2)});
@@ -134,27 +139,31 @@ class Surfaces {
   }
 
   const Mesh& mesh_;
-  std::vector<Face> faces_;  ///< by body
+  std::vector<Face> faces_;  ///< by volume
   std::vector<std::unique_ptr<TriangleTree>> trees_;
 };
 
-/// One pair of bodies for each that has a hit beyond the tolerance.
-std::vector<BodyOverlap> by_bodies(const Model& model, const std::vector<Place>& places, const std::vector<Hit>& hits) {
+/// One entry for each pair of volumes that has a hit beyond the tolerance.
+std::vector<BodyOverlap> by_volumes(const Model& model, const std::vector<Place>& places,
+                                    const std::vector<Hit>& hits) {
   const Mesh& mesh = model.mesh;
   Surfaces surfaces(model);
   std::map<std::pair<Index, Index>, BodyOverlap> found;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const Hit& hit = hits[i];
     const Place& place = places[at(hit.place)];
-    const Index own = mesh.element_body[at(place.element)], other = mesh.element_body[at(hit.element)];
-    const double depth = surfaces.distance(other, place.x), length = model.whole.body_length[at(other)];
+    const Index own = mesh.volume_of(place.element), other = mesh.volume_of(hit.element);
+    const double depth = surfaces.distance(other, place.x);
+    const double length = model.whole.body_length[at(mesh.element_body[at(hit.element)])];
     if (!(depth > kOverlapTolerance * length)) continue;
     BodyOverlap& overlap = found[std::minmax(own, other)];
-    std::tie(overlap.body, overlap.other) = std::minmax(own, other);
+    const Index bodies[] = {mesh.element_body[at(place.element)], mesh.element_body[at(hit.element)]};
+    overlap.body = bodies[own < other ? 0 : 1];
+    overlap.other = bodies[own < other ? 1 : 0];
     const Index groups[] = {mesh.element_group[at(place.element)], mesh.element_group[at(hit.element)]};
     overlap.group = groups[own < other ? 0 : 1];
     overlap.other_group = groups[own < other ? 1 : 0];
-    const bool counted = i > 0 && hits[i - 1].place == hit.place && mesh.element_body[at(hits[i - 1].element)] == other;
+    const bool counted = i > 0 && hits[i - 1].place == hit.place && mesh.volume_of(hits[i - 1].element) == other;
     if (!counted && place.kind == Place::point) ++overlap.points;
     if (!counted && place.kind == Place::corner) ++overlap.corners;
     if (!(depth > overlap.depth)) continue;
@@ -164,7 +173,7 @@ std::vector<BodyOverlap> by_bodies(const Model& model, const std::vector<Place>&
   }
   std::vector<BodyOverlap> overlaps;
   overlaps.reserve(found.size());
-  for (const auto& [bodies, overlap] : found) overlaps.push_back(overlap);
+  for (const auto& [volumes, overlap] : found) overlaps.push_back(overlap);
   std::stable_sort(overlaps.begin(), overlaps.end(),
                    [](const BodyOverlap& p, const BodyOverlap& q) { return p.depth > q.depth; });
   return overlaps;
@@ -173,10 +182,10 @@ std::vector<BodyOverlap> by_bodies(const Model& model, const std::vector<Place>&
 }  // namespace
 
 std::vector<BodyOverlap> initial_overlaps(const Model& model) {
-  if (!model.has_contact || model.mesh.num_bodies < 2) return {};
+  if (!model.has_contact || num_volumes(model.mesh) < 2) return {};
   const std::vector<Place> places = places_of(model);
   const std::vector<Hit> hits = hits_of(model, places);
-  return hits.empty() ? std::vector<BodyOverlap>{} : by_bodies(model, places, hits);
+  return hits.empty() ? std::vector<BodyOverlap>{} : by_volumes(model, places, hits);
 }
 
 void relax_initial_overlaps(const ContactParams& params, const LocalMesh& local, const Field<double>& position,

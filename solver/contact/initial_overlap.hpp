@@ -8,21 +8,21 @@
 
 namespace breccia {
 
-/// Two bodies of the mesh that overlap.
+/// Two volumes of the mesh that overlap, and their bodies.
 struct BodyOverlap {
-  Index body = 0, other = 0;  ///< body < other
+  Index body = 0, other = 0;  ///< the same where the volumes are joined elsewhere
   Index group = 0, other_group = 0;
-  double depth = 0;          ///< m, largest distance of a place inside a body to that body's free surface
+  double depth = 0;          ///< m, largest distance of a place inside a volume to that volume's free surface
   double length = 0;         ///< m, H of the body that is entered there
   Vec3 place{0, 0, 0};       ///< m, of that depth
-  std::int64_t points = 0;   ///< contact points inside the other body
+  std::int64_t points = 0;   ///< contact points inside the other volume
   std::int64_t corners = 0;  ///< and corners of faces with contact points
 };
 
-/// Bodies of different numbers with a contact law that overlap by more than kOverlapTolerance H in the mesh, deepest
-/// first, then by bodies. Contact points, the corners of their faces and the middles of the elements behind them are
-/// looked up in all elements, those deep inside as well. A body does not overlap itself: faces of a crack that is open
-/// from the start coincide.
+/// Volumes with a contact law that overlap by more than kOverlapTolerance H in the mesh, deepest first, then by
+/// volumes; those that are joined elsewhere as well. Contact points, the corners of their faces and the middles of the
+/// elements behind them are looked up in all elements, those deep inside as well. A volume does not overlap itself:
+/// faces of a crack that is open from the start coincide.
 /// @param model  of the whole mesh; a bare one will do. O(n log n)
 [[nodiscard]] std::vector<BodyOverlap> initial_overlaps(const Model& model);
 

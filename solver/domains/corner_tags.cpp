@@ -23,7 +23,7 @@ void tag_corners_anew(const Communicator& communicator, const WholeModel& whole,
   }
   const Mesh mesh = mesh_of(on_surfaces, whole);
   const Topology topology = topology_of(on_surfaces, mesh);
-  // Those of curves and points are where they were.
+  // Those of curves, points and element sets are where they were.
   std::erase_if(mine.corners, [&](const CornerTag& tag) { return tag.group < std::ssize(whole.surface_groups); });
   for (const CornerTag& tag : tag_corners(cut, mesh, topology)) {
     if (mine.place_of(tag.element) >= 0) mine.corners.push_back(tag);

@@ -104,7 +104,7 @@ void start_joints(Domain& domain) {
 void add_velocity(Domain& domain, const InitialVelocity& initial) {
   const Model& model = domain.model;
   add_initial_velocity(model.local, initial, domain.state.nodes.position, domain.state.nodes.velocity,
-                       mass_share(model.local, model.density, initial.group));
+                       mass_share(model.local, model.density, initial));
   domain.state.signals.max_speed = fastest_node(domain).speed;
 }
 

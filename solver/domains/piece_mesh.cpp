@@ -35,7 +35,8 @@ std::vector<std::byte> pack(const WholeModel& whole) {
     }
   }
   bytes.put_text(whole.source);
-  for (const auto* names : {&whole.volume_groups, &whole.surface_groups, &whole.node_groups, &whole.cut}) {
+  for (const auto* names :
+       {&whole.volume_groups, &whole.surface_groups, &whole.node_groups, &whole.element_sets, &whole.cut}) {
     bytes.put(static_cast<std::uint64_t>(names->size()));
     for (const std::string& name : *names) bytes.put_text(name);
   }
@@ -74,12 +75,13 @@ WholeModel unpack_whole(std::span<const std::byte> packed) {
     }
   }
   whole.source = bytes.take_text();
-  for (auto* names : {&whole.volume_groups, &whole.surface_groups, &whole.node_groups, &whole.cut}) {
+  for (auto* names :
+       {&whole.volume_groups, &whole.surface_groups, &whole.node_groups, &whole.element_sets, &whole.cut}) {
     for (auto left = bytes.take<std::uint64_t>(); left > 0; --left) names->push_back(bytes.take_text());
   }
   DEMAND(sizes.volume_mass.size() == whole.volume_groups.size() &&
              sizes.surface_area.size() == whole.surface_groups.size() &&
-             sizes.node_group_mass.size() == whole.node_groups.size(),
+             sizes.node_group_mass.size() == whole.node_groups.size() + whole.element_sets.size(),
          "sizes of other groups");
   DEMAND(bytes.left() == 0, std::to_string(bytes.left()) + " bytes too many");
   return whole;
@@ -128,6 +130,7 @@ Mesh mesh_of(const Records& records, const WholeModel& whole) {
   mesh.volume_groups = whole.volume_groups;
   mesh.surface_groups = whole.surface_groups;
   mesh.node_groups = whole.node_groups;
+  mesh.element_sets = whole.element_sets;
   mesh.num_bodies = static_cast<Index>(whole.body_length.size());
   mesh.node_ids = nodes_of(records);
   mesh.nodes.resize(mesh.node_ids.size());

@@ -79,7 +79,8 @@ bool are_possible(const Records& records, const WholeModel& whole) {
          all(records.faces,
              [&](const FaceTag& tag) { return within(tag.group, whole.surface_groups) && within(tag.face, kFaces); }) &&
          all(records.corners, [&](const CornerTag& tag) {
-           return within(tag.group, std::ssize(whole.surface_groups) + std::ssize(whole.node_groups));
+           return within(tag.group, std::ssize(whole.surface_groups) + std::ssize(whole.node_groups) +
+                                        std::ssize(whole.element_sets));
          });
 }
 

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <utility>
 
 #include "base/error.hpp"
+#include "mesh/bodies.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/node_parting.hpp"
 #include "mesh/space_curve.hpp"
@@ -28,6 +30,33 @@ std::string list_of(const std::vector<std::int64_t>& ids) {
   }
   if (ids.size() > kIdsNamed) text += ", ...";
   return text + " (" + std::to_string(ids.size()) + (ids.size() == 1 ? " element)" : " elements)");
+}
+
+double volume_of(const Mesh& mesh, Index element) {
+  const auto x = geometry::corners_of(mesh, element);
+  return geometry::tetra_volume(x[0], x[1], x[2], x[3]);
+}
+
+/// Elements keep their shape, but for what is within the distance: none loses half of its volume.
+/// Returns how many nodes became an earlier one.
+Index merge_nodes(Mesh& mesh, double distance, bool across_volumes) {
+  constexpr double kLeastShare = 0.5;
+  std::vector<double> before(mesh.elements.size());
+  for (Index e = 0; e < mesh.num_elements(); ++e) before[at(e)] = volume_of(mesh, e);
+  const Index merged = join_near_nodes(mesh, distance, across_volumes);
+  std::vector<std::int64_t> collapsed;
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    std::array<Index, 4> corners = mesh.elements[at(e)];
+    std::sort(corners.begin(), corners.end());
+    const bool is_flat = before[at(e)] != 0 && !(volume_of(mesh, e) / before[at(e)] > kLeastShare);
+    if (is_flat || std::adjacent_find(corners.begin(), corners.end()) != corners.end())
+      collapsed.push_back(mesh.element_source_id[at(e)]);
+  }
+  if (collapsed.empty()) return merged;
+  std::ostringstream given;
+  given << distance << " m: element " << list_of(collapsed);
+  throw InputError(Problem{mesh.source, 0, "mesh.merge_nodes", "elements would collapse as their nodes are merged",
+                           "a distance far below the shortest edge", given.str()});
 }
 
 void demand_sizes(const Mesh& mesh) {
@@ -158,6 +187,12 @@ void sort_elements(Mesh& mesh) {
   mesh.element_group = permuted(mesh.element_group, order);
   mesh.element_body = permuted(mesh.element_body, order);
   mesh.element_source_id = permuted(mesh.element_source_id, order);
+  std::vector<Index> new_of(order.size());
+  for (std::size_t e = 0; e < order.size(); ++e) new_of[at(order[e])] = static_cast<Index>(e);
+  for (Mesh::SetElement& one : mesh.set_elements) one.element = new_of[at(one.element)];
+  std::sort(mesh.set_elements.begin(), mesh.set_elements.end(), [](const auto& a, const auto& b) {
+    return std::pair{a.group, a.element} < std::pair{b.group, b.element};
+  });
 }
 
 /// Nodes in the order in which the elements touch them; nodes of no element are dropped. @pre surface faces name only
@@ -215,6 +250,8 @@ void count(const Mesh& mesh, MeshReport& report) {
   for (const std::string& name : mesh.volume_groups) report.volume_groups.push_back({name, 0});
   for (const std::string& name : mesh.surface_groups) report.surface_groups.push_back({name, 0});
   for (const std::string& name : mesh.node_groups) report.node_groups.push_back({name, 0});
+  for (const std::string& name : mesh.element_sets) report.element_sets.push_back({name, 0});
+  for (const Mesh::SetElement& one : mesh.set_elements) ++report.element_sets[at(one.group)].count;
   for (const Mesh::GroupNode& one : mesh.group_nodes) ++report.node_groups[at(one.group)].count;
   for (const Index group : mesh.element_group) ++report.volume_groups[at(group)].count;
   for (const auto& face : mesh.surface_faces) ++report.surface_groups[at(face.group)].count;
@@ -246,6 +283,9 @@ void drop_empty_groups(Mesh& mesh, MeshReport& report) {
   drop_empty_groups(mesh.node_groups, empty, [&](const auto& visit) {
     for (Mesh::GroupNode& one : mesh.group_nodes) visit(one.group);
   });
+  drop_empty_groups(mesh.element_sets, empty, [&](const auto& visit) {
+    for (Mesh::SetElement& one : mesh.set_elements) visit(one.group);
+  });
 }
 
 }  // namespace
@@ -257,8 +297,9 @@ FinishedMesh finish_mesh(Mesh raw, const FinishOptions& options) {
 
   demand_sizes(mesh);
   demand_computable(mesh);
-  report.inverted_repaired = orient(mesh, options.repair_inverted);
   report.orphan_nodes = count_orphan_nodes(mesh);
+  if (options.merge_nodes > 0) report.merged_nodes = merge_nodes(mesh, options.merge_nodes, options.glue);
+  report.inverted_repaired = orient(mesh, options.repair_inverted);
   report.duplicate_nodes = count_duplicate_nodes(mesh);
   demand_surfaces_are_faces(mesh);
   if (!options.glue) report.split_nodes = part_bodies(mesh);
@@ -267,6 +308,8 @@ FinishedMesh finish_mesh(Mesh raw, const FinishOptions& options) {
   sort_surface_faces(mesh);
   sort_group_nodes(mesh);
   drop_empty_groups(mesh, report);
+  mesh.element_volume = mesh.element_body;
+  number_bodies(build_topology(mesh), {}, mesh);
   count(mesh, report);
   return result;
 }

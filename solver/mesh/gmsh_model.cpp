@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "mesh/material_groups.hpp"
 
 namespace breccia {
 namespace {
@@ -20,7 +22,10 @@ constexpr std::array<const char*, 4> kKinds{"point", "curve", "surface", "volume
 
 class ModelReader {
  public:
-  ModelReader(const std::filesystem::path& file, double scale) : scale_(scale) { mesh_.source = file.string(); }
+  ModelReader(const std::filesystem::path& file, double scale, const std::vector<std::string>& materials)
+      : scale_(scale), materials_(materials) {
+    mesh_.source = file.string();
+  }
 
   RawMesh read() {
     RawMesh raw;
@@ -59,6 +64,13 @@ class ModelReader {
     }
   }
 
+  /// Whether an entity lies between partitions of an entity of a higher dimension, whose physical group gmsh gives it.
+  static bool parts_partitions(int dimension, int entity) {
+    int parent_dimension = -1, parent = -1;
+    gmsh::model::getParent(dimension, entity, parent_dimension, parent);
+    return parent_dimension > dimension;
+  }
+
   /// Physical groups of a dimension as (name, entities), by ascending tag; names of volumes and surfaces are unique.
   std::vector<std::pair<std::string, std::vector<int>>> physical_groups(int dimension) {
     const std::string kind = kKinds[static_cast<std::size_t>(dimension)];
@@ -78,53 +90,104 @@ class ModelReader {
       }
       std::vector<int> entities;
       gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, entities);
+      if (std::erase_if(entities, [&](int entity) { return parts_partitions(dimension, entity); }) > 0 &&
+          entities.empty())
+        continue;
       groups.emplace_back(std::move(name), std::move(entities));
     }
     return groups;
   }
 
-  /// Group of every volume that lies in one; without physical volumes each volume is a group.
-  std::map<int, Index> groups_of_volumes(const std::vector<int>& volumes) {
-    std::map<int, Index> group_of;
+  /// Groups of every volume with elements that lies in one; without physical volumes each volume is a group.
+  /// @param volumes  (undivided volume, volume), ascending
+  MaterialGroups groups_of_volumes(const gmsh::vectorpair& volumes) {
+    PhysicalVolumes physical;
     const auto groups = physical_groups(3);
+    std::map<int, std::vector<Index>> groups_of;
     for (const auto& [name, entities] : groups) {
-      const auto group = static_cast<Index>(mesh_.volume_groups.size());
-      mesh_.volume_groups.push_back(name);
-      for (const int volume : entities) {
-        const auto [entry, fresh] = group_of.emplace(volume, group);
-        if (!fresh && entry->second != group) {
-          refuse("volume " + std::to_string(volume), "lies in two physical volumes", "one a volume",
-                 "\"" + mesh_.volume_groups[static_cast<std::size_t>(entry->second)] + "\" and \"" + name + "\"");
-        }
+      const auto group = static_cast<Index>(physical.names.size());
+      physical.names.push_back(name);
+      for (const int volume : entities) groups_of[volume].push_back(group);
+    }
+    int named = 0;  // tags are positive
+    for (const auto& [whole, volume] : volumes) {
+      if (groups.empty()) {
+        if (whole != named) physical.names.push_back("volume_" + std::to_string(whole));
+        named = whole;
+        physical.of_volume[volume] = {static_cast<Index>(physical.names.size() - 1)};
+      } else if (const auto own = groups_of.find(volume); own != groups_of.end()) {
+        physical.of_volume[volume] = own->second;
       }
     }
-    if (!groups.empty()) return group_of;
-    for (const int volume : volumes) {
-      group_of[volume] = static_cast<Index>(mesh_.volume_groups.size());
-      mesh_.volume_groups.push_back("volume_" + std::to_string(volume));
+    MaterialGroups chosen = material_groups(physical, materials_, mesh_.source, problems_);
+    mesh_.volume_groups = chosen.volume_groups;
+    mesh_.element_sets = chosen.element_sets;
+    return chosen;
+  }
+
+  /// The volume that gmsh has divided into this one among others (Mesh > Partition); itself where it has not.
+  static int undivided(int volume) {
+    for (int dimension = 3, parent = volume; dimension == 3 && parent > 0;) {
+      volume = parent;
+      gmsh::model::getParent(3, volume, dimension, parent);
     }
-    return group_of;
+    return volume;
+  }
+
+  /// A mesh that gmsh has written in a file for each partition is whole in none of them: entities at the border name
+  /// partitions whose elements are not there.
+  void refuse_missing_partitions() {
+    gmsh::vectorpair entities;
+    gmsh::model::getEntities(entities);
+    const auto partitions_of = [](const std::pair<int, int>& entity) {
+      std::vector<int> own;
+      gmsh::model::getPartitions(entity.first, entity.second, own);
+      return own;
+    };
+    std::set<int> named, present;
+    for (const auto& entity : entities) {
+      const std::vector<int> own = partitions_of(entity);
+      named.insert(own.begin(), own.end());
+    }
+    for (const auto& entity : entities) {
+      std::vector<int> types;
+      if (!named.empty() && entity.first == 3) gmsh::model::mesh::getElementTypes(types, 3, entity.second);
+      if (types.empty()) continue;
+      const std::vector<int> own = partitions_of(entity);
+      present.insert(own.begin(), own.end());
+    }
+    if (present.empty() || present == named) return;
+    refuse("mesh.file", "holds some partitions of a mesh only",
+           "the whole mesh in one file (Mesh.PartitionSplitMeshFiles = 0)",
+           std::to_string(present.size()) + " of " + std::to_string(named.size()) + " partitions or more");
   }
 
   void read_volumes(Index& ungrouped_elements) {
-    std::vector<int> volumes;
-    gmsh::vectorpair entities;
-    gmsh::model::getEntities(entities, 3);
-    for (const auto& entity : entities) volumes.push_back(entity.second);
+    gmsh::vectorpair volumes;
+    gmsh::model::getEntities(volumes, 3);
+    for (auto& [whole, volume] : volumes) whole = undivided(volume);
     std::sort(volumes.begin(), volumes.end());
-    const std::map<int, Index> group_of = groups_of_volumes(volumes);
-    for (const int volume : volumes) {
-      const auto group = group_of.find(volume);
-      const auto elements = elements_of(3, volume, group != group_of.end());
-      if (group == group_of.end()) {
+    refuse_missing_partitions();
+    MaterialGroups groups = groups_of_volumes(volumes);
+    int before = 0;  // the volume that the last body is of; tags are positive
+    for (const auto& [whole, volume] : volumes) {
+      const auto group = groups.group_of.find(volume);
+      const auto elements = elements_of(3, volume, group != groups.group_of.end());
+      if (group == groups.group_of.end()) {
         ungrouped_elements += static_cast<Index>(elements.tags.size());
         continue;
       }
       if (elements.tags.empty()) continue;
-      const Index body = mesh_.num_bodies++;
+      if (before != whole) ++mesh_.num_bodies;
+      before = whole;
+      const Index body = mesh_.num_bodies - 1;
+      const std::vector<Index>& sets = groups.sets_of[volume];
+      std::set<std::array<Index, 4>> known;
       for (std::size_t e = 0; e < elements.tags.size(); ++e) {
         std::array<Index, 4> corners{};
         for (std::size_t c = 0; c < 4; ++c) corners[c] = node(elements.nodes[4 * e + c]);
+        if (!sets.empty() && !known.insert(corners).second) continue;  // format 2.2 has it once for each of its groups
+        for (const Index set : sets) mesh_.set_elements.push_back({mesh_.num_elements(), set});
         mesh_.elements.push_back(corners);
         mesh_.element_group.push_back(group->second);
         mesh_.element_body.push_back(body);
@@ -243,6 +306,7 @@ class ModelReader {
   }
 
   double scale_;
+  const std::vector<std::string>& materials_;
   Mesh mesh_;
   std::vector<Problem> problems_;
   std::unordered_map<std::size_t, Index> node_of_tag_;
@@ -252,6 +316,8 @@ class ModelReader {
 
 }  // namespace
 
-RawMesh read_gmsh_model(const std::filesystem::path& file, double scale) { return ModelReader(file, scale).read(); }
+RawMesh read_gmsh_model(const std::filesystem::path& file, double scale, const std::vector<std::string>& materials) {
+  return ModelReader(file, scale, materials).read();
+}
 
 }  // namespace breccia

@@ -280,7 +280,7 @@ MeshOrProblems read_here(const GmshSource& source) {
     std::vector<std::string> notes;
     load(source, notes);
     RawMesh raw;
-    run_gmsh(source, [&] { raw = read_gmsh_model(source.file, source.scale); });
+    run_gmsh(source, [&] { raw = read_gmsh_model(source.file, source.scale, source.materials); });
     raw.notes.insert(raw.notes.begin(), notes.begin(), notes.end());
     return raw;
   } catch (const InputError& error) {
@@ -359,7 +359,7 @@ FinishedMesh read_gmsh(const GmshSource& source) {
   MeshOrProblems read = mesh_of(end.result);
   if (auto* problems = std::get_if<std::vector<Problem>>(&read)) throw InputError(std::move(*problems));
   auto& raw = std::get<RawMesh>(read);
-  FinishedMesh result = finish_mesh(std::move(raw.mesh), {source.glue, source.repair_inverted});
+  FinishedMesh result = finish_mesh(std::move(raw.mesh), {source.glue, source.repair_inverted, source.merge_nodes});
   result.report.ungrouped_elements = raw.ungrouped_elements;
   result.report.notes = std::move(raw.notes);
   return result;

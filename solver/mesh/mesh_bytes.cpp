@@ -110,9 +110,11 @@ void write(Writer& out, const RawMesh& raw) {
   out.list(mesh.element_source_id);
   out.list(mesh.surface_faces);
   out.list(mesh.group_nodes);
+  out.list(mesh.set_elements);
   write_texts(out, mesh.volume_groups);
   write_texts(out, mesh.surface_groups);
   write_texts(out, mesh.node_groups);
+  write_texts(out, mesh.element_sets);
   out.number(mesh.num_bodies);
   out.number(raw.ungrouped_elements);
   write_texts(out, raw.notes);
@@ -147,6 +149,10 @@ void check(const RawMesh& raw) {
     if (!within(one.node, nodes) || !within(one.group, mesh.node_groups.size()))
       refuse("a curve or point names a node or a group that is not there");
   }
+  for (const Mesh::SetElement& one : mesh.set_elements) {
+    if (!within(one.element, elements) || !within(one.group, mesh.element_sets.size()))
+      refuse("a set names an element or a group that is not there");
+  }
 }
 
 RawMesh read_mesh(Reader& in) {
@@ -160,9 +166,11 @@ RawMesh read_mesh(Reader& in) {
   mesh.element_source_id = in.list<std::int64_t>();
   mesh.surface_faces = in.list<Mesh::SurfaceFace>();
   mesh.group_nodes = in.list<Mesh::GroupNode>();
+  mesh.set_elements = in.list<Mesh::SetElement>();
   mesh.volume_groups = read_texts(in);
   mesh.surface_groups = read_texts(in);
   mesh.node_groups = read_texts(in);
+  mesh.element_sets = read_texts(in);
   mesh.num_bodies = in.number<Index>();
   raw.ungrouped_elements = in.number<Index>();
   raw.notes = read_texts(in);

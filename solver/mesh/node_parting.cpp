@@ -80,17 +80,17 @@ Index count_orphan_nodes(const Mesh& mesh) {
   return static_cast<Index>(std::count(used.begin(), used.end(), 0));
 }
 
-std::vector<Index> coincident_nodes(const Mesh& mesh) {
-  const auto used = used_nodes(mesh);
-  Vec3 lowest = Vec3::Constant(std::numeric_limits<double>::max()), highest = -lowest;
-  for (std::size_t n = 0; n < used.size(); ++n) {
-    if (used[n] == 0) continue;
-    lowest = lowest.cwiseMin(mesh.nodes[n]);
-    highest = highest.cwiseMax(mesh.nodes[n]);
+namespace {
+
+/// (nodes) The first node of the same class within the distance, m, of each node, along each axis: itself where there
+/// is none before it. @param classes  (nodes) -1: of no element, counts for none
+std::vector<Index> first_nearby(const Mesh& mesh, const std::vector<Index>& classes, double distance) {
+  Vec3 lowest = Vec3::Constant(std::numeric_limits<double>::max());
+  for (std::size_t n = 0; n < classes.size(); ++n) {
+    if (classes[n] >= 0) lowest = lowest.cwiseMin(mesh.nodes[n]);
   }
-  const double tolerance = kCoincident * (highest - lowest).maxCoeff();
-  // Cells much wider than the tolerance: a node's neighbourhood lies in one cell, rarely in two, at most in eight.
-  const double per_metre = 1.0 / (256.0 * tolerance);
+  // Cells much wider than the distance: a node's neighbourhood lies in one cell, rarely in two, at most in eight.
+  const double per_metre = 1.0 / (256.0 * distance);
 
   using Cell = std::array<std::int64_t, 3>;
   const auto cell_of = [&](const Vec3& x) {
@@ -106,13 +106,14 @@ std::vector<Index> coincident_nodes(const Mesh& mesh) {
   std::unordered_multimap<Cell, Index, decltype(hash)> seen(mesh.nodes.size(), hash);
   const auto first_at = [&](Index node) {
     const Vec3& x = mesh.nodes[at(node)];
-    const Cell first = cell_of(x - Vec3::Constant(tolerance)), last = cell_of(x + Vec3::Constant(tolerance));
+    const Cell first = cell_of(x - Vec3::Constant(distance)), last = cell_of(x + Vec3::Constant(distance));
     for (std::int64_t i = first[0]; i <= last[0]; ++i) {
       for (std::int64_t j = first[1]; j <= last[1]; ++j) {
         for (std::int64_t k = first[2]; k <= last[2]; ++k) {
           const auto [begin, end] = seen.equal_range(Cell{i, j, k});
           const auto near = [&](const auto& entry) {
-            return (mesh.nodes[at(entry.second)] - x).cwiseAbs().maxCoeff() <= tolerance;
+            return classes[at(entry.second)] == classes[at(node)] &&
+                   (mesh.nodes[at(entry.second)] - x).cwiseAbs().maxCoeff() <= distance;
           };
           const auto twin = std::find_if(begin, end, near);
           if (twin != end) return twin->second;
@@ -121,12 +122,56 @@ std::vector<Index> coincident_nodes(const Mesh& mesh) {
     }
     return node;
   };
-  std::vector<Index> first(used.size());
+  std::vector<Index> first(classes.size());
   for (Index n = 0; n < mesh.num_nodes(); ++n) {
-    first[at(n)] = used[at(n)] != 0 ? first_at(n) : n;
-    if (used[at(n)] != 0 && first[at(n)] == n) seen.emplace(cell_of(mesh.nodes[at(n)]), n);
+    const bool used = classes[at(n)] >= 0;
+    first[at(n)] = used ? first_at(n) : n;
+    if (used && first[at(n)] == n) seen.emplace(cell_of(mesh.nodes[at(n)]), n);
   }
   return first;
+}
+
+/// (nodes) -1: of no element; else 0, or the first volume that has it.
+std::vector<Index> volumes_of_nodes(const Mesh& mesh, bool all_alike) {
+  std::vector<Index> volumes(mesh.nodes.size(), -1);
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    for (const Index node : mesh.elements[at(e)]) {
+      if (volumes[at(node)] < 0) volumes[at(node)] = all_alike ? 0 : mesh.volume_of(e);
+    }
+  }
+  return volumes;
+}
+
+/// Largest extent of the nodes of elements, m.
+double size_of(const Mesh& mesh, const std::vector<Index>& volumes) {
+  Vec3 lowest = Vec3::Constant(std::numeric_limits<double>::max()), highest = -lowest;
+  for (std::size_t n = 0; n < volumes.size(); ++n) {
+    if (volumes[n] < 0) continue;
+    lowest = lowest.cwiseMin(mesh.nodes[n]);
+    highest = highest.cwiseMax(mesh.nodes[n]);
+  }
+  return (highest - lowest).maxCoeff();
+}
+
+}  // namespace
+
+std::vector<Index> coincident_nodes(const Mesh& mesh) {
+  const std::vector<Index> used = volumes_of_nodes(mesh, true);
+  return first_nearby(mesh, used, kCoincident * size_of(mesh, used));
+}
+
+Index join_near_nodes(Mesh& mesh, double distance, bool across_volumes) {
+  const std::vector<Index> first = first_nearby(mesh, volumes_of_nodes(mesh, across_volumes), distance);
+  for (auto& corners : mesh.elements) {
+    for (Index& node : corners) node = first[at(node)];
+  }
+  for (Mesh::SurfaceFace& face : mesh.surface_faces) {
+    for (Index& node : face.nodes) node = first[at(node)];
+  }
+  for (Mesh::GroupNode& one : mesh.group_nodes) one.node = first[at(one.node)];
+  Index merged = 0;
+  for (Index n = 0; n < mesh.num_nodes(); ++n) merged += first[at(n)] != n;
+  return merged;
 }
 
 Index count_duplicate_nodes(const Mesh& mesh) {

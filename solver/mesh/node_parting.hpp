@@ -15,6 +15,11 @@ namespace breccia {
 /// there is none before it. Nodes of no element count for none.
 [[nodiscard]] std::vector<Index> coincident_nodes(const Mesh& mesh);
 
+/// Every node becomes the first one of those up to `distance` from it, m, along each axis: of its own volume, or of any
+/// where `across_volumes`. Surface triangles and nodes of curves and points follow. Returns how many nodes became
+/// another one. A node of several volumes that share it already counts as one of the volume that names it first.
+Index join_near_nodes(Mesh& mesh, double distance, bool across_volumes);
+
 /// Nodes that have one before them there.
 [[nodiscard]] Index count_duplicate_nodes(const Mesh& mesh);
 

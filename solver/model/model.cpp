@@ -165,11 +165,24 @@ void append_node_tags(const Mesh& mesh, std::vector<CornerTag>& tags) {
 
 }  // namespace
 
+namespace {
+
+/// Tags of the element sets: all corners of their elements.
+void append_set_tags(const Mesh& mesh, std::vector<CornerTag>& tags) {
+  constexpr std::uint8_t kAll = 15;
+  const auto first = static_cast<Index>(mesh.surface_groups.size() + mesh.node_groups.size());
+  for (const Mesh::SetElement& one : mesh.set_elements)
+    tags.push_back({mesh.element_id(one.element), first + one.group, kAll});
+}
+
+}  // namespace
+
 std::vector<CornerTag> tag_corners(const std::vector<std::string>& cut, const Mesh& mesh, const Topology& topology) {
   SurfaceCorners corners(cut, mesh, topology);
   std::vector<CornerTag> tags;
   for (std::size_t g = 0; g < mesh.surface_groups.size(); ++g) corners.append_tags(static_cast<Index>(g), tags);
   append_node_tags(mesh, tags);
+  append_set_tags(mesh, tags);
   std::sort(tags.begin(), tags.end(), [](const CornerTag& p, const CornerTag& q) { return p.comes_before(q); });
   return tags;
 }

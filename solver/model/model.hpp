@@ -27,8 +27,8 @@ struct ModelJoint {
   Index law = 0;   ///< index into Model::joint_laws: of its groups, or of its class of strength
 };
 
-/// Elements whose corners belong to a physical surface: with a face, or an edge or a point bonded to such a face; or to
-/// a physical curve or point.
+/// Elements whose corners belong to a physical surface: with a face, or an edge or a point bonded to such a face; to a
+/// physical curve or point; or to an element set, with all of them.
 struct CornerTag {
   GlobalId element;
   Index group;           ///< as corner_group() counts
@@ -92,7 +92,8 @@ struct Model {
                                 std::vector<std::uint8_t> torn);
 
 /// Corners on the surfaces of a mesh: those of their faces, and those connected to them around the same node through
-/// faces that no stage breaks; and all those at the nodes of its curves and points. By (element, group).
+/// faces that no stage breaks; all those at the nodes of its curves and points, and those of its element sets. By
+/// (element, group).
 /// @param cut  surfaces that stages break. O(elements x surfaces).
 [[nodiscard]] std::vector<CornerTag> tag_corners(const std::vector<std::string>& cut, const Mesh& mesh,
                                                  const Topology& topology);
@@ -103,7 +104,7 @@ void check_laws(const case_::Case& input, const WholeModel& whole);
 
 /// The mesh alone, read or generated; the case may lack all else.
 [[nodiscard]] FinishedMesh read_mesh(const case_::Case& input);
-/// The same, with the case's groups checked against it.
+/// The same, with the case's groups checked against it, and bodies parted where the case begins with open surfaces.
 [[nodiscard]] FinishedMesh build_mesh(const case_::Case& input);
 
 /// Links of the joints that the sweep evaluates.

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "case/validate.hpp"
+#include "mesh/bodies.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/raster.hpp"
 #include "model/memory_demand.hpp"
@@ -35,6 +36,8 @@ GmshSource gmsh_source(const case_::Case& input) {
   source.scale = asked.scale;
   source.size = asked.size;
   source.glue = asked.glue;
+  source.merge_nodes = asked.merge_nodes;
+  for (const case_::Material& material : input.materials) source.materials.push_back(material.group);
   source.repair_inverted = asked.repair_inverted;
   source.trust = asked.trust;
   if (asked.time_limit > 0) source.time_limit = asked.time_limit;
@@ -73,6 +76,15 @@ void name_empty_groups(const MeshReport& report, std::vector<Problem>& problems)
       problem.what = "the group \"" + problem.given + "\" of the mesh holds no element, and no node of one";
 }
 
+/// Surfaces that are open when the run begins: those of the joints, and those that the first stage breaks.
+std::vector<std::string> open_from_the_start(const case_::Case& input) {
+  std::vector<std::string> surfaces = input.broken_surfaces;
+  if (input.start || input.stages.empty()) return surfaces;
+  const std::vector<std::string>& first = input.stages.front().broken_surfaces;
+  surfaces.insert(surfaces.end(), first.begin(), first.end());
+  return surfaces;
+}
+
 }  // namespace
 
 FinishedMesh read_mesh(const case_::Case& input) {
@@ -84,8 +96,15 @@ FinishedMesh read_mesh(const case_::Case& input) {
 
 FinishedMesh build_mesh(const case_::Case& input) {
   FinishedMesh made = read_mesh(input);
+  const std::vector<std::string> open = open_from_the_start(input);
+  if (!open.empty()) {
+    const Topology topology = build_topology(made.mesh);
+    number_bodies(topology, faces_of_surfaces(made.mesh, topology, open), made.mesh);
+    made.report.bodies = made.mesh.num_bodies;
+  }
   std::vector<Problem> problems = case_::check_groups(
-      input, {made.mesh.volume_groups, made.mesh.surface_groups, made.mesh.node_groups}, made.mesh.num_bodies);
+      input, {made.mesh.volume_groups, made.mesh.surface_groups, made.mesh.node_groups, made.mesh.element_sets},
+      made.mesh.num_bodies);
   name_empty_groups(made.report, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
   return made;

@@ -69,7 +69,7 @@ GroupSizes group_sizes(const Model& model) {
   GroupSizes sizes;
   sizes.volume_mass.assign(mesh.volume_groups.size(), 0.0);
   sizes.surface_area.assign(mesh.surface_groups.size(), 0.0);
-  sizes.node_group_mass.assign(mesh.node_groups.size(), 0.0);
+  sizes.node_group_mass.assign(mesh.node_groups.size() + mesh.element_sets.size(), 0.0);
   for (Index e = 0; e < mesh.num_elements(); ++e) sizes.volume_mass[at(mesh.element_group[at(e)])] += mass_of(model, e);
   for (std::size_t s = 0; s < mesh.surface_groups.size(); ++s) {
     for (const Topology::Face& face : model.topology.surface_groups[s]) sizes.surface_area[s] += area_of(mesh, face);

@@ -225,12 +225,24 @@ std::vector<Discretisation> discretisations(const case_::Case& input, const std:
   return kinds;
 }
 
+std::vector<std::uint8_t> slots_of_set(const Model& model, const std::string& name) {
+  if (group_index(model.mesh.element_sets, name) < 0) return {};
+  const Index group = corner_group(model.mesh, name);
+  std::vector<std::uint8_t> slots(static_cast<std::size_t>(model.local.num_slots), 0);
+  for (const CornerTag& tag : model.corner_tags) {
+    const Index e = tag.group == group ? model.mesh.element_with(tag.element) : -1;
+    if (e >= 0) slots[static_cast<std::size_t>(model.local.slot_of_element[static_cast<std::size_t>(e)])] = 1;
+  }
+  return slots;
+}
+
 std::vector<InitialVelocity> initial_velocities(const case_::Case& input, const Model& model) {
   std::vector<InitialVelocity> velocities;
   for (std::size_t i = 0; i < input.initial_velocities.size(); ++i) {
     const case_::InitialVelocity& entry = input.initial_velocities[i];
     velocities.push_back({group_index(model.mesh.volume_groups, entry.group), entry.velocity, entry.random, entry.seed,
-                          entry.angular, entry.strain_rate, model.whole.motion_centres[i]});
+                          entry.angular, entry.strain_rate, model.whole.motion_centres[i],
+                          slots_of_set(model, entry.group)});
   }
   return velocities;
 }

@@ -44,6 +44,8 @@ struct Model;
                                                           const std::vector<std::string>& groups);
 
 /// In the order of the case; they add up.
+/// (slots) 1: an element of this set; empty: the mesh has no element set of the name.
+[[nodiscard]] std::vector<std::uint8_t> slots_of_set(const Model& model, const std::string& name);
 [[nodiscard]] std::vector<InitialVelocity> initial_velocities(const case_::Case& input, const Model& model);
 [[nodiscard]] StageLoads stage_loads(const case_::Stage& stage, const Model& model);
 

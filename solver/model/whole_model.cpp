@@ -26,14 +26,14 @@ double longest_edge(const Mesh& mesh) {
   return longest;
 }
 
-/// Centre of mass of what each body has in a group, m; zero for bodies that have nothing there.
-std::vector<Vec3> centres_of(const Mesh& mesh, Index group, double density) {
+/// Centre of mass of each body, m.
+/// @param density  (volume groups) kg/m3
+std::vector<Vec3> centres_of(const Mesh& mesh, const std::vector<double>& density) {
   std::vector<Vec3> centre(at(mesh.num_bodies), Vec3::Zero());
   std::vector<double> mass(centre.size(), 0.0);
   for (Index e = 0; e < mesh.num_elements(); ++e) {
-    if (mesh.element_group[at(e)] != group) continue;
     const auto x = geometry::corners_of(mesh, e);
-    const double m = density * volume_of(x);
+    const double m = density[at(mesh.element_group[at(e)])] * volume_of(x);
     centre[at(mesh.element_body[at(e)])] += m * 0.25 * (x[0] + x[1] + x[2] + x[3]);
     mass[at(mesh.element_body[at(e)])] += m;
   }
@@ -59,6 +59,7 @@ WholeModel whole_of(const case_::Case& input, const Mesh& mesh, const std::vecto
   whole.volume_groups = mesh.volume_groups;
   whole.surface_groups = mesh.surface_groups;
   whole.node_groups = mesh.node_groups;
+  whole.element_sets = mesh.element_sets;
   whole.num_elements = mesh.num_elements();
   whole.body_length = mean_inradii(mesh);
   whole.body_extent = body_extents(mesh);
@@ -72,9 +73,7 @@ WholeModel whole_of(const case_::Case& input, const Mesh& mesh, const std::vecto
   }
   for (const case_::InitialVelocity& entry : input.initial_velocities) {
     std::vector<Vec3>& centres = whole.motion_centres.emplace_back();
-    const Index group = group_index(mesh.volume_groups, entry.group);
-    if (entry.angular != Vec3::Zero() || entry.strain_rate != Vec3::Zero())
-      centres = centres_of(mesh, group, density[at(group)]);
+    if (entry.angular != Vec3::Zero() || entry.strain_rate != Vec3::Zero()) centres = centres_of(mesh, density);
   }
   return whole;
 }

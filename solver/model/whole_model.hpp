@@ -12,9 +12,10 @@ namespace breccia {
 
 /// What forces on the groups of a mesh are shared by.
 struct GroupSizes {
-  std::vector<double> volume_mass;      ///< (volume groups) kg
-  std::vector<double> surface_area;     ///< (surface groups) m2 at rest, of both sides of an inner surface
-  std::vector<double> node_group_mass;  ///< (curves and points) kg, a quarter of every element for each of its corners
+  std::vector<double> volume_mass;   ///< (volume groups) kg
+  std::vector<double> surface_area;  ///< (surface groups) m2 at rest, of both sides of an inner surface
+  /// (curves and points, then element sets) kg, a quarter of every element for each of its corners
+  std::vector<double> node_group_mass;
 };
 
 /// What depends on the model as a whole, the same on every rank.
@@ -28,7 +29,7 @@ struct WholeModel {
   };
   std::string source;            ///< of the mesh, for messages
   std::vector<std::string> cut;  ///< surfaces that stages break, of all runs up to this one; ascending
-  std::vector<std::string> volume_groups, surface_groups, node_groups;
+  std::vector<std::string> volume_groups, surface_groups, node_groups, element_sets;
   std::int64_t num_elements = 0, num_joints = 0;
   std::vector<Index> node_sets;           ///< (volume groups) of shared nodes (node_sets.hpp), or empty
   std::vector<JointGroups> joint_groups;  ///< pair g has the joint law g, of mean strengths
@@ -40,8 +41,8 @@ struct WholeModel {
   double lower_side = 0;            ///< m, along the axis of a plane model (plane.hpp); 0 of others
   double energy_floor = 0;          ///< J, energies below are round-off
   double step_ratio = 0;            ///< of the true stable step to the bound at rest (time_step.hpp); 0: not found yet
-  /// (entries of initial_velocities) centres of mass, m, of what each body has in the entry's group; empty: it
-  /// neither turns nor stretches them
+  /// (entries of initial_velocities) centres of mass of the bodies, m; empty: the entry neither turns nor stretches
+  /// them
   std::vector<std::vector<Vec3>> motion_centres;
 
   /// The pair of two groups, as an index; -1: no joints hold them together.

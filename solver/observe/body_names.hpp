@@ -7,12 +7,13 @@
 
 namespace breccia {
 
-/// What users call the bodies: by the group of the mesh, and by the number as well where the group has several:
-/// "plate", "blocks (body 12)". On the first rank; empty on others. Collective. O(elements + bodies).
+/// What users call the bodies: by the groups of the mesh that they consist of, and by the number as well where another
+/// body has elements of such a group: "plate", "core + shell", "blocks (body 12)". Of more than three groups the first
+/// two are named and the others counted. On the first rank; empty on others. Collective. O(elements + bodies).
 [[nodiscard]] std::vector<std::string> body_names(const Domain& domain);
 
-/// @param group_of_body  (bodies) index into groups; -1: in none
-[[nodiscard]] std::vector<std::string> body_names(const std::vector<Index>& group_of_body,
+/// @param groups_of_body  (bodies) indices into groups, ascending
+[[nodiscard]] std::vector<std::string> body_names(const std::vector<std::vector<Index>>& groups_of_body,
                                                   const std::vector<std::string>& groups);
 
 }  // namespace breccia

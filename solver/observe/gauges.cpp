@@ -77,6 +77,7 @@ void for_each_carrier(const Domain& domain, const Gauge& gauge, Visit&& visit) {
 }
 
 bool holds(const LocalMesh& local, const Gauge& gauge, Index slot) {
+  if (!gauge.members.empty()) return gauge.members[at(slot)] != 0;
   return gauge.body >= 0 ? local.slot_body[at(slot)] == gauge.body
                          : local.block_group[at(slot / kLanes)] == gauge.volume_group;
 }
@@ -204,6 +205,7 @@ std::vector<Gauge> make_gauges(const Model& model, const std::vector<std::string
     gauge.volume_group = group_index(model.mesh.volume_groups, name);
     if (gauge.volume_group >= 0 || corner_group(model.mesh, name) >= 0) {
       gauge.nodes = counted_nodes_of_group(model, name);
+      if (gauge.volume_group < 0) gauge.members = slots_of_set(model, name);
     } else {
       gauge.body = static_cast<Index>(case_::numbered_body(name));
       take_nodes_of_body(model, gauge.body, gauge);

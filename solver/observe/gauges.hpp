@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,15 +11,16 @@
 
 namespace breccia {
 
-/// A group or a body whose forces and motion are recorded.
+/// A group, an element set or a body whose forces and motion are recorded.
 struct Gauge {
   std::string name;
-  Index volume_group = -1, body = -1;    ///< one of them, or none: a surface
+  Index volume_group = -1, body = -1;    ///< one of them, or none: an element set or a surface
   std::vector<Index> nodes;              ///< that this rank counts, ascending
   std::vector<Index> slots;              ///< elements of a group or body, this rank's originals
+  std::vector<std::uint8_t> members;     ///< (slots) 1: of the element set; empty: it is none
   std::vector<std::size_t> constraints;  ///< of a surface: entries of the present stage that name it
 
-  [[nodiscard]] bool is_surface() const { return volume_group < 0 && body < 0; }
+  [[nodiscard]] bool is_surface() const { return volume_group < 0 && body < 0 && members.empty(); }
 };
 
 /// The gauges of a case on a rank's model as it is now. @param names  groups, or "body N"

@@ -16,7 +16,7 @@ namespace breccia {
 // user block), tell where the index is. Every byte of the file has a checksum.
 
 inline constexpr std::uint64_t kCheckpointHeader = 512;  ///< bytes
-inline constexpr int kCheckpointFormat = 13;
+inline constexpr int kCheckpointFormat = 14;
 
 /// 64-bit checksum: any change of one bit changes it.
 [[nodiscard]] std::uint64_t checksum_of(std::span<const std::byte> bytes);

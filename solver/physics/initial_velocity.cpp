@@ -13,12 +13,12 @@ namespace {
 /// Stream of random bits kept apart from the mesh generator's rotations of the same seed.
 constexpr std::uint64_t kVelocityStream = 0x56454c4f43495459ULL;
 
-/// Body of every node of the group, -1 for the others.
-std::vector<Index> bodies_of_nodes(const LocalMesh& mesh, Index group) {
+/// Body of every node that is moved, -1 for the others.
+std::vector<Index> bodies_of_nodes(const LocalMesh& mesh, const InitialVelocity& initial) {
   std::vector<Index> body(static_cast<std::size_t>(mesh.num_nodes), -1);
   for (Index s = 0; s < mesh.num_slots; ++s) {
     const auto i = static_cast<std::size_t>(s);
-    if (mesh.block_group[i / kLanes] != group || mesh.element_of_slot[i] < 0) continue;
+    if (!initial.moves(mesh, s)) continue;
     for (int c = 0; c < 4; ++c) {
       Index& known = body[static_cast<std::size_t>(mesh.corner_node(s, c))];
       if (known < 0) known = mesh.slot_body[i];
@@ -44,18 +44,19 @@ Vec3 random_velocity(std::uint64_t seed, std::uint64_t body, const std::array<do
   return length / std::sqrt(square) * direction;
 }
 
-std::vector<double> mass_share(const LocalMesh& mesh, const std::vector<double>& density, Index group) {
+std::vector<double> mass_share(const LocalMesh& mesh, const std::vector<double>& density,
+                               const InitialVelocity& initial) {
   const auto size = static_cast<std::size_t>(mesh.num_nodes);
   std::vector<double> all(size, 0.0), mine(size, 0.0), share(size, 1.0);
   for (Index s = mesh.num_own_slots; s < mesh.num_slots; ++s) {
     const auto i = static_cast<std::size_t>(s);
     if (mesh.element_of_slot[i] < 0) continue;
-    const Index of = mesh.block_group[i / kLanes];
-    const double mass = density[static_cast<std::size_t>(of)] * mesh.volume[i];
+    const double mass = density[static_cast<std::size_t>(mesh.block_group[i / kLanes])] * mesh.volume[i];
+    const bool moved = initial.moves(mesh, s);
     for (int c = 0; c < 4; ++c) {
       const auto node = static_cast<std::size_t>(mesh.corner_node(s, c));
       all[node] += mass;
-      if (of == group) mine[node] += mass;
+      if (moved) mine[node] += mass;
     }
   }
   bool several = false;
@@ -69,7 +70,7 @@ std::vector<double> mass_share(const LocalMesh& mesh, const std::vector<double>&
 
 void add_initial_velocity(const LocalMesh& mesh, const InitialVelocity& initial, const Field<double>& position,
                           Field<double>& velocity, const std::vector<double>& share) {
-  const std::vector<Index> body = bodies_of_nodes(mesh, initial.group);
+  const std::vector<Index> body = bodies_of_nodes(mesh, initial);
   const bool random = initial.speed[0] != 0 || initial.speed[1] != 0;
   for (Index n = 0; n < mesh.num_nodes; ++n) {
     const Index b = body[static_cast<std::size_t>(n)];

@@ -10,20 +10,27 @@
 
 namespace breccia {
 
-/// Velocity with which the bodies of a volume group start.
+/// Velocity with which the bodies of a volume group or an element set start.
 struct InitialVelocity {
-  Index group = 0;                    ///< volume group
+  Index group = 0;                    ///< volume group; of no effect where there are members
   Vec3 uniform{0, 0, 0};              ///< m/s
   std::array<double, 2> speed{0, 0};  ///< m/s: range of a random velocity by body, added
   std::uint64_t seed = 1;
-  Vec3 angular{0, 0, 0};       ///< rad/s about `centre`, added
-  Vec3 strain_rate{0, 0, 0};   ///< 1/s along the axes from `centre`, added
-  std::vector<Vec3> centre{};  ///< (bodies) m, centre of mass of the body's part in the group; empty: neither of them
+  Vec3 angular{0, 0, 0};                ///< rad/s about `centre`, added
+  Vec3 strain_rate{0, 0, 0};            ///< 1/s along the axes from `centre`, added
+  std::vector<Vec3> centre{};           ///< (bodies) m, centres of mass; empty: neither of them
+  std::vector<std::uint8_t> members{};  ///< (slots) 1: in the element set; empty: it is a volume group
+
+  [[nodiscard]] bool moves(const LocalMesh& mesh, Index slot) const {
+    const auto s = static_cast<std::size_t>(slot);
+    return mesh.element_of_slot[s] >= 0 && (members.empty() ? mesh.block_group[s / kLanes] == group : members[s] != 0);
+  }
 };
 
-/// Share of a group in the mass of nodes that groups share, (num_nodes); empty: no other group has nodes of its own.
+/// Share of the elements that are moved in the mass of nodes that they share with others, (num_nodes); empty: with none
 /// @param density  (volume groups) kg/m3. O(elements that share nodes).
-[[nodiscard]] std::vector<double> mass_share(const LocalMesh& mesh, const std::vector<double>& density, Index group);
+[[nodiscard]] std::vector<double> mass_share(const LocalMesh& mesh, const std::vector<double>& density,
+                                             const InitialVelocity& initial);
 
 /// Adds uniform + random(body) + angular x r + strain_rate * r, r = x - centre, * by components, to every node of the
 /// group, each node once. A node shared by two bodies of the group counts with the one of the element of lowest slot.

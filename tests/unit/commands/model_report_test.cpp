@@ -103,32 +103,5 @@ TEST(ModelAdvice, names_a_sphere_that_does_not_hold_the_model_and_the_radius_tha
   EXPECT_EQ(advice_on(raster("[1, 1, 1]") + sphere("9 mm") + kStage), "");
 }
 
-/// Two boxes of one group side by side. @param join  a line of the geometry
-std::string touching(const std::string& join, const std::string& glue,
-                     const std::string& contact = "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"40 GPa\"\n") {
-  const case_::CaseFolder folder;
-  folder.write("boxes.geo",
-               "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\nBox(2) = {1, 0, 0, 1, 1, 1};\n" + join +
-                   "\nPhysical Volume(\"rock\") = Volume{:};\nMeshSize{:} = 2;\n");
-  const case_::Case input = case_::read_case(
-      folder.write("case.toml", "[mesh]\nfile = \"boxes.geo\"\nglue = " + glue + "\n" + kMaterial + contact + kStage));
-  return as_list(model_advice(input, build_model(input)));
-}
-
-TEST(ModelAdvice, names_volumes_of_one_group_that_touch_and_are_not_joined) {
-  EXPECT_THAT(touching("Coherence;", "false"),
-              AllOf(HasSubstr("Volumes of \"rock\" touch along"), HasSubstr("bodies 0 and 1"),
-                    HasSubstr("mesh.glue = true"), HasSubstr("contact alone keeps them apart")));
-  EXPECT_EQ(touching("Coherence;", "true"), "");
-}
-
-TEST(ModelAdvice, tells_that_nothing_keeps_volumes_apart_that_touch_without_contact) {
-  EXPECT_THAT(touching("Coherence;", "false", ""), HasSubstr("nothing keeps them apart: that takes a [[contact]]"));
-}
-
-TEST(ModelAdvice, names_an_interface_that_is_there_twice) {
-  EXPECT_THAT(touching("", "true"), AllOf(HasSubstr("Volumes of \"rock\" touch along"), HasSubstr("Coherence")));
-}
-
 }  // namespace
 }  // namespace breccia

@@ -113,7 +113,8 @@ TEST(Unmeant, IsPressingWithoutFriction) {
 }
 
 /// Three boxes one above the other, the lowest held, the highest driven.
-std::string stacked(const std::string& glue, const std::string& more = "") {
+std::string stacked(const std::string& glue, const std::string& more = "",
+                    const std::vector<std::string>& overrides = {}) {
   const case_::CaseFolder folder;
   folder.write("boxes.geo",
                "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\nBox(2) = {0, 0, 1, 1, 1, 1};\n"
@@ -129,7 +130,8 @@ std::string stacked(const std::string& glue, const std::string& more = "") {
       folder.write("case.toml", "[mesh]\nfile = \"boxes.geo\"\nglue = " + glue + "\n" + without_mesh +
                                     "[[stage.constraint]]\ngroup = \"bottom\"\nfixed = \"z\"\n[[stage.constraint]]\n"
                                     "group = \"top\"\nvelocity = { z = -1 }\n" +
-                                    more));
+                                    more),
+      overrides);
   return as_list(unmeant_advice(input, build_bare_model(input)));
 }
 
@@ -137,6 +139,7 @@ TEST(Unmeant, IsPressingWithoutFrictionOfPartsOfOneSolidOnlyWhereTheyAreBroken) 
   EXPECT_THAT(stacked("false"), HasSubstr("has no friction"));
   EXPECT_EQ(stacked("true"), "") << "the bond holds them sideways";
   EXPECT_THAT(stacked("true", "[joints]\nbroken = [\"bonds\"]\n"), HasSubstr("has no friction"));
+  EXPECT_THAT(stacked("true", "[[stage]]\nend = 1\n", {"stage[1].broken=[\"bonds\"]"}), HasSubstr("has no friction"));
 }
 
 TEST(Unmeant, IsAnInitialVelocityAlongAxesThatAreHeld) {

@@ -106,7 +106,8 @@ TEST(Finish, SortsByGroupAndKeepsWhatBelongsToAnElement) {
   const auto [mesh, report] = finish_mesh(two_tetrahedra(), {.glue = true});
   EXPECT_EQ(mesh.element_group, (std::vector<Index>{0, 1}));
   EXPECT_EQ(mesh.element_source_id, (std::vector<std::int64_t>{502, 501}));
-  EXPECT_EQ(mesh.element_body, (std::vector<Index>{1, 0}));
+  EXPECT_EQ(mesh.element_volume, (std::vector<Index>{1, 0}));
+  EXPECT_EQ(mesh.element_body, (std::vector<Index>{0, 0})) << "glued, they are one body";
   EXPECT_EQ(report.volume_groups[0].name, "second");
   EXPECT_EQ(report.volume_groups[0].count, 1);
 }
@@ -163,10 +164,55 @@ TEST(Finish, RefusesFlatElementsWithTheFirstTenIdsAndTheCount) {
   mesh.nodes[3].z() = 1e-11;  // a height of 1e-11 edges is flat, whatever the unit of length
   EXPECT_THAT(refusal_of(mesh), HasSubstr("zero volume"));
   mesh.nodes[3].z() = 1e-6;
-  EXPECT_EQ(refusal_of(mesh), "accepted") << "thin, but with a volume";
+  EXPECT_THAT(refusal_of(mesh), testing::Not(HasSubstr("zero volume"))) << "thin, but with a volume";
   mesh.nodes[3].z() = 1e-11;
   for (Vec3& node : mesh.nodes) node *= 1e6;
   EXPECT_THAT(refusal_of(mesh), HasSubstr("zero volume"));
+}
+
+/// The two tetrahedra with the nodes of their face twice, a hair apart, as parts that were meshed one by one have them.
+Mesh doubled(double apart) {
+  Mesh mesh = two_tetrahedra();
+  mesh.nodes[5] = mesh.nodes[1] + Vec3(apart, 0, 0);
+  mesh.nodes.push_back(mesh.nodes[2] - Vec3(0, apart, 0));
+  mesh.nodes.push_back(mesh.nodes[3] + Vec3(apart, -apart, apart));
+  mesh.elements[1] = {4, 5, 7, 6};
+  mesh.surface_faces.push_back({{5, 6, 7}, 0});
+  return mesh;
+}
+
+TEST(Finish, MergesNodesOfPartsThatAreToBeGluedAndSaysHowMany) {
+  constexpr double kApart = 1e-5, kMerge = 2e-5;
+  const auto [apart, untouched] = finish_mesh(doubled(kApart), {.glue = true});
+  EXPECT_EQ(untouched.merged_nodes, 0);
+  EXPECT_EQ(apart.num_bodies, 2);
+  const auto [mesh, report] = finish_mesh(doubled(kApart), {.glue = true, .merge_nodes = kMerge});
+  EXPECT_EQ(report.merged_nodes, 3);
+  EXPECT_EQ(mesh.num_nodes(), 5);
+  EXPECT_EQ(mesh.num_bodies, 1);
+  EXPECT_EQ(report.surface_groups[0].count, 1) << "the triangle is the same on both sides";
+  const auto [short_of, none] = finish_mesh(doubled(kApart), {.glue = true, .merge_nodes = 0.5 * kApart});
+  EXPECT_EQ(none.merged_nodes, 0);
+}
+
+TEST(Finish, MergesNodesWithinAVolumeOnlyWhereVolumesAreNotGlued) {
+  constexpr double kApart = 1e-5, kMerge = 2e-5;
+  const auto [parts, of_two] = finish_mesh(doubled(kApart), {.merge_nodes = kMerge});
+  EXPECT_EQ(of_two.merged_nodes, 0);
+  EXPECT_EQ(parts.num_bodies, 2);
+  Mesh one = doubled(kApart);
+  one.element_body = {0, 0};
+  one.num_bodies = 1;
+  const auto [joined, of_one] = finish_mesh(std::move(one), {.merge_nodes = kMerge});
+  EXPECT_EQ(of_one.merged_nodes, 3);
+  EXPECT_EQ(joined.num_bodies, 1);
+}
+
+TEST(Finish, RefusesToMergeNodesWhereAnElementWouldCollapse) {
+  for (const double distance : {1.0, 2.0})  // an edge, and all nodes
+    EXPECT_THAT(refusal_of(two_tetrahedra(), {.glue = true, .merge_nodes = distance}),
+                testing::AllOf(HasSubstr("mesh.merge_nodes: elements would collapse as their nodes are merged"),
+                               HasSubstr("far below the shortest edge"), HasSubstr("element 501")));
 }
 
 TEST(Finish, AcceptsTinyMeshes) {

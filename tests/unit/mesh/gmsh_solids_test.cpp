@@ -122,8 +122,8 @@ TEST(GmshSolids, GluedVolumesThatTouchShareTheirInterface) {
   for (Index e = 0; e < glued.num_elements(); ++e)
     for (const Index node : glued.elements[static_cast<std::size_t>(e)]) {
       Index& body = body_of[static_cast<std::size_t>(node)];
-      shared += body >= 0 && body != glued.element_body[static_cast<std::size_t>(e)] ? 1 : 0;
-      body = glued.element_body[static_cast<std::size_t>(e)];
+      shared += body >= 0 && body != glued.element_volume[static_cast<std::size_t>(e)] ? 1 : 0;
+      body = glued.element_volume[static_cast<std::size_t>(e)];
     }
   EXPECT_GT(shared, 0);
   EXPECT_NEAR(volume_of(glued), volume_of(apart), kRoundOff * volume_of(apart));

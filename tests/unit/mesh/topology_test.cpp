@@ -119,12 +119,12 @@ TEST(Topology, NamesBothSidesOfAGluedInterfaceAndOneSideOfAnOuterFace) {
   const Topology topology = build_topology(mesh);
   ASSERT_EQ(mesh.surface_groups, (std::vector<std::string>{"interface", "bottom"}));
 
-  std::map<Index, double> interface_area;  // by body
+  std::map<Index, double> interface_area;  // by volume
   for (const auto& [element, face] : topology.surface_groups[0]) {
     EXPECT_FALSE(link_of(topology, element, face).free());
     const auto& c = kFaceCorners[static_cast<std::size_t>(face)];
     for (const int corner : c) EXPECT_NEAR(node_of(mesh, element, corner).x(), 1.0, 1e-12);
-    interface_area[mesh.element_body[static_cast<std::size_t>(element)]] += geometry::triangle_area(
+    interface_area[mesh.element_volume[static_cast<std::size_t>(element)]] += geometry::triangle_area(
         node_of(mesh, element, c[0]), node_of(mesh, element, c[1]), node_of(mesh, element, c[2]));
   }
   ASSERT_EQ(interface_area.size(), 2u);

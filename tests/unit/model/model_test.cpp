@@ -271,7 +271,7 @@ std::ptrdiff_t foot_on_the_left(const std::string& rest) {
     for (int c = 0; c < 4 && model.local.is_original(s); ++c) {
       const Index node = model.local.corner_node(s, c);
       if (!std::binary_search(foot.begin(), foot.end(), node)) continue;
-      (model.local.slot_body[at(s)] == 0 ? left : lower) += 1;
+      (model.mesh.volume_of(model.local.mesh_element[at(s)]) == 0 ? left : lower) += 1;
       EXPECT_EQ(model.local.reference[nodal(node, 1)], 0.0);
     }
   }
@@ -301,6 +301,58 @@ TEST(MeshOfACase, has_the_scale_and_the_seed_of_the_case) {
     return build_mesh(case_::read_text(case_::minimal, {"mesh.raster.random_orientation=true", seed})).mesh.nodes;
   };
   EXPECT_NE(nodes("mesh.raster.seed=1"), nodes("mesh.raster.seed=2"));
+}
+
+/// Two boxes of one group in a row, each a volume, meshed with the interface that they share; one solid where glued.
+std::string solid_of_volumes(const std::string& more) {
+  return "[mesh]\nfile = \"two.geo\"\nglue = true\n[[material]]\ngroup = \"bar\"\nyoung = 1e10\npoisson = 0.2\n"
+         "density = 2000\njoints = \"unbreakable\"\n[[joint]]\ngroup = \"bar\"\n" +
+         more + "[[stage]]\nend = 1\n";
+}
+constexpr const char* kTwoVolumes = R"(SetFactory("OpenCASCADE");
+Box(1) = {-3, 0, 0, 3, 1, 1};
+Box(2) = {0, 0, 0, 1, 1, 1};
+Coherence;
+MeshSize{:} = 1;
+Physical Volume("bar") = {1, 2};
+Physical Surface("between") = Surface In BoundingBox {-0.1, -0.1, -0.1, 0.1, 1.1, 1.1};
+)";
+
+TEST(Model, HasOneBodyOfVolumesThatAreGluedAndTwoWhereTheCaseCutsThem) {
+  const case_::CaseFolder folder;
+  folder.write("two.geo", kTwoVolumes);
+  const auto model_of = [&](const std::string& more) {
+    return build_bare_model(case_::read_case(folder.write("case.toml", solid_of_volumes(more))));
+  };
+  const std::string spin = "[[initial_velocity]]\ngroup = \"bar\"\nangular = [0, 0, 1]\n";
+  const Model whole = model_of(spin);
+  EXPECT_EQ(whole.mesh.num_bodies, 1);
+  EXPECT_EQ(whole.mesh_report.bodies, 1);
+  EXPECT_EQ(whole.whole.body_length.size(), 1u);
+  ASSERT_EQ(whole.whole.motion_centres[0].size(), 1u);
+  constexpr double kRounding = 1e-12;  // m
+  EXPECT_LT((whole.whole.motion_centres[0][0] - Vec3(-1, 0.5, 0.5)).norm(), kRounding);
+  const Model cut = model_of("[joints]\nbroken = [\"between\"]\n" + spin);
+  EXPECT_EQ(cut.mesh.num_bodies, 2);
+  EXPECT_EQ(cut.mesh_report.bodies, 2);
+  EXPECT_LT((cut.whole.motion_centres[0][1] - Vec3(0.5, 0.5, 0.5)).norm(), kRounding);
+}
+
+TEST(Model, TurnsABodyOfTwoGroupsAboutTheCentreOfMassOfBoth) {
+  const Model model = build_bare_model(
+      test::two_boxes_case({}, test::kTwoBoxesCase + "[[initial_velocity]]\ngroup = \"right\"\nangular = [0, 0, 1]\n"));
+  ASSERT_EQ(model.mesh.num_bodies, 1);
+  Vec3 moment = Vec3::Zero();
+  double mass = 0;
+  for (Index e = 0; e < model.mesh.num_elements(); ++e) {
+    const auto x = geometry::corners_of(model.mesh, e);
+    const double m =
+        model.density[at(model.mesh.element_group[at(e)])] * geometry::tetra_volume(x[0], x[1], x[2], x[3]);
+    mass += m;
+    moment += m * 0.25 * (x[0] + x[1] + x[2] + x[3]);
+  }
+  constexpr double kRounding = 1e-12;  // m
+  EXPECT_LT((model.whole.motion_centres[0][0] - moment / mass).norm(), kRounding);
 }
 
 TEST(WholeModel, HasTheCentresOfMassOfWhatSpinsOrIsStretched) {

@@ -119,7 +119,7 @@ TEST(InitialVelocity, OfNodesThatGroupsShareIsTheMeanByMass) {
     std::fill(model.state.velocity.begin(), model.state.velocity.end(), 0.0);
     for (const Index group : {0, 1})
       add_initial_velocity(model.local, {.group = group, .uniform = group == 0 ? left : right}, model.state.position,
-                           model.state.velocity, mass_share(model.local, density, group));
+                           model.state.velocity, mass_share(model.local, density, {.group = group}));
     return test::value_of(momentum(model.local, model.state.position.data(), model.state.velocity.data()).linear);
   };
   model.state.position = model.local.reference;
