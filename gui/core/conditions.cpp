@@ -148,7 +148,7 @@ QString parts_of_velocity(const Document& document, const QString& path) {
   return given.join("; ");
 }
 
-Condition initial_velocity(const Document& document, const case_::InitialVelocity& given) {
+Condition initial_velocity(const Document& document, const case_::Case& input, const case_::InitialVelocity& given) {
   Condition row;
   const QString path = row.path = written(given);
   row.type = text("initial velocity");
@@ -161,6 +161,7 @@ Condition initial_velocity(const Document& document, const case_::InitialVelocit
     row.stretches_by[a] = given.strain_rate[static_cast<Eigen::Index>(a)];
   }
   row.random = given.random[1];
+  for (const case_::Material& material : input.materials) row.densities[material.group] = material.density;
   return row;
 }
 
@@ -181,7 +182,7 @@ std::vector<Condition> conditions_of(const Document& document) {
   try {
     const case_::Case input = case_::read_case_text(document.text().toStdString(), document.file().toStdString());
     for (const case_::InitialVelocity& given : input.initial_velocities)
-      rows.push_back(initial_velocity(document, given));
+      rows.push_back(initial_velocity(document, input, given));
     Interval time;
     for (std::size_t s = 0; s < input.stages.size(); ++s) {
       time = {time.end, input.stages[s].end};

@@ -2,6 +2,8 @@
 
 #include <QString>
 #include <array>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "base/time_function.hpp"
@@ -29,7 +31,8 @@ struct Condition {
   std::array<double, 3> largest{};       ///< value by axis where it is largest over the stage, SI; a pressure has one
   std::array<double, 3> turns_by{};      ///< rad/s, of an initial velocity
   std::array<double, 3> stretches_by{};  ///< 1/s, of an initial velocity
-  double random = 0;                     ///< greatest speed that is drawn for a body, m/s, of an initial velocity
+  std::map<std::string, double> densities{};  ///< kg/m3, by volume group, of an initial velocity
+  double random = 0;                          ///< greatest speed that is drawn for a body, m/s, of an initial velocity
 };
 
 /// A function of time from `begin` to `end`, s, with the corners of its table.

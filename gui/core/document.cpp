@@ -202,7 +202,8 @@ void Document::apply(const TextChange& change) {
 std::vector<Problem> Document::problems(const std::optional<MeshGroups>& mesh) const {
   try {
     const case_::Case read = case_::read_case_text(places_.text(), file_.toStdString());
-    if (mesh) return case_::check_groups(read, {mesh->volumes, mesh->surfaces, mesh->nodes}, mesh->num_bodies);
+    if (mesh)
+      return case_::check_groups(read, {mesh->volumes, mesh->surfaces, mesh->nodes, mesh->sets}, mesh->num_bodies);
   } catch (const InputError& error) {
     return error.problems();
   }

@@ -23,6 +23,7 @@ struct Recovery {
 struct MeshGroups {
   std::vector<std::string> volumes, surfaces, nodes;
   int num_bodies = 0;
+  std::vector<std::string> sets{};  ///< volume groups that carry no material
 };
 
 /// A case that is being edited. Its text is the truth, kept byte for byte; an edit replaces one piece of it and can be

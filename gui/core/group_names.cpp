@@ -63,7 +63,10 @@ QStringList groups_of_kind(GroupKind kind, const TomlPlaces& places, const std::
   if (!mesh) volumes.removeAll("*");
   const QStringList surfaces = mesh ? strings(mesh->surfaces) : QStringList();
   const QStringList nodes = mesh ? strings(mesh->nodes) : QStringList();
-  return kind == GroupKind::volume ? volumes : kind == GroupKind::surface ? surfaces : surfaces + nodes + volumes;
+  const QStringList sets = mesh ? strings(mesh->sets) : QStringList();
+  return kind == GroupKind::volume    ? volumes
+         : kind == GroupKind::surface ? surfaces
+                                      : surfaces + nodes + volumes + sets;
 }
 
 QString lines_of_new_entry(const QString& list, const TomlPlaces& places, const std::optional<MeshGroups>& mesh) {

@@ -189,7 +189,7 @@ bool is_seen(const Load& load) {
          dot(load.direction, load.direction) > 0;
 }
 
-/// v_i = rate_i (x_i - c_i) at a face, c the centre of the body's part in the group.
+/// v_i = rate_i (x_i - c_i) at a face, c the centre of mass of the body.
 Vector stretching_at(const Seat& seat, const Vector& rate, const BodyCentres& centres) {
   const auto centre = centres.find(seat.body);
   if (centre == centres.end()) return {};
@@ -245,6 +245,16 @@ void add_spins(GlyphMesh& mesh, LoadGlyphs& glyphs, const Load& load, const std:
   }
 }
 
+/// kg/m3, (volumes); 0: not known.
+std::vector<double> densities_of(const Load& load, const std::vector<std::string>& volumes) {
+  std::vector<double> densities;
+  for (const std::string& volume : volumes) {
+    const auto known = load.densities.find(volume);
+    densities.push_back(known == load.densities.end() ? 0 : known->second);
+  }
+  return densities;
+}
+
 }  // namespace
 
 LoadGlyphs draw_load(vtkPolyData& skin, vtkUnstructuredGrid* elements, const std::vector<std::string>& volumes,
@@ -270,7 +280,7 @@ LoadGlyphs draw_load(vtkPolyData& skin, vtkUnstructuredGrid* elements, const std
     glyphs.inner = seats.empty() && elements != nullptr;
     if (glyphs.inner) seats = inner_seats_of(*elements, surfaces, load.group);
     const BodyCentres centres = load.shape == LoadShape::stretch || load.shape == LoadShape::spin
-                                    ? centres_of(elements, index_of(volumes, load.group))
+                                    ? centres_of(elements, densities_of(load, volumes))
                                     : BodyCentres();
     if (load.shape == LoadShape::spin) {
       add_spins(mesh, glyphs, load, seats, centres, length);

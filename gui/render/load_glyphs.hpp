@@ -4,6 +4,7 @@
 #include <vtkSmartPointer.h>
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,9 @@ struct Load {
   /// Of arrows, any length; of a pressure: its sign comes first; of a stretching: rates along the axes, 1/s; of a spin:
   /// rad/s about the axes.
   std::array<double, 3> direction{};
-  std::array<bool, 3> axes{};  ///< of a support
-  std::string words;           ///< stands beside the glyphs
+  std::array<bool, 3> axes{};                 ///< of a support
+  std::string words;                          ///< stands beside the glyphs
+  std::map<std::string, double> densities{};  ///< kg/m3, by volume group, of a stretching and a spin
 };
 
 struct LoadGlyphs {

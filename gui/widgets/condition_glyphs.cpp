@@ -29,7 +29,7 @@ QString stretching_words(const Vector& rates) {
 /// Parts of an initial velocity beside that of all points alike.
 void add_parts(const Condition& row, const Load& whole, std::vector<Load>& loads) {
   const auto add = [&](LoadShape shape, const Vector& direction, const std::string& words) {
-    loads.push_back({shape, whole.group, direction, {}, words});
+    loads.push_back({shape, whole.group, direction, {}, words, row.densities});
   };
   if (row.random > 0) add(LoadShape::random, {}, words_of(text("random velocities up to %1"), row.random, "m/s"));
   if (const double turn = size(row.turns_by); turn > 0)

@@ -101,8 +101,9 @@ void MainWindow::show_check(const QJsonObject& json) {
 void MainWindow::show_mesh(const QJsonObject& json, const QString& elements_file) {
   const QJsonObject groups = json["groups"].toObject();
   groups_ = names_of(groups["volumes"].toArray());
-  mesh_groups_ = MeshGroups{groups_, names_of(groups["surfaces"].toArray()),
-                            names_of(groups["curves_and_points"].toArray()), json["bodies"].toInt()};
+  mesh_groups_ =
+      MeshGroups{groups_, names_of(groups["surfaces"].toArray()), names_of(groups["curves_and_points"].toArray()),
+                 json["bodies"].toInt(), names_of(groups["sets"].toArray())};
   groups_of_ = mesh_asked_;
   form_->set_groups(mesh_groups_);
   tree_->set_groups(mesh_groups_);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/body_centres.hpp"
 #include "render/vectors.hpp"
 
 namespace breccia::gui {
@@ -220,6 +221,33 @@ TEST(LoadGlyphs, OfASpinAreOneArcAroundEachBodyWhoseAxisGoesThroughItsCentre) {
     const Vector velocity = cross(turn, foot - Vector{1, 1, 1});
     EXPECT_NEAR(dot(unit(velocity), unit(tip - foot)), 1, 1e-6) << "by the right hand";
   }
+}
+
+/// Two elements of one body, at x = 1/4 and 10 + 1/4, each of a group of its own.
+TEST(BodyCentres, AreThoseOfAllGroupsThatABodyConsistsOfByTheirDensities) {
+  vtkNew<vtkUnstructuredGrid> grid;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkIntArray> body, material;
+  body->SetName("body");
+  material->SetName("material");
+  for (int e = 0; e < 2; ++e) {
+    const double x = 10.0 * e;
+    const vtkIdType first = points->InsertNextPoint(x, 0, 0);
+    points->InsertNextPoint(x + 1, 0, 0);
+    points->InsertNextPoint(x, 1, 0);
+    points->InsertNextPoint(x, 0, 1);
+    body->InsertNextValue(3);
+    material->InsertNextValue(e);
+    const std::array<vtkIdType, 4> corners{first, first + 1, first + 2, first + 3};
+    if (e == 0) grid->Allocate(2);
+    grid->InsertNextCell(10, 4, corners.data());
+  }
+  grid->SetPoints(points);
+  grid->GetCellData()->AddArray(body);
+  grid->GetCellData()->AddArray(material);
+  constexpr double kRounding = 1e-12;
+  EXPECT_NEAR(centres_of(grid, {1000, 3000}).at(3)[0], 0.25 + 7.5, kRounding);
+  EXPECT_NEAR(centres_of(grid, {}).at(3)[0], 0.25 + 5, kRounding) << "alike where no density is known";
 }
 
 TEST(LoadGlyphs, OfMotionsAboutCentresAreNoneWhereTheModelIsNotKnown) {
