@@ -61,7 +61,7 @@ constexpr auto table = std::to_array<Topic>({
      "mesh.file|mesh.raster|joint.between"},
     {"tetrahedron|tetrahedra|tet|tetrahedral|tet10|c3d4|c3d10|element",
      "Elements are linear tetrahedra (four nodes, constant strain), each with nodes of its own where joints can "
-     "fail.",
+     "fail. Of tetrahedra of second order the corners are read.",
      "mesh|material.joints|material.law"},
     {"adaptive|adaptivity|adaptive mesh|amr|remesh|remeshing|remap|refinement|refine|h adaptive",
      "There is no adaptive mesh: cracks run along faces that are there from the start. Make the mesh fine where "
@@ -69,8 +69,8 @@ constexpr auto table = std::to_array<Topic>({
      "mesh.parameters|mesh.size|joint.energy_mode_1"},
     {"meshing|mesh generator|mesh format|msh|import|cad|stp|stl|brep|iges|igs|parasolid|x t|solidworks|catia|"
      "freecad|inventor|salome|hypermesh|gmsh",
-     "mesh.file is a .geo or .msh of gmsh, or solids as STEP, BREP or STL; [mesh.raster] makes boxes without a "
-     "file. From other programs export STEP; IGES, Parasolid and native CAD files are not read.",
+     "mesh.file is a .geo or .msh of gmsh, a mesh as .inp, .unv, .bdf or .mesh, or solids as STEP, BREP or STL; "
+     "[mesh.raster] makes boxes without a file. IGES, Parasolid and native CAD files are not read: export STEP.",
      "mesh.file|mesh.size|mesh.scale|mesh.raster"},
     {"elastic|elasticity|linear elastic|isotropic|hooke|neo hooke|hyperelastic|hyperelasticity|rubber|"
      "mooney rivlin|ogden|young modulus|elastic modulus|shear modulus|bulk modulus|lame|poisson ratio|stiffness",

@@ -71,9 +71,10 @@ constexpr auto table = std::to_array<Topic>({
      "mesh.memory_limit|mesh.time_limit|time.residual_limit"},
     {"abaqus|ls dyna|lsdyna|dyna|ansys|autodyn|radioss|nastran|optistruct|pam crash|comsol|marc|inp|inp file|"
      "k file|bdf|cdb|med|unv|keyword file|other software|migration|convert|conversion",
-     "Cases of other programs are not read. Geometry comes over as STEP, a mesh as .msh of gmsh, which converts "
-     "many formats; sets become physical groups. Then *Material is [[material]] and [[joint]], *Boundary "
-     "[[stage.constraint]], *Dload [[stage.pressure]], *Contact [[contact]].",
+     "Of .inp, .unv, .bdf and .mesh files the mesh is read, and its sets become groups; materials, loads and "
+     "steps are not. *Material is [[material]] and [[joint]] here, *Boundary [[stage.constraint]], *Dload "
+     "[[stage.pressure]], *Contact [[contact]]. Other files: save the solids as STEP, or convert the mesh, as "
+     "with meshio.",
      "mesh.file|material|stage.constraint|contact"},
     {"3dec|udec|flac|pfc|itasca|rocscience|rs2|rs3|plaxis|irazu|elfen|y geo|y2d|hosssdem|hoss|fdem|gfdem|"
      "combined finite discrete element|finite discrete element method|munjiza|solidity|opensees|mfem|fenics|"
