@@ -181,7 +181,7 @@ constexpr auto table = std::to_array<Topic>({
      "Element frames hold stress, velocity, displacement; joint frames damage, opening, slip, energies and the "
      "mode of failure. Stress intensities and J integrals there are not: cracks grow by their energy.",
      "output.elements|output.joints|joint.energy_mode_1|joint.energy_mode_2"},
-    {"result|export|post processing|postprocessing|plot|graph|csv|hdf5|h5|vtkhdf|ensight|exodus|tecplot|matlab|"
+    {"result|export|post processing|postprocessing|plot|graph|hdf5|h5|vtkhdf|ensight|exodus|tecplot|matlab|"
      "octave|excel|pandas|numpy|origin lab",
      "frames/*.series are VTKHDF for ParaView (plain HDF5 to h5py and MATLAB's h5read), history.csv, bodies.csv "
      "and race tables are text with a header, summary.json and status.jsonl JSON. `breccia report RUN` makes a "
