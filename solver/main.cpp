@@ -80,7 +80,7 @@ int dispatch(const CLI::App& app, Arguments& a, const Communicator& world, int a
 
 /// Prints what went wrong where `prints`: one rank for all.
 int report(bool prints, const std::string& what, ExitCode exit_code) {
-  if (prints) std::fprintf(stderr, "breccia: error: %s\n", what.c_str());
+  if (prints) std::fprintf(stderr, "breccia: error: %s\n", printable_lines(what).c_str());
   return code(exit_code);
 }
 
@@ -121,6 +121,8 @@ int guarded(const CLI::App& app, Arguments& arguments, MpiSession& session, int 
   } catch (const std::system_error& error) {
     ended =
         std::ferror(stdout) != 0 ? lost_output(error.code().value()) : report(true, error.what(), ExitCode::internal);
+  } catch (const NoResponse& error) {
+    ended = report(true, error.what(), ExitCode::input);
   } catch (const std::exception& error) {
     ended = report(true, error.what(), ExitCode::internal);
   }

@@ -6,7 +6,9 @@
 #include "case/reader.hpp"
 #include "commands/check_report.hpp"
 #include "commands/json_report.hpp"
+#include "commands/preview.hpp"
 #include "commands/start_state.hpp"
+#include "commands/terminal.hpp"
 #include "output/insitu.hpp"
 
 namespace breccia {
@@ -16,6 +18,7 @@ int check(const CheckCommand& asked, int launched) {
   const std::optional<StartState> start = read_start_state(asked.case_file, asked.overrides, {});
   case_::Case input = read_case_of(asked.case_file, asked.overrides, start);
   input.mesh.trust = asked.trust_geometry;
+  limit_preview(input);
   if (input.insitu.asked_for())
     preflight(input, std::filesystem::temp_directory_path(), InSituPlugin(input.insitu.backend), {});
   if (asked.ranks > 0) {
@@ -34,10 +37,10 @@ int check(const CheckCommand& asked, int launched) {
     fmt::print("{}", check_json(input, model, from));
     return 0;
   }
-  fmt::print("{}", check_report(input, model, from));
+  print_lines(check_report(input, model, from));
   const std::array<int, 3>& n = input.domains.n;
   const int ranks = launched > 1 ? launched : n[0] * n[1] * n[2];  // the product is bounded by the case's validation
-  if (ranks > 1) fmt::print("{}", domain_line(input, model, ranks));
+  if (ranks > 1) print_lines(domain_line(input, model, ranks));
   return 0;
 }
 

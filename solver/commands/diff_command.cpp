@@ -1,12 +1,11 @@
-#include <fmt/core.h>
-
 #include "commands/commands.hpp"
+#include "commands/terminal.hpp"
 #include "output/run_diff.hpp"
 
 namespace breccia {
 
 int diff_command(const DiffCommand& asked) {
-  fmt::print("{}", diff_runs(asked.first, asked.second));
+  print_lines(diff_runs(asked.first, asked.second));
   return 0;
 }
 

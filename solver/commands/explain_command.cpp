@@ -1,13 +1,12 @@
 #include "commands/commands.hpp"
 
-#include <fmt/core.h>
-
 #include "case/explain.hpp"
+#include "commands/terminal.hpp"
 
 namespace breccia {
 
 int explain_command(const std::string& key) {
-  fmt::print("{}\n", key.empty() ? case_::explain() : case_::explain(key));
+  print_lines((key.empty() ? case_::explain() : case_::explain(key)) + "\n");
   return 0;
 }
 

@@ -1,4 +1,4 @@
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <map>
 #include <optional>
 #include <string>
@@ -7,6 +7,7 @@
 
 #include "case/reader.hpp"
 #include "commands/commands.hpp"
+#include "commands/terminal.hpp"
 #include "output/atomic_file.hpp"
 #include "output/control.hpp"
 #include "output/folder_check.hpp"
@@ -20,7 +21,7 @@ int control_command(const ControlCommand& asked) {
   const Command command = parse_command(asked.command);
   if (command.kind == Command::Kind::refused)
     throw InputError(Problem{"", 0, asked.command, command.complaint, "", ""});
-  fmt::print("{}: done\n", ask_run(asked.folder, command.text, asked.patience));
+  print_lines(ask_run(asked.folder, command.text, asked.patience) + ": done\n");
   return 0;
 }
 
@@ -69,7 +70,7 @@ int replay_command(const ReplayCommand& asked, const Communicator& world) {
   const std::string records = std::filesystem::absolute(RunFolder{asked.run}.extracts()).string();
   checked(
       [&](char* words, std::size_t size) { return plugin->api().replay(&config.get(), records.c_str(), words, size); });
-  if (world.is_root()) fmt::print("results in {}\n", folder.string());
+  if (world.is_root()) print_lines("results in " + folder.string() + "\n");
   return 0;
 }
 
@@ -81,10 +82,10 @@ int insitu_info_command() {
     try {
       const InSituPlugin plugin(backend);
       const std::string found = plugin.found();
-      fmt::print("{}: {}\n{}\n", name, found, InSituPlugin::place(backend).string());
+      print_lines(fmt::format("{}: {}\n{}\n", name, found, InSituPlugin::place(backend).string()));
       usable = true;
     } catch (const OutputError& error) {
-      fmt::print("{}: not usable: {}\n", name, error.what());
+      print_lines(fmt::format("{}: not usable: {}\n", name, error.what()));
       if (!first) first = error;
     }
   }

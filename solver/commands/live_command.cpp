@@ -3,7 +3,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <array>
 #include <cerrno>
 #include <cstddef>
@@ -18,6 +18,7 @@
 #include "case/live_address.hpp"
 #include "case/reader.hpp"
 #include "commands/commands.hpp"
+#include "commands/terminal.hpp"
 #include "output/atomic_file.hpp"
 #include "output/insitu_config.hpp"
 #include "output/insitu_plugin.hpp"
@@ -158,8 +159,8 @@ int live_command(const LiveCommand& asked) {
   const std::string version = description.substr(description.rfind(' ') + 1);
   set("XDG_CONFIG_HOME", settings_folder(version, data / "python" / "macros").string());
   if (!input.insitu.live || !input.insitu.live->remote) keep_on_this_machine();
-  fmt::print("ParaView listens at port {}; start the run, before or afterwards: breccia run {} --live{}\n", port,
-             asked.case_file.string(), address == case_::live_address ? "" : "=" + address);
+  print_lines(fmt::format("ParaView listens at port {}; start the run, before or afterwards: breccia run {} --live{}\n",
+                          port, asked.case_file.string(), address == case_::live_address ? "" : "=" + address));
   std::fflush(stdout);
   const std::string script = "--script=" + (data / "python" / "open_live_view.py").string();
   ::execlp("paraview", "paraview", script.c_str(), static_cast<char*>(nullptr));

@@ -8,7 +8,9 @@
 #include "base/printable.hpp"
 #include "commands/check_report.hpp"
 #include "commands/json_report.hpp"
+#include "commands/preview.hpp"
 #include "commands/start_state.hpp"
+#include "commands/terminal.hpp"
 #include "commands/unjoined_report.hpp"
 #include "contact/search_params.hpp"
 #include "domains/balance.hpp"
@@ -71,20 +73,25 @@ int mesh(const MeshCommand& asked) {
     return 0;
   }
   const auto told = [&](const FinishedMesh& made) {
-    fmt::print("{}", asked.json ? mesh_json(made) : mesh_report(made, assess_quality(made.mesh)));
+    if (asked.json)
+      fmt::print("{}", mesh_json(made));
+    else
+      print_lines(mesh_report(made, assess_quality(made.mesh)));
   };
   if (is_geometry(asked.case_file)) {
     case_::Case input = case_of_geometry(asked);
     input.mesh.trust = asked.trust_geometry;
+    limit_preview(input);
     const FinishedMesh made = read_mesh(input);
     told(made);
-    if (!asked.json) fmt::print("{}", case_to_begin_with(asked.case_file, made));
+    if (!asked.json) print_lines(case_to_begin_with(asked.case_file, made));
     if (!asked.json) warn_of(unjoined_volumes(input, made.mesh, build_topology(made.mesh)));
     return 0;
   }
   case_::Case input =
       read_case_of(asked.case_file, asked.overrides, read_start_state(asked.case_file, asked.overrides, {}));
   input.mesh.trust = asked.trust_geometry;
+  limit_preview(input);
   if (asked.folder.empty()) {
     const FinishedMesh made = build_mesh(input);
     told(made);
@@ -104,7 +111,7 @@ int mesh(const MeshCommand& asked) {
   }
   told({model.mesh, model.mesh_report});
   warn_of(unjoined_volumes(input, model.mesh, model.topology));
-  fmt::print("elements for ParaView in {}\n", asked.folder.string());
+  print_lines("elements for ParaView in " + asked.folder.string() + "\n");
   return 0;
 }
 

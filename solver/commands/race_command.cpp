@@ -50,6 +50,7 @@ int race_command(const RaceCommand& asked, const Communicator& world) {
     if (access(asked.folder.c_str(), W_OK) != 0)
       throw output_error(asked.folder, "nothing can be written into the folder", errno);
   });
+  demand_memory_of_ranks(input, model.get(), world);
   warn_of_oversubscription(world);
   RaceProgress progress(world.is_root() ? asked.progress : ProgressMode::none, std::cout,
                         terminal_columns(fileno(stdout)));

@@ -10,8 +10,10 @@
 #include <system_error>
 
 #include "base/error.hpp"
+#include "base/printable.hpp"
 #include "base/regular_file.hpp"
 #include "commands/commands.hpp"
+#include "commands/terminal.hpp"
 #include "output/atomic_file.hpp"
 #include "report/drawing.hpp"
 #include "report/page.hpp"
@@ -62,8 +64,9 @@ int report_command(const ReportCommand& asked) {
     figures = report::draw_run(asked.run, run.up, std::chrono::seconds(asked.time_limit));
   const std::string made = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   write_file_atomically(file, report::page_of(run, figures, made));
-  if (!asked.no_pictures && !figures.missing.empty()) std::cerr << "breccia: " << figures.missing << '\n';
-  fmt::print("report in {}\n", file.string());
+  if (!asked.no_pictures && !figures.missing.empty())
+    std::cerr << "breccia: " << printable_lines(figures.missing) << '\n';
+  print_lines("report in " + file.string() + "\n");
   return 0;
 }
 

@@ -1,8 +1,7 @@
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <iostream>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -14,6 +13,7 @@
 #include "commands/oversubscription.hpp"
 #include "commands/run_sinks.hpp"
 #include "commands/start_state.hpp"
+#include "commands/terminal.hpp"
 #include "domains/possible_records.hpp"
 #include "output/checkpoint_writer.hpp"
 #include "output/folder_check.hpp"
@@ -81,7 +81,7 @@ std::pair<Checkpoint, fs::path> latest_sound(const std::vector<fs::path>& files,
       Checkpoint checkpoint = read_checkpoint(file, world);
       world.agree([&] { demand_possible(file, checkpoint.whole_model, checkpoint.mine); });
       for (const Problem& problem : problems) {
-        if (world.is_root()) std::cerr << "breccia: warning: " << problem.text() << '\n';
+        if (world.is_root()) print_warning(problem.text());
       }
       return {std::move(checkpoint), file};
     } catch (const InputError& error) {  // the same on all ranks
@@ -168,8 +168,8 @@ int go_on(const ResumeCommand& asked, const Communicator& world) {
   });
   if (complete) {
     if (world.is_root())
-      fmt::print("{} is complete at {}; --until TIME goes on to a later end\n", run.string(),
-                 quantity_text(from.model.clock.time, "s"));
+      print_lines(fmt::format("{} is complete at {}; --until TIME goes on to a later end\n", run.string(),
+                              quantity_text(from.model.clock.time, "s")));
     return 0;
   }
   world.agree([&] {

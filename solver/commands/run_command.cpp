@@ -6,6 +6,7 @@
 
 #include "base/geometry_file.hpp"
 #include "base/interruption.hpp"
+#include "base/printable.hpp"
 #include "case/live_address.hpp"
 #include "case/reader.hpp"
 #include "commands/overlap_report.hpp"
@@ -13,6 +14,7 @@
 #include "commands/run_sinks.hpp"
 #include "commands/stage_report.hpp"
 #include "commands/start_state.hpp"
+#include "commands/terminal.hpp"
 #include "commands/unmeant_report.hpp"
 #include "mesh/geo_scan.hpp"
 #include "model/surfaces_to_break.hpp"
@@ -27,8 +29,8 @@ namespace {
 /// A live view that leaves the machine.
 void warn_of_remote_viewer(const case_::InSitu& insitu) {
   if (!insitu.live || case_::is_loopback(case_::host_and_port(insitu.live->address)->first)) return;
-  std::cerr << "breccia: warning: the run is offered to " << insitu.live->address
-            << ", another machine; what is sent there is neither encrypted nor checked\n";
+  print_warning("the run is offered to " + insitu.live->address +
+                ", another machine; what is sent there is neither encrypted nor checked");
 }
 
 /// Where the results come from, with hashes of all files that went in.
@@ -48,6 +50,19 @@ Provenance provenance_of(const RunCommand& asked, const case_::Case& input, cons
   for (const case_::DataFiles::One& one : input.data.files) files.insert(one.file);
   for (const std::filesystem::path& file : files) provenance.inputs.push_back(input_file(file));
   return provenance;
+}
+
+/// On the root; nothing elsewhere. Collective.
+std::unique_ptr<Model> model_of(const case_::Case& input, bool announce, const Communicator& world) {
+  std::unique_ptr<Model> model;
+  world.agree([&] {
+    if (!world.is_root()) return;
+    if (announce) std::cerr << "breccia: reading the mesh and building the model\n";
+    model = std::make_unique<Model>(world.size() > 1 ? build_bare_model(input) : build_model(input));
+    give_up_if_interrupted();
+  });
+  demand_memory_of_ranks(input, model.get(), world);
+  return model;
 }
 
 Summary carry_out(const case_::Case& input, std::unique_ptr<Model> model, std::optional<StartState>& start,
@@ -74,20 +89,18 @@ int run_command(const RunCommand& asked, const Communicator& world) {
     root = asked.folder.empty() ? default_run_folder(input.file) : asked.folder;
     if (input.insitu.asked_for()) InSituPlugin(input.insitu.backend);  // before anything is made: stays loaded
   });
+  const bool announce = asked.progress == ProgressMode::log || asked.progress == ProgressMode::bar;
+  if (!start) model = model_of(input, announce, world);
   std::vector<ConstraintConflict> conflicts;
   if (start) conflicts = conflicts_of(input, *start, world);
   world.agree([&] {
     if (!world.is_root()) return;
-    const bool announce = asked.progress == ProgressMode::log || asked.progress == ProgressMode::bar;
     if (start) {
       refuse_contradictions(input, conflicts);
       warn_of(overruled_constraints(conflicts));
       refuse_folder_of_state(root, *start);
-      if (announce) std::cerr << "breccia: starting from " << words_of(*start) << '\n';
+      if (announce) std::cerr << "breccia: starting from " << printable(words_of(*start)) << '\n';
     } else {
-      if (announce) std::cerr << "breccia: reading the mesh and building the model\n";
-      model = std::make_unique<Model>(world.size() > 1 ? build_bare_model(input) : build_model(input));
-      give_up_if_interrupted();
       refuse_initial_overlaps(input, *model);
       refuse_contradictions(input, *model);
       refuse_what_cannot_break(input, joints_on(*model, surfaces_to_break(input)));

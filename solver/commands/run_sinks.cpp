@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "base/printable.hpp"
 #include "output/bodies_sink.hpp"
 #include "output/history_sink.hpp"
 #include "output/summary.hpp"
@@ -28,7 +29,8 @@ std::vector<std::unique_ptr<Sink>> run_sinks(const case_::Case& input, const Run
 
 void print_results(const Summary& summary, const RunFolder& folder, ProgressMode progress, const Communicator& world) {
   if (world.is_root() && progress != ProgressMode::json)
-    std::cout << summary_text(summary) << "results in " << folder.root.string() << std::endl;  // which throws nothing
+    std::cout << printable_lines(summary_text(summary) + "results in " + folder.root.string())
+              << std::endl;  // which throws nothing
 }
 
 }  // namespace breccia

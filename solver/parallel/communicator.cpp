@@ -99,7 +99,8 @@ void wait_for(const Communicator::Handle& handle, std::span<MPI_Request> request
                              " in phase \"" + handle.phase + "\"";
     if (!told) std::fprintf(stderr, "breccia: %s\n", text.c_str());
     told = true;
-    if (waited > 2 * handle.patience) throw InternalError(text);
+    if (waited > 2 * handle.patience)
+      throw NoResponse(text + ": it does not respond; allowed: up to twice domains.patience");
   }
 }
 

@@ -10,7 +10,15 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/error.hpp"
+
 namespace breccia {
+
+/// Another rank has not responded for twice the patience: it is stopped, or its machine is. Exit code 2: nothing is
+/// wrong with the program.
+class NoResponse : public InternalError {
+  using InternalError::InternalError;
+};
 
 /// A group of ranks that work on one model. Every call is collective and in the same order on all ranks. Without MPI
 /// (default constructed) a rank is alone: every call does what it does for one rank. Throws InternalError when MPI
@@ -77,7 +85,7 @@ class Communicator {
 
   /// Names what the rank is about to do, for the message of a wait that lasts too long.
   void set_phase(const char* phase) const;
-  /// Waits longer than this are told on stderr, waits twice as long end with InternalError; s. Default 300. After that
+  /// Waits longer than this are told on stderr, waits twice as long end with NoResponse; s. Default 300. After that
   /// error only a pending reduction and a halo may be waited for again; anything else has left MPI with memory that is
   /// gone: end the process.
   void set_patience(double seconds) const;

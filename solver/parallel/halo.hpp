@@ -43,7 +43,7 @@ class Halo {
   /// unless they are a whole gather behind. @param fields  (fields of the constructor); a node's values as they are now
   /// are sent
   void gather_begin(std::span<double* const> fields);
-  /// Waits for the values and puts them into the fields of gather_begin. Throws InternalError past the communicator's
+  /// Waits for the values and puts them into the fields of gather_begin. Throws NoResponse past the communicator's
   /// patience; may be called again then. What this rank has sent may still be on its way.
   void gather_end();
 

@@ -30,7 +30,7 @@ enum class Tag : int { parcel = 1, halo = 2 };
 void check_mpi(int result, const char* call);
 
 /// Waits for all requests by polling, so that more ranks than cores share them; past the patience tells on stderr whom
-/// it waits for and in which phase, past twice the patience throws InternalError. Requests stay as they are then: their
+/// it waits for and in which phase, past twice the patience throws NoResponse. Requests stay as they are then: their
 /// buffers must outlive them or the process must end.
 /// @param ranks  whom each request waits for, -1: everybody
 void wait_for(const Communicator::Handle& handle, std::span<MPI_Request> requests, std::span<const int> ranks);

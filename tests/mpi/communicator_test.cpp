@@ -323,7 +323,7 @@ TEST(Waiting, PastThePatienceNamesRankAndPhaseThenFailsAndCanBeTakenUpAgain) {
     const auto start = std::chrono::steady_clock::now();
     try {
       (void)reduction.finish();
-    } catch (const InternalError& thrown) {
+    } catch (const NoResponse& thrown) {
       error = thrown.what();
     }
     const double waited = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

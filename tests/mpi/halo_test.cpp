@@ -236,7 +236,7 @@ TEST(Halo, InPairsTurnsToTheNextNeighbourOnlyWhenTheOneBeforeHasAnswered) {
     world().set_patience(kPatience);
     halo.gather_begin(std::span(&pointer, 1));
     testing::internal::CaptureStderr();
-    EXPECT_THROW(halo.gather_end(), InternalError);
+    EXPECT_THROW(halo.gather_end(), NoResponse);
     (void)testing::internal::GetCapturedStderr();
     EXPECT_EQ(halo.messages(), 1);
     world().set_patience(usual);

@@ -1,0 +1,16 @@
+#include "commands/terminal.hpp"
+
+#include <fmt/core.h>
+#include <iostream>
+
+#include "base/printable.hpp"
+
+namespace breccia {
+
+void print_lines(const std::string& text) { fmt::print("{}", printable_lines(text)); }
+
+void print_warning(const std::string& sentence) {
+  std::cerr << "breccia: warning: " << printable_lines(sentence) << '\n';
+}
+
+}  // namespace breccia
