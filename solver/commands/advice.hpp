@@ -1,8 +1,9 @@
 #pragma once
 
-#include <iostream>
 #include <string>
 #include <vector>
+
+#include "commands/terminal.hpp"
 
 namespace breccia {
 
@@ -25,7 +26,7 @@ inline std::string as_list(const Advice& advice) {
 
 /// A warning each, on stderr.
 inline void warn_of(const Advice& advice) {
-  for (const std::string& sentence : advice) std::cerr << "breccia: warning: " << sentence << '\n';
+  for (const std::string& sentence : advice) print_warning(sentence);
 }
 
 }  // namespace breccia

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "case/schema.hpp"
 #include "commands/stage_driver.hpp"
 #include "commands/timing_segments.hpp"
@@ -30,9 +31,6 @@ constexpr std::int64_t kMostPieces = 1000;  ///< of a lap (TimingSegments)
 constexpr double kSmallEnough = 1e7;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// As it is written in a case file, so that what is printed is what has raced.
-double rounded(double length) { return std::stod(fmt::format("{:.3g}", length)); }
 
 /// Points and contactors of this rank, proxies with them.
 double pairs_of(const Partition& partition) {
@@ -140,7 +138,7 @@ class Race {
     for (const auto algorithm : algorithms_) {
       for (const double multiple : multiples) {
         const bool as_given = multiple == 1.0;
-        const Racer racer{algorithm, as_given ? input_.detection.buffer : rounded(multiple * own),
+        const Racer racer{algorithm, as_given ? input_.detection.buffer : rounded(multiple * own, 3),
                           as_given && algorithm == input_.detection.algorithm};
         entries_.push_back({racer, {}});
       }

@@ -14,6 +14,7 @@
 
 #include "base/error.hpp"
 #include "base/regular_file.hpp"
+#include "output/json_text.hpp"
 #include "state/state_hash.hpp"
 
 namespace breccia {
@@ -76,8 +77,7 @@ IndexedColumn column_of(const Json& json) {
 
 /// Throws std::exception if the text is no index.
 CheckpointIndex parsed_index(std::span<const std::byte> bytes) {
-  const auto* const begin = reinterpret_cast<const char*>(bytes.data());
-  const Json json = Json::parse(begin, begin + bytes.size());
+  const Json json = json_of_text<Json>({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   CheckpointIndex index;
   index.step = json.at("step").get<std::int64_t>();
   index.time = std::bit_cast<double>(number_of_hex(json.at("time_bits")));

@@ -16,6 +16,7 @@
 #include "case/units.hpp"
 #include "output/atomic_file.hpp"
 #include "output/folder_check.hpp"
+#include "output/json_text.hpp"
 #include "output/run_folder.hpp"
 #include "output/run_lock.hpp"
 
@@ -116,7 +117,7 @@ class Tail {
     std::vector<nlohmann::json> found;
     for (std::string line; std::getline(file, line) && !file.eof();) {  // a line without its end is still being written
       read_ += static_cast<std::streamoff>(line.size()) + 1;
-      auto json = nlohmann::json::parse(line, nullptr, /*allow_exceptions=*/false);
+      auto json = json_of_text<nlohmann::json>(line);
       if (json.is_object()) found.push_back(std::move(json));
     }
     return found;

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/number_text.hpp"
+
 namespace breccia {
 namespace {
 
@@ -21,16 +23,13 @@ std::string three_digits(double value) {
   return text;
 }
 
-/// value rounded to three significant digits, so that 999.7 goes to the next prefix.
-double rounded(double value) { return std::stod(fmt::format("{:.2e}", value)); }
-
 }  // namespace
 
 std::string quantity_text(double value, std::string_view unit) {
   const std::string after = unit.empty() ? "" : " ";
   if (value == 0) return fmt::format("0{}{}", after, unit);
   if (!std::isfinite(value)) return fmt::format("{}{}{}", value, after, unit);
-  const double shown = rounded(value);
+  const double shown = rounded(value, 3);  // so that 999.7 goes to the next prefix
   const int power = static_cast<int>(std::floor(std::log10(std::abs(shown)) / 3 + 1e-9));
   const int prefix = power + kNoPrefix;
   if (prefix < 0 || prefix >= static_cast<int>(kPrefixes.size())) return fmt::format("{:.2e}{}{}", value, after, unit);

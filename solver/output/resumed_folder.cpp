@@ -12,6 +12,7 @@
 #include "output/extracts_cut.hpp"
 #include "output/folder_check.hpp"
 #include "output/folder_tree.hpp"
+#include "output/json_text.hpp"
 #include "output/run_lock.hpp"
 
 namespace breccia {
@@ -54,9 +55,7 @@ void demand_own_run(const RunFolder& folder, const fs::path& file, const Checkpo
 }
 
 bool is_complete(const RunFolder& folder, std::int64_t steps) {
-  RegularStream file(folder.summary());
-  if (!file) return false;
-  const auto json = nlohmann::json::parse(file, nullptr, /*allow_exceptions=*/false);
+  const auto json = json_of_file<nlohmann::json>(folder.summary());
   return json.is_object() && json.value("status", nlohmann::json()) == "complete" &&
          json.value("steps", nlohmann::json()) == steps;
 }

@@ -13,6 +13,7 @@
 #include "base/regular_file.hpp"
 #include "case/reader_toml.hpp"
 #include "output/folder_check.hpp"
+#include "output/json_text.hpp"
 #include "output/run_folder.hpp"
 
 namespace breccia {
@@ -70,9 +71,7 @@ Values case_of(const RunFolder& run) {
 
 Values json_of(const fs::path& file, const std::set<std::string>& left_out) {
   Values values;
-  RegularStream stream(file);
-  if (!stream) return values;
-  const json content = json::parse(stream, nullptr, /*allow_exceptions=*/false);
+  const auto content = json_of_file<json>(file);
   if (content.is_object()) {
     json kept = content;
     for (const std::string& name : left_out) kept.erase(name);

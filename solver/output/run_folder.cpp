@@ -8,6 +8,7 @@
 #include "base/regular_file.hpp"
 #include "output/atomic_file.hpp"
 #include "output/folder_check.hpp"
+#include "output/json_text.hpp"
 #include "output/run_lock.hpp"
 
 namespace breccia {
@@ -19,9 +20,7 @@ constexpr const char* kProgram = "breccia";
 
 /// True for a folder in which a run was prepared: its provenance names this program.
 bool is_run(const RunFolder& folder) {
-  RegularStream file(folder.provenance());
-  if (!file) return false;
-  const auto json = nlohmann::json::parse(file, nullptr, /*allow_exceptions=*/false);
+  const auto json = json_of_file<nlohmann::json>(folder.provenance());
   return json.is_object() && json.value("program", nlohmann::json()) == kProgram;
 }
 
@@ -70,7 +69,7 @@ std::filesystem::path default_run_folder(const fs::path& case_file) {
 std::vector<Provenance::Input> inputs_in(const std::string& provenance) {
   std::vector<Provenance::Input> inputs;
   try {
-    const nlohmann::json json = nlohmann::json::parse(provenance);
+    const auto json = json_of_text<nlohmann::json>(provenance);
     for (const auto& entry : json.at("inputs")) inputs.push_back({entry.at("file"), entry.at("sha256")});
   } catch (const nlohmann::json::exception&) {
     return inputs;
@@ -87,7 +86,7 @@ std::string run_in(const std::string& provenance) {
 std::vector<Provenance::Parent> parents_in(const std::string& provenance) {
   std::vector<Provenance::Parent> parents;
   try {
-    const nlohmann::json json = nlohmann::json::parse(provenance);
+    const auto json = json_of_text<nlohmann::json>(provenance);
     for (const auto& entry : json.at("parents"))
       parents.push_back({entry.at("file"), entry.at("sha256"), entry.at("step"), entry.at("time")});
   } catch (const nlohmann::json::exception&) {

@@ -187,9 +187,10 @@ void ProgressSink::event(const RunEvent& event) {
   if (mode_ == ProgressMode::json) {
     stream_ << event_json(event) << '\n' << std::flush;
   } else if (!event.accepted) {
-    std::cerr << (mode_ == ProgressMode::bar ? "\n" : "") << "breccia: warning: " << event.text << '\n';
+    std::cerr << (mode_ == ProgressMode::bar ? "\n" : "") << "breccia: warning: " << printable_lines(event.text)
+              << '\n';
   } else if (mode_ != ProgressMode::none && event.kind != "checkpoint") {
-    stream_ << (mode_ == ProgressMode::bar ? "\r\033[K" : "") << event.text << '\n' << std::flush;
+    stream_ << (mode_ == ProgressMode::bar ? "\r\033[K" : "") << printable_lines(event.text) << '\n' << std::flush;
   }
 }
 

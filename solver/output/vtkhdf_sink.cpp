@@ -9,6 +9,7 @@
 #include "output/folder_check.hpp"
 #include "output/folder_tree.hpp"
 #include "output/frame_fields.hpp"
+#include "output/json_text.hpp"
 #include "output/vtkhdf_image.hpp"
 
 namespace breccia {
@@ -54,9 +55,7 @@ void VtkhdfSink::mark(OutputMarks& marks) const {
 std::vector<VtkhdfSink::Entry> VtkhdfSink::listed(const std::string& part) const {
   std::vector<Entry> entries;
   const std::filesystem::path index = folder_ / (part + ".hdf.series");
-  RegularStream file(index, Depth::subfolder);
-  if (!file) return entries;
-  const auto json = nlohmann::json::parse(file, nullptr, /*allow_exceptions=*/false);
+  const auto json = json_of_file<nlohmann::json>(index, Depth::subfolder);
   const auto files = json.is_object() ? json.value("files", nlohmann::json::array()) : nlohmann::json::array();
   for (const auto& entry : files) {
     if (!entry.is_object() || !entry.contains("name") || !entry["name"].is_string() || !entry.contains("time") ||

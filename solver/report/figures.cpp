@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "output/json_text.hpp"
 #include "report/html.hpp"
 
 namespace breccia::report {
@@ -89,8 +90,7 @@ double Figures::fact(const std::string& part, const std::string& name) const {
 
 Figures read_figures(const std::filesystem::path& folder) {
   Figures figures;
-  std::ifstream stream(folder / "figures.json");
-  const json content = json::parse(stream, nullptr, /*allow_exceptions=*/false);
+  const auto content = json_of_file<json>(folder / "figures.json");
   if (!content.is_object()) return figures;
   for (const auto& [name, value] : content.items()) {
     if (value.is_object()) take_part(name, value, figures);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "base/number_text.hpp"
 #include "output/quantity_text.hpp"
 
 namespace breccia::report {
@@ -56,7 +57,7 @@ bool is_control(char c) {
 std::string plain_number(double value) {
   if (value == 0) return "0";
   const double size = std::abs(value);
-  if (size >= 999.5 && size < 999999.5) return count_text(std::llround(std::stod(fmt::format("{:.3g}", value))));
+  if (size >= 999.5 && size < 999999.5) return count_text(std::llround(rounded(value, 3)));
   if (size >= 0.000995 && size < 999.5) return fmt::format("{:.3g}", value);
   const std::string text = fmt::format("{:.2e}", value);
   const std::size_t e = text.find('e');

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/number_text.hpp"
 #include "case/nearest.hpp"
 #include "case/writer.hpp"
 #include "report/html.hpp"
@@ -50,7 +51,7 @@ void add(std::vector<Column>& columns, const std::string& group, std::vector<Wri
 
 /// With ten digits where three do not give the value, or where the unit has a prefix already.
 Cell number_cell(double value, std::string_view unit) {
-  const bool short_enough = std::abs(std::stod(fmt::format("{:.2e}", value)) - value) <= 1e-12 * std::abs(value);
+  const bool short_enough = std::abs(rounded(value, 3) - value) <= 1e-12 * std::abs(value);
   if (short_enough && !unit.starts_with("kg")) return Cell::number_of(value, unit);
   return {
       fmt::format("<data value=\"{:.17g}\">{:.10g}{}{}</data>", value, value, unit.empty() ? "" : " ", escaped(unit)),

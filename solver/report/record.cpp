@@ -15,6 +15,7 @@
 #include "case/groups.hpp"
 #include "case/reader.hpp"
 #include "output/folder_check.hpp"
+#include "output/json_text.hpp"
 #include "output/run_lock.hpp"
 
 namespace breccia::report {
@@ -144,7 +145,7 @@ void read_status(const RunFolder& run, RunRecord& record) {
   bool cut = false;
   std::size_t left_out = 0;
   for (const std::string_view line : lines_of(*text, cut)) {
-    const Json content = Json::parse(line, nullptr, /*allow_exceptions=*/false);
+    const Json content = json_of_text<Json>(line);
     if (content.is_object())
       take_status(content, record);
     else
@@ -173,7 +174,7 @@ Json object_in(const fs::path& file, bool needed, RunRecord& record) {
     if (needed) record.flaws.push_back(file.filename().string() + " is missing.");
     return {};
   }
-  Json content = Json::parse(*text, nullptr, /*allow_exceptions=*/false);
+  Json content = json_of_text<Json>(*text);
   if (content.is_object()) return content;
   record.flaws.push_back(file.filename().string() + " is not whole and is left out.");
   return {};

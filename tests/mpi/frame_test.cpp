@@ -199,10 +199,11 @@ TEST(Frames, AreListedOnceWithTheirTimesAndLeaveNothingElse) {
 }
 
 TEST(Frames, ThatCannotBeWrittenFailOnAllRanksAndNameTheFile) {
-  VtkhdfSink sink("/nonexistent/frames", {}, world());
+  const SharedFolder folder;
+  VtkhdfSink sink(folder / "missing/frames", {}, world());
   const Frame mine = my_piece(0);
   EXPECT_THAT(message_of<OutputError>([&] { sink.frame(mine); }),
-              HasSubstr("/nonexistent/frames/elements_000000.vtkhdf"));
+              HasSubstr((folder / "missing/frames/elements_000000.vtkhdf").string()));
 }
 
 TEST(Frames, LeaveTheEarlierOnesAsTheyWereWhenTheDiskIsFull) {

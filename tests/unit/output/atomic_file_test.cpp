@@ -61,8 +61,10 @@ TEST(AtomicFile, KeepsTheOldFileAndNamesItWhenTheDiskIsFull) {
 }
 
 TEST(AtomicFile, NamesTheFileAndTheReasonWhenItsFolderIsMissing) {
-  const std::string message = error_of([] { write_file_atomically("/nonexistent/folder/x", std::string_view("a")); });
-  EXPECT_THAT(message, HasSubstr("/nonexistent/folder/x"));
+  const TemporaryFolder place;
+  const std::filesystem::path file = place / "missing/folder/x";
+  const std::string message = error_of([&] { write_file_atomically(file, std::string_view("a")); });
+  EXPECT_THAT(message, HasSubstr(file.string()));
   EXPECT_THAT(message, HasSubstr("No such file or directory"));
 }
 

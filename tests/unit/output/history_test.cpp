@@ -146,7 +146,7 @@ TEST_F(HistoryTest, RefusesARowWithAnotherNumberOfGauges) {
 }
 
 TEST_F(HistoryTest, AnUnwritablePlaceIsAnOutputError) {
-  HistorySink missing("/nonexistent/history.csv");
+  HistorySink missing(folder_ / "missing/history.csv");
   EXPECT_THROW(missing.start({}), OutputError);
   HistorySink full("/dev/full");
   EXPECT_THROW(full.start({}), OutputError);

@@ -10,6 +10,7 @@ namespace {
 TEST(QuantityText, HasThreeDigitsAndAPrefix) {
   EXPECT_EQ(quantity_text(1.2345e-5, "s"), "12.3 us");
   EXPECT_EQ(quantity_text(0, "J"), "0 J");
+  EXPECT_EQ(quantity_text(1e-320, "J"), "1.00e-320 J");
   EXPECT_EQ(quantity_text(-0.5, "J"), "-500 mJ");
   EXPECT_EQ(quantity_text(1, "m"), "1 m");
   EXPECT_EQ(quantity_text(1000, "m"), "1 km");

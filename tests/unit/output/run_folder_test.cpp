@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "base/error.hpp"
+#include "output/resumed_folder.hpp"
 #include "output/run_diff.hpp"
 #include "output/run_lock.hpp"
 #include "unit/output/temporary_folder.hpp"
@@ -205,6 +206,23 @@ TEST(RunDiffTest, NamesKeysInputsResultsAndTheFirstLineThatDiffers) {
   EXPECT_EQ(diff_runs(a, c),
             "case: the same\ninputs, versions, machine: the same\nresults: the same\nhistory: the same\n");
   EXPECT_THROW((void)diff_runs(a, place.path()), OutputError);
+}
+
+TEST(RunDiffTest, ComparesRunsWhoseFilesAreNestedWithoutEnd) {
+  const TemporaryFolder place;
+  const std::string deep = "{\"a\":" + std::string(1'000'000, '[');
+  for (const char* name : {"a", "b"}) {
+    const RunFolder folder =
+        prepare_run_folder(place.path() / name, "title = \"x\"\n", kProvenance, OldResults::refuse);
+    std::ofstream(folder.summary()) << deep + std::string(1'000'000, ']') + "}";
+    std::ofstream(folder.history()) << "step\n";
+  }
+  EXPECT_THAT(diff_runs(place.path() / "a", place.path() / "b"), HasSubstr("results: the same\n"));
+  const RunFolder last{place.path() / "b"};
+  std::ofstream(last.provenance()) << deep;
+  EXPECT_THROW((void)prepare_run_folder(last.root, "title = \"x\"\n", kProvenance, OldResults::overwrite), OutputError)
+      << "no run stands there any more";
+  EXPECT_FALSE(is_complete(last, 1));
 }
 
 TEST(RunFolderTest, NamesAPlaceWhereNothingCanBeWritten) {

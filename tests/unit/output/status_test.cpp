@@ -98,7 +98,8 @@ TEST(StatusFile, OfAFailedRunEndsWithItsMessageAndTheShareItReached) {
 }
 
 TEST(StatusFile, InAnUnwritablePlaceIsAnOutputError) {
-  EXPECT_THROW(StatusSink("/nonexistent/status.jsonl").start({}), OutputError);
+  const test::TemporaryFolder folder;
+  EXPECT_THROW(StatusSink(folder / "missing/status.jsonl").start({}), OutputError);
 }
 
 TEST(StatusJson, HoldsEveryMemberOnOneLine) {

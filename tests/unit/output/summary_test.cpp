@@ -129,8 +129,8 @@ TEST(SummaryFile, IsWrittenAtTheEnd) {
   SummarySink(folder / "summary.json", folder / "summary.txt").finish(example_summary());
   EXPECT_EQ(json::parse(test::content_of(folder / "summary.json")).at("steps"), 10000);
   EXPECT_EQ(test::content_of(folder / "summary.txt"), summary_text(example_summary()));
-  EXPECT_THROW(SummarySink("/nonexistent/summary.json", folder / "summary.txt").finish(example_summary()), OutputError);
-  EXPECT_THROW(SummarySink(folder / "summary.json", "/nonexistent/summary.txt").finish(example_summary()), OutputError);
+  EXPECT_THROW(SummarySink(folder / "missing/a", folder / "summary.txt").finish(example_summary()), OutputError);
+  EXPECT_THROW(SummarySink(folder / "summary.json", folder / "missing/a").finish(example_summary()), OutputError);
 }
 
 TEST(SummaryText, SpeaksInUnitsThatPeopleUse) {

@@ -189,14 +189,15 @@ TEST(VtkhdfSinkTest, AFullDiskLeavesTheEarlierFramesAndIndicesAsTheyWere) {
 }
 
 TEST(VtkhdfSinkTest, NamesTheFileWhenTheFolderIsMissing) {
-  VtkhdfSink sink("/nonexistent/frames");
+  const TemporaryFolder folder;
+  VtkhdfSink sink(folder / "missing/frames");
   std::string message;
   try {
     sink.frame(two_elements(0, 0));
   } catch (const OutputError& error) {
     message = error.what();
   }
-  EXPECT_THAT(message, HasSubstr("/nonexistent/frames/elements_000000.vtkhdf"));
+  EXPECT_THAT(message, HasSubstr((folder / "missing/frames/elements_000000.vtkhdf").string()));
 }
 
 TEST(VtkhdfSinkTest, RefusesAnArrayThatDoesNotFitTheCells) {
