@@ -51,11 +51,6 @@ std::string duration_text(double seconds) {
   return fmt::format("{} d {} h", days, hours % 24);
 }
 
-std::string bytes_text(std::uint64_t bytes) {
-  if (bytes < 1000) return fmt::format("{} B", bytes);
-  return quantity_text(static_cast<double>(bytes), "B");
-}
-
 std::string count_text(std::int64_t count) {
   const std::string digits = fmt::format("{}", count);
   const std::size_t sign = count < 0 ? 1 : 0;

@@ -15,9 +15,6 @@ namespace breccia {
 /// "0.42 s", "37 s", "12 min 5 s", "3 h 4 min", "2 d 5 h"; "unknown" when negative or not finite.
 [[nodiscard]] std::string duration_text(double seconds);
 
-/// "512 B", "1.5 MB", "17.2 GB": powers of 1000.
-[[nodiscard]] std::string bytes_text(std::uint64_t bytes);
-
 /// "1,234,567"
 [[nodiscard]] std::string count_text(std::int64_t count);
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "base/bounded_file.hpp"
 #include "base/printable.hpp"
 #include "output/atomic_file.hpp"
 #include "output/energy_terms.hpp"

@@ -53,6 +53,8 @@ TEST_F(BoundedFiles, ThatHideTheirSizeAreReadUpToTheBound) {
 
 TEST(BytesText, HasThreeDigitsAndADecimalPrefix) {
   EXPECT_EQ(bytes_text(7), "7 B");
+  EXPECT_EQ(bytes_text(512), "512 B");
+  EXPECT_EQ(bytes_text(17'200'000'000), "17.2 GB");
   EXPECT_EQ(bytes_text(64'000'000), "64 MB");
   EXPECT_EQ(bytes_text(999'900'000), "1 GB");
   EXPECT_EQ(bytes_text(123'456'789'012), "123 GB");
