@@ -38,11 +38,11 @@ int main(int argc, char** argv) {
   arguments.addOption(dark);
   arguments.process(application);
 
-  const bool dark_wanted = arguments.isSet(dark) || breccia::gui::system_is_dark();
-  breccia::gui::apply_theme(dark_wanted);
+  const bool system_is_dark = breccia::gui::system_is_dark();
+  breccia::gui::apply_theme(system_is_dark);
   breccia::gui::MainWindow window(breccia::gui::Places::of_this_machine());
+  if (arguments.isSet(dark) || (system_is_dark && !window.remembers_colours())) window.set_dark(true);
   window.show();
-  window.set_dark(dark_wanted);
   if (arguments.positionalArguments().isEmpty()) {
     window.offer_recovery();
   } else {

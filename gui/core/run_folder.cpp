@@ -208,11 +208,12 @@ bool was_run_with_another(const QString& run_folder, const QByteArray& case_text
 bool is_run_folder(const QString& folder) { return provenance_of(folder)["program"] == "breccia"; }
 
 RunOrigin origin_of(const QString& run_folder) {
-  RunOrigin origin{QDir(run_folder).absolutePath(), {}, 1, {}};
+  RunOrigin origin{QDir(run_folder).absolutePath(), {}, 1, {}, {}};
   const QJsonObject json = provenance_of(run_folder);
   origin.started = QDateTime::fromString(json["started"].toString(), Qt::ISODate);
   origin.ranks = json["ranks"].toInt(1);
-  origin.case_name = QFileInfo(case_among(json)["file"].toString()).fileName();
+  origin.case_file = case_among(json)["file"].toString();
+  origin.case_name = QFileInfo(origin.case_file).fileName();
   return origin;
 }
 

@@ -112,6 +112,7 @@ struct RunOrigin {
   QDateTime started;  ///< not valid: it does not tell
   int ranks = 1;
   QString case_name;  ///< file name of its case
+  QString case_file;  ///< the same as it was named when the run was started
 };
 [[nodiscard]] RunOrigin origin_of(const QString& run_folder);
 /// The runs of a case in the folder "runs" beside it, newest first: those that say so, and those with such names as

@@ -17,11 +17,14 @@
 #include <mutex>
 #include <tuple>
 
+#include "render/cracks.hpp"
+#include "render/fragment_sizes.hpp"
+
 namespace breccia::gui {
 namespace {
 
-/// Distances over edges of a face: from where on one looks into a crack, and from where on it is a gap.
-constexpr double kApart = 0.01, kFarApart = 0.2;
+/// Distance over an edge of a face from where on one looks into a crack.
+constexpr double kApart = 0.01;
 
 using Point = std::array<double, 3>;
 
@@ -235,24 +238,6 @@ double squared_distance(const Point& a, const Point& b) {
   return sum;
 }
 
-/// The cracks that are worth a triangle of their own: where the sides have gone far, their faces are seen instead.
-vtkSmartPointer<vtkPolyData> cracks_of(vtkUnstructuredGrid& joints) {
-  vtkDataArray* opening = joints.GetCellData()->GetArray("opening");
-  auto cracks = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkCellArray> triangles;
-  cracks->SetPoints(joints.GetPoints());
-  cracks->GetCellData()->CopyAllocate(joints.GetCellData());
-  for (vtkIdType c = 0; c < joints.GetNumberOfCells(); ++c) {
-    const std::array<vtkIdType, 3> corners{3 * c, 3 * c + 1, 3 * c + 2};
-    const double edge = std::sqrt(squared_distance(at(joints, corners[0]), at(joints, corners[1])));
-    if (value(opening, c) > kFarApart * edge) continue;
-    const vtkIdType cell = triangles->InsertNextCell(3, corners.data());
-    cracks->GetCellData()->CopyData(joints.GetCellData(), c, cell);
-  }
-  cracks->SetPolys(triangles);
-  return cracks;
-}
-
 /// Whether two faces that rest on each other are that no more. @param a, b  rows of their elements
 bool are_apart(vtkUnstructuredGrid& elements, vtkIdType a, const std::array<std::int8_t, 3>& in_a, vtkIdType b,
                const std::array<std::int8_t, 3>& in_b) {
@@ -310,7 +295,7 @@ void enlarge(FrameData& frame) {
   frame.drawn->SetPoints(enlarged_elements(*frame.elements, *how.rest, how.scale));
   if (frame.joints == nullptr) return;
   frame.joints->SetPoints(enlarged_joints(*frame.joints, *how.rest, how.scale));
-  frame.broken->SetPoints(frame.joints->GetPoints());
+  frame.damaged->SetPoints(frame.joints->GetPoints());
 }
 
 }  // namespace
@@ -323,11 +308,12 @@ FrameData load_frame(const std::string& elements_file, const std::string& joints
   if (elements == nullptr) return frame;
   if (faces == nullptr) faces = std::make_shared<Skin>(*elements);
   frame.faces = faces;
+  frame.is_broken = add_fragment_sizes(*elements);
   frame.elements = frame.drawn = elements;
   if (const auto joints = joints_file.empty() ? nullptr : read_vtkhdf(joints_file);
       joints != nullptr && joints->GetNumberOfCells() > 0) {
     frame.joints = joints;
-    frame.broken = cracks_of(*joints);
+    frame.damaged = damaged_joints(*joints);
   }
   frame.deformation = std::move(deformation);
   enlarge(frame);

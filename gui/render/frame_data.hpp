@@ -62,7 +62,8 @@ struct SurfaceGroups {
 struct FrameData {
   double time = 0;
   vtkSmartPointer<vtkPolyData> skin;              ///< nullptr: could not be read
-  vtkSmartPointer<vtkPolyData> broken;            ///< triangles of the joints that carry damage
+  vtkSmartPointer<vtkPolyData> damaged;           ///< triangles of the joints that carry damage
+  bool is_broken = false;                         ///< there are more fragments than bodies
   std::shared_ptr<const Skin> faces;              ///< of this model, for the next frame
   vtkSmartPointer<vtkUnstructuredGrid> elements;  ///< all of them; only read once the frame is told
   vtkSmartPointer<vtkUnstructuredGrid> drawn;     ///< the same, where they are drawn: displacements may be enlarged

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 
+#include "render/cracks.hpp"
+
 namespace breccia::gui {
 namespace {
 
@@ -30,7 +32,7 @@ const std::vector<std::pair<Colouring, std::string>>& colourings() {
                                                        {Colouring::rank, "rank"}};
     for (int i = 0; i < kNumQuantities; ++i) {
       const auto quantity = static_cast<Quantity>(i);
-      const bool adapts = is_displacement(quantity);  // its unit does, to the model
+      const bool adapts = is_length(quantity);  // its unit does, to the model
       all.emplace_back(colouring_by(quantity), adapts ? source_of(quantity).name : title_of(quantity));
     }
     return all;
@@ -139,12 +141,11 @@ void Scene::show(const FrameData& frame) {
 }
 
 vtkIdType Scene::num_broken() const {
-  if (frame_.broken == nullptr) return 0;
-  vtkDataArray* broken = frame_.broken->GetCellData()->GetArray("broken");
-  vtkIdType count = 0;
-  for (vtkIdType i = 0; broken != nullptr && i < broken->GetNumberOfTuples(); ++i)
-    count += broken->GetTuple1(i) > 0 ? 1 : 0;
-  return count;
+  return frame_.damaged == nullptr ? 0 : cracks_among(*frame_.damaged, {})->GetNumberOfPolys();
+}
+
+vtkIdType Scene::num_joints() const {
+  return broken_->GetVisibility() != 0 ? broken_mapper_->GetInput()->GetNumberOfPolys() : 0;
 }
 
 void Scene::set_colouring(Colouring colouring) {

@@ -47,13 +47,13 @@ enum class Colouring {
 /// None for a colouring by classes.
 [[nodiscard]] std::optional<Quantity> quantity_of(Colouring colouring);
 
-/// The ends of the colours as they are given, in the unit of the legend; none: the least or the largest value.
+/// The ends of the colours as they are given, in the unit of the legend; none: that of value_range.
 struct ColourRange {
   std::optional<double> low, high;
   bool operator==(const ColourRange&) const = default;
 };
 
-/// What the colour of the damaged joints means; hidden: they are not drawn.
+/// What the colour of the joints means; hidden: they are not drawn.
 enum class JointColouring { mode, time_of_failure, hidden };
 
 /// From where the model is looked at: a corner above it, or along an axis.
@@ -62,8 +62,8 @@ enum class LookFrom { corner, plus_x, minus_x, plus_y, minus_y, plus_z, minus_z 
 /// The colourings with their names for people, units among them.
 [[nodiscard]] const std::vector<std::pair<Colouring, std::string>>& colourings();
 
-/// The 3D picture: skin of the bodies, damaged joints by mode, legend, title. Colours are told apart by a legend in
-/// words as well.
+/// The 3D picture: skin of the bodies, cracks by mode, legend, title. Colours are told apart by a legend in words as
+/// well.
 class Scene {
  public:
   Scene();
@@ -80,6 +80,8 @@ class Scene {
   void set_colouring(Colouring colouring);
   [[nodiscard]] Colouring colouring() const { return colouring_; }
   void set_joint_colouring(JointColouring colouring);
+  /// Which joints are drawn beside the cracks: those that hold with at least so much damage. @param least  none: none
+  void set_least_damage(const std::optional<double>& least);
   /// Names of the volume groups in the order of the array "material".
   void set_groups(const std::vector<std::string>& names);
   [[nodiscard]] const std::vector<std::string>& groups() const { return groups_; }
@@ -97,6 +99,8 @@ class Scene {
   [[nodiscard]] Picked picked_at(double x, double y) const;
   /// Of the present colouring, until it is given anew: each has its own. A quantity keeps its unit meanwhile.
   void set_colour_range(const ColourRange& range);
+  /// All that were given are found anew: another model follows.
+  void forget_colour_ranges() { given_ranges_.clear(); }
   [[nodiscard]] ColourRange colour_range() const;
   /// Keeps the range of colours of the present picture for those that follow, so that they can be compared.
   void hold_range(bool on) { hold_ = on; }
@@ -136,6 +140,9 @@ class Scene {
   [[nodiscard]] bool has_data() const { return frame_.skin != nullptr; }
   [[nodiscard]] vtkIdType num_faces() const { return frame_.skin == nullptr ? 0 : frame_.skin->GetNumberOfCells(); }
   [[nodiscard]] vtkIdType num_broken() const;
+  /// Joints that are drawn.
+  [[nodiscard]] vtkIdType num_joints() const;
+  [[nodiscard]] bool is_broken() const { return frame_.is_broken; }
   [[nodiscard]] const ClassLegend& class_legend() const { return *class_legend_; }
   [[nodiscard]] const ScaleBar& scale_bar() const { return *scale_bar_; }
   [[nodiscard]] const LoadWords& load_words() const { return words_; }
@@ -153,16 +160,18 @@ class Scene {
   void draw_loads();
   void draw_joints();
   void begin_picture();
-  void colour_joints_by_time();
+  void colour_joints_by_mode(vtkPolyData& joints);
+  void colour_joints_by_time(vtkPolyData& joints);
   void style_legends();
   void fit_beside(double middle);
   [[nodiscard]] std::int64_t face_of(vtkIdType cell) const;
   void set_opacity();
   void colour_by_class(const char* array, const std::vector<std::string>& names, const char* title);
   void colour_by_quantity(Quantity quantity);
-  void colour_by_displacement(const QuantitySource& source);
+  void colour_by_length(const QuantitySource& source);
   void colour_by_value(const QuantitySource& source, const std::string& title);
-  void choose_range(double low, double high);
+  void choose_range(std::array<double, 2> found);
+  [[nodiscard]] std::array<double, 2> range_of(const QuantitySource& source, vtkPolyData& skin) const;
   [[nodiscard]] vtkDataArray* values_within(const char* array) const;
   [[nodiscard]] std::map<int, Vector> explode_ways() const;
   [[nodiscard]] vtkSmartPointer<vtkPolyData> exploded() const;
@@ -189,6 +198,7 @@ class Scene {
   LoadWords words_{*renderer_};
   Colouring colouring_ = Colouring::group;
   JointColouring joint_colouring_ = JointColouring::mode;
+  std::optional<double> least_damage_;
   std::array<double, 3> up_{0, 1, 0};
   std::array<double, 2> failure_range_{0, 0};
   double explode_ = 0;
@@ -196,10 +206,10 @@ class Scene {
   std::optional<Cut> through_;  ///< the frame in view in that direction; none: not worked out yet
   struct GivenRange {
     ColourRange range;
-    PrefixedUnit unit;  ///< of a displacement
+    PrefixedUnit unit;  ///< of a length
   };
   std::map<Colouring, GivenRange> given_ranges_;
-  PrefixedUnit unit_of_displacement_;
+  PrefixedUnit unit_of_length_;
   std::function<vtkSmartPointer<vtkDataArray>(vtkCellData&)> shown_;  ///< what cells are coloured by, of their arrays
   int num_glyphs_ = 0;
   std::array<double, 2> range_{0, 1};

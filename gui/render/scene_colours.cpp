@@ -1,14 +1,18 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkIntArray.h>
+#include <vtkProperty.h>
 #include <vtkVariant.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string_view>
 
+#include "render/fragment_sizes.hpp"
 #include "render/ramp.hpp"
 #include "render/scene.hpp"
+#include "render/value_range.hpp"
 
 // What the colours of the skin tell.
 
@@ -58,6 +62,15 @@ vtkSmartPointer<vtkDataArray> numbers_of(vtkDataArray* values, int component, do
   return numbers;
 }
 
+/// Share of the light that comes from everywhere: what has the colours of values is compared with the legend, classes
+/// are told apart in shadow as well.
+constexpr double kOfValues = 0.55, kOfClasses = 0.25;
+
+void shade(vtkActor& skin, double ambient) {
+  skin.GetProperty()->SetAmbient(ambient);
+  skin.GetProperty()->SetDiffuse(1 - ambient);
+}
+
 /// The words of a legend stand beside the model, where there is little room.
 std::string in_two_lines(std::string title) {
   constexpr std::size_t kNarrow = 18;
@@ -97,6 +110,7 @@ vtkDataArray* Scene::values_within(const char* array) const {
 
 void Scene::colour_by_class(const char* array, const std::vector<std::string>& names, const char* title) {
   constexpr std::size_t kMostNamed = 12;
+  shade(*skin_, kOfClasses);
   const vtkSmartPointer<vtkPolyData> skin = exploded();
   std::map<std::int64_t, int> seen;  // value -> its place among those present
   for (vtkDataArray* values : {skin->GetCellData()->GetArray(array), values_within(array)})
@@ -134,37 +148,47 @@ void Scene::colour_by_class(const char* array, const std::vector<std::string>& n
 
 void Scene::colour_by_quantity(Quantity quantity) {
   const QuantitySource& source = source_of(quantity);
-  is_displacement(quantity) ? colour_by_displacement(source) : colour_by_value(source, title_of(quantity));
+  is_length(quantity) ? colour_by_length(source) : colour_by_value(source, title_of(quantity));
 }
 
 /// They are small in some runs and large in others. A range that is held or given keeps its unit.
-void Scene::colour_by_displacement(const QuantitySource& source) {
+void Scene::colour_by_length(const QuantitySource& source) {
   double most = 0;
   for (vtkDataArray* values : {frame_.skin->GetCellData()->GetArray(source.array), values_within(source.array)})
     for (vtkIdType c = 0; values != nullptr && c < values->GetNumberOfTuples(); ++c)
       most = std::max(most, std::abs(number_of(*values, c, source.component)));
   if (const auto given = given_ranges_.find(colouring_); given != given_ranges_.end()) {
-    unit_of_displacement_ = given->second.unit;
+    unit_of_length_ = given->second.unit;
   } else if (!hold_) {
-    unit_of_displacement_ = prefixed_unit(most, "m");
+    unit_of_length_ = prefixed_unit(most > source.noise ? most : 0, "m");
   }
   QuantitySource shown = source;
-  shown.scale = 1 / unit_of_displacement_.size;
-  colour_by_value(shown, std::string(source.name) + " [" + unit_of_displacement_.name + "]");
+  shown.scale = 1 / unit_of_length_.size;
+  colour_by_value(shown, std::string(source.name) + " [" + unit_of_length_.name + "]");
+}
+
+/// Of the values in view, or of all where a cut may show any of them.
+std::array<double, 2> Scene::range_of(const QuantitySource& source, vtkPolyData& skin) const {
+  std::vector<double> values;
+  double most = 0;
+  for (vtkDataArray* array : {skin.GetCellData()->GetArray(source.array), values_within(source.array)}) {
+    if (array == nullptr) continue;
+    values.reserve(values.size() + static_cast<std::size_t>(array->GetNumberOfTuples()));
+    for (vtkIdType c = 0; c < array->GetNumberOfTuples(); ++c) {
+      values.push_back(source.scale * number_of(*array, c, source.component));
+      for (int a = 0; a < array->GetNumberOfComponents(); ++a)
+        most = std::max(most, std::abs(array->GetComponent(c, a)));
+    }
+  }
+  // Small fragments are many where they have few faces: none is an outlier.
+  const double outliers = std::string_view(source.array) == kFragmentSize ? 0 : kOutliers;
+  return value_range(std::move(values), noise_of(source, most), outliers);
 }
 
 void Scene::colour_by_value(const QuantitySource& source, const std::string& title) {
+  shade(*skin_, kOfValues);
   const vtkSmartPointer<vtkPolyData> skin = exploded();
-  double low = 0, high = 0;
-  bool any = false;
-  for (vtkDataArray* values : {skin->GetCellData()->GetArray(source.array), values_within(source.array)})
-    for (vtkIdType c = 0; values != nullptr && c < values->GetNumberOfTuples(); ++c) {
-      const double x = source.scale * number_of(*values, c, source.component);
-      low = any ? std::min(low, x) : x;
-      high = any ? std::max(high, x) : x;
-      any = true;
-    }
-  choose_range(low, high);
+  choose_range(range_of(source, *skin));
   fill_ramp(*colours_);
   colours_->SetTableRange(range_[0], range_[1]);
   legend_->SetTitle(in_two_lines(title).c_str());
@@ -177,8 +201,9 @@ void Scene::colour_by_value(const QuantitySource& source, const std::string& tit
   skin_mapper_->SetInputData(skin);
 }
 
-/// @param low, high  of the values in view
-void Scene::choose_range(double low, double high) {
+/// @param found  of the values in view
+void Scene::choose_range(std::array<double, 2> found) {
+  auto [low, high] = found;
   if (hold_) {
     low = std::min(low, range_[0]);
     high = std::max(high, range_[1]);
@@ -186,7 +211,7 @@ void Scene::choose_range(double low, double high) {
   const ColourRange given = colour_range();
   low = given.low.value_or(low);
   high = given.high.value_or(high);
-  if (!(high > low)) {  // all are equal, or lie beyond the end that is given
+  if (!(high > low)) {  // all are 0, or lie beyond the end that is given
     const double width = std::max(std::abs(low), 1e-300) * 1e-3;
     given.high&& !given.low ? low = high - width : high = low + (low == 0 ? 1.0 : width);
   }
@@ -197,7 +222,7 @@ void Scene::set_colour_range(const ColourRange& range) {
   if (range == ColourRange{}) {
     given_ranges_.erase(colouring_);
   } else {
-    given_ranges_[colouring_] = {range, unit_of_displacement_};
+    given_ranges_[colouring_] = {range, unit_of_length_};
   }
   if (has_data()) colour();
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "render/cracks.hpp"
 #include "render/prefixed_unit.hpp"
 #include "render/ramp.hpp"
 #include "render/scene.hpp"
@@ -19,9 +20,9 @@ namespace {
 using Colour = std::array<double, 3>;
 
 constexpr const char* kFailure = "shown time of failure";  ///< array that the joints are coloured by
-/// Damaged joints by mode: 0 undamaged, 1 opening, 2 sliding, 3 mixed.
+/// Joints by mode; 0 is that of a surface that was broken from the start.
 constexpr std::array<Colour, 4> kModes{{{0.5, 0.5, 0.5}, {0.90, 0.12, 0.12}, {0.12, 0.30, 0.90}, {0.75, 0.15, 0.80}}};
-constexpr std::array<const char*, 4> kModeNames{"undamaged", "opening (I)", "sliding (II)", "mixed"};
+constexpr std::array<const char*, 4> kModeNames{"of no mode", "opening (I)", "sliding (II)", "mixed"};
 
 void place_legend(vtkScalarBarActor& legend, double x, double y, double width, double height) {
   legend.SetPosition(x, y);
@@ -48,12 +49,8 @@ void Scene::style_legends() {
   for (std::size_t i = 0; i < kModes.size(); ++i)
     mode_colours_->SetTableValue(static_cast<vtkIdType>(i), kModes[i][0], kModes[i][1], kModes[i][2]);
   mode_colours_->IndexedLookupOn();
-  std::vector<ClassLegend::Class> modes;
-  for (std::size_t i = 0; i < kModes.size(); ++i) {
+  for (std::size_t i = 0; i < kModes.size(); ++i)
     mode_colours_->SetAnnotation(vtkVariant(static_cast<int>(i)), kModeNames[i]);
-    modes.push_back({kModes[i], kModeNames[i]});
-  }
-  mode_legend_->set_classes("damaged joints", modes);
   fill_ramp(*time_colours_);
   constexpr double kGrey = 0.55;  // of joints that are damaged and hold
   time_colours_->SetNanColor(kGrey, kGrey, kGrey, 1);
@@ -70,27 +67,44 @@ void Scene::set_joint_colouring(JointColouring colouring) {
   if (has_data()) draw_joints();
 }
 
+void Scene::set_least_damage(const std::optional<double>& least) {
+  least_damage_ = least;
+  if (has_data()) draw_joints();
+}
+
 void Scene::draw_joints() {
-  const bool any = frame_.broken != nullptr && joint_colouring_ != JointColouring::hidden;
+  const bool may = frame_.damaged != nullptr && joint_colouring_ != JointColouring::hidden;
+  const vtkSmartPointer<vtkPolyData> joints = may ? cracks_among(*frame_.damaged, least_damage_) : nullptr;
+  const bool any = joints != nullptr && joints->GetNumberOfPolys() > 0;
   const bool by_time = any && joint_colouring_ == JointColouring::time_of_failure &&
-                       frame_.broken->GetCellData()->HasArray("time_of_failure") != 0;
+                       joints->GetCellData()->HasArray("time_of_failure") != 0;
   broken_->SetVisibility(any);
   mode_legend_->SetVisibility(any && !by_time);
   time_legend_->SetVisibility(by_time);
   failure_range_ = {0, 0};
   if (!any) return;
-  if (by_time) {
-    colour_joints_by_time();
-  } else {
-    broken_mapper_->SetLookupTable(mode_colours_);
-    broken_mapper_->SelectColorArray("mode");
-  }
-  broken_mapper_->SetInputData(frame_.broken);
+  by_time ? colour_joints_by_time(*joints) : colour_joints_by_mode(*joints);
+  broken_mapper_->SetInputData(joints);
+}
+
+/// The legend has the modes that are seen.
+void Scene::colour_joints_by_mode(vtkPolyData& joints) {
+  vtkDataArray* modes = joints.GetCellData()->GetArray("mode");
+  std::array<bool, kModes.size()> is_seen{};
+  for (vtkIdType c = 0; modes != nullptr && c < modes->GetNumberOfTuples(); ++c)
+    if (const auto mode = static_cast<std::size_t>(modes->GetComponent(c, 0)); mode < is_seen.size())
+      is_seen[mode] = true;
+  std::vector<ClassLegend::Class> classes;
+  for (std::size_t i = 0; i < kModes.size(); ++i)
+    if (is_seen[i]) classes.push_back({kModes[i], kModeNames[i]});
+  mode_legend_->set_classes(least_damage_ ? "damaged joints" : "broken joints", classes);
+  broken_mapper_->SetLookupTable(mode_colours_);
+  broken_mapper_->SelectColorArray("mode");
 }
 
 /// Those that hold have no time (-1): they are grey.
-void Scene::colour_joints_by_time() {
-  vtkDataArray* times = frame_.broken->GetCellData()->GetArray("time_of_failure");
+void Scene::colour_joints_by_time(vtkPolyData& joints) {
+  vtkDataArray* times = joints.GetCellData()->GetArray("time_of_failure");
   double first = 0, last = 0;
   bool any = false;
   for (vtkIdType c = 0; c < times->GetNumberOfTuples(); ++c) {
@@ -108,9 +122,10 @@ void Scene::colour_joints_by_time() {
     const double t = times->GetComponent(c, 0);
     shown->InsertNextValue(t < 0 ? vtkMath::Nan() : t / unit.size);
   }
-  frame_.broken->GetCellData()->AddArray(shown);
+  joints.GetCellData()->AddArray(shown);
   time_colours_->SetTableRange(first / unit.size, (last > first ? last : first + unit.size) / unit.size);
-  time_legend_->SetTitle(("time of\nfailure [" + unit.name + "]\ngrey: holds").c_str());
+  const std::string holds = least_damage_ ? "\ngrey: holds" : "";
+  time_legend_->SetTitle(("time of\nfailure [" + unit.name + "]" + holds).c_str());
   broken_mapper_->SetLookupTable(time_colours_);
   broken_mapper_->SelectColorArray(kFailure);
 }

@@ -117,6 +117,7 @@ void CaseText::show_text() {
     cursor.setPosition(front);
     cursor.setPosition(static_cast<int>(old_text.size()) - back, QTextCursor::KeepAnchor);
     cursor.insertText(new_text.mid(front, new_text.size() - front - back));
+    if (before.empty()) moveCursor(QTextCursor::Start);  // of a case that is opened the beginning is seen
   }
   showing_ = false;
 }

@@ -6,6 +6,8 @@
 #include <QSignalBlocker>
 #include <cmath>
 
+#include "widgets/escape_key.hpp"
+
 namespace breccia::gui {
 namespace {
 
@@ -45,10 +47,12 @@ void set_wrong(QLineEdit& field, bool wrong) { field.setStyleSheet(wrong ? "bord
 ColourRangeBox::ColourRangeBox(QWidget* parent)
     : QWidget(parent),
       low_(end_field("colours_from", tr("Colours from"),
-                     tr("Value of the darkest colour, in the unit of the legend; empty: the least of each frame"))),
+                     tr("Value of the darkest colour, in the unit of the legend; empty: the least of each frame, "
+                        "without outliers (0.5 %)"))),
       high_(
           end_field("colours_to", tr("Colours to"),
-                    tr("Value of the brightest colour, in the unit of the legend; empty: the largest of each frame"))) {
+                    tr("Value of the brightest colour, in the unit of the legend; empty: the largest of each frame, "
+                       "without outliers (0.5 %)"))) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
   row->addWidget(new QLabel(tr("Colours from")));
@@ -60,6 +64,7 @@ ColourRangeBox::ColourRangeBox(QWidget* parent)
     connect(field, &QLineEdit::textChanged, this, [this](const QString& text) {
       if (text.isEmpty()) take();  // its button does not end the editing
     });
+    on_escape(*field, [this] { write_ends(); });
   }
 }
 
@@ -68,9 +73,13 @@ void ColourRangeBox::show_range(const ColourRange& given, const std::array<doubl
   high_->setPlaceholderText(isEnabled() ? QString::number(drawn[1], 'g', 4) : QString());
   if (given == given_) return;  // what is being typed stays
   given_ = given;
+  write_ends();
+}
+
+void ColourRangeBox::write_ends() {
   const QSignalBlocker low_quiet(low_), high_quiet(high_);
-  low_->setText(words(given.low));
-  high_->setText(words(given.high));
+  low_->setText(words(given_.low));
+  high_->setText(words(given_.high));
   for (QLineEdit* field : {low_, high_}) set_wrong(*field, false);
 }
 

@@ -22,6 +22,7 @@ class ColourRangeBox final : public QWidget {
 
  private:
   void take();
+  void write_ends();
 
   QLineEdit *low_, *high_;
   ColourRange given_;

@@ -9,6 +9,7 @@
 
 #include "core/value_text.hpp"
 #include "render/prefixed_unit.hpp"
+#include "widgets/escape_key.hpp"
 
 namespace breccia::gui {
 namespace {
@@ -47,6 +48,7 @@ CutBar::CutBar(QWidget* parent)
   connect(way_, qOverload<int>(&QComboBox::activated), this, &CutBar::choose_way);
   connect(slider_, &QSlider::valueChanged, this, &CutBar::take_slider);
   connect(place_, &QLineEdit::editingFinished, this, &CutBar::take_typed);
+  on_escape(*place_, [this] { show_place(); });
   connect(other_, &QCheckBox::toggled, this, [this] { set_place(at_); });
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);

@@ -7,6 +7,7 @@
 #include <QHeaderView>
 #include <QLineEdit>
 #include <QMenu>
+#include <QPushButton>
 #include <QShortcut>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
@@ -74,6 +75,7 @@ FunctionDialog::FunctionDialog(Document& document, const QString& path, QWidget*
   connect(buttons, &QDialogButtonBox::accepted, this, &FunctionDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &FunctionDialog::reject);
   column->addWidget(buttons);
+  buttons->button(QDialogButtonBox::Ok)->setDefault(true);  // not the first of the parts
   resize(620, 640);
   show_parts();
 }

@@ -53,7 +53,6 @@ LibraryDialog::LibraryDialog(const UserLibrary& library, const QString& group, Q
   take_->setObjectName("library_take");
   take_->setAccessibleName(tr("Take these values"));
   take_->setToolTip(tr("Puts the values into the material and into the joints of its group; one undo takes them back"));
-  take_->setDefault(true);
   remove_->setObjectName("library_remove");
   remove_->setAccessibleName(tr("Remove from my library"));
   remove_->setToolTip(tr("Only materials of your own can be removed"));
@@ -81,6 +80,7 @@ LibraryDialog::LibraryDialog(const UserLibrary& library, const QString& group, Q
   auto* all = new QVBoxLayout(this);
   all->addWidget(halves, 1);
   all->addWidget(buttons);
+  take_->setDefault(true);  // of the dialog, in which it must stand
   connect(filter_, &QLineEdit::textChanged, this, &LibraryDialog::fill);
   connect(list_, &QTreeWidget::currentItemChanged, this, &LibraryDialog::show_chosen);
   connect(list_, &QTreeWidget::itemDoubleClicked, this, [this] {

@@ -2,7 +2,6 @@
 
 #include <QAction>
 #include <QApplication>
-#include <QCloseEvent>
 #include <QDir>
 #include <QDockWidget>
 #include <QFileDialog>
@@ -12,7 +11,6 @@
 #include <QMessageBox>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QScreen>
 #include <QScrollArea>
 #include <QStatusBar>
 #include <QToolBar>
@@ -43,6 +41,7 @@
 #include "widgets/study_panel.hpp"
 #include "widgets/theme.hpp"
 #include "widgets/view3d.hpp"
+#include "widgets/wheel_guard.hpp"
 
 namespace breccia::gui {
 namespace {
@@ -70,6 +69,7 @@ bool takes_tab(const QWidget& widget) {
 MainWindow::MainWindow(Places places, QWidget* parent)
     : QMainWindow(parent),
       places_(std::move(places)),
+      memory_(places_.state),
       document_(places_.state),
       queries_(document_, places_.launch.program),
       registry_(places_.state + "/runs.json"),
@@ -79,10 +79,7 @@ MainWindow::MainWindow(Places places, QWidget* parent)
       paraview_(new ParaViewResults(this)),
       report_(new ReportMaker(this)) {
   setObjectName("main_window");
-  // The frame, which the system adds, has room as well.
-  const QSize room = QGuiApplication::primaryScreen()->availableGeometry().size() - QSize(8, 40);
-  resize(QSize(1400, 900).boundedTo(room));
-  setMinimumSize(QSize(900, 600).boundedTo(room));
+  take_default_size();
   setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks);
   make_panels();
   make_docks();
@@ -96,6 +93,8 @@ MainWindow::MainWindow(Places places, QWidget* parent)
   queue_panel_->look();
   show_start();
   show_actions();
+  remember_arrangement();
+  qApp->installEventFilter(new WheelGuard(this));
 }
 
 /// Children that are hidden hand the cursor on, and a field that loses it asks the document, which must still be there.
@@ -178,47 +177,28 @@ void MainWindow::make_extras(QVBoxLayout& column) {
   library_bar_->hide();
 }
 
-void MainWindow::add_dock(QWidget* widget, const QString& title, const QString& name, Qt::DockWidgetArea area) {
-  auto* dock = new QDockWidget(title);
+void MainWindow::add_dock(QWidget* widget, const QString& title, const QString& name) {
+  auto* dock = new QDockWidget(title, this);
   dock->setObjectName(name);
   dock->setWidget(widget);
   dock->setFeatures(QDockWidget::DockWidgetMovable | QDockWidget::DockWidgetClosable |
                     QDockWidget::DockWidgetFloatable);
-  addDockWidget(area, dock);
 }
 
 void MainWindow::make_docks() {
-  add_dock(tree_, tr("Stages"), "dock_stages", Qt::LeftDockWidgetArea);
-  add_dock(side_, tr("Properties"), "dock_properties", Qt::RightDockWidgetArea);
-  add_dock(messages_, tr("Messages"), "dock_messages", Qt::BottomDockWidgetArea);
-  add_dock(plots_, tr("Plots"), "dock_plots", Qt::BottomDockWidgetArea);
-  add_dock(text_, tr("Text"), "dock_text", Qt::BottomDockWidgetArea);
-  add_dock(runs_panel_, tr("Runs"), "dock_runs", Qt::BottomDockWidgetArea);
-  add_dock(queue_panel_, tr("Queue"), "dock_queue", Qt::BottomDockWidgetArea);
-  add_dock(study_panel_, tr("Study"), "dock_study", Qt::BottomDockWidgetArea);
-  add_dock(histogram_, tr("Histogram"), "dock_histogram", Qt::BottomDockWidgetArea);
-  add_dock(conditions_, tr("Conditions"), "dock_conditions", Qt::BottomDockWidgetArea);
-  add_dock(contacts_, tr("Contacts"), "dock_contacts", Qt::BottomDockWidgetArea);
-  add_dock(joint_plot_, tr("Joint law"), "dock_law", Qt::BottomDockWidgetArea);
-  auto* first = findChild<QDockWidget*>("dock_messages");
-  for (const char* name : {"dock_plots", "dock_text", "dock_runs", "dock_queue", "dock_study", "dock_histogram",
-                           "dock_conditions", "dock_law", "dock_contacts"})
-    tabifyDockWidget(first, findChild<QDockWidget*>(name));
-  first->raise();
-  resizeDocks({findChild<QDockWidget*>("dock_stages"), findChild<QDockWidget*>("dock_properties")}, {240, 400},
-              Qt::Horizontal);
-  resizeDocks({first}, {230}, Qt::Vertical);
-}
-
-void MainWindow::show_dock(const QString& name) {
-  if (auto* dock = findChild<QDockWidget*>(name)) {
-    dock->show();
-    dock->raise();
-  }
-}
-
-void MainWindow::offer_dock(const QString& name) {
-  if (!text_->hasFocus()) show_dock(name);
+  add_dock(tree_, tr("Stages"), "dock_stages");
+  add_dock(side_, tr("Properties"), "dock_properties");
+  add_dock(messages_, tr("Messages"), "dock_messages");
+  add_dock(plots_, tr("Plots"), "dock_plots");
+  add_dock(text_, tr("Text"), "dock_text");
+  add_dock(runs_panel_, tr("Runs"), "dock_runs");
+  add_dock(queue_panel_, tr("Queue"), "dock_queue");
+  add_dock(study_panel_, tr("Study"), "dock_study");
+  add_dock(histogram_, tr("Histogram"), "dock_histogram");
+  add_dock(conditions_, tr("Conditions"), "dock_conditions");
+  add_dock(contacts_, tr("Contacts"), "dock_contacts");
+  add_dock(joint_plot_, tr("Joint law"), "dock_law");
+  arrange_docks();
 }
 
 void MainWindow::set_dark(bool dark) {
@@ -390,15 +370,6 @@ void MainWindow::changeEvent(QEvent* event) {
     if (!told_.empty()) ask_estimate();  // which may have mended the geometry
   }
   QMainWindow::changeEvent(event);
-}
-
-void MainWindow::closeEvent(QCloseEvent* event) {
-  if (!may_leave_case()) {
-    event->ignore();
-    return;
-  }
-  document_.close();
-  event->accept();
 }
 
 }  // namespace breccia::gui

@@ -20,6 +20,7 @@
 #include "core/study.hpp"
 #include "render/frame_data.hpp"
 #include "render/scene.hpp"
+#include "widgets/window_memory.hpp"
 
 class QAction;
 class QLabel;
@@ -68,6 +69,8 @@ class MainWindow final : public QMainWindow {
   void offer_recovery(const QString& of = {});
   void set_dark(bool dark);
   [[nodiscard]] bool dark() const { return dark_->isChecked(); }
+  /// Light or dark was chosen in an earlier session.
+  [[nodiscard]] bool remembers_colours() const { return memory_.dark().has_value(); }
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -80,25 +83,33 @@ class MainWindow final : public QMainWindow {
   // main_window.cpp: construction
   void make_panels();
   void make_docks();
+  void add_dock(QWidget* widget, const QString& title, const QString& name);
   void make_extras(QVBoxLayout& column);
   void make_actions();  // main_window_actions.cpp
   void join_panels();
   /// Those that need a case or a run say so while there is none.
   void show_actions();
-  void add_dock(QWidget* widget, const QString& title, const QString& name, Qt::DockWidgetArea area);
+  [[nodiscard]] std::vector<QWidget*> tab_order() const;
+
+  // main_window_layout.cpp
+  void arrange_docks();
+  void take_default_size();
+  void remember_arrangement();
+  void keep_arrangement();
+  void reset_arrangement();
+  void show_start();
+  void show_workspace();
+  void show_all_docks();
   void show_dock(const QString& name);
   /// The same, but never away from the text that is being typed.
   void offer_dock(const QString& name);
-  [[nodiscard]] std::vector<QWidget*> tab_order() const;
 
   // main_window_case.cpp: the case in hand
-  void show_start();
   void remember_run(const RunRecord& record);
   void ask_estimate();
   void renew_estimate();
   void open_template(int number, bool run_it);
   void open_case(const QString& file);
-  void show_workspace();
   void case_changed();
   void validate();
   /// What depends on the mesh: names of groups, and what the solver's commands have found.
@@ -179,12 +190,13 @@ class MainWindow final : public QMainWindow {
   /// The one that is watched, or is from now on.
   SolverRun* run_in(const QString& folder);
   void attach_newest_run();
-  [[nodiscard]] static QString case_of(const SolverRun& run);
+  [[nodiscard]] bool open_case_of(const RunRecord& record);
   void find_runs();
   void watch(SolverRun* run);
   void show_run_frames();
   void load_frame_of_run(const RunFrame& frame);
   [[nodiscard]] QString no_frame_words() const;
+  void offer_fragments();
   void run_changed();
   void run_ended(const SolverRun* run);
   void show_frame(const FrameData& frame);
@@ -209,6 +221,8 @@ class MainWindow final : public QMainWindow {
   [[nodiscard]] QStringList command_line() const;
 
   Places places_;
+  WindowMemory memory_;
+  QByteArray layout_;  ///< of the docks while the start page hides them; empty: as they are made
   Document document_;
   std::unique_ptr<QLockFile> claim_;  ///< held while the case is open here
   QString claimed_;                   ///< file of that lock; empty: none

@@ -101,8 +101,16 @@ void MainWindow::make_actions() {
   QMenu* view = menuBar()->addMenu(tr("&View"));
   for (QDockWidget* dock : findChildren<QDockWidget*>()) view->addAction(dock->toggleViewAction());
   view->addSeparator();
+  add(
+      view, tr("&Reset layout"), {}, [this] { reset_arrangement(); }, false);
   dark_ = add(
-      view, tr("&Dark"), QKeySequence("Ctrl+D"), [this](bool on) { set_dark(on); }, true);
+      view, tr("&Dark"), QKeySequence("Ctrl+D"),
+      [this](bool on) {
+        set_dark(on);
+        memory_.set_dark(on);
+        tell_trouble("window", tr("The look of the window is not kept for the next session"), memory_.error());
+      },
+      true);
   dark_->setCheckable(true);
   view->addMenu(view_->look_menu());
   view->addAction(view_->cut_action());

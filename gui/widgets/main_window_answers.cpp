@@ -1,9 +1,8 @@
-#include <QDir>
-#include <QFile>
 #include <QJsonArray>
 #include <QLabel>
 
 #include "core/mesh_parameters.hpp"
+#include "core/run_case.hpp"
 #include "core/value_text.hpp"
 #include "widgets/animation_export.hpp"
 #include "widgets/case_tree.hpp"
@@ -124,11 +123,8 @@ void MainWindow::show_mesh(const QJsonObject& json, const QString& elements_file
 /// Frames number the groups: their names are those of the case in hand, if that is what the run that is shown began
 /// with.
 void MainWindow::name_groups() {
-  const auto is_of_case = [this] {
-    if (case_of(*run_) == document_.file()) return true;
-    return case_text_of(run_->record().folder) == document_.text();
-  };
-  view_->scene().set_groups(!showing_results_ || is_of_case() ? groups_ : std::vector<std::string>());
+  const bool has_its_names = !showing_results_ || is_run_with(run_->record(), document_.file(), document_.text());
+  view_->scene().set_groups(has_its_names ? groups_ : std::vector<std::string>());
 }
 
 void MainWindow::load_mesh() {

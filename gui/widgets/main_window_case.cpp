@@ -34,28 +34,9 @@
 namespace breccia::gui {
 namespace {
 
-/// The last one is in front.
-constexpr std::array kDocks{"dock_stages", "dock_properties", "dock_plots",    "dock_text",
-                            "dock_runs",   "dock_queue",      "dock_study",    "dock_histogram",
-                            "dock_law",    "dock_conditions", "dock_contacts", "dock_messages"};
 constexpr int kPreviewDelay = 1000;  // ms after the last edit
 
 }  // namespace
-
-void MainWindow::show_start() {
-  start_->refresh(registry_.load());
-  centre_->setCurrentWidget(start_);
-  for (const char* name : kDocks) findChild<QWidget*>(name)->hide();
-}
-
-void MainWindow::show_workspace() {
-  setAnimated(false);  // each step of it would draw the view anew
-  for (const char* name : kDocks) findChild<QWidget*>(name)->show();
-  show_dock(kDocks.back());
-  centre_->setCurrentWidget(view_);
-  setAnimated(true);
-  tree_->setFocus();
-}
 
 void MainWindow::open_template(int number, bool run_it) {
   const std::vector<Template> list = templates(places_);
@@ -104,6 +85,7 @@ void MainWindow::open_case(const QString& file) {
   estimated_.clear();
   messages_->set_advice({});
   view_->clear(tr("meshing..."));
+  view_->forget_colours();
   show_workspace();
   tree_->select(0, {});
   stage_selected(tree_->stage(), tree_->path());
@@ -235,7 +217,7 @@ void MainWindow::stage_selected(int stage, const QString& path) {
   const bool results = run_ != nullptr && chosen.kind != Kind::sections;
   if (results == showing_results_) return;
   showing_results_ = results;
-  view_->set_deformable(results);
+  view_->show_results(results);
   name_groups();
   view_->scene().mark(nullptr);
   if (animation_ != nullptr) animation_->give_up(tr("the view shows something else"));

@@ -14,6 +14,7 @@
 #include <limits>
 
 #include "core/report_maker.hpp"
+#include "core/run_case.hpp"
 #include "widgets/animation_export.hpp"
 #include "widgets/case_tree.hpp"
 #include "widgets/domains_panel.hpp"
@@ -165,10 +166,17 @@ void MainWindow::find_runs() {
   for (auto it = found.rbegin(); it != found.rend(); ++it) take_run(new SolverRun(*it, this));
 }
 
-/// The case that a run was started from; of results that are only looked at, the copy beside them.
-QString MainWindow::case_of(const SolverRun& run) {
-  const RunRecord& record = run.record();
-  return record.case_file.isEmpty() ? QDir(record.folder).filePath("case.toml") : record.case_file;
+/// Results are seen beside the case that they are of: another one that is open is left for it, if that may be.
+bool MainWindow::open_case_of(const RunRecord& record) {
+  if (document_.is_open() && is_run_of(record, document_.file(), document_.text())) return true;
+  const QString file = case_of_run(record);
+  if (!may_leave_case()) return false;
+  if (!file.isEmpty()) {
+    open_case(file);
+    return document_.is_open() && QFileInfo(file).absoluteFilePath() == document_.file();
+  }
+  if (document_.is_open()) document_.close();
+  return true;
 }
 
 void MainWindow::open_run(const QString& path) {
@@ -178,8 +186,7 @@ void MainWindow::open_run(const QString& path) {
     return;
   }
   SolverRun* chosen = run_in(folder);
-  const QString file = case_of(*chosen);
-  if (!document_.is_open() && QFileInfo::exists(file)) open_case(file);
+  if (!open_case_of(chosen->record())) return;
   show_workspace();
   watch(chosen);
   tree_->select(chosen->alive() ? run_stage() : results_stage(), {});
@@ -250,7 +257,7 @@ void MainWindow::watch(SolverRun* run) {
   showing_results_ = run != nullptr && work_stages()[static_cast<std::size_t>(tree_->stage())].kind != Kind::sections;
   name_groups();
   loader_->start_model();
-  view_->set_deformable(showing_results_);
+  view_->show_results(showing_results_);
   if (showing_results_ || run == nullptr) histogram_->set_frame({}, false);
   if (run != nullptr) run->read_history();
   if (run != nullptr && run->alive() && !run->record().command.isEmpty()) run_panel_->set_ranks(run->record().ranks);
@@ -279,8 +286,10 @@ void MainWindow::load_frame_of_run(const RunFrame& frame) {
   loader_->load(frame.file, frame.time);
 }
 
+/// The joints of a frame are there before its elements.
 QString MainWindow::no_frame_words() const {
-  if (!read_series(run_->record().folder, "joints").empty())
+  const bool has_joints = !read_series(run_->record().folder, "joints").empty();
+  if (has_joints && (!run_->alive() || !writes_elements(run_->record().folder)))
     return tr("the frames of this run have joints but no elements (output.elements of its case): nothing to draw");
   return run_->alive() ? tr("waiting for the first frame...") : tr("this run has left no frame");
 }
@@ -296,6 +305,7 @@ void MainWindow::run_changed() {
     run_words_->clear();
     return;
   }
+  offer_fragments();
   const bool nothing_to_see = showing_results_ && run_->frames().empty();
   if (nothing_to_see && view_->caption() != no_frame_words()) view_->clear(no_frame_words());
   const RunStatus& s = run_->status();
@@ -319,6 +329,16 @@ void MainWindow::run_ended(const SolverRun* run) {
   }
 }
 
+/// Of what has broken one looks at the fragments in the end, while it breaks at the cracks.
+void MainWindow::offer_fragments() {
+  if (!showing_results_ || run_ == nullptr) return;
+  if (run_->alive()) {
+    view_->offer_colouring(Colouring::group);
+  } else if (view_->scene().has_data() && view_->scene().is_broken()) {
+    view_->offer_colouring(colouring_by(Quantity::fragment_size));
+  }
+}
+
 void MainWindow::show_frame(const FrameData& frame) {
   if (animation_ != nullptr && (frame.skin == nullptr || !showing_results_)) {
     animation_->give_up(frame.skin == nullptr
@@ -335,6 +355,7 @@ void MainWindow::show_frame(const FrameData& frame) {
     return;
   }
   view_->show_frame(frame, tr("time %1").arg(quantity_words(frame.time, "s")));
+  offer_fragments();
   histogram_->set_frame(frame, true);
   if (animation_ != nullptr) animation_->take(frame.time, view_->picture());
 }

@@ -10,7 +10,9 @@
 
 #include "core/case_outline.hpp"
 #include "core/value_text.hpp"
+#include "widgets/escape_key.hpp"
 #include "widgets/function_dialog.hpp"
+#include "widgets/group_box.hpp"
 
 namespace breccia::gui {
 namespace {
@@ -70,17 +72,10 @@ void PropertyForm::show_section(const QString& path) {
   auto* page = new QWidget;
   auto* column = new QVBoxLayout(page);
   const std::string pattern = case_::pattern_of(path.toStdString());
-  auto* help = new QLabel(page);
-  help->setWordWrap(true);
-  help->setObjectName("section_help");
-  if (const Key* section = case_::find_key(pattern); section != nullptr) {
-    help->setText("<b>" + words_of(path, document_.places()).toHtmlEscaped() + "</b>  " +
-                  QString::fromStdString(case_::header_of(*section)).toHtmlEscaped() + "<br>" +
-                  text_of(section->help).toHtmlEscaped());
-  } else {
-    help->setText(tr("<b>The case</b>"));
-  }
-  column->addWidget(help);
+  heading_ = new QLabel(page);
+  heading_->setWordWrap(true);
+  heading_->setObjectName("section_help");
+  column->addWidget(heading_);
   auto* form = new QFormLayout;
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
   form->setRowWrapPolicy(QFormLayout::WrapLongRows);
@@ -93,6 +88,18 @@ void PropertyForm::show_section(const QString& path) {
   column->addStretch();
   setWidget(page);  // deletes the one before
   refresh();
+}
+
+/// It names the entry, which an edit or an undo may have given another name.
+void PropertyForm::write_heading() {
+  if (heading_ == nullptr) return;
+  const Key* section = case_::find_key(case_::pattern_of(section_.toStdString()));
+  const QString words = section == nullptr
+                            ? tr("<b>The case</b>")
+                            : "<b>" + words_of(section_, document_.places()).toHtmlEscaped() + "</b>  " +
+                                  QString::fromStdString(case_::header_of(*section)).toHtmlEscaped() + "<br>" +
+                                  text_of(section->help).toHtmlEscaped();
+  if (heading_->text() != words) heading_->setText(words);
 }
 
 void PropertyForm::add_field(const Key& key, QFormLayout& layout) {
@@ -128,6 +135,7 @@ void PropertyForm::add_field(const Key& key, QFormLayout& layout) {
 void PropertyForm::finish_row(const QString& path, const Field& field, QHBoxLayout& cells) {
   for (QObject* typed : {static_cast<QObject*>(field.editor), static_cast<QObject*>(line_in(field.editor))})
     if (typed != nullptr) typed->installEventFilter(this);
+  if (line_in(field.editor) != nullptr) on_escape(*field.editor, [this] { refresh(); });
   cells.addWidget(field.mark);
   field.mark->setObjectName("mark:" + path);
   field.mark->hide();
@@ -229,13 +237,13 @@ QComboBox* PropertyForm::box_of_words(const Key& key, const QString& path, const
 }
 
 QComboBox* PropertyForm::box_of_groups(const Key& key, const QString& path) {
-  auto* box = new QComboBox;
-  box->setEditable(true);
+  auto* box = new GroupBox;
   box->addItems(groups_of_kind(group_kind(key), document_.places(), groups_));
   connect(box->lineEdit(), &QLineEdit::editingFinished, this,
           [this, box, path, &key] { take_over(path, key, box->currentText()); });
-  connect(box, qOverload<int>(&QComboBox::activated), this,
-          [this, box, path, &key](int chosen) { take_group(path, key, box->itemText(chosen)); });
+  connect(box, qOverload<int>(&QComboBox::activated), this, [this, box, path, &key](int chosen) {
+    if (box->takes_choice()) take_group(path, key, box->itemText(chosen));
+  });
   limit_width(*box);
   return box;
 }
@@ -279,6 +287,7 @@ void PropertyForm::take_typed() {
 }
 
 void PropertyForm::refresh() {
+  write_heading();
   for (auto it = fields_.begin(); it != fields_.end(); ++it) {
     const QString shown = shown_value(*it->key, document_.value(it.key()));
     const QSignalBlocker quiet(it->editor);

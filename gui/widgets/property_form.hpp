@@ -78,11 +78,13 @@ class PropertyForm final : public QScrollArea {
   void take_over(const QString& path, const case_::Key& key, const QString& typed);
   void take_group(const QString& path, const case_::Key& key, const QString& group);
   void refresh();
+  void write_heading();
   void mark_problems();
   [[nodiscard]] QString path_of(const case_::Key& key) const;
 
   Document& document_;
   QString section_;
+  QLabel* heading_ = nullptr;
   QMap<QString, Field> fields_;  // by path
   std::vector<Problem> problems_;
   std::optional<MeshGroups> groups_;

@@ -18,6 +18,7 @@ View3D::View3D(QWidget* parent)
       canvas_(new QVTKOpenGLNativeWidget),
       colour_(new QComboBox),
       joints_(new QComboBox),
+      damage_(new QComboBox),
       edges_(new QCheckBox(tr("Edges"))),
       skin_(new QCheckBox(tr("So&lid"))),
       loads_(new QCheckBox(tr("Loads"))),
@@ -45,13 +46,9 @@ View3D::View3D(QWidget* parent)
   colour_->setObjectName("colour_by");
   colour_->setAccessibleName(tr("Colour by"));
   colour_->setToolTip(tr("What the colours mean"));
-  connect(colour_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
-    scene_.set_colouring(static_cast<Colouring>(colour_->currentData().toInt()));
-    show_range();
-    render();
-    emit colouring_changed(scene_.colouring());
-  });
-  make_joints_box();
+  connect(colour_, qOverload<int>(&QComboBox::currentIndexChanged), this, &View3D::take_colouring);
+  connect(colour_, qOverload<int>(&QComboBox::activated), this, [this] { choice().is_chosen = true; });
+  make_joints_boxes();
   make_boxes();
   make_look_menu();
   make_cut_bar();
@@ -75,20 +72,38 @@ void View3D::make_cut_bar() {
   });
 }
 
-/// The colours of the damaged joints.
-void View3D::make_joints_box() {
+/// Which joints are drawn, and their colours.
+void View3D::make_joints_boxes() {
+  damage_->addItem(tr("broken"));
+  for (const int percent : {90, 75, 50, 25, 0}) damage_->addItem(tr("≥ %1 %").arg(percent), percent / 100.0);
+  damage_->setObjectName("joints_damage");
+  damage_->setAccessibleName(tr("Joints that are drawn"));
+  damage_->setToolTip(
+      tr("Broken joints are the cracks; others hold, and are drawn only where they have at least so much damage"));
+  connect(damage_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
+    const QVariant least = damage_->currentData();
+    scene_.set_least_damage(least.isValid() ? std::optional(least.toDouble()) : std::nullopt);
+    render();
+  });
   joints_->addItem(tr("mode"), static_cast<int>(JointColouring::mode));
   joints_->addItem(tr("time of failure"), static_cast<int>(JointColouring::time_of_failure));
   joints_->addItem(tr("hidden"), static_cast<int>(JointColouring::hidden));
   joints_->setObjectName("joints_by");
   joints_->setAccessibleName(tr("Joints by"));
   joints_->setToolTip(
-      tr("What the colours of damaged joints mean; those that hold have no time of failure: grey. Hidden: none is "
-         "drawn"));
+      tr("What the colours of joints mean; those that hold have no time of failure: grey. Hidden: none is drawn"));
   connect(joints_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     scene_.set_joint_colouring(static_cast<JointColouring>(joints_->currentData().toInt()));
     render();
   });
+}
+
+void View3D::take_colouring() {
+  scene_.set_colouring(static_cast<Colouring>(colour_->currentData().toInt()));
+  choice().colouring = scene_.colouring();
+  show_range();
+  render();
+  emit colouring_changed(scene_.colouring());
 }
 
 void View3D::make_boxes() {
@@ -180,7 +195,8 @@ void View3D::fill_bar() {
   shown->addWidget(edges_);
   shown->addWidget(skin_);
   shown->addWidget(loads_);
-  seen_from->addWidget(new QLabel(tr("Joints by")));
+  seen_from->addWidget(new QLabel(tr("Joints")));
+  seen_from->addWidget(damage_);
   seen_from->addWidget(joints_);
   seen_from->addWidget(new QLabel(tr("Explode")));
   seen_from->addWidget(explode_);
@@ -273,8 +289,31 @@ void View3D::clear(const QString& caption) {
 }
 
 void View3D::set_colouring(Colouring colouring) {
+  choice().is_chosen = true;
+  show_colouring(colouring);
+}
+
+void View3D::show_colouring(Colouring colouring) {
   const int index = colour_->findData(static_cast<int>(colouring));
   if (index >= 0) colour_->setCurrentIndex(index);
+}
+
+void View3D::offer_colouring(Colouring colouring) {
+  if (!choice().is_chosen) show_colouring(colouring);
+}
+
+void View3D::forget_colours() {
+  choices_ = {};
+  scene_.forget_colour_ranges();
+  show_colouring(Colouring::group);
+  show_range();
+}
+
+void View3D::show_results(bool on) {
+  deformation_->setEnabled(on);
+  if (on == shows_results_) return;
+  shows_results_ = on;
+  show_colouring(choice().colouring);
 }
 
 void View3D::set_loads(std::vector<Load> loads) {

@@ -26,14 +26,19 @@ class View3D final : public QWidget {
   void show_frame(const FrameData& frame, const QString& caption);
   void clear(const QString& caption);
   [[nodiscard]] const QString& caption() const { return caption_; }
+  /// Chooses what the mesh or the results in view are coloured by.
   void set_colouring(Colouring colouring);
+  /// The same, unless one has been chosen for them.
+  void offer_colouring(Colouring colouring);
+  /// Another case follows: it has its mesh in the colours of its groups, and ranges of its own.
+  void forget_colours();
   /// From where the model is looked at, each with its key.
   [[nodiscard]] QMenu* look_menu() { return look_; }
   [[nodiscard]] QAction* cut_action() { return cut_->action(); }
   /// How displacements are to be drawn, as of Deformation.
   [[nodiscard]] double deformation() const { return deformation_->scale(); }
-  /// Frames of a run have displacements.
-  void set_deformable(bool on) { deformation_->setEnabled(on); }
+  /// Frames of a run follow, or the mesh at rest: each keeps its colouring, and frames have displacements.
+  void show_results(bool on);
   /// Draws these faces in front of all others, with words for them; nullptr: none, and the caption of the frame.
   void mark(vtkPolyData* faces, const QString& words);
   /// Seen as glyphs where that is switched on.
@@ -62,8 +67,16 @@ class View3D final : public QWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  /// What a mesh or results are coloured by.
+  struct Choice {
+    Colouring colouring = Colouring::group;
+    bool is_chosen = false;
+  };
   void make_look_menu();
-  void make_joints_box();
+  void make_joints_boxes();
+  void take_colouring();
+  void show_colouring(Colouring colouring);
+  [[nodiscard]] Choice& choice() { return choices_[shows_results_ ? 1 : 0]; }
   void make_boxes();
   void make_cut_bar();
   void fill_bar();
@@ -74,7 +87,9 @@ class View3D final : public QWidget {
   Scene scene_;
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   QVTKOpenGLNativeWidget* canvas_;
-  QComboBox *colour_, *joints_;
+  std::array<Choice, 2> choices_;  ///< of a mesh, of results
+  bool shows_results_ = false;
+  QComboBox *colour_, *joints_, *damage_;
   QCheckBox *edges_, *skin_, *loads_;
   QSlider* explode_;
   QMenu* look_;

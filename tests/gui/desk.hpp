@@ -35,7 +35,8 @@ struct Desk {
       signal_session(run.session, SIGKILL);
   }
 
-  void begin() {
+  /// Those of this desktop.
+  [[nodiscard]] Places places() const {
     Places places;
     // Pictures show the program where it is installed.
     places.launch = {qEnvironmentVariable("BRECCIA_PROGRAM", BRECCIA_PROGRAM), BRECCIA_MPIEXEC};
@@ -43,7 +44,11 @@ struct Desk {
     places.meshes = BRECCIA_MESHES;
     places.projects = scratch.filePath("projects");
     places.state = scratch.filePath("state");
-    window = std::make_unique<MainWindow>(places);
+    return places;
+  }
+
+  void begin() {
+    window = std::make_unique<MainWindow>(places());
     window->resize(1280, 800);
     window->show();
     (void)QTest::qWaitForWindowExposed(window.get());

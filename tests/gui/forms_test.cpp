@@ -4,6 +4,7 @@
 #include <QAbstractScrollArea>
 #include <QComboBox>
 #include <QDirIterator>
+#include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMenu>
@@ -16,25 +17,10 @@
 #include "core/case_outline.hpp"
 #include "core/value_text.hpp"
 #include "gui/desk.hpp"
+#include "gui/everything_case.hpp"
 
 namespace breccia::gui::test {
 namespace {
-
-/// A case that has something in every section of the table of keys; it need not run.
-QString everything(const QTemporaryDir& scratch) {
-  const QString file = scratch.filePath("everything.toml");
-  QFile out(file);
-  if (!out.open(QIODevice::WriteOnly)) return {};
-  for (const case_::Key& key : case_::schema()) {
-    if (key.path.starts_with('<')) continue;
-    if (key.is_section()) {
-      out.write(("\n" + case_::header_of(key) + "\n").c_str());
-    } else {
-      out.write((std::string(key.name()) + " = " + std::string(key.example) + "\n").c_str());
-    }
-  }
-  return file;
-}
 
 TEST(Forms, EverySectionOfTheSchemaIsInAStage) {
   for (const case_::Key& key : case_::schema()) {

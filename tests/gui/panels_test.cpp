@@ -324,6 +324,7 @@ TEST(Panels, AFolderOfARunIsTheSameRunHoweverItIsWritten) {
   Scene& scene = desk.window->view().scene();
   ASSERT_TRUE(wait_until([&] { return scene.has_data() && !desk.window->busy(); }, kSolver));
   EXPECT_EQ(scene.groups(), std::vector<std::string>{"block"});
+  desk.window->view().set_colouring(Colouring::group);
   ASSERT_EQ(scene.class_legend().classes().size(), 1U);
   EXPECT_EQ(scene.class_legend().classes()[0].name, "block");
 }

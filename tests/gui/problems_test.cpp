@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <QAbstractButton>
+#include <QAbstractItemView>
 #include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
@@ -109,8 +110,9 @@ TEST(Problems, AGroupThatIsChosenForAnEntryOfSeveralJoinsThemAndForOneOfOneTakes
   const QString path = "stage[0].pressure[0].surface";
   auto* box = desk.find<QComboBox>("field:" + path);
   const auto choose = [&](const char* group) {
-    box->setCurrentIndex(box->findText(group));
-    emit box->activated(box->currentIndex());
+    box->showPopup();
+    box->view()->setCurrentIndex(box->model()->index(box->findText(group), 0));
+    QTest::keyClick(box->view(), Qt::Key_Return);
   };
   choose("block.z1");
   EXPECT_EQ(document.value(path), R"("block.z1")");
