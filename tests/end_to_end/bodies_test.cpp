@@ -31,7 +31,7 @@ std::string bar(const std::string& groups, const std::string& motion, const std:
          groups + "\n" + motion + "\n[[stage]]\nend = \"" + end + "\"\n";
 }
 
-struct Run {
+struct BarRun {
   Outcome outcome;
   std::filesystem::path folder;
   [[nodiscard]] double first(const std::string& column) const {
@@ -45,7 +45,7 @@ struct Run {
   }
 };
 
-Run run(const Scratch& scratch, const std::string& case_text, int ranks = 1) {
+BarRun run(const Scratch& scratch, const std::string& case_text, int ranks = 1) {
   const std::string file = scratch.write("case.toml", case_text);
   const std::filesystem::path folder = scratch.path("run_" + std::to_string(ranks));
   const std::string arguments = "run " + file + " --progress none -f -o '" + folder.string() + "'";
@@ -57,14 +57,14 @@ TEST(Bodies, a_solid_of_two_volumes_turns_about_its_own_centre_whatever_groups_t
        {std::pair{kOneGroup, "\"bar\""}, std::pair{kTwoGroups, "[\"left\", \"right\"]"}}) {
     const Scratch scratch;
     scratch.write("bar.geo", kGeometry + geometry);
-    const Run turned = run(scratch, bar(groups, "angular = [0, 0, 500]", "100 us"));
+    const BarRun turned = run(scratch, bar(groups, "angular = [0, 0, 500]", "100 us"));
     ASSERT_EQ(turned.outcome.exit_code, 0) << turned.outcome.err;
     EXPECT_EQ(turned.outcome.err.find("warning"), std::string::npos) << turned.outcome.err;
     const double energy = 0.5 * kInertia * kSpin * kSpin;
     EXPECT_NEAR(turned.first("kinetic [J]"), energy, kLumping * energy) << groups;
     EXPECT_NEAR(turned.first("angular momentum z [kg m2/s]"), kInertia * kSpin, kLumping * kInertia * kSpin) << groups;
     EXPECT_LT(turned.last("elastic [J]"), 1e-4 * energy) << "it turns as one";
-    const Run stretched = run(scratch, bar(groups, "strain_rate = [400, 0, 0]", "1 us"));
+    const BarRun stretched = run(scratch, bar(groups, "strain_rate = [400, 0, 0]", "1 us"));
     const double stretch = 0.5 * kRate * kRate * kMass * 0.04 * 0.04 / 12;
     EXPECT_NEAR(stretched.first("kinetic [J]"), stretch, kLumping * stretch) << groups;
     const std::string bodies = read_text(turned.folder / "bodies.csv");
@@ -76,10 +76,10 @@ TEST(Bodies, a_solid_of_two_volumes_starts_with_the_same_bits_on_any_number_of_r
   const Scratch scratch;
   scratch.write("bar.geo", kGeometry + kTwoGroups);
   const std::string text = bar("[\"left\", \"right\"]", "angular = [1, 2, 500]\nrandom = [1, 2]\nseed = 5", "5 us");
-  const Run one = run(scratch, text);
+  const BarRun one = run(scratch, text);
   ASSERT_EQ(one.outcome.exit_code, 0) << one.outcome.err;
   for (const int ranks : {2, 3}) {
-    const Run several = run(scratch, text, ranks);
+    const BarRun several = run(scratch, text, ranks);
     ASSERT_EQ(several.outcome.exit_code, 0) << several.outcome.err;
     EXPECT_EQ(several.hash(), one.hash());
     EXPECT_EQ(read_text(several.folder / "bodies.csv"), read_text(one.folder / "bodies.csv"));
@@ -92,7 +92,7 @@ TEST(Bodies, volumes_of_one_group_that_are_not_joined_are_warned_of_by_every_com
   std::string text = bar("\"bar\"", "velocity = [1, 0, 0]", "1 us");
   text.replace(text.find("glue = true"), 11, "glue = false");
   const std::string words = "Volumes of \"bar\" touch along";
-  const Run apart = run(scratch, text);
+  const BarRun apart = run(scratch, text);
   EXPECT_EQ(apart.outcome.exit_code, 0) << apart.outcome.err;
   const std::size_t at = apart.outcome.err.find("breccia: warning: " + words);
   EXPECT_NE(at, std::string::npos) << apart.outcome.err;

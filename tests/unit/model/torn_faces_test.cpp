@@ -43,7 +43,9 @@ TEST(TornFaces, AreBothSidesOfASlit) {
   EXPECT_EQ(number_of(torn), cut);
   for (std::size_t e = 0; e < torn.size(); ++e) {
     for (std::size_t f = 0; f < 4; ++f) {
-      if ((torn[e] >> f & 1) != 0) EXPECT_TRUE(topology.links[e][f].free()) << e;
+      if ((torn[e] >> f & 1) != 0) {
+        EXPECT_TRUE(topology.links[e][f].free()) << e;
+      }
     }
   }
 }
