@@ -53,8 +53,9 @@ void set_interval(Command& command, const std::string& time) {
     command.complaint =
         "frame_interval is out of range; allowed: a simulated time >= 0, such as \"2 us\"; given: " + time;
   } catch (const case_::UnitError& error) {
-    command.complaint = "frame_interval " + std::string(error.what()) +
-                        "; allowed: a simulated time with its unit, such as \"2 us\"; given: " + time;
+    command.complaint =
+        "frame_interval " + std::string(error.what()) +
+        "; allowed: a simulated time with a decimal point and its unit, such as \"2.5 us\"; given: " + time;
   }
 }
 

@@ -49,43 +49,52 @@ Opened entered(const Descriptor& folder, const std::string& name, const fs::path
   return below;
 }
 
-void copy_content(const Descriptor& from, const Descriptor& to, const fs::path& shown) {
+/// A folder that is open, and its name in messages.
+struct Place {
+  const Descriptor& folder;
+  fs::path path;
+};
+
+void copy_content(const Descriptor& from, const Descriptor& to, const fs::path& read_file,
+                  const fs::path& written_file) {
   std::vector<std::byte> block(std::size_t{1} << 20);
   for (;;) {
     const ssize_t got = ::read(from.get(), block.data(), block.size());
     if (got == 0) return;
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) throw output_error(shown, kCannotCopy, errno);
+    if (got < 0) throw output_error(read_file, kCannotCopy, errno);
     for (ssize_t done = 0; done < got;) {
       const ssize_t written = ::write(to.get(), block.data() + done, static_cast<std::size_t>(got - done));
-      if (written < 0 && errno != EINTR) throw output_error(shown, kCannotCopy, errno);
+      if (written < 0 && errno != EINTR) throw output_error(written_file, kCannotCopy, errno);
       if (written > 0) done += written;
     }
   }
 }
 
-void copy_entry(const Descriptor& from, const Descriptor& to, const std::string& name, const fs::path& shown) {
+void copy_entry(const Place& from, const Place& to, const std::string& name) {
+  const fs::path read_file = from.path / name, written_file = to.path / name;
   const bool written_once = fs::path(name).extension() == kWrittenOnce;
-  if (written_once && ::linkat(from.get(), name.c_str(), to.get(), name.c_str(), 0) == 0) return;
-  const Opened source = open_regular_at(from, name, O_RDONLY);
-  if (!source) throw output_error(shown, std::string(kCannotCopy) + ": " + source.reason);
-  ::unlinkat(to.get(), name.c_str(), 0);
-  const Opened target = open_regular_at(to, name, O_WRONLY | O_CREAT | O_EXCL);
-  if (!target) throw output_error(shown, std::string(kCannotCopy) + ": " + target.reason);
-  copy_content(source.descriptor, target.descriptor, shown);
+  if (written_once && ::linkat(from.folder.get(), name.c_str(), to.folder.get(), name.c_str(), 0) == 0) return;
+  const Opened source = open_regular_at(from.folder, name, O_RDONLY);
+  if (!source) throw output_error(read_file, std::string(kCannotCopy) + ": " + source.reason);
+  ::unlinkat(to.folder.get(), name.c_str(), 0);
+  const Opened target = open_regular_at(to.folder, name, O_WRONLY | O_CREAT | O_EXCL);
+  if (!target) throw output_error(written_file, std::string(kCannotCopy) + ": " + target.reason);
+  copy_content(source.descriptor, target.descriptor, read_file, written_file);
 }
 
-void copy_entries(const Descriptor& from, const Descriptor& to, const fs::path& shown) {
-  for (const Named& entry : entries_in(from, shown)) {
+void copy_entries(const Place& from, const Place& to) {
+  for (const Named& entry : entries_in(from.folder, from.path)) {
     if (entry.kind != EntryKind::folder) {
-      copy_entry(from, to, entry.name, shown / entry.name);
+      copy_entry(from, to, entry.name);
       continue;
     }
-    if (::mkdirat(to.get(), entry.name.c_str(), 0777) != 0 && errno != EEXIST)
-      throw output_error(shown / entry.name, "cannot copy this folder of the run so far", errno);
-    const Opened source = entered(from, entry.name, shown / entry.name);
-    const Opened target = entered(to, entry.name, shown / entry.name);
-    copy_entries(source.descriptor, target.descriptor, shown / entry.name);
+    const fs::path read_folder = from.path / entry.name, written_folder = to.path / entry.name;
+    if (::mkdirat(to.folder.get(), entry.name.c_str(), 0777) != 0 && errno != EEXIST)
+      throw output_error(written_folder, "cannot copy this folder of the run so far", errno);
+    const Opened source = entered(from.folder, entry.name, read_folder);
+    const Opened target = entered(to.folder, entry.name, written_folder);
+    copy_entries({source.descriptor, read_folder}, {target.descriptor, written_folder});
   }
 }
 
@@ -124,15 +133,14 @@ void copy_tree(const fs::path& from, const fs::path& to) {
   create_folder(to);
   const Opened target = open_folder_of(to / "entry", Depth::subfolder);
   if (!target) throw output_error(to, "cannot write into this folder: " + target.reason);
-  copy_entries(source.descriptor, target.descriptor, from);
+  copy_entries({source.descriptor, from}, {target.descriptor, to});
 }
 
 void copy_regular(const fs::path& from, const fs::path& to) {
   const Opened source = open_folder_of(from, Depth::file), target = open_folder_of(to, Depth::file);
-  for (const Opened* folder : {&source, &target}) {
-    if (!*folder) throw output_error(from, std::string(kCannotCopy) + ": " + folder->reason);
-  }
-  copy_entry(source.descriptor, target.descriptor, from.filename().string(), from);
+  if (!source) throw output_error(from, std::string(kCannotCopy) + ": " + source.reason);
+  if (!target) throw output_error(to, std::string(kCannotCopy) + ": " + target.reason);
+  copy_entry({source.descriptor, from.parent_path()}, {target.descriptor, to.parent_path()}, from.filename().string());
 }
 
 }  // namespace breccia

@@ -36,7 +36,7 @@ void remove_entry(const TreeEntry& entry);
 /// Throws OutputError that names what cannot be copied: links, pipes and devices among them.
 void copy_tree(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Copies a file of a run's folder likewise.
+/// Copies a file of a run's folder likewise. @pre both paths end in the same name
 void copy_regular(const std::filesystem::path& from, const std::filesystem::path& to);
 
 }  // namespace breccia

@@ -37,7 +37,7 @@ void write_wrong_files(const Scratch& scratch) {
   scratch.write("count.msh", std::string(kHead) + node + "$Elements\n99999999\n" + tetra);
   scratch.write("cut.step", "ISO-10303-21;\nHEADER;\n");
   scratch.write("open.stl",
-                "solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                "solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 1\n"
                 "endloop\nendfacet\nendsolid one\n");
   scratch.write("opted.geo", "Point(1) = {0, 0, 0};\n");
   scratch.write("opted.geo.opt", "SystemCall \"true\";\n");

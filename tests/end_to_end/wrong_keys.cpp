@@ -380,7 +380,7 @@ const std::vector<Wrong>& wrong_keys() {
       {"set_with_a_newline", "", "", {"a\\nb"}, "check CASE --set $'a\\nb=3'"},
       {"set_a_mesh_that_is_gone", "", "", {"mesh"}, "check CASE --set mesh.file=gone.msh"},
       {"case_named_with_a_dash", "", "", {"-x.toml"}, "check -- -x.toml"},
-      {"case_of_a_long_name", "", "", {"does not exist"}, "check DIR/" + std::string(300, 'n') + ".toml"},
+      {"case_of_a_long_name", "", "", {"the case cannot be read"}, "check DIR/" + std::string(300, 'n') + ".toml"},
       {"case_below_a_file", "", "", {"case.toml/x.toml"}, "check CASE/x.toml"},
       {"case_in_standard_input", "", "", {"-"}, "check - < /dev/null"},
   };
