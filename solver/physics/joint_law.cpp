@@ -72,7 +72,8 @@ void check_energy(const JointLawParams& law, const char* mode, double energy, do
 bool JointLawParams::breakable() const { return std::isfinite(tensile_strength) || std::isfinite(cohesion); }
 
 std::string prepare(JointLawParams& law) {
-  if (!(law.stiffness > 0 && std::isfinite(law.stiffness))) return "the stiffness k = p/h must be positive and a finite number";
+  if (!(law.stiffness > 0 && std::isfinite(law.stiffness)))
+    return "the stiffness k = p/h must be positive and a finite number";
   law.screen = 0.0;
   if (!law.breakable()) {
     law.law = JointLaw::mixed_mode;
