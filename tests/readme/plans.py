@@ -17,6 +17,7 @@ PLACEHOLDERS = {
     "CASE.toml": "meshes/glass_impact/case_smoke.toml",
     "CASE": "meshes/glass_impact/case_smoke.toml",
     "case.toml": "meshes/block_wall/case.toml",
+    "FILE": "meshes/glass_impact/geometry.geo",
     "runs/FOLDER": RUN_GOING_ON,
     "runs/RUN": RUN_GOING_ON,
     "RUN": RUN_GOING_ON,
@@ -28,8 +29,8 @@ PLACEHOLDER = re.compile(r"(?<![\w.-])(?<!\d )[A-Z][A-Z_]*(?!\w)|\.\.\.|…|<[^>
 
 NO_RULE = "no rule of tests/readme/plans.py says how to try"
 STEPS = "--set time.max_steps=10"
-NEEDS_CASE = {"run", "check", "mesh", "live", "race"}
-SUBCOMMANDS = NEEDS_CASE | {"control", "insitu", "explain", "resume", "diff", "schema", "report"}
+NEEDS_CASE = {"run", "check", "live", "race"}
+SUBCOMMANDS = NEEDS_CASE | {"mesh", "control", "insitu", "explain", "resume", "diff", "schema", "report"}
 # tests/bare runs these on a bare system; bench and detection take minutes. Here their names and options are looked up in `./run help`.
 LOOKED_UP = {"demo", "desktop", "test", "build", "install", "package", "bench", "detection"}
 
@@ -120,7 +121,7 @@ def plan_program(text, words, own):
         return Plan(text, "typed")
     case = next((word for word in words if word.endswith(".toml")), "")
     arguments = [word for word in words[2:] if not word.startswith("-")]
-    if (sub in NEEDS_CASE and not case) or (sub == "control" and len(arguments) < 2) or not words[2:]:
+    if (sub in NEEDS_CASE and not case) or (sub == "mesh" and not arguments) or (sub == "control" and len(arguments) < 2) or not words[2:]:
         return look_up_program(words)  # "`breccia mesh` reports on the mesh"
     if sub == "run":
         # A case is called after what it needs: here its text is not read.
