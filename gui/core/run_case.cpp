@@ -26,7 +26,7 @@ QString case_by_name(const QString& run_folder) {
   return name.hasMatch() ? QFileInfo(folder.path()).dir().filePath(name.captured(1) + ".toml") : QString();
 }
 
-/// One named relative to the folder that the solver was started in, which nothing tells: it counts as it was run.
+/// One named relative to the folder that the solver was started in, which is not recorded: it counts as it was run.
 QString case_near(const RunOrigin& origin, const QString& run_folder) {
   for (const char* up : {"..", "../.."}) {
     QFile file(QDir(run_folder).filePath(QString("%1/%2").arg(up, origin.case_name)));
