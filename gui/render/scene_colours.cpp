@@ -62,8 +62,8 @@ vtkSmartPointer<vtkDataArray> numbers_of(vtkDataArray* values, int component, do
   return numbers;
 }
 
-/// Ambient share of the light. Surfaces coloured by values are compared with the legend and need more of it; classes can
-/// be distinguished in shadow as well.
+/// Ambient share of the light. Surfaces coloured by values are compared with the legend and need more of it; classes
+/// can be distinguished in shadow as well.
 constexpr double kOfValues = 0.55, kOfClasses = 0.25;
 
 void shade(vtkActor& skin, double ambient) {
