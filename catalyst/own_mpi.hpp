@@ -13,6 +13,7 @@ class OwnMpi {
   OwnMpi() {
     ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
     ::setenv("OMPI_MCA_pml", "ob1", 0);
+    ::setenv("OMPI_MCA_mtl", "^ofi", 0);
     ::setenv("OMPI_MCA_btl", "self", 0);
     for (const char* name : {"OMPI_MCA_oob_tcp_if_include", "PMIX_MCA_ptl_tcp_if_include"}) ::setenv(name, "lo", 0);
     MPI_Init(nullptr, nullptr);

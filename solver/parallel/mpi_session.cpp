@@ -20,11 +20,16 @@ bool launched() {
 
 MpiSession::MpiSession(int& argc, char**& argv) {
   if (!launched()) return;
-  // Ranks of one machine speak through its memory; Open MPI need not listen to networks then. Its ofi component serves
-  // one-sided messages, of which there are none, and would look at memory that any thread gives back, without locks.
+  // Ranks of one machine speak through its memory; Open MPI need not listen to networks then, whatever the system's
+  // settings of it are. Its components ofi and uct serve one-sided messages, of which there are none; ofi would look at
+  // memory that any thread gives back, without locks.
   const char *all = std::getenv("OMPI_COMM_WORLD_SIZE"), *here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
   const bool one_machine = all != nullptr && here != nullptr && std::string_view(all) == here;
-  ::setenv("OMPI_MCA_btl", one_machine ? "^tcp,ofi" : "^ofi", 0);
+  ::setenv("OMPI_MCA_btl", one_machine ? "^tcp,ofi,uct" : "^ofi,uct", 0);
+  if (one_machine) {
+    ::setenv("OMPI_MCA_pml", "ob1", 0);
+    ::setenv("OMPI_MCA_mtl", "^ofi", 0);
+  }
   int provided = 0;
   check_mpi(MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
   active_ = true;

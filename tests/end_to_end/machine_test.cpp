@@ -48,6 +48,7 @@ TEST_P(Machine, without_locks_of_files_writes_frames_and_checkpoints_all_the_sam
 }
 
 TEST_P(Machine, that_runs_a_job_lets_nothing_of_it_listen_beyond_the_machine) {
+  forget_network_settings();
   const std::string longer = arguments("--set 'stage[0].end=1000 s'");
   const pid_t process =
       GetParam() == 1 ? start_process("exec '" BRECCIA_PROGRAM "' " + longer) : start_ranks(GetParam(), longer);

@@ -41,6 +41,11 @@ pid_t start_process(const std::string& command) {
   return process;
 }
 
+void forget_network_settings() {
+  for (const char* name : {"OMPI_MCA_btl", "OMPI_MCA_mtl", "OMPI_MCA_osc", "OMPI_MCA_pml"}) unsetenv(name);
+  setenv("OMPI_MCA_mca_base_param_files", "/dev/null", 1);
+}
+
 std::vector<pid_t> tree_below(pid_t process) {
   std::vector<pid_t> all{process};
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -10,6 +10,8 @@ namespace breccia::test {
 
 /// Starts a command of the shell, its output thrown away. Returns the shell, which `exec` lets become the program.
 pid_t start_process(const std::string& command);
+/// What is started from now on has neither this machine's settings of Open MPI's networks nor this user's.
+void forget_network_settings();
 /// A process and all below it.
 [[nodiscard]] std::vector<pid_t> tree_below(pid_t process);
 /// Name of its program; empty: it has ended.

@@ -20,6 +20,7 @@ struct Watched {
 class Sockets : public testing::TestWithParam<Watched> {};
 
 TEST_P(Sockets, of_a_run_with_pipelines_listen_to_no_network) {
+  forget_network_settings();
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   const fs::path run = scratch.path("run");

@@ -109,11 +109,19 @@ TEST(ControlFile, LosesNoneOfManyThatAskAtOnce) {
   const RunFolder run{folder.path()};
   write(run.status(), "{\"state\":\"running\"}\n");
   std::vector<std::thread> askers;
-  std::atomic<int> answered{0};
-  for (int i = 0; i < kAskers; ++i)
-    askers.emplace_back([&] { answered += ask_run(folder.path(), "frame", 30) == "done" ? 1 : 0; });
+  std::atomic<int> answered{0}, ended{0};
+  for (int i = 0; i < kAskers; ++i) {
+    askers.emplace_back([&] {
+      try {
+        answered += ask_run(folder.path(), "frame", 60) == "done" ? 1 : 0;
+      } catch (const OutputError& error) {
+        ADD_FAILURE() << error.what();
+      }
+      ++ended;
+    });
+  }
   ControlFile control(run.control());
-  for (int look = 0; look < 600 && answered < kAskers; ++look) {
+  while (ended < kAskers) {
     for (const std::string& line : control.take())
       write(run.status(),
             "{\"event\":\"control\",\"accepted\":true,\"text\":\"done\",\"id\":\"" + parse_command(line).id + "\"}\n");
