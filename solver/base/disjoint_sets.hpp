@@ -4,6 +4,7 @@
 #include <numeric>
 #include <vector>
 
+#include "base/index.hpp"
 #include "base/types.hpp"
 
 namespace breccia {
@@ -31,8 +32,6 @@ class DisjointSets {
   }
 
  private:
-  static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
   std::vector<Index> parent_;  ///< never larger than the number itself
 };
 

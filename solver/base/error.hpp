@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <exception>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@ struct Problem {
   /// "file:line: key: what; allowed: ...; given: ..."
   [[nodiscard]] std::string text() const;
 };
+
+/// Problems of one kind that are named of one file or mesh; more of them help nobody.
+inline constexpr std::size_t kProblemsNamed = 10;
 
 /// What a std::bad_alloc says to the user.
 [[nodiscard]] Problem out_of_memory();

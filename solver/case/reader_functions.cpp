@@ -12,8 +12,6 @@ using Points = std::vector<TimeFunction::Point>;
 
 const std::string prefix = "<function>.";
 
-std::string indexed(const std::string& path, std::size_t i) { return path + "[" + std::to_string(i) + "]"; }
-
 // A row of the schema with the unit of the value it stands in. Owns the unit's text.
 struct RowOf {
   std::string unit;

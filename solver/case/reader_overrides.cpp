@@ -9,7 +9,7 @@
 namespace breccia::case_ {
 namespace {
 
-constexpr const char* source = "--set";
+constexpr const char* kSource = "--set";
 
 std::string name_of_entry(const Node& entry) {
   for (const char* key : {"name", "group", "surface"})
@@ -51,7 +51,7 @@ class Setter {
   }
 
   void problem(const std::string& what, const std::string& allowed) {
-    problems_.push_back({source, 0, text_.substr(0, text_.find('=')), what, allowed, text_});
+    problems_.push_back({kSource, 0, text_.substr(0, text_.find('=')), what, allowed, text_});
   }
 
   // The child that the schema knows under this name; the name is appended to the pattern.
@@ -97,7 +97,7 @@ class Setter {
     if (Node* existing = table.find(name)) return existing;
     Node fresh;
     fresh.kind = made;
-    fresh.file = source;
+    fresh.file = kSource;
     return &table.entries.emplace_back(std::string(name), std::move(fresh)).second;
   }
 
@@ -156,7 +156,7 @@ void apply_overrides(Node& root, std::span<const std::string> overrides, std::ve
   for (const std::string& text : overrides) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) {
-      problems.push_back({source, 0, "", "no \"=\" in an override", "key=value", text});
+      problems.push_back({kSource, 0, "", "no \"=\" in an override", "key=value", text});
       continue;
     }
     std::string path = text.substr(0, equals);
@@ -164,7 +164,7 @@ void apply_overrides(Node& root, std::span<const std::string> overrides, std::ve
     try {
       Node changed = root;  // a path that fails half-way leaves no tables behind
       const std::size_t before = problems.size();
-      Setter(text, problems).set(changed, path, parse_toml_value(std::string_view(text).substr(equals + 1), source));
+      Setter(text, problems).set(changed, path, parse_toml_value(std::string_view(text).substr(equals + 1), kSource));
       if (problems.size() == before) root = std::move(changed);
     } catch (const InputError& e) {
       for (Problem p : e.problems()) {

@@ -10,8 +10,6 @@
 namespace breccia::case_ {
 namespace {
 
-std::string indexed(const std::string& path, std::size_t i) { return path + "[" + std::to_string(i) + "]"; }
-
 /// 1 for a length, 2 for an area, ...; 0 for what is no power of a length.
 int power_of_length(const Dimension& dimension) {
   const auto& [metre, kilogram, second, radian] = dimension.powers;
@@ -19,6 +17,8 @@ int power_of_length(const Dimension& dimension) {
 }
 
 }  // namespace
+
+std::string indexed(const std::string& path, std::size_t i) { return path + "[" + std::to_string(i) + "]"; }
 
 void ValueReader::problem(const Node& node, const std::string& path, const std::string& what,
                           const std::string& allowed, const std::string& given) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -17,6 +18,9 @@
 #include "case/schema.hpp"
 
 namespace breccia::case_ {
+
+/// "path[i]", the key of an item in messages.
+[[nodiscard]] std::string indexed(const std::string& path, std::size_t i);
 
 /// Turns nodes of a case file into typed SI values as their row of the schema says: type, unit, choices, range.
 /// Every read appends what is wrong to the problems and then leaves its output as it was. `path` is the key in

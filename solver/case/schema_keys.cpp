@@ -436,7 +436,7 @@ constexpr auto model_keys = std::to_array<Key>({
 // clang-format on
 
 /// One table: the model, then its run.
-constexpr auto table = [] {
+constexpr auto kKeys = [] {
   std::array<Key, model_keys.size() + run_keys.size()> keys{};
   std::copy(run_keys.begin(), run_keys.end(), std::copy(model_keys.begin(), model_keys.end(), keys.begin()));
   return keys;
@@ -444,6 +444,6 @@ constexpr auto table = [] {
 
 }  // namespace
 
-std::span<const Key> schema() { return table; }
+std::span<const Key> schema() { return kKeys; }
 
 }  // namespace breccia::case_

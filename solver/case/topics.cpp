@@ -9,7 +9,7 @@ namespace breccia::case_ {
 namespace {
 
 // clang-format off
-constexpr auto table = std::to_array<Topic>({
+constexpr auto kGeneralTopics = std::to_array<Topic>({
     {"process zone|fracture process zone|cohesive zone",
      "The length ahead of a crack over which joints soften. It follows from young, tensile_strength and the "
      "fracture energy; `breccia check` tells it for every kind of joint, and advises elements of a third of it.",
@@ -215,7 +215,7 @@ bool is_among(std::string_view words, std::string_view word) {
 
 const std::vector<Topic>& topics() {
   static const std::vector<Topic> all = [] {
-    std::vector<Topic> rows(table.begin(), table.end());
+    std::vector<Topic> rows(kGeneralTopics.begin(), kGeneralTopics.end());
     for (const std::span<const Topic> part : {physics_topics(), program_topics()})
       rows.insert(rows.end(), part.begin(), part.end());
     return rows;

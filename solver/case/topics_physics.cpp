@@ -7,7 +7,7 @@ namespace {
 
 /// Words of mechanics, materials, loads and results.
 // clang-format off
-constexpr auto table = std::to_array<Topic>({
+constexpr auto kPhysicsTopics = std::to_array<Topic>({
     {"temperature|thermal|heat|heat transfer|thermal expansion|thermal stress|thermal shock|thermomechanical|"
      "fire",
      "There is no temperature in Breccia. A thermal stress can be put in as a pressure or a motion that opens "
@@ -200,6 +200,6 @@ constexpr auto table = std::to_array<Topic>({
 
 }  // namespace
 
-std::span<const Topic> physics_topics() { return table; }
+std::span<const Topic> physics_topics() { return kPhysicsTopics; }
 
 }  // namespace breccia::case_

@@ -7,7 +7,7 @@ namespace {
 
 /// Words of computers, files, other programs and methods.
 // clang-format off
-constexpr auto table = std::to_array<Topic>({
+constexpr auto kProgramTopics = std::to_array<Topic>({
     {"gpu|cuda|opencl|hip|rocm|sycl|nvidia|amd gpu|accelerator|graphics card",
      "There is no GPU version. The kernels use SSE2, AVX2 or AVX-512, chosen at run time, and ranks of MPI: "
      "`mpiexec -n 8 breccia run CASE`.",
@@ -131,6 +131,6 @@ constexpr auto table = std::to_array<Topic>({
 
 }  // namespace
 
-std::span<const Topic> program_topics() { return table; }
+std::span<const Topic> program_topics() { return kProgramTopics; }
 
 }  // namespace breccia::case_

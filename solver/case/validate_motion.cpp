@@ -10,7 +10,7 @@
 namespace breccia::case_ {
 namespace {
 
-std::string number(double value) { return number_text(value, 4); }
+std::string rounded(double value) { return number_text(value, 4); }
 
 /// What the parts of a function amount to at a time, whatever their signs.
 double parts_of(const TimeFunction& f, double time) {
@@ -70,7 +70,7 @@ class MotionLimits {
   void demand(const Origin& origin, const char* name, double magnitude, double most, const std::string& unit) {
     if (magnitude <= most) return;
     problems_.push_back(problem_at(c_, origin, name, "is beyond what can be computed",
-                                   "magnitudes up to " + number(most) + " " + unit, number(magnitude) + " " + unit));
+                                   "magnitudes up to " + rounded(most) + " " + unit, rounded(magnitude) + " " + unit));
   }
 
   const Case& c_;
@@ -146,10 +146,10 @@ std::vector<Problem> jumps_at(const Case& c, const Stage& stage, double start) {
       problems.push_back(
           problem_at(c, constraint.origin, "displacement." + std::string(1, "xyz"[axis]),
                      "jumps in the first step of its stage: displacements count from the start of the stage, at " +
-                         number(start) + " s of the run, and time from the start of the run",
-                     "a function that is 0 at " + number(start) + " s, such as { ramp = { start = " + number(start) +
+                         rounded(start) + " s of the run, and time from the start of the run",
+                     "a function that is 0 at " + rounded(start) + " s, such as { ramp = { start = " + rounded(start) +
                          ", end = ..., to = ... } }",
-                     number(jump) + " m"));
+                     rounded(jump) + " m"));
     }
   }
   return problems;

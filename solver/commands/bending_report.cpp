@@ -7,14 +7,13 @@
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 
+#include "base/index.hpp"
 #include "commands/solids.hpp"
 #include "mesh/geometry.hpp"
 #include "output/quantity_text.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 constexpr double kLocking = 2.0;  // c
 constexpr double kFine = 4;       // elements across the thickness that is advised

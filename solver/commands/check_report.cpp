@@ -1,4 +1,5 @@
 #include "commands/check_report.hpp"
+#include "base/index.hpp"
 #include "commands/bending_report.hpp"
 #include "commands/contact_report.hpp"
 #include "commands/data_report.hpp"
@@ -37,8 +38,6 @@
 namespace breccia {
 namespace {
 
-std::size_t index(Index i) { return static_cast<std::size_t>(i); }
-
 /// Share of the stable step with which steps are timed: nothing moves, whatever step is given.
 constexpr double kShort = 1e-3;
 
@@ -52,8 +51,8 @@ double seconds_a_step(const case_::Case& input, const Model& model, double dt, b
   if (broken) {
     std::vector<LoadedFace> faces;
     for (const ModelJoint& joint : model.joints) {
-      if (model.joint_laws[index(joint.law)].breakable())
-        faces.push_back({model.local.slot_of_element[index(joint.face.a)], joint.face.face_a});
+      if (model.joint_laws[at(joint.law)].breakable())
+        faces.push_back({model.local.slot_of_element[at(joint.face.a)], joint.face.face_a});
     }
     break_joints(scratch, faces);
   }
@@ -114,8 +113,8 @@ std::string run_time(const Model& model, const StepReport& step, const RunEstima
 double mean_size(const Mesh& mesh) {
   double volume = 0;
   for (const auto& c : mesh.elements) {
-    volume += geometry::tetra_volume(mesh.nodes[index(c[0])], mesh.nodes[index(c[1])], mesh.nodes[index(c[2])],
-                                     mesh.nodes[index(c[3])]);
+    volume += geometry::tetra_volume(mesh.nodes[at(c[0])], mesh.nodes[at(c[1])], mesh.nodes[at(c[2])],
+                                     mesh.nodes[at(c[3])]);
   }
   return std::cbrt(6 * std::sqrt(2.0) * volume / static_cast<double>(mesh.elements.size()));
 }
@@ -202,7 +201,7 @@ Division divide_model(const case_::Case& input, const Model& model, int parts) {
   centroids.reserve(mesh.elements.size());
   for (const auto& c : mesh.elements) {
     Vec3 sum = Vec3::Zero();
-    for (const Index node : c) sum += mesh.nodes[index(node)];
+    for (const Index node : c) sum += mesh.nodes[at(node)];
     centroids.emplace_back(0.25 * sum);
   }
   std::vector<std::array<Index, 4>> neighbours;
@@ -315,7 +314,7 @@ std::string mesh_report(const FinishedMesh& made, const QualityReport& q) {
                       q.max_dihedral.max * 180 / std::numbers::pi);
   text += "  worst elements (id in the source, radius ratio):";
   for (std::size_t i = 0; i < std::min<std::size_t>(5, q.worst.size()); ++i) {
-    text += fmt::format(" {} {:.3f}{}", made.mesh.element_source_id[index(q.worst[i].element)],
+    text += fmt::format(" {} {:.3f}{}", made.mesh.element_source_id[at(q.worst[i].element)],
                         q.worst[i].quality.radius_ratio, i < 4 ? "," : "");
   }
   return text + "\n";

@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/index.hpp"
 #include "mesh/tetrahedron.hpp"
 #include "model/parameters.hpp"
 #include "output/quantity_text.hpp"
@@ -15,8 +16,6 @@
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// m, (groups) of its bodies: H of the finest one, and the extent of the largest one; 0: no element.
 struct GroupSizes {

@@ -10,13 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include "base/index.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/tetrahedron.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t index(Index i) { return static_cast<std::size_t>(i); }
 
 /// Softness added by the joints that is wanted, and more than that is worth a warning.
 constexpr double kSoftness = 0.05, kWorthRaising = 1.1;
@@ -26,12 +25,12 @@ double young(const ElasticParams& p) { return p.mu * (3 * p.lambda + 2 * p.mu) /
 
 /// Index into WholeModel::joint_groups.
 std::size_t groups_of(const Model& model, const ModelJoint& joint) {
-  return index(model.groups_of_joint_law[index(joint.law)]);
+  return at(model.groups_of_joint_law[at(joint.law)]);
 }
 
 /// Indices of the groups of both sides.
 std::pair<std::size_t, std::size_t> groups_beside(const Model& model, const ModelJoint& joint) {
-  return {index(model.mesh.element_group[index(joint.face.a)]), index(model.mesh.element_group[index(joint.face.b)])};
+  return {at(model.mesh.element_group[at(joint.face.a)]), at(model.mesh.element_group[at(joint.face.b)])};
 }
 
 /// Sum of A n n^T of the joints of a pair of groups over the volume of these, 1/m: under a stress along a unit vector d
@@ -47,11 +46,11 @@ Mat3 areas_per_volume(const Model& model, std::size_t groups) {
     const auto corner = [&](std::size_t i) { return x[static_cast<std::size_t>(corners[i])]; };
     const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
     areas += joint.face.area * normal * normal.transpose();
-    counted[index(model.mesh.element_group[index(joint.face.a)])] = true;
-    counted[index(model.mesh.element_group[index(joint.face.b)])] = true;
+    counted[at(model.mesh.element_group[at(joint.face.a)])] = true;
+    counted[at(model.mesh.element_group[at(joint.face.b)])] = true;
   }
   for (Index s = 0; s < model.local.num_slots; ++s) {
-    if (counted[index(model.local.block_group[index(s / kLanes)])]) volume += model.local.volume[index(s)];
+    if (counted[at(model.local.block_group[at(s / kLanes)])]) volume += model.local.volume[at(s)];
   }
   return volume > 0 ? Mat3(areas / volume) : Mat3(Mat3::Zero());
 }
@@ -225,7 +224,7 @@ std::string scatter_report(const Model& model, std::size_t groups) {
   if (model.whole.joint_groups[groups].num_classes == 0) return {};
   std::vector<double> strengths;
   for (const ModelJoint& joint : model.joints) {
-    if (groups_of(model, joint) == groups) strengths.push_back(model.joint_laws[index(joint.law)].tensile_strength);
+    if (groups_of(model, joint) == groups) strengths.push_back(model.joint_laws[at(joint.law)].tensile_strength);
   }
   if (strengths.empty()) return {};
   std::sort(strengths.begin(), strengths.end());
@@ -340,7 +339,7 @@ Advice sudden_softening(const Model& model, double dt) {
     const JointLawParams& law = model.joint_laws[l];
     const Index group = sides_of(model, l).softer;
     if (!law.breakable() || group < 0) continue;
-    const double impedance = std::sqrt(young(model.elastic[index(group)]) * model.density[index(group)]);
+    const double impedance = std::sqrt(young(model.elastic[at(group)]) * model.density[at(group)]);
     const double steps = law.width_normal * impedance / (2 * law.tensile_strength * dt);
     if (steps >= kEnough) continue;
     // joint_report says that nothing resolves these.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/geometry_file.hpp"
+#include "base/index.hpp"
 #include "commands/check_report.hpp"
 #include "mesh/tetrahedron.hpp"
 #include "model/parameters.hpp"
@@ -15,15 +16,13 @@
 namespace breccia {
 namespace {
 
-std::size_t index(Index i) { return static_cast<std::size_t>(i); }
-
 /// Fragments go through each other as well.
 std::string missing_contact_of_fragments(const Model& model) {
   if (model.has_contact) return {};
   std::string groups;
   std::vector<bool> named(model.joint_law_names.size(), false);
   for (const ModelJoint& joint : model.joints) {
-    const std::size_t pair = index(model.groups_of_joint_law[index(joint.law)]);
+    const std::size_t pair = at(model.groups_of_joint_law[at(joint.law)]);
     if (named[pair] || !model.joint_laws[pair].breakable()) continue;
     named[pair] = true;
     groups += (groups.empty() ? "" : ", ") + model.joint_law_names[pair];
@@ -113,7 +112,7 @@ std::string slice_without_plane(const case_::Case& input, const Model& model) {
 /// Bodies that go through each other. Those that a constraint holds in every stage cannot move into others.
 std::string missing_contact(const case_::Case& input, const Model& model) {
   if (model.has_contact || model.mesh.num_bodies < 2) return {};
-  std::vector<bool> free(index(model.mesh.num_bodies), true);
+  std::vector<bool> free(at(model.mesh.num_bodies), true);
   for (std::size_t g = 0; g < model.mesh.volume_groups.size(); ++g) {
     const bool held = std::all_of(input.stages.begin(), input.stages.end(), [&](const case_::Stage& stage) {
       return std::any_of(stage.constraints.begin(), stage.constraints.end(), [&](const case_::Constraint& c) {
@@ -122,8 +121,8 @@ std::string missing_contact(const case_::Case& input, const Model& model) {
       });
     });
     for (Index e = 0; held && e < model.mesh.num_elements(); ++e) {
-      if (model.mesh.element_group[index(e)] == static_cast<Index>(g))
-        free[index(model.mesh.element_body[index(e)])] = false;
+      if (model.mesh.element_group[at(e)] == static_cast<Index>(g))
+        free[at(model.mesh.element_body[at(e)])] = false;
     }
   }
   if (std::find(free.begin(), free.end(), true) == free.end()) return {};
@@ -140,9 +139,9 @@ std::string sphere_too_small(const Model& model) {
   for (Index e = 0; e < model.mesh.num_elements(); ++e) {
     double distance = 0;
     Vec3 centre = Vec3::Zero();
-    for (const Index node : model.mesh.elements[index(e)]) {
-      distance = std::max(distance, (model.mesh.nodes[index(node)] - sphere.centre).norm());
-      centre += model.mesh.nodes[index(node)] / 4;
+    for (const Index node : model.mesh.elements[at(e)]) {
+      distance = std::max(distance, (model.mesh.nodes[at(node)] - sphere.centre).norm());
+      centre += model.mesh.nodes[at(node)] / 4;
     }
     around_something = around_something || (centre - sphere.centre).norm() <= sphere.radius;
     if (distance > sphere.radius) ++outside;

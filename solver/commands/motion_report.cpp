@@ -7,14 +7,13 @@
 #include <optional>
 #include <vector>
 
+#include "base/index.hpp"
 #include "commands/constraint_words.hpp"
 #include "commands/solids.hpp"
 #include "output/quantity_text.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Share of a stage over which the speed of a displacement is measured.
 constexpr double kMoment = 1e-6;

@@ -18,7 +18,7 @@
 namespace breccia {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using WallClock = std::chrono::steady_clock;
 
 constexpr int kRounds = 3;
 /// A lap whose length is not given: see race_case.
@@ -30,7 +30,7 @@ constexpr std::int64_t kMostPieces = 1000;  ///< of a lap (TimingSegments)
 /// Points times contactors of a rank up to which all against all may race: some 60 ms a search, at 6 ns a pair.
 constexpr double kSmallEnough = 1e7;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(WallClock::time_point start) { return std::chrono::duration<double>(WallClock::now() - start).count(); }
 
 /// Points and contactors of this rank, proxies with them.
 double pairs_of(const Partition& partition) {
@@ -68,7 +68,7 @@ class Race {
   /// False: stopped by request; so with all functions below.
   bool reach_start(std::unique_ptr<Model> whole) {
     if (!(settings_.from < input_.stages.back().end)) throw starts_too_late();
-    const auto started = Clock::now();
+    const auto started = WallClock::now();
     Partition partition(input_, communicator_, std::move(whole));
     if (!partition.domain().contact) throw nothing_touches();
     result_.elements = partition.whole().num_elements;
@@ -159,7 +159,7 @@ class Race {
         return true;
       return steps % kStepsBetweenLooks == 0 && communicator_.max(seconds_since(started_)) > most;
     };
-    started_ = Clock::now();
+    started_ = WallClock::now();
     const Racer own{input_.detection.algorithm, input_.detection.buffer, true};
     const bool finished = run_lap(own, enough, [&](const Partition& partition, const TimingSegments&) {
       buffer = communicator_.max(partition.domain().contact->searches().buffer());
@@ -173,7 +173,7 @@ class Race {
   }
 
   bool race() {
-    started_ = Clock::now();
+    started_ = WallClock::now();
     const auto enough = [&](const Partition&, std::int64_t steps) { return steps >= result_.steps; };
     while (result_.rounds < kRounds) {
       for (std::size_t i = 0; i < entries_.size(); ++i) {
@@ -256,7 +256,7 @@ class Race {
   std::vector<TimingSegments> least_;  ///< (entries) of all laps
   std::int64_t piece_ = 1;             ///< steps
   std::size_t laps_ = 0;
-  Clock::time_point started_;  ///< the warm-up, then the race
+  WallClock::time_point started_;  ///< the warm-up, then the race
   std::string first_;          ///< who has set the state in which all must end
   RaceResult result_;
 };

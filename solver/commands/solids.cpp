@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "base/index.hpp"
+
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 double wave_speed(const Model& model, std::size_t group) {
   const ElasticParams& p = model.elastic[group];

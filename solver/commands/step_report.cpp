@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/index.hpp"
 #include "contact/search_params.hpp"
 #include "domains/domain.hpp"
 #include "domains/global_step.hpp"
@@ -15,8 +16,6 @@
 
 namespace breccia {
 namespace {
-
-std::size_t index(Index i) { return static_cast<std::size_t>(i); }
 
 /// Steps between two looks at the limit, as StageSteps takes them.
 constexpr double kLook = 100;
@@ -65,7 +64,7 @@ class Start {
     CornerClusters clusters(model_.mesh, model_.topology);
     std::vector<Topology::Face> faces;
     for (const ModelJoint& joint : model_.joints) {
-      if (!model_.joint_laws[index(joint.law)].breakable()) continue;
+      if (!model_.joint_laws[at(joint.law)].breakable()) continue;
       faces.push_back({joint.face.a, joint.face.face_a});
       faces.push_back({joint.face.b, joint.face.code / 3});
     }
@@ -92,13 +91,13 @@ class Start {
       start = stage.end;
     }
     Field<double> velocity = domain_.state.nodes.velocity;
-    std::vector<std::array<bool, 3>> held(index(model_.local.num_nodes));
+    std::vector<std::array<bool, 3>> held(at(model_.local.num_nodes));
     const Constraints constraints(loads_.constraints, model_.local, domain_.state.nodes);
     for (std::size_t i = 0; i < constraints.nodes().size(); ++i)
-      held[index(constraints.nodes()[i])] = constraints.held_axes()[i];
+      held[at(constraints.nodes()[i])] = constraints.held_axes()[i];
     for (Index node = 0; node < model_.local.num_nodes; ++node) {
       for (int a = 0; a < 3; ++a) {
-        if (!held[index(node)][static_cast<std::size_t>(a)]) velocity[nodal(node, a)] += gained[a];
+        if (!held[at(node)][static_cast<std::size_t>(a)]) velocity[nodal(node, a)] += gained[a];
       }
     }
     return velocity;
@@ -141,8 +140,8 @@ std::string contact_advice(const Model& model, const Start& start, const std::ve
   if (step.limit != StepLimit::contact || step.joint_step < kWorthTelling * step.step) return {};
   const double factor = harmless_factor(start, contacts, step.joint_step / kHardly);
   const auto& slot_of = model.local.slot_of_element;
-  const Index slot = slot_of[index(static_cast<Index>(step.element))];
-  const Index group = model.local.block_group[index(slot / kLanes)], against = contacts[index(slot)].against;
+  const Index slot = slot_of[at(static_cast<Index>(step.element))];
+  const Index group = model.local.block_group[at(slot / kLanes)], against = contacts[at(slot)].against;
   std::string text = fmt::format("{} makes the step {:.2g} times shorter", when, step.joint_step / step.step);
   if (against < 0) {
     const double penalty = model.contact.sphere->penalty;
@@ -157,7 +156,7 @@ std::string contact_advice(const Model& model, const Start& start, const std::ve
   return text + fmt::format(
                     " (\"{}\" on \"{}\", element {}); a penalty of {:.2g} Pa instead of {:.3g} Pa would not, but let "
                     "bodies {:.2g} times as deep into each other.",
-                    names[index(group)], names[index(against)], step.element, factor * law.penalty, law.penalty,
+                    names[at(group)], names[at(against)], step.element, factor * law.penalty, law.penalty,
                     1 / factor);
 }
 
@@ -189,11 +188,11 @@ std::string sliver_advice(const Model& model, const Start& start) {
   const QualityReport quality = assess_quality(model.mesh);
   std::vector<Index> slivers;
   for (const QualityReport::Worst& w : quality.worst) {
-    if (w.quality.radius_ratio < kSliver) slivers.push_back(model.local.slot_of_element[index(w.element)]);
+    if (w.quality.radius_ratio < kSliver) slivers.push_back(model.local.slot_of_element[at(w.element)]);
   }
   if (slivers.empty()) return {};
   std::vector<StepShare> others = start.parts().shares;
-  for (const Index slot : slivers) others[index(slot)] = {};
+  for (const Index slot : slivers) others[at(slot)] = {};
   const double without = 2.0 / std::sqrt(stiffest(start.model_now(), others));
   if (!(without > kSliverCost * start.now().step)) return {};
   return fmt::format(

@@ -3,10 +3,10 @@
 #include <fmt/core.h>
 #include <string>
 
+#include "base/index.hpp"
+
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Faces of a surface by what is across them.
 struct Faces {

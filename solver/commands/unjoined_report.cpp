@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/index.hpp"
 #include "mesh/bodies.hpp"
 #include "mesh/node_parting.hpp"
 #include "mesh/tetrahedron.hpp"
@@ -16,8 +17,6 @@
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Faces of two volumes, or of two parts of one, that coincide and are not joined.
 struct Touch {

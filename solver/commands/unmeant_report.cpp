@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/index.hpp"
 #include "commands/stage_report.hpp"
 #include "commands/surface_report.hpp"
 #include "commands/unjoined_report.hpp"
@@ -19,8 +20,6 @@
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 std::string lost_elements(const Model& model) {
   const Index lost = model.mesh_report.ungrouped_elements;

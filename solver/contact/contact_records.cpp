@@ -3,6 +3,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "contact/contact_search.hpp"
 #include "physics/contact/contact_couples.hpp"
 #include "physics/contact/contact_point.hpp"
@@ -11,8 +12,6 @@
 namespace breccia {
 
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// The entries of a list that belong to an element.
 template <class T>

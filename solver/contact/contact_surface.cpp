@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "contact/contactors.hpp"
 #include "mesh/quality.hpp"
 #include "model/plane.hpp"
@@ -14,8 +15,6 @@
 namespace breccia {
 
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// A bit a face: it may carry points.
 std::vector<std::uint8_t> carrying_faces(const ContactSearchParams& search, const ContactModel& model) {

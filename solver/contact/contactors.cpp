@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/index.hpp"
 #include "mesh/geometry.hpp"
 #include "model/plane.hpp"
 
 namespace breccia {
 
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Nodes at which elements of several groups meet.
 std::vector<bool> nodes_between_groups(const Mesh& mesh) {

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/index.hpp"
+
 namespace breccia {
 
 namespace {
 
 constexpr double kSmallestBuffer = 0.1, kLargestBuffer = 0.4;  ///< shares of the mean size, see the class comment
 constexpr double kBufferSteps = 20;                            ///< steps that a chosen buffer should last for
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <tuple>
 
+#include "base/index.hpp"
 #include "detection/point_body/couple_test.hpp"
 #include "physics/contact/contact_couples.hpp"
 #include "physics/contact/contact_field.hpp"
@@ -11,8 +12,6 @@
 namespace breccia {
 
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 template <class T, class Key>
 void sort_unique(std::vector<T>& list, Key&& key) {

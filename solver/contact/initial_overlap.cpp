@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 
+#include "base/index.hpp"
 #include "detection/point_body/search.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/tetrahedron.hpp"
@@ -13,8 +14,6 @@
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Index group_of(const LocalMesh& local, Index slot) { return local.block_group[at(slot / kLanes)]; }
 

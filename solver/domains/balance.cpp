@@ -4,10 +4,10 @@
 #include <functional>
 #include <numeric>
 
+#include "base/index.hpp"
+
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// An element that shares its nodes costs this much of one that owns them (no joints to look across).
 constexpr double kSharedNodes = 1.0 / 3;

@@ -1,11 +1,10 @@
 #include "domains/derived.hpp"
 
+#include "base/index.hpp"
 #include "physics/active_joint.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 std::vector<Index> blocked_corners(const LocalMesh& local) {
   std::vector<Index> blocked;

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/index.hpp"
 #include "domains/motion_limit.hpp"
 #include "domains/state_records.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Nodes at rest in their places, and the fields that the materials need.
 void start_state(const Model& model, State& state) {

@@ -6,11 +6,10 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Places of the nodes of the slots in nodal fields.
 class NodePlaces {

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/index.hpp"
 #include "domains/mesh_records.hpp"
 #include "mesh/geometry.hpp"
 #include "physics/contact/contact_field.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// First element of a rank's run of the ids.
 Index first_of(int rank, std::int64_t elements, int ranks) { return static_cast<Index>(elements * rank / ranks); }

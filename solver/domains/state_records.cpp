@@ -6,13 +6,12 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "domains/mesh_records.hpp"
 #include "parallel/totals.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Vec3 vector_of(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 std::array<double, 3> array_of(const Vec3& v) { return {v[0], v[1], v[2]}; }

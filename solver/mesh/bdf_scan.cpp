@@ -6,13 +6,12 @@
 #include <string>
 #include <string_view>
 
+#include "base/error.hpp"
 #include "base/trimmed.hpp"
 #include "mesh/file_input.hpp"
 
 namespace breccia {
 namespace {
-
-constexpr std::size_t kMost = 10;  // problems
 
 /// A field of a card: of eight letters, of sixteen behind a star, or between commas.
 std::string field(std::string_view line, std::size_t number) {
@@ -46,7 +45,7 @@ BdfScan scan_bdf(const std::filesystem::path& file) {
   bool ended = false;
   const auto refuse = [&](const std::string& card, const std::string& what, const std::string& allowed,
                           const std::string& given) {
-    if (scan.problems.size() < kMost)
+    if (scan.problems.size() < kProblemsNamed)
       scan.problems.push_back({file.string(), in.line() - 1, card, what, allowed, given});
   };
   constexpr std::array kSolids{"CHEXA", "CPENTA", "CPYRAM", "CPYRA"};

@@ -4,11 +4,10 @@
 #include <utility>
 
 #include "base/disjoint_sets.hpp"
+#include "base/index.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

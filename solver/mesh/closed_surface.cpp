@@ -9,11 +9,10 @@
 #include <sstream>
 
 #include "base/disjoint_sets.hpp"
+#include "base/index.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 std::string near(const Vec3& x) {
   std::ostringstream text;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "mesh/bodies.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/node_parting.hpp"
@@ -19,8 +20,6 @@ constexpr double kFlatShare = 1e-10;  // of the longest edge cubed: a height of 
 constexpr double kSmallest = 1e-50, kLargest = 1e50;  // m, of edges and coordinates: far beyond any use
 constexpr double kRoundedStrain = 1e-5;               // rounding of positions over an edge: rock breaks at 1e-4
 constexpr std::size_t kIdsNamed = 10;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Element ids for a message: the first ten, then the count of all.
 std::string list_of(const std::vector<std::int64_t>& ids) {
@@ -63,9 +62,9 @@ void demand_sizes(const Mesh& mesh) {
   if (mesh.elements.empty()) {
     throw InputError(Problem{mesh.source, 0, "mesh", "the mesh has no tetrahedra", "at least one", ""});
   }
-  constexpr auto kMost = static_cast<std::size_t>(std::numeric_limits<Index>::max() / 4);
-  if (mesh.elements.size() > kMost) {
-    throw InputError(Problem{mesh.source, 0, "mesh", "too many tetrahedra", "up to " + std::to_string(kMost),
+  constexpr auto kMostElements = static_cast<std::size_t>(std::numeric_limits<Index>::max() / 4);
+  if (mesh.elements.size() > kMostElements) {
+    throw InputError(Problem{mesh.source, 0, "mesh", "too many tetrahedra", "up to " + std::to_string(kMostElements),
                              std::to_string(mesh.elements.size())});
   }
   const std::size_t num_elements = mesh.elements.size();

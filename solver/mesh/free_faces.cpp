@@ -3,11 +3,10 @@
 #include <algorithm>
 
 #include "base/disjoint_sets.hpp"
+#include "base/index.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Solid of every node: the lowest body that its body is glued to. (num_nodes)
 std::vector<Index> solids_of_nodes(const Mesh& mesh) {

@@ -37,7 +37,6 @@
 namespace breccia {
 namespace {
 
-constexpr std::size_t kProblemsNamed = 10;
 constexpr int kDelaunay = 1, kHxt = 10;  // gmsh's numbers of algorithms in three dimensions
 
 // --- Running gmsh

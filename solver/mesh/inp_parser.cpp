@@ -12,8 +12,6 @@
 namespace breccia::inp {
 namespace {
 
-constexpr std::size_t kMost = 10;  // problems
-
 /// Corners of a type of element, and all its nodes; 0: it is left out.
 struct Shape {
   int corners = 0, nodes = 0;
@@ -46,7 +44,7 @@ class Parser {
 
   Model parse() {
     InpLine line;
-    while (problems_.size() < kMost && lines_.next(line)) {
+    while (problems_.size() < kProblemsNamed && lines_.next(line)) {
       if (line.keyword.empty())
         data(line);
       else
@@ -64,7 +62,7 @@ class Parser {
 
   void refuse(const InpLine& line, const std::string& key, const std::string& what, const std::string& allowed,
               const std::string& given = {}) {
-    if (problems_.size() < kMost) problems_.push_back({line.file, line.line, key, what, allowed, given});
+    if (problems_.size() < kProblemsNamed) problems_.push_back({line.file, line.line, key, what, allowed, given});
   }
   static std::string value(const InpLine& line, const char* name) {
     const auto found = line.parameters.find(name);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "mesh/inp_lines.hpp"
 #include "mesh/inp_parser.hpp"
 #include "mesh/set_mesh.hpp"
@@ -18,10 +19,7 @@
 namespace breccia {
 namespace {
 
-constexpr std::size_t kMost = 10;                                                                          // problems
 constexpr std::array<std::array<std::size_t, 3>, 4> kFaces{{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};  // S1 to S4
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// A part where an instance puts it.
 struct Placed {
@@ -46,7 +44,7 @@ class Assembly {
 
  private:
   void refuse(int line, const std::string& key, const std::string& what, const std::string& given) {
-    if (problems_.size() < kMost) problems_.push_back({file_.string(), line, key, what, "", given});
+    if (problems_.size() < kProblemsNamed) problems_.push_back({file_.string(), line, key, what, "", given});
   }
 
   // --- Instances

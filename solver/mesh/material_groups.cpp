@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/index.hpp"
+
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 constexpr const char* kOneMaterial =
     "one [[material]] for every element: its other physical volumes serve constraints, loads, gauges and initial "

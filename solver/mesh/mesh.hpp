@@ -94,4 +94,10 @@ template <class Groups>
   return of_nodes < 0 ? -1 : surfaces + of_nodes;
 }
 
+/// Nodes of a triangle, ascending: the same from both sides.
+[[nodiscard]] inline std::array<Index, 3> sorted(std::array<Index, 3> nodes) {
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
 }  // namespace breccia

@@ -7,6 +7,7 @@
 #include <string>
 #include <system_error>
 
+#include "base/error.hpp"
 #include "mesh/file_input.hpp"
 
 namespace breccia {
@@ -29,7 +30,7 @@ class Scan {
   std::vector<Problem> faults() {
     if (!read_format()) return {};
     std::string line;
-    while (!unknown_ && problems_.size() < kMost && in_.rest_of_line(line)) {
+    while (!unknown_ && problems_.size() < kProblemsNamed && in_.rest_of_line(line)) {
       while (line.ends_with(' ')) line.pop_back();
       if (!line.starts_with('$') || line.starts_with("$End")) continue;
       section_ = line;
@@ -40,7 +41,6 @@ class Scan {
   }
 
  private:
-  static constexpr std::size_t kMost = 10;
 
   /// How wide a binary integer is.
   enum class Width { four, eight };

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "mesh/topology.hpp"
 
 namespace breccia {
@@ -16,19 +17,12 @@ namespace {
 
 constexpr double kCoincident = 1e-9;  // of the mesh's size: far above round-off, far below any element
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 std::vector<char> used_nodes(const Mesh& mesh) {
   std::vector<char> used(mesh.nodes.size(), 0);
   for (const auto& corners : mesh.elements) {
     for (const Index node : corners) used[at(node)] = 1;
   }
   return used;
-}
-
-std::array<Index, 3> sorted(std::array<Index, 3> nodes) {
-  std::sort(nodes.begin(), nodes.end());
-  return nodes;
 }
 
 /// Bodies behind each surface triangle (by place in mesh.surface_faces), ascending, each once.

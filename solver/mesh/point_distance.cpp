@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/index.hpp"
 #include "mesh/free_faces.hpp"
 #include "mesh/geometry.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/index.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/topology.hpp"
 
@@ -12,8 +13,6 @@ namespace breccia {
 namespace {
 
 constexpr std::size_t kWorstKept = 20;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Distribution distribution_of(std::vector<double> values) {
   if (values.empty()) return {};

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/random_rotation.hpp"
 #include "mesh/topology.hpp"
@@ -16,8 +17,6 @@ namespace {
 
 constexpr const char* kName = "mesh.raster";
 constexpr double kOnPlane = 1e-9;  // of the cube's edge: a slit is given in decimal, nodes are sums of binary doubles
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 template <class Triple>
 std::string text(const Triple& v) {
@@ -53,9 +52,9 @@ void demand_valid(const RasterSource& source) {
   }
   double elements = source.single_tetrahedra ? 1.0 : 24.0;
   for (int a = 0; a < 3; ++a) elements *= static_cast<double>(source.cells[at(a)]) * source.boxes[at(a)];
-  constexpr Index kMost = std::numeric_limits<Index>::max() / 4;
-  if (elements > static_cast<double>(kMost)) {
-    refuse("cells", "makes too many tetrahedra", "up to " + std::to_string(kMost), short_text(elements));
+  constexpr Index kMostElements = std::numeric_limits<Index>::max() / 4;
+  if (elements > static_cast<double>(kMostElements)) {
+    refuse("cells", "makes too many tetrahedra", "up to " + std::to_string(kMostElements), short_text(elements));
   }
   if (source.slit) {
     const Vec3 extent = source.slit->upper - source.slit->lower;

@@ -6,11 +6,10 @@
 #include <utility>
 
 #include "base/disjoint_sets.hpp"
+#include "base/index.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Index group_of(std::vector<std::string>& names, const std::string& name) {
   const Index known = group_index(names, name);

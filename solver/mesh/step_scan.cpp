@@ -5,12 +5,11 @@
 #include <cctype>
 #include <string>
 
+#include "base/error.hpp"
 #include "mesh/file_input.hpp"
 
 namespace breccia {
 namespace {
-
-constexpr std::size_t kMost = 10;  // problems
 
 struct Numbered {
   std::int64_t number;
@@ -59,9 +58,9 @@ class StepReader {
       }
   }
   void read_number() {
-    constexpr std::int64_t kLargest = 1'000'000'000'000'000;
+    constexpr std::int64_t kLargestName = 1'000'000'000'000'000;
     std::int64_t number = 0;
-    while (std::isdigit(in_.peek()) != 0 && number < kLargest) number = 10 * number + (in_.get() - '0');
+    while (std::isdigit(in_.peek()) != 0 && number < kLargestName) number = 10 * number + (in_.get() - '0');
     if (begins_) {
       defined_.push_back({number, in_.line(), number});
       owner_ = number;
@@ -84,7 +83,7 @@ class StepReader {
     const auto by_number = [](const Numbered& a, const Numbered& b) { return a.number < b.number; };
     std::sort(defined_.begin(), defined_.end(), by_number);
     for (const Numbered& used : used_) {
-      if (result_.problems.size() == kMost) return;
+      if (result_.problems.size() == kProblemsNamed) return;
       if (std::binary_search(defined_.begin(), defined_.end(), used, by_number)) continue;
       const std::string number = "#" + std::to_string(used.number);
       result_.problems.push_back({file_, used.line, "#" + std::to_string(used.owner),
@@ -96,7 +95,7 @@ class StepReader {
     result_.solids = std::unique(solids_.begin(), solids_.end()) - solids_.begin();
   }
   void report_repeated() {
-    for (std::size_t i = 1; i < defined_.size() && result_.problems.size() < kMost; ++i)
+    for (std::size_t i = 1; i < defined_.size() && result_.problems.size() < kProblemsNamed; ++i)
       if (defined_[i].number == defined_[i - 1].number)
         result_.problems.push_back({file_, std::max(defined_[i].line, defined_[i - 1].line),
                                     "#" + std::to_string(defined_[i].number), "is given twice: the file is damaged",

@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "base/index.hpp"
 #include "mesh/closed_surface.hpp"
 #include "mesh/solid_groups.hpp"
 #include "mesh/stl_file.hpp"
@@ -23,8 +24,6 @@ using namespace solids;
 constexpr int kTriangle3 = 2;                           // gmsh's number of this type
 constexpr double kSharp = 40 * std::numbers::pi / 180;  // between the faces of an STL
 constexpr const char* kMend = "a closed surface without crossings: mend it in the program that it comes from";
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// The triangles as gmsh has them: by numbers of nodes, which it keeps while it cuts them into surfaces.
 class StlModel {

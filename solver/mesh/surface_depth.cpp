@@ -4,14 +4,13 @@
 #include <array>
 #include <limits>
 
+#include "base/index.hpp"
 #include "mesh/free_faces.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/point_distance.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Of the sum of normals: what lies between the two sides of a sheet has none of its own.
 constexpr double kNoSide = 1e-3;

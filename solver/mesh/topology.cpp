@@ -7,14 +7,11 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "mesh/node_parting.hpp"
 
 namespace breccia {
 namespace {
-
-constexpr std::size_t kProblemsNamed = 10;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// A face under its smallest node: the other two nodes, ascending, and whose face it is.
 struct FaceEntry {
@@ -34,11 +31,6 @@ std::array<Index, 3> face_nodes(const Mesh& mesh, Index element, int face) {
   const auto& corners = mesh.elements[at(element)];
   const auto& f = kFaceCorners[at(face)];
   return {corners[at(f[0])], corners[at(f[1])], corners[at(f[2])]};
-}
-
-std::array<Index, 3> sorted(std::array<Index, 3> nodes) {
-  std::sort(nodes.begin(), nodes.end());
-  return nodes;
 }
 
 /// Every face of every element, grouped by its smallest node and sorted within the group.

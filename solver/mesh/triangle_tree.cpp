@@ -6,12 +6,12 @@
 #include <limits>
 #include <utility>
 
+#include "base/index.hpp"
+
 namespace breccia {
 namespace {
 
 constexpr Index kLeaf = 4;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 double squared_distance_to_segment(const Vec3& point, const Vec3& a, const Vec3& b) {
   const Vec3 along = b - a;

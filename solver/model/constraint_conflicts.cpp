@@ -7,12 +7,11 @@
 #include <string>
 #include <utility>
 
+#include "base/index.hpp"
 #include "model/node_sets.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// The nodes of a group, as nodes_of_group finds them, of a model that need not be discretised.
 std::vector<NamedNode> nodes_of(const Model& model, const std::string& group) {

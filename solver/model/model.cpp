@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "case/problem_at.hpp"
 #include "model/memory_demand.hpp"
 #include "model/model_joints.hpp"
@@ -20,11 +21,6 @@
 
 namespace breccia {
 namespace {
-
-template <class T>
-std::size_t index(T i) {
-  return static_cast<std::size_t>(i);
-}
 
 void take_materials(const case_::Case& input, Model& model) {
   const std::size_t groups = model.mesh.volume_groups.size();
@@ -45,9 +41,9 @@ std::vector<std::pair<Index, int>> faces_of(const std::vector<std::string>& surf
                                             const Topology& topology) {
   std::vector<std::pair<Index, int>> faces;
   for (const std::string& name : surfaces) {
-    for (const Topology::Face& f : topology.surface_groups[index(group_index(mesh.surface_groups, name))]) {
+    for (const Topology::Face& f : topology.surface_groups[at(group_index(mesh.surface_groups, name))]) {
       faces.emplace_back(f.element, f.face);
-      const FaceLink& link = topology.links[index(f.element)][index(f.face)];
+      const FaceLink& link = topology.links[at(f.element)][at(f.face)];
       if (link.inner()) faces.emplace_back(link.neighbour, link.face());
     }
   }
@@ -59,13 +55,13 @@ std::vector<std::pair<Index, int>> faces_of(const std::vector<std::string>& surf
 /// Cuts the links of broken faces. Elements that share nodes cannot be parted: refused.
 void break_initial(const case_::Case& input, Model& model) {
   for (const auto& [element, face] : faces_of(input.broken_surfaces, model.mesh, model.topology)) {
-    FaceLink& link = model.topology.links[index(element)][index(face)];
+    FaceLink& link = model.topology.links[at(element)][at(face)];
     if (link.free()) continue;
-    const Index group = model.mesh.element_group[index(element)];
-    const Index other = model.mesh.element_group[index(link.neighbour)];
+    const Index group = model.mesh.element_group[at(element)];
+    const Index other = model.mesh.element_group[at(link.neighbour)];
     if (share_nodes(model.discretisation, model.whole.node_sets, group, other)) {
       throw InputError(case_::problem_at(input, input.broken_origin, "broken",
-                                         "a surface cuts through \"" + model.mesh.volume_groups[index(group)] +
+                                         "a surface cuts through \"" + model.mesh.volume_groups[at(group)] +
                                              "\", whose elements share nodes: there are no joints to break",
                                          "surfaces inside groups with joints = \"breakable\" or \"unbreakable\"", ""));
     }
@@ -81,7 +77,7 @@ void take_contact(const case_::Case& input, Model& model) {
                                                       [](const ContactLaw& law) { return law.active(); });
   model.contact_everywhere = input.contact_points.everywhere;
   for (const std::string& name : input.contact_points.surfaces) {
-    const auto& faces = model.topology.surface_groups[index(group_index(model.mesh.surface_groups, name))];
+    const auto& faces = model.topology.surface_groups[at(group_index(model.mesh.surface_groups, name))];
     model.contact_faces.insert(model.contact_faces.end(), faces.begin(), faces.end());
   }
 }
@@ -94,13 +90,13 @@ class SurfaceCorners {
   SurfaceCorners(const std::vector<std::string>& cut, const Mesh& mesh, const Topology& topology)
       : mesh_(mesh), topology_(topology), cut_(mesh.elements.size(), 0), corners_(mesh.elements.size(), 0) {
     for (const auto& [element, face] : faces_of(cut, mesh, topology))
-      cut_[index(element)] |= static_cast<std::uint8_t>(1U << face);
+      cut_[at(element)] |= static_cast<std::uint8_t>(1U << face);
   }
   /// Tags of a surface group, ascending elements. O(elements).
   void append_tags(Index group, std::vector<CornerTag>& tags) {
     std::fill(corners_.begin(), corners_.end(), std::uint8_t{0});
-    for (const Topology::Face& face : topology_.surface_groups[index(group)]) {
-      for (const int corner : kFaceCorners[index(face.face)]) mark(face.element, corner);
+    for (const Topology::Face& face : topology_.surface_groups[at(group)]) {
+      for (const int corner : kFaceCorners[at(face.face)]) mark(face.element, corner);
     }
     while (!open_.empty()) {
       const auto [element, corner] = open_.back();
@@ -108,24 +104,24 @@ class SurfaceCorners {
       spread(element, corner);
     }
     for (Index e = 0; e < mesh_.num_elements(); ++e) {
-      if (corners_[index(e)] != 0) tags.push_back({mesh_.element_id(e), group, corners_[index(e)]});
+      if (corners_[at(e)] != 0) tags.push_back({mesh_.element_id(e), group, corners_[at(e)]});
     }
   }
 
  private:
   void mark(Index element, int corner) {
     const auto bit = static_cast<std::uint8_t>(1U << corner);
-    if ((corners_[index(element)] & bit) != 0) return;
-    corners_[index(element)] |= bit;
+    if ((corners_[at(element)] & bit) != 0) return;
+    corners_[at(element)] |= bit;
     open_.emplace_back(element, corner);
   }
   /// To the neighbours through the three faces that meet at the corner.
   void spread(Index element, int corner) {
-    const Index node = mesh_.elements[index(element)][index(corner)];
+    const Index node = mesh_.elements[at(element)][at(corner)];
     for (int face = 0; face < 4; ++face) {
-      const FaceLink& link = topology_.links[index(element)][index(face)];
-      if (face == corner || !link.inner() || (cut_[index(element)] >> face & 1) != 0) continue;
-      const auto& nodes = mesh_.elements[index(link.neighbour)];
+      const FaceLink& link = topology_.links[at(element)][at(face)];
+      if (face == corner || !link.inner() || (cut_[at(element)] >> face & 1) != 0) continue;
+      const auto& nodes = mesh_.elements[at(link.neighbour)];
       mark(link.neighbour, static_cast<int>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin()));
     }
   }
@@ -154,7 +150,7 @@ void append_node_tags(const Mesh& mesh, std::vector<CornerTag>& tags) {
   for (Index e = 0; e < mesh.num_elements(); ++e) {
     corners_by_group.clear();
     for (std::size_t c = 0; c < 4; ++c) {
-      const auto [first, last] = groups_of.equal_range(mesh.elements[index(e)][c]);
+      const auto [first, last] = groups_of.equal_range(mesh.elements[at(e)][c]);
       for (auto entry = first; entry != last; ++entry)
         corners_by_group[entry->second] |= static_cast<std::uint8_t>(1U << c);
     }
@@ -248,9 +244,9 @@ Model build_piece(const case_::Case& input, WholeModel whole, Mesh mesh, Topolog
 
 bool starts_intact(const Model& model, const ModelJoint& joint) {
   const LocalMesh& local = model.local;
-  return model.joint_laws[index(joint.law)].screen_limit() > 0 &&
-         local.slot_of_element[index(joint.face.a)] < local.num_own_slots &&
-         local.slot_of_element[index(joint.face.b)] < local.num_own_slots;
+  return model.joint_laws[at(joint.law)].screen_limit() > 0 &&
+         local.slot_of_element[at(joint.face.a)] < local.num_own_slots &&
+         local.slot_of_element[at(joint.face.b)] < local.num_own_slots;
 }
 
 JointLinks build_links(const Model& model) {
@@ -259,15 +255,15 @@ JointLinks build_links(const Model& model) {
   links.reset(local.num_own_slots);
   for (const ModelJoint& joint : model.joints) {
     if (!starts_intact(model, joint)) continue;
-    const JointLawParams& law = model.joint_laws[index(joint.law)];
-    const Index a = local.slot_of_element[index(joint.face.a)], b = local.slot_of_element[index(joint.face.b)];
+    const JointLawParams& law = model.joint_laws[at(joint.law)];
+    const Index a = local.slot_of_element[at(joint.face.a)], b = local.slot_of_element[at(joint.face.b)];
     const int face_b = joint.face.code / 3;
     links.attach(a, joint.face.face_a, b, joint.face.code);
     const double stiffness = corner_stiffness(law, joint.face.area);
     links.stiffness[JointLinks::at(a, joint.face.face_a)] = stiffness;
     links.stiffness[JointLinks::at(b, face_b)] = stiffness;
     for (const Index slot : {a, b}) {
-      double& limit = links.limit[index(slot)];
+      double& limit = links.limit[at(slot)];
       limit = std::min(limit, law.screen_limit());
     }
   }

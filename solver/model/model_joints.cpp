@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "base/number_text.hpp"
 #include "case/joint_entries.hpp"
 #include "case/problem_at.hpp"
@@ -16,21 +17,17 @@
 namespace breccia {
 namespace {
 
-using Pair = std::pair<Index, Index>;  ///< of groups, a <= b
-
-std::size_t index(Index i) { return static_cast<std::size_t>(i); }
-
-Pair groups_of(const Model& model, const JointFace& face) {
-  return std::minmax(model.mesh.element_group[index(face.a)], model.mesh.element_group[index(face.b)]);
+GroupPair groups_of(const Model& model, const JointFace& face) {
+  return std::minmax(model.mesh.element_group[at(face.a)], model.mesh.element_group[at(face.b)]);
 }
 
-bool has_joint(const Model& model, const Pair& groups) {
+bool has_joint(const Model& model, const GroupPair& groups) {
   return !share_nodes(model.discretisation, model.whole.node_sets, groups.first, groups.second);
 }
 
 /// The law that the case has for a pair of groups.
-case_::Joint law_of(const case_::Case& input, const std::vector<std::string>& names, const Pair& groups) {
-  const std::string &first = names[index(groups.first)], &second = names[index(groups.second)];
+case_::Joint law_of(const case_::Case& input, const std::vector<std::string>& names, const GroupPair& groups) {
+  const std::string &first = names[at(groups.first)], &second = names[at(groups.second)];
   const case_::Joint* entry = case_::joint_entry(input, first, second).ruling;
   DEMAND(entry != nullptr, first + " and " + second + " have no joint law");
   return case_::joint_between(input, *entry, first, second);
@@ -78,7 +75,7 @@ void add_class_laws(const case_::Case& input, const std::vector<case_::Joint>& e
 
 std::optional<Problem> wrong_joint_law(const case_::Case& input, const std::vector<std::string>& names,
                                        const WholeModel::JointGroups& groups) {
-  const std::string &first = names[index(groups.a)], &second = names[index(groups.b)];
+  const std::string &first = names[at(groups.a)], &second = names[at(groups.b)];
   const std::string pair = "\"" + first + "\" and \"" + second + "\"";
   const std::string own = "a [[joint]] with between = [\"" + first + "\", \"" + second + "\"]";
   const auto [entry, tied] = case_::joint_entry(input, first, second);
@@ -100,12 +97,12 @@ std::optional<Problem> wrong_joint_law(const case_::Case& input, const std::vect
 void find_joint_groups(const case_::Case& input, Model& model) {
   const std::vector<std::string>& names = model.mesh.volume_groups;
   WholeModel& whole = model.whole;
-  std::map<Pair, std::size_t> known;  // to the place in joint_groups
+  std::map<GroupPair, std::size_t> known;  // to the place in joint_groups
   std::vector<std::optional<case_::Joint>> entries;
   std::vector<double> count;
   std::vector<Problem> problems;
   for_each_joint_face(model.mesh, model.topology, [&](const JointFace& face) {
-    const Pair groups = groups_of(model, face);
+    const GroupPair groups = groups_of(model, face);
     if (!has_joint(model, groups)) return;
     const auto [place, fresh] = known.emplace(groups, whole.joint_groups.size());
     if (fresh) {
@@ -135,14 +132,14 @@ void take_joint_laws(const case_::Case& input, Model& model) {
   for (const WholeModel::JointGroups& groups : model.whole.joint_groups) {
     entries.push_back(law_of(input, names, {groups.a, groups.b}));
     const case_::Joint& entry = entries.back();
-    const std::string &first = names[index(groups.a)], &second = names[index(groups.b)];
+    const std::string &first = names[at(groups.a)], &second = names[at(groups.b)];
     model.joint_law_names.push_back(first == second ? first : first + "-" + second);
     model.joint_law_keys.push_back(entry.origin.key);
     model.joint_sizes.push_back(entry.size > 0 ? entry.size : groups.size);
     add_law(input, entry, model.joint_sizes.back(), model, problems);
     model.groups_of_joint_law.push_back(static_cast<Index>(entries.size() - 1));
     if (!entry.inside() && entry.tensile_strength > 0)
-      model.breakable[index(groups.a)] = model.breakable[index(groups.b)] = true;
+      model.breakable[at(groups.a)] = model.breakable[at(groups.b)] = true;
   }
   if (problems.empty()) add_class_laws(input, entries, model, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
@@ -154,10 +151,10 @@ void take_joints(const case_::Case& input, Model& model) {
     const WholeModel::JointGroups& groups;
     case_::Joint entry;
   };
-  std::map<Pair, PairLaw> laws;
+  std::map<GroupPair, PairLaw> laws;
   for (std::size_t g = 0; g < model.whole.joint_groups.size(); ++g) {
     const WholeModel::JointGroups& groups = model.whole.joint_groups[g];
-    const Pair pair{groups.a, groups.b};
+    const GroupPair pair{groups.a, groups.b};
     laws.emplace(pair, PairLaw{static_cast<Index>(g), static_cast<Index>(model.whole.first_class_law(g)), groups,
                                law_of(input, model.mesh.volume_groups, pair)});
   }
@@ -169,7 +166,7 @@ void take_joints(const case_::Case& input, Model& model) {
   };
   model.joints.reserve(2 * model.mesh.elements.size());
   for_each_joint_face(model.mesh, model.topology, [&](const JointFace& face) {
-    const Pair groups = groups_of(model, face);
+    const GroupPair groups = groups_of(model, face);
     if (has_joint(model, groups)) model.joints.push_back({face, law_for(laws.at(groups), face)});
   });
 }

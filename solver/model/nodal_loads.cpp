@@ -4,13 +4,12 @@
 #include <bit>
 #include <cmath>
 
+#include "base/index.hpp"
 #include "mesh/geometry.hpp"
 #include "model/parameters.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 double mass_of(const Model& model, Index element) {
   const auto x = geometry::corners_of(model.mesh, element);

@@ -6,25 +6,22 @@
 #include <string>
 #include <utility>
 
+#include "base/index.hpp"
 #include "case/joint_entries.hpp"
 #include "case/problem_at.hpp"
 
 namespace breccia {
 namespace {
 
-using Pair = std::pair<Index, Index>;  ///< of groups, a < b
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 bool shares(const std::vector<Discretisation>& kinds, Index group) {
   return group >= 0 && kinds[at(group)] == Discretisation::shared_nodes;
 }
 
 /// Pairs of groups of shared nodes between which the case has joints, and the entry.
-std::vector<std::pair<Pair, const case_::Joint*>> parted_pairs(const case_::Case& input,
+std::vector<std::pair<GroupPair, const case_::Joint*>> parted_pairs(const case_::Case& input,
                                                                const std::vector<std::string>& names,
                                                                const std::vector<Discretisation>& kinds) {
-  std::vector<std::pair<Pair, const case_::Joint*>> pairs;
+  std::vector<std::pair<GroupPair, const case_::Joint*>> pairs;
   if (std::all_of(input.joints.begin(), input.joints.end(), [](const case_::Joint& joint) { return joint.inside(); }))
     return pairs;
   const auto end = static_cast<Index>(names.size());
@@ -32,15 +29,15 @@ std::vector<std::pair<Pair, const case_::Joint*>> parted_pairs(const case_::Case
     for (Index b = a + 1; b < end && shares(kinds, a); ++b) {
       const case_::Joint* joint =
           shares(kinds, b) ? case_::joint_entry(input, names[at(a)], names[at(b)]).ruling : nullptr;
-      if (joint != nullptr) pairs.emplace_back(Pair{a, b}, joint);
+      if (joint != nullptr) pairs.emplace_back(GroupPair{a, b}, joint);
     }
   }
   return pairs;
 }
 
 /// Every pair of different groups of shared nodes that have a face in common.
-std::set<Pair> meeting_pairs(const Mesh& mesh, const Topology& topology, const std::vector<Discretisation>& kinds) {
-  std::set<Pair> pairs;
+std::set<GroupPair> meeting_pairs(const Mesh& mesh, const Topology& topology, const std::vector<Discretisation>& kinds) {
+  std::set<GroupPair> pairs;
   for (Index e = 0; e < mesh.num_elements(); ++e) {
     const Index group = mesh.element_group[at(e)];
     if (!shares(kinds, group)) continue;
@@ -66,8 +63,8 @@ std::vector<Index> node_sets(const case_::Case& input, const Mesh& mesh, const T
   if (parted.empty()) return {};
   std::vector<Index> sets(kinds.size());
   std::iota(sets.begin(), sets.end(), 0);
-  const std::set<Pair> meeting = meeting_pairs(mesh, topology, kinds);
-  for (const Pair& pair : meeting) {
+  const std::set<GroupPair> meeting = meeting_pairs(mesh, topology, kinds);
+  for (const GroupPair& pair : meeting) {
     const auto is_pair = [&](const auto& entry) { return entry.first == pair; };
     if (std::any_of(parted.begin(), parted.end(), is_pair)) continue;
     const auto [kept, gone] = std::minmax(sets[at(pair.first)], sets[at(pair.second)]);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -9,6 +10,9 @@
 #include "mesh/topology.hpp"
 
 namespace breccia {
+
+/// Two volume groups, the lower index first.
+using GroupPair = std::pair<Index, Index>;
 
 /// Which volume groups of elements that share nodes have those in common at which they meet: groups of one number do.
 /// Two with a [[joint]] between them do not, their interface has joints. Empty where the case has none such: all do.

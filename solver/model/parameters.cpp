@@ -114,11 +114,11 @@ InitialOverlap initial_overlap_of(case_::InitialOverlap overlap) {
 }
 
 /// What two groups are like together.
-struct Pair {
+struct SharedMaterial {
   double density = 0;  ///< kg/m3, reduced; 0: not known
   double young = 0;    ///< Pa, of the softer one
 };
-Pair pair_of(const case_::Case& input, const std::string& group, const std::string& other) {
+SharedMaterial shared_material(const case_::Case& input, const std::string& group, const std::string& other) {
   const case_::Material *a = case_::material_of(input, group), *b = case_::material_of(input, other);
   if (a == nullptr || b == nullptr || !(a->density > 0 && b->density > 0)) return {};
   return {a->density * b->density / (a->density + b->density), std::min(a->young, b->young)};
@@ -130,7 +130,7 @@ bool carries_points(const case_::Contact& entry, const std::string& group, const
          (case_::fits(entry.groups[0], group) && case_::fits(entry.groups[1], other));
 }
 
-ContactLaw contact_law(const case_::Contact& entry, const Pair& pair) {
+ContactLaw contact_law(const case_::Contact& entry, const SharedMaterial& pair) {
   ContactLaw law;
   law.plateau = entry.plateau > 0 ? entry.plateau : kInfinity;
   law.exponent = entry.unloading_exponent;
@@ -208,7 +208,7 @@ ContactParams contact_params(const case_::Case& input, const std::vector<std::st
       const case_::Contact* entry = contact_entry(input, groups[a], groups[b]);
       if (entry == nullptr || entry->interaction == case_::Interaction::none) continue;
       if (carries_points(*entry, groups[a], groups[b]))
-        params.laws[a * groups.size() + b] = contact_law(*entry, pair_of(input, groups[a], groups[b]));
+        params.laws[a * groups.size() + b] = contact_law(*entry, shared_material(input, groups[a], groups[b]));
       params.initial_overlaps[a * groups.size() + b] = initial_overlap_of(entry->initial_overlap);
     }
   }

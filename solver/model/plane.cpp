@@ -8,13 +8,12 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/tetrahedron.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Of the thickness, and of the cosine between a normal and the axis: round-off of a mesh written with few digits.
 constexpr double kFlat = 1e-6;

@@ -4,12 +4,11 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "case/problem_at.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// What is wrong with breaking a surface; empty: nothing.
 std::string fault_of(const SurfaceJoints& joints) {

@@ -4,21 +4,20 @@
 #include <array>
 #include <cmath>
 
+#include "base/index.hpp"
 #include "base/number_text.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t index(Index i) { return static_cast<std::size_t>(i); }
 
 /// Joints that the sweep does not look after, at their stiffest.
 std::vector<JointStiffness> other_joints(const Model& model) {
   std::vector<JointStiffness> joints;
   for (const ModelJoint& joint : model.joints) {
     if (starts_intact(model, joint)) continue;
-    const JointLawParams& law = model.joint_laws[index(joint.law)];
-    joints.push_back({model.local.slot_of_element[index(joint.face.a)],
-                      model.local.slot_of_element[index(joint.face.b)], static_cast<std::int8_t>(joint.face.face_a),
+    const JointLawParams& law = model.joint_laws[at(joint.law)];
+    joints.push_back({model.local.slot_of_element[at(joint.face.a)],
+                      model.local.slot_of_element[at(joint.face.b)], static_cast<std::int8_t>(joint.face.face_a),
                       static_cast<std::int8_t>(joint.face.code), law.points == JointPoints::mid_edge,
                       corner_stiffness(law, joint.face.area)});
   }
@@ -53,21 +52,21 @@ StepModel TimeStep::step_model(const MaterialMemory& memory) const {
   return {model_.local, links_, joints_, model_.elastic, model_.density, memory};
 }
 
-StableStep TimeStep::at(const Field<double>& position, const MaterialMemory& memory) const {
+StableStep TimeStep::bound(const Field<double>& position, const MaterialMemory& memory) const {
   return stable_step(step_model(memory), position);
 }
 
 void TimeStep::mark_faces() {
   const LocalMesh& local = model_.local;
-  for (auto* bits : {&at_rest_.open, &at_rest_.torn, &at_rest_.pointed}) bits->assign(index(local.num_slots), 0);
+  for (auto* bits : {&at_rest_.open, &at_rest_.torn, &at_rest_.pointed}) bits->assign(at(local.num_slots), 0);
   const auto mark = [&](std::vector<std::uint8_t>& bits, Index element, int face) {
-    bits[index(local.slot_of_element[index(element)])] |= static_cast<std::uint8_t>(1U << face);
+    bits[at(local.slot_of_element[at(element)])] |= static_cast<std::uint8_t>(1U << face);
   };
   for (Index e = 0; e < model_.mesh.num_elements(); ++e) {
-    if (!touched_[index(model_.mesh.element_group[index(e)])]) continue;
-    at_rest_.torn[index(local.slot_of_element[index(e)])] = model_.torn[index(e)];
+    if (!touched_[at(model_.mesh.element_group[at(e)])]) continue;
+    at_rest_.torn[at(local.slot_of_element[at(e)])] = model_.torn[at(e)];
     for (int f = 0; f < 4; ++f) {
-      if (!model_.topology.links[index(e)][index(f)].free()) continue;
+      if (!model_.topology.links[at(e)][at(f)].free()) continue;
       if (model_.plane && on_side(model_.mesh, e, f, model_.plane->axis)) continue;
       mark(at_rest_.open, e, f);
     }
@@ -78,7 +77,7 @@ void TimeStep::mark_faces() {
   }
   for (const Topology::Face& face : model_.contact_faces) {
     mark(at_rest_.pointed, face.element, face.face);
-    const FaceLink& link = model_.topology.links[index(face.element)][index(face.face)];
+    const FaceLink& link = model_.topology.links[at(face.element)][at(face.face)];
     if (link.inner()) mark(at_rest_.pointed, link.neighbour, link.face());
   }
 }
@@ -87,8 +86,8 @@ ContactFaces TimeStep::open_faces(const CornerClusters* clusters) const {
   ContactFaces faces = at_rest_;
   if (clusters == nullptr) return faces;
   for (Index e = 0; e < model_.mesh.num_elements(); ++e) {
-    if (!touched_[index(model_.mesh.element_group[index(e)])]) continue;
-    const std::size_t slot = index(model_.local.slot_of_element[index(e)]);
+    if (!touched_[at(model_.mesh.element_group[at(e)])]) continue;
+    const std::size_t slot = at(model_.local.slot_of_element[at(e)]);
     for (int f = 0; f < 4; ++f) {
       if (!clusters->broken(e, f)) continue;
       faces.open[slot] |= static_cast<std::uint8_t>(1U << f);
@@ -99,11 +98,11 @@ ContactFaces TimeStep::open_faces(const CornerClusters* clusters) const {
 }
 
 std::vector<std::uint8_t> TimeStep::held_nodes(const std::vector<NodalConstraint>& constraints) const {
-  std::vector<std::uint8_t> axes(index(model_.local.num_nodes), 0);
+  std::vector<std::uint8_t> axes(at(model_.local.num_nodes), 0);
   for (const NodalConstraint& entry : constraints) {
     unsigned bits = 0;
     for (std::size_t i = 0; i < 3; ++i) bits |= entry.axes[i] ? 1U << i : 0U;
-    for (const Index node : entry.nodes) axes[index(node)] |= static_cast<std::uint8_t>(bits);
+    for (const Index node : entry.nodes) axes[at(node)] |= static_cast<std::uint8_t>(bits);
   }
   // Contact pushes within the plane of a plane model.
   const unsigned across = model_.plane ? 1U << static_cast<unsigned>(model_.plane->axis) : 0U;

@@ -24,10 +24,10 @@ class TimeStep {
   explicit TimeStep(const Model& model, const RankOperations& ranks = {});
 
   /// Bound of the originals at these positions without contact, with what limits it.
-  [[nodiscard]] StableStep at(const Field<double>& position, const MaterialMemory& memory = {}) const;
-  /// As `at`, but the true limit, s.
+  [[nodiscard]] StableStep bound(const Field<double>& position, const MaterialMemory& memory = {}) const;
+  /// As `bound`, but the true limit, s.
   [[nodiscard]] double limit(const Field<double>& position, const MaterialMemory& memory = {}) const {
-    return ratio_ * at(position, memory).step;
+    return ratio_ * bound(position, memory).step;
   }
   [[nodiscard]] double ratio() const { return ratio_; }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/index.hpp"
 #include "mesh/tetrahedron.hpp"
 #include "physics/contact/patch_tree.hpp"
 
@@ -12,8 +13,6 @@ namespace {
 
 /// Faces of a body look at each other when the line between their middles is so close to both normals (its cosine).
 constexpr double kFacing = 0.8;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 struct FreeFace {
   Index element;

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "base/index.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/quality.hpp"
 #include "model/plane.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Strains below this, or below so many round-offs of positions far from the origin over the size of the element, are
 /// round-off: energies of that size are no measure for a residual.

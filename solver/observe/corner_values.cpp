@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/disjoint_sets.hpp"
+#include "base/index.hpp"
 #include "mesh/topology.hpp"
 #include "observe/free_faces.hpp"
 #include "observe/shown_memory.hpp"
@@ -15,8 +16,6 @@ namespace breccia {
 namespace {
 
 constexpr std::size_t kStress = 6;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// A corner of an element, as means at its vertex need it.
 struct Corner {
@@ -218,8 +217,6 @@ std::vector<double> means_of(const Domain& domain, const std::vector<double>& nu
   if (domain.exchange.communicator().size() > 1) shared.take_means(means);
   return means;
 }
-
-void append(std::vector<double>& values, const Vec3& v) { values.insert(values.end(), {v[0], v[1], v[2]}); }
 
 /// Of the elements' own nodes.
 void add_motion(const Domain& domain, Frame::AtPoints& out) {

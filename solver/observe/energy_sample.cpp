@@ -6,13 +6,12 @@
 #include <cstdio>
 #include <limits>
 
+#include "base/index.hpp"
 #include "parallel/totals.hpp"
 #include "physics/energy.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Sum over what this rank counts. @param counted  as long as the values
 ExactSum sum_of(const Field<double>& values, const std::vector<std::uint8_t>& counted) {

@@ -4,10 +4,10 @@
 #include <map>
 #include <utility>
 
+#include "base/index.hpp"
+
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Two labels of one fragment, as two ranks see it.
 struct Meeting {

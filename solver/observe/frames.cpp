@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "mesh/tetrahedron.hpp"
 #include "observe/corner_values.hpp"
 #include "observe/shown_memory.hpp"
@@ -14,10 +15,6 @@
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-void append(std::vector<double>& values, const Vec3& v) { values.insert(values.end(), {v[0], v[1], v[2]}); }
 
 Vec3 centroid(const LocalMesh& local, const double* field, Index slot) {
   Vec3 sum = Vec3::Zero();

@@ -1,9 +1,9 @@
 #include "observe/free_faces.hpp"
 
+#include "base/index.hpp"
+
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "base/index.hpp"
 #include "case/groups.hpp"
 #include "model/parameters.hpp"
 #include "parallel/totals.hpp"
@@ -15,8 +16,6 @@
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Moments of inertia below this share of the largest one are round-off.
 constexpr double kNoInertia = 1e-12;

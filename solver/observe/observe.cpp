@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/index.hpp"
 #include "domains/motion_limit.hpp"
 #include "mesh/tetrahedron.hpp"
 #include "model/parameters.hpp"
@@ -14,8 +15,6 @@
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 ExactSum sum_of_stress_yy(const Domain& domain) {
   const LocalMesh& local = domain.model.local;

@@ -11,7 +11,7 @@
 namespace breccia {
 namespace {
 
-constexpr int kBarWidth = 24;
+constexpr int kShareWidth = 24;
 
 double seconds_to_go(const RaceStatus& status) {
   return status.share > 0 ? status.wall_s * (1.0 - status.share) / status.share : -1.0;
@@ -43,8 +43,8 @@ void RaceProgress::tell(const RaceStatus& status) {
     case ProgressMode::none:
       return;
     case ProgressMode::bar: {
-      const int filled = static_cast<int>(std::clamp(status.share, 0.0, 1.0) * kBarWidth);
-      std::string text = fmt::format("[{:#<{}}{:.<{}}] {}", "", filled, "", kBarWidth - filled, log_text(status));
+      const int filled = static_cast<int>(std::clamp(status.share, 0.0, 1.0) * kShareWidth);
+      std::string text = fmt::format("[{:#<{}}{:.<{}}] {}", "", filled, "", kShareWidth - filled, log_text(status));
       // A line as long as the terminal would wrap, and a wrapped line cannot be redrawn.
       text.resize(std::min(text.size(), static_cast<std::size_t>(std::max(columns_ - 1, 1))));
       stream_ << "\r\033[K" << text << std::flush;

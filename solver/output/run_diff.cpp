@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Values = std::map<std::string, std::string>;  // path of a value to its text
-using nlohmann::json;
+using Json = nlohmann::json;
 
 constexpr const char* kNone = "(none)";
 constexpr std::size_t kColumnsNamed = 8;
@@ -36,10 +36,10 @@ void flatten(const case_::Node& node, const std::string& path, Values& out) {
 
 /// Hashes of inputs, each by its place relative to the case, wherever the program was called and however they were
 /// named.
-void flatten_inputs(const json& inputs, Values& out) {
+void flatten_inputs(const Json& inputs, Values& out) {
   std::vector<std::pair<fs::path, std::string>> files;
   fs::path folder;
-  for (const json& input : inputs) {
+  for (const Json& input : inputs) {
     files.emplace_back(fs::path(input.value("file", "")).lexically_normal(), input.value("sha256", ""));
     if (files.back().first.extension() == ".toml") folder = files.back().first.parent_path();
   }
@@ -49,7 +49,7 @@ void flatten_inputs(const json& inputs, Values& out) {
   }
 }
 
-void flatten(const json& node, const std::string& path, Values& out) {
+void flatten(const Json& node, const std::string& path, Values& out) {
   if (node.is_object()) {
     for (const auto& [name, value] : node.items()) flatten(value, path.empty() ? name : path + "." + name, out);
   } else if (node.is_array() && path == "inputs") {
@@ -71,9 +71,9 @@ Values case_of(const RunFolder& run) {
 
 Values json_of(const fs::path& file, const std::set<std::string>& left_out) {
   Values values;
-  const auto content = json_of_file<json>(file);
+  const auto content = json_of_file<Json>(file);
   if (content.is_object()) {
-    json kept = content;
+    Json kept = content;
     for (const std::string& name : left_out) kept.erase(name);
     flatten(kept, "", values);
   }

@@ -18,7 +18,7 @@
 namespace breccia {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::size_t kLabelWidth = 26;
 
@@ -70,11 +70,11 @@ double insitu_share(const Summary& summary) {
   return insitu_start_share(summary) + (summary.span_s > 0 ? seconds / summary.span_s : 0.0);
 }
 
-Json insitu_json(const Summary& summary) {
-  Json json;
+OrderedJson insitu_json(const Summary& summary) {
+  OrderedJson json;
   json["share"] = insitu_share(summary);
   json["start_share"] = insitu_start_share(summary);
-  json["pipelines"] = Json::array();
+  json["pipelines"] = OrderedJson::array();
   for (const PipelineReport& p : summary.insitu) {
     json["pipelines"].push_back({{"name", p.name},
                                  {"executed", p.executed},
@@ -123,7 +123,7 @@ void add_checkpoints(std::string& text, const CheckpointReport& report) {
 }  // namespace
 
 std::string summary_json(const Summary& summary) {
-  Json json;
+  OrderedJson json;
   json["title"] = summary.title;
   json["status"] = summary.status;
   json["version"] = summary.version;
@@ -146,7 +146,7 @@ std::string summary_json(const Summary& summary) {
   json["wall_s"] = summary.wall_s;
   json["element_steps_per_s"] = summary.element_steps_per_s;
   if (summary.resumed_at >= 0) json["since_resume"] = {{"step", summary.resumed_at}, {"wall_s", summary.span_s}};
-  json["phases"] = Json::object();
+  json["phases"] = OrderedJson::object();
   for (const auto& [name, seconds] : summary.phases) json["phases"][name] = seconds;
   if (!summary.insitu.empty()) json["insitu"] = insitu_json(summary);
   json["checkpoints"] = {{"written", summary.checkpoints.written},
@@ -154,12 +154,12 @@ std::string summary_json(const Summary& summary) {
                          {"pause_s", summary.checkpoints.pause_s},
                          {"longest_pause_s", summary.checkpoints.longest_pause_s},
                          {"bytes", summary.checkpoints.bytes}};
-  json["energy"] = Json::object();
+  json["energy"] = OrderedJson::object();
   for (const EnergyTerm& term : kEnergyTerms) json["energy"][term.name] = summary.energy.*term.value;
   json["energy_residual_relative"] = summary.energy.residual_relative;
   json["max_rss_bytes"] = summary.max_rss_bytes;
   json["state_hash"] = summary.state_hash;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 std::string summary_text(const Summary& summary) {

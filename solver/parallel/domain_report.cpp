@@ -7,16 +7,12 @@
 #include <utility>
 
 #include "base/extent.hpp"
+#include "base/index.hpp"
 #include "base/types.hpp"
 #include "parallel/exchange_schedule.hpp"
 
 namespace breccia {
 namespace {
-
-template <class T>
-std::size_t at(T i) {
-  return static_cast<std::size_t>(i);
-}
 
 Extent box_of(const Mesh& mesh, std::size_t element) {
   Extent box;

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "base/extent.hpp"
+#include "base/index.hpp"
 #include "mesh/topology.hpp"
 
 namespace breccia {
@@ -10,8 +11,6 @@ namespace {
 
 /// Of a domain's elements: a cut misses its best place by half a fragment at most, 3 % of a domain.
 constexpr double kSmall = 1.0 / 16;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

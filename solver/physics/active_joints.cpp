@@ -2,13 +2,14 @@
 
 #include <algorithm>
 
+#include "base/index.hpp"
+
 namespace breccia {
 namespace {
 
 /// All are put in order again when as many have come or gone as a quarter of them, or so many of a short list.
 constexpr std::size_t kUntidy = 4, kFew = 64;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 std::size_t block_of(Index place) { return at(place / kLanes); }
 std::size_t lane_of(Index place) { return at(place % kLanes); }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "mesh/tetrahedron.hpp"
 #include "physics/joint_evaluation.hpp"
 
@@ -17,8 +18,6 @@ void joint_block_avx512(const JointLawParams& law, const double* position, Joint
 namespace {
 
 namespace jp = joint_point;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 JointKernel kernel_for(Simd simd) {
   DEMAND(simd_available(simd), std::string(name_of(simd)));

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "output/json_text.hpp"
@@ -13,13 +12,12 @@ namespace breccia::report {
 namespace {
 
 using nlohmann::json;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> numbers_in(const json& node) {
   std::vector<double> values;
   if (node.is_number()) values.push_back(node.get<double>());
   if (node.is_array()) {
-    for (const json& value : node) values.push_back(value.is_number() ? value.get<double>() : kNone);
+    for (const json& value : node) values.push_back(value.is_number() ? value.get<double>() : kNoNumber);
   }
   return values;
 }
@@ -83,9 +81,9 @@ void take_picture(const json& entry, const std::filesystem::path& folder, Figure
 
 double Figures::fact(const std::string& part, const std::string& name) const {
   const auto facts_of_part = facts.find(part);
-  if (facts_of_part == facts.end()) return kNone;
+  if (facts_of_part == facts.end()) return kNoNumber;
   const auto found = facts_of_part->second.find(name);
-  return found == facts_of_part->second.end() ? kNone : found->second;
+  return found == facts_of_part->second.end() ? kNoNumber : found->second;
 }
 
 Figures read_figures(const std::filesystem::path& folder) {

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace breccia::report {
+
+/// What a number is that is missing.
+inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 /// A picture, in the page's file itself.
 struct Picture {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
@@ -17,14 +16,13 @@
 #include "output/folder_check.hpp"
 #include "output/json_text.hpp"
 #include "output/run_lock.hpp"
+#include "report/figures.hpp"
 
 namespace breccia::report {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Whole lines; whether something follows the last line feed is told.
 std::vector<std::string_view> lines_of(std::string_view text, bool& cut) {
@@ -108,7 +106,7 @@ void read_bodies(const RunFolder& run, RunRecord& record) {
 
 double number_in(const Json& object, const char* name) {
   const auto found = object.find(name);
-  return found != object.end() && found->is_number() ? found->get<double>() : kNone;
+  return found != object.end() && found->is_number() ? found->get<double>() : kNoNumber;
 }
 
 std::string text_in(const Json& object, const char* name) {
@@ -278,12 +276,12 @@ const std::vector<double>& History::column(const std::string& name) const {
 
 double History::last(const std::string& name) const {
   const std::vector<double>& values = column(name);
-  return values.empty() ? kNone : values.back();
+  return values.empty() ? kNoNumber : values.back();
 }
 
 double RunRecord::number(const std::string& name) const {
   const auto found = numbers.find(name);
-  return found == numbers.end() ? kNone : found->second;
+  return found == numbers.end() ? kNoNumber : found->second;
 }
 
 std::string RunRecord::body_name(double number) const {

@@ -1,14 +1,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/index.hpp"
 #include "domains/motion_limit.hpp"
 #include "simulation/phases.hpp"
 
 /// The phases of a step that exchange something with other ranks.
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Joints that any rank released in the last step, as faces of elements that are here.
 void receive_releases(Domain& domain) {

@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 
+#include "base/index.hpp"
 #include "base/number_text.hpp"
 #include "domains/motion_limit.hpp"
 #include "physics/kick.hpp"
@@ -11,8 +12,6 @@
 /// The phase of a step that takes nodes from forces to their next positions.
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// An element's limit is that of its weakest joint: whether this one has left its elastic range is seen here, alike
 /// from both sides, since only one of them may be swept on this rank. @param force  stays as it is if it has not

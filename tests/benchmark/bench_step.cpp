@@ -79,7 +79,7 @@ void measure(const char* name, const case_::Case& input, const Race& race, doubl
   const Model model = build_model(input);
   Domain domain(model, search_params(input, model));
   for (const InitialVelocity& initial : initial_velocities(input, model)) add_velocity(domain, initial);
-  begin_stage(domain, stage_loads(input.stages[0], model), 0.8 * TimeStep(model).at(model.local.reference).step);
+  begin_stage(domain, stage_loads(input.stages[0], model), 0.8 * TimeStep(model).bound(model.local.reference).step);
   for (int i = 0; i < race.lead; ++i) step(domain);
   const PhaseTimer before = domain.timer;
   const double elements = model.mesh.num_elements();

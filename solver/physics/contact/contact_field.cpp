@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/index.hpp"
+
 namespace breccia {
 
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 void drop_finished_ramps(ContactState& contact) {
   std::size_t kept = 0;

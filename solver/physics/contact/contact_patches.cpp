@@ -2,6 +2,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/index.hpp"
 #include "physics/contact/contact_step.hpp"
 
 namespace breccia {
@@ -9,7 +10,6 @@ namespace {
 
 using Patch = ContactPatch;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 bool before(const Patch& p, const Patch& q) { return p.key() < q.key(); }
 
 }  // namespace

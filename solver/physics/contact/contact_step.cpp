@@ -10,6 +10,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "base/index.hpp"
 #include "mesh/tetrahedron.hpp"
 #include "physics/contact/contact_bound.hpp"
 #include "physics/contact/contact_field.hpp"
@@ -20,8 +21,6 @@ namespace breccia {
 namespace {
 
 using Patch = ContactPatch;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Geometry of an open face at rest.
 struct Face {

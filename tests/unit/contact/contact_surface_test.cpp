@@ -7,8 +7,6 @@
 
 namespace breccia {
 namespace {
-
-using test::at;
 using test::BreakingBoxes;
 using test::kLaw;
 using test::OwnedContact;

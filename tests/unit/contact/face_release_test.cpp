@@ -8,8 +8,6 @@
 
 namespace breccia {
 namespace {
-
-using test::at;
 using test::BreakingBoxes;
 using test::OwnedContact;
 using test::Pair;

@@ -9,8 +9,6 @@
 
 namespace breccia {
 namespace {
-
-using test::at;
 using test::BreakingBoxes;
 using test::OwnedContact;
 using test::Pair;

@@ -4,14 +4,13 @@
 #include <queue>
 #include <random>
 
+#include "base/index.hpp"
 #include "discretisation/fragments.hpp"
 #include "mesh/raster.hpp"
 #include "mesh/topology.hpp"
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Mesh two_boxes() {
   RasterSource source;

@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <map>
 
+#include "base/index.hpp"
 #include "discretisation/local_mesh.hpp"
 #include "mesh/raster.hpp"
 
@@ -9,8 +10,6 @@ namespace breccia {
 namespace {
 
 constexpr double kRounding = 1e-12;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Mesh cubes() {
   RasterSource source;

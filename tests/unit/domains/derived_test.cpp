@@ -1,3 +1,4 @@
+#include "base/index.hpp"
 #include "domains/derived.hpp"
 
 #include <gtest/gtest.h>
@@ -10,8 +11,6 @@
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 TEST(Derived, KnowsTheJointOfBothItsFaces) {
   const Model model = build_model(test::two_boxes_case());

@@ -13,8 +13,6 @@
 
 namespace breccia {
 namespace {
-
-using test::at;
 using test::cubes;
 using test::marks;
 using test::records_of;

@@ -1,3 +1,4 @@
+#include "base/index.hpp"
 #include "mesh/bodies.hpp"
 
 #include <gtest/gtest.h>
@@ -13,8 +14,6 @@
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// A bar of cubes along x whose elements belong to a volume each `cubes` long, read but not finished.
 Mesh bar_of_volumes(int cubes, int volumes) {

@@ -1,3 +1,4 @@
+#include "base/index.hpp"
 #include "mesh/corner_clusters.hpp"
 
 #include <gtest/gtest.h>
@@ -14,8 +15,6 @@ namespace breccia {
 namespace {
 
 using Broken = std::set<std::pair<Index, int>>;  // (element, face), both sides
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Cluster ids by definition: from every corner, in ascending order, walk through the unbroken faces that touch its
 /// node.

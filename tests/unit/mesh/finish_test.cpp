@@ -1,3 +1,4 @@
+#include "base/index.hpp"
 #include "mesh/finish.hpp"
 
 #include <gmock/gmock.h>
@@ -20,8 +21,6 @@ namespace breccia {
 namespace {
 
 using testing::HasSubstr;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Two tetrahedra on the face (1 2 3), one body each, the face also a physical surface; node 5 belongs to none.
 Mesh two_tetrahedra() {

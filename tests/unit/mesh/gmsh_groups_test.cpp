@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "sample_meshes.hpp"
@@ -16,8 +17,6 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 GmshSource script(const std::string& name, const std::string& text) {
   GmshSource source;

@@ -1,3 +1,4 @@
+#include "base/index.hpp"
 #include "mesh/gmsh_reader.hpp"
 
 #include <gmock/gmock.h>
@@ -24,8 +25,6 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 GmshSource script(const std::string& name, const std::string& text) {
   GmshSource source;

@@ -1,3 +1,4 @@
+#include "base/index.hpp"
 #include "mesh/point_distance.hpp"
 
 #include <gtest/gtest.h>
@@ -13,8 +14,6 @@
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 class Random {
  public:

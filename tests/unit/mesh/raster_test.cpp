@@ -1,3 +1,4 @@
+#include "base/index.hpp"
 #include "mesh/raster.hpp"
 
 #include <gmock/gmock.h>
@@ -21,8 +22,6 @@ namespace {
 using test::node_of;
 
 constexpr double kRoundOff = 1e-13;  // relative; sums of some thousand doubles
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 double volume_of(const Mesh& mesh, Index e) {
   const auto x = geometry::corners_of(mesh, e);

@@ -1,3 +1,4 @@
+#include "base/index.hpp"
 #include "mesh/surface_depth.hpp"
 
 #include <gtest/gtest.h>
@@ -12,8 +13,6 @@
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 constexpr double kRoundOff = 1e-12;
 const std::vector<bool> kWhole{false};  ///< one group, which cannot break

@@ -1,3 +1,4 @@
+#include "base/index.hpp"
 #include "model/model.hpp"
 
 #include <gmock/gmock.h>
@@ -22,8 +23,6 @@ namespace breccia {
 namespace {
 
 using test::two_boxes_case;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 const std::string kRaster = R"([mesh.raster]
 cells = [4, 4, 2]

@@ -1,3 +1,4 @@
+#include "base/index.hpp"
 #include "model/node_sets.hpp"
 
 #include <gmock/gmock.h>
@@ -11,8 +12,6 @@
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Boxes of shared nodes: two as kTwoBoxes has them, and one on top of both.
 const std::string kThreeBoxes = R"(SetFactory("OpenCASCADE");

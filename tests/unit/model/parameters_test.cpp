@@ -1,3 +1,4 @@
+#include "base/index.hpp"
 #include "model/parameters.hpp"
 
 #include <gmock/gmock.h>
@@ -14,8 +15,6 @@ namespace breccia {
 namespace {
 
 using test::two_boxes_case;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 TEST(ContactParams, of_a_pair_hold_for_points_of_either_group) {
   const ContactParams params = contact_params(two_boxes_case(), {"left", "right"});

@@ -1,3 +1,4 @@
+#include "base/index.hpp"
 #include "model/plane.hpp"
 
 #include <gmock/gmock.h>
@@ -11,8 +12,6 @@ namespace breccia {
 namespace {
 
 using testing::HasSubstr;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// A raster of cubes of 10 mm. @param cells  "[3, 1, 2]";  @param axis  of the plane model
 case_::Case layer(const std::string& cells, const std::string& axis, const std::string& kind = "strain",

@@ -1,3 +1,4 @@
+#include "base/index.hpp"
 #include "model/time_step.hpp"
 
 #include <gtest/gtest.h>
@@ -8,8 +9,6 @@
 
 namespace breccia {
 namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 int faces_in(const std::vector<std::uint8_t>& bits) {
   int faces = 0;

@@ -1,3 +1,4 @@
+#include "base/index.hpp"
 #include "parallel/domain_report.hpp"
 
 #include <gtest/gtest.h>
@@ -17,8 +18,6 @@ Mesh block(std::array<int, 3> cells) {
   source.cells = cells;
   return make_raster(source).mesh;
 }
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 int common_nodes(const Mesh& mesh, std::size_t a, std::size_t b) {
   int common = 0;

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/index.hpp"
 #include "mesh/raster.hpp"
 #include "state/records.hpp"
 
 namespace breccia::test {
-
-inline std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 inline Mesh cubes() {
   RasterSource source;

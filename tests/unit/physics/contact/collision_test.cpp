@@ -14,8 +14,6 @@
 namespace breccia {
 namespace {
 
-using test::at;
-
 constexpr double kYoung = 4e6, kPoisson = 0.3, kDensity = 1000, kSpeed = 5;
 constexpr double kMomentum = 1e-12;  // relative: round-off of the sums
 constexpr double kEnergy =

@@ -10,8 +10,6 @@
 namespace breccia {
 namespace {
 
-using test::at;
-
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kPenalty = 1e6, kRoundOff = 1e-12;
 

@@ -121,7 +121,7 @@ TEST(contact_pair, groups_see_equal_and_opposite_forces) {
 TEST(contact_pair, leaves_the_work_at_points_of_another_rank_to_that_rank) {
   Pair pair(kCases[1]), shared(kCases[1]);
   for (Index s = 0; s < shared.scene.local.num_slots; ++s) {
-    if (shared.scene.body(s) == 1) shared.scene.local.original[test::at(s)] = 0;
+    if (shared.scene.body(s) == 1) shared.scene.local.original[at(s)] = 0;
   }
   const double force = pair.force_at(kDeepest);
   EXPECT_EQ(shared.force_at(kDeepest), force) << "the forces are computed on both";

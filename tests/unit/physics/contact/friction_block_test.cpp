@@ -21,7 +21,7 @@ class Block {
       : scene_(test::joined(floor(), block()), {kPenalty, kInfinite, 1, mu, 1}, 3, OverlapField::body,
                Discretisation::own_nodes, kDensity),
         gravity_(kGravity * std::sin(slope), 0, -kGravity * std::cos(slope)) {
-    for (const Index n : scene_.nodes_of(1)) mass_ += scene_.local.node_mass[test::at(n)];
+    for (const Index n : scene_.nodes_of(1)) mass_ += scene_.local.node_mass[at(n)];
     const double area = std::sqrt(3.0) / 4 * kSize * kSize, length = scene_.contact.body_length[0];
     stiffness_ = kPenalty * area / length;
     scene_.shift(1, {0, 0, mass_ * gravity_[2] / stiffness_});  // rests at once
@@ -162,7 +162,7 @@ TEST(friction, a_spring_that_lets_go_in_another_group_gives_back_what_it_held_un
   // The grain stands in the second element, whose field goes down to nothing meanwhile.
   scene.set_velocity(grain, Vec3::Zero());
   scene.shift(grain, Vec3::Constant(0.3));
-  const std::size_t second = test::at(scene.contact.contactor_of_slot[test::at(scene.local.slot_of_element[1])]);
+  const std::size_t second = at(scene.contact.contactor_of_slot[at(scene.local.slot_of_element[1])]);
   scene.params.ramp_steps = 1;
   scene.contact.field[second] = {{1, 1, 1, 0}, 0};
   free_corners(scene.params, static_cast<Index>(second), 7, scene.contact);

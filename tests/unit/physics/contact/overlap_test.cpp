@@ -10,8 +10,6 @@
 namespace breccia {
 namespace {
 
-using test::at;
-
 constexpr double kRoundOff = 1e-13;
 
 const ContactLaw kLaw{1e6, std::numeric_limits<double>::infinity(), 1, 0, 1};

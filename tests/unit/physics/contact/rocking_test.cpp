@@ -94,7 +94,7 @@ TEST(rocking, away_from_a_point_that_is_just_beside_an_edge_loses_what_the_coupl
   test::Scene scene(test::joined(box, tetra), {kPenalty, kInfinite, 1, 0, 1});
   constexpr int down = 3;  // face of the tetrahedron
   std::erase_if(scene.contact.couples, [&](const ContactCouple& couple) {
-    const ContactPoint& point = scene.contact.points[test::at(couple.point)];
+    const ContactPoint& point = scene.contact.points[at(couple.point)];
     return scene.body(point.slot) == 0 || point.face != down;
   });
   couples_replaced(scene.contact);

@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/index.hpp"
 #include "discretisation/local_mesh.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/point_distance.hpp"
@@ -20,8 +21,6 @@
 
 /// Small models for the contact tests.
 namespace breccia::test {
-
-inline std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Raster of one box as a mesh of its own.
 inline Mesh box(std::array<int, 3> cells, double cell, const Vec3& origin = Vec3::Zero()) {

@@ -8,8 +8,6 @@
 namespace breccia {
 namespace {
 
-using test::at;
-
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kPenalty = 1e6, kRoundOff = 1e-11;
 constexpr double kSize = 0.4;  // m, edge of the slider; cubes of the body have edge 1

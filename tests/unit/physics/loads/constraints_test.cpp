@@ -71,7 +71,7 @@ TEST(Constraints, ReactionIsTheForceThatChangedTheVelocity) {
 TEST(Constraints, ReactAgainstMassDampingToo) {
   Model model = lone_tetrahedron();
   const Index node = model.real_nodes()[0];
-  const double mass = model.local.node_mass[test::at(node)];
+  const double mass = model.local.node_mass[at(node)];
   constexpr double kDamping = 6, kStep = 0.1, kHalf = 0.5 * kDamping * kStep;
   Constraints constraints({{{node}, {true, false, false}, PrescribedMotion::velocity, {in_time(2), {}, {}}}},
                           model.local, model.state, kDamping);
@@ -87,7 +87,7 @@ TEST(Constraints, ReactToTheUnbalancedForceWhateverTheLocalDampingOfFreeNodes) {
   for (const double unbalanced : {-30.0, 0.4}) {
     Model model = lone_tetrahedron();
     const Index node = model.real_nodes()[0];
-    const double mass = model.local.node_mass[test::at(node)];
+    const double mass = model.local.node_mass[at(node)];
     store_node(model.state.velocity.data(), node, Vec3(kSpeed, 0, 0));
     Constraints constraints({{{node}, {true, false, false}, PrescribedMotion::velocity, {in_time(kSpeed), {}, {}}}},
                             model.local, model.state, kMass, kLocal);
@@ -104,7 +104,7 @@ TEST(Constraints, ReactToTheUnbalancedForceWhateverTheLocalDampingOfFreeNodes) {
 TEST(Constraints, AtRestDoNoWorkButReact) {
   Model model = lone_tetrahedron();
   const Index node = model.real_nodes()[0], other = model.real_nodes()[1];
-  const double mass = model.local.node_mass[test::at(node)];
+  const double mass = model.local.node_mass[at(node)];
   Constraints constraints({{{node, other}, {false, true, false}, PrescribedMotion::velocity, {}}}, model.local,
                           model.state);
   for (int step = 0; step < 3; ++step) {
@@ -125,7 +125,7 @@ TEST(Constraints, AtRestDoNoWorkButReact) {
 TEST(Constraints, ThatStopANodeBookTheWorkOfItsLastWay) {
   Model model = lone_tetrahedron();
   const Index node = model.real_nodes()[0];
-  const double mass = model.local.node_mass[test::at(node)];
+  const double mass = model.local.node_mass[at(node)];
   store_node(model.state.velocity.data(), node, Vec3(4, 0, 0));
   Constraints constraints({{{node}, {true, false, false}, PrescribedMotion::velocity, {}}}, model.local, model.state);
   constraints.apply(model.state, 0.0, 0.5, 0.5);
@@ -135,7 +135,7 @@ TEST(Constraints, ThatStopANodeBookTheWorkOfItsLastWay) {
 TEST(Constraints, GiveAnAxisToTheLaterOfTwoEntriesAndCountANodeOnce) {
   Model model = lone_tetrahedron();
   const Index node = model.real_nodes()[0], other = model.real_nodes()[1];
-  const double mass = model.local.node_mass[test::at(node)];
+  const double mass = model.local.node_mass[at(node)];
   Constraints constraints(
       {{{node, other, node}, {true, true, false}, PrescribedMotion::velocity, {in_time(1), in_time(1), in_time(0)}},
        {{node}, {false, true, true}, PrescribedMotion::velocity, {in_time(0), in_time(5), in_time(6)}}},
@@ -150,8 +150,8 @@ TEST(Constraints, GiveAnAxisToTheLaterOfTwoEntriesAndCountANodeOnce) {
 TEST(Constraints, LeaveReactionAndWorkOfANodeToTheRankThatCountsIt) {
   Model model = lone_tetrahedron();
   const Index own = model.real_nodes()[0], proxy = model.real_nodes()[1];
-  const double mass = model.local.node_mass[test::at(own)];
-  model.local.counted[test::at(proxy)] = 0;
+  const double mass = model.local.node_mass[at(own)];
+  model.local.counted[at(proxy)] = 0;
   Constraints constraints({{{own, proxy}, {true, false, false}, PrescribedMotion::velocity, {in_time(3), {}, {}}}},
                           model.local, model.state);
   constraints.apply(model.state, 0.0, 0.0, 0.5);

@@ -34,15 +34,15 @@ struct Scene {
     params.laws.resize(1);
     params.laws[0].penalty = kPenalty;
     length = mean_inradii(model.mesh);
-    for (auto* bits : {&faces.open, &faces.torn, &faces.pointed}) bits->assign(test::at(model.local.num_slots), 0);
+    for (auto* bits : {&faces.open, &faces.torn, &faces.pointed}) bits->assign(at(model.local.num_slots), 0);
     for (const LoadedFace& face : model.free_faces())
-      faces.open[test::at(face.slot)] |= static_cast<std::uint8_t>(1U << face.face);
+      faces.open[at(face.slot)] |= static_cast<std::uint8_t>(1U << face.face);
     std::fill(faces.pointed.begin(), faces.pointed.end(), std::uint8_t{15});
-    held.assign(test::at(model.local.num_nodes), 0);
+    held.assign(at(model.local.num_nodes), 0);
   }
 
   [[nodiscard]] ContactStepModel step_model() const { return {params, model.local, length, faces, held}; }
-  [[nodiscard]] Index body_of(Index slot) const { return model.local.slot_body[test::at(slot)]; }
+  [[nodiscard]] Index body_of(Index slot) const { return model.local.slot_body[at(slot)]; }
 
   template <class F>
   void for_each_node_of(Index body, F&& f) {
@@ -60,7 +60,7 @@ struct Scene {
     for_each_node_of(body, [&](Index n) { store_node(model.state.velocity.data(), n, velocity); });
   }
   void hold(Index body) {
-    for_each_node_of(body, [&](Index n) { held[test::at(n)] = 1; });
+    for_each_node_of(body, [&](Index n) { held[at(n)] = 1; });
   }
 
   [[nodiscard]] std::vector<ContactShare> shares(double time = 0) const {
@@ -86,20 +86,20 @@ struct Scene {
         for (Index s = 0; s < mesh.num_slots; ++s) {
           if (body_of(s) < 0 || body_of(s) == body_of(face.slot)) continue;
           const PreparedTetra tetra =
-              prepare(load_corners(mesh, model.state.position.data(), s), mesh.volume[test::at(s)]);
+              prepare(load_corners(mesh, model.state.position.data(), s), mesh.volume[at(s)]);
           const std::array<double, 4> lambda = barycentric(tetra, x);
           if (!inside(lambda)) continue;
           Eigen::VectorXd r = Eigen::VectorXd::Zero(mesh.num_nodes);
           for (std::size_t i = 0; i < 3; ++i) r[point.nodes[i]] += rule.shape[static_cast<std::size_t>(point.k)][i];
           for (int a = 0; a < 4; ++a) r[mesh.corner_node(s, a)] -= lambda[static_cast<std::size_t>(a)];
-          k += point.weight * kPenalty / length[test::at(body_of(s))] * r * r.transpose();
+          k += point.weight * kPenalty / length[at(body_of(s))] * r * r.transpose();
           break;
         }
       }
     }
     Eigen::VectorXd root(mesh.num_nodes);
     for (Index n = 0; n < mesh.num_nodes; ++n)
-      root[n] = held[test::at(n)] != 0 ? 0.0 : 1.0 / std::sqrt(mesh.node_mass[test::at(n)]);
+      root[n] = held[at(n)] != 0 ? 0.0 : 1.0 / std::sqrt(mesh.node_mass[at(n)]);
     k = root.asDiagonal() * k * root.asDiagonal();
     return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
   }
@@ -179,7 +179,7 @@ TEST(ContactStep, IsThatOfThePairAndNotOfALightBodyFarAway) {
   Scene light(mesh);
   for (Index s = 0; s < light.model.local.num_slots; ++s) {
     if (light.body_of(s) != 2) continue;
-    for (int c = 0; c < 4; ++c) light.model.local.node_mass[test::at(light.model.local.corner_node(s, c))] *= 1e-6;
+    for (int c = 0; c < 4; ++c) light.model.local.node_mass[at(light.model.local.corner_node(s, c))] *= 1e-6;
   }
   light.move(2, {0, 0, 30});
   EXPECT_EQ(light.largest(), far);
@@ -192,9 +192,9 @@ TEST(ContactStep, ABodyMeetsItselfOnlyWhereItIsTornOrFolded) {
   EXPECT_EQ(scene.largest(1.0), 0.0);
   const Index slot = scene.model.local.slot_of_element[0];
   for (int f = 0; f < 4; ++f) {
-    if ((scene.faces.open[test::at(slot)] >> f & 1) == 0) {
-      scene.faces.open[test::at(slot)] |= static_cast<std::uint8_t>(1U << f);
-      scene.faces.torn[test::at(slot)] |= static_cast<std::uint8_t>(1U << f);
+    if ((scene.faces.open[at(slot)] >> f & 1) == 0) {
+      scene.faces.open[at(slot)] |= static_cast<std::uint8_t>(1U << f);
+      scene.faces.torn[at(slot)] |= static_cast<std::uint8_t>(1U << f);
     }
   }
   EXPECT_GT(scene.largest(), 0.0);
@@ -218,7 +218,7 @@ TEST(ContactStep, IsTheSameBitsFromAnyPartsOfTheModel) {
   for (const GlobalId part : {0, 1, 2}) {
     Scene& mine = parts.emplace_back(whole);
     for (Index s = 0; s < mine.model.local.num_slots; ++s) {
-      if (mine.model.local.element_of_slot[test::at(s)] % 3 != part) mine.model.local.original[test::at(s)] = 0;
+      if (mine.model.local.element_of_slot[at(s)] % 3 != part) mine.model.local.original[at(s)] = 0;
     }
     patches.push_back(contact_patches(mine.step_model(), mine.model.state.position, mine.model.state.velocity, 1.0));
     of_all.insert(of_all.begin(), patches.back().list.begin(), patches.back().list.end());
@@ -229,8 +229,8 @@ TEST(ContactStep, IsTheSameBitsFromAnyPartsOfTheModel) {
     const auto shares = contact_shares(mine.step_model(), patches[part], 0.3);
     for (Index s = 0; s < mine.model.local.num_slots; ++s) {
       if (!mine.model.local.is_original(s)) continue;
-      EXPECT_EQ(shares[test::at(s)].omega_squared, expected[test::at(s)].omega_squared);
-      EXPECT_EQ(shares[test::at(s)].face, expected[test::at(s)].face);
+      EXPECT_EQ(shares[at(s)].omega_squared, expected[at(s)].omega_squared);
+      EXPECT_EQ(shares[at(s)].face, expected[at(s)].face);
     }
   }
 }
@@ -267,7 +267,7 @@ TEST(ContactStep, IsTheLargestOfAllPairsOfBodies) {
         const ContactShare share = shares.of(s);
         met += share.largest() > 0 ? 1 : 0;
         for (std::size_t c = 0; c < 4; ++c)
-          largest[test::at(s)][c] = std::max(largest[test::at(s)][c], share.omega_squared[c]);
+          largest[at(s)][c] = std::max(largest[at(s)][c], share.omega_squared[c]);
       }
     }
   }

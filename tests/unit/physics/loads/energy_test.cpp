@@ -28,7 +28,7 @@ struct Stretched {
       : model(test::tetrahedron(1.0, {static_cast<int>(stretch.size()), 1, 1}), kind, 1000) {
     const LocalMesh& local = model.local;
     for (Index s = 0; s < local.num_slots; ++s) {
-      const GlobalId element = local.element_of_slot[test::at(s)];
+      const GlobalId element = local.element_of_slot[at(s)];
       if (element < 0) continue;
       const double factor = stretch[static_cast<std::size_t>(element)];
       for (int c = 0; c < 4; ++c) model.state.position[nodal(local.corner_node(s, c), 0)] *= factor;
@@ -37,7 +37,7 @@ struct Stretched {
   [[nodiscard]] ElasticEnergy energy() const {
     return elastic_energy(model.local, std::span(&params, 1), model.state.position.data());
   }
-  [[nodiscard]] GlobalId worst() const { return model.local.element_of_slot[test::at(energy().worst_slot)]; }
+  [[nodiscard]] GlobalId worst() const { return model.local.element_of_slot[at(energy().worst_slot)]; }
 };
 
 class ElasticEnergyOf : public testing::TestWithParam<Discretisation> {};
@@ -99,7 +99,7 @@ TEST(KineticEnergyOf, free_vibrations_moves_by_what_the_kick_says_where_the_step
     store_node(v.data(), nodes[i], Vec3(1.0 + static_cast<double>(i), -2.0, 0.3));
   const auto each = [&](auto&& f) {
     for (const Index n : nodes) {
-      for (int axis = 0; axis < 3; ++axis) f(nodal(n, axis), model.local.node_mass[test::at(n)]);
+      for (int axis = 0; axis < 3; ++axis) f(nodal(n, axis), model.local.node_mass[at(n)]);
     }
   };
   const std::array steps{0.05, 0.05, 0.02, 0.07, 0.07, 0.11};
@@ -130,7 +130,7 @@ TEST(IntactJointEnergyOf, joints_that_one_element_has_opened_is_half_their_stiff
   model.join(kStiffness);
   EXPECT_EQ(intact_joint_energy(model.local, model.links, model.state.position.data()).value(), 0.0);
   const Vec3 opening(1e-3, -2e-3, 5e-4);
-  const Index element = 7, slot = model.local.slot_of_element[test::at(element)];
+  const Index element = 7, slot = model.local.slot_of_element[at(element)];
   for (int c = 0; c < 4; ++c) {
     const Index node = own_corner_node(slot, c);
     store_node(model.state.position.data(), node, load_node(model.state.position.data(), node) + opening);

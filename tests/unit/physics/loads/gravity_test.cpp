@@ -12,7 +12,7 @@ constexpr double kRounding = 1e-12;
 Vec3 brute_moment(const Model& model) {
   Vec3 sum = Vec3::Zero();
   for (const Index n : model.real_nodes()) {
-    sum += model.local.node_mass[test::at(n)] * load_node(model.state.position.data(), n);
+    sum += model.local.node_mass[at(n)] * load_node(model.state.position.data(), n);
   }
   return sum;
 }

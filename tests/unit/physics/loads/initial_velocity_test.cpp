@@ -53,12 +53,12 @@ TEST(InitialVelocity, IsTheSameForAllNodesOfABodyAndDiffersBetweenBodies) {
                        model.state.velocity);
   std::array<Vec3, 2> of_body;
   for (Index body = 0; body < 2; ++body)
-    of_body[test::at(body)] = Vec3(1, 2, 3) + random_velocity(1, test::at(body), {1, 3});
+    of_body[at(body)] = Vec3(1, 2, 3) + random_velocity(1, at(body), {1, 3});
   for (Index s = 0; s < model.local.num_slots; ++s) {
-    if (model.local.element_of_slot[test::at(s)] < 0) continue;
+    if (model.local.element_of_slot[at(s)] < 0) continue;
     for (int c = 0; c < 4; ++c) {
       EXPECT_LT((load_node(model.state.velocity.data(), model.local.corner_node(s, c)) -
-                 of_body[test::at(model.local.slot_body[test::at(s)])])
+                 of_body[at(model.local.slot_body[at(s)])])
                     .norm(),
                 kRounding);
     }
@@ -71,11 +71,11 @@ TEST(InitialVelocity, TurnsEveryBodyAboutItsCentreOfMass) {
   std::vector<double> mass(2, 0.0);
   std::vector<Vec3> centre(2, Vec3::Zero());
   for (Index n = 0; n < model.local.num_own_nodes(); ++n) {
-    const GlobalId id = model.local.node_id[test::at(n)];
+    const GlobalId id = model.local.node_id[at(n)];
     if (id < 0) continue;
-    const std::size_t body = test::at(model.mesh.element_body[test::at(static_cast<Index>(id / 4))]);
-    mass[body] += model.local.node_mass[test::at(n)];
-    centre[body] += model.local.node_mass[test::at(n)] * load_node(model.state.position.data(), n);
+    const std::size_t body = at(model.mesh.element_body[at(static_cast<Index>(id / 4))]);
+    mass[body] += model.local.node_mass[at(n)];
+    centre[body] += model.local.node_mass[at(n)] * load_node(model.state.position.data(), n);
   }
   for (std::size_t b = 0; b < 2; ++b) centre[b] /= mass[b];
   add_initial_velocity(model.local, {.angular = omega, .centre = centre}, model.state.position, model.state.velocity);
@@ -94,10 +94,10 @@ TEST(InitialVelocity, StretchesEveryBodyFromItsCentre) {
   add_initial_velocity(model.local, {.strain_rate = rate, .centre = centre}, model.state.position,
                        model.state.velocity);
   for (Index s = 0; s < model.local.num_slots; ++s) {
-    if (model.local.element_of_slot[test::at(s)] < 0) continue;
+    if (model.local.element_of_slot[at(s)] < 0) continue;
     for (int c = 0; c < 4; ++c) {
       const Index n = model.local.corner_node(s, c);
-      const Vec3 arm = load_node(model.state.position.data(), n) - centre[test::at(model.local.slot_body[test::at(s)])];
+      const Vec3 arm = load_node(model.state.position.data(), n) - centre[at(model.local.slot_body[at(s)])];
       const Vec3 expected(3 * arm.x(), -2 * arm.y(), 0.5 * arm.z());
       EXPECT_LT((load_node(model.state.velocity.data(), n) - expected).norm(), kRounding);
     }
@@ -109,8 +109,8 @@ TEST(InitialVelocity, OfNodesThatGroupsShareIsTheMeanByMass) {
   mesh.volume_groups = {"left", "right"};
   for (Index e = 0; e < mesh.num_elements(); ++e) {
     Vec3 centre = Vec3::Zero();
-    for (const Index node : mesh.elements[test::at(e)]) centre += 0.25 * mesh.nodes[test::at(node)];
-    mesh.element_group[test::at(e)] = centre.x() < 2 ? 0 : 1;
+    for (const Index node : mesh.elements[at(e)]) centre += 0.25 * mesh.nodes[at(node)];
+    mesh.element_group[at(e)] = centre.x() < 2 ? 0 : 1;
   }
   const std::vector<double> density{1000, 3000};
   Model model(std::move(mesh), Discretisation::shared_nodes, 1000);
@@ -126,8 +126,8 @@ TEST(InitialVelocity, OfNodesThatGroupsShareIsTheMeanByMass) {
   model.state.velocity.assign(model.local.reference.size(), 0.0);
   double mass[2] = {0, 0};
   for (Index s = 0; s < model.local.num_slots; ++s) {
-    const Index group = model.local.block_group[test::at(s / kLanes)];
-    mass[group] += density[test::at(group)] * model.local.volume[test::at(s)];
+    const Index group = model.local.block_group[at(s / kLanes)];
+    mass[group] += density[at(group)] * model.local.volume[at(s)];
   }
   EXPECT_LT((start(Vec3(1, 0, 0), Vec3(0, -2, 0)) - Vec3(mass[0], -2 * mass[1], 0)).norm(), 1e4 * kRounding);
   start(Vec3(3, 0, 0), Vec3(3, 0, 0));
@@ -142,7 +142,7 @@ TEST(InitialVelocity, AddsAndLeavesPaddingAndOtherGroupsAlone) {
   }
   add_initial_velocity(model.local, {.group = 5, .uniform = Vec3(9, 9, 9)}, model.state.position, model.state.velocity);
   for (Index n = 0; n < model.local.num_nodes; ++n) {
-    const Vec3 expected = model.local.node_id[test::at(n)] < 0 ? Vec3(0, 0, 0) : Vec3(2, 0, 0);
+    const Vec3 expected = model.local.node_id[at(n)] < 0 ? Vec3(0, 0, 0) : Vec3(2, 0, 0);
     EXPECT_EQ(load_node(model.state.velocity.data(), n), expected);
   }
 }

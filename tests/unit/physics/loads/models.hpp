@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "base/index.hpp"
 #include "base/time_function.hpp"
 #include "discretisation/joint_links.hpp"
 #include "discretisation/local_mesh.hpp"
@@ -15,8 +16,6 @@
 #include "physics/loads.hpp"
 
 namespace breccia::test {
-
-inline std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// A small model: raster of cubes, jittered or not.
 struct Model {

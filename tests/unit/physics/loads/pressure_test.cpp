@@ -33,7 +33,7 @@ std::vector<LoadedFace> group_faces(const Model& model, const std::string& name)
   for (std::size_t g = 0; g < model.mesh.surface_groups.size(); ++g) {
     if (model.mesh.surface_groups[g] != name) continue;
     for (const Topology::Face& f : model.topology.surface_groups[g]) {
-      faces.push_back({model.local.slot_of_element[test::at(f.element)], f.face});
+      faces.push_back({model.local.slot_of_element[at(f.element)], f.face});
     }
   }
   return faces;

@@ -57,7 +57,7 @@ struct Problem {
     if (!of_velocity) add_other_joints(k, place);
     Eigen::VectorXd root(n);
     for (Eigen::Index i = 0; i < n; ++i)
-      root[i] = std::sqrt(mesh.node_mass[test::at(nodes[static_cast<std::size_t>(i / 3)])]);
+      root[i] = std::sqrt(mesh.node_mass[at(nodes[static_cast<std::size_t>(i / 3)])]);
     k = root.cwiseInverse().asDiagonal() * k * root.cwiseInverse().asDiagonal();
     return 0.5 * (k + k.transpose());
   }
@@ -66,17 +66,17 @@ struct Problem {
   void add_springs(Eigen::MatrixXd& k, const std::vector<Eigen::Index>& place) const {
     if (model.local.num_own_slots == 0) return;
     for (const JointFace& joint : find_joints(model.mesh, model.topology)) {
-      const Index a = model.local.slot_of_element[test::at(joint.a)],
-                  b = model.local.slot_of_element[test::at(joint.b)];
+      const Index a = model.local.slot_of_element[at(joint.a)],
+                  b = model.local.slot_of_element[at(joint.b)];
       const double stiffness = model.links.stiffness[JointLinks::at(a, joint.face_a)];
       for (int ca = 0; ca < 4; ++ca) {
         for (int cb = 0; cb < 4; ++cb) {
-          if (ca == joint.face_a || model.mesh.elements[test::at(joint.a)][test::at(ca)] !=
-                                        model.mesh.elements[test::at(joint.b)][test::at(cb)])
+          if (ca == joint.face_a || model.mesh.elements[at(joint.a)][at(ca)] !=
+                                        model.mesh.elements[at(joint.b)][at(cb)])
             continue;
           for (Eigen::Index axis = 0; axis < 3; ++axis) {
-            const Eigen::Index i = place[test::at(own_corner_node(a, ca))] + axis,
-                               j = place[test::at(own_corner_node(b, cb))] + axis;
+            const Eigen::Index i = place[at(own_corner_node(a, ca))] + axis,
+                               j = place[at(own_corner_node(b, cb))] + axis;
             k(i, i) += stiffness;
             k(j, j) += stiffness;
             k(i, j) -= stiffness;
@@ -90,7 +90,7 @@ struct Problem {
   /// The same joints, none of them in the links.
   void take_joints_from_links(double k, bool mid_edge) {
     for (const JointFace& joint : find_joints(model.mesh, model.topology)) {
-      joints.push_back({model.local.slot_of_element[test::at(joint.a)], model.local.slot_of_element[test::at(joint.b)],
+      joints.push_back({model.local.slot_of_element[at(joint.a)], model.local.slot_of_element[at(joint.b)],
                         static_cast<std::int8_t>(joint.face_a), static_cast<std::int8_t>(joint.code), mid_edge,
                         k * joint.area / 3.0});
     }
@@ -104,9 +104,9 @@ struct Problem {
       for (int ca = 0; ca < 4; ++ca) {
         for (int cb = 0; cb < 4; ++cb) {
           if (ca == joint.face_a ||
-              model.local.vertex[test::at(a)][test::at(ca)] != model.local.vertex[test::at(b)][test::at(cb)])
+              model.local.vertex[at(a)][at(ca)] != model.local.vertex[at(b)][at(cb)])
             continue;
-          pairs.push_back({place[test::at(own_corner_node(a, ca))], place[test::at(own_corner_node(b, cb))]});
+          pairs.push_back({place[at(own_corner_node(a, ca))], place[at(own_corner_node(b, cb))]});
         }
       }
       ASSERT_EQ(pairs.size(), 3U);
@@ -139,10 +139,10 @@ double smallest_height(const Model& model) {
   for (const auto& corners : model.mesh.elements) {
     for (std::size_t apex = 0; apex < 4; ++apex) {
       const auto x = [&](int i) {
-        return model.mesh.nodes[test::at(corners[test::at(kFaceCorners[apex][test::at(i)])])];
+        return model.mesh.nodes[at(corners[at(kFaceCorners[apex][at(i)])])];
       };
       const Vec3 normal = (x(1) - x(0)).cross(x(2) - x(0)).normalized();
-      smallest = std::min(smallest, std::abs(normal.dot(model.mesh.nodes[test::at(corners[apex])] - x(0))));
+      smallest = std::min(smallest, std::abs(normal.dot(model.mesh.nodes[at(corners[apex])] - x(0))));
     }
   }
   return smallest;
@@ -304,7 +304,7 @@ TEST(StableStep, NamesTheStiffestJointAndTheElementsOnBothSides) {
   Problem problem(cubes(), Discretisation::own_nodes);
   problem.model.join(kYoung);
   const JointFace joint = find_joints(problem.model.mesh, problem.model.topology)[17];
-  const Index slot = problem.model.local.slot_of_element[test::at(joint.a)];
+  const Index slot = problem.model.local.slot_of_element[at(joint.a)];
   problem.model.links.stiffness[JointLinks::at(slot, joint.face_a)] *= 1000;
   const StableStep step = stable_step(problem.step_model(), problem.model.state.position);
   EXPECT_EQ(step.limit, StepLimit::joint);
@@ -319,8 +319,8 @@ TEST(StableStep, NamesTheFlattestElement) {
   for (const Discretisation kind : {Discretisation::own_nodes, Discretisation::shared_nodes}) {
     Mesh mesh = test::tetrahedron(1.0, {5, 1, 1});
     const Index flat = 3;
-    const auto& corners = mesh.elements[test::at(flat)];
-    const auto x = [&](std::size_t c) -> Vec3& { return mesh.nodes[test::at(corners[c])]; };
+    const auto& corners = mesh.elements[at(flat)];
+    const auto x = [&](std::size_t c) -> Vec3& { return mesh.nodes[at(corners[c])]; };
     const Vec3 foot = (x(1) + x(2) + x(3)) / 3.0;
     x(0) = foot + 0.1 * (x(0) - foot);
     const Problem problem(mesh, kind);
@@ -370,9 +370,9 @@ TEST(StableStep, AddsContactWhereItActs) {
   const double most = largest_eigenvalue(model);
   const Index slot = model.mesh.slot_of_element[7];
   std::vector<ContactShare> contacts(shares.size());
-  contacts[test::at(slot)] = {{0, 100 * most, 0, 0}, 2, 0};
+  contacts[at(slot)] = {{0, 100 * most, 0, 0}, 2, 0};
   const StableStep step = stable_step(model, shares, most, contacts);
-  const double own = std::min(most, shares[test::at(slot)].element[1]);
+  const double own = std::min(most, shares[at(slot)].element[1]);
   EXPECT_DOUBLE_EQ(step.step, 2.0 / std::sqrt(own + 100 * most));
   EXPECT_EQ(step.limit, StepLimit::contact);
   EXPECT_EQ(step.element, 7);

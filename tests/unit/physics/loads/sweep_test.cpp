@@ -11,8 +11,6 @@
 
 namespace breccia {
 namespace {
-
-using test::at;
 using test::Model;
 
 constexpr double kYoung = 1e6, kPoisson = 0.25, kDensity = 1000, kStep = 1e-3;  // Pa, -, kg/m3, s

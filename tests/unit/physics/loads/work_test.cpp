@@ -34,7 +34,7 @@ class DrivenBody {
     gravity_.advance(model_.local, state, g, before);
     const Field<double> v_before = state.velocity;
     for (const Index n : model_.real_nodes()) {
-      const double mass = model_.local.node_mass[test::at(n)];
+      const double mass = model_.local.node_mass[at(n)];
       const Vec3 all = load_node(force.data(), n) + loads.get(n) + mass * g;
       const Vec3 v = load_node(state.velocity.data(), n) + kStep / mass * all;
       store_node(state.velocity.data(), n, v);
