@@ -1,6 +1,6 @@
 #include <malloc.h>
 #include <unistd.h>
-#include <CLI/CLI.hpp>
+
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <string>
 #include <system_error>
 
 #include "base/error.hpp"
@@ -49,32 +50,33 @@ void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 }
 
-int dispatch(const CLI::App& app, Arguments& a, const Communicator& world, int argc, char** argv) {
-  if (app.got_subcommand("run") || app.got_subcommand("resume") || app.got_subcommand("race")) {
-    const std::map<std::string, ProgressMode> modes{{"bar", ProgressMode::bar},
-                                                    {"log", ProgressMode::log},
-                                                    {"json", ProgressMode::json},
-                                                    {"none", ProgressMode::none}};
-    const auto mode = modes.find(a.progress);
-    a.run.progress = a.resume.progress = a.race.progress =
-        mode != modes.end() ? mode->second : default_progress_mode(STDOUT_FILENO);
-    if (app.got_subcommand("race")) return race_command(a.race, world);
-    a.run.command_line.assign(argv, argv + argc);
-    a.resume.command_line = a.run.command_line;
-    if (app.got_subcommand("resume")) return resume_command(a.resume, world);
-    return run_command(a.run, world);
-  }
-  if (app.got_subcommand("insitu") && app.get_subcommand("insitu")->got_subcommand("replay"))
-    return replay_command(a.replay, world);
+/// How a run, a resumption or a race shows its progress.
+ProgressMode progress_mode(const std::string& name) {
+  const std::map<std::string, ProgressMode> modes{{"bar", ProgressMode::bar},
+                                                  {"log", ProgressMode::log},
+                                                  {"json", ProgressMode::json},
+                                                  {"none", ProgressMode::none}};
+  const auto mode = modes.find(name);
+  return mode != modes.end() ? mode->second : default_progress_mode(STDOUT_FILENO);
+}
+
+int dispatch(const std::string& command, Arguments& a, const Communicator& world, int argc, char** argv) {
+  a.run.progress = a.resume.progress = a.race.progress = progress_mode(a.progress);
+  a.run.command_line.assign(argv, argv + argc);
+  a.resume.command_line = a.run.command_line;
+  if (command == "run") return run_command(a.run, world);
+  if (command == "resume") return resume_command(a.resume, world);
+  if (command == "race") return race_command(a.race, world);
+  if (command == "insitu replay") return replay_command(a.replay, world);
   if (!world.is_root()) return code(ExitCode::success);  // what follows is the work of one
-  if (app.got_subcommand("check")) return check_command(a.check, world.size());
-  if (app.got_subcommand("mesh")) return mesh_command(a.mesh);
-  if (app.got_subcommand("diff")) return diff_command(a.diff);
-  if (app.got_subcommand("report")) return report_command(a.report);
-  if (app.got_subcommand("control")) return control_command(a.control);
-  if (app.got_subcommand("live")) return live_command(a.live);
-  if (app.got_subcommand("insitu")) return insitu_info_command();
-  if (app.got_subcommand("schema")) return schema_command(a.schema_json);
+  if (command == "check") return check_command(a.check, world.size());
+  if (command == "mesh") return mesh_command(a.mesh);
+  if (command == "diff") return diff_command(a.diff);
+  if (command == "report") return report_command(a.report);
+  if (command == "control") return control_command(a.control);
+  if (command == "live") return live_command(a.live);
+  if (command == "insitu info") return insitu_info_command();
+  if (command == "schema") return schema_command(a.schema_json);
   return explain_command(a.key);
 }
 
@@ -101,13 +103,13 @@ int with_output_written(int done) {
 
 /// Errors of the first three kinds are agreed upon: all ranks have the same one and one of them tells it. Others are of
 /// one rank, and the rest would wait for it for ever.
-int guarded(const CLI::App& app, Arguments& arguments, MpiSession& session, int argc, char** argv) {
+int guarded(CommandLine& line, MpiSession& session, int argc, char** argv) {
   const bool root = session.world().is_root();
   int ended = 0;
   try {
     session.world().agree([] { check_environment(); });  // it need not be the same everywhere
-    int done = dispatch(app, arguments, session.world(), argc, argv);
-    if (!app.got_subcommand("run") && !app.got_subcommand("resume")) done = with_output_written(done);
+    int done = dispatch(line.command, line.arguments, session.world(), argc, argv);
+    if (line.command != "run" && line.command != "resume") done = with_output_written(done);
     return interruption != 0 && done == 0 ? exit_code_of(interruption) : done;
   } catch (const InputError& error) {
     const int refused = report(root, error.what(), ExitCode::input);
@@ -137,29 +139,23 @@ int main(int argc, char** argv) {
     return report(true, complaint, ExitCode::input);
   keep_freed_memory();
   MpiSession session(argc, argv);
-  CLI::App app{"Breccia: combined finite-discrete element simulation of solids that break"};
-  Arguments arguments;
-  define_command_line(app, arguments);
-  if (const std::string complaint = unknown_command(app, argc, argv); !complaint.empty())
-    return report(session.world().is_root(), printable(complaint), ExitCode::usage);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    const bool root = session.world().is_root();
-    if (error.get_exit_code() != 0) return report(root, usage_problem(app, error), ExitCode::usage);
-    if (root) app.exit(error);  // the help, or the version
+  CommandLine line = read_command_line(argc, argv);
+  const bool root = session.world().is_root();
+  if (!line.problem.empty()) return report(root, line.problem, ExitCode::usage);
+  if (line.command.empty()) {  // the help, or the version
+    if (root) std::fputs(line.answer.c_str(), stdout);
     return with_output_written(code(ExitCode::success));
   }
-  const auto asked_for = [&](const char* command) { return app.got_subcommand(command); };
-  const bool in_order = asked_for("run") || asked_for("resume") || asked_for("race");  // the others lose nothing
+  // The others lose nothing when they are ended.
+  const bool in_order = line.command == "run" || line.command == "resume" || line.command == "race";
   if (in_order) {
-    reports_signals = session.world().is_root() ? 1 : 0;
+    reports_signals = root ? 1 : 0;
     for (const int s : kEndingSignals) handle_unless_ignored(s, stop_handler);
     std::signal(SIGUSR1, checkpoint_handler);
   }
   std::signal(SIGPIPE, SIG_IGN);  // who reads the progress may go; the run goes on
   std::signal(SIGXFSZ, SIG_IGN);  // a file over its limit is an error of the write, told with the file's name
-  const int ended = guarded(app, arguments, session, argc, argv);
+  const int ended = guarded(line, session, argc, argv);
   reports_signals = 0;  // mpiexec ends the ranks that are last to go where one has failed
   return ended;
 }

@@ -1,8 +1,10 @@
 #include "commands/command_line.hpp"
 
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "base/version.hpp"
 #include "case/nearest.hpp"
 #include "commands/command_line_parts.hpp"
 
@@ -69,11 +71,10 @@ void define_report(CLI::App& app, Arguments& a) {
   report->add_option("--time-limit", a.report.time_limit, limit)->check(CLI::Range(1, 1000000));
 }
 
-}  // namespace
-
+/// Adds all sub-commands and their options; parsing fills `arguments`, which must outlive the parsing.
 void define_command_line(CLI::App& app, Arguments& a) {
   app.require_subcommand(1);
-  app.set_version_flag("--version", std::string("breccia ") + BRECCIA_VERSION);
+  app.set_version_flag("--version", std::string("breccia ") + program_version());
   app.footer(
       "Exit codes: 0 success, 1 usage, 2 case, mesh or output refused, 3 the numbers went wrong, 4 a fault of ours, "
       "128 + N ended by signal N: 130 Ctrl-C, 143 SIGTERM.");
@@ -125,6 +126,7 @@ void define_command_line(CLI::App& app, Arguments& a) {
   schema->add_flag("--json", a.schema_json, "as JSON, with units, defaults, ranges, choices and help");
 }
 
+/// What is wrong with a command line that could not be parsed, in one line.
 std::string usage_problem(const CLI::App& app, const CLI::ParseError& error) {
   std::string command = "breccia", what = error.what();
   for (const CLI::App* chosen : app.get_subcommands()) command += " " + chosen->get_name();
@@ -137,6 +139,7 @@ std::string usage_problem(const CLI::App& app, const CLI::ParseError& error) {
   return printable(what) + "; `" + command + " --help` tells what is allowed";
 }
 
+/// A first word that is no command, told before anything else of the line is read. @return  empty: all is well
 std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return {};
   std::vector<std::string> commands;
@@ -147,6 +150,39 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   const std::string meant = case_::likely_meant(argv[1], commands);
   return "unknown command \"" + std::string(argv[1]) + "\"" + (meant.empty() ? "" : "; did you mean " + meant + "?") +
          "; allowed: " + case_::joined(commands) + "; `breccia --help` tells what they do";
+}
+
+/// "insitu replay": the sub-commands that the line names.
+std::string command_of(const CLI::App& app) {
+  std::string command;
+  for (const CLI::App* chosen = &app; !chosen->get_subcommands().empty();) {
+    chosen = chosen->get_subcommands().front();
+    command += (command.empty() ? "" : " ") + chosen->get_name();
+  }
+  return command;
+}
+
+}  // namespace
+
+CommandLine read_command_line(int argc, char** argv) {
+  CommandLine line;
+  CLI::App app{"Breccia: combined finite-discrete element simulation of solids that break"};
+  define_command_line(app, line.arguments);
+  line.problem = printable(unknown_command(app, argc, argv));
+  if (!line.problem.empty()) return line;
+  try {
+    app.parse(argc, argv);
+    line.command = command_of(app);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) {
+      line.problem = usage_problem(app, error);
+    } else {
+      std::ostringstream answer;
+      app.exit(error, answer, answer);
+      line.answer = answer.str();
+    }
+  }
+  return line;
 }
 
 }  // namespace breccia

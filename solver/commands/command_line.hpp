@@ -4,11 +4,6 @@
 
 #include "commands/commands.hpp"
 
-namespace CLI {
-class App;
-class ParseError;
-}  // namespace CLI
-
 namespace breccia {
 
 /// What one invocation asked for.
@@ -28,13 +23,13 @@ struct Arguments {
   std::string progress = "auto";
 };
 
-/// Adds all sub-commands and their options; parsing fills `arguments`, which must outlive the parsing.
-void define_command_line(CLI::App& app, Arguments& arguments);
-
-/// What is wrong with a command line that could not be parsed, in one line.
-std::string usage_problem(const CLI::App& app, const CLI::ParseError& error);
-
-/// A first word that is no command, told before anything else of the line is read. @return  empty: all is well
-std::string unknown_command(const CLI::App& app, int argc, char** argv);
+/// A command line as it was read.
+struct CommandLine {
+  std::string command;  ///< "run", "insitu replay", ...; empty: there is nothing to do but to print
+  Arguments arguments;
+  std::string problem;  ///< what is wrong with it, in one line; empty: nothing
+  std::string answer;   ///< the help or the version that it asks for
+};
+[[nodiscard]] CommandLine read_command_line(int argc, char** argv);
 
 }  // namespace breccia

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "base/error.hpp"
+#include "base/version.hpp"
 #include "case/reader.hpp"
 #include "case/schema.hpp"
 #include "commands/commands.hpp"
@@ -174,7 +175,7 @@ int go_on(const ResumeCommand& asked, const Communicator& world) {
   }
   world.agree([&] {
     if (!world.is_root()) return;
-    Provenance provenance = collect_provenance(BRECCIA_VERSION, asked.command_line);
+    Provenance provenance = collect_provenance(program_version(), asked.command_line);
     provenance.ranks = world.size();
     provenance.inputs = inputs_in(from.provenance);
     provenance.parents = with_parent(file, from);

@@ -7,6 +7,7 @@
 #include "base/geometry_file.hpp"
 #include "base/interruption.hpp"
 #include "base/printable.hpp"
+#include "base/version.hpp"
 #include "case/live_address.hpp"
 #include "case/reader.hpp"
 #include "commands/overlap_report.hpp"
@@ -36,7 +37,7 @@ void warn_of_remote_viewer(const case_::InSitu& insitu) {
 /// Where the results come from, with hashes of all files that went in.
 Provenance provenance_of(const RunCommand& asked, const case_::Case& input, const std::optional<StartState>& start,
                          const Communicator& world) {
-  Provenance provenance = collect_provenance(BRECCIA_VERSION, asked.command_line);
+  Provenance provenance = collect_provenance(program_version(), asked.command_line);
   provenance.ranks = world.size();
   if (start) {
     provenance.inputs = inputs_of_started(asked.case_file, input, start->checkpoint);

@@ -1,8 +1,11 @@
 #include "output/checkpoint_columns.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include "base/error.hpp"
 
@@ -99,58 +102,125 @@ std::vector<Part> parts_of(const Row& row) {
   return {all};
 }
 
-/// Reads the numbers at some places of a field, or writes them.
-template <class T, class Field>
-void gather(const Field& field, const std::vector<std::size_t>& places, T* out) {
-  std::array<T, kMostNumbers> all;
-  std::size_t count = 0;
-  for_each_scalar(field, [&](const auto& x) { all.at(count++) = static_cast<T>(x); });
-  for (const std::size_t place : places) *out++ = all[place];
-}
-template <class T, class Field>
-void scatter(const T* in, const std::vector<std::size_t>& places, Field& field) {
-  std::size_t place = 0, next = 0;
-  for_each_scalar(field, [&](auto& x) {
-    if (next < places.size() && places[next] == place)
-      x = static_cast<std::remove_reference_t<decltype(x)>>(in[next++]);
-    ++place;
-  });
+/// A list of records whose type is forgotten, so that what is done with a column is compiled once for all of them.
+struct RecordList {
+  void* list;
+  std::size_t record_bytes;
+  std::size_t (*size)(const void* list);
+  std::byte* (*records)(void* list);
+};
+
+template <class Record>
+RecordList forget_type(std::vector<Record>& list) {
+  return {&list, sizeof(Record),
+          [](const void* any) { return static_cast<const std::vector<Record>*>(any)->size(); },
+          [](void* any) { return reinterpret_cast<std::byte*>(static_cast<std::vector<Record>*>(any)->data()); }};
 }
 
-template <class Record, class Row>
-CheckpointColumn column_of_list(const char* group, std::vector<Record>& list, const Row& row, const Part& part) {
-  using T = typename NumberOf<std::decay_t<decltype(row.access(list[0]))>>::Type;
-  const auto access = row.access;
-  const std::size_t n = part.places.size();
-  CheckpointColumn column{group, part.name, part.unit, number_type<T>(), static_cast<int>(n), list.size(), true,
-                          {},    {},        {}};
-  column.is_zero = [&list, access, places = part.places, n] {
-    std::array<T, kMostNumbers> numbers;
-    constexpr std::array<T, kMostNumbers> kZeros{};
-    for (const Record& record : list) {
-      gather(access(record), places, numbers.data());
-      if (std::memcmp(numbers.data(), kZeros.data(), n * sizeof(T)) != 0) return false;
+/// All numbers of a field, one behind the other as they are stored.
+using Numbers = std::array<std::byte, kMostNumbers * sizeof(double)>;
+
+/// A field of a record whose type is forgotten.
+struct FieldAccess {
+  NumberType type;
+  std::size_t count;  ///< numbers
+  void (*read)(const std::byte* record, Numbers& numbers);
+  void (*write)(std::byte* record, const Numbers& numbers);
+};
+
+/// @tparam k  row of the table
+template <std::size_t k, class Record>
+auto& field_of(Record& record) {
+  return std::get<k>(FieldTable<std::remove_const_t<Record>>::rows).access(record);
+}
+
+template <class Record, std::size_t k>
+FieldAccess forget_type() {
+  using T = typename NumberOf<std::decay_t<decltype(field_of<k>(std::declval<Record&>()))>>::Type;
+  FieldAccess field{number_type<T>(), 0, nullptr, nullptr};
+  const Record example{};
+  for_each_scalar(field_of<k>(example), [&](const auto&) { ++field.count; });
+  DEMAND(field.count <= kMostNumbers, std::get<k>(FieldTable<Record>::rows).name);
+  field.read = [](const std::byte* record, Numbers& numbers) {
+    std::byte* out = numbers.data();
+    for_each_scalar(field_of<k>(*reinterpret_cast<const Record*>(record)), [&](const auto& x) {
+      const T number = static_cast<T>(x);
+      std::memcpy(out, &number, sizeof(T));
+      out += sizeof(T);
+    });
+  };
+  field.write = [](std::byte* record, const Numbers& numbers) {
+    const std::byte* in = numbers.data();
+    for_each_scalar(field_of<k>(*reinterpret_cast<Record*>(record)), [&](auto& x) {
+      T number;
+      std::memcpy(&number, in, sizeof(T));
+      in += sizeof(T);
+      x = static_cast<std::remove_reference_t<decltype(x)>>(number);
+    });
+  };
+  return field;
+}
+
+/// Some of the numbers of a field in all records of a list, to read them or to write them.
+class PartOfList {
+ public:
+  PartOfList(const RecordList& list, const FieldAccess& field, std::vector<std::size_t> places)
+      : list_(list), field_(field), places_(std::move(places)), bytes_(size_of(field.type)) {}
+
+  [[nodiscard]] bool is_zero() const {
+    Numbers numbers;
+    for (std::size_t i = 0; i < size(); ++i) {
+      field_.read(record(i), numbers);
+      for (const std::size_t place : places_) {
+        const auto first = numbers.begin() + static_cast<std::ptrdiff_t>(place * bytes_);
+        if (std::any_of(first, first + static_cast<std::ptrdiff_t>(bytes_), [](std::byte b) { return b != std::byte{}; }))
+          return false;
+      }
     }
     return true;
-  };
-  column.pack = [&list, access, places = part.places, n](std::vector<std::byte>& bytes) {
-    bytes.resize(list.size() * n * sizeof(T));
-    std::array<T, kMostNumbers> numbers;
+  }
+  void pack(std::vector<std::byte>& bytes) const {
+    bytes.resize(size() * places_.size() * bytes_);
+    Numbers numbers;
     std::byte* out = bytes.data();
-    for (const Record& record : list) {
-      gather(access(record), places, numbers.data());
-      std::memcpy(out, numbers.data(), n * sizeof(T));
-      out += n * sizeof(T);
+    for (std::size_t i = 0; i < size(); ++i) {
+      field_.read(record(i), numbers);
+      for (const std::size_t place : places_) {
+        std::memcpy(out, numbers.data() + place * bytes_, bytes_);
+        out += bytes_;
+      }
     }
-  };
-  column.unpack = [&list, access, places = part.places, n](std::span<const std::byte> bytes, std::size_t first) {
-    std::array<T, kMostNumbers> numbers;
+  }
+  void unpack(std::span<const std::byte> bytes, std::size_t first) const {
+    Numbers numbers;
     const std::byte* in = bytes.data();
-    for (std::size_t i = first; in != bytes.data() + bytes.size(); ++i, in += n * sizeof(T)) {
-      std::memcpy(numbers.data(), in, n * sizeof(T));
-      scatter(numbers.data(), places, access(list[i]));
+    for (std::size_t i = first; in != bytes.data() + bytes.size(); ++i) {
+      field_.read(record(i), numbers);  // the others stay
+      for (const std::size_t place : places_) {
+        std::memcpy(numbers.data() + place * bytes_, in, bytes_);
+        in += bytes_;
+      }
+      field_.write(record(i), numbers);
     }
-  };
+  }
+
+ private:
+  [[nodiscard]] std::size_t size() const { return list_.size(list_.list); }
+  [[nodiscard]] std::byte* record(std::size_t i) const { return list_.records(list_.list) + i * list_.record_bytes; }
+
+  RecordList list_;
+  FieldAccess field_;
+  std::vector<std::size_t> places_;
+  std::size_t bytes_;  ///< of a number
+};
+
+CheckpointColumn column_of_list(const char* group, const RecordList& list, const FieldAccess& field, const Part& part) {
+  CheckpointColumn column{group, part.name, part.unit, field.type, static_cast<int>(part.places.size()),
+                          list.size(list.list), true, {}, {}, {}};
+  const PartOfList numbers(list, field, part.places);
+  column.is_zero = [numbers] { return numbers.is_zero(); };
+  column.pack = [numbers](std::vector<std::byte>& bytes) { numbers.pack(bytes); };
+  column.unpack = [numbers](std::span<const std::byte> bytes, std::size_t first) { numbers.unpack(bytes, first); };
   return column;
 }
 
@@ -183,16 +253,19 @@ CheckpointColumn column_of_field(const char* group, const char* name, const char
     column.unpack = [&field](auto bytes, std::size_t) { field = numbers_of<GlobalId>(bytes); };
   } else {
     using T = typename NumberOf<Field>::Type;
-    std::vector<std::size_t> places;
-    for_each_scalar(field, [&](auto&) { places.push_back(places.size()); });
     column.type = number_type<T>();
-    column.components = static_cast<int>(places.size());
-    column.pack = [&field, places](auto& bytes) {
-      std::vector<T> numbers(places.size());
-      gather(field, places, numbers.data());
+    column.components = 0;
+    for_each_scalar(field, [&](auto&) { ++column.components; });
+    column.pack = [&field](auto& bytes) {
+      std::vector<T> numbers;
+      for_each_scalar(field, [&](const auto& x) { numbers.push_back(static_cast<T>(x)); });
       bytes = bytes_of<T>(numbers);
     };
-    column.unpack = [&field, places](auto bytes, std::size_t) { scatter(numbers_of<T>(bytes).data(), places, field); };
+    column.unpack = [&field](auto bytes, std::size_t) {
+      std::size_t next = 0;
+      const std::vector<T> numbers = numbers_of<T>(bytes);
+      for_each_scalar(field, [&](auto& x) { x = static_cast<std::remove_reference_t<decltype(x)>>(numbers.at(next++)); });
+    };
   }
   return column;
 }
@@ -211,6 +284,13 @@ CheckpointColumn column_of_text(const char* name, Text& text) {
   return column;
 }
 
+template <class Record, std::size_t k>
+void add_row(const char* group, const RecordList& list, std::vector<CheckpointColumn>& columns) {
+  const FieldAccess field = forget_type<Record, k>();
+  for (const Part& part : parts_of<Record>(std::get<k>(FieldTable<Record>::rows)))
+    columns.push_back(column_of_list(group, list, field, part));
+}
+
 template <class Record>
 void add_record(const char* group, Record& record, std::vector<CheckpointColumn>& columns) {
   for_each_field(record, [&](const auto& row, auto& field) {
@@ -224,15 +304,10 @@ std::vector<CheckpointColumn> checkpoint_columns(Checkpoint& checkpoint) {
   std::vector<CheckpointColumn> columns;
   for_each_list(checkpoint.mine, [&](const char* group, auto& list) {
     using Record = typename std::decay_t<decltype(list)>::value_type;
-    std::apply(
-        [&](const auto&... row) {
-          const auto add_row = [&](const auto& field_row) {
-            for (const Part& part : parts_of<Record>(field_row))
-              columns.push_back(column_of_list(group, list, field_row, part));
-          };
-          (add_row(row), ...);
-        },
-        FieldTable<Record>::rows);
+    constexpr auto kRows = std::tuple_size_v<decltype(FieldTable<Record>::rows)>;
+    [&]<std::size_t... k>(std::index_sequence<k...>) {
+      (add_row<Record, k>(group, forget_type(list), columns), ...);
+    }(std::make_index_sequence<kRows>());
   });
   add_record("model", checkpoint.model, columns);
   add_record("run", checkpoint.position, columns);

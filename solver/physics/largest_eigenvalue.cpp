@@ -17,11 +17,11 @@ constexpr int kFirstCheck = 20, kCheckEvery = 5, kMostIterations = 400;
 constexpr double kResidual = 0.01;  // of the eigenvalue: half of it in the step
 constexpr double kMargin = 1.01;    // the residual may be that of the eigenvalue just below the largest
 
-using Lanes = Eigen::Array<double, kLanes, 1>;
-using Triple = std::array<Lanes, 3>;
+using EightLanes = Eigen::Array<double, kLanes, 1>;
+using Triple = std::array<EightLanes, 3>;
 
-Eigen::Map<const Lanes, Eigen::Aligned64> lanes(const double* first) {
-  return Eigen::Map<const Lanes, Eigen::Aligned64>(first);
+Eigen::Map<const EightLanes, Eigen::Aligned64> lanes(const double* first) {
+  return Eigen::Map<const EightLanes, Eigen::Aligned64>(first);
 }
 
 /// sum_c u_c g_c^T of eight elements, by row. @param u  of the block's corners
@@ -29,7 +29,7 @@ std::array<Triple, 3> displacement_gradient(const std::array<Triple, 4>& grad, c
   std::array<Triple, 3> h;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
-      h[i][j] = Lanes::Zero();
+      h[i][j] = EightLanes::Zero();
       for (std::size_t c = 0; c < 4; ++c) h[i][j] += lanes(u + (3 * c + i) * kLanes) * grad[c][j];
     }
   }
@@ -44,7 +44,7 @@ void add_joints(const JointLinks& links, std::size_t block, std::size_t face, co
   for (std::size_t i = 0; i < 3; ++i) {
     const auto corner = static_cast<std::size_t>(kFaceCorners[face][i]);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      Lanes other;
+      EightLanes other;
       for (std::size_t l = 0; l < kLanes; ++l)
         other[static_cast<Eigen::Index>(l)] = u[static_cast<std::size_t>(place[i * kLanes + l]) + axis * kLanes];
       force[corner][axis] += stiffness * (lanes(u + block * 96 + (3 * corner + axis) * kLanes) - other);
@@ -62,7 +62,7 @@ std::array<Triple, 4> element_forces(const StepModel& model, std::size_t block, 
     grad[0][j] = -(grad[1][j] + grad[2][j] + grad[3][j]);
   }
   const std::array<Triple, 3> h = displacement_gradient(grad, u);
-  const Lanes pressure = p.lambda * (h[0][0] + h[1][1] + h[2][2]);
+  const EightLanes pressure = p.lambda * (h[0][0] + h[1][1] + h[2][2]);
   const auto volume = lanes(model.mesh.volume.data() + block * kLanes);
   for (std::size_t i = 0; i < 3; ++i) {
     Triple stress;
@@ -81,7 +81,7 @@ void act_on_own(const StepModel& model, std::size_t block, const double* u, doub
   std::array<Triple, 4> force = element_forces(model, block, u + block * 96);
   for (std::size_t face = 0; face < 4; ++face) add_joints(model.links, block, face, u, force);
   for (std::size_t k = 0; k < 12; ++k)
-    Eigen::Map<Lanes, Eigen::Aligned64>(y + block * 96 + k * kLanes) = force[k / 3][k % 3];
+    Eigen::Map<EightLanes, Eigen::Aligned64>(y + block * 96 + k * kLanes) = force[k / 3][k % 3];
 }
 
 void act_on_shared(const StepModel& model, std::size_t block, const double* u, double* y) {

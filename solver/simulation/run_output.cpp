@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "base/version.hpp"
 #include "domains/state_records.hpp"
 #include "observe/body_names.hpp"
 #include "observe/energy_sample.hpp"
@@ -165,7 +166,7 @@ StatusLine RunOutput::status_line(bool paused) {
 
 Summary RunOutput::summary_of(const std::string& status) {
   Summary summary;
-  const Provenance provenance = collect_provenance(BRECCIA_VERSION, {});
+  const Provenance provenance = collect_provenance(program_version(), {});
   summary.title = input_.title;
   summary.version = provenance.version;
   summary.host = provenance.host;
