@@ -20,7 +20,7 @@ TEST(TimeStep, IsLongerThanTheBoundByElementByARatioThatThePiecesOfAModelTakeOve
   Model model = build_model(test::two_boxes_case());
   const TimeStep whole(model);
   EXPECT_GT(whole.ratio(), 1.0);
-  EXPECT_DOUBLE_EQ(whole.limit(model.local.reference), whole.ratio() * whole.at(model.local.reference).step);
+  EXPECT_DOUBLE_EQ(whole.limit(model.local.reference), whole.ratio() * whole.bound(model.local.reference).step);
   model.whole.step_ratio = 1.5;
   EXPECT_EQ(TimeStep(model).ratio(), 1.5);
 }
