@@ -113,8 +113,8 @@ std::string run_time(const Model& model, const StepReport& step, const RunEstima
 double mean_size(const Mesh& mesh) {
   double volume = 0;
   for (const auto& c : mesh.elements) {
-    volume += geometry::tetra_volume(mesh.nodes[at(c[0])], mesh.nodes[at(c[1])], mesh.nodes[at(c[2])],
-                                     mesh.nodes[at(c[3])]);
+    volume +=
+        geometry::tetra_volume(mesh.nodes[at(c[0])], mesh.nodes[at(c[1])], mesh.nodes[at(c[2])], mesh.nodes[at(c[3])]);
   }
   return std::cbrt(6 * std::sqrt(2.0) * volume / static_cast<double>(mesh.elements.size()));
 }

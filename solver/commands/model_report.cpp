@@ -121,8 +121,7 @@ std::string missing_contact(const case_::Case& input, const Model& model) {
       });
     });
     for (Index e = 0; held && e < model.mesh.num_elements(); ++e) {
-      if (model.mesh.element_group[at(e)] == static_cast<Index>(g))
-        free[at(model.mesh.element_body[at(e)])] = false;
+      if (model.mesh.element_group[at(e)] == static_cast<Index>(g)) free[at(model.mesh.element_body[at(e)])] = false;
     }
   }
   if (std::find(free.begin(), free.end(), true) == free.end()) return {};

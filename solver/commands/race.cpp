@@ -30,7 +30,9 @@ constexpr std::int64_t kMostPieces = 1000;  ///< of a lap (TimingSegments)
 /// Points times contactors of a rank up to which all against all may race: some 60 ms a search, at 6 ns a pair.
 constexpr double kSmallEnough = 1e7;
 
-double seconds_since(WallClock::time_point start) { return std::chrono::duration<double>(WallClock::now() - start).count(); }
+double seconds_since(WallClock::time_point start) {
+  return std::chrono::duration<double>(WallClock::now() - start).count();
+}
 
 /// Points and contactors of this rank, proxies with them.
 double pairs_of(const Partition& partition) {
@@ -257,7 +259,7 @@ class Race {
   std::int64_t piece_ = 1;             ///< steps
   std::size_t laps_ = 0;
   WallClock::time_point started_;  ///< the warm-up, then the race
-  std::string first_;          ///< who has set the state in which all must end
+  std::string first_;              ///< who has set the state in which all must end
   RaceResult result_;
 };
 

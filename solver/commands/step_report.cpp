@@ -156,8 +156,7 @@ std::string contact_advice(const Model& model, const Start& start, const std::ve
   return text + fmt::format(
                     " (\"{}\" on \"{}\", element {}); a penalty of {:.2g} Pa instead of {:.3g} Pa would not, but let "
                     "bodies {:.2g} times as deep into each other.",
-                    names[at(group)], names[at(against)], step.element, factor * law.penalty, law.penalty,
-                    1 / factor);
+                    names[at(group)], names[at(against)], step.element, factor * law.penalty, law.penalty, 1 / factor);
 }
 
 /// s, stable once bodies meet, with a share of the damping of contact.

@@ -12,9 +12,7 @@
 
 namespace breccia {
 
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 ContactSearch::ContactSearch(const ContactSearchParams& search, const ContactModel& model, ContactState& contact)
     : verify_(search.verify),

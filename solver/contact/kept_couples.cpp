@@ -7,9 +7,7 @@
 
 namespace breccia {
 
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 void KeptCouples::replaced() {
   if (!contact_.relevant.empty()) {

@@ -5,9 +5,7 @@
 #include "base/index.hpp"
 
 namespace breccia {
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 ElementRecord mesh_record(const Mesh& mesh, const Topology& topology, Index element) {
   ElementRecord record;

@@ -7,9 +7,7 @@
 #include "base/index.hpp"
 
 namespace breccia {
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 std::vector<std::uint8_t> faces_of_surfaces(const Mesh& mesh, const Topology& topology,
                                             std::span<const std::string> surfaces) {

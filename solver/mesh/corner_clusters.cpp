@@ -5,9 +5,7 @@
 #include "base/index.hpp"
 
 namespace breccia {
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 CornerClusters::CornerClusters(const Mesh& mesh, const Topology& topology)
     : mesh_(&mesh),

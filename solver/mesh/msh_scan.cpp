@@ -41,7 +41,6 @@ class Scan {
   }
 
  private:
-
   /// How wide a binary integer is.
   enum class Width { four, eight };
 

@@ -8,9 +8,7 @@
 #include "mesh/geometry.hpp"
 
 namespace breccia {
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 std::vector<double> nodal_surface_distance(const Mesh& mesh, const Topology& topology) {
   const std::vector<FreeFace> faces = free_faces(mesh, topology);

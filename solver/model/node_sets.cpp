@@ -19,8 +19,8 @@ bool shares(const std::vector<Discretisation>& kinds, Index group) {
 
 /// Pairs of groups of shared nodes between which the case has joints, and the entry.
 std::vector<std::pair<GroupPair, const case_::Joint*>> parted_pairs(const case_::Case& input,
-                                                               const std::vector<std::string>& names,
-                                                               const std::vector<Discretisation>& kinds) {
+                                                                    const std::vector<std::string>& names,
+                                                                    const std::vector<Discretisation>& kinds) {
   std::vector<std::pair<GroupPair, const case_::Joint*>> pairs;
   if (std::all_of(input.joints.begin(), input.joints.end(), [](const case_::Joint& joint) { return joint.inside(); }))
     return pairs;
@@ -36,7 +36,8 @@ std::vector<std::pair<GroupPair, const case_::Joint*>> parted_pairs(const case_:
 }
 
 /// Every pair of different groups of shared nodes that have a face in common.
-std::set<GroupPair> meeting_pairs(const Mesh& mesh, const Topology& topology, const std::vector<Discretisation>& kinds) {
+std::set<GroupPair> meeting_pairs(const Mesh& mesh, const Topology& topology,
+                                  const std::vector<Discretisation>& kinds) {
   std::set<GroupPair> pairs;
   for (Index e = 0; e < mesh.num_elements(); ++e) {
     const Index group = mesh.element_group[at(e)];

@@ -16,10 +16,9 @@ std::vector<JointStiffness> other_joints(const Model& model) {
   for (const ModelJoint& joint : model.joints) {
     if (starts_intact(model, joint)) continue;
     const JointLawParams& law = model.joint_laws[at(joint.law)];
-    joints.push_back({model.local.slot_of_element[at(joint.face.a)],
-                      model.local.slot_of_element[at(joint.face.b)], static_cast<std::int8_t>(joint.face.face_a),
-                      static_cast<std::int8_t>(joint.face.code), law.points == JointPoints::mid_edge,
-                      corner_stiffness(law, joint.face.area)});
+    joints.push_back({model.local.slot_of_element[at(joint.face.a)], model.local.slot_of_element[at(joint.face.b)],
+                      static_cast<std::int8_t>(joint.face.face_a), static_cast<std::int8_t>(joint.face.code),
+                      law.points == JointPoints::mid_edge, corner_stiffness(law, joint.face.area)});
   }
   return joints;
 }

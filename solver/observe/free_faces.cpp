@@ -3,9 +3,7 @@
 #include "base/index.hpp"
 
 namespace breccia {
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 FreeFaces::FreeFaces(const Domain& domain) : domain_(domain), held_(at(domain.model.local.num_slots) * 4, 0) {
   for (const ActiveJoint& joint : domain.state.joints.active) {

@@ -112,8 +112,7 @@ struct RecordList {
 
 template <class Record>
 RecordList forget_type(std::vector<Record>& list) {
-  return {&list, sizeof(Record),
-          [](const void* any) { return static_cast<const std::vector<Record>*>(any)->size(); },
+  return {&list, sizeof(Record), [](const void* any) { return static_cast<const std::vector<Record>*>(any)->size(); },
           [](void* any) { return reinterpret_cast<std::byte*>(static_cast<std::vector<Record>*>(any)->data()); }};
 }
 
@@ -173,8 +172,8 @@ class PartOfList {
       field_.read(record(i), numbers);
       for (const std::size_t place : places_) {
         const auto first = numbers.begin() + static_cast<std::ptrdiff_t>(place * bytes_);
-        if (std::any_of(first, first + static_cast<std::ptrdiff_t>(bytes_), [](std::byte b) { return b != std::byte{}; }))
-          return false;
+        const auto last = first + static_cast<std::ptrdiff_t>(bytes_);
+        if (std::any_of(first, last, [](std::byte b) { return b != std::byte{}; })) return false;
       }
     }
     return true;
@@ -215,8 +214,9 @@ class PartOfList {
 };
 
 CheckpointColumn column_of_list(const char* group, const RecordList& list, const FieldAccess& field, const Part& part) {
-  CheckpointColumn column{group, part.name, part.unit, field.type, static_cast<int>(part.places.size()),
-                          list.size(list.list), true, {}, {}, {}};
+  CheckpointColumn column{
+      group, part.name, part.unit, field.type, static_cast<int>(part.places.size()), list.size(list.list),
+      true,  {},        {},        {}};
   const PartOfList numbers(list, field, part.places);
   column.is_zero = [numbers] { return numbers.is_zero(); };
   column.pack = [numbers](std::vector<std::byte>& bytes) { numbers.pack(bytes); };
@@ -264,7 +264,8 @@ CheckpointColumn column_of_field(const char* group, const char* name, const char
     column.unpack = [&field](auto bytes, std::size_t) {
       std::size_t next = 0;
       const std::vector<T> numbers = numbers_of<T>(bytes);
-      for_each_scalar(field, [&](auto& x) { x = static_cast<std::remove_reference_t<decltype(x)>>(numbers.at(next++)); });
+      for_each_scalar(field,
+                      [&](auto& x) { x = static_cast<std::remove_reference_t<decltype(x)>>(numbers.at(next++)); });
     };
   }
   return column;
@@ -305,9 +306,8 @@ std::vector<CheckpointColumn> checkpoint_columns(Checkpoint& checkpoint) {
   for_each_list(checkpoint.mine, [&](const char* group, auto& list) {
     using Record = typename std::decay_t<decltype(list)>::value_type;
     constexpr auto kRows = std::tuple_size_v<decltype(FieldTable<Record>::rows)>;
-    [&]<std::size_t... k>(std::index_sequence<k...>) {
-      (add_row<Record, k>(group, forget_type(list), columns), ...);
-    }(std::make_index_sequence<kRows>());
+    [&]<std::size_t... k>(std::index_sequence<k...>) { (add_row<Record, k>(group, forget_type(list), columns), ...); }
+    (std::make_index_sequence<kRows>());
   });
   add_record("model", checkpoint.model, columns);
   add_record("run", checkpoint.position, columns);

@@ -23,7 +23,7 @@
 namespace breccia {
 namespace {
 
-constexpr char kErrorTold = '\1';          // from the run to its watch: an error has been told
+constexpr char kErrorTold = '\1';       // from the run to its watch: an error has been told
 constexpr std::size_t kTail = 1 << 14;  // bytes at the end of status.jsonl that hold its last line
 
 /// What the lock file says of its owner: "process 17 on host, since TIME".

@@ -1,5 +1,5 @@
-#include "base/index.hpp"
 #include "domains/derived.hpp"
+#include "base/index.hpp"
 
 #include <gtest/gtest.h>
 

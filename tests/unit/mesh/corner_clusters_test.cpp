@@ -1,5 +1,5 @@
-#include "base/index.hpp"
 #include "mesh/corner_clusters.hpp"
+#include "base/index.hpp"
 
 #include <gtest/gtest.h>
 

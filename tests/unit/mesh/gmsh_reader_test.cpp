@@ -1,5 +1,5 @@
-#include "base/index.hpp"
 #include "mesh/gmsh_reader.hpp"
+#include "base/index.hpp"
 
 #include <gmock/gmock.h>
 #include <gmsh.h>

@@ -1,5 +1,5 @@
-#include "base/index.hpp"
 #include "mesh/point_distance.hpp"
+#include "base/index.hpp"
 
 #include <gtest/gtest.h>
 

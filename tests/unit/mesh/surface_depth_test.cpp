@@ -1,5 +1,5 @@
-#include "base/index.hpp"
 #include "mesh/surface_depth.hpp"
+#include "base/index.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include "base/index.hpp"
 #include "model/plane.hpp"
+#include "base/index.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include "base/index.hpp"
 #include "model/time_step.hpp"
+#include "base/index.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include "base/index.hpp"
 #include "parallel/domain_report.hpp"
+#include "base/index.hpp"
 
 #include <gtest/gtest.h>
 

@@ -85,8 +85,7 @@ struct Scene {
         const Vec3 x = at_point(rule, point, model.state.position.data());
         for (Index s = 0; s < mesh.num_slots; ++s) {
           if (body_of(s) < 0 || body_of(s) == body_of(face.slot)) continue;
-          const PreparedTetra tetra =
-              prepare(load_corners(mesh, model.state.position.data(), s), mesh.volume[at(s)]);
+          const PreparedTetra tetra = prepare(load_corners(mesh, model.state.position.data(), s), mesh.volume[at(s)]);
           const std::array<double, 4> lambda = barycentric(tetra, x);
           if (!inside(lambda)) continue;
           Eigen::VectorXd r = Eigen::VectorXd::Zero(mesh.num_nodes);
@@ -266,8 +265,7 @@ TEST(ContactStep, IsTheLargestOfAllPairsOfBodies) {
         if (!scene.model.local.is_original(s) || scene.body_of(s) != a) continue;
         const ContactShare share = shares.of(s);
         met += share.largest() > 0 ? 1 : 0;
-        for (std::size_t c = 0; c < 4; ++c)
-          largest[at(s)][c] = std::max(largest[at(s)][c], share.omega_squared[c]);
+        for (std::size_t c = 0; c < 4; ++c) largest[at(s)][c] = std::max(largest[at(s)][c], share.omega_squared[c]);
       }
     }
   }

@@ -106,8 +106,7 @@ TEST_P(EveryLaw, PassesThePatchTest) {
   Field<double> expected(force.size(), 0.0);
   for (const LoadedFace& face : model.free_faces()) {
     std::array<Index, 3> n{};
-    for (int i = 0; i < 3; ++i)
-      n[at(i)] = model.local.corner_node(face.slot, kFaceCorners[at(face.face)][at(i)]);
+    for (int i = 0; i < 3; ++i) n[at(i)] = model.local.corner_node(face.slot, kFaceCorners[at(face.face)][at(i)]);
     const auto x = [&](int i) { return load_node(model.local.reference.data(), n[at(i)]); };
     const Vec3 area = 0.5 * (x(1) - x(0)).cross(x(2) - x(0));
     for (const Index node : n) store_node(expected.data(), node, load_node(expected.data(), node) - piola * area / 3.0);

@@ -52,8 +52,7 @@ TEST(InitialVelocity, IsTheSameForAllNodesOfABodyAndDiffersBetweenBodies) {
   add_initial_velocity(model.local, {.uniform = Vec3(1, 2, 3), .speed = {1, 3}}, model.state.position,
                        model.state.velocity);
   std::array<Vec3, 2> of_body;
-  for (Index body = 0; body < 2; ++body)
-    of_body[at(body)] = Vec3(1, 2, 3) + random_velocity(1, at(body), {1, 3});
+  for (Index body = 0; body < 2; ++body) of_body[at(body)] = Vec3(1, 2, 3) + random_velocity(1, at(body), {1, 3});
   for (Index s = 0; s < model.local.num_slots; ++s) {
     if (model.local.element_of_slot[at(s)] < 0) continue;
     for (int c = 0; c < 4; ++c) {

@@ -66,13 +66,12 @@ struct Problem {
   void add_springs(Eigen::MatrixXd& k, const std::vector<Eigen::Index>& place) const {
     if (model.local.num_own_slots == 0) return;
     for (const JointFace& joint : find_joints(model.mesh, model.topology)) {
-      const Index a = model.local.slot_of_element[at(joint.a)],
-                  b = model.local.slot_of_element[at(joint.b)];
+      const Index a = model.local.slot_of_element[at(joint.a)], b = model.local.slot_of_element[at(joint.b)];
       const double stiffness = model.links.stiffness[JointLinks::at(a, joint.face_a)];
       for (int ca = 0; ca < 4; ++ca) {
         for (int cb = 0; cb < 4; ++cb) {
-          if (ca == joint.face_a || model.mesh.elements[at(joint.a)][at(ca)] !=
-                                        model.mesh.elements[at(joint.b)][at(cb)])
+          if (ca == joint.face_a ||
+              model.mesh.elements[at(joint.a)][at(ca)] != model.mesh.elements[at(joint.b)][at(cb)])
             continue;
           for (Eigen::Index axis = 0; axis < 3; ++axis) {
             const Eigen::Index i = place[at(own_corner_node(a, ca))] + axis,
@@ -103,9 +102,7 @@ struct Problem {
       std::vector<std::array<Eigen::Index, 2>> pairs;  // places of the nodes of a and b at a mesh node
       for (int ca = 0; ca < 4; ++ca) {
         for (int cb = 0; cb < 4; ++cb) {
-          if (ca == joint.face_a ||
-              model.local.vertex[at(a)][at(ca)] != model.local.vertex[at(b)][at(cb)])
-            continue;
+          if (ca == joint.face_a || model.local.vertex[at(a)][at(ca)] != model.local.vertex[at(b)][at(cb)]) continue;
           pairs.push_back({place[at(own_corner_node(a, ca))], place[at(own_corner_node(b, cb))]});
         }
       }
@@ -138,9 +135,7 @@ double smallest_height(const Model& model) {
   double smallest = 1e300;
   for (const auto& corners : model.mesh.elements) {
     for (std::size_t apex = 0; apex < 4; ++apex) {
-      const auto x = [&](int i) {
-        return model.mesh.nodes[at(corners[at(kFaceCorners[apex][at(i)])])];
-      };
+      const auto x = [&](int i) { return model.mesh.nodes[at(corners[at(kFaceCorners[apex][at(i)])])]; };
       const Vec3 normal = (x(1) - x(0)).cross(x(2) - x(0)).normalized();
       smallest = std::min(smallest, std::abs(normal.dot(model.mesh.nodes[at(corners[apex])] - x(0))));
     }
