@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -35,6 +36,12 @@ inline int corners_of(std::int32_t cell) {
     default:
       throw PipelineError("unknown kind of cell " + std::to_string(cell));
   }
+}
+
+/// Of all components of an array at one of its places.
+inline std::size_t bytes_of(const BrecciaArray& array) {
+  const std::size_t one = array.type == BRECCIA_I32 ? sizeof(std::int32_t) : sizeof(std::int64_t);
+  return one * static_cast<std::size_t>(array.components);
 }
 
 }  // namespace breccia::insitu

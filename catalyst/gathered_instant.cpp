@@ -9,11 +9,6 @@
 namespace breccia::insitu {
 namespace {
 
-std::size_t bytes_of(const BrecciaArray& array) {
-  const std::size_t one = array.type == BRECCIA_I32 ? sizeof(std::int32_t) : sizeof(std::int64_t);
-  return one * static_cast<std::size_t>(array.components);
-}
-
 /// Corners of all cells; those of cells with own points in turn are 0, 1, 2, ...
 std::vector<std::int32_t> corners_in(const BrecciaGrid& grid) {
   std::vector<std::int32_t> corners(static_cast<std::size_t>(grid.num_cells * corners_of(grid.cell)));

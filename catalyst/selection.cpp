@@ -9,11 +9,6 @@
 namespace breccia::insitu {
 namespace {
 
-std::size_t bytes_of(const BrecciaArray& array) {
-  const std::size_t one = array.type == BRECCIA_I32 ? sizeof(std::int32_t) : sizeof(std::int64_t);
-  return one * static_cast<std::size_t>(array.components);
-}
-
 /// Which point a cell's corner is.
 std::int64_t place_of(const BrecciaGrid& grid, std::int64_t cell, int corners, int corner) {
   const std::int64_t place = cell * corners + corner;

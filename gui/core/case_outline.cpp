@@ -8,7 +8,7 @@
 namespace breccia::gui {
 namespace {
 
-QString text(const char* words) { return QCoreApplication::translate("stages", words); }
+QString stage_text(const char* words) { return QCoreApplication::translate("stages", words); }
 
 QString plain(const std::string& name) { return QString::fromStdString(name).replace('_', ' '); }
 
@@ -52,22 +52,24 @@ std::vector<std::string> paths_of(const std::string& pattern, const TomlPlaces& 
 const std::vector<WorkStage>& work_stages() {
   using Kind = WorkStage::Kind;
   static const std::vector<WorkStage> stages{
-      {text("Geometry and mesh"), Kind::sections, {"", "start", "mesh", "mesh.raster", "mesh.raster.slit", "plane"}},
-      {text("Materials"), Kind::sections, {"material[]"}},
-      {text("Joints"), Kind::sections, {"joint[]", "joint[].softening", "joints"}},
-      {text("Contacts"), Kind::sections, {"contact[]", "contact_points", "sphere", "detection"}},
-      {text("Loads and constraints"),
+      {stage_text("Geometry and mesh"),
+       Kind::sections,
+       {"", "start", "mesh", "mesh.raster", "mesh.raster.slit", "plane"}},
+      {stage_text("Materials"), Kind::sections, {"material[]"}},
+      {stage_text("Joints"), Kind::sections, {"joint[]", "joint[].softening", "joints"}},
+      {stage_text("Contacts"), Kind::sections, {"contact[]", "contact_points", "sphere", "detection"}},
+      {stage_text("Loads and constraints"),
        Kind::sections,
        {"initial_velocity[]", "stage[]", "stage[].constraint[]", "stage[].pressure[]", "stage[].traction[]",
         "stage[].force[]"}},
-      {text("Time"), Kind::sections, {"time"}},
-      {text("Domains"), Kind::sections, {"domains"}},
-      {text("Output and in situ"),
+      {stage_text("Time"), Kind::sections, {"time"}},
+      {stage_text("Domains"), Kind::sections, {"domains"}},
+      {stage_text("Output and in situ"),
        Kind::sections,
        {"output", "checkpoint", "insitu", "insitu.live", "insitu.live.region", "insitu.pipeline[]",
         "insitu.pipeline[].region", "insitu.pipeline[].probe[]"}},
-      {text("Run"), Kind::run, {}},
-      {text("Results"), Kind::results, {}}};
+      {stage_text("Run"), Kind::run, {}},
+      {stage_text("Results"), Kind::results, {}}};
   return stages;
 }
 
@@ -81,7 +83,7 @@ std::vector<OutlineRow> outline(const WorkStage& stage, const TomlPlaces& places
         const std::string name = own.substr(own.rfind('.') == std::string::npos ? 0 : own.rfind('.') + 1);
         const QString title = title_of(own, places), kind = plain(name.substr(0, name.find('[')));
         const bool present = own.empty() || places.find(own) != nullptr || !places.names_below(own).empty();
-        const QString label = own.empty() ? text("title") : title.isEmpty() ? kind : kind + ": " + title;
+        const QString label = own.empty() ? stage_text("title") : title.isEmpty() ? kind : kind + ": " + title;
         rows.push_back({QString::fromStdString(own), label, depth, present,
                         entry || (present && !own.empty() && places.find(own) != nullptr)});
       };

@@ -13,7 +13,7 @@ namespace {
 constexpr int kSamples = 300;  // of a stage, beside the corners of its tables
 constexpr const char* kAxes[] = {"x", "y", "z"};
 
-QString text(const char* words) { return QCoreApplication::translate("conditions", words); }
+QString condition_text(const char* words) { return QCoreApplication::translate("conditions", words); }
 
 QString shown(const Document& document, const QString& path) {
   return shown_value(case_::key_of(case_::pattern_of(path.toStdString())), document.value(path));
@@ -53,7 +53,7 @@ Condition constraint(const Document& document, const case_::Constraint& given, C
   using enum case_::ConstraintKind;
   row.target = QString::fromStdString(given.group);
   const char* key = given.kind == fixed ? "fixed" : given.kind == velocity ? "velocity" : "displacement";
-  row.type = text(key);
+  row.type = condition_text(key);
   row.value = shown(document, row.path + "." + key);
   row.unit = given.kind == velocity ? "m/s" : "m";
   row.axes = given.axes;
@@ -66,7 +66,7 @@ Condition constraint(const Document& document, const case_::Constraint& given, C
 
 Condition pressure(const Document& document, const case_::Pressure& given, Condition row, const Interval& stage) {
   row.target = QString::fromStdString(given.surface);
-  row.type = text("pressure");
+  row.type = condition_text("pressure");
   row.follows = true;
   row.value = shown(document, row.path + ".value");
   row.unit = "Pa";
@@ -93,13 +93,13 @@ Condition load_by_axis(const Document& document, const auto& given, const std::s
 }
 
 Condition traction(const Document& document, const case_::Traction& given, Condition row, const Interval& stage) {
-  row.type = text("traction");
+  row.type = condition_text("traction");
   row.unit = "Pa";
   return load_by_axis(document, given, given.surface, std::move(row), stage);
 }
 
 Condition force(const Document& document, const case_::Force& given, Condition row, const Interval& stage) {
-  row.type = text("force");
+  row.type = condition_text("force");
   row.unit = "N";
   return load_by_axis(document, given, given.group, std::move(row), stage);
 }
@@ -117,7 +117,7 @@ void add_stage(const Document& document, const case_::Stage& stage, int number, 
   };
   if (std::any_of(stage.gravity.begin(), stage.gravity.end(), [](const TimeFunction& f) { return !f.is_zero(); })) {
     Condition row = begun(path);
-    row.type = text("gravity");
+    row.type = condition_text("gravity");
     row.value = shown(document, path + ".gravity");
     row.unit = "m/s2";
     row.is_gravity = true;
@@ -130,7 +130,7 @@ void add_stage(const Document& document, const case_::Stage& stage, int number, 
   for (const auto& given : stage.forces) rows.push_back(force(document, given, begun(written(given)), time));
   for (const std::string& surface : stage.absorbing) {
     Condition row = begun(path);
-    row.type = text("absorbing");
+    row.type = condition_text("absorbing");
     row.absorbs = true;
     row.target = QString::fromStdString(surface);
     row.value = shown(document, path + ".absorbing");
@@ -144,14 +144,15 @@ QString parts_of_velocity(const Document& document, const QString& path) {
       {{"velocity", "%1"}, {"random", "random %1"}, {"angular", "spin %1"}, {"strain_rate", "strain rate %1"}}};
   QStringList given;
   for (const auto& [key, words] : parts)
-    if (const QString value = shown(document, path + "." + key); !value.isEmpty()) given << text(words).arg(value);
+    if (const QString value = shown(document, path + "." + key); !value.isEmpty())
+      given << condition_text(words).arg(value);
   return given.join("; ");
 }
 
 Condition initial_velocity(const Document& document, const case_::Case& input, const case_::InitialVelocity& given) {
   Condition row;
   const QString path = row.path = written(given);
-  row.type = text("initial velocity");
+  row.type = condition_text("initial velocity");
   row.target = QString::fromStdString(given.group);
   row.value = parts_of_velocity(document, path);
   row.unit = "m/s";

@@ -15,7 +15,7 @@
 namespace breccia::gui {
 namespace {
 
-QString text(const char* words) { return QCoreApplication::translate("import", words); }
+QString import_text(const char* words) { return QCoreApplication::translate("import", words); }
 
 /// What a new case begins with.
 LibraryMaterial first_material() {
@@ -48,7 +48,7 @@ QString case_text(const QString& file, const QStringList& groups, double metres)
 
 const std::vector<LengthUnit>& length_units() {
   static const std::vector<LengthUnit> units{
-      {text("millimetre"), 0.001}, {text("metre"), 1}, {text("centimetre"), 0.01}, {text("inch"), 0.0254}};
+      {import_text("millimetre"), 0.001}, {import_text("metre"), 1}, {import_text("centimetre"), 0.01}, {import_text("inch"), 0.0254}};
   return units;
 }
 
@@ -74,7 +74,7 @@ QString import_solid(const QString& file, const QJsonObject& mesh, double metres
   for (const QJsonValue& group : mesh["groups"].toObject()["volumes"].toArray())
     groups << group.toObject()["name"].toString();
   if (!QDir().mkpath(folder) || !QFile::copy(file, QDir(folder).filePath(from.fileName()))) {
-    *error = text("%1 cannot be copied into %2").arg(file, folder);
+    *error = import_text("%1 cannot be copied into %2").arg(file, folder);
     return {};
   }
   const QString name = QDir(folder).filePath("case.toml");

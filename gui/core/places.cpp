@@ -25,7 +25,7 @@ QString first_there(const QStringList& candidates) {
 
 QString recent_file(const Places& places) { return QDir(places.state).filePath("recent.json"); }
 
-QString text(const char* words) { return QCoreApplication::translate("templates", words); }
+QString template_text(const char* words) { return QCoreApplication::translate("templates", words); }
 
 }  // namespace
 
@@ -77,7 +77,7 @@ std::vector<Template> templates(const Places& places) {
     const QDir folder(QDir(places.meshes).filePath(row.folder));
     if (!folder.exists(row.file)) continue;
     const QString picture = folder.absoluteFilePath("picture.png");
-    found.push_back({text(row.title), text(row.words), folder.absoluteFilePath(row.file),
+    found.push_back({template_text(row.title), template_text(row.words), folder.absoluteFilePath(row.file),
                      QFileInfo::exists(picture) ? picture : QString()});
   }
   return found;

@@ -22,7 +22,6 @@ namespace breccia::gui {
 namespace {
 
 constexpr qint64 kMostAtOnce = 1 << 20, kRemembered = 64;  // bytes
-constexpr qint64 kStatusTail = 1 << 16;                    // bytes of status.jsonl in which its last state stands
 
 /// The case among the inputs of a run: the first that is one. A geometry may stand before it, and that of another run
 /// from which it goes on behind it.

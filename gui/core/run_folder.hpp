@@ -9,6 +9,9 @@
 /// What a run writes into its folder, read while it grows. Nothing is taken from log prose.
 namespace breccia::gui {
 
+/// Bytes at the end of status.jsonl in which its last state stands.
+inline constexpr qint64 kStatusTail = 1 << 16;
+
 /// One line of status.jsonl.
 struct RunStatus {
   QString state;  ///< running, paused, complete, stopped, failed, interrupted; empty: nothing said yet

@@ -22,8 +22,7 @@
 namespace breccia::gui {
 namespace {
 
-constexpr int kRemembered = 200;
-constexpr qint64 kStatusTail = 1 << 16;  // bytes of status.jsonl in which its last state stands
+constexpr int kRunsRemembered = 200;
 constexpr int kLooksAfterEnd = 3;
 
 /// The library that keeps what a process listens at on this machine; empty: it is not installed.
@@ -322,7 +321,7 @@ QString RunRegistry::add(const RunRecord& record) const {
   (void)alone.tryLock(1000);
   QJsonArray rows{json_of(record)};
   for (const RunRecord& other : load())
-    if (other.folder != record.folder && rows.size() < kRemembered) rows.append(json_of(other));
+    if (other.folder != record.folder && rows.size() < kRunsRemembered) rows.append(json_of(other));
   return written(file_, QJsonDocument(rows).toJson());
 }
 

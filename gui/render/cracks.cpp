@@ -14,8 +14,6 @@ namespace {
 /// Opening over an edge of the face from where on a crack is a gap.
 constexpr double kFarApart = 0.2;
 
-double value(vtkDataArray* array, vtkIdType i) { return array == nullptr ? 0.0 : array->GetComponent(i, 0); }
-
 /// The triangles that are kept, with their arrays. @param keeps  of the number of a cell
 template <class Keeps>
 vtkSmartPointer<vtkPolyData> triangles_of(vtkPointSet& joints, const Keeps& keeps) {
@@ -35,13 +33,15 @@ vtkSmartPointer<vtkPolyData> triangles_of(vtkPointSet& joints, const Keeps& keep
 
 }  // namespace
 
+double first_component(vtkDataArray* array, vtkIdType i) { return array == nullptr ? 0.0 : array->GetComponent(i, 0); }
+
 vtkSmartPointer<vtkPolyData> damaged_joints(vtkUnstructuredGrid& joints) {
   vtkDataArray* opening = joints.GetCellData()->GetArray("opening");
   return triangles_of(joints, [&](vtkIdType c) {
     Vector a{}, b{};  // each joint has its own three points
     joints.GetPoint(3 * c, a.data());
     joints.GetPoint(3 * c + 1, b.data());
-    return value(opening, c) <= kFarApart * length(a - b);
+    return first_component(opening, c) <= kFarApart * length(a - b);
   });
 }
 
@@ -49,7 +49,7 @@ vtkSmartPointer<vtkPolyData> cracks_among(vtkPolyData& damaged, const std::optio
   vtkDataArray* broken = damaged.GetCellData()->GetArray("broken");
   vtkDataArray* damage = damaged.GetCellData()->GetArray("damage");
   return triangles_of(damaged, [&](vtkIdType c) {
-    return value(broken, c) > 0 || (least_damage && value(damage, c) >= *least_damage);
+    return first_component(broken, c) > 0 || (least_damage && first_component(damage, c) >= *least_damage);
   });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <vtkDataArray.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
@@ -16,5 +17,8 @@ namespace breccia::gui {
 /// @param least_damage  0 to 1; none: the cracks alone
 [[nodiscard]] vtkSmartPointer<vtkPolyData> cracks_among(vtkPolyData& damaged,
                                                         const std::optional<double>& least_damage);
+
+/// Of a cell or point, the first component; 0 where there is no such array.
+[[nodiscard]] double first_component(vtkDataArray* array, vtkIdType i);
 
 }  // namespace breccia::gui

@@ -118,9 +118,6 @@ std::vector<std::int64_t> places_of(vtkUnstructuredGrid& grid, vtkDataArray* dis
   return place;
 }
 
-/// Unlike GetTuple1 this may be called from several threads.
-double value(vtkDataArray* array, vtkIdType i) { return array == nullptr ? 0.0 : array->GetComponent(i, 0); }
-
 }  // namespace
 
 vtkSmartPointer<vtkUnstructuredGrid> read_vtkhdf(const std::string& file) {
@@ -163,16 +160,16 @@ Skin::Skin(vtkUnstructuredGrid& rest) {
     *link = static_cast<std::int64_t>(own);
   };
   for (vtkIdType c = 0; c < rest.GetNumberOfCells(); ++c) {
-    const std::int64_t element = id == nullptr ? c : static_cast<std::int64_t>(value(id, c));
+    const std::int64_t element = id == nullptr ? c : static_cast<std::int64_t>(first_component(id, c));
     for (int f = 0; f < 4; ++f) {
       const auto place_of = [&](std::int8_t corner) { return place[static_cast<std::size_t>(4 * c + corner)]; };
       std::array<std::int8_t, 3> order{};
       for (std::size_t i = 0; i < 3; ++i)
         order[i] = static_cast<std::int8_t>(kTetraFaces[static_cast<std::size_t>(f)][i]);
       std::sort(order.begin(), order.end(), [&](std::int8_t a, std::int8_t b) { return place_of(a) < place_of(b); });
-      sides.push_back(
-          {{static_cast<std::int64_t>(value(body, c)), place_of(order[0]), place_of(order[1]), place_of(order[2])},
-           {element, f, order}});
+      sides.push_back({{static_cast<std::int64_t>(first_component(body, c)), place_of(order[0]), place_of(order[1]),
+                        place_of(order[2])},
+                       {element, f, order}});
       find_other(sides.size() - 1);
     }
   }
@@ -188,7 +185,7 @@ class FaceWriter {
   FaceWriter(vtkUnstructuredGrid& elements, bool arrays) : elements_(elements), arrays_(arrays) {
     vtkDataArray* id = elements.GetCellData()->GetArray("id");
     for (vtkIdType c = 0; c < elements.GetNumberOfCells(); ++c) {
-      const auto own = static_cast<std::size_t>(id == nullptr ? static_cast<double>(c) : value(id, c));
+      const auto own = static_cast<std::size_t>(id == nullptr ? static_cast<double>(c) : first_component(id, c));
       if (row_.size() <= own) row_.resize(own + 1, -1);
       row_[own] = c;
     }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMostGlyphs = 24;
 /// Shares of the diagonal of the model, and of the length of a glyph.
-constexpr double kLength = 0.07, kSupport = 0.5, kSupportWidth = 0.45, kFoot = 0.16, kRod = 0.05, kApart = 0.4;
+constexpr double kLength = 0.07, kSupport = 0.5, kSupportWidth = 0.45, kFoot = 0.16, kRod = 0.05, kSeatsApart = 0.4;
 
 /// A face where a glyph may stand.
 struct Seat {
@@ -284,7 +284,7 @@ LoadGlyphs draw_load(vtkPolyData& skin, vtkUnstructuredGrid* elements, const std
                                     : BodyCentres();
     if (load.shape == LoadShape::spin) {
       add_spins(mesh, glyphs, load, seats, centres, length);
-    } else if (seats = spread(std::move(seats), kApart * length); load.shape == LoadShape::stretch) {
+    } else if (seats = spread(std::move(seats), kSeatsApart * length); load.shape == LoadShape::stretch) {
       add_stretching(mesh, glyphs, load, seats, centres, length);
     } else {
       for (const Seat& seat : seats) glyphs.places.push_back(add_glyph(mesh, load, seat, glyphs.places.size(), length));

@@ -10,7 +10,7 @@
 
 #include "catalyst/child_process.hpp"
 
-namespace breccia::insitu {
+namespace breccia::insitu::animation_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -69,4 +69,4 @@ TEST_F(Animations, AreMadeByTheLineThatIsToldWhereFfmpegIsMissing) {
 }
 
 }  // namespace
-}  // namespace breccia::insitu
+}  // namespace breccia::insitu::animation_test

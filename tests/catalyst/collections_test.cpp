@@ -20,7 +20,7 @@
 #include "catalyst/synthetic.hpp"
 #include "catalyst/world.hpp"
 
-namespace breccia::test {
+namespace breccia::test::collections_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -79,4 +79,4 @@ TEST(Collections, HaveEachCellOnceOnAnyNumberOfRanksOneOfThemEmpty) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::collections_test

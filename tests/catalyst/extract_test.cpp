@@ -22,7 +22,7 @@
 #include "catalyst/synthetic.hpp"
 #include "catalyst/world.hpp"
 
-namespace breccia::test {
+namespace breccia::test::extract_test {
 namespace {
 
 constexpr std::uint32_t kAll = (1U << BRECCIA_NUM_CHANNELS) - 1;
@@ -257,4 +257,4 @@ TEST(Extracts, HistoryIsALineAStepWithDoublesThatReadBackToTheBit) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::extract_test

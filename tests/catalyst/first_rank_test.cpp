@@ -9,7 +9,7 @@
 #include "catalyst/synthetic.hpp"
 #include "catalyst/world.hpp"
 
-namespace breccia::test {
+namespace breccia::test::first_rank_test {
 namespace {
 
 /// Whether this process has started Python, without which no script draws.
@@ -42,4 +42,4 @@ TEST(FirstRank, DrawsAloneAndTheOthersStartNoPython) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::first_rank_test

@@ -15,7 +15,7 @@
 
 #include "catalyst/synthetic.hpp"
 
-namespace breccia::insitu {
+namespace breccia::insitu::frame_to_vtk_test {
 namespace {
 
 constexpr int kNoRank = -1;
@@ -134,4 +134,4 @@ TEST(FrameToVtk, EmptyObjectsKeepNamesTypesAndComponentsOfTheirArrays) {
 }
 
 }  // namespace
-}  // namespace breccia::insitu
+}  // namespace breccia::insitu::frame_to_vtk_test

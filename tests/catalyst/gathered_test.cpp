@@ -6,7 +6,7 @@
 #include "catalyst/synthetic.hpp"
 #include "catalyst/world.hpp"
 
-namespace breccia::test {
+namespace breccia::test::gathered_test {
 namespace {
 
 constexpr std::int64_t kStep = 3;
@@ -50,4 +50,4 @@ TEST(Gathered, HasTheCellsOfAllRanksInTheirOrderOnTheFirstRankAndNoneElsewhere) 
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::gathered_test

@@ -22,7 +22,7 @@
 #include "catalyst/synthetic.hpp"
 #include "catalyst/world.hpp"
 
-namespace breccia::test {
+namespace breccia::test::live_test {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -176,4 +176,4 @@ TEST(Live, AParaViewConnectsInMidRunReceivesPausesContinuesAndDiesAndAnotherOneC
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::live_test

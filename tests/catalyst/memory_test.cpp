@@ -9,7 +9,7 @@
 #include "catalyst/synthetic.hpp"
 #include "catalyst/world.hpp"
 
-namespace breccia::test {
+namespace breccia::test::memory_test {
 namespace {
 
 constexpr int kWarmUp = 100;
@@ -44,4 +44,4 @@ TEST(Memory, IsFlatOverAThousandExecutions) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::memory_test

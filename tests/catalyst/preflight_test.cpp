@@ -19,7 +19,7 @@
 #include "catalyst/synthetic.hpp"
 #include "unit/output/file_size_limit.hpp"
 
-namespace breccia::test {
+namespace breccia::test::preflight_test {
 namespace {
 
 constexpr int kWithoutMpi = -1;
@@ -362,4 +362,4 @@ TEST(Adaptor, DrawsOnADisplayOfItsOwnWithoutMpiAndLeavesSignalsDisplayAndProcess
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::preflight_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace breccia::insitu {
+namespace breccia::insitu::probe_sampling_test {
 namespace {
 
 const std::vector<double> kUnit{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -60,4 +60,4 @@ TEST(ProbePlaces, DoNotDependOnTheSizeOfAModelAndAreEmptyWithoutElements) {
 }
 
 }  // namespace
-}  // namespace breccia::insitu
+}  // namespace breccia::insitu::probe_sampling_test

@@ -11,7 +11,7 @@
 #include "catalyst/synthetic.hpp"
 #include "catalyst/world.hpp"
 
-namespace breccia::test {
+namespace breccia::test::script_test {
 namespace {
 
 std::string content(const std::filesystem::path& file) {
@@ -165,4 +165,4 @@ TEST(Scripts, InAReplayGetEachRecordedCellOnceWhateverTheNumberOfRanks) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::script_test

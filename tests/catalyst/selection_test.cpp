@@ -8,7 +8,7 @@
 
 #include "catalyst/pipeline_error.hpp"
 
-namespace breccia::insitu {
+namespace breccia::insitu::selection_test {
 namespace {
 
 /// Two triangles that share an edge, by corners, and a table.
@@ -121,4 +121,4 @@ TEST(SelectedInstant, RefusesValuesAtPointsThatTheRunDoesNotHave) {
 }
 
 }  // namespace
-}  // namespace breccia::insitu
+}  // namespace breccia::insitu::selection_test

@@ -12,7 +12,7 @@
 #include "catalyst2/blueprint_check.hpp"
 #include "catalyst2/opened_standin.hpp"
 
-namespace breccia::test {
+namespace breccia::test::channels_test {
 namespace {
 
 constexpr const char* kNames[] = BRECCIA_CHANNEL_NAMES;
@@ -199,4 +199,4 @@ TEST(Catalyst2Channels, AnImplementationThatDoesNotStartIsTold) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::channels_test

@@ -7,7 +7,7 @@
 
 #include "catalyst2/catalyst_run.hpp"
 
-namespace breccia::test {
+namespace breccia::test::faults_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -107,4 +107,4 @@ TEST_P(Catalyst2Faults, values_at_points_are_refused_before_the_run) {
 INSTANTIATE_TEST_SUITE_P(OfRanks, Catalyst2Faults, testing::Values(1, 2), testing::PrintToStringParamName());
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::faults_test

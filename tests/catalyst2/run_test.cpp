@@ -8,7 +8,7 @@
 #include "catalyst2/catalyst_run.hpp"
 #include "end_to_end/program.hpp"
 
-namespace breccia::test {
+namespace breccia::test::run_test {
 namespace {
 
 using nlohmann::json;
@@ -132,7 +132,7 @@ TEST_P(Catalyst2, goes_on_with_a_run_that_was_stopped) {
 
 #ifdef BRECCIA_HAS_PARAVIEW
 TEST(Catalyst2Alone, is_not_taken_where_the_adaptor_with_ParaView_can_be_loaded_and_nobody_asks_for_it) {
-  for (const std::string& asked : {"", "--set insitu.backend=auto", "--set insitu.backend=paraview"}) {
+  for (const char* asked : {"", "--set insitu.backend=auto", "--set insitu.backend=paraview"}) {
     const CatalystRun run(1, kChannels + asked);
     EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
     EXPECT_TRUE(run.cells().empty());
@@ -152,4 +152,4 @@ TEST(Catalyst2Alone, info_tells_what_was_found_and_what_lacks) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::run_test

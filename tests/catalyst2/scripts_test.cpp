@@ -12,7 +12,7 @@
 #include "catalyst2/blueprint_check.hpp"
 #include "catalyst2/opened_standin.hpp"
 
-namespace breccia::test {
+namespace breccia::test::scripts_test {
 namespace {
 
 const std::string kScript = std::string(BRECCIA_CATALYST_SCRIPTS) + "/uses_surface.py";
@@ -162,4 +162,4 @@ TEST(Catalyst2Preflight, HonoursTheEnvironment) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::scripts_test

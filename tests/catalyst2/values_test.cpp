@@ -11,7 +11,7 @@
 #include "catalyst2/catalyst_run.hpp"
 #include "unit/output/hdf5_reader.hpp"
 
-namespace breccia::test {
+namespace breccia::test::values_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -169,4 +169,4 @@ TEST(Catalyst2ValuesAlone, of_a_rank_that_owns_nothing_are_none_and_all_others_a
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::values_test

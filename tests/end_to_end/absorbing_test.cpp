@@ -9,7 +9,7 @@
 
 #include "end_to_end/program.hpp"
 
-namespace breccia {
+namespace breccia::absorbing_test {
 namespace {
 
 using test::call;
@@ -168,4 +168,4 @@ TEST(Absorbing, StandsNotBesideDampingOfTheWaves) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::absorbing_test

@@ -6,7 +6,7 @@
 
 #include "end_to_end/program.hpp"
 
-namespace breccia::test {
+namespace breccia::test::arch_test {
 namespace {
 
 /// Half a ring of 15 stones on two piers, dry, that carries its own weight. Radius 1 m, as thick as given.
@@ -82,4 +82,4 @@ TEST(Arch, of_stones_without_mortar_stands_if_it_is_thick_enough_and_falls_if_no
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::arch_test

@@ -7,7 +7,7 @@
 #include "end_to_end/program.hpp"
 
 /// Blocks that stand on each other.
-namespace breccia::test {
+namespace breccia::test::block_test {
 namespace {
 
 enum class Joints { none, breakable };
@@ -93,4 +93,4 @@ TEST(Block, that_can_break_stands_there_too) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::block_test

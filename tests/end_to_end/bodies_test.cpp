@@ -6,7 +6,7 @@
 
 #include "end_to_end/program.hpp"
 
-namespace breccia::test {
+namespace breccia::test::bodies_test {
 namespace {
 
 /// A bar of 40 x 10 x 10 mm of two volumes with one interface, in one group or in two.
@@ -104,4 +104,4 @@ TEST(Bodies, volumes_of_one_group_that_are_not_joined_are_warned_of_by_every_com
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::bodies_test

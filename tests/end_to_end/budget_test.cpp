@@ -11,7 +11,7 @@
 #include "end_to_end/program.hpp"
 
 /// What the energy budget of a run holds, and what ends a run early.
-namespace breccia::test {
+namespace breccia::test::budget_test {
 namespace {
 
 using nlohmann::json;
@@ -361,4 +361,4 @@ TEST(TimeStep, grows_by_half_at_most_after_a_rebound_so_that_the_run_goes_on) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::budget_test

@@ -7,7 +7,7 @@
 #include "end_to_end/program.hpp"
 
 /// Keys of the case that stand for others, or for the content of files: the run is that of the case written out.
-namespace breccia::test {
+namespace breccia::test::case_keys_test {
 namespace {
 
 using nlohmann::json;
@@ -70,4 +70,4 @@ TEST(TimeHistory, of_a_file_runs_as_the_same_points_in_the_case_also_when_resume
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::case_keys_test

@@ -12,7 +12,7 @@
 #include "end_to_end/program.hpp"
 
 /// Bodies in contact as a user meets them: overlaps at the start, ridges, slopes.
-namespace breccia::test {
+namespace breccia::test::contact_test {
 namespace {
 
 using nlohmann::json;
@@ -429,4 +429,4 @@ history_interval = "1 ms"
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::contact_test

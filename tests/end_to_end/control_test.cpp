@@ -11,7 +11,7 @@
 
 #include "end_to_end/program.hpp"
 
-namespace breccia::test {
+namespace breccia::test::control_test {
 namespace {
 
 using nlohmann::json;
@@ -168,4 +168,4 @@ TEST_P(Control, refuses_what_cannot_be_and_says_why) {
 INSTANTIATE_TEST_SUITE_P(OfRanks, Control, testing::Values(1, 2), testing::PrintToStringParamName());
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::control_test

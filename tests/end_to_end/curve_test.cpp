@@ -7,7 +7,7 @@
 #include "end_to_end/program.hpp"
 
 /// What is held along curves and at points of the mesh, and forces on them.
-namespace breccia::test {
+namespace breccia::test::curve_test {
 namespace {
 
 constexpr double kLength = 1.0, kSide = 0.1, kDensity = 2400, kGravity = 9.81;
@@ -156,4 +156,4 @@ TEST_F(Curves, AreNoSurfaces) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::curve_test

@@ -13,7 +13,7 @@
 #include "end_to_end/program.hpp"
 
 /// What happens to a run from outside: a rank that is stopped; and that the run goes on to the same end afterwards.
-namespace breccia::test {
+namespace breccia::test::disturbance_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -97,4 +97,4 @@ TEST_F(Disturbed, ByARankThatIsStoppedARunEndsAfterItsPatienceAsByAFaultOfTheMac
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::disturbance_test

@@ -6,7 +6,7 @@
 #include "end_to_end/program.hpp"
 
 /// Runs that end with numbers that went wrong: what stands from before, and how to go on from there.
-namespace breccia::test {
+namespace breccia::test::fault_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -130,4 +130,4 @@ TEST(Diff, NamesInputsByTheirPlaceBesideTheCase) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::fault_test

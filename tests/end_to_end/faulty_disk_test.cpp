@@ -12,7 +12,7 @@
 
 /// Disks that are full, over quota, read-only, broken or slow in the middle of a run (faulty_disk.cpp): what the run
 /// says, what stands, and that it goes on to the same end when there is space again.
-namespace breccia::test {
+namespace breccia::test::faulty_disk_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -273,4 +273,4 @@ TEST(StandardError, ThatTakesNothingEndsNoCommand) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::faulty_disk_test

@@ -11,7 +11,7 @@
 
 /// The folder of a run that comes from somebody else: under any name of its files there may be a link to what the user
 /// has elsewhere, a pipe, a device, a folder. No command touches anything outside, shows its content, or hangs.
-namespace breccia::test {
+namespace breccia::test::foreign_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -206,4 +206,4 @@ TEST(OwnFolder, is_not_continued_from_a_checkpoint_of_another_run) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::foreign_folder_test

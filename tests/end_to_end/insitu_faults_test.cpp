@@ -7,7 +7,7 @@
 
 /// What may go wrong in situ in the middle of a run: displays that die, scripts that never end, disks that are full,
 /// aborts within ParaView. The run ends as it would without, or with a line that names the pipeline.
-namespace breccia::test {
+namespace breccia::test::insitu_faults_test {
 namespace {
 
 using nlohmann::json;
@@ -88,4 +88,4 @@ TEST_P(InSituFaults, an_abort_within_paraview_leaves_a_line_that_names_the_pipel
 INSTANTIATE_TEST_SUITE_P(OfRanks, InSituFaults, testing::Values(1, 2), testing::PrintToStringParamName());
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::insitu_faults_test

@@ -12,7 +12,7 @@
 #include "end_to_end/program.hpp"
 
 /// The shipped program with its in-situ adaptor. No display is inherited: what draws makes its own.
-namespace breccia::test {
+namespace breccia::test::insitu_test {
 namespace {
 
 using nlohmann::json;
@@ -338,8 +338,9 @@ TEST_P(InSitu, pictures_need_no_display) {
   EXPECT_EQ(rows, 3);
   const std::string status = read_text(run.folder() / "status.jsonl");
   EXPECT_NE(status.find("animation: "), std::string::npos) << status;
-  if (status.find("apt-get install ffmpeg") == std::string::npos)
+  if (status.find("apt-get install ffmpeg") == std::string::npos) {
     EXPECT_TRUE(fs::exists(run.folder() / "extracts/stress/stress.mp4")) << status;
+  }
 }
 
 TEST_P(InSitu, a_run_that_goes_on_lists_the_pictures_that_were_drawn_before) {
@@ -441,4 +442,4 @@ TEST(InSituAlone, a_replay_draws_what_a_run_has_recorded) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::insitu_test

@@ -17,7 +17,7 @@
 
 #include "end_to_end/program.hpp"
 
-namespace breccia::test {
+namespace breccia::test::live_pause_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -132,4 +132,4 @@ TEST_P(LivePause, of_ParaView_is_ended_by_a_signal_that_asks_the_run_to_end) {
 INSTANTIATE_TEST_SUITE_P(OfRanks, LivePause, testing::Values(1, 2), testing::PrintToStringParamName());
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::live_pause_test

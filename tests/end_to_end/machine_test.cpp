@@ -12,7 +12,7 @@
 #include "end_to_end/program.hpp"
 
 /// File systems without locks, logouts, suspended jobs and networks.
-namespace breccia::test {
+namespace breccia::test::machine_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -98,4 +98,4 @@ TEST(SuspendedRun, goes_on_whatever_its_patience) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::machine_test

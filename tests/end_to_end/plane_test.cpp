@@ -7,7 +7,7 @@
 #include "end_to_end/program.hpp"
 
 /// Plane strain and stress with joints and contact.
-namespace breccia::test {
+namespace breccia::test::plane_test {
 namespace {
 
 /// A plate of one layer that rushes into another one.
@@ -163,4 +163,4 @@ Mesh.Algorithm = 5;
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::plane_test

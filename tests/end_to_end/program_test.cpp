@@ -10,7 +10,7 @@
 
 #include "end_to_end/program.hpp"
 
-namespace breccia::test {
+namespace breccia::test::program_test {
 namespace {
 
 using nlohmann::json;
@@ -302,4 +302,4 @@ TEST(Program, a_mesh_does_not_take_the_place_of_the_frames_of_a_run) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::program_test

@@ -11,7 +11,7 @@
 
 #include "end_to_end/program.hpp"
 
-namespace breccia::test {
+namespace breccia::test::race_test {
 namespace {
 
 using nlohmann::json;
@@ -171,4 +171,4 @@ TEST(Race, an_interrupt_ends_it_in_order) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::race_test

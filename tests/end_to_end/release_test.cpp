@@ -8,7 +8,7 @@
 #include "end_to_end/program.hpp"
 
 /// What is held or driven in one stage and let go in the next.
-namespace breccia::test {
+namespace breccia::test::release_test {
 namespace {
 
 struct Press {
@@ -90,4 +90,4 @@ TEST(Release, comes_after_a_press_that_would_throw_held_nodes_far) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::release_test

@@ -13,7 +13,7 @@
 #include "end_to_end/program.hpp"
 
 /// Runs that end before their time and go on from a checkpoint, against the same run undisturbed.
-namespace breccia::test {
+namespace breccia::test::resume_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -363,4 +363,4 @@ TEST_F(Resume, LeavesNoLineTwiceAndNoneOut) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::resume_test

@@ -6,7 +6,7 @@
 #include "end_to_end/program.hpp"
 
 /// Runs with ParaView in the process: MPI, which ParaView needs, opens no port to other machines, nor do its daemons.
-namespace breccia::test {
+namespace breccia::test::sockets_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -50,4 +50,4 @@ INSTANTIATE_TEST_SUITE_P(Runs, Sockets,
                          [](const auto& watched) { return std::string(watched.param.name); });
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::sockets_test

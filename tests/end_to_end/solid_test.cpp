@@ -8,7 +8,7 @@
 
 #include "end_to_end/program.hpp"
 
-namespace breccia::test {
+namespace breccia::test::solid_test {
 namespace {
 
 using nlohmann::json;
@@ -179,4 +179,4 @@ TEST(Solid, without_a_case_is_meshed_and_its_groups_and_box_told) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::solid_test

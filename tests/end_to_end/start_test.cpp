@@ -13,7 +13,7 @@
 #include "support/notched_beam.hpp"
 
 /// Runs that start from the state of another one under a case of their own.
-namespace breccia::test {
+namespace breccia::test::start_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -387,4 +387,4 @@ TEST_F(Start, NeverTakesAnEarlierStateThanTheOneAskedFor) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::start_test

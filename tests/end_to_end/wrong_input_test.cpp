@@ -4,7 +4,7 @@
 #include "end_to_end/program.hpp"
 #include "end_to_end/wrong_inputs.hpp"
 
-namespace breccia::test {
+namespace breccia::test::wrong_input_test {
 namespace {
 
 constexpr std::size_t kEvery = 9;  // a sample of the table, on two ranks
@@ -160,4 +160,4 @@ TEST(WrongInputTable, holds_at_least_250_cases) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::wrong_input_test

@@ -9,7 +9,7 @@
 #include "core/places.hpp"
 #include "gui/full_disk.hpp"
 
-namespace breccia::gui {
+namespace breccia::gui::case_places_test {
 namespace {
 
 Places places_in(const QTemporaryDir& scratch) {
@@ -88,4 +88,4 @@ TEST(CaseOutline, AStepOfTheHistoryNamesWhatItIsAbout) {
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::case_places_test

@@ -11,7 +11,7 @@
 #include "gui/run_desk.hpp"
 #include "render/element_values.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::colours_test {
 namespace {
 
 void type(QLineEdit* field, const QString& text) {
@@ -104,4 +104,4 @@ TEST(Colours, JointsThatAreHiddenHaveNoLegend) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::colours_test

@@ -7,7 +7,7 @@
 
 #include "gui/block_case.hpp"
 
-namespace breccia::gui {
+namespace breccia::gui::conditions_test {
 namespace {
 
 const QByteArray kLoads = R"(name = "press"
@@ -148,4 +148,4 @@ TEST(Conditions, OfACaseThatIsRefusedAreNone) {
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::conditions_test

@@ -5,7 +5,7 @@
 #include <QFile>
 #include <QTemporaryDir>
 
-namespace breccia::gui {
+namespace breccia::gui::contact_pairs_test {
 namespace {
 
 /// A case with contacts of these pairs.
@@ -58,4 +58,4 @@ TEST(ContactPairs, WithoutAnEntryThereIsNoContactUntilOneIsGiven) {
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::contact_pairs_test

@@ -15,7 +15,7 @@
 #include "gui/desk.hpp"
 #include "gui/timed_application.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::cut_test {
 namespace {
 
 constexpr int kSolver = 240000;  // ms; the machine may be busy
@@ -238,4 +238,4 @@ TEST(Cut, MovesThroughFourHundredThousandElements) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::cut_test

@@ -11,7 +11,7 @@
 #include "gui/run_desk.hpp"
 #include "render/frame_data.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::deformation_test {
 namespace {
 
 struct Results : RunDesk {
@@ -108,4 +108,4 @@ TEST(Deformation, OfARunWithoutAFrameAtRestIsTrueAndTheCaptionSaysWhy) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::deformation_test

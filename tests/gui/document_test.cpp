@@ -17,7 +17,7 @@
 #include "case/reader.hpp"
 #include "case/schema.hpp"
 
-namespace breccia::gui {
+namespace breccia::gui::document_test {
 namespace {
 
 QByteArray bytes_of(const QString& file) {
@@ -293,4 +293,4 @@ TEST(Document, AFileThatAnotherProgramHasChangedIsNoticed) {
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::document_test

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace breccia::gui {
+namespace breccia::gui::element_values_test {
 namespace {
 
 constexpr double kRounding = 1e-12;
@@ -60,4 +60,4 @@ TEST(ElementValues, ThatAreEqualButForRoundingAreInOneBar) {
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::element_values_test

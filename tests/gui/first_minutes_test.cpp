@@ -12,7 +12,7 @@
 
 // What is seen in the first minutes: of the first run while it goes on and in its end, and of runs of other cases.
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::first_minutes_test {
 namespace {
 
 constexpr Colouring kSizes = colouring_by(Quantity::fragment_size);
@@ -193,4 +193,4 @@ TEST(FirstMinutes, ARunOfTheOpenCaseLeavesItAsItIsEdited) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::first_minutes_test

@@ -20,7 +20,7 @@
 #include "widgets/joint_plot.hpp"
 #include "widgets/plots_panel.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::first_use_test {
 namespace {
 
 constexpr int kSolver = 120000;  // ms; the machine may be busy
@@ -236,4 +236,4 @@ TEST(FirstUse, ARunThatOutlivesTheWindowIsInTheNextOne) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::first_use_test

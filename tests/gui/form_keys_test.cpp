@@ -15,7 +15,7 @@
 
 // Enter, Escape, Tab, arrow keys and wheel in the fields of the forms, and Enter in the dialogs.
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::form_keys_test {
 namespace {
 
 void turn_wheel(QWidget& over) {
@@ -215,4 +215,4 @@ velocity = { x = { constant = "1 m/s", linear = "5 m/s2" } }
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::form_keys_test

@@ -19,7 +19,7 @@
 #include "gui/desk.hpp"
 #include "gui/everything_case.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::forms_test {
 namespace {
 
 TEST(Forms, EverySectionOfTheSchemaIsInAStage) {
@@ -317,4 +317,4 @@ TEST(Forms, EveryEditIsOneStepBackAndItsFieldFollowsAtOnce) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::forms_test

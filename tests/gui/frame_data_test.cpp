@@ -14,7 +14,7 @@
 
 #include "gui/block_case.hpp"
 
-namespace breccia::gui {
+namespace breccia::gui::frame_data_test {
 namespace {
 
 using Corner = std::array<double, 3>;
@@ -138,4 +138,4 @@ TEST(LoadFrame, WhatNothingIsDrawnByIsNotRead) {
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::frame_data_test

@@ -12,7 +12,7 @@
 #include "gui/block_case.hpp"
 #include "widgets/animation_export.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::frame_loader_test {
 namespace {
 
 constexpr int kPatience = 30000;  // ms
@@ -137,4 +137,4 @@ TEST(Film, OfPicturesThatCannotBeWrittenTellsTheirName) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::frame_loader_test

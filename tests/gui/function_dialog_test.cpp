@@ -13,7 +13,7 @@
 #include "gui/desk.hpp"
 #include "widgets/function_dialog.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::function_dialog_test {
 namespace {
 
 constexpr const char* kPressure = "stage[0].pressure[0].value";
@@ -153,4 +153,4 @@ TEST(FunctionDialog, EveryWidgetThatTakesTheFocusHasANameAndATooltip) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::function_dialog_test

@@ -7,7 +7,7 @@
 
 #include "gui/block_case.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::function_edit_test {
 namespace {
 
 constexpr const char* kPressure = "stage[0].pressure[0].value";
@@ -229,4 +229,4 @@ TEST(FunctionEdit, KnowsTheEndsOfTheStages) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::function_edit_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace breccia::gui {
+namespace breccia::gui::group_names_test {
 namespace {
 
 const TomlPlaces kCase(R"(
@@ -56,4 +56,4 @@ TEST(GroupNames, EveryKeyOfASurfaceOrAVolumeKnowsItsKind) {
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::group_names_test

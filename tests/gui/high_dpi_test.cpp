@@ -9,7 +9,7 @@
 
 // Run with QT_SCALE_FACTOR 1, 1.5 and 2 (tests/gui/CMakeLists.txt).
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::high_dpi_test {
 namespace {
 
 constexpr int kSolver = 240000;  // ms; the machine may be busy
@@ -103,4 +103,4 @@ TEST(SmallScreen, EveryStageFitsAndItsSlidersCanBeMoved) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::high_dpi_test

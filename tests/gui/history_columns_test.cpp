@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace breccia::gui {
+namespace breccia::gui::history_columns_test {
 namespace {
 
 History of(const QList<QByteArray>& lines) {
@@ -42,4 +42,4 @@ TEST(HistoryColumns, WhatIsNoNumberDoesNotCount) {
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::history_columns_test

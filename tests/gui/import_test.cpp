@@ -8,7 +8,7 @@
 
 #include "gui/desk.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::import_test {
 namespace {
 
 constexpr int kSolver = 240000;  // ms; the machine may be busy
@@ -89,4 +89,4 @@ TEST(Import, AnOpenStlIsRefusedInTheSolversWords) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::import_test

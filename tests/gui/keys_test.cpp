@@ -11,7 +11,7 @@
 
 #include "gui/desk.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::keys_test {
 namespace {
 
 constexpr int kSolver = 240000;  // ms; the machine may be busy
@@ -129,4 +129,4 @@ TEST(Keys, TheTextStaysInFrontWhileOneTypesThere) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::keys_test

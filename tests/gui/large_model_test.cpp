@@ -16,7 +16,7 @@
 #include "gui/timed_application.hpp"
 #include "widgets/histogram_panel.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::large_model_test {
 namespace {
 
 constexpr int kSolver = 240000;  // ms; the machine may be busy
@@ -183,4 +183,4 @@ TEST(LargeModel, ElementsAreMeasuredAndThoseOfABarAndOfARankFoundBesideTheThread
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::large_model_test

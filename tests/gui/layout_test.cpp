@@ -10,7 +10,7 @@
 
 // What the window keeps from one session to the next.
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::layout_test {
 namespace {
 
 /// Ends a session, and begins the next one as the program does: the size is the window's own.
@@ -117,4 +117,4 @@ TEST(Layout, FilesThatHoldSomethingElseChangeNothing) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::layout_test

@@ -8,7 +8,7 @@
 
 #include "gui/desk.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::legend_test {
 namespace {
 
 constexpr int kSolver = 240000;  // ms; the machine may be busy
@@ -64,4 +64,4 @@ TEST(Legend, TheModelStandsWholeBesideIt) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::legend_test

@@ -13,7 +13,7 @@
 #include "render/body_centres.hpp"
 #include "render/vectors.hpp"
 
-namespace breccia::gui {
+namespace breccia::gui::load_glyphs_test {
 namespace {
 
 /// A floor of triangles, one beside the other in the plane z = 0, seen from above; the last is of another group.
@@ -293,4 +293,4 @@ TEST(LoadGlyphs, OfAFaceWithinTheModelStandOnItsElements) {
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::load_glyphs_test

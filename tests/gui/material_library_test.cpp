@@ -13,7 +13,7 @@
 #include "case/units.hpp"
 #include "gui/block_case.hpp"
 
-namespace breccia::gui {
+namespace breccia::gui::material_library_test {
 namespace {
 
 const QByteArray kCase = test::block_case(1, "1 us");
@@ -125,4 +125,4 @@ TEST(MaterialLibrary, AMaterialOfTheCaseGoesIntoTheUsersLibraryAndBack) {
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::material_library_test

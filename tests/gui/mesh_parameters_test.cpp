@@ -8,7 +8,7 @@
 #include "core/case_queries.hpp"
 #include "gui/block_case.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::mesh_parameters_test {
 namespace {
 
 const std::vector<MeshParameter> kKnown{{{"h", "Mesh/h"}, "0.0025", "element size"}, {{"width"}, "1", ""}};
@@ -91,4 +91,4 @@ TEST(MeshParameters, AreToldByTheSolverAlsoWhileTheCaseHasMistakes) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::mesh_parameters_test

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace breccia::gui {
+namespace breccia::gui::newest_task_test {
 namespace {
 
 void process_events(int ms) {
@@ -38,4 +38,4 @@ TEST(NewestTask, WhatWaitedIsNotDoneAfterWhatWasAskedForLater) {
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::newest_task_test

@@ -10,7 +10,7 @@
 #include <QTemporaryDir>
 #include <QThreadPool>
 
-namespace breccia::gui {
+namespace breccia::gui::own_files_test {
 namespace {
 
 /// The number of a process that has ended.
@@ -47,4 +47,4 @@ TEST(OwnFiles, WhatProcessesThatAreGoneHaveLeftIsRemovedAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::own_files_test

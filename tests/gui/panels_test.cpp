@@ -16,7 +16,7 @@
 #include "widgets/histogram_panel.hpp"
 #include "widgets/line_chart.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::panels_test {
 namespace {
 
 constexpr int kSolver = 240000;  // ms; the machine may be busy
@@ -370,4 +370,4 @@ TEST(Panels, ABarOfTheHistogramShowsItsElements) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::panels_test

@@ -12,7 +12,7 @@
 
 #include "gui/block_case.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::paraview_results_test {
 namespace {
 
 void write(const QString& name, const QByteArray& text) {
@@ -77,4 +77,4 @@ SaveScreenshot(os.environ["PICTURE"], GetActiveView(), ImageResolution=[800, 600
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::paraview_results_test

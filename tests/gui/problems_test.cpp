@@ -12,7 +12,7 @@
 #include "gui/desk.hpp"
 #include "widgets/joint_plot.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::problems_test {
 namespace {
 
 constexpr int kSolver = 240000;  // ms; the machine may be busy
@@ -140,4 +140,4 @@ TEST(Problems, ALawWithoutCurvesSaysWhyItHasNone) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::problems_test

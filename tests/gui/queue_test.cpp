@@ -10,7 +10,7 @@
 #include "core/run_queue.hpp"
 #include "gui/desk.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::queue_test {
 namespace {
 
 constexpr int kSolver = 120000;  // ms; the machine may be busy
@@ -127,4 +127,4 @@ TEST(Queue, ARunOfItIsStoppedAndTheNextOneFollows) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::queue_test

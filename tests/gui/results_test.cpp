@@ -14,7 +14,7 @@
 #include "gui/desk.hpp"
 #include "widgets/plots_panel.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::results_test {
 namespace {
 
 constexpr int kSolver = 240000;  // ms; the machine may be busy
@@ -177,4 +177,4 @@ TEST(Results, AReportOfARunIsWrittenByTheSolverAndOpened) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::results_test

@@ -9,7 +9,7 @@
 
 #include "core/study.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::run_case_test {
 namespace {
 
 /// Folders of runs and the cases that they may be of.
@@ -108,4 +108,4 @@ TEST(RunCase, TellsOfFramesWithoutElements) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::run_case_test

@@ -9,7 +9,7 @@
 #include <QTemporaryDir>
 #include <cmath>
 
-namespace breccia::gui {
+namespace breccia::gui::run_folder_test {
 namespace {
 
 void append(const QString& file, const QByteArray& text) {
@@ -228,4 +228,4 @@ TEST(RunFolder, NoFrameOutsideItIsListed) {
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::run_folder_test

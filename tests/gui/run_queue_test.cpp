@@ -9,7 +9,7 @@
 #include "gui/block_case.hpp"
 #include "gui/full_disk.hpp"
 
-namespace breccia::gui {
+namespace breccia::gui::run_queue_test {
 namespace {
 
 using test::turning_case, test::wait_until, test::written_case;
@@ -184,4 +184,4 @@ TEST(RunQueue, AWorkerThatWasKilledLeavesItsRunToTheNextOne) {
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::run_queue_test

@@ -10,7 +10,7 @@
 
 #include "gui/desk.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::runs_test {
 namespace {
 
 constexpr int kSolver = 240000;  // ms; the machine may be busy
@@ -143,4 +143,4 @@ TEST(Runs, NamesOfRunsAreSeenWhole) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::runs_test

@@ -5,7 +5,7 @@
 #include <QFile>
 #include <QTemporaryDir>
 
-namespace breccia::gui {
+namespace breccia::gui::solver_problems_test {
 namespace {
 
 const Problem kProblem{"case.toml", 4, "stage[0].end", "the mesh cannot be held so long", "", ""};
@@ -50,4 +50,4 @@ TEST(SolverProblems, AnAnswerAboutATextThatHasBeenEditedMeanwhileSaysNothingOfTh
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::solver_problems_test

@@ -16,7 +16,7 @@
 #include "core/solver_query.hpp"
 #include "gui/block_case.hpp"
 
-namespace breccia::gui {
+namespace breccia::gui::solver_run_test {
 namespace {
 
 using test::turning_case, test::wait_until, test::written_case;
@@ -288,4 +288,4 @@ TEST(SolverQuery, AnswersAndProblemsComeAsJson) {
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::solver_run_test

@@ -6,7 +6,7 @@
 
 #include "gui/block_case.hpp"
 
-namespace breccia::gui {
+namespace breccia::gui::study_test {
 namespace {
 
 using test::turning_case, test::wait_until, test::written_case;
@@ -116,4 +116,4 @@ TEST(Study, WordsStandOnTheAxisInTheOrderInWhichTheyWereTyped) {
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::study_test

@@ -13,7 +13,7 @@
 #include "gui/desk.hpp"
 #include "widgets/start_page.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::templates_test {
 namespace {
 
 constexpr int kSolver = 240000;  // ms; the machine may be busy
@@ -123,4 +123,4 @@ TEST(Templates, HaveSmallPicturesThatStandOutOnLightAndOnDark) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::templates_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace breccia::gui {
+namespace breccia::gui::text_differences_test {
 namespace {
 
 TEST(TextDifferences, LinesThatOneTextHasAndTheOtherHasNotAreToldInTheirOrder) {
@@ -22,4 +22,4 @@ TEST(TextDifferences, OfAVeryLongDifferenceAllLinesAreTold) {
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::text_differences_test

@@ -8,7 +8,7 @@
 
 #include "case/reader_toml.hpp"
 
-namespace breccia::gui {
+namespace breccia::gui::toml_places_test {
 namespace {
 
 const std::string kText = R"(title = "a # b"  # comment
@@ -154,4 +154,4 @@ TEST(TomlPlaces, FindsEveryValueOfEveryShippedCase) {
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::toml_places_test

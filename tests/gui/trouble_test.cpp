@@ -9,7 +9,7 @@
 #include "gui/full_disk.hpp"
 #include "gui/plain_user.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::trouble_test {
 namespace {
 
 constexpr int kSolver = 240000;    // ms; the machine may be busy
@@ -373,4 +373,4 @@ TEST(Trouble, WhoSavesOverAnotherProgramsEditsCanTakeThoseInstead) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::trouble_test

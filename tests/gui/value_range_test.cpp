@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::value_range_test {
 namespace {
 
 using Range = std::array<double, 2>;
@@ -61,4 +61,4 @@ TEST(ValueRange, DoesNotCountWhatIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::value_range_test

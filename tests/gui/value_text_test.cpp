@@ -7,7 +7,7 @@
 #include <QDirIterator>
 #include <QFile>
 
-namespace breccia::gui {
+namespace breccia::gui::value_text_test {
 namespace {
 
 QString typed(const char* key, const char* text) { return typed_value(case_::key_of(key), text); }
@@ -98,4 +98,4 @@ TEST(ValueText, EveryKeyHasLabelAndTooltipWithUnitRangeAndDefault) {
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::value_text_test

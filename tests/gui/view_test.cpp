@@ -14,7 +14,7 @@
 #include "gui/desk.hpp"
 #include "widgets/plots_panel.hpp"
 
-namespace breccia::gui::test {
+namespace breccia::gui::test::view_test {
 namespace {
 
 constexpr int kSolver = 240000;  // ms; the machine may be busy
@@ -279,4 +279,4 @@ TEST(View, AKeyListsTheKeys) {
 }
 
 }  // namespace
-}  // namespace breccia::gui::test
+}  // namespace breccia::gui::test::view_test

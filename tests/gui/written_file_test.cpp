@@ -8,7 +8,7 @@
 
 #include "gui/full_disk.hpp"
 
-namespace breccia::gui {
+namespace breccia::gui::written_file_test {
 namespace {
 
 QByteArray content(const QString& name) {
@@ -33,4 +33,4 @@ TEST(WrittenFile, AFullDiskIsToldAndTheFileStaysAsItWas) {
 }
 
 }  // namespace
-}  // namespace breccia::gui
+}  // namespace breccia::gui::written_file_test

@@ -7,7 +7,7 @@
 #include "mpi/world.hpp"
 #include "unit/case/case_files.hpp"
 
-namespace breccia {
+namespace breccia::balance_test {
 namespace {
 
 using test::world;
@@ -58,4 +58,4 @@ TEST_F(UnequalCores, CostNothingWhereEachIsTheSlowOneInTurn) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::balance_test

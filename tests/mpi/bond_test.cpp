@@ -3,7 +3,7 @@
 
 #include "mpi/same_bits.hpp"
 
-namespace breccia {
+namespace breccia::bond_test {
 namespace {
 
 /// Two bars of ordinary finite elements, bonded face to face but for a notch, are peeled off each other.
@@ -75,4 +75,4 @@ TEST(Ranks, GiveTheSameBitsWhileABondOfBodiesWithoutJointsIsPeeled) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::bond_test

@@ -15,7 +15,7 @@
 #include "mpi/world.hpp"
 #include "parallel/mpi_handle.hpp"
 
-namespace breccia {
+namespace breccia::communicator_test {
 namespace {
 
 using test::world;
@@ -345,4 +345,4 @@ TEST(Waiting, PastThePatienceNamesRankAndPhaseThenFailsAndCanBeTakenUpAgain) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::communicator_test

@@ -11,7 +11,7 @@
 #include "simulation/step.hpp"
 #include "unit/case/case_files.hpp"
 
-namespace breccia {
+namespace breccia::division_test {
 namespace {
 
 using test::world;
@@ -94,4 +94,4 @@ TEST(Signals, AreReceivedAStepAfterTheyAreSentWhetherTheModelIsDividedMeanwhileO
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::division_test

@@ -5,7 +5,7 @@
 #include "mpi/world.hpp"
 #include "parallel/domain_topology.hpp"
 
-namespace breccia {
+namespace breccia::domain_test {
 namespace {
 
 struct Cloud {
@@ -55,4 +55,4 @@ INSTANTIATE_TEST_SUITE_P(Kinds, DomainsOverRanks, testing::Values(DomainKind::gr
                          [](const auto& kind) { return kind.param == DomainKind::grid ? "grid" : "rcb"; });
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::domain_test

@@ -4,7 +4,7 @@
 
 #include "mpi/world.hpp"
 
-namespace breccia {
+namespace breccia::element_sizes_test {
 namespace {
 
 using test::world;
@@ -65,4 +65,4 @@ TEST(ElementSizes, MayBeOfRanksWithoutElements) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::element_sizes_test

@@ -9,7 +9,7 @@
 #include "mpi/world.hpp"
 #include "unit/model/two_boxes.hpp"
 
-namespace breccia {
+namespace breccia::first_division_test {
 namespace {
 
 using test::world;
@@ -61,4 +61,4 @@ TEST(FirstDivision, GivesEveryRankTheRecordsThatTheWholeModelWouldHave) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::first_division_test

@@ -3,7 +3,7 @@
 
 #include "mpi/same_bits.hpp"
 
-namespace breccia {
+namespace breccia::freed_faces_test {
 namespace {
 
 /// Boxes that break fly apart, so that elements once joined come to be in pieces far from each other.
@@ -117,4 +117,4 @@ TEST(Ranks, RememberEndedContactsAlikeWithASmallBuffer) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::freed_faces_test

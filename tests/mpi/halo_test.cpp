@@ -12,7 +12,7 @@
 #include "mpi/world.hpp"
 #include "parallel/mpi_handle.hpp"
 
-namespace breccia {
+namespace breccia::halo_test {
 namespace {
 
 using test::world;
@@ -337,4 +337,4 @@ TEST(Halo, WithANeighbourIsRefusedToARankThatIsAlone) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::halo_test

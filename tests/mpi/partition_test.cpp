@@ -9,7 +9,7 @@
 #include "simulation/step.hpp"
 #include "unit/case/case_files.hpp"
 
-namespace breccia {
+namespace breccia::partition_test {
 namespace {
 
 using test::world;
@@ -162,4 +162,4 @@ TEST_F(PartitionOfCubes, GoesOnFromASnapshotWithAnotherSearch) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::partition_test

@@ -20,7 +20,7 @@
 #include "mpi/same_bits.hpp"
 
 /// The shipped program on several ranks against the same program on one.
-namespace breccia {
+namespace breccia::ranks_test {
 namespace {
 
 using test::Outcome;
@@ -352,4 +352,4 @@ TEST(Ranks, EndTogetherWhenOneCannotWriteItsPieceOfAFrame) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::ranks_test

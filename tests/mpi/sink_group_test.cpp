@@ -7,7 +7,7 @@
 
 #include "mpi/world.hpp"
 
-namespace breccia {
+namespace breccia::sink_group_test {
 namespace {
 
 using test::world;
@@ -47,4 +47,4 @@ TEST_F(OneSink, TellsOfItsStatusOnce) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::sink_group_test

@@ -4,7 +4,7 @@
 
 #include "verification/recorder.hpp"
 
-namespace breccia::test {
+namespace breccia::test::elastic_test {
 namespace {
 
 constexpr double kResidual = 1e-3;  // of the largest term: the limit for every case of the repository
@@ -47,4 +47,4 @@ TEST(Elastic, joints_make_the_cantilever_softer_by_their_compliance) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::elastic_test

@@ -5,7 +5,7 @@
 
 #include "verification/recorder.hpp"
 
-namespace breccia::test {
+namespace breccia::test::fracture_test {
 namespace {
 
 constexpr double kArea = 173.2050808e-6;                     // m2
@@ -170,4 +170,4 @@ TEST(Stage, that_breaks_joints_gives_them_its_start_as_the_time_of_failure) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::fracture_test

@@ -5,7 +5,7 @@
 
 #include "verification/recorder.hpp"
 
-namespace breccia::test {
+namespace breccia::test::impact_test {
 namespace {
 
 /// Two elastic cubes of 24 tetrahedra, turned at random, fly at each other and part again.
@@ -85,4 +85,4 @@ TEST(ContactPair, returns_two_over_b_plus_one_of_what_it_took) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::impact_test

@@ -5,7 +5,7 @@
 
 #include "verification/recorder.hpp"
 
-namespace breccia::test {
+namespace breccia::test::plane_test {
 namespace {
 
 constexpr double kYoung = 30e9, kPoisson = 0.3, kThickness = 0.01, kHeight = 0.04, kLength = 0.08, kStrain = 1e-4;
@@ -69,4 +69,4 @@ TEST(Plane, stress_of_a_strip_in_tension_has_youngs_modulus_and_thins_as_it_narr
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::plane_test

@@ -6,7 +6,7 @@
 #include "verification/recorder.hpp"
 
 /// Cubes of Drucker-Prager material under slowly growing, homogeneous load: whole runs against closed form.
-namespace breccia::test {
+namespace breccia::test::plasticity_test {
 namespace {
 
 constexpr double kYoung = 30e9, kPoisson = 0.2, kCohesion = 8e6, kHardening = 1e9, kEdge = 20e-3;
@@ -133,4 +133,4 @@ TEST(Plasticity, of_a_body_that_hits_a_wall_is_accounted_for) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::plasticity_test

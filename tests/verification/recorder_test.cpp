@@ -6,7 +6,7 @@
 
 #include "verification/recorder.hpp"
 
-namespace breccia::test {
+namespace breccia::test::recorder_test {
 namespace {
 
 TEST(Recording, with_a_residual_that_is_no_number_passes_no_limit) {
@@ -45,4 +45,4 @@ TEST(Recording, has_the_same_step_in_lines_and_frames_of_an_instant_and_a_line_o
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::recorder_test

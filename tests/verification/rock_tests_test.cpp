@@ -7,7 +7,7 @@
 
 // The tests of laboratories in meshes/, on coarser meshes.
 
-namespace breccia::test {
+namespace breccia::test::rock_tests_test {
 namespace {
 
 /// Mean distance of the broken joints of the last frame from the plane x = 0, m.
@@ -70,4 +70,4 @@ TEST(Cylinder, is_crushed_at_the_load_of_its_cohesion_and_friction) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::rock_tests_test

@@ -36,7 +36,7 @@ class CellSweep {
   template <class Visit>
   void detect(std::span<const Cell<D, Coordinate>> cells, Visit&& visit) {
     if (cells.empty()) return;
-    const CellBox<D, Coordinate> box(cells);
+    const CellBounds<D, Coordinate> box(cells);
     PackedKeys<D> packed;
     if (packed.fit(box)) {
       sweep(packed, packed.sort(packed_sort_, box), visit);

@@ -23,12 +23,12 @@ constexpr auto earlier_rows() {
 
 /// Box of the cells, and the cells relative to its lowest corner: 32 unsigned bits hold any difference.
 template <int D, class Coordinate>
-class CellBox {
+class CellBounds {
  public:
   static constexpr auto num_axes = static_cast<std::size_t>(D);
 
   /// @pre at least one cell; the cells outlive the box. O(n).
-  explicit CellBox(std::span<const Cell<D, Coordinate>> cells) : cells_(cells), lowest_(cells[0]) {
+  explicit CellBounds(std::span<const Cell<D, Coordinate>> cells) : cells_(cells), lowest_(cells[0]) {
     Cell<D, Coordinate> highest = lowest_;
     for (const Cell<D, Coordinate>& cell : cells) {
       for (std::size_t axis = 0; axis < num_axes; ++axis) {
@@ -70,7 +70,7 @@ class PackedKeys {
 
   /// Whether cell and body fit. After false the object is not to be used.
   template <class Coordinate>
-  [[nodiscard]] bool fit(const CellBox<D, Coordinate>& box) {
+  [[nodiscard]] bool fit(const CellBounds<D, Coordinate>& box) {
     body_bits_ = static_cast<int>(std::bit_width(box.size() - 1));
     const std::uint64_t limit = (UINT64_MAX >> body_bits_) - 2;  // so that no bound of a range overflows
     std::uint64_t volume = 1;
@@ -91,7 +91,7 @@ class PackedKeys {
   }
 
   template <class Coordinate>
-  std::span<Record> sort(RadixSort<Record>& radix_sort, const CellBox<D, Coordinate>& box) const {
+  std::span<Record> sort(RadixSort<Record>& radix_sort, const CellBounds<D, Coordinate>& box) const {
     const int widest = RadixSort<Record>::widest_digit(box.size());
     const int num_passes = (key_bits_ + widest - 1) / widest;
     const int digit_bits = (key_bits_ + num_passes - 1) / num_passes;
@@ -161,7 +161,7 @@ class WideKeys {
   };
 
   template <class Coordinate>
-  static std::span<Record> sort(RadixSort<Record>& radix_sort, const CellBox<D, Coordinate>& box) {
+  static std::span<Record> sort(RadixSort<Record>& radix_sort, const CellBounds<D, Coordinate>& box) {
     struct Digit {
       std::size_t axis;
       int shift;

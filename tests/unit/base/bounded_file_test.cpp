@@ -11,7 +11,7 @@
 
 #include "base/json_depth.hpp"
 
-namespace breccia {
+namespace breccia::bounded_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -68,4 +68,4 @@ TEST(JsonDepth, CountsBracketsOutsideTexts) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::bounded_file_test

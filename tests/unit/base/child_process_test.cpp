@@ -17,7 +17,7 @@
 
 #include "base/interruption.hpp"
 
-namespace breccia {
+namespace breccia::child_process_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -142,4 +142,4 @@ TEST(ChildProcess, ReadsNothingOutsideTheFoldersItIsGiven) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::child_process_test

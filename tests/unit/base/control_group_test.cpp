@@ -8,7 +8,7 @@
 
 #include "unit/output/temporary_folder.hpp"
 
-namespace breccia {
+namespace breccia::control_group_test {
 namespace {
 
 class ControlGroup : public testing::Test {
@@ -52,4 +52,4 @@ TEST_F(ControlGroup, WithoutALimitGivesNone) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::control_group_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace breccia {
+namespace breccia::disjoint_sets_test {
 namespace {
 
 TEST(DisjointSets, BeginWithEachNumberAlone) {
@@ -28,4 +28,4 @@ TEST(DisjointSets, ForgetWhenReset) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::disjoint_sets_test

@@ -9,7 +9,7 @@
 
 #include "base/printable.hpp"
 
-namespace breccia {
+namespace breccia::error_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -88,4 +88,4 @@ TEST(Demand, does_not_build_its_detail_when_the_condition_holds) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::error_test

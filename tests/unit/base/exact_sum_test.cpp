@@ -8,7 +8,7 @@
 
 #include "base/exact_sum.hpp"
 
-namespace breccia {
+namespace breccia::exact_sum_test {
 namespace {
 
 __extension__ using Wide = __int128;
@@ -135,4 +135,4 @@ TEST(ExactSum, OfWordsThatNoSumGivesIsNotANumber) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::exact_sum_test

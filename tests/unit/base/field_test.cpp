@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace breccia {
+namespace breccia::field_test {
 namespace {
 
 template <class T>
@@ -41,4 +41,4 @@ TEST(Field, keeps_alignment_and_values_in_copies_and_moves) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::field_test

@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 
-namespace breccia {
+namespace breccia::log_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -87,4 +87,4 @@ TEST_F(Log, refuses_a_file_that_cannot_be_written) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::log_test

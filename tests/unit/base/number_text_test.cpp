@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace breccia {
+namespace breccia::number_text_test {
 namespace {
 
 TEST(NumberText, has_no_more_digits_than_asked_for_and_keeps_small_and_large_numbers) {
@@ -26,4 +26,4 @@ TEST(Rounded, keeps_the_digits_asked_for_of_every_finite_number) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::number_text_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace breccia {
+namespace breccia::phase_timer_test {
 namespace {
 
 TEST(PhaseTimer, AddsUpWhatIsMeasuredOfEachPhaseAndWhatOtherTimersHave) {
@@ -24,4 +24,4 @@ TEST(PhaseTimer, HasANameForEveryPhase) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::phase_timer_test

@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "unit/output/temporary_folder.hpp"
 
-namespace breccia {
+namespace breccia::regular_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -78,4 +78,4 @@ TEST_F(RegularFile, IsEmptiedOnlyWhereItIsOne) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::regular_file_test

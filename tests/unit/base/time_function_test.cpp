@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace breccia {
+namespace breccia::time_function_test {
 namespace {
 
 // Sums of a few products of numbers of order one: some units in the last place.
@@ -80,4 +80,4 @@ TEST(TimeFunction, is_zero_when_amplitudes_and_table_values_are_zero) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::time_function_test

@@ -8,7 +8,7 @@
 #include "case_files.hpp"
 
 /// group = "*" in [[material]]: which groups it stands for is known with the mesh.
-namespace breccia::case_ {
+namespace breccia::case_::every_group_test {
 namespace {
 
 using testing::HasSubstr;
@@ -132,4 +132,4 @@ TEST(EveryGroup, OfARunThatStartsFromAnotherIsComparedGroupByGroup) {
 }
 
 }  // namespace
-}  // namespace breccia::case_
+}  // namespace breccia::case_::every_group_test

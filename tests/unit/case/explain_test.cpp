@@ -13,7 +13,7 @@
 #include "case/schema.hpp"
 #include "case/topics.hpp"
 
-namespace breccia::case_ {
+namespace breccia::case_::explain_test {
 namespace {
 
 using testing::AllOf;
@@ -161,4 +161,4 @@ TEST(Explain, AnUnknownKeyNamesTheNearest) {
 }
 
 }  // namespace
-}  // namespace breccia::case_
+}  // namespace breccia::case_::explain_test

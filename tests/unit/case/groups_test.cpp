@@ -4,7 +4,7 @@
 #include "case/validate.hpp"
 #include "case_files.hpp"
 
-namespace breccia::case_ {
+namespace breccia::case_::groups_test {
 namespace {
 
 using testing::AllOf;
@@ -114,4 +114,4 @@ TEST(Groups, ASurfaceToBreakInAStageIsChecked) {
 }
 
 }  // namespace
-}  // namespace breccia::case_
+}  // namespace breccia::case_::groups_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace breccia::case_ {
+namespace breccia::case_::live_address_test {
 namespace {
 
 TEST(LiveAddress, OfThisMachineIsKnownByItsNumberNotByItsBeginning) {
@@ -13,4 +13,4 @@ TEST(LiveAddress, OfThisMachineIsKnownByItsNumberNotByItsBeginning) {
 }
 
 }  // namespace
-}  // namespace breccia::case_
+}  // namespace breccia::case_::live_address_test

@@ -8,7 +8,7 @@
 
 #include "case/schema.hpp"
 
-namespace breccia::case_ {
+namespace breccia::case_::message_keys_test {
 namespace {
 
 /// Names of the user's choice in messages, which no table knows.
@@ -59,4 +59,4 @@ TEST(MessageKeys, EveryKeyThatAMessageOfTheSolverNamesExists) {
 }
 
 }  // namespace
-}  // namespace breccia::case_
+}  // namespace breccia::case_::message_keys_test

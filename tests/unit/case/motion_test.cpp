@@ -6,7 +6,7 @@
 #include "case/validate_motion.hpp"
 #include "case_files.hpp"
 
-namespace breccia::case_ {
+namespace breccia::case_::motion_test {
 namespace {
 
 using testing::AllOf;
@@ -95,4 +95,4 @@ TEST(Plane, MayBeHeldAlongItsAxisUnderStrainAlone) {
 }
 
 }  // namespace
-}  // namespace breccia::case_
+}  // namespace breccia::case_::motion_test

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace breccia::case_ {
+namespace breccia::case_::nearest_test {
 namespace {
 
 const std::vector<std::string> fruit{"apple", "pear", "plum", "grape"};
@@ -50,4 +50,4 @@ TEST(Nearest, AWordFarFromAllCandidatesIsNotGuessed) {
 }
 
 }  // namespace
-}  // namespace breccia::case_
+}  // namespace breccia::case_::nearest_test

@@ -3,7 +3,7 @@
 
 #include "case_files.hpp"
 
-namespace breccia::case_ {
+namespace breccia::case_::overrides_test {
 namespace {
 
 using testing::AllOf;
@@ -113,4 +113,4 @@ TEST(Overrides, AFailingOverrideLeavesNoHalfMadeSectionBehind) {
 }
 
 }  // namespace
-}  // namespace breccia::case_
+}  // namespace breccia::case_::overrides_test

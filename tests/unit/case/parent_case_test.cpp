@@ -5,7 +5,7 @@
 
 #include "case_files.hpp"
 
-namespace breccia::case_ {
+namespace breccia::case_::parent_case_test {
 namespace {
 
 using testing::HasSubstr;
@@ -59,4 +59,4 @@ TEST(ParentCase, WhatIsRefusedIsToldByItsPlaceInTheFile) {
 }
 
 }  // namespace
-}  // namespace breccia::case_
+}  // namespace breccia::case_::parent_case_test

@@ -5,7 +5,7 @@
 
 #include "case_files.hpp"
 
-namespace breccia::case_ {
+namespace breccia::case_::plasticity_test {
 namespace {
 
 /// A change that makes the complete case wrong, and what the one message must say.
@@ -48,4 +48,4 @@ TEST(Plasticity, of_cohesion_alone_may_have_any_cutoff) {
 }
 
 }  // namespace
-}  // namespace breccia::case_
+}  // namespace breccia::case_::plasticity_test

@@ -6,7 +6,7 @@
 
 #include "case_files.hpp"
 
-namespace breccia::case_ {
+namespace breccia::case_::point_file_test {
 namespace {
 
 using testing::ElementsAre;
@@ -213,4 +213,4 @@ TEST(PointFile, MessagesNameTheKeyAndTheFile) {
 }
 
 }  // namespace
-}  // namespace breccia::case_
+}  // namespace breccia::case_::point_file_test

@@ -8,7 +8,7 @@
 #include "case/writer.hpp"
 #include "case_files.hpp"
 
-namespace breccia::case_ {
+namespace breccia::case_::reader_groups_test {
 namespace {
 
 using testing::ElementsAre;
@@ -209,4 +209,4 @@ TEST(ReaderGroups, AnOverrideChangesAllGroupsOfAnEntry) {
 }
 
 }  // namespace
-}  // namespace breccia::case_
+}  // namespace breccia::case_::reader_groups_test

@@ -7,7 +7,7 @@
 
 #include "case_files.hpp"
 
-namespace breccia::case_ {
+namespace breccia::case_::reader_test {
 namespace {
 
 TEST(Reader, AMinimalCaseGetsTheDefaultsOfTheStructs) {
@@ -277,4 +277,4 @@ TEST(Reader, SectionsRememberTheirLine) {
 }
 
 }  // namespace
-}  // namespace breccia::case_
+}  // namespace breccia::case_::reader_test

@@ -10,7 +10,7 @@
 #include "case/reader_values.hpp"
 #include "case/units.hpp"
 
-namespace breccia::case_ {
+namespace breccia::case_::schema_test {
 namespace {
 
 using testing::ElementsAre;
@@ -183,4 +183,4 @@ TEST(Schema, NamesOfASectionLeaveOutOtherSections) {
 }
 
 }  // namespace
-}  // namespace breccia::case_
+}  // namespace breccia::case_::schema_test

@@ -6,7 +6,7 @@
 
 #include "case_files.hpp"
 
-namespace breccia::case_ {
+namespace breccia::case_::time_functions_test {
 namespace {
 
 TimeFunction pressure(const std::string& value) {
@@ -66,4 +66,4 @@ TEST(TimeFunctions, GravityTakesThreeOfThem) {
 }
 
 }  // namespace
-}  // namespace breccia::case_
+}  // namespace breccia::case_::time_functions_test

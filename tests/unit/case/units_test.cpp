@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace breccia::case_ {
+namespace breccia::case_::units_test {
 namespace {
 
 using testing::HasSubstr;
@@ -110,4 +110,4 @@ TEST(Units, AUnitCarriesItsDimension) {
 }
 
 }  // namespace
-}  // namespace breccia::case_
+}  // namespace breccia::case_::units_test

@@ -10,7 +10,7 @@
 #include "case/schema.hpp"
 #include "case_files.hpp"
 
-namespace breccia::case_ {
+namespace breccia::case_::writer_test {
 namespace {
 
 using testing::HasSubstr;
@@ -99,4 +99,4 @@ TEST(Writer, TextsOfAnyCharacterAreEscaped) {
 }
 
 }  // namespace
-}  // namespace breccia::case_
+}  // namespace breccia::case_::writer_test

@@ -1,6 +1,6 @@
 #include "wrong_case.hpp"
 
-namespace breccia::case_ {
+namespace breccia::case_::wrong_cases_test {
 namespace {
 
 class WrongCase : public testing::TestWithParam<Wrong> {};
@@ -395,4 +395,4 @@ TEST(InitialVelocity, of_a_group_that_a_raster_has_not_is_refused) {
 }
 
 }  // namespace
-}  // namespace breccia::case_
+}  // namespace breccia::case_::wrong_cases_test

@@ -7,7 +7,7 @@
 
 #include "case_files.hpp"
 
-namespace breccia::case_ {
+namespace breccia::case_::wrong_files_test {
 namespace {
 
 using testing::AllOf;
@@ -138,4 +138,4 @@ TEST(WrongCases, DeepNestingIsRefused) {
 }
 
 }  // namespace
-}  // namespace breccia::case_
+}  // namespace breccia::case_::wrong_files_test

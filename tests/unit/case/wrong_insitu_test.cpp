@@ -1,6 +1,6 @@
 #include "wrong_case.hpp"
 
-namespace breccia::case_ {
+namespace breccia::case_::wrong_insitu_test {
 namespace {
 
 class WrongInSitu : public testing::TestWithParam<Wrong> {};
@@ -132,4 +132,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& param_info) { return param_info.param.name; });
 
 }  // namespace
-}  // namespace breccia::case_
+}  // namespace breccia::case_::wrong_insitu_test

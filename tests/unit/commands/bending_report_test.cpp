@@ -5,7 +5,7 @@
 
 #include "unit/case/case_files.hpp"
 
-namespace breccia {
+namespace breccia::bending_report_test {
 namespace {
 
 using testing::AllOf;
@@ -64,4 +64,4 @@ end = "1 ms"
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::bending_report_test

@@ -16,7 +16,7 @@
 #include "unit/case/case_files.hpp"
 #include "unit/model/two_boxes.hpp"
 
-namespace breccia {
+namespace breccia::check_report_test {
 namespace {
 
 using testing::AllOf;
@@ -332,4 +332,4 @@ TEST(CheckCommand, counts_the_domains_of_a_grid_along_all_axes) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::check_report_test

@@ -5,7 +5,7 @@
 
 #include "unit/case/case_files.hpp"
 
-namespace breccia {
+namespace breccia::contact_report_test {
 namespace {
 
 using testing::HasSubstr;
@@ -92,4 +92,4 @@ TEST(StiffnessReport, NamesTheLongestDelayOfFrictionByTheSmallerBody) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::contact_report_test

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace breccia {
+namespace breccia::joint_curves_test {
 namespace {
 
 constexpr double kPolygon = 0.005;  // relative error of an area from so many straight pieces
@@ -67,4 +67,4 @@ TEST(JointCurves, TheEnvelopeIsAnEllipseInTensionAndMohrCoulombUnderPressure) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::joint_curves_test

@@ -8,7 +8,7 @@
 #include "case/schema.hpp"
 #include "unit/case/case_files.hpp"
 
-namespace breccia {
+namespace breccia::json_report_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -97,4 +97,4 @@ TEST(JsonReport, problems_of_the_case_are_printed_and_end_with_two) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::json_report_test

@@ -5,7 +5,7 @@
 
 #include "unit/case/case_files.hpp"
 
-namespace breccia {
+namespace breccia::model_report_test {
 namespace {
 
 using testing::AllOf;
@@ -104,4 +104,4 @@ TEST(ModelAdvice, names_a_sphere_that_does_not_hold_the_model_and_the_radius_tha
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::model_report_test

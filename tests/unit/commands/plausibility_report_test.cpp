@@ -5,7 +5,7 @@
 
 #include "unit/case/case_files.hpp"
 
-namespace breccia {
+namespace breccia::plausibility_report_test {
 namespace {
 
 using testing::AllOf;
@@ -94,4 +94,4 @@ TEST(Plausibility, of_gravity_on_a_base_that_absorbs_from_the_start_is_doubted) 
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::plausibility_report_test

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace breccia {
+namespace breccia::race_report_test {
 namespace {
 
 using testing::HasSubstr;
@@ -40,4 +40,4 @@ TEST(RaceReport, counts_the_elements_of_all_steps_in_a_speed) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::race_report_test

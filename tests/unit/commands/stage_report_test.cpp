@@ -6,7 +6,7 @@
 #include "base/error.hpp"
 #include "unit/case/case_files.hpp"
 
-namespace breccia {
+namespace breccia::stage_report_test {
 namespace {
 
 using testing::AllOf;
@@ -230,4 +230,4 @@ TEST(Intervals, longer_than_the_run_are_named) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::stage_report_test

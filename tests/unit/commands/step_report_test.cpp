@@ -10,7 +10,7 @@
 
 #include "case/reader.hpp"
 
-namespace breccia {
+namespace breccia::step_report_test {
 namespace {
 
 using testing::HasSubstr;
@@ -132,4 +132,4 @@ TEST(StepReport, BlamesNoSliversWhereThereAreNone) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::step_report_test

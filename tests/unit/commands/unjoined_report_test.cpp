@@ -8,7 +8,7 @@
 #include "unit/case/case_files.hpp"
 #include "unit/model/two_boxes.hpp"
 
-namespace breccia {
+namespace breccia::unjoined_report_test {
 namespace {
 
 using testing::AllOf;
@@ -111,4 +111,4 @@ TEST(PartsInMotion, are_named_where_the_rest_of_the_body_does_not_turn_with_them
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::unjoined_report_test

@@ -5,7 +5,7 @@
 
 #include "unit/case/case_files.hpp"
 
-namespace breccia {
+namespace breccia::unmeant_report_test {
 namespace {
 
 using testing::AllOf;
@@ -211,4 +211,4 @@ TEST(Unmeant, IsAnEntryThatOverrulesAnotherInPart) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::unmeant_report_test

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace breccia {
+namespace breccia::cell_marks_test {
 namespace {
 
 class Boxes {
@@ -76,4 +76,4 @@ TEST(CellMarks, CountEverythingAsMarkedWhereThereIsNoRegion) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::cell_marks_test

@@ -7,7 +7,7 @@
 #include "contact/contact_search.hpp"
 #include "unit/contact/breaking_boxes.hpp"
 
-namespace breccia {
+namespace breccia::contact_search_test {
 namespace {
 
 using test::BreakingBoxes;
@@ -95,4 +95,4 @@ TEST(contact_search, that_is_told_a_speed_too_low_is_caught_by_verify) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::contact_search_test

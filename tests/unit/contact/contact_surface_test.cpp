@@ -5,7 +5,7 @@
 #include "contact/contact_surface.hpp"
 #include "unit/contact/breaking_boxes.hpp"
 
-namespace breccia {
+namespace breccia::contact_surface_test {
 namespace {
 using test::BreakingBoxes;
 using test::kLaw;
@@ -79,4 +79,4 @@ TEST(contact_surface, groups_without_any_law_are_left_out_of_the_search_whatever
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::contact_surface_test

@@ -3,7 +3,7 @@
 #include "contact/couple_search.hpp"
 #include "unit/contact/breaking_boxes.hpp"
 
-namespace breccia {
+namespace breccia::couple_search_test {
 namespace {
 
 using test::BreakingBoxes;
@@ -55,4 +55,4 @@ TEST(couple_search, chooses_a_larger_buffer_when_a_small_one_would_not_last) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::couple_search_test

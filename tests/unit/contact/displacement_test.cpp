@@ -8,7 +8,7 @@
 
 #include "mesh/raster.hpp"
 
-namespace breccia {
+namespace breccia::displacement_test {
 namespace {
 
 constexpr double kRoundOff = 1e-12;  // m, of displacements and positions below 10 m
@@ -133,4 +133,4 @@ TEST(DisplacementWatch, CountsStepsTwiceThatAreNotKnownYet) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::displacement_test

@@ -6,7 +6,7 @@
 #include "contact/face_release.hpp"
 #include "unit/contact/breaking_boxes.hpp"
 
-namespace breccia {
+namespace breccia::face_release_test {
 namespace {
 using test::BreakingBoxes;
 using test::OwnedContact;
@@ -106,4 +106,4 @@ TEST(face_release, the_field_sinks_around_a_body_that_breaks_up) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::face_release_test

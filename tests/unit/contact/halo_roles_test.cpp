@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace breccia {
+namespace breccia::halo_roles_test {
 namespace {
 
 std::vector<Extent> random_boxes(std::mt19937_64& random, std::size_t number) {
@@ -58,4 +58,4 @@ TEST(halo_roles, are_none_for_elements_whose_position_is_not_known) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::halo_roles_test

@@ -10,7 +10,7 @@
 #include "physics/contact/contact_forces.hpp"
 #include "unit/case/case_files.hpp"
 
-namespace breccia {
+namespace breccia::initial_overlap_test {
 namespace {
 
 constexpr double kCube = 0.010, kGap = 0.001, kPenalty = 4e9, kRoundOff = 1e-12;  // m, m, Pa, m
@@ -173,4 +173,4 @@ TEST(initial_overlap, that_is_accepted_makes_its_force_at_once) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::initial_overlap_test

@@ -7,7 +7,7 @@
 
 #include "unit/contact/breaking_boxes.hpp"
 
-namespace breccia {
+namespace breccia::kept_couples_test {
 namespace {
 using test::BreakingBoxes;
 using test::OwnedContact;
@@ -84,4 +84,4 @@ TEST(kept_couples, tell_when_one_with_an_element_of_another_rank_has_come_about)
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::kept_couples_test

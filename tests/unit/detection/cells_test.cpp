@@ -7,7 +7,7 @@
 #include "detection/point_body/cells.hpp"
 #include "unit/detection/scenes.hpp"
 
-namespace breccia::detection {
+namespace breccia::detection::cells_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -79,4 +79,4 @@ TEST(ChosenCell, exists_without_any_usable_contactor) {
 }
 
 }  // namespace
-}  // namespace breccia::detection
+}  // namespace breccia::detection::cells_test

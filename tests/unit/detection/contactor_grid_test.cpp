@@ -7,7 +7,7 @@
 #include "detection/point_body/contactor_grid.hpp"
 #include "unit/detection/scenes.hpp"
 
-namespace breccia::detection {
+namespace breccia::detection::contactor_grid_test {
 namespace {
 
 void expect_as_brute_force(const scenes::Scene& scene, double buffer, const char* what) {
@@ -60,4 +60,4 @@ TEST(contactor_grid, refuses_a_negative_buffer) {
 }
 
 }  // namespace
-}  // namespace breccia::detection
+}  // namespace breccia::detection::contactor_grid_test

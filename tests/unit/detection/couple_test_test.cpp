@@ -6,7 +6,7 @@
 #include "detection/point_body/couple_test.hpp"
 #include "unit/detection/scenes.hpp"
 
-namespace breccia::detection {
+namespace breccia::detection::couple_test_test {
 namespace {
 
 using scenes::Random;
@@ -161,4 +161,4 @@ TEST(CoupleTest, keeps_the_inner_points_of_huge_and_tiny_elements) {
 }
 
 }  // namespace
-}  // namespace breccia::detection
+}  // namespace breccia::detection::couple_test_test

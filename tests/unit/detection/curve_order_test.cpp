@@ -8,7 +8,7 @@
 #include "detection/point_body/curve_order.hpp"
 #include "unit/detection/scenes.hpp"
 
-namespace breccia::detection {
+namespace breccia::detection::curve_order_test {
 namespace {
 
 using scenes::Random;
@@ -146,4 +146,4 @@ TEST_F(CurveOrderOf, points_in_one_place_ends) {
 }
 
 }  // namespace
-}  // namespace breccia::detection
+}  // namespace breccia::detection::curve_order_test

@@ -11,7 +11,7 @@
 #include "benchmark/detection/lab/placements.hpp"
 #include "benchmark/detection/lab/point_scenes.hpp"
 
-namespace breccia::lab {
+namespace breccia::lab::lab_placements_test {
 namespace {
 
 /// Standard deviations that a mean of independent draws may lie off: once in 1.7 million.
@@ -248,4 +248,4 @@ TEST(LabScenes, of_mixed_sizes_span_their_ratio_evenly_in_the_logarithm_and_fill
 }
 
 }  // namespace
-}  // namespace breccia::lab
+}  // namespace breccia::lab::lab_placements_test

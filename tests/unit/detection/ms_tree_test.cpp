@@ -10,7 +10,7 @@
 
 #include "detection/point_body/ms_tree.hpp"
 
-namespace breccia::detection {
+namespace breccia::detection::ms_tree_test {
 namespace {
 
 /// The tree's rules, checked from the root: sons on their sides, balances equal to the difference of heights and in
@@ -227,4 +227,4 @@ TEST(MsTree, forgets_everything_when_cleared) {
 }
 
 }  // namespace
-}  // namespace breccia::detection
+}  // namespace breccia::detection::ms_tree_test

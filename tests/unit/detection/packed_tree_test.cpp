@@ -6,7 +6,7 @@
 #include "detection/point_body/packed_tree.hpp"
 #include "unit/detection/scenes.hpp"
 
-namespace breccia::detection {
+namespace breccia::detection::packed_tree_test {
 namespace {
 
 /// Both instruction sets against all pairs, whatever the machine would choose.
@@ -66,4 +66,4 @@ std::string name_of(const testing::TestParamInfo<const PackedKernel*>& info) {
 INSTANTIATE_TEST_SUITE_P(All, PackedKernels, testing::Values(&packed_kernel_sse2, &packed_kernel_avx2), name_of);
 
 }  // namespace
-}  // namespace breccia::detection
+}  // namespace breccia::detection::packed_tree_test

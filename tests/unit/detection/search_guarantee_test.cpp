@@ -4,7 +4,7 @@
 
 #include "unit/detection/scenes.hpp"
 
-namespace breccia::detection {
+namespace breccia::detection::search_guarantee_test {
 namespace {
 
 using scenes::Random;
@@ -69,4 +69,4 @@ INSTANTIATE_TEST_SUITE_P(All, SearchGuarantee,
                          name_of);
 
 }  // namespace
-}  // namespace breccia::detection
+}  // namespace breccia::detection::search_guarantee_test

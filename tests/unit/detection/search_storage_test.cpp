@@ -24,7 +24,7 @@ std::atomic<long> allocations = 0;
 [[gnu::noinline]] void operator delete(void* storage, std::size_t) noexcept { operator delete(storage); }
 [[gnu::noinline]] void operator delete(void* storage, const std::nothrow_t&) noexcept { operator delete(storage); }
 
-namespace breccia::detection {
+namespace breccia::detection::search_storage_test {
 namespace {
 
 class SearchStorage : public testing::TestWithParam<Algorithm> {};
@@ -51,4 +51,4 @@ INSTANTIATE_TEST_SUITE_P(All, SearchStorage,
                          name_of);
 
 }  // namespace
-}  // namespace breccia::detection
+}  // namespace breccia::detection::search_storage_test

@@ -9,7 +9,7 @@
 #include "detection/point_body/couple_test.hpp"
 #include "unit/detection/scenes.hpp"
 
-namespace breccia::detection {
+namespace breccia::detection::search_test {
 
 void PrintTo(const Couple& couple, std::ostream* out) {
   *out << '(' << couple.point << ", " << couple.contactor << ')';
@@ -241,4 +241,4 @@ TEST(MakeSearch, refuses_a_cell_size_that_is_no_length) {
 }
 
 }  // namespace
-}  // namespace breccia::detection
+}  // namespace breccia::detection::search_test

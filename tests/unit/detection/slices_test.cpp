@@ -3,7 +3,7 @@
 #include "detection/point_body/slices.hpp"
 #include "unit/detection/scenes.hpp"
 
-namespace breccia::detection {
+namespace breccia::detection::slices_test {
 namespace {
 
 using scenes::Random;
@@ -114,4 +114,4 @@ TEST(Slices, are_the_whole_box_for_an_element_without_volume) {
 }
 
 }  // namespace
-}  // namespace breccia::detection
+}  // namespace breccia::detection::slices_test

@@ -9,7 +9,7 @@
 #include "mesh/raster.hpp"
 #include "mesh/topology.hpp"
 
-namespace breccia {
+namespace breccia::fragments_test {
 namespace {
 
 Mesh two_boxes() {
@@ -129,4 +129,4 @@ TEST(Fragments, LeavePaddingOut) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::fragments_test

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace breccia {
+namespace breccia::joint_links_test {
 namespace {
 
 constexpr Index kSlots = 2 * kLanes;
@@ -58,4 +58,4 @@ TEST(JointLinks, PointBackAtTheOwnFaceWithoutStiffnessWhereThereIsNoJoint) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::joint_links_test

@@ -6,7 +6,7 @@
 #include "discretisation/local_mesh.hpp"
 #include "mesh/raster.hpp"
 
-namespace breccia {
+namespace breccia::local_mesh_test {
 namespace {
 
 constexpr double kRounding = 1e-12;
@@ -103,4 +103,4 @@ TEST(LocalMesh, PutsOwnNodeGroupsFirstInWholeBlocksOfOneGroup) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::local_mesh_test

@@ -3,7 +3,7 @@
 #include "discretisation/layout.hpp"
 #include "discretisation/nodal_forces.hpp"
 
-namespace breccia {
+namespace breccia::nodal_forces_test {
 namespace {
 
 constexpr Index kOwnBlocks = 3, kNodes = kOwnBlocks * 4 * kLanes + 2 * kLanes;
@@ -36,4 +36,4 @@ TEST(NodalForces, AreZeroAfterClearing) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::nodal_forces_test

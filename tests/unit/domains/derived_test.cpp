@@ -9,7 +9,7 @@
 #include "unit/case/case_files.hpp"
 #include "unit/model/two_boxes.hpp"
 
-namespace breccia {
+namespace breccia::derived_test {
 namespace {
 
 TEST(Derived, KnowsTheJointOfBothItsFaces) {
@@ -88,4 +88,4 @@ TEST(SweepOrder, HasEveryBlockOnceAndFirstThoseThatAreSentOrHeld) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::derived_test

@@ -8,7 +8,7 @@
 #include "simulation/step.hpp"
 #include "unit/observe/two_cubes.hpp"
 
-namespace breccia {
+namespace breccia::motion_limit_test {
 namespace {
 
 using test::kCubeStep;
@@ -83,4 +83,4 @@ TEST(MotionLimitWithoutContact, DoesNotExist) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::motion_limit_test

@@ -11,7 +11,7 @@
 
 #include "unit/state/sample_records.hpp"
 
-namespace breccia {
+namespace breccia::piece_mesh_test {
 namespace {
 using test::cubes;
 using test::marks;
@@ -178,4 +178,4 @@ TEST(Records, MayHoldNodesByTheConstraintsOfTheirStageAlone) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::piece_mesh_test

@@ -3,7 +3,7 @@
 #include "domains/decomposition.hpp"
 #include "unit/case/case_files.hpp"
 
-namespace breccia {
+namespace breccia::reach_test {
 namespace {
 
 constexpr double kEdge = 0.25, kSize = 0.375, kBuffer = 0.0625;  // m; sums of these are exact
@@ -35,4 +35,4 @@ TEST(Reach, lets_both_sides_move_by_half_its_margin) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::reach_test

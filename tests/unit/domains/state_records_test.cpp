@@ -6,7 +6,7 @@
 #include "simulation/step.hpp"
 #include "unit/observe/two_cubes.hpp"
 
-namespace breccia {
+namespace breccia::state_records_test {
 namespace {
 
 /// The cubes with a slit that comes apart and closes again, with contact and friction.
@@ -69,4 +69,4 @@ TEST(StateRecords, HoldTheHashOfEveryPartOfTheState) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::state_records_test

@@ -12,7 +12,7 @@
 #include "mesh/geometry.hpp"
 #include "sample_meshes.hpp"
 
-namespace breccia {
+namespace breccia::bodies_test {
 namespace {
 
 /// A bar of cubes along x whose elements belong to a volume each `cubes` long, read but not finished.
@@ -96,4 +96,4 @@ TEST(Bodies, ThatMeetInAnEdgeOrAPointAreTwo) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::bodies_test

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-namespace breccia {
+namespace breccia::closed_surface_test {
 namespace {
 
 using testing::HasSubstr;
@@ -105,4 +105,4 @@ TEST(ClosedSurface, NoTrianglesAndTrianglesWithoutAreaAreRefused) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::closed_surface_test

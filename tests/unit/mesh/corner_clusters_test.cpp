@@ -11,7 +11,7 @@
 #include "mesh/joints.hpp"
 #include "sample_meshes.hpp"
 
-namespace breccia {
+namespace breccia::corner_clusters_test {
 namespace {
 
 using Broken = std::set<std::pair<Index, int>>;  // (element, face), both sides
@@ -175,4 +175,4 @@ INSTANTIATE_TEST_SUITE_P(Meshes, CornerClustersOf, testing::Bool(),
                          [](const auto& run) { return run.param ? "Unstructured" : "Raster"; });
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::corner_clusters_test

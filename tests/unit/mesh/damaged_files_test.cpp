@@ -13,7 +13,7 @@
 #include "mesh/step_scan.hpp"
 #include "sample_meshes.hpp"
 
-namespace breccia {
+namespace breccia::damaged_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -198,4 +198,4 @@ TEST(StepFiles, WithOneReferenceDamagedAreRefusedOrReadWhole) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::damaged_files_test

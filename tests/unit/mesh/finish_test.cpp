@@ -17,7 +17,7 @@
 #include "mesh/topology.hpp"
 #include "sample_meshes.hpp"
 
-namespace breccia {
+namespace breccia::finish_test {
 namespace {
 
 using testing::HasSubstr;
@@ -342,4 +342,4 @@ TEST(Finish, PreservesTheVolumeOfTheBoxes) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::finish_test

@@ -13,7 +13,7 @@
 
 // Files as other programs write them: each is read with its volume and groups, or refused with a line that helps.
 
-namespace breccia {
+namespace breccia::foreign_table_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -270,4 +270,4 @@ INSTANTIATE_TEST_SUITE_P(Table, ForeignFiles, testing::ValuesIn(all_rows()),
                          [](const auto& one) { return one.param.name; });
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::foreign_table_test

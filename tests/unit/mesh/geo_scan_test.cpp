@@ -6,7 +6,7 @@
 
 #include "sample_meshes.hpp"
 
-namespace breccia {
+namespace breccia::geo_scan_test {
 namespace {
 
 GeoScan scan_text(const std::string& text) {
@@ -111,4 +111,4 @@ TEST(GeoScan, EndsAtAnUnfinishedTextCommentOrBracket) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::geo_scan_test

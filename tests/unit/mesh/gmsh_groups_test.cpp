@@ -12,7 +12,7 @@
 #include "mesh/gmsh_reader.hpp"
 #include "sample_meshes.hpp"
 
-namespace breccia {
+namespace breccia::gmsh_groups_test {
 namespace {
 
 using testing::AllOf;
@@ -122,4 +122,4 @@ TEST(GmshReader, ReadsOverlappingPhysicalVolumesOfEveryFormat) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::gmsh_groups_test

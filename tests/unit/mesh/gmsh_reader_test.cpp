@@ -20,7 +20,7 @@
 extern "C" const char* __lsan_default_suppressions() { return "leak:libgmsh"; }
 #endif
 
-namespace breccia {
+namespace breccia::gmsh_reader_test {
 namespace {
 
 using testing::AllOf;
@@ -416,4 +416,4 @@ TEST(GmshReader, RefusesTruncatedMeshFiles) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::gmsh_reader_test

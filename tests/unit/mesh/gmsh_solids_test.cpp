@@ -16,7 +16,7 @@
 #include "mesh/gmsh_reader.hpp"
 #include "sample_meshes.hpp"
 
-namespace breccia {
+namespace breccia::gmsh_solids_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -245,4 +245,4 @@ TEST(GmshSolids, ASizeOrParametersWhereNoneBelongAreRefused) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::gmsh_solids_test

@@ -8,7 +8,7 @@
 #include "mesh/mesh_bytes.hpp"
 #include "sample_meshes.hpp"
 
-namespace breccia {
+namespace breccia::higher_order_test {
 namespace {
 
 using testing::ElementsAre;
@@ -52,4 +52,4 @@ TEST_P(HigherOrder, ElementsAreReadByTheirCornersWithAWord) {
 INSTANTIATE_TEST_SUITE_P(Orders, HigherOrder, testing::Values(2, 3));
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::higher_order_test

@@ -16,7 +16,7 @@
 #include "mesh/mesh_bytes.hpp"
 #include "sample_meshes.hpp"
 
-namespace breccia {
+namespace breccia::hostile_mesh_test {
 namespace {
 
 using testing::AllOf;
@@ -348,4 +348,4 @@ TEST(MeshBytes, RefuseIndicesThatPointNowhere) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::hostile_mesh_test

@@ -8,7 +8,7 @@
 
 // Abaqus input files.
 
-namespace breccia {
+namespace breccia::inp_table_test {
 namespace {
 
 using test::kCorners;
@@ -206,4 +206,4 @@ INSTANTIATE_TEST_SUITE_P(Table, AbaqusFiles, testing::ValuesIn(rows_of_abaqus())
                          [](const auto& one) { return one.param.name; });
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::inp_table_test

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace breccia {
+namespace breccia::material_groups_test {
 namespace {
 
 using testing::AllOf;
@@ -62,4 +62,4 @@ TEST(MaterialGroups, RefuseTwoMaterialsForAnElementAndAGroupThatCarriesItForSome
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::material_groups_test

@@ -7,7 +7,7 @@
 #include "mesh/gmsh_reader.hpp"
 #include "sample_meshes.hpp"
 
-namespace breccia {
+namespace breccia::node_groups_test {
 namespace {
 
 TEST(NodeGroups, AreTheNodesOfCurvesAndPointsInEveryBodyThatHasThem) {
@@ -44,4 +44,4 @@ MeshSize{:} = 0.5;
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::node_groups_test

@@ -12,7 +12,7 @@
 #include "mesh/triangle_tree.hpp"
 #include "sample_meshes.hpp"
 
-namespace breccia {
+namespace breccia::point_distance_test {
 namespace {
 
 class Random {
@@ -200,4 +200,4 @@ TEST(NodalSurfaceDistance, CountsFacesThatAreCutAsFree) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::point_distance_test

@@ -9,7 +9,7 @@
 #include "mesh/geometry.hpp"
 #include "sample_meshes.hpp"
 
-namespace breccia {
+namespace breccia::quality_test {
 namespace {
 
 constexpr double kRoundOff = 1e-14;
@@ -118,4 +118,4 @@ TEST(BodyExtents, AreTheDiagonalsOfTheirBoxes) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::quality_test

@@ -16,7 +16,7 @@
 #include "mesh/topology.hpp"
 #include "sample_meshes.hpp"
 
-namespace breccia {
+namespace breccia::raster_test {
 namespace {
 
 using test::node_of;
@@ -273,4 +273,4 @@ TEST(Raster, NamesAllProblemsAtOnce) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::raster_test

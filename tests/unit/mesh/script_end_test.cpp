@@ -10,7 +10,7 @@
 #include "mesh/gmsh_reader.hpp"
 #include "sample_meshes.hpp"
 
-namespace breccia {
+namespace breccia::script_end_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -100,4 +100,4 @@ TEST(ScriptEnd, AMeshThatTheScriptHasRefinedIsKept) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::script_end_test

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
-namespace breccia {
+namespace breccia::space_curve_test {
 namespace {
 
 struct Place {
@@ -62,4 +62,4 @@ TEST(HilbertCurve, StartsAtTheOriginAndUsesSixtyBits) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::space_curve_test

@@ -17,7 +17,7 @@
 #include "mesh/gmsh_reader.hpp"
 #include "sample_meshes.hpp"
 
-namespace breccia {
+namespace breccia::stl_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -313,4 +313,4 @@ TEST(StlSolids, TrianglesThatStandTwiceAreReadOnceWithAWord) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::stl_file_test

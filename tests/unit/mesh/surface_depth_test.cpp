@@ -11,7 +11,7 @@
 #include "mesh/geometry.hpp"
 #include "sample_meshes.hpp"
 
-namespace breccia {
+namespace breccia::surface_depth_test {
 namespace {
 
 constexpr double kRoundOff = 1e-12;
@@ -135,4 +135,4 @@ TEST(SurfaceDepth, OfANodeOfWhatCanBreakIsItsLeastHeight) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::surface_depth_test

@@ -13,7 +13,7 @@
 #include "mesh/joints.hpp"
 #include "sample_meshes.hpp"
 
-namespace breccia {
+namespace breccia::topology_test {
 namespace {
 
 using test::node_of;
@@ -229,4 +229,4 @@ TEST(Joints, AreEveryInnerFaceOnceWithItsAreaAndMeanEdge) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::topology_test

@@ -4,7 +4,7 @@
 
 #include "unit/model/two_boxes.hpp"
 
-namespace breccia {
+namespace breccia::constraint_conflicts_test {
 namespace {
 
 std::string constraint(const std::string& group, const std::string& motion) {
@@ -62,4 +62,4 @@ TEST(ConstraintConflicts, are_none_where_entries_agree_or_share_no_node_or_no_ax
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::constraint_conflicts_test

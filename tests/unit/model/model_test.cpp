@@ -19,7 +19,7 @@
 #include "support/notched_beam.hpp"
 #include "unit/model/two_boxes.hpp"
 
-namespace breccia {
+namespace breccia::model_test {
 namespace {
 
 using test::two_boxes_case;
@@ -383,4 +383,4 @@ TEST(WholeModel, HasTheCentresOfMassOfWhatSpinsOrIsStretched) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::model_test

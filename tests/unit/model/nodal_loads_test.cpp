@@ -5,7 +5,7 @@
 #include "model/parameters.hpp"
 #include "unit/model/two_boxes.hpp"
 
-namespace breccia::test {
+namespace breccia::test::nodal_loads_test {
 namespace {
 
 constexpr double kRounding = 1e-12;
@@ -89,4 +89,4 @@ TEST_P(NodalLoads, OnASurfaceActAtItsCentreOfArea) {
 }
 
 }  // namespace
-}  // namespace breccia::test
+}  // namespace breccia::test::nodal_loads_test

@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "unit/model/two_boxes.hpp"
 
-namespace breccia {
+namespace breccia::node_sets_test {
 namespace {
 
 /// Boxes of shared nodes: two as kTwoBoxes has them, and one on top of both.
@@ -128,4 +128,4 @@ TEST(NodeSets, OfAStateCannotBePartedByTheCaseThatStartsFromIt) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::node_sets_test

@@ -11,7 +11,7 @@
 #include "model/stage_loads.hpp"
 #include "unit/model/two_boxes.hpp"
 
-namespace breccia {
+namespace breccia::parameters_test {
 namespace {
 
 using test::two_boxes_case;
@@ -136,4 +136,4 @@ TEST(CountedNodesOfGroup, leave_out_those_that_another_rank_counts) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::parameters_test

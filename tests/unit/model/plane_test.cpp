@@ -8,7 +8,7 @@
 #include "model/model.hpp"
 #include "unit/case/case_files.hpp"
 
-namespace breccia {
+namespace breccia::plane_test {
 namespace {
 
 using testing::HasSubstr;
@@ -89,4 +89,4 @@ TEST(Plane, model_knows_its_lower_side) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::plane_test

@@ -10,7 +10,7 @@
 #include "model/model.hpp"
 #include "unit/model/two_boxes.hpp"
 
-namespace breccia {
+namespace breccia::strength_scatter_test {
 namespace {
 
 using test::two_boxes_case;
@@ -138,4 +138,4 @@ TEST(ModelWithScatter, RefusesAPenaltyTooSoftForItsStrongestJoint) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::strength_scatter_test

@@ -7,7 +7,7 @@
 
 #include "unit/model/two_boxes.hpp"
 
-namespace breccia {
+namespace breccia::time_step_test {
 namespace {
 
 int faces_in(const std::vector<std::uint8_t>& bits) {
@@ -70,4 +70,4 @@ TEST(StepLimitText, NamesWhatSetsTheStep) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::time_step_test

@@ -6,7 +6,7 @@
 
 #include "mesh/raster.hpp"
 
-namespace breccia {
+namespace breccia::torn_faces_test {
 namespace {
 
 int number_of(const std::vector<std::uint8_t>& faces) {
@@ -57,4 +57,4 @@ TEST(TornFaces, AreNotThoseOfBodiesThatLieAgainstEachOther) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::torn_faces_test

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace breccia {
+namespace breccia::body_names_test {
 namespace {
 
 using testing::ElementsAre;
@@ -29,4 +29,4 @@ TEST(BodyNames, AreThoseOfAllGroupsThatABodyConsistsOf) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::body_names_test

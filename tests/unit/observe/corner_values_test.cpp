@@ -11,7 +11,7 @@
 #include "simulation/step.hpp"
 #include "unit/observe/two_cubes.hpp"
 
-namespace breccia {
+namespace breccia::corner_values_test {
 namespace {
 
 using test::kCubeEdge;
@@ -143,4 +143,4 @@ TEST_F(CornerValues, are_made_where_they_are_asked_for_alone) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::corner_values_test

@@ -8,7 +8,7 @@
 #include "simulation/step.hpp"
 #include "unit/case/case_files.hpp"
 
-namespace breccia {
+namespace breccia::element_sets_test {
 namespace {
 
 constexpr double kStep = 1e-9;  // s, far below the stable one
@@ -110,4 +110,4 @@ TEST(ElementSetsOfACase, NeedAGroupWithAMaterialForEveryElement) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::element_sets_test

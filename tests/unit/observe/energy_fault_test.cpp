@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-namespace breccia {
+namespace breccia::energy_fault_test {
 namespace {
 
 constexpr double kResidualLimit = 0.05, kGainLimit = 0.01, kFloor = 1e-9;
@@ -82,4 +82,4 @@ TEST(EnergyFault, IsFoundInNumbersThatAreNotFinite) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::energy_fault_test

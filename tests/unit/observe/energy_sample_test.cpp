@@ -4,7 +4,7 @@
 
 #include "unit/observe/two_cubes.hpp"
 
-namespace breccia {
+namespace breccia::energy_sample_test {
 namespace {
 
 constexpr double kVolume = 2 * test::kCubeEdge * test::kCubeEdge * test::kCubeEdge;  // m3
@@ -62,4 +62,4 @@ TEST(EnergyResidual, OfARunAtRestIsMeasuredAgainstItsRoundOff) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::energy_sample_test

@@ -7,7 +7,7 @@
 #include "simulation/step.hpp"
 #include "unit/observe/two_cubes.hpp"
 
-namespace breccia {
+namespace breccia::fragment_labels_test {
 namespace {
 
 class FragmentLabels : public testing::Test, protected test::CubesDomain {};
@@ -56,4 +56,4 @@ TEST_F(FragmentLabels, AreAlikeInACubeAndDifferInTheOther) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::fragment_labels_test

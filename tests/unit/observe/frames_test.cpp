@@ -13,7 +13,7 @@
 #include "simulation/step.hpp"
 #include "unit/observe/two_cubes.hpp"
 
-namespace breccia {
+namespace breccia::frames_test {
 namespace {
 
 using test::kCubeEdge;
@@ -144,4 +144,4 @@ TEST_F(TouchingCubes, show_a_contact_for_each_element_that_a_point_touches_with_
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::frames_test

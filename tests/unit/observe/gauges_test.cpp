@@ -13,7 +13,7 @@
 #include "simulation/step.hpp"
 #include "unit/case/case_files.hpp"
 
-namespace breccia {
+namespace breccia::gauges_test {
 namespace {
 
 constexpr double kStep = 1e-8;  // s
@@ -177,4 +177,4 @@ velocity = { x = 3 }
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::gauges_test

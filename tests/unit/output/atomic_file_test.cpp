@@ -9,7 +9,7 @@
 #include "unit/output/file_size_limit.hpp"
 #include "unit/output/temporary_folder.hpp"
 
-namespace breccia {
+namespace breccia::atomic_file_test {
 namespace {
 
 using test::content_of;
@@ -170,4 +170,4 @@ TEST(LineFile, ReportsAPlaceWhereNoFileCanBeCreated) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::atomic_file_test

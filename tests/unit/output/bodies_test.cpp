@@ -4,7 +4,7 @@
 
 #include "unit/output/temporary_folder.hpp"
 
-namespace breccia {
+namespace breccia::bodies_test {
 namespace {
 
 TEST(BodiesSinkTest, WritesALineABodyWithQuotesAroundNamesThatNeedThem) {
@@ -16,4 +16,4 @@ TEST(BodiesSinkTest, WritesALineABodyWithQuotesAroundNamesThatNeedThem) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::bodies_test

@@ -9,7 +9,7 @@
 #include "case/insitu_fields.hpp"
 #include "case/schema.hpp"
 
-namespace breccia {
+namespace breccia::channels_test {
 namespace {
 
 using testing::ElementsAre;
@@ -130,4 +130,4 @@ TEST(Channels, NameThePartsOfTheFrameTheyNeed) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::channels_test

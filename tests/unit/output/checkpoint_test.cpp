@@ -25,7 +25,7 @@
 #include "unit/output/temporary_folder.hpp"
 #include "unit/state/sample_records.hpp"
 
-namespace breccia {
+namespace breccia::checkpoint_test {
 namespace {
 
 /// Every number of the model and the position another one.
@@ -249,4 +249,4 @@ TEST_F(CheckpointFile, IsWrittenOnlyAfterTheFilesThatItCounts) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::checkpoint_test

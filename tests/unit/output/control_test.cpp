@@ -14,7 +14,7 @@
 #include "output/run_lock.hpp"
 #include "unit/output/temporary_folder.hpp"
 
-namespace breccia {
+namespace breccia::control_test {
 namespace {
 
 using test::TemporaryFolder;
@@ -250,4 +250,4 @@ TEST(AskingARun, ThatRefusesIsAnError) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::control_test

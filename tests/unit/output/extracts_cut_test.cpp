@@ -5,7 +5,7 @@
 #include "base/error.hpp"
 #include "temporary_folder.hpp"
 
-namespace breccia {
+namespace breccia::extracts_cut_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -82,4 +82,4 @@ TEST(ExtractsCutBack, RemoveNothingBehindALink) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::extracts_cut_test

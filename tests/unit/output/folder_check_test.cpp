@@ -11,7 +11,7 @@
 #include "output/resumed_folder.hpp"
 #include "unit/output/temporary_folder.hpp"
 
-namespace breccia {
+namespace breccia::folder_check_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -132,4 +132,4 @@ TEST_F(FolderCheck, ACheckpointOfAnotherRunIsRefused) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::folder_check_test

@@ -8,7 +8,7 @@
 
 #include "unit/output/temporary_folder.hpp"
 
-namespace breccia {
+namespace breccia::history_test {
 namespace {
 
 using test::lines_of;
@@ -153,4 +153,4 @@ TEST_F(HistoryTest, AnUnwritablePlaceIsAnOutputError) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::history_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace breccia {
+namespace breccia::insitu_pace_test {
 namespace {
 
 using testing::DoubleEq;
@@ -108,4 +108,4 @@ TEST(InSituPace, IsToldInOneLine) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::insitu_pace_test

@@ -13,7 +13,7 @@
 #include "unit/output/synthetic_plate.hpp"
 #include "unit/output/temporary_folder.hpp"
 
-namespace breccia {
+namespace breccia::killed_run_test {
 namespace {
 
 constexpr int kKills = 25;
@@ -89,4 +89,4 @@ TEST(KilledRun, LeavesOnlyWholeFilesAtWhateverInstantItDies) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::killed_run_test

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace breccia {
+namespace breccia::quantity_text_test {
 namespace {
 
 TEST(QuantityText, HasThreeDigitsAndAPrefix) {
@@ -41,4 +41,4 @@ TEST(CountText, GroupsThousands) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::quantity_text_test

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace breccia {
+namespace breccia::race_progress_test {
 namespace {
 
 using testing::HasSubstr;
@@ -35,4 +35,4 @@ TEST(RaceProgress, ABarIsTakenAwayAtTheEnd) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::race_progress_test

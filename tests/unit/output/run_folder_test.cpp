@@ -19,7 +19,7 @@
 #include "output/run_lock.hpp"
 #include "unit/output/temporary_folder.hpp"
 
-namespace breccia {
+namespace breccia::run_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -239,4 +239,4 @@ TEST(RunFolderTest, DefaultsToRunsAndTheCasesFolder) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::run_folder_test

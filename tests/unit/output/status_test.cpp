@@ -13,7 +13,7 @@
 
 #include "unit/output/temporary_folder.hpp"
 
-namespace breccia {
+namespace breccia::status_test {
 namespace {
 
 using nlohmann::json;
@@ -224,4 +224,4 @@ TEST(ProgressMode, IsALogUnderALauncherOfRanksThoughItGivesThemATerminal) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::status_test

@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "unit/output/temporary_folder.hpp"
 
-namespace breccia {
+namespace breccia::summary_test {
 namespace {
 
 using nlohmann::json;
@@ -155,4 +155,4 @@ TEST(MaxResident, IsWhatThisProcessNeedsAtLeast) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::summary_test

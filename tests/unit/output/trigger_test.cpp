@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace breccia {
+namespace breccia::trigger_test {
 namespace {
 
 using testing::ElementsAre;
@@ -150,4 +150,4 @@ TEST(Overhead, StaysBelowItsShare) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::trigger_test

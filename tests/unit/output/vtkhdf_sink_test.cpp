@@ -11,7 +11,7 @@
 #include "unit/output/synthetic_plate.hpp"
 #include "unit/output/temporary_folder.hpp"
 
-namespace breccia {
+namespace breccia::vtkhdf_sink_test {
 namespace {
 
 using test::content_of;
@@ -209,4 +209,4 @@ TEST(VtkhdfSinkTest, RefusesAnArrayThatDoesNotFitTheCells) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::vtkhdf_sink_test

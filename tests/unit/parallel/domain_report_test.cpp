@@ -8,7 +8,7 @@
 
 #include "mesh/raster.hpp"
 
-namespace breccia {
+namespace breccia::domain_report_test {
 namespace {
 
 constexpr Index kJoints = -1, kNone = 0;
@@ -159,4 +159,4 @@ TEST(DomainReport, OfUnequalDomainsNamesTheLargestOverTheMean) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::domain_report_test

@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 
-namespace breccia {
+namespace breccia::domain_topology_test {
 namespace {
 
 using testing::AllOf;
@@ -185,4 +185,4 @@ TEST(Domains, MoreThanElementsAreRefused) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::domain_topology_test

@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 
-namespace breccia {
+namespace breccia::exchange_schedule_test {
 namespace {
 
 using testing::ElementsAre;
@@ -103,4 +103,4 @@ TEST(ExchangeSchedule, RefusesAPairOfOneRankWithItselfOrInTheWrongOrder) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::exchange_schedule_test

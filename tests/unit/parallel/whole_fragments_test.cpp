@@ -4,7 +4,7 @@
 
 #include "mesh/topology.hpp"
 
-namespace breccia {
+namespace breccia::whole_fragments_test {
 namespace {
 
 constexpr Index kFree = FaceLink::kFree, kBeyond = FaceLink::kBeyond;
@@ -53,4 +53,4 @@ TEST(WholeFragments, ThoseOfSeveralRanksStayAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::whole_fragments_test

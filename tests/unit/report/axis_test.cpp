@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace breccia::report {
+namespace breccia::report::axis_test {
 namespace {
 
 using testing::ElementsAre;
@@ -50,4 +50,4 @@ TEST(LogarithmicAxis, HoldsItsValuesBetweenMarks) {
 }
 
 }  // namespace
-}  // namespace breccia::report
+}  // namespace breccia::report::axis_test

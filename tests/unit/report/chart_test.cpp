@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string>
 
-namespace breccia::report {
+namespace breccia::report::chart_test {
 namespace {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
@@ -76,4 +76,4 @@ TEST(Bars, AreAsLongAsTheirShare) {
 }
 
 }  // namespace
-}  // namespace breccia::report
+}  // namespace breccia::report::chart_test

@@ -8,7 +8,7 @@
 
 #include "unit/output/temporary_folder.hpp"
 
-namespace breccia::report {
+namespace breccia::report::figures_test {
 namespace {
 
 using testing::ElementsAre;
@@ -47,4 +47,4 @@ TEST(Figures, OfAFileThatIsNotWholeAreNone) {
 }
 
 }  // namespace
-}  // namespace breccia::report
+}  // namespace breccia::report::figures_test

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace breccia::report {
+namespace breccia::report::html_test {
 namespace {
 
 std::string base64_of(std::string_view text) { return base64(std::as_bytes(std::span(text.data(), text.size()))); }
@@ -73,4 +73,4 @@ TEST(Tables, NameTheirRowsAndColumns) {
 }
 
 }  // namespace
-}  // namespace breccia::report
+}  // namespace breccia::report::html_test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace breccia::report {
+namespace breccia::report::page_test {
 namespace {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
@@ -100,4 +100,4 @@ TEST(Pages, WarnOfABudgetThatDoesNotClose) {
 }
 
 }  // namespace
-}  // namespace breccia::report
+}  // namespace breccia::report::page_test

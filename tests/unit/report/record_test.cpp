@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "unit/output/temporary_folder.hpp"
 
-namespace breccia::report {
+namespace breccia::report::record_test {
 namespace {
 
 using testing::AllOf;
@@ -151,4 +151,4 @@ TEST(RunRecords, OfOtherFoldersAreRefused) {
 }
 
 }  // namespace
-}  // namespace breccia::report
+}  // namespace breccia::report::record_test

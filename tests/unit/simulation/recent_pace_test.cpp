@@ -4,7 +4,7 @@
 
 #include <tuple>
 
-namespace breccia {
+namespace breccia::recent_pace_test {
 namespace {
 
 TEST(RecentPace, IsThatOfTheLastQuarterOfTheRun) {
@@ -45,4 +45,4 @@ TEST(RecentPace, DoesNotCountAPause) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::recent_pace_test

@@ -8,7 +8,7 @@
 
 #include "unit/observe/two_cubes.hpp"
 
-namespace breccia {
+namespace breccia::run_output_test {
 namespace {
 
 /// Counts the events of a kind.
@@ -61,4 +61,4 @@ TEST_F(RunOutputOfCubes, GoesOnFromTheJointsThatAreBrokenNotFromTheLastLineOfThe
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::run_output_test

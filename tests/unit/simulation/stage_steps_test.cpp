@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "unit/observe/two_cubes.hpp"
 
-namespace breccia {
+namespace breccia::stage_steps_test {
 namespace {
 
 using testing::HasSubstr;
@@ -109,4 +109,4 @@ TEST(StageStepsOfAGivenLength, AreNotLookedAt) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::stage_steps_test

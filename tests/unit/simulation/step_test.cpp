@@ -8,7 +8,7 @@
 #include "unit/model/two_boxes.hpp"
 #include "unit/observe/two_cubes.hpp"
 
-namespace breccia {
+namespace breccia::step_test {
 namespace {
 
 using test::kCubeStep;
@@ -184,4 +184,4 @@ TEST(Step, GivesTheFacesOfReleasedJointsToContactAStepLater) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::step_test

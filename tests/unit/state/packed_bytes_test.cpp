@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace breccia {
+namespace breccia::packed_bytes_test {
 namespace {
 
 std::vector<int> values_of(const std::vector<std::byte>& bytes) {
@@ -57,4 +57,4 @@ TEST(PackedReader, ThrowsAtTheEndOfTheBytesAndAllocatesNothingThatCannotBeThere)
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::packed_bytes_test

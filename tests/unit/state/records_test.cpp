@@ -11,7 +11,7 @@
 #include "state/state.hpp"
 #include "unit/state/sample_records.hpp"
 
-namespace breccia {
+namespace breccia::records_test {
 namespace {
 
 using test::cubes;
@@ -140,4 +140,4 @@ TEST(Records, RefuseBytesThatAreCutOff) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::records_test

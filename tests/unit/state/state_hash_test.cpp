@@ -5,7 +5,7 @@
 #include "state/records.hpp"
 #include "state/state_hash.hpp"
 
-namespace breccia {
+namespace breccia::state_hash_test {
 namespace {
 
 TEST(StateHash, IsSixteenHexadecimalDigitsOfItsValue) {
@@ -84,4 +84,4 @@ TEST(SequenceHash, SpreadsASingleBitOverHalfOfThem) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::state_hash_test

@@ -11,7 +11,7 @@
 
 #include "detection/equal_size/bbts_tree.hpp"
 
-namespace breccia::detection {
+namespace breccia::detection::bbts_tree_test {
 namespace {
 
 using Tree = BbtsTree<3, std::int16_t>;
@@ -179,4 +179,4 @@ TEST(BbtsTree, needs_no_more_memory_than_published) {
 }
 
 }  // namespace
-}  // namespace breccia::detection
+}  // namespace breccia::detection::bbts_tree_test

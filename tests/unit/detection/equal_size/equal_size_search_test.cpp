@@ -19,7 +19,7 @@
 #include "detection/equal_size/nbs.hpp"
 
 // One suite for all searches of bodies of similar size: each must visit the pairs that brute force finds, each once.
-namespace breccia::detection {
+namespace breccia::detection::equal_size_search_test {
 namespace {
 
 using Pairs = std::vector<std::pair<Index, Index>>;
@@ -232,4 +232,4 @@ TYPED_TEST(EqualSizeSearchTest, needs_no_more_memory_than_published) {
 }
 
 }  // namespace
-}  // namespace breccia::detection
+}  // namespace breccia::detection::equal_size_search_test

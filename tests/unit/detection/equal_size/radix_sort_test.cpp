@@ -7,7 +7,7 @@
 
 #include "detection/equal_size/radix_sort.hpp"
 
-namespace breccia::detection {
+namespace breccia::detection::radix_sort_test {
 namespace {
 
 struct Record {
@@ -58,4 +58,4 @@ TEST(RadixSort, sorts_when_some_digits_are_the_same_for_all) {
 }
 
 }  // namespace
-}  // namespace breccia::detection
+}  // namespace breccia::detection::radix_sort_test

@@ -7,7 +7,7 @@
 #include "unit/physics/contact/scene.hpp"
 
 /// Couples that are sure to be apart are passed over: that must not change a bit.
-namespace breccia {
+namespace breccia::apart_test {
 namespace {
 
 constexpr double kTurn = 2e-6;  // rad, about which the base comes to look at the top of the box
@@ -65,4 +65,4 @@ TEST(apart, is_no_couple_beside_an_edge_which_turning_alone_brings_under_the_sid
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::apart_test

@@ -11,7 +11,7 @@
 #include "scene.hpp"
 
 /// Two elastic cubes of 24 tetrahedra each collide at random orientations.
-namespace breccia {
+namespace breccia::collision_test {
 namespace {
 
 constexpr double kYoung = 4e6, kPoisson = 0.3, kDensity = 1000, kSpeed = 5;
@@ -229,4 +229,4 @@ TEST(collision, with_friction_and_a_plateau_keeps_momenta_and_books_what_is_lost
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::collision_test

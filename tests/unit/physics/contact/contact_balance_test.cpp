@@ -9,7 +9,7 @@
 #include "press.hpp"
 
 /// A mass on a contact that begins and ends anywhere within a step.
-namespace breccia {
+namespace breccia::contact_balance_test {
 namespace {
 
 using test::Press;
@@ -225,4 +225,4 @@ TEST(contact_balance, a_point_that_comes_back_while_its_closing_force_lasts_is_a
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::contact_balance_test

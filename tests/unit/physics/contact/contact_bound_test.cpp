@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-namespace breccia {
+namespace breccia::contact_bound_test {
 namespace {
 
 TEST(contact_bound, keeps_what_has_the_largest_share_of_any_node) {
@@ -48,4 +48,4 @@ TEST(contact_bound, of_equal_ones_the_first_is_kept) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::contact_bound_test

@@ -7,7 +7,7 @@
 #include "scene.hpp"
 
 /// Overlap field that follows fracture, and couples made by it.
-namespace breccia {
+namespace breccia::contact_field_test {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -257,4 +257,4 @@ TEST(couples_of_fracture, are_fresh_for_one_evaluation_only) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::contact_field_test

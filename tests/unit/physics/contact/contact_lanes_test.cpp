@@ -4,7 +4,7 @@
 
 #include "unit/physics/contact/scene.hpp"
 
-namespace breccia {
+namespace breccia::contact_lanes_test {
 namespace {
 
 using test::box;
@@ -80,4 +80,4 @@ TEST(contact_lanes, couples_side_by_side_get_the_bits_of_couples_one_by_one) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::contact_lanes_test

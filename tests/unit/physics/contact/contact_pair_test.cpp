@@ -7,7 +7,7 @@
 
 /// Two tetrahedra face to face with imposed motion: the test of the non-elastic law. Source: [Schiava, 8.3.1 and
 /// 8.3.2]
-namespace breccia {
+namespace breccia::contact_pair_test {
 namespace {
 
 constexpr double kEdge = 0.02;                    // m: face area 173.2 mm2
@@ -223,4 +223,4 @@ TEST(contact_pair, a_sphere_takes_a_point_that_is_outside_when_first_seen_as_far
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::contact_pair_test

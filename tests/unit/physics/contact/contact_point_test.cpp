@@ -5,7 +5,7 @@
 #include "base/error.hpp"
 #include "scene.hpp"
 
-namespace breccia {
+namespace breccia::contact_point_test {
 namespace {
 
 constexpr double kRoundOff = 1e-14;
@@ -76,4 +76,4 @@ TEST(contact_points, are_ordered_by_identity_whenever_they_came) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::contact_point_test

@@ -7,7 +7,7 @@
 #include "press.hpp"
 
 /// Contact damping: on a lone tetrahedron that is pressed into the flat face of a body.
-namespace breccia {
+namespace breccia::damping_test {
 namespace {
 
 using test::Press;
@@ -87,4 +87,4 @@ TEST(contact_points, at_corners_feel_a_ridge_as_soon_as_it_touches) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::damping_test

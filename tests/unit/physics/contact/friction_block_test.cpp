@@ -8,7 +8,7 @@
 #include "scene.hpp"
 
 /// A block that cannot turn (its nodes move together) on a plane: Coulomb's closed forms.
-namespace breccia {
+namespace breccia::friction_block_test {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -173,4 +173,4 @@ TEST(friction, a_spring_that_lets_go_in_another_group_gives_back_what_it_held_un
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::friction_block_test

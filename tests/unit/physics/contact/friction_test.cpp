@@ -7,7 +7,7 @@
 #include "base/types.hpp"
 #include "physics/contact/friction.hpp"
 
-namespace breccia {
+namespace breccia::friction_test {
 namespace {
 
 constexpr double kRoundOff = 1e-14;
@@ -190,4 +190,4 @@ TEST(friction, lets_go_of_what_the_spring_holds) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::friction_test

@@ -9,7 +9,7 @@
 
 /// A small tetrahedron that moves through a large one with steps of constant length: the overlap is the distance to the
 /// nearest of four faces, and its gradient turns where another face becomes the nearest.
-namespace breccia {
+namespace breccia::kink_test {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -86,4 +86,4 @@ TEST(kinks_of_the_overlap, take_of_a_damped_point_what_is_dissipated) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::kink_test

@@ -6,7 +6,7 @@
 
 #include "physics/contact/contact_law.hpp"
 
-namespace breccia {
+namespace breccia::normal_law_test {
 namespace {
 
 constexpr double kPenalty = 90e6;
@@ -103,4 +103,4 @@ TEST(normal_law, survives_a_tiny_overlap_with_a_high_exponent) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::normal_law_test

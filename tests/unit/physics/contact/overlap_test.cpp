@@ -7,7 +7,7 @@
 
 #include "scene.hpp"
 
-namespace breccia {
+namespace breccia::overlap_test {
 namespace {
 
 constexpr double kRoundOff = 1e-13;
@@ -216,4 +216,4 @@ TEST(contact_forces, of_a_body_of_many_elements_are_the_gradient_of_the_stored_e
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::overlap_test

@@ -13,7 +13,7 @@
 /// A point that stays on one face of a body while that rocks under it: the body's surface goes up and down and to and
 /// fro and turns, by some thousandths in a step, each out of phase. The law has a potential, so nothing is to be put
 /// right, however often.
-namespace breccia {
+namespace breccia::rocking_test {
 namespace {
 
 using test::Press;
@@ -128,4 +128,4 @@ TEST(standing, bodies_touch_without_force_at_first_also_where_they_overlap_by_ro
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::rocking_test

@@ -6,7 +6,7 @@
 #include "unit/physics/contact/scene.hpp"
 
 /// Sides of sharp bodies look past those that they come down on, nearly.
-namespace breccia {
+namespace breccia::sharp_test {
 namespace {
 
 constexpr double kLength = 0.5;  // m
@@ -41,4 +41,4 @@ TEST(sharp, wedges_are_held_by_the_flat_face_that_they_come_down_on) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::sharp_test

@@ -5,7 +5,7 @@
 #include "scene.hpp"
 
 /// A lone tetrahedron dragged along under the flat face of a body of many elements.
-namespace breccia {
+namespace breccia::sliding_test {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -256,4 +256,4 @@ TEST(sliding, that_ends_while_it_sticks_books_what_the_spring_held_and_what_it_d
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::sliding_test

@@ -6,7 +6,7 @@
 
 #include "physics/active_joints.hpp"
 
-namespace breccia {
+namespace breccia::active_joints_test {
 namespace {
 
 TEST(ActiveJoints, keep_their_order_and_contents_while_others_come_and_go) {
@@ -52,4 +52,4 @@ TEST(ActiveJoints, keep_their_order_and_contents_while_others_come_and_go) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::active_joints_test

@@ -8,7 +8,7 @@
 #include "physics/joint_law.hpp"
 #include "unit/physics/joints/point_driver.hpp"
 
-namespace breccia {
+namespace breccia::joint_energy_test {
 namespace {
 
 using test::axes;
@@ -421,4 +421,4 @@ TEST(JointEnergy, no_closed_loop_creates_energy) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::joint_energy_test

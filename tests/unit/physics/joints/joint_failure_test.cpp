@@ -8,7 +8,7 @@
 #include "physics/joint_forces.hpp"
 #include "unit/physics/joints/joint_pair.hpp"
 
-namespace breccia {
+namespace breccia::joint_failure_test {
 namespace {
 
 using test::example_law;
@@ -438,4 +438,4 @@ TEST(JointFailure, a_damaged_joint_pulls_with_the_gradient_of_its_energy_also_wh
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::joint_failure_test

@@ -8,7 +8,7 @@
 
 #include "unit/physics/joints/joint_pair.hpp"
 
-namespace breccia {
+namespace breccia::joint_forces_test {
 namespace {
 
 using test::example_law;
@@ -286,4 +286,4 @@ TEST(JointForces, crossing_joint_starts_with_the_history_that_the_active_list_wo
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::joint_forces_test

@@ -6,7 +6,7 @@
 #include "physics/joint_law.hpp"
 #include "unit/physics/joints/point_driver.hpp"
 
-namespace breccia {
+namespace breccia::joint_friction_test {
 namespace {
 
 using test::axes;
@@ -197,4 +197,4 @@ TEST(JointFriction, rigid_rotation_of_the_joint_changes_nothing_but_directions) 
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::joint_friction_test

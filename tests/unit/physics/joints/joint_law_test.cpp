@@ -9,7 +9,7 @@
 
 #include "unit/physics/joints/point_driver.hpp"
 
-namespace breccia {
+namespace breccia::joint_law_test {
 namespace {
 
 using test::axes;
@@ -188,4 +188,4 @@ TEST(JointLaw, damage_never_heals_and_tractions_never_pass_the_strengths) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::joint_law_test

@@ -4,7 +4,7 @@
 
 #include "unit/physics/joints/joint_pair.hpp"
 
-namespace breccia {
+namespace breccia::joint_simd_test {
 namespace {
 
 using test::example_law;
@@ -125,4 +125,4 @@ TEST(JointSimd, a_joint_of_the_list_gets_the_bits_of_one_evaluated_alone) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::joint_simd_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace breccia {
+namespace breccia::softening_test {
 namespace {
 
 constexpr double kRoundOff = 1e-13;      // some operations on numbers of order one
@@ -88,4 +88,4 @@ TEST(Softening, refuses_what_is_no_softening_curve) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::softening_test

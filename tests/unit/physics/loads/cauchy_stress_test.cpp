@@ -6,7 +6,7 @@
 #include "physics/cauchy_stress.hpp"
 #include "unit/physics/loads/models.hpp"
 
-namespace breccia {
+namespace breccia::cauchy_stress_test {
 namespace {
 
 using test::Model;
@@ -91,4 +91,4 @@ TEST(CauchyStress, OfAUniaxiallyStrainedElementIsTheClosedForm) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::cauchy_stress_test

@@ -5,7 +5,7 @@
 #include "support/sums.hpp"
 #include "unit/physics/loads/models.hpp"
 
-namespace breccia {
+namespace breccia::constraints_test {
 namespace {
 
 using test::in_time;
@@ -194,4 +194,4 @@ TEST(Constraints, OnNothingDoNothing) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::constraints_test

@@ -11,7 +11,7 @@
 #include "physics/contact/overlap.hpp"
 #include "unit/physics/loads/models.hpp"
 
-namespace breccia {
+namespace breccia::contact_step_test {
 namespace {
 
 using test::Model;
@@ -325,4 +325,4 @@ TEST(ContactStep, IsTheSameFromWhatIsKeptOfEarlierLooksWhateverHasOpenedIsHeldOr
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::contact_step_test

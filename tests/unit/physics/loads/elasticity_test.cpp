@@ -6,7 +6,7 @@
 
 #include "unit/physics/loads/models.hpp"
 
-namespace breccia {
+namespace breccia::elasticity_test {
 namespace {
 
 namespace el = elasticity;
@@ -335,4 +335,4 @@ TEST(Viscosity, NeverGivesEnergyNotEvenToAnElementInsideOut) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::elasticity_test

@@ -7,7 +7,7 @@
 #include "support/sums.hpp"
 #include "unit/physics/loads/models.hpp"
 
-namespace breccia {
+namespace breccia::energy_test {
 namespace {
 
 using test::Model;
@@ -145,4 +145,4 @@ TEST(IntactJointEnergyOf, joints_that_one_element_has_opened_is_half_their_stiff
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::energy_test

@@ -2,7 +2,7 @@
 
 #include "unit/physics/loads/models.hpp"
 
-namespace breccia {
+namespace breccia::gravity_test {
 namespace {
 
 using test::Model;
@@ -77,4 +77,4 @@ TEST(GravityWork, FollowsEveryChangeOfGravityByTheTrapezoidRule) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::gravity_test

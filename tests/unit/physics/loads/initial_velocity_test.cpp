@@ -7,7 +7,7 @@
 #include "support/sums.hpp"
 #include "unit/physics/loads/models.hpp"
 
-namespace breccia {
+namespace breccia::initial_velocity_test {
 namespace {
 
 using test::Model;
@@ -147,4 +147,4 @@ TEST(InitialVelocity, AddsAndLeavesPaddingAndOtherGroupsAlone) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::initial_velocity_test

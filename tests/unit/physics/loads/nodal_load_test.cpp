@@ -4,7 +4,7 @@
 
 #include "unit/physics/loads/models.hpp"
 
-namespace breccia {
+namespace breccia::nodal_load_test {
 namespace {
 
 using test::Model;
@@ -51,4 +51,4 @@ TEST(NodalLoad, LeavesTheWorkOnNodesOfAnotherRankToThatRank) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::nodal_load_test

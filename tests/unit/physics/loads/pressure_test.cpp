@@ -4,7 +4,7 @@
 
 #include "unit/physics/loads/models.hpp"
 
-namespace breccia {
+namespace breccia::pressure_test {
 namespace {
 
 using test::Model;
@@ -120,4 +120,4 @@ TEST(PressureWork, OnElementsOfAnotherRankIsLeftToThatRank) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::pressure_test

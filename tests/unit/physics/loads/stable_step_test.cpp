@@ -6,7 +6,7 @@
 #include "physics/stable_step.hpp"
 #include "unit/physics/loads/models.hpp"
 
-namespace breccia {
+namespace breccia::stable_step_test {
 namespace {
 
 using test::Model;
@@ -382,4 +382,4 @@ TEST(StableStep, SkipsPadding) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::stable_step_test

@@ -9,7 +9,7 @@
 
 #include "unit/physics/loads/models.hpp"
 
-namespace breccia {
+namespace breccia::sweep_test {
 namespace {
 using test::Model;
 
@@ -306,4 +306,4 @@ TEST(SweepStatus, CountsElementsBelowTheSmallestVolumeRatio) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::sweep_test

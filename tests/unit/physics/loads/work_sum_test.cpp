@@ -3,7 +3,7 @@
 
 #include "base/work_sum.hpp"
 
-namespace breccia {
+namespace breccia::work_sum_test {
 namespace {
 
 TEST(WorkSum, OfALinearSpringIsItsEnergyExactly) {
@@ -27,4 +27,4 @@ TEST(WorkSum, OfALinearSpringIsItsEnergyExactly) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::work_sum_test

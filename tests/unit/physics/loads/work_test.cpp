@@ -5,7 +5,7 @@
 #include "physics/energy.hpp"
 #include "unit/physics/loads/models.hpp"
 
-namespace breccia {
+namespace breccia::work_test {
 namespace {
 
 using test::Model;
@@ -106,4 +106,4 @@ TEST_P(Work, OfAllForcesIsTheChangeOfKineticEnergyToRoundOff) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::work_test

@@ -6,7 +6,7 @@
 #include "physics/material/drucker_prager.hpp"
 #include "unit/physics/material/material_point.hpp"
 
-namespace breccia {
+namespace breccia::bulk_law_test {
 namespace {
 
 using test::same_plastic_state;
@@ -51,4 +51,4 @@ TEST(MaterialMemory, of_a_model_without_any_is_virgin) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::bulk_law_test

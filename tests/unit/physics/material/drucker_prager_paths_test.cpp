@@ -5,7 +5,7 @@
 #include "unit/physics/material/material_point.hpp"
 
 /// Paths whose end is known in closed form, led through the law as histories of F.
-namespace breccia {
+namespace breccia::drucker_prager_paths_test {
 namespace {
 
 using test::same_plastic_state;
@@ -133,4 +133,4 @@ TEST(DruckerPragerPath, of_large_simple_shear_keeps_the_strength_of_a_perfect_co
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::drucker_prager_paths_test

@@ -5,7 +5,7 @@
 
 #include "physics/material/drucker_prager_return.hpp"
 
-namespace breccia::material {
+namespace breccia::material::drucker_prager_return_test {
 namespace {
 
 constexpr double kConsistency = 1e-12;  // of the strength, the goal of the return
@@ -128,4 +128,4 @@ TEST(Return, does_not_jump_where_one_case_gives_way_to_another) {
 }
 
 }  // namespace
-}  // namespace breccia::material
+}  // namespace breccia::material::drucker_prager_return_test

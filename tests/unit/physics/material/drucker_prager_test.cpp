@@ -9,7 +9,7 @@
 #include "unit/physics/material/material_point.hpp"
 
 /// What holds for every path.
-namespace breccia {
+namespace breccia::drucker_prager_test {
 namespace {
 
 using test::same_plastic_state;
@@ -274,4 +274,4 @@ TEST(DruckerPrager, is_not_stiffer_while_it_flows) {
 }
 
 }  // namespace
-}  // namespace breccia
+}  // namespace breccia::drucker_prager_test

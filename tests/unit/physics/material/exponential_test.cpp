@@ -5,7 +5,7 @@
 
 #include "physics/material/exponential.hpp"
 
-namespace breccia::material {
+namespace breccia::material::exponential_test {
 namespace {
 
 constexpr double kRounding = 1e-15;  // relative
@@ -41,4 +41,4 @@ TEST(Exponential, undoes_the_logarithm) {
 }
 
 }  // namespace
-}  // namespace breccia::material
+}  // namespace breccia::material::exponential_test

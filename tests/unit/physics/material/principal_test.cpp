@@ -6,7 +6,7 @@
 #include "physics/material/principal.hpp"
 #include "unit/physics/loads/models.hpp"
 
-namespace breccia::material {
+namespace breccia::material::principal_test {
 namespace {
 
 constexpr double kRounding = 2e-15;  // of the largest entry
@@ -55,4 +55,4 @@ TEST(Principal, values_of_a_diagonal_tensor_are_its_entries) {
 }
 
 }  // namespace
-}  // namespace breccia::material
+}  // namespace breccia::material::principal_test
