@@ -13,14 +13,14 @@
 #include <system_error>
 
 #include "base/error.hpp"
-#include "base/interruption.hpp"
 #include "base/printable.hpp"
 #include "commands/command_line.hpp"
 #include "commands/environment.hpp"
-#include "output/atomic_file.hpp"
 #include "parallel/mpi_session.hpp"
 #include "simulation/run.hpp"
 #include "simulation/run_checkpoints.hpp"
+#include "system/atomic_file.hpp"
+#include "system/interruption.hpp"
 
 namespace {
 

@@ -47,8 +47,10 @@ QString case_text(const QString& file, const QStringList& groups, double metres)
 }  // namespace
 
 const std::vector<LengthUnit>& length_units() {
-  static const std::vector<LengthUnit> units{
-      {import_text("millimetre"), 0.001}, {import_text("metre"), 1}, {import_text("centimetre"), 0.01}, {import_text("inch"), 0.0254}};
+  static const std::vector<LengthUnit> units{{import_text("millimetre"), 0.001},
+                                             {import_text("metre"), 1},
+                                             {import_text("centimetre"), 0.01},
+                                             {import_text("inch"), 0.0254}};
   return units;
 }
 

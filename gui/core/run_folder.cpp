@@ -15,7 +15,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/regular_file.hpp"
+#include "system/regular_file.hpp"
 
 namespace breccia::gui {
 

@@ -7,11 +7,11 @@
 #include <tuple>
 #include <utility>
 
-#include "base/sha256.hpp"
 #include "case/joint_entries.hpp"
 #include "case/reader.hpp"
 #include "case/schema.hpp"
 #include "case/writer.hpp"
+#include "system/sha256.hpp"
 
 namespace breccia::case_ {
 namespace {

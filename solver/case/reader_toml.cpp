@@ -6,10 +6,10 @@
 #include <cctype>
 #include <sstream>
 
-#include "base/bounded_file.hpp"
 #include "base/error.hpp"
 #include "base/geometry_file.hpp"
 #include "case/units.hpp"
+#include "system/bounded_file.hpp"
 
 namespace breccia::case_ {
 namespace {

@@ -8,9 +8,9 @@
 #include <Eigen/Eigenvalues>
 
 #include "base/index.hpp"
+#include "base/quantity_text.hpp"
 #include "commands/solids.hpp"
 #include "mesh/geometry.hpp"
-#include "output/quantity_text.hpp"
 
 namespace breccia {
 namespace {

@@ -9,7 +9,7 @@
 #include "commands/preview.hpp"
 #include "commands/start_state.hpp"
 #include "commands/terminal.hpp"
-#include "output/insitu.hpp"
+#include "output/insitu/insitu.hpp"
 
 namespace breccia {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "commands/race.hpp"
-#include "output/status_sink.hpp"
+#include "output/folder/status_sink.hpp"
 #include "parallel/communicator.hpp"
 
 /// The sub-commands of the program; main.cpp reads their arguments. Each returns the exit code of success or throws.

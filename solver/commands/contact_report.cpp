@@ -9,9 +9,9 @@
 #include <Eigen/Geometry>
 
 #include "base/index.hpp"
+#include "base/quantity_text.hpp"
 #include "mesh/tetrahedron.hpp"
 #include "model/parameters.hpp"
-#include "output/quantity_text.hpp"
 #include "physics/contact/contact_point.hpp"
 
 namespace breccia {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "output/quantity_text.hpp"
+#include "base/quantity_text.hpp"
 
 namespace breccia {
 namespace {

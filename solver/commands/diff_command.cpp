@@ -1,6 +1,6 @@
 #include "commands/commands.hpp"
 #include "commands/terminal.hpp"
-#include "output/run_diff.hpp"
+#include "output/folder/run_diff.hpp"
 
 namespace breccia {
 

@@ -8,12 +8,12 @@
 #include "case/reader.hpp"
 #include "commands/commands.hpp"
 #include "commands/terminal.hpp"
-#include "output/atomic_file.hpp"
-#include "output/control.hpp"
-#include "output/folder_check.hpp"
-#include "output/insitu_config.hpp"
-#include "output/insitu_plugin.hpp"
-#include "output/run_folder.hpp"
+#include "output/folder/control.hpp"
+#include "output/folder/folder_check.hpp"
+#include "output/folder/run_folder.hpp"
+#include "output/insitu/insitu_config.hpp"
+#include "output/insitu/insitu_plugin.hpp"
+#include "system/atomic_file.hpp"
 
 namespace breccia {
 

@@ -19,9 +19,9 @@
 #include "case/reader.hpp"
 #include "commands/commands.hpp"
 #include "commands/terminal.hpp"
-#include "output/atomic_file.hpp"
-#include "output/insitu_config.hpp"
-#include "output/insitu_plugin.hpp"
+#include "output/insitu/insitu_config.hpp"
+#include "output/insitu/insitu_plugin.hpp"
+#include "system/atomic_file.hpp"
 
 namespace breccia {
 namespace {

@@ -16,9 +16,9 @@
 #include "domains/balance.hpp"
 #include "observe/fragment_labels.hpp"
 #include "observe/frames.hpp"
-#include "output/atomic_file.hpp"
-#include "output/run_folder.hpp"
-#include "output/vtkhdf_sink.hpp"
+#include "output/folder/run_folder.hpp"
+#include "output/frames/vtkhdf_sink.hpp"
+#include "system/atomic_file.hpp"
 
 namespace breccia {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "base/geometry_file.hpp"
 #include "base/index.hpp"
+#include "base/quantity_text.hpp"
 #include "commands/check_report.hpp"
 #include "mesh/tetrahedron.hpp"
 #include "model/parameters.hpp"
-#include "output/quantity_text.hpp"
 
 namespace breccia {
 namespace {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/index.hpp"
+#include "base/quantity_text.hpp"
 #include "commands/constraint_words.hpp"
 #include "commands/solids.hpp"
-#include "output/quantity_text.hpp"
 
 namespace breccia {
 namespace {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/quantity_text.hpp"
 #include "case/problem_at.hpp"
 #include "contact/initial_overlap.hpp"
 #include "model/parameters.hpp"
-#include "output/quantity_text.hpp"
 
 namespace breccia {
 namespace {

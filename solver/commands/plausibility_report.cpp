@@ -7,8 +7,8 @@
 #include <numbers>
 #include <string>
 
+#include "base/quantity_text.hpp"
 #include "case/joint_entries.hpp"
-#include "output/quantity_text.hpp"
 
 namespace breccia {
 namespace {

@@ -7,12 +7,12 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "base/quantity_text.hpp"
 #include "case/schema.hpp"
 #include "commands/stage_driver.hpp"
 #include "commands/timing_segments.hpp"
 #include "domains/state_records.hpp"
 #include "observe/observe.hpp"
-#include "output/quantity_text.hpp"
 #include "simulation/run.hpp"
 
 namespace breccia {

@@ -7,7 +7,7 @@
 
 #include "case/case.hpp"
 #include "model/model.hpp"
-#include "output/race_progress.hpp"
+#include "output/folder/race_progress.hpp"
 #include "parallel/communicator.hpp"
 
 namespace breccia {

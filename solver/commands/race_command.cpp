@@ -13,7 +13,7 @@
 #include "commands/oversubscription.hpp"
 #include "commands/race_report.hpp"
 #include "commands/stage_report.hpp"
-#include "output/atomic_file.hpp"
+#include "system/atomic_file.hpp"
 
 namespace breccia {
 namespace {

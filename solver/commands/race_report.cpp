@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <algorithm>
 
-#include "output/quantity_text.hpp"
+#include "base/quantity_text.hpp"
 
 namespace breccia {
 namespace {

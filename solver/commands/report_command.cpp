@@ -11,13 +11,13 @@
 
 #include "base/error.hpp"
 #include "base/printable.hpp"
-#include "base/regular_file.hpp"
 #include "commands/commands.hpp"
 #include "commands/terminal.hpp"
-#include "output/atomic_file.hpp"
 #include "report/drawing.hpp"
 #include "report/page.hpp"
 #include "report/record.hpp"
+#include "system/atomic_file.hpp"
+#include "system/regular_file.hpp"
 
 namespace breccia {
 namespace {

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "base/error.hpp"
+#include "base/quantity_text.hpp"
 #include "base/version.hpp"
 #include "case/reader.hpp"
 #include "case/schema.hpp"
@@ -16,12 +17,11 @@
 #include "commands/start_state.hpp"
 #include "commands/terminal.hpp"
 #include "domains/possible_records.hpp"
-#include "output/checkpoint_writer.hpp"
-#include "output/folder_check.hpp"
-#include "output/insitu.hpp"
-#include "output/quantity_text.hpp"
-#include "output/resumed_folder.hpp"
-#include "output/run_lock.hpp"
+#include "output/checkpoint/checkpoint_writer.hpp"
+#include "output/folder/folder_check.hpp"
+#include "output/folder/resumed_folder.hpp"
+#include "output/folder/run_lock.hpp"
+#include "output/insitu/insitu.hpp"
 #include "simulation/run.hpp"
 
 namespace breccia {

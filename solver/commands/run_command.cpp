@@ -5,7 +5,6 @@
 #include <set>
 
 #include "base/geometry_file.hpp"
-#include "base/interruption.hpp"
 #include "base/printable.hpp"
 #include "base/version.hpp"
 #include "case/live_address.hpp"
@@ -19,10 +18,11 @@
 #include "commands/unmeant_report.hpp"
 #include "mesh/geo_scan.hpp"
 #include "model/surfaces_to_break.hpp"
-#include "output/insitu.hpp"
-#include "output/run_folder.hpp"
-#include "output/run_lock.hpp"
+#include "output/folder/run_folder.hpp"
+#include "output/folder/run_lock.hpp"
+#include "output/insitu/insitu.hpp"
 #include "simulation/run.hpp"
+#include "system/interruption.hpp"
 
 namespace breccia {
 namespace {

@@ -4,10 +4,10 @@
 #include <iostream>
 
 #include "base/printable.hpp"
-#include "output/bodies_sink.hpp"
-#include "output/history_sink.hpp"
-#include "output/summary.hpp"
-#include "output/vtkhdf_sink.hpp"
+#include "output/folder/bodies_sink.hpp"
+#include "output/folder/history_sink.hpp"
+#include "output/folder/summary.hpp"
+#include "output/frames/vtkhdf_sink.hpp"
 
 namespace breccia {
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "case/case.hpp"
-#include "output/run_folder.hpp"
+#include "output/folder/run_folder.hpp"
+#include "output/folder/status_sink.hpp"
 #include "output/sink.hpp"
-#include "output/status_sink.hpp"
 #include "parallel/communicator.hpp"
 
 namespace breccia {

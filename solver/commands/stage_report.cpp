@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/quantity_text.hpp"
 #include "commands/constraint_words.hpp"
 #include "commands/motion_report.hpp"
 #include "commands/solids.hpp"
-#include "output/quantity_text.hpp"
 
 namespace breccia {
 namespace {

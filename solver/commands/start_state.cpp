@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "base/error.hpp"
+#include "base/quantity_text.hpp"
 #include "case/problem_at.hpp"
 #include "case/reader.hpp"
 #include "case/validate.hpp"
@@ -17,11 +18,10 @@
 #include "model/node_sets.hpp"
 #include "model/parameters.hpp"
 #include "model/surfaces_to_break.hpp"
-#include "output/checkpoint_index.hpp"
-#include "output/folder_check.hpp"
-#include "output/quantity_text.hpp"
-#include "output/resumed_folder.hpp"
-#include "output/run_lock.hpp"
+#include "output/checkpoint/checkpoint_index.hpp"
+#include "output/folder/folder_check.hpp"
+#include "output/folder/resumed_folder.hpp"
+#include "output/folder/run_lock.hpp"
 
 namespace breccia {
 namespace {

@@ -8,8 +8,8 @@
 #include "case/case.hpp"
 #include "case/parent_case.hpp"
 #include "model/constraint_conflicts.hpp"
-#include "output/checkpoint.hpp"
-#include "output/run_folder.hpp"
+#include "output/checkpoint/checkpoint.hpp"
+#include "output/folder/run_folder.hpp"
 #include "parallel/communicator.hpp"
 #include "simulation/run.hpp"
 

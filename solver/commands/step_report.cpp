@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "base/index.hpp"
+#include "base/quantity_text.hpp"
 #include "contact/search_params.hpp"
 #include "domains/domain.hpp"
 #include "domains/global_step.hpp"
 #include "mesh/quality.hpp"
 #include "model/parameters.hpp"
 #include "model/time_step.hpp"
-#include "output/quantity_text.hpp"
 #include "simulation/countable_steps.hpp"
 
 namespace breccia {

@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "base/index.hpp"
+#include "base/quantity_text.hpp"
 #include "commands/stage_report.hpp"
 #include "commands/surface_report.hpp"
 #include "commands/unjoined_report.hpp"
 #include "mesh/bodies.hpp"
 #include "mesh/geometry.hpp"
 #include "model/parameters.hpp"
-#include "output/quantity_text.hpp"
 
 namespace breccia {
 namespace {

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <utility>
 
-#include "base/bounded_file.hpp"
 #include "base/geometry_file.hpp"
 #include "base/trimmed.hpp"
+#include "system/bounded_file.hpp"
 
 namespace breccia {
 namespace {

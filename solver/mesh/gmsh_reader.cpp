@@ -19,8 +19,6 @@
 #include <string_view>
 #include <utility>
 
-#include "base/bounded_file.hpp"
-#include "base/child_process.hpp"
 #include "base/error.hpp"
 #include "base/geometry_file.hpp"
 #include "base/number_text.hpp"
@@ -33,6 +31,9 @@
 #include "mesh/mesh_bytes.hpp"
 #include "mesh/set_readers.hpp"
 #include "mesh/solid_groups.hpp"
+#include "system/bounded_file.hpp"
+#include "system/child_process.hpp"
+#include "system/write_all.hpp"
 
 namespace breccia {
 namespace {
@@ -73,11 +74,7 @@ class ScriptInMemory {
   [[nodiscard]] int descriptor() const { return descriptor_; }
   /// In the child.
   static void write(std::string_view text) {
-    while (!text.empty()) {
-      const ssize_t written = ::write(kKeptDescriptor, text.data(), text.size());
-      if (written <= 0) throw std::bad_alloc();
-      text.remove_prefix(static_cast<std::size_t>(written));
-    }
+    if (write_all(kKeptDescriptor, text) != 0) throw std::bad_alloc();  // it is a file in memory
   }
   [[nodiscard]] static std::string path() { return "/proc/self/fd/" + std::to_string(kKeptDescriptor); }
 

@@ -37,8 +37,8 @@ struct GmshSource {
 /// gmsh's. A .geo is meshed on one thread, from gmsh's fixed random seed: the same file and parameters give the same
 /// mesh; so is a solid, whose groups mesh/gmsh_solids.hpp tells. A STEP file states the unit of its lengths.
 ///
-/// The file is read by a child process without the right to run, write or connect to anything (base/confinement.hpp),
-/// and to read anything outside the folders of the file and of the case (base/file_access.hpp, where the kernel has
+/// The file is read by a child process without the right to run, write or connect to anything (system/confinement.hpp),
+/// and to read anything outside the folders of the file and of the case (system/file_access.hpp, where the kernel has
 /// Landlock), unless the source is trusted; and within the limits of time and memory, never more than the memory that
 /// is available: whatever a file does to the child ends in an InputError.
 /// A file FILE.opt beside a mesh, which gmsh takes commands from, is refused unless the source is trusted.

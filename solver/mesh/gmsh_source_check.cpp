@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "base/bounded_file.hpp"
 #include "base/error.hpp"
 #include "base/geometry_file.hpp"
 #include "mesh/geo_scan.hpp"
 #include "mesh/msh_scan.hpp"
+#include "system/bounded_file.hpp"
 
 namespace breccia {
 namespace {

@@ -1,10 +1,10 @@
 #include "model/memory_demand.hpp"
 
-#include "base/bounded_file.hpp"
-#include "base/child_process.hpp"
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "case/problem_at.hpp"
+#include "system/bounded_file.hpp"
+#include "system/child_process.hpp"
 
 namespace breccia {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "domains/domain.hpp"
-#include "output/frame.hpp"
+#include "output/frames/frame.hpp"
 
 namespace breccia {
 

@@ -5,7 +5,7 @@
 #include "discretisation/fragments.hpp"
 #include "domains/domain.hpp"
 #include "observe/free_faces.hpp"
-#include "output/frame.hpp"
+#include "output/frames/frame.hpp"
 
 namespace breccia {
 

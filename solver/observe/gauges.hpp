@@ -7,7 +7,7 @@
 
 #include "case/case.hpp"
 #include "domains/domain.hpp"
-#include "output/frame.hpp"
+#include "output/frames/frame.hpp"
 
 namespace breccia {
 

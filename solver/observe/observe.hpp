@@ -8,7 +8,7 @@
 #include "domains/partition.hpp"
 #include "observe/fragment_labels.hpp"
 #include "observe/gauges.hpp"
-#include "output/frame.hpp"
+#include "output/frames/frame.hpp"
 
 namespace breccia {
 

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-#include "output/energy_terms.hpp"
+#include "output/folder/energy_terms.hpp"
 #include "state/energy_budget.hpp"
 #include "state/field_table.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "output/frame.hpp"
+#include "output/frames/frame.hpp"
 #include "output/run_position.hpp"
 
 namespace breccia {

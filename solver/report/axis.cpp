@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "output/quantity_text.hpp"
+#include "base/quantity_text.hpp"
 #include "report/html.hpp"
 
 namespace breccia::report {

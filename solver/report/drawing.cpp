@@ -17,7 +17,7 @@
 #include <thread>
 #include <vector>
 
-#include "base/interruption.hpp"
+#include "system/interruption.hpp"
 
 namespace breccia::report {
 namespace {

@@ -9,7 +9,7 @@ namespace breccia::report {
 
 /// Lets ParaView make pictures and statistics of a run's frames: pvpython with the plugin, in a process of its own with
 /// a screen of its own (xvfb-run; the environment's DISPLAY where that is missing; without either only statistics).
-/// The plugin is looked for as the in-situ adaptor is (output/insitu_plugin.hpp): the environment's
+/// The plugin is looked for as the in-situ adaptor is (output/insitu/insitu_plugin.hpp): the environment's
 /// BRECCIA_PARAVIEW_PLUGIN, or relative to the program's folder, ../lib/breccia/paraview/Breccia where both are
 /// installed and ../plugins/lib/breccia/paraview/Breccia where they were built; the script lies beside it.
 /// What is missing or goes wrong is told in the result, never thrown. SIGINT, SIGTERM and SIGHUP end ParaView as well.

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "output/json_text.hpp"
+#include "output/folder/json_text.hpp"
 #include "report/html.hpp"
 
 namespace breccia::report {

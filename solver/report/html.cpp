@@ -9,7 +9,7 @@
 #include <cstdlib>
 
 #include "base/number_text.hpp"
-#include "output/quantity_text.hpp"
+#include "base/quantity_text.hpp"
 
 namespace breccia::report {
 namespace {

@@ -17,7 +17,7 @@ namespace breccia::report {
 /// Exponent in raised digits: "⁻⁶".
 [[nodiscard]] std::string raised(int exponent);
 
-/// Three digits with a prefix, as quantity_text (output/quantity_text.hpp): "12.3 µs", "1,240 mm²", "50 g"; pure
+/// Three digits with a prefix, as quantity_text (base/quantity_text.hpp): "12.3 µs", "1,240 mm²", "50 g"; pure
 /// numbers as "0.904", "1,138" or "2.05 × 10⁻⁵". @param unit  SI; m2, m3 and kg get units of their own size
 [[nodiscard]] std::string quantity(double value, std::string_view unit);
 

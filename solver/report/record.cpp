@@ -10,13 +10,13 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/regular_file.hpp"
 #include "case/groups.hpp"
 #include "case/reader.hpp"
-#include "output/folder_check.hpp"
-#include "output/json_text.hpp"
-#include "output/run_lock.hpp"
+#include "output/folder/folder_check.hpp"
+#include "output/folder/json_text.hpp"
+#include "output/folder/run_lock.hpp"
 #include "report/figures.hpp"
+#include "system/regular_file.hpp"
 
 namespace breccia::report {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "case/case.hpp"
-#include "output/run_folder.hpp"
+#include "output/folder/run_folder.hpp"
 #include "output/sink.hpp"
 
 namespace breccia::report {

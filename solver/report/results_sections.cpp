@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "output/energy_terms.hpp"
+#include "output/folder/energy_terms.hpp"
 #include "report/chart.hpp"
 #include "report/html.hpp"
 #include "report/page.hpp"

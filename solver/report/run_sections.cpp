@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "output/quantity_text.hpp"
+#include "base/quantity_text.hpp"
 #include "report/chart.hpp"
 #include "report/html.hpp"
 #include "report/page.hpp"

@@ -4,8 +4,8 @@
 #include <span>
 #include <utility>
 
-#include "output/channels.hpp"
-#include "output/history_sink.hpp"
+#include "output/folder/history_sink.hpp"
+#include "output/insitu/channels.hpp"
 
 namespace breccia {
 

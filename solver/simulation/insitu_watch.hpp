@@ -8,8 +8,8 @@
 
 #include "domains/partition.hpp"
 #include "observe/observe.hpp"
-#include "output/control.hpp"
-#include "output/insitu.hpp"
+#include "output/folder/control.hpp"
+#include "output/insitu/insitu.hpp"
 
 namespace breccia {
 

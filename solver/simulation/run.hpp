@@ -8,8 +8,8 @@
 
 #include "case/case.hpp"
 #include "model/model.hpp"
-#include "output/checkpoint.hpp"
-#include "output/run_folder.hpp"
+#include "output/checkpoint/checkpoint.hpp"
+#include "output/folder/run_folder.hpp"
 #include "output/sink.hpp"
 #include "parallel/communicator.hpp"
 

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/regular_file.hpp"
 #include "domains/model_fields.hpp"
 #include "domains/piece_mesh.hpp"
-#include "output/atomic_file.hpp"
+#include "system/atomic_file.hpp"
+#include "system/regular_file.hpp"
 
 namespace breccia {
 

@@ -10,10 +10,10 @@
 
 #include "case/case.hpp"
 #include "domains/partition.hpp"
-#include "output/checkpoint.hpp"
-#include "output/checkpoint_writer.hpp"
-#include "output/frame.hpp"
-#include "output/run_folder.hpp"
+#include "output/checkpoint/checkpoint.hpp"
+#include "output/checkpoint/checkpoint_writer.hpp"
+#include "output/folder/run_folder.hpp"
+#include "output/frames/frame.hpp"
 #include "output/schedule.hpp"
 
 namespace breccia {

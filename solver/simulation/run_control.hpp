@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "output/control.hpp"
+#include "output/folder/control.hpp"
 #include "parallel/communicator.hpp"
 
 namespace breccia {

@@ -10,8 +10,8 @@
 #include "domains/state_records.hpp"
 #include "observe/body_names.hpp"
 #include "observe/energy_sample.hpp"
-#include "output/run_folder.hpp"
-#include "output/summary.hpp"
+#include "output/folder/run_folder.hpp"
+#include "output/folder/summary.hpp"
 
 namespace breccia {
 namespace {

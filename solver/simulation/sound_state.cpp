@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "output/checkpoint.hpp"
+#include "output/checkpoint/checkpoint.hpp"
 
 namespace breccia {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "output/run_folder.hpp"
+#include "output/folder/run_folder.hpp"
 #include "parallel/communicator.hpp"
 
 namespace breccia {

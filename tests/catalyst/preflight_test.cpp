@@ -17,7 +17,7 @@
 
 #include "catalyst/plugin.hpp"
 #include "catalyst/synthetic.hpp"
-#include "unit/output/file_size_limit.hpp"
+#include "unit/system/file_size_limit.hpp"
 
 namespace breccia::test::preflight_test {
 namespace {

@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "mesh/topology.hpp"
-#include "output/checkpoint.hpp"
-#include "output/checkpoint_index.hpp"
-#include "output/checkpoint_writer.hpp"
+#include "output/checkpoint/checkpoint.hpp"
+#include "output/checkpoint/checkpoint_index.hpp"
+#include "output/checkpoint/checkpoint_writer.hpp"
 #include "unit/state/sample_records.hpp"
 
 namespace breccia::fuzz {

@@ -19,7 +19,7 @@
 #include "mesh/gmsh_source_check.hpp"
 #include "mesh/mesh_bytes.hpp"
 #include "mesh/topology.hpp"
-#include "output/control.hpp"
+#include "output/folder/control.hpp"
 
 namespace breccia::fuzz {
 

@@ -12,20 +12,21 @@ from pathlib import Path
 # Folder of solver/ -> folders whose headers its files may include (its own always).
 MAY_INCLUDE = {
     "base": set(),
-    "case": {"base"},
-    "mesh": {"base"},
+    "system": {"base"},
+    "case": {"base", "system"},
+    "mesh": {"base", "system"},
     "parallel": {"base", "mesh"},
     "discretisation": {"base", "mesh"},
     "physics": {"base", "mesh", "discretisation"},
     "detection": {"base", "mesh", "discretisation"},
-    "model": {"base", "case", "mesh", "discretisation", "physics"},
+    "model": {"base", "system", "case", "mesh", "discretisation", "physics"},
     "state": {"base", "mesh", "discretisation", "physics", "model"},
-    "output": {"base", "case", "mesh", "state", "parallel"},
+    "output": {"base", "system", "case", "mesh", "state", "parallel"},
     "contact": {"base", "case", "mesh", "discretisation", "physics", "detection", "model", "state", "parallel"},
     "domains": {"base", "case", "mesh", "discretisation", "physics", "model", "state", "contact", "parallel"},
-    "observe": {"base", "case", "mesh", "discretisation", "physics", "model", "state", "contact", "domains", "parallel", "output"},
+    "observe": {"base", "system", "case", "mesh", "discretisation", "physics", "model", "state", "contact", "domains", "parallel", "output"},
 }
-MAY_INCLUDE["report"] = {"base", "case", "output"}
+MAY_INCLUDE["report"] = {"base", "system", "case", "output"}
 MAY_INCLUDE["simulation"] = set(MAY_INCLUDE)
 MAY_INCLUDE["commands"] = set(MAY_INCLUDE)
 PROGRAM = set(MAY_INCLUDE)  # what main.cpp may include: everything
@@ -39,7 +40,7 @@ ADAPTOR = re.compile(r"(catalyst/\w+\.h(pp)?|vtk\w+\.h|mpi\.h|Python\.h|X11/\w+\
 # What a folder of gui/ may include: its own headers and those it builds on, Qt (Q...), VTK (vtk...), and the solver's case and base.
 QT, VTK_HEADER, WIDGETS = r"Q(?!VTK)\w+", r"vtk\w+\.h", r"Q(Application|\w*(Widget|Dialog|Window|Box|Button|Label|View|Menu|Painter|Icon|Pixmap))"
 GUI = {
-    "core": (("core", "case", "base"), QT),
+    "core": (("core", "case", "base", "system"), QT),
     "render": (("render",), VTK_HEADER),
     "models": (("models", "core", "case", "base"), QT),
     "widgets": (("widgets", "models", "core", "render", "case", "base"), rf"{QT}|QVTK\w+\.h|{VTK_HEADER}"),
@@ -49,12 +50,12 @@ GUI = {
 THIRD_PARTY = [
     (r"Eigen/.*", ["*"]),
     (r"spdlog/.*", ["base/log.cpp"]),
-    (r"fmt/.*", ["base/log.cpp", "output/*.cpp", "report/*.cpp", "commands/*.cpp"]),
+    (r"fmt/.*", ["base/log.cpp", "base/quantity_text.cpp", "output/*.cpp", "report/*.cpp", "commands/*.cpp"]),
     (r"(toml\.hpp|toml\+\+/.*|toml\+\+\.h|tomlplusplus/.*)", ["case/*reader*.cpp"]),
     (r"gmsh(c|\.h_cwrap)?\.h", ["mesh/gmsh_model.cpp", "mesh/gmsh_reader.cpp", "mesh/gmsh_solids.cpp",
                                 "mesh/solid_groups.cpp", "mesh/stl_solids.cpp"]),
     (r"mpi\.h", ["parallel/*"]),
-    (r"(hdf5(_hl)?|H5\w*)\.h", ["output/hdf5*.cpp"]),
+    (r"(hdf5(_hl)?|H5\w*)\.h", ["output/frames/hdf5*.cpp"]),
     (r"nlohmann/.*", ["output/*.cpp", "report/*.cpp", "commands/json_report.cpp"]),
     (r"CLI/.*", ["main.cpp", "commands/command_line*"]),
 ]

@@ -10,11 +10,11 @@
 
 #include "base/error.hpp"
 #include "mpi/world.hpp"
-#include "output/vtkhdf_sink.hpp"
-#include "unit/output/file_size_limit.hpp"
+#include "output/frames/vtkhdf_sink.hpp"
 #include "unit/output/hdf5_reader.hpp"
 #include "unit/output/synthetic_plate.hpp"
 #include "unit/output/temporary_folder.hpp"
+#include "unit/system/file_size_limit.hpp"
 
 namespace breccia {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "output/frame.hpp"
+#include "output/frames/frame.hpp"
 
 namespace breccia::test {
 

@@ -10,11 +10,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "base/child_process.hpp"
 #include "base/error.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/mesh_bytes.hpp"
 #include "sample_meshes.hpp"
+#include "system/child_process.hpp"
 
 namespace breccia::hostile_mesh_test {
 namespace {

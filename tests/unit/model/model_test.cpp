@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "base/child_process.hpp"
 #include "mesh/geometry.hpp"
 #include "model/memory_demand.hpp"
 #include "model/parameters.hpp"
 #include "model/surfaces_to_break.hpp"
 #include "model/time_step.hpp"
 #include "support/notched_beam.hpp"
+#include "system/child_process.hpp"
 #include "unit/model/two_boxes.hpp"
 
 namespace breccia::model_test {

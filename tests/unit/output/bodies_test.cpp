@@ -1,4 +1,4 @@
-#include "output/bodies_sink.hpp"
+#include "output/folder/bodies_sink.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "output/channels.hpp"
+#include "output/insitu/channels.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -16,14 +16,14 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "output/checkpoint.hpp"
-#include "output/checkpoint_columns.hpp"
-#include "output/checkpoint_index.hpp"
-#include "output/checkpoint_writer.hpp"
-#include "unit/output/file_size_limit.hpp"
+#include "output/checkpoint/checkpoint.hpp"
+#include "output/checkpoint/checkpoint_columns.hpp"
+#include "output/checkpoint/checkpoint_index.hpp"
+#include "output/checkpoint/checkpoint_writer.hpp"
 #include "unit/output/hdf5_reader.hpp"
 #include "unit/output/temporary_folder.hpp"
 #include "unit/state/sample_records.hpp"
+#include "unit/system/file_size_limit.hpp"
 
 namespace breccia::checkpoint_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "output/control.hpp"
+#include "output/folder/control.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "base/error.hpp"
-#include "output/run_folder.hpp"
-#include "output/run_lock.hpp"
+#include "output/folder/run_folder.hpp"
+#include "output/folder/run_lock.hpp"
 #include "unit/output/temporary_folder.hpp"
 
 namespace breccia::control_test {

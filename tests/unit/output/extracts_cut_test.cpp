@@ -1,4 +1,4 @@
-#include "output/extracts_cut.hpp"
+#include "output/insitu/extracts_cut.hpp"
 
 #include <gmock/gmock.h>
 

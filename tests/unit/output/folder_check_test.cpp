@@ -1,4 +1,4 @@
-#include "output/folder_check.hpp"
+#include "output/folder/folder_check.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <array>
 
 #include "base/error.hpp"
-#include "output/folder_tree.hpp"
-#include "output/resumed_folder.hpp"
+#include "output/folder/folder_tree.hpp"
+#include "output/folder/resumed_folder.hpp"
 #include "unit/output/temporary_folder.hpp"
 
 namespace breccia::folder_check_test {

@@ -1,4 +1,4 @@
-#include "output/history_sink.hpp"
+#include "output/folder/history_sink.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

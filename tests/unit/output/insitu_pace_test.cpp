@@ -1,4 +1,4 @@
-#include "output/insitu_pace.hpp"
+#include "output/insitu/insitu_pace.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "output/history_sink.hpp"
-#include "output/vtkhdf_sink.hpp"
+#include "output/folder/history_sink.hpp"
+#include "output/frames/vtkhdf_sink.hpp"
 #include "unit/output/hdf5_reader.hpp"
 #include "unit/output/synthetic_plate.hpp"
 #include "unit/output/temporary_folder.hpp"

@@ -6,9 +6,9 @@
 #include <iostream>
 #include <string>
 
-#include "output/run_folder.hpp"
-#include "output/summary.hpp"
-#include "output/vtkhdf_sink.hpp"
+#include "output/folder/run_folder.hpp"
+#include "output/folder/summary.hpp"
+#include "output/frames/vtkhdf_sink.hpp"
 #include "parallel/mpi_session.hpp"
 #include "synthetic_plate.hpp"
 

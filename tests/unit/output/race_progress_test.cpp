@@ -1,4 +1,4 @@
-#include "output/race_progress.hpp"
+#include "output/folder/race_progress.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

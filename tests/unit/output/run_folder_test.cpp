@@ -1,4 +1,4 @@
-#include "output/run_folder.hpp"
+#include "output/folder/run_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,9 +14,9 @@
 #include <thread>
 
 #include "base/error.hpp"
-#include "output/resumed_folder.hpp"
-#include "output/run_diff.hpp"
-#include "output/run_lock.hpp"
+#include "output/folder/resumed_folder.hpp"
+#include "output/folder/run_diff.hpp"
+#include "output/folder/run_lock.hpp"
 #include "unit/output/temporary_folder.hpp"
 
 namespace breccia::run_folder_test {

@@ -1,4 +1,4 @@
-#include "output/status_sink.hpp"
+#include "output/folder/status_sink.hpp"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "output/atomic_file.hpp"
-#include "output/history_sink.hpp"
-#include "output/status_sink.hpp"
+#include "output/folder/history_sink.hpp"
+#include "output/folder/status_sink.hpp"
+#include "system/atomic_file.hpp"
 #include "unit/output/temporary_folder.hpp"
 
 namespace breccia {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "output/frame.hpp"
+#include "output/frames/frame.hpp"
 
 namespace breccia::test {
 

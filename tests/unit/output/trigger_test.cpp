@@ -1,4 +1,4 @@
-#include "output/trigger.hpp"
+#include "output/insitu/trigger.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "output/vtkhdf_sink.hpp"
+#include "output/frames/vtkhdf_sink.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
-#include "unit/output/file_size_limit.hpp"
 #include "unit/output/hdf5_reader.hpp"
 #include "unit/output/synthetic_plate.hpp"
 #include "unit/output/temporary_folder.hpp"
+#include "unit/system/file_size_limit.hpp"
 
 namespace breccia::vtkhdf_sink_test {
 namespace {

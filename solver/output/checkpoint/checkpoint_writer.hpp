@@ -1,0 +1,72 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/error.hpp"
+#include "output/checkpoint/checkpoint.hpp"
+#include "output/checkpoint/checkpoint_columns.hpp"
+#include "output/checkpoint/checkpoint_index.hpp"
+
+namespace breccia {
+
+/// Writes a checkpoint while the run goes on. The constructor takes the state over and lays the file out; a thread of
+/// every rank writes its part; finish() makes the file appear. A run that is killed at any moment leaves the former
+/// checkpoints as they were, and perhaps a temporary file.
+class CheckpointWriter {
+ public:
+  /// Collective. Throws OutputError on all ranks: folder, permission, space.
+  /// @param file        to write (checkpoint_file)
+  /// @param content     of this rank; the model's rows of the whole
+  /// @param companions  files that must be on the disk before the checkpoint is; of the root
+  CheckpointWriter(std::filesystem::path file, Checkpoint content, const Communicator& communicator,
+                   std::vector<std::filesystem::path> companions);
+  CheckpointWriter(const CheckpointWriter&) = delete;
+  CheckpointWriter& operator=(const CheckpointWriter&) = delete;
+  /// Without finish() nothing remains.
+  ~CheckpointWriter();
+
+  /// Whether this rank still writes.
+  [[nodiscard]] bool writing() const { return !written_; }
+  /// Waits for what is still to be written; then the file is there, on the disk. Collective. Throws OutputError on all
+  /// ranks: then nothing of it remains.
+  void finish();
+
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+  [[nodiscard]] std::uint64_t bytes() const { return index_.size; }  ///< of the file, on the root
+
+ private:
+  void lay_out();
+  void begin_writing();
+  void write_part();
+  void gather_checksums();
+  void publish();
+  void remove_unfinished() const;
+
+  std::filesystem::path file_;
+  Checkpoint content_;
+  Communicator communicator_;
+  std::vector<std::filesystem::path> companions_;
+  std::vector<CheckpointColumn> columns_;
+  std::vector<Rows> rows_;  ///< (columns)
+  CheckpointIndex index_;   ///< complete on the root only
+  IndexedBytes index_place_;
+  std::vector<std::uint64_t> sums_;  ///< (columns) of this rank's rows
+  std::optional<OutputError> failure_;
+  std::atomic<bool> written_ = false;
+  bool published_ = false;
+  std::thread thread_;
+};
+
+/// Removes the oldest checkpoints of a folder but for the last `keep` and the last until `sound_step`, whose state is
+/// known to be sound; and what killed runs left of others.  @pre none is being written
+void remove_old_checkpoints(const std::filesystem::path& folder, std::int64_t keep, std::int64_t sound_step);
+/// Removes those after a step. Throws OutputError.
+void remove_checkpoints_after(const std::filesystem::path& folder, std::int64_t step);
+
+}  // namespace breccia
