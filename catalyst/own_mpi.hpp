@@ -16,6 +16,7 @@ class OwnMpi {
     ::setenv("OMPI_MCA_mtl", "^ofi", 0);
     ::setenv("OMPI_MCA_btl", "self", 0);
     for (const char* name : {"OMPI_MCA_oob_tcp_if_include", "PMIX_MCA_ptl_tcp_if_include"}) ::setenv(name, "lo", 0);
+    ::setenv("HWLOC_COMPONENTS", "-gl", 0);  // as in solver/parallel/mpi_session.cpp
     MPI_Init(nullptr, nullptr);
   }
   OwnMpi(const OwnMpi&) = delete;

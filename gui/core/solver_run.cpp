@@ -45,6 +45,8 @@ QStringList environment_of_runs(const RunRecord& record) {
     environment.insert("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
   }
   if (record.ranks <= 1) return environment.toStringList();
+  // As in solver/parallel/mpi_session.cpp: mpiexec, too, ends where it looks at an X display that closes.
+  if (!environment.contains("HWLOC_COMPONENTS")) environment.insert("HWLOC_COMPONENTS", "-gl");
   const QString library = loopback_library(record.command), others = environment.value("LD_PRELOAD");
   if (!library.isEmpty()) environment.insert("LD_PRELOAD", others.isEmpty() ? library : library + ":" + others);
   return environment.toStringList();

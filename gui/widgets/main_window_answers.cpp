@@ -91,7 +91,7 @@ void MainWindow::show_check(const QJsonObject& json) {
                .arg(counted(json["frames"].toDouble(), tr("frame"), tr("frames")))
                .arg(quantity_words(json["disk"].toDouble(), "B"));
   QStringList advice;
-  for (const QJsonValue& line : json["advice"].toArray()) advice << line.toString();
+  for (const QJsonValue& one : json["advice"].toArray()) advice << one["text"].toString();
   if (!advice.isEmpty()) words += tr("<br>⚠ advice in the messages below: %1").arg(advice.size());
   run_panel_->set_estimate(words);
   messages_->set_advice(advice);

@@ -14,6 +14,8 @@
 namespace breccia {
 namespace {
 
+constexpr std::size_t kMostAdvice = 5;  // without --all
+
 int check(const CheckCommand& asked, int launched) {
   const std::optional<StartState> start = read_start_state(asked.case_file, asked.overrides, {});
   case_::Case input = read_case_of(asked.case_file, asked.overrides, start);
@@ -31,13 +33,13 @@ int check(const CheckCommand& asked, int launched) {
     return 0;
   }
   const Model model = build_model(input);
-  StartedFrom from;
-  if (start) from = {start->checkpoint.model.clock.time, words_of(*start)};
+  const Subject subject(input, model, start ? start->checkpoint.model.clock.time : 0.0);
+  const CheckReport report = full_report(subject, start ? words_of(*start) : "");
   if (asked.json) {
-    fmt::print("{}", check_json(input, model, from));
+    fmt::print("{}", check_json(subject, report));
     return 0;
   }
-  print_lines(check_report(input, model, from));
+  print_lines(report.text + advice_list(report.advice, asked.all ? report.advice.size() : kMostAdvice));
   const std::array<int, 3>& n = input.domains.n;
   const int ranks = launched > 1 ? launched : n[0] * n[1] * n[2];  // the product is bounded by the case's validation
   if (ranks > 1) print_lines(domain_line(input, model, ranks));

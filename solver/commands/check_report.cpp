@@ -1,15 +1,4 @@
 #include "commands/check_report.hpp"
-#include "base/index.hpp"
-#include "commands/bending_report.hpp"
-#include "commands/contact_report.hpp"
-#include "commands/data_report.hpp"
-#include "commands/joint_report.hpp"
-#include "commands/model_report.hpp"
-#include "commands/overlap_report.hpp"
-#include "commands/plausibility_report.hpp"
-#include "commands/stage_report.hpp"
-#include "commands/step_report.hpp"
-#include "commands/unmeant_report.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -19,10 +8,17 @@
 #include <numbers>
 #include <numeric>
 
+#include "advice/overlaps.hpp"
 #include "base/error.hpp"
+#include "base/extent.hpp"
 #include "base/geometry_file.hpp"
+#include "base/index.hpp"
 #include "base/printable.hpp"
 #include "base/quantity_text.hpp"
+#include "commands/contact_report.hpp"
+#include "commands/data_report.hpp"
+#include "commands/joint_report.hpp"
+#include "commands/refusals.hpp"
 #include "contact/search_params.hpp"
 #include "domains/decomposition.hpp"
 #include "domains/global_step.hpp"
@@ -68,22 +64,18 @@ double seconds_a_step(const case_::Case& input, const Model& model, double dt, b
   return seconds / steps;
 }
 
-/// Frames and the room they take.
-void estimate_frames(const case_::Case& input, const Model& model, double start, RunEstimate& estimate) {
-  constexpr double kElementBytes = 170, kFrameBytes = 27000;  // measured on glass_impact, block_wall and hertz_impact
-  const double end = input.stages.back().end - start, interval = input.output.frame_interval;
-  estimate.frames = interval > 0 ? std::min(std::ceil(end / interval), estimate.steps) + 1 : 1;
-  estimate.disk =
-      estimate.frames * (kFrameBytes + (input.output.elements ? kElementBytes * model.mesh.num_elements() : 0));
-}
-
-std::string frames_line(const RunEstimate& estimate, Advice& advice) {
-  constexpr double kManyFrames = 2000, kManyBytes = 100e9;
-  if (estimate.frames > kManyFrames || estimate.disk > kManyBytes)
-    advice.push_back(
-        fmt::format("{:.0f} frames are many: a larger output.frame_interval saves disk and time.", estimate.frames));
+std::string frames_line(const FramesEstimate& estimate) {
   return fmt::format("{:.0f} frames, about {} on disk, more where joints break\n", estimate.frames,
                      quantity_text(estimate.disk, "B"));
+}
+
+/// A line for each pair of groups that overlap, or one that none do.
+std::string overlap_report(const Subject& subject) {
+  if (!subject.model().has_contact || subject.begun() > 0) return {};
+  if (subject.overlaps().empty()) return "no bodies overlap before the first step\n";
+  std::string text;
+  for (const GroupOverlap& groups : subject.overlaps()) text += overlap_description(subject.model(), groups) + "\n";
+  return text;
 }
 
 /// What an estimate leaves out. Two bodies that cannot break share one zone of contact, which costs little.
@@ -174,10 +166,12 @@ std::vector<std::array<GlobalId, 4>> vertices_of(const Mesh& mesh) {
 
 }  // namespace
 
-RunEstimate estimate_run(const case_::Case& input, const Model& model, const StepReport& step, double start) {
-  const double end = input.stages.back().end - start;
+RunEstimate estimate_run(const Subject& subject, const StepReport& step) {
+  const case_::Case& input = subject.input();
+  const Model& model = subject.model();
+  const double end = input.stages.back().end - subject.begun();
   RunEstimate estimate;
-  estimate.steps = std::ceil(end / step.dt);
+  estimate.steps = subject.steps();
   estimate.seconds = estimate.steps * seconds_a_step(input, model, kShort * std::min(step.dt, step.limit), false);
   estimate.most_seconds = estimate.seconds;
   estimate.breaks = std::any_of(model.joint_laws.begin(), model.joint_laws.end(),
@@ -191,7 +185,7 @@ RunEstimate estimate_run(const case_::Case& input, const Model& model, const Ste
   }
   estimate.likely_seconds = 0.5 * (estimate.seconds + estimate.most_seconds);
   estimate.memory = max_resident_bytes();
-  estimate_frames(input, model, start, estimate);
+  estimate.frames = subject.frames();
   return estimate;
 }
 
@@ -265,18 +259,12 @@ std::string domain_table(const case_::Case& input, const Model& model, int parts
   return text;
 }
 
-std::array<Vec3, 2> box_of(const Mesh& mesh) {
-  std::array<Vec3, 2> box{mesh.nodes.front(), mesh.nodes.front()};
-  for (const Vec3& node : mesh.nodes) box = {box[0].cwiseMin(node), box[1].cwiseMax(node)};
-  return box;
-}
-
 std::string mesh_report(const FinishedMesh& made, const QualityReport& q) {
   const MeshReport& r = made.report;
   std::string text = fmt::format("{}: {} {}, {} {}, {} {}\n", printable(made.mesh.source), r.elements,
                                  word_for(r.elements, "element", "elements"), r.nodes,
                                  word_for(r.nodes, "node", "nodes"), r.bodies, word_for(r.bodies, "body", "bodies"));
-  const auto [lower, upper] = box_of(made.mesh);
+  const auto [lower, upper] = extent_of(made.mesh.nodes);
   const Vec3 size = upper - lower;
   text += fmt::format("  box           {:.4g} x {:.4g} x {:.4g} m, from ({:.4g}, {:.4g}, {:.4g})\n", size.x(), size.y(),
                       size.z(), lower.x(), lower.y(), lower.z());
@@ -320,42 +308,36 @@ std::string mesh_report(const FinishedMesh& made, const QualityReport& q) {
   return text + "\n";
 }
 
-CheckReport full_report(const case_::Case& input, const Model& model, const StartedFrom& from) {
+CheckReport full_report(const Subject& subject, const std::string& from) {
+  const case_::Case& input = subject.input();
+  const Model& model = subject.model();
   refuse_contradictions(input, model);
   refuse_what_cannot_break(input, joints_on(model, surfaces_to_break(input)));
   CheckReport report;
   report.text = fmt::format("{}\n", printable(input.title));
-  if (!from.words.empty())
+  if (!from.empty())
     report.text += fmt::format(
         "starts from {}; what is said of mesh, joints, contact and step is of the model at rest, before that run\n",
-        from.words);
+        from);
   report.text += mesh_report({model.mesh, model.mesh_report}, assess_quality(model.mesh));
   report.text += fmt::format("joints: {}\n", model.joints.size());
-  report.text += joint_report(model, report.advice);
-  append(report.advice, model_advice(input, model));
-  const OverlapReport overlaps = from.words.empty() ? overlap_report(input, model) : OverlapReport{};
-  report.text +=
-      stiffness_report(model) + separation_report(input, model.mesh.volume_groups) + overlaps.text + data_report(input);
-  append(report.advice, overlaps.advice);
-  append(report.advice, data_advice(input));
-  append(report.advice, late_contact_advice(model));
-  append(report.advice, coarse_points_advice(model));
-  append(report.advice, unmeant_advice(input, model));
-  append(report.advice, plausibility_advice(input));
-  append(report.advice, bending_advice(input, model));
-  append(report.advice, stage_advice(input, model));
-  report.step = step_report(input, model);
-  report.estimate = estimate_run(input, model, report.step, from.time);
+  report.text += joint_report(model) + stiffness_report(model) + separation_report(input, model.mesh.volume_groups) +
+                 overlap_report(subject) + data_report(input);
+  report.step = step_report(input, model, subject.step());
+  report.estimate = estimate_run(subject, report.step);
   report.text += report.step.text + run_time(model, report.step, report.estimate, input.stages.back().end) +
-                 frames_line(report.estimate, report.advice);
-  append(report.advice, report.step.advice);
-  append(report.advice, sudden_softening(model, report.step.dt));
+                 frames_line(report.estimate.frames);
+  report.advice = advise(subject);
   return report;
 }
 
-std::string check_report(const case_::Case& input, const Model& model, const StartedFrom& from) {
-  const CheckReport report = full_report(input, model, from);
-  return report.text + (report.advice.empty() ? "nothing to advise\n" : "advice\n" + as_list(report.advice));
+std::string advice_list(const std::vector<Advice>& advice, std::size_t most) {
+  if (advice.empty()) return "nothing to advise\n";
+  std::string text = "advice\n";
+  const std::size_t shown = std::min(most, advice.size());
+  for (std::size_t i = 0; i < shown; ++i) text += fmt::format("- {} [{}]\n", advice[i].text, advice[i].rule->name);
+  if (shown < advice.size()) text += fmt::format("{} more: check --all shows them\n", advice.size() - shown);
+  return text;
 }
 
 }  // namespace breccia

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "advice/advice.hpp"
 #include "case/case.hpp"
-#include "commands/advice.hpp"
 #include "commands/step_report.hpp"
 #include "mesh/finish.hpp"
 #include "mesh/quality.hpp"
@@ -14,9 +14,6 @@
 #include "parallel/domain_report.hpp"
 
 namespace breccia {
-
-/// Lowest and highest coordinates of a mesh, m. @pre it has nodes
-[[nodiscard]] std::array<Vec3, 2> box_of(const Mesh& mesh);
 
 /// Box, bodies, groups, repairs and quality of a mesh, for a terminal.
 [[nodiscard]] std::string mesh_report(const FinishedMesh& made, const QualityReport& quality);
@@ -43,18 +40,10 @@ struct RunEstimate {
   bool breaks = false;       ///< there are joints that can break
   bool meets = false;        ///< there are none, and bodies that come to meet make the step shorter
   std::uint64_t memory = 0;  ///< bytes, largest so far of this process
-  double frames = 0;         ///< number
-  double disk = 0;           ///< bytes of the frames, compressed, as long as few joints break
+  FramesEstimate frames;
 };
 
-/// The state that a case with [start] goes on from; the model of a report is that before the first step of all runs.
-struct StartedFrom {
-  double time = 0;    ///< s
-  std::string words;  ///< "step 1200 at 2.4 s of FILE"; empty: the case starts at rest
-};
-
-[[nodiscard]] RunEstimate estimate_run(const case_::Case& input, const Model& model, const StepReport& step,
-                                       double start = 0);
+[[nodiscard]] RunEstimate estimate_run(const Subject& subject, const StepReport& step);
 
 /// How a run on `parts` ranks divides the model: elements, joints, proxies, messages and bytes a step by domain, or the
 /// least, mean and most and the slowest three of many; imbalance and predicted efficiency.
@@ -64,19 +53,21 @@ struct StartedFrom {
 /// The same in one line.
 [[nodiscard]] std::string domain_line(const case_::Case& input, const Model& model, int parts);
 
-/// Everything that can be told before the first step: size, stable step and what limits it, steps, memory, run time on
-/// this machine (from a few steps of a scratch copy), joints against the fracture process zone, softness added by the
-/// joints, and advice.
-[[nodiscard]] std::string check_report(const case_::Case& input, const Model& model, const StartedFrom& from = {});
-
-/// The parts of that report.
+/// Everything that can be told before the first step.
 struct CheckReport {
-  std::string text;  ///< lines
-  Advice advice;
+  /// Lines: size, stable step and what limits it, steps, memory, run time on this machine (from a few steps of a scratch
+  /// copy), joints against the fracture process zone, softness added by the joints.
+  std::string text;
+  std::vector<Advice> advice;
   StepReport step;
   RunEstimate estimate;
 };
 
-[[nodiscard]] CheckReport full_report(const case_::Case& input, const Model& model, const StartedFrom& from = {});
+/// @param subject  its model is not a bare one; that before the first step of all runs, also for a case with [start]
+/// @param from     "step 1200 at 2.4 s of FILE" of such a case; empty: it starts at rest
+[[nodiscard]] CheckReport full_report(const Subject& subject, const std::string& from = {});
+
+/// A line for each, at most so many and how many there are more.
+[[nodiscard]] std::string advice_list(const std::vector<Advice>& advice, std::size_t most);
 
 }  // namespace breccia

@@ -97,6 +97,7 @@ void define_command_line(CLI::App& app, Arguments& a) {
 
   check->add_flag("--joints", a.check.joints,
                   "tell only, as JSON, the traction curves and strengths of the joint laws");
+  check->add_flag("--all", a.check.all, "all advice, not only the five that matter most");
   check->add_flag("--json", a.check.json, "as JSON, problems of the case too");
 
   CLI::App* mesh =

@@ -80,6 +80,7 @@ struct CheckCommand {
   bool trust_geometry = false;  ///< the mesh may run programs and write files
   int ranks = 0;                ///< > 0: only how the model is divided among so many
   bool joints = false;          ///< only the curves of the joint laws, as JSON
+  bool all = false;             ///< all advice
   bool json = false;
 };
 /// @param launched  ranks that the launcher has started

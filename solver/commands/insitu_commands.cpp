@@ -61,7 +61,7 @@ int replay_command(const ReplayCommand& asked, const Communicator& world) {
   const InSituConfig config(input, folder, world);
   const auto checked = [&](auto&& call) {
     std::int32_t result = 0;
-    const std::string text = words_of([&](char* words, std::size_t size) { result = call(words, size); });
+    const std::string text = answer_of([&](char* words, std::size_t size) { result = call(words, size); });
     world.agree([&] {
       if (result != 0) throw InputError(insitu_problems({}, text));
     });

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
+#include "base/extent.hpp"
 #include "base/geometry_file.hpp"
 #include "case/schema.hpp"
 #include "commands/check_report.hpp"
@@ -91,8 +92,13 @@ const char* name_of(case_::ValueType type) {
 
 }  // namespace
 
-std::string check_json(const case_::Case& input, const Model& model, const StartedFrom& from) {
-  const CheckReport report = full_report(input, model, from);
+std::string check_json(const Subject& subject, const CheckReport& report) {
+  const case_::Case& input = subject.input();
+  const Model& model = subject.model();
+  Json advice = Json::array();
+  for (const Advice& one : report.advice)
+    advice.push_back(
+        {{"rule", one.rule->name}, {"level", name_of(one.rule->level)}, {"key", one.rule->key}, {"text", one.text}});
   Json json{{"title", input.title},
             {"elements", model.mesh.num_elements()},
             {"nodes", model.mesh_report.nodes},
@@ -107,9 +113,9 @@ std::string check_json(const case_::Case& input, const Model& model, const Start
             {"likely_seconds", number_or_null(report.estimate.likely_seconds)},
             {"most_seconds", number_or_null(report.estimate.most_seconds)},
             {"memory", report.estimate.memory},
-            {"frames", report.estimate.frames},
-            {"disk", report.estimate.disk},
-            {"advice", report.advice},
+            {"frames", report.estimate.frames.frames},
+            {"disk", report.estimate.frames.disk},
+            {"advice", std::move(advice)},
             {"report", report.text}};
   return text_of(json);
 }
@@ -157,7 +163,7 @@ std::string joints_json(const Model& model) {
 
 std::string mesh_json(const FinishedMesh& made, const std::vector<std::vector<Topology::Face>>* faces) {
   const MeshReport& r = made.report;
-  const auto [lower, upper] = box_of(made.mesh);
+  const auto [lower, upper] = extent_of(made.mesh.nodes);
   const QualityReport quality = assess_quality(made.mesh);
   Json json{{"source", made.mesh.source},
             {"elements", r.elements},

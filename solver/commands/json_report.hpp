@@ -12,9 +12,9 @@
 /// What `check`, `mesh` and `schema` say, for programs: one JSON object, numbers in SI, ending with a line feed.
 namespace breccia {
 
-/// title, report and advice in words, elements, nodes, bodies, joints, groups; end, stable_step and step, s; and of
-/// RunEstimate steps, seconds, most_seconds, memory, frames and disk.
-[[nodiscard]] std::string check_json(const case_::Case& input, const Model& model, const StartedFrom& from = {});
+/// title and report in words, elements, nodes, bodies, joints, groups; end, stable_step and step, s; of RunEstimate
+/// steps, seconds, most_seconds, memory, frames and disk; all of advice, each with rule, level, key and text.
+[[nodiscard]] std::string check_json(const Subject& subject, const CheckReport& report);
 
 /// Division among `parts` ranks: how, imbalance, efficiency, `domains` with the loads of each, `owner` with the rank of
 /// each element in the order of ids. Throws as divide_model.

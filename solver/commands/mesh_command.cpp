@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "advice/rule_functions.hpp"
 #include "base/geometry_file.hpp"
 #include "base/printable.hpp"
 #include "commands/check_report.hpp"
@@ -11,7 +12,6 @@
 #include "commands/preview.hpp"
 #include "commands/start_state.hpp"
 #include "commands/terminal.hpp"
-#include "commands/unjoined_report.hpp"
 #include "contact/search_params.hpp"
 #include "domains/balance.hpp"
 #include "observe/fragment_labels.hpp"
@@ -85,7 +85,7 @@ int mesh(const MeshCommand& asked) {
     const FinishedMesh made = read_mesh(input);
     told(made);
     if (!asked.json) print_lines(case_to_begin_with(asked.case_file, made));
-    if (!asked.json) warn_of(unjoined_volumes(input, made.mesh, build_topology(made.mesh)));
+    if (!asked.json) print_warnings(unjoined_volumes(input, made.mesh, build_topology(made.mesh)));
     return 0;
   }
   case_::Case input =
@@ -95,7 +95,7 @@ int mesh(const MeshCommand& asked) {
   if (asked.folder.empty()) {
     const FinishedMesh made = build_mesh(input);
     told(made);
-    if (!asked.json) warn_of(unjoined_volumes(input, made.mesh, build_topology(made.mesh)));
+    if (!asked.json) print_warnings(unjoined_volumes(input, made.mesh, build_topology(made.mesh)));
     return 0;
   }
   refuse_frames_of_run(asked.folder);
@@ -110,7 +110,7 @@ int mesh(const MeshCommand& asked) {
     return 0;
   }
   told({model.mesh, model.mesh_report});
-  warn_of(unjoined_volumes(input, model.mesh, model.topology));
+  print_warnings(unjoined_volumes(input, model.mesh, model.topology));
   print_lines("elements for ParaView in " + asked.folder.string() + "\n");
   return 0;
 }

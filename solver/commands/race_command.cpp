@@ -9,10 +9,9 @@
 
 #include "base/error.hpp"
 #include "case/reader.hpp"
-#include "commands/overlap_report.hpp"
 #include "commands/oversubscription.hpp"
 #include "commands/race_report.hpp"
-#include "commands/stage_report.hpp"
+#include "commands/refusals.hpp"
 #include "system/atomic_file.hpp"
 
 namespace breccia {

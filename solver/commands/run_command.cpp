@@ -4,18 +4,17 @@
 #include <optional>
 #include <set>
 
+#include "advice/advice.hpp"
 #include "base/geometry_file.hpp"
 #include "base/printable.hpp"
 #include "base/version.hpp"
 #include "case/live_address.hpp"
 #include "case/reader.hpp"
-#include "commands/overlap_report.hpp"
 #include "commands/oversubscription.hpp"
+#include "commands/refusals.hpp"
 #include "commands/run_sinks.hpp"
-#include "commands/stage_report.hpp"
 #include "commands/start_state.hpp"
 #include "commands/terminal.hpp"
-#include "commands/unmeant_report.hpp"
 #include "mesh/geo_scan.hpp"
 #include "model/surfaces_to_break.hpp"
 #include "output/folder/run_folder.hpp"
@@ -98,15 +97,15 @@ int run_command(const RunCommand& asked, const Communicator& world) {
     if (!world.is_root()) return;
     if (start) {
       refuse_contradictions(input, conflicts);
-      warn_of(overruled_constraints(conflicts));
+      print_warnings(overruled_constraints(conflicts));
       refuse_folder_of_state(root, *start);
       if (announce) std::cerr << "breccia: starting from " << printable(words_of(*start)) << '\n';
     } else {
       refuse_initial_overlaps(input, *model);
       refuse_contradictions(input, *model);
       refuse_what_cannot_break(input, joints_on(*model, surfaces_to_break(input)));
-      warn_of(model->mesh_report.notes);
-      warn_of(unmeant_advice(input, *model));
+      print_warnings(model->mesh_report.notes);
+      print_warnings(start_warnings(input, *model));
     }
     folder = prepare_run_folder(root, input.resolved, provenance_of(asked, input, start, world),
                                 asked.overwrite ? OldResults::overwrite : OldResults::refuse);

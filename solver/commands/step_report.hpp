@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "advice/step_at_start.hpp"
 #include "case/case.hpp"
-#include "commands/advice.hpp"
 #include "model/model.hpp"
 
 namespace breccia {
@@ -14,9 +14,9 @@ struct StepReport {
   double dt = 0;      ///< s, that the run begins with
   double broken = 0;  ///< s, stable step if all joints that can break had, all faces near each other meeting
   std::string text;   ///< lines
-  Advice advice;
 };
 
-[[nodiscard]] StepReport step_report(const case_::Case& input, const Model& model);
+/// Throws InputError where a stage takes more steps than can be counted.
+[[nodiscard]] StepReport step_report(const case_::Case& input, const Model& model, const StepAtStart& start);
 
 }  // namespace breccia

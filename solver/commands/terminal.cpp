@@ -13,4 +13,8 @@ void print_warning(const std::string& sentence) {
   std::cerr << "breccia: warning: " << printable_lines(sentence) << '\n';
 }
 
+void print_warnings(const std::vector<std::string>& sentences) {
+  for (const std::string& sentence : sentences) print_warning(sentence);
+}
+
 }  // namespace breccia

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace breccia {
 
@@ -10,5 +11,6 @@ void print_lines(const std::string& text);
 
 /// Prints "breccia: warning: ..." on stderr, likewise.
 void print_warning(const std::string& sentence);
+void print_warnings(const std::vector<std::string>& sentences);
 
 }  // namespace breccia

@@ -30,6 +30,8 @@ MpiSession::MpiSession(int& argc, char**& argv) {
     ::setenv("OMPI_MCA_pml", "ob1", 0);
     ::setenv("OMPI_MCA_mtl", "^ofi", 0);
   }
+  // Open MPI looks for graphics cards on every X display it can reach, and Xlib ends the process when one closes then.
+  ::setenv("HWLOC_COMPONENTS", "-gl", 0);
   int provided = 0;
   check_mpi(MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
   active_ = true;

@@ -27,7 +27,8 @@ MAY_INCLUDE = {
     "observe": {"base", "system", "case", "mesh", "discretisation", "physics", "model", "state", "contact", "domains", "parallel", "output"},
 }
 MAY_INCLUDE["report"] = {"base", "system", "case", "output"}
-MAY_INCLUDE["simulation"] = set(MAY_INCLUDE)
+MAY_INCLUDE["advice"] = set(MAY_INCLUDE) - {"report"}
+MAY_INCLUDE["simulation"] = set(MAY_INCLUDE) - {"advice"}
 MAY_INCLUDE["commands"] = set(MAY_INCLUDE)
 PROGRAM = set(MAY_INCLUDE)  # what main.cpp may include: everything
 
@@ -50,7 +51,7 @@ GUI = {
 THIRD_PARTY = [
     (r"Eigen/.*", ["*"]),
     (r"spdlog/.*", ["base/log.cpp"]),
-    (r"fmt/.*", ["base/log.cpp", "base/quantity_text.cpp", "output/*.cpp", "report/*.cpp", "commands/*.cpp"]),
+    (r"fmt/.*", ["base/log.cpp", "base/quantity_text.cpp", "output/*.cpp", "report/*.cpp", "advice/*.cpp", "commands/*.cpp"]),
     (r"(toml\.hpp|toml\+\+/.*|toml\+\+\.h|tomlplusplus/.*)", ["case/*reader*.cpp"]),
     (r"gmsh(c|\.h_cwrap)?\.h", ["mesh/gmsh_model.cpp", "mesh/gmsh_reader.cpp", "mesh/gmsh_solids.cpp",
                                 "mesh/solid_groups.cpp", "mesh/stl_solids.cpp"]),

@@ -34,7 +34,7 @@ void preflight(const case_::Case& input, const std::filesystem::path& folder, co
   const InSituConfig config(input, std::filesystem::absolute(folder), communicator);
   std::int32_t result = 0;
   const std::string text =
-      words_of([&](char* words, std::size_t size) { result = plugin.api().preflight(&config.get(), words, size); });
+      answer_of([&](char* words, std::size_t size) { result = plugin.api().preflight(&config.get(), words, size); });
   if (result != 0) throw InputError(insitu_problems(input.file, text));
 }
 
@@ -90,7 +90,7 @@ void InSitu::open(const case_::Case& input, const std::filesystem::path& folder)
   communicator_.agree([&] { preflight(input, folder, plugin_, communicator_); });
   const InSituConfig config(input, std::filesystem::absolute(folder), communicator_);
   const std::string text =
-      words_of([&](char* words, std::size_t size) { adaptor_ = plugin_.api().open(&config.get(), words, size); });
+      answer_of([&](char* words, std::size_t size) { adaptor_ = plugin_.api().open(&config.get(), words, size); });
   communicator_.agree([&] {
     if (adaptor_ == nullptr)
       throw InputError(insitu_problems(input.file, "the in-situ adaptor does not start: " + text));
@@ -110,7 +110,7 @@ InSitu::~InSitu() {
 }
 
 std::string InSitu::close() {
-  return words_of(
+  return answer_of(
       [&](char* words, std::size_t size) { plugin_.api().close(std::exchange(adaptor_, nullptr), words, size); });
 }
 
@@ -225,7 +225,7 @@ void InSitu::list_step() {
 
 void InSitu::tell_notices() {
   std::istringstream lines(
-      words_of([&](char* words, std::size_t size) { plugin_.api().notices(adaptor_, words, size); }));
+      answer_of([&](char* words, std::size_t size) { plugin_.api().notices(adaptor_, words, size); }));
   for (std::string line; std::getline(lines, line);) tell_("pipeline " + line, false);
 }
 
@@ -234,7 +234,7 @@ void InSitu::run_one(std::size_t i, const BrecciaInstant& instant, double shared
   const auto start = Clock::now();
   BrecciaRequests asked{};
   std::int64_t failed = 0;
-  const std::string text = words_of([&](char* words, std::size_t size) {
+  const std::string text = answer_of([&](char* words, std::size_t size) {
     failed = plugin_.api().execute(adaptor_, bit(i), &instant, &asked, words, size);
   });
   p.overhead.account(shared_cost + std::max(seconds_since(start) - asked.waited, 0.0));

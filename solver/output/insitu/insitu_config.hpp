@@ -47,7 +47,7 @@ class InSituConfig {
 /// Runs one of the adaptor's functions that answer in words: call(text, size).
 /// @return  the words
 template <class Call>
-std::string words_of(Call&& call) {
+std::string answer_of(Call&& call) {
   std::string text(std::size_t{1} << 14, '\0');
   call(text.data(), text.size());
   text.resize(text.find('\0'));

@@ -106,7 +106,7 @@ void InSituPlugin::open(InSituBackend backend) {
 
 std::string InSituPlugin::found() const {
   std::int32_t result = 0;
-  std::string text = words_of([&](char* words, std::size_t size) { result = api_->find(words, size); });
+  std::string text = answer_of([&](char* words, std::size_t size) { result = api_->find(words, size); });
   if (result != 0) throw cannot_open({}, text, "");
   return text;
 }

@@ -43,9 +43,16 @@ energy_mode_1 = "100 J/m2"
 end = "1 us"
 )";
 
+/// What `check` says, with all advice.
+std::string whole_report(const case_::Case& input) {
+  const Model model = build_model(input);
+  const CheckReport report = full_report(Subject(input, model));
+  return report.text + advice_list(report.advice, report.advice.size());
+}
+
 std::string report_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
   const case_::Case input = case_::read_text(text, overrides);
-  return check_report(input, build_model(input));
+  return whole_report(input);
 }
 
 /// The number that stands after some words.
@@ -128,7 +135,7 @@ std::string glued_report(const case_::CaseFolder& folder, const std::string& upp
                      material("upper", upper, young[1]) + joint("between = [\"lower\", \"upper\"]");
   if (upper == "breakable") text += joint("group = \"upper\"");
   const case_::Case input = case_::read_case(folder.write("case.toml", text + "[[stage]]\nend = \"1 us\"\n"));
-  return check_report(input, build_model(input));
+  return whole_report(input);
 }
 
 TEST(CheckReport, speaks_of_load_and_speed_but_of_no_path_where_joints_lie_on_a_plane_alone) {
@@ -150,7 +157,7 @@ TEST(CheckReport, tells_of_the_worst_of_the_joints_that_follow_one_entry) {
     const std::size_t at = text.find("[[joint]]"), end = text.find("[[joint]]\nbetween");
     text.replace(at, end - at, joints);
     const case_::Case input = test::two_boxes_case({}, text);
-    return check_report(input, build_model(input));
+    return whole_report(input);
   };
   const std::string law = "\npenalty_factor = 10\ntensile_strength = \"5 MPa\"\nenergy_mode_1 = \"20 J/m2\"\n";
   const auto count = [](const std::string& text, const std::string& words) {
@@ -190,7 +197,7 @@ TEST(CheckReport, tells_of_an_interface_without_strengths_that_it_cannot_break) 
   glue.replace(glue.find("[[material]]", glue.find("[[material]]") + 1), 12, "[[material]]\njoints = \"unbreakable\"");
   const auto report = [](const std::string& text) {
     const case_::Case input = test::two_boxes_case({}, text);
-    return check_report(input, build_model(input));
+    return whole_report(input);
   };
   EXPECT_THAT(report(glue), HasSubstr("  they cannot break: their [[joint]] has no tensile_strength"));
   EXPECT_THAT(report(test::kTwoBoxesCase), Not(HasSubstr("they cannot break")));
@@ -214,7 +221,7 @@ TEST(CheckReport, tells_that_the_finest_part_alone_of_a_graded_mesh_is_fine_enou
     const std::vector<std::string> overrides{"joint[0].energy_mode_1=" + energy};
     const auto file = folder.write("case.toml", "[mesh]\nfile = \"graded.geo\"\n" + text);
     const case_::Case input = case_::read_case(file, overrides);
-    return check_report(input, build_model(input));
+    return whole_report(input);
   };
   const std::string report = graded("100 J/m2");
   const double zone = number_after(report, "process zone at least ") / 100,
@@ -251,7 +258,8 @@ fixed = "xyz"
   const auto resting = case_::read_text(fall), falling = case_::read_text(fall, {"stage[0].gravity=[0, 0, -9.81]"});
   const auto estimate = [](const case_::Case& input) {
     const Model model = build_model(input);
-    return estimate_run(input, model, step_report(input, model));
+    const Subject subject(input, model);
+    return estimate_run(subject, step_report(input, model, subject.step()));
   };
   EXPECT_FALSE(estimate(resting).meets);
   EXPECT_TRUE(estimate(falling).meets);
@@ -283,10 +291,20 @@ TEST(CheckReport, tells_of_a_step_a_million_times_too_long_without_taking_it) {
 TEST(CheckReport, of_a_case_that_starts_from_a_state_counts_what_is_left_of_the_run) {
   const case_::Case input = case_::read_text(kCubes);
   const Model model = build_model(input);
-  const CheckReport all = full_report(input, model), rest = full_report(input, model, {0.75e-6, "step 3 of it"});
+  const CheckReport all = full_report(Subject(input, model)),
+                    rest = full_report(Subject(input, model, 0.75e-6), "step 3 of it");
   EXPECT_NEAR(rest.estimate.steps / all.estimate.steps, 0.25, 1.0 / all.estimate.steps);
   EXPECT_THAT(rest.text, HasSubstr("starts from step 3 of it"));
   EXPECT_THAT(all.text, Not(HasSubstr("starts from")));
+}
+
+TEST(CheckReport, lists_so_many_of_the_advice_and_says_how_many_more_there_are) {
+  const Rule& rule = rules().front();
+  const std::vector<Advice> advice{{&rule, "One."}, {&rule, "Two."}, {&rule, "Three."}};
+  const std::string name = std::string(" [") + rule.name + "]\n";
+  EXPECT_EQ(advice_list(advice, 3), "advice\n- One." + name + "- Two." + name + "- Three." + name);
+  EXPECT_EQ(advice_list(advice, 1), "advice\n- One." + name + "2 more: check --all shows them\n");
+  EXPECT_EQ(advice_list({}, 5), "nothing to advise\n");
 }
 
 TEST(MeshReport, gives_angles_in_degrees) {

@@ -35,9 +35,24 @@ frame_interval = "250 ns"
 
 constexpr int kElements = 8 * 24;
 
+Json check_of(const case_::Case& input) {
+  const Model model = build_model(input);
+  const Subject subject(input, model);
+  return Json::parse(check_json(subject, full_report(subject)));
+}
+
+TEST(JsonReport, check_gives_each_advice_with_rule_level_and_key) {
+  const Json advice = check_of(case_::read_text(kCubes))["advice"];
+  ASSERT_FALSE(advice.empty());
+  EXPECT_EQ(advice[0]["rule"], "fragments_without_contact");
+  EXPECT_EQ(advice[0]["level"], "wrong");
+  EXPECT_EQ(advice[0]["key"], "contact");
+  EXPECT_EQ(advice[0]["text"].get<std::string>().find("There is no [[contact]]"), 0u);
+}
+
 TEST(JsonReport, check_tells_what_a_run_takes) {
   const case_::Case input = case_::read_text(kCubes);
-  const Json json = Json::parse(check_json(input, build_model(input)));
+  const Json json = check_of(input);
   EXPECT_EQ(json["title"], "cubes");
   EXPECT_EQ(json["elements"], kElements);
   EXPECT_EQ(json["groups"]["volumes"][0]["name"], "cubes");

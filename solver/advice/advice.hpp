@@ -1,0 +1,47 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "advice/sentences.hpp"
+#include "advice/subject.hpp"
+
+/// What `check` advises: a table of rules over a case and its model.
+namespace breccia {
+
+/// How much a finding matters, most first.
+enum class Level {
+  wrong,       ///< the run is not what the case means, or ends with an error: bodies go through each other, loads do
+               ///< nothing
+  doubtful,    ///< a value or a lack of one that is hardly meant: a density of no solid, a ramp beyond its stage
+  inaccurate,  ///< the answer depends on the mesh, on damping or on how suddenly loads act
+  costly       ///< the run takes longer, or more disk, than it needs
+};
+
+/// "wrong"
+[[nodiscard]] const char* name_of(Level level);
+
+struct Rule {
+  const char* name;  ///< as `check` prints it, in brackets
+  Level level;
+  const char* key;  ///< of the case, as in the schema: what to look at first
+  bool at_start;    ///< `run` warns of it as well
+  Sentences (*find)(const Subject&);
+};
+
+/// All of them, those that matter most first.
+[[nodiscard]] std::span<const Rule> rules();
+
+struct Advice {
+  const Rule* rule;
+  std::string text;  ///< with its remedy and a full stop
+};
+
+/// In the order of rules(). @param subject  its model is not a bare one
+[[nodiscard]] std::vector<Advice> advise(const Subject& subject);
+
+/// What makes a run something else than can have been meant, though nothing in it fails; a bare model will do.
+[[nodiscard]] Sentences start_warnings(const case_::Case& input, const Model& model);
+
+}  // namespace breccia

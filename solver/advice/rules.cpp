@@ -1,0 +1,137 @@
+#include <array>
+#include <type_traits>
+
+#include "advice/advice.hpp"
+
+namespace breccia {
+namespace {
+
+Sentences sentences(Sentences all) { return all; }
+Sentences sentences(std::string one) {
+  Sentences all;
+  add_to(all, std::move(one));
+  return all;
+}
+
+/// A function of rule_functions.hpp with what it asks for.
+template <auto kFunction>
+Sentences by(const Subject& subject) {
+  using F = decltype(kFunction);
+  if constexpr (std::is_invocable_v<F, const Model&>)
+    return sentences(kFunction(subject.model()));
+  else if constexpr (std::is_invocable_v<F, const case_::Case&>)
+    return sentences(kFunction(subject.input()));
+  else if constexpr (std::is_invocable_v<F, const case_::Case&, const Model&>)
+    return sentences(kFunction(subject.input(), subject.model()));
+  else if constexpr (std::is_invocable_v<F, const Model&, double>)
+    return sentences(kFunction(subject.model(), subject.step().dt()));
+  else if constexpr (std::is_invocable_v<F, const StepAtStart&>)
+    return sentences(kFunction(subject.step()));
+  else if constexpr (std::is_invocable_v<F, const Model&, const StepAtStart&>)
+    return sentences(kFunction(subject.model(), subject.step()));
+  else if constexpr (std::is_invocable_v<F, const case_::Case&, const StepAtStart&>)
+    return sentences(kFunction(subject.input(), subject.step()));
+  else if constexpr (std::is_invocable_v<F, const case_::Case&, const Model&, const StepAtStart&>)
+    return sentences(kFunction(subject.input(), subject.model(), subject.step()));
+  else if constexpr (std::is_invocable_v<F, const case_::Case&, const Mesh&, const Topology&>)
+    return sentences(kFunction(subject.input(), subject.model().mesh, subject.model().topology));
+  else if constexpr (std::is_invocable_v<F, const FramesEstimate&>)
+    return sentences(kFunction(subject.frames()));
+  else
+    return sentences(kFunction(subject.input(), subject.model(), subject.overlaps()));
+}
+
+constexpr bool kCheck = false, kRun = true;  // who tells
+
+// clang-format off
+constexpr std::array kRules{  // sorted by level
+    // What is not as the case means it.
+    Rule{"overlapping_bodies",        Level::wrong,      "contact.initial_overlap",  kCheck, by<overlapping_bodies>},
+    Rule{"elements_left_out",         Level::wrong,      "mesh.file",                kRun,   by<elements_left_out>},
+    Rule{"unjoined_volumes",          Level::wrong,      "mesh.glue",                kRun,   by<unjoined_volumes>},
+    Rule{"bodies_without_contact",    Level::wrong,      "contact",                  kCheck, by<bodies_without_contact>},
+    Rule{"fragments_without_contact", Level::wrong,      "contact",                  kCheck, by<fragments_without_contact>},
+    Rule{"no_contact_points",         Level::wrong,      "contact_points.surfaces",  kRun,   by<no_contact_points>},
+    Rule{"soft_penalty",              Level::wrong,      "contact.penalty",          kRun,   by<soft_penalty>},
+    Rule{"empty_sphere",              Level::wrong,      "sphere.radius",            kRun,   by<empty_sphere>},
+    Rule{"small_sphere",              Level::wrong,      "sphere.radius",            kCheck, by<small_sphere>},
+    Rule{"step_too_long",             Level::wrong,      "time.step",                kCheck, by<step_too_long>},
+    Rule{"part_in_motion",            Level::wrong,      "initial_velocity",         kRun,   by<part_in_motion>},
+    Rule{"lost_velocity",             Level::wrong,      "initial_velocity",         kRun,   by<lost_velocity>},
+    Rule{"load_on_held_nodes",        Level::wrong,      "stage.constraint",         kRun,   by<load_on_held_nodes>},
+    Rule{"load_within_the_model",     Level::wrong,      "stage.pressure",           kRun,   by<load_within_the_model>},
+    Rule{"overruled_constraint",      Level::wrong,      "stage.constraint",         kRun,   by<overruled_constraint>},
+    Rule{"unused_joint_law",          Level::wrong,      "joint.between",            kRun,   by<unused_joint_law>},
+    Rule{"tied_contacts",             Level::wrong,      "contact.between",          kRun,   by<tied_contacts>},
+    // What is hardly meant.
+    Rule{"unit_of_lengths",           Level::doubtful,   "mesh.scale",               kCheck, by<unit_of_lengths>},
+    Rule{"implausible_material",      Level::doubtful,   "material.density",         kCheck, by<implausible_material>},
+    Rule{"implausible_strength",      Level::doubtful,   "joint.tensile_strength",   kCheck, by<implausible_strength>},
+    Rule{"implausible_friction",      Level::doubtful,   "contact.friction",         kCheck, by<implausible_friction>},
+    Rule{"function_cut_off",          Level::doubtful,   "stage.end",                kCheck, by<function_cut_off>},
+    Rule{"not_repeated_in_stage",     Level::doubtful,   "stage.constraint",         kCheck, by<not_repeated_in_stage>},
+    Rule{"absorbing_under_gravity",   Level::doubtful,   "stage.absorbing",          kCheck, by<absorbing_under_gravity>},
+    Rule{"data_file_times",           Level::doubtful,   "stage",                    kCheck, by<data_file_times>},
+    Rule{"lowered_penalty",           Level::doubtful,   "contact.penalty",          kRun,   by<lowered_penalty>},
+    Rule{"slice_without_plane",       Level::doubtful,   "plane.kind",               kCheck, by<slice_without_plane>},
+    Rule{"pressed_without_friction",  Level::doubtful,   "contact.friction",         kRun,   by<pressed_without_friction>},
+    Rule{"long_interval",             Level::doubtful,   "output.frame_interval",    kCheck, by<long_interval>},
+    // What the answer depends on.
+    Rule{"sudden_load",               Level::inaccurate, "stage.local_damping",      kCheck, by<sudden_load>},
+    Rule{"sudden_motion",             Level::inaccurate, "stage.constraint",         kCheck, by<sudden_motion>},
+    Rule{"coarse_for_process_zone",   Level::inaccurate, "mesh.file",                kCheck, by<coarse_for_process_zone>},
+    Rule{"soft_joints",               Level::inaccurate, "joint.penalty",            kCheck, by<soft_joints>},
+    Rule{"stiff_bending",             Level::inaccurate, "mesh.file",                kCheck, by<stiff_bending>},
+    Rule{"undamped_friction",         Level::inaccurate, "material.viscosity",       kCheck, by<undamped_friction>},
+    Rule{"damped_sliding",            Level::inaccurate, "stage.local_damping",      kCheck, by<damped_sliding>},
+    Rule{"damped_reactions",          Level::inaccurate, "stage.local_damping",      kCheck, by<damped_reactions>},
+    Rule{"sudden_softening",          Level::inaccurate, "time.safety",              kCheck, by<sudden_softening>},
+    Rule{"late_contact",              Level::inaccurate, "contact_points.per_face",  kCheck, by<late_contact>},
+    Rule{"coarse_contact_points",     Level::inaccurate, "contact_points.per_face",  kCheck, by<coarse_contact_points>},
+    Rule{"raster_planes",             Level::inaccurate, "mesh.raster",              kCheck, by<raster_planes>},
+    Rule{"slender_layer",             Level::inaccurate, "plane",                    kCheck, by<slender_layer>},
+    // What it costs.
+    Rule{"step_of_contact",           Level::costly,     "contact.penalty",          kCheck, by<step_of_contact>},
+    Rule{"step_of_viscosity",         Level::costly,     "material.viscosity",       kCheck, by<step_of_viscosity>},
+    Rule{"one_bad_element",           Level::costly,     "mesh.file",                kCheck, by<one_bad_element>},
+    Rule{"slivers",                   Level::costly,     "mesh.file",                kCheck, by<slivers>},
+    Rule{"many_frames",               Level::costly,     "output.frame_interval",    kCheck, by<many_frames>},
+};
+// clang-format on
+
+}  // namespace
+
+const char* name_of(Level level) {
+  switch (level) {
+    case Level::wrong:
+      return "wrong";
+    case Level::doubtful:
+      return "doubtful";
+    case Level::inaccurate:
+      return "inaccurate";
+    case Level::costly:
+      break;
+  }
+  return "costly";
+}
+
+std::span<const Rule> rules() { return kRules; }
+
+std::vector<Advice> advise(const Subject& subject) {
+  std::vector<Advice> advice;
+  for (const Rule& rule : kRules) {
+    for (std::string& text : rule.find(subject)) advice.push_back({&rule, std::move(text)});
+  }
+  return advice;
+}
+
+Sentences start_warnings(const case_::Case& input, const Model& model) {
+  const Subject subject(input, model);
+  Sentences warnings;
+  for (const Rule& rule : kRules) {
+    if (rule.at_start) append(warnings, rule.find(subject));
+  }
+  return warnings;
+}
+
+}  // namespace breccia
