@@ -55,8 +55,8 @@ struct RunEstimate {
 
 /// Everything that can be told before the first step.
 struct CheckReport {
-  /// Lines: size, stable step and what limits it, steps, memory, run time on this machine (from a few steps of a scratch
-  /// copy), joints against the fracture process zone, softness added by the joints.
+  /// Lines: size, stable step and what limits it, steps, memory, run time on this machine (from a few steps of a
+  /// scratch copy), joints against the fracture process zone, softness added by the joints.
   std::string text;
   std::vector<Advice> advice;
   StepReport step;
