@@ -9,6 +9,7 @@
 #include <regex>
 
 #include "case/reader.hpp"
+#include "support/raster_case.hpp"
 
 namespace breccia::step_report_test {
 namespace {
@@ -17,29 +18,16 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// Two stacks of cubes 1 um apart that may touch; the upper one falls.
-std::string boxes(const std::string& penalty, const std::string& more = "") {
-  return R"(title = "boxes"
-[mesh.raster]
-cells = 2
-cell_size = "10 mm"
-boxes = [1, 1, 2]
-gap = "1 um"
-group = "box"
-[[material]]
-group = "box"
-young = "30 GPa"
-poisson = 0.2
-density = 2500
-joints = "none"
-[[contact]]
-between = ["box", "box"]
-penalty = )" +
-         penalty +
-         R"(
-[[stage]]
-name = "rest"
-end = "1 ms"
-)" + more;
+std::string boxes(double penalty, const std::string& more = "") {
+  return test::raster_case({.title = "boxes",
+                            .group = "box",
+                            .cells = {2, 2, 2},
+                            .boxes = {1, 1, 2},
+                            .gap = 1e-6,
+                            .young = 30e9,
+                            .density = 2500,
+                            .contact_penalty = penalty}) +
+         more;
 }
 
 struct Checked {
@@ -60,7 +48,7 @@ Checked check(const std::string& text) {
 
 TEST(StepReport, BlamesAViscosityForTheStepItCostsAndNamesOneThatCostsLittle) {
   const auto with = [](const std::string& viscosity) {
-    std::string text = boxes("\"1 GPa\"");
+    std::string text = boxes(1e9);
     return check(text.insert(text.find("[[contact]]"), "viscosity = " + viscosity + "\n"));
   };
   const double plain = with("0").report.limit;
@@ -80,19 +68,19 @@ TEST(StepReport, BlamesAViscosityForTheStepItCostsAndNamesOneThatCostsLittle) {
 }
 
 TEST(StepReport, NamesAPenaltyThatWouldNotCostAnything) {
-  const Checked stiff = check(boxes("\"300 GPa\""));
+  const Checked stiff = check(boxes(300e9));
   EXPECT_THAT(as_list(stiff.report.advice), HasSubstr("Contact makes the step"));
   std::smatch found;
   const std::string advice = as_list(stiff.report.advice);
   ASSERT_TRUE(std::regex_search(advice, found, std::regex("a penalty of ([0-9.e+]+) Pa instead of 3e\\+11")));
-  const Checked soft = check(boxes(found[1].str()));
+  const Checked soft = check(boxes(std::stod(found[1])));
   EXPECT_THAT(as_list(soft.report.advice), Not(HasSubstr("Contact")));
   EXPECT_GT(soft.report.limit, 3 * stiff.report.limit);
 }
 
 TEST(StepReport, BlamesTheDampingOfContactForTheStepItCosts) {
   const auto with = [](const std::string& ratio) {
-    std::string text = boxes("\"1 GPa\"");
+    std::string text = boxes(1e9);
     return check(text.insert(text.find("penalty"), "damping_ratio = " + ratio + "\n"));
   };
   const Checked much = with("1");
@@ -111,9 +99,9 @@ TEST(StepReport, BlamesTheDampingOfContactForTheStepItCosts) {
 }
 
 TEST(StepReport, JudgesAGivenStepByTheTrueLimit) {
-  const double free = check(boxes("1")).report.limit;
+  const double free = check(boxes(1)).report.limit;
   const auto with_step = [&](double step) {
-    return check(boxes("1", "[time]\nstep = " + std::to_string(step * 1e9) + "e-9\n"));
+    return check(boxes(1, "[time]\nstep = " + std::to_string(step * 1e9) + "e-9\n"));
   };
   const Checked short_one = with_step(0.98 * free), long_one = with_step(1.1 * free);
   EXPECT_THAT(as_list(short_one.report.advice), Not(HasSubstr("time.step")));
@@ -121,14 +109,14 @@ TEST(StepReport, JudgesAGivenStepByTheTrueLimit) {
 }
 
 TEST(StepReport, TellsAGivenStepThatOnlyContactForbidsApart) {
-  const double stiff = check(boxes("\"300 GPa\"")).report.limit;
-  const Checked given = check(boxes("\"300 GPa\"", "[time]\nstep = " + std::to_string(2e9 * stiff) + "e-9\n"));
+  const double stiff = check(boxes(300e9)).report.limit;
+  const Checked given = check(boxes(300e9, "[time]\nstep = " + std::to_string(2e9 * stiff) + "e-9\n"));
   EXPECT_THAT(as_list(given.report.advice), HasSubstr("may gain energy"));
   EXPECT_THAT(as_list(given.report.advice), Not(HasSubstr("will blow up")));
 }
 
 TEST(StepReport, BlamesNoSliversWhereThereAreNone) {
-  EXPECT_THAT(as_list(check(boxes("1")).report.advice), Not(HasSubstr("sliver")));
+  EXPECT_THAT(as_list(check(boxes(1)).report.advice), Not(HasSubstr("sliver")));
 }
 
 }  // namespace

@@ -63,12 +63,8 @@ inline FinishedMesh two_boxes(const std::string& name, double size, bool glue) {
 }
 
 inline FinishedMesh raster_box(std::array<int, 3> cells, std::array<int, 3> boxes = {1, 1, 1}) {
-  RasterSource source;
-  source.cells = cells;
-  source.cell_size = Vec3(1.0, 0.75, 1.25);
-  source.boxes = boxes;
-  source.gap = Vec3(0.5, 0.25, 0.125);
-  return make_raster(source);
+  return make_raster(
+      {.cells = cells, .cell_size = Vec3(1.0, 0.75, 1.25), .boxes = boxes, .gap = Vec3(0.5, 0.25, 0.125)});
 }
 
 inline Vec3 node_of(const Mesh& mesh, Index element, int corner) {
