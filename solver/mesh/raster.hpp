@@ -26,7 +26,7 @@ struct RasterSource {
     Vec3 lower{0, 0, 0};
     Vec3 upper{0, 0, 0};
   };
-  std::optional<Slit> slit;
+  std::optional<Slit> slit = std::nullopt;
 };
 
 /// The raster as a finished mesh.

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "end_to_end/program.hpp"
+#include "support/raster_case.hpp"
 
 namespace breccia::absorbing_test {
 namespace {
@@ -41,19 +42,14 @@ nlohmann::json run(const Scratch& scratch, const std::string& file, const std::s
 }
 
 /// A pulse runs along a bar of 0.2 m with c = 2,000 m/s.
-const std::string kPulse = R"([mesh.raster]
-cells = [40, 2, 2]
-cell_size = "5 mm"
-group = "bar"
-[[material]]
-group = "bar"
-young = "10 GPa"
-poisson = 0
-density = 2500
-joints = "none"
-[[stage]]
-end = "0.3 ms"
-absorbing = ["bar.x1"]
+const std::string kPulse = test::raster_case({.group = "bar",
+                                              .cells = {40, 2, 2},
+                                              .cell_size = 5e-3,
+                                              .young = 10e9,
+                                              .poisson = 0,
+                                              .density = 2500,
+                                              .end = 0.3e-3}) +
+                           R"(absorbing = ["bar.x1"]
 [[stage.pressure]]
 surface = "bar.x0"
 value = { table = [[0, 0], ["10 us", "1 MPa"], ["20 us", 0]] }
@@ -75,22 +71,17 @@ TEST(Absorbing, APulseLeavesABarThroughItsEnd) {
 }
 
 /// A block settles on a foot that is held, and then rests on it without being held.
-const std::string kBlock = R"([mesh.raster]
-cells = [2, 2, 4]
-cell_size = "50 mm"
-group = "block"
-[[material]]
-group = "block"
-young = "10 GPa"
-poisson = 0.2
-density = 2500
-joints = "JOINTS"
-[output]
-frame_interval = 0
-history_interval = "1 ms"
-gauges = ["block"]
-)";
-const std::string kJoints = "[[joint]]\ngroup = \"block\"\n";
+std::string block(const std::string& joints) {
+  return test::raster_case({.group = "block",
+                            .cells = {2, 2, 4},
+                            .cell_size = 50e-3,
+                            .young = 10e9,
+                            .density = 2500,
+                            .joints = joints,
+                            .end = 0}) +
+         (joints == "none" ? "" : "[[joint]]\ngroup = \"block\"\n") +
+         "[output]\nframe_interval = 0\nhistory_interval = \"1 ms\"\ngauges = [\"block\"]\n";
+}
 const std::string kSettle = R"([[stage]]
 name = "settle"
 end = "10 ms"
@@ -106,12 +97,6 @@ end = "20 ms"
 gravity = [0, 0, -9.81]
 absorbing = ["block.z0"]
 )";
-
-std::string block(const std::string& joints) {
-  std::string text = kBlock;
-  text.replace(text.find("JOINTS"), 6, joints);
-  return text + (joints == "none" ? "" : kJoints);
-}
 
 class Supported : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Joints, Supported, testing::Values("none", "unbreakable"));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "end_to_end/program.hpp"
+#include "support/raster_case.hpp"
 
 /// What the energy budget of a run holds, and what ends a run early.
 namespace breccia::test::budget_test {
@@ -58,20 +59,14 @@ struct FinishedRun {
 };
 
 /// An elastic box, pulled to 2 ms and held where it is then.
-const std::string kPulledThenHeld = R"(title = "pulled, then held"
-[mesh.raster]
-cells = [2, 1, 1]
-cell_size = "10 mm"
-group = "box"
-[[material]]
-group = "box"
-young = "4 MPa"
-poisson = 0.3
-density = "2340 kg/m3"
-joints = "none"
-[[stage]]
-name = "pull"
-end = "2 ms"
+const std::string kPulledThenHeld = raster_case({.title = "pulled, then held",
+                                                 .group = "box",
+                                                 .cells = {2, 1, 1},
+                                                 .young = 4e6,
+                                                 .poisson = 0.3,
+                                                 .density = 2340,
+                                                 .end = 2e-3}) +
+                                    R"(name = "pull"
 [[stage.constraint]]
 group = "box.x0"
 fixed = "xyz"
@@ -142,20 +137,10 @@ TEST(Budget, holds_the_work_of_constraints_and_pressures_of_earlier_stages) {
 
 TEST(Budget, holds_what_a_stage_begins_with_on_a_body_at_rest_whose_step_changes_there) {
   // Steps of 10/4 and 40/15 us: in the first one of the push nothing else has moved yet.
-  const std::string text = R"(title = "rests, then pushed or dragged"
-[mesh.raster]
-cells = [3, 1, 1]
-cell_size = "10 mm"
-group = "box"
-[[material]]
-group = "box"
-young = "1 GPa"
-poisson = 0
-density = "1000 kg/m3"
-joints = "none"
-[[stage]]
-name = "rest"
-end = "10 us"
+  const std::string text =
+      raster_case(
+          {.title = "rests, then pushed or dragged", .group = "box", .cells = {3, 1, 1}, .poisson = 0, .end = 10e-6}) +
+      R"(name = "rest"
 [[stage]]
 name = "load"
 end = "50 us"
@@ -211,22 +196,14 @@ TEST(Budget, holds_all_that_damping_takes_where_every_step_is_sampled) {
 }
 
 /// A beam clamped at both ends, with stiff joints, so that most vibrations are near the limit of the stable step.
-constexpr const char* kHeavyBeam = R"([mesh.raster]
-cells = [20, 1, 1]
-cell_size = "0.2 m"
-group = "beam"
-[[material]]
-group = "beam"
-young = "30 GPa"
-poisson = 0.2
-density = "2400 kg/m3"
-joints = "unbreakable"
-[[joint]]
-group = "beam"
-penalty_factor = 100
-[[stage]]
-end = "0.1 s"
-gravity = [0, { ramp = { to = -9.81, end = "50 ms" } }, 0]
+const std::string kHeavyBeam = raster_case({.group = "beam",
+                                            .cells = {20, 1, 1},
+                                            .cell_size = 0.2,
+                                            .young = 30e9,
+                                            .density = 2400,
+                                            .penalty_factor = 100,
+                                            .end = 0.1}) +
+                               R"(gravity = [0, { ramp = { to = -9.81, end = "50 ms" } }, 0]
 local_damping = 0.4
 [[stage.constraint]]
 group = "beam.x0"
@@ -337,11 +314,17 @@ Mesh.Algorithm = 5;
 
 /// Two boxes that meet and fly apart: contact makes the step some thirty times shorter than it is without.
 std::string rebound_case() {
-  return "[mesh.raster]\ncells = [1, 1, 1]\nboxes = [2, 1, 1]\ngap = [0.0002, 0, 0]\ncell_size = 0.02\ngroup = \"b\"\n"
-         "[[material]]\ngroup = \"b\"\nyoung = 26.6e6\npoisson = 0.2\ndensity = 2340\njoints = \"none\"\n"
-         "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = 2.66e9\nfriction = 0.3\n"
+  return raster_case({.group = "b",
+                      .cell_size = 0.02,
+                      .boxes = {2, 1, 1},
+                      .gap = 0.2e-3,
+                      .young = 26.6e6,
+                      .density = 2340,
+                      .contact_penalty = 2.66e9,
+                      .contact_friction = 0.3,
+                      .end = 40e-3}) +
          "[[initial_velocity]]\ngroup = \"b\"\nrandom = [3, 6]\nseed = 1\nangular = [3, 20, -40]\n"
-         "[[stage]]\nname = \"all\"\nend = 40e-3\n[output]\nhistory_interval = 1e-5\n";
+         "[output]\nhistory_interval = 1e-5\n";
 }
 
 TEST(TimeStep, grows_by_half_at_most_after_a_rebound_so_that_the_run_goes_on) {

@@ -4,6 +4,7 @@
 #include <regex>
 
 #include "end_to_end/program.hpp"
+#include "support/raster_case.hpp"
 
 /// Runs that end with numbers that went wrong: what stands from before, and how to go on from there.
 namespace breccia::test::fault_test {
@@ -66,19 +67,9 @@ TEST_P(Fault, SaysThatThereIsNoCheckpointFromBeforeIt) {
 }
 
 /// A bar of soft elements that share nodes, drawn out until they are thirty times as long.
-constexpr const char* kDrawnOut = R"([mesh.raster]
-cells = [3, 1, 1]
-cell_size = "10 mm"
-group = "bar"
-[[material]]
-group = "bar"
-young = "4 MPa"
-poisson = 0.3
-density = "2340 kg/m3"
-joints = "none"
-[[stage]]
-end = "200 ms"
-[[stage.constraint]]
+const std::string kDrawnOut =
+    raster_case({.group = "bar", .cells = {3, 1, 1}, .young = 4e6, .poisson = 0.3, .density = 2340, .end = 0.2}) +
+    R"([[stage.constraint]]
 group = "bar.x0"
 fixed = "xyz"
 [[stage.constraint]]

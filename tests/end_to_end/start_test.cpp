@@ -11,6 +11,7 @@
 
 #include "end_to_end/program.hpp"
 #include "support/notched_beam.hpp"
+#include "support/replaced.hpp"
 
 /// Runs that start from the state of another one under a case of their own.
 namespace breccia::test::start_test {
@@ -27,12 +28,6 @@ const std::string kPush =
     "[[stage]]\nname = \"push\"\nend = \"3 ms\"\nmass_damping = 20\ngravity = [0, 0, \"-9.81 m/s2\"]\n"
     "[[stage.pressure]]\nsurface = \"box.x1\"\nvalue = \"1 kPa\"\n";
 const std::string kOutput = "[output]\nframe_interval = \"1 ms\"\nhistory_interval = \"100 us\"\n";
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
 
 /// Boxes that break at strengths that scatter, flow plastically, touch and rub; without stages and output.
 std::string model_text() {

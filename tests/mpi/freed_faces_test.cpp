@@ -2,36 +2,26 @@
 #include <string>
 
 #include "mpi/same_bits.hpp"
+#include "support/raster_case.hpp"
 
 namespace breccia::freed_faces_test {
 namespace {
 
 /// Boxes that break fly apart, so that elements once joined come to be in pieces far from each other.
-const std::string kApart = R"([mesh.raster]
-cells = 1
-cell_size = "10 mm"
-boxes = 2
-gap = "0.1 mm"
-[[material]]
-group = "raster"
-young = "100 MPa"
-poisson = 0
-density = 1000
-[[joint]]
-group = "raster"
-penalty_factor = 10
-tensile_strength = "30 kPa"
-energy_mode_1 = "1 J/m2"
-[[contact]]
-between = ["*", "*"]
-penalty = "100 MPa"
-[[initial_velocity]]
+const std::string kApart = test::raster_case({.boxes = {2, 2, 2},
+                                              .gap = 0.1e-3,
+                                              .young = 100e6,
+                                              .poisson = 0,
+                                              .penalty_factor = 10,
+                                              .tensile_strength = 30e3,
+                                              .energy_mode_1 = 1,
+                                              .contact_penalty = 100e6,
+                                              .end = 4e-3}) +
+                           R"([[initial_velocity]]
 group = "raster"
 random = ["5 m/s", "30 m/s"]
 seed = 18
 strain_rate = [1000, 1000, 1000]
-[[stage]]
-end = "4 ms"
 [domains]
 margin = 0.1
 )";
@@ -44,29 +34,17 @@ TEST(Ranks, KeepFacesFreeWhenWhatWasBehindThemIsFarAway) {
 }
 
 /// Halves of a body that part along a slit: what made the sides of the slit such is on another rank soon.
-const std::string kParted = R"([mesh.raster]
-cells = [6, 2, 2]
-cell_size = "10 mm"
-slit = { lower = ["30 mm", 0, 0], upper = ["30 mm", "20 mm", "20 mm"] }
-[joints]
+const std::string kParted = test::raster_case({.cells = {6, 2, 2},
+                                               .mesh = "slit = { lower = [0.03, 0, 0], upper = [0.03, 0.02, 0.02] }\n",
+                                               .young = 100e6,
+                                               .penalty_factor = 10,
+                                               .contact_penalty = 1e9,
+                                               .end = 12e-3}) +
+                            R"([joints]
 broken = ["raster.slit"]
-[[material]]
-group = "raster"
-young = "100 MPa"
-poisson = 0.2
-density = 1000
-joints = "unbreakable"
-[[joint]]
-group = "raster"
-penalty_factor = 10
-[[contact]]
-between = ["*", "*"]
-penalty = "1 GPa"
 [[initial_velocity]]
 group = "raster"
 strain_rate = [400, 0, 0]
-[[stage]]
-end = "12 ms"
 [domains]
 margin = 0.1
 )";

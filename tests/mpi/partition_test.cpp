@@ -7,6 +7,7 @@
 #include "domains/state_records.hpp"
 #include "mpi/world.hpp"
 #include "simulation/step.hpp"
+#include "support/raster_case.hpp"
 #include "unit/case/case_files.hpp"
 
 namespace breccia::partition_test {
@@ -16,33 +17,20 @@ using test::world;
 
 /// Cubes of 24 elements that fly at each other and break.
 case_::Case flying_cubes() {
-  return case_::read_text(R"([mesh.raster]
-boxes = 2
-gap = "0.1 mm"
-cell_size = "10 mm"
-group = "cubes"
-[[material]]
-group = "cubes"
-young = "1 GPa"
-poisson = 0.2
-density = 2000
-joints = "breakable"
-[[joint]]
-group = "cubes"
-penalty_factor = 10
-tensile_strength = "10 kPa"
-energy_mode_1 = "0.01 J/m2"
-[[contact]]
-between = ["cubes", "cubes"]
-penalty = "10 GPa"
-friction = 0.3
+  return case_::read_text(test::raster_case({.group = "cubes",
+                                             .boxes = {2, 2, 2},
+                                             .gap = 0.1e-3,
+                                             .density = 2000,
+                                             .penalty_factor = 10,
+                                             .tensile_strength = 10e3,
+                                             .energy_mode_1 = 0.01,
+                                             .contact_penalty = 10e9,
+                                             .contact_friction = 0.3}) +
+                          R"(name = "flight"
 [[initial_velocity]]
 group = "cubes"
 random = ["20 m/s", "40 m/s"]
 seed = 3
-[[stage]]
-name = "flight"
-end = "1 ms"
 )");
 }
 

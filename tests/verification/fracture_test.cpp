@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/raster_case.hpp"
 #include "verification/recorder.hpp"
 
 namespace breccia::test::fracture_test {
@@ -116,29 +117,19 @@ TEST(SlitPlate, breaks_from_the_slit_with_a_closed_budget) {
 }
 
 /// A plate at rest, of which the second stage takes the joints on a face away and pulls the halves apart.
-constexpr const char* kCutPlate = R"(title = "cut by the second stage"
-[mesh.raster]
-cells = [2, 2, 1]
-cell_size = "10 mm"
-group = "plate"
-slit = { lower = [0, "10 mm", 0], upper = ["20 mm", "10 mm", "10 mm"] }
-[[material]]
-group = "plate"
-young = "26.6 GPa"
-poisson = 0.205
-density = "2340 kg/m3"
-joints = "breakable"
-[[joint]]
-group = "plate"
-penalty_factor = 50
-tensile_strength = "5 MPa"
-energy_mode_1 = "30 J/m2"
-[[contact]]
-between = ["*", "*"]
-penalty = "266 GPa"
-[[stage]]
-name = "rest"
-end = "10 us"
+const std::string kCutPlate = raster_case({.title = "cut by the second stage",
+                                           .group = "plate",
+                                           .cells = {2, 2, 1},
+                                           .mesh = "slit = { lower = [0, 0.01, 0], upper = [0.02, 0.01, 0.01] }\n",
+                                           .young = 26.6e9,
+                                           .poisson = 0.205,
+                                           .density = 2340,
+                                           .penalty_factor = 50,
+                                           .tensile_strength = 5e6,
+                                           .energy_mode_1 = 30,
+                                           .contact_penalty = 266e9,
+                                           .end = 10e-6}) +
+                              R"(name = "rest"
 [[stage]]
 name = "cut"
 end = "30 us"

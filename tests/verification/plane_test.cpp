@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "support/raster_case.hpp"
 #include "verification/recorder.hpp"
 
 namespace breccia::test::plane_test {
@@ -12,22 +13,14 @@ constexpr double kYoung = 30e9, kPoisson = 0.3, kThickness = 0.01, kHeight = 0.0
 
 /// A strip of 8 x 4 cubes of 10 mm, one across, drawn out along x and free to narrow along y.
 std::string strip(const std::string& kind) {
-  return R"([mesh.raster]
-cells = [8, 4, 1]
-cell_size = "10 mm"
-group = "strip"
-[plane]
-kind = ")" +
-         kind + R"("
-[[material]]
-group = "strip"
-young = "30 GPa"
-poisson = 0.3
-density = 2400
-joints = "none"
-[[stage]]
-end = "2 ms"
-mass_damping = "40000 1/s"
+  return raster_case({.group = "strip",
+                      .cells = {8, 4, 1},
+                      .young = kYoung,
+                      .poisson = kPoisson,
+                      .density = 2400,
+                      .sections = "[plane]\nkind = \"" + kind + "\"\n",
+                      .end = 2e-3}) +
+         R"(mass_damping = "40000 1/s"
 [[stage.constraint]]
 group = "strip.x0"
 fixed = "x"

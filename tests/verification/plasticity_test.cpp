@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "support/raster_case.hpp"
 #include "verification/recorder.hpp"
 
 /// Cubes of Drucker-Prager material under slowly growing, homogeneous load: whole runs against closed form.
@@ -16,25 +17,22 @@ constexpr double kQuasiStatic = 2e-3;  // of the strength: what is left of waves
 constexpr double kResidual = 1e-3;     // of the largest term: the limit for every case of the repository
 
 /// Three planes of symmetry; the stages follow. They end while the faces still move: no jump of speed in the reaction.
-const std::string kCube = R"(title = "a cube yields"
-[mesh.raster]
-cells = 2
-cell_size = "10 mm"
-group = "cube"
-[[material]]
-group = "cube"
-young = "30 GPa"
-poisson = 0.2
-density = "2340 kg/m3"
-joints = "none"
-law = "drucker_prager"
+const std::string kCube = raster_case({.title = "a cube yields",
+                                       .group = "cube",
+                                       .cells = {2, 2, 2},
+                                       .young = kYoung,
+                                       .poisson = kPoisson,
+                                       .density = 2340,
+                                       .material = R"(law = "drucker_prager"
 friction_angle = "35 deg"
 dilation_angle = "10 deg"
 cohesion = "8 MPa"
 hardening = "1 GPa"
 cap_pressure = "60 MPa"
 cap_hardening = "5 GPa"
-[output]
+)",
+                                       .end = 0}) +
+                          R"([output]
 gauges = ["cube.x1"]
 history_interval = "20 us"
 )";

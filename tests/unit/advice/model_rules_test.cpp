@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/raster_case.hpp"
 #include "unit/advice/told_by.hpp"
 #include "unit/case/case_files.hpp"
 
@@ -10,17 +11,11 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-const std::string kMaterial = R"([[material]]
-group = "rock"
-young = "40 GPa"
-poisson = 0.2
-density = 2400
-joints = "none"
-)";
-const std::string kStage = "[[stage]]\nend = \"1 ms\"\n";
+const std::string kContact = "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"40 GPa\"\n";
 
-std::string raster(const std::string& boxes) {
-  return "[mesh.raster]\ncell_size = \"10 mm\"\ngroup = \"rock\"\nboxes = " + boxes + "\ngap = \"1 mm\"\n" + kMaterial;
+std::string raster(const std::array<int, 3>& boxes, const std::array<int, 3>& cells = {1, 1, 1}) {
+  return test::raster_case(
+      {.group = "rock", .cells = cells, .boxes = boxes, .gap = 1e-3, .young = 40e9, .density = 2400});
 }
 
 std::string advice_on(const std::string& text) {
@@ -32,44 +27,41 @@ std::string advice_on(const std::string& text) {
 }
 
 TEST(ModelAdvice, names_bodies_that_meet_without_contact) {
-  EXPECT_THAT(advice_on(raster("[2, 1, 1]") + kStage), HasSubstr("There is no [[contact]]"));
+  EXPECT_THAT(advice_on(raster({2, 1, 1})), HasSubstr("There is no [[contact]]"));
 }
 
 TEST(ModelAdvice, is_silent_where_there_is_contact_or_one_body_or_all_are_held) {
-  const std::string contact = "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"40 GPa\"\n";
-  EXPECT_EQ(advice_on(raster("[2, 1, 1]") + contact + kStage), "");
-  EXPECT_EQ(advice_on(raster("[1, 1, 1]") + kStage), "");
+  EXPECT_EQ(advice_on(raster({2, 1, 1}) + kContact), "");
+  EXPECT_EQ(advice_on(raster({1, 1, 1})), "");
   const std::string held = "[[stage.constraint]]\ngroup = \"rock\"\nfixed = \"xyz\"\n";
-  EXPECT_EQ(advice_on(raster("[2, 1, 1]") + kStage + held), "");
+  EXPECT_EQ(advice_on(raster({2, 1, 1}) + held), "");
 }
 
 TEST(ModelAdvice, names_what_can_break_where_there_is_no_contact) {
   const std::string breakable = "[[joint]]\ngroup = \"rock\"\ntensile_strength = 1e6\nenergy_mode_1 = 10\n";
-  std::string text = raster("[1, 1, 1]") + breakable + kStage;
+  std::string text = raster({1, 1, 1}) + breakable;
   text.replace(text.find("\"none\""), 6, "\"breakable\"");
   EXPECT_THAT(advice_on(text), HasSubstr("no [[contact]], and rock can break"));
-  EXPECT_EQ(advice_on(text + "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"40 GPa\"\n"), "");
+  EXPECT_EQ(advice_on(text + kContact), "");
 }
 
 TEST(ModelAdvice, says_of_a_solid_of_a_raster_that_can_break_how_its_joints_lie) {
-  const std::string contact = "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"40 GPa\"\n" + kStage;
   const std::string joint = "[[joint]]\ngroup = \"rock\"\ntensile_strength = 1e6\nenergy_mode_1 = 10\n";
-  const auto box = [](const std::string& cells) { return raster("[1, 1, 1]\ncells = " + cells); };
-  const auto breakable = [&](const std::string& cells) {
-    std::string text = box(cells);
+  const auto breakable = [&](const std::array<int, 3>& cells) {
+    std::string text = raster({1, 1, 1}, cells);
     text.replace(text.find("\"none\""), 6, "\"breakable\"");
-    return advice_on(text + joint + contact);
+    return advice_on(text + joint + kContact);
   };
-  EXPECT_THAT(breakable("[3, 4, 3]"), HasSubstr("planes of few directions"));
-  EXPECT_EQ(breakable("[9, 1, 3]"), "") << "a bar or a plate";
-  EXPECT_EQ(advice_on(box("[3, 4, 3]") + contact), "") << "nothing can break";
+  EXPECT_THAT(breakable({3, 4, 3}), HasSubstr("planes of few directions"));
+  EXPECT_EQ(breakable({9, 1, 3}), "") << "a bar or a plate";
+  EXPECT_EQ(advice_on(raster({1, 1, 1}, {3, 4, 3}) + kContact), "") << "nothing can break";
 }
 
 TEST(ModelAdvice, names_the_thickness_that_fits_the_elements_of_a_plane_model) {
   const auto layer = [](const std::string& thickness) {
-    std::string text = raster("[1, 1, 1]") + kStage + "[plane]\nkind = \"strain\"\n";
-    const std::string size = "\"10 mm\"";
-    return advice_on(text.replace(text.find(size), size.size(), "[0.01, 0.01, " + thickness + "]"));
+    std::string text = raster({1, 1, 1}) + "[plane]\nkind = \"strain\"\n";
+    const std::string size = "cell_size = 0.01";
+    return advice_on(text.replace(text.find(size), size.size(), "cell_size = [0.01, 0.01, " + thickness + "]"));
   };
   EXPECT_EQ(layer("0.01"), "");
   EXPECT_THAT(layer("0.03"), AllOf(HasSubstr("30 mm thick"), HasSubstr("about 7.07 mm is best")));
@@ -77,32 +69,31 @@ TEST(ModelAdvice, names_the_thickness_that_fits_the_elements_of_a_plane_model) {
 }
 
 TEST(ModelAdvice, tells_of_plane_models_where_the_mesh_is_one_thin_layer_whose_sides_are_free) {
-  const auto layer = [](const std::string& cells, const std::string& more) {
-    std::string text = raster("[1, 1, 1]");
-    text.insert(text.find("boxes"), "cells = " + cells + "\n");
-    return advice_on(text + kStage + more);
+  const auto layer = [](const std::array<int, 3>& cells, const std::string& more) {
+    return advice_on(raster({1, 1, 1}, cells) + more);
   };
   const std::string words = "one layer of elements across ";
-  EXPECT_THAT(layer("[6, 6, 1]", ""), AllOf(HasSubstr(words + "z"), HasSubstr("[plane] kind = \"stress\" takes")));
-  EXPECT_THAT(layer("[6, 1, 6]", ""), AllOf(HasSubstr(words + "y"), HasSubstr("axis = \"y\"")));
-  for (const char* cells : {"[12, 12, 2]", "[4, 4, 1]", "[6, 1, 1]"}) EXPECT_EQ(layer(cells, ""), "") << cells;
+  EXPECT_THAT(layer({6, 6, 1}, ""), AllOf(HasSubstr(words + "z"), HasSubstr("[plane] kind = \"stress\" takes")));
+  EXPECT_THAT(layer({6, 1, 6}, ""), AllOf(HasSubstr(words + "y"), HasSubstr("axis = \"y\"")));
+  for (const std::array<int, 3>& cells : {std::array{12, 12, 2}, {4, 4, 1}, {6, 1, 1}})
+    EXPECT_EQ(layer(cells, ""), "") << testing::PrintToString(cells);
   for (const char* more : {"[plane]\nkind = \"strain\"\n", "gravity = [0, 0, -9.81]\n",
                            "[[stage.constraint]]\ngroup = \"rock\"\nfixed = \"z\"\n",
                            "[[stage.constraint]]\ngroup = \"rock.x1\"\nvelocity = { z = 1 }\n",
                            "[[stage.pressure]]\nsurface = \"rock.z1\"\nvalue = 1e6\n",
                            "[[stage.traction]]\nsurface = \"rock.x1\"\nvalue = [0, 0, 1e6]\n",
                            "[[initial_velocity]]\ngroup = \"rock\"\nvelocity = [0, 0, 1]\n"})
-    EXPECT_EQ(layer("[6, 6, 1]", more), "") << more;
-  EXPECT_THAT(layer("[6, 6, 1]", "[[stage.pressure]]\nsurface = \"rock.x1\"\nvalue = 1e6\n"), HasSubstr(words));
+    EXPECT_EQ(layer({6, 6, 1}, more), "") << more;
+  EXPECT_THAT(layer({6, 6, 1}, "[[stage.pressure]]\nsurface = \"rock.x1\"\nvalue = 1e6\n"), HasSubstr(words));
 }
 
 TEST(ModelAdvice, names_a_sphere_that_does_not_hold_the_model_and_the_radius_that_would) {
   const auto sphere = [](const std::string& radius) {
     return "[sphere]\ncentre = [\"5 mm\", \"5 mm\", \"5 mm\"]\nradius = \"" + radius + "\"\npenalty = \"40 GPa\"\n";
   };
-  EXPECT_THAT(advice_on(raster("[1, 1, 1]") + sphere("8 mm") + kStage),
+  EXPECT_THAT(advice_on(raster({1, 1, 1}) + sphere("8 mm")),
               AllOf(HasSubstr("sphere does not hold the model"), HasSubstr("0.00866 m")));
-  EXPECT_EQ(advice_on(raster("[1, 1, 1]") + sphere("9 mm") + kStage), "");
+  EXPECT_EQ(advice_on(raster({1, 1, 1}) + sphere("9 mm")), "");
 }
 
 }  // namespace

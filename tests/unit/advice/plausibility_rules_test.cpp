@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/raster_case.hpp"
 #include "unit/advice/told_by.hpp"
 #include "unit/case/case_files.hpp"
 
@@ -11,29 +12,18 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 /// A brick of breakable joints, two stages.
-const std::string kBrick = R"(title = "Brick"
-[mesh.raster]
-cells = [2, 2, 2]
-cell_size = 0.01
-[[material]]
-group = "raster"
-young = "20 GPa"
-poisson = 0.2
-density = 2400
-[[joint]]
-group = "raster"
-penalty_factor = 20
-tensile_strength = "3 MPa"
-shear_strength = "9 MPa"
-energy_mode_1 = "20 J/m2"
-friction = 0.6
-[[contact]]
-between = ["*", "*"]
-penalty = "20 GPa"
-friction = 0.5
-[[stage]]
-end = "1 ms"
-gravity = [0, 0, -9.81]
+const std::string kBrick = test::raster_case({.title = "Brick",
+                                              .cells = {2, 2, 2},
+                                              .young = 20e9,
+                                              .density = 2400,
+                                              .penalty_factor = 20,
+                                              .tensile_strength = 3e6,
+                                              .shear_strength = 9e6,
+                                              .energy_mode_1 = 20,
+                                              .joint_friction = 0.6,
+                                              .contact_penalty = 20e9,
+                                              .contact_friction = 0.5}) +
+                           R"(gravity = [0, 0, -9.81]
 [[stage.constraint]]
 group = "raster.z0"
 fixed = "xyz"

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/raster_case.hpp"
 #include "unit/advice/told_by.hpp"
 #include "unit/case/case_files.hpp"
 
@@ -13,23 +14,8 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// Two cubes of 10 mm, one above the other.
-const std::string kCubes = R"([mesh.raster]
-cell_size = "10 mm"
-boxes = [1, 1, 2]
-gap = "1 mm"
-group = "rock"
-[[material]]
-group = "rock"
-young = "1 GPa"
-poisson = 0.2
-density = 1000
-joints = "none"
-[[contact]]
-between = ["*", "*"]
-penalty = "1 GPa"
-[[stage]]
-end = "1 ms"
-)";
+const std::string kCubes =
+    test::raster_case({.group = "rock", .boxes = {1, 1, 2}, .gap = 1e-3, .contact_penalty = 1e9});
 
 std::string advice_on(const std::string& more, const std::vector<std::string>& overrides = {}) {
   const case_::Case input = case_::read_text(kCubes + more, overrides);

@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "case/reader.hpp"
+#include "support/raster_case.hpp"
 #include "unit/advice/told_by.hpp"
 
 namespace breccia::step_rules_test {
@@ -16,29 +17,16 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// Two stacks of cubes 1 um apart that may touch; the upper one falls.
-std::string boxes(const std::string& penalty, const std::string& more = "") {
-  return R"(title = "boxes"
-[mesh.raster]
-cells = 2
-cell_size = "10 mm"
-boxes = [1, 1, 2]
-gap = "1 um"
-group = "box"
-[[material]]
-group = "box"
-young = "30 GPa"
-poisson = 0.2
-density = 2500
-joints = "none"
-[[contact]]
-between = ["box", "box"]
-penalty = )" +
-         penalty +
-         R"(
-[[stage]]
-name = "rest"
-end = "1 ms"
-)" + more;
+std::string boxes(double penalty, const std::string& more = "") {
+  return test::raster_case({.title = "boxes",
+                            .group = "box",
+                            .cells = {2, 2, 2},
+                            .boxes = {1, 1, 2},
+                            .gap = 1e-6,
+                            .young = 30e9,
+                            .density = 2500,
+                            .contact_penalty = penalty}) +
+         more;
 }
 
 struct Checked {
@@ -63,7 +51,7 @@ Checked check(const std::string& text) {
 
 TEST(StepReport, BlamesAViscosityForTheStepItCostsAndNamesOneThatCostsLittle) {
   const auto with = [](const std::string& viscosity) {
-    std::string text = boxes("\"1 GPa\"");
+    std::string text = boxes(1e9);
     return check(text.insert(text.find("[[contact]]"), "viscosity = " + viscosity + "\n"));
   };
   const double plain = with("0").limit;
@@ -83,19 +71,19 @@ TEST(StepReport, BlamesAViscosityForTheStepItCostsAndNamesOneThatCostsLittle) {
 }
 
 TEST(StepReport, NamesAPenaltyThatWouldNotCostAnything) {
-  const Checked stiff = check(boxes("\"300 GPa\""));
+  const Checked stiff = check(boxes(300e9));
   EXPECT_THAT(stiff.advice, HasSubstr("Contact makes the step"));
   std::smatch found;
   const std::string advice = stiff.advice;
   ASSERT_TRUE(std::regex_search(advice, found, std::regex("a penalty of ([0-9.e+]+) Pa instead of 3e\\+11")));
-  const Checked soft = check(boxes(found[1].str()));
+  const Checked soft = check(boxes(std::stod(found[1])));
   EXPECT_THAT(soft.advice, Not(HasSubstr("Contact")));
   EXPECT_GT(soft.limit, 3 * stiff.limit);
 }
 
 TEST(StepReport, BlamesTheDampingOfContactForTheStepItCosts) {
   const auto with = [](const std::string& ratio) {
-    std::string text = boxes("\"1 GPa\"");
+    std::string text = boxes(1e9);
     return check(text.insert(text.find("penalty"), "damping_ratio = " + ratio + "\n"));
   };
   const Checked much = with("1");
@@ -114,9 +102,9 @@ TEST(StepReport, BlamesTheDampingOfContactForTheStepItCosts) {
 }
 
 TEST(StepReport, JudgesAGivenStepByTheTrueLimit) {
-  const double free = check(boxes("1")).limit;
+  const double free = check(boxes(1)).limit;
   const auto with_step = [&](double step) {
-    return check(boxes("1", "[time]\nstep = " + std::to_string(step * 1e9) + "e-9\n"));
+    return check(boxes(1, "[time]\nstep = " + std::to_string(step * 1e9) + "e-9\n"));
   };
   const Checked short_one = with_step(0.98 * free), long_one = with_step(1.1 * free);
   EXPECT_THAT(short_one.advice, Not(HasSubstr("time.step")));
@@ -124,13 +112,13 @@ TEST(StepReport, JudgesAGivenStepByTheTrueLimit) {
 }
 
 TEST(StepReport, TellsAGivenStepThatOnlyContactForbidsApart) {
-  const double stiff = check(boxes("\"300 GPa\"")).limit;
-  const Checked given = check(boxes("\"300 GPa\"", "[time]\nstep = " + std::to_string(2e9 * stiff) + "e-9\n"));
+  const double stiff = check(boxes(300e9)).limit;
+  const Checked given = check(boxes(300e9, "[time]\nstep = " + std::to_string(2e9 * stiff) + "e-9\n"));
   EXPECT_THAT(given.advice, HasSubstr("may gain energy"));
   EXPECT_THAT(given.advice, Not(HasSubstr("will blow up")));
 }
 
-TEST(StepReport, BlamesNoSliversWhereThereAreNone) { EXPECT_THAT(check(boxes("1")).advice, Not(HasSubstr("sliver"))); }
+TEST(StepReport, BlamesNoSliversWhereThereAreNone) { EXPECT_THAT(check(boxes(1)).advice, Not(HasSubstr("sliver"))); }
 
 }  // namespace
 }  // namespace breccia::step_rules_test

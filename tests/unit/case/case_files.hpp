@@ -10,8 +10,11 @@
 
 #include "base/error.hpp"
 #include "case/reader.hpp"
+#include "support/replaced.hpp"
 
 namespace breccia::case_ {
+
+using test::replaced;
 
 /// A folder for one test, removed with all it holds.
 class CaseFolder {
@@ -237,12 +240,5 @@ points = 11
 across = [0, "20 mm", 0]
 rows = 21
 )";
-
-/// The text with its first occurrence of `from` replaced; a test that names a text not there fails.
-inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
 
 }  // namespace breccia::case_

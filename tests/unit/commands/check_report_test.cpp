@@ -13,6 +13,7 @@
 #include "mesh/raster.hpp"
 #include "model/model.hpp"
 #include "model/time_step.hpp"
+#include "support/raster_case.hpp"
 #include "unit/case/case_files.hpp"
 #include "unit/model/two_boxes.hpp"
 
@@ -23,25 +24,16 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::string kCubes = R"(title = "cubes"
-[mesh.raster]
-cells = [2, 2, 2]
-cell_size = "10 mm"
-group = "cubes"
-[[material]]
-group = "cubes"
-young = "40 GPa"
-poisson = 0.2
-density = 2400
-[[joint]]
-group = "cubes"
-penalty_factor = 10
-tensile_strength = "5 MPa"
-shear_strength = "15 MPa"
-energy_mode_1 = "100 J/m2"
-[[stage]]
-end = "1 us"
-)";
+const std::string kCubes = test::raster_case({.title = "cubes",
+                                              .group = "cubes",
+                                              .cells = {2, 2, 2},
+                                              .young = 40e9,
+                                              .density = 2400,
+                                              .penalty_factor = 10,
+                                              .tensile_strength = 5e6,
+                                              .shear_strength = 15e6,
+                                              .energy_mode_1 = 100,
+                                              .end = 1e-6});
 
 /// What `check` says, with all advice.
 std::string whole_report(const case_::Case& input) {
@@ -235,26 +227,9 @@ TEST(CheckReport, tells_that_the_finest_part_alone_of_a_graded_mesh_is_fine_enou
 }
 
 TEST(CheckReport, counts_bodies_that_gravity_makes_meet) {
-  const std::string fall = R"([mesh.raster]
-cell_size = "10 mm"
-boxes = [1, 1, 2]
-gap = "20 mm"
-group = "rock"
-[[material]]
-group = "rock"
-young = "1 GPa"
-poisson = 0.2
-density = 1000
-joints = "none"
-[[contact]]
-between = ["*", "*"]
-penalty = "10 GPa"
-[[stage]]
-end = "0.1 s"
-[[stage.constraint]]
-group = "rock.z0"
-fixed = "xyz"
-)";
+  const std::string fall =
+      test::raster_case({.group = "rock", .boxes = {1, 1, 2}, .gap = 0.02, .contact_penalty = 10e9, .end = 0.1}) +
+      "[[stage.constraint]]\ngroup = \"rock.z0\"\nfixed = \"xyz\"\n";
   const auto resting = case_::read_text(fall), falling = case_::read_text(fall, {"stage[0].gravity=[0, 0, -9.81]"});
   const auto estimate = [](const case_::Case& input) {
     const Model model = build_model(input);
@@ -308,9 +283,7 @@ TEST(CheckReport, lists_so_many_of_the_advice_and_says_how_many_more_there_are) 
 }
 
 TEST(MeshReport, gives_angles_in_degrees) {
-  RasterSource source;
-  source.cell_size = Vec3(1, 2, 3);
-  const FinishedMesh made = make_raster(source);
+  const FinishedMesh made = make_raster({.cell_size = Vec3(1, 2, 3)});
   const QualityReport quality = assess_quality(made.mesh);
   const std::string text = mesh_report(made, assess_quality(made.mesh));
   constexpr double kDegree = std::numbers::pi / 180, kOneDecimal = 0.051;

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "case/schema.hpp"
+#include "support/raster_case.hpp"
 #include "unit/case/case_files.hpp"
 
 namespace breccia::json_report_test {
@@ -13,23 +14,15 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::string kCubes = R"(title = "cubes"
-[mesh.raster]
-cells = [2, 2, 2]
-cell_size = "10 mm"
-group = "cubes"
-[[material]]
-group = "cubes"
-young = "40 GPa"
-poisson = 0.2
-density = 2400
-[[joint]]
-group = "cubes"
-tensile_strength = "5 MPa"
-energy_mode_1 = "100 J/m2"
-[[stage]]
-end = "1 us"
-[output]
+const std::string kCubes = test::raster_case({.title = "cubes",
+                                              .group = "cubes",
+                                              .cells = {2, 2, 2},
+                                              .young = 40e9,
+                                              .density = 2400,
+                                              .tensile_strength = 5e6,
+                                              .energy_mode_1 = 100,
+                                              .end = 1e-6}) +
+                           R"([output]
 frame_interval = "250 ns"
 )";
 

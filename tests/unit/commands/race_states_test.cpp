@@ -11,6 +11,7 @@
 #include "commands/race.hpp"
 #include "detection/point_body/brute_force.hpp"
 #include "model/parameters.hpp"
+#include "support/raster_case.hpp"
 
 namespace breccia {
 
@@ -41,22 +42,16 @@ namespace {
 
 using enum case_::DetectionAlgorithm;
 
-constexpr const char* kTwoBoxesMeet = R"(title = "two boxes meet"
-[mesh.raster]
-cells = [1, 1, 1]
-cell_size = "10 mm"
-boxes = [2, 1, 1]
-gap = ["0.2 mm", "0 mm", "0 mm"]
-group = "box"
-[[material]]
-group = "box"
-young = "4 MPa"
-poisson = 0.3
-density = "2340 kg/m3"
-joints = "none"
-[[contact]]
-between = ["*", "*"]
-penalty = "40 MPa"
+const std::string kTwoBoxesMeet = test::raster_case({.title = "two boxes meet",
+                                                     .group = "box",
+                                                     .boxes = {2, 1, 1},
+                                                     .gap = 0.2e-3,
+                                                     .young = 4e6,
+                                                     .poisson = 0.3,
+                                                     .density = 2340,
+                                                     .contact_penalty = 40e6,
+                                                     .end = 4e-3}) +
+                                  R"(name = "fly"
 [[initial_velocity]]
 group = "box"
 random = ["2 m/s", "4 m/s"]
@@ -65,9 +60,6 @@ seed = 3
 centre = ["10 mm", "5 mm", "5 mm"]
 radius = "16 mm"
 penalty = "40 MPa"
-[[stage]]
-name = "fly"
-end = "4 ms"
 )";
 
 class RaceStates : public testing::Test {

@@ -17,12 +17,8 @@ constexpr double kRoundOff = 1e-12;  // m, of displacements and positions below 
 class TwoBoxes {
  public:
   TwoBoxes() {
-    RasterSource source;
-    source.cells = {1, 1, 1};
-    source.boxes = {2, 1, 1};
-    source.gap = {1, 0, 0};
-    source.group = "box";
-    local_ = build_local_mesh(make_raster(source).mesh, {Discretisation::own_nodes}, {1000.0});
+    const Mesh mesh = make_raster({.boxes = {2, 1, 1}, .gap = {1, 0, 0}}).mesh;
+    local_ = build_local_mesh(mesh, {Discretisation::own_nodes}, {1000.0});
     now_ = local_.reference;
   }
   void move(Index body, const Vec3& by) {

@@ -8,6 +8,7 @@
 #include "contact/contact_search.hpp"
 #include "contact/search_params.hpp"
 #include "physics/contact/contact_forces.hpp"
+#include "support/raster_case.hpp"
 #include "unit/case/case_files.hpp"
 
 namespace breccia::initial_overlap_test {
@@ -18,26 +19,15 @@ constexpr double kShallow = 1e-4;  // m, less than contact points are away from 
 
 /// Two cubes of 10 mm, 1 mm apart along x.
 case_::Case cubes(const std::string& more = "") {
-  return case_::read_text(R"(title = "cubes"
-[mesh.raster]
-cells = [1, 1, 1]
-boxes = [2, 1, 1]
-gap = ["1 mm", 0, 0]
-cell_size = "10 mm"
-group = "cubes"
-[[material]]
-group = "cubes"
-young = "40 GPa"
-poisson = 0.2
-density = 2400
-joints = "none"
-[[contact]]
-between = ["*", "*"]
-penalty = "4 GPa"
-)" + more + R"(
-[[stage]]
-end = "1 us"
-)");
+  return case_::read_text(test::raster_case({.title = "cubes",
+                                             .group = "cubes",
+                                             .boxes = {2, 1, 1},
+                                             .gap = kGap,
+                                             .young = 40e9,
+                                             .density = 2400,
+                                             .contact_penalty = kPenalty,
+                                             .sections = more + "\n",
+                                             .end = 1e-6}));
 }
 
 /// The model with its second cube moved along x, m.
@@ -83,32 +73,21 @@ TEST(initial_overlap, is_found_where_bodies_coincide_though_their_surfaces_lie_o
 }
 
 TEST(initial_overlap, is_not_of_a_body_with_itself_where_a_crack_is_open_from_the_start) {
-  const case_::Case input = case_::read_text(R"(title = "slit"
-[mesh.raster]
-cells = [2, 2, 2]
-boxes = [2, 1, 1]
-gap = ["1 mm", 0, 0]
-cell_size = "10 mm"
-group = "cubes"
-slit = { lower = [0, 0, "10 mm"], upper = ["10 mm", "20 mm", "10 mm"] }
-[[material]]
-group = "cubes"
-young = "40 GPa"
-poisson = 0.2
-density = 2400
-[[joint]]
-group = "cubes"
-penalty_factor = 10
-tensile_strength = "5 MPa"
-energy_mode_1 = "100 J/m2"
-[joints]
-broken = ["cubes.slit"]
-[[contact]]
-between = ["*", "*"]
-penalty = "4 GPa"
-[[stage]]
-end = "1 us"
-)");
+  const case_::Case input =
+      case_::read_text(test::raster_case({.title = "slit",
+                                          .group = "cubes",
+                                          .cells = {2, 2, 2},
+                                          .boxes = {2, 1, 1},
+                                          .gap = kGap,
+                                          .mesh = "slit = { lower = [0, 0, 0.01], upper = [0.01, 0.02, 0.01] }\n",
+                                          .young = 40e9,
+                                          .density = 2400,
+                                          .penalty_factor = 10,
+                                          .tensile_strength = 5e6,
+                                          .energy_mode_1 = 100,
+                                          .contact_penalty = kPenalty,
+                                          .sections = "[joints]\nbroken = [\"cubes.slit\"]\n",
+                                          .end = 1e-6}));
   EXPECT_TRUE(initial_overlaps(build_model(input)).empty());
 }
 

@@ -12,13 +12,7 @@
 namespace breccia::fragments_test {
 namespace {
 
-Mesh two_boxes() {
-  RasterSource source;
-  source.cells = {2, 1, 1};
-  source.boxes = {2, 1, 1};
-  source.gap = Vec3(1, 0, 0);
-  return make_raster(source).mesh;
-}
+Mesh two_boxes() { return make_raster({.cells = {2, 1, 1}, .boxes = {2, 1, 1}, .gap = Vec3(1, 0, 0)}).mesh; }
 
 LocalMesh local_mesh(const Mesh& mesh, Discretisation kind) { return build_local_mesh(mesh, {kind}, {1000.0}); }
 
@@ -120,9 +114,7 @@ TEST(Fragments, PassThroughLinkedJointsAndStopAtDetachedOnes) {
 }
 
 TEST(Fragments, LeavePaddingOut) {
-  RasterSource source;
-  source.single_tetrahedra = true;
-  const LocalMesh mesh = local_mesh(make_raster(source).mesh, Discretisation::shared_nodes);
+  const LocalMesh mesh = local_mesh(make_raster({.single_tetrahedra = true}).mesh, Discretisation::shared_nodes);
   const Fragments fragments = FragmentFinder(mesh).find();
   EXPECT_EQ(fragments.count, 1);
   EXPECT_EQ(fragments.of_slot, (std::vector<GlobalId>{0, -1, -1, -1, -1, -1, -1, -1}));

@@ -11,12 +11,7 @@ namespace {
 
 constexpr double kRounding = 1e-12;
 
-Mesh cubes() {
-  RasterSource source;
-  source.cells = {1, 2, 1};
-  source.random_orientation = true;
-  return make_raster(source).mesh;
-}
+Mesh cubes() { return make_raster({.cells = {1, 2, 1}, .random_orientation = true}).mesh; }
 
 class LocalMeshOf : public testing::TestWithParam<Discretisation> {};
 INSTANTIATE_TEST_SUITE_P(Discretisations, LocalMeshOf,

@@ -17,10 +17,7 @@ namespace {
 
 /// A bar of cubes along x whose elements belong to a volume each `cubes` long, read but not finished.
 Mesh bar_of_volumes(int cubes, int volumes) {
-  RasterSource source;
-  source.cells = {cubes * volumes, 1, 1};
-  source.cell_size = Vec3(1, 1, 1);
-  Mesh mesh = make_raster(source).mesh;
+  Mesh mesh = make_raster({.cells = {cubes * volumes, 1, 1}}).mesh;
   for (Index e = 0; e < mesh.num_elements(); ++e) {
     double x = 0;
     for (const Vec3& corner : geometry::corners_of(mesh, e)) x += 0.25 * corner.x();

@@ -12,11 +12,13 @@
 #include "mesh/msh_scan.hpp"
 #include "mesh/step_scan.hpp"
 #include "sample_meshes.hpp"
+#include "support/replaced.hpp"
 
 namespace breccia::damaged_files_test {
 namespace {
 
 namespace fs = std::filesystem;
+using test::replaced;
 using testing::AllOf;
 using testing::AnyOf;
 using testing::HasSubstr;
@@ -26,12 +28,6 @@ using testing::SizeIs;
 std::string text_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
 std::string refusal_of(const fs::path& file) {

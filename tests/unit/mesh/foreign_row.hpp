@@ -12,6 +12,7 @@
 #include "mesh/geometry.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "sample_meshes.hpp"
+#include "support/replaced.hpp"
 
 // Rows of a table of files as other programs write them: each is read with its volume and groups, or refused with a
 // line that helps.
@@ -35,11 +36,6 @@ inline void PrintTo(const Row& row, std::ostream* stream) { *stream << row.name 
 
 inline std::function<std::string()> text(const std::string& given) {
   return [given] { return given; };
-}
-inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
 /// Reads the file of a row and compares.

@@ -15,6 +15,7 @@
 namespace breccia::gmsh_groups_test {
 namespace {
 
+using test::refusal_of;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -22,15 +23,6 @@ GmshSource script(const std::string& name, const std::string& text) {
   GmshSource source;
   source.file = test::write_file(test::scratch_folder("groups_" + name) / "model.geo", text);
   return source;
-}
-
-std::string refusal_of(const GmshSource& source) {
-  try {
-    (void)read_gmsh(source);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 /// Meshes a script, divides the mesh into parts as `gmsh -part` does, and writes it.

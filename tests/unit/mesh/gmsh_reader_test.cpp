@@ -11,7 +11,6 @@
 #include <map>
 
 #include "base/error.hpp"
-#include "mesh/geometry.hpp"
 #include "mesh/topology.hpp"
 #include "sample_meshes.hpp"
 
@@ -23,6 +22,8 @@ extern "C" const char* __lsan_default_suppressions() { return "leak:libgmsh"; }
 namespace breccia::gmsh_reader_test {
 namespace {
 
+using test::refusal_of;
+using test::volume_of;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -30,24 +31,6 @@ GmshSource script(const std::string& name, const std::string& text) {
   GmshSource source;
   source.file = test::write_file(test::scratch_folder("reader_" + name) / "model.geo", text);
   return source;
-}
-
-std::string refusal_of(const GmshSource& source) {
-  try {
-    (void)read_gmsh(source);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
-double volume_of(const Mesh& mesh) {
-  double sum = 0;
-  for (Index e = 0; e < mesh.num_elements(); ++e) {
-    const auto x = geometry::corners_of(mesh, e);
-    sum += geometry::tetra_volume(x[0], x[1], x[2], x[3]);
-  }
-  return sum;
 }
 
 // --- Scripts and their parameters

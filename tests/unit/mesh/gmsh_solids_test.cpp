@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "mesh/geometry.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "sample_meshes.hpp"
 
@@ -20,6 +19,8 @@ namespace breccia::gmsh_solids_test {
 namespace {
 
 namespace fs = std::filesystem;
+using test::refusal_of;
+using test::volume_of;
 using testing::AllOf;
 using testing::Each;
 using testing::ElementsAre;
@@ -60,24 +61,6 @@ GmshSource source(const fs::path& file) {
   asked.file = file;
   asked.time_limit = 120;
   return asked;
-}
-
-std::string refusal_of(const GmshSource& asked) {
-  try {
-    (void)read_gmsh(asked);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
-double volume_of(const Mesh& mesh) {
-  double sum = 0;
-  for (Index e = 0; e < mesh.num_elements(); ++e) {
-    const auto x = geometry::corners_of(mesh, e);
-    sum += geometry::tetra_volume(x[0], x[1], x[2], x[3]);
-  }
-  return sum;
 }
 
 TEST(GmshSolids, AStepFileInMillimetresComesInMetresWithItsNames) {

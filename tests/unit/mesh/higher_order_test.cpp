@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "mesh/geometry.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/mesh_bytes.hpp"
 #include "sample_meshes.hpp"
@@ -11,6 +10,7 @@
 namespace breccia::higher_order_test {
 namespace {
 
+using test::volume_of;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
@@ -24,15 +24,6 @@ FinishedMesh cylinder(int order) {
       "Mesh.ElementOrder = " +
           std::to_string(order) + ";\n");
   return read_gmsh(source);
-}
-
-double volume_of(const Mesh& mesh) {
-  double sum = 0;
-  for (Index e = 0; e < mesh.num_elements(); ++e) {
-    const auto x = geometry::corners_of(mesh, e);
-    sum += geometry::tetra_volume(x[0], x[1], x[2], x[3]);
-  }
-  return sum;
 }
 
 class HigherOrder : public testing::TestWithParam<int> {};

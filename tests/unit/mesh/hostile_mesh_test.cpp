@@ -19,21 +19,13 @@
 namespace breccia::hostile_mesh_test {
 namespace {
 
+using test::refusal_of;
 using testing::AllOf;
 using testing::AnyOf;
 using testing::HasSubstr;
 
 constexpr const char* kBox =
     "SetFactory(\"OpenCASCADE\");\nBox(1) = {0,0,0,1,1,1};\nMeshSize{:} = 1;\nPhysical Volume(\"box\") = {1};\n";
-
-std::string refusal_of(const GmshSource& source) {
-  try {
-    (void)read_gmsh(source);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 /// Whether a child can be kept from reading.
 bool test_kernel_limits_files() {

@@ -171,9 +171,7 @@ TEST(NodalSurfaceDistance, OfABoxIsTheDistanceToItsNearestSide) {
 }
 
 TEST(NodalSurfaceDistance, IsABoundUnderThinLayersToo) {
-  RasterSource source;
-  source.cells = {5, 5, 6};
-  Mesh mesh = make_raster(source).mesh;
+  Mesh mesh = make_raster({.cells = {5, 5, 6}}).mesh;
   for (Vec3& x : mesh.nodes) x.z() = x.z() < 2 ? 0.05 * x.z() : x.z() - 1.9;  // two thin layers above thick ones
   const Topology topology = build_topology(mesh);
   const auto exact = by_brute_force(mesh, topology, false);
@@ -183,10 +181,7 @@ TEST(NodalSurfaceDistance, IsABoundUnderThinLayersToo) {
 }
 
 TEST(NodalSurfaceDistance, CountsFacesThatAreCutAsFree) {
-  RasterSource source;
-  source.cells = {6, 6, 4};
-  source.slit = RasterSource::Slit{Vec3(2, 3, 0), Vec3(4, 3, 4)};
-  const Mesh mesh = make_raster(source).mesh;
+  const Mesh mesh = make_raster({.cells = {6, 6, 4}, .slit = {{Vec3(2, 3, 0), Vec3(4, 3, 4)}}}).mesh;
   const Topology whole = build_topology(mesh);
   Topology cut = whole;
   for (const Topology::Face& face : whole.surface_groups.back())

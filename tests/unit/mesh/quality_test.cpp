@@ -56,10 +56,7 @@ TEST(ElementQuality, OfASliverTendsToZeroWithDihedralsOfZeroAndPi) {
 
 TEST(QualityReport, OfARasterIsThatOfItsOneElementShape) {
   // A cube of 1 m: every element has corners (0 0 0) (1 0 0) (.5 .5 0) (.5 .5 .5) up to symmetry.
-  RasterSource source;
-  source.cells = {3, 3, 3};
-  source.boxes = {2, 1, 1};
-  const Mesh mesh = make_raster(source).mesh;
+  const Mesh mesh = make_raster({.cells = {3, 3, 3}, .boxes = {2, 1, 1}}).mesh;
   const QualityReport report = assess_quality(mesh);
   const double edges = (1 + 2 * std::sqrt(0.5) + 2 * std::sqrt(0.75) + 0.5) / 6;
   for (const double value : {report.mean_edge.min, report.mean_edge.p05, report.mean_edge.median, report.mean_edge.p99,

@@ -35,11 +35,10 @@ std::vector<double> volumes_of_bodies(const Mesh& mesh) {
 }
 
 TEST(Raster, OfTheSlitPlateHas442368ElementsAnd98409Nodes) {
-  RasterSource source;
-  source.cells = {48, 48, 8};
-  source.cell_size = Vec3::Constant(1.25e-3);
-  source.slit = RasterSource::Slit{Vec3(0.02, 0.03, 0), Vec3(0.04, 0.03, 0.01)};
-  const auto [mesh, report] = make_raster(source);
+  const Mesh mesh = make_raster({.cells = {48, 48, 8},
+                                 .cell_size = Vec3::Constant(1.25e-3),
+                                 .slit = {{Vec3(0.02, 0.03, 0), Vec3(0.04, 0.03, 0.01)}}})
+                        .mesh;
   EXPECT_EQ(mesh.num_elements(), 48 * 48 * 8 * 24);
   EXPECT_EQ(mesh.num_nodes(), 98409);  // 49 49 9 corners, 48 48 8 centres, 2 x 49 48 8 + 48 48 9 face centres
   const Topology topology = build_topology(mesh);
@@ -74,10 +73,7 @@ TEST(Raster, FillsEveryBoxWithPositiveElementsAndKeepsBoxesApart) {
 }
 
 TEST(Raster, CutsACubeIntoTwentyFourEqualTetrahedraAboutItsCentre) {
-  RasterSource source;
-  source.cell_size = Vec3::Constant(2);
-  source.origin = Vec3(-1, -1, -1);
-  const Mesh mesh = make_raster(source).mesh;
+  const Mesh mesh = make_raster({.cell_size = Vec3::Constant(2), .origin = Vec3(-1, -1, -1)}).mesh;
   EXPECT_EQ(mesh.num_elements(), 24);
   EXPECT_EQ(mesh.num_nodes(), 8 + 6 + 1);
   for (Index e = 0; e < 24; ++e) {
@@ -124,11 +120,8 @@ TEST(Raster, NamesTheSixSidesOfEveryBox) {
 }
 
 TEST(Raster, FindsASlitGivenInDecimalThoughNodesAreSumsOfBinaryNumbers) {
-  RasterSource source;
-  source.cells = {4, 6, 2};
-  source.cell_size = Vec3::Constant(0.1);
-  source.slit = RasterSource::Slit{Vec3(0, 0.3, 0), Vec3(0.3, 0.3, 0.2)};  // 3 x 0.1 is above 0.3
-  const Mesh mesh = make_raster(source).mesh;
+  const RasterSource::Slit slit{Vec3(0, 0.3, 0), Vec3(0.3, 0.3, 0.2)};  // 3 x 0.1 is above 0.3
+  const Mesh mesh = make_raster({.cells = {4, 6, 2}, .cell_size = Vec3::Constant(0.1), .slit = slit}).mesh;
   const Topology topology = build_topology(mesh);
   EXPECT_EQ(topology.surface_groups.back().size(), 3u * 2 * 4 * 2) << "three squares by two, of four triangles, twice";
 }

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <string>
 
+#include "base/error.hpp"
+#include "mesh/geometry.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/raster.hpp"
 
@@ -63,12 +65,28 @@ inline FinishedMesh two_boxes(const std::string& name, double size, bool glue) {
 }
 
 inline FinishedMesh raster_box(std::array<int, 3> cells, std::array<int, 3> boxes = {1, 1, 1}) {
-  RasterSource source;
-  source.cells = cells;
-  source.cell_size = Vec3(1.0, 0.75, 1.25);
-  source.boxes = boxes;
-  source.gap = Vec3(0.5, 0.25, 0.125);
-  return make_raster(source);
+  return make_raster(
+      {.cells = cells, .cell_size = Vec3(1.0, 0.75, 1.25), .boxes = boxes, .gap = Vec3(0.5, 0.25, 0.125)});
+}
+
+/// The message that refuses a file; "accepted" where it is read.
+inline std::string refusal_of(const GmshSource& source) {
+  try {
+    (void)read_gmsh(source);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+/// Of all elements, m3.
+inline double volume_of(const Mesh& mesh) {
+  double sum = 0;
+  for (Index e = 0; e < mesh.num_elements(); ++e) {
+    const auto x = geometry::corners_of(mesh, e);
+    sum += geometry::tetra_volume(x[0], x[1], x[2], x[3]);
+  }
+  return sum;
 }
 
 inline Vec3 node_of(const Mesh& mesh, Index element, int corner) {

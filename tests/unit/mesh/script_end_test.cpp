@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "mesh/geometry.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "sample_meshes.hpp"
 
@@ -14,6 +13,7 @@ namespace breccia::script_end_test {
 namespace {
 
 namespace fs = std::filesystem;
+using test::volume_of;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -27,15 +27,6 @@ GmshSource source(const std::string& name, const std::string& text) {
   asked.file = test::write_file(test::scratch_folder("script_end_" + name) / "model.geo", text);
   asked.time_limit = 60;
   return asked;
-}
-
-double volume_of(const Mesh& mesh) {
-  double sum = 0;
-  for (Index e = 0; e < mesh.num_elements(); ++e) {
-    const auto x = geometry::corners_of(mesh, e);
-    sum += geometry::tetra_volume(x[0], x[1], x[2], x[3]);
-  }
-  return sum;
 }
 
 constexpr double kRoundOff = 1e-12;

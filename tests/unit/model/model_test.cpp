@@ -16,6 +16,7 @@
 #include "model/surfaces_to_break.hpp"
 #include "model/time_step.hpp"
 #include "support/notched_beam.hpp"
+#include "support/raster_case.hpp"
 #include "system/child_process.hpp"
 #include "unit/model/two_boxes.hpp"
 
@@ -24,26 +25,15 @@ namespace {
 
 using test::two_boxes_case;
 
-const std::string kRaster = R"([mesh.raster]
-cells = [4, 4, 2]
-cell_size = "10 mm"
-slit = { lower = [0, "20 mm", 0], upper = ["20 mm", "20 mm", "20 mm"] }
-[[material]]
-group = "raster"
-young = "40 GPa"
-poisson = 0.2
-density = 2400
-[[joint]]
-group = "raster"
-penalty_factor = 10
-tensile_strength = "5 MPa"
-shear_strength = "15 MPa"
-energy_mode_1 = "100 J/m2"
-[joints]
-broken = ["raster.slit"]
-[[stage]]
-end = "1 ms"
-)";
+const std::string kRaster = test::raster_case({.cells = {4, 4, 2},
+                                               .mesh = "slit = { lower = [0, 0.02, 0], upper = [0.02, 0.02, 0.02] }\n",
+                                               .young = 40e9,
+                                               .density = 2400,
+                                               .penalty_factor = 10,
+                                               .tensile_strength = 5e6,
+                                               .shear_strength = 15e6,
+                                               .energy_mode_1 = 100,
+                                               .sections = "[joints]\nbroken = [\"raster.slit\"]\n"});
 
 TEST(Model, has_no_joint_and_no_link_from_either_side_where_it_is_broken_from_the_start) {
   const case_::Case input = case_::read_text(kRaster);
@@ -97,7 +87,7 @@ TEST(SurfacesToBreak, have_breakable_joints_or_are_refused) {
   const auto stage = [](const std::string& surface, const std::string& joints) {
     std::string text = kRaster;
     text.replace(text.find("broken = [\"raster.slit\"]\n"), 25, "");
-    text.replace(text.find("density"), 0, "joints = \"" + joints + "\"\n");
+    text.replace(text.find("breakable"), 9, joints);
     return case_::read_text(text + "broken = [\"" + surface + "\"]\n");
   };
   const auto message = [&](const std::string& surface, const std::string& joints) -> std::string {

@@ -15,15 +15,8 @@ int number_of(const std::vector<std::uint8_t>& faces) {
   return number;
 }
 
-RasterSource cubes(std::array<int, 3> cells, std::array<int, 3> boxes) {
-  RasterSource source;
-  source.cells = cells;
-  source.boxes = boxes;
-  return source;
-}
-
 TEST(TornFaces, AreBothSidesOfASlit) {
-  Mesh mesh = make_raster(cubes({2, 1, 1}, {1, 1, 1})).mesh;
+  Mesh mesh = make_raster({.cells = {2, 1, 1}}).mesh;
   Topology topology = build_topology(mesh);
   EXPECT_EQ(number_of(torn_faces(mesh, topology)), 0) << "a whole block";
   int cut = 0;
@@ -51,7 +44,7 @@ TEST(TornFaces, AreBothSidesOfASlit) {
 }
 
 TEST(TornFaces, AreNotThoseOfBodiesThatLieAgainstEachOther) {
-  const Mesh mesh = make_raster(cubes({1, 1, 1}, {2, 1, 1})).mesh;
+  const Mesh mesh = make_raster({.boxes = {2, 1, 1}}).mesh;
   EXPECT_EQ(mesh.num_bodies, 2);
   EXPECT_EQ(number_of(torn_faces(mesh, build_topology(mesh))), 0);
 }

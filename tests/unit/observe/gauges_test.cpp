@@ -11,6 +11,7 @@
 #include "contact/search_params.hpp"
 #include "model/parameters.hpp"
 #include "simulation/step.hpp"
+#include "support/raster_case.hpp"
 #include "unit/case/case_files.hpp"
 
 namespace breccia::gauges_test {
@@ -21,23 +22,13 @@ constexpr double kRounding = 1e-12;
 
 /// Two boxes of one group, 5 mm apart, of finite elements: their nodes have masses that differ by a factor of six.
 case_::Case two_boxes(const std::string& stage, const std::string& turned) {
-  return case_::read_text(R"([mesh.raster]
-cells = [2, 1, 1]
-cell_size = "10 mm"
-boxes = [2, 1, 1]
-gap = ["5 mm", 0, 0]
-group = "box"
-random_orientation = )" + turned +
-                          R"(
-[[material]]
-group = "box"
-young = "1 GPa"
-poisson = 0.2
-density = 2000
-joints = "none"
-[[stage]]
-end = "1 ms"
-)" + stage);
+  return case_::read_text(test::raster_case({.group = "box",
+                                             .cells = {2, 1, 1},
+                                             .boxes = {2, 1, 1},
+                                             .gap = 5e-3,
+                                             .mesh = "random_orientation = " + turned + "\n",
+                                             .density = 2000}) +
+                          stage);
 }
 
 constexpr double kBoxMass = 2000 * 2e-6;  // kg

@@ -5,6 +5,7 @@
 #include "domains/domain.hpp"
 #include "model/model.hpp"
 #include "model/parameters.hpp"
+#include "support/raster_case.hpp"
 #include "unit/case/case_files.hpp"
 
 namespace breccia::test {
@@ -16,26 +17,15 @@ constexpr double kCubeStep = 1e-8;     // s
 /// A box of two cubes along x, each of 24 elements, with a slit of four faces between them that holds until it is
 /// broken. @param more  lines of the case, before the stage
 inline case_::Case two_cubes(const std::string& more = "") {
-  return case_::read_text(R"([mesh.raster]
-cells = [2, 1, 1]
-cell_size = "10 mm"
-group = "box"
-slit = { lower = ["10 mm", 0, 0], upper = ["10 mm", "10 mm", "10 mm"] }
-[[material]]
-group = "box"
-young = "1 GPa"
-poisson = 0.2
-density = 2000
-joints = "breakable"
-[[joint]]
-group = "box"
-penalty_factor = 10
-tensile_strength = "1 MPa"
-energy_mode_1 = "10 J/m2"
-)" + more + R"([[stage]]
-name = "rest"
-end = "1 ms"
-)");
+  return case_::read_text(raster_case({.group = "box",
+                                       .cells = {2, 1, 1},
+                                       .mesh = "slit = { lower = [0.01, 0, 0], upper = [0.01, 0.01, 0.01] }\n",
+                                       .density = kCubeDensity,
+                                       .penalty_factor = 10,
+                                       .tensile_strength = 1e6,
+                                       .energy_mode_1 = 10,
+                                       .sections = more}) +
+                          "name = \"rest\"\n");
 }
 
 /// The cubes in their stage, with a step far below the stable one.

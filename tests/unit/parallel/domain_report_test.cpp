@@ -13,11 +13,7 @@ namespace {
 
 constexpr Index kJoints = -1, kNone = 0;
 
-Mesh block(std::array<int, 3> cells) {
-  RasterSource source;
-  source.cells = cells;
-  return make_raster(source).mesh;
-}
+Mesh block(std::array<int, 3> cells) { return make_raster({.cells = cells}).mesh; }
 
 int common_nodes(const Mesh& mesh, std::size_t a, std::size_t b) {
   int common = 0;

@@ -9,12 +9,7 @@
 
 namespace breccia::test {
 
-inline Mesh cubes() {
-  RasterSource source;
-  source.cells = {3, 2, 1};
-  source.group = "block";
-  return make_raster(source).mesh;
-}
+inline Mesh cubes() { return make_raster({.cells = {3, 2, 1}, .group = "block"}).mesh; }
 
 /// Bare records of a whole mesh, with one tag, joint and hold for every third element.
 inline Records records_of(const Mesh& mesh, const Topology& topology) {

@@ -24,11 +24,7 @@ namespace breccia::test {
 
 /// Raster of one box as a mesh of its own.
 inline Mesh box(std::array<int, 3> cells, double cell, const Vec3& origin = Vec3::Zero()) {
-  RasterSource source;
-  source.cells = cells;
-  source.cell_size = Vec3::Constant(cell);
-  source.origin = origin;
-  return make_raster(source).mesh;
+  return make_raster({.cells = cells, .cell_size = Vec3::Constant(cell), .origin = origin}).mesh;
 }
 
 /// One tetrahedron.

@@ -79,21 +79,14 @@ inline TimeFunction in_time(double constant, double slope = 0, double amplitude 
 
 /// Box of cubes of 24 tetrahedra.
 inline Mesh box(std::array<int, 3> cells, double edge = 1.0, std::array<int, 3> boxes = {1, 1, 1}, double gap = 0.5) {
-  RasterSource source;
-  source.cells = cells;
-  source.cell_size = Vec3::Constant(edge);
-  source.boxes = boxes;
-  source.gap = Vec3::Constant(gap * edge);
-  return make_raster(source).mesh;
+  return make_raster(
+             {.cells = cells, .cell_size = Vec3::Constant(edge), .boxes = boxes, .gap = Vec3::Constant(gap * edge)})
+      .mesh;
 }
 
 /// Regular tetrahedra, each a body.
 inline Mesh tetrahedron(double edge = 1.0, std::array<int, 3> boxes = {1, 1, 1}) {
-  RasterSource source;
-  source.single_tetrahedra = true;
-  source.boxes = boxes;
-  source.cell_size = Vec3::Constant(edge);
-  return make_raster(source).mesh;
+  return make_raster({.cell_size = Vec3::Constant(edge), .boxes = boxes, .single_tetrahedra = true}).mesh;
 }
 
 /// The same mesh with every node moved at random by up to `share`; volumes stay positive for a share below 0.1 or so.
