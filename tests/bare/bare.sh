@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What a newcomer does, on a system where nothing is installed: the working commit is cloned into a new Debian tree, where the README's first
 # command runs and the tests are configured (with --full: built and run). With --package, the Debian packages in build/packages are installed there
-# instead, used by an ordinary user, and removed. Called by `./run test --bare`.
+# instead, used by an ordinary user, and removed. What this machine has compiled through ccache is taken from there. Called by `./run test --bare`.
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 repository=$(cd "$here/../.." && pwd)
@@ -55,6 +55,11 @@ tree=$(mktemp -d "${TMPDIR:-/var/tmp}/breccia-bare.XXXXXX")
 out=$repository/runs/bare/$release
 leave() {
   umount -R "$tree/dev" "$tree/proc" "$tree/sys" 2>/dev/null || true
+  # What is mounted from this machine must never be removed with the tree: that would be of one file system.
+  if mountpoint -q "$tree/root/.cache/ccache" && ! umount "$tree/root/.cache/ccache"; then
+    echo "bare: $tree is left, since this machine's compiler cache is still mounted there" >&2
+    return
+  fi
   rm -rf --one-file-system "$tree"
 }
 trap leave EXIT
@@ -92,9 +97,21 @@ step() {
   echo "bare: done in $((SECONDS - start)) s; the tree holds $(du -shx "$tree" | cut -f1)"
 }
 
+# Where this machine compiles through ccache, so does the tree, from the same cache. Nothing that is missing is hidden: ccache
+# brings no header or library to compile with, and knows an object again only by the compiler and by all that is included.
+share_compiler_cache() {
+  local cache
+  command -v ccache >/dev/null || return 0
+  cache=$(ccache --get-config cache_dir) && [[ -n $cache ]] && mkdir -p "$cache" || return 0
+  step ccache "apt-get update && apt-get install -y --no-install-recommends ccache && rm -rf /var/lib/apt/lists/*"
+  mkdir -p "$tree/root/.cache/ccache"
+  mount --bind "$cache" "$tree/root/.cache/ccache"
+}
+
 newcomer() {
   [[ -z "$(git -C "$repository" status --porcelain)" ]] || echo "bare: what is not committed is not in the clone"
   git clone --quiet --no-hardlinks "$repository" "$tree/root/breccia"
+  share_compiler_cache
   step demo "./run demo"
   grep -E '^(Need to get|[0-9]+ upgraded)' "$out/demo.log" || true
   local picture file

@@ -60,7 +60,7 @@ class HeldRun {
     run_ = start_ranks(ranks, "run " + file + " --progress none -o '" + folder().string() +
                                   "' --set 'stage[0].end=1000 s' --set 'time.step=10 ns' --set "
                                   "'output.frame_interval=0 s' --set 'output.history_interval=1 us' --set "
-                                  "'insitu.live.interval=0 s' --live localhost:" +
+                                  "'insitu.live.interval=0 s' --set insitu.live.max_overhead=0.9 --live localhost:" +
                                   std::to_string(port));
   }
   HeldRun(const HeldRun&) = delete;
