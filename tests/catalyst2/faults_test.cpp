@@ -43,7 +43,7 @@ class Catalyst2Faults : public testing::TestWithParam<int> {
   }
 };
 
-TEST_P(Catalyst2Faults, an_implementation_that_fails_costs_the_run_its_pipelines_and_nothing_else) {
+TEST_P(Catalyst2Faults, AnImplementationThatFailsCostsTheRunItsPipelinesAndNothingElse) {
   const CatalystRun plain(1, ""), run(GetParam(), kBackend + kPipelines, last_rank("throw"));
   EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   EXPECT_EQ(run.summary()["state_hash"], plain.summary()["state_hash"]);
@@ -51,7 +51,7 @@ TEST_P(Catalyst2Faults, an_implementation_that_fails_costs_the_run_its_pipelines
   EXPECT_TRUE(tells(run, "switched off after 3 failures")) << run.outcome.err;
 }
 
-TEST_P(Catalyst2Faults, an_abort_within_an_implementation_leaves_a_line_that_names_the_pipeline_and_it) {
+TEST_P(Catalyst2Faults, AnAbortWithinAnImplementationLeavesALineThatNamesThePipelineAndIt) {
   const CatalystRun run(GetParam(), kBackend + kPipelines, last_rank("abort"));
   EXPECT_NE(run.outcome.exit_code, 0);
   EXPECT_TRUE(tells(run,
@@ -60,7 +60,7 @@ TEST_P(Catalyst2Faults, an_abort_within_an_implementation_leaves_a_line_that_nam
       << run.outcome.err;
 }
 
-TEST_P(Catalyst2Faults, an_implementation_that_does_not_come_back_ends_the_run_with_a_line) {
+TEST_P(Catalyst2Faults, AnImplementationThatDoesNotComeBackEndsTheRunWithALine) {
   const CatalystRun run(GetParam(), kBackend + kPipelines + "--set 'domains.patience=\"3 s\"'", last_rank("hang"));
   EXPECT_EQ(run.outcome.exit_code, 4) << run.outcome.err;
   EXPECT_TRUE(GetParam() == 1 ? tells(run, "pipeline fractures: has not come back for ")
@@ -68,37 +68,37 @@ TEST_P(Catalyst2Faults, an_implementation_that_does_not_come_back_ends_the_run_w
       << run.outcome.err;
 }
 
-TEST_P(Catalyst2Faults, a_start_that_does_not_come_back_ends_the_run_with_a_line) {
+TEST_P(Catalyst2Faults, AStartThatDoesNotComeBackEndsTheRunWithALine) {
   const CatalystRun run(GetParam(), kBackend + kPipelines + "--set 'domains.patience=\"3 s\"'",
                         "STANDIN_FAIL_INITIALIZE=hang");
   EXPECT_EQ(run.outcome.exit_code, 4) << run.outcome.err;
   EXPECT_TRUE(tells(run, "start of the in-situ pipelines: has not come back for ")) << run.outcome.err;
 }
 
-TEST_P(Catalyst2Faults, an_implementation_of_another_version_is_refused_before_the_run) {
+TEST_P(Catalyst2Faults, AnImplementationOfAnotherVersionIsRefusedBeforeTheRun) {
   const CatalystRun run(GetParam(), kBackend + kPipelines, "STANDIN_FAIL_INITIALIZE=6");
   expect_refused(run,
                  "implementation 'standin' of Catalyst 2 does not start: catalyst_initialize returns 6 (the "
                  "implementation is of another version)");
 }
 
-TEST_P(Catalyst2Faults, another_implementation_than_that_asked_for_is_refused_before_the_run) {
+TEST_P(Catalyst2Faults, AnotherImplementationThanThatAskedForIsRefusedBeforeTheRun) {
   const CatalystRun run(GetParam(), kBackend + kPipelines, "STANDIN_ABOUT=stub");
   expect_refused(run, "implementation 'standin' of Catalyst 2 was asked for and 'stub' started");
 }
 
-TEST_P(Catalyst2Faults, a_missing_implementation_is_refused_before_the_run) {
+TEST_P(Catalyst2Faults, AMissingImplementationIsRefusedBeforeTheRun) {
   const CatalystRun run(GetParam(), kBackend + kPipelines, "CATALYST_IMPLEMENTATION_NAME=nobody");
   expect_refused(run, "has no implementation 'nobody'; looked for ");
 }
 
-TEST_P(Catalyst2Faults, a_library_that_is_no_libcatalyst_is_refused_before_the_run) {
+TEST_P(Catalyst2Faults, ALibraryThatIsNoLibcatalystIsRefusedBeforeTheRun) {
   const CatalystRun run(GetParam(), kBackend + kPipelines,
                         std::string("BRECCIA_LIBCATALYST='") + BRECCIA_LACKING + "'");
   expect_refused(run, "is no libcatalyst of version 2, it lacks catalyst_finalize, catalyst_about, ");
 }
 
-TEST_P(Catalyst2Faults, values_at_points_are_refused_before_the_run) {
+TEST_P(Catalyst2Faults, ValuesAtPointsAreRefusedBeforeTheRun) {
   const CatalystRun run(GetParam(),
                         kBackend + "--set 'insitu.pipeline=[{name=\"surface\", parameters={point_data=\"stress\"}}]'");
   expect_refused(run, "surface: values at points, point_data, are not handed to Catalyst 2");

@@ -21,7 +21,7 @@ const std::string kChannels =
 
 class Catalyst2 : public testing::TestWithParam<int> {};
 
-TEST_P(Catalyst2, is_given_the_cells_and_values_of_the_solver_whatever_the_number_of_ranks_and_changes_nothing) {
+TEST_P(Catalyst2, IsGivenTheCellsAndValuesOfTheSolverWhateverTheNumberOfRanksAndChangesNothing) {
   const CatalystRun plain(1, ""), alone(1, kBackend + kChannels), run(GetParam(), kBackend + kChannels);
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   for (const char* word : {"error", "pipeline", "Catalyst"})  // more ranks than cores are a warning, too
@@ -40,7 +40,7 @@ TEST_P(Catalyst2, is_given_the_cells_and_values_of_the_solver_whatever_the_numbe
   EXPECT_EQ(of_channel("elements"), pipelines[0]["executed"].get<int>() * run.summary()["elements"].get<int>());
 }
 
-TEST_P(Catalyst2, an_implementation_that_fails_three_times_is_switched_off_and_the_run_goes_on) {
+TEST_P(Catalyst2, AnImplementationThatFailsThreeTimesIsSwitchedOffAndTheRunGoesOn) {
   const CatalystRun run(GetParam(), kBackend + kChannels,
                         "STANDIN_FAIL_EXECUTE=5 STANDIN_RANK=" + std::to_string(GetParam() - 1));
   EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
@@ -48,14 +48,14 @@ TEST_P(Catalyst2, an_implementation_that_fails_three_times_is_switched_off_and_t
   EXPECT_NE(run.outcome.err.find("switched off after 3 failures"), std::string::npos) << run.outcome.err;
 }
 
-TEST_P(Catalyst2, an_implementation_that_fails_ends_the_run_where_the_user_wants_that) {
+TEST_P(Catalyst2, AnImplementationThatFailsEndsTheRunWhereTheUserWantsThat) {
   const CatalystRun run(GetParam(), kBackend + kChannels + "--set insitu.on_error=stop", "STANDIN_FAIL_EXECUTE=throw");
   EXPECT_EQ(run.outcome.exit_code, 2);
   EXPECT_NE(run.outcome.err.find("volume: thrown on purpose"), std::string::npos) << run.outcome.err;
   EXPECT_NE(run.summary()["status"], "complete");
 }
 
-TEST_P(Catalyst2, an_implementation_that_does_not_start_is_told_before_the_first_step) {
+TEST_P(Catalyst2, AnImplementationThatDoesNotStartIsToldBeforeTheFirstStep) {
   const CatalystRun run(GetParam(), kBackend + kChannels, "STANDIN_FAIL_INITIALIZE=4");
   EXPECT_EQ(run.outcome.exit_code, 2);
   EXPECT_NE(run.outcome.err.find("catalyst_initialize returns 4 (the file is no implementation of Catalyst)"),
@@ -65,7 +65,7 @@ TEST_P(Catalyst2, an_implementation_that_does_not_start_is_told_before_the_first
 
 INSTANTIATE_TEST_SUITE_P(OfRanks, Catalyst2, testing::Values(1, 2, 3), testing::PrintToStringParamName());
 
-TEST(Catalyst2Alone, a_missing_library_says_what_to_do_before_the_first_step) {
+TEST(Catalyst2Alone, AMissingLibrarySaysWhatToDoBeforeTheFirstStep) {
   const CatalystRun run(1, kBackend + kChannels, "BRECCIA_LIBCATALYST=/nowhere/libcatalyst.so.3");
   EXPECT_EQ(run.outcome.exit_code, 2);
   EXPECT_NE(run.outcome.err.find("libcatalyst, the library of Catalyst 2, cannot be opened (/nowhere/libcatalyst.so.3"),
@@ -74,14 +74,14 @@ TEST(Catalyst2Alone, a_missing_library_says_what_to_do_before_the_first_step) {
   EXPECT_NE(run.outcome.err.find("install a ParaView from 5.12 on"), std::string::npos) << run.outcome.err;
 }
 
-TEST(Catalyst2Alone, a_back_end_that_does_not_exist_is_refused_with_the_nearest_name) {
+TEST(Catalyst2Alone, ABackEndThatDoesNotExistIsRefusedWithTheNearestName) {
   const CatalystRun run(1, kChannels + "--set insitu.backend=catalyst");
   EXPECT_EQ(run.outcome.exit_code, 2);
   EXPECT_NE(run.outcome.err.find("insitu.backend: "), std::string::npos) << run.outcome.err;
   EXPECT_NE(run.outcome.err.find("did you mean \"catalyst2\"?"), std::string::npos) << run.outcome.err;
 }
 
-TEST(Catalyst2Alone, check_refuses_what_it_cannot_do) {
+TEST(Catalyst2Alone, CheckRefusesWhatItCannotDo) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   const Outcome outcome = call("check " + file + " --set insitu.backend=catalyst2 --set 'insitu.run=[\"fractures\"]'",
@@ -92,7 +92,7 @@ TEST(Catalyst2Alone, check_refuses_what_it_cannot_do) {
       << outcome.err;
 }
 
-TEST(Catalyst2Alone, stands_in_by_itself_where_the_adaptor_with_ParaView_is_missing) {
+TEST(Catalyst2Alone, StandsInByItselfWhereTheAdaptorWithParaViewIsMissing) {
   const std::string missing = "BRECCIA_CATALYST=/nowhere/libbreccia_catalyst.so ";
   const CatalystRun run(1, kChannels, missing);
   EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
@@ -103,7 +103,7 @@ TEST(Catalyst2Alone, stands_in_by_itself_where_the_adaptor_with_ParaView_is_miss
   EXPECT_NE(neither.outcome.err.find("insitu.backend = \"catalyst2\""), std::string::npos) << neither.outcome.err;
 }
 
-TEST(Catalyst2Alone, finds_libcatalyst_and_the_implementation_by_the_folders_that_the_environment_names) {
+TEST(Catalyst2Alone, FindsLibcatalystAndTheImplementationByTheFoldersThatTheEnvironmentNames) {
   const std::string beside = fs::path(BRECCIA_STANDIN).parent_path().string();
   for (const std::string& folders : {beside + "/catalyst", "/nowhere:" + beside + "/catalyst"}) {
     const CatalystRun run(1, kBackend + kChannels,
@@ -116,7 +116,7 @@ TEST(Catalyst2Alone, finds_libcatalyst_and_the_implementation_by_the_folders_tha
   EXPECT_NE(lost.outcome.err.find("/nowhere/libcatalyst.so.3"), std::string::npos) << lost.outcome.err;
 }
 
-TEST_P(Catalyst2, goes_on_with_a_run_that_was_stopped) {
+TEST_P(Catalyst2, GoesOnWithARunThatWasStopped) {
   const CatalystRun whole(1, kBackend + kChannels);
   const CatalystRun run(GetParam(), kBackend + kChannels + "--set time.max_steps=250");
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
@@ -131,7 +131,7 @@ TEST_P(Catalyst2, goes_on_with_a_run_that_was_stopped) {
 }
 
 #ifdef BRECCIA_HAS_PARAVIEW
-TEST(Catalyst2Alone, is_not_taken_where_the_adaptor_with_ParaView_can_be_loaded_and_nobody_asks_for_it) {
+TEST(Catalyst2Alone, IsNotTakenWhereTheAdaptorWithParaViewCanBeLoadedAndNobodyAsksForIt) {
   for (const char* asked : {"", "--set insitu.backend=auto", "--set insitu.backend=paraview"}) {
     const CatalystRun run(1, kChannels + asked);
     EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
@@ -141,7 +141,7 @@ TEST(Catalyst2Alone, is_not_taken_where_the_adaptor_with_ParaView_can_be_loaded_
 }
 #endif
 
-TEST(Catalyst2Alone, info_tells_what_was_found_and_what_lacks) {
+TEST(Catalyst2Alone, InfoTellsWhatWasFoundAndWhatLacks) {
   const Outcome outcome = call("insitu info", std::string("BRECCIA_LIBCATALYST='") + BRECCIA_STANDIN +
                                                   "' BRECCIA_CATALYST=/nowhere/libbreccia_catalyst.so");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

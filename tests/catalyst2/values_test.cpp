@@ -99,7 +99,7 @@ std::map<double, Values> in_frame(const Hdf5Reader& frame, std::size_t corners, 
 
 class Catalyst2Values : public testing::TestWithParam<int> {};
 
-TEST_P(Catalyst2Values, of_all_cells_are_those_of_the_frames_that_the_run_writes) {
+TEST_P(Catalyst2Values, OfAllCellsAreThoseOfTheFramesThatTheRunWrites) {
   const CatalystRun run(GetParam(), kBackend + kEveryMs);
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   const std::vector<std::string> lines = run.cells();
@@ -129,7 +129,7 @@ TEST_P(Catalyst2Values, of_all_cells_are_those_of_the_frames_that_the_run_writes
 
 INSTANTIATE_TEST_SUITE_P(OfRanks, Catalyst2Values, testing::Values(1, 2, 3), testing::PrintToStringParamName());
 
-TEST(Catalyst2ValuesAlone, are_views_of_the_memory_that_the_solver_has_handed_over) {
+TEST(Catalyst2ValuesAlone, AreViewsOfTheMemoryThatTheSolverHasHandedOver) {
   const Scratch scratch;
   const fs::path seen = scratch.path("seen");
   const CatalystRun run(1,
@@ -153,7 +153,7 @@ TEST(Catalyst2ValuesAlone, are_views_of_the_memory_that_the_solver_has_handed_ov
     EXPECT_GT(views[name], 0) << name;
 }
 
-TEST(Catalyst2ValuesAlone, of_a_rank_that_owns_nothing_are_none_and_all_others_are_there) {
+TEST(Catalyst2ValuesAlone, OfARankThatOwnsNothingAreNoneAndAllOthersAreThere) {
   // Nothing is in the middle third.
   const std::string apart = kBackend + kEveryMs + "--set 'mesh.raster.gap=[\"60 mm\",\"0 mm\",\"0 mm\"]' ";
   const CatalystRun alone(1, apart), run(3, apart + "--set domains.kind=grid --set 'domains.n=[3,1,1]'");

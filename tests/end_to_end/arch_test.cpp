@@ -76,7 +76,7 @@ fixed = "xyz"
 /// A line of thrust fits into 15 such stones from a thickness of 0.106 of the radius on (0.1075 of the arc: Heyman).
 /// Points of one stone that had slid out at the lower side of the next were held by its upper side: thinner arches
 /// stood.
-TEST(Arch, of_stones_without_mortar_stands_if_it_is_thick_enough_and_falls_if_not) {
+TEST(Arch, OfStonesWithoutMortarStandsIfItIsThickEnoughAndFallsIfNot) {
   EXPECT_LT(kinetic_energy_of_arch(0.115), 0.05);
   EXPECT_GT(kinetic_energy_of_arch(0.1), 5.0);
 }

@@ -73,7 +73,7 @@ gauges = ["upper"]
   return furthest;
 }
 
-TEST(Block, stands_on_an_edge_right_above_that_of_the_block_below) {
+TEST(Block, StandsOnAnEdgeRightAboveThatOfTheBlockBelow) {
   const Scratch scratch;
   constexpr double kStands = 0.5e-3;  // m; without a force at the edge it turns by a tenth of its width
   const double aligned = motion_of_overhanging_block(scratch, "0 mm", 1);
@@ -83,7 +83,7 @@ TEST(Block, stands_on_an_edge_right_above_that_of_the_block_below) {
   EXPECT_LT(motion_of_overhanging_block(scratch, "-2 mm", 1), kStands);
 }
 
-TEST(Block, that_can_break_stands_there_too) {
+TEST(Block, ThatCanBreakStandsThereToo) {
   const Scratch scratch;
   constexpr double kStands = 1e-3;  // m; joints make it softer
   const double aligned = motion_of_overhanging_block(scratch, "0 mm", 1, Joints::breakable);

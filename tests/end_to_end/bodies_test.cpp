@@ -52,7 +52,7 @@ BarRun run(const Scratch& scratch, const std::string& case_text, int ranks = 1) 
   return {ranks == 1 ? call(arguments) : call_ranks(ranks, arguments), folder};
 }
 
-TEST(Bodies, a_solid_of_two_volumes_turns_about_its_own_centre_whatever_groups_they_are_of) {
+TEST(Bodies, ASolidOfTwoVolumesTurnsAboutItsOwnCentreWhateverGroupsTheyAreOf) {
   for (const auto& [geometry, groups] :
        {std::pair{kOneGroup, "\"bar\""}, std::pair{kTwoGroups, "[\"left\", \"right\"]"}}) {
     const Scratch scratch;
@@ -72,7 +72,7 @@ TEST(Bodies, a_solid_of_two_volumes_turns_about_its_own_centre_whatever_groups_t
   }
 }
 
-TEST(Bodies, a_solid_of_two_volumes_starts_with_the_same_bits_on_any_number_of_ranks) {
+TEST(Bodies, ASolidOfTwoVolumesStartsWithTheSameBitsOnAnyNumberOfRanks) {
   const Scratch scratch;
   scratch.write("bar.geo", kGeometry + kTwoGroups);
   const std::string text = bar("[\"left\", \"right\"]", "angular = [1, 2, 500]\nrandom = [1, 2]\nseed = 5", "5 us");
@@ -86,7 +86,7 @@ TEST(Bodies, a_solid_of_two_volumes_starts_with_the_same_bits_on_any_number_of_r
   }
 }
 
-TEST(Bodies, volumes_of_one_group_that_are_not_joined_are_warned_of_by_every_command_that_meshes) {
+TEST(Bodies, VolumesOfOneGroupThatAreNotJoinedAreWarnedOfByEveryCommandThatMeshes) {
   const Scratch scratch;
   scratch.write("bar.geo", kGeometry + kOneGroup);
   std::string text = bar("\"bar\"", "velocity = [1, 0, 0]", "1 us");

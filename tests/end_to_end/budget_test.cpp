@@ -94,7 +94,7 @@ safety = 0.2
 history_interval = "50 us"
 )";
 
-TEST(Budget, whose_residual_passes_the_limit_stops_the_run_with_code_3) {
+TEST(Budget, WhoseResidualPassesTheLimitStopsTheRunWithCode3) {
   const Scratch scratch;
   constexpr double kTiny = 1e-12;  // no run is that exact
   const FinishedRun run(scratch.write("case.toml", kSmallCase) + " --set time.residual_limit=1e-12");
@@ -111,7 +111,7 @@ TEST(Budget, whose_residual_passes_the_limit_stops_the_run_with_code_3) {
   EXPECT_LE(*std::max_element(residual.begin(), residual.end() - 1), kTiny);
 }
 
-TEST(Budget, is_sampled_at_the_end_of_a_run_too) {
+TEST(Budget, IsSampledAtTheEndOfARunToo) {
   // Fifteen steps of 1.6 times the stable length, far fewer than lie between two lines of the history.
   const Scratch scratch;
   const FinishedRun run(scratch.write("case.toml", kSmallCase) +
@@ -122,7 +122,7 @@ TEST(Budget, is_sampled_at_the_end_of_a_run_too) {
   EXPECT_NE(run.outcome.err.find("; lower time.safety, or raise time."), std::string::npos) << run.outcome.err;
 }
 
-TEST(Budget, holds_the_work_of_constraints_and_pressures_of_earlier_stages) {
+TEST(Budget, HoldsTheWorkOfConstraintsAndPressuresOfEarlierStages) {
   const Scratch scratch;
   const FinishedRun run(scratch.write("case.toml", kPulledThenHeld));
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
@@ -135,7 +135,7 @@ TEST(Budget, holds_the_work_of_constraints_and_pressures_of_earlier_stages) {
   EXPECT_GT(work.back(), 0.5 * pulled) << "held, not taken back";
 }
 
-TEST(Budget, holds_what_a_stage_begins_with_on_a_body_at_rest_whose_step_changes_there) {
+TEST(Budget, HoldsWhatAStageBeginsWithOnABodyAtRestWhoseStepChangesThere) {
   // Steps of 10/4 and 40/15 us: in the first one of the push nothing else has moved yet.
   const std::string text =
       raster_case(
@@ -164,7 +164,7 @@ history_interval = "10 us"
   }
 }
 
-TEST(Budget, holds_what_the_springs_of_friction_store) {
+TEST(Budget, HoldsWhatTheSpringsOfFrictionStore) {
   // The right tetrahedron is pressed in by 0.5 mm and, from 2 ms on, moved along the face; friction makes it stick.
   const std::string motion =
       "x = { table = [[0, 0], [\"2 ms\", \"-0.6 mm\"]] }, "
@@ -183,7 +183,7 @@ TEST(Budget, holds_what_the_springs_of_friction_store) {
   EXPECT_NEAR(stored.back() / pressed, 1 + kShare, kSampling);
 }
 
-TEST(Budget, holds_all_that_damping_takes_where_every_step_is_sampled) {
+TEST(Budget, HoldsAllThatDampingTakesWhereEveryStepIsSampled) {
   const Scratch scratch;
   const FinishedRun run(
       scratch.write("case.toml", kSmallCase) +
@@ -217,7 +217,7 @@ history_interval = "1 ms"
 frame_interval = 0
 )";
 
-TEST(LocalDamping, brings_a_heavy_beam_to_rest_on_its_supports_with_the_default_step) {
+TEST(LocalDamping, BringsAHeavyBeamToRestOnItsSupportsWithTheDefaultStep) {
   constexpr double kWeight = 20 * 0.2 * 0.2 * 0.2 * 2400 * 9.81;
   const Scratch scratch;
   const FinishedRun run(scratch.write("beam.toml", kHeavyBeam));
@@ -229,7 +229,7 @@ TEST(LocalDamping, brings_a_heavy_beam_to_rest_on_its_supports_with_the_default_
   EXPECT_NEAR((left + right) / kWeight, 1.0, kStillSwings);
 }
 
-TEST(NotFinite, names_the_element_where_it_began_and_leaves_numbers_that_can_be_shown) {
+TEST(NotFinite, NamesTheElementWhereItBeganAndLeavesNumbersThatCanBeShown) {
   const Scratch scratch;
   std::string alone = kSmallCase;  // with contact the run would end earlier: nodes move too far in a step
   alone.erase(alone.find("[[contact]]"), alone.find("[[initial_velocity]]") - alone.find("[[contact]]"));
@@ -242,7 +242,7 @@ TEST(NotFinite, names_the_element_where_it_began_and_leaves_numbers_that_can_be_
   EXPECT_GT(run.summary.at("steps"), 1);
 }
 
-TEST(MaxSteps, is_the_number_of_steps_after_which_a_run_stops) {
+TEST(MaxSteps, IsTheNumberOfStepsAfterWhichARunStops) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   for (const int steps : {1, 7}) {
@@ -255,7 +255,7 @@ TEST(MaxSteps, is_the_number_of_steps_after_which_a_run_stops) {
   }
 }
 
-TEST(History, ends_with_the_last_step_of_a_run_whatever_its_interval) {
+TEST(History, EndsWithTheLastStepOfARunWhateverItsInterval) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   for (const std::string end : {"", " --set time.max_steps=7"}) {
@@ -266,7 +266,7 @@ TEST(History, ends_with_the_last_step_of_a_run_whatever_its_interval) {
   }
 }
 
-TEST(MaxSteps, gives_the_last_line_also_where_the_model_would_be_divided_anew_then) {
+TEST(MaxSteps, GivesTheLastLineAlsoWhereTheModelWouldBeDividedAnewThen) {
   const Scratch scratch;
   const std::string settings = scratch.write("case.toml", kSmallCase) +
                                " --progress none --set domains.margin=0.1 --set output.history_interval=1"
@@ -283,7 +283,7 @@ TEST(MaxSteps, gives_the_last_line_also_where_the_model_would_be_divided_anew_th
   }
 }
 
-TEST(Budget, holds_what_changes_of_the_step_move_where_a_block_rebounds_and_vibrates) {
+TEST(Budget, HoldsWhatChangesOfTheStepMoveWhereABlockReboundsAndVibrates) {
   const Scratch scratch;
   scratch.write("blocks.geo", R"(SetFactory("OpenCASCADE");
 Rectangle(1) = {-0.005, -0.004, 0, 0.010, 0.004};
@@ -327,7 +327,7 @@ std::string rebound_case() {
          "[output]\nhistory_interval = 1e-5\n";
 }
 
-TEST(TimeStep, grows_by_half_at_most_after_a_rebound_so_that_the_run_goes_on) {
+TEST(TimeStep, GrowsByHalfAtMostAfterAReboundSoThatTheRunGoesOn) {
   const Scratch scratch;
   const FinishedRun run(scratch.write("rebound.toml", rebound_case()));
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;

@@ -26,7 +26,7 @@ std::string run(const Scratch& scratch, const std::string& file, const std::stri
   return hash_of(folder);
 }
 
-TEST(EveryGroup, of_materials_and_joints_runs_as_the_groups_by_name_on_any_ranks) {
+TEST(EveryGroup, OfMaterialsAndJointsRunsAsTheGroupsByNameOnAnyRanks) {
   const Scratch scratch;
   std::string text = kSmallCase;
   for (const char* list : {"[[material]]\n", "[[joint]]\n"}) {
@@ -41,7 +41,7 @@ TEST(EveryGroup, of_materials_and_joints_runs_as_the_groups_by_name_on_any_ranks
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
 }
 
-TEST(TimeHistory, of_a_file_runs_as_the_same_points_in_the_case_also_when_resumed_without_the_file) {
+TEST(TimeHistory, OfAFileRunsAsTheSamePointsInTheCaseAlsoWhenResumedWithoutTheFile) {
   const Scratch scratch;
   scratch.write("p.csv", "\xef\xbb\xbft [us];p (kPa)\r\n0;0\r\n30;2\r\n90;-1.5\r\n");
   const auto with = [](const std::string& value) {

@@ -47,7 +47,7 @@ frame_interval = 0
 )");
 }
 
-TEST(InitialOverlap, ends_a_run_with_the_bodies_the_depth_and_what_helps) {
+TEST(InitialOverlap, EndsARunWithTheBodiesTheDepthAndWhatHelps) {
   const Scratch scratch;
   const std::string file = cubes(scratch), folder = scratch.path("run").string();
   for (const Outcome& outcome : {call("run " + file + " --progress none -o '" + folder + "'"),
@@ -64,7 +64,7 @@ TEST(InitialOverlap, ends_a_run_with_the_bodies_the_depth_and_what_helps) {
   EXPECT_NE(check.out.find("A run ends with an error"), std::string::npos) << check.out;
 }
 
-TEST(InitialOverlap, is_not_seen_at_the_front_of_a_crack_between_glued_bodies) {
+TEST(InitialOverlap, IsNotSeenAtTheFrontOfACrackBetweenGluedBodies) {
   const Scratch scratch;
   scratch.write("four.geo", R"(SetFactory("OpenCASCADE");
 Box(1) = {0, 0, 0, 0.02, 0.02, 0.02}; Box(2) = {0.02, 0, 0, 0.02, 0.02, 0.02};
@@ -104,7 +104,7 @@ frame_interval = 0
   EXPECT_LT(energy.at("kinetic").get<double>(), 1e-18) << "nothing pushes";
 }
 
-TEST(InitialOverlap, that_is_relaxed_gives_no_energy_and_the_same_bits_on_any_number_of_ranks) {
+TEST(InitialOverlap, ThatIsRelaxedGivesNoEnergyAndTheSameBitsOnAnyNumberOfRanks) {
   const Scratch scratch;
   const std::string arguments =
       "run " + cubes(scratch) +
@@ -125,7 +125,7 @@ TEST(InitialOverlap, that_is_relaxed_gives_no_energy_and_the_same_bits_on_any_nu
   }
 }
 
-TEST(Interaction, that_is_none_lets_bodies_pass_each_other_with_the_same_bits_whatever_searches_on_any_ranks) {
+TEST(Interaction, ThatIsNoneLetsBodiesPassEachOtherWithTheSameBitsWhateverSearchesOnAnyRanks) {
   const Scratch scratch;
   const std::string file = cubes(scratch);
   std::string text = read_text(scratch.path("cubes.toml"));
@@ -213,7 +213,7 @@ gauges = ["block"]
   return 2 * ((x[c] - x[b]) / (t[c] - t[b]) - (x[b] - x[a]) / (t[b] - t[a])) / (t[c] - t[a]);
 }
 
-TEST(Slope, steeper_than_friction_accelerates_a_block_as_it_should_on_coarse_and_fine_floors) {
+TEST(Slope, SteeperThanFrictionAcceleratesABlockAsItShouldOnCoarseAndFineFloors) {
   constexpr double kWithin = 0.005;  // twelve blocks: 0.04 % at most
   for (const double degrees : {27.0, 28.0, 30.0}) {
     const double angle = degrees * std::acos(-1.0) / 180;
@@ -226,7 +226,7 @@ TEST(Slope, steeper_than_friction_accelerates_a_block_as_it_should_on_coarse_and
   }
 }
 
-TEST(Slope, less_steep_than_friction_holds_a_block) {
+TEST(Slope, LessSteepThanFrictionHoldsABlock) {
   constexpr double still = 1e-3;  // of what friction would stop it with
   for (const char* size : {"0.04", "0.01"}) {
     for (const char* penalty : {"2 MPa", "20 MPa"})
@@ -279,13 +279,13 @@ gauges = ["upper"]
   return -std::accumulate(x.begin() + slides, x.end(), 0.0) / std::accumulate(z.begin() + slides, z.end(), 0.0);
 }
 
-TEST(Plates, that_slide_undamped_rub_with_their_coefficient_where_friction_is_late) {
+TEST(Plates, ThatSlideUndampedRubWithTheirCoefficientWhereFrictionIsLate) {
   constexpr double kWithin = 0.002;  // measured: 0.3000 and 0.6000
   for (const double friction : {0.3, 0.6}) EXPECT_NEAR(rubbed(friction, "6"), friction, kWithin);
   EXPECT_LT(rubbed(0.6, "0"), 0.5) << "they vibrate without a delay";
 }
 
-TEST(Cylinder, pressed_between_platens_is_felt_within_a_micrometre_where_faces_have_points_at_their_corners) {
+TEST(Cylinder, PressedBetweenPlatensIsFeltWithinAMicrometreWhereFacesHavePointsAtTheirCorners) {
   const Scratch scratch;
   scratch.write("cylinder.geo", R"(SetFactory("OpenCASCADE");
 R = 0.01; gap = 5e-7;
@@ -334,7 +334,7 @@ gauges = ["top"]
   EXPECT_LT(travel, gap + micrometre);
 }
 
-TEST(Platens, undamped_on_a_rock_hold_their_energy_for_twenty_thousand_steps) {
+TEST(Platens, UndampedOnARockHoldTheirEnergyForTwentyThousandSteps) {
   // Contacts that last for a few steps, some hundred at a time. 17 % were lost where each forgot what it had lost, and
   // the run was stopped at 5 %.
   const Scratch scratch;
@@ -380,7 +380,7 @@ history_interval = "40 us"
   }
 }
 
-TEST(Platens, that_hold_a_vibrating_block_take_and_give_nothing) {
+TEST(Platens, ThatHoldAVibratingBlockTakeAndGiveNothing) {
   // A block of rock squeezed by 5 % between rigid platens: its surface vibrates and turns under the points of the
   // platens. What single steps leave over there cancels; where it was put right 0.8 % of the energy came from nowhere
   // within 20 ms, and friction took 16 times as much.

@@ -80,7 +80,7 @@ std::ptrdiff_t count_paused(const std::vector<json>& states) {
 
 class Control : public testing::TestWithParam<int> {};
 
-TEST_P(Control, pauses_and_lets_go_on) {
+TEST_P(Control, PausesAndLetsGoOn) {
   LongRun run(GetParam());
   ASSERT_EQ(run.ask("pause").exit_code, 0);
   const std::vector<json> paused =
@@ -96,7 +96,7 @@ TEST_P(Control, pauses_and_lets_go_on) {
   EXPECT_GT(after.back()["step"].get<std::int64_t>(), step);
 }
 
-TEST_P(Control, stops_in_order_also_while_paused) {
+TEST_P(Control, StopsInOrderAlsoWhilePaused) {
   LongRun run(GetParam());
   ASSERT_EQ(run.ask("pause").exit_code, 0);
   ASSERT_EQ(run.ask("stop").exit_code, 0);
@@ -107,7 +107,7 @@ TEST_P(Control, stops_in_order_also_while_paused) {
   EXPECT_EQ(run.ask("pause").exit_code, 2) << "of a run that has ended";
 }
 
-TEST_P(Control, writes_a_checkpoint_that_a_signal_asks_for_also_while_paused) {
+TEST_P(Control, WritesACheckpointThatASignalAsksForAlsoWhilePaused) {
   LongRun run(GetParam(), "--set 'checkpoint.steps=0'");
   ASSERT_EQ(run.ask("pause").exit_code, 0);
   run.signal(SIGUSR1);
@@ -123,7 +123,7 @@ TEST_P(Control, writes_a_checkpoint_that_a_signal_asks_for_also_while_paused) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(run.folder() + "/checkpoints"), {}), 1);
 }
 
-TEST_P(Control, samples_the_energies_of_the_step_in_which_a_run_is_stopped) {
+TEST_P(Control, SamplesTheEnergiesOfTheStepInWhichARunIsStopped) {
   LongRun run(GetParam(), "--set 'output.history_interval=1000 s'");
   const auto is_running = [](const std::vector<json>& seen) { return seen.back()["step"] > 100; };
   ASSERT_GT(run.states_until(is_running).back()["step"], 100);
@@ -133,7 +133,7 @@ TEST_P(Control, samples_the_energies_of_the_step_in_which_a_run_is_stopped) {
   EXPECT_NE(json::parse(read_text(run.folder() + "/summary.json"))["energy"]["kinetic"].get<double>(), first);
 }
 
-TEST_P(Control, gets_a_frame_at_once_and_then_as_often_as_asked) {
+TEST_P(Control, GetsAFrameAtOnceAndThenAsOftenAsAsked) {
   LongRun run(GetParam());
   ASSERT_EQ(run.ask("frame").exit_code, 0);
   EXPECT_TRUE(std::filesystem::exists(run.folder() + "/frames/elements_000000.vtkhdf"));
@@ -145,7 +145,7 @@ TEST_P(Control, gets_a_frame_at_once_and_then_as_often_as_asked) {
   EXPECT_TRUE(std::filesystem::exists(run.folder() + "/frames/elements_000002.vtkhdf"));
 }
 
-TEST_P(Control, refuses_what_cannot_be_and_says_why) {
+TEST_P(Control, RefusesWhatCannotBeAndSaysWhy) {
   LongRun run(GetParam());
   const Outcome extract = run.ask("extract");
   EXPECT_EQ(extract.exit_code, 2);

@@ -152,7 +152,7 @@ class ForeignFolder : public testing::TestWithParam<Command> {
 };
 std::unique_ptr<Scratch> ForeignFolder::place_;
 
-TEST_P(ForeignFolder, harms_nothing_outside_and_does_not_hang_a_command) {
+TEST_P(ForeignFolder, HarmsNothingOutsideAndDoesNotHangACommand) {
   for (const std::string& name : kNames) {
     for (const Kind& kind : kKinds) {
       if (kind.name == std::string("file without permission") && ::geteuid() == 0) continue;  // root has all of them
@@ -171,7 +171,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Command{"control", "control RUN stop --patience 1"}),
     [](const auto& command) { return std::string(command.param.name); });
 
-TEST(OwnFolder, is_not_copied_into_itself) {
+TEST(OwnFolder, IsNotCopiedIntoItself) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase + "[checkpoint]\nsteps = 20\n");
   const std::string run = scratch.path("run").string();
@@ -182,7 +182,7 @@ TEST(OwnFolder, is_not_copied_into_itself) {
   EXPECT_FALSE(fs::exists(run + "/frames/x"));
 }
 
-TEST(OwnFolder, is_not_continued_from_a_checkpoint_of_another_run) {
+TEST(OwnFolder, IsNotContinuedFromACheckpointOfAnotherRun) {
   const Scratch scratch;
   const std::string checkpoints = "[checkpoint]\nsteps = 20\n";
   const std::string one = scratch.write("one.toml", kSmallCase + checkpoints),

@@ -41,7 +41,7 @@ class FaultyRun {
 
 class InSituFaults : public testing::TestWithParam<int> {};
 
-TEST_P(InSituFaults, a_display_that_dies_in_the_middle_of_a_picture_costs_the_run_its_pictures_and_nothing_else) {
+TEST_P(InSituFaults, ADisplayThatDiesInTheMiddleOfAPictureCostsTheRunItsPicturesAndNothingElse) {
   const FaultyRun plain(1, ""), run(GetParam(), script("loses_display.py"));
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   EXPECT_EQ(run.hash(), plain.hash());
@@ -49,7 +49,7 @@ TEST_P(InSituFaults, a_display_that_dies_in_the_middle_of_a_picture_costs_the_ru
   EXPECT_LE(run.lines(), 2) << run.outcome.err;  // and that it is switched off
 }
 
-TEST_P(InSituFaults, a_script_that_never_ends_is_interrupted_and_switched_off_and_the_run_goes_on) {
+TEST_P(InSituFaults, AScriptThatNeverEndsIsInterruptedAndSwitchedOffAndTheRunGoesOn) {
   const FaultyRun plain(1, ""), run(GetParam(), script("loops.py"), "--set 'domains.patience=\"20 s\"'");
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   EXPECT_EQ(run.hash(), plain.hash());
@@ -60,14 +60,14 @@ TEST_P(InSituFaults, a_script_that_never_ends_is_interrupted_and_switched_off_an
   EXPECT_EQ(std::count(run.outcome.err.begin(), run.outcome.err.end(), '\n'), 2) << run.outcome.err;
 }
 
-TEST_P(InSituFaults, a_script_that_does_not_come_back_from_a_library_ends_the_run_with_a_line) {
+TEST_P(InSituFaults, AScriptThatDoesNotComeBackFromALibraryEndsTheRunWithALine) {
   const FaultyRun run(GetParam(), script("sleeps.py"), "--set 'domains.patience=\"3 s\"'");
   EXPECT_EQ(run.outcome.exit_code, 4) << run.outcome.err;
   EXPECT_TRUE(run.tells("breccia: error: pipeline " + script("sleeps.py") + ": has not come back for "))
       << run.outcome.err;
 }
 
-TEST_P(InSituFaults, a_script_that_asks_for_the_end_gets_the_step_that_follows_with_its_energies) {
+TEST_P(InSituFaults, AScriptThatAsksForTheEndGetsTheStepThatFollowsWithItsEnergies) {
   const FaultyRun run(GetParam(), script("asks_for_the_end.py"), "--set 'output.history_interval=1000 s'");
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   const json summary = json::parse(read_text(run.folder() / "summary.json"));
@@ -76,7 +76,7 @@ TEST_P(InSituFaults, a_script_that_asks_for_the_end_gets_the_step_that_follows_w
   EXPECT_NE(summary["energy"]["kinetic"].get<double>(), first);
 }
 
-TEST_P(InSituFaults, an_abort_within_paraview_leaves_a_line_that_names_the_pipeline) {
+TEST_P(InSituFaults, AnAbortWithinParaviewLeavesALineThatNamesThePipeline) {
   const FaultyRun run(GetParam(), script("aborts.py"));
   EXPECT_NE(run.outcome.exit_code, 0);
   EXPECT_TRUE(run.tells("breccia: error: pipeline " + script("aborts.py") +

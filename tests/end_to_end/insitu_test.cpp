@@ -57,14 +57,14 @@ std::ptrdiff_t count_files(const fs::path& folder, const std::string& ending) {
 
 class InSitu : public testing::TestWithParam<int> {};
 
-TEST_P(InSitu, changes_nothing_of_the_run) {
+TEST_P(InSitu, ChangesNothingOfTheRun) {
   const WatchedRun plain(1, ""), watched(GetParam(), kRecordings);
   ASSERT_EQ(watched.outcome.exit_code, 0) << watched.outcome.err;
   EXPECT_EQ(watched.summary()["state_hash"], plain.summary()["state_hash"]);
   EXPECT_EQ(watched.outcome.err, "");
 }
 
-TEST_P(InSitu, records_every_channel_and_tells_of_it) {
+TEST_P(InSitu, RecordsEveryChannelAndTellsOfIt) {
   const WatchedRun run(GetParam(), kRecordings);
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   const fs::path extracts = run.folder() / "extracts";
@@ -79,7 +79,7 @@ TEST_P(InSitu, records_every_channel_and_tells_of_it) {
   EXPECT_NE(read_text(run.folder() / "history.csv").find("in situ share of wall time"), std::string::npos);
 }
 
-TEST_P(InSitu, triggers_by_the_first_break_and_by_broken_joints_hit_the_same_steps_on_any_number_of_ranks) {
+TEST_P(InSitu, TriggersByTheFirstBreakAndByBrokenJointsHitTheSameStepsOnAnyNumberOfRanks) {
   const std::string triggers =
       "--set 'insitu.pipeline=[{name=\"fractures\", first_break=true, strict=true}, {name=\"surface\", "
       "every_broken=10, strict=true}]'";
@@ -94,14 +94,14 @@ TEST_P(InSitu, triggers_by_the_first_break_and_by_broken_joints_hit_the_same_ste
   EXPECT_GT(run.pipeline("surface")["executed"].get<int>(), 2);
 }
 
-TEST_P(InSitu, a_dear_pipeline_is_passed_over) {
+TEST_P(InSitu, ADearPipelineIsPassedOver) {
   const WatchedRun run(GetParam(), "--insitu volume --set insitu.max_overhead=1e-6 --set insitu.least_instants=0");
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   EXPECT_GE(run.pipeline("volume")["passed_over"].get<int>(), 40);
   EXPECT_LE(run.pipeline("volume")["executed"].get<int>(), 3);  // the first, the first that has a price, the last
 }
 
-TEST_P(InSitu, asked_for_on_the_command_line_it_shows_twenty_instants_at_even_distances_whatever_that_costs) {
+TEST_P(InSitu, AskedForOnTheCommandLineItShowsTwentyInstantsAtEvenDistancesWhateverThatCosts) {
   const WatchedRun run(GetParam(), "--insitu volume --set insitu.max_overhead=1e-6");
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   EXPECT_EQ(run.pipeline("volume")["executed"], 21);  // the second, to learn the cost, comes early
@@ -128,20 +128,20 @@ struct StartedRun : WatchedRun {
   }
 };
 
-TEST_P(InSitu, spaces_the_pipelines_of_a_started_run_over_the_steps_that_it_may_take) {
+TEST_P(InSitu, SpacesThePipelinesOfAStartedRunOverTheStepsThatItMayTake) {
   const StartedRun run(GetParam(), "--insitu history --set insitu.max_overhead=1e-6 --set time.max_steps=100");
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   EXPECT_LE(run.report()["executed"].get<int>(), 22);
 }
 
-TEST_P(InSitu, shows_a_started_run_as_often_as_another) {
+TEST_P(InSitu, ShowsAStartedRunAsOftenAsAnother) {
   const StartedRun run(GetParam(), "--insitu history --set insitu.max_overhead=1e-6 --set 'stage[0].end=2.4 ms'");
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   EXPECT_GE(run.report()["executed"].get<int>(), 20);
   EXPECT_LE(run.report()["executed"].get<int>(), 22);
 }
 
-TEST_P(InSitu, a_run_that_goes_on_has_the_extracts_of_one_that_was_never_stopped) {
+TEST_P(InSitu, ARunThatGoesOnHasTheExtractsOfOneThatWasNeverStopped) {
   const std::string triggers =
       "--set 'insitu.pipeline=[{name=\"fractures\", first_break=true, strict=true}, {name=\"surface\", "
       "every_broken=3, strict=true}]' ";
@@ -168,7 +168,7 @@ const std::string kProbes =
     "{name=\"plane\", at=[0, 0, \"5 mm\"], along=[\"41 mm\", 0, 0], points=8, across=[0, \"20 mm\", 0], rows=5}, "
     "{name=\"point\", at=[\"10 mm\", \"10 mm\", \"5 mm\"]}]}";
 
-TEST_P(InSitu, probes_record_the_same_on_any_number_of_ranks_and_once_when_a_run_goes_on) {
+TEST_P(InSitu, ProbesRecordTheSameOnAnyNumberOfRanksAndOnceWhenARunGoesOn) {
   const std::string probes = "--set 'insitu.pipeline=[" + kProbes + "]' ";
   const WatchedRun alone(1, probes), run(GetParam(), probes + "--set time.max_steps=300");
   ASSERT_EQ(alone.outcome.exit_code, 0) << alone.outcome.err;
@@ -196,7 +196,7 @@ TEST_P(InSitu, probes_record_the_same_on_any_number_of_ranks_and_once_when_a_run
   EXPECT_NE(line.find("\n0,0,0,0,-0.005,0.007,0.004,-1,,,,,,,,,,\n"), std::string::npos) << line.substr(0, 2000);
 }
 
-TEST_P(InSitu, a_box_and_some_fields_are_recorded_without_a_change_to_the_run) {
+TEST_P(InSitu, ABoxAndSomeFieldsAreRecordedWithoutAChangeToTheRun) {
   const WatchedRun plain(1, ""),
       run(GetParam(),
           "--set 'insitu.pipeline=[{name=\"volume\", every_time=\"2 ms\", strict=true, fields=[\"id\", \"mass\"], "
@@ -229,7 +229,7 @@ std::vector<std::string> lines_of_ranks(const fs::path& folder, const std::strin
   return lines;
 }
 
-TEST_P(InSitu, values_at_points_give_contours_and_gradients_and_are_the_same_on_any_number_of_ranks) {
+TEST_P(InSitu, ValuesAtPointsGiveContoursAndGradientsAndAreTheSameOnAnyNumberOfRanks) {
   const std::string pipelines =
       "--set 'insitu.pipeline=[{name=\"" BRECCIA_SCRIPTS
       "/writes_point_data.py\", every_time=\"1 ms\", strict=true, "
@@ -260,7 +260,7 @@ TEST_P(InSitu, values_at_points_give_contours_and_gradients_and_are_the_same_on_
             std::string::npos);
 }
 
-TEST_P(InSitu, contacts_have_an_id_each_the_same_on_any_number_of_ranks) {
+TEST_P(InSitu, ContactsHaveAnIdEachTheSameOnAnyNumberOfRanks) {
   const std::string pipelines =
       "--set 'insitu.pipeline=[{name=\"" BRECCIA_SCRIPTS "/writes_contacts.py\", every_time=\"20 us\", strict=true}]' ";
   const WatchedRun alone(1, pipelines), run(GetParam(), pipelines);
@@ -281,7 +281,7 @@ TEST_P(InSitu, contacts_have_an_id_each_the_same_on_any_number_of_ranks) {
   EXPECT_GT(ids.size(), 50U);
 }
 
-TEST_P(InSitu, a_script_that_fails_three_times_is_switched_off_and_the_run_goes_on) {
+TEST_P(InSitu, AScriptThatFailsThreeTimesIsSwitchedOffAndTheRunGoesOn) {
   const Scratch scratch;
   (void)scratch.write("always.py",
                       "from paraview.simple import TrivialProducer\n"
@@ -296,7 +296,7 @@ TEST_P(InSitu, a_script_that_fails_three_times_is_switched_off_and_the_run_goes_
   EXPECT_EQ(run.pipeline("fractures")["executed"], 51);
 }
 
-TEST_P(InSitu, a_script_that_fails_ends_the_run_where_the_user_wants_that) {
+TEST_P(InSitu, AScriptThatFailsEndsTheRunWhereTheUserWantsThat) {
   const WatchedRun run(GetParam(),
                        "--set insitu.on_error=stop" + strict({BRECCIA_SCRIPTS "/raises_at_seventh_call.py"}));
   EXPECT_EQ(run.outcome.exit_code, 2);
@@ -304,7 +304,7 @@ TEST_P(InSitu, a_script_that_fails_ends_the_run_where_the_user_wants_that) {
   EXPECT_NE(run.summary()["status"], "complete");
 }
 
-TEST_P(InSitu, a_script_that_fails_when_it_is_read_is_switched_off_at_once) {
+TEST_P(InSitu, AScriptThatFailsWhenItIsReadIsSwitchedOffAtOnce) {
   const WatchedRun run(GetParam(), strict({BRECCIA_SCRIPTS "/raises_at_import.py", "fractures"}));
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   EXPECT_NE(run.outcome.err.find("raises_at_import.py:"), std::string::npos) << run.outcome.err;
@@ -314,14 +314,14 @@ TEST_P(InSitu, a_script_that_fails_when_it_is_read_is_switched_off_at_once) {
   EXPECT_EQ(run.pipeline("fractures")["executed"], 51);
 }
 
-TEST_P(InSitu, a_script_that_does_not_compile_is_refused_before_the_first_step) {
+TEST_P(InSitu, AScriptThatDoesNotCompileIsRefusedBeforeTheFirstStep) {
   const WatchedRun run(GetParam(), "--insitu fractures," BRECCIA_SCRIPTS "/syntax_error.py");
   EXPECT_EQ(run.outcome.exit_code, 2);
   EXPECT_NE(run.outcome.err.find("syntax_error.py"), std::string::npos) << run.outcome.err;
   EXPECT_FALSE(fs::exists(run.folder() / "summary.json"));
 }
 
-TEST_P(InSitu, pictures_need_no_display) {
+TEST_P(InSitu, PicturesNeedNoDisplay) {
   const WatchedRun run(GetParam(),
                        "--set insitu.pipeline='[{name=\"stress\", every_time=\"2 ms\", strict=true, "
                        "parameters={width=320, height=200}}]'");
@@ -343,7 +343,7 @@ TEST_P(InSitu, pictures_need_no_display) {
   }
 }
 
-TEST_P(InSitu, a_run_that_goes_on_lists_the_pictures_that_were_drawn_before) {
+TEST_P(InSitu, ARunThatGoesOnListsThePicturesThatWereDrawnBefore) {
   const WatchedRun run(GetParam(),
                        "--set insitu.pipeline='[{name=\"ranks\", every_time=\"1 ms\", strict=true, "
                        "parameters={width=160, height=100}}]' --set time.max_steps=400");
@@ -356,7 +356,7 @@ TEST_P(InSitu, a_run_that_goes_on_lists_the_pictures_that_were_drawn_before) {
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 6) << table;
 }
 
-TEST_P(InSitu, nobody_listening_does_not_matter) {
+TEST_P(InSitu, NobodyListeningDoesNotMatter) {
   const WatchedRun run(GetParam(), "--live localhost:1");
   EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   EXPECT_EQ(run.outcome.err, "");
@@ -364,7 +364,7 @@ TEST_P(InSitu, nobody_listening_does_not_matter) {
 
 INSTANTIATE_TEST_SUITE_P(OfRanks, InSitu, testing::Values(1, 2), testing::PrintToStringParamName());
 
-TEST(InSituAlone, check_refuses_what_a_run_would) {
+TEST(InSituAlone, CheckRefusesWhatARunWould) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   const Outcome outcome = call("check " + file + " --set 'insitu.pipeline=[{name=\"stress\", parameters={widht=3}}]'");
@@ -379,7 +379,7 @@ TEST(InSituAlone, check_refuses_what_a_run_would) {
       << kinds.err;
 }
 
-TEST(InSituAlone, a_live_view_that_leaves_the_machine_is_warned_of) {
+TEST(InSituAlone, ALiveViewThatLeavesTheMachineIsWarnedOf) {
   char host[256] = "";
   ASSERT_EQ(gethostname(host, sizeof host - 1), 0);
   const WatchedRun run(1, std::string("--live-remote --live ") + host + ":1 --set time.max_steps=3");
@@ -387,7 +387,7 @@ TEST(InSituAlone, a_live_view_that_leaves_the_machine_is_warned_of) {
   EXPECT_NE(run.outcome.err.find("another machine"), std::string::npos) << run.outcome.err;
 }
 
-TEST(InSituAlone, a_script_in_which_ranks_wait_for_each_other_in_vain_ends_the_run) {
+TEST(InSituAlone, AScriptInWhichRanksWaitForEachOtherInVainEndsTheRun) {
   const WatchedRun run(2, "--set 'domains.patience=\"6 s\"'" + strict({BRECCIA_SCRIPTS "/leaves_the_others.py"}));
   EXPECT_EQ(run.outcome.exit_code, 4);
   EXPECT_NE(run.outcome.err.find("leaves_the_others.py: rank 1 has waited "), std::string::npos) << run.outcome.err;
@@ -398,7 +398,7 @@ TEST(InSituAlone, a_script_in_which_ranks_wait_for_each_other_in_vain_ends_the_r
       << run.outcome.err;
 }
 
-TEST(InSituAlone, without_an_adaptor_the_run_says_what_to_install) {
+TEST(InSituAlone, WithoutAnAdaptorTheRunSaysWhatToInstall) {
   const WatchedRun run(1, "--insitu fractures", "BRECCIA_CATALYST=/nowhere/libbreccia_catalyst.so");
   EXPECT_EQ(run.outcome.exit_code, 2);
   EXPECT_NE(run.outcome.err.find("/nowhere/libbreccia_catalyst.so"), std::string::npos) << run.outcome.err;
@@ -406,13 +406,13 @@ TEST(InSituAlone, without_an_adaptor_the_run_says_what_to_install) {
   EXPECT_FALSE(fs::exists(run.folder()));
 }
 
-TEST(InSituAlone, something_else_than_an_adaptor_is_refused) {
+TEST(InSituAlone, SomethingElseThanAnAdaptorIsRefused) {
   const WatchedRun run(1, "--insitu fractures", "BRECCIA_CATALYST=/bin/true");
   EXPECT_EQ(run.outcome.exit_code, 2);
   EXPECT_NE(run.outcome.err.find("cannot be loaded"), std::string::npos) << run.outcome.err;
 }
 
-TEST(InSituAlone, an_interrupt_still_ends_the_run_in_order) {
+TEST(InSituAlone, AnInterruptStillEndsTheRunInOrder) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   const fs::path folder = scratch.path("run");
@@ -426,7 +426,7 @@ TEST(InSituAlone, an_interrupt_still_ends_the_run_in_order) {
   EXPECT_EQ(json::parse(read_text(folder / "summary.json"))["status"].get<std::string>().substr(0, 7), "stopped");
 }
 
-TEST(InSituAlone, a_replay_draws_what_a_run_has_recorded) {
+TEST(InSituAlone, AReplayDrawsWhatARunHasRecorded) {
   const WatchedRun run(1, "--set time.max_steps=50" + strict({"volume", "fractures"}));
   ASSERT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
   const Outcome replay = call("insitu replay '" + run.folder().string() + "' " BRECCIA_SCRIPTS "/count_cells.py");

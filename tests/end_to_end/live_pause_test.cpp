@@ -112,7 +112,7 @@ class HeldRun {
 
 class LivePause : public testing::TestWithParam<int> {};
 
-TEST_P(LivePause, of_ParaView_is_ended_by_a_stop_that_the_run_is_told) {
+TEST_P(LivePause, OfParaViewIsEndedByAStopThatTheRunIsTold) {
   HeldRun run(GetParam());
   ASSERT_TRUE(run.stands());
   const Outcome asked = call("control '" + run.folder().string() + "' stop");
@@ -121,7 +121,7 @@ TEST_P(LivePause, of_ParaView_is_ended_by_a_stop_that_the_run_is_told) {
   EXPECT_EQ(run.status().substr(0, 7), "stopped");
 }
 
-TEST_P(LivePause, of_ParaView_is_ended_by_a_signal_that_asks_the_run_to_end) {
+TEST_P(LivePause, OfParaViewIsEndedByASignalThatAsksTheRunToEnd) {
   HeldRun run(GetParam());
   ASSERT_TRUE(run.stands());
   run.interrupt();

@@ -36,7 +36,7 @@ class Machine : public testing::TestWithParam<int> {
 };
 INSTANTIATE_TEST_SUITE_P(Ranks, Machine, testing::Values(1, 2));
 
-TEST_P(Machine, without_locks_of_files_writes_frames_and_checkpoints_all_the_same) {
+TEST_P(Machine, WithoutLocksOfFilesWritesFramesAndCheckpointsAllTheSame) {
   const std::string preload = "LD_PRELOAD=" BRECCIA_NO_LOCKS;
   const Outcome outcome = GetParam() == 1 ? call(arguments(), preload) : call_ranks(GetParam(), arguments(), preload);
   EXPECT_EQ(outcome.exit_code, 0);
@@ -47,7 +47,7 @@ TEST_P(Machine, without_locks_of_files_writes_frames_and_checkpoints_all_the_sam
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
 }
 
-TEST_P(Machine, that_runs_a_job_lets_nothing_of_it_listen_beyond_the_machine) {
+TEST_P(Machine, ThatRunsAJobLetsNothingOfItListenBeyondTheMachine) {
   forget_network_settings();
   const std::string longer = arguments("--set 'stage[0].end=1000 s'");
   const pid_t process =
@@ -62,7 +62,7 @@ TEST_P(Machine, that_runs_a_job_lets_nothing_of_it_listen_beyond_the_machine) {
   end_tree(process);
 }
 
-TEST(BackgroundRun, outlives_a_logout_where_the_signal_was_ignored_at_its_start) {
+TEST(BackgroundRun, OutlivesALogoutWhereTheSignalWasIgnoredAtItsStart) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase + "[checkpoint]\nsteps = 20\n");
   const fs::path run = scratch.path("run");
@@ -79,7 +79,7 @@ TEST(BackgroundRun, outlives_a_logout_where_the_signal_was_ignored_at_its_start)
   }
 }
 
-TEST(SuspendedRun, goes_on_whatever_its_patience) {
+TEST(SuspendedRun, GoesOnWhateverItsPatience) {
   constexpr auto kSuspended = std::chrono::seconds(6);  // more than twice the patience, after which a run ends
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase + "[checkpoint]\nsteps = 20\n");

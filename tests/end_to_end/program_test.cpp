@@ -24,7 +24,7 @@ json summary_of(const Scratch& scratch, const std::string& arguments, const std:
   return json::parse(read_text(folder + "/summary.json"));
 }
 
-TEST(Program, tells_its_version_and_helps) {
+TEST(Program, TellsItsVersionAndHelps) {
   EXPECT_NE(call("--version").out.find("breccia"), std::string::npos);
   for (const char* command : {"", "run", "race", "check", "mesh", "explain"}) {
     const Outcome outcome = call(std::string(command) + " --help");
@@ -33,7 +33,7 @@ TEST(Program, tells_its_version_and_helps) {
   }
 }
 
-TEST(Program, explains_every_section_and_a_key) {
+TEST(Program, ExplainsEverySectionAndAKey) {
   const Outcome all = call("explain");
   EXPECT_EQ(all.exit_code, 0);
   for (const char* section : {"mesh", "material", "joint", "contact", "stage", "time", "detection", "output"}) {
@@ -42,7 +42,7 @@ TEST(Program, explains_every_section_and_a_key) {
   EXPECT_NE(call("explain material.young").out.find("Pa"), std::string::npos);
 }
 
-TEST(Program, a_run_leaves_everything_it_promises) {
+TEST(Program, ARunLeavesEverythingItPromises) {
   const Scratch scratch;
   const json summary = summary_of(scratch, "");
   for (const char* name :
@@ -61,7 +61,7 @@ TEST(Program, a_run_leaves_everything_it_promises) {
   }
 }
 
-TEST(Program, boxes_that_burst_into_debris_create_no_energy) {
+TEST(Program, BoxesThatBurstIntoDebrisCreateNoEnergy) {
   // At half the speed of sound everything is crushed, slides far on closed cracks and ends as single tetrahedra that
   // overlap.
   const Scratch scratch;
@@ -74,7 +74,7 @@ TEST(Program, boxes_that_burst_into_debris_create_no_energy) {
   EXPECT_GT(summary["fragments"].get<int>(), 150);
 }
 
-TEST(Program, the_resolved_case_gives_the_same_bits_again) {
+TEST(Program, TheResolvedCaseGivesTheSameBitsAgain) {
   const Scratch scratch;
   const json first = summary_of(scratch, "");
   const std::string again = scratch.path("again").string();
@@ -84,7 +84,7 @@ TEST(Program, the_resolved_case_gives_the_same_bits_again) {
   EXPECT_EQ(json::parse(read_text(again + "/summary.json"))["state_hash"], first["state_hash"]);
 }
 
-TEST(Program, every_detection_algorithm_gives_the_same_bits) {
+TEST(Program, EveryDetectionAlgorithmGivesTheSameBits) {
   const Scratch scratch;
   const json reference = summary_of(scratch, "");
   for (const char* algorithm : {"ms", "ms_slices", "brute_force"}) {
@@ -93,19 +93,19 @@ TEST(Program, every_detection_algorithm_gives_the_same_bits) {
   }
 }
 
-TEST(Program, couples_are_never_missed) {
+TEST(Program, CouplesAreNeverMissed) {
   const Scratch scratch;
   const json reference = summary_of(scratch, "");
   EXPECT_EQ(summary_of(scratch, "--set detection.verify=true")["state_hash"], reference["state_hash"]);
 }
 
-TEST(Program, the_buffer_changes_nothing_but_speed) {
+TEST(Program, TheBufferChangesNothingButSpeed) {
   const Scratch scratch;
   const json reference = summary_of(scratch, "");
   EXPECT_EQ(summary_of(scratch, "--set 'detection.buffer=4 mm'")["state_hash"], reference["state_hash"]);
 }
 
-TEST(Program, every_simd_width_gives_the_same_bits) {
+TEST(Program, EverySimdWidthGivesTheSameBits) {
   const Scratch scratch;
   const json narrow = summary_of(scratch, "", "BRECCIA_SIMD=sse2");
   EXPECT_EQ(narrow["simd"], "sse2");
@@ -116,7 +116,7 @@ TEST(Program, every_simd_width_gives_the_same_bits) {
   }
 }
 
-TEST(Program, old_results_are_kept_unless_told_otherwise) {
+TEST(Program, OldResultsAreKeptUnlessToldOtherwise) {
   const Scratch scratch;
   summary_of(scratch, "");
   const std::string folder = scratch.path("run").string();
@@ -125,7 +125,7 @@ TEST(Program, old_results_are_kept_unless_told_otherwise) {
   EXPECT_NE(outcome.err.find(folder), std::string::npos) << outcome.err;
 }
 
-TEST(Program, an_exploding_run_stops_with_code_3_and_leaves_its_last_frame) {
+TEST(Program, AnExplodingRunStopsWithCode3AndLeavesItsLastFrame) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   const std::string folder = scratch.path("run").string();
@@ -137,7 +137,7 @@ TEST(Program, an_exploding_run_stops_with_code_3_and_leaves_its_last_frame) {
   EXPECT_NE(json::parse(read_text(folder + "/summary.json"))["status"], "complete");
 }
 
-TEST(Program, json_progress_is_one_object_a_line) {
+TEST(Program, JsonProgressIsOneObjectALine) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   const Outcome outcome = call("run " + file + " --progress json -o '" + scratch.path("run").string() + "'");
@@ -148,7 +148,7 @@ TEST(Program, json_progress_is_one_object_a_line) {
   EXPECT_GE(count, 2);
 }
 
-TEST(Program, a_full_disk_stops_the_run_with_code_2) {
+TEST(Program, AFullDiskStopsTheRunWithCode2) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   // No file may grow past 8 blocks of 1 kB: the frames do not fit.
@@ -158,7 +158,7 @@ TEST(Program, a_full_disk_stops_the_run_with_code_2) {
   EXPECT_NE(outcome.err.find("frames"), std::string::npos) << outcome.err;
 }
 
-TEST(Program, an_interrupt_ends_the_run_in_order) {
+TEST(Program, AnInterruptEndsTheRunInOrder) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   const std::filesystem::path folder = scratch.path("run");
@@ -170,7 +170,7 @@ TEST(Program, an_interrupt_ends_the_run_in_order) {
   EXPECT_EQ(json::parse(read_text(folder / "summary.json"))["status"].get<std::string>().substr(0, 7), "stopped");
 }
 
-TEST(Program, gives_up_a_mesh_that_takes_too_long_when_it_is_interrupted) {
+TEST(Program, GivesUpAMeshThatTakesTooLongWhenItIsInterrupted) {
   const Scratch scratch;
   std::string text = changed("[mesh.raster]", "[mesh]\nfile = \"endless.geo\"\n[ignored]");
   const std::size_t ignored = text.find("[ignored]");
@@ -187,7 +187,7 @@ TEST(Program, gives_up_a_mesh_that_takes_too_long_when_it_is_interrupted) {
   EXPECT_FALSE(std::filesystem::exists(scratch.path("run")));
 }
 
-TEST(Program, that_is_killed_is_told_interrupted_and_leaves_its_folder_free) {
+TEST(Program, ThatIsKilledIsToldInterruptedAndLeavesItsFolderFree) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase), run = scratch.path("run").string();
   const std::string arguments = "run " + file + " --progress none --set 'stage[0].end=100 s' -o '" + run + "'";
@@ -208,7 +208,7 @@ TEST(Program, that_is_killed_is_told_interrupted_and_leaves_its_folder_free) {
   EXPECT_EQ(call("run " + file + " -f --progress none --set time.max_steps=3 -o '" + run + "'").exit_code, 0);
 }
 
-TEST(Program, whose_terminal_is_closed_or_whose_time_is_up_ends_as_if_asked_to) {
+TEST(Program, WhoseTerminalIsClosedOrWhoseTimeIsUpEndsAsIfAskedTo) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase), run = scratch.path("run").string();
   for (const int signal : {SIGHUP, SIGUSR2, SIGXCPU}) {
@@ -220,7 +220,7 @@ TEST(Program, whose_terminal_is_closed_or_whose_time_is_up_ends_as_if_asked_to) 
   }
 }
 
-TEST(Program, check_advises_in_sentences) {
+TEST(Program, CheckAdvisesInSentences) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   const Outcome outcome = call("check " + file);
@@ -238,7 +238,7 @@ double number_before(const std::string& text, const std::string& words) {
   return std::stod(text.substr(text.find_last_of(' ', end - 1) + 1));
 }
 
-TEST(Program, check_tells_how_much_softer_joints_make_the_body) {
+TEST(Program, CheckTellsHowMuchSofterJointsMakeTheBody) {
   const Scratch scratch;
   const Outcome outcome = call("check " + scratch.write("case.toml", kSmallCase));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -252,7 +252,7 @@ TEST(Program, check_tells_how_much_softer_joints_make_the_body) {
   EXPECT_NEAR(number_before(outcome.out, " % softer. For 5 %") / (100 * softness), 1.0, kTwoDigits);
 }
 
-TEST(Program, check_tells_along_which_direction_joints_of_flat_elements_make_the_body_softest) {
+TEST(Program, CheckTellsAlongWhichDirectionJointsOfFlatElementsMakeTheBodySoftest) {
   const Scratch scratch;
   const std::string flat =
       "--set 'mesh.raster.cells=[10, 1, 1]' --set 'mesh.raster.cell_size=[\"1 mm\", \"4 mm\", \"4 mm\"]'";
@@ -268,7 +268,7 @@ TEST(Program, check_tells_along_which_direction_joints_of_flat_elements_make_the
   EXPECT_NEAR(number_before(outcome.out, " % softer along x. For 5 %") / (100 * softness), 1.0, kTwoDigits);
 }
 
-TEST(Program, check_tells_how_ranks_would_share_the_model) {
+TEST(Program, CheckTellsHowRanksWouldShareTheModel) {
   const Scratch scratch;
   const Outcome outcome =
       call("check " + scratch.write("case.toml", kSmallCase) + " --ranks 3 --set mesh.raster.boxes=[12,1,1]");
@@ -279,7 +279,7 @@ TEST(Program, check_tells_how_ranks_would_share_the_model) {
   }
 }
 
-TEST(Program, mesh_reports_and_writes_the_elements) {
+TEST(Program, MeshReportsAndWritesTheElements) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   const Outcome outcome = call("mesh " + file + " -o '" + scratch.path("mesh").string() + "'");
@@ -288,7 +288,7 @@ TEST(Program, mesh_reports_and_writes_the_elements) {
   EXPECT_TRUE(std::filesystem::exists(scratch.path("mesh/elements.hdf.series")));
 }
 
-TEST(Program, a_mesh_does_not_take_the_place_of_the_frames_of_a_run) {
+TEST(Program, AMeshDoesNotTakeThePlaceOfTheFramesOfARun) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase), run = scratch.path("run").string();
   ASSERT_EQ(call("run " + file + " --set time.max_steps=10 -o '" + run + "'").exit_code, 0);

@@ -42,7 +42,7 @@ std::string final_hash(const std::string& file, const Scratch& scratch, const st
   return json::parse(read_text(folder + "/summary.json"))["state_hash"];
 }
 
-TEST(Race, every_algorithm_races_with_every_buffer_and_with_the_case_s_own) {
+TEST(Race, EveryAlgorithmRacesWithEveryBufferAndWithTheCaseSOwn) {
   const std::vector<json> found = racers(call("race " + kCubes + kShort));
   std::set<std::string> names, hashes;
   double before = 0;
@@ -73,7 +73,7 @@ TEST(Race, every_algorithm_races_with_every_buffer_and_with_the_case_s_own) {
   EXPECT_EQ(own, 1);
 }
 
-TEST(Race, a_larger_buffer_means_more_couples_and_fewer_searches_whoever_looks) {
+TEST(Race, ALargerBufferMeansMoreCouplesAndFewerSearchesWhoeverLooks) {
   std::set<std::pair<int, int>> found;  // searches and couples: one pair for each of 0.5, 1 and 3 mm
   for (const json& racer : racers(call("race " + kCubes + " --set 'detection.buffer=1 mm'" + kShort)))
     found.emplace(racer["searches"], racer["couples"]);
@@ -85,14 +85,14 @@ TEST(Race, a_larger_buffer_means_more_couples_and_fewer_searches_whoever_looks) 
   }
 }
 
-TEST(Race, two_ranks_end_in_the_state_of_one) {
+TEST(Race, TwoRanksEndInTheStateOfOne) {
   const std::vector<json> one = racers(call("race " + kCubes + kShort));
   const std::vector<json> two = racers(call_ranks(2, "race " + kCubes + kShort));
   ASSERT_EQ(two.size(), one.size());
   EXPECT_EQ(two.front()["state_hash"], one.front()["state_hash"]);
 }
 
-TEST(Race, all_end_where_a_run_ends) {
+TEST(Race, AllEndWhereARunEnds) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);  // joints break in it, and a stage constrains
   const std::string hash = final_hash(file, scratch, "");
@@ -104,7 +104,7 @@ TEST(Race, all_end_where_a_run_ends) {
   }
 }
 
-TEST(Race, a_race_may_go_through_several_stages) {
+TEST(Race, ARaceMayGoThroughSeveralStages) {
   const Scratch scratch;
   const std::string second =
       "end = \"2 ms\"\n[[stage]]\nname = \"fall\"\nend = \"4 ms\"\ngravity = [0, 0, \"-9.81 m/s2\"]\n";
@@ -118,7 +118,7 @@ TEST(Race, a_race_may_go_through_several_stages) {
   }
 }
 
-TEST(Race, the_table_ends_with_lines_that_the_case_takes) {
+TEST(Race, TheTableEndsWithLinesThatTheCaseTakes) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   const Outcome outcome = call("race " + file + " --steps 50 --progress none");
@@ -135,7 +135,7 @@ TEST(Race, the_table_ends_with_lines_that_the_case_takes) {
   EXPECT_EQ(checked.exit_code, 0) << checked.err;
 }
 
-TEST(Race, writes_a_line_for_each_racer_only_when_asked) {
+TEST(Race, WritesALineForEachRacerOnlyWhenAsked) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   const std::string folder = scratch.path("out").string();
@@ -149,7 +149,7 @@ TEST(Race, writes_a_line_for_each_racer_only_when_asked) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);
 }
 
-TEST(Race, brute_force_stays_away_from_a_large_model_unless_named) {
+TEST(Race, BruteForceStaysAwayFromALargeModelUnlessNamed) {
   const Scratch scratch;
   // 4,608 elements, all contactors, and 2,304 points or more on free faces: over ten million pairs.
   const std::string file = scratch.write("case.toml", changed("cells = [2, 2, 1]", "cells = [8, 8, 3]"));
@@ -161,7 +161,7 @@ TEST(Race, brute_force_stays_away_from_a_large_model_unless_named) {
   EXPECT_NE(named.out.find("* brute_force"), std::string::npos) << named.out << named.err;
 }
 
-TEST(Race, an_interrupt_ends_it_in_order) {
+TEST(Race, AnInterruptEndsItInOrder) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase), out = scratch.path("out").string();
   const std::string arguments =

@@ -70,7 +70,7 @@ double held(const std::string& history, std::size_t line) {
   return sum;
 }
 
-TEST(Release, of_a_driven_platen_gives_back_what_contact_held_though_steps_were_longer_before) {
+TEST(Release, OfADrivenPlatenGivesBackWhatContactHeldThoughStepsWereLongerBefore) {
   const Scratch scratch;
   const std::string history = press_and_let_go(scratch, {"100", "5 GPa", "0.01 mm"}) + "/history.csv";
   const std::vector<double> steps = history_column(history, "time step [s]");
@@ -82,7 +82,7 @@ TEST(Release, of_a_driven_platen_gives_back_what_contact_held_though_steps_were_
 }
 
 /// Held nodes do not move as fast as loads would throw them: no motion to end the run for.
-TEST(Release, comes_after_a_press_that_would_throw_held_nodes_far) {
+TEST(Release, ComesAfterAPressThatWouldThrowHeldNodesFar) {
   const Scratch scratch;
   const std::string one = press_and_let_go(scratch, {"2000", "10 GPa", "0.1 mm"});
   const std::string two = press_and_let_go(scratch, {"2000", "10 GPa", "0.1 mm"}, 2);

@@ -19,14 +19,14 @@ struct Watched {
 
 class Sockets : public testing::TestWithParam<Watched> {};
 
-TEST_P(Sockets, of_a_run_with_pipelines_listen_to_no_network) {
+TEST_P(Sockets, OfARunWithPipelinesListenToNoNetwork) {
   forget_network_settings();
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   const fs::path run = scratch.path("run");
-  const std::string arguments =
-      "run " + file + " --progress none -o '" + run.string() +
-      "' --set 'stage[0].end=1000 s' --set 'output.history_interval=1 ms' " + GetParam().settings;
+  const std::string arguments = "run " + file + " --progress none -o '" + run.string() +
+                                "' --set 'stage[0].end=1000 s' --set 'output.history_interval=1 ms' " +
+                                GetParam().settings;
   const pid_t process = GetParam().ranks == 1 ? start_process("exec '" BRECCIA_PROGRAM "' " + arguments)
                                               : start_ranks(GetParam().ranks, arguments);
   EXPECT_TRUE(wait_until([&] { return fs::exists(run / "history.csv") && fs::file_size(run / "history.csv") > 4000; }));

@@ -51,7 +51,7 @@ group = "surface_1"
 fixed = "xyz"
 )";
 
-TEST(Solid, a_case_of_an_stl_is_checked_and_run_with_the_same_bits_on_two_ranks) {
+TEST(Solid, ACaseOfAnStlIsCheckedAndRunWithTheSameBitsOnTwoRanks) {
   const Scratch scratch;
   scratch.write("beam.stl", beam());
   const std::string file = scratch.write("case.toml", kCase);
@@ -69,7 +69,7 @@ TEST(Solid, a_case_of_an_stl_is_checked_and_run_with_the_same_bits_on_two_ranks)
   EXPECT_EQ(summary[0]["state_hash"], summary[1]["state_hash"]);
 }
 
-TEST(Solid, whose_lengths_look_like_millimetres_taken_for_metres_is_asked_about) {
+TEST(Solid, WhoseLengthsLookLikeMillimetresTakenForMetresIsAskedAbout) {
   const Scratch scratch;
   scratch.write("beam.stl", beam());
   const std::string file = scratch.write("case.toml", kCase);
@@ -79,7 +79,7 @@ TEST(Solid, whose_lengths_look_like_millimetres_taken_for_metres_is_asked_about)
       << checked.out;
 }
 
-TEST(Geometry, with_the_numbers_that_a_case_may_set_tells_them_without_meshing) {
+TEST(Geometry, WithTheNumbersThatACaseMaySetTellsThemWithoutMeshing) {
   const Scratch scratch;
   const std::string file = scratch.write("bar.geo", "DefineConstant[ h = 2e-3, // element size\n n ];\n");
   const json wanted = {{{"names", {"h"}}, {"default", "2e-3"}, {"words", "element size"}},
@@ -98,7 +98,7 @@ TEST(Geometry, with_the_numbers_that_a_case_may_set_tells_them_without_meshing) 
   EXPECT_EQ(json::parse(of_solid.out)["parameters"], json::array());
 }
 
-TEST(Geometry, in_place_of_a_case_is_refused_with_what_a_case_would_say) {
+TEST(Geometry, InPlaceOfACaseIsRefusedWithWhatACaseWouldSay) {
   const Scratch scratch;
   const std::string file = scratch.write("bar.geo", "Point(1) = {0, 0, 0};\n");
   for (const char* command : {"check ", "run "}) {
@@ -117,7 +117,7 @@ constexpr const char* kPair =
     "*NODE, NSET=all\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,1,1,1\n*ELEMENT, TYPE=C3D4, ELSET=rock\n1,1,2,3,4\n"
     "*ELEMENT, TYPE=C3D4, ELSET=steel\n2,2,3,4,5\n*SURFACE, NAME=base\n1, S1\n";
 
-TEST(Solid, any_mesh_is_reported_without_a_case_and_with_what_one_begins_with) {
+TEST(Solid, AnyMeshIsReportedWithoutACaseAndWithWhatOneBeginsWith) {
   const Scratch scratch;
   const Outcome mesh = call("mesh " + scratch.write("pair.inp", kPair));
   EXPECT_EQ(mesh.exit_code, 0) << mesh.err;
@@ -134,7 +134,7 @@ TEST(Solid, any_mesh_is_reported_without_a_case_and_with_what_one_begins_with) {
   EXPECT_NE(other.err.find("meshio convert"), std::string::npos) << other.err;
 }
 
-TEST(Solid, groups_without_elements_are_refused_under_every_key_that_names_one) {
+TEST(Solid, GroupsWithoutElementsAreRefusedUnderEveryKeyThatNamesOne) {
   const Scratch scratch;
   scratch.write("empty.msh",
                 "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n3 1 \"rock\"\n3 2 \"lost\"\n2 3 \"no_face\"\n"
@@ -162,7 +162,7 @@ TEST(Solid, groups_without_elements_are_refused_under_every_key_that_names_one) 
   EXPECT_EQ(call("check " + scratch.write("case.toml", head + stage)).exit_code, 0);
 }
 
-TEST(Solid, without_a_case_is_meshed_and_its_groups_and_box_told) {
+TEST(Solid, WithoutACaseIsMeshedAndItsGroupsAndBoxTold) {
   const Scratch scratch;
   const std::string file = scratch.write("beam.stl", beam());
   const Outcome outcome = call("mesh " + file + " --json");

@@ -54,7 +54,7 @@ void write_wrong_files(const Scratch& scratch) {
 
 class WrongInput : public testing::TestWithParam<Wrong> {};
 
-TEST_P(WrongInput, is_refused_with_its_message_and_exit_code) {
+TEST_P(WrongInput, IsRefusedWithItsMessageAndExitCode) {
   const Wrong& wrong = GetParam();
   const Scratch scratch;
   // The mesh files need no raster keys: what stood in the section goes with it.
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(, WrongInput, testing::ValuesIn(wrongs()), [](const aut
 INSTANTIATE_TEST_SUITE_P(OfKeys, WrongInput, testing::ValuesIn(wrong_keys()),
                          [](const auto& one) { return one.param.name; });
 
-TEST(WrongInputOfRanks, is_refused_with_one_message_by_two_of_them) {
+TEST(WrongInputOfRanks, IsRefusedWithOneMessageByTwoOfThem) {
   const Scratch scratch;
   write_wrong_files(scratch);
   const std::string mesh = changed("[mesh.raster]", "[mesh]\nfile = \"FILE\"\n[ignored]");
@@ -113,7 +113,7 @@ TEST(WrongInputOfRanks, is_refused_with_one_message_by_two_of_them) {
   }
 }
 
-TEST(WrongInputOfRanks, of_keys_and_data_files_is_refused_with_one_message_by_two_of_them) {
+TEST(WrongInputOfRanks, OfKeysAndDataFilesIsRefusedWithOneMessageByTwoOfThem) {
   const Scratch scratch;
   write_wrong_files(scratch);
   std::size_t tried = 0;
@@ -131,7 +131,7 @@ TEST(WrongInputOfRanks, of_keys_and_data_files_is_refused_with_one_message_by_tw
   EXPECT_GT(tried, 100u);
 }
 
-TEST(WrongInputOfRanks, is_refused_where_the_environment_of_one_of_them_is_wrong) {
+TEST(WrongInputOfRanks, IsRefusedWhereTheEnvironmentOfOneOfThemIsWrong) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase), run = scratch.path("run").string();
   const std::string arguments = "run " + file + " --set domains.patience=5 -o '" + run + "'";
@@ -141,7 +141,7 @@ TEST(WrongInputOfRanks, is_refused_where_the_environment_of_one_of_them_is_wrong
   EXPECT_FALSE(std::filesystem::exists(run));
 }
 
-TEST(WrongInputOfTheSystem, a_stack_limit_that_is_too_low_is_told_or_raised) {
+TEST(WrongInputOfTheSystem, AStackLimitThatIsTooLowIsToldOrRaised) {
   const Scratch scratch;
   const std::string file = scratch.write("case.toml", kSmallCase);
   const std::string run = "run " + file + " --progress none -o '" + scratch.path("run").string() + "'";
@@ -154,7 +154,7 @@ TEST(WrongInputOfTheSystem, a_stack_limit_that_is_too_low_is_told_or_raised) {
   EXPECT_EQ(raised.exit_code, 0) << raised.err;
 }
 
-TEST(WrongInputTable, holds_at_least_250_cases) {
+TEST(WrongInputTable, HoldsAtLeast250Cases) {
   EXPECT_GE(wrongs().size(), 150u);
   EXPECT_GE(wrong_keys().size(), 100u);
 }

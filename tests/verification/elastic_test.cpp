@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kResidual = 1e-3;  // of the largest term: the limit for every case of the repository
 
-TEST(Elastic, a_pulse_runs_along_a_bar_that_cannot_widen_at_the_speed_of_p_waves) {
+TEST(Elastic, APulseRunsAlongABarThatCannotWidenAtTheSpeedOfPWaves) {
   const Recording run = run_case_file("bar_wave/case.toml");
   constexpr double kYoung = 26.6e9, kPoisson = 0.205, kDensity = 2340, kLength = 1.0, kPulse = 120e-6;
   const double speed = std::sqrt(kYoung * (1 - kPoisson) / ((1 + kPoisson) * (1 - 2 * kPoisson)) / kDensity);
@@ -28,7 +28,7 @@ TEST(Elastic, a_pulse_runs_along_a_bar_that_cannot_widen_at_the_speed_of_p_waves
   EXPECT_LT(run.worst_residual(), kResidual);
 }
 
-TEST(Elastic, a_cantilever_of_linear_tetrahedra_bends_by_their_static_deflection) {
+TEST(Elastic, ACantileverOfLinearTetrahedraBendsByTheirStaticDeflection) {
   const Recording run = run_case_file("cantilever/case_smoke.toml");
   constexpr double kStatic = -5.014e-3;  // m, linear static solution on the same mesh
   constexpr double kTolerance = 0.1e-3;  // m, choice of diagonals and what damping leaves of the ringing
@@ -36,7 +36,7 @@ TEST(Elastic, a_cantilever_of_linear_tetrahedra_bends_by_their_static_deflection
   EXPECT_LT(run.worst_residual(), kResidual);
 }
 
-TEST(Elastic, joints_make_the_cantilever_softer_by_their_compliance) {
+TEST(Elastic, JointsMakeTheCantileverSofterByTheirCompliance) {
   const Recording run =
       run_case_file("cantilever/case_joints_10.toml",
                     {"stage.bend.end=0.5 s", "stage[0].mass_damping=60",

@@ -36,7 +36,7 @@ double softening_width(const Recording& run, int axis) {
   return (at_end - at_peak) * kSpeed;
 }
 
-TEST(JointPair, of_the_published_law_softens_over_15_55_um_from_866_N_in_each_mode) {
+TEST(JointPair, OfThePublishedLawSoftensOver1555UmFrom866NInEachMode) {
   for (const auto& [file, axis] : {std::pair{"joint_pair/case_mode_1.toml", 0}, {"joint_pair/case_mode_2.toml", 1}}) {
     const Recording run = run_case_file(file);
     EXPECT_NEAR(peak(run, axis) / 866.025, 1.0, kPeak);
@@ -47,7 +47,7 @@ TEST(JointPair, of_the_published_law_softens_over_15_55_um_from_866_N_in_each_mo
   }
 }
 
-TEST(JointPair, pulled_or_sheared_apart_is_shown_and_counted_as_broken_in_that_mode) {
+TEST(JointPair, PulledOrShearedApartIsShownAndCountedAsBrokenInThatMode) {
   struct Expected {
     const char* file;
     int mode;
@@ -70,13 +70,13 @@ TEST(JointPair, pulled_or_sheared_apart_is_shown_and_counted_as_broken_in_that_m
   }
 }
 
-TEST(JointPair, of_the_published_law_reaches_both_peaks_at_once) {
+TEST(JointPair, OfThePublishedLawReachesBothPeaksAtOnce) {
   const Recording run = run_case_file("joint_pair/case_mixed.toml");
   EXPECT_NEAR(peak(run, 0) / 866.025, 1.0, kPeak);
   EXPECT_NEAR(peak(run, 1) / 866.025, 1.0, kPeak);
 }
 
-TEST(JointPair, of_the_default_law_takes_the_fracture_energy_in_every_direction) {
+TEST(JointPair, OfTheDefaultLawTakesTheFractureEnergyInEveryDirection) {
   for (const double degrees : {0.0, 30.0, 45.0, 60.0, 90.0}) {
     const double angle = degrees * std::acos(-1.0) / 180.0;
     const auto table = [](double part) { return "{table = [[0, 0], [1e-3, " + std::to_string(part) + "e-6]]}"; };
@@ -92,7 +92,7 @@ TEST(JointPair, of_the_default_law_takes_the_fracture_energy_in_every_direction)
   }
 }
 
-TEST(JointPair, of_the_default_law_takes_energies_of_both_modes_that_add_up_over_their_fracture_energies) {
+TEST(JointPair, OfTheDefaultLawTakesEnergiesOfBothModesThatAddUpOverTheirFractureEnergies) {
   constexpr double kMode1 = 30, kMode2 = 90;  // J/m2
   constexpr double kLinear = 2e-3;  // with the 1 % that is elastic at this penalty the sum is 0.9997 to 0.9999
   for (const double degrees : {30.0, 60.0, 80.0}) {
@@ -109,7 +109,7 @@ TEST(JointPair, of_the_default_law_takes_energies_of_both_modes_that_add_up_over
   }
 }
 
-TEST(SlitPlate, breaks_from_the_slit_with_a_closed_budget) {
+TEST(SlitPlate, BreaksFromTheSlitWithAClosedBudget) {
   const Recording run = run_case_file("slit_plate/case_a.toml");
   EXPECT_GT(run.summary.broken_joints, 0);
   constexpr double kResidual = 1e-3;
@@ -141,7 +141,7 @@ value = "0.1 MPa"
 frame_interval = "10 us"
 )";
 
-TEST(Stage, that_breaks_joints_gives_them_its_start_as_the_time_of_failure) {
+TEST(Stage, ThatBreaksJointsGivesThemItsStartAsTheTimeOfFailure) {
   const Recording run = run_case_text(kCutPlate);
   ASSERT_EQ(run.frames.size(), 4U);
   EXPECT_TRUE(run.frames[0].joints.id.empty());

@@ -20,7 +20,7 @@ std::string colliding_cubes(int seed) {
          std::to_string(seed) + "\n[[stage]]\nname = \"fly\"\nend = 0.6\n[time]\nsafety = 0.1\n";
 }
 
-TEST(CollidingCubes, keep_linear_and_angular_momentum_to_round_off_and_their_energy) {
+TEST(CollidingCubes, KeepLinearAndAngularMomentumToRoundOffAndTheirEnergy) {
   int collisions = 0;
   for (const int seed : {10, 14, 19, 24}) {  // of those whose cubes meet
     const Recording run = run_case_text(colliding_cubes(seed));
@@ -36,7 +36,7 @@ TEST(CollidingCubes, keep_linear_and_angular_momentum_to_round_off_and_their_ene
   EXPECT_GT(collisions, 0) << "nothing has touched: the test shows nothing";
 }
 
-TEST(SlidingBlock, stops_where_friction_has_taken_its_energy) {
+TEST(SlidingBlock, StopsWhereFrictionHasTakenItsEnergy) {
   const Recording run = run_case_file("sliding_block/case.toml");
   constexpr double kExpected = 1.0 / (2 * 0.5 * 9.81);  // m, v^2 / (2 mu g)
   constexpr double kTolerance = 0.01;
@@ -46,7 +46,7 @@ TEST(SlidingBlock, stops_where_friction_has_taken_its_energy) {
 
 /// Points on the lower edge of its front are on that face as well, which looks along the floor: pushed by what lies
 /// below, they stopped it after four fifths of the way.
-TEST(SlidingBlock, stops_there_with_points_on_its_corners_as_well) {
+TEST(SlidingBlock, StopsThereWithPointsOnItsCornersAsWell) {
   const Recording run = run_case_file("sliding_block/case.toml", {"contact_points.per_face=4"});
   constexpr double kExpected = 1.0 / (2 * 0.5 * 9.81);  // m
   constexpr double kTolerance = 0.01;
@@ -54,7 +54,7 @@ TEST(SlidingBlock, stops_there_with_points_on_its_corners_as_well) {
   EXPECT_LT(run.worst_residual(), 1e-3);
 }
 
-TEST(SlidingBlock, is_not_stopped_by_edges_of_a_coarse_floor) {
+TEST(SlidingBlock, IsNotStoppedByEdgesOfACoarseFloor) {
   // Of those whose front has met points of the floor just above its lower edge.
   struct Slide {
     double speed, friction, block, floor;
@@ -71,7 +71,7 @@ TEST(SlidingBlock, is_not_stopped_by_edges_of_a_coarse_floor) {
   }
 }
 
-TEST(ContactPair, returns_two_over_b_plus_one_of_what_it_took) {
+TEST(ContactPair, ReturnsTwoOverBPlusOneOfWhatItTook) {
   // Work goes in until the turn and comes out on the way back; sampled at the history interval.
   for (const auto& [file, returned] :
        {std::pair{"contact_pair/case.toml", 1.0}, {"contact_pair/case_b.toml", 2.0 / 3.0}}) {

@@ -47,14 +47,14 @@ Drawn drawn(const std::string& kind) {
           (g[4].displacement[2] - g[3].displacement[2]) / kThickness / kStrain};
 }
 
-TEST(Plane, strain_of_a_strip_in_tension_has_the_modulus_of_a_plate_and_does_not_thin) {
+TEST(Plane, StrainOfAStripInTensionHasTheModulusOfAPlateAndDoesNotThin) {
   const Drawn strip = drawn("strain");
   EXPECT_NEAR(strip.stress / (kStrain * kYoung / (1 - kPoisson * kPoisson)), 1.0, 3 * kTolerance);
   EXPECT_NEAR(strip.narrower / (-kPoisson / (1 - kPoisson)), 1.0, 3 * kTolerance);
   EXPECT_EQ(strip.thinner, 0.0);
 }
 
-TEST(Plane, stress_of_a_strip_in_tension_has_youngs_modulus_and_thins_as_it_narrows) {
+TEST(Plane, StressOfAStripInTensionHasYoungsModulusAndThinsAsItNarrows) {
   const Drawn strip = drawn("stress");
   EXPECT_NEAR(strip.stress / (kStrain * kYoung), 1.0, 3 * kTolerance);
   EXPECT_NEAR(strip.narrower / -kPoisson, 1.0, 3 * kTolerance);

@@ -73,7 +73,7 @@ double stress_at(double strain, double lateral) {
   return strength(lateral, gamma);
 }
 
-TEST(Plasticity, of_a_cube_in_uniaxial_compression_is_that_of_the_closed_form) {
+TEST(Plasticity, OfACubeInUniaxialCompressionIsThatOfTheClosedForm) {
   const Recording run =
       run_case_text(kCube + stage("press", "2 ms", "{ ramp = { to = \"-0.15 mm\", end = \"3 ms\" } }", ""));
   const double strain = std::log1p(run.rows.back().gauges[0].displacement[0] / kEdge);
@@ -84,7 +84,7 @@ TEST(Plasticity, of_a_cube_in_uniaxial_compression_is_that_of_the_closed_form) {
   EXPECT_GT(e.plastic, e.elastic);
 }
 
-TEST(Plasticity, of_a_cube_in_triaxial_compression_is_that_of_the_closed_form) {
+TEST(Plasticity, OfACubeInTriaxialCompressionIsThatOfTheClosedForm) {
   constexpr double kLateral = 10e6;
   const Recording run =
       run_case_text(kCube + stage("confine", "1 ms", "", "{ ramp = { to = \"10 MPa\", end = \"1 ms\" } }") +
@@ -95,7 +95,7 @@ TEST(Plasticity, of_a_cube_in_triaxial_compression_is_that_of_the_closed_form) {
   EXPECT_LT(run.worst_residual(), kResidual);
 }
 
-TEST(Plasticity, of_a_cube_under_pressure_all_around_is_that_of_the_cap) {
+TEST(Plasticity, OfACubeUnderPressureAllAroundIsThatOfTheCap) {
   std::string text = kCube + stage("press", "2 ms", "{ ramp = { to = \"-0.06 mm\", end = \"3 ms\" } }", "");
   for (const std::string axis : {"y", "z"}) {
     text += "[[stage.constraint]]\ngroup = \"cube." + axis + "1\"\ndisplacement = { " + axis +
@@ -113,7 +113,7 @@ TEST(Plasticity, of_a_cube_under_pressure_all_around_is_that_of_the_cap) {
 }
 
 /// A bar of joined elements hits a wall, yields, and flies back with less: the budget closes.
-TEST(Plasticity, of_a_body_that_hits_a_wall_is_accounted_for) {
+TEST(Plasticity, OfABodyThatHitsAWallIsAccountedFor) {
   std::string text = kCube;
   text.replace(text.find("joints = \"none\""), 15, "joints = \"unbreakable\"");
   text +=

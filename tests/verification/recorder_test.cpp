@@ -9,7 +9,7 @@
 namespace breccia::test::recorder_test {
 namespace {
 
-TEST(Recording, with_a_residual_that_is_no_number_passes_no_limit) {
+TEST(Recording, WithAResidualThatIsNoNumberPassesNoLimit) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   Recording recording;
   for (const double residual : {1e-6, kNan, 2e-6}) {
@@ -22,7 +22,7 @@ TEST(Recording, with_a_residual_that_is_no_number_passes_no_limit) {
   EXPECT_EQ(recording.worst_residual(), 2e-6);
 }
 
-TEST(Recording, has_the_same_step_in_lines_and_frames_of_an_instant_and_a_line_of_the_last_step) {
+TEST(Recording, HasTheSameStepInLinesAndFramesOfAnInstantAndALineOfTheLastStep) {
   const Recording run = run_case_file("joint_pair/case_smoke.toml", {"output.frame_interval=0"});
   const double interval = run.rows.at(1).time * 1.5;  // neither every step nor a whole number of them
   const std::string text = std::to_string(interval);

@@ -30,7 +30,7 @@ std::pair<double, double> press(const Recording& run) {
   return {most, std::abs(run.rows.back().gauges[0].reaction[1])};
 }
 
-TEST(Disc, splits_along_the_diameter_that_is_loaded) {
+TEST(Disc, SplitsAlongTheDiameterThatIsLoaded) {
   const Recording run = run_case_file("disc/case.toml", {R"(mesh.parameters={ h = "5 mm", h_platen = "4 mm" })"});
   // Cracks all over the disc would be 4 R / (3 pi) = 10.6 mm from the diameter in the mean.
   constexpr double kNearTheDiameter = 0.006;
@@ -45,7 +45,7 @@ TEST(Disc, splits_along_the_diameter_that_is_loaded) {
   EXPECT_LT(run.worst_residual(), kResidual);
 }
 
-TEST(NotchedBeam, breaks_from_its_notch_by_opening) {
+TEST(NotchedBeam, BreaksFromItsNotchByOpening) {
   const Recording run =
       run_case_file("notched_beam/case.toml", {R"(mesh.parameters={ h = "3 mm", h_roller = "3 mm" })"});
   constexpr double kNearTheNotch = 0.003;  // an element
@@ -56,7 +56,7 @@ TEST(NotchedBeam, breaks_from_its_notch_by_opening) {
   EXPECT_LT(run.worst_residual(), kResidual);
 }
 
-TEST(Cylinder, is_crushed_at_the_load_of_its_cohesion_and_friction) {
+TEST(Cylinder, IsCrushedAtTheLoadOfItsCohesionAndFriction) {
   const Recording run = run_case_file("cylinder/case.toml", {R"(mesh.parameters={ h = "8 mm", h_platen = "8 mm" })"});
   const auto [most, left] = press(run);
   // 2 c (sqrt(1 + mu^2) + mu) for a shear plane that may lie as it will; between elements it may not.

@@ -26,18 +26,18 @@ std::string advice_on(const std::string& text) {
                        Subject(input, model));
 }
 
-TEST(ModelAdvice, names_bodies_that_meet_without_contact) {
+TEST(ModelAdvice, NamesBodiesThatMeetWithoutContact) {
   EXPECT_THAT(advice_on(raster({2, 1, 1})), HasSubstr("There is no [[contact]]"));
 }
 
-TEST(ModelAdvice, is_silent_where_there_is_contact_or_one_body_or_all_are_held) {
+TEST(ModelAdvice, IsSilentWhereThereIsContactOrOneBodyOrAllAreHeld) {
   EXPECT_EQ(advice_on(raster({2, 1, 1}) + kContact), "");
   EXPECT_EQ(advice_on(raster({1, 1, 1})), "");
   const std::string held = "[[stage.constraint]]\ngroup = \"rock\"\nfixed = \"xyz\"\n";
   EXPECT_EQ(advice_on(raster({2, 1, 1}) + held), "");
 }
 
-TEST(ModelAdvice, names_what_can_break_where_there_is_no_contact) {
+TEST(ModelAdvice, NamesWhatCanBreakWhereThereIsNoContact) {
   const std::string breakable = "[[joint]]\ngroup = \"rock\"\ntensile_strength = 1e6\nenergy_mode_1 = 10\n";
   std::string text = raster({1, 1, 1}) + breakable;
   text.replace(text.find("\"none\""), 6, "\"breakable\"");
@@ -45,7 +45,7 @@ TEST(ModelAdvice, names_what_can_break_where_there_is_no_contact) {
   EXPECT_EQ(advice_on(text + kContact), "");
 }
 
-TEST(ModelAdvice, says_of_a_solid_of_a_raster_that_can_break_how_its_joints_lie) {
+TEST(ModelAdvice, SaysOfASolidOfARasterThatCanBreakHowItsJointsLie) {
   const std::string joint = "[[joint]]\ngroup = \"rock\"\ntensile_strength = 1e6\nenergy_mode_1 = 10\n";
   const auto breakable = [&](const std::array<int, 3>& cells) {
     std::string text = raster({1, 1, 1}, cells);
@@ -57,7 +57,7 @@ TEST(ModelAdvice, says_of_a_solid_of_a_raster_that_can_break_how_its_joints_lie)
   EXPECT_EQ(advice_on(raster({1, 1, 1}, {3, 4, 3}) + kContact), "") << "nothing can break";
 }
 
-TEST(ModelAdvice, names_the_thickness_that_fits_the_elements_of_a_plane_model) {
+TEST(ModelAdvice, NamesTheThicknessThatFitsTheElementsOfAPlaneModel) {
   const auto layer = [](const std::string& thickness) {
     std::string text = raster({1, 1, 1}) + "[plane]\nkind = \"strain\"\n";
     const std::string size = "cell_size = 0.01";
@@ -68,7 +68,7 @@ TEST(ModelAdvice, names_the_thickness_that_fits_the_elements_of_a_plane_model) {
   EXPECT_THAT(layer("0.002"), HasSubstr("2 mm thick"));
 }
 
-TEST(ModelAdvice, tells_of_plane_models_where_the_mesh_is_one_thin_layer_whose_sides_are_free) {
+TEST(ModelAdvice, TellsOfPlaneModelsWhereTheMeshIsOneThinLayerWhoseSidesAreFree) {
   const auto layer = [](const std::array<int, 3>& cells, const std::string& more) {
     return advice_on(raster({1, 1, 1}, cells) + more);
   };
@@ -87,7 +87,7 @@ TEST(ModelAdvice, tells_of_plane_models_where_the_mesh_is_one_thin_layer_whose_s
   EXPECT_THAT(layer({6, 6, 1}, "[[stage.pressure]]\nsurface = \"rock.x1\"\nvalue = 1e6\n"), HasSubstr(words));
 }
 
-TEST(ModelAdvice, names_a_sphere_that_does_not_hold_the_model_and_the_radius_that_would) {
+TEST(ModelAdvice, NamesASphereThatDoesNotHoldTheModelAndTheRadiusThatWould) {
   const auto sphere = [](const std::string& radius) {
     return "[sphere]\ncentre = [\"5 mm\", \"5 mm\", \"5 mm\"]\nradius = \"" + radius + "\"\npenalty = \"40 GPa\"\n";
   };

@@ -48,36 +48,36 @@ std::string without(const std::string& part) {
   return text.replace(text.rfind(part), part.size(), "");
 }
 
-TEST(Plausibility, of_usual_numbers_is_not_doubted) {
+TEST(Plausibility, OfUsualNumbersIsNotDoubted) {
   EXPECT_EQ(advice_on({}), "");
   EXPECT_EQ(advice_on({"contact[0].friction=1.5", "material[0].density=7850", "joint[0].tensile_strength=1e9"}), "");
 }
 
-TEST(Plausibility, of_an_angle_of_friction_is_doubted_with_its_tangent) {
+TEST(Plausibility, OfAnAngleOfFrictionIsDoubtedWithItsTangent) {
   EXPECT_THAT(advice_on({"contact[0].friction=30"}), AllOf(HasSubstr("contact[0].friction"), HasSubstr("write 0.577")));
   EXPECT_THAT(advice_on({"joint[0].friction=45"}), AllOf(HasSubstr("joint[0].friction"), HasSubstr("write 1,")));
 }
 
-TEST(Plausibility, of_other_units_is_doubted) {
+TEST(Plausibility, OfOtherUnitsIsDoubted) {
   EXPECT_THAT(advice_on({"material[0].density=2.4"}), HasSubstr("material[0].density (line 5) is 2.4 kg/m3"));
   EXPECT_THAT(advice_on({"material[0].young=20"}), AllOf(HasSubstr("waves run at"), HasSubstr("young (20 Pa)")));
   EXPECT_THAT(advice_on({"joint[0].tensile_strength=\"5 GPa\""}), HasSubstr("would stretch by 25 % before it breaks"));
 }
 
-TEST(Plausibility, of_a_course_that_lies_beyond_its_stage_is_doubted) {
+TEST(Plausibility, OfACourseThatLiesBeyondItsStageIsDoubted) {
   const std::string ramp = "stage[0].gravity=[0, 0, { ramp = { to = -9.81, end = ";
   EXPECT_THAT(advice_on({ramp + "1 } }]"}),
               AllOf(HasSubstr("stage[0] (line "), HasSubstr("goes on to 1 s, the stage to 1 ms")));
   EXPECT_EQ(advice_on({ramp + "\"2 ms\" } }]"}), "") << "goes on in the next stage";
 }
 
-TEST(Plausibility, of_a_stage_that_does_not_repeat_the_supports_or_the_gravity_is_doubted) {
+TEST(Plausibility, OfAStageThatDoesNotRepeatTheSupportsOrTheGravityIsDoubted) {
   EXPECT_THAT(advice_on({}, without("[[stage.constraint]]\ngroup = \"raster.z0\"\nfixed = \"xyz\"\n")),
               HasSubstr("Stage 1 has no [[stage.constraint]], other than the stage before it"));
   EXPECT_THAT(advice_on({}, without("gravity = [0, 0, -9.81]\n")), HasSubstr("Stage 1 has no gravity"));
 }
 
-TEST(Plausibility, of_gravity_on_a_base_that_absorbs_from_the_start_is_doubted) {
+TEST(Plausibility, OfGravityOnABaseThatAbsorbsFromTheStartIsDoubted) {
   std::string text = kBrick.substr(0, kBrick.find("[[stage.constraint]]"));
   EXPECT_THAT(advice_on({}, text + "absorbing = [\"raster.z0\"]\n"), HasSubstr("sinks at a steady speed"));
   EXPECT_EQ(advice_on({}, text), "");

@@ -31,19 +31,19 @@ std::string advice_on(const std::string& text, const std::vector<std::string>& o
   return stage_advice(input);
 }
 
-TEST(SuddenLoads, on_an_undamped_body_that_is_held_are_worth_a_ramp) {
+TEST(SuddenLoads, OnAnUndampedBodyThatIsHeldAreWorthARamp) {
   EXPECT_THAT(advice_on(cube(kGravity)), AllOf(HasSubstr("Stage 0 begins with gravity (9.81 m/s2 at once)"),
                                                HasSubstr("ramp"), HasSubstr("viscosity")));
   EXPECT_THAT(advice_on(cube("[[stage.pressure]]\nsurface = \"raster.z1\"\nvalue = \"1 MPa\"\n")),
               HasSubstr("begins with the pressure on \"raster.z1\" (1 MPa at once)"));
 }
 
-TEST(SuddenLoads, of_traction_are_known_as_well) {
+TEST(SuddenLoads, OfTractionAreKnownAsWell) {
   const std::string traction = "[[stage.traction]]\nsurface = \"raster.z1\"\nvalue = [0, \"3 MPa\", \"4 MPa\"]\n";
   EXPECT_THAT(advice_on(cube(traction)), HasSubstr("begins with the traction on \"raster.z1\" (5 MPa at once)"));
 }
 
-TEST(SuddenLoads, that_grow_or_are_damped_or_meet_a_free_or_a_rigid_body_or_are_a_pulse_are_not) {
+TEST(SuddenLoads, ThatGrowOrAreDampedOrMeetAFreeOrARigidBodyOrAreAPulseAreNot) {
   EXPECT_EQ(advice_on(cube("gravity = [0, 0, { ramp = { to = -9.81, end = \"0.5 ms\" } }]\n")), "");
   EXPECT_EQ(advice_on(cube(kGravity + "local_damping = 0.3\n")), "");
   EXPECT_EQ(advice_on(cube(kGravity + "mass_damping = 100\n")), "");
@@ -53,7 +53,7 @@ TEST(SuddenLoads, that_grow_or_are_damped_or_meet_a_free_or_a_rigid_body_or_are_
   EXPECT_EQ(advice_on(cube(kGravity), {"stage[0].end=10 us"}), "");
 }
 
-TEST(SuddenLoads, that_a_stage_goes_on_with_are_not) {
+TEST(SuddenLoads, ThatAStageGoesOnWithAreNot) {
   const std::string next = "[[stage]]\nend = \"2 ms\"\n" + kGravity;
   const std::string held = "[[stage.constraint]]\ngroup = \"raster.z0\"\nfixed = \"xyz\"\n";
   const std::string grown = "gravity = [0, 0, { ramp = { to = -9.81, end = \"0.5 ms\" } }]\n";
@@ -61,7 +61,7 @@ TEST(SuddenLoads, that_a_stage_goes_on_with_are_not) {
   EXPECT_THAT(advice_on(cube("") + next + held), HasSubstr("Stage 1 begins with gravity"));
 }
 
-TEST(SuddenLoads, on_what_lies_on_another_body_are) {
+TEST(SuddenLoads, OnWhatLiesOnAnotherBodyAre) {
   const std::string contact = "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"75 GPa\"\n";
   const auto boxes = [&](const std::string& gap) {
     return advice_on(cube(kGravity, "") + contact,
@@ -71,7 +71,7 @@ TEST(SuddenLoads, on_what_lies_on_another_body_are) {
   EXPECT_EQ(boxes("1 mm"), "");
 }
 
-TEST(SuddenLoads, of_pressure_on_a_body_that_nothing_supports_are) {
+TEST(SuddenLoads, OfPressureOnABodyThatNothingSupportsAre) {
   const std::string pressure = "[[stage.pressure]]\nsurface = \"raster.z1\"\nvalue = ";
   EXPECT_THAT(advice_on(cube(pressure + "\"1 MPa\"\n", "")),
               HasSubstr("the pressure on \"raster.z1\" (1 MPa at once)"));
@@ -87,7 +87,7 @@ std::string driven(const std::string& motion, std::vector<std::string> overrides
   return advice_on(cube("") + "[[stage.constraint]]\ngroup = \"raster.z1\"\n" + motion + "\n" + kBreakable, overrides);
 }
 
-TEST(SuddenMotions, are_named_with_their_wave_beside_the_strength_and_a_ramp) {
+TEST(SuddenMotions, AreNamedWithTheirWaveBesideTheStrengthAndARamp) {
   // rho c v = 14.3 MPa s/m times 10 mm/s.
   const std::string advice = driven("velocity = { z = -0.01 }");
   EXPECT_THAT(advice, AllOf(HasSubstr("stage[0].constraint[1] (velocity, \"raster.z1\", line "),
@@ -97,7 +97,7 @@ TEST(SuddenMotions, are_named_with_their_wave_beside_the_strength_and_a_ramp) {
               AllOf(HasSubstr("(displacement, \"raster.z1\""), HasSubstr("of 10 mm/s")));
 }
 
-TEST(SuddenMotions, that_grow_or_are_slow_or_a_pulse_or_meet_no_joints_are_not) {
+TEST(SuddenMotions, ThatGrowOrAreSlowOrAPulseOrMeetNoJointsAreNot) {
   EXPECT_EQ(driven("velocity = { z = { ramp = { to = -0.01, end = \"0.5 ms\" } } }"), "");
   EXPECT_EQ(driven("displacement = { z = { constant = 1e-5, sine = { amplitude = 1e-5, frequency = 250, phase = "
                    "\"-90 deg\" } } }"),
@@ -112,7 +112,7 @@ TEST(SuddenMotions, that_grow_or_are_slow_or_a_pulse_or_meet_no_joints_are_not) 
       << "all of it moves";
 }
 
-TEST(SuddenMotions, are_measured_against_the_motion_before) {
+TEST(SuddenMotions, AreMeasuredAgainstTheMotionBefore) {
   const std::string fast = "[[initial_velocity]]\ngroup = \"raster\"\nvelocity = [0, 0, -1]\n";
   EXPECT_EQ(driven("velocity = { z = -1 }\n" + fast), "");
   EXPECT_THAT(driven("velocity = { z = 1 }\n" + fast), HasSubstr("a jump in speed of 2 m/s"));
@@ -127,7 +127,7 @@ TEST(SuddenMotions, are_measured_against_the_motion_before) {
   EXPECT_EQ(driven(grown + loose + "velocity = { x = 0.01 }\n"), "") << "how it moved before is not known";
 }
 
-TEST(SuddenMotions, come_to_what_lies_on_the_driven_body) {
+TEST(SuddenMotions, ComeToWhatLiesOnTheDrivenBody) {
   const case_::CaseFolder folder;
   folder.write("boxes.geo",
                "SetFactory(\"OpenCASCADE\");\nDefineConstant[ gap = 0 ];\nBox(1) = {0, 0, 0, 1, 1, 1};\n"
@@ -149,7 +149,7 @@ TEST(SuddenMotions, come_to_what_lies_on_the_driven_body) {
   EXPECT_EQ(pressed("0.1"), "");
 }
 
-TEST(Reactions, of_what_is_driven_under_local_damping_are_named) {
+TEST(Reactions, OfWhatIsDrivenUnderLocalDampingAreNamed) {
   const auto recorded = [](const std::string& damping, const std::string& motion, const std::string& gauge) {
     return advice_on(cube(damping) + "[[stage.constraint]]\ngroup = \"raster.z1\"\n" + motion,
                      {"output.gauges=[\"" + gauge + "\"]"});
@@ -163,7 +163,7 @@ TEST(Reactions, of_what_is_driven_under_local_damping_are_named) {
   EXPECT_EQ(recorded("", motion, "raster.z1"), "");
 }
 
-TEST(Friction, where_nothing_damps_what_is_loaded_is_named_with_a_viscosity) {
+TEST(Friction, WhereNothingDampsWhatIsLoadedIsNamedWithAViscosity) {
   const std::string contact = "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"75 GPa\"\nfriction = 0.3\n";
   const std::string grown = "gravity = [0, 0, { ramp = { to = -9.81, end = \"0.5 ms\" } }]\n";
   const auto boxes = [&](const std::string& stage, const std::string& entry) {
@@ -186,7 +186,7 @@ TEST(Friction, where_nothing_damps_what_is_loaded_is_named_with_a_viscosity) {
   EXPECT_EQ(advice_on(cube(grown) + contact, {rough}), "") << "one body that cannot break";
 }
 
-TEST(Friction, of_joints_that_can_break_counts_as_well) {
+TEST(Friction, OfJointsThatCanBreakCountsAsWell) {
   const std::string joint =
       "[[joint]]\ngroup = \"raster\"\ntensile_strength = 1e6\nenergy_mode_1 = 10\nfriction = 0.6\n";
   const std::string drive = "[[stage.constraint]]\ngroup = \"raster.z1\"\nvelocity = { z = -0.01 }\n";
@@ -194,7 +194,7 @@ TEST(Friction, of_joints_that_can_break_counts_as_well) {
   EXPECT_EQ(advice_on(cube("") + joint, {"material[0].joints=breakable"}), "");
 }
 
-TEST(Friction, in_a_last_stage_with_local_damping_stops_what_should_slide) {
+TEST(Friction, InALastStageWithLocalDampingStopsWhatShouldSlide) {
   const std::string contact = "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"75 GPa\"\nfriction = 0.3\n";
   const std::vector<std::string> two{"mesh.raster.boxes=[1, 1, 2]", "mesh.raster.gap=[0, 0, \"1 mm\"]"};
   const std::string damped = cube("local_damping = 0.3\n") + contact;
@@ -205,7 +205,7 @@ TEST(Friction, in_a_last_stage_with_local_damping_stops_what_should_slide) {
   EXPECT_EQ(advice_on(damped, smooth), "");
 }
 
-TEST(Constraints, that_overrule_others_in_part_are_named_with_the_number_of_nodes) {
+TEST(Constraints, ThatOverruleOthersInPartAreNamedWithTheNumberOfNodes) {
   const std::string top = "[[stage.constraint]]\ngroup = \"raster.x1\"\nvelocity = { z = 1 }\n";
   const case_::Case input = case_::read_text(cube("") + top);
   EXPECT_THAT(as_list(overruled_constraint(input, build_bare_model(input))),
@@ -214,7 +214,7 @@ TEST(Constraints, that_overrule_others_in_part_are_named_with_the_number_of_node
                     HasSubstr("along z on 2 of its 5 nodes")));
 }
 
-TEST(Constraints, that_leave_nothing_of_others_are_refused) {
+TEST(Constraints, ThatLeaveNothingOfOthersAreRefused) {
   const case_::Case input =
       case_::read_text(cube("") + "[[stage.constraint]]\ngroup = \"raster\"\nvelocity = { z = 1 }\n");
   const Model model = build_bare_model(input);
@@ -228,7 +228,7 @@ TEST(Constraints, that_leave_nothing_of_others_are_refused) {
   }
 }
 
-TEST(Intervals, longer_than_the_run_are_named) {
+TEST(Intervals, LongerThanTheRunAreNamed) {
   const std::string text = cube("");
   EXPECT_THAT(advice_on(text, {"output.frame_interval=2 ms"}),
               HasSubstr("output.frame_interval = 2 ms is longer than"));

@@ -38,23 +38,23 @@ std::string touching(const std::string& join, const std::string& glue,
   return as_list(advice);
 }
 
-TEST(UnjoinedVolumes, names_volumes_of_one_group_that_touch_and_are_not_joined) {
+TEST(UnjoinedVolumes, NamesVolumesOfOneGroupThatTouchAndAreNotJoined) {
   EXPECT_THAT(touching("Coherence;", "false"),
               AllOf(HasSubstr("Volumes of \"rock\" touch along"), HasSubstr("bodies 0 and 1"),
                     HasSubstr("mesh.glue = true"), HasSubstr("contact alone keeps them apart")));
   EXPECT_EQ(touching("Coherence;", "true"), "");
 }
 
-TEST(UnjoinedVolumes, tells_that_nothing_keeps_volumes_apart_that_touch_without_contact) {
+TEST(UnjoinedVolumes, TellsThatNothingKeepsVolumesApartThatTouchWithoutContact) {
   EXPECT_THAT(touching("Coherence;", "false", ""), HasSubstr("nothing keeps them apart: that takes a [[contact]]"));
 }
 
-TEST(UnjoinedVolumes, names_an_interface_that_is_there_twice) {
+TEST(UnjoinedVolumes, NamesAnInterfaceThatIsThereTwice) {
   EXPECT_THAT(touching("", "true"), AllOf(HasSubstr("Volumes of \"rock\" touch along"), HasSubstr("Coherence"),
                                           HasSubstr("mesh.merge_nodes")));
 }
 
-TEST(UnjoinedVolumes, of_different_groups_are_named_where_they_were_to_be_glued) {
+TEST(UnjoinedVolumes, OfDifferentGroupsAreNamedWhereTheyWereToBeGlued) {
   const case_::CaseFolder folder;
   folder.write("boxes.geo",
                "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\nBox(2) = {1, 0, 0, 1, 1, 1};\n"
@@ -72,7 +72,7 @@ TEST(UnjoinedVolumes, of_different_groups_are_named_where_they_were_to_be_glued)
   EXPECT_EQ(advice_for("false"), "") << "two bodies with contact";
 }
 
-TEST(UnjoinedVolumes, are_reported_where_a_mesh_has_the_nodes_inside_of_a_volume_twice) {
+TEST(UnjoinedVolumes, AreReportedWhereAMeshHasTheNodesInsideOfAVolumeTwice) {
   const case_::CaseFolder
       folder;  // two tetrahedra of one volume, the face between them with nodes of its own on each side
   folder.write("doubled.msh",
@@ -96,7 +96,7 @@ std::string advice_on_motion(const std::string& velocities) {
   return as_list(part_in_motion(input, build_bare_model(input)));
 }
 
-TEST(PartsInMotion, are_named_where_the_rest_of_the_body_does_not_turn_with_them) {
+TEST(PartsInMotion, AreNamedWhereTheRestOfTheBodyDoesNotTurnWithThem) {
   const auto entry = [](const std::string& group, const std::string& value) {
     return "[[initial_velocity]]\ngroup = \"" + group + "\"\n" + value + "\n";
   };

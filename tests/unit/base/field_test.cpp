@@ -12,7 +12,7 @@ bool starts_a_cache_line(const Field<T>& field) {
   return reinterpret_cast<std::uintptr_t>(field.data()) % 64 == 0;
 }
 
-TEST(Field, starts_on_a_cache_line_whatever_its_size_and_type) {
+TEST(Field, StartsOnACacheLineWhateverItsSizeAndType) {
   for (std::size_t size = 1; size < 200; size += 7) {
     EXPECT_TRUE(starts_a_cache_line(Field<double>(size))) << size << " doubles";
     EXPECT_TRUE(starts_a_cache_line(Field<float>(size))) << size << " floats";
@@ -20,7 +20,7 @@ TEST(Field, starts_on_a_cache_line_whatever_its_size_and_type) {
   }
 }
 
-TEST(Field, stays_on_a_cache_line_while_it_grows) {
+TEST(Field, StaysOnACacheLineWhileItGrows) {
   Field<double> field;
   for (int i = 0; i < 1000; ++i) {
     field.push_back(i);
@@ -30,7 +30,7 @@ TEST(Field, stays_on_a_cache_line_while_it_grows) {
   EXPECT_EQ(field[999], 999.0);
 }
 
-TEST(Field, keeps_alignment_and_values_in_copies_and_moves) {
+TEST(Field, KeepsAlignmentAndValuesInCopiesAndMoves) {
   const Field<double> field(17, 2.5);
   Field<double> copy = field;
   EXPECT_TRUE(starts_a_cache_line(copy));

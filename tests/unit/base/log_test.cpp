@@ -39,7 +39,7 @@ class Log : public ::testing::Test {
       (std::string("breccia_log_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
-TEST_F(Log, writes_level_and_message_to_stderr_and_nothing_to_stdout) {
+TEST_F(Log, WritesLevelAndMessageToStderrAndNothingToStdout) {
   ::testing::internal::CaptureStderr();
   ::testing::internal::CaptureStdout();
   log::info("a {} stays as it is");
@@ -50,7 +50,7 @@ TEST_F(Log, writes_level_and_message_to_stderr_and_nothing_to_stdout) {
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
 }
 
-TEST_F(Log, drops_messages_below_its_level) {
+TEST_F(Log, DropsMessagesBelowItsLevel) {
   log::set_level(log::Level::warning);
   ::testing::internal::CaptureStderr();
   log::info("chatter");
@@ -58,7 +58,7 @@ TEST_F(Log, drops_messages_below_its_level) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "warning: careful\n");
 }
 
-TEST_F(Log, also_writes_to_its_file_in_a_folder_that_did_not_exist) {
+TEST_F(Log, AlsoWritesToItsFileInAFolderThatDidNotExist) {
   const std::filesystem::path file = folder_ / "deeper" / "run.log";
   ::testing::internal::CaptureStderr();
   log::open_file(file);
@@ -67,7 +67,7 @@ TEST_F(Log, also_writes_to_its_file_in_a_folder_that_did_not_exist) {
   EXPECT_THAT(content(file), HasSubstr("warning: into the file\n"));
 }
 
-TEST_F(Log, leaves_the_first_file_when_a_second_is_opened) {
+TEST_F(Log, LeavesTheFirstFileWhenASecondIsOpened) {
   ::testing::internal::CaptureStderr();
   log::open_file(folder_ / "first.log");
   log::info("one");
@@ -79,7 +79,7 @@ TEST_F(Log, leaves_the_first_file_when_a_second_is_opened) {
   EXPECT_THAT(content(folder_ / "second.log"), Not(HasSubstr("one")));
 }
 
-TEST_F(Log, refuses_a_file_that_cannot_be_written) {
+TEST_F(Log, RefusesAFileThatCannotBeWritten) {
   std::filesystem::create_directories(folder_);
   const std::filesystem::path occupied = folder_ / "a_file";
   std::ofstream(occupied) << "x";

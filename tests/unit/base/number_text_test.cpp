@@ -7,7 +7,7 @@
 namespace breccia::number_text_test {
 namespace {
 
-TEST(NumberText, has_no_more_digits_than_asked_for_and_keeps_small_and_large_numbers) {
+TEST(NumberText, HasNoMoreDigitsThanAskedForAndKeepsSmallAndLargeNumbers) {
   EXPECT_EQ(number_text(0.00015, 4), "0.00015");
   EXPECT_EQ(number_text(1.23456e-9, 3), "1.23e-09");
   EXPECT_EQ(number_text(12345.678, 2), "1.2e+04");
@@ -15,7 +15,7 @@ TEST(NumberText, has_no_more_digits_than_asked_for_and_keeps_small_and_large_num
   EXPECT_EQ(number_text(-std::numeric_limits<double>::max(), 17), "-1.7976931348623157e+308");
 }
 
-TEST(Rounded, keeps_the_digits_asked_for_of_every_finite_number) {
+TEST(Rounded, KeepsTheDigitsAskedForOfEveryFiniteNumber) {
   EXPECT_EQ(rounded(1234.5, 3), 1230);
   EXPECT_EQ(rounded(-9996, 3), -10000);
   EXPECT_EQ(rounded(0.0, 3), 0);

@@ -11,7 +11,7 @@ namespace {
 // Sums of a few products of numbers of order one: some units in the last place.
 constexpr double kRoundOff = 1e-14;
 
-TEST(TimeFunction, is_zero_at_all_times_unless_told_otherwise) {
+TEST(TimeFunction, IsZeroAtAllTimesUnlessToldOtherwise) {
   const TimeFunction f;
   EXPECT_EQ(f(-1.0), 0.0);
   EXPECT_EQ(f(0.0), 0.0);
@@ -19,7 +19,7 @@ TEST(TimeFunction, is_zero_at_all_times_unless_told_otherwise) {
   EXPECT_TRUE(f.is_zero());
 }
 
-TEST(TimeFunction, adds_constant_linear_sine_and_table) {
+TEST(TimeFunction, AddsConstantLinearSineAndTable) {
   TimeFunction f;
   f.constant = 2.0;
   f.linear = -3.0;
@@ -29,7 +29,7 @@ TEST(TimeFunction, adds_constant_linear_sine_and_table) {
   EXPECT_NEAR(f(1.0), 14.0 + 0.25 * std::sqrt(3.0), kRoundOff * 20);
 }
 
-TEST(TimeFunction, interpolates_its_table_linearly_between_uneven_points) {
+TEST(TimeFunction, InterpolatesItsTableLinearlyBetweenUnevenPoints) {
   TimeFunction f;
   f.table = {{1.0, 5.0}, {2.0, 7.0}, {6.0, -1.0}};
   EXPECT_NEAR(f(1.5), 6.0, kRoundOff);
@@ -37,13 +37,13 @@ TEST(TimeFunction, interpolates_its_table_linearly_between_uneven_points) {
   EXPECT_NEAR(f(5.0), 1.0, kRoundOff);
 }
 
-TEST(TimeFunction, meets_every_point_of_its_table_exactly) {
+TEST(TimeFunction, MeetsEveryPointOfItsTableExactly) {
   TimeFunction f;
   f.table = {{1.0, 0.1}, {2.0, 0.7}, {6.0, -0.3}};
   for (const TimeFunction::Point& p : f.table) EXPECT_EQ(f(p.time), p.value) << "at t = " << p.time;
 }
 
-TEST(TimeFunction, holds_the_first_and_last_value_outside_its_table) {
+TEST(TimeFunction, HoldsTheFirstAndLastValueOutsideItsTable) {
   TimeFunction f;
   f.table = {{1.0, 5.0}, {2.0, 7.0}};
   EXPECT_EQ(f(-100.0), 5.0);
@@ -52,7 +52,7 @@ TEST(TimeFunction, holds_the_first_and_last_value_outside_its_table) {
   EXPECT_EQ(f(1e9), 7.0);
 }
 
-TEST(TimeFunction, with_a_table_of_one_point_is_constant) {
+TEST(TimeFunction, WithATableOfOnePointIsConstant) {
   TimeFunction f;
   f.table = {{3.0, 4.0}};
   EXPECT_EQ(f(0.0), 4.0);
@@ -60,7 +60,7 @@ TEST(TimeFunction, with_a_table_of_one_point_is_constant) {
   EXPECT_EQ(f(9.0), 4.0);
 }
 
-TEST(TimeFunction, is_not_zero_when_any_of_its_terms_is_not) {
+TEST(TimeFunction, IsNotZeroWhenAnyOfItsTermsIsNot) {
   TimeFunction constant, linear, sine, table;
   constant.constant = 1.0;
   linear.linear = 1.0;
@@ -72,7 +72,7 @@ TEST(TimeFunction, is_not_zero_when_any_of_its_terms_is_not) {
   EXPECT_FALSE(table.is_zero());
 }
 
-TEST(TimeFunction, is_zero_when_amplitudes_and_table_values_are_zero) {
+TEST(TimeFunction, IsZeroWhenAmplitudesAndTableValuesAreZero) {
   TimeFunction f;
   f.sines = {{0.0, 50.0, 1.0}};
   f.table = {{0.0, 0.0}, {1.0, 0.0}};

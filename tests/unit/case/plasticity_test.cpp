@@ -15,7 +15,7 @@ struct Wrong {
   std::vector<const char*> says;
 };
 
-TEST(Plasticity, that_cannot_be_is_refused_with_one_message_that_says_why) {
+TEST(Plasticity, ThatCannotBeIsRefusedWithOneMessageThatSaysWhy) {
   for (const Wrong& wrong : {
            Wrong{"friction_angle = \"36 deg\"",
                  "friction_angle = \"96 deg\"",
@@ -42,7 +42,7 @@ TEST(Plasticity, that_cannot_be_is_refused_with_one_message_that_says_why) {
   }
 }
 
-TEST(Plasticity, of_cohesion_alone_may_have_any_cutoff) {
+TEST(Plasticity, OfCohesionAloneMayHaveAnyCutoff) {
   const std::string ductile = "law = \"drucker_prager\"\ncohesion = 1e6\ntension_cutoff = 9e6\njoints =";
   EXPECT_EQ(message_of(replaced(minimal, "joints =", ductile)), "");
 }

@@ -389,7 +389,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& param_info) { return param_info.param.name; });
 
 /// A group of a mesh file may carry no material and serve this alone; that is known once the file is read.
-TEST(InitialVelocity, of_a_group_that_a_raster_has_not_is_refused) {
+TEST(InitialVelocity, OfAGroupThatARasterHasNotIsRefused) {
   EXPECT_THAT(message_of(minimal + "[[initial_velocity]]\ngroup = \"rastr\"\nvelocity = [1, 0, 0]\n"),
               testing::HasSubstr("initial_velocity[0].group: no [[material]] has the group \"rastr\"; allowed: ras"));
 }

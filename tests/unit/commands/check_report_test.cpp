@@ -54,7 +54,7 @@ double number_after(const std::string& text, const std::string& words) {
   return std::stod(text.substr(at + words.size()));
 }
 
-TEST(CheckReport, names_the_process_zone_of_the_more_cautious_estimate) {
+TEST(CheckReport, NamesTheProcessZoneOfTheMoreCautiousEstimate) {
   const Model model = build_model(case_::read_text(kCubes));
   const JointLawParams& law = model.joint_laws.front();
   const double zone = std::numbers::pi * 40e9 * law.width_normal / (32 * law.tensile_strength);
@@ -62,7 +62,7 @@ TEST(CheckReport, names_the_process_zone_of_the_more_cautious_estimate) {
   EXPECT_NEAR(number_after(report_of(kCubes), "process zone at least ") / zone, 1.0, kFourDigits);
 }
 
-TEST(CheckReport, warns_of_joints_that_soften_within_few_steps) {
+TEST(CheckReport, WarnsOfJointsThatSoftenWithinFewSteps) {
   const std::string words = "The joints of cubes soften within ", energy = "joint[0].energy_mode_1=2 J/m2",
                     shear = "joint[0].energy_mode_2=100 J/m2";
   const double steps = number_after(report_of(kCubes, {energy, shear}), words);
@@ -73,7 +73,7 @@ TEST(CheckReport, warns_of_joints_that_soften_within_few_steps) {
   EXPECT_THAT(report_of(kCubes), Not(HasSubstr(words)));
 }
 
-TEST(CheckReport, advises_on_elements_from_a_third_of_the_process_zone_on) {
+TEST(CheckReport, AdvisesOnElementsFromAThirdOfTheProcessZoneOn) {
   const std::string report = report_of(kCubes);
   const double ratio = number_after(report, "mean joint edge ") / number_after(report, "process zone at least ");
   const auto at_ratio = [&](double wanted) {
@@ -85,7 +85,7 @@ TEST(CheckReport, advises_on_elements_from_a_third_of_the_process_zone_on) {
   EXPECT_THAT(at_ratio(0.3), Not(HasSubstr("of its fracture process zone (")));
 }
 
-TEST(CheckReport, aims_at_a_third_of_the_process_zone_from_the_start) {
+TEST(CheckReport, AimsAtAThirdOfTheProcessZoneFromTheStart) {
   constexpr double kTwoDigits = 0.05;  // as many as are told
   for (const char* energy : {"6 J/m2", "10 J/m2", "20 J/m2", "40 J/m2"}) {
     const std::string report = report_of(kCubes, {std::string("joint[0].energy_mode_1=") + energy});
@@ -95,7 +95,7 @@ TEST(CheckReport, aims_at_a_third_of_the_process_zone_from_the_start) {
   }
 }
 
-TEST(CheckReport, measures_the_joints_of_a_plane_model_in_the_plane) {
+TEST(CheckReport, MeasuresTheJointsOfAPlaneModelInThePlane) {
   const auto edge = [](const std::string& thickness, const std::string& plane) {
     const std::string report = report_of(
         kCubes + plane, {"mesh.raster.cells=[2, 2, 1]", "mesh.raster.cell_size=[0.01, 0.01, " + thickness + "]"});
@@ -130,7 +130,7 @@ std::string glued_report(const case_::CaseFolder& folder, const std::string& upp
   return whole_report(input);
 }
 
-TEST(CheckReport, speaks_of_load_and_speed_but_of_no_path_where_joints_lie_on_a_plane_alone) {
+TEST(CheckReport, SpeaksOfLoadAndSpeedButOfNoPathWhereJointsLieOnAPlaneAlone) {
   const case_::CaseFolder folder;
   const std::string words = "The elements of lower-upper", zone = "process zone at least ", edge = "mean joint edge ";
   const std::string report = glued_report(folder, "none", 100);
@@ -143,7 +143,7 @@ TEST(CheckReport, speaks_of_load_and_speed_but_of_no_path_where_joints_lie_on_a_
   }
 }
 
-TEST(CheckReport, tells_of_the_worst_of_the_joints_that_follow_one_entry) {
+TEST(CheckReport, TellsOfTheWorstOfTheJointsThatFollowOneEntry) {
   const auto boxes = [](const std::string& joints) {
     std::string text = test::kTwoBoxesCase;
     const std::size_t at = text.find("[[joint]]"), end = text.find("[[joint]]\nbetween");
@@ -167,7 +167,7 @@ TEST(CheckReport, tells_of_the_worst_of_the_joints_that_follow_one_entry) {
               AllOf(HasSubstr("(the worst of 2 that follow joint[0]) (edge"), HasSubstr("joints of right: k = p/h")));
 }
 
-TEST(CheckReport, measures_an_interface_by_its_softer_side_and_its_process_zone_by_both) {
+TEST(CheckReport, MeasuresAnInterfaceByItsSofterSideAndItsProcessZoneByBoth) {
   const case_::CaseFolder folder;
   constexpr double kEnergy = 1e5;  // J/m2: beside it what the rise to the strength takes, a few J/m2, is nothing
   const auto numbers = [&](const std::array<double, 2>& young) {
@@ -182,7 +182,7 @@ TEST(CheckReport, measures_an_interface_by_its_softer_side_and_its_process_zone_
   EXPECT_NEAR(softer_below[1] / alike[1] / (2.0 / 11), 1.0, kFourDigits);
 }
 
-TEST(CheckReport, tells_of_an_interface_without_strengths_that_it_cannot_break) {
+TEST(CheckReport, TellsOfAnInterfaceWithoutStrengthsThatItCannotBreak) {
   std::string glue = test::kTwoBoxesCase;
   const std::size_t at = glue.find("between = [\"left\", \"right\"]\n") + 28;
   glue.erase(at, glue.find("[[contact]]") - at);
@@ -195,7 +195,7 @@ TEST(CheckReport, tells_of_an_interface_without_strengths_that_it_cannot_break) 
   EXPECT_THAT(report(test::kTwoBoxesCase), Not(HasSubstr("they cannot break")));
 }
 
-TEST(CheckReport, advises_no_refinement_or_step_beyond_what_can_be_computed) {
+TEST(CheckReport, AdvisesNoRefinementOrStepBeyondWhatCanBeComputed) {
   // As a core that is made soft for an excavation.
   const std::string report =
       report_of(kCubes, {"material[0].young=4 MPa", "joint[0].penalty_factor=1000", "joint[0].shear_strength=5 MPa"});
@@ -203,7 +203,7 @@ TEST(CheckReport, advises_no_refinement_or_step_beyond_what_can_be_computed) {
   EXPECT_THAT(report, AllOf(Not(HasSubstr("Refine by")), Not(HasSubstr("soften within"))));
 }
 
-TEST(CheckReport, tells_that_the_finest_part_alone_of_a_graded_mesh_is_fine_enough_and_how_soft_joints_make_it) {
+TEST(CheckReport, TellsThatTheFinestPartAloneOfAGradedMeshIsFineEnoughAndHowSoftJointsMakeIt) {
   const case_::CaseFolder folder;
   folder.write("graded.geo",
                "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 0.08, 0.02, 0.02};\nMeshSize{:} = 0.02;\n"
@@ -226,7 +226,7 @@ TEST(CheckReport, tells_that_the_finest_part_alone_of_a_graded_mesh_is_fine_enou
   EXPECT_THAT(graded(std::to_string(2.5 * fine / zone) + " J/m2"), HasSubstr("in the finest tenth 0.4"));
 }
 
-TEST(CheckReport, counts_bodies_that_gravity_makes_meet) {
+TEST(CheckReport, CountsBodiesThatGravityMakesMeet) {
   const std::string fall =
       test::raster_case({.group = "rock", .boxes = {1, 1, 2}, .gap = 0.02, .contact_penalty = 10e9, .end = 0.1}) +
       "[[stage.constraint]]\ngroup = \"rock.z0\"\nfixed = \"xyz\"\n";
@@ -242,7 +242,7 @@ TEST(CheckReport, counts_bodies_that_gravity_makes_meet) {
               AllOf(HasSubstr("once bodies meet that are on their way"), HasSubstr("while no bodies meet")));
 }
 
-TEST(CheckReport, says_that_contact_of_many_bodies_is_not_in_the_estimate) {
+TEST(CheckReport, SaysThatContactOfManyBodiesIsNotInTheEstimate) {
   std::string whole = kCubes + "[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"40 GPa\"\n";
   whole.erase(whole.find("tensile_strength"), whole.find("[[stage]]") - whole.find("tensile_strength"));
   const auto with_boxes = [&](const char* boxes) {
@@ -252,18 +252,18 @@ TEST(CheckReport, says_that_contact_of_many_bodies_is_not_in_the_estimate) {
   EXPECT_THAT(with_boxes("mesh.raster.boxes=[2, 1, 1]"), Not(HasSubstr("not counted")));
 }
 
-TEST(CheckReport, warns_of_a_time_step_beyond_the_stable_one_and_of_no_other) {
+TEST(CheckReport, WarnsOfATimeStepBeyondTheStableOneAndOfNoOther) {
   const Model model = build_model(case_::read_text(kCubes));
   const double limit = TimeStep(model).limit(model.local.reference);
   EXPECT_THAT(report_of(kCubes, {"time.step=" + std::to_string(1e9 * limit * 1.1) + " ns"}), HasSubstr("blow up"));
   EXPECT_THAT(report_of(kCubes, {"time.step=" + std::to_string(1e9 * limit * 0.9) + " ns"}), Not(HasSubstr("blow up")));
 }
 
-TEST(CheckReport, tells_of_a_step_a_million_times_too_long_without_taking_it) {
+TEST(CheckReport, TellsOfAStepAMillionTimesTooLongWithoutTakingIt) {
   EXPECT_THAT(report_of(kCubes, {"time.step=1 s", "stage[0].end=10 s"}), HasSubstr("blow up"));
 }
 
-TEST(CheckReport, of_a_case_that_starts_from_a_state_counts_what_is_left_of_the_run) {
+TEST(CheckReport, OfACaseThatStartsFromAStateCountsWhatIsLeftOfTheRun) {
   const case_::Case input = case_::read_text(kCubes);
   const Model model = build_model(input);
   const CheckReport all = full_report(Subject(input, model)),
@@ -273,7 +273,7 @@ TEST(CheckReport, of_a_case_that_starts_from_a_state_counts_what_is_left_of_the_
   EXPECT_THAT(all.text, Not(HasSubstr("starts from")));
 }
 
-TEST(CheckReport, lists_so_many_of_the_advice_and_says_how_many_more_there_are) {
+TEST(CheckReport, ListsSoManyOfTheAdviceAndSaysHowManyMoreThereAre) {
   const Rule& rule = rules().front();
   const std::vector<Advice> advice{{&rule, "One."}, {&rule, "Two."}, {&rule, "Three."}};
   const std::string name = std::string(" [") + rule.name + "]\n";
@@ -282,7 +282,7 @@ TEST(CheckReport, lists_so_many_of_the_advice_and_says_how_many_more_there_are) 
   EXPECT_EQ(advice_list({}, 5), "nothing to advise\n");
 }
 
-TEST(MeshReport, gives_angles_in_degrees) {
+TEST(MeshReport, GivesAnglesInDegrees) {
   const FinishedMesh made = make_raster({.cell_size = Vec3(1, 2, 3)});
   const QualityReport quality = assess_quality(made.mesh);
   const std::string text = mesh_report(made, assess_quality(made.mesh));
@@ -301,7 +301,7 @@ std::array<double, 8> columns_of(const std::string& table, const std::string& na
   return values;
 }
 
-TEST(DomainTable, of_many_domains_tells_the_least_the_mean_and_the_most_of_each_column) {
+TEST(DomainTable, OfManyDomainsTellsTheLeastTheMeanAndTheMostOfEachColumn) {
   const case_::Case input = case_::read_text(kCubes, {"mesh.raster.cells=[20, 1, 1]"});
   const std::string table = domain_table(input, build_bare_model(input), 20);
   const auto least = columns_of(table, "least"), mean = columns_of(table, "mean"), most = columns_of(table, "most");
@@ -314,7 +314,7 @@ TEST(DomainTable, of_many_domains_tells_the_least_the_mean_and_the_most_of_each_
   EXPECT_EQ(most[kMessages], 2) << table;
 }
 
-TEST(CheckCommand, counts_the_domains_of_a_grid_along_all_axes) {
+TEST(CheckCommand, CountsTheDomainsOfAGridAlongAllAxes) {
   const case_::CaseFolder folder;
   const auto file = folder.write("case.toml", kCubes + "[domains]\nkind = \"grid\"\nn = [1, 1, 2]\n");
   testing::internal::CaptureStdout();

@@ -34,7 +34,7 @@ Json check_of(const case_::Case& input) {
   return Json::parse(check_json(subject, full_report(subject)));
 }
 
-TEST(JsonReport, check_gives_each_advice_with_rule_level_and_key) {
+TEST(JsonReport, CheckGivesEachAdviceWithRuleLevelAndKey) {
   const Json advice = check_of(case_::read_text(kCubes))["advice"];
   ASSERT_FALSE(advice.empty());
   EXPECT_EQ(advice[0]["rule"], "fragments_without_contact");
@@ -43,7 +43,7 @@ TEST(JsonReport, check_gives_each_advice_with_rule_level_and_key) {
   EXPECT_EQ(advice[0]["text"].get<std::string>().find("There is no [[contact]]"), 0u);
 }
 
-TEST(JsonReport, check_tells_what_a_run_takes) {
+TEST(JsonReport, CheckTellsWhatARunTakes) {
   const case_::Case input = case_::read_text(kCubes);
   const Json json = check_of(input);
   EXPECT_EQ(json["title"], "cubes");
@@ -57,7 +57,7 @@ TEST(JsonReport, check_tells_what_a_run_takes) {
   EXPECT_GE(json["most_seconds"], json["likely_seconds"]);
 }
 
-TEST(JsonReport, every_element_has_one_owner_among_the_ranks) {
+TEST(JsonReport, EveryElementHasOneOwnerAmongTheRanks) {
   const case_::Case input = case_::read_text(kCubes);
   const Json json = Json::parse(domains_json(input, build_bare_model(input), 3));
   std::vector<int> counted(3);
@@ -66,14 +66,14 @@ TEST(JsonReport, every_element_has_one_owner_among_the_ranks) {
   EXPECT_EQ(counted[0] + counted[1] + counted[2], kElements);
 }
 
-TEST(JsonReport, quality_of_the_mesh_counts_every_element_once) {
+TEST(JsonReport, QualityOfTheMeshCountsEveryElementOnce) {
   const Json json = Json::parse(mesh_json(build_mesh(case_::read_text(kCubes))));
   int sum = 0;
   for (const int n : json["quality"]) sum += n;
   EXPECT_EQ(sum, kElements);
 }
 
-TEST(JsonReport, faces_of_a_surface_group_are_told_by_element_and_side) {
+TEST(JsonReport, FacesOfASurfaceGroupAreToldByElementAndSide) {
   const Model model = build_bare_model(case_::read_text(kCubes));
   const Json json = Json::parse(mesh_json({model.mesh, model.mesh_report}, &model.topology.surface_groups));
   const auto surfaces = json["groups"]["surfaces"];
@@ -87,13 +87,13 @@ TEST(JsonReport, faces_of_a_surface_group_are_told_by_element_and_side) {
   }
 }
 
-TEST(JsonReport, every_key_of_the_schema_has_its_row) {
+TEST(JsonReport, EveryKeyOfTheSchemaHasItsRow) {
   const Json json = Json::parse(schema_json());
   ASSERT_EQ(json["keys"].size(), case_::schema().size());
   for (std::size_t i = 0; i < case_::schema().size(); ++i) EXPECT_EQ(json["keys"][i]["path"], case_::schema()[i].path);
 }
 
-TEST(JsonReport, problems_of_the_case_are_printed_and_end_with_two) {
+TEST(JsonReport, ProblemsOfTheCaseArePrintedAndEndWithTwo) {
   testing::internal::CaptureStdout();
   const int code = or_problems([]() -> int {
     throw InputError({"a.toml", 3, "time.step", "is wrong", "more", "less"});

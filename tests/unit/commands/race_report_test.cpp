@@ -28,12 +28,12 @@ RaceResult race(bool best_as_in_case) {
   return result;
 }
 
-TEST(RaceReport, tells_how_much_less_time_a_step_takes_than_as_in_the_case) {
+TEST(RaceReport, TellsHowMuchLessTimeAStepTakesThanAsInTheCase) {
   EXPECT_THAT(race_table(race(false)), HasSubstr("a step takes 20.0 % less time than as in the case"));
   EXPECT_THAT(race_table(race(true)), HasSubstr("best: ms, buffer 0.001 m, as in the case"));
 }
 
-TEST(RaceReport, counts_the_elements_of_all_steps_in_a_speed) {
+TEST(RaceReport, CountsTheElementsOfAllStepsInASpeed) {
   EXPECT_THAT(race_table(race(false)), HasSubstr("125,000")) << "1000 x 100 / 0.8 s";
   EXPECT_THAT(race_csv(race(false)), HasSubstr(",125000,100,"));
   EXPECT_THAT(race_json(race(false)), HasSubstr("\"element_steps_per_s\":125000,"));

@@ -84,14 +84,14 @@ class RaceStates : public testing::Test {
   std::string file_;
 };
 
-TEST_F(RaceStates, are_told_when_all_searches_are_right) {
+TEST_F(RaceStates, AreToldWhenAllSearchesAreRight) {
   const RaceResult result = race({sorted_grid, brute_force});
   EXPECT_FALSE(result.state_hash.empty());
   ASSERT_EQ(result.entries.size(), 2u);
   EXPECT_GT(result.entries[0].least.searches, 1);
 }
 
-TEST_F(RaceStates, end_the_race_with_an_error_that_names_both_where_a_search_loses_couples) {
+TEST_F(RaceStates, EndTheRaceWithAnErrorThatNamesBothWhereASearchLosesCouples) {
   try {
     (void)race({sorted_grid, ms});
     FAIL() << "two different states passed";

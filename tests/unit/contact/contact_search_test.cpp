@@ -13,7 +13,7 @@ namespace {
 using test::BreakingBoxes;
 using test::OwnedContact;
 
-TEST(contact_search, never_misses_a_couple_that_touches_under_random_motion) {
+TEST(ContactSearch, NeverMissesACoupleThatTouchesUnderRandomMotion) {
   // The drift of all counts for nothing, the random motion of each for all.
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal(0, 0.004);
@@ -36,7 +36,7 @@ TEST(contact_search, never_misses_a_couple_that_touches_under_random_motion) {
   EXPECT_GT(search.num_searches(), 3);
 }
 
-TEST(contact_search, lets_forces_pass_over_couples_that_are_apart_and_changes_no_bit) {
+TEST(ContactSearch, LetsForcesPassOverCouplesThatAreApartAndChangesNoBit) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal(0, 3e-4);
   const Mesh boxes = test::joined(test::box({2, 2, 2}, 0.5), test::box({2, 2, 2}, 0.5, {1.1, 0.3, 0.2}));
@@ -78,7 +78,7 @@ TEST(contact_search, lets_forces_pass_over_couples_that_are_apart_and_changes_no
   EXPECT_GT(apart, all / 2);
 }
 
-TEST(contact_search, that_is_told_a_speed_too_low_is_caught_by_verify) {
+TEST(ContactSearch, ThatIsToldASpeedTooLowIsCaughtByVerify) {
   BreakingBoxes model(test::joined(test::box({1, 1, 1}, 1.0), test::box({1, 1, 1}, 1.0, {1.5, 0, 0})));
   model.search.verify = true;
   OwnedContact search = model.make();

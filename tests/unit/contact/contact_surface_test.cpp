@@ -11,7 +11,7 @@ using test::BreakingBoxes;
 using test::kLaw;
 using test::OwnedContact;
 
-TEST(contact_surface, contactors_of_an_unbreakable_body_are_the_elements_at_its_surface) {
+TEST(ContactSurface, ContactorsOfAnUnbreakableBodyAreTheElementsAtItsSurface) {
   const BreakingBoxes breakable(test::box({4, 4, 4}, 1.0)), unbreakable(test::box({4, 4, 4}, 1.0), false);
   EXPECT_EQ(breakable.make().contact().contactors.size(), 24u * 64u);
   const OwnedContact search = unbreakable.make();
@@ -28,7 +28,7 @@ TEST(contact_surface, contactors_of_an_unbreakable_body_are_the_elements_at_its_
   EXPECT_LT(at_surface, 24u * 64u);
 }
 
-TEST(contact_surface, points_can_be_restricted_to_some_faces) {
+TEST(ContactSurface, PointsCanBeRestrictedToSomeFaces) {
   BreakingBoxes model(test::box({1, 1, 1}, 1.0));
   model.search.everywhere = false;
   int inner = 0;
@@ -41,7 +41,7 @@ TEST(contact_surface, points_can_be_restricted_to_some_faces) {
   EXPECT_EQ(search.contact().points.size(), 6u) << "both sides of the one face";
 }
 
-TEST(contact_surface, groups_without_a_law_make_no_couples) {
+TEST(ContactSurface, GroupsWithoutALawMakeNoCouples) {
   BreakingBoxes model(test::joined(test::box({1, 1, 1}, 1.0), test::box({1, 1, 1}, 1.0, {0.9, 0, 0})));
   model.params.laws = {kLaw, {}, {}, kLaw};
   OwnedContact apart = model.make();
@@ -53,7 +53,7 @@ TEST(contact_surface, groups_without_a_law_make_no_couples) {
   EXPECT_FALSE(together.contact().couples.empty());
 }
 
-TEST(contact_surface, groups_without_any_law_are_left_out_of_the_search_whatever_it_is) {
+TEST(ContactSurface, GroupsWithoutAnyLawAreLeftOutOfTheSearchWhateverItIs) {
   BreakingBoxes model(test::joined(test::box({1, 1, 1}, 1.0), test::box({1, 1, 1}, 1.0, {0.9, 0, 0})));
   model.params.laws = {{}, kLaw, {}, {}};  // points of the first against elements of the second
   std::vector<ContactCouple> first;

@@ -9,7 +9,7 @@ namespace {
 using test::BreakingBoxes;
 using test::OwnedContact;
 
-TEST(couple_search, searches_only_when_the_buffer_is_used_up) {
+TEST(CoupleSearch, SearchesOnlyWhenTheBufferIsUsedUp) {
   BreakingBoxes model(test::joined(test::box({1, 1, 1}, 1.0), test::box({1, 1, 1}, 1.0, {1.5, 0, 0})));
   model.search.buffer = 0.2;
   model.search.verify = true;
@@ -31,7 +31,7 @@ TEST(couple_search, searches_only_when_the_buffer_is_used_up) {
   EXPECT_GT(search.contact().couples.size(), 0u);
 }
 
-TEST(couple_search, is_not_done_anew_for_bodies_that_fly_together) {
+TEST(CoupleSearch, IsNotDoneAnewForBodiesThatFlyTogether) {
   BreakingBoxes model(test::joined(test::box({1, 1, 1}, 1.0), test::box({1, 1, 1}, 1.0, {1.05, 0, 0})));
   model.search.buffer = 0.2;
   model.search.verify = true;
@@ -45,7 +45,7 @@ TEST(couple_search, is_not_done_anew_for_bodies_that_fly_together) {
   EXPECT_GT(search.contact().couples.size(), 0u);
 }
 
-TEST(couple_search, chooses_a_larger_buffer_when_a_small_one_would_not_last) {
+TEST(CoupleSearch, ChoosesALargerBufferWhenASmallOneWouldNotLast) {
   BreakingBoxes model(test::box({1, 1, 1}, 1.0));
   OwnedContact slow = model.make(), fast = model.make();
   slow.update(model.state, 1, 1e-6);

@@ -13,7 +13,7 @@ using test::OwnedContact;
 using test::Pair;
 using test::pairs;
 
-TEST(face_release, couples_are_sorted_and_unique_after_every_release) {
+TEST(FaceRelease, CouplesAreSortedAndUniqueAfterEveryRelease) {
   std::mt19937_64 random(1);
   BreakingBoxes model(test::box({2, 2, 2}, 1.0));
   model.shake(random, 0.02);
@@ -30,7 +30,7 @@ TEST(face_release, couples_are_sorted_and_unique_after_every_release) {
   EXPECT_GT(pairs(search).size(), 1000u);
 }
 
-TEST(face_release, faces_released_one_by_one_give_the_couples_of_a_full_search) {
+TEST(FaceRelease, FacesReleasedOneByOneGiveTheCouplesOfAFullSearch) {
   for (const detection::Algorithm algorithm :
        {detection::Algorithm::packed_tree, detection::Algorithm::sorted_grid, detection::Algorithm::ms}) {
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -59,7 +59,7 @@ TEST(face_release, faces_released_one_by_one_give_the_couples_of_a_full_search) 
   }
 }
 
-TEST(face_release, couples_of_a_release_are_fresh_and_push_nobody) {
+TEST(FaceRelease, CouplesOfAReleaseAreFreshAndPushNobody) {
   std::mt19937_64 random(7);
   BreakingBoxes model(test::box({2, 1, 1}, 1.0));
   model.shake(random, 0.05);  // neighbours overlap by this much
@@ -75,7 +75,7 @@ TEST(face_release, couples_of_a_release_are_fresh_and_push_nobody) {
   for (Index n = 0; n < model.local.num_nodes; ++n) ASSERT_EQ(forces.get(n), Vec3(0, 0, 0));
 }
 
-TEST(face_release, both_sides_of_a_face_are_freed_once_however_often_it_is_named) {
+TEST(FaceRelease, BothSidesOfAFaceAreFreedOnceHoweverOftenItIsNamed) {
   BreakingBoxes model(test::box({1, 1, 1}, 1.0));
   OwnedContact search = model.make();
   const std::size_t before = search.contact().points.size();
@@ -90,7 +90,7 @@ TEST(face_release, both_sides_of_a_face_are_freed_once_however_often_it_is_named
   EXPECT_EQ(search.contact().points.size(), before + 6);
 }
 
-TEST(face_release, the_field_sinks_around_a_body_that_breaks_up) {
+TEST(FaceRelease, TheFieldSinksAroundABodyThatBreaksUp) {
   BreakingBoxes model(test::box({1, 1, 1}, 1.0));
   model.params.ramp_steps = 3;
   std::mt19937_64 random(1);

@@ -18,7 +18,7 @@ std::vector<Extent> random_boxes(std::mt19937_64& random, std::size_t number) {
   return boxes;
 }
 
-TEST(halo_roles, are_never_less_than_the_distance_to_evaluated_elements_asks_for) {
+TEST(HaloRoles, AreNeverLessThanTheDistanceToEvaluatedElementsAsksFor) {
   constexpr double kBuffer = 0.4;
   std::mt19937_64 random(5);
   std::bernoulli_distribution chosen(0.05);
@@ -47,7 +47,7 @@ TEST(halo_roles, are_never_less_than_the_distance_to_evaluated_elements_asks_for
   for (const int of_role : number) EXPECT_GT(of_role, 40) << "the test tells them apart";
 }
 
-TEST(halo_roles, are_none_for_elements_whose_position_is_not_known) {
+TEST(HaloRoles, AreNoneForElementsWhosePositionIsNotKnown) {
   ContactState contact;
   contact.relevant = {1, 0};
   std::vector<Extent> boxes(2);

@@ -48,7 +48,7 @@ Model moved(const case_::Case& input, double by) {
   return model;
 }
 
-TEST(initial_overlap, of_two_cubes_has_their_depth_and_bodies) {
+TEST(InitialOverlap, OfTwoCubesHasTheirDepthAndBodies) {
   const std::vector<BodyOverlap> overlaps = initial_overlaps(moved(cubes(), -2 * kGap));
   ASSERT_EQ(overlaps.size(), 1u);
   EXPECT_EQ(overlaps[0].body, 0);
@@ -58,21 +58,21 @@ TEST(initial_overlap, of_two_cubes_has_their_depth_and_bodies) {
   EXPECT_EQ(overlaps[0].corners, 2) << "the middles; the others lie on the other cube's sides";
 }
 
-TEST(initial_overlap, is_not_seen_where_faces_touch_or_overlap_by_round_off) {
+TEST(InitialOverlap, IsNotSeenWhereFacesTouchOrOverlapByRoundOff) {
   const double length = build_model(cubes()).whole.body_length[0];
   for (const double overlap : {-1e-3 * length, 0.0, 1e-15, 0.5 * kOverlapTolerance * length})
     EXPECT_TRUE(initial_overlaps(moved(cubes(), -kGap - overlap)).empty()) << overlap;
   EXPECT_EQ(initial_overlaps(moved(cubes(), -kGap - 2 * kOverlapTolerance * length)).size(), 1u);
 }
 
-TEST(initial_overlap, is_found_where_bodies_coincide_though_their_surfaces_lie_on_each_other) {
+TEST(InitialOverlap, IsFoundWhereBodiesCoincideThoughTheirSurfacesLieOnEachOther) {
   const std::vector<BodyOverlap> overlaps = initial_overlaps(moved(cubes(), -kCube - kGap));
   ASSERT_EQ(overlaps.size(), 1u);
   EXPECT_EQ(overlaps[0].points, 0);
   EXPECT_NEAR(overlaps[0].depth, kCube / 8, kRoundOff) << "of the middles of elements whose apex is the cube's centre";
 }
 
-TEST(initial_overlap, is_not_of_a_body_with_itself_where_a_crack_is_open_from_the_start) {
+TEST(InitialOverlap, IsNotOfABodyWithItselfWhereACrackIsOpenFromTheStart) {
   const case_::Case input =
       case_::read_text(test::raster_case({.title = "slit",
                                           .group = "cubes",
@@ -134,7 +134,7 @@ struct Pressed {
   }
 };
 
-TEST(initial_overlap, that_is_relaxed_makes_no_force_until_it_becomes_deeper) {
+TEST(InitialOverlap, ThatIsRelaxedMakesNoForceUntilItBecomesDeeper) {
   Pressed pressed("initial_overlap = \"relax\"", -kGap - kShallow);
   EXPECT_EQ(pressed.force_after(0), 0.0);
   constexpr double deeper = 1e-5;
@@ -145,7 +145,7 @@ TEST(initial_overlap, that_is_relaxed_makes_no_force_until_it_becomes_deeper) {
   EXPECT_EQ(pressed.work.stored.value(), 0.0);
 }
 
-TEST(initial_overlap, that_is_accepted_makes_its_force_at_once) {
+TEST(InitialOverlap, ThatIsAcceptedMakesItsForceAtOnce) {
   Pressed pressed("initial_overlap = \"accept\"", -kGap - kShallow);
   const double length = pressed.model.whole.body_length[0];
   EXPECT_NEAR(pressed.force_after(0) / (2 * kCube * kCube * kPenalty * kShallow / length), 1.0, 1e-9);

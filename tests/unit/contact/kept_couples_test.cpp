@@ -45,7 +45,7 @@ std::vector<Pair> expected(const ContactSearch& all, const std::vector<std::uint
   return result;
 }
 
-TEST(kept_couples, are_those_of_points_that_act_on_evaluated_elements_after_every_release) {
+TEST(KeptCouples, AreThoseOfPointsThatActOnEvaluatedElementsAfterEveryRelease) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     std::mt19937_64 random(seed);
     const BreakingBoxes model = two_boxes(random);
@@ -66,7 +66,7 @@ TEST(kept_couples, are_those_of_points_that_act_on_evaluated_elements_after_ever
   }
 }
 
-TEST(kept_couples, tell_when_one_with_an_element_of_another_rank_has_come_about) {
+TEST(KeptCouples, TellWhenOneWithAnElementOfAnotherRankHasComeAbout) {
   std::mt19937_64 random(1);
   const BreakingBoxes model = two_boxes(random);
   const std::vector<std::uint8_t> evaluated = some_slots(model, random, 0.5);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-TEST(Cells, go_by_floor_on_both_sides_of_zero) {
+TEST(Cells, GoByFloorOnBothSidesOfZero) {
   const Cells cells(0.5);
   EXPECT_EQ(cells.of(0.0), 0);
   EXPECT_EQ(cells.of(-0.0), 0);
@@ -23,7 +23,7 @@ TEST(Cells, go_by_floor_on_both_sides_of_zero) {
   EXPECT_EQ(cells.of(7.25), 14);
 }
 
-TEST(Cells, put_a_point_on_a_border_into_the_upper_cell) {
+TEST(Cells, PutAPointOnABorderIntoTheUpperCell) {
   const Cells cells(0.25);
   for (int k = -1000; k <= 1000; ++k) {
     EXPECT_EQ(cells.of(0.25 * k), k);
@@ -31,7 +31,7 @@ TEST(Cells, put_a_point_on_a_border_into_the_upper_cell) {
   }
 }
 
-TEST(Cells, stay_at_the_bound_for_coordinates_beyond_it) {
+TEST(Cells, StayAtTheBoundForCoordinatesBeyondIt) {
   const Cells cells(1e-3);
   EXPECT_EQ(cells.of(1e300), Cells::bound);
   EXPECT_EQ(cells.of(-1e300), -Cells::bound);
@@ -41,7 +41,7 @@ TEST(Cells, stay_at_the_bound_for_coordinates_beyond_it) {
   EXPECT_EQ(Cells(1e308).of(-1.0), -1);
 }
 
-TEST(Cells, never_decrease_with_the_coordinate) {
+TEST(Cells, NeverDecreaseWithTheCoordinate) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> coordinate(-3, 3), size(0.001, 1);
   for (int k = 0; k < 100000; ++k) {
@@ -55,21 +55,21 @@ TEST(Cells, never_decrease_with_the_coordinate) {
   }
 }
 
-TEST(ChosenCell, is_the_share_of_the_enlarged_width_of_equal_contactors) {
+TEST(ChosenCell, IsTheShareOfTheEnlargedWidthOfEqualContactors) {
   // The box of a regular tetrahedron of edge sqrt(2) in this position is the unit cube.
   const std::vector<Corners> contactors(10000, scenes::regular_tetrahedron(Vec3(3, -2, 1), std::sqrt(2.0)));
   constexpr double tolerance = 1e-12;  // logarithm and exponential of a sum of 4,096 terms
   EXPECT_NEAR(choose_cell(contactors, 0.5, 0.25), 0.25 * 2.0, tolerance);
 }
 
-TEST(ChosenCell, is_the_geometric_mean_of_two_sizes) {
+TEST(ChosenCell, IsTheGeometricMeanOfTwoSizes) {
   const std::vector<Corners> contactors{scenes::regular_tetrahedron(Vec3::Zero(), std::sqrt(2.0)),
                                         scenes::regular_tetrahedron(Vec3::Zero(), 100 * std::sqrt(2.0))};
   constexpr double tolerance = 1e-12;  // as above
   EXPECT_NEAR(choose_cell(contactors, 0, 1), 10.0, tolerance);
 }
 
-TEST(ChosenCell, exists_without_any_usable_contactor) {
+TEST(ChosenCell, ExistsWithoutAnyUsableContactor) {
   EXPECT_EQ(choose_cell({}, 0, 0.5), 1.0);
   Corners point;
   point.fill(Vec3(1, 2, 3));

@@ -24,7 +24,7 @@ void expect_as_brute_force(const scenes::Scene& scene, double buffer, const char
   EXPECT_FALSE(couples.empty()) << what;
 }
 
-TEST(contactor_grid, finds_for_every_point_what_a_full_search_finds) {
+TEST(ContactorGrid, FindsForEveryPointWhatAFullSearchFinds) {
   for (const double buffer : {0.0, 0.05, 0.5}) {
     expect_as_brute_force(scenes::cloud(1, 200, 3, 0), buffer, "one size");
     expect_as_brute_force(scenes::cloud(2, 200, 3, 2.5), buffer, "sizes over 2.5 decades");
@@ -33,13 +33,13 @@ TEST(contactor_grid, finds_for_every_point_what_a_full_search_finds) {
   }
 }
 
-TEST(contactor_grid, holds_a_floor_a_thousand_times_wider_than_the_rest) {
+TEST(ContactorGrid, HoldsAFloorAThousandTimesWiderThanTheRest) {
   scenes::Scene scene = scenes::cloud(4, 200, 3, 0);
   scene.contactors.insert(scene.contactors.begin(), scenes::regular_tetrahedron(Vec3(0, 0, 0), 3000));
   expect_as_brute_force(scene, 0.1, "floor");
 }
 
-TEST(contactor_grid, has_nothing_for_a_point_that_is_not_finite) {
+TEST(ContactorGrid, HasNothingForAPointThatIsNotFinite) {
   const scenes::Scene scene = scenes::raster(2, 1);
   ContactorGrid grid;
   grid.build(scene.contactors, 0.1);
@@ -48,13 +48,13 @@ TEST(contactor_grid, has_nothing_for_a_point_that_is_not_finite) {
   EXPECT_TRUE(contactors.empty());
 }
 
-TEST(contactor_grid, passes_over_contactors_that_are_not_finite) {
+TEST(ContactorGrid, PassesOverContactorsThatAreNotFinite) {
   scenes::Scene scene = scenes::raster(2, 1);
   scene.contactors[3][2][1] = std::numeric_limits<double>::infinity();
   expect_as_brute_force(scene, 0.1, "an infinite corner");
 }
 
-TEST(contactor_grid, refuses_a_negative_buffer) {
+TEST(ContactorGrid, RefusesANegativeBuffer) {
   ContactorGrid grid;
   EXPECT_THROW(grid.build({}, -1), InternalError);
 }

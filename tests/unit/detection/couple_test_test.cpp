@@ -39,7 +39,7 @@ long double margin(const Corners& corners, double buffer, const Vec3& point) {
   return least;
 }
 
-TEST(CoupleTest, keeps_a_point_at_buffer_distance_from_a_face_and_no_farther) {
+TEST(CoupleTest, KeepsAPointAtBufferDistanceFromAFaceAndNoFarther) {
   const CoupleTest test(corner_tetrahedron, 0.125);
   EXPECT_TRUE(test.holds(Vec3(0.25, 0.25, -0.125)));
   EXPECT_FALSE(test.holds(Vec3(0.25, 0.25, -0.1250001)));
@@ -49,7 +49,7 @@ TEST(CoupleTest, keeps_a_point_at_buffer_distance_from_a_face_and_no_farther) {
   EXPECT_FALSE(test.holds(Vec3::Constant(reach + 1e-9)));
 }
 
-TEST(CoupleTest, keeps_a_point_on_the_border_of_the_enlarged_box) {
+TEST(CoupleTest, KeepsAPointOnTheBorderOfTheEnlargedBox) {
   Corners flat = corner_tetrahedron;  // without volume only the box counts
   flat[3] = Vec3(0.5, 0.5, 0);
   const CoupleTest test(flat, 0.25);
@@ -60,14 +60,14 @@ TEST(CoupleTest, keeps_a_point_on_the_border_of_the_enlarged_box) {
   EXPECT_FALSE(test.holds(Vec3(0, 0, std::nextafter(-0.25, -1.0))));
 }
 
-TEST(CoupleTest, cuts_a_sharp_edge_at_the_enlarged_box) {
+TEST(CoupleTest, CutsASharpEdgeAtTheEnlargedBox) {
   // Beyond the corner (1, 0, 0) the buffered planes leave room up to x = 1 + b (2 + sqrt(3)), the box only up to 1 + b.
   const CoupleTest test(corner_tetrahedron, 0.125);
   EXPECT_TRUE(test.holds(Vec3(1.12, -0.1, -0.1)));
   EXPECT_FALSE(test.holds(Vec3(1.13, -0.1, -0.1)));
 }
 
-TEST(CoupleTest, agrees_with_the_definition_in_extended_precision) {
+TEST(CoupleTest, AgreesWithTheDefinitionInExtendedPrecision) {
   // Points closer to a border than the double arithmetic resolves are left out: 1e-9 of slivers of size 1.
   constexpr double undecided = 1e-9;
   Random random(11);
@@ -89,7 +89,7 @@ TEST(CoupleTest, agrees_with_the_definition_in_extended_precision) {
   EXPECT_GT(outside, 10000);
 }
 
-TEST(CoupleTest, never_loses_a_point_to_a_larger_buffer) {
+TEST(CoupleTest, NeverLosesAPointToALargerBuffer) {
   Random random(12);
   for (int k = 0; k < 500; ++k) {
     const Corners corners = scenes::random_tetrahedron(random, Vec3(100, -3, 7), 0.01);
@@ -101,7 +101,7 @@ TEST(CoupleTest, never_loses_a_point_to_a_larger_buffer) {
   }
 }
 
-TEST(CoupleTest, keeps_corners_face_centres_and_inner_points_of_slivers_without_any_buffer) {
+TEST(CoupleTest, KeepsCornersFaceCentresAndInnerPointsOfSliversWithoutAnyBuffer) {
   Random random(13);
   for (const double thickness : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 1e-30, 1e-200}) {
     for (int k = 0; k < 200; ++k) {
@@ -122,7 +122,7 @@ TEST(CoupleTest, keeps_corners_face_centres_and_inner_points_of_slivers_without_
   }
 }
 
-TEST(CoupleTest, keeps_everything_in_the_box_of_an_inverted_element) {
+TEST(CoupleTest, KeepsEverythingInTheBoxOfAnInvertedElement) {
   Corners inverted = corner_tetrahedron;
   std::swap(inverted[0], inverted[1]);
   const CoupleTest test(inverted, 0.1);
@@ -131,7 +131,7 @@ TEST(CoupleTest, keeps_everything_in_the_box_of_an_inverted_element) {
   EXPECT_TRUE(test.holds(Vec3(0.2, 0.2, 0.2)));
 }
 
-TEST(CoupleTest, leaves_out_what_is_not_finite) {
+TEST(CoupleTest, LeavesOutWhatIsNotFinite) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   const CoupleTest test(corner_tetrahedron, 0.1);
   for (const double bad : {nan, infinity, -infinity}) {
@@ -149,7 +149,7 @@ TEST(CoupleTest, leaves_out_what_is_not_finite) {
   EXPECT_FALSE(test.skipped());
 }
 
-TEST(CoupleTest, keeps_the_inner_points_of_huge_and_tiny_elements) {
+TEST(CoupleTest, KeepsTheInnerPointsOfHugeAndTinyElements) {
   Random random(14);
   for (const double size : {1e-300, 1e-160, 1e-100, 1e100, 1e160, 1e300}) {
     Corners c;

@@ -13,7 +13,7 @@ namespace {
 
 using scenes::Random;
 
-TEST(HilbertCurve, visits_every_cell_once_and_goes_through_a_face_at_every_step) {
+TEST(HilbertCurve, VisitsEveryCellOnceAndGoesThroughAFaceAtEveryStep) {
   for (const int pairs : {1, 2}) {
     const std::uint32_t edge = 1U << 2 * pairs;
     std::vector<std::array<int, 3>> cell_at(edge * edge * edge, {-1, -1, -1});
@@ -35,7 +35,7 @@ TEST(HilbertCurve, visits_every_cell_once_and_goes_through_a_face_at_every_step)
   }
 }
 
-TEST(HilbertCurve, keeps_the_place_of_a_coarser_cell_in_the_upper_digits) {
+TEST(HilbertCurve, KeepsThePlaceOfACoarserCellInTheUpperDigits) {
   Random random(3);
   std::uniform_int_distribution<std::uint32_t> coordinate(0, 1023);
   for (int k = 0; k < 1000; ++k) {
@@ -67,7 +67,7 @@ class CurveOrderOf : public testing::Test {
   CurveOrder order_;
 };
 
-TEST_F(CurveOrderOf, points_holds_every_finite_one_once) {
+TEST_F(CurveOrderOf, PointsHoldsEveryFiniteOneOnce) {
   Random random(4);
   std::vector<Vec3> points;
   for (int k = 0; k < 5000; ++k) points.push_back(scenes::uniform_vector(random, -1, 1));
@@ -80,7 +80,7 @@ TEST_F(CurveOrderOf, points_holds_every_finite_one_once) {
   EXPECT_EQ(numbers.count(17) + numbers.count(4000), 0u);
 }
 
-TEST_F(CurveOrderOf, evenly_spread_points_puts_eight_neighbours_into_a_box_of_about_twice_their_share) {
+TEST_F(CurveOrderOf, EvenlySpreadPointsPutsEightNeighboursIntoABoxOfAboutTwiceTheirShare) {
   // 32,768 points in a unit cube: a cube of edge 1/16 holds eight of them in the mean.
   Random random(5);
   std::vector<Vec3> points;
@@ -88,7 +88,7 @@ TEST_F(CurveOrderOf, evenly_spread_points_puts_eight_neighbours_into_a_box_of_ab
   EXPECT_LT(mean_extent(points, sort(points)), 2.0 / 16);
 }
 
-TEST_F(CurveOrderOf, a_dense_crowd_is_as_good_whatever_lies_around_it) {
+TEST_F(CurveOrderOf, ADenseCrowdIsAsGoodWhateverLiesAroundIt) {
   Random random(6);
   std::vector<Vec3> crowd;
   for (int k = 0; k < 4096; ++k) crowd.push_back(1e-4 * scenes::uniform_vector(random, 0, 1));
@@ -105,7 +105,7 @@ TEST_F(CurveOrderOf, a_dense_crowd_is_as_good_whatever_lies_around_it) {
   }
 }
 
-TEST_F(CurveOrderOf, points_keeps_an_order_that_is_as_good_and_no_other) {
+TEST_F(CurveOrderOf, PointsKeepsAnOrderThatIsAsGoodAndNoOther) {
   Random random(7);
   std::vector<Vec3> points;
   for (int k = 0; k < 20000; ++k) points.push_back(scenes::uniform_vector(random, 0, 1));
@@ -140,7 +140,7 @@ TEST_F(CurveOrderOf, points_keeps_an_order_that_is_as_good_and_no_other) {
   EXPECT_FALSE(is_kept(arrange()));
 }
 
-TEST_F(CurveOrderOf, points_in_one_place_ends) {
+TEST_F(CurveOrderOf, PointsInOnePlaceEnds) {
   const std::vector<Vec3> points(1000, Vec3(0.3, -2e5, 1e-300));
   EXPECT_EQ(sort(points).size(), points.size());
 }

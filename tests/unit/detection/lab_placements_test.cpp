@@ -17,7 +17,7 @@ namespace {
 /// Standard deviations that a mean of independent draws may lie off: once in 1.7 million.
 constexpr double kDeviations = 5;
 
-TEST(LabGenerator, draws_evenly_between_zero_and_one) {
+TEST(LabGenerator, DrawsEvenlyBetweenZeroAndOne) {
   Generator draw;
   std::int64_t seed = -1;
   constexpr int n = 100000, bins = 10;
@@ -38,7 +38,7 @@ TEST(LabGenerator, draws_evenly_between_zero_and_one) {
   for (const int in_bin : count) EXPECT_NEAR(in_bin, n / bins, kDeviations * std::sqrt(n / bins * 0.9));
 }
 
-TEST(LabGenerator, goes_through_the_published_congruence_from_a_seed) {
+TEST(LabGenerator, GoesThroughThePublishedCongruenceFromASeed) {
   // a = 40014, m = 2147483563 by Schrage's decomposition m = 53668 a + 12211, which no product here exceeds 32 bits in.
   Generator draw;
   std::int64_t seed = -7;
@@ -52,7 +52,7 @@ TEST(LabGenerator, goes_through_the_published_congruence_from_a_seed) {
   }
 }
 
-TEST(LabGenerator, repeats_itself_from_a_negative_seed_and_differs_from_another) {
+TEST(LabGenerator, RepeatsItselfFromANegativeSeedAndDiffersFromAnother) {
   Generator one, two;
   std::int64_t a = -2000, b = -2000, c = -500000;
   for (int k = 0; k < 100; ++k) (void)two(c);  // a past that the restart must forget
@@ -64,7 +64,7 @@ TEST(LabGenerator, repeats_itself_from_a_negative_seed_and_differs_from_another)
 
 std::set<BodyCell> distinct(const Cells& cells) { return {cells.begin(), cells.end()}; }
 
-TEST(LabPlacement, of_experiment_I_fills_every_cell_of_a_cube_once_z_fastest) {
+TEST(LabPlacement, OfExperimentIFillsEveryCellOfACubeOnceZFastest) {
   const Placement placement("I", 1000, 1);
   const Cells& cells = placement.cells();
   ASSERT_EQ(cells.size(), 1000u);
@@ -75,7 +75,7 @@ TEST(LabPlacement, of_experiment_I_fills_every_cell_of_a_cube_once_z_fastest) {
   EXPECT_EQ(cells[999], (BodyCell{9, 9, 9}));
 }
 
-TEST(LabPlacement, of_experiment_II_leaves_spacing_minus_one_cells_between_bodies) {
+TEST(LabPlacement, OfExperimentIILeavesSpacingMinusOneCellsBetweenBodies) {
   const Placement placement("II", 125, 200);
   EXPECT_EQ(distinct(placement.cells()).size(), 125u);
   for (const BodyCell& cell : placement.cells()) {
@@ -86,7 +86,7 @@ TEST(LabPlacement, of_experiment_II_leaves_spacing_minus_one_cells_between_bodie
   }
 }
 
-TEST(LabPlacement, of_experiment_III_spreads_a_cubic_number_evenly_in_a_cube_of_three_times_its_edge) {
+TEST(LabPlacement, OfExperimentIIISpreadsACubicNumberEvenlyInACubeOfThreeTimesItsEdge) {
   const Placement placement("III", 30000, 1);
   const Cells& cells = placement.cells();
   ASSERT_EQ(cells.size(), 31u * 31 * 31);
@@ -108,14 +108,14 @@ TEST(LabPlacement, of_experiment_III_spreads_a_cubic_number_evenly_in_a_cube_of_
   }
 }
 
-TEST(LabPlacement, of_experiment_IV_keeps_all_bodies_in_one_cell) {
+TEST(LabPlacement, OfExperimentIVKeepsAllBodiesInOneCell) {
   Placement placement("IV", 500, 1);
   placement.move();
   EXPECT_EQ(placement.cells().size(), 500u);
   EXPECT_EQ(distinct(placement.cells()).size(), 1u);
 }
 
-TEST(LabPlacement, of_experiments_V_and_VI_stay_on_their_line_and_plane_at_the_given_density) {
+TEST(LabPlacement, OfExperimentsVAndVIStayOnTheirLineAndPlaneAtTheGivenDensity) {
   Placement line("V", 4000, 1), plane("VI", 3000, 1);
   for (int moves = 0; moves < 3; ++moves) {
     Coordinate x_high = 0, y_high = 0;
@@ -141,7 +141,7 @@ TEST(LabPlacement, of_experiments_V_and_VI_stay_on_their_line_and_plane_at_the_g
   }
 }
 
-TEST(LabPlacement, moves_every_coordinate_by_none_or_one_and_not_all_bodies_alike) {
+TEST(LabPlacement, MovesEveryCoordinateByNoneOrOneAndNotAllBodiesAlike) {
   Placement placement("III", 8000, 1);
   for (int moves = 0; moves < 10; ++moves) {
     const Cells before = placement.cells();
@@ -158,7 +158,7 @@ TEST(LabPlacement, moves_every_coordinate_by_none_or_one_and_not_all_bodies_alik
   }
 }
 
-TEST(LabPlacement, is_the_same_for_all_searches_and_refuses_an_unknown_experiment) {
+TEST(LabPlacement, IsTheSameForAllSearchesAndRefusesAnUnknownExperiment) {
   Placement one("III", 1000, 1), two("III", 1000, 1);
   for (int moves = 0; moves < 10; ++moves) {
     one.move();
@@ -168,7 +168,7 @@ TEST(LabPlacement, is_the_same_for_all_searches_and_refuses_an_unknown_experimen
   EXPECT_THROW(Placement("VIII", 1000, 1), std::invalid_argument);
 }
 
-TEST(LabScenes, in_order_hold_the_same_tetrahedra_and_points_with_neighbours_near_in_memory) {
+TEST(LabScenes, InOrderHoldTheSameTetrahedraAndPointsWithNeighboursNearInMemory) {
   std::vector<Scene> scenes;
   for (const PointScene& make : point_scenes(3000)) scenes.push_back(make());
   int compared = 0;
@@ -200,7 +200,7 @@ TEST(LabScenes, in_order_hold_the_same_tetrahedra_and_points_with_neighbours_nea
 
 double edge_of(const detection::Corners& c) { return (c[1] - c[0]).norm(); }
 
-TEST(LabScenes, have_tetrahedra_with_an_outside_and_their_points_on_their_faces) {
+TEST(LabScenes, HaveTetrahedraWithAnOutsideAndTheirPointsOnTheirFaces) {
   for (const PointScene& make : point_scenes(2000)) {
     const Scene scene = make();
     EXPECT_GE(scene.contactors.size(), 2000u) << scene.name;
@@ -211,7 +211,7 @@ TEST(LabScenes, have_tetrahedra_with_an_outside_and_their_points_on_their_faces)
   }
 }
 
-TEST(LabScenes, of_mixed_sizes_span_their_ratio_evenly_in_the_logarithm_and_fill_space_about_once) {
+TEST(LabScenes, OfMixedSizesSpanTheirRatioEvenlyInTheLogarithmAndFillSpaceAboutOnce) {
   std::vector<Scene> mixtures;
   for (const PointScene& make : point_scenes(20000)) {
     Scene scene = make();

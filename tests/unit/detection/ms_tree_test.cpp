@@ -78,14 +78,14 @@ std::vector<std::vector<int>> adversarial_orders(int n) {
   return {up, down, outside_in, inside_out, equal, few, shuffled};
 }
 
-TEST(MsTree, orders_cells_by_z_then_y_then_x) {
+TEST(MsTree, OrdersCellsByZThenYThenX) {
   EXPECT_LT((CellKey{0, 9, 9}), (CellKey{1, 0, 0}));
   EXPECT_LT((CellKey{1, 0, 9}), (CellKey{1, 1, 0}));
   EXPECT_LT((CellKey{1, 1, -3}), (CellKey{1, 1, -2}));
   EXPECT_LT((CellKey{-2, 5, 5}), (CellKey{-1, 5, 5}));
 }
 
-TEST(MsTree, turns_three_nodes_into_one_with_two_sons_in_each_of_the_four_cases) {
+TEST(MsTree, TurnsThreeNodesIntoOneWithTwoSonsInEachOfTheFourCases) {
   for (const std::vector<int>& order : {std::vector{3, 2, 1}, {1, 2, 3}, {3, 1, 2}, {1, 3, 2}}) {
     MsTree tree;
     for (const int x : order) tree.add(along_x(x), x);
@@ -96,7 +96,7 @@ TEST(MsTree, turns_three_nodes_into_one_with_two_sons_in_each_of_the_four_cases)
   }
 }
 
-TEST(MsTree, stays_below_the_height_bound_for_adversarial_orders) {
+TEST(MsTree, StaysBelowTheHeightBoundForAdversarialOrders) {
   for (const std::vector<int>& order : adversarial_orders(20000)) {
     MsTree tree;
     for (const int x : order) tree.add(along_x(x), x);
@@ -104,7 +104,7 @@ TEST(MsTree, stays_below_the_height_bound_for_adversarial_orders) {
   }
 }
 
-TEST(MsTree, has_a_sorted_list_and_balanced_nodes_after_every_insertion) {
+TEST(MsTree, HasASortedListAndBalancedNodesAfterEveryInsertion) {
   for (const std::vector<int>& order : adversarial_orders(200)) {
     MsTree tree;
     for (const int x : order) {
@@ -116,7 +116,7 @@ TEST(MsTree, has_a_sorted_list_and_balanced_nodes_after_every_insertion) {
   }
 }
 
-TEST(MsTree, keeps_nodes_of_equal_key_in_the_order_of_insertion) {
+TEST(MsTree, KeepsNodesOfEqualKeyInTheOrderOfInsertion) {
   std::mt19937 random(2);
   std::vector<std::pair<CellKey, Index>> expected;
   MsTree tree;
@@ -131,7 +131,7 @@ TEST(MsTree, keeps_nodes_of_equal_key_in_the_order_of_insertion) {
   EXPECT_EQ(Inspection(tree).objects(), objects);
 }
 
-TEST(MsTree, finds_the_first_node_of_the_list_that_is_greater) {
+TEST(MsTree, FindsTheFirstNodeOfTheListThatIsGreater) {
   std::mt19937 random(3);
   const auto draw = [&] { return static_cast<std::int32_t>(random() % 9) - 4; };
   MsTree tree;
@@ -151,7 +151,7 @@ TEST(MsTree, finds_the_first_node_of_the_list_that_is_greater) {
   }
 }
 
-TEST(MsTree, keeps_list_and_balance_when_nodes_are_removed_and_added_at_random) {
+TEST(MsTree, KeepsListAndBalanceWhenNodesAreRemovedAndAddedAtRandom) {
   std::mt19937 random(4);
   for (const int distinct : {1, 5, 1000}) {
     MsTree tree;
@@ -179,7 +179,7 @@ TEST(MsTree, keeps_list_and_balance_when_nodes_are_removed_and_added_at_random) 
   }
 }
 
-TEST(MsTree, is_empty_after_removing_everything_from_either_end) {
+TEST(MsTree, IsEmptyAfterRemovingEverythingFromEitherEnd) {
   for (const bool upwards : {true, false}) {
     MsTree tree;
     for (int x = 0; x < 500; ++x) tree.add(along_x(x), x);
@@ -195,7 +195,7 @@ TEST(MsTree, is_empty_after_removing_everything_from_either_end) {
   }
 }
 
-TEST(MsTree, changes_nothing_when_the_node_to_remove_is_absent) {
+TEST(MsTree, ChangesNothingWhenTheNodeToRemoveIsAbsent) {
   MsTree tree;
   EXPECT_FALSE(tree.remove(along_x(1), 1));
   for (int x = 0; x < 50; ++x) tree.add(along_x(x / 5), x);
@@ -205,7 +205,7 @@ TEST(MsTree, changes_nothing_when_the_node_to_remove_is_absent) {
   EXPECT_EQ(Inspection(tree).objects(), before);
 }
 
-TEST(MsTree, uses_the_places_of_removed_nodes_again) {
+TEST(MsTree, UsesThePlacesOfRemovedNodesAgain) {
   MsTree tree;
   Index largest = 0;
   for (int x = 0; x < 100; ++x) largest = std::max(largest, tree.add(along_x(x), x));
@@ -216,7 +216,7 @@ TEST(MsTree, uses_the_places_of_removed_nodes_again) {
   EXPECT_EQ(Inspection(tree).objects(), ascending(100));
 }
 
-TEST(MsTree, forgets_everything_when_cleared) {
+TEST(MsTree, ForgetsEverythingWhenCleared) {
   MsTree tree;
   for (int x = 0; x < 100; ++x) tree.add(along_x(x), x);
   tree.clear();

@@ -25,7 +25,7 @@ class PackedKernels : public testing::TestWithParam<const PackedKernel*> {
   PackedTree search_{*GetParam()};
 };
 
-TEST_P(PackedKernels, find_the_couples_of_all_pairs) {
+TEST_P(PackedKernels, FindTheCouplesOfAllPairs) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     expect_all_pairs(scenes::cloud(seed, 700, 2, 2), 0.01);
     expect_all_pairs(scenes::cloud(seed, 700, 2, 2), 0);
@@ -33,7 +33,7 @@ TEST_P(PackedKernels, find_the_couples_of_all_pairs) {
   expect_all_pairs(scenes::raster(7, 0.8), 0.1);
 }
 
-TEST_P(PackedKernels, fill_leaves_and_groups_of_every_number_of_points) {
+TEST_P(PackedKernels, FillLeavesAndGroupsOfEveryNumberOfPoints) {
   const scenes::Scene scene = scenes::cloud(5, 110, 1, 1);  // 550 points: three levels, the last of one group
   for (std::size_t n = 1; n <= scene.points.size(); n += n < 80 ? 1 : 37) {
     scenes::Scene part = scene;
@@ -42,13 +42,13 @@ TEST_P(PackedKernels, fill_leaves_and_groups_of_every_number_of_points) {
   }
 }
 
-TEST_P(PackedKernels, find_the_couples_of_elements_without_an_outside) {
+TEST_P(PackedKernels, FindTheCouplesOfElementsWithoutAnOutside) {
   scenes::Scene scene = scenes::cloud(6, 200, 1, 1);
   for (Corners& c : scene.contactors) std::swap(c[0], c[1]);
   expect_all_pairs(scene, 0.02);
 }
 
-TEST_P(PackedKernels, find_the_couples_of_an_element_wider_than_a_float_can_tell) {
+TEST_P(PackedKernels, FindTheCouplesOfAnElementWiderThanAFloatCanTell) {
   scenes::Scene scene = scenes::cloud(6, 20, 1, 1);
   scene.points.resize(3);  // a leaf, and seven places without one
   for (const double sign : {1.0, -1.0}) {

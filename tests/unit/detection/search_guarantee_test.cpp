@@ -17,7 +17,7 @@ Vec3 random_direction(Random& random) {
 
 class SearchGuarantee : public testing::TestWithParam<Algorithm> {};
 
-TEST_P(SearchGuarantee, holds_for_points_inside_elements_after_any_motion_of_half_the_buffer) {
+TEST_P(SearchGuarantee, HoldsForPointsInsideElementsAfterAnyMotionOfHalfTheBuffer) {
   // Points are placed inside the moved elements, at their corners, edges and faces too, and moved back: every one of
   // these pairs must have been found before the motion. The last 1e-9 of the half buffer is left to the round-off of
   // positions.
@@ -51,7 +51,7 @@ TEST_P(SearchGuarantee, holds_for_points_inside_elements_after_any_motion_of_hal
   }
 }
 
-TEST_P(SearchGuarantee, is_not_met_by_listing_everything) {
+TEST_P(SearchGuarantee, IsNotMetByListingEverything) {
   // The planes must cut: face centres of a raster wider than the buffer are coupled to their own element alone.
   const scenes::Scene scene = scenes::raster(5, 1.2);
   std::vector<Couple> couples;

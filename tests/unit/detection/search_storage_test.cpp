@@ -29,7 +29,7 @@ namespace {
 
 class SearchStorage : public testing::TestWithParam<Algorithm> {};
 
-TEST_P(SearchStorage, is_allocated_by_the_first_search_and_by_no_later_one) {
+TEST_P(SearchStorage, IsAllocatedByTheFirstSearchAndByNoLaterOne) {
   scenes::Scene scene = scenes::raster(6, 0.8);
   const auto search = make_search(GetParam(), 0);
   std::vector<Couple> couples;

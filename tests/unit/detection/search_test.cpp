@@ -58,20 +58,20 @@ class Search : public testing::TestWithParam<std::tuple<Algorithm, double>> {
   std::vector<Couple> couples_;
 };
 
-TEST_P(Search, finds_the_definitions_couples_among_tetrahedra_of_very_different_sizes) {
+TEST_P(Search, FindsTheDefinitionsCouplesAmongTetrahedraOfVeryDifferentSizes) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     expect_definition(scenes::cloud(seed, 300, 2, 3), 0.01, 1500);
     expect_definition(scenes::cloud(seed + 100, 300, 0.3, 3), 1e-4, 1500);
   }
 }
 
-TEST_P(Search, finds_the_definitions_couples_on_rasters) {
+TEST_P(Search, FindsTheDefinitionsCouplesOnRasters) {
   for (const double spacing : {0.4, 0.7071067811865476, 1.0, 2.5}) {
     expect_definition(scenes::raster(6, spacing), 0.05, 4 * 6 * 6 * 6);
   }
 }
 
-TEST_P(Search, finds_points_on_cell_borders_and_box_faces) {
+TEST_P(Search, FindsPointsOnCellBordersAndBoxFaces) {
   Scene scene;
   for (int x = -3; x <= 3; ++x) {
     for (int y = -3; y <= 3; ++y) {
@@ -89,12 +89,12 @@ TEST_P(Search, finds_points_on_cell_borders_and_box_faces) {
   for (const double buffer : {0.0, 0.05, 0.25, 0.5}) expect_definition(scene, buffer, 100);
 }
 
-TEST_P(Search, finds_the_same_couples_at_negative_coordinates) {
+TEST_P(Search, FindsTheSameCouplesAtNegativeCoordinates) {
   const Scene scene = scenes::cloud(7, 300, 4, 1, Vec3(-40, -30, -7));
   expect_definition(scene, 0.02, 1500);
 }
 
-TEST_P(Search, finds_all_couples_when_all_points_share_a_cell) {
+TEST_P(Search, FindsAllCouplesWhenAllPointsShareACell) {
   Random random(8);
   Scene scene;
   for (int k = 0; k < 400; ++k)
@@ -107,7 +107,7 @@ TEST_P(Search, finds_all_couples_when_all_points_share_a_cell) {
   expect_definition(scene, 0.01, 400);
 }
 
-TEST_P(Search, drops_the_old_list_when_there_is_nothing_to_find) {
+TEST_P(Search, DropsTheOldListWhenThereIsNothingToFind) {
   const Scene scene = scenes::raster(2, 1);
   expect_definition(scene, 0.1, 32);
   expect_definition({{}, scene.contactors}, 0.1, 0);
@@ -119,13 +119,13 @@ TEST_P(Search, drops_the_old_list_when_there_is_nothing_to_find) {
   EXPECT_TRUE(couples_.empty());
 }
 
-TEST_P(Search, finds_the_four_face_centres_of_a_single_tetrahedron) {
+TEST_P(Search, FindsTheFourFaceCentresOfASingleTetrahedron) {
   const Scene scene = scenes::raster(1, 1);
   search_->search(scene.points, scene.contactors, 1e-9, couples_);
   EXPECT_EQ(couples_, (std::vector<Couple>{{0, 0}, {1, 0}, {2, 0}, {3, 0}}));
 }
 
-TEST_P(Search, treats_flat_inverted_and_collapsed_elements_by_their_box) {
+TEST_P(Search, TreatsFlatInvertedAndCollapsedElementsByTheirBox) {
   Scene scene = scenes::cloud(9, 200, 1.5, 1);
   Random random(10);
   for (std::size_t k = 0; k < scene.contactors.size(); ++k) {
@@ -138,7 +138,7 @@ TEST_P(Search, treats_flat_inverted_and_collapsed_elements_by_their_box) {
   for (const double buffer : {0.0, 0.03}) expect_definition(scene, buffer, 300);
 }
 
-TEST_P(Search, finds_fragments_that_have_flown_far_away) {
+TEST_P(Search, FindsFragmentsThatHaveFlownFarAway) {
   Scene scene = scenes::raster(4, 1.2);
   for (const double distance : {1e3, 1e6, 1e9, 1e15, 1e200, 1e308}) {
     for (const Vec3& direction : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(-1, 1, -1)}) {
@@ -151,7 +151,7 @@ TEST_P(Search, finds_fragments_that_have_flown_far_away) {
   expect_definition(scene, 0.01, 4 * 64 + 5 * 5 * 3);
 }
 
-TEST_P(Search, finds_couples_in_a_long_bar_whose_ends_have_flown_off_along_it) {
+TEST_P(Search, FindsCouplesInALongBarWhoseEndsHaveFlownOffAlongIt) {
   // One row of cells holds most points and two far ones: the row cannot have a table of its cells.
   Scene scene;
   for (int k = 0; k < 300; ++k) scene.contactors.push_back(scenes::regular_tetrahedron(Vec3(0.8 * k, 0.1, 0.1), 1));
@@ -163,16 +163,14 @@ TEST_P(Search, finds_couples_in_a_long_bar_whose_ends_have_flown_off_along_it) {
   expect_definition(scene, 0.05, 1200);
 }
 
-TEST_P(Search, finds_every_pair_when_the_buffer_is_larger_than_the_scene) {
+TEST_P(Search, FindsEveryPairWhenTheBufferIsLargerThanTheScene) {
   const Scene scene = scenes::cloud(15, 60, 2, 2);
   expect_definition(scene, 100, scene.points.size() * scene.contactors.size());
 }
 
-TEST_P(Search, finds_the_definitions_couples_without_a_buffer) {
-  expect_definition(scenes::cloud(16, 300, 1.5, 1), 0, 1000);
-}
+TEST_P(Search, FindsTheDefinitionsCouplesWithoutABuffer) { expect_definition(scenes::cloud(16, 300, 1.5, 1), 0, 1000); }
 
-TEST_P(Search, leaves_out_points_and_contactors_that_are_not_finite) {
+TEST_P(Search, LeavesOutPointsAndContactorsThatAreNotFinite) {
   Scene scene = scenes::cloud(17, 100, 1, 1);
   const double bad[]{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                      -std::numeric_limits<double>::infinity()};
@@ -186,7 +184,7 @@ TEST_P(Search, leaves_out_points_and_contactors_that_are_not_finite) {
   }
 }
 
-TEST_P(Search, finds_couples_of_one_large_contactor_among_thousands_of_small_ones) {
+TEST_P(Search, FindsCouplesOfOneLargeContactorAmongThousandsOfSmallOnes) {
   Scene scene = scenes::cloud(18, 400, 1, 0.5, Vec3(2, 2, 2));
   for (Corners& c : scene.contactors) {
     for (Vec3& x : c) x *= 0.05;
@@ -196,7 +194,7 @@ TEST_P(Search, finds_couples_of_one_large_contactor_among_thousands_of_small_one
   expect_definition(scene, 1e-3, 2400);
 }
 
-TEST_P(Search, finds_couples_where_a_few_elements_are_a_thousand_times_as_large_as_a_crowd_of_others) {
+TEST_P(Search, FindsCouplesWhereAFewElementsAreAThousandTimesAsLargeAsACrowdOfOthers) {
   // A crowd of small elements in one corner of a scene of large ones, numbered at random: sizes and distances of points
   // differ by three orders, and no two neighbours in space are neighbours in memory.
   Scene scene = scenes::cloud(19, 150, 6, 0.3);
@@ -211,7 +209,7 @@ TEST_P(Search, finds_couples_where_a_few_elements_are_a_thousand_times_as_large_
   for (const double buffer : {0.0, 1e-5, 1e-2}) expect_definition(scene, buffer, 2500);
 }
 
-TEST_P(Search, refuses_a_buffer_that_is_no_length) {
+TEST_P(Search, RefusesABufferThatIsNoLength) {
   const Scene scene = scenes::raster(1, 1);
   for (const double buffer :
        {-1e-9, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
@@ -234,7 +232,7 @@ INSTANTIATE_TEST_SUITE_P(WithoutCells, Search,
                                           testing::Values(0.0)),
                          name_of);
 
-TEST(MakeSearch, refuses_a_cell_size_that_is_no_length) {
+TEST(MakeSearch, RefusesACellSizeThatIsNoLength) {
   for (const double cell : {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     EXPECT_THROW((void)make_search(Algorithm::ms, cell), InternalError);
   }

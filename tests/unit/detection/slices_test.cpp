@@ -29,7 +29,7 @@ std::int64_t cells_in(const CellBox& box) {
 
 bool contains(const CellRange& range, std::int32_t cell) { return cell >= range.low && cell <= range.high; }
 
-TEST(Slices, contain_the_cell_of_every_couple) {
+TEST(Slices, ContainTheCellOfEveryCouple) {
   Random random(31);
   std::int64_t couples = 0;
   for (int k = 0; k < 1000; ++k) {
@@ -51,7 +51,7 @@ TEST(Slices, contain_the_cell_of_every_couple) {
   EXPECT_GT(couples, 50000);
 }
 
-TEST(Slices, contain_the_corners_of_elements_whose_corners_lie_on_borders_of_cells) {
+TEST(Slices, ContainTheCornersOfElementsWhoseCornersLieOnBordersOfCells) {
   // A bound that round-off puts a hair below a border would leave out the cell in which the corner lies.
   Random random(7);
   const Cells cells(0.1);
@@ -70,7 +70,7 @@ TEST(Slices, contain_the_corners_of_elements_whose_corners_lie_on_borders_of_cel
   }
 }
 
-TEST(Slices, approach_the_sixth_of_the_box_that_a_corner_tetrahedron_fills) {
+TEST(Slices, ApproachTheSixthOfTheBoxThatACornerTetrahedronFills) {
   // 60 cells a side: the body has a sixth of the box; cells cut by the oblique face add about 60^2 / 2 / 60^3 each way.
   const Corners corners{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
   const CoupleTest test(corners, 0);
@@ -81,7 +81,7 @@ TEST(Slices, approach_the_sixth_of_the_box_that_a_corner_tetrahedron_fills) {
   EXPECT_LT(share, 1.0 / 6 + 0.04);
 }
 
-TEST(Slices, approach_the_third_of_the_box_that_a_regular_tetrahedron_fills) {
+TEST(Slices, ApproachTheThirdOfTheBoxThatARegularTetrahedronFills) {
   const CoupleTest test(scenes::regular_tetrahedron(Vec3(0.1, 0.2, 0.3), 1), 0);
   const Cells cells(std::sqrt(0.5) / 60);
   const Slices slices(cells, test);
@@ -90,7 +90,7 @@ TEST(Slices, approach_the_third_of_the_box_that_a_regular_tetrahedron_fills) {
   EXPECT_LT(share, 1.0 / 3 + 0.08);
 }
 
-TEST(Slices, have_the_triangle_of_rows_that_a_slanted_tetrahedron_casts_on_the_yz_plane) {
+TEST(Slices, HaveTheTriangleOfRowsThatASlantedTetrahedronCastsOnTheYzPlane) {
   // Sheared by x += 3 y - 2 z: the shadow stays y, z >= 0, y + z <= 1, though no face is parallel to x any more.
   const Corners corners{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(3, 1, 0), Vec3(-2, 0, 1)};
   const CoupleTest test(corners, 0);
@@ -104,7 +104,7 @@ TEST(Slices, have_the_triangle_of_rows_that_a_slanted_tetrahedron_casts_on_the_y
   }
 }
 
-TEST(Slices, are_the_whole_box_for_an_element_without_volume) {
+TEST(Slices, AreTheWholeBoxForAnElementWithoutVolume) {
   Corners flat = scenes::regular_tetrahedron(Vec3::Zero(), 1);
   std::swap(flat[0], flat[1]);
   const CoupleTest test(flat, 0.1);

@@ -18,19 +18,19 @@ case_::Case with_joints(bool joined) {
   return case_::read_text(text);
 }
 
-TEST(Reach, is_one_ring_of_elements_for_joints_and_two_for_shared_nodes) {
+TEST(Reach, IsOneRingOfElementsForJointsAndTwoForSharedNodes) {
   EXPECT_EQ(reach_of(with_joints(true), kEdge, kBuffer).distance(kSize), kEdge + kSize + 2 * kBuffer);
   EXPECT_EQ(reach_of(with_joints(false), kEdge, kBuffer).distance(kSize), kEdge + 2 * kSize + 2 * kBuffer);
 }
 
 /// Around shared nodes the stable step depends on three rings, which among large elements lie beyond the margin.
-TEST(Reach, is_three_rings_of_large_elements_for_shared_nodes) {
+TEST(Reach, IsThreeRingsOfLargeElementsForSharedNodes) {
   const double large = 8;
   EXPECT_EQ(reach_of(with_joints(true), kEdge, kBuffer).distance(large), kEdge + large + 2 * kBuffer);
   EXPECT_EQ(reach_of(with_joints(false), kEdge, kBuffer).distance(large), 3 * large);
 }
 
-TEST(Reach, lets_both_sides_move_by_half_its_margin) {
+TEST(Reach, LetsBothSidesMoveByHalfItsMargin) {
   EXPECT_EQ(reach_of(with_joints(true), kEdge, kBuffer).allowed_motion(), kEdge / 2);
 }
 

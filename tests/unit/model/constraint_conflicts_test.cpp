@@ -18,7 +18,7 @@ std::vector<ConstraintConflict> conflicts_in(const std::string& constraints, con
   return constraint_conflicts(input, build_bare_model(input));
 }
 
-TEST(ConstraintConflicts, are_found_where_surfaces_that_move_differently_share_an_edge) {
+TEST(ConstraintConflicts, AreFoundWhereSurfacesThatMoveDifferentlyShareAnEdge) {
   const auto found =
       conflicts_in(constraint("raster.x0", "fixed = \"xy\"") + constraint("raster.z1", "velocity = { x = 1, z = 2 }"));
   ASSERT_EQ(found.size(), 1u);
@@ -30,7 +30,7 @@ TEST(ConstraintConflicts, are_found_where_surfaces_that_move_differently_share_a
   EXPECT_FALSE(found[0].whole);
 }
 
-TEST(ConstraintConflicts, count_nodes_of_the_mesh_where_elements_have_their_own) {
+TEST(ConstraintConflicts, CountNodesOfTheMeshWhereElementsHaveTheirOwn) {
   const auto found = conflicts_in(
       constraint("raster.x0", "fixed = \"x\"") + constraint("raster.z1", "velocity = { x = 1 }"), "unbreakable");
   ASSERT_EQ(found.size(), 1u);
@@ -38,7 +38,7 @@ TEST(ConstraintConflicts, count_nodes_of_the_mesh_where_elements_have_their_own)
   EXPECT_EQ(found[0].of_earlier, 5);
 }
 
-TEST(ConstraintConflicts, are_whole_where_nothing_is_left_of_the_earlier_entry) {
+TEST(ConstraintConflicts, AreWholeWhereNothingIsLeftOfTheEarlierEntry) {
   const auto found =
       conflicts_in(constraint("raster.x0", "velocity = { x = 1 }") + constraint("raster", "fixed = \"x\""));
   ASSERT_EQ(found.size(), 1u);
@@ -47,7 +47,7 @@ TEST(ConstraintConflicts, are_whole_where_nothing_is_left_of_the_earlier_entry) 
       conflicts_in(constraint("raster", "fixed = \"x\"") + constraint("raster.x0", "velocity = { x = 1 }"))[0].whole);
 }
 
-TEST(ConstraintConflicts, are_none_where_entries_agree_or_share_no_node_or_no_axis) {
+TEST(ConstraintConflicts, AreNoneWhereEntriesAgreeOrShareNoNodeOrNoAxis) {
   EXPECT_TRUE(
       conflicts_in(constraint("raster.x0", "fixed = \"x\"") + constraint("raster.z1", "fixed = \"xz\"")).empty());
   EXPECT_TRUE(

@@ -35,7 +35,7 @@ const std::string kRaster = test::raster_case({.cells = {4, 4, 2},
                                                .energy_mode_1 = 100,
                                                .sections = "[joints]\nbroken = [\"raster.slit\"]\n"});
 
-TEST(Model, has_no_joint_and_no_link_from_either_side_where_it_is_broken_from_the_start) {
+TEST(Model, HasNoJointAndNoLinkFromEitherSideWhereItIsBrokenFromTheStart) {
   const case_::Case input = case_::read_text(kRaster);
   const Model model = build_model(input);
   const std::vector<Topology::Face>& slit = model.topology.surface_groups.back();
@@ -56,7 +56,7 @@ std::string refusal_of(const case_::Case& input) {
   return "accepted";
 }
 
-TEST(Model, of_more_elements_than_the_memory_holds_is_refused_before_it_is_made) {
+TEST(Model, OfMoreElementsThanTheMemoryHoldsIsRefusedBeforeItIsMade) {
   case_::Case input = case_::read_text(kRaster);
   input.mesh.raster->cells = {280, 280, 280};  // 527 million elements
   if (static_cast<double>(available_memory()) > mesh_bytes(24.0 * 280 * 280 * 280))
@@ -64,7 +64,7 @@ TEST(Model, of_more_elements_than_the_memory_holds_is_refused_before_it_is_made)
   EXPECT_NE(refusal_of(input).find("mesh.raster: the model needs more memory than is available"), std::string::npos);
 }
 
-TEST(Model, whose_joints_need_more_memory_than_its_mesh_is_refused_with_the_number_of_elements) {
+TEST(Model, WhoseJointsNeedMoreMemoryThanItsMeshIsRefusedWithTheNumberOfElements) {
   const case_::Case input = case_::read_text(kRaster);
   const Model model = build_model(input);
   const double elements = model.mesh.num_elements();
@@ -73,7 +73,7 @@ TEST(Model, whose_joints_need_more_memory_than_its_mesh_is_refused_with_the_numb
   EXPECT_THROW(demand_memory(input, elements, 1e18), InputError);
 }
 
-TEST(Model, without_a_stable_step_that_a_number_holds_is_refused_at_once) {
+TEST(Model, WithoutAStableStepThatANumberHoldsIsRefusedAtOnce) {
   std::string text = kRaster;
   text.replace(text.find("penalty_factor = 10"), 19, "penalty_factor = 1e290");
   EXPECT_THAT(refusal_of(case_::read_text(text)), testing::HasSubstr("there is no stable time step"));
@@ -83,7 +83,7 @@ TEST(Model, without_a_stable_step_that_a_number_holds_is_refused_at_once) {
   EXPECT_THAT(refusal_of(input), testing::HasSubstr("there is no stable time step"));
 }
 
-TEST(SurfacesToBreak, have_breakable_joints_or_are_refused) {
+TEST(SurfacesToBreak, HaveBreakableJointsOrAreRefused) {
   const auto stage = [](const std::string& surface, const std::string& joints) {
     std::string text = kRaster;
     text.replace(text.find("broken = [\"raster.slit\"]\n"), 25, "");
@@ -108,7 +108,7 @@ TEST(SurfacesToBreak, have_breakable_joints_or_are_refused) {
       << "the outside";
 }
 
-TEST(Model, has_for_each_law_the_mean_edge_of_its_joints) {
+TEST(Model, HasForEachLawTheMeanEdgeOfItsJoints) {
   const Model model = build_model(two_boxes_case());
   ASSERT_EQ(model.joint_laws.size(), 3u);
   for (std::size_t l = 0; l < 3; ++l) {
@@ -133,7 +133,7 @@ std::string glued(const std::string& right) {
   return text.erase(joint, text.find("[[joint]]", joint + 1) - joint);
 }
 
-TEST(Model, glues_a_breakable_group_for_good_to_one_that_is_not_where_the_interface_has_no_strength) {
+TEST(Model, GluesABreakableGroupForGoodToOneThatIsNotWhereTheInterfaceHasNoStrength) {
   for (const char* right : {"none", "unbreakable"}) {
     const Model model = build_model(two_boxes_case({}, glued(right)));
     ASSERT_EQ(model.joint_law_names.front(), "left") << right;
@@ -160,7 +160,7 @@ std::string alike(const std::string& groups, const std::vector<std::string>& pai
   return text.replace(at, text.find("[[contact]]") - at, laws);
 }
 
-TEST(Model, takes_the_law_of_any_groups_for_the_interface_of_each_two) {
+TEST(Model, TakesTheLawOfAnyGroupsForTheInterfaceOfEachTwo) {
   const std::vector<std::string> overrides{"material[1].young=90e9"};
   const auto model_of = [&](const std::string& groups, const std::vector<std::string>& pairs) {
     return build_model(two_boxes_case(overrides, alike(groups, pairs)));
@@ -181,7 +181,7 @@ TEST(Model, takes_the_law_of_any_groups_for_the_interface_of_each_two) {
   }
 }
 
-TEST(Model, asks_which_of_two_laws_that_fit_an_interface_alike_is_meant) {
+TEST(Model, AsksWhichOfTwoLawsThatFitAnInterfaceAlikeIsMeant) {
   try {
     (void)build_model(two_boxes_case({}, alike("\"*\"", {"[\"left\", \"*\"]", "[\"*\", \"right\"]"})));
     FAIL();
@@ -194,7 +194,7 @@ TEST(Model, asks_which_of_two_laws_that_fit_an_interface_alike_is_meant) {
   }
 }
 
-TEST(Model, wants_strengths_at_the_interface_of_two_breakable_groups) {
+TEST(Model, WantsStrengthsAtTheInterfaceOfTwoBreakableGroups) {
   try {
     two_boxes_case({}, glued("breakable"));
     FAIL();
@@ -204,7 +204,7 @@ TEST(Model, wants_strengths_at_the_interface_of_two_breakable_groups) {
   }
 }
 
-TEST(Model, knows_its_longest_edge) {
+TEST(Model, KnowsItsLongestEdge) {
   const Model model = build_model(two_boxes_case());
   double longest = 0;
   for (Index e = 0; e < model.mesh.num_elements(); ++e) {
@@ -214,14 +214,14 @@ TEST(Model, knows_its_longest_edge) {
   EXPECT_DOUBLE_EQ(model.whole.longest_edge, longest);
 }
 
-TEST(Model, restricts_contact_points_to_the_surfaces_of_the_case) {
+TEST(Model, RestrictsContactPointsToTheSurfacesOfTheCase) {
   EXPECT_TRUE(build_model(two_boxes_case()).contact_everywhere);
   const Model model = build_model(two_boxes_case({"contact_points.surfaces=[\"bottom\"]"}));
   EXPECT_FALSE(model.contact_everywhere);
   EXPECT_EQ(model.contact_faces.size(), model.topology.surface_groups.back().size());
 }
 
-TEST(Links, of_an_element_are_screened_by_its_weakest_joint) {
+TEST(Links, OfAnElementAreScreenedByItsWeakestJoint) {
   const Model model = build_model(two_boxes_case());
   const JointLinks links = build_links(model);
   std::vector<double> limit(links.limit.size(), std::numeric_limits<double>::infinity());
@@ -269,19 +269,19 @@ std::ptrdiff_t foot_on_the_left(const std::string& rest) {
   return left;
 }
 
-TEST(Surface, beside_an_open_notch_has_no_nodes_of_the_other_flank) {
+TEST(Surface, BesideAnOpenNotchHasNoNodesOfTheOtherFlank) {
   EXPECT_EQ(foot_on_the_left("[joints]\nbroken = [\"notch\"]\n[[stage]]\nend = \"1 ms\"\n"), 0);
 }
 
-TEST(Surface, beside_a_notch_that_a_stage_opens_has_no_nodes_of_the_other_flank) {
+TEST(Surface, BesideANotchThatAStageOpensHasNoNodesOfTheOtherFlank) {
   EXPECT_EQ(foot_on_the_left("[[stage]]\nend = \"1 ms\"\n[[stage]]\nend = \"2 ms\"\nbroken = [\"notch\"]\n"), 0);
 }
 
-TEST(Surface, beside_whole_material_has_the_nodes_of_all_elements_that_touch_its_border) {
+TEST(Surface, BesideWholeMaterialHasTheNodesOfAllElementsThatTouchItsBorder) {
   EXPECT_GT(foot_on_the_left("[[stage]]\nend = \"1 ms\"\n"), 0);
 }
 
-TEST(MeshOfACase, has_the_scale_and_the_seed_of_the_case) {
+TEST(MeshOfACase, HasTheScaleAndTheSeedOfTheCase) {
   const Mesh metres = build_mesh(two_boxes_case()).mesh,
              millimetres = build_mesh(two_boxes_case({"mesh.scale=0.001"})).mesh;
   ASSERT_EQ(metres.num_nodes(), millimetres.num_nodes());

@@ -16,7 +16,7 @@ namespace {
 
 using test::two_boxes_case;
 
-TEST(ContactParams, of_a_pair_hold_for_points_of_either_group) {
+TEST(ContactParams, OfAPairHoldForPointsOfEitherGroup) {
   const ContactParams params = contact_params(two_boxes_case(), {"left", "right"});
   EXPECT_EQ(params.law(0, 0).penalty, 400e9);
   EXPECT_EQ(params.law(0, 1).penalty, 400e9);
@@ -24,7 +24,7 @@ TEST(ContactParams, of_a_pair_hold_for_points_of_either_group) {
   EXPECT_EQ(params.law(1, 1).penalty, 300e9);
 }
 
-TEST(ContactParams, of_points_on_the_first_group_hold_for_its_points_alone) {
+TEST(ContactParams, OfPointsOnTheFirstGroupHoldForItsPointsAlone) {
   const ContactParams params =
       contact_params(two_boxes_case({"contact[0].points_on=\"first\""}), {"left", "right"});  // left on "*"
   EXPECT_TRUE(params.law(0, 1).active());
@@ -33,7 +33,7 @@ TEST(ContactParams, of_points_on_the_first_group_hold_for_its_points_alone) {
   EXPECT_TRUE(params.law(1, 1).active());
 }
 
-TEST(ContactParams, of_a_pair_by_name_go_before_one_with_a_star_that_comes_later) {
+TEST(ContactParams, OfAPairByNameGoBeforeOneWithAStarThatComesLater) {
   const std::vector<std::string> swapped{"contact[0].between=[\"left\", \"right\"]",
                                          "contact[1].between=[\"*\", \"*\"]"};
   const ContactParams params = contact_params(two_boxes_case(swapped), {"left", "right"});
@@ -41,7 +41,7 @@ TEST(ContactParams, of_a_pair_by_name_go_before_one_with_a_star_that_comes_later
   EXPECT_EQ(params.law(0, 0).penalty, 300e9);
 }
 
-TEST(ContactParams, have_the_damping_of_a_layer_of_both_densities) {
+TEST(ContactParams, HaveTheDampingOfALayerOfBothDensities) {
   const case_::Case input = two_boxes_case({"contact[0].damping_ratio=0.2"});
   const double left = input.materials[0].density, right = input.materials[1].density;
   const ContactParams params = contact_params(input, {input.materials[0].group, input.materials[1].group});
@@ -50,7 +50,7 @@ TEST(ContactParams, have_the_damping_of_a_layer_of_both_densities) {
   EXPECT_EQ(params.law(1, 1).damping, 0.0);
 }
 
-TEST(ContactParams, have_a_delay_of_friction_by_the_slower_one_of_body_and_penalty) {
+TEST(ContactParams, HaveADelayOfFrictionByTheSlowerOneOfBodyAndPenalty) {
   const case_::Case stiff = two_boxes_case({"contact[0].friction_delay=20"}),
                     soft = two_boxes_case({"contact[0].friction_delay=20", "contact[0].penalty=1e6"});
   const case_::Material &left = stiff.materials[0], &right = stiff.materials[1];
@@ -62,13 +62,13 @@ TEST(ContactParams, have_a_delay_of_friction_by_the_slower_one_of_body_and_penal
   EXPECT_NEAR(contact_params(soft, groups).law(0, 1).friction_delay / (20 * std::sqrt(density / 1e6)), 1, 1e-12);
 }
 
-TEST(ContactParams, have_the_plateau_of_the_case_or_none) {
+TEST(ContactParams, HaveThePlateauOfTheCaseOrNone) {
   const ContactParams params = contact_params(two_boxes_case(), {"left", "right"});
   EXPECT_EQ(params.law(0, 1).plateau, 4e9);
   EXPECT_TRUE(std::isinf(params.law(1, 1).plateau));
 }
 
-TEST(ContactParams, have_a_penalty_that_steps_resolve_up_to_the_plateau) {
+TEST(ContactParams, HaveAPenaltyThatStepsResolveUpToThePlateau) {
   const std::vector<std::string> low{"contact[0].plateau=60 MPa", "contact[0].unloading_exponent=4",
                                      "contact[0].damping_ratio=0.2"};
   const case_::Case input = two_boxes_case(low);
@@ -79,7 +79,7 @@ TEST(ContactParams, have_a_penalty_that_steps_resolve_up_to_the_plateau) {
   EXPECT_NEAR(law.damping / (2 * 0.2 * std::sqrt(law.penalty * left * right / (left + right))), 1.0, 1e-12);
 }
 
-TEST(JointLawParams, of_an_unbreakable_group_have_no_strength_to_reach) {
+TEST(JointLawParams, OfAnUnbreakableGroupHaveNoStrengthToReach) {
   const case_::Joint joint = two_boxes_case().joints.front();
   constexpr double kSize = 0.25;  // m
   const JointLawParams breakable = joint_law_params(joint, kSize, false), held = joint_law_params(joint, kSize, true);
@@ -91,14 +91,14 @@ TEST(JointLawParams, of_an_unbreakable_group_have_no_strength_to_reach) {
   EXPECT_EQ(breakable.stiffness, joint.penalty / kSize);
 }
 
-TEST(JointLawParams, know_what_the_energies_count) {
+TEST(JointLawParams, KnowWhatTheEnergiesCount) {
   case_::Joint joint = two_boxes_case().joints.front();
   EXPECT_TRUE(joint_law_params(joint, 1.0, false).energy_of_whole_curve);
   joint.energy_of_whole_curve = false;
   EXPECT_FALSE(joint_law_params(joint, 1.0, false).energy_of_whole_curve);
 }
 
-TEST(StageLoads, take_the_damping_of_the_stage) {
+TEST(StageLoads, TakeTheDampingOfTheStage) {
   const case_::Case input = two_boxes_case();
   const StageLoads loads = stage_loads(input.stages.front(), build_model(input));
   EXPECT_EQ(loads.local_damping, 0.25);
@@ -118,14 +118,14 @@ std::set<Index> nodes_at_the_bottom(const Model& model) {
   return nodes;
 }
 
-TEST(NodesOfGroup, of_a_surface_are_the_corners_that_lie_on_it) {
+TEST(NodesOfGroup, OfASurfaceAreTheCornersThatLieOnIt) {
   const Model own = build_model(two_boxes_case());
   EXPECT_THAT(nodes_of_group(own, "bottom"), testing::ElementsAreArray(nodes_at_the_bottom(own)));
   const Model shared = build_model(case_::read_text(case_::minimal));
   EXPECT_THAT(nodes_of_group(shared, "raster.z0"), testing::ElementsAreArray(nodes_at_the_bottom(shared)));
 }
 
-TEST(CountedNodesOfGroup, leave_out_those_that_another_rank_counts) {
+TEST(CountedNodesOfGroup, LeaveOutThoseThatAnotherRankCounts) {
   Model model = build_model(two_boxes_case());
   const std::vector<Index> all = counted_nodes_of_group(model, "left");
   ASSERT_GT(all.size(), 2u);

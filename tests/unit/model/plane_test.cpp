@@ -29,7 +29,7 @@ std::string fault_of(const case_::Case& input) {
   return {};
 }
 
-TEST(Plane, model_is_refused_unless_its_mesh_is_one_flat_layer) {
+TEST(Plane, ModelIsRefusedUnlessItsMeshIsOneFlatLayer) {
   EXPECT_EQ(fault_of(layer("[3, 1, 2]", "y")), "");
   for (const char* cells : {"[3, 2, 2]", "[3, 3, 2]"})
     EXPECT_THAT(fault_of(layer(cells, "y")), HasSubstr("plane: the mesh is not one flat layer across y"));
@@ -43,7 +43,7 @@ std::string fault_of_geometry(const std::string& geometry) {
   return fault_of(case_::read_case(folder.write("case.toml", text)));
 }
 
-TEST(Plane, model_may_be_extruded_in_one_layer_but_not_in_two_nor_askew) {
+TEST(Plane, ModelMayBeExtrudedInOneLayerButNotInTwoNorAskew) {
   const auto extruded = [](const std::string& along, const std::string& layers) {
     return "Point(1) = {0, 0, 0, 1}; Point(2) = {4, 0, 0, 1}; Point(3) = {4, 3, 0, 1}; Point(4) = {0, 3, 0, 1};\n"
            "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
@@ -58,7 +58,7 @@ TEST(Plane, model_may_be_extruded_in_one_layer_but_not_in_two_nor_askew) {
   EXPECT_THAT(fault_of_geometry(extruded("0.5, 0, 1", "1")), HasSubstr("neither lies on a side nor stands upright"));
 }
 
-TEST(Plane, model_knows_its_thickness_and_the_width_of_its_elements) {
+TEST(Plane, ModelKnowsItsThicknessAndTheWidthOfItsElements) {
   const Model model = build_bare_model(layer("[3, 1, 2]", "y"));
   const Layer found = layer_of(model.mesh, 1);
   EXPECT_NEAR(found.thickness, 0.01, 1e-12);
@@ -66,7 +66,7 @@ TEST(Plane, model_knows_its_thickness_and_the_width_of_its_elements) {
   EXPECT_NEAR(found.edge, 0.01 / std::sqrt(2.0), 1e-9);
 }
 
-TEST(Plane, outline_is_the_surface_without_the_sides) {
+TEST(Plane, OutlineIsTheSurfaceWithoutTheSides) {
   const Model model = build_bare_model(layer("[3, 1, 2]", "y"));
   const Topology outline = without_sides(model.mesh, model.topology, 1);
   int free = 0, all = 0;
@@ -82,7 +82,7 @@ TEST(Plane, outline_is_the_surface_without_the_sides) {
   EXPECT_EQ(all, 4 * (kSquares + kSides));
 }
 
-TEST(Plane, model_knows_its_lower_side) {
+TEST(Plane, ModelKnowsItsLowerSide) {
   const case_::Case input = case_::read_text(case_::minimal + "[plane]\nkind = \"stress\"\naxis = \"y\"\n",
                                              {"mesh.raster.cells=[3, 1, 2]", "mesh.raster.origin=[0, -1, 0]"});
   EXPECT_NEAR(build_bare_model(input).whole.lower_side, -1.0, 1e-12);

@@ -59,7 +59,7 @@ std::array<double, 6> mean_stress(const Frame& frame, std::size_t corner, Counts
   return mean;
 }
 
-TEST_F(CornerValues, of_stress_are_means_weighted_by_mass_over_all_that_meets_there) {
+TEST_F(CornerValues, OfStressAreMeansWeightedByMassOverAllThatMeetsThere) {
   deform();
   const Frame frame = picture();
   const double most = *std::max_element(frame.elements.stress.begin(), frame.elements.stress.end());
@@ -72,7 +72,7 @@ TEST_F(CornerValues, of_stress_are_means_weighted_by_mass_over_all_that_meets_th
   }
 }
 
-TEST_F(CornerValues, on_the_two_sides_of_a_broken_joint_are_those_of_either_side) {
+TEST_F(CornerValues, OnTheTwoSidesOfABrokenJointAreThoseOfEitherSide) {
   break_joints(domain, faces_of_surface(model, "box.slit"));
   step(domain);
   deform();
@@ -95,7 +95,7 @@ TEST_F(CornerValues, on_the_two_sides_of_a_broken_joint_are_those_of_either_side
   EXPECT_GT(apart, 0);
 }
 
-TEST_F(CornerValues, of_motion_are_those_of_the_elements_own_nodes) {
+TEST_F(CornerValues, OfMotionAreThoseOfTheElementsOwnNodes) {
   deform();
   const Frame frame = picture();
   const Frame::AtPoints& at_points = frame.elements.at_points;
@@ -107,7 +107,7 @@ TEST_F(CornerValues, of_motion_are_those_of_the_elements_own_nodes) {
   }
 }
 
-TEST_F(CornerValues, of_a_stress_follow_from_that_stress) {
+TEST_F(CornerValues, OfAStressFollowFromThatStress) {
   deform();
   const Frame::AtPoints values = corner_values(domain);
   for (std::size_t corner = 0; corner < values.von_mises.size(); ++corner) {
@@ -118,7 +118,7 @@ TEST_F(CornerValues, of_a_stress_follow_from_that_stress) {
   }
 }
 
-TEST_F(CornerValues, of_the_surface_are_those_of_its_elements) {
+TEST_F(CornerValues, OfTheSurfaceAreThoseOfItsElements) {
   deform();
   const Frame frame = picture();
   const Frame::Elements &all = frame.elements, &skin = frame.surface.cells;
@@ -134,7 +134,7 @@ TEST_F(CornerValues, of_the_surface_are_those_of_its_elements) {
   }
 }
 
-TEST_F(CornerValues, are_made_where_they_are_asked_for_alone) {
+TEST_F(CornerValues, AreMadeWhereTheyAreAskedForAlone) {
   const FrameParts parts{.elements = true, .joints = false, .contacts = false, .surface = true, .domain = false};
   const Frame frame =
       make_frame(domain, 0, parts, {find_fragments(domain), surface_faces(domain), Balance().weights(domain)});

@@ -39,7 +39,7 @@ std::ptrdiff_t cracks(const Frame::Surface& surface) {
   return std::count(surface.crack.begin(), surface.crack.end(), 1);
 }
 
-TEST_F(TwoCubes, have_the_surface_of_their_box) {
+TEST_F(TwoCubes, HaveTheSurfaceOfTheirBox) {
   const Frame frame = picture();
   EXPECT_EQ(frame.surface.face.size(), 10u * 4);
   EXPECT_EQ(cracks(frame.surface), 0);
@@ -47,7 +47,7 @@ TEST_F(TwoCubes, have_the_surface_of_their_box) {
   EXPECT_NEAR(area(frame.surface), 10 * kCubeEdge * kCubeEdge, kRounding);
 }
 
-TEST_F(TwoCubes, show_both_sides_of_a_joint_that_fails) {
+TEST_F(TwoCubes, ShowBothSidesOfAJointThatFails) {
   break_joints(domain, faces_of_surface(model, "box.slit"));
   EXPECT_EQ(cracks(picture().surface), 0);  // they fail when they are evaluated next
   step(domain);
@@ -57,7 +57,7 @@ TEST_F(TwoCubes, show_both_sides_of_a_joint_that_fails) {
   EXPECT_EQ(frame.joints.id.size(), 4u);
 }
 
-TEST_F(TwoCubes, name_the_elements_across_their_faces_alike_from_both_sides) {
+TEST_F(TwoCubes, NameTheElementsAcrossTheirFacesAlikeFromBothSides) {
   const Frame frame = picture();
   const Frame::Elements& all = frame.elements;
   std::ptrdiff_t pairs = 0;
@@ -75,13 +75,13 @@ TEST_F(TwoCubes, name_the_elements_across_their_faces_alike_from_both_sides) {
   EXPECT_EQ(pairs, 48 * 4 - 10 * 4);
 }
 
-TEST_F(TwoCubes, have_the_mass_of_their_volume) {
+TEST_F(TwoCubes, HaveTheMassOfTheirVolume) {
   const Frame frame = picture();
   constexpr double kMass = test::kCubeDensity * 2 * kCubeEdge * kCubeEdge * kCubeEdge, kRounding = 1e-15;
   EXPECT_NEAR(std::accumulate(frame.elements.mass.begin(), frame.elements.mass.end(), 0.0), kMass, kRounding);
 }
 
-TEST_F(TwoCubes, show_the_energy_of_their_joints) {
+TEST_F(TwoCubes, ShowTheEnergyOfTheirJoints) {
   break_joints(domain, faces_of_surface(model, "box.slit"));
   for (int i = 0; i < 4; ++i) step(domain);
   const Frame frame = picture();
@@ -90,7 +90,7 @@ TEST_F(TwoCubes, show_the_energy_of_their_joints) {
   EXPECT_DOUBLE_EQ(shown, energy.mode_1.value() + energy.mode_2.value());
 }
 
-TEST_F(TwoCubes, have_the_fields_of_the_elements_on_their_surface) {
+TEST_F(TwoCubes, HaveTheFieldsOfTheElementsOnTheirSurface) {
   step(domain);
   const Frame frame = picture();
   const Frame::Elements &all = frame.elements, &skin = frame.surface.cells;
@@ -106,7 +106,7 @@ TEST_F(TwoCubes, have_the_fields_of_the_elements_on_their_surface) {
   }
 }
 
-TEST_F(TwoCubes, are_a_domain_with_a_box_around_it) {
+TEST_F(TwoCubes, AreADomainWithABoxAroundIt) {
   const Frame::Domain box = picture().domain;
   ASSERT_EQ(box.rank.size(), 1u);
   EXPECT_EQ(box.elements[0], 48);
@@ -120,7 +120,7 @@ class TouchingCubes : public testing::Test, protected test::CubesDomain {
   TouchingCubes() : CubesDomain("[[contact]]\nbetween = [\"*\", \"*\"]\npenalty = \"10 GPa\"\n") {}
 };
 
-TEST_F(TouchingCubes, show_a_contact_for_each_element_that_a_point_touches_with_an_id_of_its_own) {
+TEST_F(TouchingCubes, ShowAContactForEachElementThatAPointTouchesWithAnIdOfItsOwn) {
   ContactState& contact = domain.state.contact;
   ASSERT_GE(contact.points.size(), 1U);
   ASSERT_GE(contact.contactors.size(), 2U);

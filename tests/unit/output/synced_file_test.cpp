@@ -53,14 +53,14 @@ extern "C" int fsync(int descriptor) {
 namespace breccia {
 namespace {
 
-TEST_F(SyncedFile, is_on_the_disk_before_it_has_its_name_and_its_folder_afterwards) {
+TEST_F(SyncedFile, IsOnTheDiskBeforeItHasItsNameAndItsFolderAfterwards) {
   write_file_atomically(folder_ / "x", std::string_view("content"));
   ASSERT_THAT(paths(), ElementsAre(root_ / ".x.tmp", root_));
   EXPECT_THAT(synced[0].names, ElementsAre(".x.tmp"));
   EXPECT_THAT(synced[1].names, ElementsAre("x"));
 }
 
-TEST_F(SyncedFile, is_on_the_disk_with_all_of_its_kind_before_the_first_has_its_name) {
+TEST_F(SyncedFile, IsOnTheDiskWithAllOfItsKindBeforeTheFirstHasItsName) {
   const std::string content = "content";
   std::ofstream(temporary_of(folder_ / "b")) << content;  // written already
   const std::vector<FileContent> files{{folder_ / "a", std::as_bytes(std::span(content))}, {folder_ / "b", {}}};
@@ -70,7 +70,7 @@ TEST_F(SyncedFile, is_on_the_disk_with_all_of_its_kind_before_the_first_has_its_
   EXPECT_THAT(synced[2].names, ElementsAre("a", "b"));
 }
 
-TEST_F(SyncedFile, of_lines_is_on_the_disk_when_asked_for) {
+TEST_F(SyncedFile, OfLinesIsOnTheDiskWhenAskedFor) {
   LineFile file(folder_ / "lines");
   file.append_line("one");
   EXPECT_TRUE(synced.empty());
@@ -78,7 +78,7 @@ TEST_F(SyncedFile, of_lines_is_on_the_disk_when_asked_for) {
   EXPECT_THAT(paths(), ElementsAre(root_ / "lines"));
 }
 
-TEST_F(SyncedFile, of_history_and_status_is_on_the_disk_when_a_run_ends) {
+TEST_F(SyncedFile, OfHistoryAndStatusIsOnTheDiskWhenARunEnds) {
   HistorySink history(folder_ / "history.csv");
   StatusSink status(folder_ / "status.jsonl");
   for (Sink* sink : {static_cast<Sink*>(&history), static_cast<Sink*>(&status)}) sink->start({});

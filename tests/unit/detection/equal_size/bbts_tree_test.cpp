@@ -100,7 +100,7 @@ std::vector<std::pair<const char*, std::vector<Key>>> sequences() {
       {"ascending", up}, {"descending", down}, {"random", anywhere}, {"clustered", clustered}, {"x-major", columns}};
 }
 
-TEST(BbtsTree, orders_cells_by_z_then_y_then_x) {
+TEST(BbtsTree, OrdersCellsByZThenYThenX) {
   const auto order = spatial_order<3, std::int16_t>;
   EXPECT_TRUE(order(key_of(9, 9, 0), key_of(0, 0, 1)) < 0);
   EXPECT_TRUE(order(key_of(9, 0, 1), key_of(0, 1, 1)) < 0);
@@ -109,7 +109,7 @@ TEST(BbtsTree, orders_cells_by_z_then_y_then_x) {
   EXPECT_TRUE(order(key_of(4, 5, 6), key_of(4, 5, 6)) == 0);
 }
 
-TEST(BbtsTree, is_ordered_balanced_and_complete_after_every_insertion_and_every_deletion) {
+TEST(BbtsTree, IsOrderedBalancedAndCompleteAfterEveryInsertionAndEveryDeletion) {
   for (const auto& [name, keys] : sequences()) {
     for (const bool backwards : {false, true}) {
       SCOPED_TRACE(std::string(name) + (backwards ? ", last in first out" : ", first in first out"));
@@ -126,7 +126,7 @@ TEST(BbtsTree, is_ordered_balanced_and_complete_after_every_insertion_and_every_
   }
 }
 
-TEST(BbtsTree, is_ordered_balanced_and_complete_while_insertions_and_deletions_mix) {
+TEST(BbtsTree, IsOrderedBalancedAndCompleteWhileInsertionsAndDeletionsMix) {
   for (const int width : {1, 2, 6, 40}) {
     SCOPED_TRACE(width);
     std::mt19937 random(static_cast<unsigned>(width));
@@ -149,7 +149,7 @@ TEST(BbtsTree, is_ordered_balanced_and_complete_while_insertions_and_deletions_m
   }
 }
 
-TEST(BbtsTree, does_not_remove_an_object_from_a_cell_it_is_not_in) {
+TEST(BbtsTree, DoesNotRemoveAnObjectFromACellItIsNotIn) {
   Twins twins;
   for (Index k = 0; k < 20; ++k) twins.add(key_of(k % 5), k);
   ASSERT_NO_FATAL_FAILURE(twins.remove(key_of(1), 2));
@@ -157,7 +157,7 @@ TEST(BbtsTree, does_not_remove_an_object_from_a_cell_it_is_not_in) {
   EXPECT_EQ(twins.tree().size(), 20U);
 }
 
-TEST(BbtsTree, uses_the_places_of_removed_objects_again) {
+TEST(BbtsTree, UsesThePlacesOfRemovedObjectsAgain) {
   Tree tree;
   tree.reserve(100);
   const std::size_t bytes = tree.bytes();
@@ -169,7 +169,7 @@ TEST(BbtsTree, uses_the_places_of_removed_objects_again) {
   EXPECT_EQ(tree.bytes(), bytes);
 }
 
-TEST(BbtsTree, needs_no_more_memory_than_published) {
+TEST(BbtsTree, NeedsNoMoreMemoryThanPublished) {
   constexpr std::size_t published_bytes = 40;  // an object with 16-bit coordinates, eq. (4.16)
   constexpr std::size_t n = 1000;
   Tree tree;

@@ -125,38 +125,38 @@ struct Name {
 };
 TYPED_TEST_SUITE(EqualSizeSearchTest, Cases, Name);
 
-TYPED_TEST(EqualSizeSearchTest, finds_nothing_among_no_bodies_or_one) {
+TYPED_TEST(EqualSizeSearchTest, FindsNothingAmongNoBodiesOrOne) {
   this->expect_brute_force({}, "none");
   this->expect_brute_force(this->box(1, -5, 5), "one");
   this->expect_brute_force({}, "none again");
 }
 
-TYPED_TEST(EqualSizeSearchTest, visits_each_pair_of_random_bodies_once) {
+TYPED_TEST(EqualSizeSearchTest, VisitsEachPairOfRandomBodiesOnce) {
   for (const std::size_t count : {2U, 3U, 10U, 100U, 500U})
     this->expect_brute_force(this->box(count, 0, this->side(count)), std::to_string(count));
 }
 
-TYPED_TEST(EqualSizeSearchTest, takes_negative_coordinates) {
+TYPED_TEST(EqualSizeSearchTest, TakesNegativeCoordinates) {
   const long long n = this->side(200);
   this->expect_brute_force(this->box(200, -n, -1), "below 0");
   this->expect_brute_force(this->box(200, -n / 2, n / 2), "about 0");
 }
 
-TYPED_TEST(EqualSizeSearchTest, takes_a_full_raster_in_order_and_in_reverse) {
+TYPED_TEST(EqualSizeSearchTest, TakesAFullRasterInOrderAndInReverse) {
   auto cells = this->raster();
   this->expect_brute_force(cells, "in order");
   std::reverse(cells.begin(), cells.end());
   this->expect_brute_force(cells, "in reverse");
 }
 
-TYPED_TEST(EqualSizeSearchTest, takes_clusters_far_apart) {
+TYPED_TEST(EqualSizeSearchTest, TakesClustersFarApart) {
   auto cells = this->box(100, -30000, -29997), others = this->box(100, 29997, 30000);
   cells.insert(cells.end(), others.begin(), others.end());
   std::shuffle(cells.begin(), cells.end(), this->random_);
   this->expect_brute_force(cells, "two clusters");
 }
 
-TYPED_TEST(EqualSizeSearchTest, takes_all_bodies_in_one_cell_and_all_on_a_line) {
+TYPED_TEST(EqualSizeSearchTest, TakesAllBodiesInOneCellAndAllOnALine) {
   this->expect_brute_force(this->box(60, 3, 3), "one cell");
   for (std::size_t axis = 0; axis < TypeParam::kD; ++axis) {
     auto cells = this->box(100, 0, 120);
@@ -169,7 +169,7 @@ TYPED_TEST(EqualSizeSearchTest, takes_all_bodies_in_one_cell_and_all_on_a_line) 
   }
 }
 
-TYPED_TEST(EqualSizeSearchTest, knows_no_neighbours_beyond_the_limits_of_the_type) {
+TYPED_TEST(EqualSizeSearchTest, KnowsNoNeighboursBeyondTheLimitsOfTheType) {
   auto cells = this->box(80, this->kLowest, this->kLowest + 2LL),
        others = this->box(80, this->kHighest - 2LL, this->kHighest);
   cells.insert(cells.end(), others.begin(), others.end());
@@ -183,7 +183,7 @@ TYPED_TEST(EqualSizeSearchTest, knows_no_neighbours_beyond_the_limits_of_the_typ
   this->expect_brute_force(this->box(150, this->kLowest, this->kHighest), "the whole range");
 }
 
-TYPED_TEST(EqualSizeSearchTest, stays_right_through_a_hundred_moves) {
+TYPED_TEST(EqualSizeSearchTest, StaysRightThroughAHundredMoves) {
   auto cells = this->box(150, -40, -40 + this->side(150));
   for (int cycle = 0; cycle < 100; ++cycle) {
     this->expect_brute_force(cells, "cycle " + std::to_string(cycle));
@@ -191,7 +191,7 @@ TYPED_TEST(EqualSizeSearchTest, stays_right_through_a_hundred_moves) {
   }
 }
 
-TYPED_TEST(EqualSizeSearchTest, follows_bodies_that_come_go_and_are_thrown_elsewhere) {
+TYPED_TEST(EqualSizeSearchTest, FollowsBodiesThatComeGoAndAreThrownElsewhere) {
   for (const std::size_t count : {100U, 101U, 37U, 300U, 0U, 1U, 150U}) {
     this->expect_brute_force(this->box(count, -20, -20 + this->side(count)), std::to_string(count) + " bodies");
   }
@@ -217,7 +217,7 @@ double published_bytes(const std::string& name, std::size_t count, long long sid
   return std::numeric_limits<double>::infinity();
 }
 
-TYPED_TEST(EqualSizeSearchTest, needs_no_more_memory_than_published) {
+TYPED_TEST(EqualSizeSearchTest, NeedsNoMoreMemoryThanPublished) {
   constexpr std::size_t kCount = 10000;
   const long long side = this->side(kCount);
   const auto cells = this->box(kCount, 0, side);

@@ -34,7 +34,7 @@ std::vector<Record> stably_sorted(const std::vector<std::uint32_t>& keys) {
   return records;
 }
 
-TEST(RadixSort, sorts_and_keeps_the_order_of_equal_keys) {
+TEST(RadixSort, SortsAndKeepsTheOrderOfEqualKeys) {
   RadixSort<Record> sort;
   std::mt19937 random(3);
   for (const std::size_t n : {5000U, 0U, 1U, 2U, 400U}) {
@@ -47,7 +47,7 @@ TEST(RadixSort, sorts_and_keeps_the_order_of_equal_keys) {
   }
 }
 
-TEST(RadixSort, sorts_when_some_digits_are_the_same_for_all) {
+TEST(RadixSort, SortsWhenSomeDigitsAreTheSameForAll) {
   RadixSort<Record> sort;
   std::mt19937 random(4);
   for (const std::uint32_t varying : {0U, 0x1FU, 0x3E0U, 0x7C00U, 0x7C1FU, 0x7FE0U}) {

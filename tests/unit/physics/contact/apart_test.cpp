@@ -46,7 +46,7 @@ std::vector<Index> touched(test::Scene scene, const Vec3& base, double angle, do
 }
 
 /// Inside an element with one side of an edge and just beside one with the other side: the face of the point turns.
-TEST(apart, is_no_couple_beside_an_edge_which_turning_alone_brings_under_the_side_that_its_point_looks_at) {
+TEST(Apart, IsNoCoupleBesideAnEdgeWhichTurningAloneBringsUnderTheSideThatItsPointLooksAt) {
   const test::Scene scene = box_and_tetra();
   const double away = std::acos(kBarelyFacing) + 0.5 * kTurn;
   std::mt19937_64 random(2);

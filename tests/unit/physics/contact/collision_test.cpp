@@ -164,7 +164,7 @@ void expect_momenta(const Totals& start, const Totals& end) {
   EXPECT_NEAR((end.angular - start.angular).norm(), 0, kMomentum * scale_of_angular_momentum());
 }
 
-TEST(collision, of_elastic_cubes_keeps_momenta_to_round_off_and_energy_to_half_a_percent) {
+TEST(Collision, OfElasticCubesKeepsMomentaToRoundOffAndEnergyToHalfAPercent) {
   for (const int points : {1, 3}) {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
       Collision c(seed, {100 * kYoung, std::numeric_limits<double>::infinity(), 1, 0, 1}, points);
@@ -181,7 +181,7 @@ TEST(collision, of_elastic_cubes_keeps_momenta_to_round_off_and_energy_to_half_a
   }
 }
 
-TEST(collision, at_half_of_the_stable_step_returns_what_contact_took_and_no_more) {
+TEST(Collision, AtHalfOfTheStableStepReturnsWhatContactTookAndNoMore) {
   constexpr double kLong = 10 * kStep;
   constexpr double kGain = 1.5e-3;  // nodes share the force of a point as it lies at the end of a step: 1.04e-3 at most
   constexpr double kLoss = 0.03;    // points that leave over an edge, along another way than they came
@@ -210,7 +210,7 @@ TEST(collision, at_half_of_the_stable_step_returns_what_contact_took_and_no_more
   }
 }
 
-TEST(collision, with_friction_and_a_plateau_keeps_momenta_and_books_what_is_lost) {
+TEST(Collision, WithFrictionAndAPlateauKeepsMomentaAndBooksWhatIsLost) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     Collision c(seed, {100 * kYoung, 20 * kYoung, 2, 0.4, 1}, 3);
     c.step();

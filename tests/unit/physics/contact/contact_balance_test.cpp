@@ -49,7 +49,7 @@ Impact impact(double omega, double phase, const ContactLaw& law) {
   return found;
 }
 
-TEST(contact_balance, an_impact_returns_its_energy_wherever_in_a_step_it_begins_and_ends) {
+TEST(ContactBalance, AnImpactReturnsItsEnergyWhereverInAStepItBeginsAndEnds) {
   // A force that begins with k d loses up to omega^2 / 4 of the energy at once; its own end may give that back, or not.
   constexpr double kAtOnce = 0.14;  // of omega^2: half of that
   constexpr double kGain = 1e-4, kLoss = 0.06;
@@ -64,7 +64,7 @@ TEST(contact_balance, an_impact_returns_its_energy_wherever_in_a_step_it_begins_
   }
 }
 
-TEST(contact_balance, an_impact_on_a_steep_unloading_curve_loses_what_the_law_takes) {
+TEST(ContactBalance, AnImpactOnASteepUnloadingCurveLosesWhatTheLawTakes) {
   constexpr double kChange = 1e-4;  // of the energy; the stable step of the unloading curve is omega = 2 / sqrt(b)
   for (const double exponent : {1.5, 2.0, 4.0, 6.0})
     for (const double omega : {0.2, 0.5, 0.8, 1.1})
@@ -73,7 +73,7 @@ TEST(contact_balance, an_impact_on_a_steep_unloading_curve_loses_what_the_law_ta
             << exponent << " " << omega << " " << phase;
 }
 
-TEST(contact_balance, adds_nothing_to_a_contact_at_rest_or_beyond_what_a_step_can_leave_over) {
+TEST(ContactBalance, AddsNothingToAContactAtRestOrBeyondWhatAStepCanLeaveOver) {
   constexpr double k = 100, out = 0.1, work = 2, most = kLargestWorkError * k * out * out;
   EXPECT_EQ(shares_of_a_line(0, 0, work, k, out).own, 0);
   EXPECT_EQ(shares_of_a_line(0.1, 0, work, k, 0).own, 0);
@@ -82,7 +82,7 @@ TEST(contact_balance, adds_nothing_to_a_contact_at_rest_or_beyond_what_a_step_ca
   EXPECT_EQ(shares_of_a_line(0.99 * most, 0, 0.1 * most, k, out).own, 0) << "no more than half of the force";
 }
 
-TEST(contact_balance, of_a_steep_unloading_curve_may_pull) {
+TEST(ContactBalance, OfASteepUnloadingCurveMayPull) {
   constexpr double k = 100, out = 0.1, kD2 = k * out * out, work = 0.01 * kD2, most = work + 0.25 * kD2;
   const BalancingLimits limits = steep_limits(work, k, 4, out);
   EXPECT_NEAR(balancing_shares(0.1 * kD2, 0, work, limits).own * work, -0.1 * kD2, 1e-12);
@@ -93,7 +93,7 @@ TEST(contact_balance, of_a_steep_unloading_curve_may_pull) {
   EXPECT_NEAR(steep_limits(100 * kD2, k, 4, out).take, 4.25 * kD2, 1e-12) << "hardly begins to leave";
 }
 
-TEST(contact_balance, puts_right_what_earlier_overlaps_left_as_far_as_one_step_can) {
+TEST(ContactBalance, PutsRightWhatEarlierOverlapsLeftAsFarAsOneStepCan) {
   constexpr double k = 100, out = 0.1, work = 2, most = kLargestWorkError * k * out * out;
   for (const double left : {-0.4 * most, 0.4 * most})
     EXPECT_NEAR(shares_of_a_line(0, left, work, k, out).before, -left / work, 1e-15);
@@ -128,7 +128,7 @@ double drift_of_bounces(double omega, double flight) {
   return drift;
 }
 
-TEST(contact_balance, holds_the_energy_of_a_mass_that_bounces_hundreds_of_times_in_contacts_of_a_few_steps) {
+TEST(ContactBalance, HoldsTheEnergyOfAMassThatBouncesHundredsOfTimesInContactsOfAFewSteps) {
   // What one contact leaves over where it begins and where it ends, each kLargestWorkError k D^2 or omega^2 / 4 of the
   // energy of the motion, and not the sum of all.
   for (const auto& [omega, flight] : {std::pair{0.3, 7.3}, {0.5, 7.3}, {0.5, 11.7}})
@@ -166,7 +166,7 @@ Pressed press_on_a_plateau(double omega, double share, double exponent) {
   return found;
 }
 
-TEST(contact_balance, what_presses_on_a_plateau_neither_sinks_nor_gains_energy) {
+TEST(ContactBalance, WhatPressesOnAPlateauNeitherSinksNorGainsEnergy) {
   for (const double exponent : {1.0, 4.0, 6.0}) {
     for (const double omega : {0.5, 1.0, 1.6}) {
       for (const double share : {0.1, 0.4, 0.9}) {
@@ -181,7 +181,7 @@ TEST(contact_balance, what_presses_on_a_plateau_neither_sinks_nor_gains_energy) 
   }
 }
 
-TEST(contact_balance, a_closing_force_pulls_no_more_than_was_pushed_and_only_where_energy_was_gained) {
+TEST(ContactBalance, AClosingForcePullsNoMoreThanWasPushedAndOnlyWhereEnergyWasGained) {
   const Vec3 pushed(0, 0, 4), up(0, 0, 0.1);
   constexpr double k = 1e3;
   EXPECT_EQ(closing_force(-0.1, pushed, up, true, k), Vec3(Vec3::Zero()));
@@ -195,7 +195,7 @@ TEST(contact_balance, a_closing_force_pulls_no_more_than_was_pushed_and_only_whe
       << "turns no motion round";
 }
 
-TEST(contact_balance, of_a_steep_unloading_curve_is_no_larger_on_the_way_in_than_of_a_line) {
+TEST(ContactBalance, OfASteepUnloadingCurveIsNoLargerOnTheWayInThanOfALine) {
   // A larger share is a contact stiffer than the time step allows: the foot of a tower that stood on it gained energy.
   Press press(0, {kPenalty, kInfinite, 6, 0, 1});
   constexpr double motion = 0.004;  // m
@@ -209,7 +209,7 @@ TEST(contact_balance, of_a_steep_unloading_curve_is_no_larger_on_the_way_in_than
   EXPECT_LT(couple.balance, (1 + 1e-9) * kLargestWorkError * motion / depth);
 }
 
-TEST(contact_balance, a_point_that_comes_back_while_its_closing_force_lasts_is_as_deep_as_it_lies) {
+TEST(ContactBalance, APointThatComesBackWhileItsClosingForceLastsIsAsDeepAsItLies) {
   Press press(0, {kPenalty, kInfinite, 1, 0, 1});
   press.move(-0.003);
   press.move(0.005);

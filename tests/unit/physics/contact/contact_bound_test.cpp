@@ -8,7 +8,7 @@
 namespace breccia::contact_bound_test {
 namespace {
 
-TEST(contact_bound, keeps_what_has_the_largest_share_of_any_node) {
+TEST(ContactBound, KeepsWhatHasTheLargestShareOfAnyNode) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> number(0, 1);
   std::bernoulli_distribution damped(0.5);
@@ -35,7 +35,7 @@ TEST(contact_bound, keeps_what_has_the_largest_share_of_any_node) {
   }
 }
 
-TEST(contact_bound, of_equal_ones_the_first_is_kept) {
+TEST(ContactBound, OfEqualOnesTheFirstIsKept) {
   std::vector<ContactBound> kept;
   for (Index i = 0; i < 3; ++i) {
     ContactBound m;

@@ -13,14 +13,14 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kPenalty = 1e6, kRoundOff = 1e-12;
 
-TEST(overlap_field, of_a_lone_tetrahedron_is_made_of_its_heights_and_faces) {
+TEST(OverlapField, OfALoneTetrahedronIsMadeOfItsHeightsAndFaces) {
   const test::Scene scene(test::lone(test::regular_tetra(1.0)), {kPenalty, kInfinite, 1, 0, 1});
   const FieldValues& values = scene.contact.field.at(0);
   for (const double depth : values.depth) EXPECT_NEAR(depth, std::sqrt(2.0 / 3.0), kRoundOff);
   EXPECT_EQ(values.sets, 1 << 7 | 1 << 11 | 1 << 13 | 1 << 14);
 }
 
-TEST(overlap_field, has_the_same_least_function_however_it_is_found) {
+TEST(OverlapField, HasTheSameLeastFunctionHoweverItIsFound) {
   ContactParams params;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> length(0.2, 1.0);
@@ -65,7 +65,7 @@ struct FreedCentre {
   }
 };
 
-TEST(overlap_field, comes_to_count_a_freed_face_step_by_step) {
+TEST(OverlapField, ComesToCountAFreedFaceStepByStep) {
   FreedCentre freed;
   test::Scene& scene = freed.scene;
   std::array<double, 4> lambda{};  // the middle of the new face
@@ -139,7 +139,7 @@ void sink_field(test::Scene& scene, Index steps) {
   }
 }
 
-TEST(overlap_field, that_sinks_under_a_resting_point_accounts_what_it_takes_from_the_stored_energy) {
+TEST(OverlapField, ThatSinksUnderARestingPointAccountsWhatItTakesFromTheStoredEnergy) {
   for (const double b : {1.0, 2.0}) {
     Pressed pressed({kPenalty, kInfinite, b, 0, 1});
     test::Scene& scene = pressed.scene;
@@ -158,7 +158,7 @@ TEST(overlap_field, that_sinks_under_a_resting_point_accounts_what_it_takes_from
   }
 }
 
-TEST(overlap_field, keeps_the_budget_closed_while_it_sinks_under_a_moving_point) {
+TEST(OverlapField, KeepsTheBudgetClosedWhileItSinksUnderAMovingPoint) {
   Pressed pressed({kPenalty, kInfinite, 1, 0, 1});
   test::Scene& scene = pressed.scene;
   scene.evaluate(1e-3);
@@ -178,7 +178,7 @@ TEST(overlap_field, keeps_the_budget_closed_while_it_sinks_under_a_moving_point)
 }
 
 /// Two elements of one body that share a vertex but are no longer bonded, pushed into each other.
-TEST(couples_of_fracture, start_without_force_and_never_pull) {
+TEST(CouplesOfFracture, StartWithoutForceAndNeverPull) {
   test::Scene scene(test::box({1, 1, 1}, 1.0), {kPenalty, kInfinite, 1, 0, 1}, 1, OverlapField::tet_potential);
   const Index target = scene.contact.contactors[0], other = scene.contact.contactors[13];
   scene.couple([&](Index s) { return s == target; }, [&](Index s) { return s == other; });
@@ -209,7 +209,7 @@ TEST(couples_of_fracture, start_without_force_and_never_pull) {
   EXPECT_GT(put(1.0), pressed) << "and the force grows from there";
 }
 
-TEST(couples_of_fracture, outlast_a_joint_that_opens_beside_their_element_and_are_cut_off_farther_out) {
+TEST(CouplesOfFracture, OutlastAJointThatOpensBesideTheirElementAndAreCutOffFartherOut) {
   Pressed pressed({kPenalty, kInfinite, 1, 0, 1});
   test::Scene& scene = pressed.scene;
   scene.evaluate(1e-3);
@@ -240,7 +240,7 @@ TEST(couples_of_fracture, outlast_a_joint_that_opens_beside_their_element_and_ar
   EXPECT_NEAR(scene.work.dissipated.value(), stored, 1e-9 * stored);
 }
 
-TEST(couples_of_fracture, are_fresh_for_one_evaluation_only) {
+TEST(CouplesOfFracture, AreFreshForOneEvaluationOnly) {
   Pressed pressed({kPenalty, kInfinite, 1, 0, 1});
   test::Scene& scene = pressed.scene;
   scene.contact.fresh = scene.contact.couples;

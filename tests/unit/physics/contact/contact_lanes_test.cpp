@@ -68,7 +68,7 @@ std::vector<double> shake(const ContactLaw& law, Way way) {
 
 std::vector<ContactLaw> laws() { return {law_of(1, 0.6, 0), law_of(4, 0.6, 0), law_of(2, 0, 0), law_of(2, 0.3, 1e3)}; }
 
-TEST(contact_lanes, couples_side_by_side_get_the_bits_of_couples_one_by_one) {
+TEST(ContactLanes, CouplesSideBySideGetTheBitsOfCouplesOneByOne) {
   for (const ContactLaw& law : laws()) {
     const std::vector<double> alone = shake(law, {Simd::sse2, false});
     EXPECT_GT(alone.size(), 10'000U);

@@ -74,20 +74,20 @@ void follow(const LawCase& c, const std::vector<double>& turning_depths) {
   }
 }
 
-TEST(contact_pair, test_a_follows_the_closed_form_in_one_approach_and_retreat) {
+TEST(ContactPair, TestAFollowsTheClosedFormInOneApproachAndRetreat) {
   for (const LawCase& c : kCases) follow(c, {kDeepest, -1e-4});
 }
 
-TEST(contact_pair, test_b_reloads_along_the_unloading_curve_without_a_jump) {
+TEST(ContactPair, TestBReloadsAlongTheUnloadingCurveWithoutAJump) {
   for (const LawCase& c : kCases)
     follow(c, {0.6 * kDeepest, 0.2 * kDeepest, kDeepest, 0.5 * kDeepest, 0.9 * kDeepest, -1e-4});
 }
 
-TEST(contact_pair, a_second_contact_starts_afresh) {
+TEST(ContactPair, ASecondContactStartsAfresh) {
   for (const LawCase& c : kCases) follow(c, {kDeepest, -1e-4, 0.5 * kDeepest, -1e-4});
 }
 
-TEST(contact_pair, books_what_the_closed_forms_return_and_keep) {
+TEST(ContactPair, BooksWhatTheClosedFormsReturnAndKeep) {
   for (const LawCase& c : kCases) {
     Pair pair(c);
     for (int i = 0; i <= 40; ++i) pair.force_at(kDeepest * i / 40);
@@ -106,7 +106,7 @@ TEST(contact_pair, books_what_the_closed_forms_return_and_keep) {
   }
 }
 
-TEST(contact_pair, groups_see_equal_and_opposite_forces) {
+TEST(ContactPair, GroupsSeeEqualAndOppositeForces) {
   Pair pair(kCases[0]);
   const double force = pair.force_at(kDeepest);
   const auto force_on = [&](Index group) {
@@ -118,7 +118,7 @@ TEST(contact_pair, groups_see_equal_and_opposite_forces) {
   EXPECT_NEAR(force_on(0), -force, kRoundOff * force);
 }
 
-TEST(contact_pair, leaves_the_work_at_points_of_another_rank_to_that_rank) {
+TEST(ContactPair, LeavesTheWorkAtPointsOfAnotherRankToThatRank) {
   Pair pair(kCases[1]), shared(kCases[1]);
   for (Index s = 0; s < shared.scene.local.num_slots; ++s) {
     if (shared.scene.body(s) == 1) shared.scene.local.original[at(s)] = 0;
@@ -132,7 +132,7 @@ TEST(contact_pair, leaves_the_work_at_points_of_another_rank_to_that_rank) {
   }
 }
 
-TEST(contact_pair, a_crushed_contactor_books_what_it_no_longer_returns) {
+TEST(ContactPair, ACrushedContactorBooksWhatItNoLongerReturns) {
   Pair pair(kCases[0]);
   pair.force_at(kDeepest);
   const double stored = pair.scene.work.stored.value();
@@ -156,7 +156,7 @@ void put_into_sphere(test::Scene& scene) {
   scene.params.sphere = SphericalBoundary{{-0.03, 0, 0}, 0.028, 5e6};
 }
 
-TEST(contact_pair, a_sphere_pushes_points_back_with_the_force_of_its_energy) {
+TEST(ContactPair, ASpherePushesPointsBackWithTheForceOfItsEnergy) {
   Pair pair(kCases[0]);
   test::Scene& scene = pair.scene;
   put_into_sphere(scene);
@@ -174,7 +174,7 @@ TEST(contact_pair, a_sphere_pushes_points_back_with_the_force_of_its_energy) {
   }
 }
 
-TEST(contact_pair, a_sphere_gives_back_what_it_took_however_fast_a_point_comes_and_goes) {
+TEST(ContactPair, ASphereGivesBackWhatItTookHoweverFastAPointComesAndGoes) {
   constexpr double kStep = 1e-6;  // s
   for (const double out : {0.0003, 0.0007, 0.0011}) {
     for (const double back : {0.0001, 0.0005, 0.0013}) {
@@ -204,7 +204,7 @@ TEST(contact_pair, a_sphere_gives_back_what_it_took_however_fast_a_point_comes_a
   }
 }
 
-TEST(contact_pair, a_sphere_takes_a_point_that_is_outside_when_first_seen_as_far_as_it_came_in) {
+TEST(ContactPair, ASphereTakesAPointThatIsOutsideWhenFirstSeenAsFarAsItCameIn) {
   Pair pair(kCases[0]);
   test::Scene& scene = pair.scene;
   put_into_sphere(scene);

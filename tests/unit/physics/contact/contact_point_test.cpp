@@ -15,7 +15,7 @@ double factorial(int n) { return n < 2 ? 1 : n * factorial(n - 1); }
 /// Integral of L1^i L2^j L3^k over a triangle of area 1: 2 i! j! k! / (i + j + k + 2)!
 double exact(int i, int j, int k) { return 2 * factorial(i) * factorial(j) * factorial(k) / factorial(i + j + k + 2); }
 
-TEST(face_rule, integrates_polynomials_of_its_degree_exactly) {
+TEST(FaceRule, IntegratesPolynomialsOfItsDegreeExactly) {
   for (const auto& [points, degree] : {std::pair{1, 1}, {3, 2}, {4, 2}, {6, 4}}) {
     const FaceRule& rule = face_rule(points);
     ASSERT_EQ(rule.num_points, points);
@@ -34,7 +34,7 @@ TEST(face_rule, integrates_polynomials_of_its_degree_exactly) {
   }
 }
 
-TEST(face_rule, points_lie_inside_the_triangle) {
+TEST(FaceRule, PointsLieInsideTheTriangle) {
   for (const int points : {1, 3, 6}) {
     for (std::size_t p = 0; p < static_cast<std::size_t>(points); ++p) {
       const auto& n = face_rule(points).shape[p];
@@ -44,9 +44,9 @@ TEST(face_rule, points_lie_inside_the_triangle) {
   }
 }
 
-TEST(face_rule, refuses_other_numbers_of_points) { EXPECT_THROW((void)face_rule(5), InternalError); }
+TEST(FaceRule, RefusesOtherNumbersOfPoints) { EXPECT_THROW((void)face_rule(5), InternalError); }
 
-TEST(contact_points, of_a_box_carry_its_surface_and_know_their_element) {
+TEST(ContactPoints, OfABoxCarryItsSurfaceAndKnowTheirElement) {
   for (const int points : {1, 3, 4, 6}) {
     const test::Scene scene(test::box({1, 1, 1}, 2.0), {}, points);
     ASSERT_EQ(scene.contact.points.size(), static_cast<std::size_t>(24 * points));
@@ -65,7 +65,7 @@ TEST(contact_points, of_a_box_carry_its_surface_and_know_their_element) {
   }
 }
 
-TEST(contact_points, are_ordered_by_identity_whenever_they_came) {
+TEST(ContactPoints, AreOrderedByIdentityWheneverTheyCame) {
   test::Scene scene(test::box({2, 1, 1}, 1.0), {}, 3);
   std::reverse(scene.contact.points.begin(), scene.contact.points.end());
   scene.contact.order.clear();

@@ -18,7 +18,7 @@ const double kArea = Press::area();                                 // m2, of th
 
 const ContactLaw kDamped{kPenalty, kInfinite, 1, 0, 1, kDamping};
 
-TEST(contact_damping, adds_a_stress_per_speed_of_approach_and_accounts_its_work) {
+TEST(ContactDamping, AddsAStressPerSpeedOfApproachAndAccountsItsWork) {
   constexpr double depth = 0.05, step = 0.01;
   Press press(depth, kDamped);
   const double length = press.scene.contact.body_length[0];
@@ -30,7 +30,7 @@ TEST(contact_damping, adds_a_stress_per_speed_of_approach_and_accounts_its_work)
   EXPECT_NEAR(press.dissipated() - first, kArea * kDamping * step * step, kRoundOff * kPenalty);
 }
 
-TEST(contact_damping, pulls_no_more_than_it_has_just_pushed_and_never_gives_energy_back) {
+TEST(ContactDamping, PullsNoMoreThanItHasJustPushedAndNeverGivesEnergyBack) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> motion(-0.02, 0.02);
   Press press(0.05, kDamped);
@@ -47,7 +47,7 @@ TEST(contact_damping, pulls_no_more_than_it_has_just_pushed_and_never_gives_ener
   EXPECT_GT(before, 0.0);
 }
 
-TEST(contact_damping, of_an_oscillation_accounts_what_it_takes) {
+TEST(ContactDamping, OfAnOscillationAccountsWhatItTakes) {
   // A mass on the contact, leapfrog: what its energy loses is what is accounted.
   constexpr double depth = 0.05, omega = 0.2, ratio = 0.2, few_percent = 0.03;
   const double length = Press(depth, kDamped).scene.contact.body_length[0], k = kArea * kPenalty / length;
@@ -66,14 +66,14 @@ TEST(contact_damping, of_an_oscillation_accounts_what_it_takes) {
   EXPECT_NEAR(press.dissipated() / (lost - held), 1.0, few_percent);
 }
 
-TEST(contact_damping, is_nothing_where_it_is_off) {
+TEST(ContactDamping, IsNothingWhereItIsOff) {
   Press press(0.05, {kPenalty, kInfinite, 1, 0, 1});
   press.move(-0.01);
   press.move(0.02);
   EXPECT_EQ(press.dissipated(), 0.0);
 }
 
-TEST(contact_points, at_corners_feel_a_ridge_as_soon_as_it_touches) {
+TEST(ContactPoints, AtCornersFeelARidgeAsSoonAsItTouches) {
   // A tetrahedron that stands on an edge, a micrometre deep in the floor and beside all of the floor's points.
   constexpr double depth = 1e-6;
   const double edge = std::sqrt(0.5);

@@ -66,7 +66,7 @@ class Block {
   double mass_ = 0, stiffness_ = 0, dt_ = 0;
 };
 
-TEST(friction_block, stops_after_v_squared_over_two_mu_g) {
+TEST(FrictionBlock, StopsAfterVSquaredOverTwoMuG) {
   constexpr double mu = 0.3, speed = 2.5;
   Block block(mu, 0);
   block.push(speed);
@@ -80,7 +80,7 @@ TEST(friction_block, stops_after_v_squared_over_two_mu_g) {
               0.01);
 }
 
-TEST(friction_block, sticks_below_the_angle_of_friction) {
+TEST(FrictionBlock, SticksBelowTheAngleOfFriction) {
   constexpr double mu = 0.4;
   Block gentle(mu, std::atan(0.45 * mu));
   gentle.run(1);
@@ -95,7 +95,7 @@ TEST(friction_block, sticks_below_the_angle_of_friction) {
   EXPECT_LT(std::abs(steep.path()[0] - after_settling), 2 * steep.spring(mu));
 }
 
-TEST(friction_block, slides_above_the_angle_of_friction_with_the_acceleration_left_over) {
+TEST(FrictionBlock, SlidesAboveTheAngleOfFrictionWithTheAccelerationLeftOver) {
   constexpr double mu = 0.4, time = 0.8;
   const double slope = 1.5 * std::atan(mu);
   Block block(mu, slope);
@@ -104,7 +104,7 @@ TEST(friction_block, slides_above_the_angle_of_friction_with_the_acceleration_le
   EXPECT_NEAR(block.path()[0] / (0.5 * acceleration * time * time), 1, 0.01);
 }
 
-TEST(friction_block, that_sticks_to_a_turning_floor_is_held_as_on_one_at_rest) {
+TEST(FrictionBlock, ThatSticksToATurningFloorIsHeldAsOnOneAtRest) {
   constexpr double kDepth = 1e-3, kPushed = 1e-4, kMu = 0.4, kStep = 1e-3;
   test::Scene scene(test::joined(Block::floor(), Block::block()), {kPenalty, kInfinite, 1, kMu, 1});
   scene.shift(1, {kPushed, 0, -kDepth});
@@ -146,7 +146,7 @@ Mesh two_groups_and_a_grain() {
                                         Vec3(0.2, 0.2, 0.2 + kGrain)}));
 }
 
-TEST(friction, a_spring_that_lets_go_in_another_group_gives_back_what_it_held_under_its_own_law) {
+TEST(Friction, ASpringThatLetsGoInAnotherGroupGivesBackWhatItHeldUnderItsOwnLaw) {
   constexpr double kSoft = 1e6, kStep = 1e-3;
   test::Scene scene(two_groups_and_a_grain(), {kSoft, std::numeric_limits<double>::infinity(), 1, 1.0, 1});
   const Index grain = 1;

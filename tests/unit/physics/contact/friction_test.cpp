@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRoundOff = 1e-14;
 
-TEST(friction, sticks_with_a_linear_spring_below_the_limit) {
+TEST(Friction, SticksWithALinearSpringBelowTheLimit) {
   Vec3 xi = Vec3::Zero();
   const Vec3 n(0, 0, 1);
   Vec3 force;
@@ -22,7 +22,7 @@ TEST(friction, sticks_with_a_linear_spring_below_the_limit) {
   }
 }
 
-TEST(friction, slides_at_the_limit_against_the_motion) {
+TEST(Friction, SlidesAtTheLimitAgainstTheMotion) {
   Vec3 xi = Vec3::Zero();
   Vec3 force;
   for (int i = 0; i < 10; ++i) force = friction_step({0, 0, 1}, {0.3, 0.4, 0}, 1000, 7, xi).force;
@@ -30,13 +30,13 @@ TEST(friction, slides_at_the_limit_against_the_motion) {
   EXPECT_NEAR(xi.norm(), 7e-3, kRoundOff);
 }
 
-TEST(friction, vanishes_without_normal_force) {
+TEST(Friction, VanishesWithoutNormalForce) {
   Vec3 xi(0.1, 0, 0);
   EXPECT_EQ(friction_step({0, 0, 1}, {1, 0, 0}, 1000, 0, xi).force, Vec3(0, 0, 0));
   EXPECT_EQ(xi, Vec3(0, 0, 0));
 }
 
-TEST(friction, the_spring_keeps_its_length_when_the_normal_turns) {
+TEST(Friction, TheSpringKeepsItsLengthWhenTheNormalTurns) {
   Vec3 xi(0.1, 0, 0);
   const double angle = 0.3;
   const Vec3 normal(std::sin(angle), 0, std::cos(angle));
@@ -45,7 +45,7 @@ TEST(friction, the_spring_keeps_its_length_when_the_normal_turns) {
   EXPECT_NEAR((xi - 0.1 * Vec3(std::cos(angle), 0, -std::sin(angle))).norm(), 0, kRoundOff);
 }
 
-TEST(friction, turns_its_spring_with_the_surfaces_and_keeps_its_length) {
+TEST(Friction, TurnsItsSpringWithTheSurfacesAndKeepsItsLength) {
   const Vec3 normal = Vec3(1, 2, -2) / 3, along = Vec3(2, 1, 2) / 3, across = normal.cross(along);
   Vec3 xi = 0.1 * along;
   constexpr int kSteps = 1000;
@@ -56,7 +56,7 @@ TEST(friction, turns_its_spring_with_the_surfaces_and_keeps_its_length) {
   EXPECT_NEAR(xi.norm(), 0.1, kSteps * kRoundOff);
 }
 
-TEST(friction, dissipates_the_slip_and_nothing_while_it_sticks) {
+TEST(Friction, DissipatesTheSlipAndNothingWhileItSticks) {
   constexpr double kStiffness = 1000, kLimit = 7;
   Vec3 xi = Vec3::Zero();
   EXPECT_EQ(friction_step({0, 0, 1}, {0.006, 0, 0}, kStiffness, kLimit, xi).dissipated, 0);
@@ -67,7 +67,7 @@ TEST(friction, dissipates_the_slip_and_nothing_while_it_sticks) {
   EXPECT_NEAR(friction_step({0, 0, 1}, {0.02, 0, 0}, kStiffness, kLimit, xi).dissipated, kLimit * 0.02, kRoundOff);
 }
 
-TEST(friction, takes_nothing_back_when_normals_turn_motions_reverse_or_the_contact_ends) {
+TEST(Friction, TakesNothingBackWhenNormalsTurnMotionsReverseOrTheContactEnds) {
   constexpr double kStiffness = 50;
   Vec3 xi = Vec3::Zero();
   for (int i = 0; i < 1000; ++i) {
@@ -83,7 +83,7 @@ TEST(friction, takes_nothing_back_when_normals_turn_motions_reverse_or_the_conta
   }
 }
 
-TEST(friction, that_turns_without_sliding_dissipates_nothing) {
+TEST(Friction, ThatTurnsWithoutSlidingDissipatesNothing) {
   Vec3 xi(0.1, 0, 0);
   for (int i = 0; i < 100; ++i) {
     const Vec3 normal(std::sin(0.05 * i), 0, std::cos(0.05 * i));
@@ -91,7 +91,7 @@ TEST(friction, that_turns_without_sliding_dissipates_nothing) {
   }
 }
 
-TEST(friction, follows_a_normal_force_at_once_where_an_overlap_begins_and_later_with_a_delay) {
+TEST(Friction, FollowsANormalForceAtOnceWhereAnOverlapBeginsAndLaterWithADelay) {
   constexpr double kStep = 0.1, kLongest = 0.4;  // s
   DelayedForce delayed;
   follow_normal_force(7, 0, kLongest, delayed);
@@ -108,7 +108,7 @@ TEST(friction, follows_a_normal_force_at_once_where_an_overlap_begins_and_later_
   EXPECT_NEAR(delayed.force, before + (9 - before) * kStep / kLongest, kRoundOff);
 }
 
-TEST(friction, of_an_old_overlap_follows_the_mean_of_a_normal_force_that_vibrates) {
+TEST(Friction, OfAnOldOverlapFollowsTheMeanOfANormalForceThatVibrates) {
   constexpr double kStep = 0.1, kLongest = 0.4;  // s
   constexpr int kPeriods = 400, kSteps = 8;
   DelayedForce delayed{9, kSettledAge * kLongest, 9};
@@ -122,7 +122,7 @@ TEST(friction, of_an_old_overlap_follows_the_mean_of_a_normal_force_that_vibrate
   EXPECT_NEAR(mean, 9, 0.01);
 }
 
-TEST(friction, hardly_feeds_vibrations) {
+TEST(Friction, HardlyFeedsVibrations) {
   constexpr double kLongest = 1, kOmega = 12;  // s, 1/s
   constexpr int kPeriods = 50, kSteps = 1000;
   const double step = 2 * std::acos(-1.0) / (kOmega * kSteps);
@@ -137,7 +137,7 @@ TEST(friction, hardly_feeds_vibrations) {
   EXPECT_NEAR(behind, 2 * half / std::pow(1 + half * half, 2), 2e-4) << "one stage alone: 1 / 12";
 }
 
-TEST(friction, of_contacts_that_lift_off_again_and_again_has_the_impulse_of_coulombs_law) {
+TEST(Friction, OfContactsThatLiftOffAgainAndAgainHasTheImpulseOfCoulombsLaw) {
   constexpr double kStep = 0.1, kLongest = 2;  // s
   DelayedForce delayed;
   double rubbed = 0, pressed = 0;
@@ -155,21 +155,21 @@ TEST(friction, of_contacts_that_lift_off_again_and_again_has_the_impulse_of_coul
   EXPECT_GT(delayed.age, 13 * kLongest) << "old, though no overlap lasts for one delay";
 }
 
-TEST(friction, forgets_a_contact_that_does_not_come_again) {
+TEST(Friction, ForgetsAContactThatDoesNotComeAgain) {
   DelayedForce delayed{7, 3};
   for (int i = 0; i < 10; ++i) forget_normal_force(0.31, delayed);
   EXPECT_EQ(delayed.force, 0);
   EXPECT_EQ(delayed.age, 0);
 }
 
-TEST(friction, follows_at_once_where_no_delay_is_known) {
+TEST(Friction, FollowsAtOnceWhereNoDelayIsKnown) {
   DelayedForce delayed{3, 0};
   follow_normal_force(5, 0.1, 0, delayed);
   EXPECT_EQ(delayed.force, 5);
   EXPECT_EQ(delayed.age, 0);
 }
 
-TEST(friction, of_an_impact_is_that_of_coulombs_law) {
+TEST(Friction, OfAnImpactIsThatOfCoulombsLaw) {
   constexpr int kSteps = 1000;
   for (const auto& [delays, more] : {std::pair{0.3, 0.0015}, {1.0, 0.005}, {4.0, 0.02}}) {
     DelayedForce delayed;
@@ -184,7 +184,7 @@ TEST(friction, of_an_impact_is_that_of_coulombs_law) {
   }
 }
 
-TEST(friction, lets_go_of_what_the_spring_holds) {
+TEST(Friction, LetsGoOfWhatTheSpringHolds) {
   const Vec3 xi(0.1, 0, 0);
   EXPECT_NEAR(released_by_friction(Vec3::Zero(), 50, xi), 0.25, kRoundOff);
 }

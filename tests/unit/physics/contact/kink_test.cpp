@@ -47,7 +47,7 @@ struct Way {
   }
 };
 
-TEST(kinks_of_the_overlap, give_no_energy_to_a_point_that_passes_them_on_any_way) {
+TEST(KinksOfTheOverlap, GiveNoEnergyToAPointThatPassesThemOnAnyWay) {
   // Where the force begins, ends or turns, central differences leave over a share of this at most.
   constexpr double kOfStep = 2.0;
   std::mt19937_64 random(1);
@@ -65,7 +65,7 @@ TEST(kinks_of_the_overlap, give_no_energy_to_a_point_that_passes_them_on_any_way
   EXPECT_GT(touched, 150);
 }
 
-TEST(kinks_of_the_overlap, take_of_a_damped_point_what_is_dissipated) {
+TEST(KinksOfTheOverlap, TakeOfADampedPointWhatIsDissipated) {
   constexpr double kDamping = 1e7;  // Pa s/m
   constexpr double kShare = 0.005;  // of what is dissipated: 0.002, and 0.012 with the present gradient for both forces
   std::mt19937_64 random(2);

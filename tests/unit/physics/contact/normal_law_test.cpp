@@ -34,14 +34,14 @@ double work(const ContactLaw& l, double from, double to, double& d_max) {
   return sum;
 }
 
-TEST(normal_law, loads_along_the_penalty_up_to_the_plateau) {
+TEST(NormalLaw, LoadsAlongThePenaltyUpToThePlateau) {
   const ContactLaw l = law(2, 60e6);
   for (const double d : {1e-6, 0.01, 0.3, 0.6})
     EXPECT_NEAR(normal_law::stress(l, d, d), 90e6 * d, kRoundOff * 90e6 * d);
   for (const double d : {0.67, 0.8, 1.0}) EXPECT_DOUBLE_EQ(normal_law::stress(l, d, d), 60e6);
 }
 
-TEST(normal_law, unloads_and_reloads_along_the_same_power_curve) {
+TEST(NormalLaw, UnloadsAndReloadsAlongTheSamePowerCurve) {
   const ContactLaw l = law(2, 60e6);
   for (const double d : {0.1, 0.2, 0.35, 0.5})
     EXPECT_NEAR(normal_law::stress(l, d, 0.5), 45e6 * 4 * d * d, kRoundOff * 45e6);
@@ -49,13 +49,13 @@ TEST(normal_law, unloads_and_reloads_along_the_same_power_curve) {
     EXPECT_NEAR(normal_law::stress(l, d, 0.8), 60e6 * d * d / 0.64, kRoundOff * 60e6);
 }
 
-TEST(normal_law, forgets_everything_when_the_overlap_is_gone) {
+TEST(NormalLaw, ForgetsEverythingWhenTheOverlapIsGone) {
   EXPECT_EQ(normal_law::largest(0.0, 0.7), 0.0);
   EXPECT_EQ(normal_law::largest(-0.1, 0.7), 0.0);
   EXPECT_EQ(normal_law::stress(law(2), -0.1, 0.0), 0.0);
 }
 
-TEST(normal_law, returns_two_over_b_plus_one_of_the_energy_below_the_plateau) {
+TEST(NormalLaw, ReturnsTwoOverBPlusOneOfTheEnergyBelowThePlateau) {
   for (const double b : {1.0, 2.0, 4.0, 6.0}) {
     const ContactLaw l = law(b);
     const double peak = 0.37, put_in = 0.5 * kPenalty * peak * peak;
@@ -64,7 +64,7 @@ TEST(normal_law, returns_two_over_b_plus_one_of_the_energy_below_the_plateau) {
   }
 }
 
-TEST(normal_law, returns_the_share_g_over_2g_minus_1_of_that_beyond_the_plateau) {
+TEST(NormalLaw, ReturnsTheShareGOver2gMinus1OfThatBeyondThePlateau) {
   for (const double b : {1.0, 2.0, 6.0}) {
     const double g = 1.5, peak = 0.4;
     const ContactLaw l = law(b, kPenalty * peak / g);
@@ -73,7 +73,7 @@ TEST(normal_law, returns_the_share_g_over_2g_minus_1_of_that_beyond_the_plateau)
   }
 }
 
-TEST(normal_law, stored_and_dissipated_energy_add_up_to_the_work_along_any_path) {
+TEST(NormalLaw, StoredAndDissipatedEnergyAddUpToTheWorkAlongAnyPath) {
   for (const double b : {1.0, 2.0, 3.0}) {
     for (const double plateau : {std::numeric_limits<double>::infinity(), 30e6}) {
       const ContactLaw l = law(b, plateau);
@@ -88,7 +88,7 @@ TEST(normal_law, stored_and_dissipated_energy_add_up_to_the_work_along_any_path)
   }
 }
 
-TEST(normal_law, never_gives_energy_back_that_it_has_dissipated) {
+TEST(NormalLaw, NeverGivesEnergyBackThatItHasDissipated) {
   const ContactLaw l = law(3, 40e6);
   double before = 0;
   for (double d_max = 0; d_max < 1; d_max += 0.01) {
@@ -98,7 +98,7 @@ TEST(normal_law, never_gives_energy_back_that_it_has_dissipated) {
   }
 }
 
-TEST(normal_law, survives_a_tiny_overlap_with_a_high_exponent) {
+TEST(NormalLaw, SurvivesATinyOverlapWithAHighExponent) {
   EXPECT_TRUE(std::isfinite(normal_law::stress(law(6), 1e-80, 1e-70)));
 }
 

@@ -29,7 +29,7 @@ Overlap overlap_of(const test::Scene& scene, const Vec3& x) {
 
 double overlap_at(const test::Scene& scene, const Vec3& x) { return overlap_of(scene, x).g; }
 
-TEST(overlap, of_a_lone_tetrahedron_is_four_times_the_smallest_barycentric_coordinate) {
+TEST(Overlap, OfALoneTetrahedronIsFourTimesTheSmallestBarycentricCoordinate) {
   const test::Scene body(test::lone(test::regular_tetra(2.0)), kLaw);
   const test::Scene potential(test::lone(test::regular_tetra(2.0)), kLaw, 1, OverlapField::tet_potential);
   const auto corners = test::regular_tetra(2.0);
@@ -44,13 +44,13 @@ TEST(overlap, of_a_lone_tetrahedron_is_four_times_the_smallest_barycentric_coord
   }
 }
 
-TEST(overlap, by_distance_is_the_distance_to_the_nearest_face) {
+TEST(Overlap, ByDistanceIsTheDistanceToTheNearestFace) {
   const test::Scene scene(test::lone(test::regular_tetra(2.0)), kLaw, 1, OverlapField::tet_distance);
   EXPECT_NEAR(overlap_at(scene, {-0.05, 0, 0}), 0.05, kRoundOff);                                    // base in x = 0
   EXPECT_NEAR(overlap_at(scene, {-2.0 / std::sqrt(24.0), 0, 0}), 2.0 / std::sqrt(24.0), kRoundOff);  // incentre
 }
 
-TEST(overlap, is_nothing_in_an_element_of_less_than_a_hundredth_of_its_volume) {
+TEST(Overlap, IsNothingInAnElementOfLessThanAHundredthOfItsVolume) {
   for (const double share : {0.012, 0.008}) {
     std::array<Vec3, 4> x = test::regular_tetra(2.0);
     const double volume = (x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) / 6;
@@ -61,7 +61,7 @@ TEST(overlap, is_nothing_in_an_element_of_less_than_a_hundredth_of_its_volume) {
   }
 }
 
-TEST(overlap, is_out_of_reach_for_as_far_as_safe_travel_tells) {
+TEST(Overlap, IsOutOfReachForAsFarAsSafeTravelTells) {
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal;
   const auto vector = [&] { return Vec3(normal(random), normal(random), normal(random)); };
@@ -96,7 +96,7 @@ TEST(overlap, is_out_of_reach_for_as_far_as_safe_travel_tells) {
   EXPECT_GT(least_share, 0.95) << "of the way that is safe";
 }
 
-TEST(overlap, of_a_body_is_the_depth_under_a_flat_face) {
+TEST(Overlap, OfABodyIsTheDepthUnderAFlatFace) {
   const test::Scene scene(test::box({4, 4, 4}, 1.0), kLaw);
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> inner(1.0, 3.0), depth(0.0, 0.2);
@@ -109,7 +109,7 @@ TEST(overlap, of_a_body_is_the_depth_under_a_flat_face) {
 /// Direction in which a place in a body is pushed; 0 outside.
 Vec3 push_at(const test::Scene& scene, const Vec3& x) { return -overlap_of(scene, x).gradient; }
 
-TEST(overlap, of_a_wall_one_element_thick_is_the_distance_to_the_nearer_side_and_pushes_straight) {
+TEST(Overlap, OfAWallOneElementThickIsTheDistanceToTheNearerSideAndPushesStraight) {
   constexpr int kBricks = 6;
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> jitter(-0.2, 0.2),
@@ -128,7 +128,7 @@ TEST(overlap, of_a_wall_one_element_thick_is_the_distance_to_the_nearer_side_and
   }
 }
 
-TEST(overlap, beside_the_edge_of_a_wall_one_element_thick_is_a_share_of_the_distance_to_the_nearest_side) {
+TEST(Overlap, BesideTheEdgeOfAWallOneElementThickIsAShareOfTheDistanceToTheNearestSide) {
   constexpr double kThickness = 0.5;
   constexpr double kLeast = kThickness / 1.0;  // what lies behind a node beside the edge over its distance to the edge
   const test::Scene scene(test::wall(5, kThickness), kLaw);
@@ -142,7 +142,7 @@ TEST(overlap, beside_the_edge_of_a_wall_one_element_thick_is_a_share_of_the_dist
   }
 }
 
-TEST(overlap, of_a_body_is_continuous_across_its_elements) {
+TEST(Overlap, OfABodyIsContinuousAcrossItsElements) {
   // Irregular bodies: corners between the elements are moved at random.
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> jitter(-0.1, 0.1), place(0.3, 1.7);
@@ -190,7 +190,7 @@ void expect_force_is_gradient(test::Scene& scene, const char* what) {
   }
 }
 
-TEST(contact_forces, are_the_gradient_of_the_stored_energy_at_all_seven_nodes) {
+TEST(ContactForces, AreTheGradientOfTheStoredEnergyAtAllSevenNodes) {
   std::mt19937_64 random(11);
   for (const OverlapField field : {OverlapField::body, OverlapField::tet_potential, OverlapField::tet_distance}) {
     for (int trial = 0; trial < 5; ++trial) {
@@ -204,7 +204,7 @@ TEST(contact_forces, are_the_gradient_of_the_stored_energy_at_all_seven_nodes) {
   }
 }
 
-TEST(contact_forces, of_a_body_of_many_elements_are_the_gradient_of_the_stored_energy) {
+TEST(ContactForces, OfABodyOfManyElementsAreTheGradientOfTheStoredEnergy) {
   std::mt19937_64 random(12);
   const Mat3 turn = test::random_rotation(random);
   const auto target = test::moved(test::lone(test::regular_tetra(0.8)),

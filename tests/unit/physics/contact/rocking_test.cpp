@@ -52,7 +52,7 @@ struct Rocking {
   }
 };
 
-TEST(rocking, under_a_point_neither_takes_nor_gives_energy) {
+TEST(Rocking, UnderAPointNeitherTakesNorGivesEnergy) {
   Rocking rocking({kPenalty, kInfinite, 1, 0, 1});
   const double held = rocking.press.scene.work.stored.value();
   ASSERT_GT(held, 0);
@@ -80,7 +80,7 @@ void move(test::Scene& scene, Index body, const std::function<Vec3(const Vec3&)>
   scene.evaluate(1.0);
 }
 
-TEST(rocking, away_from_a_point_that_is_just_beside_an_edge_loses_what_the_couple_held_and_says_so) {
+TEST(Rocking, AwayFromAPointThatIsJustBesideAnEdgeLosesWhatTheCoupleHeldAndSaysSo) {
   constexpr double size = 1e-3, side = 0.02;  // m, of the face with the point; rad by which the side looks up at first
   const auto turn = [](double angle) {
     return [angle](const Vec3& x) -> Vec3 {
@@ -109,7 +109,7 @@ TEST(rocking, away_from_a_point_that_is_just_beside_an_edge_loses_what_the_coupl
 }
 
 /// Points at the lower edges of the upper body look at a side of the lower one that is far away.
-TEST(standing, bodies_touch_without_force_at_first_also_where_they_overlap_by_round_off) {
+TEST(Standing, BodiesTouchWithoutForceAtFirstAlsoWhereTheyOverlapByRoundOff) {
   constexpr double overlap = 0.5 * kOverlapTolerance;
   const Mesh lower = test::wall(1, 1.0), upper = test::box({1, 1, 1}, 0.5);
   const double length = mean_inradii(lower)[0];

@@ -35,7 +35,7 @@ double force_on_wedge(double opening, double depth) {
   return scene.force_on(1)[2];
 }
 
-TEST(sharp, wedges_are_held_by_the_flat_face_that_they_come_down_on) {
+TEST(Sharp, WedgesAreHeldByTheFlatFaceThatTheyComeDownOn) {
   for (const double opening : {60.0, 30.0, 11.0, 8.0, 4.0, 2.0})
     EXPECT_GT(force_on_wedge(opening * kDegree, 0.02), 0) << opening << " degrees";
 }

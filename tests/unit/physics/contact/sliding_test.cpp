@@ -38,7 +38,7 @@ struct Drag {
 
 double area() { return std::sqrt(3.0) / 4 * kSize * kSize; }
 
-TEST(sliding, at_constant_depth_has_a_constant_normal_force_and_no_tangential_force) {
+TEST(Sliding, AtConstantDepthHasAConstantNormalForceAndNoTangentialForce) {
   constexpr double ripple = 0.01, depth = 0.1;
   Drag drag({kPenalty, kInfinite, 1, 0, 1}, depth);
   const double expected = area() * kPenalty * depth / drag.scene.contact.body_length[0];
@@ -61,7 +61,7 @@ Drag settled_drag(double depth) {
 double longest_delay(const Drag& drag) { return 10 * drag.scene.contact.body_extent[1]; }
 double depth_of(const Drag& drag) { return drag.scene.contact.touching.front().d * drag.scene.contact.body_length[0]; }
 
-TEST(sliding, friction_follows_the_normal_force_late_by_crossings_of_the_smaller_body) {
+TEST(Sliding, FrictionFollowsTheNormalForceLateByCrossingsOfTheSmallerBody) {
   Drag drag = settled_drag(0.02);
   const Vec3 before = drag.move({0.02, 0, 0});
   EXPECT_NEAR(-before[0] / before[2], 0.5, 0.01);
@@ -71,7 +71,7 @@ TEST(sliding, friction_follows_the_normal_force_late_by_crossings_of_the_smaller
   EXPECT_NEAR(-deeper[0], 0.5 * (before[2] + step * step * (deeper[2] - before[2])), 0.01 * before[2]);
 }
 
-TEST(sliding, friction_goes_on_from_the_normal_force_before_a_short_lift) {
+TEST(Sliding, FrictionGoesOnFromTheNormalForceBeforeAShortLift) {
   Drag drag = settled_drag(0.02);
   const double depth = depth_of(drag);
   DelayedForce before;
@@ -92,7 +92,7 @@ TEST(sliding, friction_goes_on_from_the_normal_force_before_a_short_lift) {
   EXPECT_LT(drag.scene.contact.touching.front().delayed.force, 0.5 * (before.force + force));
 }
 
-TEST(sliding, friction_forgets_the_normal_force_of_a_couple_that_lies_without_force) {
+TEST(Sliding, FrictionForgetsTheNormalForceOfACoupleThatLiesWithoutForce) {
   Drag drag = settled_drag(0.02);
   const double age = drag.scene.contact.touching.front().delayed.age;
   drag.scene.contact.touching.front().offset = 1;  // m
@@ -102,13 +102,13 @@ TEST(sliding, friction_forgets_the_normal_force_of_a_couple_that_lies_without_fo
   EXPECT_NEAR(drag.scene.contact.touching.front().delayed.age, age - 1, kRoundOff * age);
 }
 
-TEST(sliding, a_point_that_is_deep_inside_at_once_starts_without_force) {
+TEST(Sliding, APointThatIsDeepInsideAtOnceStartsWithoutForce) {
   // As through a gap that has opened between elements: it has not moved as far as it is deep.
   Drag drag({kPenalty, kInfinite, 1, 0, 1}, 0.1);
   EXPECT_LT(drag.move({0.005, 0, 0}).norm(), 0.11 * area() * kPenalty * 0.1 / drag.scene.contact.body_length[0]);
 }
 
-TEST(sliding, over_an_edge_is_not_pushed_back_by_the_side_that_the_point_comes_in_through) {
+TEST(Sliding, OverAnEdgeIsNotPushedBackByTheSideThatThePointComesInThrough) {
   // The point looks down and comes in through the side x = 0, nearer to it at first than to the face on top.
   constexpr double depth = 0.05, step = 0.005;
   Drag drag({kPenalty, kInfinite, 1, 0, 1}, depth);
@@ -125,7 +125,7 @@ TEST(sliding, over_an_edge_is_not_pushed_back_by_the_side_that_the_point_comes_i
   EXPECT_NEAR(std::hypot(pressed[0], pressed[1]) / full, 0, kSmall);
 }
 
-TEST(sliding, hands_the_history_from_element_to_element) {
+TEST(Sliding, HandsTheHistoryFromElementToElement) {
   // Pressed in to 0.1, lifted to 0.05, then dragged: the force must stay on the unloading curve all the way.
   Drag drag({kPenalty, kInfinite, 2, 0, 1}, 0.1);
   const double h = drag.scene.contact.body_length[0];
@@ -164,7 +164,7 @@ double largest_change_of_force(Drag& drag, double change, double step) {
   return largest;
 }
 
-TEST(sliding, into_an_element_of_another_field_is_a_change_of_field_and_not_of_depth) {
+TEST(Sliding, IntoAnElementOfAnotherFieldIsAChangeOfFieldAndNotOfDepth) {
   constexpr double depth = 0.1, jump = 0.05, step = 0.005, few_percent = 0.05;
   const ContactLaw law{kPenalty, kInfinite, 1, 0, 1};
   Drag rising(law, depth), sinking(law, depth);
@@ -206,12 +206,12 @@ void drag_along_a_border(double swollen) {
   for (int i = 0; i < 256; ++i) ASSERT_NEAR(drag.move({1.0 / 64, 0, 0})[2] / expected, 1, 0.01) << "step " << i;
 }
 
-TEST(sliding, along_the_borders_of_elements_counts_each_point_once) {
+TEST(Sliding, AlongTheBordersOfElementsCountsEachPointOnce) {
   drag_along_a_border(1.0);
   drag_along_a_border(1.0001);
 }
 
-TEST(sliding, forgets_the_history_as_soon_as_the_point_has_left) {
+TEST(Sliding, ForgetsTheHistoryAsSoonAsThePointHasLeft) {
   Drag drag({kPenalty, kInfinite, 3, 0, 1}, 0.1);
   const double pushed = drag.move({0, 0, 0})[2];
   // Half of the last force over 0.11 m is more than the quarter of it over 0.1 m that was held.
@@ -224,7 +224,7 @@ TEST(sliding, forgets_the_history_as_soon_as_the_point_has_left) {
       << "loads along the penalty again";
 }
 
-TEST(sliding, with_friction_drags_with_mu_times_the_normal_force_and_books_the_slip) {
+TEST(Sliding, WithFrictionDragsWithMuTimesTheNormalForceAndBooksTheSlip) {
   constexpr double mu = 0.3, depth = 0.1;
   Drag drag({kPenalty, kInfinite, 1, mu, 1}, depth);
   const double h = drag.scene.contact.body_length[0];
@@ -241,7 +241,7 @@ TEST(sliding, with_friction_drags_with_mu_times_the_normal_force_and_books_the_s
   EXPECT_NEAR(drag.scene.work.friction_dissipated.value(), mu * normal * (path - spring), 1e-9 * normal * path);
 }
 
-TEST(sliding, that_ends_while_it_sticks_books_what_the_spring_held_and_what_it_did_on_the_last_way) {
+TEST(Sliding, ThatEndsWhileItSticksBooksWhatTheSpringHeldAndWhatItDidOnTheLastWay) {
   constexpr double mu = 0.3, depth = 0.1, spring = 0.02, last = 0.004;
   Drag drag({kPenalty, kInfinite, 1, mu, 1}, depth);
   const double stiffness = area() * kPenalty / drag.scene.contact.body_length[0];

@@ -9,7 +9,7 @@
 namespace breccia::active_joints_test {
 namespace {
 
-TEST(ActiveJoints, keep_their_order_and_contents_while_others_come_and_go) {
+TEST(ActiveJoints, KeepTheirOrderAndContentsWhileOthersComeAndGo) {
   std::mt19937 random(3);
   ActiveJoints list;
   std::map<GlobalId, double> expected;  // id -> area, by which a joint is known again

@@ -38,7 +38,7 @@ PointDriver opened(const JointLawParams& law, double degrees, int steps) {
   return point;
 }
 
-TEST(JointEnergy, whole_curve_of_the_default_law_takes_the_fracture_energy_at_every_angle_and_penalty) {
+TEST(JointEnergy, WholeCurveOfTheDefaultLawTakesTheFractureEnergyAtEveryAngleAndPenalty) {
   for (const double factor : {1.0, 10.0, 50.0, 100.0}) {
     JointLawParams law = example_law();
     law.stiffness *= factor;
@@ -51,7 +51,7 @@ TEST(JointEnergy, whole_curve_of_the_default_law_takes_the_fracture_energy_at_ev
   }
 }
 
-TEST(JointEnergy, shares_of_both_modes_add_up_to_one_for_strengths_and_energies_apart) {
+TEST(JointEnergy, SharesOfBothModesAddUpToOneForStrengthsAndEnergiesApart) {
   for (const double factor : {1.0, 10.0, 50.0, 100.0}) {
     for (const SofteningShape shape : {SofteningShape::z_curve, SofteningShape::linear, SofteningShape::exponential}) {
       JointLawParams law = example_law();
@@ -71,7 +71,7 @@ TEST(JointEnergy, shares_of_both_modes_add_up_to_one_for_strengths_and_energies_
   }
 }
 
-TEST(JointEnergy, default_law_peaks_at_the_strength_in_one_mode_and_on_the_ellipse_in_both) {
+TEST(JointEnergy, DefaultLawPeaksAtTheStrengthInOneModeAndOnTheEllipseInBoth) {
   const JointLawParams law = prepared(example_law());
   constexpr double kPeak = 5e-4, kForce = 866.025, kBoth = 612.37;  // N
   EXPECT_NEAR(opened(law, 0, 40000).peak_normal * kArea / kForce, 1.0, kPeak);
@@ -81,7 +81,7 @@ TEST(JointEnergy, default_law_peaks_at_the_strength_in_one_mode_and_on_the_ellip
   EXPECT_NEAR(both.peak_shear * kArea / kBoth, 1.0, kPeak);
 }
 
-TEST(JointEnergy, published_law_peaks_at_the_strength_in_both_modes_at_once) {
+TEST(JointEnergy, PublishedLawPeaksAtTheStrengthInBothModesAtOnce) {
   constexpr double kPeak = 5e-4, kForce = 866.025;  // N
   for (const JointRise rise : {JointRise::linear, JointRise::parabolic}) {
     const JointLawParams law = test::reference_law(rise);
@@ -93,7 +93,7 @@ TEST(JointEnergy, published_law_peaks_at_the_strength_in_both_modes_at_once) {
   }
 }
 
-TEST(JointEnergy, softening_branch_of_the_published_law_is_15_5467_um_wide_and_takes_the_fracture_energy) {
+TEST(JointEnergy, SofteningBranchOfThePublishedLawIs155467UmWideAndTakesTheFractureEnergy) {
   for (const JointRise rise : {JointRise::linear, JointRise::parabolic}) {
     const JointLawParams law = test::reference_law(rise);
     for (const double angle : {0.0, 90.0}) {
@@ -109,7 +109,7 @@ TEST(JointEnergy, softening_branch_of_the_published_law_is_15_5467_um_wide_and_t
   }
 }
 
-TEST(JointEnergy, published_law_takes_what_its_closed_form_says_in_all) {
+TEST(JointEnergy, PublishedLawTakesWhatItsClosedFormSaysInAll) {
   // Rise: f^2/(2k) linear, 4 f^2/(3k) parabolic, on top of the softening branch.
   const double unit = test::kStrength * test::kStrength / example_law().stiffness;
   EXPECT_NEAR(opened(test::reference_law(JointRise::linear), 0, 40000).dissipated(), kEnergy + unit / 2,
@@ -118,7 +118,7 @@ TEST(JointEnergy, published_law_takes_what_its_closed_form_says_in_all) {
               kEnergyTolerance * kEnergy);
 }
 
-TEST(JointEnergy, dissipation_is_never_negative_along_a_path_that_damages) {
+TEST(JointEnergy, DissipationIsNeverNegativeAlongAPathThatDamages) {
   for (const JointLawParams& law :
        {prepared(example_law()), test::reference_law(JointRise::linear), test::reference_law(JointRise::parabolic)}) {
     for (const double angle : kAngles) {
@@ -139,7 +139,7 @@ Vec3 wild(const JointLawParams& law, double t) {
   return size * std::sqrt(t) * Vec3(std::sin(29 * t), std::cos(23 * t) * std::sin(11 * t), 0.3 + std::cos(17 * t));
 }
 
-TEST(JointEnergy, what_the_law_dissipates_tends_to_the_work_less_what_is_stored_as_steps_shrink) {
+TEST(JointEnergy, WhatTheLawDissipatesTendsToTheWorkLessWhatIsStoredAsStepsShrink) {
   JointLawParams mohr = example_law();
   mohr.friction = 0.7;
   JointLawParams mohr_peaks = mohr;
@@ -157,7 +157,7 @@ TEST(JointEnergy, what_the_law_dissipates_tends_to_the_work_less_what_is_stored_
   }
 }
 
-TEST(JointEnergy, what_a_path_that_turns_dissipates_is_the_work_to_second_order_in_the_step_for_strengths_apart) {
+TEST(JointEnergy, WhatAPathThatTurnsDissipatesIsTheWorkToSecondOrderInTheStepForStrengthsApart) {
   for (const double friction : {0.0, 0.7}) {
     JointLawParams law = example_law();
     law.stiffness *= 30;
@@ -195,7 +195,7 @@ Vec3 random_step(const JointLawParams& law, const Vec3& from, std::mt19937& rand
   }
 }
 
-TEST(JointEnergy, no_dissipated_term_ever_decreases_whatever_the_history) {
+TEST(JointEnergy, NoDissipatedTermEverDecreasesWhateverTheHistory) {
   std::mt19937 random(23);
   for (int i = 0; i < 240; ++i) {
     JointLawParams law = example_law();
@@ -224,7 +224,7 @@ TEST(JointEnergy, no_dissipated_term_ever_decreases_whatever_the_history) {
   }
 }
 
-TEST(JointEnergy, viscosity_takes_nothing_that_matters_of_a_slow_opening_and_acts_on_damaged_points_alone) {
+TEST(JointEnergy, ViscosityTakesNothingThatMattersOfASlowOpeningAndActsOnDamagedPointsAlone) {
   JointLawParams law = example_law();
   law.viscosity = kJointViscosity;
   law = prepared(law);
@@ -238,7 +238,7 @@ TEST(JointEnergy, viscosity_takes_nothing_that_matters_of_a_slow_opening_and_act
   EXPECT_LT(point.viscous, 1e-3 * kEnergy);
 }
 
-TEST(JointEnergy, opening_within_a_step_gives_no_more_than_was_stored_however_long_the_step) {
+TEST(JointEnergy, OpeningWithinAStepGivesNoMoreThanWasStoredHoweverLongTheStep) {
   constexpr double kViscous = 1e-6;
   std::mt19937 random(3);
   std::uniform_real_distribution<double> part(0, 1);
@@ -259,7 +259,7 @@ TEST(JointEnergy, opening_within_a_step_gives_no_more_than_was_stored_however_lo
   }
 }
 
-TEST(JointEnergy, opening_from_pressure_within_a_step_takes_what_the_damage_takes_also_where_it_is_the_first) {
+TEST(JointEnergy, OpeningFromPressureWithinAStepTakesWhatTheDamageTakesAlsoWhereItIsTheFirst) {
   constexpr double kRoundOff = 1e-9;
   std::mt19937 random(5);
   std::uniform_real_distribution<double> part(0, 1);
@@ -281,7 +281,7 @@ TEST(JointEnergy, opening_from_pressure_within_a_step_takes_what_the_damage_take
   }
 }
 
-TEST(JointEnergy, opening_from_pressure_within_a_step_takes_what_the_damage_takes_on_the_parabolic_rise_too) {
+TEST(JointEnergy, OpeningFromPressureWithinAStepTakesWhatTheDamageTakesOnTheParabolicRiseToo) {
   constexpr double kRoundOff = 1e-9;
   std::mt19937 random(5);
   std::uniform_real_distribution<double> part(0, 1);
@@ -305,7 +305,7 @@ TEST(JointEnergy, opening_from_pressure_within_a_step_takes_what_the_damage_take
   }
 }
 
-TEST(JointEnergy, a_point_that_has_gained_and_stands_still_is_left_alone) {
+TEST(JointEnergy, APointThatHasGainedAndStandsStillIsLeftAlone) {
   JointLawParams law = example_law();
   law.viscosity = kJointViscosity;
   law = prepared(law);
@@ -347,7 +347,7 @@ struct Chatter {
   }
 };
 
-TEST(JointEnergy, chatter_between_open_and_closed_gains_none_in_100000_steps_at_the_default_share_of_the_stable_step) {
+TEST(JointEnergy, ChatterBetweenOpenAndClosedGainsNoneIn100000StepsAtTheDefaultShareOfTheStableStep) {
   JointLawParams law = example_law();
   constexpr double kOnTheWay = 0.5;  // 2 k D^2 / 8 of D at most, of k D^2 / 2.56, for a step or two
   law.viscosity = kJointViscosity;
@@ -397,7 +397,7 @@ JointLawParams random_law(int i) {
   return prepared(law);
 }
 
-TEST(JointEnergy, no_closed_loop_creates_energy) {
+TEST(JointEnergy, NoClosedLoopCreatesEnergy) {
   std::mt19937 random(7);
   int damaged = 0, rubbed = 0;
   for (int i = 0; i < 200; ++i) {

@@ -54,7 +54,7 @@ struct Mover {
   [[nodiscard]] double unbooked() const { return work.done - pair.dissipated() - pair.stored(); }
 };
 
-TEST(JointFailure, in_tension_releases_the_joint_at_once_without_force_or_energy) {
+TEST(JointFailure, InTensionReleasesTheJointAtOnceWithoutForceOrEnergy) {
   JointPair pair(rough());
   Mover mover{pair};
   int failed = 0, released = 0;
@@ -75,7 +75,7 @@ TEST(JointFailure, in_tension_releases_the_joint_at_once_without_force_or_energy
   EXPECT_NEAR(mover.unbooked(), 0.0, kLastStep * kEnergy * kArea);
 }
 
-TEST(JointFailure, under_pressure_leaves_a_frictional_interface_until_it_opens) {
+TEST(JointFailure, UnderPressureLeavesAFrictionalInterfaceUntilItOpens) {
   JointPair pair(rough());
   Mover mover{pair};
   const double pressure = 4e6, closed = -pressure / pair.laws[0].stiffness;
@@ -96,7 +96,7 @@ TEST(JointFailure, under_pressure_leaves_a_frictional_interface_until_it_opens) 
   EXPECT_LT(mover.largest_jump, 2 * (1 + kFriction) * pair.laws[0].stiffness * kArea);
 }
 
-TEST(JointFailure, is_not_followed_by_release_while_one_corner_is_closed) {
+TEST(JointFailure, IsNotFollowedByReleaseWhileOneCornerIsClosed) {
   JointPair pair(rough());
   Mover mover{pair};
   const double closed = -1e6 / pair.laws[0].stiffness;
@@ -124,7 +124,7 @@ TEST(JointFailure, is_not_followed_by_release_while_one_corner_is_closed) {
   EXPECT_EQ(pair.stored(), 0.0);
 }
 
-TEST(JointFailure, of_a_mid_edge_joint_waits_for_the_corners_to_open) {
+TEST(JointFailure, OfAMidEdgeJointWaitsForTheCornersToOpen) {
   JointLawParams law = example_law();
   law.points = JointPoints::mid_edge;
   JointPair pair(prepared(law));
@@ -148,7 +148,7 @@ void hinge(JointPair& pair, double opening) {
   store_node(pair.position.data(), node, load_node(pair.local.reference.data(), node) + Vec3(opening, 0, 0));
 }
 
-TEST(JointFailure, waits_for_as_many_points_as_asked_and_books_what_the_others_held) {
+TEST(JointFailure, WaitsForAsManyPointsAsAskedAndBooksWhatTheOthersHeld) {
   for (const int points_to_fail : {1, 2, 3}) {
     JointPair pair(rough(points_to_fail));
     const double open = 0.5 * pair.laws[0].onset_normal;
@@ -175,7 +175,7 @@ TEST(JointFailure, waits_for_as_many_points_as_asked_and_books_what_the_others_h
 }
 
 /// A joint that hinges about the edge opposite to corner 0, which stays pressed together.
-TEST(JointFailure, of_a_joint_that_hinges_hands_it_over_bit_by_bit_whatever_its_closed_points_carry) {
+TEST(JointFailure, OfAJointThatHingesHandsItOverBitByBitWhateverItsClosedPointsCarry) {
   for (const JointPoints points : {JointPoints::nodal, JointPoints::mid_edge}) {
     JointLawParams law = rough();
     law.points = points;
@@ -219,7 +219,7 @@ void fold(JointPair& pair, double angle) {
   }
 }
 
-TEST(JointFailure, of_a_joint_that_folds_up_comes_before_its_faces_lie_back_to_back_however_fast) {
+TEST(JointFailure, OfAJointThatFoldsUpComesBeforeItsFacesLieBackToBackHoweverFast) {
   constexpr int kSteps = 40;  // fewer than those of a handover
   for (const JointPoints points : {JointPoints::nodal, JointPoints::mid_edge}) {
     JointLawParams law = rough();
@@ -246,7 +246,7 @@ TEST(JointFailure, of_a_joint_that_folds_up_comes_before_its_faces_lie_back_to_b
   }
 }
 
-TEST(JointFailure, never_comes_to_an_unbreakable_joint_and_its_forces_do_not_know_its_mid_surface) {
+TEST(JointFailure, NeverComesToAnUnbreakableJointAndItsForcesDoNotKnowItsMidSurface) {
   JointLawParams law = example_law();
   law.tensile_strength = law.cohesion = std::numeric_limits<double>::infinity();
   for (const JointPoints points : {JointPoints::nodal, JointPoints::mid_edge}) {
@@ -265,7 +265,7 @@ TEST(JointFailure, never_comes_to_an_unbreakable_joint_and_its_forces_do_not_kno
   }
 }
 
-TEST(JointFailure, is_remembered_with_the_time_of_its_evaluation_until_the_joint_is_released) {
+TEST(JointFailure, IsRememberedWithTheTimeOfItsEvaluationUntilTheJointIsReleased) {
   JointPair pair(rough());
   const double closed = -4e6 / pair.laws[0].stiffness;
   pair.time = 0.5;
@@ -287,7 +287,7 @@ TEST(JointFailure, is_remembered_with_the_time_of_its_evaluation_until_the_joint
   EXPECT_EQ(pair.work.released[0].time_of_failure, 1.25);
 }
 
-TEST(JointFailure, that_opens_at_once_is_released_with_its_time) {
+TEST(JointFailure, ThatOpensAtOnceIsReleasedWithItsTime) {
   JointPair pair(rough());
   pair.time = 0.75;
   pair.open(Vec3(20e-6, 0, 0));
@@ -296,7 +296,7 @@ TEST(JointFailure, that_opens_at_once_is_released_with_its_time) {
   EXPECT_EQ(pair.work.released[0].time_of_failure, 0.75);
 }
 
-TEST(JointFailure, by_hand_books_what_the_joint_held) {
+TEST(JointFailure, ByHandBooksWhatTheJointHeld) {
   JointPair pair(rough());
   Mover mover{pair};
   mover.go(Vec3(0.7, 0.3, 0) * pair.laws[0].onset_normal, 10);
@@ -312,7 +312,7 @@ TEST(JointFailure, by_hand_books_what_the_joint_held) {
   EXPECT_NEAR(pair.dissipated(), held, 2e-3 * held);  // and half a step's work of the force that goes
 }
 
-TEST(JointFailure, mode_is_mixed_when_each_mode_took_more_than_a_quarter) {
+TEST(JointFailure, ModeIsMixedWhenEachModeTookMoreThanAQuarter) {
   const auto mode_at = [](double normal, double shear) {
     JointPair pair(prepared(example_law()));
     for (int i = 1; i <= 4000; ++i) {
@@ -330,7 +330,7 @@ TEST(JointFailure, mode_is_mixed_when_each_mode_took_more_than_a_quarter) {
   EXPECT_EQ(mode_at(std::sqrt(0.2), std::sqrt(0.8)), FailureMode::mode_2);
 }
 
-TEST(JointFailure, an_intact_joint_has_no_mode_opening_or_slip) {
+TEST(JointFailure, AnIntactJointHasNoModeOpeningOrSlip) {
   const ActiveJoint joint;
   EXPECT_EQ(joint.mode(), FailureMode::none);
   EXPECT_EQ(joint.damage(), 0.0);
@@ -338,7 +338,7 @@ TEST(JointFailure, an_intact_joint_has_no_mode_opening_or_slip) {
   EXPECT_EQ(joint.slip(), 0.0);
 }
 
-TEST(JointFailure, opening_and_slip_are_means_over_the_points) {
+TEST(JointFailure, OpeningAndSlipAreMeansOverThePoints) {
   JointPair pair(prepared(example_law()));
   pair.open(Vec3(2e-6, 3e-6, 4e-6));
   pair.evaluate();
@@ -349,7 +349,7 @@ TEST(JointFailure, opening_and_slip_are_means_over_the_points) {
   EXPECT_NEAR(pair.joints[0].opening(), (5e-6 + 2e-6 + 2e-6) / 3, 1e-9);  // the normal tilts by opening/edge
 }
 
-TEST(JointFailure, takes_only_the_released_joints_off_the_list_and_keeps_the_order) {
+TEST(JointFailure, TakesOnlyTheReleasedJointsOffTheListAndKeepsTheOrder) {
   JointPair pair(rough());
   std::vector<ActiveJoint> list;
   for (GlobalId id = 0; id < 6; ++id) {
@@ -401,7 +401,7 @@ void expect_gradient(JointPair pair, const char* what) {
   }
 }
 
-TEST(JointFailure, a_closed_joint_that_has_slid_far_pushes_with_the_gradient_of_its_energy) {
+TEST(JointFailure, AClosedJointThatHasSlidFarPushesWithTheGradientOfItsEnergy) {
   JointPair pair(prepared(example_law()));
   pair.open({-1e-6, 4e-3, 1e-3});  // a fifth of the edge: far beyond failure in shear, closed
   pair.evaluate();
@@ -412,7 +412,7 @@ TEST(JointFailure, a_closed_joint_that_has_slid_far_pushes_with_the_gradient_of_
   expect_gradient(pair, "mixed_mode");
 }
 
-TEST(JointFailure, a_damaged_joint_pulls_with_the_gradient_of_its_energy_also_where_it_has_slid_and_opened_far) {
+TEST(JointFailure, ADamagedJointPullsWithTheGradientOfItsEnergyAlsoWhereItHasSlidAndOpenedFar) {
   for (const JointPoints points : {JointPoints::nodal, JointPoints::mid_edge}) {
     for (const auto& [kind, rise] :
          {std::pair(JointLaw::mixed_mode, JointRise::linear), std::pair(JointLaw::independent_peaks, JointRise::linear),

@@ -41,7 +41,7 @@ Pulled pull(JointPair& pair, const Vec3& direction, double step) {
   return p;
 }
 
-TEST(JointForces, reach_866_N_in_each_mode_and_the_fracture_energy_of_the_face) {
+TEST(JointForces, Reach866NInEachModeAndTheFractureEnergyOfTheFace) {
   for (const JointPoints points : {JointPoints::nodal, JointPoints::mid_edge}) {
     JointLawParams law = example_law();
     law.points = points;
@@ -57,14 +57,14 @@ TEST(JointForces, reach_866_N_in_each_mode_and_the_fracture_energy_of_the_face) 
   }
 }
 
-TEST(JointForces, of_the_published_law_reach_866_N_in_both_modes_at_once) {
+TEST(JointForces, OfThePublishedLawReach866NInBothModesAtOnce) {
   JointPair pair(test::reference_law(JointRise::parabolic));
   const Pulled p = pull(pair, Vec3(1, 1, 0).normalized(), 2e-9);
   EXPECT_NEAR(p.peak_x / 866.025, 1.0, kPeak);
   EXPECT_NEAR(p.peak_y / 866.025, 1.0, kPeak);
 }
 
-TEST(JointForces, in_the_elastic_range_are_stiffness_times_opening_to_the_last_bit) {
+TEST(JointForces, InTheElasticRangeAreStiffnessTimesOpeningToTheLastBit) {
   const JointLawParams law = prepared(example_law());
   for (int turn = 0; turn < 81; ++turn) {
     JointPair pair(law, Discretisation::own_nodes, turn / 9, turn % 9);
@@ -84,7 +84,7 @@ TEST(JointForces, in_the_elastic_range_are_stiffness_times_opening_to_the_last_b
   }
 }
 
-TEST(JointForces, leave_a_joint_calm_only_without_damage_and_within_half_its_elastic_range) {
+TEST(JointForces, LeaveAJointCalmOnlyWithoutDamageAndWithinHalfItsElasticRange) {
   const JointLawParams law = prepared(example_law());
   JointPair pair(law);
   const auto calm_at = [&](double opening) {
@@ -101,7 +101,7 @@ TEST(JointForces, leave_a_joint_calm_only_without_damage_and_within_half_its_ela
   EXPECT_FALSE(calm_at(0.1 * law.onset_normal));
 }
 
-TEST(JointForces, of_a_crossing_joint_are_the_same_bits_from_both_sides_and_from_the_active_list) {
+TEST(JointForces, OfACrossingJointAreTheSameBitsFromBothSidesAndFromTheActiveList) {
   JointLawParams law = example_law();
   law.friction = 0.6;
   std::set<int> codes;
@@ -131,7 +131,7 @@ TEST(JointForces, of_a_crossing_joint_are_the_same_bits_from_both_sides_and_from
   EXPECT_GE(codes.size(), 6U);
 }
 
-TEST(JointForces, conserve_linear_momentum_and_where_open_angular_momentum) {
+TEST(JointForces, ConserveLinearMomentumAndWhereOpenAngularMomentum) {
   JointLawParams law = example_law();
   law.friction = 0.6;
   law.cohesion *= 2;
@@ -166,7 +166,7 @@ TEST(JointForces, conserve_linear_momentum_and_where_open_angular_momentum) {
   }
 }
 
-TEST(JointForces, of_mid_edge_points_go_to_the_two_corners_of_each_edge) {
+TEST(JointForces, OfMidEdgePointsGoToTheTwoCornersOfEachEdge) {
   JointLawParams law = example_law();
   law.points = JointPoints::mid_edge;
   JointPair pair(prepared(law));
@@ -182,7 +182,7 @@ TEST(JointForces, of_mid_edge_points_go_to_the_two_corners_of_each_edge) {
   EXPECT_NEAR(pair.force(true, 2)[0] / (whole / 4), 1.0, 1e-6);
 }
 
-TEST(JointForces, turn_with_the_body_and_take_the_same_energy) {
+TEST(JointForces, TurnWithTheBodyAndTakeTheSameEnergy) {
   JointLawParams law = example_law();
   law.friction = 0.6;
   law = prepared(law);
@@ -212,7 +212,7 @@ TEST(JointForces, turn_with_the_body_and_take_the_same_energy) {
   EXPECT_TRUE(still.joints.empty());
 }
 
-TEST(JointForces, act_on_shared_nodes_as_well) {
+TEST(JointForces, ActOnSharedNodesAsWell) {
   const JointLawParams law = prepared(example_law());
   // One node for both sides: no opening, no force.
   JointPair shared(law, Discretisation::shared_nodes);
@@ -221,7 +221,7 @@ TEST(JointForces, act_on_shared_nodes_as_well) {
   EXPECT_EQ(shared.stored(), 0.0);
 }
 
-TEST(JointForces, come_through_a_flattened_joint_as_numbers) {
+TEST(JointForces, ComeThroughAFlattenedJointAsNumbers) {
   JointLawParams law = example_law();
   law.friction = 0.5;
   JointPair pair(prepared(law));
@@ -251,7 +251,7 @@ double crossing_error(const JointLawParams& law, double before, double after) {
   return elastic + crossing - pair.dissipated() - pair.stored();
 }
 
-TEST(JointForces, crossing_into_damage_keeps_the_budget_to_second_order_in_the_step) {
+TEST(JointForces, CrossingIntoDamageKeepsTheBudgetToSecondOrderInTheStep) {
   JointLawParams law = example_law();
   law.softening.shape = SofteningShape::linear;  // leaves the peak with a kink: the hard case
   law = prepared(law);
@@ -268,7 +268,7 @@ TEST(JointForces, crossing_into_damage_keeps_the_budget_to_second_order_in_the_s
   EXPECT_LT(coarse, 0.005 * kEnergy * kArea);
 }
 
-TEST(JointForces, crossing_joint_starts_with_the_history_that_the_active_list_would_have_given_it) {
+TEST(JointForces, CrossingJointStartsWithTheHistoryThatTheActiveListWouldHaveGivenIt) {
   const JointLawParams law = prepared(example_law());
   JointPair listed(law), crossing(law);
   for (JointPair* pair : {&listed, &crossing}) pair->open(Vec3(1.5, 0.4, 0) * law.onset_normal);

@@ -28,7 +28,7 @@ JointLawParams mohr_coulomb(JointLaw kind, double factor = 10) {
 
 const JointLaw kLaws[]{JointLaw::mixed_mode, JointLaw::independent_peaks};
 
-TEST(JointFriction, shear_under_pressure_peaks_at_mohr_coulomb_and_ends_at_coulomb) {
+TEST(JointFriction, ShearUnderPressurePeaksAtMohrCoulombAndEndsAtCoulomb) {
   for (const JointLaw kind : kLaws) {
     for (const double factor : {1.0, 10.0, 100.0}) {
       const JointLawParams law = mohr_coulomb(kind, factor);
@@ -48,7 +48,7 @@ TEST(JointFriction, shear_under_pressure_peaks_at_mohr_coulomb_and_ends_at_coulo
   }
 }
 
-TEST(JointFriction, work_under_pressure_is_fracture_energy_plus_friction_times_slip_plus_the_spring) {
+TEST(JointFriction, WorkUnderPressureIsFractureEnergyPlusFrictionTimesSlipPlusTheSpring) {
   for (const JointLaw kind : kLaws) {
     for (const double factor : {1.0, 10.0, 100.0}) {
       const JointLawParams law = mohr_coulomb(kind, factor);
@@ -69,7 +69,7 @@ TEST(JointFriction, work_under_pressure_is_fracture_energy_plus_friction_times_s
   }
 }
 
-TEST(JointFriction, undamaged_joint_has_none) {
+TEST(JointFriction, UndamagedJointHasNone) {
   const JointLawParams law = mohr_coulomb(JointLaw::mixed_mode);
   PointDriver point{law};
   point.move_to(opening_of(axes(), -1e-7, 0), 5);
@@ -79,7 +79,7 @@ TEST(JointFriction, undamaged_joint_has_none) {
   EXPECT_NEAR(point.traction[0], 0.0, kRoundOff * law.cohesion);
 }
 
-TEST(JointFriction, of_the_step_that_starts_the_damage_is_that_of_the_share_that_is_lost) {
+TEST(JointFriction, OfTheStepThatStartsTheDamageIsThatOfTheShareThatIsLost) {
   // The slip that the first damage finds was not slid: it only parts what is lost.
   const JointLawParams law = mohr_coulomb(JointLaw::mixed_mode);
   PointDriver point{law};
@@ -106,7 +106,7 @@ PointDriver broken(const JointLawParams& law, double pressure) {
   return point;
 }
 
-TEST(JointFriction, sticks_when_sliding_turns_round_and_slides_back_at_coulomb) {
+TEST(JointFriction, SticksWhenSlidingTurnsRoundAndSlidesBackAtCoulomb) {
   const JointLawParams law = mohr_coulomb(JointLaw::mixed_mode);
   const double pressure = 5e6, limit = kFriction * pressure, elastic = limit / law.stiffness;
   PointDriver point = broken(law, pressure);
@@ -121,7 +121,7 @@ TEST(JointFriction, sticks_when_sliding_turns_round_and_slides_back_at_coulomb) 
   EXPECT_NEAR(point.friction - before, limit * elastic, 1e-9 * limit * elastic);
 }
 
-TEST(JointFriction, traction_has_no_jump_through_failure_sliding_and_parting) {
+TEST(JointFriction, TractionHasNoJumpThroughFailureSlidingAndParting) {
   for (const JointLaw kind : kLaws) {
     const JointLawParams law = mohr_coulomb(kind);
     PointDriver point{law};
@@ -149,7 +149,7 @@ TEST(JointFriction, traction_has_no_jump_through_failure_sliding_and_parting) {
   }
 }
 
-TEST(JointFriction, spring_that_is_let_go_on_opening_is_dissipated_by_friction) {
+TEST(JointFriction, SpringThatIsLetGoOnOpeningIsDissipatedByFriction) {
   const JointLawParams law = mohr_coulomb(JointLaw::mixed_mode);
   PointDriver point = broken(law, 5e6);
   const double pressed = 0.5 * law.stiffness * point.opening[2] * point.opening[2];
@@ -159,7 +159,7 @@ TEST(JointFriction, spring_that_is_let_go_on_opening_is_dissipated_by_friction) 
   EXPECT_NEAR(point.friction - friction, spring, 1e-3 * spring);
 }
 
-TEST(JointFriction, takes_all_that_a_broken_point_dissipates) {
+TEST(JointFriction, TakesAllThatABrokenPointDissipates) {
   const JointLawParams law = mohr_coulomb(JointLaw::mixed_mode);
   PointDriver point = broken(law, 5e6);
   const double mode_1 = point.mode_1, mode_2 = point.mode_2, before = point.friction;
@@ -175,7 +175,7 @@ TEST(JointFriction, takes_all_that_a_broken_point_dissipates) {
   EXPECT_GT(point.friction, before);
 }
 
-TEST(JointFriction, rigid_rotation_of_the_joint_changes_nothing_but_directions) {
+TEST(JointFriction, RigidRotationOfTheJointChangesNothingButDirections) {
   const JointLawParams law = mohr_coulomb(JointLaw::mixed_mode);
   for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(0.6, 0, 0.8)}) {
     PointDriver point = broken(law, 5e6);

@@ -21,18 +21,18 @@ using testing::HasSubstr;
 
 constexpr double kDigits = 1e-5;  // the printed figures have six digits
 
-TEST(JointLaw, softening_width_is_that_of_the_example_worked_by_hand) {
+TEST(JointLaw, SofteningWidthIsThatOfTheExampleWorkedByHand) {
   EXPECT_NEAR(test::reference_law(JointRise::linear).width_normal / 15.5467e-6, 1.0, kDigits);
   EXPECT_NEAR(test::reference_law(JointRise::parabolic).width_shear / 15.5467e-6, 1.0, kDigits);
   EXPECT_NEAR(prepared(example_law()).width_normal / 10.681e-6, 1.0, 5e-5);  // printed with five digits
 }
 
-TEST(JointLaw, peaks_stand_where_the_rise_puts_them) {
+TEST(JointLaw, PeaksStandWhereTheRisePutsThem) {
   EXPECT_NEAR(test::reference_law(JointRise::linear).onset_normal / 3.759e-6, 1.0, 2e-4);     // h f/p, four digits
   EXPECT_NEAR(test::reference_law(JointRise::parabolic).onset_normal / 7.519e-6, 1.0, 2e-4);  // 2 h f/p
 }
 
-TEST(JointLaw, refuses_an_energy_that_the_elastic_part_alone_holds) {
+TEST(JointLaw, RefusesAnEnergyThatTheElasticPartAloneHolds) {
   const double held = 25e12 / (2 * example_law().stiffness);  // f^2/(2k)
   for (const bool whole : {true, false}) {
     JointLawParams law = example_law();
@@ -48,7 +48,7 @@ TEST(JointLaw, refuses_an_energy_that_the_elastic_part_alone_holds) {
   }
 }
 
-TEST(JointLaw, refuses_numbers_and_combinations_without_meaning) {
+TEST(JointLaw, RefusesNumbersAndCombinationsWithoutMeaning) {
   const auto problem = [](auto change) {
     JointLawParams law = example_law();
     change(law);
@@ -72,7 +72,7 @@ TEST(JointLaw, refuses_numbers_and_combinations_without_meaning) {
               HasSubstr("friction"));
 }
 
-TEST(JointLaw, tells_all_problems_at_once) {
+TEST(JointLaw, TellsAllProblemsAtOnce) {
   JointLawParams law = example_law();
   law.tensile_strength = 0;
   law.points_to_fail = 0;
@@ -80,7 +80,7 @@ TEST(JointLaw, tells_all_problems_at_once) {
   EXPECT_THAT(prepare(law), testing::AllOf(HasSubstr("tensile"), HasSubstr("points_to_fail"), HasSubstr("softening")));
 }
 
-TEST(JointLaw, below_the_screen_limit_is_elastic_in_every_direction_to_the_last_bit) {
+TEST(JointLaw, BelowTheScreenLimitIsElasticInEveryDirectionToTheLastBit) {
   JointLawParams law = example_law();
   law.cohesion = 3 * test::kStrength;
   law.energy_mode_2 = 10 * test::kEnergy;
@@ -100,14 +100,14 @@ TEST(JointLaw, below_the_screen_limit_is_elastic_in_every_direction_to_the_last_
   }
 }
 
-TEST(JointLaw, screen_limit_is_no_smaller_than_the_weakest_direction_needs) {
+TEST(JointLaw, ScreenLimitIsNoSmallerThanTheWeakestDirectionNeeds) {
   const JointLawParams law = prepared(example_law());
   JointPointHistory<double> history;
   (void)evaluate_point(law, axes(), Vec3(0, 0, std::sqrt(law.screen_limit()) * (1 + 1e-6)), history);
   EXPECT_GT(history.damage, 0);
 }
 
-TEST(JointLaw, leaves_laws_to_the_active_list_that_the_sweep_does_not_know) {
+TEST(JointLaw, LeavesLawsToTheActiveListThatTheSweepDoesNotKnow) {
   JointLawParams mid_edge = example_law();
   mid_edge.points = JointPoints::mid_edge;
   EXPECT_EQ(prepared(mid_edge).screen_limit(), 0.0);
@@ -115,7 +115,7 @@ TEST(JointLaw, leaves_laws_to_the_active_list_that_the_sweep_does_not_know) {
   EXPECT_EQ(test::reference_law(JointRise::parabolic).screen_limit(), 0.0);
 }
 
-TEST(JointLaw, without_strength_it_never_breaks) {
+TEST(JointLaw, WithoutStrengthItNeverBreaks) {
   JointLawParams law = example_law();
   law.tensile_strength = law.cohesion = std::numeric_limits<double>::infinity();
   law = prepared(law);
@@ -126,7 +126,7 @@ TEST(JointLaw, without_strength_it_never_breaks) {
   EXPECT_EQ(point.traction, Vec3(law.stiffness * Vec3(0.1, 0.2, 0.3)));
 }
 
-TEST(JointLaw, compression_alone_never_damages) {
+TEST(JointLaw, CompressionAloneNeverDamages) {
   for (const JointLawParams& law :
        {prepared(example_law()), test::reference_law(JointRise::linear), test::reference_law(JointRise::parabolic)}) {
     PointDriver point{law};
@@ -137,14 +137,14 @@ TEST(JointLaw, compression_alone_never_damages) {
   }
 }
 
-TEST(JointLaw, tension_pulls_side_a_towards_b) {
+TEST(JointLaw, TensionPullsSideATowardsB) {
   const JointLawParams law = prepared(example_law());
   PointDriver point{law};
   point.step(Vec3(0, 0, 1e-6));
   EXPECT_GT(point.traction[2], 0);
 }
 
-TEST(JointLaw, unloads_to_the_origin_and_reloads_to_where_it_left) {
+TEST(JointLaw, UnloadsToTheOriginAndReloadsToWhereItLeft) {
   for (const JointLawParams& law :
        {prepared(example_law()), test::reference_law(JointRise::linear), test::reference_law(JointRise::parabolic)}) {
     for (const Vec3& direction : {Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(1, 0, 1)}) {
@@ -166,7 +166,7 @@ TEST(JointLaw, unloads_to_the_origin_and_reloads_to_where_it_left) {
   }
 }
 
-TEST(JointLaw, damage_never_heals_and_tractions_never_pass_the_strengths) {
+TEST(JointLaw, DamageNeverHealsAndTractionsNeverPassTheStrengths) {
   std::mt19937 random(11);
   std::normal_distribution<double> part;
   JointLawParams mohr = example_law();

@@ -86,7 +86,7 @@ std::vector<JointLawParams> laws() {
   return all;
 }
 
-TEST(JointSimd, every_instruction_set_gives_the_same_bits) {
+TEST(JointSimd, EveryInstructionSetGivesTheSameBits) {
   for (const JointLawParams& law : laws()) {
     const std::vector<double> narrow = walk(law, Simd::sse2);
     EXPECT_GT(narrow.size(), 300U * 20U);
@@ -98,7 +98,7 @@ TEST(JointSimd, every_instruction_set_gives_the_same_bits) {
 }
 
 /// One joint on the list against the same joint evaluated alone, by numbers of one lane, at every step anew.
-TEST(JointSimd, a_joint_of_the_list_gets_the_bits_of_one_evaluated_alone) {
+TEST(JointSimd, AJointOfTheListGetsTheBitsOfOneEvaluatedAlone) {
   for (const JointLawParams& law : laws()) {
     JointPair listed(law), alone(law);
     std::mt19937 random(7);

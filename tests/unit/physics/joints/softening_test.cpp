@@ -26,16 +26,16 @@ double area_by_strips(const SofteningCurve& z) {
 
 double slope(const SofteningCurve& z, double d, double h = 1e-6) { return (z(d + h) - z(d - h)) / (2 * h); }
 
-TEST(Softening, z_curve_is_the_published_one) {
+TEST(Softening, ZCurveIsThePublishedOne) {
   const SofteningCurve z(Softening{});
   for (double d = 0; d <= 1; d += 0.01) EXPECT_NEAR(z(d), published(0.63, 1.8, 6, d), kRoundOff) << d;
 }
 
-TEST(Softening, z_curve_has_the_area_0_3863073_and_not_that_of_a_300_strip_sum) {
+TEST(Softening, ZCurveHasTheArea03863073AndNotThatOfA300StripSum) {
   EXPECT_NEAR(SofteningCurve(Softening{}).area(), 0.386307295, 5e-10);  // closed form worked by hand to nine digits
 }
 
-TEST(Softening, z_curve_leaves_the_peak_without_a_kink_and_falls_fastest_at_0_145) {
+TEST(Softening, ZCurveLeavesThePeakWithoutAKinkAndFallsFastestAt0145) {
   const SofteningCurve z(Softening{});
   EXPECT_NEAR((z(1e-6) - z(0)) / 1e-6, 0.0, 1e-4);  // second-order term times the step
   EXPECT_NEAR((z(1) - z(1 - 1e-7)) / 1e-7, -0.616, 1e-3);
@@ -50,7 +50,7 @@ TEST(Softening, z_curve_leaves_the_peak_without_a_kink_and_falls_fastest_at_0_14
   EXPECT_NEAR(where, 0.145, 0.002);
 }
 
-TEST(Softening, areas_are_those_of_the_curves_for_whole_and_broken_exponents) {
+TEST(Softening, AreasAreThoseOfTheCurvesForWholeAndBrokenExponents) {
   for (const Softening& s :
        {Softening{SofteningShape::z_curve, 0.63, 1.8, 6.0, 0}, Softening{SofteningShape::z_curve, 0.63, 1.8, 5.5, 0},
         Softening{SofteningShape::z_curve, 0.63, 1.8, 30.0, 0}, Softening{SofteningShape::z_curve, 1.2, 10.0, 7.3, 0},
@@ -63,13 +63,13 @@ TEST(Softening, areas_are_those_of_the_curves_for_whole_and_broken_exponents) {
   }
 }
 
-TEST(Softening, exponential_area_does_not_jump_where_its_series_takes_over) {
+TEST(Softening, ExponentialAreaDoesNotJumpWhereItsSeriesTakesOver) {
   const auto area = [](double s) { return SofteningCurve(Softening{SofteningShape::exponential, 0, 0, 0, s}).area(); };
   // dA/ds = -1/12 there.
   EXPECT_NEAR(area(0.01 * (1 + 1e-9)) - area(0.01 * (1 - 1e-9)), -0.02e-9 / 12, 1e-12);
 }
 
-TEST(Softening, accepts_curves_that_fall_from_1_to_0) {
+TEST(Softening, AcceptsCurvesThatFallFrom1To0) {
   EXPECT_EQ(softening_problem(Softening{}), "");
   EXPECT_EQ(softening_problem(Softening{SofteningShape::z_curve, 0.4, 0.6, 3.0, 0}),
             "");  // a + b = 1: the exponential's limit
@@ -77,7 +77,7 @@ TEST(Softening, accepts_curves_that_fall_from_1_to_0) {
   EXPECT_EQ(softening_problem(Softening{SofteningShape::exponential, 0, 0, 0, 5.0}), "");
 }
 
-TEST(Softening, refuses_what_is_no_softening_curve) {
+TEST(Softening, RefusesWhatIsNoSofteningCurve) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(softening_problem(Softening{SofteningShape::z_curve, 0.63, 1.8, 0.0, 0}), "");   // does not end at 0
   EXPECT_NE(softening_problem(Softening{SofteningShape::z_curve, 3.0, -1.5, 6.0, 0}), "");   // falls below 0

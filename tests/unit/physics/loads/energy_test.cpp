@@ -44,7 +44,7 @@ class ElasticEnergyOf : public testing::TestWithParam<Discretisation> {};
 INSTANTIATE_TEST_SUITE_P(Discretisations, ElasticEnergyOf,
                          testing::Values(Discretisation::own_nodes, Discretisation::shared_nodes));
 
-TEST_P(ElasticEnergyOf, stretched_elements_is_the_closed_form_and_names_the_densest) {
+TEST_P(ElasticEnergyOf, StretchedElementsIsTheClosedFormAndNamesTheDensest) {
   const std::vector<double> stretch{1.0, 1.5, 0.9, 3.0, 2.0, 1.0, 1.0, 1.0, 1.0, 0.7};  // more than a block
   const Stretched body(GetParam(), stretch);
   const ElasticEnergy energy = body.energy();
@@ -55,7 +55,7 @@ TEST_P(ElasticEnergyOf, stretched_elements_is_the_closed_form_and_names_the_dens
   EXPECT_EQ(body.worst(), 3);
 }
 
-TEST_P(ElasticEnergyOf, stretched_elements_is_densest_where_it_is_and_not_where_one_is_inside_out) {
+TEST_P(ElasticEnergyOf, StretchedElementsIsDensestWhereItIsAndNotWhereOneIsInsideOut) {
   constexpr double kInsideOut = -0.2, kFar = 10.0;
   const Stretched lone(GetParam(), {kInsideOut});
   const Stretched body(GetParam(), {1.0, kInsideOut, 1.0, kFar, kInsideOut});
@@ -67,7 +67,7 @@ class MomentumOf : public testing::TestWithParam<Discretisation> {};
 INSTANTIATE_TEST_SUITE_P(Discretisations, MomentumOf,
                          testing::Values(Discretisation::own_nodes, Discretisation::shared_nodes));
 
-TEST_P(MomentumOf, a_turning_body_is_right_handed_and_moves_with_its_centre) {
+TEST_P(MomentumOf, ATurningBodyIsRightHandedAndMovesWithItsCentre) {
   // A tetrahedron far from the origin: p = m v, L = x_c cross p + sum of m_i r_i cross (omega cross r_i), a quarter of
   // the mass at each corner.
   Model model(test::tetrahedron(), GetParam(), 1000);
@@ -90,7 +90,7 @@ TEST_P(MomentumOf, a_turning_body_is_right_handed_and_moves_with_its_centre) {
   EXPECT_GT(inertia * omega[2], 0.01 * mass) << "the spin alone shows";
 }
 
-TEST(KineticEnergyOf, free_vibrations_moves_by_what_the_kick_says_where_the_step_changes_and_by_nothing_elsewhere) {
+TEST(KineticEnergyOf, FreeVibrationsMovesByWhatTheKickSaysWhereTheStepChangesAndByNothingElsewhere) {
   constexpr double kStiffness = 3000, kRoundOff = 1e-11;
   Model model(test::tetrahedron(1.0, {3, 1, 1}), Discretisation::own_nodes, 1000);
   const std::vector<Index> nodes = model.real_nodes();
@@ -124,7 +124,7 @@ TEST(KineticEnergyOf, free_vibrations_moves_by_what_the_kick_says_where_the_step
   }
 }
 
-TEST(IntactJointEnergyOf, joints_that_one_element_has_opened_is_half_their_stiffness_times_opening_squared) {
+TEST(IntactJointEnergyOf, JointsThatOneElementHasOpenedIsHalfTheirStiffnessTimesOpeningSquared) {
   Model model(test::box({1, 1, 1}), Discretisation::own_nodes, 1000);
   constexpr double kStiffness = 3e8;  // Pa/m
   model.join(kStiffness);

@@ -11,7 +11,7 @@ namespace {
 
 using test::same_plastic_state;
 
-TEST(BulkLaw, remembers_the_fields_of_its_table_and_no_more) {
+TEST(BulkLaw, RemembersTheFieldsOfItsTableAndNoMore) {
   EXPECT_EQ(memory_size(BulkLaw::neo_hookean), 0U);
   EXPECT_EQ(memory_size(BulkLaw::green_st_venant), 0U);
   EXPECT_EQ(memory_size(BulkLaw::drucker_prager), material::kDruckerPragerMemory);
@@ -23,7 +23,7 @@ TEST(BulkLaw, remembers_the_fields_of_its_table_and_no_more) {
   EXPECT_EQ(plastic_work_place(BulkLaw::neo_hookean), -1);
 }
 
-TEST(BulkLaw, evaluated_by_itself_leaves_the_memory_as_it_is) {
+TEST(BulkLaw, EvaluatedByItselfLeavesTheMemoryAsItIs) {
   test::MaterialPoint point(make_drucker_prager(0.5, 0.2, 1e6));
   point.go_to(Vec3(0.999, 1, 1).asDiagonal());
   const test::MaterialPoint before = point;
@@ -36,14 +36,14 @@ TEST(BulkLaw, evaluated_by_itself_leaves_the_memory_as_it_is) {
   EXPECT_FALSE(same_plastic_state(point.memory, before.memory));
 }
 
-TEST(BulkLaw, has_a_memory_when_it_has_fields) {
+TEST(BulkLaw, HasAMemoryWhenItHasFields) {
   for (const BulkLaw law : {BulkLaw::neo_hookean, BulkLaw::green_st_venant, BulkLaw::drucker_prager}) {
     EXPECT_EQ(has_memory(law), memory_size(law) > 0);
     EXPECT_LE(memory_size(law), kLargestMemory);
   }
 }
 
-TEST(MaterialMemory, of_a_model_without_any_is_virgin) {
+TEST(MaterialMemory, OfAModelWithoutAnyIsVirgin) {
   const MaterialMemory none;
   for (std::size_t i = 0; i < material::kDruckerPragerMemory; ++i) EXPECT_EQ(none.of(17)[i], 0.0);
   const std::array<double, 6> numbers{0, 1, 2, 3, 4, 5};

@@ -35,7 +35,7 @@ double strength(double lateral, double cohesion) {
   return lateral * (1 + std::sin(kPhi)) / (1 - std::sin(kPhi)) + 2 * cohesion * std::cos(kPhi) / (1 - std::sin(kPhi));
 }
 
-TEST(DruckerPragerPath, of_uniaxial_and_triaxial_compression_follows_the_strength_of_mohr_and_coulomb) {
+TEST(DruckerPragerPath, OfUniaxialAndTriaxialCompressionFollowsTheStrengthOfMohrAndCoulomb) {
   for (const double lateral : {0.0, 5e6, 40e6}) {
     for (const int steps : {1, 10, 1000}) {
       MaterialPoint point(rock());
@@ -63,7 +63,7 @@ TEST(DruckerPragerPath, of_uniaxial_and_triaxial_compression_follows_the_strengt
   }
 }
 
-TEST(DruckerPragerPath, of_uniaxial_strain_follows_its_two_straight_lines) {
+TEST(DruckerPragerPath, OfUniaxialStrainFollowsItsTwoStraightLines) {
   for (const int steps : {1, 7, 500}) {
     MaterialPoint point(rock());
     const auto& p = point.params.drucker_prager;
@@ -81,7 +81,7 @@ TEST(DruckerPragerPath, of_uniaxial_strain_follows_its_two_straight_lines) {
   }
 }
 
-TEST(DruckerPragerPath, of_hydrostatic_compression_follows_the_cap_and_unloads_elastically) {
+TEST(DruckerPragerPath, OfHydrostaticCompressionFollowsTheCapAndUnloadsElastically) {
   for (const int steps : {1, 20, 400}) {
     MaterialPoint point(rock());
     auto& p = point.params.drucker_prager;
@@ -105,7 +105,7 @@ TEST(DruckerPragerPath, of_hydrostatic_compression_follows_the_cap_and_unloads_e
   }
 }
 
-TEST(DruckerPragerPath, of_hydrostatic_tension_stops_at_the_cut_off) {
+TEST(DruckerPragerPath, OfHydrostaticTensionStopsAtTheCutOff) {
   MaterialPoint point(rock());
   auto& p = point.params.drucker_prager;
   p.tension_cutoff = 2e6;
@@ -118,7 +118,7 @@ TEST(DruckerPragerPath, of_hydrostatic_tension_stops_at_the_cut_off) {
 }
 
 /// Simple shear to large strain: with neither friction nor hardening the axes of stress turn and its size stays.
-TEST(DruckerPragerPath, of_large_simple_shear_keeps_the_strength_of_a_perfect_cone) {
+TEST(DruckerPragerPath, OfLargeSimpleShearKeepsTheStrengthOfAPerfectCone) {
   MaterialPoint point(make_drucker_prager(0, 0, kCohesion));
   const double strength_in_shear = point.params.drucker_prager.cohesion_factor * kCohesion;
   for (int i = 1; i <= 2000; ++i) {

@@ -58,7 +58,7 @@ void expect_solution(const DruckerPragerParams& p, const MeanAndShear& trial, do
   }
 }
 
-TEST(Return, fulfils_every_condition_wherever_the_trial_stress_lies) {
+TEST(Return, FulfilsEveryConditionWhereverTheTrialStressLies) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> mean(-600e6, 300e6), shear(0, 500e6), unit(0, 1);
   for (int i = 0; i < 20000; ++i) {
@@ -72,7 +72,7 @@ TEST(Return, fulfils_every_condition_wherever_the_trial_stress_lies) {
   }
 }
 
-TEST(Return, leaves_what_is_within_the_surface_as_it_is) {
+TEST(Return, LeavesWhatIsWithinTheSurfaceAsItIs) {
   const DruckerPragerParams p = concrete();
   for (const MeanAndShear trial : {MeanAndShear{0, 0}, {3.9e6, 1e6}, {-140e6, 50e6}, {-10e6, 10e6}}) {
     const ReturnedStress r = return_stress(p, kMu, kBulk, trial, 0, 0);
@@ -82,7 +82,7 @@ TEST(Return, leaves_what_is_within_the_surface_as_it_is) {
   }
 }
 
-TEST(Return, meets_every_mechanism_and_both_corners) {
+TEST(Return, MeetsEveryMechanismAndBothCorners) {
   const DruckerPragerParams p = concrete();
   const auto mechanisms = [&](double mean, double shear) {
     const ReturnedStress r = return_stress(p, kMu, kBulk, {mean, shear}, 0, 0);
@@ -98,7 +98,7 @@ TEST(Return, meets_every_mechanism_and_both_corners) {
 }
 
 /// [de Souza Neto 2008, section 8.3.3]: perfect plasticity, no cut-off but the apex, which a pure tension returns to.
-TEST(Return, of_an_apex_ends_in_it) {
+TEST(Return, OfAnApexEndsInIt) {
   const DruckerPragerParams p = make_drucker_prager(30 * kDegree, 30 * kDegree, 10e6);
   const double apex = 10e6 / std::tan(30 * kDegree);
   EXPECT_NEAR(p.tension_cutoff, apex, kConsistency * apex);
@@ -109,7 +109,7 @@ TEST(Return, of_an_apex_ends_in_it) {
   }
 }
 
-TEST(Return, does_not_jump_where_one_case_gives_way_to_another) {
+TEST(Return, DoesNotJumpWhereOneCaseGivesWayToAnother) {
   const DruckerPragerParams p = concrete();
   constexpr double kStep =
       1e3;  // Pa of trial stress; a return is no longer than its trial path, times the cone's slope

@@ -46,7 +46,7 @@ Mat3 walk(std::mt19937& random, const Mat3& f, double size) {
   return (Mat3::Identity() + test::random_matrix(random, size)) * f;
 }
 
-TEST(DruckerPrager, ends_every_step_on_or_within_the_yield_surface) {
+TEST(DruckerPrager, EndsEveryStepOnOrWithinTheYieldSurface) {
   std::mt19937 random(1);
   int flowed = 0;
   for (int path = 0; path < 40; ++path) {
@@ -68,7 +68,7 @@ TEST(DruckerPrager, ends_every_step_on_or_within_the_yield_surface) {
   EXPECT_GT(flowed, 1000);
 }
 
-TEST(DruckerPrager, closes_elastic_loops_to_the_bit) {
+TEST(DruckerPrager, ClosesElasticLoopsToTheBit) {
   std::mt19937 random(2);
   MaterialPoint point(rock());
   Mat3 shift = Mat3::Identity();
@@ -84,7 +84,7 @@ TEST(DruckerPrager, closes_elastic_loops_to_the_bit) {
   EXPECT_EQ(point.piola, start.piola);
 }
 
-TEST(DruckerPrager, turns_its_stress_with_the_element_and_remembers_the_same) {
+TEST(DruckerPrager, TurnsItsStressWithTheElementAndRemembersTheSame) {
   std::mt19937 random(3);
   MaterialPoint still(rock()), turned(rock());
   Mat3 f = Mat3::Identity();
@@ -100,7 +100,7 @@ TEST(DruckerPrager, turns_its_stress_with_the_element_and_remembers_the_same) {
   EXPECT_GT(still.memory.plastic_shear, 0.01);
 }
 
-TEST(DruckerPrager, within_the_surface_is_hookes_law_at_small_strains) {
+TEST(DruckerPrager, WithinTheSurfaceIsHookesLawAtSmallStrains) {
   std::mt19937 random(4);
   const MaterialPoint virgin(rock());
   for (const double size : {1e-5, 1e-6}) {
@@ -116,7 +116,7 @@ TEST(DruckerPrager, within_the_surface_is_hookes_law_at_small_strains) {
 }
 
 /// The work that internal forces do under central differences is stored energy and plastic work, to second order.
-TEST(DruckerPrager, accounts_for_the_work_of_its_stress_to_second_order_in_the_step) {
+TEST(DruckerPrager, AccountsForTheWorkOfItsStressToSecondOrderInTheStep) {
   const auto missing = [](int steps) {
     MaterialPoint point(rock());
     for (int i = 1; i <= steps; ++i) {
@@ -134,7 +134,7 @@ TEST(DruckerPrager, accounts_for_the_work_of_its_stress_to_second_order_in_the_s
   EXPECT_LT(fine, coarse / 8) << "second order would be 1/16, first order 1/4";
 }
 
-TEST(DruckerPrager, is_the_derivative_of_its_energy_while_it_is_elastic_or_crushed) {
+TEST(DruckerPrager, IsTheDerivativeOfItsEnergyWhileItIsElasticOrCrushed) {
   std::mt19937 random(5);
   constexpr double kDifference = 1e-6, kTolerance = 1e-6;
   DruckerPragerParams strong = rock();  // elastic whatever comes
@@ -159,7 +159,7 @@ TEST(DruckerPrager, is_the_derivative_of_its_energy_while_it_is_elastic_or_crush
   }
 }
 
-TEST(DruckerPrager, stays_finite_whatever_the_element_becomes_and_forgets_nothing_over_it) {
+TEST(DruckerPrager, StaysFiniteWhateverTheElementBecomesAndForgetsNothingOverIt) {
   MaterialPoint point(rock());
   point.go_to(Vec3(0.99, 1.0, 1.0).asDiagonal());
   const material::DruckerPragerMemory before = point.memory;
@@ -175,7 +175,7 @@ TEST(DruckerPrager, stays_finite_whatever_the_element_becomes_and_forgets_nothin
   EXPECT_TRUE(same_plastic_state(point.memory, before)) << "as if it had not been crushed";
 }
 
-TEST(DruckerPrager, pushes_a_collapsed_element_back_open) {
+TEST(DruckerPrager, PushesACollapsedElementBackOpen) {
   MaterialPoint point(rock());
   for (double s = 0.9; s > -2.0; s -= 0.01) {  // uniaxial compression through flat to inside out
     point.go_to(Vec3(s, 1, 1).asDiagonal());
@@ -183,7 +183,7 @@ TEST(DruckerPrager, pushes_a_collapsed_element_back_open) {
   }
 }
 
-TEST(DruckerPrager, is_continuous_where_the_continuation_begins) {
+TEST(DruckerPrager, IsContinuousWhereTheContinuationBegins) {
   MaterialPoint point(rock());
   constexpr double kGap = 1e-9;
   for (double s = 1; s > 0.101; s -= 1e-3) point.go_to(Vec3(s, 1, 1).asDiagonal());
@@ -233,7 +233,7 @@ Mat3 random_gradient(std::mt19937& random) {
   }
 }
 
-TEST(DruckerPrager, is_never_stiffer_than_its_bound) {
+TEST(DruckerPrager, IsNeverStifferThanItsBound) {
   std::mt19937 random(6);
   DruckerPragerParams strong = rock();
   strong.cohesion = strong.tension_cutoff = strong.cap_pressure = 1e15;
@@ -259,7 +259,7 @@ TEST(DruckerPrager, is_never_stiffer_than_its_bound) {
   EXPECT_LT(ratios[ratios.size() / 2], 4) << "a bound that is no use";
 }
 
-TEST(DruckerPrager, is_not_stiffer_while_it_flows) {
+TEST(DruckerPrager, IsNotStifferWhileItFlows) {
   std::mt19937 random(7);
   int flowed = 0;
   for (int i = 0; i < 300; ++i) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kRounding = 1e-15;  // relative
 
-TEST(Logarithm, is_that_of_the_library_to_round_off) {
+TEST(Logarithm, IsThatOfTheLibraryToRoundOff) {
   for (double d = -0.99; d < 100; d += 0.0137) {
     EXPECT_NEAR(logarithm_1p(d), std::log1p(d), kRounding * std::abs(std::log1p(d))) << d;
   }
@@ -20,7 +20,7 @@ TEST(Logarithm, is_that_of_the_library_to_round_off) {
   EXPECT_EQ(logarithm_1p(0.0), 0.0);
 }
 
-TEST(Exponential, is_that_of_the_library_to_round_off) {
+TEST(Exponential, IsThatOfTheLibraryToRoundOff) {
   for (double x = -20; x < 20; x += 0.00713) {
     EXPECT_NEAR(exponential_m1(x), std::expm1(x), kRounding * (std::abs(x) < 0.35 ? std::abs(x) : std::exp(x) + 1))
         << x;
@@ -31,7 +31,7 @@ TEST(Exponential, is_that_of_the_library_to_round_off) {
   EXPECT_EQ(exponential_m1(0.0), 0.0);
 }
 
-TEST(Exponential, undoes_the_logarithm) {
+TEST(Exponential, UndoesTheLogarithm) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> any(-0.9, 3.0);
   for (int i = 0; i < 1000; ++i) {

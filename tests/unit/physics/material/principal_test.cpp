@@ -31,7 +31,7 @@ void expect_decomposition(const Symmetric& t) {
   EXPECT_LT((axes * axes.transpose() - Mat3::Identity()).cwiseAbs().maxCoeff(), kRounding) << full(t);
 }
 
-TEST(Principal, values_and_axes_make_the_tensor_again) {
+TEST(Principal, ValuesAndAxesMakeTheTensorAgain) {
   std::mt19937 random(1);
   for (int i = 0; i < 2000; ++i) {
     const double size = std::pow(10.0, i % 20 - 10);
@@ -40,7 +40,7 @@ TEST(Principal, values_and_axes_make_the_tensor_again) {
   }
 }
 
-TEST(Principal, values_that_nearly_or_quite_coincide_are_told_to_round_off) {
+TEST(Principal, ValuesThatNearlyOrQuiteCoincideAreToldToRoundOff) {
   for (const double gap : {0.0, 1e-16, 1e-12, 1e-8, 1e-4}) {
     expect_decomposition({1, 1 + gap, 1, gap, gap, 0.5 * gap});
     expect_decomposition({1, 1, 2, gap, 0, gap});
@@ -48,7 +48,7 @@ TEST(Principal, values_that_nearly_or_quite_coincide_are_told_to_round_off) {
   }
 }
 
-TEST(Principal, values_of_a_diagonal_tensor_are_its_entries) {
+TEST(Principal, ValuesOfADiagonalTensorAreItsEntries) {
   const Principal p = principal_of({0.1, -3.7, 2.2, 0, 0, 0});
   EXPECT_EQ(p.value, (std::array<double, 3>{0.1, -3.7, 2.2}));
   EXPECT_EQ(principal_of({}).value, (std::array<double, 3>{0, 0, 0}));
