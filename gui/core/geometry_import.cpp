@@ -33,8 +33,8 @@ QString case_text(const QString& file, const QStringList& groups, double metres)
   QStringList names;
   for (const QString& group : groups) names << quoted(group);
   const QString all = names.size() == 1 ? names[0] : "[" + names.join(", ") + "]";
-  out += "\n[[material]]                         # values of \"" + material.name +
-         "\" of the library: put in your own\n";
+  out +=
+      "\n[[material]]                         # values of \"" + material.name + "\" of the library: put in your own\n";
   out += "group = " + all + "\n";
   for (const char* key : {"young", "poisson", "density"}) out += QString("%1 = %2\n").arg(key, material.value(key));
   out += "joints = \"breakable\"\n\n[[joint]]\ngroup = " + (names.size() == 1 ? all : quoted("*")) + "\n";
@@ -54,7 +54,17 @@ const std::vector<LengthUnit>& length_units() {
   return units;
 }
 
-QStringList solid_patterns() { return {"*.step", "*.stp", "*.STEP", "*.STP", "*.brep", "*.BREP", "*.stl", "*.STL"}; }
+QStringList geometry_patterns(bool scripts) {
+  QStringList patterns;
+  for (const std::string& ending : geometry_endings()) {
+    const QString pattern = "*" + QString::fromStdString(ending);
+    for (const QString& one : {pattern, pattern.toUpper()}) {
+      const GeometryFile kind = geometry_file(one.toStdString());
+      if (kind != GeometryFile::unknown && (scripts || kind != GeometryFile::script)) patterns << one;
+    }
+  }
+  return patterns;
+}
 
 bool needs_unit(const QString& file) { return states_no_unit(geometry_file(file.toStdString())); }
 
@@ -65,8 +75,8 @@ std::array<double, 3> box_of_answer(const QJsonObject& mesh) {
           upper[2].toDouble() - lower[2].toDouble()};
 }
 
-QString import_solid(const QString& file, const QJsonObject& mesh, double metres, const Places& places,
-                     QString* error) {
+QString import_geometry(const QString& file, const QJsonObject& mesh, double metres, const Places& places,
+                        QString* error) {
   const QFileInfo from(file);
   const QDir projects(places.projects);
   QString folder = projects.filePath(from.completeBaseName());

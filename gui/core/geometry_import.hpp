@@ -8,7 +8,7 @@
 
 #include "core/places.hpp"
 
-/// A case made of a solid from elsewhere: STEP, BREP or STL.
+/// A case made of a solid or a mesh from elsewhere.
 namespace breccia::gui {
 
 /// A unit that the lengths of a file may have.
@@ -18,8 +18,8 @@ struct LengthUnit {
 };
 [[nodiscard]] const std::vector<LengthUnit>& length_units();
 
-/// Patterns of a dialog for files: "*.step", ...
-[[nodiscard]] QStringList solid_patterns();
+/// Patterns of a dialog for files: "*.inp", "*.INP", ... @param scripts  those of gmsh as well, which may need others
+[[nodiscard]] QStringList geometry_patterns(bool scripts);
 
 /// Whether the user has to say what the lengths of this file are.
 [[nodiscard]] bool needs_unit(const QString& file);
@@ -33,7 +33,7 @@ struct LengthUnit {
 /// @param mesh    the answer of `breccia mesh FILE --json`
 /// @param metres  a length of 1 in the file; 1 where the file states its unit
 /// @param error   out: what went wrong; then the result is empty
-[[nodiscard]] QString import_solid(const QString& file, const QJsonObject& mesh, double metres, const Places& places,
-                                   QString* error);
+[[nodiscard]] QString import_geometry(const QString& file, const QJsonObject& mesh, double metres, const Places& places,
+                                      QString* error);
 
 }  // namespace breccia::gui

@@ -7,13 +7,14 @@
 #include "core/geometry_import.hpp"
 #include "widgets/main_window.hpp"
 
-// A case made of a solid from elsewhere.
+// A case made of a solid or a mesh from elsewhere.
 
 namespace breccia::gui {
 
 void MainWindow::import_geometry() {
-  const QString file = QFileDialog::getOpenFileName(this, tr("Import a geometry"), places_.projects,
-                                                    tr("Solids (%1)").arg(solid_patterns().join(' ')));
+  const QString file =
+      QFileDialog::getOpenFileName(this, tr("Import a geometry"), places_.projects,
+                                   tr("Solids and meshes (%1)").arg(geometry_patterns(false).join(' ')));
   if (file.isEmpty() || !may_leave_case()) return;
   imported_ = file;
   busy_->setText(tr("%1 is read and meshed...").arg(QFileInfo(file).fileName()));
@@ -53,7 +54,7 @@ void MainWindow::take_geometry(const QJsonObject& mesh) {
     metres = length_units()[static_cast<std::size_t>(std::max(0, static_cast<int>(choices.indexOf(chosen))))].metres;
   }
   QString error;
-  const QString file = import_solid(imported_, mesh, metres, places_, &error);
+  const QString file = gui::import_geometry(imported_, mesh, metres, places_, &error);
   if (file.isEmpty()) {
     QMessageBox::warning(this, tr("Import a geometry"), error);
     return;

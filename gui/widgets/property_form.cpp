@@ -9,6 +9,7 @@
 #include <QVBoxLayout>
 
 #include "core/case_outline.hpp"
+#include "core/geometry_import.hpp"
 #include "core/value_text.hpp"
 #include "widgets/escape_key.hpp"
 #include "widgets/function_dialog.hpp"
@@ -94,11 +95,10 @@ void PropertyForm::show_section(const QString& path) {
 void PropertyForm::write_heading() {
   if (heading_ == nullptr) return;
   const Key* section = case_::find_key(case_::pattern_of(section_.toStdString()));
-  const QString words = section == nullptr
-                            ? tr("<b>The case</b>")
-                            : "<b>" + words_of(section_, document_.places()).toHtmlEscaped() + "</b>  " +
-                                  QString::fromStdString(case_::header_of(*section)).toHtmlEscaped() + "<br>" +
-                                  text_of(section->help).toHtmlEscaped();
+  const QString words = section == nullptr ? tr("<b>The case</b>")
+                                           : "<b>" + words_of(section_, document_.places()).toHtmlEscaped() + "</b>  " +
+                                                 QString::fromStdString(case_::header_of(*section)).toHtmlEscaped() +
+                                                 "<br>" + text_of(section->help).toHtmlEscaped();
   if (heading_->text() != words) heading_->setText(words);
 }
 
@@ -184,9 +184,11 @@ void PropertyForm::add_browser(const QString& path, const Key& key, QHBoxLayout&
   browse->setToolTip(tr("Choose it among the files of this machine"));
   connect(browse, &QToolButton::clicked, this, [this, path, &key] {
     const QDir folder(document_.folder());
-    const QString name = key.path == "start.from"
-                             ? QFileDialog::getExistingDirectory(this, tr("Run to start from"), folder.path())
-                             : QFileDialog::getOpenFileName(this, tr("Mesh or geometry"), folder.path());
+    const QString name =
+        key.path == "start.from"
+            ? QFileDialog::getExistingDirectory(this, tr("Run to start from"), folder.path())
+            : QFileDialog::getOpenFileName(this, tr("Mesh or geometry"), folder.path(),
+                                           tr("Geometries (%1);;All files (*)").arg(geometry_patterns(true).join(' ')));
     if (name.isEmpty()) return;
     const QString relative = folder.relativeFilePath(name);
     take_over(path, key, relative.startsWith("../..") ? name : relative);

@@ -7,6 +7,20 @@
 namespace breccia {
 namespace {
 
+constexpr std::array<std::pair<const char*, GeometryFile>, 11> kNames{{
+    {".inp", GeometryFile::abaqus},
+    {".unv", GeometryFile::unv},
+    {".bdf", GeometryFile::nastran},
+    {".nas", GeometryFile::nastran},
+    {".mesh", GeometryFile::medit},
+    {".step", GeometryFile::step},
+    {".stp", GeometryFile::step},
+    {".brep", GeometryFile::brep},
+    {".stl", GeometryFile::stl},
+    {".geo", GeometryFile::script},
+    {".msh", GeometryFile::mesh},
+}};
+
 /// Names are taken in small and in large letters only: gmsh, which reads some of them, takes others for a script.
 std::string extension_of(const std::filesystem::path& file) {
   std::string name = file.extension().string();
@@ -20,23 +34,18 @@ std::string extension_of(const std::filesystem::path& file) {
 }  // namespace
 
 GeometryFile geometry_file(const std::filesystem::path& file) {
-  constexpr std::array<std::pair<const char*, GeometryFile>, 11> kNames{{{".inp", GeometryFile::abaqus},
-                                                                         {".unv", GeometryFile::unv},
-                                                                         {".bdf", GeometryFile::nastran},
-                                                                         {".nas", GeometryFile::nastran},
-                                                                         {".mesh", GeometryFile::medit},
-                                                                         {".step", GeometryFile::step},
-                                                                         {".stp", GeometryFile::step},
-                                                                         {".brep", GeometryFile::brep},
-                                                                         {".stl", GeometryFile::stl},
-                                                                         {".geo", GeometryFile::script},
-                                                                         {".msh", GeometryFile::mesh}}};
   const std::string extension = extension_of(file);
   const auto* found =
       std::find_if(kNames.begin(), kNames.end(), [&](const auto& name) { return extension == name.first; });
   if (found == kNames.end()) return GeometryFile::unknown;
   const bool small_only = found->second == GeometryFile::script || found->second == GeometryFile::mesh;
   return small_only && extension != file.extension() ? GeometryFile::unknown : found->second;
+}
+
+std::vector<std::string> geometry_endings() {
+  std::vector<std::string> endings;
+  for (const auto& [ending, kind] : kNames) endings.emplace_back(ending);
+  return endings;
 }
 
 std::string remedy_for(const std::filesystem::path& file) {

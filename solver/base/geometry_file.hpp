@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace breccia {
 
@@ -22,6 +23,9 @@ enum class GeometryFile {
 /// The names that are taken, for messages.
 inline constexpr const char* kGeometryFiles =
     ".geo, .msh of format 2.2 to 4.1, .inp, .unv, .bdf, .mesh, .step, .stp, .brep or .stl";
+
+/// Ends of the names that are taken, each with its point.
+[[nodiscard]] std::vector<std::string> geometry_endings();
 
 /// Names in small or in large letters, as gmsh takes them: of any other it guesses what it is. O(1), throws nothing.
 [[nodiscard]] GeometryFile geometry_file(const std::filesystem::path& file);

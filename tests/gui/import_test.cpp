@@ -69,6 +69,28 @@ TEST(Import, AnStlBecomesACaseInMillimetresWhichTheSolverMeshes) {
   desk.picture("imported");
 }
 
+TEST(Import, AMeshOfAnotherProgramBecomesACaseWithItsGroups) {
+  Desk desk;
+  const QString file = written(desk, "wedge.inp",
+                               "*NODE\n1, 0, 0, 0\n2, 30, 0, 0\n3, 0, 30, 0\n4, 0, 0, 30\n5, 30, 30, 30\n"
+                               "*ELEMENT, TYPE=C3D4, ELSET=wedge\n1, 1, 2, 3, 4\n2, 2, 3, 4, 5\n");
+  QTimer answer;
+  QObject::connect(&answer, &QTimer::timeout, desk.window.get(), [&] {
+    auto* dialog = desk.window->findChild<QInputDialog*>();
+    if (dialog == nullptr) return;
+    answer.stop();
+    QTest::keyClick(dialog, Qt::Key_Return);
+  });
+  desk.click_and_name("import_geometry", file);
+  answer.start(100);
+  ASSERT_TRUE(wait_until([&] { return desk.window->document().is_open(); }, kSolver));
+  const Document& document = desk.window->document();
+  EXPECT_EQ(document.value("mesh.file"), "\"wedge.inp\"");
+  EXPECT_EQ(document.value("mesh.scale"), "0.001");
+  EXPECT_EQ(document.value("material[0].group"), "\"wedge\"");
+  EXPECT_TRUE(wait_until([&] { return desk.window->view().scene().has_data(); }, kSolver));
+}
+
 TEST(Import, AnOpenStlIsRefusedInTheSolversWords) {
   Desk desk;
   const QString file = written(desk, "open.stl", stl_box(5));

@@ -20,7 +20,7 @@ std::string raster(const std::array<int, 3>& boxes, const std::array<int, 3>& ce
 
 std::string advice_on(const std::string& text) {
   const case_::Case input = case_::read_text(text);
-  const Model model = build_bare_model(input);
+  const Model model = build_model(input);
   return test::told_by({"unit_of_lengths", "bodies_without_contact", "fragments_without_contact", "slender_layer",
                         "raster_planes", "slice_without_plane", "small_sphere"},
                        Subject(input, model));

@@ -26,7 +26,7 @@ TEST(Rules, LeadToKeysOfTheCase) {
 }
 
 TEST(Advice, StandsInTheOrderOfTheRules) {
-  const case_::Case input = case_::read_text(case_::minimal, {"material[0].density=1", "time.step=1 s"});
+  const case_::Case input = case_::read_text(case_::minimal, {"material[0].density=1", "time.step=1 ms"});
   const Model model = build_model(input);
   const std::vector<Advice> advice = advise(Subject(input, model));
   std::vector<std::string> names;
