@@ -31,7 +31,8 @@ class RecordedHistory {
   std::vector<bool> whole_;  ///< by column
 };
 
-/// Without rows when the file is not there. A last row that is not whole is left out. Throws PipelineError naming file and line.
+/// Without rows when the file is not there; a last row that is not whole is left out. Throws PipelineError naming file
+/// and line.
 [[nodiscard]] RecordedHistory read_history(const std::filesystem::path& file);
 
 }  // namespace breccia::insitu

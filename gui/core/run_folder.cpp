@@ -54,9 +54,7 @@ bool is_regular_in_run(const QString& path) {
 
 }  // namespace
 
-std::filesystem::path path_in_run(const QString& run_folder, const char* name) {
-  return path_of(run_folder) / name;
-}
+std::filesystem::path path_in_run(const QString& run_folder, const char* name) { return path_of(run_folder) / name; }
 
 RunProgress::RunProgress(const QString& run_folder)
     : file_(path_in_run(run_folder, run_folder::kStatus), run_folder::kStatusTail) {}
@@ -167,9 +165,7 @@ bool is_held(const QString& run_folder) {
   return false;
 }
 
-QByteArray case_text_of(const QString& run_folder) {
-  return content_in_run(run_folder, run_folder::kCaseFile);
-}
+QByteArray case_text_of(const QString& run_folder) { return content_in_run(run_folder, run_folder::kCaseFile); }
 
 bool was_run_with_another(const QString& run_folder, const QByteArray& case_text) {
   const QString sum = case_among(provenance_of(run_folder))["sha256"].toString();

@@ -65,11 +65,11 @@ struct History {
 
 /// What a text of history.csv holds.
 struct HistoryText {
-  History history;                ///< of its whole rows
-  bool is_cut = false;            ///< the last row is still being written, or was cut off; it is left out
-  std::size_t num_left_out = 0;   ///< other rows that are left out
-  std::size_t first_left_out = 0; ///< line of the first of them, counted from 1
-  std::string problem;            ///< with that line
+  History history;                 ///< of its whole rows
+  bool is_cut = false;             ///< the last row is still being written, or was cut off; it is left out
+  std::size_t num_left_out = 0;    ///< other rows that are left out
+  std::size_t first_left_out = 0;  ///< line of the first of them, counted from 1
+  std::string problem;             ///< with that line
 };
 
 [[nodiscard]] inline HistoryText parse_history(std::string_view text) {

@@ -61,21 +61,11 @@ struct StatusLine {
     event.time = number_in(json, "time");
   } else if (json.contains("state")) {
     const auto number = [&](const char* name) { return number_in(json, name); };
-    read.status = Status{text_in(json, "state"),
-                         text_in(json, "stage"),
-                         text_in(json, "message"),
-                         number("step"),
-                         number("steps_total"),
-                         number("time"),
-                         number("end"),
-                         number("share"),
-                         number("wall_s"),
-                         number("eta_s"),
-                         number("energy_residual"),
-                         number("element_steps_per_s"),
-                         number("imbalance"),
-                         number("broken_joints"),
-                         number("fragments")};
+    read.status = Status{text_in(json, "state"), text_in(json, "stage"),    text_in(json, "message"),
+                         number("step"),         number("steps_total"),     number("time"),
+                         number("end"),          number("share"),           number("wall_s"),
+                         number("eta_s"),        number("energy_residual"), number("element_steps_per_s"),
+                         number("imbalance"),    number("broken_joints"),   number("fragments")};
   }
   return read;
 }

@@ -1,7 +1,6 @@
 #include "output/folder/bodies_sink.hpp"
 
 #include "run_folder/csv.hpp"
-#include "run_folder/csv.hpp"
 #include "system/atomic_file.hpp"
 
 namespace breccia {

@@ -164,7 +164,8 @@ std::string ask_run(const fs::path& run_folder, const std::string& command, doub
   const RunFolder folder{run_folder};
   demand_plain_folder(folder);
   std::error_code error;
-  if (!fs::exists(folder.status(), error)) throw no_answer(run_folder, "no run of breccia writes here", "the folder of a run that goes on");
+  if (!fs::exists(folder.status(), error))
+    throw no_answer(run_folder, "no run of breccia writes here", "the folder of a run that goes on");
   run_folder::GrowingLines status(folder.status());
   // What stands there before the request answers none.
   do {

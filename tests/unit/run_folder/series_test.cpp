@@ -11,7 +11,8 @@ using testing::IsEmpty;
 
 TEST(FrameSeries, ListsFramesWithTheirTimes) {
   const Series series = parse_series(
-      R"({"file-series-version": "1.0", "files": [{"name": "e_0.vtkhdf", "time": 0.5}, {"name": "e_1.vtkhdf", "time": 1}]})");
+      R"({"file-series-version": "1.0", "files": [{"name": "e_0.vtkhdf", "time": 0.5},
+      {"name": "e_1.vtkhdf", "time": 1}]})");
   ASSERT_EQ(series.frames.size(), 2U);
   EXPECT_EQ(series.frames[0].name, "e_0.vtkhdf");
   EXPECT_EQ(series.frames[0].time, 0.5);
@@ -29,9 +30,9 @@ TEST(FrameSeries, RefusesFilesOutsideItsFolderAndEntriesThatAreNotWhole) {
 }
 
 TEST(FrameSeries, OfWhatIsNoIndexIsEmpty) {
-  for (const std::string& text : {std::string(), std::string("{\"files\": [{\"name\": \"a\", \"ti"),
-                                  std::string("[1, 2]"), std::string("{\"files\": 3}"), std::string("{}"),
-                                  std::string("\xff\xfe"), std::string(100000, '[')}) {
+  for (const std::string& text :
+       {std::string(), std::string("{\"files\": [{\"name\": \"a\", \"ti"), std::string("[1, 2]"),
+        std::string("{\"files\": 3}"), std::string("{}"), std::string("\xff\xfe"), std::string(100000, '[')}) {
     const Series series = parse_series(text);
     EXPECT_TRUE(series.frames.empty() && series.refused.empty()) << text.substr(0, 40);
   }
