@@ -1,6 +1,7 @@
 #pragma once
 
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -54,13 +55,12 @@ namespace run_folder {
   return value;
 }
 
-/// The step with which a row begins; nullopt: it begins with no whole number.
+/// The step with which a row begins, as an integer or as the double that it is, "1e+06"; nullopt: it begins with none.
 [[nodiscard]] inline std::optional<std::int64_t> step_of_row(std::string_view row) {
-  std::int64_t step = 0;
-  const auto [end, error] = std::from_chars(row.data(), row.data() + row.size(), step);
-  const bool is_whole = end == row.data() + row.size() || *end == ',' || *end == '\r';
-  if (error != std::errc() || !is_whole) return std::nullopt;
-  return step;
+  constexpr double kMost = 9e15;  // doubles count exactly up to 2^53
+  const std::optional<double> step = number_of(row.substr(0, row.find_first_of(",\r")));
+  if (!step || !(std::abs(*step) <= kMost) || std::floor(*step) != *step) return std::nullopt;
+  return static_cast<std::int64_t>(*step);
 }
 
 /// The rows of a table, behind its header, that begin with a step before `step`; none where it has another header. A

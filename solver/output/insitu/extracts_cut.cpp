@@ -37,7 +37,9 @@ std::string table_before(std::string_view text, std::int64_t step) {
 /// Steps at which pipelines wrote, from `step` on.
 std::set<std::int64_t> steps_from(std::string_view index, std::int64_t step) {
   std::set<std::int64_t> steps;
-  for (const std::string_view line : run_folder::whole_lines(index).lines) {
+  // A last line that is not whole too: files of its step may be there.
+  const std::string lines = std::string(index) + '\n';
+  for (const std::string_view line : run_folder::whole_lines(lines).lines) {
     if (const auto listed = run_folder::step_of_row(line); listed && *listed >= step) steps.insert(*listed);
   }
   return steps;

@@ -51,6 +51,7 @@ TEST(Csv, RowsBeforeAStepStay) {
   EXPECT_EQ(rows_before("step,x", "step,x", 100), "") << "a header that is being written";
   EXPECT_EQ(rows_before("", "", 100), "");
   EXPECT_EQ(step_of_row("12\r"), 12);
+  EXPECT_EQ(step_of_row("1e+06,0.5"), 1000000) << "a double in its shortest form";
   EXPECT_FALSE(step_of_row("12.5,1"));
   EXPECT_FALSE(step_of_row("99999999999999999999,1"));
 }
