@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
@@ -26,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-using run_folder::number_in, run_folder::text_in;
+using run_folder::text_in;
 
 void read_history(const RunFolder& run, RunRecord& record) {
   const std::optional<std::string> text = regular_content(run.history());
@@ -121,8 +123,8 @@ void read_provenance(const RunFolder& run, RunRecord& record) {
                                      {"started", &p.started}})
     *member = text_in(content, name);
   const auto count = [&](const char* name) {
-    const double value = number_in(content, name);
-    return std::isfinite(value) ? static_cast<int>(value) : 0;
+    constexpr std::int64_t kMost = std::numeric_limits<int>::max();
+    return static_cast<int>(std::clamp<std::int64_t>(run_folder::whole_number_in(content, name), 0, kMost));
   };
   p.ranks = count("ranks");
   p.cores = count("cores");
