@@ -5,8 +5,8 @@
 
 #include <functional>
 
-#include "catalyst/csv.hpp"
 #include "catalyst/whole_file.hpp"
+#include "run_folder/csv.hpp"
 
 namespace breccia::insitu {
 namespace {
@@ -35,7 +35,7 @@ std::vector<std::string> csv_lines(vtkTable* table) {
     for (int component = 0; component < components; ++component) {
       const char* comma = lines[0].empty() ? "" : ",";
       lines[0] +=
-          comma + quoted(array->GetName() + (components == 1 ? std::string() : " " + std::to_string(component)));
+          comma + csv_field(array->GetName() + (components == 1 ? std::string() : " " + std::to_string(component)));
       for (std::size_t line = 1; line < lines.size(); ++line)
         lines[line] += comma + cell_text(array, static_cast<vtkIdType>(line) - 1, component);
     }
@@ -95,7 +95,8 @@ void HistoryPipeline::execute(const Frame& frame, BrecciaRequests&) {
     return;
   }
   make_folder(file_.parent_path());
-  bytes_ += replace_file(file_, lines[0] + '\n' + rows_before(file_content(file_), lines[0], frame.step) + rows);
+  const std::string earlier = run_folder::rows_before(file_content(file_), lines[0], frame.step);
+  bytes_ += replace_file(file_, lines[0] + '\n' + earlier + rows);
   begun_ = true;
 }
 

@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <array>
 
-#include "catalyst/csv.hpp"
 #include "catalyst/whole_file.hpp"
+#include "run_folder/csv.hpp"
 
 namespace breccia::insitu {
 namespace {
@@ -30,7 +30,7 @@ std::string header_of(const std::vector<vtkDataArray*>& arrays) {
   std::string header = "step,time [s],row,point,x [m],y [m],z [m],element";
   for (vtkDataArray* array : arrays) {
     for (int c = 0; c < array->GetNumberOfComponents(); ++c)
-      header += "," + quoted(column(array->GetName(), c, array->GetNumberOfComponents()));
+      header += "," + csv_field(column(array->GetName(), c, array->GetNumberOfComponents()));
   }
   return header;
 }
@@ -133,8 +133,8 @@ void ProbePipeline::write(Series& series, const Frame& frame, const std::string&
     return;
   }
   make_folder(series.file.parent_path());
-  bytes_ +=
-      replace_file(series.file, header + '\n' + rows_before(file_content(series.file), header, frame.step) + lines);
+  const std::string earlier = run_folder::rows_before(file_content(series.file), header, frame.step);
+  bytes_ += replace_file(series.file, header + '\n' + earlier + lines);
   series.begun = true;
 }
 

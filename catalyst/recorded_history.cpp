@@ -3,8 +3,9 @@
 #include <vtkDoubleArray.h>
 #include <vtkTypeInt64Array.h>
 
+#include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <utility>
 
 #include "catalyst/pipeline_error.hpp"
 #include "catalyst/whole_file.hpp"
@@ -12,55 +13,37 @@
 namespace breccia::insitu {
 namespace {
 
-/// Fields of a line; a field may stand in quotes, in which two quotes are one.
-std::vector<std::string> fields_of(const std::string& line) {
-  std::vector<std::string> fields(1);
-  bool in_quotes = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (c == '"' && in_quotes && i + 1 < line.size() && line[i + 1] == '"') {
-      fields.back() += line[++i];
-    } else if (c == '"') {
-      in_quotes = !in_quotes;
-    } else if (c == ',' && !in_quotes) {
-      fields.emplace_back();
-    } else {
-      fields.back() += c;
-    }
-  }
-  return fields;
-}
-
 bool is_whole(double value) { return std::floor(value) == value && std::abs(value) < 9e15; }
 
 }  // namespace
 
-RecordedHistory::RecordedHistory(std::vector<std::string> columns, std::vector<std::vector<double>> rows)
-    : columns_(std::move(columns)), whole_(columns_.size(), true), rows_(std::move(rows)) {
-  for (const auto& row : rows_) {
-    for (std::size_t column = 0; column < row.size(); ++column)
-      whole_[column] = whole_[column] && is_whole(row[column]);
-  }
+RecordedHistory::RecordedHistory(run_folder::History history) : history_(std::move(history)) {
+  for (const std::vector<double>& column : history_.columns)
+    whole_.push_back(std::all_of(column.begin(), column.end(), is_whole));
 }
 
 std::map<std::int64_t, double> RecordedHistory::times() const {
   std::map<std::int64_t, double> times;
-  for (const auto& row : rows_) times[static_cast<std::int64_t>(row[0])] = row[1];
+  for (std::size_t row = 0; row < history_.rows(); ++row) times[step_of(row)] = history_.columns[1][row];
   return times;
+}
+
+std::int64_t RecordedHistory::step_of(std::size_t row) const {
+  return static_cast<std::int64_t>(history_.columns[0][row]);
 }
 
 vtkSmartPointer<vtkTable> RecordedHistory::table(std::int64_t step, bool with_rows) const {
   auto table = vtkSmartPointer<vtkTable>::New();
-  for (std::size_t column = 0; column < columns_.size(); ++column) {
+  for (std::size_t column = 0; column < history_.names.size(); ++column) {
     vtkSmartPointer<vtkDataArray> array;
     if (whole_[column]) {
       array = vtkSmartPointer<vtkTypeInt64Array>::New();
     } else {
       array = vtkSmartPointer<vtkDoubleArray>::New();
     }
-    array->SetName(columns_[column].c_str());
-    for (const auto& row : rows_) {
-      if (with_rows && static_cast<std::int64_t>(row[0]) == step) array->InsertNextTuple1(row[column]);
+    array->SetName(history_.names[column].c_str());
+    for (std::size_t row = 0; with_rows && row < history_.rows(); ++row) {
+      if (step_of(row) == step) array->InsertNextTuple1(history_.columns[column][row]);
     }
     table->AddColumn(array);
   }
@@ -68,25 +51,14 @@ vtkSmartPointer<vtkTable> RecordedHistory::table(std::int64_t step, bool with_ro
 }
 
 RecordedHistory read_history(const std::filesystem::path& file) {
-  std::istringstream content(file_content(file));
-  std::string line;
-  if (!std::getline(content, line)) return {};
-  auto columns = fields_of(line);
-  std::vector<std::vector<double>> rows;
-  for (int number = 2; std::getline(content, line); ++number) {
-    std::vector<double> row;
-    for (const std::string& field : fields_of(line)) {
-      char* end = nullptr;
-      row.push_back(std::strtod(field.c_str(), &end));
-      if (field.empty() || *end != '\0')
-        throw PipelineError(file.string() + ":" + std::to_string(number) + ": '" + field + "' is no number");
-    }
-    if (row.size() != columns.size() || row.size() < 2)
-      throw PipelineError(file.string() + ":" + std::to_string(number) + ": has " + std::to_string(row.size()) +
-                          " fields, the header has " + std::to_string(columns.size()));
-    rows.push_back(std::move(row));
-  }
-  return {std::move(columns), std::move(rows)};
+  run_folder::HistoryText read = run_folder::parse_history(file_content(file));
+  if (read.num_left_out > 0)
+    throw PipelineError(file.string() + ":" + std::to_string(read.first_left_out) + ": " + read.problem);
+  const run_folder::History& history = read.history;
+  if (history.rows() == 0) return {};
+  if (history.columns.size() < 2 || !std::all_of(history.columns[0].begin(), history.columns[0].end(), is_whole))
+    throw PipelineError(file.string() + ": its rows do not begin with a step and a time");
+  return RecordedHistory(std::move(read.history));
 }
 
 }  // namespace breccia::insitu

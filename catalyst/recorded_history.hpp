@@ -6,8 +6,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <string>
 #include <vector>
+
+#include "run_folder/history.hpp"
 
 namespace breccia::insitu {
 
@@ -15,7 +16,8 @@ namespace breccia::insitu {
 class RecordedHistory {
  public:
   RecordedHistory() = default;
-  RecordedHistory(std::vector<std::string> columns, std::vector<std::vector<double>> rows);
+  /// @pre the first two columns are the step, whole numbers, and the time
+  explicit RecordedHistory(run_folder::History history);
 
   /// Time (s) of each step that has rows.
   [[nodiscard]] std::map<std::int64_t, double> times() const;
@@ -23,12 +25,14 @@ class RecordedHistory {
   [[nodiscard]] vtkSmartPointer<vtkTable> table(std::int64_t step, bool with_rows) const;
 
  private:
-  std::vector<std::string> columns_;
+  [[nodiscard]] std::int64_t step_of(std::size_t row) const;
+
+  run_folder::History history_;
   std::vector<bool> whole_;  ///< by column
-  std::vector<std::vector<double>> rows_;
 };
 
-/// Without rows when the file is not there. Throws PipelineError naming file and line.
+/// Without rows when the file is not there; a last row that is not whole is left out. Throws PipelineError naming file
+/// and line.
 [[nodiscard]] RecordedHistory read_history(const std::filesystem::path& file);
 
 }  // namespace breccia::insitu

@@ -1,15 +1,18 @@
 #include "catalyst/whole_file.hpp"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <utility>
 
 #include "catalyst/pipeline_error.hpp"
+#include "run_folder/content.hpp"
+#include "system/open_regular.hpp"
+#include "system/write_all.hpp"
 
 namespace breccia::insitu {
 namespace {
@@ -19,32 +22,14 @@ namespace {
 }
 
 /// A regular file of the folder of extracts, which may be another's: no link, pipe or device is opened.
-class Descriptor {
- public:
-  Descriptor(const std::filesystem::path& path, int flags)
-      : value_(::open(path.c_str(), flags | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666)) {
-    if (value_ < 0) fail(path, "cannot be opened", errno);
-    struct stat about {};
-    if (::fstat(value_, &about) == 0 && S_ISREG(about.st_mode)) return;
-    ::close(value_);
-    throw PipelineError(path.string() + ": is no regular file");
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() { ::close(value_); }
-  [[nodiscard]] int value() const { return value_; }
+Descriptor opened(const std::filesystem::path& path, int flags) {
+  Opened file = open_regular(path, flags, Depth::file);
+  if (!file) throw PipelineError(path.string() + ": cannot be opened: " + file.reason);
+  return std::move(file.descriptor);
+}
 
- private:
-  int value_;
-};
-
-void write_all(const std::filesystem::path& path, int descriptor, std::string_view content) {
-  while (!content.empty()) {
-    const ssize_t written = ::write(descriptor, content.data(), content.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail(path, "cannot be written", errno);
-    content.remove_prefix(static_cast<std::size_t>(written));
-  }
+void write_whole(const std::filesystem::path& path, const Descriptor& file, std::string_view content) {
+  if (const int error = write_all(file.get(), content); error != 0) fail(path, "cannot be written", error);
 }
 
 }  // namespace
@@ -55,9 +40,9 @@ std::int64_t replace_file(const std::filesystem::path& path, std::string_view co
   try {
     {
       ::unlink(temporary.c_str());  // of a run that was killed, or a link that somebody put there
-      const Descriptor file(temporary, O_WRONLY | O_CREAT | O_EXCL);
-      write_all(temporary, file.value(), content);
-      if (sync == Sync::yes && ::fsync(file.value()) != 0) fail(temporary, "cannot be synced to the disk", errno);
+      const Descriptor file = opened(temporary, O_WRONLY | O_CREAT | O_EXCL);
+      write_whole(temporary, file, content);
+      if (sync == Sync::yes && ::fsync(file.get()) != 0) fail(temporary, "cannot be synced to the disk", errno);
     }
     if (::rename(temporary.c_str(), path.c_str()) != 0) fail(path, "cannot be replaced", errno);
   } catch (const PipelineError&) {
@@ -68,30 +53,21 @@ std::int64_t replace_file(const std::filesystem::path& path, std::string_view co
 }
 
 std::int64_t append_to_file(const std::filesystem::path& path, std::string_view content) {
-  const Descriptor file(path, O_WRONLY | O_CREAT | O_APPEND);
-  const off_t before = ::lseek(file.value(), 0, SEEK_END);
+  const Descriptor file = opened(path, O_WRONLY | O_CREAT | O_APPEND);
+  const off_t before = ::lseek(file.get(), 0, SEEK_END);
   try {
-    write_all(path, file.value(), content);
+    write_whole(path, file, content);
   } catch (const PipelineError&) {
-    static_cast<void>(!::ftruncate(file.value(), before));  // part of a line would spoil the next one
+    static_cast<void>(!::ftruncate(file.get(), before));  // part of a line would spoil the next one
     throw;
   }
   return static_cast<std::int64_t>(content.size());
 }
 
 std::string file_content(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::exists(std::filesystem::symlink_status(path, error))) return {};
-  const Descriptor file(path, O_RDONLY);
-  std::string content;
-  std::array<char, 1 << 16> block{};
-  for (;;) {
-    const ssize_t size = ::read(file.value(), block.data(), block.size());
-    if (size < 0 && errno == EINTR) continue;
-    if (size < 0) fail(path, "cannot be read", errno);
-    if (size == 0) return content;
-    content.append(block.data(), static_cast<std::size_t>(size));
-  }
+  run_folder::Content content = run_folder::read_content(path);
+  if (!content.problem.empty()) throw PipelineError(path.string() + ": cannot be read: " + content.problem);
+  return std::move(content.text);
 }
 
 void make_folder(const std::filesystem::path& path) {

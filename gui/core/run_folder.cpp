@@ -13,15 +13,17 @@
 #include <QRegularExpression>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
-#include "system/regular_file.hpp"
+#include "run_folder/content.hpp"
+#include "run_folder/names.hpp"
+#include "run_folder/series.hpp"
+#include "run_folder/status.hpp"
+#include "system/open_regular.hpp"
 
 namespace breccia::gui {
 
 namespace {
-
-constexpr qint64 kMostAtOnce = 1 << 20, kRemembered = 64;  // bytes
 
 /// The case among the inputs of a run: the first that is one. A geometry may stand before it, and that of another run
 /// from which it goes on behind it.
@@ -32,87 +34,53 @@ QJsonObject case_among(const QJsonObject& provenance) {
   return {};
 }
 
-/// Opens a file of a run's folder, which may be another's: no link, pipe or device. False where that cannot be done.
-bool open_in_run(const QString& path, Depth depth, QFile& file) {
-  Opened opened = open_regular(QFile::encodeName(path).toStdString(), O_RDONLY, depth);
-  return opened && file.open(opened.descriptor.release(), QIODevice::ReadOnly, QFileDevice::AutoCloseHandle);
-}
+std::filesystem::path path_of(const QString& file) { return QFile::encodeName(file).toStdString(); }
 
-/// Empty: there is none that can be read.
-QJsonObject json_in_run(const QString& path, Depth depth) {
-  QFile file;
-  if (!open_in_run(path, depth, file)) return {};
-  return QJsonDocument::fromJson(file.readAll()).object();
+/// Content of a file of a run's folder, which may be another's: no link, pipe or device is opened. Null: there is none
+/// that can be read.
+QByteArray content_in_run(const QString& folder, const char* name) {
+  const run_folder::Content content = run_folder::read_content(path_in_run(folder, name));
+  return content.is_missing || !content.problem.empty() ? QByteArray() : QByteArray::fromStdString(content.text);
 }
 
 QJsonObject provenance_of(const QString& run_folder) {
-  return json_in_run(QDir(run_folder).filePath("provenance.json"), Depth::file);
+  return QJsonDocument::fromJson(content_in_run(run_folder, run_folder::kProvenance)).object();
 }
 
 /// Whether a file of one of a run's folders is a regular one, reached without a link.
 bool is_regular_in_run(const QString& path) {
-  QFile file;
-  return open_in_run(path, Depth::subfolder, file);
+  return static_cast<bool>(open_regular(path_of(path), O_RDONLY, Depth::subfolder));
 }
 
 }  // namespace
 
-QList<QByteArray> GrowingFile::news(bool* restarted) {
-  QFile file;
-  has_more_ = false;
-  if (restarted != nullptr) *restarted = false;
-  if (!open_in_run(path_, Depth::file, file)) return {};
-  if (read_ > 0) {
-    const bool same = file.size() >= read_ && file.seek(read_ - last_.size()) && file.read(last_.size()) == last_;
-    if (restarted != nullptr) *restarted = !same;
-    if (!same) read_ = 0;
-  }
-  if (read_ == 0 && tail_ >= 0 && file.size() > tail_) {
-    if (!file.seek(file.size() - tail_)) return {};
-    read_ = file.size() - tail_ + file.readLine().size();
-  }
-  if (file.size() == read_ || !file.seek(read_)) return {};
-  QByteArray bytes = file.read(kMostAtOnce);
-  if (!bytes.contains('\n')) bytes += file.readLine();  // one line that is longer than all that
-  const auto end = bytes.lastIndexOf('\n');
-  if (end < 0) return {};
-  read_ += end + 1;
-  last_ = bytes.left(end + 1).right(kRemembered);
-  has_more_ = !file.atEnd();
-  return bytes.left(end).split('\n');
-}
+std::filesystem::path path_in_run(const QString& run_folder, const char* name) { return path_of(run_folder) / name; }
 
-RunProgress::RunProgress(const QString& run_folder) : file_(QDir(run_folder).filePath("status.jsonl"), kStatusTail) {}
+RunProgress::RunProgress(const QString& run_folder)
+    : file_(path_in_run(run_folder, run_folder::kStatus), run_folder::kStatusTail) {}
 
 const RunStatus& RunProgress::look() {
-  for (const QByteArray& line : file_.news()) (void)read_status(line, status_);
+  for (const std::string& line : file_.news().lines) (void)read_status(line, status_);
   return status_;
 }
 
 void History::clear() {
+  table_ = {};
   columns_.clear();
-  values_.clear();
   largest_.clear();
-  rows_ = 0;
 }
 
-void History::add_line(const QByteArray& line) {
+void History::add_line(std::string_view line) {
+  const int had = rows();
+  (void)table_.add_line(line);
   if (columns_.isEmpty()) {
-    columns_ = QString::fromUtf8(line).trimmed().split(',');
-    values_.assign(static_cast<std::size_t>(columns_.size()), {});
-    largest_.assign(static_cast<std::size_t>(columns_.size()), 0);
-    return;
+    for (const std::string& name : table_.names) columns_ << QString::fromStdString(name);
+    largest_.assign(table_.names.size(), 0);
   }
-  const QList<QByteArray> cells = line.split(',');
-  if (cells.size() != columns_.size()) return;
-  for (int c = 0; c < cells.size(); ++c) {
-    bool good = false;
-    const double value = cells[c].toDouble(&good);
-    const auto column = static_cast<std::size_t>(c);
-    values_[column].push_back(good ? value : std::numeric_limits<double>::quiet_NaN());
-    if (good && std::isfinite(value)) largest_[column] = std::max(largest_[column], std::abs(value));
+  for (std::size_t c = 0; rows() > had && c < largest_.size(); ++c) {
+    const double value = table_.columns[c].back();
+    if (std::isfinite(value)) largest_[c] = std::max(largest_[c], std::abs(value));
   }
-  ++rows_;
 }
 
 QByteArray histories_csv(const std::vector<std::pair<QString, const History*>>& runs) {
@@ -138,42 +106,45 @@ QByteArray histories_csv(const std::vector<std::pair<QString, const History*>>& 
   return text;
 }
 
-bool read_status(const QByteArray& line, RunStatus& out) {
-  const QJsonObject json = QJsonDocument::fromJson(line).object();
-  if (!json.contains("state")) return false;
-  out.state = json["state"].toString();
-  out.stage = json["stage"].toString();
-  out.message = json["message"].toString();
-  out.step = json["step"].toDouble();
-  out.steps_total = json["steps_total"].toDouble();
-  out.time = json["time"].toDouble();
-  out.end = json["end"].toDouble();
-  out.share = json["share"].toDouble();
-  out.wall = json["wall_s"].toDouble();
-  out.eta = json["eta_s"].toDouble(-1);
-  out.residual = json["energy_residual"].toDouble();
-  out.speed = json["element_steps_per_s"].toDouble();
-  out.imbalance = json["imbalance"].toDouble(1);
-  out.broken_joints = json["broken_joints"].toDouble();
-  out.fragments = json["fragments"].toDouble();
+bool read_status(std::string_view line, RunStatus& out) {
+  const std::optional<run_folder::Status> status = run_folder::parse_status_line(line).status;
+  if (!status) return false;
+  const auto number = [](double value, double otherwise = 0) { return std::isfinite(value) ? value : otherwise; };
+  out.state = QString::fromStdString(status->state);
+  out.stage = QString::fromStdString(status->stage);
+  out.message = QString::fromStdString(status->message);
+  out.step = number(status->step);
+  out.steps_total = number(status->steps_total);
+  out.time = number(status->time);
+  out.end = number(status->end);
+  out.share = number(status->share);
+  out.wall = number(status->wall);
+  out.eta = number(status->eta, -1);
+  out.residual = number(status->energy_residual);
+  out.speed = number(status->element_steps_per_s);
+  out.imbalance = number(status->imbalance, 1);
+  out.broken_joints = number(status->broken_joints);
+  out.fragments = number(status->fragments);
   return true;
 }
 
+bool RunStatus::over() const { return run_folder::is_end(state.toStdString()); }
+
 std::vector<RunFrame> read_series(const QString& run_folder, const QString& part) {
-  const QDir frames(QDir(run_folder).filePath("frames"));
+  const QDir frames(QDir(run_folder).filePath(run_folder::kFrames));
+  const QString index = frames.filePath(part + run_folder::kSeriesEnding.data());
   std::vector<RunFrame> found;
-  const QJsonArray list = json_in_run(frames.filePath(part + ".hdf.series"), Depth::subfolder)["files"].toArray();
-  for (const QJsonValue& entry : list) {
-    const QString name = entry.toObject()["name"].toString();
-    const QString path = frames.absoluteFilePath(name);
-    if (!name.contains('/') && is_regular_in_run(path)) found.push_back({path, entry.toObject()["time"].toDouble()});
+  for (const run_folder::SeriesFrame& frame :
+       run_folder::parse_series(run_folder::read_content(path_of(index), Depth::subfolder).text).frames) {
+    const QString path = frames.absoluteFilePath(QString::fromStdString(frame.name));
+    if (is_regular_in_run(path)) found.push_back({path, frame.time});
   }
   return found;
 }
 
 std::vector<RunCheckpoint> read_checkpoints(const QString& run_folder) {
   static const QRegularExpression name(R"(^step_(\d+)\.h5$)");
-  const QDir folder(QDir(run_folder).filePath("checkpoints"));
+  const QDir folder(QDir(run_folder).filePath(run_folder::kCheckpoints));
   std::vector<RunCheckpoint> found;
   for (const QString& file : folder.entryList({"step_*.h5"}, QDir::Files))
     if (const auto match = name.match(file); match.hasMatch() && is_regular_in_run(folder.absoluteFilePath(file)))
@@ -194,10 +165,7 @@ bool is_held(const QString& run_folder) {
   return false;
 }
 
-QByteArray case_text_of(const QString& run_folder) {
-  QFile file;
-  return open_in_run(QDir(run_folder).filePath("case.toml"), Depth::file, file) ? file.readAll() : QByteArray();
-}
+QByteArray case_text_of(const QString& run_folder) { return content_in_run(run_folder, run_folder::kCaseFile); }
 
 bool was_run_with_another(const QString& run_folder, const QByteArray& case_text) {
   const QString sum = case_among(provenance_of(run_folder))["sha256"].toString();

@@ -4,13 +4,15 @@
 #include <QDateTime>
 #include <QString>
 #include <QStringList>
+#include <filesystem>
+#include <string_view>
 #include <vector>
+
+#include "run_folder/growing_lines.hpp"
+#include "run_folder/history.hpp"
 
 /// What a run writes into its folder, read while it grows. Nothing is taken from log prose.
 namespace breccia::gui {
-
-/// Bytes at the end of status.jsonl in which its last state stands.
-inline constexpr qint64 kStatusTail = 1 << 16;
 
 /// One line of status.jsonl.
 struct RunStatus {
@@ -22,9 +24,7 @@ struct RunStatus {
   double wall = 0, eta = -1;  ///< s; eta < 0: unknown
   double residual = 0, speed = 0, imbalance = 1;
   double broken_joints = 0, fragments = 0;
-  [[nodiscard]] bool over() const {
-    return state == "complete" || state == "stopped" || state == "failed" || state == "interrupted";
-  }
+  [[nodiscard]] bool over() const;
 };
 
 /// One frame of a series.
@@ -39,25 +39,6 @@ struct RunCheckpoint {
   qint64 step = 0;
 };
 
-/// Whole lines of a growing file; a line that is half written waits for its end. A call reads a few hundred lines or
-/// thousands, never a whole long file, so that the window is not held up.
-class GrowingFile {
- public:
-  /// @param tail  bytes before the end at which the first call begins, with the next whole line; < 0: at the start
-  explicit GrowingFile(QString path = {}, qint64 tail = -1) : path_(std::move(path)), tail_(tail) {}
-  /// Lines that came to it since the last call. A file that has become shorter, or is another one than before, is read
-  /// anew; `restarted` tells.
-  [[nodiscard]] QList<QByteArray> news(bool* restarted = nullptr);
-  /// More is there than the last call returned.
-  [[nodiscard]] bool has_more() const { return has_more_; }
-
- private:
-  QString path_;
-  qint64 tail_ = -1, read_ = 0;
-  QByteArray last_;  ///< bytes before read_: a file in which others stand there is another one
-  bool has_more_ = false;
-};
-
 /// What a run that goes on says of itself, looked at now and then.
 class RunProgress {
  public:
@@ -66,37 +47,38 @@ class RunProgress {
   const RunStatus& look();
 
  private:
-  GrowingFile file_;
+  run_folder::GrowingLines file_;
   RunStatus status_;
 };
 
 /// history.csv by columns; grows with the run.
 class History {
  public:
-  void add_line(const QByteArray& line);  ///< the first one names the columns
+  void add_line(std::string_view line);  ///< the first one names the columns
   void clear();
   [[nodiscard]] const QStringList& columns() const { return columns_; }
   [[nodiscard]] int column(const QString& name) const { return static_cast<int>(columns_.indexOf(name)); }
-  [[nodiscard]] int rows() const { return rows_; }
+  [[nodiscard]] int rows() const { return static_cast<int>(table_.rows()); }
   /// @pre 0 <= column < number of columns
   [[nodiscard]] const std::vector<double>& values(int column) const {
-    return values_[static_cast<std::size_t>(column)];
+    return table_.columns[static_cast<std::size_t>(column)];
   }
   /// Of the sizes of the finite values of a column.
   [[nodiscard]] double largest(int column) const { return largest_[static_cast<std::size_t>(column)]; }
 
  private:
-  QStringList columns_;
-  std::vector<std::vector<double>> values_;
+  run_folder::History table_;
+  QStringList columns_;  ///< names of the table's
   std::vector<double> largest_;
-  int rows_ = 0;
 };
 
 /// Histories of several runs beside each other, as CSV: blocks of columns "RUN: COLUMN".
 [[nodiscard]] QByteArray histories_csv(const std::vector<std::pair<QString, const History*>>& runs);
 
+/// A file of a run's folder as the readers of the solver take it (run_folder/).
+[[nodiscard]] std::filesystem::path path_in_run(const QString& run_folder, const char* name);
 /// False for a line that is no status (an event, broken JSON).
-[[nodiscard]] bool read_status(const QByteArray& line, RunStatus& out);
+[[nodiscard]] bool read_status(std::string_view line, RunStatus& out);
 /// Index of a series, e.g. frames/elements.hdf.series; frames whose file is there. Empty: there is none.
 [[nodiscard]] std::vector<RunFrame> read_series(const QString& run_folder, const QString& part);
 /// Checkpoints of a run, latest first.

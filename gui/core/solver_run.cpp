@@ -18,6 +18,7 @@
 #include <cerrno>
 
 #include "core/written_file.hpp"
+#include "run_folder/names.hpp"
 
 namespace breccia::gui {
 namespace {
@@ -106,9 +107,8 @@ RunRecord record_of(const QJsonObject& json) {
 }
 
 RunOutcome outcome_of(const QString& folder) {
-  GrowingFile file(QDir(folder).filePath("status.jsonl"), kStatusTail);
-  RunStatus told;
-  for (const QByteArray& line : file.news()) (void)read_status(line, told);
+  RunProgress progress(folder);
+  const RunStatus& told = progress.look();
   const QString state = state_after(told);
   return {told, state, state == "failed" || state == "interrupted" ? last_words(told, folder) : QString()};
 }
@@ -116,8 +116,8 @@ RunOutcome outcome_of(const QString& folder) {
 SolverRun::SolverRun(RunRecord record, QObject* parent, bool is_new)
     : QObject(parent),
       record_(std::move(record)),
-      status_file_(QDir(record_.folder).filePath("status.jsonl"), kStatusTail),
-      history_file_(QDir(record_.folder).filePath("history.csv")) {
+      status_file_(path_in_run(record_.folder, run_folder::kStatus), run_folder::kStatusTail),
+      history_file_(path_in_run(record_.folder, run_folder::kHistory)) {
   connect(&timer_, &QTimer::timeout, this, &SolverRun::look);
   timer_.start(kInterval);
   look();
@@ -194,7 +194,7 @@ bool SolverRun::read_more_history() {
 
 bool SolverRun::look_at_status() {
   bool news = false;
-  for (const QByteArray& line : status_file_.news()) {
+  for (const std::string& line : status_file_.news().lines) {
     if (!read_status(line, status_)) continue;
     news = true;
     if (status_.state == awaited_) awaited_.clear();
@@ -204,11 +204,10 @@ bool SolverRun::look_at_status() {
 
 bool SolverRun::look_at_history() {
   if (!wants_history_) return false;
-  bool restarted = false;
-  const QList<QByteArray> lines = history_file_.news(&restarted);
-  if (restarted) history_.clear();
-  for (const QByteArray& line : lines) history_.add_line(line);
-  return restarted || !lines.isEmpty();
+  const run_folder::GrowingLines::News news = history_file_.news();
+  if (news.is_restarted) history_.clear();
+  for (const std::string& line : news.lines) history_.add_line(line);
+  return news.is_restarted || !news.lines.empty();
 }
 
 void SolverRun::look_at_frames() {

@@ -117,7 +117,7 @@ class SolverRun final : public QObject {
   History history_;
   std::vector<RunFrame> frames_;
   std::vector<RunCheckpoint> checkpoints_;
-  GrowingFile status_file_, history_file_;
+  run_folder::GrowingLines status_file_, history_file_;
   QByteArray series_mark_;  ///< time and size of the index of frames
   QList<QByteArray> requests_;
   QString awaited_;  ///< state that was asked for and that the run has not told yet; empty: none

@@ -12,13 +12,14 @@
 #include "case/units.hpp"
 #include "core/value_text.hpp"
 #include "core/written_file.hpp"
+#include "run_folder/history.hpp"
+#include "run_folder/names.hpp"
 
 namespace breccia::gui {
 namespace {
 
 const QString kRanks = "ranks";
 constexpr int kMostRanks = 4096;
-constexpr qint64 kTail = 1 << 16;  // bytes of history.csv in which its last line stands
 
 /// What stands behind "=" of an override. A number of the geometry has no row in the table of keys: it is written as
 /// any other quantity.
@@ -87,22 +88,12 @@ void check_case(const RunWish& wish, QStringList& problems) {
   }
 }
 
-/// Last whole line of a table and its head.
-void read_last_row(const QString& name, StudyResult& result) {
-  QFile file(name);
-  if (!file.open(QIODevice::ReadOnly)) return;
-  History history;
-  history.add_line(file.readLine());
-  if (const qint64 begin = file.size() - kTail; begin > file.pos()) {
-    file.seek(begin);
-    file.readLine();
-  }
-  const QList<QByteArray> lines = file.readAll().split('\n');
-  for (int i = static_cast<int>(lines.size()) - 2; i >= 0 && history.rows() == 0; --i) history.add_line(lines[i]);
-  if (history.rows() == 0) return;
-  for (int c = 0; c < history.columns().size(); ++c) {
-    result.columns << history.columns()[c];
-    result.values.push_back(history.values(c).front());
+/// The last whole row of a run's history, by its columns.
+void read_last_row(const QString& run_folder, StudyResult& result) {
+  const run_folder::History history = run_folder::last_row_of(path_in_run(run_folder, run_folder::kHistory));
+  for (std::size_t c = 0; history.rows() > 0 && c < history.names.size(); ++c) {
+    result.columns << QString::fromStdString(history.names[c]);
+    result.values.push_back(history.columns[c].front());
   }
 }
 
@@ -223,7 +214,7 @@ std::vector<StudyResult> study_results(const Study& study, const QueueContents& 
     if (said && result.state != "waiting") {
       result.columns = QStringList{"wall time [s]", "steps"};
       result.values = {outcome.told.wall, outcome.told.step};
-      read_last_row(QDir(run.folder).filePath("history.csv"), result);
+      read_last_row(run.folder, result);
     }
     results.push_back(std::move(result));
   }

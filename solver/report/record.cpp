@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
@@ -16,6 +18,9 @@
 #include "output/folder/json_text.hpp"
 #include "output/folder/run_lock.hpp"
 #include "report/figures.hpp"
+#include "run_folder/bodies.hpp"
+#include "run_folder/lines.hpp"
+#include "run_folder/status.hpp"
 #include "system/regular_file.hpp"
 
 namespace breccia::report {
@@ -23,45 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-/// Whole lines; whether something follows the last line feed is told.
-std::vector<std::string_view> lines_of(std::string_view text, bool& cut) {
-  std::vector<std::string_view> lines;
-  for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n')) {
-    lines.push_back(text.substr(0, end));
-    text.remove_prefix(end + 1);
-  }
-  cut = !text.empty();
-  return lines;
-}
-
-/// Cells of a line of CSV; quotes as RFC 4180.
-std::vector<std::string> cells_of(std::string_view line) {
-  std::vector<std::string> cells(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
-      cells.back() += line[++i];
-    else if (c == '"')
-      quoted = !quoted;
-    else if (c == ',' && !quoted)
-      cells.emplace_back();
-    else if (c != '\r')
-      cells.back() += c;
-  }
-  return cells;
-}
-
-bool numbers_of(std::string_view line, std::vector<double>& row) {
-  row.clear();
-  for (const std::string& cell : cells_of(line)) {
-    char* end = nullptr;
-    row.push_back(std::strtod(cell.c_str(), &end));
-    if (cell.empty() || *end != '\0') return false;
-  }
-  return true;
-}
+using run_folder::text_in;
 
 void read_history(const RunFolder& run, RunRecord& record) {
   const std::optional<std::string> text = regular_content(run.history());
@@ -69,19 +36,9 @@ void read_history(const RunFolder& run, RunRecord& record) {
     record.flaws.emplace_back("history.csv is missing: there are no curves over time.");
     return;
   }
-  bool cut = false;
-  const std::vector<std::string_view> lines = lines_of(*text, cut);
-  if (!lines.empty()) record.history.names = cells_of(lines.front());
-  record.history.columns.resize(record.history.names.size());
-  std::size_t left_out = cut ? 1 : 0;
-  std::vector<double> row;
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    if (!numbers_of(lines[i], row) || row.size() != record.history.names.size()) {
-      ++left_out;
-      continue;
-    }
-    for (std::size_t c = 0; c < row.size(); ++c) record.history.columns[c].push_back(row[c]);
-  }
+  run_folder::HistoryText read = run_folder::parse_history(*text);
+  record.history = std::move(read.history);
+  const std::size_t left_out = read.num_left_out + (read.is_cut ? 1 : 0);
   if (left_out > 0)
     record.flaws.push_back(fmt::format("history.csv: lines that are not whole are left out: {}.", left_out));
   if (record.history.rows() == 0) record.flaws.emplace_back("history.csv has no line yet.");
@@ -91,47 +48,24 @@ void read_history(const RunFolder& run, RunRecord& record) {
 void read_bodies(const RunFolder& run, RunRecord& record) {
   const std::optional<std::string> text = regular_content(run.bodies());
   if (!text) return;
-  bool cut = false;
-  const std::vector<std::string_view> lines = lines_of(*text, cut);
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    const std::vector<std::string> cells = cells_of(lines[i]);
-    if (cells.size() != 2 || cells[0] != std::to_string(i - 1)) {
-      record.flaws.emplace_back("bodies.csv is no list of names of bodies and is left out.");
-      record.bodies.clear();
-      return;
-    }
-    record.bodies.push_back(cells[1]);
+  if (auto names = run_folder::parse_bodies(*text))
+    record.bodies = std::move(*names);
+  else
+    record.flaws.emplace_back("bodies.csv is no list of names of bodies and is left out.");
+}
+
+void take_status(run_folder::StatusLine line, RunRecord& record) {
+  if (line.event) {
+    run_folder::Event& event = *line.event;
+    record.events.push_back({std::move(event.kind), std::move(event.text), std::move(event.id),
+                             event.accepted.value_or(true), event.step, event.time});
   }
-}
-
-double number_in(const Json& object, const char* name) {
-  const auto found = object.find(name);
-  return found != object.end() && found->is_number() ? found->get<double>() : kNoNumber;
-}
-
-std::string text_in(const Json& object, const char* name) {
-  const auto found = object.find(name);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
-
-void take_status(const Json& line, RunRecord& record) {
-  if (line.contains("event")) {
-    RunEvent event;
-    event.kind = text_in(line, "event");
-    event.text = text_in(line, "text");
-    const auto accepted = line.find("accepted");
-    event.accepted = accepted == line.end() || !accepted->is_boolean() || accepted->get<bool>();
-    const double step = number_in(line, "step");
-    event.step = std::isfinite(step) ? static_cast<std::int64_t>(step) : 0;
-    event.time = number_in(line, "time");
-    record.events.push_back(std::move(event));
-    return;
-  }
-  record.state = text_in(line, "state");
-  record.message = text_in(line, "message");
-  const double wall = number_in(line, "wall_s");
-  if (const double end = number_in(line, "end"); std::isfinite(end)) record.end = end;
-  if (std::isfinite(wall)) record.status.push_back({wall, number_in(line, "time"), number_in(line, "imbalance")});
+  if (!line.status) return;
+  const run_folder::Status& status = *line.status;
+  record.state = status.state;
+  record.message = status.message;
+  if (std::isfinite(status.end)) record.end = status.end;
+  if (std::isfinite(status.wall)) record.status.push_back({status.wall, status.time, status.imbalance});
 }
 
 void read_status(const RunFolder& run, RunRecord& record) {
@@ -140,16 +74,13 @@ void read_status(const RunFolder& run, RunRecord& record) {
     record.flaws.emplace_back("status.jsonl is missing: how the run ended is not known.");
     return;
   }
-  bool cut = false;
-  std::size_t left_out = 0;
-  for (const std::string_view line : lines_of(*text, cut)) {
-    const Json content = json_of_text<Json>(line);
-    if (content.is_object())
-      take_status(content, record);
-    else
-      ++left_out;
+  const run_folder::WholeLines found = run_folder::whole_lines(*text);
+  std::size_t left_out = found.is_cut ? 1 : 0;
+  for (const std::string_view text_line : found.lines) {
+    run_folder::StatusLine line = run_folder::parse_status_line(text_line);
+    left_out += line.is_whole ? 0 : 1;
+    take_status(std::move(line), record);
   }
-  left_out += cut ? 1 : 0;
   if (left_out > 0)
     record.flaws.push_back(fmt::format("status.jsonl: lines that are not whole are left out: {}.", left_out));
 }
@@ -192,8 +123,8 @@ void read_provenance(const RunFolder& run, RunRecord& record) {
                                      {"started", &p.started}})
     *member = text_in(content, name);
   const auto count = [&](const char* name) {
-    const double value = number_in(content, name);
-    return std::isfinite(value) ? static_cast<int>(value) : 0;
+    constexpr std::int64_t kMost = std::numeric_limits<int>::max();
+    return static_cast<int>(std::clamp<std::int64_t>(run_folder::whole_number_in(content, name), 0, kMost));
   };
   p.ranks = count("ranks");
   p.cores = count("cores");
@@ -265,19 +196,6 @@ void settle_state(RunRecord& record) {
 }
 
 }  // namespace
-
-const std::vector<double>& History::column(const std::string& name) const {
-  static const std::vector<double> none;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i] == name) return columns[i];
-  }
-  return none;
-}
-
-double History::last(const std::string& name) const {
-  const std::vector<double>& values = column(name);
-  return values.empty() ? kNoNumber : values.back();
-}
 
 double RunRecord::number(const std::string& name) const {
   const auto found = numbers.find(name);

@@ -10,19 +10,11 @@
 #include "case/case.hpp"
 #include "output/folder/run_folder.hpp"
 #include "output/sink.hpp"
+#include "run_folder/history.hpp"
 
 namespace breccia::report {
 
-/// history.csv: columns by name.
-struct History {
-  std::vector<std::string> names;            ///< as in the file's first line: "kinetic [J]"
-  std::vector<std::vector<double>> columns;  ///< as many; equal lengths
-  [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
-  /// Empty when there is no such column.
-  [[nodiscard]] const std::vector<double>& column(const std::string& name) const;
-  /// Last value of a column; NaN when there is none.
-  [[nodiscard]] double last(const std::string& name) const;
-};
+using run_folder::History;
 
 /// A line of status.jsonl that tells where the run stood.
 struct StatusPoint {

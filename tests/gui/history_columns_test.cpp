@@ -7,7 +7,7 @@ namespace {
 
 History of(const QList<QByteArray>& lines) {
   History history;
-  for (const QByteArray& line : lines) history.add_line(line);
+  for (const QByteArray& line : lines) history.add_line(line.toStdString());
   return history;
 }
 

@@ -18,26 +18,6 @@ void append(const QString& file, const QByteArray& text) {
   out.write(text);
 }
 
-TEST(RunFolder, ALineThatIsHalfWrittenWaitsForItsEnd) {
-  const QTemporaryDir scratch;
-  const QString file = scratch.filePath("status.jsonl");
-  GrowingFile growing(file);
-  EXPECT_TRUE(growing.news().isEmpty());
-  append(file, "{\"state\":\"running\",\"st");
-  EXPECT_TRUE(growing.news().isEmpty());
-  append(file, "ep\":7}\n{\"state\":");
-  QList<QByteArray> lines = growing.news();
-  ASSERT_EQ(lines.size(), 1);
-  RunStatus status;
-  ASSERT_TRUE(read_status(lines[0], status));
-  EXPECT_EQ(status.step, 7);
-  append(file, "\"complete\"}\n");
-  lines = growing.news();
-  ASSERT_EQ(lines.size(), 1);
-  ASSERT_TRUE(read_status(lines[0], status));
-  EXPECT_TRUE(status.over());
-}
-
 TEST(RunFolder, TheProgressOfARunIsWhatItSaidLast) {
   const QTemporaryDir scratch;
   RunProgress progress(scratch.path());
@@ -48,59 +28,6 @@ TEST(RunFolder, TheProgressOfARunIsWhatItSaidLast) {
   EXPECT_EQ(progress.look().eta, 60) << "nothing new";
   append(file, "{\"state\":\"running\",\"share\":0.5,\"eta_s\":40}\n");
   EXPECT_EQ(progress.look().share, 0.5);
-}
-
-TEST(RunFolder, AFileThatBeganAnewIsReadFromItsStart) {
-  const QTemporaryDir scratch;
-  const QString file = scratch.filePath("history.csv");
-  GrowingFile growing(file);
-  append(file, "step,time [s]\n1,2\n");
-  EXPECT_EQ(growing.news().size(), 2);
-  QFile::remove(file);
-  append(file, "a\n");
-  bool restarted = false;
-  EXPECT_EQ(growing.news(&restarted).size(), 1);
-  EXPECT_TRUE(restarted);
-}
-
-TEST(RunFolder, AFileThatIsAnotherOneIsReadFromItsStartThoughItIsLonger) {
-  const QTemporaryDir scratch;
-  const QString file = scratch.filePath("status.jsonl");
-  GrowingFile growing(file);
-  append(file, "one\nstopped\n");
-  EXPECT_EQ(growing.news().size(), 2);
-  QFile::remove(file);
-  append(file, "one\ntwo\nthree\nfour\n");
-  bool restarted = false;
-  EXPECT_EQ(growing.news(&restarted).size(), 4);
-  EXPECT_TRUE(restarted);
-}
-
-TEST(RunFolder, OfALongFileTheTailIsReadByWholeLines) {
-  const QTemporaryDir scratch;
-  const QString file = scratch.filePath("status.jsonl");
-  append(file, "first line\nsecond\nthird\n");
-  GrowingFile growing(file, 15);  // the cut goes through the first line
-  EXPECT_EQ(growing.news(), (QList<QByteArray>{"second", "third"}));
-  append(file, "fourth\n");
-  EXPECT_EQ(growing.news(), QList<QByteArray>{"fourth"});
-}
-
-TEST(RunFolder, ALongFileIsReadPieceByPiece) {
-  const QTemporaryDir scratch;
-  const QString file = scratch.filePath("history.csv");
-  constexpr int kLines = 300000;
-  QByteArray text;
-  for (int i = 0; i < kLines; ++i) text += QByteArray::number(i) + "\n";
-  append(file, text);
-  GrowingFile growing(file);
-  int lines = 0, calls = 0;
-  do {
-    for (const QByteArray& line : growing.news()) EXPECT_EQ(line.toInt(), lines++);
-    ++calls;
-  } while (growing.has_more());
-  EXPECT_EQ(lines, kLines);
-  EXPECT_GT(calls, 1);
 }
 
 TEST(RunFolder, CheckpointsAreListedLatestFirst) {

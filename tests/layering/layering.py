@@ -13,6 +13,7 @@ from pathlib import Path
 MAY_INCLUDE = {
     "base": set(),
     "system": {"base"},
+    "run_folder": {"base", "system"},  # of both, headers alone: HEADER_ONLY
     "case": {"base", "system"},
     "mesh": {"base", "system"},
     "parallel": {"base", "mesh"},
@@ -21,12 +22,12 @@ MAY_INCLUDE = {
     "detection": {"base", "mesh", "discretisation"},
     "model": {"base", "system", "case", "mesh", "discretisation", "physics"},
     "state": {"base", "mesh", "discretisation", "physics", "model"},
-    "output": {"base", "system", "case", "mesh", "state", "parallel"},
+    "output": {"base", "system", "run_folder", "case", "mesh", "state", "parallel"},
     "contact": {"base", "case", "mesh", "discretisation", "physics", "detection", "model", "state", "parallel"},
     "domains": {"base", "case", "mesh", "discretisation", "physics", "model", "state", "contact", "parallel"},
     "observe": {"base", "system", "case", "mesh", "discretisation", "physics", "model", "state", "contact", "domains", "parallel", "output"},
 }
-MAY_INCLUDE["report"] = {"base", "system", "case", "output"}
+MAY_INCLUDE["report"] = {"base", "system", "run_folder", "case", "output"}
 MAY_INCLUDE["advice"] = set(MAY_INCLUDE) - {"report"}
 MAY_INCLUDE["simulation"] = set(MAY_INCLUDE) - {"advice"}
 MAY_INCLUDE["commands"] = set(MAY_INCLUDE)
@@ -35,13 +36,21 @@ PROGRAM = set(MAY_INCLUDE)  # what main.cpp may include: everything
 # The C interface of the in-situ adaptor is the one header from outside solver/, for output alone.
 IN_SITU_HEADER = "catalyst/insitu_abi.h"
 
-# What catalyst/, the adaptor behind that interface, may include: itself, VTK and ParaView, MPI, Python (in VTK's wrapping), X11 and JSON.
-ADAPTOR = re.compile(r"(catalyst/\w+\.h(pp)?|vtk\w+\.h|mpi\.h|Python\.h|X11/\w+\.h|nlohmann/json\.hpp)")
+# What reads the files of a run for solver, desktop, plug-in and adaptor alike. It is header only and includes headers alone, of the
+# solver these: who uses it links nothing.
+HEADER_ONLY = re.compile(r"run_folder/\w+\.hpp|base/(json_depth|trimmed)\.hpp|system/(open_regular|write_all)\.hpp")
+
+# What catalyst/, the adaptor behind that interface, may include: itself, HEADER_ONLY, VTK and ParaView, MPI, Python (in VTK's wrapping), X11
+# and JSON.
+ADAPTOR = re.compile(rf"({HEADER_ONLY.pattern}|catalyst/\w+\.h(pp)?|vtk\w+\.h|mpi\.h|Python\.h|X11/\w+\.h|nlohmann/json\.hpp)")
+
+# What plugins/ may include: itself (without a folder), HEADER_ONLY, VTK and ParaView, Qt and ParaView's window.
+PLUGIN = re.compile(rf"{HEADER_ONLY.pattern}|(Breccia|breccia|vtk|pq|Q)\w+(\.h)?")
 
 # What a folder of gui/ may include: its own headers and those it builds on, Qt (Q...), VTK (vtk...), and the solver's case and base.
 QT, VTK_HEADER, WIDGETS = r"Q(?!VTK)\w+", r"vtk\w+\.h", r"Q(Application|\w*(Widget|Dialog|Window|Box|Button|Label|View|Menu|Painter|Icon|Pixmap))"
 GUI = {
-    "core": (("core", "case", "base", "system"), QT),
+    "core": (("core", "case", "base", "system", "run_folder"), QT),
     "render": (("render",), VTK_HEADER),
     "models": (("models", "core", "case", "base"), QT),
     "widgets": (("widgets", "models", "core", "render", "case", "base"), rf"{QT}|QVTK\w+\.h|{VTK_HEADER}"),
@@ -57,7 +66,8 @@ THIRD_PARTY = [
                                 "mesh/solid_groups.cpp", "mesh/stl_solids.cpp"]),
     (r"mpi\.h", ["parallel/*"]),
     (r"(hdf5(_hl)?|H5\w*)\.h", ["output/frames/hdf5*.cpp"]),
-    (r"nlohmann/.*", ["output/*.cpp", "report/*.cpp", "commands/json_report.cpp"]),
+    (r"nlohmann/.*", ["output/*.cpp", "report/*.cpp", "commands/json_report.cpp",
+                     "run_folder/status.hpp", "run_folder/series.hpp"]),
     (r"CLI/.*", ["main.cpp", "commands/command_line*"]),
 ]
 
@@ -94,6 +104,8 @@ def include_problem(file, bracket, header):
     allowed = MAY_INCLUDE[folder] | {folder} if folder else PROGRAM
     if target not in allowed:
         return f"{folder or 'the program'} must not include {header}; it may include {', '.join(sorted(allowed))}"
+    if HEADER_ONLY.fullmatch(file) and not HEADER_ONLY.fullmatch(header):
+        return f"{file} is for programs that link nothing of the solver and must not include {header}; it may include {HEADER_ONLY.pattern}"
     return None
 
 
@@ -104,6 +116,9 @@ def solver_problems(solver):
         file = path.relative_to(solver).as_posix()
         if "/" in file and file.split("/")[0] not in MAY_INCLUDE:
             yield path, 1, f"folder solver/{file.split('/')[0]} is not in the table of tests/layering"
+            continue
+        if file.startswith("run_folder/") and path.suffix != ".hpp":
+            yield path, 1, "solver/run_folder is header only"
             continue
         if "/" not in file and file != "main.cpp":
             yield path, 1, "only main.cpp stands at the top of solver/"
@@ -124,7 +139,20 @@ def adaptor_problems(adaptor):
             # The interface is for programs in C too; other bare names are those of the C++ library.
             if match[1] == "<" and (re.fullmatch(r"\w+", match[2]) or match[2] in ("stddef.h", "stdint.h")):
                 continue
-            yield path, number, f"catalyst must not include {match[2]}; it may include its own headers, VTK, ParaView, MPI, Python, X11 and JSON"
+            yield path, number, f"catalyst must not include {match[2]}; it may include its own headers, solver/run_folder, VTK, ParaView, MPI, Python, X11 and JSON"
+
+
+def plugin_problems(plugins):
+    for path in sorted(plugins.rglob("*")):
+        if path.suffix not in {".cxx", ".h"}:
+            continue
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            match = INCLUDE.match(line)
+            if not match or PLUGIN.fullmatch(match[2]) or SYSTEM.fullmatch(match[2]):
+                continue
+            if match[1] == "<" and re.fullmatch(r"\w+", match[2]):
+                continue
+            yield path, number, f"plugins must not include {match[2]}; it may include its own headers, solver/run_folder, VTK, ParaView and Qt"
 
 
 def gui_problems(gui):
@@ -165,8 +193,8 @@ def text_problems(repository):
 def problems(repository):
     """Every violation in the repository as "file:line: what"."""
     repository = Path(repository)
-    found = [*solver_problems(repository / "solver"), *adaptor_problems(repository / "catalyst"), *gui_problems(repository / "gui"),
-             *text_problems(repository)]
+    found = [*solver_problems(repository / "solver"), *adaptor_problems(repository / "catalyst"), *plugin_problems(repository / "plugins"),
+             *gui_problems(repository / "gui"), *text_problems(repository)]
     return [f"{path.relative_to(repository)}:{line}: {what}" for path, line, what in found]
 
 

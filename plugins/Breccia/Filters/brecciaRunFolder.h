@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "run_folder/history.hpp"
+
 namespace breccia {
 
 /// A recorded picture of a channel.
@@ -36,11 +38,7 @@ bool IsRun(const std::string& path);
 
 /// Columns of a run's history.csv. A last line that is still being written is left out. Throws BadInput when there is
 /// no such file, or when it is no table of numbers.
-struct HistoryColumns {
-  std::vector<std::string> names;
-  std::vector<std::vector<double>> values;  ///< (names, lines)
-};
-HistoryColumns ReadHistory(const std::string& folder);
+run_folder::History ReadHistory(const std::string& folder);
 
 /// Names of the bodies by their numbers, from bodies.csv. Empty where there is no such file, as in runs of before, or
 /// where it is no such table.

@@ -118,9 +118,9 @@ int vtkBrecciaReader::RequestData(vtkInformation*, vtkInformationVector**, vtkIn
     if (piece == 0) {
       auto* table = vtkTable::GetData(outputs, 1);
       table->Initialize();
-      const breccia::HistoryColumns history = breccia::ReadHistory(run.path);
+      const breccia::run_folder::History history = breccia::ReadHistory(run.path);
       for (std::size_t i = 0; i < history.names.size(); ++i)
-        breccia::AddColumn(table, history.names[i].c_str(), history.values[i]);
+        breccia::AddColumn(table, history.names[i].c_str(), history.columns[i]);
     }
     return 1;
   } catch (const breccia::BadInput& bad) {

@@ -1,6 +1,6 @@
 #include "output/folder/bodies_sink.hpp"
 
-#include "output/folder/csv_field.hpp"
+#include "run_folder/csv.hpp"
 #include "system/atomic_file.hpp"
 
 namespace breccia {

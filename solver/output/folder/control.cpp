@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <system_error>
 #include <thread>
@@ -14,9 +13,10 @@
 #include "base/trimmed.hpp"
 #include "case/units.hpp"
 #include "output/folder/folder_check.hpp"
-#include "output/folder/json_text.hpp"
 #include "output/folder/run_folder.hpp"
 #include "output/folder/run_lock.hpp"
+#include "run_folder/growing_lines.hpp"
+#include "run_folder/status.hpp"
 #include "system/atomic_file.hpp"
 #include "system/regular_file.hpp"
 
@@ -108,31 +108,7 @@ OutputError no_answer(const fs::path& folder, const std::string& what, const std
   return OutputError(problem);
 }
 
-/// Reads what a growing file of JSON lines has got since the last look.
-class Tail {
- public:
-  Tail(const fs::path& path, std::streamoff start) : path_(path), read_(start) {}
-  [[nodiscard]] std::vector<nlohmann::json> news() {
-    RegularStream file(path_);
-    file.seekg(read_);
-    std::vector<nlohmann::json> found;
-    for (std::string line; std::getline(file, line) && !file.eof();) {  // a line without its end is still being written
-      read_ += static_cast<std::streamoff>(line.size()) + 1;
-      auto json = json_of_text<nlohmann::json>(line);
-      if (json.is_object()) found.push_back(std::move(json));
-    }
-    return found;
-  }
-
- private:
-  fs::path path_;
-  std::streamoff read_ = 0;
-};
-
-bool is_over(const nlohmann::json& line) {
-  const std::string state = line.value("state", "");
-  return state == "complete" || state == "stopped" || state == "failed" || state == "interrupted";
-}
+bool is_over(const run_folder::StatusLine& line) { return line.status && run_folder::is_end(line.status->state); }
 
 }  // namespace
 
@@ -188,11 +164,16 @@ std::string ask_run(const fs::path& run_folder, const std::string& command, doub
   const RunFolder folder{run_folder};
   demand_plain_folder(folder);
   std::error_code error;
-  const auto size = fs::file_size(folder.status(), error);
-  if (error) throw no_answer(run_folder, "no run of breccia writes here", "the folder of a run that goes on");
-  for (const nlohmann::json& line : Tail(folder.status(), 0).news()) {
-    if (is_over(line)) throw no_answer(run_folder, "this run has ended", "the folder of a run that goes on");
-  }
+  if (!fs::exists(folder.status(), error))
+    throw no_answer(run_folder, "no run of breccia writes here", "the folder of a run that goes on");
+  run_folder::GrowingLines status(folder.status());
+  // What stands there before the request answers none.
+  do {
+    for (const std::string& line : status.news().lines) {
+      if (is_over(run_folder::parse_status_line(line)))
+        throw no_answer(run_folder, "this run has ended", "the folder of a run that goes on");
+    }
+  } while (status.has_more());
   if (fs::exists(lock_file(run_folder), error) && holder_of(run_folder).empty())
     throw no_answer(run_folder, "this run was interrupted: its process is gone", "the folder of a run that goes on");
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
@@ -201,12 +182,12 @@ std::string ask_run(const fs::path& run_folder, const std::string& command, doub
                          std::to_string(std::chrono::steady_clock::now().time_since_epoch().count());
   const std::string line = command + " id=" + id + "\n";
   const bool put = put_request(folder.control(), line, id, in_time);
-  Tail tail(folder.status(), static_cast<std::streamoff>(size));
   while (in_time()) {
-    for (const nlohmann::json& news : tail.news()) {
-      if (news.value("id", "") == id) {
-        if (news.value("accepted", false)) return news.value("text", "");
-        throw no_answer(run_folder, "the run refuses: " + news.value("text", ""), "");
+    for (const std::string& line_of_run : status.news().lines) {
+      const run_folder::StatusLine news = run_folder::parse_status_line(line_of_run);
+      if (news.event && news.event->id == id) {
+        if (news.event->accepted.value_or(false)) return news.event->text;
+        throw no_answer(run_folder, "the run refuses: " + news.event->text, "");
       }
       if (is_over(news)) throw no_answer(run_folder, "the run has ended meanwhile", "");
     }

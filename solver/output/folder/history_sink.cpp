@@ -5,8 +5,9 @@
 #include <array>
 #include <iterator>
 
-#include "output/folder/csv_field.hpp"
 #include "output/folder/energy_terms.hpp"
+#include "run_folder/csv.hpp"
+#include "run_folder/lines.hpp"
 #include "system/regular_file.hpp"
 
 namespace breccia {
@@ -100,8 +101,7 @@ struct NumberText {
 bool has_insitu_share(const std::filesystem::path& history) {
   RegularStream file(history);
   std::string header;
-  std::getline(file, header);
-  return header.ends_with(kInSituShare);
+  return run_folder::next_whole_line(file, header) && run_folder::fields_of(header).back() == kInSituShare;
 }
 
 }  // namespace

@@ -14,6 +14,8 @@
 #include "output/folder/folder_check.hpp"
 #include "output/folder/json_text.hpp"
 #include "output/folder/run_folder.hpp"
+#include "run_folder/csv.hpp"
+#include "run_folder/lines.hpp"
 #include "system/regular_file.hpp"
 
 namespace breccia {
@@ -98,33 +100,24 @@ std::string part(const std::string& title, const std::string& lines) {
   return title + (lines.empty() ? ": the same\n" : "\n" + lines);
 }
 
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t end = std::min(line.find(',', at), line.size());
-    cells.push_back(line.substr(at, end - at));
-    at = end + 1;
-  }
-  return cells;
-}
-
 /// How searches were timed, and time itself, are no results.
 bool counts(const std::string& column) { return column != "couples" && column.find("in situ") == std::string::npos; }
 
 std::string history_part(const fs::path& first, const fs::path& second) {
   RegularStream a(first), b(second);
   std::string head_a, head_b, line_a, line_b;
-  std::getline(a, head_a);
-  std::getline(b, head_b);
+  // A row that a run is still writing, or was killed in, is none.
+  (void)run_folder::next_whole_line(a, head_a);
+  (void)run_folder::next_whole_line(b, head_b);
   if (head_a != head_b) return "  the columns differ\n";
-  const std::vector<std::string> columns = cells_of(head_a);
+  const std::vector<std::string> columns = run_folder::fields_of(head_a);
   for (std::size_t line = 2;; ++line) {
-    const bool more_a = static_cast<bool>(std::getline(a, line_a)), more_b = static_cast<bool>(std::getline(b, line_b));
+    const bool more_a = run_folder::next_whole_line(a, line_a), more_b = run_folder::next_whole_line(b, line_b);
     if (!more_a && !more_b) return {};
     if (more_a != more_b)
       return "  the " + std::string(more_a ? "second" : "first") + " ends before line " + std::to_string(line) + "\n";
     if (line_a == line_b) continue;
-    const std::vector<std::string> left = cells_of(line_a), right = cells_of(line_b);
+    const std::vector<std::string> left = run_folder::fields_of(line_a), right = run_folder::fields_of(line_b);
     std::string found;
     std::size_t named = 0;
     for (std::size_t c = 0; c < std::min({columns.size(), left.size(), right.size()}); ++c) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "run_folder/names.hpp"
+
 namespace breccia {
 
 class RunLock;
@@ -55,16 +57,16 @@ struct RunFolder {
   std::filesystem::path root;
   std::shared_ptr<const RunLock> lock = nullptr;  ///< of the process that prepared it, held as long as this lives
 
-  [[nodiscard]] std::filesystem::path frames() const { return root / "frames"; }
-  [[nodiscard]] std::filesystem::path case_file() const { return root / "case.toml"; }
-  [[nodiscard]] std::filesystem::path provenance() const { return root / "provenance.json"; }
-  [[nodiscard]] std::filesystem::path history() const { return root / "history.csv"; }
-  [[nodiscard]] std::filesystem::path bodies() const { return root / "bodies.csv"; }
-  [[nodiscard]] std::filesystem::path status() const { return root / "status.jsonl"; }
-  [[nodiscard]] std::filesystem::path summary() const { return root / "summary.json"; }
+  [[nodiscard]] std::filesystem::path frames() const { return root / run_folder::kFrames; }
+  [[nodiscard]] std::filesystem::path case_file() const { return root / run_folder::kCaseFile; }
+  [[nodiscard]] std::filesystem::path provenance() const { return root / run_folder::kProvenance; }
+  [[nodiscard]] std::filesystem::path history() const { return root / run_folder::kHistory; }
+  [[nodiscard]] std::filesystem::path bodies() const { return root / run_folder::kBodies; }
+  [[nodiscard]] std::filesystem::path status() const { return root / run_folder::kStatus; }
+  [[nodiscard]] std::filesystem::path summary() const { return root / run_folder::kSummary; }
   [[nodiscard]] std::filesystem::path summary_text() const { return root / "summary.txt"; }
   [[nodiscard]] std::filesystem::path control() const { return root / "control"; }
-  [[nodiscard]] std::filesystem::path checkpoints() const { return root / "checkpoints"; }
+  [[nodiscard]] std::filesystem::path checkpoints() const { return root / run_folder::kCheckpoints; }
   [[nodiscard]] std::filesystem::path extracts() const { return root / "extracts"; }
   [[nodiscard]] std::filesystem::path extract_steps() const { return root / "extracts.csv"; }  ///< index of extracts
 };

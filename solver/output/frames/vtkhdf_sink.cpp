@@ -6,9 +6,9 @@
 
 #include "output/folder/folder_check.hpp"
 #include "output/folder/folder_tree.hpp"
-#include "output/folder/json_text.hpp"
 #include "output/frames/frame_fields.hpp"
 #include "output/frames/vtkhdf_image.hpp"
+#include "run_folder/series.hpp"
 #include "system/atomic_file.hpp"
 #include "system/regular_file.hpp"
 
@@ -55,14 +55,13 @@ void VtkhdfSink::mark(OutputMarks& marks) const {
 std::vector<VtkhdfSink::Entry> VtkhdfSink::listed(const std::string& part) const {
   std::vector<Entry> entries;
   const std::filesystem::path index = folder_ / (part + ".hdf.series");
-  const auto json = json_of_file<nlohmann::json>(index, Depth::subfolder);
-  const auto files = json.is_object() ? json.value("files", nlohmann::json::array()) : nlohmann::json::array();
-  for (const auto& entry : files) {
-    if (!entry.is_object() || !entry.contains("name") || !entry["name"].is_string() || !entry.contains("time") ||
-        !entry["time"].is_number() || !is_frame_file(entry["name"].get<std::string>()))
-      throw output_error(index, "this is no index of frames");
-    entries.push_back({entry["name"].get<std::string>(), entry["time"].get<double>()});
+  const run_folder::Series series = run_folder::parse_series(regular_content(index, Depth::subfolder).value_or(""));
+  bool is_ours = series.refused.empty();
+  for (const run_folder::SeriesFrame& frame : series.frames) {
+    is_ours = is_ours && is_frame_file(frame.name);
+    entries.push_back({frame.name, frame.time});
   }
+  if (!is_ours) throw output_error(index, "this is no index of frames");
   return entries;
 }
 

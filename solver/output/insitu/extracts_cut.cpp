@@ -1,16 +1,15 @@
 #include "output/insitu/extracts_cut.hpp"
 
 #include <cerrno>
-#include <cstdlib>
-#include <functional>
 #include <optional>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <string_view>
 
 #include "output/folder/folder_tree.hpp"
+#include "run_folder/csv.hpp"
+#include "run_folder/lines.hpp"
 #include "system/atomic_file.hpp"
 #include "system/regular_file.hpp"
 
@@ -27,35 +26,21 @@ std::optional<std::int64_t> step_of(const std::string& name) {
   return std::stoll(match[1].str());
 }
 
-/// The lines for which `stays` holds, without a last one that has no end, in which a run was cut off; nullopt: all of
-/// them.
-std::optional<std::string> cut(std::string_view text,
-                               const std::function<bool(const std::string&, std::size_t)>& stays) {
-  std::string kept;
-  std::size_t number = 0;
-  const std::size_t size = text.size();
-  for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n'), ++number) {
-    const std::string line(text.substr(0, end));
-    if (stays(line, number)) kept += line + '\n';
-    text.remove_prefix(end + 1);
-  }
-  if (kept.size() == size) return std::nullopt;
-  return kept;
-}
-
-bool is_step_before(const std::string& line, std::size_t number, std::int64_t step) {
-  return number == 0 || std::atoll(line.c_str()) < step;
+/// The header of a table and its rows before a step; nothing where the header itself is not whole.
+std::string table_before(std::string_view text, std::int64_t step) {
+  const std::size_t end = text.find('\n');
+  if (end == std::string_view::npos) return {};
+  const std::string_view header = text.substr(0, end);
+  return std::string(header) + '\n' + run_folder::rows_before(text, header, step);
 }
 
 /// Steps at which pipelines wrote, from `step` on.
 std::set<std::int64_t> steps_from(std::string_view index, std::int64_t step) {
   std::set<std::int64_t> steps;
-  std::istringstream lines{std::string(index)};
-  std::string line;
-  std::getline(lines, line);
-  while (std::getline(lines, line)) {
-    const std::int64_t listed = std::atoll(line.c_str());
-    if (listed >= step) steps.insert(listed);
+  // A last line that is not whole too: files of its step may be there.
+  const std::string lines = std::string(index) + '\n';
+  for (const std::string_view line : run_folder::whole_lines(lines).lines) {
+    if (const auto listed = run_folder::step_of_row(line); listed && *listed >= step) steps.insert(*listed);
   }
   return steps;
 }
@@ -68,6 +53,15 @@ bool lists_earlier(const std::string& line, std::int64_t step) {
   return step_of(match[1].str()).value_or(-1) < step;
 }
 
+/// A list of times without those from a step on, and without a last line that has no end, in which a run was cut off.
+std::string list_before(std::string_view text, std::int64_t step) {
+  std::string kept;
+  for (const std::string_view line : run_folder::whole_lines(text).lines) {
+    if (lists_earlier(std::string(line), step)) kept.append(line) += '\n';
+  }
+  return kept;
+}
+
 /// A file that lists what is in others, or rows by step; a file that loses no line is not touched.
 void cut_lines(const TreeEntry& entry, std::int64_t step) {
   const bool is_list = entry.path.extension() == ".pvd";
@@ -76,11 +70,9 @@ void cut_lines(const TreeEntry& entry, std::int64_t step) {
   if (!is_list && !has_rows) return;
   const std::optional<std::string> text = regular_content(entry.folder, entry.name, entry.path);
   if (!text) return;
-  const auto kept = cut(*text, [&](const std::string& line, std::size_t number) {
-    return is_list ? lists_earlier(line, step) : is_step_before(line, number, step);
-  });
-  if (!kept) return;
-  const FileContent file{entry.path, std::as_bytes(std::span(*kept))};
+  const std::string kept = is_list ? list_before(*text, step) : table_before(*text, step);
+  if (kept.size() == text->size()) return;
+  const FileContent file{entry.path, std::as_bytes(std::span(kept))};
   write_files_atomically(entry.folder, {&file, 1});
 }
 
@@ -105,9 +97,8 @@ void cut_extracts_back(const fs::path& extracts, const fs::path& index, std::int
       return !is_later(entry);
     });
   }
-  const auto kept =
-      cut(listed, [&](const std::string& line, std::size_t number) { return is_step_before(line, number, step); });
-  if (kept) write_file_atomically(index, *kept);
+  const std::string kept = table_before(listed, step);
+  if (kept.size() != listed.size()) write_file_atomically(index, kept);
 }
 
 }  // namespace breccia

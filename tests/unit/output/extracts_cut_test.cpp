@@ -30,7 +30,7 @@ TEST(ExtractsCutBack, LoseWhatWasWrittenFromTheStepOnAndNothingElse) {
   write(pictures / "stress_000000241.png", "x");
   write(pictures / "stress_000000999_left.png", "x");
   write(pictures / "notes_of_2026.txt", "x");
-  write(history / "history.csv", "step,time\n120,1\n239,2\n240,3\n");
+  write(history / "history.csv", "step,time\n120,1\n239,2\n240,3\n1e+05,4\n");
   write(folder / "probes" / "tip.csv", "step,time\n120,1\n120,2\n240,3\n");
   write(folder / "probes" / "torn.csv", "step,time\n120,1\n23");
   write(folder / "script" / "own.csv", "999,1\n");
