@@ -136,6 +136,17 @@ bool belong_together(const Records& records) {
   return good;
 }
 
+/// What killed runs left of checkpoints. One that cannot be removed is no harm.
+void remove_left_over(const fs::path& folder) {
+  std::error_code ignored;
+  static const std::regex unfinished(R"(\.step_\d+\.h5\.tmp)");
+  std::vector<fs::path> left_over;
+  for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end; entry.increment(ignored)) {
+    if (std::regex_match(entry->path().filename().string(), unfinished)) left_over.push_back(entry->path());
+  }
+  for (const fs::path& file : left_over) (void)remove_file(file, Depth::subfolder);
+}
+
 }  // namespace
 
 fs::path checkpoint_file(const fs::path& folder, std::int64_t step) {
@@ -162,13 +173,7 @@ void remove_old_checkpoints(const fs::path& folder, std::int64_t keep, std::int6
   for (auto entry = all.begin() + std::min(keep, std::ssize(all)); entry != all.end(); ++entry) {
     if (entry != sound) (void)remove_file(entry->file, Depth::subfolder);
   }
-  std::error_code ignored;
-  static const std::regex unfinished(R"(\.step_\d+\.h5\.tmp)");
-  std::vector<fs::path> left_over;
-  for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end; entry.increment(ignored)) {
-    if (std::regex_match(entry->path().filename().string(), unfinished)) left_over.push_back(entry->path());
-  }
-  for (const fs::path& file : left_over) (void)remove_file(file, Depth::subfolder);
+  remove_left_over(folder);
 }
 
 void remove_checkpoints_after(const fs::path& folder, std::int64_t step) {
@@ -177,6 +182,16 @@ void remove_checkpoints_after(const fs::path& folder, std::int64_t step) {
     if (!why.empty())
       throw output_error(entry.file, "cannot remove this checkpoint, which is ahead of the run: " + why);
   }
+}
+
+void remove_checkpoints(const fs::path& folder) {
+  for (const CheckpointEntry& entry : checkpoints_in(folder)) {
+    const std::string why = remove_file(entry.file, Depth::subfolder);
+    if (!why.empty()) throw output_error(entry.file, "cannot remove this checkpoint of an earlier run: " + why);
+  }
+  remove_left_over(folder);
+  std::error_code not_empty;
+  fs::remove(folder, not_empty);
 }
 
 Checkpoint read_checkpoint(const fs::path& file, const Communicator& communicator) {

@@ -69,4 +69,8 @@ void remove_old_checkpoints(const std::filesystem::path& folder, std::int64_t ke
 /// Removes those after a step. Throws OutputError.
 void remove_checkpoints_after(const std::filesystem::path& folder, std::int64_t step);
 
+/// Removes all checkpoints of a folder and what killed runs left of others, and the folder if nothing else is in it.
+/// Throws OutputError that names a checkpoint.  @pre none is being written
+void remove_checkpoints(const std::filesystem::path& folder);
+
 }  // namespace breccia

@@ -5,9 +5,12 @@
 #include <optional>
 #include <system_error>
 
+#include "output/checkpoint/checkpoint_writer.hpp"
 #include "output/folder/folder_check.hpp"
+#include "output/folder/folder_tree.hpp"
 #include "output/folder/json_text.hpp"
 #include "output/folder/run_lock.hpp"
+#include "output/insitu/extracts_cut.hpp"
 #include "system/atomic_file.hpp"
 #include "system/regular_file.hpp"
 
@@ -24,14 +27,14 @@ bool is_run(const RunFolder& folder) {
   return json.is_object() && json.value("program", nlohmann::json()) == kProgram;
 }
 
-/// Every file in the folder that a run wrote as a result.
+/// Every file in the folder that a run wrote as a result, but for extracts and checkpoints.
 std::vector<fs::path> results_in(const RunFolder& folder) {
   std::vector<fs::path> results;
   std::error_code error;
   for (const fs::path& path :
        {folder.history(), folder.bodies(), temporary_of(folder.bodies()), folder.status(), folder.summary(),
-        temporary_of(folder.summary()), folder.summary_text(), temporary_of(folder.summary_text()), folder.extracts(),
-        folder.extract_steps(), temporary_of(folder.extract_steps()), folder.checkpoints(), folder.control(),
+        temporary_of(folder.summary()), folder.summary_text(), temporary_of(folder.summary_text()),
+        folder.extract_steps(), temporary_of(folder.extract_steps()), folder.control(),
         temporary_of(folder.control())}) {
     if (fs::exists(fs::symlink_status(path, error))) results.push_back(path);
   }
@@ -130,15 +133,23 @@ RunFolder prepare_run_folder(const fs::path& root, const std::string& resolved_c
   }
   folder.lock = std::make_shared<const RunLock>(root);
   const std::vector<fs::path> results = results_in(folder);
-  if (!results.empty() && old_results != OldResults::overwrite) {
+  const auto exists = [](const fs::path& path) {
+    std::error_code ignored;
+    return fs::exists(fs::symlink_status(path, ignored));
+  };
+  const bool has_results = !results.empty() || exists(folder.extracts()) || exists(folder.checkpoints());
+  if (has_results && old_results != OldResults::overwrite) {
     refuse(root, "this folder holds the results of an earlier run",
            old_results == OldResults::keep ? "another folder (-o)"
                                            : "another folder (-o), or -f (--overwrite) to replace them");
   }
-  for (const fs::path& path : results) {
-    std::error_code error;
-    fs::remove_all(path, error);  // extracts and checkpoints are folders, all of them ours
-    if (error) throw output_error(path, "cannot remove this old result", error.value());
+  if (has_results && old_results == OldResults::overwrite) {
+    remove_extracts(folder.extracts(), folder.extract_steps());
+    remove_checkpoints(folder.checkpoints());
+    for (const fs::path& path : results) {
+      const std::string why = remove_file(path, path.parent_path() == root ? Depth::file : Depth::subfolder);
+      if (!why.empty()) throw output_error(path, "cannot remove this old result: " + why);
+    }
   }
   // Provenance first: it marks the folder as ours, should the rest fail.
   write_file_atomically(folder.provenance(), provenance_json(provenance));

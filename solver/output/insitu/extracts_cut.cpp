@@ -6,6 +6,8 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <vector>
 
 #include "output/folder/folder_tree.hpp"
 #include "run_folder/csv.hpp"
@@ -62,15 +64,21 @@ std::string list_before(std::string_view text, std::int64_t step) {
   return kept;
 }
 
-/// A file that lists what is in others, or rows by step; a file that loses no line is not touched.
+/// Lists what is in other files.
+bool is_list(const TreeEntry& entry) { return entry.path.extension() == ".pvd"; }
+
+/// Has rows by step.
+bool is_table(const TreeEntry& entry) {
+  return entry.name == "history.csv" ||
+         (entry.path.extension() == ".csv" && entry.path.parent_path().filename() == "probes");
+}
+
+/// A file that loses no line is not touched.
 void cut_lines(const TreeEntry& entry, std::int64_t step) {
-  const bool is_list = entry.path.extension() == ".pvd";
-  const bool has_rows = entry.name == "history.csv" ||
-                        (entry.path.extension() == ".csv" && entry.path.parent_path().filename() == "probes");
-  if (!is_list && !has_rows) return;
+  if (!is_list(entry) && !is_table(entry)) return;
   const std::optional<std::string> text = regular_content(entry.folder, entry.name, entry.path);
   if (!text) return;
-  const std::string kept = is_list ? list_before(*text, step) : table_before(*text, step);
+  const std::string kept = is_list(entry) ? list_before(*text, step) : table_before(*text, step);
   if (kept.size() == text->size()) return;
   const FileContent file{entry.path, std::as_bytes(std::span(kept))};
   write_files_atomically(entry.folder, {&file, 1});
@@ -99,6 +107,21 @@ void cut_extracts_back(const fs::path& extracts, const fs::path& index, std::int
   }
   const std::string kept = table_before(listed, step);
   if (kept.size() != listed.size()) write_file_atomically(index, kept);
+}
+
+void remove_extracts(const fs::path& extracts, const fs::path& index) {
+  const bool has_index = regular_content(index).has_value();
+  cut_extracts_back(extracts, index, 0);
+  const Opened folder = open_folder_of(extracts / "entry", Depth::subfolder);
+  if (!folder) return;
+  std::vector<fs::path> folders{extracts};
+  walk_tree(folder.descriptor, extracts, [&](const TreeEntry& entry) {
+    if (entry.kind == EntryKind::folder) folders.push_back(entry.path);
+    if (has_index && entry.kind == EntryKind::file && (is_list(entry) || is_table(entry))) remove_entry(entry);
+    return true;
+  });
+  std::error_code not_empty;
+  for (auto path = folders.rbegin(); path != folders.rend(); ++path) fs::remove(*path, not_empty);
 }
 
 }  // namespace breccia

@@ -103,6 +103,27 @@ TEST(RunFolderTest, OverwritingRemovesResultsAndNothingElse) {
   EXPECT_EQ(content_of(folder.case_file()), "title = \"x\"\n");
 }
 
+TEST(RunFolderTest, OverwritingRemovesOfExtractsAndCheckpointsWhatTheRunWrote) {
+  const TemporaryFolder place;
+  const RunFolder folder{prepare_run_folder(place.path(), "old", kProvenance, OldResults::refuse).root};
+  const fs::path stress = folder.extracts() / "stress", cracks = folder.extracts() / "cracks";
+  for (const fs::path& made : {stress, cracks, folder.checkpoints()}) fs::create_directories(made);
+  const std::vector<fs::path> results{stress / "stress_000000120.png", cracks / "cracks.pvd",
+                                      folder.checkpoints() / "step_000000000120.h5",
+                                      folder.checkpoints() / ".step_000000000240.h5.tmp"};
+  const std::vector<fs::path> others{stress / "film.mp4", stress / "stress_000000999.png",
+                                     folder.checkpoints() / "step_12.h5"};
+  for (const fs::path& path : results) touch(path);
+  for (const fs::path& path : others) touch(path);
+  std::ofstream(folder.extract_steps()) << "step,time [s],pipeline\n120,1e-6,stress\n";
+  EXPECT_THAT(error_of(place.path(), OldResults::refuse), HasSubstr("results of an earlier run"));
+  EXPECT_EQ(error_of(place.path(), OldResults::overwrite), "");
+  for (const fs::path& path : results) EXPECT_FALSE(fs::exists(path)) << path;
+  for (const fs::path& path : others) EXPECT_TRUE(fs::exists(path)) << path;
+  EXPECT_FALSE(fs::exists(cracks)) << "nothing is left in it";
+  EXPECT_FALSE(fs::exists(folder.extract_steps()));
+}
+
 TEST(RunFolderTest, IsRefusedWhileAnotherRunWritesThere) {
   const TemporaryFolder place;
   {
