@@ -20,6 +20,9 @@
 
 namespace breccia::run_folder {
 
+/// What becomes of a field that is no number.
+enum class OddFields { leave_out_the_row, read_as_nan };
+
 /// history.csv by columns; a run adds rows as long as it goes on.
 struct History {
   std::vector<std::string> names;            ///< as in the file's first line: "kinetic [J]"
@@ -40,9 +43,9 @@ struct History {
     return values.empty() ? std::numeric_limits<double>::quiet_NaN() : values.back();
   }
 
-  /// The first line names the columns, each other one is a row. A row that is not whole is left out as a whole.
+  /// The first line names the columns, each other one is a row. A row with more or fewer fields is left out.
   /// @return  what is wrong with the row; empty: nothing
-  std::string add_line(std::string_view line) {
+  std::string add_line(std::string_view line, OddFields odd = OddFields::leave_out_the_row) {
     const std::vector<std::string> fields = fields_of(line);
     if (names.empty()) {
       names = fields;
@@ -55,8 +58,8 @@ struct History {
     row.reserve(fields.size());
     for (const std::string& field : fields) {
       const std::optional<double> value = number_of(field);
-      if (!value) return "'" + field + "' is no number";
-      row.push_back(*value);
+      if (!value && odd == OddFields::leave_out_the_row) return "'" + field + "' is no number";
+      row.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
     }
     for (std::size_t i = 0; i < row.size(); ++i) columns[i].push_back(row[i]);
     return {};

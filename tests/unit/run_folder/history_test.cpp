@@ -53,6 +53,14 @@ TEST(RunHistory, ARowThatIsNotWholeIsLeftOutAsAWholeAndTheFirstIsReported) {
   EXPECT_THAT(parse_history("a\n1x\n").problem, HasSubstr("'1x' is no number"));
 }
 
+TEST(RunHistory, AFieldThatIsNoNumberCanBeReadAsNan) {
+  History history = parse_history("a,b\n").history;
+  EXPECT_EQ(history.add_line("1,x", OddFields::read_as_nan), "");
+  EXPECT_NE(history.add_line("1", OddFields::read_as_nan), "") << "no whole row";
+  EXPECT_THAT(history.column("a"), ElementsAre(1));
+  EXPECT_TRUE(std::isnan(history.last("b")));
+}
+
 TEST(RunHistory, OfAnEmptyFileHasNoColumns) {
   for (const char* text : {"", "step,time [s]"}) {
     const HistoryText read = parse_history(text);
