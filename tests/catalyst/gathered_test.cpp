@@ -34,12 +34,14 @@ TEST(Gathered, HasTheCellsOfAllRanksInTheirOrderOnTheFirstRankAndNoneElsewhere) 
         for (int c = 0; c < array.components && array.type == BRECCIA_F64; ++c)
           ASSERT_EQ(static_cast<const double*>(array.values)[cell * array.components + c],
                     SyntheticRun::expected_f64(array.name, c, cell, kStep));
-        if (array.type == BRECCIA_I64)
+        if (array.type == BRECCIA_I64) {
           ASSERT_EQ(static_cast<const std::int64_t*>(array.values)[cell],
                     SyntheticRun::expected_integer(array.name, cell, kStep));
-        if (array.type == BRECCIA_I32)
+        }
+        if (array.type == BRECCIA_I32) {
           ASSERT_EQ(static_cast<const std::int32_t*>(array.values)[cell],
                     SyntheticRun::expected_integer(array.name, cell, kStep));
+        }
       }
     }
   }

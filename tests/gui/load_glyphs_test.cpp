@@ -42,7 +42,7 @@ vtkSmartPointer<vtkPolyData> floor_of(int triangles) {
 }
 
 const std::vector<std::string> kVolumes{"wall", "tool"};
-const SurfaceGroups kSurfaces{{"edge"}, {{4 * 1 + 2, 4 * 2 + 2}}};
+const SurfaceGroups kSurfaces{{"edge"}, {{4 * 1 + 2, 4 * 2 + 2}}, {}, {}};
 
 LoadGlyphs drawn(const Load& load, int triangles = 5) {
   return draw_load(*floor_of(triangles), nullptr, kVolumes, kSurfaces, load);
@@ -283,7 +283,7 @@ TEST(LoadGlyphs, OfAFaceWithinTheModelStandOnItsElements) {
   id->SetName("id");
   id->InsertNextValue(70);
   element->GetCellData()->AddArray(id);
-  const SurfaceGroups slit{{"slit"}, {{4 * 70 + 3}}};  // the face in z = 0
+  const SurfaceGroups slit{{"slit"}, {{4 * 70 + 3}}, {}, {}};  // the face in z = 0
   const LoadGlyphs glyphs =
       draw_load(*floor_of(5), element, kVolumes, slit, {LoadShape::pressure, "slit", {1, 0, 0}, {}, {}});
   ASSERT_EQ(glyphs.count(), 1);

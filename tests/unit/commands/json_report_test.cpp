@@ -39,7 +39,7 @@ TEST(JsonReport, CheckGivesEachAdviceWithRuleLevelAndKey) {
   ASSERT_FALSE(advice.empty());
   EXPECT_EQ(advice[0]["rule"], "fragments_without_contact");
   EXPECT_EQ(advice[0]["level"], "wrong");
-  EXPECT_EQ(advice[0]["key"], "contact");
+  EXPECT_EQ(advice[0]["key"], "contact[]");
   EXPECT_EQ(advice[0]["text"].get<std::string>().find("There is no [[contact]]"), 0u);
 }
 
